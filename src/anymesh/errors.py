@@ -1,0 +1,34 @@
+"""Every error that this package raises on purpose. One family, one subclass per thing a caller may handle.
+
+A message says what was found and what would have been valid. `exit_code` is what the command line returns.
+"""
+
+
+class AnymeshError(Exception):
+    """Base of all errors of this package."""
+
+    exit_code = 1
+
+
+class InputError(AnymeshError):
+    """The mesh, or a file it refers to, cannot be used: missing, truncated, empty, not finite, outside its folder."""
+
+    exit_code = 3
+
+
+class OptionError(AnymeshError):
+    """An option has a value that is not valid, alone or for this input."""
+
+    exit_code = 2
+
+
+class OutputError(AnymeshError):
+    """The output folder exists, cannot be written, or lacks a stage's result that the next stage needs."""
+
+    exit_code = 4
+
+
+class MissingExtraError(AnymeshError):
+    """An optional dependency is not installed; the message names the extra that brings it."""
+
+    exit_code = 5

@@ -1,0 +1,23 @@
+"""The nouns: frozen, numpy only, checked when made."""
+
+from anymesh.types.asset import Asset, Source
+from anymesh.types.joints import Joint, JointType
+from anymesh.types.mesh import Material, Mesh, Node, Texture
+from anymesh.types.motion import Motion, MotionKind, Sweep
+from anymesh.types.parts import Part, Segmentation
+
+__all__ = [
+    "Asset",
+    "Joint",
+    "JointType",
+    "Material",
+    "Mesh",
+    "Motion",
+    "MotionKind",
+    "Node",
+    "Part",
+    "Segmentation",
+    "Source",
+    "Sweep",
+    "Texture",
+]

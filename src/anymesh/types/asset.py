@@ -1,0 +1,54 @@
+"""The articulated asset: the mesh in the asset frame, its parts, its joints, and where all of it came from."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+from jaxtyping import Float
+
+from anymesh.types.joints import Joint
+from anymesh.types.mesh import Mesh
+from anymesh.types.parts import Segmentation
+
+
+@dataclass(frozen=True, eq=False)
+class Source:
+    """The file that an asset was made from. T_asset_source: (4, 4), file coordinates as stored to the asset frame [m, Z up]."""
+
+    path: str
+    sha256: str
+    T_asset_source: Float[np.ndarray, "4 4"]
+    up: str  # "x", "y" or "z", with the way it was found in `notes`
+    notes: tuple[str, ...] = ()  # how up and scale were found, in words
+
+
+@dataclass(frozen=True, eq=False)
+class Asset:
+    """Everything the exporters need. `mesh` is in the asset frame at rest [m, Z up]."""
+
+    name: str  # stem of the output files
+    source: Source
+    mesh: Mesh
+    segmentation: Segmentation
+    joints: tuple[Joint, ...]  # one a part but the root; a tree
+    answerer: str
+    warnings: tuple[str, ...] = ()
+    timing: Mapping[str, float] = field(default_factory=dict)  # stage -> seconds
+
+    def __post_init__(self) -> None:
+        names = [p.name for p in self.segmentation.parts]
+        children = [j.child for j in self.joints]
+        if sorted(children) != sorted(names[1:]):
+            raise ValueError(
+                f"each part but the root {names[0]!r} needs one joint; parts {names[1:]}, joints for {children}"
+            )
+        parent = {j.child: j.parent for j in self.joints}
+        for name in names[1:]:
+            seen, at = set(), name
+            while at != names[0]:
+                if at in seen or at not in parent:
+                    raise ValueError(f"joints do not form a tree rooted at {names[0]!r}: {name!r} does not reach it")
+                seen.add(at)
+                at = parent[at]

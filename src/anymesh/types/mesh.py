@@ -1,0 +1,162 @@
+"""A triangle mesh with the scene graph, materials and per-corner attributes that must survive to the output."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+import numpy as np
+from jaxtyping import Bool, Float, Float32, Int, UInt8
+
+TEXTURE_SLOTS = ("base_color", "metallic_roughness", "normal", "occlusion", "emissive")
+
+
+@dataclass(frozen=True)
+class Texture:
+    """An encoded image, kept as the bytes of its file."""
+
+    data: bytes
+    mime: str  # "image/png" or "image/jpeg"
+    name: str = ""
+
+
+@dataclass(frozen=True)
+class Material:
+    """A metallic-roughness material (glTF 2.0 meaning; factors multiply textures)."""
+
+    name: str = "material"
+    base_color: tuple[float, float, float, float] = (0.7, 0.7, 0.7, 1.0)  # linear factor, RGBA in 0..1
+    metallic: float = 0.0
+    roughness: float = 0.8
+    emissive: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    double_sided: bool = False
+    alpha_mode: str = "OPAQUE"  # OPAQUE, MASK or BLEND
+    alpha_cutoff: float = 0.5
+    textures: Mapping[str, Texture] = field(default_factory=dict)  # slot of TEXTURE_SLOTS -> image
+
+    def __post_init__(self) -> None:
+        unknown = set(self.textures) - set(TEXTURE_SLOTS)
+        if unknown:
+            raise ValueError(f"material {self.name!r}: texture slots {sorted(unknown)}, valid are {TEXTURE_SLOTS}")
+
+
+@dataclass(frozen=True)
+class Node:
+    """One placed geometry of the source's scene graph (an instance counts once per placement)."""
+
+    name: str  # the node's name in the file; unique within a mesh
+    geometry: str = ""  # the geometry's name in the file, shared by instances
+
+
+@dataclass(frozen=True, eq=False)
+class Mesh:
+    """Triangles of the whole object in one frame, with the node and material of every face.
+
+    vertices: (V, 3) [units of its frame]; faces: (F, 3) into vertices; face_node: (F,) into nodes;
+    face_material: (F,) into materials, -1 = none. Corner attributes are per face corner, or None when the source has none:
+    corner_uv (F, 3, 2), v up as in OBJ; corner_color (F, 3, 4) RGBA 0..255; corner_normal (F, 3, 3) unit.
+    """
+
+    vertices: Float[np.ndarray, "V 3"]
+    faces: Int[np.ndarray, "F 3"]
+    face_node: Int[np.ndarray, " F"]
+    nodes: tuple[Node, ...]
+    face_material: Int[np.ndarray, " F"]
+    materials: tuple[Material, ...] = ()
+    corner_uv: Float32[np.ndarray, "F 3 2"] | None = None
+    corner_color: UInt8[np.ndarray, "F 3 4"] | None = None
+    corner_normal: Float32[np.ndarray, "F 3 3"] | None = None
+
+    def __post_init__(self) -> None:
+        count = len(self.faces)
+        if count == 0:
+            raise ValueError("a mesh needs at least one face, found none")
+        if not np.isfinite(self.vertices).all():
+            raise ValueError("vertices must be finite")
+        if self.faces.min() < 0 or self.faces.max() >= len(self.vertices):
+            raise ValueError(f"face indices must lie in 0..{len(self.vertices) - 1}, found {self.faces.max()}")
+        for name in ("face_node", "face_material", "corner_uv", "corner_color", "corner_normal"):
+            value = getattr(self, name)
+            if value is not None and len(value) != count:
+                raise ValueError(f"{name} must have one row a face ({count}), found {len(value)}")
+
+    @cached_property
+    def triangles(self) -> Float[np.ndarray, "F 3 3"]:
+        """Corner positions of every face."""
+        return self.vertices[self.faces]
+
+    @cached_property
+    def face_cross(self) -> Float[np.ndarray, "F 3"]:
+        """Twice the area times the unit normal of every face."""
+        t = self.triangles
+        return np.cross(t[:, 1] - t[:, 0], t[:, 2] - t[:, 0])
+
+    @cached_property
+    def face_areas(self) -> Float[np.ndarray, " F"]:
+        """Area of every face."""
+        return 0.5 * np.linalg.norm(self.face_cross, axis=1)
+
+    @cached_property
+    def face_normals(self) -> Float[np.ndarray, "F 3"]:
+        """Unit normal of every face; zero where the face has no area."""
+        length = np.linalg.norm(self.face_cross, axis=1, keepdims=True)
+        return np.divide(self.face_cross, length, out=np.zeros_like(self.face_cross), where=length > 0)
+
+    @cached_property
+    def bounds(self) -> Float[np.ndarray, "2 3"]:
+        """Lower and upper corner of the axis-aligned box of all vertices in use."""
+        used = self.triangles.reshape(-1, 3)
+        return np.array([used.min(0), used.max(0)])
+
+    @property
+    def extents(self) -> Float[np.ndarray, " 3"]:
+        """Side lengths of the axis-aligned box."""
+        return self.bounds[1] - self.bounds[0]
+
+    @property
+    def diagonal(self) -> float:
+        """Length of the axis-aligned box's diagonal."""
+        return float(np.linalg.norm(self.extents))
+
+    def transformed(self, T: Float[np.ndarray, "4 4"]) -> Mesh:
+        """The mesh moved by a 4x4 affine transform; a mirroring one also turns the faces round."""
+        linear = T[:3, :3]
+        mirrored = np.linalg.det(linear) < 0
+        order = [0, 2, 1] if mirrored else [0, 1, 2]
+
+        def corners(a):
+            return None if a is None else np.ascontiguousarray(a[:, order])
+
+        normal = corners(self.corner_normal)
+        if normal is not None:
+            normal = normal.astype(np.float64) @ np.linalg.inv(linear)
+            length = np.linalg.norm(normal, axis=2, keepdims=True)
+            normal = np.divide(normal, length, out=np.zeros_like(normal), where=length > 0).astype(np.float32)
+        return replace(
+            self,
+            vertices=self.vertices @ linear.T + T[:3, 3],
+            faces=np.ascontiguousarray(self.faces[:, order]),
+            corner_uv=corners(self.corner_uv),
+            corner_color=corners(self.corner_color),
+            corner_normal=normal,
+        )
+
+    def subset(self, faces: Int[np.ndarray, " n"] | Bool[np.ndarray, " F"]) -> Mesh:
+        """The mesh of some faces (indices or mask), without unused vertices; nodes and materials stay as they are."""
+        chosen = self.faces[faces]
+        used, inverse = np.unique(chosen, return_inverse=True)
+
+        def rows(a):
+            return None if a is None else a[faces]
+
+        return replace(
+            self,
+            vertices=self.vertices[used],
+            faces=inverse.reshape(-1, 3),
+            face_node=self.face_node[faces],
+            face_material=self.face_material[faces],
+            corner_uv=rows(self.corner_uv),
+            corner_color=rows(self.corner_color),
+            corner_normal=rows(self.corner_normal),
+        )

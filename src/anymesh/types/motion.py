@@ -1,0 +1,53 @@
+"""Motion hypotheses: a candidate rigid motion of a part, and what sweeping it against the rest showed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+import numpy as np
+from jaxtyping import Float
+
+
+class MotionKind(StrEnum):
+    """How a part may move against its parent."""
+
+    TURN = "turn"
+    SLIDE = "slide"
+
+
+@dataclass(frozen=True, eq=False)
+class Motion:
+    """A candidate motion. axis: unit, asset frame; origin: a point on the axis [m, asset frame] (any point for a slide)."""
+
+    kind: MotionKind
+    axis: Float[np.ndarray, " 3"]
+    origin: Float[np.ndarray, " 3"]
+    source: str  # the generator that proposed it, in words
+
+    def __post_init__(self) -> None:
+        length = float(np.linalg.norm(self.axis))
+        if abs(length - 1) > 1e-6:
+            raise ValueError(f"a motion's axis must be a unit vector, found length {length:.6f}")
+
+    def transform(self, amount: float) -> Float[np.ndarray, "4 4"]:
+        """Rigid transform (asset frame) after moving by `amount` [rad for a turn, m for a slide]."""
+        T = np.eye(4)
+        if self.kind is MotionKind.SLIDE:
+            T[:3, 3] = amount * self.axis
+            return T
+        x, y, z = self.axis
+        K = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+        T[:3, :3] = np.eye(3) + np.sin(amount) * K + (1 - np.cos(amount)) * (K @ K)
+        T[:3, 3] = self.origin - T[:3, :3] @ self.origin
+        return T
+
+
+@dataclass(frozen=True)
+class Sweep:
+    """How far a motion is free of collision each way from rest [rad or m, both >= 0], and how the contact fares."""
+
+    forward: float  # free amount along +axis
+    backward: float  # free amount along -axis
+    clear_forward: bool  # True when the whole tested range was free (no stop was met)
+    clear_backward: bool
