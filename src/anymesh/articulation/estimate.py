@@ -1,0 +1,87 @@
+"""STAGE B (paper, 3.3): parts to joints. Candidates are proposed, swept, put to the answerer, and limited."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from anymesh.articulation.evidence import part_facts, weigh
+from anymesh.articulation.hypotheses import propose
+from anymesh.articulation.limits import limits, opening_motion
+from anymesh.articulation.surroundings import Surroundings
+from anymesh.articulation.tree import descendants, parents
+from anymesh.config import Config
+from anymesh.geometry.shape import ObjectShape, Shape
+from anymesh.progress import Progress, silent
+from anymesh.reasoning.questions import Answerer, MotionQuestion
+from anymesh.types import Joint, JointType, Motion, Segmentation
+
+
+def estimate_joints(
+    whole: ObjectShape,
+    segmentation: Segmentation,
+    answerer: Answerer,
+    config: Config,
+    progress: Progress = silent,
+) -> tuple[Joint, ...]:
+    """One joint for every part but the root, in the order of the parts."""
+    shapes = [whole.of(segmentation.faces(i)) for i in range(len(segmentation.parts))]
+    parent = parents(shapes, whole.diagonal)
+    joints = []
+    for i, part in enumerate(segmentation.parts[1:], start=1):
+        progress("joints", part.name, i - 1, len(shapes) - 1)
+        around = surroundings(whole, segmentation, shapes, parent, i, config)
+        joints.append(estimate_joint(around, part.name, segmentation.parts[parent[i]].name, part.label, answerer))
+    return tuple(joints)
+
+
+def surroundings(
+    whole: ObjectShape, segmentation: Segmentation, shapes: list[Shape], parent: list[int], i: int, config: Config
+) -> Surroundings:
+    """Part i with what hangs on it; what stands still is the root and the parts that i hangs on."""
+    carried = [i, *descendants(parent, i)]
+    line, at = [0], parent[i]
+    while at > 0:
+        line.append(at)
+        at = parent[at]
+    still = np.isin(segmentation.face_part, line)
+    moving = np.isin(segmentation.face_part, carried)
+    others = ~still & ~moving
+    center = whole.shape.bounds.mean(0)
+    return Surroundings(
+        part=whole.of(np.flatnonzero(segmentation.face_part == i)) if len(carried) == 1 else whole.of(np.flatnonzero(moving)),
+        parent=shapes[parent[i]],
+        rest=whole.of(np.flatnonzero(still)),
+        others=whole.of(np.flatnonzero(others)) if others.any() else None,
+        diagonal=whole.diagonal,
+        center=center,
+        config=config.articulation,
+    )
+
+
+def estimate_joint(around: Surroundings, name: str, parent: str, label: str, answerer: Answerer) -> Joint:
+    """The joint of one part."""
+    proposed = propose(around)
+    candidates = tuple(weigh(around, role, motion) for role, motion in proposed)
+    facts = part_facts(around, name, label, any(role == "bail" for role, _ in proposed))
+    answer = answerer.which_motion(MotionQuestion(facts, candidates))
+    best = candidates[answer.ranking[0]]
+    motion = opening_motion(best)
+    return Joint(
+        name=f"{name}_joint",
+        type=answer.type,
+        parent=parent,
+        child=name,
+        origin=_on_part(motion, around),
+        axis=motion.axis / np.linalg.norm(motion.axis),
+        limits=limits(around, best, answer.type),
+        confidence=answer.confidence,
+        reason=answer.reason,
+    )
+
+
+def _on_part(motion: Motion, around: Surroundings) -> np.ndarray:
+    """The point of the axis level with the part's middle."""
+    return motion.origin + ((around.part.box.center - motion.origin) @ motion.axis) * motion.axis
+
+
+__all__ = ["JointType", "estimate_joint", "estimate_joints", "surroundings"]

@@ -1,0 +1,123 @@
+"""What sweeping each candidate motion shows: freedom, support, guidance, the side of the handle."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from anymesh.articulation.surroundings import Surroundings
+from anymesh.geometry.distance_ import distance_to_triangles
+from anymesh.geometry.sweep import free_amount, sweep
+from anymesh.reasoning.questions import Candidate, PartFacts
+from anymesh.types import Motion, MotionKind
+
+LINE_POINTS = 21  # along a hinge line
+HELD = 0.02  # a slide is held sideways when stopped within this share of the diagonal
+
+
+def part_facts(around: Surroundings, name: str, label: str, bail: bool) -> PartFacts:
+    """The facts of one part that do not depend on a motion."""
+    core = around.core
+    extents = 2 * core.half / around.diagonal
+    return PartFacts(
+        name=name,
+        label=label,
+        extents=(float(extents[0]), float(extents[1]), float(extents[2])),
+        thinness=float(core.half[2] / max(core.half[1], 1e-12)),
+        roundness=around.outline.roundness,
+        flatness=around.outline.height / max(around.outline.radius, 1e-9),
+        outward=around.outward,
+        openness=around.openness,
+        buried=around.buried,
+        size=around.part.box.diagonal / around.diagonal,
+        horizontal=bool(abs(around.outward[2]) > 0.8),
+        handle=around.handle,
+        touches_ends=bail,
+    )
+
+
+def weigh(around: Surroundings, role: str, motion: Motion) -> Candidate:
+    """Sweeps one motion and gathers the evidence for it."""
+    swept = sweep(around.obstacles, motion, steps=around.config.sweep_steps)
+    if motion.kind is MotionKind.SLIDE:
+        return _slide(around, role, motion, swept)
+    return _turn(around, role, motion, swept)
+
+
+def _turn(around: Surroundings, role: str, motion: Motion, swept) -> Candidate:
+    points = around.part.samples.points
+    arm = points.mean(0) - motion.origin
+    moves = np.cross(motion.axis, arm)
+    outward = float(moves @ around.outward)
+    across = float(np.linalg.norm(moves))
+    toward = outward / across if across > 1e-9 else 0.0
+    opens = _opening_sign(toward, swept.forward, swept.backward, np.deg2rad(20))
+    along = points @ motion.axis
+    middle = motion.origin @ motion.axis
+    at = np.linspace(along.min(), along.max(), LINE_POINTS) - middle
+    line = motion.origin + at[:, None] * motion.axis
+    reach = around.config.support * around.scale
+    support = float((distance_to_triangles(line, around.parent.triangles) < reach).mean())
+    sibling = float((distance_to_triangles(line, around.others.triangles) < reach).mean()) if around.others is not None else 0.0
+    return Candidate(
+        motion, swept, role, opens,
+        *((swept.forward, swept.backward) if opens > 0 else (swept.backward, swept.forward)),
+        support=support,
+        sibling=sibling,
+        handle_side=_handle_side(around, motion),
+        guided=0.0,
+        depth=0.0,
+        vertical=float(abs(motion.axis[2])),
+        outward=toward * opens,
+    )  # fmt: skip
+
+
+def _slide(around: Surroundings, role: str, motion: Motion, swept) -> Candidate:
+    toward = float(motion.axis @ around.outward)
+    opens = _opening_sign(toward, swept.forward, swept.backward, 0.0)
+    side = np.linalg.svd(motion.axis[None])[2][1:]
+    core = around.core.axes
+    flat = sorted(core, key=lambda a: abs(float(a @ motion.axis)))[:2]
+    side = np.array([a - (a @ motion.axis) * motion.axis for a in flat]) if len(flat) == 2 else side
+    side /= np.linalg.norm(side, axis=1, keepdims=True)
+    step = HELD * around.scale
+    held = 0
+    for direction in side:
+        sideways = Motion(MotionKind.SLIDE, direction, motion.origin, "sideways")
+        held += sum(not free_amount(around.obstacles, sideways, sign, step, 3)[1] for sign in (1, -1))
+    inner = around.inside_depth(motion.axis * opens)
+    across = sorted(np.ptp(around.part.corners @ d) for d in side)[0]
+    forward, backward = swept.forward / around.scale, swept.backward / around.scale
+    return Candidate(
+        motion, swept, role, opens,
+        *((forward, backward) if opens > 0 else (backward, forward)),
+        support=0.0,
+        sibling=0.0,
+        handle_side=0.0,
+        guided=held / 4,
+        depth=float(inner / max(across, 1e-9)),
+        vertical=float(abs(motion.axis[2])),
+        outward=toward * opens,
+    )  # fmt: skip
+
+
+def _opening_sign(toward: float, forward: float, backward: float, little: float) -> int:
+    """+1 when +axis opens: outwards if it is free that way, else the freer way."""
+    if abs(toward) > 0.15:
+        sign = 1 if toward > 0 else -1
+        out, into = (forward, backward) if sign > 0 else (backward, forward)
+        return -sign if out < little and into > 2 * out else sign
+    return 1 if forward >= 0.9 * backward else -1
+
+
+def _handle_side(around: Surroundings, motion: Motion) -> float:
+    """1: the handle is at the side opposite the line; -1: right at the line; 0: no handle, or level with the line."""
+    handle = around.handle
+    if handle is None:
+        return 0.0
+    total = 0.0
+    arm = motion.origin - around.core.center
+    for axis, where in zip(around.face_axes, handle.across, strict=True):
+        if abs(around.core.axes[axis] @ motion.axis) < 0.3:
+            side = float(arm @ around.core.axes[axis]) / max(float(around.core.half[axis]), 1e-9)
+            total += -float(np.clip(side, -1, 1)) * where
+    return float(np.clip(total, -1, 1))

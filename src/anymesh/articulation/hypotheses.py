@@ -1,0 +1,131 @@
+"""Candidate motions of a part. A joint is chosen among these, never regressed.
+
+The paper's (3.3): the line along the connecting area, the normal of the plane fitted to it, directions in that plane.
+Ours: edges, middle lines and directions of the part's boxes, the axis of a round outline, the line through two far contacts.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.cluster.vq import kmeans2
+
+from anymesh.articulation.surroundings import Surroundings
+from anymesh.geometry.boxes import Box
+from anymesh.types import Motion, MotionKind
+
+SAME_DIRECTION = np.cos(np.deg2rad(1.0))
+SAME_LINE = 0.004  # share of the object's diagonal
+
+
+def _edges(box: Box, what: str) -> list[tuple[str, Motion]]:
+    found = []
+    for k in range(3):
+        i, j = (a for a in range(3) if a != k)
+        for si in (-1, 1):
+            for sj in (-1, 1):
+                local = np.zeros(3)
+                local[i], local[j] = si * box.half[i], sj * box.half[j]
+                origin = box.world(local[None])[0]
+                found.append(("edge", Motion(MotionKind.TURN, box.axes[k], origin, f"edge of {what}")))
+    return found
+
+
+def _edge_middles(box: Box, what: str) -> list[tuple[str, Motion]]:
+    """Lines half way through the thickness of a plate, along its four rims."""
+    found = []
+    for k in range(2):
+        other = 1 - k
+        for s in (-1, 1):
+            local = np.zeros(3)
+            local[other] = s * box.half[other]
+            origin = box.world(local[None])[0]
+            found.append(("edge_mid", Motion(MotionKind.TURN, box.axes[k], origin, f"rim of {what}")))
+    return found
+
+
+def _through(box: Box, what: str) -> list[tuple[str, Motion]]:
+    return [("center", Motion(MotionKind.TURN, a, box.center, f"middle line of {what}")) for a in box.axes]
+
+
+def _slides(box: Box, what: str) -> list[tuple[str, Motion]]:
+    return [("slide", Motion(MotionKind.SLIDE, a, box.center, f"direction of {what}")) for a in box.axes]
+
+
+def _principal(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    spread = points - points.mean(0)
+    _, s, vt = np.linalg.svd(spread, full_matrices=False)
+    return s / np.sqrt(len(points)), vt
+
+
+def _from_contact(around: Surroundings) -> list[tuple[str, Motion]]:
+    """The paper's: the line along the connecting area, its plane's normal and the directions in the plane."""
+    contact = around.contact
+    if len(contact) < 4:
+        return []
+    middle = contact.mean(0)
+    _, directions = _principal(contact)
+    found = [("contact", Motion(MotionKind.TURN, _unit(directions[0]), middle, "line along the connecting area"))]
+    found.append(("center", Motion(MotionKind.TURN, _unit(directions[2]), middle, "normal of the connecting area")))
+    found += [
+        ("contact_slide", Motion(MotionKind.SLIDE, _unit(d), middle, f"{what} of the connecting area"))
+        for d, what in zip(directions, ("length", "width", "plane normal"), strict=True)
+    ]
+    return found
+
+
+def _unit(v: np.ndarray) -> np.ndarray:
+    v = v / np.linalg.norm(v)
+    return -v if v[np.abs(v).argmax()] < 0 else v
+
+
+def bail_line(around: Surroundings) -> Motion | None:
+    """The line through two contacts that lie far apart with nothing between them (a bucket's bail, a trunnion)."""
+    near = around.part.samples.points[around.gap < max(0.008 * around.scale, float(around.gap.min()) * 1.5)]
+    if len(near) < 6:
+        return None
+    spread = near - near.mean(0)
+    first = np.linalg.svd(spread, full_matrices=False)[2][0]
+    t = spread @ first
+    _, side = kmeans2(near, near[[t.argmin(), t.argmax()]], minit="matrix", iter=20)
+    if min((side == 0).sum(), (side == 1).sum()) < 2:
+        return None
+    a, b = ((near[side == s].min(0) + near[side == s].max(0)) / 2 for s in (0, 1))
+    apart = float(np.linalg.norm(b - a))
+    width = max(float(np.linalg.norm(np.ptp(near[side == s], axis=0))) for s in (0, 1))
+    if apart < 0.45 * around.part.box.diagonal * 0.8 or width > 0.35 * apart:
+        return None
+    return Motion(MotionKind.TURN, _unit(b - a), (a + b) / 2, "line through the two far contacts")
+
+
+def propose(around: Surroundings) -> list[tuple[str, Motion]]:
+    """All candidate motions of a part, each with its role, without near copies; the order is fixed."""
+    core, box = around.core, around.part.box
+    found = _edges(core, "the part") + _edge_middles(core, "the part") + _through(core, "the part")
+    found += _slides(core, "the part")
+    outline = around.outline
+    if outline.roundness > 0.5:
+        found.insert(0, ("round", Motion(MotionKind.TURN, _unit(outline.axis), outline.center, "axis of its round outline")))
+    bail = bail_line(around)
+    if bail is not None:
+        found.insert(0, ("bail", bail))
+    if not np.allclose(box.half, core.half, rtol=0.02):
+        found += _edges(box, "the part's outer box")
+    found += _slides(Box(box.center, np.eye(3), box.half), "the object")
+    found += _from_contact(around)
+    return _distinct(found, around.scale)
+
+
+def _distinct(found: list[tuple[str, Motion]], diagonal: float) -> list[tuple[str, Motion]]:
+    kept: list[tuple[str, Motion]] = []
+    for role, motion in found:
+        if not any(_same(motion, other, diagonal) for _, other in kept):
+            kept.append((role, motion))
+    return kept
+
+
+def _same(a: Motion, b: Motion, diagonal: float) -> bool:
+    if a.kind is not b.kind or abs(float(a.axis @ b.axis)) < SAME_DIRECTION:
+        return False
+    if a.kind is MotionKind.SLIDE:
+        return True
+    return float(np.linalg.norm(np.cross(b.origin - a.origin, a.axis))) < SAME_LINE * diagonal

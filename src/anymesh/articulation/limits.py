@@ -1,0 +1,71 @@
+"""Limits of a joint, from the sweep of its motion."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from anymesh.articulation.surroundings import Surroundings
+from anymesh.geometry.sweep import free_amount
+from anymesh.reasoning.questions import Candidate
+from anymesh.types import JointType, Motion, MotionKind
+
+
+def limits(around: Surroundings, c: Candidate, kind: JointType) -> tuple[float, float] | None:
+    """(lower, upper) about the opening axis [rad or m]; None for continuous and fixed joints."""
+    match kind:
+        case JointType.CONTINUOUS | JointType.FIXED:
+            return None
+        case JointType.REVOLUTE:
+            return _turn(around, c)
+        case JointType.PRISMATIC:
+            return _slide(around, c)
+
+
+def opening_motion(c: Candidate) -> Motion:
+    """The candidate's motion with the axis turned so that positive opens."""
+    return Motion(c.motion.kind, c.motion.axis * c.opens, c.motion.origin, c.motion.source)
+
+
+def _turn(around: Surroundings, c: Candidate) -> tuple[float, float]:
+    config, motion = around.config, opening_motion(c)
+    most = np.deg2rad(config.door_most if c.vertical > 0.7 else config.flap_most)
+    steps = config.fine_steps * 3
+    upper, clear = free_amount(around.obstacles, motion, 1, most, steps)
+    lower, _ = free_amount(around.obstacles, motion, -1, most, steps)
+    if not clear:
+        upper = _floor(upper, np.deg2rad(1))
+    closed = c.role in ("edge", "edge_mid") and _shut(around)
+    lower = 0.0 if closed or lower < np.deg2rad(5) else _floor(lower, np.deg2rad(1))
+    if upper < np.deg2rad(2):
+        upper = most if lower == 0 else 0.0
+    return (-lower, upper)
+
+
+def _shut(around: Surroundings) -> bool:
+    """Whether the part lies shut: near the parent at both ends of its face, so that inwards is where it came from."""
+    near = around.gap < 0.02 * around.scale
+    local = around.core.local(around.part.samples.points) / np.maximum(around.core.half, 1e-9)
+    sides = 0
+    for axis in around.face_axes:
+        sides += sum(bool(near[sign * local[:, axis] > 0.8].mean() > 0.2) for sign in (1, -1))
+    return sides >= 3
+
+
+def _floor(value: float, step: float) -> float:
+    return float(np.floor(value / step + 1e-9) * step)
+
+
+def _slide(around: Surroundings, c: Candidate) -> tuple[float, float]:
+    motion = opening_motion(c)
+    depth = around.inside_depth(motion.axis)
+    extent = float(np.ptp(around.part.corners @ motion.axis))
+    outward = c.outward > 0.7
+    most = max((1 - around.config.slide_keep) * (depth if outward else extent), 0.01 * around.scale)
+    steps = around.config.fine_steps * 2
+    upper, _ = free_amount(around.obstacles, motion, 1, most, steps)
+    lower, clear = free_amount(around.obstacles, motion, -1, most, steps)
+    if outward or clear or lower < 0.01 * around.scale:
+        lower = 0.0
+    if upper < 1e-3 * around.scale:
+        upper = most if lower == 0 else 0.0
+    return (-lower, upper)

@@ -1,0 +1,167 @@
+"""One part among the others: its core box, the way out, its handle, its connecting area."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from jaxtyping import Bool, Float
+
+from anymesh.config import ArticulationConfig
+from anymesh.geometry.boxes import Box, box_in_frame
+from anymesh.geometry.circles import Outline, roundest
+from anymesh.geometry.contact import connecting_area
+from anymesh.geometry.distance_ import distance_to_triangles
+from anymesh.geometry.shape import Shape
+from anymesh.geometry.sweep import Obstacles
+from anymesh.reasoning.questions import Handle
+
+LEVEL = 0.12  # share of the surface facing a side that makes up the side's level
+STAND_OUT = 0.012  # a handle stands out by this share of the part's diagonal at least
+
+
+def core_box(shape: Shape) -> Box:
+    """The box of a part without what sticks out of it: each side at the level where its facing surface begins to count."""
+    frame = shape.box.axes
+    samples = shape.samples
+    local = samples.points @ frame.T
+    facing = samples.normals @ frame.T
+    low, high = (c for c in np.array([shape.box.local(shape.corners).min(0), shape.box.local(shape.corners).max(0)]))
+    low, high = low + frame @ shape.box.center, high + frame @ shape.box.center
+    for axis in range(3):
+        at = np.sort(local[np.abs(facing[:, axis]) > 0.9, axis])
+        if len(at) < 0.02 * len(samples):
+            continue
+        k = min(int(LEVEL * len(at)), len(at) - 1)
+        slack = 0.01 * shape.box.diagonal
+        low[axis] = at[k] if at[k] > low[axis] + slack else low[axis]
+        high[axis] = at[-1 - k] if at[-1 - k] < high[axis] - slack else high[axis]
+    keep = high - low > 1e-9
+    if not keep.all():
+        return shape.box
+    corners = np.array([[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
+    return box_in_frame(corners @ frame, frame)
+
+
+@dataclass(frozen=True, eq=False)
+class Surroundings:
+    """A part (with all that moves along with it), what it could hit, its parent and the other movable parts.
+
+    diagonal: of the whole object [m]; center: of the whole object's box.
+    """
+
+    part: Shape
+    parent: Shape
+    rest: Shape  # everything that stands still while the part moves
+    others: Shape | None  # the other movable parts
+    diagonal: float
+    center: Float[np.ndarray, " 3"]
+    config: ArticulationConfig
+
+    @cached_property
+    def core(self) -> Box:
+        """The part's box without what stands out of it."""
+        return core_box(self.part)
+
+    @cached_property
+    def scale(self) -> float:
+        """The length that tolerances are shares of [m]: the object's diagonal, less for a part that is small in it."""
+        return min(self.diagonal, 5 * self.part.box.diagonal)
+
+    @cached_property
+    def buried(self) -> float:
+        """How deep the part lies in the parent along the way out, over its smallest side across."""
+        across = [float(np.ptp(self.part.corners @ a)) for a in self.core.axes if abs(a @ self.outward) < 0.7]
+        return self.inside_depth(self.outward) / max(min(across, default=1.0), 1e-9)
+
+    def inside_depth(self, direction: Float[np.ndarray, " 3"]) -> float:
+        """How deep the part reaches into the parent against `direction` [m]: its extent between the parent's bounds."""
+        along = self.part.samples.points @ direction
+        parent = self.parent.samples.points @ direction
+        low, high = np.percentile(along, 0.5), np.percentile(along, 99.5)
+        return float(max(0.0, min(high, parent.max()) - max(low, parent.min())))
+
+    @cached_property
+    def obstacles(self) -> Obstacles:
+        return Obstacles(self.part, self.rest, self.config.penetration * self.scale)
+
+    @cached_property
+    def outline(self) -> Outline:
+        """The roundest outline of the part, seen along its box's axes."""
+        points = np.concatenate([self.part.corners, self.part.samples.points])
+        return roundest(points, self.part.box.axes[::-1])
+
+    @cached_property
+    def gap(self) -> Float[np.ndarray, " n"]:
+        """Distance of each sample of the part to the parent [m]."""
+        return distance_to_triangles(self.part.samples.points, self.parent.triangles)
+
+    @cached_property
+    def contact(self) -> Float[np.ndarray, "n 3"]:
+        """Points of the connecting area, of both (paper, 3.3) [m]."""
+        a, b = self.part.samples.points, self.parent.samples.points
+        in_a, in_b, _ = connecting_area(a, b, self.config.connecting * self.scale)
+        return np.concatenate([a[in_a], b[in_b]])
+
+    def sees_outside(self, direction: Float[np.ndarray, " 3"]) -> Bool[np.ndarray, " n"]:
+        """Which samples of the part see no other surface of the object along `direction`."""
+        points = self.part.samples.points[::6]
+        start = points + 1e-4 * self.diagonal * direction
+        rays = np.repeat(direction[None] * 4 * self.diagonal, len(start), 0)
+        return self.rest.scene.first_hit(start, rays, 1.0).face < 0
+
+    @cached_property
+    def _out(self) -> tuple[np.ndarray, float]:
+        """The way out among the core box's directions: the thin one unless another is far more open."""
+        best, best_score, best_open = self.core.axes[2], -np.inf, 0.0
+        away = self.part.samples.points.mean(0) - self.center
+        for k, axis in enumerate(self.core.axes):
+            for sign in (1.0, -1.0):
+                seen = float(self.sees_outside(sign * axis).mean())
+                facing = self.core.half[2] / self.core.half[k]
+                score = seen + 0.5 * facing + 0.3 * sign * float(axis @ away) / self.diagonal
+                if score > best_score + 1e-9:
+                    best, best_score, best_open = sign * axis, score, seen
+        return best, best_open
+
+    @property
+    def outward(self) -> Float[np.ndarray, " 3"]:
+        """The way out of the object for this part, unit."""
+        return self._out[0]
+
+    @property
+    def openness(self) -> float:
+        """Share of the part that sees the outside along the way out."""
+        return self._out[1]
+
+    @cached_property
+    def handle(self) -> Handle | None:
+        """What stands out of the part's outer face, if it is small against the face."""
+        k = int(np.abs(self.core.axes @ self.outward).argmax())
+        sign = np.sign(self.core.axes[k] @ self.outward)
+        local = self.core.local(self.part.samples.points)
+        above = sign * local[:, k] - self.core.half[k]
+        out = above > STAND_OUT * self.core.diagonal
+        share = float(out.mean())
+        if not 0.002 < share < 0.45:
+            return None
+        face = [i for i in range(3) if i != k]
+        at = local[out][:, face]
+        low, high = at.min(0), at.max(0)
+        size = high - low
+        middle = (low + high) / 2 / np.maximum(self.core.half[face], 1e-9)
+        along = None if size.max() < 1.6 * size.min() + 1e-9 else int(size.argmax())
+        if (size > 1.7 * self.core.half[face]).all():
+            return None
+        return Handle(
+            (float(np.clip(middle[0], -1, 1)), float(np.clip(middle[1], -1, 1))),
+            along,
+            float(size.max() / self.core.diagonal),
+        )
+
+    @property
+    def face_axes(self) -> list[int]:
+        """The two core axes that span the part's outer face, in the order that Handle.across uses."""
+        k = int(np.abs(self.core.axes @ self.outward).argmax())
+        return [i for i in range(3) if i != k]

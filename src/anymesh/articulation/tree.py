@@ -1,0 +1,57 @@
+"""Who hangs on whom: the parent of every part."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from anymesh.geometry.distance_ import distance_to_triangles
+from anymesh.geometry.shape import Shape
+
+CLEARLY = 3.0  # a part hangs on another part rather than on the root when it is this much nearer, or touches this much more
+
+
+def parents(shapes: list[Shape], diagonal: float) -> list[int]:
+    """The parent's index of every part (the root, 0, has -1): the root, unless the part clearly hangs on a larger part."""
+    size = [float(np.linalg.norm(s.bounds[1] - s.bounds[0])) for s in shapes]
+    found = [-1]
+    for i in range(1, len(shapes)):
+        points = shapes[i].samples.points[::6]
+        best, best_score = 0, 0.0
+        base = distance_to_triangles(points, shapes[0].triangles)
+        tolerance = 0.01 * min(diagonal, 5 * size[i])
+        touch_base = float((base < tolerance).mean())
+        for j in range(1, len(shapes)):
+            if j == i or size[j] < 1.15 * size[i]:
+                continue
+            to = distance_to_triangles(points, shapes[j].triangles)
+            touch = float((to < tolerance).mean())
+            nearer = base.min() > max(CLEARLY * to.min(), 0.4 * tolerance) and to.min() < tolerance
+            more = touch > CLEARLY * touch_base + 0.01
+            if (nearer or more) and touch > best_score:
+                best, best_score = j, touch
+        found.append(best)
+    return _without_circles(found)
+
+
+def _without_circles(parent: list[int]) -> list[int]:
+    for i in range(1, len(parent)):
+        seen, at = {i}, parent[i]
+        while at > 0:
+            if at in seen:
+                parent[i] = 0
+                break
+            seen.add(at)
+            at = parent[at]
+    return parent
+
+
+def descendants(parent: list[int], i: int) -> list[int]:
+    """The parts that hang on part i, near and far, without i."""
+    found: list[int] = []
+    for j in range(len(parent)):
+        at = parent[j]
+        while at > 0 and at != i:
+            at = parent[at]
+        if at == i and j != i:
+            found.append(j)
+    return found

@@ -1,0 +1,44 @@
+"""Every number that steers the pipeline, once, with its unit and where it comes from."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass, field
+
+
+@dataclass(frozen=True)
+class SegmentationConfig:
+    """Stage A (paper, 3.2). Lengths are shares of the object's diagonal."""
+
+    touch: float = 0.0004  # pieces nearer than this touch; clearances of real fits are wider
+    crease: float = 25.0  # [deg] a concave edge sharper than this may bound a part on a fused surface
+    smallest: float = 0.004  # pieces with a smaller diagonal never move on their own
+    most_pieces: int = 1500  # above it, small pieces join their nearest larger one
+    superpoint_reg: float = 0.05  # l0 cut pursuit strength (the paper's implementation)
+    superpoint_color: float = 0.3  # weight of colour against normals (the paper's implementation)
+
+
+@dataclass(frozen=True)
+class ArticulationConfig:
+    """Stage B (paper, 3.3). Lengths are shares of the object's diagonal unless said."""
+
+    connecting: float = 0.005  # threshold of the connecting area; .01 where the diagonal is 2 (the paper's implementation)
+    penetration: float = 0.003  # a path that goes this far behind a surface is stopped
+    support: float = 0.02  # a hinge line has the parent near when it is within this
+    sweep_steps: int = 36  # of a sweep each way: 5 degrees over half a turn
+    fine_steps: int = 30  # of the last coarse step, for the limits
+    door_most: float = 110.0  # [deg] upper limit of a hinge that nothing stops, axis upright (common cup hinges)
+    flap_most: float = 90.0  # [deg] upper limit of a hinge that nothing stops, axis level
+    slide_keep: float = 0.1  # share of a drawer's depth that stays in when it is out
+
+
+@dataclass(frozen=True)
+class Config:
+    """All settings of a run; its dictionary is part of the key of saved stage results."""
+
+    seed: int = 0
+    segmentation: SegmentationConfig = field(default_factory=SegmentationConfig)
+    articulation: ArticulationConfig = field(default_factory=ArticulationConfig)
+
+    def as_dict(self) -> dict[str, object]:
+        """Plain values, for keys and files."""
+        return asdict(self)

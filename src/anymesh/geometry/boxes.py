@@ -1,0 +1,105 @@
+"""Oriented boxes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+
+@dataclass(frozen=True, eq=False)
+class Box:
+    """An oriented box. axes: rows are unit, right-handed, longest side first; half: half side lengths in that order [m]."""
+
+    center: Float[np.ndarray, " 3"]
+    axes: Float[np.ndarray, "3 3"]
+    half: Float[np.ndarray, " 3"]
+
+    @property
+    def diagonal(self) -> float:
+        return 2 * float(np.linalg.norm(self.half))
+
+    def local(self, points: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 3"]:
+        """Points in the box frame [m], centre at 0."""
+        return (points - self.center) @ self.axes.T
+
+    def world(self, local: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 3"]:
+        """Points given in the box frame, in the frame of the box."""
+        return local @ self.axes + self.center
+
+
+def _frame(first: np.ndarray, second: np.ndarray) -> np.ndarray | None:
+    second = second - (second @ first) * first
+    length = np.linalg.norm(second)
+    if length < 1e-6:
+        return None
+    second = second / length
+    return np.stack([first, second, np.cross(first, second)])
+
+
+def dominant_normals(
+    normals: Float[np.ndarray, "n 3"], weights: Float[np.ndarray, " n"], count: int = 4
+) -> Float[np.ndarray, "k 3"]:
+    """The directions (sign-free) that most of the surface faces, the heaviest first, each averaged over its cone."""
+    n = normals[weights > 0]
+    w = weights[weights > 0].copy()
+    flip = np.where(np.abs(n) > 0.5 * np.abs(n).max(1, keepdims=True), np.sign(n), 0)
+    first = np.take_along_axis(flip, (flip != 0).argmax(1)[:, None], 1)[:, 0]
+    n = n * np.where(first == 0, 1, first)[:, None]
+    found: list[np.ndarray] = []
+    key = np.round(n * 50).astype(np.int64)
+    while len(n) and len(found) < count and w.sum() > 0:
+        _, inverse = np.unique(key, axis=0, return_inverse=True)
+        heavy = np.bincount(inverse.reshape(-1), w).argmax()
+        seed = n[np.flatnonzero(inverse.reshape(-1) == heavy)[0]]
+        cone = np.abs(n @ seed) > np.cos(np.deg2rad(5))
+        mean = (n[cone] * (w[cone] * np.sign(n[cone] @ seed))[:, None]).sum(0)
+        found.append(mean / np.linalg.norm(mean))
+        n, w, key = n[~cone], w[~cone], key[~cone]
+    return np.array(found).reshape(-1, 3)
+
+
+def fit_box(
+    points: Float[np.ndarray, "n 3"], normals: Float[np.ndarray, "m 3"], weights: Float[np.ndarray, " m"]
+) -> Box:
+    """The smallest of the boxes along the asset axes, the dominant normals, and the principal directions.
+
+    A frame must be clearly smaller (3 %) to be preferred to the asset's own axes.
+    """
+    frames = [np.eye(3)]
+    directions = dominant_normals(normals, weights)
+    spread = points - points.mean(0)
+    principal = np.linalg.svd(spread.T @ spread / max(len(points), 1))[2]
+    for i, first in enumerate(directions):
+        rest = [directions[j] for j in range(len(directions)) if j != i and abs(directions[j] @ first) < 0.1]
+        flat = spread - np.outer(spread @ first, first)
+        rest.append(np.linalg.svd(flat.T @ flat)[2][0])
+        rest.extend(np.eye(3))
+        frames.extend(f for second in rest if (f := _frame(first, second)) is not None)
+    frames.append(_frame(principal[0], principal[1]) if len(points) > 2 else None)
+    best, best_volume = np.eye(3), np.inf
+    slack = 1e-3 * float(np.linalg.norm(np.ptp(points, axis=0)))
+    for frame in frames:
+        if frame is None:
+            continue
+        size = np.ptp(points @ frame.T, axis=0) + slack
+        volume = float(size.prod())
+        if volume < best_volume * 0.97:
+            best, best_volume = frame, volume
+    return box_in_frame(points, best)
+
+
+def box_in_frame(points: Float[np.ndarray, "n 3"], axes: Float[np.ndarray, "3 3"]) -> Box:
+    """The tight box of points in a given frame (rows of `axes`), sides sorted longest first."""
+    local = points @ axes.T
+    low, high = local.min(0), local.max(0)
+    order = np.argsort(-(high - low), kind="stable")
+    sorted_axes = axes[order]
+    for row in sorted_axes:  # a fixed sign: the largest component is positive
+        if row[np.abs(row).argmax()] < 0:
+            row *= -1
+    center = ((low + high) / 2) @ axes
+    if np.linalg.det(sorted_axes) < 0:
+        sorted_axes[2] *= -1
+    return Box(center, sorted_axes, ((high - low) / 2)[order])

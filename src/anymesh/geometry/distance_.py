@@ -1,0 +1,29 @@
+"""Exact distances from points to triangles, by libigl (MPL-2)."""
+
+from __future__ import annotations
+
+import numpy as np
+from jaxtyping import Float, Int
+
+
+def distance_to_mesh(
+    points: Float[np.ndarray, "n 3"], vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"]
+) -> tuple[Float[np.ndarray, " n"], Int[np.ndarray, " n"], Float[np.ndarray, "n 3"]]:
+    """Distance to the closest triangle [units of the input], that triangle's index, and the closest point on it."""
+    import igl
+
+    if len(points) == 0:
+        return np.zeros(0), np.zeros(0, np.int64), np.zeros((0, 3))
+    squared, face, closest = igl.point_mesh_squared_distance(
+        np.ascontiguousarray(points, np.float64),
+        np.ascontiguousarray(vertices, np.float64),
+        np.ascontiguousarray(faces, np.int64),
+    )
+    return np.sqrt(np.maximum(np.atleast_1d(squared), 0)), np.atleast_1d(face).astype(np.int64), np.atleast_2d(closest)
+
+
+def distance_to_triangles(
+    points: Float[np.ndarray, "n 3"], triangles: Float[np.ndarray, "F 3 3"]
+) -> Float[np.ndarray, " n"]:
+    """Distance of each point to the closest of some triangles."""
+    return distance_to_mesh(points, triangles.reshape(-1, 3), np.arange(3 * len(triangles)).reshape(-1, 3))[0]

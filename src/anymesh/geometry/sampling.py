@@ -1,0 +1,51 @@
+"""Points on surfaces."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float, Int
+
+
+@dataclass(frozen=True, eq=False)
+class SurfacePoints:
+    """Points on a surface with the unit normal and the index of the face that each lies on."""
+
+    points: Float[np.ndarray, "n 3"]
+    normals: Float[np.ndarray, "n 3"]
+    faces: Int[np.ndarray, " n"]
+
+    def __len__(self) -> int:
+        return len(self.points)
+
+    def take(self, index: np.ndarray) -> SurfacePoints:
+        """The points chosen by an index array or a mask."""
+        return SurfacePoints(self.points[index], self.normals[index], self.faces[index])
+
+
+def sample_surface(
+    triangles: Float[np.ndarray, "F 3 3"], count: int, seed: int, at_least: int = 0
+) -> SurfacePoints:
+    """`count` points, as many on a face as its area asks for (systematic sampling: even, and stable for a seed).
+
+    `at_least` = 1 adds the centroid of every face that got none, so that small faces are seen too.
+    """
+    cross = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    length = np.linalg.norm(cross, axis=1)
+    normals = np.divide(cross, length[:, None], out=np.zeros_like(cross), where=length[:, None] > 0)
+    rng = np.random.default_rng(seed)
+    total = length.sum()
+    if total <= 0:
+        index = np.zeros(0, np.int64)
+    else:
+        ticks = (np.arange(count) + rng.random()) / count * total
+        index = np.minimum(np.searchsorted(np.cumsum(length), ticks), len(length) - 1)
+    r1, r2 = np.sqrt(rng.random(len(index))), rng.random(len(index))
+    t = triangles[index]
+    points = (1 - r1)[:, None] * t[:, 0] + (r1 * (1 - r2))[:, None] * t[:, 1] + (r1 * r2)[:, None] * t[:, 2]
+    if at_least:
+        unseen = np.setdiff1d(np.flatnonzero(length > 0), index)
+        points = np.concatenate([points, triangles[unseen].mean(1)])
+        index = np.concatenate([index, unseen])
+    return SurfacePoints(points, normals[index], index)

@@ -1,0 +1,97 @@
+"""A set of faces made ready for questions: oriented normals, what is solid, samples, rays."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from jaxtyping import Bool, Float, Int
+
+from anymesh.geometry.boxes import Box, fit_box
+from anymesh.geometry.sampling import SurfacePoints, sample_surface
+from anymesh.geometry.topology import Components, components
+from anymesh.rendering.raycast_ import RayScene
+from anymesh.types import Mesh
+
+SAMPLES = 3000  # surface points a shape; enough for a share of 1 % to be 30 points
+
+
+@dataclass(frozen=True, eq=False)
+class Shape:
+    """Triangles with outward normals where the surface is closed.
+
+    triangles: (F, 3, 3) [m]; normals: (F, 3) unit, outward for solid faces, else as wound; solid: (F,) the face belongs to
+    a closed component; faces: (F,) the faces' numbers in the mesh.
+    """
+
+    triangles: Float[np.ndarray, "F 3 3"]
+    normals: Float[np.ndarray, "F 3"]
+    solid: Bool[np.ndarray, " F"]
+    faces: Int[np.ndarray, " F"]
+    seed: int = 0
+
+    @cached_property
+    def areas(self) -> Float[np.ndarray, " F"]:
+        """Area of every face [m^2]."""
+        t = self.triangles
+        return 0.5 * np.linalg.norm(np.cross(t[:, 1] - t[:, 0], t[:, 2] - t[:, 0]), axis=1)
+
+    @cached_property
+    def scene(self) -> RayScene:
+        """For casting rays at these triangles."""
+        corners = self.triangles.reshape(-1, 3)
+        return RayScene(corners, np.arange(len(corners)).reshape(-1, 3))
+
+    @cached_property
+    def corners(self) -> Float[np.ndarray, "n 3"]:
+        """The distinct corner positions."""
+        return np.unique(self.triangles.reshape(-1, 3), axis=0)
+
+    @cached_property
+    def samples(self) -> SurfacePoints:
+        """Points spread evenly by area, with outward normals."""
+        s = sample_surface(self.triangles, SAMPLES, self.seed)
+        return SurfacePoints(s.points, self.normals[s.faces], s.faces)
+
+    @cached_property
+    def box(self) -> Box:
+        """The smallest box along the shape's own directions."""
+        return fit_box(self.corners, self.normals, self.areas)
+
+    @cached_property
+    def bounds(self) -> Float[np.ndarray, "2 3"]:
+        """Axis-aligned bounds [m]."""
+        corners = self.triangles.reshape(-1, 3)
+        return np.array([corners.min(0), corners.max(0)])
+
+    @property
+    def area(self) -> float:
+        """Surface area [m^2]."""
+        return float(self.areas.sum())
+
+    def take(self, index: np.ndarray) -> Shape:
+        """The shape of some of the faces (index into this shape, or a mask)."""
+        return Shape(self.triangles[index], self.normals[index], self.solid[index], self.faces[index], self.seed)
+
+
+@dataclass(frozen=True, eq=False)
+class ObjectShape:
+    """The whole object: its shape, and the connected components of its welded surface."""
+
+    shape: Shape
+    parts: Components
+    diagonal: float
+
+    def of(self, faces: Int[np.ndarray, " n"]) -> Shape:
+        """The shape of some faces of the mesh."""
+        return self.shape.take(faces)
+
+
+def object_shape(mesh: Mesh, seed: int = 0) -> ObjectShape:
+    """Orients and prepares a mesh; the mesh itself is not changed."""
+    parts = components(mesh.vertices, mesh.faces)
+    flip = parts.flip[parts.label]
+    normals = np.where(flip[:, None], -mesh.face_normals, mesh.face_normals)
+    shape = Shape(mesh.triangles, normals, parts.solid[parts.label], np.arange(len(mesh.faces)), seed)
+    return ObjectShape(shape, parts, mesh.diagonal)

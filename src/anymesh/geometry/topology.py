@@ -1,0 +1,126 @@
+"""Which faces hang together: welding, edges, connected components, closed solids."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Bool, Float, Int
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+
+
+def weld(vertices: Float[np.ndarray, "V 3"]) -> Int[np.ndarray, " V"]:
+    """A number a position: vertices that agree to one part in 2**20 of the largest extent share it."""
+    low = vertices.min(0)
+    extent = float((vertices.max(0) - low).max()) or 1.0
+    grid = np.round((vertices - low) * ((2**20 - 1) / extent)).astype(np.int64)
+    key = (grid[:, 0] << 42) | (grid[:, 1] << 21) | grid[:, 2]
+    return np.unique(key, return_inverse=True)[1].reshape(-1)
+
+
+@dataclass(frozen=True, eq=False)
+class EdgePairs:
+    """Pairs of faces that bound the same material at a shared edge of the welded mesh.
+
+    faces: (m, 2) face indices; vertices: (m, 2) the edge's end points, indices into the mesh's vertices;
+    aligned: (m,) True where the two faces run the edge in opposite ways; open_faces: faces with an edge left unpaired.
+    """
+
+    faces: Int[np.ndarray, "m 2"]
+    vertices: Int[np.ndarray, "m 2"]
+    aligned: Bool[np.ndarray, " m"]
+    open_faces: Int[np.ndarray, " k"]
+
+
+def edge_pairs(vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"]) -> EdgePairs:
+    """All pairs of faces that meet at an edge.
+
+    Where more than two faces share one (bodies that touch along an edge), each is paired with the face across the material
+    between them, so that touching solids stay apart.
+    """
+    welded = weld(vertices)
+    f = welded[faces]
+    a, b = f.reshape(-1), f[:, [1, 2, 0]].reshape(-1)
+    ends = np.stack([faces.reshape(-1), faces[:, [1, 2, 0]].reshape(-1)], 1)
+    third = faces[:, [2, 0, 1]].reshape(-1)
+    owner = np.repeat(np.arange(len(faces)), 3)
+    keep = a != b
+    a, b, owner, ends, third = a[keep], b[keep], owner[keep], ends[keep], third[keep]
+    key = np.minimum(a, b).astype(np.int64) * (int(welded.max()) + 1) + np.maximum(a, b)
+    order = np.argsort(key, kind="stable")
+    key, owner, ends, third, forward = key[order], owner[order], ends[order], third[order], (a < b)[order]
+    start = np.flatnonzero(np.r_[True, key[1:] != key[:-1]])
+    size = np.diff(np.r_[start, len(key)])
+    two = start[size == 2]
+    left, right = [two], [two + 1]
+    for count in np.unique(size[size > 2]):
+        rows = start[size == count][:, None] + np.arange(count)
+        i, j = _across_material(vertices, ends[rows], third[rows], forward[rows])
+        left.append(rows[i, j[0]])
+        right.append(rows[i, j[1]])
+    i, j = np.concatenate(left), np.concatenate(right)
+    paired = np.zeros(len(key), bool)
+    paired[i] = paired[j] = True
+    loose = np.unique(owner[~paired])
+    return EdgePairs(np.stack([owner[i], owner[j]], 1), ends[i], forward[i] != forward[j], loose)
+
+
+def _across_material(
+    vertices: np.ndarray, ends: np.ndarray, third: np.ndarray, forward: np.ndarray
+) -> tuple[np.ndarray, tuple[np.ndarray, np.ndarray]]:
+    """Pairs (row, (slot, slot)) among the n faces around each of m edges: a face and the next one behind its surface."""
+    low = np.where(forward[:, :1, None], vertices[ends[:, :1, 0]], vertices[ends[:, :1, 1]])
+    high = np.where(forward[:, :1, None], vertices[ends[:, :1, 1]], vertices[ends[:, :1, 0]])
+    edge = high - low
+    edge /= np.maximum(np.linalg.norm(edge, axis=2, keepdims=True), 1e-300)
+    into = vertices[third] - low
+    into -= (into * edge).sum(2, keepdims=True) * edge
+    u = into[:, :1] / np.maximum(np.linalg.norm(into[:, :1], axis=2, keepdims=True), 1e-300)
+    v = np.cross(edge, u)
+    angle = np.arctan2((into * v).sum(2), (into * u).sum(2))
+    turn = (angle[:, :, None] - angle[:, None, :]) % (2 * np.pi)
+    turn = np.where((turn < 1e-4) | (turn > 2 * np.pi - 1e-4), 2 * np.pi, turn)
+    turn = np.where(forward[:, :, None] & ~forward[:, None, :], turn, np.inf)
+    mate, back = turn.argmin(2), turn.argmin(1)
+    row, slot = np.nonzero(np.isfinite(turn.min(2)))
+    mutual = back[row, mate[row, slot]] == slot
+    row, slot = row[mutual], slot[mutual]
+    return row, (slot, mate[row, slot])
+
+
+def label_connected(count: int, pairs: Int[np.ndarray, "m 2"]) -> Int[np.ndarray, " n"]:
+    """Connected components of `count` nodes, numbered in the order of their first node."""
+    graph = coo_array((np.ones(len(pairs), np.int8), (pairs[:, 0], pairs[:, 1])), shape=(count, count))
+    _, raw = connected_components(graph, directed=False)
+    first = np.unique(raw, return_index=True)[1]
+    rank = np.empty(len(first), np.int64)
+    rank[np.argsort(first)] = np.arange(len(first))
+    return rank[raw]
+
+
+@dataclass(frozen=True, eq=False)
+class Components:
+    """Connected components of the welded mesh. label: (F,); solid: (count,) closed and evenly wound; flip: (count,) inside out."""
+
+    label: Int[np.ndarray, " F"]
+    solid: Bool[np.ndarray, " c"]
+    flip: Bool[np.ndarray, " c"]
+    edges: EdgePairs
+
+    @property
+    def count(self) -> int:
+        return len(self.solid)
+
+
+def components(vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"]) -> Components:
+    """Connected components after welding, and which of them enclose a volume."""
+    edges = edge_pairs(vertices, faces)
+    label = label_connected(len(faces), edges.faces)
+    count = int(label.max()) + 1
+    solid = np.ones(count, bool)
+    solid[label[edges.open_faces]] = False
+    solid[label[edges.faces[~edges.aligned, 0]]] = False
+    t = vertices[faces] - vertices[faces].mean((0, 1))
+    volume = np.bincount(label, np.einsum("ij,ij->i", t[:, 0], np.cross(t[:, 1], t[:, 2])) / 6, count)
+    return Components(label, solid, solid & (volume < 0), edges)

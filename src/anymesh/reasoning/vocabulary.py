@@ -1,0 +1,84 @@
+"""Words for parts, and how such parts usually move. Free names are matched by their words, never by substrings."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from enum import StrEnum
+
+
+class Habit(StrEnum):
+    """How a kind of part usually moves."""
+
+    HINGE = "hinge"
+    SLIDE = "slide"
+    SPIN = "spin"
+    BAIL = "bail"
+    PRESS = "press"
+    LEVER = "lever"  # a hinge or a slide: geometry decides
+    NONE = "none"  # belongs to what it is fixed to
+
+
+@dataclass(frozen=True)
+class Word:
+    """One kind of part."""
+
+    label: str
+    habit: Habit
+    names: tuple[str, ...]
+
+
+WORDS = (
+    Word("door", Habit.HINGE, ("door", "tuer", "porte", "puerta", "porta", "hatch", "gate", "shutter")),
+    Word("lid", Habit.HINGE, ("lid", "cover", "hood", "bonnet", "trunk", "tailgate", "cap", "deckel", "screen", "display")),
+    Word("flap", Habit.HINGE, ("flap", "aileron", "elevator", "rudder", "slat", "visor", "tilt", "airbrake", "spoiler")),
+    Word("drawer", Habit.SLIDE, ("drawer", "schublade", "tiroir", "cajon", "tray", "rack", "basket", "bin", "crisper")),
+    Word("window", Habit.LEVER, ("window", "sash", "pane")),
+    Word("slider", Habit.SLIDE, ("slider", "slide", "sliding", "rail", "carriage", "piston", "plunger", "bolt", "magazine")),
+    Word("button", Habit.PRESS, ("button", "key", "keycap", "trigger", "push")),
+    Word("knob", Habit.SPIN, ("knob", "dial", "valve", "tap", "chuck", "control")),
+    Word("wheel", Habit.SPIN, ("wheel", "tire", "tyre", "caster", "castor", "roller", "rotor", "propeller", "fan", "gear",
+                               "steering", "turntable", "blade", "hub", "crank", "pulley", "spinner")),
+    Word("bail", Habit.BAIL, ("bail", "swing")),
+    Word("lever", Habit.LEVER, ("lever", "switch", "pedal", "arm", "toggle", "latch", "joystick", "stick", "brake")),
+    Word("handle", Habit.LEVER, ("handle", "grip", "griff", "poignee")),
+    Word("seat", Habit.LEVER, ("seat", "backrest", "recliner")),
+)  # fmt: skip
+FIXED = frozenset(
+    "base body frame corpus housing case carcass chassis shell panel board wall side back top bottom floor shelf leg foot "
+    "feet stand support table plinth fixed static burner hinge screw bolt_head logo".split()
+)
+_BY_NAME = {name: word for word in WORDS for name in word.names}
+_SPLIT = re.compile(r"[^A-Za-z]+|(?<=[a-z])(?=[A-Z])")
+
+
+def words_of(name: str) -> list[str]:
+    """The words of a free name, lower case, plural s off: "LeftDoors_02" gives left, door."""
+    found = [w.lower() for w in _SPLIT.split(name) if w]
+    return [w[:-1] if len(w) > 3 and w.endswith("s") and not w.endswith("ss") else w for w in found]
+
+
+def recognize(name: str) -> Word | None:
+    """The kind of part that a name speaks of; the last telling word counts (a "door handle" is a handle)."""
+    for word in reversed(words_of(name)):
+        if word in _BY_NAME:
+            return _BY_NAME[word]
+        if word in FIXED:
+            return None
+    return None
+
+
+def is_fixed_name(name: str) -> bool:
+    """True when the last telling word names something that does not move."""
+    for word in reversed(words_of(name)):
+        if word in _BY_NAME:
+            return False
+        if word in FIXED:
+            return True
+    return False
+
+
+def habit_of(label: str) -> Habit | None:
+    """The usual motion of a label, None when it is unknown."""
+    word = recognize(label)
+    return None if word is None else word.habit
