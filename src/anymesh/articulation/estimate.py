@@ -7,13 +7,13 @@ import numpy as np
 from anymesh.articulation.evidence import part_facts, weigh
 from anymesh.articulation.hypotheses import propose
 from anymesh.articulation.limits import limits, opening_motion
-from anymesh.articulation.surroundings import Surroundings
+from anymesh.geometry.surroundings import Surroundings
 from anymesh.articulation.tree import descendants, parents
 from anymesh.config import Config
 from anymesh.geometry.shape import ObjectShape, Shape
 from anymesh.progress import Progress, silent
-from anymesh.reasoning.questions import Answerer, MotionQuestion
-from anymesh.types import Joint, JointType, Motion, Segmentation
+from anymesh.reasoning.questions import Answerer, Candidate, MotionAnswer, MotionQuestion
+from anymesh.types import Joint, Motion, Segmentation
 
 
 def estimate_joints(
@@ -52,19 +52,25 @@ def surroundings(
         parent=shapes[parent[i]],
         rest=whole.of(np.flatnonzero(still)),
         others=whole.of(np.flatnonzero(others)) if others.any() else None,
+        everything=whole.of(np.flatnonzero(~moving)),
         diagonal=whole.diagonal,
         center=center,
         config=config.articulation,
     )
 
 
-def estimate_joint(around: Surroundings, name: str, parent: str, label: str, answerer: Answerer) -> Joint:
-    """The joint of one part."""
+def ask_motion(around: Surroundings, name: str, label: str, answerer: Answerer) -> tuple[MotionAnswer, Candidate]:
+    """How a part moves: proposes and sweeps the candidates, asks, and returns the answer with the candidate chosen."""
     proposed = propose(around)
     candidates = tuple(weigh(around, role, motion) for role, motion in proposed)
     facts = part_facts(around, name, label, any(role == "bail" for role, _ in proposed))
     answer = answerer.which_motion(MotionQuestion(facts, candidates))
-    best = candidates[answer.ranking[0]]
+    return answer, candidates[answer.ranking[0]]
+
+
+def estimate_joint(around: Surroundings, name: str, parent: str, label: str, answerer: Answerer) -> Joint:
+    """The joint of one part."""
+    answer, best = ask_motion(around, name, label, answerer)
     motion = opening_motion(best)
     return Joint(
         name=f"{name}_joint",
@@ -84,4 +90,4 @@ def _on_part(motion: Motion, around: Surroundings) -> np.ndarray:
     return motion.origin + ((around.part.box.center - motion.origin) @ motion.axis) * motion.axis
 
 
-__all__ = ["JointType", "estimate_joint", "estimate_joints", "surroundings"]
+__all__ = ["ask_motion", "estimate_joint", "estimate_joints", "surroundings"]

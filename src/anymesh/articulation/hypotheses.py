@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.cluster.vq import kmeans2
 
-from anymesh.articulation.surroundings import Surroundings
+from anymesh.geometry.surroundings import Surroundings
 from anymesh.geometry.boxes import Box
 from anymesh.types import Motion, MotionKind
 

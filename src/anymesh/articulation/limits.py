@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from anymesh.articulation.surroundings import Surroundings
+from anymesh.geometry.surroundings import Surroundings
 from anymesh.geometry.sweep import free_amount
 from anymesh.reasoning.questions import Candidate
 from anymesh.types import JointType, Motion, MotionKind

@@ -81,6 +81,7 @@ class ObjectShape:
 
     shape: Shape
     parts: Components
+    vertices: Float[np.ndarray, "V 3"]
     diagonal: float
 
     def of(self, faces: Int[np.ndarray, " n"]) -> Shape:
@@ -94,4 +95,4 @@ def object_shape(mesh: Mesh, seed: int = 0) -> ObjectShape:
     flip = parts.flip[parts.label]
     normals = np.where(flip[:, None], -mesh.face_normals, mesh.face_normals)
     shape = Shape(mesh.triangles, normals, parts.solid[parts.label], np.arange(len(mesh.faces)), seed)
-    return ObjectShape(shape, parts, mesh.diagonal)
+    return ObjectShape(shape, parts, mesh.vertices, mesh.diagonal)

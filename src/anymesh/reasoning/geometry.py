@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from anymesh.reasoning.questions import Candidate, MotionAnswer, MotionQuestion, PartFacts
+from anymesh.reasoning.movable import judge
+from anymesh.reasoning.questions import Candidate, MotionAnswer, MotionQuestion, PartAnswer, PartEvidence, PartFacts
 from anymesh.reasoning.vocabulary import Habit, habit_of
 from anymesh.types import JointType, MotionKind
 
@@ -20,6 +21,10 @@ class GeometryAnswerer:
     """Answers from the facts alone; no key, no weights, no network."""
 
     name = "geometry"
+
+    def is_part(self, evidence: PartEvidence) -> PartAnswer:
+        """Weighs the evidence for a candidate part."""
+        return judge(evidence)
 
     def which_motion(self, question: MotionQuestion) -> MotionAnswer:
         """Scores every candidate; the best one wins, its lead over other motions is the confidence."""

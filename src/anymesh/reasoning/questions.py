@@ -12,20 +12,7 @@ from typing import Protocol
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.types import JointType, Motion, Sweep
-
-
-@dataclass(frozen=True)
-class Handle:
-    """A grip that stands out of a part's outer face.
-
-    across: (2,) where it sits on the face, -1..1 along the face's long and short side; along: which side it runs
-    along (0 long, 1 short, None when it is a knob); size: its length as a share of the part's diagonal.
-    """
-
-    across: tuple[float, float]
-    along: int | None
-    size: float
+from anymesh.types import Handle, JointType, Motion, Sweep
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,9 +79,49 @@ class MotionAnswer:
             raise ValueError(f"an answer needs a confidence in 0..1 and a reason, found {self.confidence}, {self.reason!r}")
 
 
+@dataclass(frozen=True, eq=False)
+class PartEvidence:
+    """What speaks for and against a piece (with what hangs on it) being a movable part. Shares are 0..1."""
+
+    name: str  # free name from the file, "" when it says nothing
+    thinness: float  # shortest side / middle side of its core box
+    face_share: float  # its face against the largest side of the object's box
+    size: float  # its diagonal over the object's
+    outside: float  # share of it that sees the outside
+    gap_sides: int  # of the four rims of its face, how many keep a clearance to what faces them
+    flush: float  # share of the rim that touches what it faces
+    cover: float  # share of its back that has an opening behind it
+    separate: bool  # touches nothing
+    touching: float  # share of its surface that touches the rest
+    one_edge: bool  # it touches the rest along one edge only
+    buried: float  # depth in the rest along the way out, over the smallest side across
+    roundness: float
+    flatness: float  # height along the round outline's axis over its radius
+    axle_level: bool  # the round outline's axis lies level
+    at_bottom: bool  # reaches down to the lowest part of the object
+    faces_down: bool  # its way out is down
+    twins: int  # pieces of the same size
+    handle: Handle | None
+    pivots: bool  # held at two far ends, from the sides (a bail)
+    slender: bool  # much less surface than its box
+    on_movable: bool  # it sits on a part that moves already
+
+
+@dataclass(frozen=True)
+class PartAnswer:
+    """Whether a candidate is a part of its own; score is in units of one clear piece of evidence."""
+
+    moves: bool
+    label: str
+    score: float
+    reason: str
+
+
 class Answerer(Protocol):
     """Whoever answers: geometry alone, a vision-language model, or ground truth."""
 
     name: str
+
+    def is_part(self, evidence: PartEvidence) -> PartAnswer: ...
 
     def which_motion(self, question: MotionQuestion) -> MotionAnswer: ...

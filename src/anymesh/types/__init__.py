@@ -3,11 +3,12 @@
 from anymesh.types.asset import Asset, Source
 from anymesh.types.joints import Joint, JointType
 from anymesh.types.mesh import Material, Mesh, Node, Texture
-from anymesh.types.motion import Motion, MotionKind, Sweep
+from anymesh.types.motion import Handle, Motion, MotionKind, Sweep
 from anymesh.types.parts import Part, Segmentation
 
 __all__ = [
     "Asset",
+    "Handle",
     "Joint",
     "JointType",
     "Material",

@@ -51,3 +51,16 @@ class Sweep:
     backward: float  # free amount along -axis
     clear_forward: bool  # True when the whole tested range was free (no stop was met)
     clear_backward: bool
+
+
+@dataclass(frozen=True)
+class Handle:
+    """A grip that stands out of a part's outer face.
+
+    across: (2,) where it sits on the face, -1..1 along the face's long and short side; along: which side it runs
+    along (0 long, 1 short, None when it is a knob); size: its length as a share of the part's diagonal.
+    """
+
+    across: tuple[float, float]
+    along: int | None
+    size: float

@@ -15,7 +15,7 @@ from anymesh.geometry.contact import connecting_area
 from anymesh.geometry.distance_ import distance_to_triangles
 from anymesh.geometry.shape import Shape
 from anymesh.geometry.sweep import Obstacles
-from anymesh.reasoning.questions import Handle
+from anymesh.types import Handle
 
 LEVEL = 0.12  # share of the surface facing a side that makes up the side's level
 STAND_OUT = 0.012  # a handle stands out by this share of the part's diagonal at least
@@ -55,6 +55,7 @@ class Surroundings:
     parent: Shape
     rest: Shape  # everything that stands still while the part moves
     others: Shape | None  # the other movable parts
+    everything: Shape  # all of the object but the part
     diagonal: float
     center: Float[np.ndarray, " 3"]
     config: ArticulationConfig

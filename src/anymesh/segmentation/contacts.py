@@ -1,0 +1,136 @@
+"""Which pieces touch, which are apart by a clearance, and what hangs on what."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import networkx as nx
+import numpy as np
+from jaxtyping import Int
+from scipy.spatial import cKDTree
+
+from anymesh.config import SegmentationConfig
+from anymesh.geometry.distance_ import distance_to_triangles
+from anymesh.geometry.shape import ObjectShape, Shape
+from anymesh.geometry.topology import label_connected
+
+PROBES = 160  # points of a piece that are measured against another
+
+
+@dataclass(frozen=True, eq=False)
+class Contacts:
+    """Pieces and what they touch.
+
+    shapes: one a piece; touch: (m, 2) pairs that touch or cross; near: (k, 2) pairs of different bodies with a clearance;
+    body: (P,) bodies are pieces that touch, directly or through others.
+    """
+
+    shapes: tuple[Shape, ...]
+    touch: Int[np.ndarray, "m 2"]
+    near: Int[np.ndarray, "k 2"]
+    body: Int[np.ndarray, " P"]
+
+
+def find_contacts(whole: ObjectShape, piece: Int[np.ndarray, " F"], config: SegmentationConfig) -> Contacts:
+    """Measures all pairs of pieces whose boxes are near each other."""
+    order = np.argsort(piece, kind="stable")
+    bounds = np.searchsorted(piece[order], np.arange(int(piece.max()) + 2))
+    shapes = tuple(whole.of(order[a:b]) for a, b in zip(bounds[:-1], bounds[1:], strict=True))
+    edges = whole.parts.edges.faces
+    crossing = piece[edges[:, 0]] != piece[edges[:, 1]]
+    shared = {(int(a), int(b)) for a, b in np.unique(np.sort(piece[edges[crossing]], 1), axis=0)}
+    touch, near = sorted(shared), []
+    tolerance, reach = config.touch * whole.diagonal, config.near * whole.diagonal
+    for i, j in _box_pairs(shapes, reach):
+        if (i, j) in shared:
+            continue
+        gap = min(_gap(shapes[i], shapes[j], reach), _gap(shapes[j], shapes[i], reach))
+        if gap < tolerance or (gap < reach and _crosses(shapes[i], shapes[j])):
+            touch.append((i, j))
+        elif gap < reach:
+            near.append((i, j))
+    pairs = np.array(touch, np.int64).reshape(-1, 2)
+    body = label_connected(len(shapes), pairs)
+    apart = np.array([(i, j) for i, j in near if body[i] != body[j]], np.int64).reshape(-1, 2)
+    return Contacts(shapes, pairs, apart, body)
+
+
+def _box_pairs(shapes: tuple[Shape, ...], reach: float) -> list[tuple[int, int]]:
+    low = np.array([s.bounds[0] for s in shapes]) - reach / 2
+    high = np.array([s.bounds[1] for s in shapes]) + reach / 2
+    found = []
+    for i in range(len(shapes) - 1):
+        meets = ((low[i + 1 :] <= high[i]) & (high[i + 1 :] >= low[i])).all(1)
+        found += [(i, int(j) + i + 1) for j in np.flatnonzero(meets)]
+    return found
+
+
+def _gap(a: Shape, b: Shape, reach: float) -> float:
+    """Smallest distance of a's corners and samples, as far as they lie in b's box, to b [m]."""
+    low, high = b.bounds[0] - reach, b.bounds[1] + reach
+    points = [p[((p >= low) & (p <= high)).all(1)] for p in (a.corners, a.samples.points)]
+    points = [p[:: max(1, len(p) // PROBES)] for p in points]
+    probe = np.concatenate(points)
+    return float(distance_to_triangles(probe, b.triangles).min()) if len(probe) else np.inf
+
+
+def _crosses(a: Shape, b: Shape) -> bool:
+    """Whether edges of one shape pass through faces of the other."""
+    for one, other in ((a, b), (b, a)):
+        start = one.triangles.reshape(-1, 3)
+        span = one.triangles[:, [1, 2, 0]].reshape(-1, 3) - start
+        step = max(1, len(start) // 3000)
+        if (other.scene.first_hit(start[::step], span[::step], 1.0).face >= 0).any():
+            return True
+    return False
+
+
+def hanging_on(contacts: Contacts, unit: Int[np.ndarray, " P"], root: int) -> dict[int, list[int]]:
+    """For every unit, the units that reach the root only through it (itself first): its dominated set.
+
+    Units join pieces that are known to move as one. Bodies with no contact at all hang on the nearest unit.
+    """
+    graph = nx.DiGraph()
+    count = int(unit.max()) + 1
+    graph.add_nodes_from(range(count))
+    for i, j in np.concatenate([contacts.touch, contacts.near]):
+        a, b = int(unit[i]), int(unit[j])
+        if a != b:
+            graph.add_edge(a, b)
+            graph.add_edge(b, a)
+    _tie_islands(graph, contacts, unit, root)
+    parent = nx.immediate_dominators(graph, root)
+    children: dict[int, list[int]] = {u: [] for u in range(count)}
+    for node in sorted(parent):
+        if node != root and parent[node] is not None and parent[node] != node:
+            children[parent[node]].append(node)
+    found: dict[int, list[int]] = {}
+    for node in range(count):
+        stack, below = [node], []
+        while stack:
+            at = stack.pop()
+            below.append(at)
+            stack.extend(children[at])
+        found[node] = below
+    return found
+
+
+def _tie_islands(graph: nx.DiGraph, contacts: Contacts, unit: np.ndarray, root: int) -> None:
+    """Joins every island to the unit nearest to it."""
+    centers = [s.samples.points[::30] for s in contacts.shapes]
+    while True:
+        reached = nx.descendants(graph, root) | {root}
+        missing = sorted(set(graph.nodes) - reached)
+        if not missing:
+            return
+        there = [p for p in range(len(unit)) if int(unit[p]) in reached]
+        owner = np.concatenate([np.full(len(centers[p]), p) for p in there])
+        tree = cKDTree(np.concatenate([centers[p] for p in there]))
+        best = (np.inf, 0, 0)
+        for p in (p for p in range(len(unit)) if int(unit[p]) in missing):
+            distance, at = tree.query(centers[p])
+            k = int(distance.argmin())
+            best = min(best, (float(distance[k]), p, int(owner[at[k]])))
+        a, b = int(unit[best[1]]), int(unit[best[2]])
+        graph.add_edge(a, b)
+        graph.add_edge(b, a)

@@ -1,0 +1,135 @@
+"""What geometry shows of a candidate part: plate, clearance round its rim, handle, opening behind it, roundness, hold."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from anymesh.config import SegmentationConfig
+from anymesh.geometry.distance_ import distance_to_mesh
+from anymesh.geometry.shape import ObjectShape
+from anymesh.geometry.surroundings import Surroundings
+from anymesh.reasoning.questions import PartEvidence
+
+RIM = 0.75  # samples beyond this share of the half side belong to a rim
+
+
+@dataclass(frozen=True, eq=False)
+class Context:
+    """What a candidate's evidence needs besides its surroundings."""
+
+    whole: ObjectShape
+    config: SegmentationConfig
+    name: str
+    separate: bool
+    twins: int
+    on_movable: bool
+
+
+def gather(around: Surroundings, context: Context) -> PartEvidence:
+    """All evidence for one candidate."""
+    core, outline = around.core, around.outline
+    extents = np.sort(context.whole.shape.bounds[1] - context.whole.shape.bounds[0])
+    near, normals = _contact(around, context.config.touch * around.diagonal * 2)
+    sides, flush = _rim(around, context.config)
+    low, high = context.whole.shape.bounds[:, 2]
+    surface = 8 * (core.half[0] * core.half[1] + core.half[1] * core.half[2] + core.half[0] * core.half[2])
+    return PartEvidence(
+        name=context.name,
+        thinness=float(core.half[2] / max(core.half[1], 1e-12)),
+        face_share=float(4 * core.half[0] * core.half[1] / max(extents[1] * extents[2], 1e-12)),
+        size=around.part.box.diagonal / around.diagonal,
+        outside=around.openness,
+        gap_sides=sides,
+        flush=flush,
+        cover=_cover(around),
+        separate=context.separate,
+        touching=float(near.mean()),
+        one_edge=_one_edge(around, near),
+        buried=around.buried,
+        roundness=outline.roundness,
+        flatness=outline.height / max(outline.radius, 1e-9),
+        axle_level=bool(abs(outline.axis[2]) < 0.5),
+        at_bottom=bool(around.part.bounds[0, 2] < low + 0.06 * (high - low)),
+        faces_down=bool(around.outward[2] < -0.7),
+        twins=context.twins,
+        handle=around.handle,
+        pivots=_pivots(around, near, normals),
+        slender=bool(around.part.area < 0.6 * surface),
+        on_movable=context.on_movable,
+    )
+
+
+def _contact(around: Surroundings, tolerance: float) -> tuple[np.ndarray, np.ndarray]:
+    """Which samples touch the rest, and the rest's normal at the closest point of each."""
+    t = around.rest.triangles.reshape(-1, 3)
+    gap, face, _ = distance_to_mesh(around.part.samples.points, t, np.arange(len(t)).reshape(-1, 3))
+    return gap < tolerance, around.rest.normals[face]
+
+
+def _rim(around: Surroundings, config: SegmentationConfig) -> tuple[int, float]:
+    """How many of the four rims keep a clearance to what faces them, and the share of the rim that touches it."""
+    core = around.core
+    samples = around.part.samples
+    local = core.local(samples.points) / np.maximum(core.half, 1e-12)
+    facing = samples.normals @ core.axes.T
+    touch, reach = config.touch * around.diagonal, config.near * around.diagonal
+    start = samples.points - samples.normals * 2 * touch  # from a little inside, or a surface that it lies on is missed
+    hits = around.everything.scene.first_hit(start, samples.normals * reach, 1.0)
+    gap = hits.distance * reach - 2 * touch
+    sides, touched, count = 0, 0, 0
+    for axis in around.face_axes:
+        for sign in (1, -1):
+            rim = (sign * local[:, axis] > RIM) & (sign * facing[:, axis] > 0.7)
+            if rim.sum() < 3:
+                continue
+            clear = (gap[rim] > touch) & np.isfinite(gap[rim])
+            sides += int(clear.mean() > 0.5)
+            touched += int((gap[rim] <= touch).sum())
+            count += int(rim.sum())
+    return sides, touched / max(count, 1)
+
+
+def _cover(around: Surroundings) -> float:
+    """Share of the candidate's back with an opening behind it: free for three thicknesses and 3 % of the diagonal."""
+    core = around.core
+    k = int(np.abs(core.axes @ around.outward).argmax())
+    thick = 2 * core.half[k]
+    free = max(3 * thick, 0.03 * around.diagonal)
+    grid = np.linspace(-0.85, 0.85, 9)
+    u, v = np.meshgrid(grid, grid)
+    local = np.zeros((u.size, 3))
+    for axis, value in zip(around.face_axes, (u, v), strict=True):
+        local[:, axis] = value.reshape(-1) * core.half[axis]
+    points = core.world(local) - around.outward * (core.half[k] + 1e-4 * around.diagonal)
+    rays = np.repeat(-around.outward[None] * free, len(points), 0)
+    return float((around.rest.scene.first_hit(points, rays, 1.0).face < 0).mean())
+
+
+def _one_edge(around: Surroundings, near: np.ndarray) -> bool:
+    """Whether all that touches lies in the outermost quarter along one side."""
+    if near.sum() < 2:
+        return False
+    local = around.core.local(around.part.samples.points[near]) / np.maximum(around.core.half, 1e-12)
+    return any(
+        bool((sign * local[:, axis] > 0.5).mean() > 0.95) for axis in around.face_axes for sign in (1, -1)
+    )
+
+
+def _pivots(around: Surroundings, near: np.ndarray, normals: np.ndarray) -> bool:
+    """Held at two far ends by surfaces that face along the line between them: pivots, not the feet of a fixed grip."""
+    points = around.part.samples.points
+    if near.sum() < 4:
+        near = around.gap < max(2 * float(around.gap.min()), 0.004 * around.scale)
+        if near.sum() < 4:
+            return False
+    held = points[near]
+    spread = held - held.mean(0)
+    line = np.linalg.svd(spread, full_matrices=False)[2][0]
+    t = spread @ line
+    middle = (t.max() + t.min()) / 2
+    reach = t.max() - t.min()
+    if reach < 0.4 * around.part.box.diagonal or (np.abs(t - middle) < 0.3 * reach).any():
+        return False
+    return bool(np.abs(normals[near] @ line).mean() > 0.6)

@@ -1,0 +1,94 @@
+"""The smallest units that a part is made of: connected components, and on fused surfaces what concave creases bound."""
+
+from __future__ import annotations
+
+import numpy as np
+from jaxtyping import Int
+
+from anymesh.config import SegmentationConfig
+from anymesh.geometry.shape import ObjectShape
+from anymesh.geometry.topology import label_connected
+
+
+def split(whole: ObjectShape, config: SegmentationConfig) -> Int[np.ndarray, " F"]:
+    """A piece number a face, numbered from 0 in the order of the pieces' first faces.
+
+    Components are cut along their concave creases where they are large enough to hide a fused part; crumbs left by the cut
+    go to the neighbour that they share the longest edge with.
+    """
+    component = whole.parts.label
+    large = _diagonals(whole, component) > config.fused_size * whole.diagonal
+    edges = whole.parts.edges
+    pairs = edges.faces
+    concave = _concave(whole, config.crease)
+    cut = concave & edges.aligned & large[component[pairs[:, 0]]]
+    region = label_connected(len(component), pairs[~cut])
+    length = np.linalg.norm(_ends(whole, 0) - _ends(whole, 1), axis=1)
+    region = _absorb_crumbs(whole, region, pairs[cut], length[cut], config)
+    return _limit_count(whole, region, config.most_pieces)
+
+
+def _ends(whole: ObjectShape, which: int) -> np.ndarray:
+    return whole.vertices[whole.parts.edges.vertices[:, which]]
+
+
+def _concave(whole: ObjectShape, least: float) -> np.ndarray:
+    """Edge pairs that fold inwards by more than `least` [deg]."""
+    f, g = whole.parts.edges.faces.T
+    normals, centers = whole.shape.normals, whole.shape.triangles.mean(1)
+    inward = np.einsum("ij,ij->i", centers[g] - centers[f], normals[f])
+    inward += np.einsum("ij,ij->i", centers[f] - centers[g], normals[g])
+    cosine = np.einsum("ij,ij->i", normals[f], normals[g])
+    return (inward > 0) & (cosine < np.cos(np.deg2rad(least)))
+
+
+def _diagonals(whole: ObjectShape, label: np.ndarray) -> np.ndarray:
+    """Diagonal of the axis-aligned box of every label [m]."""
+    count = int(label.max()) + 1
+    low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
+    np.minimum.at(low, label, whole.shape.triangles.min(1))
+    np.maximum.at(high, label, whole.shape.triangles.max(1))
+    return np.linalg.norm(high - low, axis=1)
+
+
+def _absorb_crumbs(
+    whole: ObjectShape, region: np.ndarray, pairs: np.ndarray, length: np.ndarray, config: SegmentationConfig
+) -> np.ndarray:
+    """Joins regions too small to matter to the neighbour with the longest common border; three rounds settle chains."""
+    for _ in range(3):
+        small = _diagonals(whole, region) < config.crumb * whole.diagonal
+        a, b = region[pairs[:, 0]], region[pairs[:, 1]]
+        source, target = np.r_[a, b], np.r_[b, a]
+        weight = np.r_[length, length]
+        use = small[source] & (source != target)
+        if not use.any():
+            break
+        count = len(small)
+        key, where = np.unique(source[use].astype(np.int64) * count + target[use], return_inverse=True)
+        total = np.bincount(where.reshape(-1), weight[use])
+        order = np.lexsort((key % count, -total, key // count))
+        first = order[np.r_[True, np.diff(key[order] // count) != 0]]
+        region = label_connected(count, np.c_[key[first] // count, key[first] % count])[region]
+    return region
+
+
+def _limit_count(whole: ObjectShape, region: np.ndarray, most: int) -> np.ndarray:
+    """At most about `most` pieces: the smallest join their nearest larger one."""
+    from scipy.spatial import cKDTree
+
+    count = int(region.max()) + 1
+    if count <= most:
+        return region
+    size = _diagonals(whole, region)
+    keep = np.sort(np.argsort(-size, kind="stable")[:most])
+    kept = np.isin(region, keep)
+    centers = whole.shape.triangles.mean(1)
+    tree = cKDTree(centers[kept])
+    lost = np.setdiff1d(np.arange(count), keep)
+    middle = np.zeros((count, 3))
+    np.add.at(middle, region, centers)
+    middle /= np.bincount(region, minlength=count)[:, None]
+    nearest = region[np.flatnonzero(kept)[tree.query(middle[lost], workers=-1)[1]]]
+    target = np.arange(count)
+    target[lost] = nearest
+    return np.unique(target[region], return_inverse=True)[1].reshape(-1)

@@ -1,0 +1,227 @@
+"""STAGE A (paper, 3.2) on the embedded default: which parts move, with no name given.
+
+Pieces, what hangs on what, the evidence for each candidate, the answerer's word, and the motion itself: what cannot move is
+no movable part.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Int
+
+from anymesh.config import Config
+from anymesh.geometry.shape import ObjectShape
+from anymesh.geometry.surroundings import Surroundings
+from anymesh.progress import Progress, silent
+from anymesh.reasoning.questions import Answerer, Candidate, MotionAnswer, PartAnswer
+from anymesh.reasoning.vocabulary import is_fixed_name, recognize
+from anymesh.segmentation.contacts import Contacts, find_contacts, hanging_on
+from anymesh.segmentation.evidence import Context, gather
+from anymesh.segmentation.pieces import split
+from anymesh.types import JointType, Mesh, MotionKind, Part, Segmentation
+
+Moves = Callable[[Surroundings, str], tuple[MotionAnswer, Candidate]]  # Stage B's test of one part, by name of its label
+
+
+@dataclass(frozen=True, eq=False)
+class Found:
+    """A candidate that was taken as a part: its unit, its faces, the answer about it."""
+
+    unit: int
+    faces: Int[np.ndarray, " n"]
+    answer: PartAnswer
+    label: str
+
+
+@dataclass(frozen=True, eq=False)
+class _Units:
+    """Pieces joined into units that move as one, and what hangs on each."""
+
+    contacts: Contacts
+    unit: Int[np.ndarray, " P"]
+    names: list[str]
+    root: int
+    hanging: dict[int, list[int]]
+
+    def faces(self, units: list[int]) -> np.ndarray:
+        chosen = np.flatnonzero(np.isin(self.unit, units))
+        return np.sort(np.concatenate([self.contacts.shapes[p].faces for p in chosen]))
+
+
+def segment_parts(
+    mesh: Mesh, whole: ObjectShape, answerer: Answerer, moves: Moves, config: Config, progress: Progress = silent
+) -> Segmentation:
+    """The movable parts of a mesh and its base; the base is all that is left."""
+    settings = config.segmentation
+    progress("segment", "pieces", 0, 3)
+    piece = split(whole, settings)
+    progress("segment", "contacts", 1, 3)
+    contacts = find_contacts(whole, piece, settings)
+    units = _units(mesh, whole, contacts)
+    progress("segment", "evidence", 2, 3)
+    found = _search(whole, units, answerer, moves, config, progress)
+    return _assemble(len(mesh.faces), units, found)
+
+
+def _units(mesh: Mesh, whole: ObjectShape, contacts: Contacts) -> _Units:
+    """Bodies that touch nothing move as one; so do the pieces of a node whose name means something."""
+    shapes = contacts.shapes
+    root_piece = _root(whole, contacts)
+    key = np.where(contacts.body == contacts.body[root_piece], np.arange(len(shapes)), len(shapes) + contacts.body)
+    names = [""] * len(shapes)
+    for p, shape in enumerate(shapes):
+        node = int(np.bincount(mesh.face_node[shape.faces]).argmax())
+        name = mesh.nodes[node].name
+        if recognize(name) is not None or is_fixed_name(name):
+            names[p] = name
+            key[p] = 2 * len(shapes) + node
+    _, first, unit = np.unique(key, return_index=True, return_inverse=True)
+    unit = unit.reshape(-1)
+    root = int(unit[root_piece])
+    return _Units(contacts, unit, [names[p] for p in first], root, hanging_on(contacts, unit, root))
+
+
+def _root(whole: ObjectShape, contacts: Contacts) -> int:
+    """The piece that the rest hangs on: large, much touched, standing on the ground."""
+    degree = np.bincount(contacts.touch.reshape(-1), minlength=len(contacts.shapes))
+    low = whole.shape.bounds[0, 2] + 0.02 * whole.diagonal
+    rank = [
+        float(np.linalg.norm(s.bounds[1] - s.bounds[0])) * (1 + 0.1 * min(int(d), 10)) * (1.3 if s.bounds[0, 2] < low else 1)
+        for s, d in zip(contacts.shapes, degree, strict=True)
+    ]
+    return int(np.argmax(rank))
+
+
+def _search(
+    whole: ObjectShape, units: _Units, answerer: Answerer, moves: Moves, config: Config, progress: Progress
+) -> list[Found]:
+    """Two rounds: what moves at once, then what is free once those parts are out of the way (a tray behind a door)."""
+    size = {u: _size(units, [u]) / whole.diagonal for u in units.hanging}
+    todo = [u for u in sorted(units.hanging) if u != units.root and size[u] >= config.segmentation.smallest]
+    todo = sorted(todo, key=lambda u: (-size[u], u))[: config.segmentation.most_candidates]
+    found: list[Found] = []
+    for round_ in range(2):
+        taken = {f.unit for f in found}
+        new = []
+        if round_ == 1:  # nothing static gets loose because a door is open
+            todo = [u for u in todo if units.names[u] or not _touches_outside(units, u)]
+        for k, u in enumerate(todo):
+            if u in taken:
+                continue
+            progress("segment", units.names[u] or f"piece {u}", k, len(todo))
+            hit = _candidate(whole, units, u, found, answerer, moves, config)
+            if hit is not None:
+                new.append(hit)
+        found += _outermost(units, new, found)
+        if not new:
+            break
+    return found
+
+
+def _size(units: _Units, chosen: list[int]) -> float:
+    shapes = [units.contacts.shapes[p] for p in np.flatnonzero(np.isin(units.unit, chosen))]
+    low = np.min([s.bounds[0] for s in shapes], 0)
+    high = np.max([s.bounds[1] for s in shapes], 0)
+    return float(np.linalg.norm(high - low))
+
+
+def _candidate(
+    whole: ObjectShape, units: _Units, u: int, found: list[Found], answerer: Answerer, moves: Moves, config: Config
+) -> Found | None:
+    """The unit as a part if the evidence is enough and it can move, else None."""
+    members = units.hanging[u]
+    faces = units.faces(members)
+    moving = np.zeros(len(whole.shape.areas), bool)
+    moving[faces] = True
+    elsewhere = [f for f in found if not np.isin(f.unit, members)]
+    away = np.zeros_like(moving)
+    for f in elsewhere:
+        away[f.faces] = True
+    carrier = next((f for f in elsewhere if u in units.hanging[f.unit]), None)
+    if carrier is not None:
+        away[carrier.faces] = False
+    away &= ~moving
+    still = ~moving & ~away
+    if not still.any():
+        return None
+    rest = whole.of(np.flatnonzero(still))
+    around = Surroundings(
+        part=whole.of(faces), parent=rest, rest=rest, others=whole.of(np.flatnonzero(away)) if away.any() else None,
+        everything=whole.of(np.flatnonzero(~moving)), diagonal=whole.diagonal, center=whole.shape.bounds.mean(0),
+        config=config.articulation,
+    )  # fmt: skip
+    separate = not _touches_outside(units, u)
+    size = _size(units, members)
+    twins = sum(
+        other != u and other not in members and abs(_size(units, units.hanging[other]) - size) < 0.02 * size
+        for other in units.hanging
+        if other != units.root
+    )
+    context = Context(whole, config.segmentation, units.names[u], separate, twins, carrier is not None)
+    answer = answerer.is_part(gather(around, context))
+    if not answer.moves:
+        return None
+    motion, best = moves(around, answer.label if units.names[u] else "part")
+    if motion.type is JointType.FIXED:
+        return None
+    return Found(u, faces, answer, _label(answer, units.names[u], around, best))
+
+
+def _label(answer: PartAnswer, name: str, around: Surroundings, best: Candidate) -> str:
+    """The field's word for a part that moves like this."""
+    if recognize(name) is not None:
+        return answer.label
+    if best.motion.kind is MotionKind.SLIDE:
+        if abs(best.outward) < 0.5:
+            return "slider"
+        return "drawer" if around.part.box.diagonal > 0.15 * around.diagonal else "button"
+    if best.role in ("round", "bail") or answer.label in ("wheel", "knob", "handle"):
+        return answer.label
+    return "lid" if around.outward[2] > 0.8 else "door"
+
+
+def _outermost(units: _Units, new: list[Found], found: list[Found]) -> list[Found]:
+    """Of parts found within each other in one round, the outer ones, and the inner ones that touch nothing."""
+    kept = []
+    for f in new:
+        outer = [g for g in new if g is not f and f.unit in units.hanging[g.unit]]
+        apart = not _touches_outside(units, f.unit)
+        if not outer or apart or units.names[f.unit]:
+            kept.append(f)
+    return kept
+
+
+def _touches_outside(units: _Units, u: int) -> bool:
+    inside = np.isin(units.unit, units.hanging[u])
+    touch = units.contacts.touch
+    return bool((inside[touch[:, 0]] != inside[touch[:, 1]]).any())
+
+
+def _assemble(count: int, units: _Units, found: list[Found]) -> Segmentation:
+    """Face numbers and unique names; a part within a part owns its faces."""
+    face_part = np.zeros(count, np.int64)
+    found = sorted(found, key=lambda f: (-len(f.faces), f.unit))
+    for number, f in enumerate(found, start=1):
+        face_part[f.faces] = number
+    present = [n for n in range(1, len(found) + 1) if (face_part == n).any()]
+    renumber = np.zeros(len(found) + 1, np.int64)
+    renumber[present] = np.arange(1, len(present) + 1)
+    if not (face_part == 0).any():
+        face_part[:] = 0
+        present = []
+    parts = [Part("base", "base", 1.0, "what is left when the movable parts are taken")]
+    seen: dict[str, int] = {}
+    labels = [found[n - 1].label for n in present]
+    for n in present:
+        f = found[n - 1]
+        seen[f.label] = seen.get(f.label, 0) + 1
+        name = f.label if labels.count(f.label) == 1 else f"{f.label}_{seen[f.label]}"
+        confidence = float(np.clip(0.4 + 0.2 * f.answer.score, 0.05, 0.99))
+        parts.append(Part(name, f.label, confidence, f.answer.reason))
+    return Segmentation(renumber[face_part], tuple(parts))
+
+
+__all__ = ["Moves", "segment_parts"]
