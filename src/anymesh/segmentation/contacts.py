@@ -29,6 +29,7 @@ class Contacts:
     touch: Int[np.ndarray, "m 2"]
     near: Int[np.ndarray, "k 2"]
     body: Int[np.ndarray, " P"]
+    area: dict[tuple[int, int], float]  # area of the first piece that touches the second [m^2]
 
 
 def find_contacts(whole: ObjectShape, piece: Int[np.ndarray, " F"], config: SegmentationConfig) -> Contacts:
@@ -52,7 +53,31 @@ def find_contacts(whole: ObjectShape, piece: Int[np.ndarray, " F"], config: Segm
     pairs = np.array(touch, np.int64).reshape(-1, 2)
     body = label_connected(len(shapes), pairs)
     apart = np.array([(i, j) for i, j in near if body[i] != body[j]], np.int64).reshape(-1, 2)
-    return Contacts(shapes, pairs, apart, body)
+    area = {}
+    for i, j in touch:
+        area[i, j], area[j, i] = (_touching(shapes[a], shapes[b], 2 * tolerance) for a, b in ((i, j), (j, i)))
+    return Contacts(shapes, pairs, apart, body, area)
+
+
+def _touching(a: Shape, b: Shape, tolerance: float) -> float:
+    """Area of a within the tolerance of b [m^2]."""
+    samples = a.samples.points[::3]
+    near = ((samples >= b.bounds[0] - tolerance) & (samples <= b.bounds[1] + tolerance)).all(1)
+    gap = distance_to_triangles(samples[near], b.triangles)
+    return a.area * float((gap < tolerance).sum()) / max(len(samples), 1)
+
+
+def coplanar(contacts: Contacts, tolerance: float) -> list[tuple[int, int]]:
+    """Touching plates of one thickness that lie in one plane: the boards of a framed door."""
+    found = []
+    for i, j in contacts.touch:
+        a, b = contacts.shapes[i].box, contacts.shapes[j].box
+        if max(a.half[2] / max(a.half[1], 1e-12), b.half[2] / max(b.half[1], 1e-12)) > 0.5:
+            continue
+        level = abs(float((a.center - b.center) @ a.axes[2]))
+        if abs(float(a.axes[2] @ b.axes[2])) > 0.9995 and level < tolerance and abs(a.half[2] - b.half[2]) < tolerance:
+            found.append((int(i), int(j)))
+    return found
 
 
 def _box_pairs(shapes: tuple[Shape, ...], reach: float) -> list[tuple[int, int]]:

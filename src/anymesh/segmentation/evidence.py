@@ -47,7 +47,7 @@ def gather(around: Surroundings, context: Context) -> PartEvidence:
         separate=context.separate,
         touching=float(near.mean()),
         one_edge=_one_edge(around, near),
-        buried=around.buried,
+        enclosed=_enclosed(around),
         roundness=outline.roundness,
         flatness=outline.height / max(outline.radius, 1e-9),
         axle_level=bool(abs(outline.axis[2]) < 0.5),
@@ -105,6 +105,17 @@ def _cover(around: Surroundings) -> float:
     points = core.world(local) - around.outward * (core.half[k] + 1e-4 * around.diagonal)
     rays = np.repeat(-around.outward[None] * free, len(points), 0)
     return float((around.rest.scene.first_hit(points, rays, 1.0).face < 0).mean())
+
+
+def _enclosed(around: Surroundings) -> float:
+    """Share of the candidate that has the rest on at least three of the four sides across the way out."""
+    points = around.part.samples.points[::20]
+    hit = np.zeros(len(points), int)
+    for axis in around.face_axes:
+        for sign in (1, -1):
+            rays = np.repeat(sign * around.core.axes[axis][None] * around.diagonal, len(points), 0)
+            hit += around.rest.scene.first_hit(points, rays, 1.0).face >= 0
+    return float((hit >= 3).mean())
 
 
 def _one_edge(around: Surroundings, near: np.ndarray) -> bool:

@@ -6,7 +6,7 @@ no movable part.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,10 +15,11 @@ from jaxtyping import Int
 from anymesh.config import Config
 from anymesh.geometry.shape import ObjectShape
 from anymesh.geometry.surroundings import Surroundings
+from anymesh.geometry.topology import label_connected
 from anymesh.progress import Progress, silent
 from anymesh.reasoning.questions import Answerer, Candidate, MotionAnswer, PartAnswer
 from anymesh.reasoning.vocabulary import is_fixed_name, recognize
-from anymesh.segmentation.contacts import Contacts, find_contacts, hanging_on
+from anymesh.segmentation.contacts import Contacts, coplanar, find_contacts, hanging_on
 from anymesh.segmentation.evidence import Context, gather
 from anymesh.segmentation.pieces import split
 from anymesh.types import JointType, Mesh, MotionKind, Part, Segmentation
@@ -26,11 +27,15 @@ from anymesh.types import JointType, Mesh, MotionKind, Part, Segmentation
 Moves = Callable[[Surroundings, str], tuple[MotionAnswer, Candidate]]  # Stage B's test of one part, by name of its label
 
 
+PLAINLY = 1.8  # evidence that unseats a root
+
+
 @dataclass(frozen=True, eq=False)
 class Found:
     """A candidate that was taken as a part: its unit, its faces, the answer about it."""
 
     unit: int
+    members: tuple[int, ...]
     faces: Int[np.ndarray, " n"]
     answer: PartAnswer
     label: str
@@ -60,17 +65,18 @@ def segment_parts(
     piece = split(whole, settings)
     progress("segment", "contacts", 1, 3)
     contacts = find_contacts(whole, piece, settings)
-    units = _units(mesh, whole, contacts)
+    units = _rooted(mesh, whole, contacts, answerer, moves, config)
     progress("segment", "evidence", 2, 3)
     found = _search(whole, units, answerer, moves, config, progress)
     return _assemble(len(mesh.faces), units, found)
 
 
-def _units(mesh: Mesh, whole: ObjectShape, contacts: Contacts) -> _Units:
+def _units(mesh: Mesh, contacts: Contacts, root_piece: int, diagonal: float) -> _Units:
     """Bodies that touch nothing move as one; so do the pieces of a node whose name means something."""
     shapes = contacts.shapes
-    root_piece = _root(whole, contacts)
     key = np.where(contacts.body == contacts.body[root_piece], np.arange(len(shapes)), len(shapes) + contacts.body)
+    same = np.array(coplanar(contacts, 1e-3 * diagonal), np.int64).reshape(-1, 2)
+    key = np.where(key < len(shapes), label_connected(len(shapes), same), key)
     names = [""] * len(shapes)
     for p, shape in enumerate(shapes):
         node = int(np.bincount(mesh.face_node[shape.faces]).argmax())
@@ -84,15 +90,30 @@ def _units(mesh: Mesh, whole: ObjectShape, contacts: Contacts) -> _Units:
     return _Units(contacts, unit, [names[p] for p in first], root, hanging_on(contacts, unit, root))
 
 
-def _root(whole: ObjectShape, contacts: Contacts) -> int:
-    """The piece that the rest hangs on: large, much touched, standing on the ground."""
+def _rooted(
+    mesh: Mesh, whole: ObjectShape, contacts: Contacts, answerer: Answerer, moves: Moves, config: Config
+) -> _Units:
+    """Units hung on the likeliest root; a root that is plainly a movable part itself (a fridge's door) gives way."""
+    ranked = _root_ranking(whole, contacts)[:4]
+    units = _units(mesh, contacts, ranked[0], whole.diagonal)
+    for first, second in zip(ranked[:-1], ranked[1:], strict=True):
+        other = _units(mesh, contacts, second, whole.diagonal)
+        hit = _candidate(whole, other, int(other.unit[first]), [], answerer, moves, config)
+        if int(other.unit[first]) == other.root or hit is None or hit.answer.score < PLAINLY:
+            break
+        units = other
+    return units
+
+
+def _root_ranking(whole: ObjectShape, contacts: Contacts) -> list[int]:
+    """The pieces that the rest may hang on, likeliest first: large, much touched, standing on the ground."""
     degree = np.bincount(contacts.touch.reshape(-1), minlength=len(contacts.shapes))
     low = whole.shape.bounds[0, 2] + 0.02 * whole.diagonal
     rank = [
         float(np.linalg.norm(s.bounds[1] - s.bounds[0])) * (1 + 0.1 * min(int(d), 10)) * (1.3 if s.bounds[0, 2] < low else 1)
         for s, d in zip(contacts.shapes, degree, strict=True)
     ]
-    return int(np.argmax(rank))
+    return [int(i) for i in np.argsort(-np.array(rank), kind="stable")]
 
 
 def _search(
@@ -107,7 +128,7 @@ def _search(
         taken = {f.unit for f in found}
         new = []
         if round_ == 1:  # nothing static gets loose because a door is open
-            todo = [u for u in todo if units.names[u] or not _touches_outside(units, u)]
+            todo = [u for u in todo if units.names[u] or not _touches_outside(units, units.hanging[u])]
         for k, u in enumerate(todo):
             if u in taken:
                 continue
@@ -132,7 +153,7 @@ def _candidate(
     whole: ObjectShape, units: _Units, u: int, found: list[Found], answerer: Answerer, moves: Moves, config: Config
 ) -> Found | None:
     """The unit as a part if the evidence is enough and it can move, else None."""
-    members = units.hanging[u]
+    members = _grown(units, u)
     faces = units.faces(members)
     moving = np.zeros(len(whole.shape.areas), bool)
     moving[faces] = True
@@ -140,7 +161,7 @@ def _candidate(
     away = np.zeros_like(moving)
     for f in elsewhere:
         away[f.faces] = True
-    carrier = next((f for f in elsewhere if u in units.hanging[f.unit]), None)
+    carrier = next((f for f in elsewhere if u in f.members), None)
     if carrier is not None:
         away[carrier.faces] = False
     away &= ~moving
@@ -153,7 +174,7 @@ def _candidate(
         everything=whole.of(np.flatnonzero(~moving)), diagonal=whole.diagonal, center=whole.shape.bounds.mean(0),
         config=config.articulation,
     )  # fmt: skip
-    separate = not _touches_outside(units, u)
+    separate = not _touches_outside(units, members)
     size = _size(units, members)
     twins = sum(
         other != u and other not in members and abs(_size(units, units.hanging[other]) - size) < 0.02 * size
@@ -167,7 +188,28 @@ def _candidate(
     motion, best = moves(around, answer.label if units.names[u] else "part")
     if motion.type is JointType.FIXED:
         return None
-    return Found(u, faces, answer, _label(answer, units.names[u], around, best))
+    return Found(u, tuple(members), faces, answer, _label(answer, units.names[u], around, best))
+
+
+def _grown(units: _Units, u: int) -> list[int]:
+    """The unit, what hangs on it, and the smaller units that touch these more than all else (a shelf on a door)."""
+    members = set(units.hanging[u])
+    area = units.contacts.area
+    unit = units.unit
+    own = sum(units.contacts.shapes[p].area for p in np.flatnonzero(np.isin(unit, list(members))))
+    for _ in range(4):
+        inside = np.isin(unit, list(members))
+        hold: dict[int, list[float]] = {}
+        for (i, j), a in area.items():
+            if not inside[i] and unit[i] != unit[j]:
+                hold.setdefault(int(unit[i]), [0.0, 0.0])[int(inside[j])] += a
+        new = [v for v, (other, here) in hold.items() if here > other and v != units.root]
+        new = [v for v in new if sum(units.contacts.shapes[p].area for p in np.flatnonzero(unit == v)) < own]
+        grown = members.union(*(units.hanging[v] for v in new)) - {units.root}
+        if grown == members:
+            break
+        members = grown
+    return [u, *sorted(members - {u})]
 
 
 def _label(answer: PartAnswer, name: str, around: Surroundings, best: Candidate) -> str:
@@ -187,15 +229,15 @@ def _outermost(units: _Units, new: list[Found], found: list[Found]) -> list[Foun
     """Of parts found within each other in one round, the outer ones, and the inner ones that touch nothing."""
     kept = []
     for f in new:
-        outer = [g for g in new if g is not f and f.unit in units.hanging[g.unit]]
-        apart = not _touches_outside(units, f.unit)
+        outer = [g for g in new if g is not f and f.unit in g.members]
+        apart = not _touches_outside(units, f.members)
         if not outer or apart or units.names[f.unit]:
             kept.append(f)
     return kept
 
 
-def _touches_outside(units: _Units, u: int) -> bool:
-    inside = np.isin(units.unit, units.hanging[u])
+def _touches_outside(units: _Units, members: Sequence[int]) -> bool:
+    inside = np.isin(units.unit, list(members))
     touch = units.contacts.touch
     return bool((inside[touch[:, 0]] != inside[touch[:, 1]]).any())
 
