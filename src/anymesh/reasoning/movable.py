@@ -57,7 +57,7 @@ def _plate(e: PartEvidence) -> tuple[float, str, str]:
 
 
 def _box(e: PartEvidence) -> tuple[float, str, str]:
-    if e.buried < 0.35 or e.outside < 0.15:
+    if e.enclosed < 0.3 or e.outside < 0.15:
         return (-3.0, "drawer", "no box in a cavity")
     value, why = -1.0, ["a box in a cavity"]
     if e.handle is not None:
@@ -107,5 +107,5 @@ def _control(e: PartEvidence) -> tuple[float, str, str]:
     """A lever in a slot, a trigger, a button, a slider: small and free of what is round it."""
     if not e.separate or e.outside < 0.05 or e.size > 0.6:
         return (-3.0, "lever", "no control")
-    value = 0.3 + 0.3 * (e.buried > 0.2) + 0.25 * e.gap_sides - (0.8 if e.size < 0.02 else 0.0)
+    value = (0.3 if e.enclosed > 0.1 else -0.3) - 0.6 * e.on_movable + 0.3 * (e.enclosed > 0.3) + 0.25 * e.gap_sides - (0.8 if e.size < 0.02 else 0.0)
     return (value, "lever", f"touches nothing, clearance at {e.gap_sides} sides")

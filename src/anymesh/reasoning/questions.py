@@ -94,7 +94,7 @@ class PartEvidence:
     separate: bool  # touches nothing
     touching: float  # share of its surface that touches the rest
     one_edge: bool  # it touches the rest along one edge only
-    buried: float  # depth in the rest along the way out, over the smallest side across
+    enclosed: float  # share of it with the rest on three sides across the way out
     roundness: float
     flatness: float  # height along the round outline's axis over its radius
     axle_level: bool  # the round outline's axis lies level

@@ -49,14 +49,25 @@ def find_contacts(whole: ObjectShape, piece: Int[np.ndarray, " F"], config: Segm
         if gap < tolerance or (gap < reach and _crosses(shapes[i], shapes[j])):
             touch.append((i, j))
         elif gap < reach:
-            near.append((i, j))
+            near.append((i, j, gap))
     pairs = np.array(touch, np.int64).reshape(-1, 2)
     body = label_connected(len(shapes), pairs)
-    apart = np.array([(i, j) for i, j in near if body[i] != body[j]], np.int64).reshape(-1, 2)
+    apart = _neighbours(near, body, tolerance)
     area = {}
     for i, j in touch:
         area[i, j], area[j, i] = (_touching(shapes[a], shapes[b], 2 * tolerance) for a, b in ((i, j), (j, i)))
     return Contacts(shapes, pairs, apart, body, area)
+
+
+def _neighbours(near: list[tuple[int, int, float]], body: np.ndarray, slack: float) -> np.ndarray:
+    """Of the pairs of bodies with a clearance, those that are among the nearest of either body."""
+    least: dict[int, float] = {}
+    pairs = [(i, j, gap) for i, j, gap in near if body[i] != body[j]]
+    for i, j, gap in pairs:
+        for b in (int(body[i]), int(body[j])):
+            least[b] = min(least.get(b, np.inf), gap)
+    kept = [(i, j) for i, j, gap in pairs if gap <= 2 * max(least[int(body[i])], least[int(body[j])]) + slack]
+    return np.array(kept, np.int64).reshape(-1, 2)
 
 
 def _touching(a: Shape, b: Shape, tolerance: float) -> float:
