@@ -7,7 +7,7 @@ import numpy as np
 from anymesh.articulation.evidence import part_facts, weigh
 from anymesh.articulation.hypotheses import propose
 from anymesh.articulation.limits import limits, opening_motion
-from anymesh.geometry.surroundings import Surroundings
+from anymesh.geometry.surroundings import Surroundings, rods
 from anymesh.articulation.tree import descendants, parents
 from anymesh.config import Config
 from anymesh.geometry.shape import ObjectShape, Shape
@@ -53,6 +53,7 @@ def surroundings(
         rest=whole.of(np.flatnonzero(still)),
         others=whole.of(np.flatnonzero(others)) if others.any() else None,
         everything=whole.of(np.flatnonzero(~moving)),
+        slim=rods(whole, shapes[i], shapes[parent[i]]),
         diagonal=whole.diagonal,
         center=center,
         config=config.articulation,

@@ -11,6 +11,7 @@ from scipy.cluster.vq import kmeans2
 
 from anymesh.geometry.surroundings import Surroundings
 from anymesh.geometry.boxes import Box
+from anymesh.geometry.circles import outline_about
 from anymesh.types import Motion, MotionKind
 
 SAME_DIRECTION = np.cos(np.deg2rad(1.0))
@@ -97,6 +98,16 @@ def bail_line(around: Surroundings) -> Motion | None:
     return Motion(MotionKind.TURN, _unit(b - a), (a + b) / 2, "line through the two far contacts")
 
 
+def barrels(around: Surroundings) -> list[tuple[str, Motion]]:
+    """Axes of small cylinders at the border of part and parent: hinge barrels and pins."""
+    found = []
+    for piece in around.slim:
+        seen = outline_about(np.concatenate([piece.corners, piece.samples.points]), piece.box.axes[0])
+        if seen.roundness > 0.85 and seen.height > 2 * seen.radius:
+            found.append(("barrel", Motion(MotionKind.TURN, _unit(seen.axis), seen.center, "axis of a hinge barrel")))
+    return found
+
+
 def propose(around: Surroundings) -> list[tuple[str, Motion]]:
     """All candidate motions of a part, each with its role, without near copies; the order is fixed."""
     core, box = around.core, around.part.box
@@ -105,6 +116,7 @@ def propose(around: Surroundings) -> list[tuple[str, Motion]]:
     outline = around.outline
     if outline.roundness > 0.5:
         found.insert(0, ("round", Motion(MotionKind.TURN, _unit(outline.axis), outline.center, "axis of its round outline")))
+    found[:0] = barrels(around)
     bail = bail_line(around)
     if bail is not None:
         found.insert(0, ("bail", bail))

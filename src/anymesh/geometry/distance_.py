@@ -27,3 +27,17 @@ def distance_to_triangles(
 ) -> Float[np.ndarray, " n"]:
     """Distance of each point to the closest of some triangles."""
     return distance_to_mesh(points, triangles.reshape(-1, 3), np.arange(3 * len(triangles)).reshape(-1, 3))[0]
+
+
+def winding_number(
+    points: Float[np.ndarray, "n 3"], vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"]
+) -> Float[np.ndarray, " n"]:
+    """How often the surface winds round each point: 1 inside a closed, outward surface, 0 outside."""
+    import igl
+
+    found = igl.winding_number(
+        np.ascontiguousarray(vertices, np.float64),
+        np.ascontiguousarray(faces, np.int64),
+        np.ascontiguousarray(points, np.float64),
+    )
+    return np.atleast_1d(found)

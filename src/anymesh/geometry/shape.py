@@ -9,6 +9,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 
 from anymesh.geometry.boxes import Box, fit_box
+from anymesh.geometry.distance_ import winding_number
 from anymesh.geometry.sampling import SurfacePoints, sample_surface
 from anymesh.geometry.topology import Components, components
 from anymesh.rendering.raycast_ import RayScene
@@ -81,6 +82,7 @@ class ObjectShape:
 
     shape: Shape
     parts: Components
+    void: Bool[np.ndarray, " c"]  # components that are the walls of a closed cavity in another
     vertices: Float[np.ndarray, "V 3"]
     diagonal: float
 
@@ -92,7 +94,24 @@ class ObjectShape:
 def object_shape(mesh: Mesh, seed: int = 0) -> ObjectShape:
     """Orients and prepares a mesh; the mesh itself is not changed."""
     parts = components(mesh.vertices, mesh.faces)
-    flip = parts.flip[parts.label]
+    void = _voids(mesh, parts)
+    flip = (parts.flip & ~void)[parts.label]
     normals = np.where(flip[:, None], -mesh.face_normals, mesh.face_normals)
     shape = Shape(mesh.triangles, normals, parts.solid[parts.label], np.arange(len(mesh.faces)), seed)
-    return ObjectShape(shape, parts, mesh.vertices, mesh.diagonal)
+    return ObjectShape(shape, parts, void, mesh.vertices, mesh.diagonal)
+
+
+def _voids(mesh: Mesh, parts: Components) -> Bool[np.ndarray, " c"]:
+    """Inside-out components within a solid one: walls of its cavities, not things of their own."""
+    void = np.zeros(parts.count, bool)
+    solid = np.flatnonzero(parts.solid & ~parts.flip)
+    t = mesh.triangles
+    for c in np.flatnonzero(parts.flip) if len(solid) else []:
+        points = t[parts.label == c][:1].mean(1)
+        for s in solid:
+            faces = mesh.faces[parts.label == s]
+            low, high = mesh.vertices[faces].min((0, 1)), mesh.vertices[faces].max((0, 1))
+            if (points > low).all() and (points < high).all() and winding_number(points, mesh.vertices, faces)[0] > 0.5:
+                void[c] = True
+                break
+    return void

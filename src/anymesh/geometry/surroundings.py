@@ -13,7 +13,7 @@ from anymesh.geometry.boxes import Box, box_in_frame
 from anymesh.geometry.circles import Outline, roundest
 from anymesh.geometry.contact import connecting_area
 from anymesh.geometry.distance_ import distance_to_triangles
-from anymesh.geometry.shape import Shape
+from anymesh.geometry.shape import ObjectShape, Shape
 from anymesh.geometry.sweep import Obstacles
 from anymesh.types import Handle
 
@@ -56,6 +56,7 @@ class Surroundings:
     rest: Shape  # everything that stands still while the part moves
     others: Shape | None  # the other movable parts
     everything: Shape  # all of the object but the part
+    slim: tuple[Shape, ...]  # small round rods where part and parent meet (see `rods`)
     diagonal: float
     center: Float[np.ndarray, " 3"]
     config: ArticulationConfig
@@ -166,3 +167,24 @@ class Surroundings:
         """The two core axes that span the part's outer face, in the order that Handle.across uses."""
         k = int(np.abs(self.core.axes @ self.outward).argmax())
         return [i for i in range(3) if i != k]
+
+
+def rods(whole: ObjectShape, part: Shape, parent: Shape) -> tuple[Shape, ...]:
+    """Components that are long, thin and small against the part, and near both it and its parent: they may be barrels."""
+    diagonal = part.box.diagonal
+    reach = 0.015 * min(whole.diagonal, 5 * diagonal)
+    label = whole.parts.label
+    found = []
+    for own, other in ((part, parent), (parent, part)):
+        low, high = other.bounds[0] - reach, other.bounds[1] + reach
+        center = own.triangles.mean(1)
+        near = ((center > low) & (center < high)).all(1)
+        candidates, count = np.unique(label[own.faces[near]], return_counts=True)
+        for c in candidates[count >= 6][:60]:
+            mine = own.take(label[own.faces] == c)
+            half = mine.box.half
+            if 2 * half[0] > 1.1 * diagonal or half[1] > 0.05 * diagonal or half[2] < 0.7 * half[1] or half[0] < 1.5 * half[1]:
+                continue
+            if distance_to_triangles(mine.samples.points[::10], other.triangles).min() < reach:
+                found.append(mine)
+    return tuple(found)

@@ -79,7 +79,7 @@ def _score_hinge(part: PartFacts, c: Candidate, habit: Habit | None) -> float:
         value -= 4.0
     value -= 0.8 * c.sibling * (1 if c.sibling > c.support - 0.2 else 0.5)
     value += 1.8 * c.handle_side
-    value += {"edge": 0.5, "edge_mid": 0.35, "contact": 0.3, "bail": 2.2, "center": -1.2}.get(c.role, 0.0)
+    value += {"edge": 0.5, "edge_mid": 0.35, "contact": 0.3, "bail": 2.2, "barrel": 1.6, "center": -1.2}.get(c.role, 0.0)
     if part.thinness > 0.5 and c.role in ("edge", "edge_mid"):
         value -= 0.8
     if c.role in ("edge", "edge_mid") and abs(float(c.motion.axis @ part.outward)) > 0.5:

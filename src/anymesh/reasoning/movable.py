@@ -34,7 +34,7 @@ def _plate(e: PartEvidence) -> tuple[float, str, str]:
         return (-3.0, "panel", "no plate on the outside")
     value, why = -0.7, ["a plate on the outside"]
     if e.handle is not None and not e.on_movable:
-        value += 2.0
+        value += 2.0 if e.handle.along is not None else 1.0  # a knob on a plate may also be a control on a panel
         why.append("with a handle")
     value += GAP[e.gap_sides]
     if e.gap_sides:
@@ -88,6 +88,8 @@ def _round(e: PartEvidence) -> tuple[float, str, str]:
         value += 1.2 if e.axle_level or e.separate else 0.3
         why.append("stands out like a knob")
         value += 0.3 * min(e.twins, 1)
+    if e.opposite:
+        value -= 2.0  # one of two pivots or axle ends
     if e.flatness > 4:
         value -= 2.0  # a rod or a pipe
     if e.faces_down or (e.at_bottom and not e.axle_level):

@@ -101,6 +101,7 @@ class PartEvidence:
     at_bottom: bool  # reaches down to the lowest part of the object
     faces_down: bool  # its way out is down
     twins: int  # pieces of the same size
+    opposite: bool  # one of them lies on the round outline's axis
     handle: Handle | None
     pivots: bool  # held at two far ends, from the sides (a bail)
     slender: bool  # much less surface than its box

@@ -8,7 +8,7 @@ import numpy as np
 
 from anymesh.config import SegmentationConfig
 from anymesh.geometry.distance_ import distance_to_mesh
-from anymesh.geometry.shape import ObjectShape
+from anymesh.geometry.shape import ObjectShape, Shape
 from anymesh.geometry.surroundings import Surroundings
 from anymesh.reasoning.questions import PartEvidence
 
@@ -23,7 +23,7 @@ class Context:
     config: SegmentationConfig
     name: str
     separate: bool
-    twins: int
+    twins: tuple[Shape, ...]  # other pieces of the same size
     on_movable: bool
 
 
@@ -53,12 +53,19 @@ def gather(around: Surroundings, context: Context) -> PartEvidence:
         axle_level=bool(abs(outline.axis[2]) < 0.5),
         at_bottom=bool(around.part.bounds[0, 2] < low + 0.06 * (high - low)),
         faces_down=bool(around.outward[2] < -0.7),
-        twins=context.twins,
+        twins=len(context.twins),
+        opposite=any(_on_axis(around, twin) for twin in context.twins),
         handle=around.handle,
         pivots=_pivots(around, near, normals),
         slender=bool(around.part.area < 0.6 * surface),
         on_movable=context.on_movable,
     )
+
+
+def _on_axis(around: Surroundings, twin: Shape) -> bool:
+    arm = twin.bounds.mean(0) - around.outline.center
+    off = arm - (arm @ around.outline.axis) * around.outline.axis
+    return bool(np.linalg.norm(off) < 0.3 * around.outline.radius)
 
 
 def _contact(around: Surroundings, tolerance: float) -> tuple[np.ndarray, np.ndarray]:

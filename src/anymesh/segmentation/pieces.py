@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from jaxtyping import Int
+from scipy.spatial import cKDTree
 
 from anymesh.config import SegmentationConfig
 from anymesh.geometry.shape import ObjectShape
@@ -25,6 +26,7 @@ def split(whole: ObjectShape, config: SegmentationConfig) -> Int[np.ndarray, " F
     region = label_connected(len(component), pairs[~cut])
     length = np.linalg.norm(_ends(whole, 0) - _ends(whole, 1), axis=1)
     region = _absorb_crumbs(whole, region, pairs[cut], length[cut], config)
+    region = _fill_voids(whole, region)
     return _limit_count(whole, region, config.most_pieces)
 
 
@@ -72,10 +74,22 @@ def _absorb_crumbs(
     return region
 
 
+def _fill_voids(whole: ObjectShape, region: np.ndarray) -> np.ndarray:
+    """Walls of closed cavities belong to the nearest other region; nothing in there moves."""
+    hidden = whole.void[whole.parts.label]
+    if not hidden.any():
+        return region
+    centers = whole.shape.triangles.mean(1)
+    nearest = cKDTree(centers[~hidden]).query(centers[hidden], workers=-1)[1]
+    target = region.copy()
+    for r in np.unique(region[hidden]):
+        inside = region[hidden] == r
+        target[region == r] = np.bincount(region[~hidden][nearest[inside]]).argmax()
+    return np.unique(target, return_inverse=True)[1].reshape(-1)
+
+
 def _limit_count(whole: ObjectShape, region: np.ndarray, most: int) -> np.ndarray:
     """At most about `most` pieces: the smallest join their nearest larger one."""
-    from scipy.spatial import cKDTree
-
     count = int(region.max()) + 1
     if count <= most:
         return region

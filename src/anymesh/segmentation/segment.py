@@ -14,7 +14,7 @@ from jaxtyping import Int
 
 from anymesh.config import Config
 from anymesh.geometry.shape import ObjectShape
-from anymesh.geometry.surroundings import Surroundings
+from anymesh.geometry.surroundings import Surroundings, rods
 from anymesh.geometry.topology import label_connected
 from anymesh.progress import Progress, silent
 from anymesh.reasoning.questions import Answerer, Candidate, MotionAnswer, PartAnswer
@@ -171,15 +171,18 @@ def _candidate(
     rest = whole.of(np.flatnonzero(still))
     around = Surroundings(
         part=whole.of(faces), parent=rest, rest=rest, others=whole.of(np.flatnonzero(away)) if away.any() else None,
-        everything=whole.of(np.flatnonzero(~moving)), diagonal=whole.diagonal, center=whole.shape.bounds.mean(0),
+        everything=whole.of(np.flatnonzero(~moving)), slim=(), diagonal=whole.diagonal,
+        center=whole.shape.bounds.mean(0),
         config=config.articulation,
     )  # fmt: skip
     separate = not _touches_outside(units, members)
     size = _size(units, members)
-    twins = sum(
-        other != u and other not in members and abs(_size(units, units.hanging[other]) - size) < 0.02 * size
+    twins = tuple(
+        whole.of(units.faces(units.hanging[other]))
         for other in units.hanging
-        if other != units.root
+        if other not in (u, units.root)
+        and other not in members
+        and abs(_size(units, units.hanging[other]) - size) < 0.02 * size
     )
     context = Context(whole, config.segmentation, units.names[u], separate, twins, carrier is not None)
     answer = answerer.is_part(gather(around, context))

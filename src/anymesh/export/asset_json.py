@@ -1,0 +1,86 @@
+"""asset.json: the asset in words and numbers; its schema is `asset.schema.json` beside this file."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from importlib.resources import files
+from typing import Any
+
+import anymesh
+from anymesh.export.inertia import Inertia
+from anymesh.export.links import Link
+from anymesh.export.meshes import faces_path
+from anymesh.types import Asset, Joint, Mesh
+
+SCHEMA_VERSION = "1.0"
+TIMING_FILE = "timing.json"  # apart, so that everything else is the same from run to run
+
+
+def asset_record(asset: Asset, links: Sequence[Link], inertias: Mapping[str, Inertia]) -> dict[str, Any]:
+    """The content of asset.json as plain values."""
+    source = asset.source
+    return {
+        "schema_version": SCHEMA_VERSION,
+        "generator": {"name": "articulate-anymesh", "version": anymesh.__version__},
+        "name": asset.name,
+        "source": {
+            "path": source.path,
+            "sha256": source.sha256,
+            "T_asset_source": source.T_asset_source.tolist(),
+            "up": source.up,
+            "notes": list(source.notes),
+        },
+        "parts": [_part(asset.mesh, link, inertias[link.name]) for link in links],
+        "joints": [_joint(joint) for joint in asset.joints],
+        "answerer": asset.answerer,
+        "warnings": list(asset.warnings),
+        "timing": TIMING_FILE,
+    }
+
+
+def schema() -> dict[str, Any]:
+    """The JSON schema (2020-12) of asset.json."""
+    return json.loads(files("anymesh.export").joinpath("asset.schema.json").read_text(encoding="utf-8"))
+
+
+def json_text(record: Mapping[str, Any]) -> str:
+    """Indented JSON, ASCII, with a final newline."""
+    return json.dumps(record, indent=2, allow_nan=False) + "\n"
+
+
+def _part(mesh: Mesh, link: Link, inertia: Inertia) -> dict[str, Any]:
+    return {
+        "name": link.name,
+        "label": link.part.label,
+        "parent": None if link.joint is None else link.joint.parent,
+        "area": _round(mesh.face_areas[link.faces].sum()),
+        "mass": _round(inertia.mass),
+        "face_count": len(link.faces),
+        "faces": faces_path(link),
+        "confidence": _round(link.part.confidence),
+        "reason": link.part.reason,
+    }
+
+
+def _joint(joint: Joint) -> dict[str, Any]:
+    return {
+        "name": joint.name,
+        "type": str(joint.type),
+        "parent": joint.parent,
+        "child": joint.child,
+        "origin": [_round(v) for v in joint.origin],
+        "axis": [_round(v) for v in joint.axis],
+        "limits": None if joint.limits is None else [_round(v) for v in joint.limits],
+        "effort": _round(joint.effort),
+        "velocity": _round(joint.velocity),
+        "damping": _round(joint.damping),
+        "friction": _round(joint.friction),
+        "confidence": _round(joint.confidence),
+        "reason": joint.reason,
+    }
+
+
+def _round(value: float) -> float:
+    """Ten significant digits, as in the URDF; -0 is 0."""
+    return 0.0 if abs(value) < 1e-12 else float(f"{float(value):.10g}")

@@ -1,0 +1,71 @@
+"""Mass, centre of mass and inertia of a link from its triangles, always physical."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+from anymesh.export.settings import ExportConfig
+from anymesh.geometry.topology import components
+
+
+@dataclass(frozen=True, eq=False)
+class Inertia:
+    """mass [kg]; center: centre of mass [m]; tensor: about it, symmetric [kg m^2]."""
+
+    mass: float
+    center: Float[np.ndarray, " 3"]
+    tensor: Float[np.ndarray, "3 3"]
+
+
+def link_inertia(triangles: Float[np.ndarray, "n 3 3"], config: ExportConfig) -> Inertia:
+    """Mass properties of a link: closed components are solids, open ones shells, overlaps are added.
+
+    Made physical: a floor for the mass, principal moments positive and each at most the sum of the other two.
+    """
+    return physical(raw_inertia(triangles, config), config)
+
+
+def raw_inertia(triangles: Float[np.ndarray, "n 3 3"], config: ExportConfig) -> Inertia:
+    """The exact integrals over solids (signed tetrahedra; inside out counts as the right way round) and shells."""
+    corners = triangles.reshape(-1, 3)
+    base = corners.mean(0)  # near the body, so that large coordinates cost no digits
+    t = triangles - base
+    cross = np.cross(t[:, 1] - t[:, 0], t[:, 2] - t[:, 0])
+    volumes = np.einsum("ij,ij->i", t[:, 0], cross) / 6
+    areas = np.linalg.norm(cross, axis=1) / 2
+    found = components(corners, np.arange(len(corners)).reshape(-1, 3))
+    volume = np.bincount(found.label, volumes, found.count)
+    flat = np.abs(volume) <= 1e-9 * np.bincount(found.label, np.abs(volumes), found.count)
+    solid = (found.solid & ~flat)[found.label]
+    size = float(np.linalg.norm(np.ptp(corners, axis=0)))
+    thickness = min(config.shell_thickness, config.shell_share * size)
+    filled = np.where(solid, config.density * np.sign(volume)[found.label] * volumes, 0.0)
+    sheet = np.where(solid, 0.0, config.shell_density * thickness * areas)
+    mass = float(filled.sum() + sheet.sum())
+    if mass <= 0:
+        return Inertia(0.0, base, np.zeros((3, 3)))
+    # Over a tetrahedron with the base: x -> sum / 4, x x^T -> (.. + ..) / 20; over a triangle: / 3 and / 12.
+    total = t.sum(1)
+    center = (total * (filled / 4 + sheet / 3)[:, None]).sum(0) / mass
+    weights = filled / 20 + sheet / 12
+    second = np.einsum("n,nki,nkj->ij", weights, t, t) + np.einsum("n,ni,nj->ij", weights, total, total)
+    covariance = second - mass * np.outer(center, center)
+    tensor = np.trace(covariance) * np.eye(3) - covariance
+    return Inertia(mass, center + base, (tensor + tensor.T) / 2)
+
+
+def physical(body: Inertia, config: ExportConfig) -> Inertia:
+    """The nearest body that a simulator accepts, with the same centre and principal axes."""
+    mass = max(body.mass, config.smallest_mass)
+    tensor = body.tensor * (mass / body.mass) if body.mass > 0 else body.tensor
+    moments, axes = np.linalg.eigh(tensor)
+    moments = np.maximum(moments, max(config.smallest_moment, config.moment_ratio * float(moments.max())))
+    # A flat body just meets the bound; the margin keeps rounding from breaking it.
+    short = moments[2] * (1 + 1e-6) - (moments[0] + moments[1])
+    if short > 0:
+        moments[:2] += short / 2
+    tensor = (axes * moments) @ axes.T
+    return Inertia(mass, body.center, (tensor + tensor.T) / 2)

@@ -1,0 +1,155 @@
+"""Links: the mesh cut by part, placed in link frames, its corners merged where every attribute agrees."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from jaxtyping import Float, Float32, Int, UInt8, UInt64
+
+from anymesh.names import legal_name, legal_names
+from anymesh.types import Asset, Joint, Mesh, Part
+
+
+@dataclass(frozen=True, eq=False)
+class Primitive:
+    """Triangles of one link with one material.
+
+    material: into the mesh's materials, -1 = none; positions: (n, 3) in the link frame [m]; triangles: (m, 3)
+    into them; uv: v up; normals: unit; colors: RGBA 0..255.
+    """
+
+    material: int
+    positions: Float[np.ndarray, "n 3"]
+    triangles: Int[np.ndarray, "m 3"]
+    uv: Float32[np.ndarray, "n 2"] | None
+    normals: Float32[np.ndarray, "n 3"] | None
+    colors: UInt8[np.ndarray, "n 4"] | None
+
+
+@dataclass(frozen=True, eq=False)
+class Link:
+    """A part as a rigid body. Its frame lies at `origin` [m, asset frame], axes parallel to the asset's.
+
+    joint: the one that carries it, None for the root; faces: (F',) of the source mesh.
+    """
+
+    part: Part
+    joint: Joint | None
+    origin: Float[np.ndarray, " 3"]
+    faces: Int[np.ndarray, " m"]
+    primitives: tuple[Primitive, ...]
+
+    @property
+    def name(self) -> str:
+        return self.part.name
+
+    @property
+    def triangles(self) -> Float[np.ndarray, "m 3 3"]:
+        """Corner positions of all faces in the link frame [m]."""
+        return np.concatenate([p.positions[p.triangles] for p in self.primitives])
+
+
+def with_legal_names(asset: Asset) -> Asset:
+    """The asset with names that every format and file system takes; one that has them already is returned as it is."""
+    parts = asset.segmentation.parts
+    renamed = dict(zip((p.name for p in parts), legal_names([p.name for p in parts]), strict=True))
+    joints = legal_names([j.name for j in asset.joints], fallback="joint")
+    name = legal_name(asset.name, fallback="asset")
+    if name == asset.name and list(renamed) == list(renamed.values()) and joints == [j.name for j in asset.joints]:
+        return asset
+    return replace(
+        asset,
+        name=name,
+        segmentation=replace(asset.segmentation, parts=tuple(replace(p, name=renamed[p.name]) for p in parts)),
+        joints=tuple(
+            replace(j, name=new, parent=renamed[j.parent], child=renamed[j.child])
+            for j, new in zip(asset.joints, joints, strict=True)
+        ),
+    )
+
+
+def split_links(asset: Asset) -> tuple[Link, ...]:
+    """One link a part, in the order of the parts (the root first)."""
+    mesh, face_part = asset.mesh, asset.segmentation.face_part
+    carried = {j.child: j for j in asset.joints}
+    order = np.lexsort((mesh.face_material, face_part))
+    part, material = face_part[order], mesh.face_material[order]
+    cuts = np.flatnonzero((np.diff(part) != 0) | (np.diff(material) != 0)) + 1
+    groups: dict[int, list[np.ndarray]] = {}
+    for run in np.split(order, cuts):
+        groups.setdefault(int(face_part[run[0]]), []).append(run)
+    links = []
+    for index, piece in enumerate(asset.segmentation.parts):
+        joint = carried.get(piece.name)
+        origin = np.zeros(3) if joint is None else np.asarray(joint.origin, float)
+        primitives = tuple(_primitive(mesh, faces, origin) for faces in groups[index])
+        links.append(Link(piece, joint, origin, np.flatnonzero(face_part == index), primitives))
+    return tuple(links)
+
+
+def _primitive(mesh: Mesh, faces: np.ndarray, origin: np.ndarray) -> Primitive:
+    """The faces (all of one material) with equal corners merged."""
+    corner = mesh.faces[faces].reshape(-1)
+    positions = mesh.vertices[corner] + 0.0  # -0.0 becomes 0.0, so that the two are one
+
+    def rows(attribute: np.ndarray | None, width: int) -> np.ndarray | None:
+        return None if attribute is None else attribute[faces].reshape(-1, width)
+
+    uv, normals, colors = rows(mesh.corner_uv, 2), rows(mesh.corner_normal, 3), rows(mesh.corner_color, 4)
+    if uv is not None:
+        uv = np.nan_to_num(uv, posinf=0.0, neginf=0.0)
+    if normals is not None:
+        normals = _unit(normals, np.repeat(mesh.face_normals[faces], 3, axis=0))
+    if colors is not None and (colors == 255).all():
+        colors = None
+    columns = [np.ascontiguousarray(positions).view(np.uint64)]
+    columns += [np.ascontiguousarray(a).view(np.uint32) for a in (uv, normals, colors) if a is not None]
+    first, inverse = unique_rows([c[:, i].astype(np.uint64) for c in columns for i in range(c.shape[1])])
+    return Primitive(
+        material=int(mesh.face_material[faces[0]]),
+        positions=positions[first] - origin,
+        triangles=inverse.reshape(-1, 3),
+        uv=None if uv is None else uv[first],
+        normals=None if normals is None else normals[first],
+        colors=None if colors is None else colors[first],
+    )
+
+
+def _unit(normals: np.ndarray, instead: np.ndarray) -> np.ndarray:
+    """Normals made unit; where one is zero or not finite, the face's (or up, when the face has no area)."""
+    exact = normals.astype(np.float64)
+    length = np.linalg.norm(exact, axis=1, keepdims=True)
+    bad = ~(np.isfinite(length) & (length > 1e-6))[:, 0]
+    exact[bad] = instead[bad]
+    length[bad] = 1
+    exact[bad & ~exact.any(1)] = (0, 0, 1)
+    return (exact / length).astype(np.float32) + np.float32(0)
+
+
+def unique_rows(columns: list[UInt64[np.ndarray, " n"]]) -> tuple[Int[np.ndarray, " k"], Int[np.ndarray, " n"]]:
+    """The first row of each kind, in order of appearance, and the kind of every row.
+
+    Rows are hashed and the hash is sorted (5 times faster than sorting rows); the result is checked against the rows.
+    """
+    key = np.zeros(len(columns[0]), np.uint64)
+    for column in columns:
+        key = (key ^ column) * np.uint64(0x9E3779B97F4A7C15)
+        key ^= key >> np.uint64(29)
+    first, inverse = _kinds(key)
+    if all((c == c[first][inverse]).all() for c in columns):
+        return first, inverse
+    kinds = np.unique(np.stack(columns, 1), axis=0, return_inverse=True)[1]
+    return _kinds(kinds.reshape(-1).astype(np.uint64))
+
+
+def _kinds(key: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    order = np.argsort(key)
+    ordered = key[order]
+    starts = np.flatnonzero(np.r_[True, ordered[1:] != ordered[:-1]])
+    first = np.minimum.reduceat(order, starts)  # whatever order the sort leaves equal keys in
+    rank = np.empty(len(first), np.int64)
+    rank[np.argsort(first)] = np.arange(len(first))
+    inverse = np.empty(len(key), np.int64)
+    inverse[order] = np.repeat(rank, np.diff(np.r_[starts, len(key)]))
+    return np.sort(first), inverse

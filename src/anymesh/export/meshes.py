@@ -1,0 +1,185 @@
+"""The meshes folder: a visual OBJ with materials and textures and a collision OBJ a link."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from anymesh.export.collision import collision_mesh, flat_normal, small_box
+from anymesh.export.links import Link, Primitive
+from anymesh.export.settings import ExportConfig
+from anymesh.names import legal_names
+from anymesh.types import Material, Mesh
+
+FOLDER = "meshes"
+SUFFIXES = {"image/png": ".png", "image/jpeg": ".jpg"}
+SHEET = 1e-5  # share of the diagonal; a visual thinner than this gets a back sheet, since MuJoCo refuses flat meshes
+MTL_MAPS = {"base_color": "map_Kd", "emissive": "map_Ke", "normal": "norm"}  # the ones whose channels MTL can name
+
+
+def visual_path(link: Link) -> str:
+    """Relative to the asset folder, with forward slashes."""
+    return f"{FOLDER}/{link.name}.obj"
+
+
+def collision_path(link: Link) -> str:
+    """Relative to the asset folder, with forward slashes."""
+    return f"{FOLDER}/{link.name}_collision.obj"
+
+
+def faces_path(link: Link) -> str:
+    """Relative to the asset folder: the source's face indices of the link, an int64 .npy."""
+    return f"{FOLDER}/{link.name}.faces.npy"
+
+
+def write_meshes(mesh: Mesh, links: Sequence[Link], folder: Path, config: ExportConfig) -> None:
+    """Writes `meshes/` of an asset folder: <link>.obj, .mtl, _collision.obj, .faces.npy, and the textures they use."""
+    (folder / FOLDER).mkdir(exist_ok=True)
+    textures = _write_textures(mesh, folder / FOLDER)
+    names = material_names(mesh.materials)
+    for link in links:
+        primitives = _visible(link, config)
+        used = sorted({p.material for p in primitives if p.material >= 0})
+        mtl = "".join(_mtl(names[i], mesh.materials[i], textures) for i in used)
+        if used:
+            (folder / FOLDER / f"{link.name}.mtl").write_text(mtl, encoding="ascii", newline="\n")
+        library = f"{link.name}.mtl" if used else None
+        _write_lines(folder / visual_path(link), _visual_lines(link.name, library, primitives, names))
+        vertices, faces = collision_mesh(link.triangles, config)
+        lines = _rows("v %.8g %.8g %.8g\n", vertices), _rows("f %d %d %d\n", faces + 1)
+        _write_lines(folder / collision_path(link), (text for part in lines for text in part))
+        np.save(folder / faces_path(link), link.faces.astype(np.int64), allow_pickle=False)
+
+
+def material_names(materials: Sequence[Material]) -> list[str]:
+    """Unique legal names in the order of the materials, the same in MTL and URDF."""
+    return legal_names([m.name for m in materials], fallback="material")
+
+
+def srgb(linear: float) -> float:
+    """A linear colour channel as a display value, both 0..1 (IEC 61966-2-1)."""
+    linear = min(max(float(linear), 0.0), 1.0)
+    return 12.92 * linear if linear <= 0.0031308 else 1.055 * linear ** (1 / 2.4) - 0.055
+
+
+def _write_textures(mesh: Mesh, folder: Path) -> dict[bytes, str]:
+    """Each image once; image bytes -> file name."""
+    found = {}
+    for index in sorted(set(mesh.face_material.tolist()) - {-1}):
+        material = mesh.materials[index]
+        for slot in MTL_MAPS:
+            texture = material.textures.get(slot)
+            if texture is not None and mesh.corner_uv is not None:
+                found.setdefault(texture.data, (texture, Path(texture.name).stem or f"{material.name}_{slot}"))
+    names = legal_names([stem for _, stem in found.values()], fallback="texture")
+    files = {}
+    for (data, (texture, _)), name in zip(found.items(), names, strict=True):
+        files[data] = name + SUFFIXES.get(texture.mime, ".png")
+        (folder / files[data]).write_bytes(data)
+    return files
+
+
+def _mtl(name: str, material: Material, textures: dict[bytes, str]) -> str:
+    """One material; Kd is a display value as OBJ readers take it, Pr and Pm are the common PBR extension."""
+    r, g, b = (srgb(c) for c in material.base_color[:3])
+    lines = [
+        f"newmtl {name}",
+        f"Kd {r:.6g} {g:.6g} {b:.6g}",
+        "Ks 0 0 0",
+        "Ke " + " ".join(f"{srgb(c):.6g}" for c in material.emissive),
+        f"d {material.base_color[3]:.6g}",
+        f"Pr {material.roughness:.6g}",
+        f"Pm {material.metallic:.6g}",
+    ]
+    for slot, key in MTL_MAPS.items():
+        texture = material.textures.get(slot)
+        if texture is not None and texture.data in textures:
+            lines.append(f"{key} {textures[texture.data]}")
+    return "\n".join(lines) + "\n\n"
+
+
+def _visible(link: Link, config: ExportConfig) -> tuple[Primitive, ...]:
+    """The link's primitives, given a little volume when they have none."""
+    triangles = link.triangles
+    size = float(np.linalg.norm(np.ptp(triangles.reshape(-1, 3), axis=0)))
+    cross = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    if not cross.any():
+        vertices, faces = small_box(triangles, config.shell_thickness)
+        return (Primitive(link.primitives[0].material, vertices, faces, None, None, None),)
+    normal = flat_normal(triangles.reshape(-1, 3), share=SHEET)
+    if normal is None:
+        return link.primitives
+    shift = normal * max(SHEET * size, 1e-6)
+    return tuple(_with_back(p, shift) for p in link.primitives)
+
+
+def _with_back(primitive: Primitive, shift: np.ndarray) -> Primitive:
+    """The faces and, `shift` behind each, the same face seen from its other side."""
+    t = primitive.positions[primitive.triangles]
+    facing = np.cross(t[:, 1] - t[:, 0], t[:, 2] - t[:, 0]) @ shift > 0
+    front = np.where(facing[:, None], primitive.triangles, primitive.triangles[:, ::-1])
+
+    def twice(a: np.ndarray | None, sign: int) -> np.ndarray | None:
+        return None if a is None else np.concatenate([a, sign * a])
+
+    uv, normals, colors = primitive.uv, primitive.normals, primitive.colors
+    if normals is not None:
+        outward = np.where((normals @ shift < 0)[:, None], -normals, normals).astype(np.float32)
+        normals = twice(outward, -1)
+    return replace(
+        primitive,
+        positions=np.concatenate([primitive.positions, primitive.positions - shift]),
+        triangles=np.concatenate([front, front[:, ::-1] + len(primitive.positions)]),
+        uv=twice(uv, 1),
+        normals=normals,
+        colors=None if colors is None else np.concatenate([colors, colors]),
+    )
+
+
+def _visual_lines(
+    name: str, library: str | None, primitives: Sequence[Primitive], names: Sequence[str]
+) -> Iterator[str]:
+    """The text of a visual OBJ; corner k of a primitive has position, uv and normal k."""
+    if library:
+        yield f"mtllib {library}\n"
+    yield f"o {name}\n"
+    colored = any(p.colors is not None for p in primitives)
+    for p in primitives:
+        if not colored:
+            yield from _rows("v %.8g %.8g %.8g\n", p.positions)
+            continue
+        white = np.full((len(p.positions), 4), 255, np.uint8)
+        colors = (white if p.colors is None else p.colors)[:, :3] / 255
+        yield from _rows("v %.8g %.8g %.8g %.4g %.4g %.4g\n", np.hstack([p.positions, colors]))
+    textured = all(p.uv is not None for p in primitives)
+    shaded = all(p.normals is not None for p in primitives)
+    for p in primitives:
+        if textured and p.uv is not None:
+            yield from _rows("vt %.7g %.7g\n", p.uv)
+    for p in primitives:
+        if shaded and p.normals is not None:
+            yield from _rows("vn %.5g %.5g %.5g\n", p.normals)
+    corner = {(True, True): "%d/%d/%d", (True, False): "%d/%d", (False, True): "%d//%d", (False, False): "%d"}
+    uses = 1 + textured + shaded
+    offset = 1
+    for p in primitives:
+        if p.material >= 0:
+            yield f"usemtl {names[p.material]}\n"
+        pattern = " ".join(["f", *[corner[textured, shaded]] * 3]) + "\n"
+        yield from _rows(pattern, np.repeat(p.triangles + offset, uses, axis=1))
+        offset += len(p.positions)
+
+
+def _rows(pattern: str, rows: np.ndarray) -> Iterator[str]:
+    """Rows of numbers as text, many at a time (8 times faster than one by one)."""
+    for start in range(0, len(rows), 65536):
+        chunk = rows[start : start + 65536]
+        yield (pattern * len(chunk)) % tuple((chunk + 0).reshape(-1).tolist())
+
+
+def _write_lines(path: Path, lines: Iterator[str]) -> None:
+    with path.open("w", encoding="ascii", newline="\n") as file:
+        file.writelines(lines)

@@ -1,0 +1,45 @@
+"""Names that are legal as a URDF link, a MuJoCo body, a glTF node and a file on every system."""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from collections.abc import Sequence
+
+LONGEST = 80  # characters; leaves room for suffixes within the 255 bytes of common file systems
+# Taken by a format or a system: MuJoCo's root body, URDF parsers' base names, the device names of Windows.
+RESERVED = frozenset(
+    {"world", "con", "prn", "aux", "nul"} | {f"{port}{i}" for port in ("com", "lpt") for i in range(10)}
+)
+
+
+def legal_name(name: str, *, fallback: str = "part") -> str:
+    """One name as `[A-Za-z][A-Za-z0-9_]*`, accents dropped; `fallback` when nothing legal is left."""
+    plain = unicodedata.normalize("NFKD", name).encode("ascii", "ignore").decode()
+    plain = re.sub(r"[^A-Za-z0-9_]+", "_", plain)
+    plain = plain.strip("_") if plain != name else plain
+    if not plain.strip("_"):
+        return fallback
+    if not plain[0].isalpha():
+        plain = f"{fallback}_{plain.lstrip('_')}"
+    plain = plain[:LONGEST]
+    # `door` writes door_collision.obj, so no link may be called that.
+    if plain.lower() in RESERVED or plain.lower().endswith("_collision"):
+        plain = f"{plain[: LONGEST - 5]}_{fallback}"
+    return plain
+
+
+def legal_names(names: Sequence[str], *, fallback: str = "part") -> list[str]:
+    """Legal names in the same order, unique whatever the case; names that are legal and unique stay as they are."""
+    plain = [legal_name(name, fallback=fallback) for name in names]
+    taken = {p.lower() for name, p in zip(names, plain, strict=True) if p == name}
+    kept: set[str] = set()
+    result = []
+    for name, candidate in zip(names, plain, strict=True):
+        chosen, number = candidate, 1
+        while chosen.lower() in kept or (chosen.lower() in taken and chosen != name):
+            number += 1
+            chosen = f"{candidate}_{number}"
+        kept.add(chosen.lower())
+        result.append(chosen)
+    return result

@@ -1,0 +1,240 @@
+"""The output folder, the only place that knows file names: stages are kept, and it is there whole or not at all.
+
+Everything is written into a hidden folder beside the output (same file system), which takes its place at the end. A
+process that is killed leaves at most the hidden folder; the next run takes over its finished stages and removes it.
+"""
+
+from __future__ import annotations
+
+import errno
+import os
+import shutil
+from collections.abc import Sequence
+from pathlib import Path
+from types import TracebackType
+from typing import Any, TypeVar
+
+from anymesh.errors import OutputError
+from anymesh.names import legal_name
+from anymesh.storage.hidden import OURS, Hidden, dead_hidden, list_files, make_hidden, move_in, recover, swap_in
+from anymesh.storage.results import JOINTS, MESH, SEGMENTATION, STAGES, Jointed, Placed, Segmented, Stage
+from anymesh.storage.stage_files import (
+    read_json,
+    read_stage,
+    saved_key,
+    stage_files,
+    stage_key,
+    write_json,
+    write_stage,
+)
+from anymesh.types import Asset
+
+__all__ = ["JOINTS", "MESH", "SEGMENTATION", "Jointed", "Placed", "RunFolder", "Segmented", "stage_key"]
+Result = TypeVar("Result")
+GENERATOR = "articulate-anymesh"
+MANIFEST = "stages/files.json"  # what was written here; nothing else is ever removed
+TIMING = "timing.json"
+LAST = "asset.json"  # an output that has it is finished
+
+
+def _prefix(target: Path, word: str) -> str:
+    return f".{target.name[:100]}.{word}-"
+
+
+def _manifest(target: Path) -> list[str] | None:
+    """The files that this program wrote into a folder, None when it is no output."""
+    found = read_json(target / MANIFEST)
+    files = found.get("files") if found is not None and found.get("generator") == GENERATOR else None
+    return files if isinstance(files, list) else None
+
+
+def _check_replaceable(target: Path, force: bool) -> None:
+    written = _manifest(target)
+    if not force:
+        hint = " (--force replaces an older output)" if written is not None else ""
+        raise OutputError(f"the output folder {target} is not empty; choose another{hint}")
+    if written is None:
+        raise OutputError(
+            f"{target} is not empty and no output of anymesh, so it is not replaced; choose another folder"
+        )
+    foreign = sorted(set(list_files(target)) - set(written))
+    if foreign:
+        shown = ", ".join(foreign[:5]) + (", ..." if len(foreign) > 5 else "")
+        raise OutputError(f"{target} also holds files that anymesh did not write ({shown}); move them away first")
+
+
+class RunFolder:
+    """An output folder while it is written. `folder` is where files go; leaving the `with` block puts them in place.
+
+    An exception inside the block leaves the output as it was.
+    """
+
+    def __init__(
+        self, target: Path, hidden: Hidden, *, base: Path | None, earlier: Sequence[Path], dead: Sequence[Hidden]
+    ) -> None:
+        self.target = target
+        self.folder = hidden.path
+        self._hidden = hidden
+        self._base = base  # files are added to this folder; None: the whole folder is new
+        self._earlier = tuple(earlier)  # where results of runs before may be taken from
+        self._dead = tuple(dead)
+        self._replaces = base is None and target in self._earlier
+        self._stale: set[str] = set()  # stages whose results no longer follow from the ones before
+
+    @classmethod
+    def create(cls, target: Path, *, source: Path, force: bool = False) -> RunFolder:
+        """A new output, in place of an older one when `force`; stages of the older one with equal keys are taken over.
+
+        OutputError when the folder holds anything and `force` is off, holds files that this program did not write,
+        holds the source mesh, or cannot be written.
+        """
+        target = Path(target).resolve()
+        if source.resolve().is_relative_to(target):
+            raise OutputError(f"the source mesh {source} lies in the output folder {target}; choose another folder")
+        try:
+            recover(target, _prefix(target, "old"))
+            if target.exists() and not target.is_dir():
+                raise OutputError(f"{target} is a file; an output is a folder")
+            inside = target.is_dir() and os.path.ismount(target)  # a mount point cannot be renamed
+            old = target.is_dir() and any(p for p in target.iterdir() if not p.name.startswith(OURS))
+            if old:
+                _check_replaceable(target, force)
+            target.parent.mkdir(parents=True, exist_ok=True)
+            place = (target, f"{OURS}tmp-") if inside else (target.parent, _prefix(target, "tmp"))
+            dead = dead_hidden(*place)
+            earlier = [d.path for d in dead] + ([target] if old else [])
+            base = target if inside else None
+            run = cls(target, make_hidden(*place), base=base, earlier=earlier, dead=dead)
+        except OSError as error:
+            raise OutputError(f"cannot write {target}: {error.strerror or error}") from error
+        run._stale = {stage.name for stage in STAGES} if inside else set()
+        return run
+
+    @classmethod
+    def open(cls, target: Path) -> RunFolder:
+        """An output that exists, to add to: another stage, or the final files. OutputError when there is none."""
+        target = Path(target).resolve()
+        try:
+            recover(target, _prefix(target, "old"))
+            if _manifest(target) is None:
+                raise OutputError(f"{target} is no output of anymesh; `anymesh segment MESH -o {target}` makes one")
+            dead = dead_hidden(target, f"{OURS}tmp-")
+            hidden = make_hidden(target, f"{OURS}tmp-")
+        except OSError as error:
+            raise OutputError(f"cannot write {target}: {error.strerror or error}") from error
+        return cls(target, hidden, base=target, earlier=[], dead=dead)
+
+    def load(self, stage: Stage[Result], key: str) -> Result | None:
+        """The saved result of a stage if it was made under this key; else None. It becomes part of this output."""
+        for place in (*self._places(stage), *self._earlier):
+            found = read_stage(place, stage, key)
+            if found is None:
+                continue
+            if place in self._earlier:
+                (self.folder / "stages").mkdir(exist_ok=True)
+                for name in stage_files(stage):
+                    if (place / name).exists():
+                        shutil.copyfile(place / name, self.folder / name)
+            return found
+        return None
+
+    def need(self, stage: Stage[Result]) -> Result:
+        """The result of a stage, whatever it was made with. OutputError when this output has none."""
+        for place in self._places(stage):
+            found = read_stage(place, stage, None)
+            if found is not None:
+                return found
+        raise self._missing(stage)
+
+    def key(self, stage: Stage[Any]) -> str:
+        """The key under which the result of a stage was saved. OutputError when this output has none."""
+        for place in self._places(stage):
+            found = saved_key(place, stage)
+            if found is not None:
+                return found
+        raise self._missing(stage)
+
+    def save(self, stage: Stage[Result], key: str, result: Result) -> None:
+        """Saves the result of a stage; results of later stages, and final files, no longer follow and go."""
+        write_stage(self.folder, stage, key, result)
+        later = STAGES[STAGES.index(stage) + 1 :]
+        self._stale |= {s.name for s in (stage, *later)}
+        for name in (name for s in later for name in stage_files(s)):
+            (self.folder / name).unlink(missing_ok=True)
+
+    def _places(self, stage: Stage[Any]) -> list[Path]:
+        """Where the result of a stage that belongs to this output may lie."""
+        return [self.folder] if self._base is None or stage.name in self._stale else [self.folder, self._base]
+
+    def _missing(self, stage: Stage[Any]) -> OutputError:
+        return OutputError(f"{self.target} has no usable result of the stage {stage.name!r}; run that stage first")
+
+    def add_time(self, stage: str, seconds: float) -> None:
+        """Adds to the seconds that each stage took."""
+        write_json(self.folder / TIMING, {**self.timing(), stage: round(seconds, 4)})
+
+    def timing(self) -> dict[str, float]:
+        """Seconds a stage, so far."""
+        for place in (self.folder, self._base):
+            found = read_json(place / TIMING) if place else None
+            if found is not None:
+                return found
+        return {}
+
+    def asset(self) -> Asset:
+        """The asset that the saved stages make. OutputError when one is missing."""
+        placed, segmented, jointed = self.need(MESH), self.need(SEGMENTATION), self.need(JOINTS)
+        return Asset(
+            name=legal_name(Path(placed.source.path).stem, fallback="asset"),
+            source=placed.source,
+            mesh=placed.mesh,
+            segmentation=segmented.segmentation,
+            joints=jointed.joints,
+            answerer=jointed.answerer,
+            warnings=(*segmented.warnings, *jointed.warnings),
+            timing=self.timing(),
+        )
+
+    def _commit(self) -> None:
+        """Puts everything written in place."""
+        new = {*list_files(self.folder), MANIFEST}
+        try:
+            if self._base is None:
+                self._write_manifest(new)
+                aside = self.target.parent / f"{_prefix(self.target, 'old')}{os.getpid()}"
+                swap_in(self.folder, self.target, aside if self._replaces else None)
+            else:
+                before = set(_manifest(self.target) or ())
+                kept = before - self._outdated(before, new)
+                self._write_manifest(new | kept)
+                move_in(self.folder, self.target, remove=sorted(before - kept - new), last=LAST)
+        except OSError as error:
+            raise OutputError(f"cannot write {self.target}: {error.strerror or error}") from error
+
+    def _outdated(self, before: set[str], new: set[str]) -> set[str]:
+        """Files from before that no longer follow from the stages, or that the final files written now replace."""
+        stages = {name for stage in STAGES for name in stage_files(stage)}
+        stale = {name for stage in STAGES if stage.name in self._stale for name in stage_files(stage)}
+        final = before - stages - {MANIFEST, TIMING} if self._stale or LAST in new else set()
+        return stale | final
+
+    def _write_manifest(self, files: set[str]) -> None:
+        (self.folder / "stages").mkdir(exist_ok=True)
+        write_json(self.folder / MANIFEST, {"generator": GENERATOR, "files": sorted(files)})
+
+    def __enter__(self) -> RunFolder:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, _: TracebackType | None) -> None:
+        try:
+            if error is None:
+                self._commit()
+            elif isinstance(error, OSError) and self._is_mine(error):
+                raise OutputError(f"cannot write {self.target}: {error.strerror or error}") from error
+        finally:
+            for hidden in (self._hidden, *self._dead):
+                hidden.discard()
+
+    def _is_mine(self, error: OSError) -> bool:
+        full = error.errno in (errno.ENOSPC, errno.EROFS, getattr(errno, "EDQUOT", errno.ENOSPC))
+        return full or (error.filename is not None and str(error.filename).startswith(str(self.folder)))

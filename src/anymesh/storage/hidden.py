@@ -1,0 +1,138 @@
+"""Hidden folders that an output is built in, and how they take its place. A lock tells the living from the dead."""
+
+from __future__ import annotations
+
+import os
+import secrets
+import shutil
+from collections.abc import Iterable
+from contextlib import suppress
+from dataclasses import dataclass
+from pathlib import Path
+
+try:
+    import fcntl
+except ImportError:  # Windows: no folder is taken for dead there
+    fcntl = None
+
+OURS = ".anymesh."  # how hidden folders inside an output begin
+IGNORED = frozenset({"Thumbs.db", "desktop.ini", ".DS_Store"})  # put there by file managers
+
+
+@dataclass(frozen=True)
+class Hidden:
+    """A hidden folder and the lock on it (a file descriptor, -1 where locks are missing)."""
+
+    path: Path
+    lock: int
+
+    def release(self) -> None:
+        """Ends the lock; the folder stays where it is."""
+        if self.lock >= 0:
+            os.close(self.lock)
+
+    def discard(self) -> None:
+        """Removes the folder and ends the lock."""
+        shutil.rmtree(self.path, ignore_errors=True)
+        self.release()
+
+
+def _locked(path: Path) -> int | None:
+    """A descriptor that holds the lock on a folder, None when another process has it."""
+    if fcntl is None:
+        return -1
+    try:
+        descriptor = os.open(path, os.O_RDONLY)
+    except OSError:
+        return None
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        os.close(descriptor)
+        return None
+    return descriptor
+
+
+def make_hidden(parent: Path, prefix: str) -> Hidden:
+    """A new, locked folder `<parent>/<prefix><random>`."""
+    while True:
+        path = parent / f"{prefix}{secrets.token_hex(4)}"
+        path.mkdir()
+        lock = _locked(path)
+        if lock is not None and path.is_dir():  # else another process took it for dead in between
+            return Hidden(path, lock)
+
+
+def dead_hidden(parent: Path, prefix: str) -> list[Hidden]:
+    """Folders that ended processes left behind, locked so that no other process takes them."""
+    if fcntl is None or not parent.is_dir():
+        return []
+    found = []
+    for path in sorted(parent.glob(f"{_escaped(prefix)}*")):
+        lock = _locked(path) if path.is_dir() else None
+        if lock is not None:
+            found.append(Hidden(path, lock))
+    return found
+
+
+def _escaped(prefix: str) -> str:
+    return "".join(f"[{c}]" if c in "*?[" else c for c in prefix)
+
+
+def list_files(folder: Path) -> list[str]:
+    """Relative paths of all files, forward slashes, sorted, without our hidden folders and what file managers leave."""
+    found = []
+    for path in folder.rglob("*"):
+        relative = path.relative_to(folder)
+        if relative.parts[0].startswith(OURS) or path.name in IGNORED:
+            continue
+        if path.is_symlink() or not path.is_dir():
+            found.append(relative.as_posix())
+    return sorted(found)
+
+
+def swap_in(new: Path, target: Path, old: Path | None) -> None:
+    """Puts `new` in the place of `target`; what was there waits at `old` for as long as two renames take, then goes.
+
+    Without `old`, the target must be missing or empty.
+    """
+    if old is None or not target.exists():
+        if target.exists():
+            target.rmdir()
+        new.rename(target)
+        return
+    lock = _locked(target)
+    try:
+        target.rename(old)
+        try:
+            new.rename(target)
+        except OSError:
+            old.rename(target)
+            raise
+        shutil.rmtree(old, ignore_errors=True)
+    finally:
+        if lock is not None and lock >= 0:
+            os.close(lock)
+
+
+def recover(target: Path, prefix: str) -> None:
+    """After a kill within `swap_in`: the old folder comes back, or goes when the new one is in place."""
+    for left in dead_hidden(target.parent, prefix):
+        if target.exists():
+            left.discard()
+        else:
+            left.path.rename(target)
+            left.release()
+
+
+def move_in(new: Path, target: Path, *, remove: Iterable[str], last: str) -> None:
+    """Moves the files of `new` into `target` one by one; `last`, the mark of a finished output, comes last."""
+    files = list_files(new)
+    (target / last).unlink(missing_ok=True)
+    for name in remove:
+        (target / name).unlink(missing_ok=True)
+        with suppress(OSError):  # a folder that holds more stays
+            (target / name).parent.rmdir()
+    for name in sorted(files, key=lambda name: name == last):
+        (target / name).parent.mkdir(parents=True, exist_ok=True)
+        (new / name).replace(target / name)
