@@ -6,17 +6,23 @@ from dataclasses import asdict, dataclass, field
 
 
 @dataclass(frozen=True)
+class PiecesConfig:
+    """The smallest units that parts are made of. Lengths are shares of the object's diagonal."""
+
+    crease: float = 25.0  # [deg] a concave edge sharper than this may bound a part on a fused surface
+    fused_size: float = 0.35  # components smaller than this are not cut along their creases
+    crumb: float = 0.03  # regions smaller than this, left by a cut, join their neighbour
+    most_pieces: int = 1500  # above it, small pieces join their nearest larger one
+
+
+@dataclass(frozen=True)
 class SegmentationConfig:
     """Stage A (paper, 3.2). Lengths are shares of the object's diagonal."""
 
     touch: float = 0.0004  # pieces nearer than this touch; clearances of real fits are wider
-    crease: float = 25.0  # [deg] a concave edge sharper than this may bound a part on a fused surface
-    fused_size: float = 0.35  # components smaller than this are not cut along their creases
-    crumb: float = 0.03  # regions smaller than this, left by a cut, join their neighbour
     near: float = 0.02  # bodies nearer than this, but not touching, have a clearance between them
     smallest: float = 0.004  # pieces with a smaller diagonal never move on their own
     most_candidates: int = 120  # largest units looked at
-    most_pieces: int = 1500  # above it, small pieces join their nearest larger one
     superpoint_reg: float = 0.05  # l0 cut pursuit strength (the paper's implementation)
     superpoint_color: float = 0.3  # weight of colour against normals (the paper's implementation)
 
@@ -41,6 +47,7 @@ class Config:
 
     seed: int = 0
     category: str | None = None  # what the object is, in a user's words
+    pieces: PiecesConfig = field(default_factory=PiecesConfig)
     segmentation: SegmentationConfig = field(default_factory=SegmentationConfig)
     articulation: ArticulationConfig = field(default_factory=ArticulationConfig)
 

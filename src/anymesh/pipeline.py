@@ -12,7 +12,7 @@ from anymesh.articulation.estimate import ask_motion, estimate_joints
 from anymesh.config import Config
 from anymesh.errors import OptionError
 from anymesh.export import write_asset
-from anymesh.geometry.shape import ObjectShape, object_shape
+from anymesh.geometry.pieces import ObjectShape, object_shape
 from anymesh.loading import load_mesh, place_mesh
 from anymesh.progress import Progress, silent
 from anymesh.reasoning.geometry import GeometryAnswerer

@@ -10,7 +10,8 @@ from anymesh.articulation.limits import limits, opening_motion
 from anymesh.geometry.surroundings import Surroundings, rods
 from anymesh.articulation.tree import descendants, parents
 from anymesh.config import Config
-from anymesh.geometry.shape import ObjectShape, Shape
+from anymesh.geometry.pieces import ObjectShape
+from anymesh.geometry.shape import Shape
 from anymesh.progress import Progress, silent
 from anymesh.reasoning.questions import Answerer, Candidate, MotionAnswer, MotionQuestion
 from anymesh.types import Joint, Motion, Segmentation

@@ -77,8 +77,8 @@ class Shape:
 
 
 @dataclass(frozen=True, eq=False)
-class ObjectShape:
-    """The whole object: its shape, and the connected components of its welded surface."""
+class Surface:
+    """The whole object's shape, and the connected components of its welded surface."""
 
     shape: Shape
     parts: Components
@@ -91,14 +91,14 @@ class ObjectShape:
         return self.shape.take(faces)
 
 
-def object_shape(mesh: Mesh, seed: int = 0) -> ObjectShape:
+def surface_of(mesh: Mesh, seed: int = 0) -> Surface:
     """Orients and prepares a mesh; the mesh itself is not changed."""
     parts = components(mesh.vertices, mesh.faces)
     void = _voids(mesh, parts)
     flip = (parts.flip & ~void)[parts.label]
     normals = np.where(flip[:, None], -mesh.face_normals, mesh.face_normals)
     shape = Shape(mesh.triangles, normals, parts.solid[parts.label], np.arange(len(mesh.faces)), seed)
-    return ObjectShape(shape, parts, void, mesh.vertices, mesh.diagonal)
+    return Surface(shape, parts, void, mesh.vertices, mesh.diagonal)
 
 
 def _voids(mesh: Mesh, parts: Components) -> Bool[np.ndarray, " c"]:

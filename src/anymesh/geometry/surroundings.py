@@ -13,7 +13,8 @@ from anymesh.geometry.boxes import Box, box_in_frame
 from anymesh.geometry.circles import Outline, roundest
 from anymesh.geometry.contact import connecting_area
 from anymesh.geometry.distance_ import distance_to_triangles
-from anymesh.geometry.shape import ObjectShape, Shape
+from anymesh.geometry.pieces import ObjectShape
+from anymesh.geometry.shape import Shape
 from anymesh.geometry.sweep import Obstacles
 from anymesh.types import Handle
 
@@ -173,7 +174,7 @@ def rods(whole: ObjectShape, part: Shape, parent: Shape) -> tuple[Shape, ...]:
     """Components that are long, thin and small against the part, and near both it and its parent: they may be barrels."""
     diagonal = part.box.diagonal
     reach = 0.015 * min(whole.diagonal, 5 * diagonal)
-    label = whole.parts.label
+    label = whole.piece
     found = []
     for own, other in ((part, parent), (parent, part)):
         low, high = other.bounds[0] - reach, other.bounds[1] + reach

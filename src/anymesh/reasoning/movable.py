@@ -61,7 +61,7 @@ def _box(e: PartEvidence) -> tuple[float, str, str]:
         return (-3.0, "drawer", "no box in a cavity")
     value, why = -1.0, ["a box in a cavity"]
     if e.handle is not None:
-        value += 2.0
+        value += 2.0 if e.handle.along is not None else 1.0
         why.append("with a handle")
     value += 0.6 * GAP[e.gap_sides]
     if e.separate:

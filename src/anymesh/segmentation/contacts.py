@@ -11,7 +11,8 @@ from scipy.spatial import cKDTree
 
 from anymesh.config import SegmentationConfig
 from anymesh.geometry.distance_ import distance_to_triangles
-from anymesh.geometry.shape import ObjectShape, Shape
+from anymesh.geometry.pieces import ObjectShape
+from anymesh.geometry.shape import Shape
 from anymesh.geometry.topology import label_connected
 
 PROBES = 160  # points of a piece that are measured against another

@@ -8,7 +8,8 @@ import numpy as np
 
 from anymesh.config import SegmentationConfig
 from anymesh.geometry.distance_ import distance_to_mesh
-from anymesh.geometry.shape import ObjectShape, Shape
+from anymesh.geometry.pieces import ObjectShape
+from anymesh.geometry.shape import Shape
 from anymesh.geometry.surroundings import Surroundings
 from anymesh.reasoning.questions import PartEvidence
 
@@ -34,7 +35,8 @@ def gather(around: Surroundings, context: Context) -> PartEvidence:
     near, normals = _contact(around, context.config.touch * around.diagonal * 2)
     sides, flush = _rim(around, context.config)
     low, high = context.whole.shape.bounds[:, 2]
-    surface = 8 * (core.half[0] * core.half[1] + core.half[1] * core.half[2] + core.half[0] * core.half[2])
+    a, b, c = around.part.box.half
+    surface = 8 * (a * b + b * c + a * c)
     return PartEvidence(
         name=context.name,
         thinness=float(core.half[2] / max(core.half[1], 1e-12)),

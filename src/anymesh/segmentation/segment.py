@@ -13,7 +13,7 @@ import numpy as np
 from jaxtyping import Int
 
 from anymesh.config import Config
-from anymesh.geometry.shape import ObjectShape
+from anymesh.geometry.pieces import ObjectShape
 from anymesh.geometry.surroundings import Surroundings, rods
 from anymesh.geometry.topology import label_connected
 from anymesh.progress import Progress, silent
@@ -21,7 +21,6 @@ from anymesh.reasoning.questions import Answerer, Candidate, MotionAnswer, PartA
 from anymesh.reasoning.vocabulary import is_fixed_name, recognize
 from anymesh.segmentation.contacts import Contacts, coplanar, find_contacts, hanging_on
 from anymesh.segmentation.evidence import Context, gather
-from anymesh.segmentation.pieces import split
 from anymesh.types import JointType, Mesh, MotionKind, Part, Segmentation
 
 Moves = Callable[[Surroundings, str], tuple[MotionAnswer, Candidate]]  # Stage B's test of one part, by name of its label
@@ -61,12 +60,10 @@ def segment_parts(
 ) -> Segmentation:
     """The movable parts of a mesh and its base; the base is all that is left."""
     settings = config.segmentation
-    progress("segment", "pieces", 0, 3)
-    piece = split(whole, settings)
-    progress("segment", "contacts", 1, 3)
-    contacts = find_contacts(whole, piece, settings)
+    progress("segment", "contacts", 0, 2)
+    contacts = find_contacts(whole, whole.piece, settings)
     units = _rooted(mesh, whole, contacts, answerer, moves, config)
-    progress("segment", "evidence", 2, 3)
+    progress("segment", "evidence", 1, 2)
     found = _search(whole, units, answerer, moves, config, progress)
     return _assemble(len(mesh.faces), units, found)
 

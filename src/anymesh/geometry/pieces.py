@@ -2,16 +2,33 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from jaxtyping import Int
 from scipy.spatial import cKDTree
 
-from anymesh.config import SegmentationConfig
-from anymesh.geometry.shape import ObjectShape
+from anymesh.config import PiecesConfig
+from anymesh.geometry.shape import Surface, surface_of
 from anymesh.geometry.topology import label_connected
+from anymesh.types import Mesh
 
 
-def split(whole: ObjectShape, config: SegmentationConfig) -> Int[np.ndarray, " F"]:
+@dataclass(frozen=True, eq=False)
+class ObjectShape(Surface):
+    """The whole object, ready for both stages. piece: (F,) the piece of every face, see `split`."""
+
+    piece: Int[np.ndarray, " F"]
+
+
+def object_shape(mesh: Mesh, seed: int = 0, config: PiecesConfig | None = None) -> ObjectShape:
+    """Orients, prepares and splits a mesh; the mesh itself is not changed."""
+    s = surface_of(mesh, seed)
+    piece = split(s, config or PiecesConfig())
+    return ObjectShape(s.shape, s.parts, s.void, s.vertices, s.diagonal, piece)
+
+
+def split(whole: Surface, config: PiecesConfig) -> Int[np.ndarray, " F"]:
     """A piece number a face, numbered from 0 in the order of the pieces' first faces.
 
     Components are cut along their concave creases where they are large enough to hide a fused part; crumbs left by the cut
@@ -30,11 +47,11 @@ def split(whole: ObjectShape, config: SegmentationConfig) -> Int[np.ndarray, " F
     return _limit_count(whole, region, config.most_pieces)
 
 
-def _ends(whole: ObjectShape, which: int) -> np.ndarray:
+def _ends(whole: Surface, which: int) -> np.ndarray:
     return whole.vertices[whole.parts.edges.vertices[:, which]]
 
 
-def _concave(whole: ObjectShape, least: float) -> np.ndarray:
+def _concave(whole: Surface, least: float) -> np.ndarray:
     """Edge pairs that fold inwards by more than `least` [deg]."""
     f, g = whole.parts.edges.faces.T
     normals, centers = whole.shape.normals, whole.shape.triangles.mean(1)
@@ -44,7 +61,7 @@ def _concave(whole: ObjectShape, least: float) -> np.ndarray:
     return (inward > 0) & (cosine < np.cos(np.deg2rad(least)))
 
 
-def _diagonals(whole: ObjectShape, label: np.ndarray) -> np.ndarray:
+def _diagonals(whole: Surface, label: np.ndarray) -> np.ndarray:
     """Diagonal of the axis-aligned box of every label [m]."""
     count = int(label.max()) + 1
     low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
@@ -54,7 +71,7 @@ def _diagonals(whole: ObjectShape, label: np.ndarray) -> np.ndarray:
 
 
 def _absorb_crumbs(
-    whole: ObjectShape, region: np.ndarray, pairs: np.ndarray, length: np.ndarray, config: SegmentationConfig
+    whole: Surface, region: np.ndarray, pairs: np.ndarray, length: np.ndarray, config: PiecesConfig
 ) -> np.ndarray:
     """Joins regions too small to matter to the neighbour with the longest common border; three rounds settle chains."""
     for _ in range(3):
@@ -74,7 +91,7 @@ def _absorb_crumbs(
     return region
 
 
-def _fill_voids(whole: ObjectShape, region: np.ndarray) -> np.ndarray:
+def _fill_voids(whole: Surface, region: np.ndarray) -> np.ndarray:
     """Walls of closed cavities belong to the nearest other region; nothing in there moves."""
     hidden = whole.void[whole.parts.label]
     if not hidden.any():
@@ -88,7 +105,7 @@ def _fill_voids(whole: ObjectShape, region: np.ndarray) -> np.ndarray:
     return np.unique(target, return_inverse=True)[1].reshape(-1)
 
 
-def _limit_count(whole: ObjectShape, region: np.ndarray, most: int) -> np.ndarray:
+def _limit_count(whole: Surface, region: np.ndarray, most: int) -> np.ndarray:
     """At most about `most` pieces: the smallest join their nearest larger one."""
     count = int(region.max()) + 1
     if count <= most:
