@@ -16,8 +16,8 @@ from typing import Any, TypeVar
 
 from anymesh.errors import OutputError
 from anymesh.names import legal_name
+from anymesh.stage_results import JOINTS, MESH, SEGMENTATION, STAGES, Jointed, Placed, Segmented, Stage
 from anymesh.storage.hidden import OURS, Hidden, dead_hidden, list_files, make_hidden, move_in, recover, swap_in
-from anymesh.storage.results import JOINTS, MESH, SEGMENTATION, STAGES, Jointed, Placed, Segmented, Stage
 from anymesh.storage.stage_files import (
     read_json,
     read_stage,

@@ -1,1 +1,6 @@
+"""Files to meshes: reading, checking, and placing in the asset frame."""
 
+from anymesh.loading.load import LoadedMesh, load_mesh
+from anymesh.loading.place import PlacedMesh, place_mesh
+
+__all__ = ["LoadedMesh", "PlacedMesh", "load_mesh", "place_mesh"]

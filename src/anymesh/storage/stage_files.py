@@ -13,7 +13,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 import anymesh
-from anymesh.storage.results import Stage
+from anymesh.stage_results import Stage
 
 log = logging.getLogger("anymesh")
 Result = TypeVar("Result")

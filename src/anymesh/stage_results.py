@@ -17,10 +17,11 @@ Record = dict[str, Any]
 
 @dataclass(frozen=True, eq=False)
 class Placed:
-    """The mesh in the asset frame, and the file that it came from."""
+    """The mesh in the asset frame, the file that it came from, and what a user should know."""
 
     mesh: Mesh
     source: Source
+    warnings: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,6 +77,7 @@ def _pack_mesh(result: Placed) -> tuple[Record, dict[str, np.ndarray]]:
             "up": source.up,
             "notes": list(source.notes),
         },
+        "warnings": list(result.warnings),
     }
     return record, arrays
 
@@ -96,7 +98,8 @@ def _unpack_mesh(record: Record, arrays: Arrays) -> Placed:
         materials=tuple(material(m) for m in record["materials"]),
     )
     s = record["source"]
-    return Placed(mesh, Source(s["path"], s["sha256"], np.array(s["T_asset_source"]), s["up"], tuple(s["notes"])))
+    source = Source(s["path"], s["sha256"], np.array(s["T_asset_source"]), s["up"], tuple(s["notes"]))
+    return Placed(mesh, source, tuple(record["warnings"]))
 
 
 def _pack_segmentation(result: Segmented) -> tuple[Record, dict[str, np.ndarray]]:

@@ -1,0 +1,49 @@
+"""Forward kinematics of an asset."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+from jaxtyping import Float
+
+from anymesh.types import Asset, Joint, JointType, Mesh, Motion, MotionKind
+
+
+def joint_transform(joint: Joint, position: float) -> Float[np.ndarray, "4 4"]:
+    """How a joint at `position` [rad or m] moves its child, in the asset frame at rest."""
+    if joint.type is JointType.FIXED:
+        return np.eye(4)
+    kind = MotionKind.SLIDE if joint.type is JointType.PRISMATIC else MotionKind.TURN
+    return Motion(kind, joint.axis, joint.origin, "joint").transform(position)
+
+
+def link_transforms(asset: Asset, positions: Mapping[str, float]) -> dict[str, Float[np.ndarray, "4 4"]]:
+    """Part name -> transform from rest, for joint positions by name (those not named are at 0)."""
+    by_child = {j.child: j for j in asset.joints}
+    found = {asset.segmentation.parts[0].name: np.eye(4)}
+
+    def of(name: str) -> np.ndarray:
+        if name not in found:
+            joint = by_child[name]
+            found[name] = of(joint.parent) @ joint_transform(joint, positions.get(joint.name, 0.0))
+        return found[name]
+
+    for part in asset.segmentation.parts:
+        of(part.name)
+    return found
+
+
+def posed(asset: Asset, positions: Mapping[str, float]) -> Mesh:
+    """The mesh with its parts moved; faces keep their numbers, vertices are no longer shared."""
+    transforms = link_transforms(asset, positions)
+    triangles = asset.mesh.triangles.copy()
+    for number, part in enumerate(asset.segmentation.parts):
+        mine = asset.segmentation.face_part == number
+        T = transforms[part.name]
+        triangles[mine] = triangles[mine] @ T[:3, :3].T + T[:3, 3]
+    count = len(triangles)
+    return replace(
+        asset.mesh, vertices=triangles.reshape(-1, 3), faces=np.arange(3 * count).reshape(-1, 3), corner_normal=None
+    )

@@ -1,0 +1,120 @@
+"""From the coordinates of a file to the asset frame: Z up, metres, standing on the ground, centred."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+from anymesh.errors import OptionError
+from anymesh.loading.load import LoadedMesh
+from anymesh.types import Mesh
+
+AXES = "xyz"
+TO_Z_UP = {  # rotations: rows are the asset's axes in file coordinates
+    "x": np.array([[0.0, 1, 0], [0, 0, 1], [1, 0, 0]]),
+    "y": np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]]),
+    "z": np.eye(3),
+}
+PLAUSIBLE = (0.02, 12.0)  # [m] diagonals of things that are handled, from a knob to a van
+ABSURD = (0.001, 1000.0)  # [m] even a format with units is not believed beyond
+UNITS = (("millimetres", 0.001), ("centimetres", 0.01), ("inches", 0.0254))
+
+
+@dataclass(frozen=True, eq=False)
+class PlacedMesh:
+    """A mesh in the asset frame [m, Z up]; T_asset_source: (4, 4), file coordinates to it; notes: how up and scale were found."""
+
+    mesh: Mesh
+    T_asset_source: Float[np.ndarray, "4 4"]
+    up: str
+    notes: tuple[str, ...]
+    warnings: tuple[str, ...]
+
+
+def place_mesh(loaded: LoadedMesh, *, up: str = "auto", scale: str = "auto") -> PlacedMesh:
+    """Turns, scales and sets the mesh on the ground. Raises OptionError for an up or a scale that is not valid."""
+    axis, up_note = _up(loaded, up)
+    R = TO_Z_UP[axis]
+    extents = R @ loaded.mesh.extents
+    factor, scale_note, warnings = _scale(loaded, np.abs(extents), scale)
+    T = np.eye(4)
+    T[:3, :3] = factor * R
+    turned = loaded.mesh.bounds @ T[:3, :3].T
+    low, high = turned.min(0), turned.max(0)
+    T[:3, 3] = -np.array([(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, low[2]])
+    return PlacedMesh(loaded.mesh.transformed(T), T, axis, (up_note, scale_note), warnings)
+
+
+def _up(loaded: LoadedMesh, up: str) -> tuple[str, str]:
+    if up in AXES and len(up) == 1:
+        return up, f"up axis {up} (given)"
+    if up != "auto":
+        raise OptionError(f"--up: found {up!r}; valid are auto, x, y, z")
+    if loaded.format_up is not None:
+        return loaded.format_up, f"up axis {loaded.format_up} (told by the format)"
+    return infer_up(loaded.mesh, "y" if loaded.path.lower().endswith(".obj") else "z")
+
+
+def infer_up(mesh: Mesh, usual: str) -> tuple[str, str]:
+    """The up axis by what the object would stand on: a flat, wide, downward end, and a low centre; `usual` breaks ties."""
+    score = {}
+    low, high = mesh.bounds
+    centers, areas, normals = mesh.triangles.mean(1), mesh.face_areas, mesh.face_normals
+    middle = (centers * areas[:, None]).sum(0) / areas.sum()
+    for axis in "yz":
+        k = AXES.index(axis)
+        extent = max(high[k] - low[k], 1e-12)
+        others = [i for i in range(3) if i != k]
+        floor = float(np.prod((high - low)[others]))
+        ends = []
+        for sign, level in ((-1, low[k]), (1, high[k])):
+            at = (np.abs(centers[:, k] - level) < 0.01 * extent) & (np.abs(normals[:, k]) > 0.95)
+            spread = np.ptp(mesh.triangles[at].reshape(-1, 3)[:, others], axis=0) if at.any() else np.zeros(2)
+            ends.append((sign, float(spread.prod()) / max(floor, 1e-12)))
+        stands, top = ends[0][1], ends[1][1]
+        centred = sum(abs(middle[i] - (low[i] + high[i]) / 2) / max(high[i] - low[i], 1e-12) for i in others)
+        score[axis] = stands + 0.3 * (stands > top + 0.05) + 0.4 * (0.5 - (middle[k] - low[k]) / extent) - 0.5 * centred
+        score[axis] += 0.25 * (axis == usual)
+    best = max(sorted(score), key=lambda a: (score[a], a == usual))
+    return best, f"up axis {best} (inferred from what the object stands on)"
+
+
+def _scale(loaded: LoadedMesh, extents: np.ndarray, scale: str) -> tuple[float, str, tuple[str, ...]]:
+    if scale != "auto":
+        return (*_given_scale(extents, scale), ())
+    diagonal = float(np.linalg.norm(extents))
+    unit = loaded.unit_in_metres
+    if unit is not None:
+        if ABSURD[0] <= diagonal * unit <= ABSURD[1]:
+            return unit, f"scale {unit:g} (the file's unit)", ()
+        told = f"the file's unit makes the object {diagonal * unit:.3g} m large; it was scaled to a diagonal of 1 m"
+        return 1 / diagonal, f"scale {1 / diagonal:g} (normalised)", (told,)
+    if PLAUSIBLE[0] <= diagonal <= PLAUSIBLE[1]:
+        return 1.0, "scale 1 (the file has no unit; taken as metres)", ()
+    for name, factor in UNITS:
+        if PLAUSIBLE[0] <= diagonal * factor <= PLAUSIBLE[1] / 4:
+            return factor, f"scale {factor:g} (inferred: a diagonal of {diagonal:.4g} is taken as {name})", ()
+    told = f"no unit makes a diagonal of {diagonal:.3g} plausible; the object was scaled to a diagonal of 1 m"
+    return 1 / diagonal, f"scale {1 / diagonal:g} (normalised)", (told,)
+
+
+def _given_scale(extents: np.ndarray, scale: str) -> tuple[float, str]:
+    valid = "valid are auto, a factor such as 0.001, or METRES:AXIS such as 0.45:z or 0.9:longest (x, y, z of the asset)"
+    number, _, axis = scale.partition(":")
+    try:
+        value = float(number)
+    except ValueError:
+        raise OptionError(f"--scale: found {scale!r}; {valid}") from None
+    if not (np.isfinite(value) and value > 0):
+        raise OptionError(f"--scale: found {scale!r}; {valid}")
+    if not axis and ":" not in scale:
+        return value, f"scale {value:g} (given)"
+    lengths = {**dict(zip(AXES, extents, strict=True)), "longest": extents.max(), "diagonal": np.linalg.norm(extents)}
+    if axis not in lengths:
+        raise OptionError(f"--scale: found the axis {axis!r}; {valid}, or diagonal")
+    if lengths[axis] <= 0:
+        raise OptionError(f"--scale: the object has no extent along {axis}")
+    factor = value / float(lengths[axis])
+    return factor, f"scale {factor:g} (given: {value:g} m along {axis})"

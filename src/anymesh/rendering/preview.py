@@ -1,0 +1,173 @@
+"""The picture of a result: at rest and opened, parts in colours, joint axes drawn, a legend."""
+
+from __future__ import annotations
+
+import io
+from pathlib import Path
+
+import numpy as np
+from jaxtyping import Float, UInt8
+from PIL import Image, ImageDraw, ImageFont
+
+from anymesh.geometry.kinematics import link_transforms, posed
+from anymesh.rendering.raycast_ import RayScene
+from anymesh.rendering.render import render
+from anymesh.types import Asset, Joint, JointType, Mesh
+from anymesh.types.camera import Camera
+
+PALETTE = np.array(  # distinct for colour-blind eyes too (after Okabe and Ito, and lighter mixes)
+    [[230, 159, 0], [86, 180, 233], [0, 158, 115], [240, 228, 66], [0, 114, 178], [213, 94, 0], [204, 121, 167],
+     [130, 200, 120], [150, 120, 220], [120, 90, 60]], np.uint8)  # fmt: skip
+BASE = np.array([200, 200, 200], np.uint8)
+SIZE = 620  # [px] of a panel
+OPEN = 0.75  # share of the range that is shown opened
+AXIS_COLOR = (190, 20, 40)
+MOST_NAMED = 18  # joints in the legend
+
+
+def write_preview(asset: Asset, path: Path) -> None:
+    """Writes the picture as PNG."""
+    buffer = io.BytesIO()
+    Image.fromarray(render_preview(asset)).save(buffer, "PNG", optimize=False)
+    path.write_bytes(buffer.getvalue())
+
+
+def render_preview(asset: Asset) -> UInt8[np.ndarray, "H W 3"]:
+    """Panels: the object as it looks, its parts at rest, its parts opened; below them the legend."""
+    opened = {j.name: shown_position(j) for j in asset.joints}
+    colors = part_colors(asset)
+    poses = [asset.mesh, posed(asset, {}), posed(asset, opened)]
+    camera = best_camera(asset, poses[2])
+    panels = []
+    for k, mesh in enumerate(poses):
+        view = render(mesh, camera, face_color=None if k == 0 else colors)
+        half = Image.fromarray(view.color).resize((SIZE, SIZE), Image.Resampling.BOX)
+        if k > 0:
+            _draw_axes(ImageDraw.Draw(half), asset, opened if k == 2 else {}, camera)
+        panels.append(np.asarray(half))
+    return np.concatenate([np.concatenate(panels, 1), _legend(asset, 3 * SIZE)])
+
+
+def shown_position(joint: Joint) -> float:
+    """Where a joint is in the opened panel [rad or m]."""
+    if joint.type is JointType.FIXED:
+        return 0.0
+    if joint.limits is None:
+        return float(np.pi / 4)
+    return OPEN * (joint.limits[1] if joint.limits[1] >= -joint.limits[0] else joint.limits[0])
+
+
+def part_colors(asset: Asset) -> UInt8[np.ndarray, "F 3"]:
+    """A colour a face by its part; the base is light grey."""
+    count = len(asset.segmentation.parts)
+    table = np.concatenate([BASE[None], PALETTE[np.arange(max(count - 1, 0)) % len(PALETTE)]])
+    return table[asset.segmentation.face_part]
+
+
+def orbit_camera(bounds: Float[np.ndarray, "2 3"], azimuth: float, elevation: float, size: int) -> Camera:
+    """A camera that sees the whole box, from an azimuth (0 looks along +y) and an elevation [rad]."""
+    center = bounds.mean(0)
+    radius = 0.5 * float(np.linalg.norm(bounds[1] - bounds[0]))
+    direction = np.array(
+        [np.sin(azimuth) * np.cos(elevation), -np.cos(azimuth) * np.cos(elevation), np.sin(elevation)]
+    )
+    fov = np.deg2rad(32)
+    return Camera.looking_at(center + direction * radius * 1.02 / np.sin(fov / 2), center, fov, size, size)
+
+
+def best_camera(asset: Asset, opened: Mesh) -> Camera:
+    """The view in which the moving parts show most, at rest and opened alike."""
+    bounds = np.array(
+        [np.minimum(asset.mesh.bounds[0], opened.bounds[0]), np.maximum(asset.mesh.bounds[1], opened.bounds[1])]
+    )
+    moving = asset.segmentation.face_part > 0
+    scenes = [RayScene(m.vertices, m.faces) for m in (asset.mesh, opened)]
+    best, most = orbit_camera(bounds, np.deg2rad(35), np.deg2rad(24), 2 * SIZE), -1.0
+    for azimuth in (35, -35, 145, -145, 90, -90):
+        small = orbit_camera(bounds, np.deg2rad(azimuth), np.deg2rad(24), 96)
+        origins, directions = small.rays()
+        seen = 0
+        for scene in scenes:
+            face = scene.first_hit(origins, directions).face
+            seen += int(moving[face[face >= 0]].sum())
+        if seen > 1.05 * most:
+            best, most = orbit_camera(bounds, np.deg2rad(azimuth), np.deg2rad(24), 2 * SIZE), float(seen)
+    return best
+
+
+def _draw_axes(draw: ImageDraw.ImageDraw, asset: Asset, positions: dict[str, float], camera: Camera) -> None:
+    """An arrow along each axis, where the joint is in this pose; a ring round it when the joint turns."""
+    transforms = link_transforms(asset, positions)
+    for joint in asset.joints:
+        if joint.type is JointType.FIXED:
+            continue
+        part = next(i for i, p in enumerate(asset.segmentation.parts) if p.name == joint.child)
+        triangles = asset.mesh.triangles[asset.segmentation.face_part == part].reshape(-1, 3)
+        along = (triangles - joint.origin) @ joint.axis
+        reach = max(0.6 * float(np.ptp(along)), 0.06 * asset.mesh.diagonal)
+        start, end = (0.0, reach * 1.3) if joint.type is JointType.PRISMATIC else (-reach, reach)
+        if joint.type is JointType.PRISMATIC:
+            center = triangles.mean(0)
+        else:
+            center = joint.origin + (along.max() + along.min()) / 2 * joint.axis
+        T = transforms[joint.parent]
+        line = np.stack([center + start * joint.axis, center + end * joint.axis]) @ T[:3, :3].T + T[:3, 3]
+        _arrow(draw, camera.project(line)[0] / 2)
+        if joint.type is not JointType.PRISMATIC:
+            _ring(draw, camera, center, joint.axis, 0.04 * asset.mesh.diagonal, T)
+
+
+def _arrow(draw: ImageDraw.ImageDraw, ends: np.ndarray) -> None:
+    (x0, y0), (x1, y1) = ends
+    draw.line([x0, y0, x1, y1], fill=(255, 255, 255), width=6)
+    draw.line([x0, y0, x1, y1], fill=AXIS_COLOR, width=3)
+    length = float(np.hypot(x1 - x0, y1 - y0))
+    if length > 4:
+        dx, dy = (x1 - x0) / length, (y1 - y0) / length
+        tip = [(x1 + 5 * dx, y1 + 5 * dy), (x1 - 9 * dx + 6 * dy, y1 - 9 * dy - 6 * dx),
+               (x1 - 9 * dx - 6 * dy, y1 - 9 * dy + 6 * dx)]  # fmt: skip
+        draw.polygon(tip, fill=AXIS_COLOR)
+
+
+def _ring(
+    draw: ImageDraw.ImageDraw, camera: Camera, center: np.ndarray, axis: np.ndarray, radius: float, T: np.ndarray
+) -> None:
+    """Three quarters of a circle about the axis, ending in an arrow head: the positive turn."""
+    u = np.cross(axis, np.eye(3)[np.abs(axis).argmin()])
+    u /= np.linalg.norm(u)
+    v = np.cross(axis, u)
+    t = np.linspace(0, 1.5 * np.pi, 40)[:, None]
+    points = (center + radius * (np.cos(t) * u + np.sin(t) * v)) @ T[:3, :3].T + T[:3, 3]
+    pixels = camera.project(points)[0] / 2
+    draw.line([tuple(p) for p in pixels], fill=(255, 255, 255), width=5, joint="curve")
+    draw.line([tuple(p) for p in pixels], fill=AXIS_COLOR, width=2, joint="curve")
+    _arrow(draw, pixels[[-4, -1]])
+
+
+def describe(joint: Joint) -> str:
+    """A joint in a line: type, range in degrees or centimetres, confidence."""
+    if joint.limits is None:
+        extent = ""
+    elif joint.type is JointType.PRISMATIC:
+        extent = f" {100 * joint.limits[0]:.1f}..{100 * joint.limits[1]:.1f} cm"
+    else:
+        extent = f" {np.degrees(joint.limits[0]):.0f}..{np.degrees(joint.limits[1]):.0f} deg"
+    return f"{joint.child}: {joint.type.value}{extent}, confidence {joint.confidence:.2f}"
+
+
+def _legend(asset: Asset, width: int) -> UInt8[np.ndarray, "h W 3"]:
+    font = ImageFont.load_default(size=19)
+    lines = [describe(j) for j in asset.joints[:MOST_NAMED]]
+    if len(asset.joints) > MOST_NAMED:
+        lines.append(f"and {len(asset.joints) - MOST_NAMED} more")
+    rows = (max(len(lines), 1) + 2) // 3
+    image = Image.new("RGB", (width, 20 + 30 * rows), (255, 255, 255))
+    draw = ImageDraw.Draw(image)
+    if not lines:
+        draw.text((20, 10), "nothing moves", fill=(60, 60, 60), font=font)
+    for k, line in enumerate(lines):
+        x, y = 20 + (k % 3) * (width // 3), 10 + 30 * (k // 3)
+        if k < len(asset.joints):
+            draw.rectangle([x, y + 3, x + 16, y + 19], fill=tuple(int(c) for c in PALETTE[k % len(PALETTE)]))
+        draw.text((x + 24, y), line.encode("ascii", "replace").decode(), fill=(30, 30, 30), font=font)
+    return np.asarray(image)

@@ -1,0 +1,101 @@
+"""Pictures of a mesh with exact buffers: which face each pixel shows, its depth, normal and colour."""
+
+from __future__ import annotations
+
+import io
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float, Int, UInt8
+from PIL import Image
+
+from anymesh.rendering.raycast_ import Hits, RayScene
+from anymesh.types import Material, Mesh
+from anymesh.types.camera import Camera
+
+KEY_LIGHT = np.array([-0.35, -0.55, 0.75]) / np.linalg.norm([-0.35, -0.55, 0.75])
+BACKGROUND = 255
+
+
+@dataclass(frozen=True, eq=False)
+class View:
+    """What a camera sees. color: (H, W, 3); depth: (H, W) inf where nothing is; normal: (H, W, 3); face: (H, W), -1 nothing."""
+
+    camera: Camera
+    color: UInt8[np.ndarray, "H W 3"]
+    depth: Float[np.ndarray, "H W"]
+    normal: Float[np.ndarray, "H W 3"]
+    face: Int[np.ndarray, "H W"]
+
+
+def render(
+    mesh: Mesh, camera: Camera, *, face_color: UInt8[np.ndarray, "F 3"] | None = None, scene: RayScene | None = None
+) -> View:
+    """Casts a ray a pixel. face_color overrides the materials (sRGB); scene may be given when it is cast at again."""
+    scene = scene or RayScene(mesh.vertices, mesh.faces)
+    origins, directions = camera.rays()
+    hits = scene.first_hit(origins, directions)
+    seen = np.flatnonzero(hits.face >= 0)
+    normal = np.zeros((len(origins), 3))
+    normal[seen] = mesh.face_normals[hits.face[seen]]
+    toward = np.einsum("ij,ij->i", normal, directions) > 0
+    normal[toward] *= -1
+    color = np.full((len(origins), 3), BACKGROUND, np.float64)
+    base = face_color[hits.face[seen]].astype(np.float64) if face_color is not None else _base(mesh, hits, seen)
+    light = 0.42 + 0.38 * np.clip(normal[seen] @ KEY_LIGHT, 0, 1) + 0.2 * (0.5 + 0.5 * normal[seen, 2])
+    color[seen] = np.clip(base * light[:, None] * 1.12, 0, 255)
+    shape = (camera.height, camera.width)
+    return View(
+        camera,
+        color.astype(np.uint8).reshape(*shape, 3),
+        hits.distance.reshape(shape),
+        normal.reshape(*shape, 3),
+        hits.face.reshape(shape),
+    )
+
+
+def face_colors(mesh: Mesh) -> UInt8[np.ndarray, "F 3"]:
+    """The sRGB colour at the middle of every face: material times texture times vertex colour."""
+    count = len(mesh.faces)
+    third = np.full(count, 1 / 3)
+    hits = Hits(np.arange(count), np.zeros(count), third, third)
+    return np.clip(_base(mesh, hits, np.arange(count)) + 0.5, 0, 255).astype(np.uint8)
+
+
+def _base(mesh: Mesh, hits: Hits, seen: Int[np.ndarray, " n"]) -> Float[np.ndarray, "n 3"]:
+    """sRGB base colour at hits, 0..255."""
+    face = hits.face[seen]
+    weights = np.stack([1 - hits.u[seen] - hits.v[seen], hits.u[seen], hits.v[seen]], 1)
+    linear = np.full((len(face), 3), 0.45)
+    for number, material in enumerate(mesh.materials):
+        mine = np.flatnonzero(mesh.face_material[face] == number)
+        if len(mine):
+            linear[mine] = material.base_color[:3]
+            picture = _picture(material)
+            if picture is not None and mesh.corner_uv is not None:
+                uv = np.einsum("nk,nkc->nc", weights[mine], mesh.corner_uv[face[mine]].astype(np.float64))
+                linear[mine] *= _to_linear(_look_up(picture, uv))
+    if mesh.corner_color is not None:
+        tint = np.einsum("nk,nkc->nc", weights, mesh.corner_color[face, :, :3].astype(np.float64)) / 255
+        plain = mesh.face_material[face] < 0
+        linear = np.where(plain[:, None], _to_linear(tint), linear * tint)
+    return 255 * np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * np.maximum(linear, 1e-9) ** (1 / 2.4) - 0.055)
+
+
+def _picture(material: Material) -> UInt8[np.ndarray, "H W 3"] | None:
+    texture = material.textures.get("base_color")
+    if texture is None:
+        return None
+    with Image.open(io.BytesIO(texture.data)) as image:
+        return np.asarray(image.convert("RGB"))
+
+
+def _look_up(picture: np.ndarray, uv: np.ndarray) -> np.ndarray:
+    height, width = picture.shape[:2]
+    x = np.floor((uv[:, 0] % 1.0) * width).astype(int) % width
+    y = np.floor(((1 - uv[:, 1]) % 1.0) * height).astype(int) % height
+    return picture[y, x] / 255.0
+
+
+def _to_linear(srgb: np.ndarray) -> np.ndarray:
+    return np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4)

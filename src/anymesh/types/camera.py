@@ -1,0 +1,57 @@
+"""A pinhole camera."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+
+@dataclass(frozen=True, eq=False)
+class Camera:
+    """Looks along its +z, x to the right, y down. T_world_camera: (4, 4) rigid; fov: vertical [rad]; width, height [px]."""
+
+    T_world_camera: Float[np.ndarray, "4 4"]
+    fov: float
+    width: int
+    height: int
+
+    def __post_init__(self) -> None:
+        if not 0 < self.fov < np.pi or self.width < 1 or self.height < 1:
+            raise ValueError(f"a camera needs 0 < fov < pi and a size, found {self.fov}, {self.width} x {self.height}")
+
+    @classmethod
+    def looking_at(
+        cls, eye: Float[np.ndarray, " 3"], target: Float[np.ndarray, " 3"], fov: float, width: int, height: int
+    ) -> Camera:
+        """A camera at `eye` that sees `target` in its middle, with the world's +z up."""
+        z = (target - eye) / np.linalg.norm(target - eye)
+        up = np.array([0.0, 0, 1]) if abs(z[2]) < 0.999 else np.array([0.0, 1, 0])
+        x = np.cross(z, up)
+        x /= np.linalg.norm(x)
+        T = np.eye(4)
+        T[:3, :3] = np.stack([x, np.cross(z, x), z], 1)
+        T[:3, 3] = eye
+        return cls(T, fov, width, height)
+
+    @property
+    def focal(self) -> float:
+        """Focal length [px]."""
+        return self.height / (2 * np.tan(self.fov / 2))
+
+    def rays(self) -> tuple[Float[np.ndarray, "n 3"], Float[np.ndarray, "n 3"]]:
+        """Origins and directions (depth 1) of the rays through the pixels' centres, row by row."""
+        u, v = np.meshgrid(np.arange(self.width) + 0.5, np.arange(self.height) + 0.5)
+        local = np.stack(
+            [(u - self.width / 2) / self.focal, (v - self.height / 2) / self.focal, np.ones_like(u)], -1
+        ).reshape(-1, 3)
+        return np.repeat(self.T_world_camera[None, :3, 3], len(local), 0), local @ self.T_world_camera[:3, :3].T
+
+    def project(self, points: Float[np.ndarray, "n 3"]) -> tuple[Float[np.ndarray, "n 2"], Float[np.ndarray, " n"]]:
+        """Pixel positions and depths of points; points behind the camera have depth <= 0."""
+        local = (points - self.T_world_camera[:3, 3]) @ self.T_world_camera[:3, :3]
+        depth = local[:, 2]
+        safe = np.where(np.abs(depth) < 1e-9, 1e-9, depth)
+        pixel = local[:, :2] / safe[:, None] * self.focal + np.array([self.width, self.height]) / 2
+        return pixel, depth
