@@ -38,7 +38,7 @@ def _turn(around: Surroundings, c: Candidate) -> tuple[float, float]:
     lower = 0.0 if closed or lower < np.deg2rad(5) else _floor(lower, np.deg2rad(1))
     if upper < np.deg2rad(2):
         upper = most if lower == 0 else 0.0
-    return (-lower, upper)
+    return (0.0 - lower, upper)
 
 
 def _shut(around: Surroundings) -> bool:
@@ -68,4 +68,4 @@ def _slide(around: Surroundings, c: Candidate) -> tuple[float, float]:
         lower = 0.0
     if upper < 1e-3 * around.scale:
         upper = most if lower == 0 else 0.0
-    return (-lower, upper)
+    return (0.0 - lower, upper)

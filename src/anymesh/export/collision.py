@@ -8,6 +8,7 @@ from jaxtyping import Float, Int
 from anymesh.export.settings import ExportConfig
 from anymesh.geometry.topology import weld
 
+POINT = 1e-4  # [m] the side of a link that has no size at all
 FLAT = 1e-4  # thinner than this share of its diagonal: no engine makes a hull of it
 
 
@@ -22,8 +23,8 @@ def collision_mesh(
     if len(faces) > config.collision_faces:
         vertices, faces = _clustered(vertices[faces], config.collision_faces)
     if len(faces) == 0:
-        return small_box(triangles, config.shell_thickness)
-    return _thickened(vertices, faces, config.shell_thickness)
+        return small_box(triangles, config)
+    return _thickened(vertices, faces, config.wall(float(np.linalg.norm(np.ptp(vertices, axis=0)))))
 
 
 def flat_normal(points: Float[np.ndarray, "n 3"], *, share: float) -> Float[np.ndarray, " 3"] | None:
@@ -84,10 +85,11 @@ def _clustered(triangles: np.ndarray, most: int) -> tuple[np.ndarray, np.ndarray
 
 
 def small_box(
-    triangles: Float[np.ndarray, "n 3 3"], side: float
+    triangles: Float[np.ndarray, "n 3 3"], config: ExportConfig
 ) -> tuple[Float[np.ndarray, "8 3"], Int[np.ndarray, "12 3"]]:
-    """The bounding box of points without area, no side shorter than `side` [m]."""
+    """The bounding box of points without area, each side as thick as a wall and at least POINT."""
     corners = triangles.reshape(-1, 3)
+    side = max(config.wall(float(np.linalg.norm(np.ptp(corners, axis=0)))), POINT)
     center = (corners.min(0) + corners.max(0)) / 2
     half = np.maximum(np.ptp(corners, axis=0), side) / 2
     signs = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])

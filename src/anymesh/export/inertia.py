@@ -40,8 +40,7 @@ def raw_inertia(triangles: Float[np.ndarray, "n 3 3"], config: ExportConfig) -> 
     volume = np.bincount(found.label, volumes, found.count)
     flat = np.abs(volume) <= 1e-9 * np.bincount(found.label, np.abs(volumes), found.count)
     solid = (found.solid & ~flat)[found.label]
-    size = float(np.linalg.norm(np.ptp(corners, axis=0)))
-    thickness = min(config.shell_thickness, config.shell_share * size)
+    thickness = config.wall(float(np.linalg.norm(np.ptp(corners, axis=0))))
     filled = np.where(solid, config.density * np.sign(volume)[found.label] * volumes, 0.0)
     sheet = np.where(solid, 0.0, config.shell_density * thickness * areas)
     mass = float(filled.sum() + sheet.sum())

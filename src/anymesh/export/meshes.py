@@ -107,7 +107,7 @@ def _visible(link: Link, config: ExportConfig) -> tuple[Primitive, ...]:
     size = float(np.linalg.norm(np.ptp(triangles.reshape(-1, 3), axis=0)))
     cross = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
     if not cross.any():
-        vertices, faces = small_box(triangles, config.shell_thickness)
+        vertices, faces = small_box(triangles, config)
         return (Primitive(link.primitives[0].material, vertices, faces, None, None, None),)
     normal = flat_normal(triangles.reshape(-1, 3), share=SHEET)
     if normal is None:

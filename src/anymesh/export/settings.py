@@ -19,3 +19,7 @@ class ExportConfig:
     collision_faces: int = 20_000  # a collision mesh with more is simplified
     seconds_a_way: float = 2.0  # [s] of the animation: rest to one limit and back
     degrees_a_key: float = 15.0  # [deg] no two rotation keys further apart; slerp is unique below 180
+
+    def wall(self, diagonal: float) -> float:
+        """Thickness [m] of the walls of an open link with a diagonal [m]."""
+        return min(self.shell_thickness, self.shell_share * diagonal)

@@ -122,7 +122,7 @@ class Surroundings:
         for k, axis in enumerate(self.core.axes):
             for sign in (1.0, -1.0):
                 seen = float(self.sees_outside(sign * axis).mean())
-                facing = self.core.half[2] / self.core.half[k]
+                facing = self.core.half[2] / max(self.core.half[k], 1e-12)
                 score = seen + 0.5 * facing + 0.3 * sign * float(axis @ away) / self.diagonal
                 if score > best_score + 1e-9:
                     best, best_score, best_open = sign * axis, score, seen

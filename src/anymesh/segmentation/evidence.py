@@ -112,8 +112,11 @@ def _cover(around: Surroundings) -> float:
     for axis, value in zip(around.face_axes, (u, v), strict=True):
         local[:, axis] = value.reshape(-1) * core.half[axis]
     points = core.world(local) - around.outward * (core.half[k] + 1e-4 * around.diagonal)
-    rays = np.repeat(-around.outward[None] * free, len(points), 0)
-    return float((around.rest.scene.first_hit(points, rays, 1.0).face < 0).mean())
+    rays = np.repeat(-around.outward[None], len(points), 0)
+    hits = around.rest.scene.first_hit(points, rays)
+    face = np.maximum(hits.face, 0)
+    buried = (hits.face >= 0) & around.rest.solid[face] & (np.einsum("ij,ij->i", rays, around.rest.normals[face]) > 0)
+    return float((~buried & (hits.distance > free)).mean())
 
 
 def _enclosed(around: Surroundings) -> float:

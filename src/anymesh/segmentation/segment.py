@@ -149,8 +149,19 @@ def _size(units: _Units, chosen: list[int]) -> float:
 def _candidate(
     whole: ObjectShape, units: _Units, u: int, found: list[Found], answerer: Answerer, moves: Moves, config: Config
 ) -> Found | None:
-    """The unit as a part if the evidence is enough and it can move, else None."""
-    members = _grown(units, u)
+    """The unit, grown by what it holds or else as it is, if the evidence is enough and it can move; else None."""
+    grown, plain = _grown(units, u), units.hanging[u]
+    hit = _judged(whole, units, u, grown, found, answerer, moves, config)
+    if hit is None and len(grown) > len(plain):
+        hit = _judged(whole, units, u, plain, found, answerer, moves, config)
+    return hit
+
+
+def _judged(
+    whole: ObjectShape, units: _Units, u: int, members: list[int], found: list[Found], answerer: Answerer,
+    moves: Moves, config: Config,
+) -> Found | None:  # fmt: skip
+    """These units as one part if the evidence is enough and they can move, else None."""
     faces = units.faces(members)
     moving = np.zeros(len(whole.shape.areas), bool)
     moving[faces] = True

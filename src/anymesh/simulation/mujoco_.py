@@ -155,7 +155,7 @@ def _placed(bench: _Bench, index: int, positions: np.ndarray) -> tuple[float, st
     """The deepest that any two links get beyond rest [m] while the joint is placed along its range, and into which."""
     model, data = bench.model, bench.data
     worst, against = 0.0, ""
-    moved = _carried(model, model.jnt_bodyid[index])
+    moved = _carried(model, int(model.jnt_bodyid[index]))
     for position in positions:
         bench.mujoco.mj_resetData(model, data)
         data.qpos[model.jnt_qposadr[index]] = position

@@ -127,9 +127,10 @@ def recover(target: Path, prefix: str) -> None:
 
 def move_in(new: Path, target: Path, *, remove: Iterable[str], last: str) -> None:
     """Moves the files of `new` into `target` one by one; `last`, the mark of a finished output, comes last."""
-    files = list_files(new)
-    (target / last).unlink(missing_ok=True)
-    for name in remove:
+    files, remove = list_files(new), list(remove)
+    if last in files:
+        remove.insert(0, last)
+    for name in sorted(remove, key=lambda name: name != last):
         (target / name).unlink(missing_ok=True)
         with suppress(OSError):  # a folder that holds more stays
             (target / name).parent.rmdir()
