@@ -144,15 +144,18 @@ def _ring(
     _arrow(draw, pixels[[-4, -1]])
 
 
-def describe(joint: Joint) -> str:
-    """A joint in a line: type, range in degrees or centimetres, confidence."""
+def extent(joint: Joint) -> str:
+    """The range of a joint in degrees or centimetres."""
     if joint.limits is None:
-        extent = ""
-    elif joint.type is JointType.PRISMATIC:
-        extent = f" {100 * joint.limits[0]:.1f}..{100 * joint.limits[1]:.1f} cm"
-    else:
-        extent = f" {np.degrees(joint.limits[0]):.0f}..{np.degrees(joint.limits[1]):.0f} deg"
-    return f"{joint.child}: {joint.type.value}{extent}, confidence {joint.confidence:.2f}"
+        return "" if joint.type is JointType.FIXED else "endless"
+    if joint.type is JointType.PRISMATIC:
+        return f"{100 * joint.limits[0]:.1f}..{100 * joint.limits[1]:.1f} cm"
+    return f"{np.degrees(joint.limits[0]):.0f}..{np.degrees(joint.limits[1]):.0f} deg"
+
+
+def describe(joint: Joint) -> str:
+    """A joint in a line: type, range, confidence."""
+    return f"{joint.child}: {joint.type.value} {extent(joint)}, confidence {joint.confidence:.2f}"
 
 
 def _legend(asset: Asset, width: int) -> UInt8[np.ndarray, "h W 3"]:

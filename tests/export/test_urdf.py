@@ -1,0 +1,104 @@
+"""The URDF as two outside readers see it."""
+
+import os
+from dataclasses import replace
+from xml.etree import ElementTree
+
+import mujoco
+import numpy as np
+import pytest
+import yourdfpy
+from assets import cabinet, posed_triangles, poses, read_obj, slanted, within_limits
+
+from anymesh.export import write_asset
+from anymesh.types import JointType
+
+ASSETS = {"cabinet": cabinet, "slanted": slanted}
+
+
+@pytest.fixture(params=ASSETS)
+def written(request, tmp_path):
+    asset = ASSETS[request.param]()
+    write_asset(asset, tmp_path)
+    return asset, tmp_path
+
+
+def test_yourdfpy_reads_the_same_joints_and_poses(written):
+    asset, folder = written
+    robot = yourdfpy.URDF.load(str(folder / f"{asset.name}.urdf"), mesh_dir=str(folder))
+    assert robot.validate()
+    for j in asset.joints:
+        read = robot.joint_map[j.name]
+        assert (read.type, read.parent, read.child) == (j.type, j.parent, j.child)
+        if j.type is JointType.FIXED:
+            continue
+        np.testing.assert_allclose(read.axis, j.axis, atol=1e-9)
+        assert (read.limit.effort, read.limit.velocity) == (j.effort, j.velocity)
+        assert (float(read.dynamics.damping), float(read.dynamics.friction)) == (j.damping, j.friction)
+        if j.limits is not None:
+            np.testing.assert_allclose((read.limit.lower, read.limit.upper), j.limits, atol=1e-9)
+    rng = np.random.default_rng(1)
+    for _ in range(3):
+        positions = within_limits(asset, rng)
+        robot.update_cfg(positions)
+        expected = posed_triangles(asset, positions)
+        for part in asset.segmentation.parts:
+            T = robot.get_transform(part.name)
+            found = read_obj(folder / "meshes" / f"{part.name}.obj") @ T[:3, :3].T + T[:3, 3]
+            np.testing.assert_allclose(found, expected[part.name], atol=1e-5)
+
+
+def test_mujoco_reads_the_same_from_any_folder(written, monkeypatch):
+    asset, folder = written
+    monkeypatch.chdir("/")
+    model = mujoco.MjModel.from_xml_path(os.path.relpath(folder / f"{asset.name}.urdf"))
+    assert model.ngeom == 2 * len(asset.segmentation.parts)
+    data = mujoco.MjData(model)
+    positions = within_limits(asset, np.random.default_rng(2))
+    for name, value in positions.items():
+        data.joint(name).qpos = value
+    mujoco.mj_forward(model, data)
+    origins = {j.child: j.origin for j in asset.joints}
+    for name, T in poses(asset, positions).items():
+        np.testing.assert_allclose(data.body(name).xmat.reshape(3, 3), T[:3, :3], atol=1e-6)
+        place = T[:3, :3] @ origins.get(name, np.zeros(3)) + T[:3, 3]
+        np.testing.assert_allclose(data.body(name).xpos, place, atol=1e-6)
+    for j in asset.joints:
+        if j.limits is not None:
+            np.testing.assert_allclose(model.joint(j.name).range, j.limits, atol=1e-6)
+            assert model.joint(j.name).damping[0] == pytest.approx(j.damping)
+
+
+def test_numbers_and_paths_are_plain(written):
+    asset, folder = written
+    root = ElementTree.parse(folder / f"{asset.name}.urdf").getroot()
+    for mesh in root.iter("mesh"):
+        assert mesh.get("filename", "").startswith("meshes/")
+    for axis in root.iter("axis"):
+        assert np.linalg.norm(np.array(axis.get("xyz", "").split(), float)) == pytest.approx(1, abs=1e-9)
+    continuous = [j for j in root.iter("joint") if j.get("type") == "continuous"]
+    for limit in (j.find("limit") for j in continuous):
+        assert limit is not None
+        assert set(limit.keys()) == {"effort", "velocity"}
+
+
+def test_flat_links_load_in_mujoco(tmp_path):
+    asset = cabinet()
+    vertices = asset.mesh.vertices.copy()
+    door = np.unique(asset.mesh.faces[asset.segmentation.faces(1)])
+    vertices[door, 1] = 0.0  # the door is a sheet
+    knob = np.unique(asset.mesh.faces[asset.segmentation.faces(3)])
+    vertices[knob] = vertices[knob[0]]  # and the knob has shrunk to a point
+    write_asset(replace(asset, mesh=replace(asset.mesh, vertices=vertices)), tmp_path)
+    model = mujoco.MjModel.from_xml_path(str(tmp_path / "cabinet.urdf"))
+    assert model.njnt == 3
+
+
+def test_obj_keeps_material_texture_and_colour(tmp_path):
+    write_asset(cabinet(), tmp_path)
+    assert "map_Kd checker.png" in (tmp_path / "meshes" / "door.mtl").read_text()
+    assert (tmp_path / "meshes" / "checker.png").read_bytes().startswith(b"\x89PNG")
+    assert "usemtl wood_oak" in (tmp_path / "meshes" / "base.obj").read_text()
+    knob = (tmp_path / "meshes" / "knob.obj").read_text().splitlines()
+    assert next(line for line in knob if line.startswith("v ")).endswith("0.03922 0.7843 0.3529")
+    assert len(next(line for line in (tmp_path / "meshes" / "door.obj").open() if line.startswith("v ")).split()) == 4
