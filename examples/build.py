@@ -9,6 +9,7 @@ the file's coordinates (Y up), truth/NAME.npy a part number a face, in the order
 from __future__ import annotations
 
 import hashlib
+import io
 import json
 import sys
 from pathlib import Path
@@ -37,7 +38,7 @@ def wood_grain() -> Image.Image:
     return Image.fromarray(rgb.astype(np.uint8))
 
 
-def fuse(thing: Thing) -> list[tuple[str, trimesh.Trimesh, str]]:
+def fuse(thing: Thing) -> tuple[trimesh.Trimesh, np.ndarray]:
     """All pieces as one watertight surface, its faces told apart by the piece that they lie on."""
     whole = trimesh.boolean.union([s for _, s, _ in thing.pieces])
     centers = whole.triangles_center
@@ -46,10 +47,10 @@ def fuse(thing: Thing) -> list[tuple[str, trimesh.Trimesh, str]]:
     return whole, np.array([thing.pieces[k][0] for k in owner])
 
 
-def build(thing: Thing) -> tuple[trimesh.Scene, np.ndarray]:
-    """The scene in file coordinates, and a part number a face in its node order."""
+def build(thing: Thing) -> tuple[bytes, np.ndarray]:
+    """The GLB file, and a part number a face in the order of its nodes as they are read."""
     numbers = {"base": 0, **{part: k + 1 for k, part in enumerate(thing.joints)}}
-    scene, labels = trimesh.Scene(), []
+    scene, labels = trimesh.Scene(), {}
     if thing.fused:
         whole, owner = fuse(thing)
         groups = [("mesh_0", whole, np.array([numbers[o] for o in owner]), "body")]
@@ -65,8 +66,10 @@ def build(thing: Thing) -> tuple[trimesh.Scene, np.ndarray]:
         mesh = trimesh.Trimesh(mesh.vertices, mesh.faces, process=False)
         mesh.apply_transform(TO_Y_UP)
         scene.add_geometry(dressed(mesh, thing.name, color), node_name=name, geom_name=name)
-        labels.append(label)
-    return scene, np.concatenate(labels).astype(np.int16)
+        labels[name] = label
+    data = scene.export(file_type="glb")
+    order = trimesh.load_scene(io.BytesIO(data), file_type="glb").graph.nodes_geometry
+    return data, np.concatenate([labels[n] for n in order]).astype(np.int16)
 
 
 def dressed(mesh: trimesh.Trimesh, thing: str, color: str) -> trimesh.Trimesh:
@@ -117,9 +120,9 @@ def main() -> None:
     for folder in ("meshes", "truth"):
         (HERE / folder).mkdir(exist_ok=True)
     for thing in all_things():
-        scene, labels = build(thing)
+        data, labels = build(thing)
         files = {
-            HERE / "meshes" / f"{thing.name}.glb": scene.export(file_type="glb"),
+            HERE / "meshes" / f"{thing.name}.glb": data,
             HERE / "truth" / f"{thing.name}.json": (json.dumps(truth(thing), indent=1) + "\n").encode(),
         }
         for path, data in files.items():

@@ -118,7 +118,9 @@ def _search(
 ) -> list[Found]:
     """Two rounds: what moves at once, then what is free once those parts are out of the way (a tray behind a door)."""
     size = {u: _size(units, [u]) / whole.diagonal for u in units.hanging}
-    todo = [u for u in sorted(units.hanging) if u != units.root and size[u] >= config.segmentation.smallest]
+    area = np.bincount(units.unit, [s.area for s in units.contacts.shapes])
+    least = config.segmentation.smallest
+    todo = [u for u in sorted(units.hanging) if u != units.root and size[u] >= least and area[u] > 0]
     todo = sorted(todo, key=lambda u: (-size[u], u))[: config.segmentation.most_candidates]
     found: list[Found] = []
     for round_ in range(2):
