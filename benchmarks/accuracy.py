@@ -1,6 +1,6 @@
 """Accuracy on the examples: parts given, and end to end from the mesh alone.
 
-    python benchmarks/accuracy.py [NAME ...]
+python benchmarks/accuracy.py [NAME ...]
 """
 
 from __future__ import annotations

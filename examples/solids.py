@@ -79,5 +79,9 @@ def knob(at: tuple[float, float], front: float, radius: float = 0.018, height: f
     """A knob with a grip bar across, a hair off a front plane y = front."""
     x, z = at
     base = rod("y", radius, height * 0.6, (x, front - 0.0008 - height * 0.3, z))
-    grip = box((x - 0.2 * radius, x + 0.2 * radius), (front - height, front - height * 0.4), (z - 0.85 * radius, z + 0.85 * radius))
+    grip = box(
+        (x - 0.2 * radius, x + 0.2 * radius),
+        (front - height, front - height * 0.4),
+        (z - 0.85 * radius, z + 0.85 * radius),
+    )
     return join(base, grip)

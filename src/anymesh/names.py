@@ -8,9 +8,7 @@ from collections.abc import Sequence
 
 LONGEST = 80  # characters; leaves room for suffixes within the 255 bytes of common file systems
 # Taken by a format or a system: MuJoCo's root body, URDF parsers' base names, the device names of Windows.
-RESERVED = frozenset(
-    {"world", "con", "prn", "aux", "nul"} | {f"{port}{i}" for port in ("com", "lpt") for i in range(10)}
-)
+RESERVED = frozenset({"world", "con", "prn", "aux", "nul"} | {f"{port}{i}" for port in ("com", "lpt") for i in range(10)})
 
 
 def legal_name(name: str, *, fallback: str = "part") -> str:

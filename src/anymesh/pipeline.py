@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator
+from collections.abc import Generator
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
@@ -108,9 +108,7 @@ def find_parts(mesh: Mesh, parts: str, who: Answerer, config: Config, progress: 
     if parts != "auto":
         return parts_from_file(mesh, Path(parts))
     whole = object_shape(mesh, config.seed)
-    return segment_parts(
-        mesh, whole, who, lambda around, label: ask_motion(around, "candidate", label, who), config, progress
-    )
+    return segment_parts(mesh, whole, who, lambda around, label: ask_motion(around, "candidate", label, who), config, progress)
 
 
 def find_joints(
@@ -152,7 +150,13 @@ def _segment(
 
 
 def _join(
-    run: RunFolder, placed: Placed, segmented: Segmented, previous: str, who: Answerer, config: Config, progress: Progress
+    run: RunFolder,
+    placed: Placed,
+    segmented: Segmented,
+    previous: str,
+    who: Answerer,
+    config: Config,
+    progress: Progress,
 ) -> Jointed:
     key = stage_key(JOINTS, previous=previous, config={**config.as_dict(), "answerer": who.name})
     found = run.load(JOINTS, key)
@@ -181,7 +185,7 @@ def _export(run: RunFolder, progress: Progress) -> Asset:
 
 
 @contextmanager
-def _timed(run: RunFolder, stage: str) -> Iterator[None]:
+def _timed(run: RunFolder, stage: str) -> Generator[None]:
     begin = time.perf_counter()
     yield
     run.add_time(stage, time.perf_counter() - begin)

@@ -54,9 +54,7 @@ def _check_replaceable(target: Path, force: bool) -> None:
         hint = " (--force replaces an older output)" if written is not None else ""
         raise OutputError(f"the output folder {target} is not empty; choose another{hint}")
     if written is None:
-        raise OutputError(
-            f"{target} is not empty and no output of anymesh, so it is not replaced; choose another folder"
-        )
+        raise OutputError(f"{target} is not empty and no output of anymesh, so it is not replaced; choose another folder")
     foreign = sorted(set(list_files(target)) - set(written))
     if foreign:
         shown = ", ".join(foreign[:5]) + (", ..." if len(foreign) > 5 else "")

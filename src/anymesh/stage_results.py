@@ -84,9 +84,7 @@ def _pack_mesh(result: Placed) -> tuple[Record, dict[str, np.ndarray]]:
 
 def _unpack_mesh(record: Record, arrays: Arrays) -> Placed:
     def material(found: Record) -> Material:
-        textures = {
-            slot: Texture(arrays[t["array"]].tobytes(), t["mime"], t["name"]) for slot, t in found["textures"].items()
-        }
+        textures = {slot: Texture(arrays[t["array"]].tobytes(), t["mime"], t["name"]) for slot, t in found["textures"].items()}
         values: dict[str, Any] = {**found, "textures": textures}
         values["base_color"], values["emissive"] = tuple(found["base_color"]), tuple(found["emissive"])
         return Material(**values)

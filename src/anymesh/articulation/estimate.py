@@ -7,11 +7,11 @@ import numpy as np
 from anymesh.articulation.evidence import part_facts, weigh
 from anymesh.articulation.hypotheses import propose
 from anymesh.articulation.limits import limits, opening_motion
-from anymesh.geometry.surroundings import Surroundings, rods
 from anymesh.articulation.tree import descendants, parents
 from anymesh.config import Config
 from anymesh.geometry.pieces import ObjectShape
 from anymesh.geometry.shape import Shape
+from anymesh.geometry.surroundings import Surroundings, rods
 from anymesh.progress import Progress, silent
 from anymesh.reasoning.questions import Answerer, Candidate, MotionAnswer, MotionQuestion
 from anymesh.types import Joint, Motion, Segmentation

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from anymesh.geometry.surroundings import Surroundings
 from anymesh.geometry.distance_ import distance_to_triangles
+from anymesh.geometry.surroundings import Surroundings
 from anymesh.geometry.sweep import free_amount, sweep
 from anymesh.reasoning.questions import Candidate, PartFacts
 from anymesh.types import Motion, MotionKind

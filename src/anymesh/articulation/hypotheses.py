@@ -9,9 +9,9 @@ from __future__ import annotations
 import numpy as np
 from scipy.cluster.vq import kmeans2
 
-from anymesh.geometry.surroundings import Surroundings
 from anymesh.geometry.boxes import Box
 from anymesh.geometry.circles import outline_about
+from anymesh.geometry.surroundings import Surroundings
 from anymesh.types import Motion, MotionKind
 
 SAME_DIRECTION = np.cos(np.deg2rad(1.0))

@@ -7,7 +7,7 @@ import numpy as np
 from anymesh.geometry.surroundings import Surroundings
 from anymesh.geometry.sweep import free_amount
 from anymesh.reasoning.questions import Candidate
-from anymesh.types import JointType, Motion, MotionKind
+from anymesh.types import JointType, Motion
 
 
 def limits(around: Surroundings, c: Candidate, kind: JointType) -> tuple[float, float] | None:

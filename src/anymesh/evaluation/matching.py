@@ -22,5 +22,7 @@ def match_parts(ious: Float[np.ndarray, "P T"]) -> list[tuple[int, int, float]]:
     are left out."""
     rows, columns = linear_sum_assignment(-ious[1:, 1:])
     return [
-        (int(r) + 1, int(c) + 1, float(ious[r + 1, c + 1])) for r, c in zip(rows, columns, strict=True) if ious[r + 1, c + 1] > 0
+        (int(r) + 1, int(c) + 1, float(ious[r + 1, c + 1]))
+        for r, c in zip(rows, columns, strict=True)
+        if ious[r + 1, c + 1] > 0
     ]

@@ -36,9 +36,7 @@ class GlbBuffer:
         self.views.append(found)
         return len(self.views) - 1
 
-    def accessor(
-        self, array: np.ndarray, *, target: int | None = None, bounds: bool = False, normalized: bool = False
-    ) -> int:
+    def accessor(self, array: np.ndarray, *, target: int | None = None, bounds: bool = False, normalized: bool = False) -> int:
         """An accessor of a (n,) or (n, k) array; `bounds` states minimum and maximum, as positions and times need."""
         array = np.ascontiguousarray(array)
         data = array.tobytes()

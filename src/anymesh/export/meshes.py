@@ -139,9 +139,7 @@ def _with_back(primitive: Primitive, shift: np.ndarray) -> Primitive:
     )
 
 
-def _visual_lines(
-    name: str, library: str | None, primitives: Sequence[Primitive], names: Sequence[str]
-) -> Iterator[str]:
+def _visual_lines(name: str, library: str | None, primitives: Sequence[Primitive], names: Sequence[str]) -> Iterator[str]:
     """The text of a visual OBJ; corner k of a primitive has position, uv and normal k."""
     if library:
         yield f"mtllib {library}\n"

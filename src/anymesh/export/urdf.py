@@ -60,9 +60,7 @@ def _appearance(mesh: Mesh, link: Link, names: Sequence[str]) -> tuple[str, tupl
     return names[widest.material], (srgb(red), srgb(green), srgb(blue), alpha)
 
 
-def _add_link(
-    robot: ElementTree.Element, link: Link, inertia: Inertia, appearance: tuple[str, tuple[float, ...]]
-) -> None:
+def _add_link(robot: ElementTree.Element, link: Link, inertia: Inertia, appearance: tuple[str, tuple[float, ...]]) -> None:
     sub = ElementTree.SubElement
     element = sub(robot, "link", name=link.name)
     inertial = sub(element, "inertial")

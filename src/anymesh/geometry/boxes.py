@@ -60,9 +60,7 @@ def dominant_normals(
     return np.array(found).reshape(-1, 3)
 
 
-def fit_box(
-    points: Float[np.ndarray, "n 3"], normals: Float[np.ndarray, "m 3"], weights: Float[np.ndarray, " m"]
-) -> Box:
+def fit_box(points: Float[np.ndarray, "n 3"], normals: Float[np.ndarray, "m 3"], weights: Float[np.ndarray, " m"]) -> Box:
     """The smallest of the boxes along the asset axes, the dominant normals, and the principal directions.
 
     A frame must be clearly smaller (3 %) to be preferred to the asset's own axes.

@@ -60,9 +60,7 @@ def outline_about(points: Float[np.ndarray, "n 3"], axis: Float[np.ndarray, " 3"
         keep = near[bin_of[last]]
         center, _ = fit_circle(flat[last][keep])
     mid = (along.min() + along.max()) / 2
-    return Outline(
-        axis, center[0] * u + center[1] * v + mid * axis, radius, float(along.max() - along.min()), roundness
-    )
+    return Outline(axis, center[0] * u + center[1] * v + mid * axis, radius, float(along.max() - along.min()), roundness)
 
 
 def roundest(points: Float[np.ndarray, "n 3"], axes: Float[np.ndarray, "k 3"]) -> Outline:

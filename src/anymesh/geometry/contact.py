@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from jaxtyping import Bool, Float
-from scipy.spatial import cKDTree
+from scipy.spatial import KDTree
 
 
 def connecting_area(
@@ -16,8 +16,8 @@ def connecting_area(
     """
     if threshold <= 0:
         raise ValueError(f"the threshold of a connecting area must be positive, found {threshold}")
-    near_a = cKDTree(points_b).query(points_a, workers=-1)[0]
-    near_b = cKDTree(points_a).query(points_b, workers=-1)[0]
+    near_a = KDTree(points_b).query(points_a, workers=-1)[0]
+    near_b = KDTree(points_a).query(points_b, workers=-1)[0]
     while not ((near_a < threshold).any() or (near_b < threshold).any()):
         threshold *= 2
     return near_a < threshold, near_b < threshold, threshold

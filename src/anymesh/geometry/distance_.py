@@ -22,9 +22,7 @@ def distance_to_mesh(
     return np.sqrt(np.maximum(np.atleast_1d(squared), 0)), np.atleast_1d(face).astype(np.int64), np.atleast_2d(closest)
 
 
-def distance_to_triangles(
-    points: Float[np.ndarray, "n 3"], triangles: Float[np.ndarray, "F 3 3"]
-) -> Float[np.ndarray, " n"]:
+def distance_to_triangles(points: Float[np.ndarray, "n 3"], triangles: Float[np.ndarray, "F 3 3"]) -> Float[np.ndarray, " n"]:
     """Distance of each point to the closest of some triangles."""
     return distance_to_mesh(points, triangles.reshape(-1, 3), np.arange(3 * len(triangles)).reshape(-1, 3))[0]
 

@@ -44,6 +44,4 @@ def posed(asset: Asset, positions: Mapping[str, float]) -> Mesh:
         T = transforms[part.name]
         triangles[mine] = triangles[mine] @ T[:3, :3].T + T[:3, 3]
     count = len(triangles)
-    return replace(
-        asset.mesh, vertices=triangles.reshape(-1, 3), faces=np.arange(3 * count).reshape(-1, 3), corner_normal=None
-    )
+    return replace(asset.mesh, vertices=triangles.reshape(-1, 3), faces=np.arange(3 * count).reshape(-1, 3), corner_normal=None)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Int
-from scipy.spatial import cKDTree
+from scipy.spatial import KDTree
 
 from anymesh.config import PiecesConfig
 from anymesh.geometry.shape import Surface, surface_of
@@ -97,7 +97,7 @@ def _fill_voids(whole: Surface, region: np.ndarray) -> np.ndarray:
     if not hidden.any():
         return region
     centers = whole.shape.triangles.mean(1)
-    nearest = cKDTree(centers[~hidden]).query(centers[hidden], workers=-1)[1]
+    nearest = KDTree(centers[~hidden]).query(centers[hidden], workers=-1)[1]
     target = region.copy()
     for r in np.unique(region[hidden]):
         inside = region[hidden] == r
@@ -114,7 +114,7 @@ def _limit_count(whole: Surface, region: np.ndarray, most: int) -> np.ndarray:
     keep = np.sort(np.argsort(-size, kind="stable")[:most])
     kept = np.isin(region, keep)
     centers = whole.shape.triangles.mean(1)
-    tree = cKDTree(centers[kept])
+    tree = KDTree(centers[kept])
     lost = np.setdiff1d(np.arange(count), keep)
     middle = np.zeros((count, 3))
     np.add.at(middle, region, centers)

@@ -24,9 +24,7 @@ class SurfacePoints:
         return SurfacePoints(self.points[index], self.normals[index], self.faces[index])
 
 
-def sample_surface(
-    triangles: Float[np.ndarray, "F 3 3"], count: int, seed: int, at_least: int = 0
-) -> SurfacePoints:
+def sample_surface(triangles: Float[np.ndarray, "F 3 3"], count: int, seed: int, at_least: int = 0) -> SurfacePoints:
     """`count` points, as many on a face as its area asks for (systematic sampling: even, and stable for a seed).
 
     `at_least` = 1 adds the centroid of every face that got none, so that small faces are seen too.

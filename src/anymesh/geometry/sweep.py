@@ -59,9 +59,7 @@ def _spread(shape: Shape, count: int) -> np.ndarray:
     return np.concatenate([samples.points[::step], inside])
 
 
-def _first_stop(
-    points: np.ndarray, transforms: np.ndarray, amounts: np.ndarray, target: Shape, tolerance: float
-) -> np.ndarray:
+def _first_stop(points: np.ndarray, transforms: np.ndarray, amounts: np.ndarray, target: Shape, tolerance: float) -> np.ndarray:
     """The amount at which each point is stopped by the target, inf when it never is."""
     if len(points) == 0 or len(target.triangles) == 0:
         return np.full(len(points), np.inf)

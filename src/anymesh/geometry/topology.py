@@ -101,7 +101,7 @@ def label_connected(count: int, pairs: Int[np.ndarray, "m 2"]) -> Int[np.ndarray
 
 @dataclass(frozen=True, eq=False)
 class Components:
-    """Connected components of the welded mesh. label: (F,); solid: (count,) closed and evenly wound; flip: (count,) inside out."""
+    """Connected components of the welded mesh. label: (F,); solid, flip: (count,) closed and evenly wound, inside out."""
 
     label: Int[np.ndarray, " F"]
     solid: Bool[np.ndarray, " c"]

@@ -24,7 +24,7 @@ UNITS = (("millimetres", 0.001), ("centimetres", 0.01), ("inches", 0.0254))
 
 @dataclass(frozen=True, eq=False)
 class PlacedMesh:
-    """A mesh in the asset frame [m, Z up]; T_asset_source: (4, 4), file coordinates to it; notes: how up and scale were found."""
+    """A mesh in the asset frame [m, Z up]; T_asset_source: (4, 4), from file coordinates; notes: how it was found."""
 
     mesh: Mesh
     T_asset_source: Float[np.ndarray, "4 4"]

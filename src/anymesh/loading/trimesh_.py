@@ -58,7 +58,13 @@ def _join(name: str, placed: list[tuple[str, str, np.ndarray, Any]]) -> tuple[Me
 
 
 def _one(
-    k: int, node: str, geometry_name: str, vertices: np.ndarray, geometry: Any, materials: list[Material], number: dict[int, int]
+    k: int,
+    node: str,
+    geometry_name: str,
+    vertices: np.ndarray,
+    geometry: Any,
+    materials: list[Material],
+    number: dict[int, int],
 ) -> Mesh:
     faces = np.asarray(geometry.faces, np.int64)
     visual = geometry.visual
@@ -125,7 +131,7 @@ def _convert(material: Any) -> Material:
             base_color=color,
             metallic=_number(material.metallicFactor, 1.0 if material.metallicRoughnessTexture is not None else 0.0),
             roughness=_number(material.roughnessFactor, 1.0),
-            emissive=tuple(float(v) for v in emissive[:3]) if emissive is not None else (0.0, 0.0, 0.0),
+            emissive=_factor(emissive)[:3] if emissive is not None else (0.0, 0.0, 0.0),
             double_sided=bool(material.doubleSided),
             alpha_mode=str(material.alphaMode or "OPAQUE"),
             alpha_cutoff=_number(material.alphaCutoff, 0.5),
@@ -177,8 +183,7 @@ def _concatenate(meshes: list[Mesh], materials: tuple[Material, ...]) -> Mesh:
         if all(v is None for v in values):
             return None
         filled = [
-            v if v is not None else np.full((len(m.faces), 3, width), fill, dtype)
-            for v, m in zip(values, meshes, strict=True)
+            v if v is not None else np.full((len(m.faces), 3, width), fill, dtype) for v, m in zip(values, meshes, strict=True)
         ]
         return np.concatenate(filled)
 
@@ -192,5 +197,5 @@ def _concatenate(meshes: list[Mesh], materials: tuple[Material, ...]) -> Mesh:
         materials,
         corners("corner_uv", 2, np.float32, 0),
         corners("corner_color", 4, np.uint8, 255),
-        np.concatenate([m.corner_normal for m in meshes]) if with_normals else None,  # ty: ignore[invalid-argument-type]
+        np.concatenate([m.corner_normal for m in meshes]) if with_normals else None,
     )

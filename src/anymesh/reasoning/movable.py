@@ -109,5 +109,11 @@ def _control(e: PartEvidence) -> tuple[float, str, str]:
     """A lever in a slot, a trigger, a button, a slider: small and free of what is round it."""
     if not e.separate or e.outside < 0.05 or e.size > 0.6:
         return (-3.0, "lever", "no control")
-    value = (0.3 if e.enclosed > 0.1 else -0.3) - 0.6 * e.on_movable + 0.3 * (e.enclosed > 0.3) + 0.25 * e.gap_sides - (0.8 if e.size < 0.02 else 0.0)
+    value = (
+        (0.3 if e.enclosed > 0.1 else -0.3)
+        - 0.6 * e.on_movable
+        + 0.3 * (e.enclosed > 0.3)
+        + 0.25 * e.gap_sides
+        - (0.8 if e.size < 0.02 else 0.0)
+    )
     return (value, "lever", f"touches nothing, clearance at {e.gap_sides} sides")

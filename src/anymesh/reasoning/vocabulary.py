@@ -46,7 +46,7 @@ WORDS = (
 )  # fmt: skip
 FIXED = frozenset(
     "base body frame corpus housing case carcass chassis shell panel board wall side back top bottom floor shelf leg foot "
-    "feet stand support table plinth fixed static burner hinge screw bolt_head logo".split()
+    "feet stand support table plinth fixed static burner hinge screw logo".split()
 )
 _BY_NAME = {name: word for word in WORDS for name in word.names}
 _SPLIT = re.compile(r"[^A-Za-z]+|(?<=[a-z])(?=[A-Z])")

@@ -68,18 +68,14 @@ def orbit_camera(bounds: Float[np.ndarray, "2 3"], azimuth: float, elevation: fl
     """A camera that sees the whole box, from an azimuth (0 looks along +y) and an elevation [rad]."""
     center = bounds.mean(0)
     radius = 0.5 * float(np.linalg.norm(bounds[1] - bounds[0]))
-    direction = np.array(
-        [np.sin(azimuth) * np.cos(elevation), -np.cos(azimuth) * np.cos(elevation), np.sin(elevation)]
-    )
+    direction = np.array([np.sin(azimuth) * np.cos(elevation), -np.cos(azimuth) * np.cos(elevation), np.sin(elevation)])
     fov = np.deg2rad(32)
     return Camera.looking_at(center + direction * radius * 1.02 / np.sin(fov / 2), center, fov, size, size)
 
 
 def best_camera(asset: Asset, opened: Mesh) -> Camera:
     """The view in which the moving parts show most, at rest and opened alike."""
-    bounds = np.array(
-        [np.minimum(asset.mesh.bounds[0], opened.bounds[0]), np.maximum(asset.mesh.bounds[1], opened.bounds[1])]
-    )
+    bounds = np.array([np.minimum(asset.mesh.bounds[0], opened.bounds[0]), np.maximum(asset.mesh.bounds[1], opened.bounds[1])])
     moving = asset.segmentation.face_part > 0
     scenes = [RayScene(m.vertices, m.faces) for m in (asset.mesh, opened)]
     best, most = orbit_camera(bounds, np.deg2rad(35), np.deg2rad(24), 2 * SIZE), -1.0

@@ -12,8 +12,11 @@ from anymesh.errors import MissingExtraError
 
 @dataclass(frozen=True, eq=False)
 class Hits:
-    """First hits. face: (n,) -1 where nothing is hit; distance: (n,) in lengths of the ray's direction, inf where nothing
-    is hit, so that hit = origin + distance * direction; u, v: (n,) barycentric, corner weights (1 - u - v, u, v)."""
+    """First hits, so that hit = origin + distance * direction.
+
+    face: (n,) -1 where nothing is hit; distance: (n,) in lengths of the ray's direction, inf where nothing is hit;
+    u, v: (n,) barycentric, the corners weigh (1 - u - v, u, v).
+    """
 
     face: Int[np.ndarray, " n"]
     distance: Float[np.ndarray, " n"]
@@ -26,8 +29,8 @@ class RayScene:
 
     def __init__(self, vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"]) -> None:
         try:
-            from embreex.mesh_construction import TriangleMesh
-            from embreex.rtcore_scene import EmbreeScene
+            from embreex.mesh_construction import TriangleMesh  # ty: ignore[import-not-found]
+            from embreex.rtcore_scene import EmbreeScene  # ty: ignore[import-not-found]
         except ImportError:
             raise MissingExtraError("embreex is missing; it comes with articulate-anymesh, install that again") from None
         low, high = vertices.min(0), vertices.max(0)

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass
 
 import networkx as nx
 import numpy as np
 from jaxtyping import Int
-from scipy.spatial import cKDTree
+from scipy.spatial import KDTree
 
 from anymesh.config import SegmentationConfig
 from anymesh.geometry.distance_ import distance_to_triangles
@@ -37,7 +38,7 @@ def find_contacts(whole: ObjectShape, piece: Int[np.ndarray, " F"], config: Segm
     """Measures all pairs of pieces whose boxes are near each other."""
     order = np.argsort(piece, kind="stable")
     bounds = np.searchsorted(piece[order], np.arange(int(piece.max()) + 2))
-    shapes = tuple(whole.of(order[a:b]) for a, b in zip(bounds[:-1], bounds[1:], strict=True))
+    shapes = tuple(whole.of(order[a:b]) for a, b in itertools.pairwise(bounds))
     edges = whole.parts.edges.faces
     crossing = piece[edges[:, 0]] != piece[edges[:, 1]]
     shared = {(int(a), int(b)) for a, b in np.unique(np.sort(piece[edges[crossing]], 1), axis=0)}
@@ -162,7 +163,7 @@ def _tie_islands(graph: nx.DiGraph, contacts: Contacts, unit: np.ndarray, root: 
             return
         there = [p for p in range(len(unit)) if int(unit[p]) in reached]
         owner = np.concatenate([np.full(len(centers[p]), p) for p in there])
-        tree = cKDTree(np.concatenate([centers[p] for p in there]))
+        tree = KDTree(np.concatenate([centers[p] for p in there]))
         best = (np.inf, 0, 0)
         for p in (p for p in range(len(unit)) if int(unit[p]) in missing):
             distance, at = tree.query(centers[p])

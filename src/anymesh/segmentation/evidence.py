@@ -135,9 +135,7 @@ def _one_edge(around: Surroundings, near: np.ndarray) -> bool:
     if near.sum() < 2:
         return False
     local = around.core.local(around.part.samples.points[near]) / np.maximum(around.core.half, 1e-12)
-    return any(
-        bool((sign * local[:, axis] > 0.5).mean() > 0.95) for axis in around.face_axes for sign in (1, -1)
-    )
+    return any(bool((sign * local[:, axis] > 0.5).mean() > 0.95) for axis in around.face_axes for sign in (1, -1))
 
 
 def _pivots(around: Surroundings, near: np.ndarray, normals: np.ndarray) -> bool:

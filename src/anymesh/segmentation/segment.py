@@ -6,6 +6,7 @@ no movable part.
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
@@ -14,7 +15,7 @@ from jaxtyping import Int
 
 from anymesh.config import Config
 from anymesh.geometry.pieces import ObjectShape
-from anymesh.geometry.surroundings import Surroundings, rods
+from anymesh.geometry.surroundings import Surroundings
 from anymesh.geometry.topology import label_connected
 from anymesh.progress import Progress, silent
 from anymesh.reasoning.questions import Answerer, Candidate, MotionAnswer, PartAnswer
@@ -87,13 +88,11 @@ def _units(mesh: Mesh, contacts: Contacts, root_piece: int, diagonal: float) -> 
     return _Units(contacts, unit, [names[p] for p in first], root, hanging_on(contacts, unit, root))
 
 
-def _rooted(
-    mesh: Mesh, whole: ObjectShape, contacts: Contacts, answerer: Answerer, moves: Moves, config: Config
-) -> _Units:
+def _rooted(mesh: Mesh, whole: ObjectShape, contacts: Contacts, answerer: Answerer, moves: Moves, config: Config) -> _Units:
     """Units hung on the likeliest root; a root that is plainly a movable part itself (a fridge's door) gives way."""
     ranked = _root_ranking(whole, contacts)[:4]
     units = _units(mesh, contacts, ranked[0], whole.diagonal)
-    for first, second in zip(ranked[:-1], ranked[1:], strict=True):
+    for first, second in itertools.pairwise(ranked):
         other = _units(mesh, contacts, second, whole.diagonal)
         hit = _candidate(whole, other, int(other.unit[first]), [], answerer, moves, config)
         if int(other.unit[first]) == other.root or hit is None or hit.answer.score < PLAINLY:

@@ -41,9 +41,7 @@ class Asset:
         names = [p.name for p in self.segmentation.parts]
         children = [j.child for j in self.joints]
         if sorted(children) != sorted(names[1:]):
-            raise ValueError(
-                f"each part but the root {names[0]!r} needs one joint; parts {names[1:]}, joints for {children}"
-            )
+            raise ValueError(f"each part but the root {names[0]!r} needs one joint; parts {names[1:]}, joints for {children}")
         parent = {j.child: j.parent for j in self.joints}
         for name in names[1:]:
             seen, at = set(), name

@@ -1,0 +1,113 @@
+"""The structure of the code is a fact that is tested: no import runs up, stages do not know each other, no circles."""
+
+import ast
+import re
+import subprocess
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+SOURCE = ROOT / "src" / "anymesh"
+FLOORS = [
+    {"errors", "config", "progress", "names"},
+    {"types"},
+    {"storage", "stage_results", "geometry", "rendering", "loading", "models"},
+    {"export", "run_folder"},
+    {"reasoning"},
+    {"segmentation", "articulation", "postprocessing", "simulation", "evaluation"},
+    {"pipeline"},
+    {"applications", "viewer"},
+    {"cli"},
+]
+STAGES = {"segmentation", "articulation", "postprocessing"}
+OUTSIDE = {"trimesh", "embreex", "igl", "mujoco", "wordllama", "torch"}
+FILES = sorted(SOURCE.rglob("*.py"))
+
+
+def floor(module: str) -> int:
+    top = module.split(".")[1]
+    return next(k for k, names in enumerate(FLOORS) if top in names)
+
+
+def module_name(path: Path) -> str:
+    parts = path.relative_to(SOURCE.parent).with_suffix("").parts
+    return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+
+
+def imports(path: Path) -> list[str]:
+    found = []
+    for node in ast.walk(ast.parse(path.read_text())):
+        if isinstance(node, ast.Import):
+            found += [alias.name for alias in node.names]
+        elif isinstance(node, ast.ImportFrom):
+            found.append(node.module or "")
+    return found
+
+
+def own(path: Path) -> list[str]:
+    return [name for name in imports(path) if name.startswith("anymesh.")]
+
+
+@pytest.mark.parametrize("path", [p for p in FILES if p.parent != SOURCE or p.stem != "__init__"], ids=module_name)
+def test_no_import_runs_up(path: Path) -> None:
+    here = module_name(path)
+    for name in own(path):
+        assert floor(name) <= floor(here), f"{here} imports {name}, which lies above it"
+
+
+def test_stages_do_not_know_each_other() -> None:
+    for path in FILES:
+        here = module_name(path).split(".")
+        if len(here) > 1 and here[1] in STAGES:
+            assert not {n.split(".")[1] for n in own(path)} & (STAGES - {here[1]}), module_name(path)
+
+
+def test_no_circles() -> None:
+    names = {module_name(p): p for p in FILES}
+    graph = {n: [m for m in own(p) if m in names and m != n] for n, p in names.items()}
+    state: dict[str, int] = {}
+
+    def visit(name: str, path: tuple[str, ...]) -> None:
+        assert state.get(name) != 1, f"a circle of imports: {' -> '.join((*path, name))}"
+        if name not in state:
+            state[name] = 1
+            for other in graph[name]:
+                visit(other, (*path, name))
+            state[name] = 2
+
+    for name in graph:
+        visit(name, ())
+
+
+def test_outside_things_stay_in_their_files() -> None:
+    for path in FILES:
+        tops = {name.split(".")[0] for name in imports(path)}
+        assert path.stem.endswith("_") or not tops & OUTSIDE, f"{path.name} imports {tops & OUTSIDE}"
+        assert path.stem == "cli" or not tops & {"typer", "rich"}, path.name
+        assert not re.search(r"^\s*print\(", path.read_text(), re.M) or path.stem == "cli", path.name
+        assert path.stem != "utils"
+
+
+def test_files_and_functions_are_small() -> None:
+    for path in FILES:
+        text = path.read_text()
+        assert text.count("\n") <= 310, f"{path.name} has {text.count(chr(10))} lines"
+        for node in ast.walk(ast.parse(text)):
+            if isinstance(node, ast.FunctionDef):
+                assert (node.end_lineno or 0) - node.lineno <= 60, f"{path.name}:{node.lineno} {node.name}"
+
+
+def test_no_machine_paths_and_no_registry_addresses() -> None:
+    listed = subprocess.run(["git", "ls-files"], cwd=ROOT, capture_output=True, text=True)
+    names = listed.stdout.split() if listed.returncode == 0 else [str(p.relative_to(ROOT)) for p in ROOT.rglob("*.py")]
+    bad = re.compile(r"(?<![\w.])/(root|work|home/\w+)/|pypi\.org|registry\.npmjs|deb\.debian")
+    for name in names:
+        path = ROOT / name
+        if (
+            path.suffix in (".py", ".md", ".toml", ".json", "")
+            and path.is_file()
+            and path.name != Path(__file__).name
+            and ".venv" not in path.parts
+        ):
+            assert not bad.search(path.read_text(errors="replace")), name
