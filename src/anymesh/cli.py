@@ -242,7 +242,7 @@ def run(arguments: list[str]) -> int:
         return 130
     except Exception as error:
         if hasattr(error, "format_message"):  # a usage error of the command line itself
-            return _fail(arguments, error, str(error.format_message()), 2)  # ty: ignore[call-non-callable]
+            return _fail(arguments, error, str(error.format_message()), 2)  # ty: ignore[not-callable]
         if "--debug" in arguments:
             raise
         told = f"unexpected {type(error).__name__}: {error} (put --debug before the command for the traceback)"

@@ -108,9 +108,7 @@ def _opens_alike(ours: tuple[float, float] | None, true: tuple[float, float] | N
 
 def table(scores: list[ObjectScore]) -> str:
     """A Markdown table, an object a row, and the totals."""
-    columns = (
-        "object, parts found / true / predicted, F1, type, angle mean / worst [deg], position mean / worst, opens, range IoU"
-    )
+    columns = "object, parts found / true / predicted, F1, type, angle mean / worst [deg], position mean / worst, opens, range"
     head = f"| {columns.replace(', ', ' | ')} |"
     lines = [head, "|---|---|---|---|---|---|---|---|"]
     lines += [_row(s.name, list(s.joints), s.matched, s.true, s.predicted, s.f1) for s in scores]
