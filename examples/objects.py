@@ -59,13 +59,14 @@ def microwave(fused: bool = False) -> Thing:
     if not fused:
         leaf = cut(leaf, box((-0.21, 0.07), (-0.21, -0.17), (0.05, 0.26)))
         t.add("door", box((-0.212, 0.072), (-0.196, -0.19), (0.048, 0.262)), color="glass")
-        t.add("base", rod("z", 0.13, 0.008, (-0.055, -0.02, 0.042), 48), color="glass")
+        t.add("turntable", rod("z", 0.13, 0.008, (-0.055, -0.02, 0.042), 48), color="glass")
     t.add("door", leaf, color="panel")
     t.add("door", bar_handle((0.088, 0.102), (0.06, 0.25), -0.203), color="metal")
     t.joints["door"] = hinge((-0.248, -0.182, 0.15), (0, 0, -1), 110)
     if not fused:
         t.add("knob", knob((0.187, 0.08), -0.2, 0.022, 0.028), color="metal")
         t.joints["knob"] = spin((0.187, -0.21, 0.08), (0, -1, 0))
+        t.joints["turntable"] = spin((-0.055, -0.02, 0.042), (0, 0, 1), "turntable")
     return t
 
 

@@ -8,7 +8,7 @@ from anymesh.geometry.distance_ import distance_to_triangles
 from anymesh.geometry.surroundings import Surroundings
 from anymesh.geometry.sweep import free_amount, sweep
 from anymesh.reasoning.questions import Candidate, PartFacts
-from anymesh.types import Motion, MotionKind
+from anymesh.types import Motion, MotionKind, Sweep
 
 LINE_POINTS = 21  # along a hinge line
 HELD = 0.02  # a slide is held sideways when stopped within this share of the diagonal
@@ -67,6 +67,8 @@ def _turn(around: Surroundings, role: str, motion: Motion, swept) -> Candidate:
         guided=0.0,
         depth=0.0,
         vertical=float(abs(motion.axis[2])),
+        above=_above(around, motion),
+        captured=False,
         outward=toward * opens,
     )  # fmt: skip
 
@@ -96,8 +98,20 @@ def _slide(around: Surroundings, role: str, motion: Motion, swept) -> Candidate:
         guided=held / 4,
         depth=float(inner / max(across, 1e-9)),
         vertical=float(abs(motion.axis[2])),
+        above=0.0,
+        captured=_captured(around, swept),
         outward=toward * opens,
     )  # fmt: skip
+
+
+def _above(around: Surroundings, motion: Motion) -> float:
+    low, high = around.part.bounds[:, 2]
+    return float(np.clip(2 * (motion.origin[2] - low) / max(high - low, 1e-9) - 1, -1, 1))
+
+
+def _captured(around: Surroundings, swept: Sweep) -> bool:
+    room = swept.forward + swept.backward
+    return not (swept.clear_forward or swept.clear_backward) and room > 0.25 * around.part.box.diagonal
 
 
 def _opening_sign(toward: float, forward: float, backward: float, little: float) -> int:

@@ -10,6 +10,9 @@ from anymesh.reasoning.questions import Candidate
 from anymesh.types import JointType, Motion
 
 
+CONTROL = 0.25  # a part with less of the object's diagonal may be a button or a trigger
+
+
 def limits(around: Surroundings, c: Candidate, kind: JointType) -> tuple[float, float] | None:
     """(lower, upper) about the opening axis [rad or m]; None for continuous and fixed joints."""
     match kind:
@@ -51,6 +54,13 @@ def _shut(around: Surroundings) -> bool:
     return sides >= 3
 
 
+def _pressed(around: Surroundings, c: Candidate, inward: float, clear: bool) -> bool:
+    """Whether a small part is pushed in rather than pulled out: it has room behind it and no grip."""
+    small = around.part.box.diagonal < CONTROL * around.diagonal
+    room = 0.1 * around.part.box.diagonal
+    return small and around.handle is None and not clear and inward > room
+
+
 def _floor(value: float, step: float) -> float:
     return float(np.floor(value / step + 1e-9) * step)
 
@@ -64,6 +74,8 @@ def _slide(around: Surroundings, c: Candidate) -> tuple[float, float]:
     steps = around.config.fine_steps * 2
     upper, _ = free_amount(around.obstacles, motion, 1, most, steps)
     lower, clear = free_amount(around.obstacles, motion, -1, most, steps)
+    if outward and _pressed(around, c, lower, clear):
+        return (0.0 - lower, 0.0)
     if outward or clear or lower < 0.01 * around.scale:
         lower = 0.0
     if upper < 1e-3 * around.scale:

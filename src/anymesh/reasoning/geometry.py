@@ -85,7 +85,8 @@ def _score_hinge(part: PartFacts, c: Candidate, habit: Habit | None) -> float:
     if c.role in ("edge", "edge_mid") and abs(float(c.motion.axis @ part.outward)) > 0.5:
         value -= 3.0  # about the way out: a plate does not turn in its own plane
     value += 1.2 * (max(c.outward, -0.5) - 0.5) if c.role != "bail" else 0.0
-    value -= 1.5 * min(part.buried, 1.0) if c.role != "bail" else 0.0
+    value -= 3.0 * min(part.buried, 1.0) if c.role != "bail" else 0.0
+    value -= 2.5 * _central(part)
     if part.size < SMALL and part.handle is None and c.role != "bail":
         value -= 3.0  # small things on a surface are pressed, slid or turned about their middle
     if part.handle is None or abs(c.handle_side) < 0.3:
@@ -105,8 +106,14 @@ def _habitual_side(part: PartFacts, c: Candidate) -> float:
     """Where hinges usually are when no handle tells: upright on tall plates, above on wide ones, at a lid's long side."""
     if part.horizontal:
         return 0.2
-    tall = c.vertical > 0.7
-    return 0.4 if tall else 0.15
+    if c.vertical > 0.7:
+        return 0.4
+    return 0.1 + 0.5 * c.above  # a flap hangs from its upper edge
+
+
+def _central(part: PartFacts) -> float:
+    """0..1: how near the middle of the face the grip sits; in the middle it pulls, at the side it swings."""
+    return 0.0 if part.handle is None else 1 - max(abs(a) for a in part.handle.across)
 
 
 def _score_slide(part: PartFacts, c: Candidate, habit: Habit | None) -> float:
@@ -120,6 +127,9 @@ def _score_slide(part: PartFacts, c: Candidate, habit: Habit | None) -> float:
         value += 2.4 * min(c.depth, 0.6) / 0.6 * (0.4 + 0.6 * c.guided)
     elif abs(c.outward) < 0.3:
         value += 0.6 if c.guided > 0.7 else -1.0
+        value += 1.5 if c.captured and c.guided > 0.4 else 0.0
+    if out:
+        value += 3.5 * _central(part)
     value += 0.3 if c.role == "slide" else -0.6
     if habit is Habit.SLIDE:
         value += 2.0

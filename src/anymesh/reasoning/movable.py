@@ -90,7 +90,10 @@ def _round(e: PartEvidence) -> tuple[float, str, str]:
         value += 0.3 * min(e.twins, 1)
     if e.opposite:
         value -= 2.0  # one of two pivots or axle ends
-    if e.flatness > 4:
+    if e.separate and e.axle:
+        value += 0.4
+        why.append("something to turn on")
+    if e.flatness > 4 and not e.separate:
         value -= 2.0  # a rod or a pipe
     if e.faces_down or (e.at_bottom and not e.axle_level):
         value -= 1.5  # a foot or a leg

@@ -54,6 +54,8 @@ class Candidate:
     guided: float  # 0..1, a slide: share of the sideways directions in which the part is held
     depth: float  # extent of the part along the slide that lies within the parent, over its smallest side across
     vertical: float  # |axis . up|
+    above: float  # -1..1: where the axis lies between the lowest (-1) and highest (1) of the part
+    captured: bool  # a slide that is stopped both ways, with room to move between
     outward: float  # opening direction . outward, -1..1
 
 
@@ -97,6 +99,7 @@ class PartEvidence:
     enclosed: float  # share of it with the rest on three sides across the way out
     roundness: float
     flatness: float  # height along the round outline's axis over its radius
+    axle: bool  # the rest has something on that axis, close by
     axle_level: bool  # the round outline's axis lies level
     at_bottom: bool  # reaches down to the lowest part of the object
     faces_down: bool  # its way out is down

@@ -52,6 +52,7 @@ def gather(around: Surroundings, context: Context) -> PartEvidence:
         enclosed=_enclosed(around),
         roundness=outline.roundness,
         flatness=outline.height / max(outline.radius, 1e-9),
+        axle=_axle(around),
         axle_level=bool(abs(outline.axis[2]) < 0.5),
         at_bottom=bool(around.part.bounds[0, 2] < low + 0.06 * (high - low)),
         faces_down=bool(around.outward[2] < -0.7),
@@ -62,6 +63,14 @@ def gather(around: Surroundings, context: Context) -> PartEvidence:
         slender=bool(around.part.area < 0.6 * surface),
         on_movable=context.on_movable,
     )
+
+
+def _axle(around: Surroundings) -> bool:
+    """Whether the rest has something on the axis of the round outline within 5 % of the diagonal of the part."""
+    outline = around.outline
+    ends = outline.center + np.array([[-0.5], [0.5]]) * outline.height * outline.axis
+    rays = np.array([[-1.0], [1.0]]) * outline.axis * 0.05 * around.diagonal
+    return bool((around.rest.scene.first_hit(ends - rays, 2 * rays, 1.0).face >= 0).any())
 
 
 def _on_axis(around: Surroundings, twin: Shape) -> bool:
