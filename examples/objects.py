@@ -247,7 +247,7 @@ def tilting_flap() -> Thing:
     away = turned(box((-1, 1), (-1, -0.135), (0.3, 1.2)), (1, 0, 0), -20, (0, -0.135, 0.5))
     plate = turned(box((-0.165, 0.165), (-0.135, -0.123), (0.491, 0.67)), (1, 0, 0), -20, (0, -0.135, 0.5))
     hole = turned(box((-0.122, 0.122), (-0.2, 0.0), (0.52, 0.64)), (1, 0, 0), -20, (0, -0.135, 0.5))
-    t.add("base", shell, join(cut(hood, away), cut(plate, hole)))
+    t.add("base", shell, cut(join(cut(hood, away), plate), hole))
     flap = turned(box((-0.12, 0.12), (-0.134, -0.126), (0.522, 0.638)), (1, 0, 0), -20, (0, -0.135, 0.5))
     t.add("flap", flap, color="dark")
     top = turned(box((-0.001, 0.001), (-0.131, -0.129), (0.637, 0.639)), (1, 0, 0), -20, (0, -0.135, 0.5)).centroid

@@ -37,9 +37,11 @@ def part_facts(around: Surroundings, name: str, label: str, bail: bool) -> PartF
 
 def weigh(around: Surroundings, role: str, motion: Motion) -> Candidate:
     """Sweeps one motion and gathers the evidence for it."""
-    swept = sweep(around.obstacles, motion, steps=around.config.sweep_steps)
     if motion.kind is MotionKind.SLIDE:
+        outward = abs(float(motion.axis @ around.outward)) > 0.5
+        swept = sweep(around.obstacles if outward else around.held_by, motion, steps=around.config.sweep_steps)
         return _slide(around, role, motion, swept)
+    swept = sweep(around.obstacles, motion, steps=around.config.sweep_steps)
     return _turn(around, role, motion, swept)
 
 
@@ -85,7 +87,7 @@ def _slide(around: Surroundings, role: str, motion: Motion, swept) -> Candidate:
     held = 0
     for direction in side:
         sideways = Motion(MotionKind.SLIDE, direction, motion.origin, "sideways")
-        held += sum(not free_amount(around.obstacles, sideways, sign, step, 3)[1] for sign in (1, -1))
+        held += sum(not free_amount(around.held_by, sideways, sign, step, 3)[1] for sign in (1, -1))
     inner = around.inside_depth(motion.axis * opens)
     across = sorted(np.ptp(around.part.corners @ d) for d in side)[0]
     forward, backward = swept.forward / around.scale, swept.backward / around.scale

@@ -71,6 +71,8 @@ def _slide(around: Surroundings, c: Candidate) -> tuple[float, float]:
     extent = float(np.ptp(around.part.corners @ motion.axis))
     outward = c.outward > 0.7
     most = max((1 - around.config.slide_keep) * (depth if outward else extent), 0.01 * around.scale)
+    if c.captured:
+        most = 2 * around.part.box.diagonal
     steps = around.config.fine_steps * 2
     upper, _ = free_amount(around.obstacles, motion, 1, most, steps)
     lower, clear = free_amount(around.obstacles, motion, -1, most, steps)

@@ -19,30 +19,40 @@ from anymesh.geometry.sweep import Obstacles
 from anymesh.types import Handle
 
 LEVEL = 0.12  # share of the surface facing a side that makes up the side's level
+MOST_OUT = 0.25  # what sticks out is less than this share of the surface
 STAND_OUT = 0.012  # a handle stands out by this share of the part's diagonal at least
 
 
 def core_box(shape: Shape) -> Box:
-    """The box of a part without what sticks out of it: each side at the level where its facing surface begins to count."""
+    """The box of a part without what sticks out of it: a small share of its surface, less wide than the part."""
     frame = shape.box.axes
-    samples = shape.samples
-    local = samples.points @ frame.T
-    facing = samples.normals @ frame.T
-    low, high = (c for c in np.array([shape.box.local(shape.corners).min(0), shape.box.local(shape.corners).max(0)]))
-    low, high = low + frame @ shape.box.center, high + frame @ shape.box.center
+    local = shape.samples.points @ frame.T
+    facing = np.abs(shape.samples.normals @ frame.T) > 0.9
+    corners = shape.corners @ frame.T
+    low, high = corners.min(0), corners.max(0)
+    slack = 0.01 * shape.box.diagonal
     for axis in range(3):
-        at = np.sort(local[np.abs(facing[:, axis]) > 0.9, axis])
-        if len(at) < 0.02 * len(samples):
-            continue
-        k = min(int(LEVEL * len(at)), len(at) - 1)
-        slack = 0.01 * shape.box.diagonal
-        low[axis] = at[k] if at[k] > low[axis] + slack else low[axis]
-        high[axis] = at[-1 - k] if at[-1 - k] < high[axis] - slack else high[axis]
-    keep = high - low > 1e-9
-    if not keep.all():
+        for sign, edge in ((1.0, high), (-1.0, low)):
+            at = np.sort(sign * local[facing[:, axis], axis])
+            if len(at) < 0.02 * len(local) or len(at) < 3:
+                continue
+            level = at[-1 - min(int(LEVEL * len(at)), len(at) - 1)]
+            out = sign * local[:, axis] > level + slack / 2
+            if level < sign * edge[axis] - slack and _sticks_out(local, out, axis):
+                edge[axis] = sign * level
+    if (high - low < 1e-9).any():
         return shape.box
-    corners = np.array([[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
-    return box_in_frame(corners @ frame, frame)
+    ends = np.array([[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
+    return box_in_frame(ends @ frame, frame)
+
+
+def _sticks_out(local: np.ndarray, out: np.ndarray, axis: int) -> bool:
+    """Whether samples beyond a level are a grip or the like: few, and narrower than the part in one direction."""
+    if not 0 < out.mean() < MOST_OUT:
+        return False
+    others = [k for k in range(3) if k != axis]
+    span = np.ptp(local[out][:, others], axis=0) / np.maximum(np.ptp(local[:, others], axis=0), 1e-12)
+    return bool(span.min() < 0.6)
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,6 +98,11 @@ class Surroundings:
     @cached_property
     def obstacles(self) -> Obstacles:
         return Obstacles(self.part, self.rest, self.config.penetration * self.scale)
+
+    @cached_property
+    def held_by(self) -> Obstacles:
+        """The same with the other movable parts at rest: what keeps the part from moving sideways."""
+        return Obstacles(self.part, self.everything, self.config.penetration * self.scale)
 
     @cached_property
     def outline(self) -> Outline:

@@ -138,10 +138,9 @@ def free_amount(obstacles: Obstacles, motion: Motion, sign: int, most: float, st
 
 
 def sweep(obstacles: Obstacles, motion: Motion, most: float | None = None, steps: int = 36) -> Sweep:
-    """Free range both ways. most: the range tested each way [rad or m]; default half a turn, or 1.2 lengths of the part."""
+    """Free range both ways. most: the range tested each way [rad or m]; default half a turn, or 2 diagonals of the part."""
     if most is None:
-        span = obstacles.part.corners @ motion.axis
-        most = np.pi if motion.kind is MotionKind.TURN else 1.2 * float(np.ptp(span)) + 4 * obstacles.tolerance
+        most = np.pi if motion.kind is MotionKind.TURN else 2 * obstacles.part.box.diagonal
     forward, clear_forward = free_amount(obstacles, motion, 1, most, steps)
     backward, clear_backward = free_amount(obstacles, motion, -1, most, steps)
     return Sweep(forward, backward, clear_forward, clear_backward)

@@ -86,7 +86,7 @@ def _score_hinge(part: PartFacts, c: Candidate, habit: Habit | None) -> float:
         value -= 3.0  # about the way out: a plate does not turn in its own plane
     value += 1.2 * (max(c.outward, -0.5) - 0.5) if c.role != "bail" else 0.0
     value -= 3.0 * min(part.buried, 1.0) if c.role != "bail" else 0.0
-    value -= 2.5 * _central(part)
+    value -= 3.0 * _central(part)
     if part.size < SMALL and part.handle is None and c.role != "bail":
         value -= 3.0  # small things on a surface are pressed, slid or turned about their middle
     if part.handle is None or abs(c.handle_side) < 0.3:
@@ -129,7 +129,7 @@ def _score_slide(part: PartFacts, c: Candidate, habit: Habit | None) -> float:
         value += 0.6 if c.guided > 0.7 else -1.0
         value += 1.5 if c.captured and c.guided > 0.4 else 0.0
     if out:
-        value += 3.5 * _central(part)
+        value += 4.0 * _central(part)
     value += 0.3 if c.role == "slide" else -0.6
     if habit is Habit.SLIDE:
         value += 2.0
