@@ -173,10 +173,10 @@ def toy_car() -> Thing:
         tyre = cut(rod("x", 0.035, 0.022, (x * 0.082, y, 0.035), 40), rod("x", 0.0072, 0.1, (x * 0.082, y, 0.035), 24))
         t.add(f"wheel_{k + 1}", tyre, color="dark")
         t.joints[f"wheel_{k + 1}"] = spin((x * 0.082, y, 0.035), (1, 0, 0), "wheel")
-    column = turned(rod("z", 0.003, 0.05, (-0.035, -0.045, 0.09), 16), (1, 0, 0), 35, (-0.035, -0.045, 0.09))
+    column = turned(rod("z", 0.003, 0.05, (-0.035, -0.03, 0.09), 16), (1, 0, 0), 35, (-0.035, -0.03, 0.09))
     t.add("base", column, color="dark")
-    at = np.array([-0.035, -0.045, 0.09]) + 0.0275 * np.array([0, -np.sin(np.deg2rad(35)), np.cos(np.deg2rad(35))])
-    at[1] = -0.045 - 0.0275 * np.sin(np.deg2rad(35))
+    at = np.array([-0.035, -0.03, 0.09]) + 0.0275 * np.array([0, -np.sin(np.deg2rad(35)), np.cos(np.deg2rad(35))])
+    at[1] = -0.03 - 0.0275 * np.sin(np.deg2rad(35))
     wheel = [ring("z", 0.018, 0.0025, (0, 0, 0)), box((-0.018, 0.018), (-0.002, 0.002), (-0.0015, 0.0015)),
              box((-0.002, 0.002), (0, 0.018), (-0.0015, 0.0015))]  # fmt: skip
     for solid in wheel:
@@ -259,7 +259,7 @@ def tilted_drawer() -> Thing:
     t = Thing("tilted_drawer", "cabinet")
     about = (0.0, 0.0, 0.3)
     shell = cut(box((-0.2, 0.2), (-0.2, 0.2), (0.15, 0.45)), box((-0.18, 0.18), (-0.21, 0.18), (0.17, 0.43)))
-    t.add("base", turned(shell, (1, 0, 0), -20, about), box((-0.15, 0.15), (-0.15, 0.15), (0, 0.16)))
+    t.add("base", turned(shell, (1, 0, 0), -20, about), box((-0.15, 0.15), (-0.05, 0.05), (0, 0.15)))
     t.add("base", box((-0.22, 0.22), (-0.2, 0.2), (0, 0.02)))
     parts = [(box((-0.178, 0.178), (-0.2, -0.185), (0.172, 0.428)), "wood"),
              (tray((-0.17, 0.17), (-0.186, 0.16), (0.18, 0.4), 0.008), "wood"),

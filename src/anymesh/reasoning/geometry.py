@@ -130,7 +130,7 @@ def _score_slide(part: PartFacts, c: Candidate, habit: Habit | None) -> float:
         value += 1.5 if c.captured and c.guided > 0.4 else 0.0
     if out:
         value += 4.0 * _central(part)
-    value += 0.3 if c.role == "slide" else -0.6
+    value += 0.3 if c.role == "slide" else -1.2
     if habit is Habit.SLIDE:
         value += 2.0
     elif habit is Habit.PRESS:

@@ -90,11 +90,11 @@ def _round(e: PartEvidence) -> tuple[float, str, str]:
         value += 0.3 * min(e.twins, 1)
     if e.opposite:
         value -= 2.0  # one of two pivots or axle ends
-    if e.separate and e.axle:
+    if e.separate and e.axle and e.outside > 0.3:
         value += 0.4
         why.append("something to turn on")
-    if e.flatness > 4 and not e.separate:
-        value -= 2.0  # a rod or a pipe
+    if e.flatness > 4:
+        value -= 0.5 if e.separate else 2.0  # a rod or a pipe
     if e.faces_down or (e.at_bottom and not e.axle_level):
         value -= 1.5  # a foot or a leg
     if e.flatness < 0.25 and not e.axle_level and not e.separate:
@@ -119,4 +119,6 @@ def _control(e: PartEvidence) -> tuple[float, str, str]:
         + 0.25 * e.gap_sides
         - (0.8 if e.size < 0.02 else 0.0)
     )
+    if e.captured:
+        return (value + 0.8, "lever", "touches nothing and slides between two stops")
     return (value, "lever", f"touches nothing, clearance at {e.gap_sides} sides")

@@ -108,6 +108,7 @@ class PartEvidence:
     handle: Handle | None
     pivots: bool  # held at two far ends, from the sides (a bail)
     slender: bool  # much less surface than its box
+    captured: bool  # it slides between two stops, held sideways
     on_movable: bool  # it sits on a part that moves already
 
 

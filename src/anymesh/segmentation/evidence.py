@@ -61,6 +61,7 @@ def gather(around: Surroundings, context: Context) -> PartEvidence:
         handle=around.handle,
         pivots=_pivots(around, near, normals),
         slender=bool(around.part.area < 0.6 * surface),
+        captured=False,
         on_movable=context.on_movable,
     )
 
@@ -96,6 +97,9 @@ def _rim(around: Surroundings, config: SegmentationConfig) -> tuple[int, float]:
     start = samples.points - samples.normals * 2 * touch  # from a little inside, or a surface that it lies on is missed
     hits = around.everything.scene.first_hit(start, samples.normals * reach, 1.0)
     gap = hits.distance * reach - 2 * touch
+    face = np.maximum(hits.face, 0)
+    leaves = np.einsum("ij,ij->i", samples.normals, around.everything.normals[face]) > 0
+    gap[(hits.face >= 0) & around.everything.solid[face] & leaves] = 0  # the rim lies within what it would face
     sides, touched, count = 0, 0, 0
     for axis in around.face_axes:
         for sign in (1, -1):

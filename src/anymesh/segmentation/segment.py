@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Int
@@ -27,6 +27,7 @@ from anymesh.types import JointType, Mesh, MotionKind, Part, Segmentation
 Moves = Callable[[Surroundings, str], tuple[MotionAnswer, Candidate]]  # Stage B's test of one part, by name of its label
 
 
+DOUBTFUL = -0.4  # evidence from which the motion of what touches nothing is looked at
 PLAINLY = 1.8  # evidence that unseats a root
 
 
@@ -105,38 +106,36 @@ def _root_ranking(whole: ObjectShape, contacts: Contacts) -> list[int]:
     """The pieces that the rest may hang on, likeliest first: large, much touched, standing on the ground."""
     degree = np.bincount(contacts.touch.reshape(-1), minlength=len(contacts.shapes))
     low = whole.shape.bounds[0, 2] + 0.02 * whole.diagonal
-    rank = [
-        float(np.linalg.norm(s.bounds[1] - s.bounds[0])) * (1 + 0.1 * min(int(d), 10)) * (1.3 if s.bounds[0, 2] < low else 1)
-        for s, d in zip(contacts.shapes, degree, strict=True)
-    ]
+    rank = []
+    for s, d in zip(contacts.shapes, degree, strict=True):
+        size = float(np.linalg.norm(s.bounds[1] - s.bounds[0])) * (1 + 0.1 * min(int(d), 10))
+        samples = s.samples
+        stands = ((samples.points[:, 2] < low) & (samples.normals[:, 2] < -0.7)).mean() if len(samples) else 0.0
+        rank.append(size * (1.3 if stands > 0.05 else 1.0))
     return [int(i) for i in np.argsort(-np.array(rank), kind="stable")]
 
 
 def _search(
     whole: ObjectShape, units: _Units, answerer: Answerer, moves: Moves, config: Config, progress: Progress
 ) -> list[Found]:
-    """Two rounds: what moves at once, then what is free once those parts are out of the way (a tray behind a door)."""
+    """Three rounds: what touches nothing, small before large, so that a knob is not taken for a panel's handle; what
+    touches; and again what touches nothing and is free once those parts are out of the way (a tray behind a door)."""
     size = {u: _size(units, [u]) / whole.diagonal for u in units.hanging}
     area = np.bincount(units.unit, [s.area for s in units.contacts.shapes])
     least = config.segmentation.smallest
     todo = [u for u in sorted(units.hanging) if u != units.root and size[u] >= least and area[u] > 0]
     todo = sorted(todo, key=lambda u: (-size[u], u))[: config.segmentation.most_candidates]
     found: list[Found] = []
-    for round_ in range(2):
+    apart = [u for u in todo if not _touches_outside(units, units.hanging[u])]
+    for batch in (apart[::-1], [u for u in todo if u not in apart], apart[::-1]):
         taken = {f.unit for f in found}
         new = []
-        if round_ == 1:  # nothing static gets loose because a door is open
-            todo = [u for u in todo if units.names[u] or not _touches_outside(units, units.hanging[u])]
-        for k, u in enumerate(todo):
-            if u in taken:
-                continue
-            progress("segment", units.names[u] or f"piece {u}", k, len(todo))
+        for k, u in enumerate(u for u in batch if u not in taken):
+            progress("segment", units.names[u] or f"piece {u}", k, len(batch))
             hit = _candidate(whole, units, u, found, answerer, moves, config)
             if hit is not None:
                 new.append(hit)
-        found += _outermost(units, new, found)
-        if not new:
-            break
+        found += _outermost(units, new)
     return found
 
 
@@ -166,7 +165,13 @@ def _judged(
     faces = units.faces(members)
     moving = np.zeros(len(whole.shape.areas), bool)
     moving[faces] = True
-    elsewhere = [f for f in found if not np.isin(f.unit, members)]
+    inner = [f for f in found if f.unit in members and f.unit != u]
+    for f in inner:
+        moving[f.faces] = False
+    faces = np.flatnonzero(moving)
+    if len(faces) == 0:
+        return None
+    elsewhere = [f for f in found if f.unit not in members] + inner
     away = np.zeros_like(moving)
     for f in elsewhere:
         away[f.faces] = True
@@ -194,11 +199,14 @@ def _judged(
         and abs(_size(units, units.hanging[other]) - size) < 0.02 * size
     )
     context = Context(whole, config.segmentation, units.names[u], separate, twins, carrier is not None)
-    answer = answerer.is_part(gather(around, context))
-    if not answer.moves:
+    evidence = gather(around, context)
+    answer = answerer.is_part(evidence)
+    if not answer.moves and not (separate and answer.score > DOUBTFUL):
         return None
     motion, best = moves(around, answer.label if units.names[u] else "part")
-    if motion.type is JointType.FIXED:
+    if not answer.moves:  # a fit that lets it slide between two stops is evidence of its own
+        answer = answerer.is_part(replace(evidence, captured=best.captured and best.guided > 0.4))
+    if not answer.moves or motion.type is JointType.FIXED:
         return None
     return Found(u, tuple(members), faces, answer, _label(answer, units.names[u], around, best))
 
@@ -232,18 +240,21 @@ def _label(answer: PartAnswer, name: str, around: Surroundings, best: Candidate)
         if abs(best.outward) < 0.5:
             return "slider"
         return "drawer" if around.part.box.diagonal > 0.15 * around.diagonal else "button"
-    if best.role in ("round", "bail") or answer.label in ("wheel", "knob", "handle"):
-        return answer.label
+    if best.role == "round":
+        return "knob" if around.part.box.diagonal < 0.16 * around.diagonal else "wheel"
+    if best.role == "bail" or answer.label == "handle":
+        return "handle"
     return "lid" if around.outward[2] > 0.8 else "door"
 
 
-def _outermost(units: _Units, new: list[Found], found: list[Found]) -> list[Found]:
+def _outermost(units: _Units, new: list[Found]) -> list[Found]:
     """Of parts found within each other in one round, the outer ones, and the inner ones that touch nothing."""
     kept = []
     for f in new:
         outer = [g for g in new if g is not f and f.unit in g.members]
         apart = not _touches_outside(units, f.members)
-        if not outer or apart or units.names[f.unit]:
+        named = units.names[f.unit] and all(g.label != f.label for g in outer)
+        if not outer or apart or named:
             kept.append(f)
     return kept
 
