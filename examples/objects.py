@@ -174,9 +174,9 @@ def toy_car() -> Thing:
         t.add(f"wheel_{k + 1}", tyre, color="dark")
         t.joints[f"wheel_{k + 1}"] = spin((x * 0.082, y, 0.035), (1, 0, 0), "wheel")
     column = turned(rod("z", 0.003, 0.05, (-0.035, -0.03, 0.09), 16), (1, 0, 0), 35, (-0.035, -0.03, 0.09))
-    t.add("base", column, color="dark")
-    at = np.array([-0.035, -0.03, 0.09]) + 0.0275 * np.array([0, -np.sin(np.deg2rad(35)), np.cos(np.deg2rad(35))])
-    at[1] = -0.03 - 0.0275 * np.sin(np.deg2rad(35))
+    t.add("steering_wheel", column, color="dark")
+    at = np.array([-0.035, -0.03, 0.09]) + 0.025 * np.array([0, -np.sin(np.deg2rad(35)), np.cos(np.deg2rad(35))])
+    at[1] = -0.03 - 0.025 * np.sin(np.deg2rad(35))
     wheel = [ring("z", 0.018, 0.0025, (0, 0, 0)), box((-0.018, 0.018), (-0.002, 0.002), (-0.0015, 0.0015)),
              box((-0.002, 0.002), (0, 0.018), (-0.0015, 0.0015))]  # fmt: skip
     for solid in wheel:
@@ -189,7 +189,7 @@ def toy_car() -> Thing:
         leaf = cut(box(x, (-0.0585, 0.0285), (0.052, 0.1435)), box((-0.2, 0.2), (-0.048, 0.018), (0.105, 0.136)))
         t.add(f"door_{k + 1}", leaf, box(tuple(sorted((s * 0.0715, s * 0.0735))), (-0.049, 0.019), (0.104, 0.137)))
         t.add(f"door_{k + 1}", box(tuple(sorted((s * 0.0745, s * 0.08))), (0.006, 0.022), (0.088, 0.093)), color="metal")
-        t.joints[f"door_{k + 1}"] = hinge((s * 0.0755, -0.0585, 0.1), (0, 0, float(s)), 70)
+        t.joints[f"door_{k + 1}"] = hinge((s * 0.0755, -0.0585, 0.1), (0, 0, -float(s)), 70)
     return t
 
 

@@ -38,6 +38,7 @@ class ArticulationConfig:
     fine_steps: int = 30  # of the last coarse step, for the limits
     door_most: float = 110.0  # [deg] upper limit of a hinge that nothing stops, axis upright (common cup hinges)
     flap_most: float = 90.0  # [deg] upper limit of a hinge that nothing stops, axis level
+    slide_hidden: float = 0.6  # travel of a front whose box is hidden, as a share of the parent's depth
     slide_keep: float = 0.1  # share of a drawer's depth that stays in when it is out
 
 

@@ -9,7 +9,8 @@ from anymesh.geometry.sweep import free_amount
 from anymesh.reasoning.questions import Candidate
 from anymesh.types import JointType, Motion
 
-
+FRONT = 0.35  # a slide less deep than this share of its parent is only a front
+BUTTON = 0.06  # a part with less of the object's diagonal that slides outwards is a button, whatever is behind it
 CONTROL = 0.25  # a part with less of the object's diagonal may be a button or a trigger
 
 
@@ -54,8 +55,14 @@ def _shut(around: Surroundings) -> bool:
     return sides >= 3
 
 
+def _tiny(around: Surroundings) -> bool:
+    return around.part.box.diagonal < BUTTON * around.diagonal
+
+
 def _pressed(around: Surroundings, c: Candidate, inward: float, clear: bool) -> bool:
     """Whether a small part is pushed in rather than pulled out: it has room behind it and no grip."""
+    if _tiny(around) and around.handle is None:
+        return True
     small = around.part.box.diagonal < CONTROL * around.diagonal
     room = 0.1 * around.part.box.diagonal
     return small and around.handle is None and not clear and inward > room
@@ -73,11 +80,14 @@ def _slide(around: Surroundings, c: Candidate) -> tuple[float, float]:
     most = max((1 - around.config.slide_keep) * (depth if outward else extent), 0.01 * around.scale)
     if c.captured:
         most = 2 * around.part.box.diagonal
+    behind = float(np.ptp(around.parent.samples.points @ motion.axis))
+    if outward and not _tiny(around) and extent < FRONT * behind and around.core.half[2] < 0.3 * around.core.half[1]:
+        most = around.config.slide_hidden * behind  # a front whose box the surface does not show
     steps = around.config.fine_steps * 2
     upper, _ = free_amount(around.obstacles, motion, 1, most, steps)
     lower, clear = free_amount(around.obstacles, motion, -1, most, steps)
     if outward and _pressed(around, c, lower, clear):
-        return (0.0 - lower, 0.0)
+        return (0.0 - max(lower, 0.5 * extent if _tiny(around) else 0.0), 0.0)
     if outward or clear or lower < 0.01 * around.scale:
         lower = 0.0
     if upper < 1e-3 * around.scale:

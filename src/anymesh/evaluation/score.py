@@ -103,7 +103,7 @@ def _opens_alike(ours: tuple[float, float] | None, true: tuple[float, float] | N
         return ours is None and true is None
     if min(true[1], -true[0]) > 0.5 * max(true[1], -true[0]):
         return True  # opens both ways
-    return (ours[0] + ours[1] > 0) == (true[0] + true[1] > 0)
+    return bool((ours[0] + ours[1] > 0) == (true[0] + true[1] > 0))
 
 
 def table(scores: list[ObjectScore]) -> str:

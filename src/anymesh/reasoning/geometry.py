@@ -14,6 +14,7 @@ LITTLE = 0.008  # a slide that is free for less, as a share of the diagonal, is 
 FLAT = 0.9  # a control lower than this share of its radius is a button
 LEAST = -1.0  # below this score nothing moves
 SMALL = 0.06  # a part with less of the object's diagonal is a control, not a door
+CONTROL = 0.25  # a part with less of it may be a lever
 ROUND = 0.8  # an outline this round may turn about its axis
 
 
@@ -65,7 +66,7 @@ def _score_round(part: PartFacts, c: Candidate, habit: Habit | None) -> float:
     value = 2.0 + 4.0 * (part.roundness - ROUND) / (1 - ROUND)
     value += 1.0 if free > 3.0 else -3.0 * (1 - free / 3.0)
     if part.size < SMALL and part.flatness < FLAT:
-        value -= 4.0  # a low round control is pressed
+        value -= 6.0  # a low round control is pressed
     if habit is Habit.SPIN:
         value += 2.5
     elif habit in (Habit.SLIDE, Habit.PRESS, Habit.HINGE, Habit.BAIL):
@@ -124,12 +125,15 @@ def _score_slide(part: PartFacts, c: Candidate, habit: Habit | None) -> float:
     if out and part.size < SMALL:
         value += 1.5
     elif out:
-        value += 2.4 * min(c.depth, 0.6) / 0.6 * (0.4 + 0.6 * c.guided)
+        value += 2.4 * min(c.depth, 0.6) / 0.6 * (0.4 + 0.6 * c.guided) * max(0.0, abs(c.outward) - 0.7) / 0.3
     elif abs(c.outward) < 0.3:
         value += 0.6 if c.guided > 0.7 else -1.0
-        value += 1.5 if c.captured and c.guided > 0.4 else 0.0
+        if c.captured and c.guided > 0.4:
+            value += 1.5 if part.size < CONTROL or c.vertical < 0.7 else 0.5
+    if out and part.buried > 0.5 and part.size > CONTROL:
+        value += 0.8  # what lies in a cavity comes out of it
     if out:
-        value += 4.0 * _central(part)
+        value += 4.0 * _central(part) * max(0.0, abs(c.outward) - 0.7) / 0.3
     value += 0.3 if c.role == "slide" else -1.2
     if habit is Habit.SLIDE:
         value += 2.0

@@ -94,7 +94,7 @@ def _round(e: PartEvidence) -> tuple[float, str, str]:
         value += 0.4
         why.append("something to turn on")
     if e.flatness > 4:
-        value -= 0.5 if e.separate else 2.0  # a rod or a pipe
+        value -= 2.0 if not e.separate else 0.0 if e.axle else 0.5  # a rod or a pipe
     if e.faces_down or (e.at_bottom and not e.axle_level):
         value -= 1.5  # a foot or a leg
     if e.flatness < 0.25 and not e.axle_level and not e.separate:

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 import networkx as nx
 import numpy as np
 from jaxtyping import Int
-from scipy.spatial import KDTree
 
 from anymesh.config import SegmentationConfig
 from anymesh.geometry.distance_ import distance_to_triangles
@@ -118,7 +117,10 @@ def _crosses(a: Shape, b: Shape) -> bool:
         start = one.triangles.reshape(-1, 3)
         span = one.triangles[:, [1, 2, 0]].reshape(-1, 3) - start
         step = max(1, len(start) // 3000)
-        if (other.scene.first_hit(start[::step], span[::step], 1.0).face >= 0).any():
+        start, span = start[::step], span[::step]
+        face = other.scene.first_hit(start, span, 1.0).face
+        slope = np.abs(np.einsum("ij,ij->i", span, other.normals[np.maximum(face, 0)]))
+        if ((face >= 0) & (slope > 0.02 * np.linalg.norm(span, axis=1))).any():  # in the plane itself a ray cannot tell
             return True
     return False
 
@@ -126,7 +128,7 @@ def _crosses(a: Shape, b: Shape) -> bool:
 def hanging_on(contacts: Contacts, unit: Int[np.ndarray, " P"], root: int) -> dict[int, list[int]]:
     """For every unit, the units that reach the root only through it (itself first): its dominated set.
 
-    Units join pieces that are known to move as one. Bodies with no contact at all hang on the nearest unit.
+    Units join pieces that are known to move as one. Bodies that are near nothing hang on the root.
     """
     graph = nx.DiGraph()
     count = int(unit.max()) + 1
@@ -136,7 +138,9 @@ def hanging_on(contacts: Contacts, unit: Int[np.ndarray, " P"], root: int) -> di
         if a != b:
             graph.add_edge(a, b)
             graph.add_edge(b, a)
-    _tie_islands(graph, contacts, unit, root)
+    for island in list(nx.weakly_connected_components(graph)):
+        if root not in island:  # near nothing: it hangs on the root
+            graph.add_edges_from((root, node) for node in island)
     parent = nx.immediate_dominators(graph, root)
     children: dict[int, list[int]] = {u: [] for u in range(count)}
     for node in sorted(parent):
@@ -151,24 +155,3 @@ def hanging_on(contacts: Contacts, unit: Int[np.ndarray, " P"], root: int) -> di
             stack.extend(children[at])
         found[node] = below
     return found
-
-
-def _tie_islands(graph: nx.DiGraph, contacts: Contacts, unit: np.ndarray, root: int) -> None:
-    """Joins every island to the unit nearest to it."""
-    centers = [s.samples.points[::30] for s in contacts.shapes]
-    while True:
-        reached = nx.descendants(graph, root) | {root}
-        missing = sorted(set(graph.nodes) - reached)
-        if not missing:
-            return
-        there = [p for p in range(len(unit)) if int(unit[p]) in reached]
-        owner = np.concatenate([np.full(len(centers[p]), p) for p in there])
-        tree = KDTree(np.concatenate([centers[p] for p in there]))
-        best = (np.inf, 0, 0)
-        for p in (p for p in range(len(unit)) if int(unit[p]) in missing):
-            distance, at = tree.query(centers[p])
-            k = int(distance.argmin())
-            best = min(best, (float(distance[k]), p, int(owner[at[k]])))
-        a, b = int(unit[best[1]]), int(unit[best[2]])
-        graph.add_edge(a, b)
-        graph.add_edge(b, a)

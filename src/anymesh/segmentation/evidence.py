@@ -84,6 +84,8 @@ def _contact(around: Surroundings, tolerance: float) -> tuple[np.ndarray, np.nda
     """Which samples touch the rest, and the rest's normal at the closest point of each."""
     t = around.rest.triangles.reshape(-1, 3)
     gap, face, _ = distance_to_mesh(around.part.samples.points, t, np.arange(len(t)).reshape(-1, 3))
+    while (gap < tolerance).sum() < min(8, len(gap)):  # as the connecting area grows in the paper
+        tolerance *= 2
     return gap < tolerance, around.rest.normals[face]
 
 

@@ -251,7 +251,8 @@ def _outermost(units: _Units, new: list[Found]) -> list[Found]:
     """Of parts found within each other in one round, the outer ones, and the inner ones that touch nothing."""
     kept = []
     for f in new:
-        outer = [g for g in new if g is not f and f.unit in g.members]
+        rank = (len(f.faces), -f.unit)
+        outer = [g for g in new if f.unit in g.members and (len(g.faces), -g.unit) > rank]
         apart = not _touches_outside(units, f.members)
         named = units.names[f.unit] and all(g.label != f.label for g in outer)
         if not outer or apart or named:
