@@ -12,6 +12,8 @@ class PiecesConfig:
     crease: float = 25.0  # [deg] a concave edge sharper than this may bound a part on a fused surface
     fused_size: float = 0.35  # components smaller than this are not cut along their creases
     crumb: float = 0.03  # regions smaller than this, left by a cut, join their neighbour
+    most_faces: int = 8000  # a denser mesh is simplified for questions of shape and motion, never in the output
+    least_faces: int = 60  # that a piece keeps of those it has
     most_pieces: int = 1500  # above it, small pieces join their nearest larger one
 
 

@@ -12,7 +12,7 @@ from anymesh.articulation.estimate import ask_motion, estimate_joints
 from anymesh.config import Config
 from anymesh.errors import OptionError
 from anymesh.export import write_asset
-from anymesh.geometry.pieces import ObjectShape, object_shape
+from anymesh.geometry.pieces import object_shape
 from anymesh.loading import load_mesh, place_mesh
 from anymesh.progress import Progress, silent
 from anymesh.reasoning.geometry import GeometryAnswerer
@@ -107,7 +107,7 @@ def find_parts(mesh: Mesh, parts: str, who: Answerer, config: Config, progress: 
         return parts_from_nodes(mesh)
     if parts != "auto":
         return parts_from_file(mesh, Path(parts))
-    whole = object_shape(mesh, config.seed)
+    whole = object_shape(mesh, config.seed, config.pieces)
     return segment_parts(mesh, whole, who, lambda around, label: ask_motion(around, "candidate", label, who), config, progress)
 
 
@@ -115,7 +115,7 @@ def find_joints(
     mesh: Mesh, segmentation: Segmentation, who: Answerer, config: Config, progress: Progress = silent
 ) -> tuple[Joint, ...]:
     """Stage B on a placed mesh and its parts."""
-    whole: ObjectShape = object_shape(mesh, config.seed)
+    whole = object_shape(mesh, config.seed, config.pieces, segmentation.face_part)
     return estimate_joints(whole, segmentation, who, config, progress)
 
 

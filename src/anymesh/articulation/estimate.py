@@ -25,18 +25,19 @@ def estimate_joints(
     progress: Progress = silent,
 ) -> tuple[Joint, ...]:
     """One joint for every part but the root, in the order of the parts."""
-    shapes = [whole.of(segmentation.faces(i)) for i in range(len(segmentation.parts))]
+    label = segmentation.face_part[whole.source]
+    shapes = [whole.of(np.flatnonzero(label == i)) for i in range(len(segmentation.parts))]
     parent = parents(shapes, whole.diagonal)
     joints = []
     for i, part in enumerate(segmentation.parts[1:], start=1):
         progress("joints", part.name, i - 1, len(shapes) - 1)
-        around = surroundings(whole, segmentation, shapes, parent, i, config)
+        around = surroundings(whole, label, shapes, parent, i, config)
         joints.append(estimate_joint(around, part.name, segmentation.parts[parent[i]].name, part.label, answerer))
     return tuple(joints)
 
 
 def surroundings(
-    whole: ObjectShape, segmentation: Segmentation, shapes: list[Shape], parent: list[int], i: int, config: Config
+    whole: ObjectShape, label: np.ndarray, shapes: list[Shape], parent: list[int], i: int, config: Config
 ) -> Surroundings:
     """Part i with what hangs on it; what stands still is the root and the parts that i hangs on."""
     carried = [i, *descendants(parent, i)]
@@ -44,12 +45,12 @@ def surroundings(
     while at > 0:
         line.append(at)
         at = parent[at]
-    still = np.isin(segmentation.face_part, line)
-    moving = np.isin(segmentation.face_part, carried)
+    still = np.isin(label, line)
+    moving = np.isin(label, carried)
     others = ~still & ~moving
     center = whole.shape.bounds.mean(0)
     return Surroundings(
-        part=whole.of(np.flatnonzero(segmentation.face_part == i)) if len(carried) == 1 else whole.of(np.flatnonzero(moving)),
+        part=whole.of(np.flatnonzero(moving)),
         parent=shapes[parent[i]],
         rest=whole.of(np.flatnonzero(still)),
         others=whole.of(np.flatnonzero(others)) if others.any() else None,

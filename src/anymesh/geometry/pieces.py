@@ -3,29 +3,74 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
-from jaxtyping import Int
+from jaxtyping import Bool, Int
 from scipy.spatial import KDTree
 
 from anymesh.config import PiecesConfig
-from anymesh.geometry.shape import Surface, surface_of
+from anymesh.geometry.shape import Shape, Surface, surface_of
+from anymesh.geometry.simplify_ import simplify
 from anymesh.geometry.topology import label_connected
 from anymesh.types import Mesh
 
 
 @dataclass(frozen=True, eq=False)
-class ObjectShape(Surface):
-    """The whole object, ready for both stages. piece: (F,) the piece of every face, see `split`."""
+class ObjectShape:
+    """The whole object, ready for both stages. Its surface is simplified where the mesh is dense, each piece on its own.
 
-    piece: Int[np.ndarray, " F"]
+    shape: R faces; piece: (R,) the piece of each, see `split`; source: (R,) for each a face of the mesh in the same piece;
+    mesh_piece: (F,) the piece of every face of the mesh; shared: (k, 2) pieces that share edges; diagonal [m].
+    """
+
+    shape: Shape
+    piece: Int[np.ndarray, " R"]
+    source: Int[np.ndarray, " R"]
+    mesh_piece: Int[np.ndarray, " F"]
+    shared: Int[np.ndarray, "k 2"]
+    diagonal: float
+
+    def of(self, faces: Int[np.ndarray, " n"]) -> Shape:
+        """The shape of some of the R faces."""
+        return self.shape.take(faces)
 
 
-def object_shape(mesh: Mesh, seed: int = 0, config: PiecesConfig | None = None) -> ObjectShape:
-    """Orients, prepares and splits a mesh; the mesh itself is not changed."""
+def object_shape(
+    mesh: Mesh, seed: int = 0, config: PiecesConfig | None = None, labels: Int[np.ndarray, " F"] | None = None
+) -> ObjectShape:
+    """Orients, splits and simplifies a mesh; the mesh itself is not changed. labels: (F,) parts that are kept apart."""
+    config = config or PiecesConfig()
     s = surface_of(mesh, seed)
-    piece = split(s, config or PiecesConfig())
-    return ObjectShape(s.shape, s.parts, s.void, s.vertices, s.diagonal, piece)
+    piece = split(s, config)
+    pairs = np.sort(piece[s.parts.edges.faces], 1)
+    shared = np.unique(pairs[pairs[:, 0] != pairs[:, 1]], axis=0)
+    group = piece if labels is None else piece * (int(labels.max()) + 1) + labels
+    shape, source = _simplified(s.shape, s.parts.flip[s.parts.label] & ~s.void[s.parts.label], group, config)
+    return ObjectShape(shape, piece[source], source, piece, shared, s.diagonal)
+
+
+def _simplified(
+    shape: Shape, flipped: Bool[np.ndarray, " F"], group: Int[np.ndarray, " F"], config: PiecesConfig
+) -> tuple[Shape, Int[np.ndarray, " R"]]:
+    """Each group in its share of the faces that are kept; small groups stay as they are."""
+    count = len(group)
+    if count <= config.most_faces:
+        return shape, np.arange(count)
+    triangles = np.where(flipped[:, None, None], shape.triangles[:, ::-1], shape.triangles)
+    order = np.argsort(group, kind="stable")
+    bounds = np.flatnonzero(np.r_[True, np.diff(group[order]) != 0, True])
+    kept, source = [], []
+    for a, b in pairwise(bounds):
+        mine = order[a:b]
+        few = simplify(triangles[mine], max(config.least_faces, int(config.most_faces * len(mine) / count)))
+        kept.append(few)
+        source.append(mine if len(few) == len(mine) else np.full(len(few), mine[0]))
+    found, where = np.concatenate(kept), np.concatenate(source)
+    cross = np.cross(found[:, 1] - found[:, 0], found[:, 2] - found[:, 0])
+    length = np.linalg.norm(cross, axis=1, keepdims=True)
+    normals = np.divide(cross, length, out=np.zeros_like(cross), where=length > 0)
+    return Shape(found, normals, shape.solid[where], np.arange(len(found)), shape.seed), where
 
 
 def split(whole: Surface, config: PiecesConfig) -> Int[np.ndarray, " F"]:

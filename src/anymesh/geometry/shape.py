@@ -86,10 +86,6 @@ class Surface:
     vertices: Float[np.ndarray, "V 3"]
     diagonal: float
 
-    def of(self, faces: Int[np.ndarray, " n"]) -> Shape:
-        """The shape of some faces of the mesh."""
-        return self.shape.take(faces)
-
 
 def surface_of(mesh: Mesh, seed: int = 0) -> Surface:
     """Orients and prepares a mesh; the mesh itself is not changed."""

@@ -33,14 +33,12 @@ class Contacts:
     area: dict[tuple[int, int], float]  # area of the first piece that touches the second [m^2]
 
 
-def find_contacts(whole: ObjectShape, piece: Int[np.ndarray, " F"], config: SegmentationConfig) -> Contacts:
+def find_contacts(whole: ObjectShape, config: SegmentationConfig) -> Contacts:
     """Measures all pairs of pieces whose boxes are near each other."""
-    order = np.argsort(piece, kind="stable")
-    bounds = np.searchsorted(piece[order], np.arange(int(piece.max()) + 2))
+    order = np.argsort(whole.piece, kind="stable")
+    bounds = np.searchsorted(whole.piece[order], np.arange(int(whole.piece.max()) + 2))
     shapes = tuple(whole.of(order[a:b]) for a, b in itertools.pairwise(bounds))
-    edges = whole.parts.edges.faces
-    crossing = piece[edges[:, 0]] != piece[edges[:, 1]]
-    shared = {(int(a), int(b)) for a, b in np.unique(np.sort(piece[edges[crossing]], 1), axis=0)}
+    shared = {(int(a), int(b)) for a, b in whole.shared}
     touch, near = sorted(shared), []
     tolerance, reach = config.touch * whole.diagonal, config.near * whole.diagonal
     for i, j in _box_pairs(shapes, reach):

@@ -63,22 +63,22 @@ def segment_parts(
     """The movable parts of a mesh and its base; the base is all that is left."""
     settings = config.segmentation
     progress("segment", "contacts", 0, 2)
-    contacts = find_contacts(whole, whole.piece, settings)
+    contacts = find_contacts(whole, settings)
     units = _rooted(mesh, whole, contacts, answerer, moves, config)
     progress("segment", "evidence", 1, 2)
     found = _search(whole, units, answerer, moves, config, progress)
-    return _assemble(len(mesh.faces), units, found)
+    return _assemble(whole, found)
 
 
-def _units(mesh: Mesh, contacts: Contacts, root_piece: int, diagonal: float) -> _Units:
+def _units(mesh: Mesh, whole: ObjectShape, contacts: Contacts, root_piece: int) -> _Units:
     """Bodies that touch nothing move as one; so do the pieces of a node whose name means something."""
     shapes = contacts.shapes
     key = np.where(contacts.body == contacts.body[root_piece], np.arange(len(shapes)), len(shapes) + contacts.body)
-    same = np.array(coplanar(contacts, 1e-3 * diagonal), np.int64).reshape(-1, 2)
+    same = np.array(coplanar(contacts, 1e-3 * whole.diagonal), np.int64).reshape(-1, 2)
     key = np.where(key < len(shapes), label_connected(len(shapes), same), key)
     names = [""] * len(shapes)
     for p, shape in enumerate(shapes):
-        node = int(np.bincount(mesh.face_node[shape.faces]).argmax())
+        node = int(np.bincount(mesh.face_node[whole.source[shape.faces]]).argmax())
         name = mesh.nodes[node].name
         if recognize(name) is not None or is_fixed_name(name):
             names[p] = name
@@ -92,9 +92,9 @@ def _units(mesh: Mesh, contacts: Contacts, root_piece: int, diagonal: float) -> 
 def _rooted(mesh: Mesh, whole: ObjectShape, contacts: Contacts, answerer: Answerer, moves: Moves, config: Config) -> _Units:
     """Units hung on the likeliest root; a root that is plainly a movable part itself (a fridge's door) gives way."""
     ranked = _root_ranking(whole, contacts)[:4]
-    units = _units(mesh, contacts, ranked[0], whole.diagonal)
+    units = _units(mesh, whole, contacts, ranked[0])
     for first, second in itertools.pairwise(ranked):
-        other = _units(mesh, contacts, second, whole.diagonal)
+        other = _units(mesh, whole, contacts, second)
         hit = _candidate(whole, other, int(other.unit[first]), [], answerer, moves, config)
         if int(other.unit[first]) == other.root or hit is None or hit.answer.score < PLAINLY:
             break
@@ -266,12 +266,12 @@ def _touches_outside(units: _Units, members: Sequence[int]) -> bool:
     return bool((inside[touch[:, 0]] != inside[touch[:, 1]]).any())
 
 
-def _assemble(count: int, units: _Units, found: list[Found]) -> Segmentation:
+def _assemble(whole: ObjectShape, found: list[Found]) -> Segmentation:
     """Face numbers and unique names; a part within a part owns its faces."""
-    face_part = np.zeros(count, np.int64)
+    face_part = np.zeros(len(whole.mesh_piece), np.int64)
     found = sorted(found, key=lambda f: (-len(f.faces), f.unit))
     for number, f in enumerate(found, start=1):
-        face_part[f.faces] = number
+        face_part[np.isin(whole.mesh_piece, whole.piece[f.faces])] = number
     present = [n for n in range(1, len(found) + 1) if (face_part == n).any()]
     renumber = np.zeros(len(found) + 1, np.int64)
     renumber[present] = np.arange(1, len(present) + 1)
