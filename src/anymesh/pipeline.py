@@ -6,13 +6,16 @@ import time
 from collections.abc import Generator
 from contextlib import contextmanager
 from dataclasses import replace
+from functools import cached_property
 from pathlib import Path
+
+import numpy as np
 
 from anymesh.articulation.estimate import ask_motion, estimate_joints
 from anymesh.config import Config
 from anymesh.errors import OptionError
 from anymesh.export import write_asset
-from anymesh.geometry.pieces import object_shape
+from anymesh.geometry.pieces import ObjectShape, object_shape
 from anymesh.loading import load_mesh, place_mesh
 from anymesh.progress import Progress, silent
 from anymesh.reasoning.geometry import GeometryAnswerer
@@ -48,8 +51,9 @@ def articulate(
     config, who = Config(seed=seed, category=category), make_answerer(answerer)
     with RunFolder.create(Path(out), source=Path(mesh_path), force=force) as run:
         placed, key = _place(run, Path(mesh_path), up, scale, progress)
-        segmented, key = _segment(run, placed, key, parts, who, config, progress)
-        _join(run, placed, segmented, key, who, config, progress)
+        ready = _Ready(placed.mesh, config)
+        segmented, key = _segment(run, placed, ready, key, parts, who, config, progress)
+        _join(run, placed, ready, segmented, key, who, config, progress)
         return _export(run, progress)
 
 
@@ -70,7 +74,7 @@ def segment(
     config, who = Config(seed=seed, category=category), make_answerer(answerer)
     with RunFolder.create(Path(out), source=Path(mesh_path), force=force) as run:
         placed, key = _place(run, Path(mesh_path), up, scale, progress)
-        return _segment(run, placed, key, parts, who, config, progress)[0].segmentation
+        return _segment(run, placed, _Ready(placed.mesh, config), key, parts, who, config, progress)[0].segmentation
 
 
 def joints(
@@ -85,7 +89,8 @@ def joints(
     config, who = Config(seed=seed, category=category), make_answerer(answerer)
     with RunFolder.open(Path(folder)) as run:
         placed, segmented = run.need(MESH), run.need(SEGMENTATION)
-        return _join(run, placed, segmented, run.key(SEGMENTATION), who, config, progress).joints
+        ready = _Ready(placed.mesh, config)
+        return _join(run, placed, ready, segmented, run.key(SEGMENTATION), who, config, progress).joints
 
 
 def export(folder: str | Path, *, progress: Progress = silent) -> Asset:
@@ -101,21 +106,30 @@ def make_answerer(name: str) -> Answerer:
     return GeometryAnswerer()
 
 
-def find_parts(mesh: Mesh, parts: str, who: Answerer, config: Config, progress: Progress = silent) -> Segmentation:
-    """Stage A on a placed mesh [m, Z up]."""
+def find_parts(
+    mesh: Mesh, parts: str, who: Answerer, config: Config, progress: Progress = silent, whole: ObjectShape | None = None
+) -> Segmentation:
+    """Stage A on a placed mesh [m, Z up]. `whole` is the mesh made ready, where that was done already."""
     if parts == "nodes":
         return parts_from_nodes(mesh)
     if parts != "auto":
         return parts_from_file(mesh, Path(parts))
-    whole = object_shape(mesh, config.seed, config.pieces)
+    whole = whole or object_shape(mesh, config.seed, config.pieces)
     return segment_parts(mesh, whole, who, lambda around, label: ask_motion(around, "candidate", label, who), config, progress)
 
 
 def find_joints(
-    mesh: Mesh, segmentation: Segmentation, who: Answerer, config: Config, progress: Progress = silent
+    mesh: Mesh,
+    segmentation: Segmentation,
+    who: Answerer,
+    config: Config,
+    progress: Progress = silent,
+    whole: ObjectShape | None = None,
 ) -> tuple[Joint, ...]:
-    """Stage B on a placed mesh and its parts."""
-    whole = object_shape(mesh, config.seed, config.pieces, segmentation.face_part)
+    """Stage B on a placed mesh and its parts. `whole` serves again where the parts are made of its pieces."""
+    label = segmentation.face_part
+    if whole is None or (label != label[whole.source][np.unique(whole.piece, return_index=True)[1]][whole.mesh_piece]).any():
+        whole = object_shape(mesh, config.seed, config.pieces, label)
     return estimate_joints(whole, segmentation, who, config, progress)
 
 
@@ -133,8 +147,19 @@ def _place(run: RunFolder, path: Path, up: str, scale: str, progress: Progress) 
     return found, key
 
 
+class _Ready:
+    """The mesh made ready for both stages, when it is first asked for."""
+
+    def __init__(self, mesh: Mesh, config: Config) -> None:
+        self._mesh, self._config = mesh, config
+
+    @cached_property
+    def whole(self) -> ObjectShape:
+        return object_shape(self._mesh, self._config.seed, self._config.pieces)
+
+
 def _segment(
-    run: RunFolder, placed: Placed, previous: str, parts: str, who: Answerer, config: Config, progress: Progress
+    run: RunFolder, placed: Placed, ready: _Ready, previous: str, parts: str, who: Answerer, config: Config, progress: Progress
 ) -> tuple[Segmented, str]:
     labels = Path(parts).read_bytes().hex() if parts not in ("auto", "nodes") and Path(parts).is_file() else ""
     settings = {**config.as_dict(), "parts": parts, "labels": labels, "answerer": who.name}
@@ -142,7 +167,8 @@ def _segment(
     found = run.load(SEGMENTATION, key)
     if found is None:
         with _timed(run, "segment"):
-            segmentation = find_parts(placed.mesh, parts, who, config, progress)
+            whole = ready.whole if parts == "auto" else None
+            segmentation = find_parts(placed.mesh, parts, who, config, progress, whole)
         none = ("nothing was found that moves",) if len(segmentation.parts) == 1 else ()
         found = Segmented(segmentation, who.name, (*placed.warnings, *none))
         run.save(SEGMENTATION, key, found)
@@ -152,6 +178,7 @@ def _segment(
 def _join(
     run: RunFolder,
     placed: Placed,
+    ready: _Ready,
     segmented: Segmented,
     previous: str,
     who: Answerer,
@@ -162,7 +189,7 @@ def _join(
     found = run.load(JOINTS, key)
     if found is None:
         with _timed(run, "joints"):
-            made = find_joints(placed.mesh, segmented.segmentation, who, config, progress)
+            made = find_joints(placed.mesh, segmented.segmentation, who, config, progress, ready.whole)
         unsure = tuple(
             f"joint {j.name}: low confidence ({j.confidence:.2f}), please check" for j in made if j.confidence < UNSURE
         )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from anymesh.articulation.evidence import part_facts, weigh
+from anymesh.articulation.evidence import part_facts, weigh_all
 from anymesh.articulation.hypotheses import propose
 from anymesh.articulation.limits import limits, opening_motion
 from anymesh.articulation.tree import descendants, parents
@@ -65,7 +65,7 @@ def surroundings(
 def ask_motion(around: Surroundings, name: str, label: str, answerer: Answerer) -> tuple[MotionAnswer, Candidate]:
     """How a part moves: proposes and sweeps the candidates, asks, and returns the answer with the candidate chosen."""
     proposed = propose(around)
-    candidates = tuple(weigh(around, role, motion) for role, motion in proposed)
+    candidates = weigh_all(around, proposed)
     facts = part_facts(around, name, label, any(role == "bail" for role, _ in proposed))
     answer = answerer.which_motion(MotionQuestion(facts, candidates))
     return answer, candidates[answer.ranking[0]]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from anymesh.geometry.distance_ import distance_to_triangles
@@ -35,31 +37,46 @@ def part_facts(around: Surroundings, name: str, label: str, bail: bool) -> PartF
     )
 
 
-def weigh(around: Surroundings, role: str, motion: Motion) -> Candidate:
-    """Sweeps one motion and gathers the evidence for it."""
-    if motion.kind is MotionKind.SLIDE:
-        outward = abs(float(motion.axis @ around.outward)) > 0.5
-        swept = sweep(around.obstacles if outward else around.held_by, motion, steps=around.config.sweep_steps)
-        return _slide(around, role, motion, swept)
-    swept = sweep(around.obstacles, motion, steps=around.config.sweep_steps)
-    return _turn(around, role, motion, swept)
+def weigh_all(around: Surroundings, proposed: list[tuple[str, Motion]]) -> tuple[Candidate, ...]:
+    """Sweeps every motion and gathers the evidence for it."""
+    along = _support(around, [m for _, m in proposed if m.kind is MotionKind.TURN])
+    found = []
+    for role, motion in proposed:
+        if motion.kind is MotionKind.TURN:
+            found.append(_turn(around, role, motion, *next(along)))
+        else:
+            found.append(_slide(around, role, motion))
+    return tuple(found)
 
 
-def _turn(around: Surroundings, role: str, motion: Motion, swept) -> Candidate:
+def _support(around: Surroundings, turns: list[Motion]) -> Iterator[tuple[float, float]]:
+    """For each hinge line, as long as the part: the shares that have the parent, and another movable part, near."""
+    if not turns:
+        return
     points = around.part.samples.points
-    arm = points.mean(0) - motion.origin
-    moves = np.cross(motion.axis, arm)
+    lines = []
+    for motion in turns:
+        along = points @ motion.axis
+        at = np.linspace(along.min(), along.max(), LINE_POINTS) - motion.origin @ motion.axis
+        lines.append(motion.origin + at[:, None] * motion.axis)
+    probe = np.concatenate(lines)
+    reach = around.config.support * around.scale
+    parent = distance_to_triangles(probe, around.parent.triangles) < reach
+    other = np.zeros(len(probe), bool)
+    if around.others is not None:
+        other = distance_to_triangles(probe, around.others.triangles) < reach
+    shares = (near.reshape(len(turns), LINE_POINTS).mean(1) for near in (parent, other))
+    for support, sibling in zip(*shares, strict=True):
+        yield float(support), float(sibling)
+
+
+def _turn(around: Surroundings, role: str, motion: Motion, support: float, sibling: float) -> Candidate:
+    swept = sweep(around.obstacles, motion, steps=around.config.sweep_steps)
+    moves = np.cross(motion.axis, around.part.samples.points.mean(0) - motion.origin)
     outward = float(moves @ around.outward)
     across = float(np.linalg.norm(moves))
     toward = outward / across if across > 1e-9 else 0.0
     opens = _opening_sign(toward, swept.forward, swept.backward, np.deg2rad(20))
-    along = points @ motion.axis
-    middle = motion.origin @ motion.axis
-    at = np.linspace(along.min(), along.max(), LINE_POINTS) - middle
-    line = motion.origin + at[:, None] * motion.axis
-    reach = around.config.support * around.scale
-    support = float((distance_to_triangles(line, around.parent.triangles) < reach).mean())
-    sibling = float((distance_to_triangles(line, around.others.triangles) < reach).mean()) if around.others is not None else 0.0
     return Candidate(
         motion, swept, role, opens,
         *((swept.forward, swept.backward) if opens > 0 else (swept.backward, swept.forward)),
@@ -75,7 +92,9 @@ def _turn(around: Surroundings, role: str, motion: Motion, swept) -> Candidate:
     )  # fmt: skip
 
 
-def _slide(around: Surroundings, role: str, motion: Motion, swept) -> Candidate:
+def _slide(around: Surroundings, role: str, motion: Motion) -> Candidate:
+    outward = abs(float(motion.axis @ around.outward)) > 0.5
+    swept = sweep(around.obstacles if outward else around.held_by, motion, steps=around.config.sweep_steps)
     toward = float(motion.axis @ around.outward)
     opens = _opening_sign(toward, swept.forward, swept.backward, 0.0)
     side = np.linalg.svd(motion.axis[None])[2][1:]

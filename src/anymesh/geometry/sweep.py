@@ -119,8 +119,7 @@ def _squarely(start: np.ndarray, span: np.ndarray, target: Shape, tolerance: flo
 def free_amount(obstacles: Obstacles, motion: Motion, sign: int, most: float, steps: int) -> tuple[float, bool]:
     """How far (in 0..most) the part moves along sign * motion before it is stopped, and whether it never was."""
     amounts = np.linspace(0, most, steps + 1)
-    there = np.stack([motion.transform(sign * a) for a in amounts])
-    back = np.stack([motion.transform(-sign * a) for a in amounts])
+    there, back = motion.transforms(sign * amounts), motion.transforms(-sign * amounts)
     pairs = ((obstacles.part_points, there, obstacles.rest), (obstacles.rest_points, back, obstacles.part))
     quorum = max(2, int(SHARE_STOPPED * sum(len(points) for points, _, _ in pairs)))
     found = np.zeros(0)

@@ -36,11 +36,13 @@ def render_preview(asset: Asset) -> UInt8[np.ndarray, "H W 3"]:
     """Panels: the object as it looks, its parts at rest, its parts opened; below them the legend."""
     opened = {j.name: shown_position(j) for j in asset.joints}
     colors = part_colors(asset)
-    poses = [asset.mesh, posed(asset, {}), posed(asset, opened)]
-    camera = best_camera(asset, poses[2])
+    poses = [asset.mesh, posed(asset, opened)]
+    scenes = [RayScene(m.vertices, m.faces) for m in poses]
+    camera = best_camera(asset, poses[1], scenes)
     panels = []
-    for k, mesh in enumerate(poses):
-        view = render(mesh, camera, face_color=None if k == 0 else colors)
+    for k in range(3):
+        pose = k // 2
+        view = render(poses[pose], camera, face_color=None if k == 0 else colors, scene=scenes[pose])
         half = Image.fromarray(view.color).resize((SIZE, SIZE), Image.Resampling.BOX)
         if k > 0:
             _draw_axes(ImageDraw.Draw(half), asset, opened if k == 2 else {}, camera)
@@ -73,11 +75,10 @@ def orbit_camera(bounds: Float[np.ndarray, "2 3"], azimuth: float, elevation: fl
     return Camera.looking_at(center + direction * radius * 1.02 / np.sin(fov / 2), center, fov, size, size)
 
 
-def best_camera(asset: Asset, opened: Mesh) -> Camera:
+def best_camera(asset: Asset, opened: Mesh, scenes: list[RayScene]) -> Camera:
     """The view in which the moving parts show most, at rest and opened alike."""
     bounds = np.array([np.minimum(asset.mesh.bounds[0], opened.bounds[0]), np.maximum(asset.mesh.bounds[1], opened.bounds[1])])
     moving = asset.segmentation.face_part > 0
-    scenes = [RayScene(m.vertices, m.faces) for m in (asset.mesh, opened)]
     best, most = orbit_camera(bounds, np.deg2rad(35), np.deg2rad(24), 2 * SIZE), -1.0
     for azimuth in (35, -35, 145, -145, 90, -90):
         small = orbit_camera(bounds, np.deg2rad(azimuth), np.deg2rad(24), 96)

@@ -32,14 +32,18 @@ class Motion:
 
     def transform(self, amount: float) -> Float[np.ndarray, "4 4"]:
         """Rigid transform (asset frame) after moving by `amount` [rad for a turn, m for a slide]."""
-        T = np.eye(4)
+        return self.transforms(np.array([amount]))[0]
+
+    def transforms(self, amounts: Float[np.ndarray, " k"]) -> Float[np.ndarray, "k 4 4"]:
+        """Rigid transforms for many amounts."""
+        T = np.tile(np.eye(4), (len(amounts), 1, 1))
         if self.kind is MotionKind.SLIDE:
-            T[:3, 3] = amount * self.axis
+            T[:, :3, 3] = amounts[:, None] * self.axis
             return T
         x, y, z = self.axis
         K = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-        T[:3, :3] = np.eye(3) + np.sin(amount) * K + (1 - np.cos(amount)) * (K @ K)
-        T[:3, 3] = self.origin - T[:3, :3] @ self.origin
+        T[:, :3, :3] += np.sin(amounts)[:, None, None] * K + (1 - np.cos(amounts))[:, None, None] * (K @ K)
+        T[:, :3, 3] = self.origin - T[:, :3, :3] @ self.origin
         return T
 
 
