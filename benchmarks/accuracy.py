@@ -1,15 +1,18 @@
-"""Accuracy on the examples: parts given, and end to end from the mesh alone.
+"""Accuracy on objects with known joints: parts given, and end to end from the mesh alone.
 
-python benchmarks/accuracy.py [NAME ...]
+python benchmarks/accuracy.py [-v] [NAME ...]      examples and scene-synthesizer's classes; -v prints every joint that is off
+python benchmarks/accuracy.py --markdown FILE      also writes the tables
 """
 
 from __future__ import annotations
 
-import sys
+import argparse
+import tempfile
 import time
 from pathlib import Path
 
 from anymesh.config import Config
+from anymesh.evaluation.datasets.scene_synthesizer_ import CLASSES, synthesize
 from anymesh.evaluation.score import ObjectScore, score, table
 from anymesh.evaluation.truth import Truth, example_truths
 from anymesh.loading import load_mesh, place_mesh
@@ -27,19 +30,39 @@ def evaluate(truth: Truth, given: bool) -> ObjectScore:
     return score(truth, placed.mesh, placed.T_asset_source, segmentation, joints)
 
 
-def main() -> None:
-    names = [a for a in sys.argv[1:] if not a.startswith("-")]
-    truths = [t for t in example_truths(EXAMPLES) if not names or t.name in names]
+def report(title: str, truths: list[Truth], verbose: bool) -> str:
+    """Both protocols on one set, as Markdown."""
+    lines = []
     for given in (True, False):
         begin = time.perf_counter()
         scores = [evaluate(t, given) for t in truths]
-        print(f"\n## {'Parts given' if given else 'End to end'} ({time.perf_counter() - begin:.0f} s)\n")
-        print(table(scores))
+        protocol = "parts given" if given else "end to end"
+        lines += [f"## {title}, {protocol} ({time.perf_counter() - begin:.0f} s)", "", table(scores), ""]
+        print("\n".join(lines[-4:]))
         for s in scores:
             for j in s.joints:
                 bad = j.type_found is None or (j.angle or 0) > 2 or (j.position or 0) > 0.02 or j.opens_right is False
-                if "-v" in sys.argv and (bad or j.iou < 0.8 or not j.parent_right):
+                if verbose and (bad or j.iou < 0.8 or not j.parent_right):
                     print(s.name, j)
+    return "\n".join(lines)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description="Accuracy on objects with known joints.")
+    parser.add_argument("names", nargs="*", help="objects; all when none is named")
+    parser.add_argument("-v", "--verbose", action="store_true", help="print every joint that is off")
+    parser.add_argument("--markdown", type=Path, help="file to write the tables to")
+    options = parser.parse_args()
+    with tempfile.TemporaryDirectory() as folder:
+        wanted = [c for c in CLASSES if not options.names or c in options.names]
+        sets = {
+            "Examples": [t for t in example_truths(EXAMPLES) if not options.names or t.name in options.names],
+            "scene-synthesizer": [synthesize(c, Path(folder)) for c in wanted],
+        }
+        done = [report(title, truths, options.verbose) for title, truths in sets.items() if truths]
+    if options.markdown:
+        head = "# Accuracy\n\nAnswerer: geometry alone. Position in shares of the diagonal; opens: share on the right side.\n"
+        options.markdown.write_text("\n".join([head, *done]), encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -1,0 +1,52 @@
+"""The bars on scene-synthesizer's ten classes: exact joints that this project did not make."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from anymesh.config import Config
+from anymesh.evaluation.datasets.scene_synthesizer_ import CLASSES, synthesize
+from anymesh.evaluation.metrics import same_motion
+from anymesh.evaluation.score import ObjectScore, score
+from anymesh.evaluation.truth import Truth
+from anymesh.loading import load_mesh, place_mesh
+from anymesh.pipeline import find_joints, find_parts, make_answerer
+
+
+@pytest.fixture(scope="module")
+def truths(tmp_path_factory: pytest.TempPathFactory) -> list[Truth]:
+    folder = tmp_path_factory.mktemp("scene_synthesizer")
+    return [synthesize(name, folder) for name in CLASSES]
+
+
+def evaluated(truth: Truth, given: bool) -> ObjectScore:
+    placed = place_mesh(load_mesh(truth.mesh))
+    who, config = make_answerer("geometry"), Config()
+    parts = truth.segmentation() if given else find_parts(placed.mesh, "auto", who, config)
+    joints = find_joints(placed.mesh, parts, who, config)
+    return score(truth, placed.mesh, placed.T_asset_source, parts, joints)
+
+
+def test_truth_is_of_the_mesh(truths: list[Truth]) -> None:
+    for truth in truths:
+        mesh = place_mesh(load_mesh(truth.mesh)).mesh
+        assert len(truth.labels) == len(mesh.faces)
+        assert {j.child for j in truth.joints} == {p.name for p in truth.parts[1:]}
+    assert sum(len(t.joints) for t in truths) >= 30
+
+
+def test_parts_given(truths: list[Truth]) -> None:
+    joints = [j for t in truths for j in evaluated(t, given=True).joints]
+    right = [j.type_found is not None and same_motion(j.type_true, j.type_found) for j in joints]
+    assert np.mean(right) >= 0.9
+    assert np.mean([j.angle for j in joints]) <= 4
+    assert np.mean([j.position for j in joints if j.position is not None]) <= 0.01
+    assert np.mean([j.opens_right for j in joints]) >= 0.95
+
+
+def test_end_to_end(truths: list[Truth]) -> None:
+    scores = [evaluated(t, given=False) for t in truths]
+    matched, true, predicted = (sum(getattr(s, k) for s in scores) for k in ("matched", "true", "predicted"))
+    assert 2 * matched / (true + predicted) >= 0.7
+    assert np.mean([s.f1 for s in scores]) >= 0.7
