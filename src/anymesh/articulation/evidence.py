@@ -13,6 +13,7 @@ from anymesh.reasoning.questions import Candidate, PartFacts
 from anymesh.types import Motion, MotionKind, Sweep
 
 LINE_POINTS = 21  # along a hinge line
+ACROSS = 0.6  # weight of a bar that runs across the line
 HELD = 0.02  # a slide is held sideways when stopped within this share of the diagonal
 
 
@@ -145,7 +146,10 @@ def _opening_sign(toward: float, forward: float, backward: float, little: float)
 
 
 def _handle_side(around: Surroundings, motion: Motion) -> float:
-    """1: the handle is at the side opposite the line; -1: right at the line; 0: no handle, or level with the line."""
+    """1: the handle is at the side opposite the line; -1: right at the line; 0: no handle, or level with the line.
+
+    A grip that runs across the line counts less: hands close around bars that are parallel to the hinge.
+    """
     handle = around.handle
     if handle is None:
         return 0.0
@@ -155,4 +159,6 @@ def _handle_side(around: Surroundings, motion: Motion) -> float:
         if abs(around.core.axes[axis] @ motion.axis) < 0.3:
             side = float(arm @ around.core.axes[axis]) / max(float(around.core.half[axis]), 1e-9)
             total += -float(np.clip(side, -1, 1)) * where
+            if handle.along is not None and around.face_axes[handle.along] == axis:
+                total *= ACROSS
     return float(np.clip(total, -1, 1))

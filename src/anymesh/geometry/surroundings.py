@@ -20,6 +20,7 @@ from anymesh.types import Handle
 
 LEVEL = 0.12  # share of the surface facing a side that makes up the side's level
 MOST_OUT = 0.25  # what sticks out is less than this share of the surface
+GRIP = 0.3  # a grip stands out by this share of its smaller width at least
 STAND_OUT = 0.012  # a handle stands out by this share of the part's diagonal at least
 
 
@@ -155,12 +156,13 @@ class Surroundings:
 
     @cached_property
     def handle(self) -> Handle | None:
-        """What stands out of the part's outer face, if it is small against the face."""
+        """What stands out of the part's outer face the furthest, if it is small against the face and no mere raised panel."""
         k = int(np.abs(self.core.axes @ self.outward).argmax())
         sign = np.sign(self.core.axes[k] @ self.outward)
         local = self.core.local(self.part.samples.points)
         above = sign * local[:, k] - self.core.half[k]
-        out = above > STAND_OUT * self.core.diagonal
+        height = float(above.max())
+        out = above > max(STAND_OUT * self.core.diagonal, height / 2)
         share = float(out.mean())
         if not 0.002 < share < 0.45:
             return None
@@ -170,7 +172,7 @@ class Surroundings:
         size = high - low
         middle = (low + high) / 2 / np.maximum(self.core.half[face], 1e-9)
         along = None if size.max() < 1.6 * size.min() + 1e-9 else int(size.argmax())
-        if (size > 1.7 * self.core.half[face]).all():
+        if (size > 1.7 * self.core.half[face]).all() or height < GRIP * size.min():
             return None
         return Handle(
             (float(np.clip(middle[0], -1, 1)), float(np.clip(middle[1], -1, 1))),

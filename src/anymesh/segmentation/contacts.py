@@ -51,22 +51,35 @@ def find_contacts(whole: ObjectShape, config: SegmentationConfig) -> Contacts:
             near.append((i, j, gap))
     pairs = np.array(touch, np.int64).reshape(-1, 2)
     body = label_connected(len(shapes), pairs)
-    apart = _neighbours(near, body, tolerance)
+    apart = _neighbours(near, body, shapes, tolerance)
     area = {}
     for i, j in touch:
         area[i, j], area[j, i] = (_touching(shapes[a], shapes[b], 2 * tolerance) for a, b in ((i, j), (j, i)))
     return Contacts(shapes, pairs, apart, body, area)
 
 
-def _neighbours(near: list[tuple[int, int, float]], body: np.ndarray, slack: float) -> np.ndarray:
-    """Of the pairs of bodies with a clearance, those that are among the nearest of either body."""
-    least: dict[int, float] = {}
-    pairs = [(i, j, gap) for i, j, gap in near if body[i] != body[j]]
-    for i, j, gap in pairs:
-        for b in (int(body[i]), int(body[j])):
-            least[b] = min(least.get(b, np.inf), gap)
-    kept = [(i, j) for i, j, gap in pairs if gap <= 2 * max(least[int(body[i])], least[int(body[j])]) + slack]
-    return np.array(kept, np.int64).reshape(-1, 2)
+def _neighbours(
+    near: list[tuple[int, int, float]], body: np.ndarray, shapes: tuple[Shape, ...], slack: float
+) -> np.ndarray:
+    """Of the pairs of bodies with a clearance, those that are among the nearest of the smaller body.
+
+    A fit has clearances that differ by a factor of two; what is small against its nearest piece hangs on that alone.
+    """
+    size = [float(np.linalg.norm(s.bounds[1] - s.bounds[0])) for s in shapes]
+    extent = np.zeros(int(body.max()) + 1)
+    np.maximum.at(extent, body, size)
+    pairs = []
+    for i, j, gap in near:
+        if body[i] != body[j]:
+            small, large = sorted((i, j), key=lambda p: (extent[body[p]], body[p]))
+            pairs.append((gap, small, large))
+    most: dict[int, float] = {}
+    kept = []
+    for gap, small, large in sorted(pairs):
+        factor = 1.3 if extent[body[small]] < 0.5 * size[large] else 2.0
+        if gap <= most.setdefault(int(body[small]), factor * gap) + slack:
+            kept.append((min(small, large), max(small, large)))
+    return np.array(sorted(kept), np.int64).reshape(-1, 2)
 
 
 def _touching(a: Shape, b: Shape, tolerance: float) -> float:
