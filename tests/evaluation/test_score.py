@@ -1,0 +1,116 @@
+"""An asset against the truth: the truth is perfect, nothing is worth nothing, and each fault is told as itself."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from assets import cabinet
+
+from anymesh.evaluation.score import ObjectScore, score, table
+from anymesh.evaluation.truth import TrueJoint, Truth
+from anymesh.types import Asset, Joint, JointType, Part, Segmentation
+
+ASSET = cabinet()
+
+
+def truth_of(asset: Asset, T_asset_source: np.ndarray) -> Truth:
+    """The asset as the truth in the coordinates of a file that T takes to the asset frame."""
+    T = np.linalg.inv(T_asset_source)
+    scale = float(np.cbrt(np.linalg.det(T)))
+
+    def one(j: Joint) -> TrueJoint:
+        limits = None if j.limits is None else (j.limits[0], j.limits[1])
+        if limits is not None and j.type is JointType.PRISMATIC:
+            limits = (limits[0] * scale, limits[1] * scale)
+        axis = T[:3, :3] @ j.axis / scale
+        return TrueJoint(j.child, j.parent, j.type, T[:3, :3] @ j.origin + T[:3, 3], axis, limits)
+
+    s = asset.segmentation
+    return Truth(asset.name, Path("mesh.glb"), s.parts, s.face_part, tuple(map(one, asset.joints)))
+
+
+def scored(joints=ASSET.joints, segmentation=ASSET.segmentation, T=None) -> ObjectScore:
+    T = np.eye(4) if T is None else T
+    return score(truth_of(ASSET, T), ASSET.mesh, T, segmentation, tuple(joints))
+
+
+def changed(child: str, **changes) -> ObjectScore:
+    return scored(replace(j, **changes) if j.child == child else j for j in ASSET.joints)
+
+
+def of(result: ObjectScore, part: str):
+    return next(j for j in result.joints if j.part == part)
+
+
+SHRUNK_AND_TURNED = np.array([[0, -0.01, 0, 1], [0.01, 0, 0, 2], [0, 0, 0.01, 3], [0, 0, 0, 1]])
+
+
+@pytest.mark.parametrize("T", [np.eye(4), SHRUNK_AND_TURNED], ids=["same frame", "other frame and unit"])
+def test_the_truth_against_itself_is_perfect(T) -> None:
+    result = scored(T=T)
+    assert (result.predicted, result.true, result.matched, result.f1) == (3, 3, 3, 1.0)
+    for j in result.joints:
+        assert j.type_found is j.type_true
+        assert (j.iou, j.angle, j.range_iou) == pytest.approx((1, 0, 1), abs=1e-9)
+        assert j.parent_right
+    assert [j.opens_right for j in result.joints] == [True, True, None]  # an endless joint opens nowhere
+    assert [j.position for j in result.joints] == [pytest.approx(0, abs=1e-9), None, pytest.approx(0, abs=1e-9)]
+
+
+def test_nothing_found_is_worth_nothing() -> None:
+    nothing = Segmentation(np.zeros(len(ASSET.mesh.faces), int), (Part("base", "base"),))
+    result = scored((), nothing)
+    assert (result.predicted, result.true, result.matched, result.f1) == (0, 3, 0, 0.0)
+    assert all(j.iou == 0 and j.type_found is None and j.angle is None and j.range_iou is None for j in result.joints)
+
+
+def test_nothing_to_find_and_nothing_found_is_right() -> None:
+    assert ObjectScore("rock", (), 0, 0, 0).f1 == 1
+    assert ObjectScore("rock", (), 1, 0, 0).f1 == 0
+
+
+def test_swapped_types_are_told_and_their_ranges_worth_nothing() -> None:
+    drawer = of(changed("drawer", type=JointType.REVOLUTE, limits=(0.0, 0.3)), "drawer")
+    door = of(changed("door", type=JointType.PRISMATIC, limits=(0.0, 1.9)), "door")
+    for found in (drawer, door):
+        assert found.type_found is not found.type_true
+        assert (found.range_iou, found.opens_right, found.position) == (0.0, False, None)
+        assert found.iou == 1
+
+
+def test_a_turned_over_axis_keeps_its_angle_but_opens_wrongly() -> None:
+    found = of(changed("door", axis=np.array([0, 0, -1.0])), "door")
+    assert (found.angle, found.opens_right, found.range_iou) == (pytest.approx(0, abs=1e-9), False, 0.0)
+    mended = of(changed("door", axis=np.array([0, 0, -1.0]), limits=(-1.9, 0.0)), "door")
+    assert (mended.opens_right, mended.range_iou) == (True, pytest.approx(1))
+
+
+def test_a_shifted_hinge_is_off_by_its_shift_and_a_shifted_slide_is_not() -> None:
+    shift = np.array([0.03, 0.04, 0.5])  # .5 along the hinge does not count
+    found = of(changed("door", origin=np.array([0.6, 0, 0.3]) + shift), "door")
+    assert found.position == found.at_part == pytest.approx(0.05 / ASSET.mesh.diagonal)
+    assert of(changed("drawer", origin=np.array([9.0, 9, 9])), "drawer").position is None
+
+
+def test_a_wrong_parent_and_half_a_range_are_told() -> None:
+    assert of(changed("knob", parent="door"), "knob").parent_right is False
+    assert of(changed("drawer", limits=(0.0, 0.15)), "drawer").range_iou == pytest.approx(0.5)
+
+
+def test_names_and_numbers_of_predicted_parts_do_not_matter() -> None:
+    order = [0, 3, 1, 2]
+    parts = tuple(Part(f"p{k}", "part") for k in range(4))
+    number = np.argsort(order)
+    names = {ASSET.segmentation.parts[k].name: parts[number[k]].name for k in range(4)}
+    joints = [replace(j, parent=names[j.parent], child=names[j.child]) for j in ASSET.joints]
+    result = scored(joints, Segmentation(number[ASSET.segmentation.face_part], parts))
+    assert result.joints == scored().joints
+
+
+def test_the_table_has_a_row_an_object_and_the_totals() -> None:
+    lines = table([scored(), changed("door", type=JointType.PRISMATIC)]).splitlines()
+    assert len(lines) == 2 + 2 + 1
+    assert {line.count("|") for line in lines} == {lines[0].count("|")}
+    assert "6 / 6 / 6" in lines[-1]
+    assert "| 0.833 |" in lines[-1]  # five of six types

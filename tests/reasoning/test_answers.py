@@ -1,0 +1,106 @@
+"""The embedded answerer: what each piece of evidence does to its answer, and that answers are checked."""
+
+from dataclasses import fields, replace
+
+import numpy as np
+import pytest
+
+from anymesh.reasoning.geometry import GeometryAnswerer
+from anymesh.reasoning.questions import Candidate, MotionAnswer, MotionQuestion, PartEvidence, PartFacts
+from anymesh.types import Handle, JointType, Motion, MotionKind, Sweep
+
+WHO = GeometryAnswerer()
+X, Y, Z = np.eye(3)
+PLATE = PartFacts(
+    "p", "part", (0.6, 0.4, 0.02), 0.05, 0.3, 0.1, -Y, 1.0, 0.0, size=0.7, horizontal=False, handle=None, touches_ends=False
+)
+
+
+def candidate(role: str, kind: MotionKind, axis, **changes) -> Candidate:
+    free = np.pi if kind is MotionKind.TURN else 0.5
+    sweep = Sweep(free, 0.0, True, False)
+    made = Candidate(
+        Motion(kind, axis, np.zeros(3), f"a {role}"), sweep, role, 1, free, 0.0, support=0.0, sibling=0.0, handle_side=0.0,
+        guided=0.0, depth=0.0, vertical=float(abs(axis[2])), above=0.0, captured=False, outward=1.0,
+    )  # fmt: skip
+    return replace(made, **changes)
+
+
+EDGE = candidate("edge", MotionKind.TURN, Z, support=1.0)
+FAR_EDGE = replace(EDGE, motion=Motion(MotionKind.TURN, Z, X, "the other edge"))
+PULL = candidate("slide", MotionKind.SLIDE, Y)
+ROUND = candidate("round", MotionKind.TURN, Y, closing=np.pi)
+
+
+def asked(part: PartFacts, *candidates: Candidate) -> MotionAnswer:
+    answer = WHO.which_motion(MotionQuestion(part, candidates))
+    assert sorted(answer.ranking) == list(range(len(candidates)))
+    return answer
+
+
+@pytest.mark.parametrize("flip", [1, -1])
+def test_the_hinge_is_opposite_the_handle(flip: int) -> None:
+    part = replace(PLATE, handle=Handle((0.9, 0.0), 1, 0.2))
+    sides = (replace(EDGE, handle_side=0.9 * flip), replace(FAR_EDGE, handle_side=-0.9 * flip))
+    answer = asked(part, *sides)
+    assert answer.type is JointType.REVOLUTE
+    assert answer.ranking[0] == (0 if flip > 0 else 1)
+    assert "opposite the handle" in answer.reason
+
+
+def test_a_deep_guided_box_slides() -> None:
+    box = replace(PLATE, thinness=0.8, buried=0.9)
+    answer = asked(box, EDGE, replace(PULL, guided=0.75, depth=1.0))
+    assert (answer.type, answer.ranking[0]) == (JointType.PRISMATIC, 1)
+
+
+def test_what_turns_endlessly_is_continuous_and_what_is_stopped_is_not() -> None:
+    disc = replace(PLATE, roundness=1.0)
+    assert asked(disc, ROUND, EDGE).type is JointType.CONTINUOUS
+    assert asked(disc, replace(ROUND, closing=1.0)).type is JointType.REVOLUTE
+    assert asked(PLATE, ROUND, EDGE).ranking[0] == 1  # it is not round
+
+
+def test_what_cannot_move_is_fixed() -> None:
+    stuck = [replace(c, opening=0.0, closing=0.0, support=0.0) for c in (EDGE, PULL)]
+    assert asked(PLATE, *stuck).type is JointType.FIXED
+
+
+@pytest.mark.parametrize(("label", "kind"), [("drawer", JointType.PRISMATIC), ("door", JointType.REVOLUTE)])
+def test_a_known_word_decides_where_geometry_does_not(label: str, kind: JointType) -> None:
+    assert asked(replace(PLATE, label=label), EDGE, replace(PULL, guided=0.75, depth=0.3)).type is kind
+
+
+@pytest.mark.parametrize(("confidence", "reason"), [(1.1, "so"), (-0.1, "so"), (0.5, ""), (float("nan"), "so")])
+def test_an_answer_is_checked(confidence: float, reason: str) -> None:
+    with pytest.raises(ValueError, match=r"confidence in 0\.\.1 and a reason"):
+        MotionAnswer((0,), JointType.FIXED, confidence, reason)
+
+
+def evidence(**changes) -> PartEvidence:
+    """Of a lump that nothing speaks for."""
+    plain = {"str": "", "float": 0.0, "int": 0, "bool": False, "Handle | None": None}
+    made = PartEvidence(**{f.name: plain[str(f.type)] for f in fields(PartEvidence)})
+    return replace(made, **{"thinness": 1.0, "size": 0.3, "touching": 0.3, **changes})
+
+
+DOOR = {"thinness": 0.05, "face_share": 0.5, "outside": 0.5}
+
+
+def test_evidence_adds_up_to_a_part() -> None:
+    plain = WHO.is_part(evidence(**DOOR))
+    gripped = WHO.is_part(evidence(**DOOR, handle=Handle((0.8, 0), 1, 0.3)))
+    free = WHO.is_part(evidence(**DOOR, handle=Handle((0.8, 0), 1, 0.3), gap_sides=4))
+    assert plain.score < gripped.score < free.score
+    assert not plain.moves
+    assert (free.moves, free.label) == (True, "door")
+    assert not WHO.is_part(evidence()).moves
+
+
+def test_a_name_outweighs_shape_both_ways() -> None:
+    door = {**DOOR, "handle": Handle((0.8, 0), 1, 0.3)}
+    assert WHO.is_part(evidence(**door)).moves
+    assert not WHO.is_part(evidence(**door, name="back_panel")).moves
+    assert WHO.is_part(evidence(**DOOR, name="Drawer_1")).label == "drawer"
+    assert WHO.is_part(evidence(**DOOR, name="Drawer_1")).moves
+    assert WHO.is_part(evidence(**door, name="Mesh_042")) == WHO.is_part(evidence(**door))

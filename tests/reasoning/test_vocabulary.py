@@ -1,0 +1,72 @@
+"""Free names: matched by words, in whatever spelling, and silent when they mean nothing."""
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from anymesh.reasoning.vocabulary import FIXED, WORDS, Habit, habit_of, is_fixed_name, recognize, words_of
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("LeftDoors_02", ["left", "door"]),
+        ("door-handle.001", ["door", "handle"]),
+        ("frontGlass", ["front", "glass"]),
+        ("DRAWERS", ["drawer"]),
+        ("42", []),
+        ("", []),
+    ],
+)
+def test_names_fall_into_words(name: str, words: list[str]) -> None:
+    assert words_of(name) == words
+
+
+@pytest.mark.parametrize(
+    ("name", "label"),
+    [
+        ("door", "door"),
+        ("Cabinet_Door.003", "door"),
+        ("doorHandle", "handle"),  # the last telling word counts
+        ("handle of the door", "door"),
+        ("Schublade_2", "drawer"),
+        ("steering_wheel", "wheel"),
+        ("keycaps", "button"),
+        ("door_frame", None),  # a frame stays, whatever it frames
+        ("frame_door", "door"),
+    ],
+)
+def test_names_that_speak_of_a_part(name: str, label: str | None) -> None:
+    found = recognize(name)
+    assert (None if found is None else found.label) == label
+
+
+@pytest.mark.parametrize(
+    "name", ["", "Mesh_042", "polySurface7", "Object", "outdoors_scene", "doorbell", "capital", "keystone"]
+)
+def test_names_that_mean_nothing(name: str) -> None:
+    assert recognize(name) is None
+    assert not is_fixed_name(name)
+    assert habit_of(name) is None
+
+
+@given(st.text(max_size=40))
+def test_a_name_never_speaks_both_ways(name: str) -> None:
+    assert not (recognize(name) is not None and is_fixed_name(name))
+
+
+@pytest.mark.parametrize("ending", ["", "_01", ".002"])
+def test_every_word_is_known_in_every_spelling(ending: str) -> None:
+    for name in (n for w in WORDS for n in w.names):
+        for spelled in (name, name.upper(), name.capitalize(), f"Left{name.capitalize()}"):
+            found = recognize(spelled + ending)
+            assert found is not None, spelled
+            assert name in found.names
+
+
+def test_no_word_is_in_two_kinds() -> None:
+    names = [n for w in WORDS for n in w.names]
+    assert len(names) == len(set(names))
+    assert not FIXED & set(names)
+    assert all(habit_of(w.label) is w.habit for w in WORDS)
+    assert Habit.NONE not in {w.habit for w in WORDS}

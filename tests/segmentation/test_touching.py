@@ -1,0 +1,72 @@
+"""What touches what, where, and what hangs on what."""
+
+import numpy as np
+import pytest
+from assets import box, mesh_of
+
+from anymesh.config import SegmentationConfig
+from anymesh.geometry.contact import connecting_area
+from anymesh.geometry.pieces import object_shape
+from anymesh.segmentation.contacts import Contacts, find_contacts, hanging_on
+
+BLOCK = box((0, 0, 0), (1, 1, 1))
+
+
+def contacts(*boxes) -> Contacts:
+    return find_contacts(object_shape(mesh_of(boxes)[0]), SegmentationConfig())
+
+
+def test_the_connecting_area_of_two_boxes_is_their_common_face() -> None:
+    boxes = [BLOCK, box((1, 0.25, 0.25), (2, 0.75, 0.75))]
+    whole = object_shape(mesh_of(boxes)[0])
+    a, b = (whole.of(np.flatnonzero(whole.piece == k)).samples.points for k in (0, 1))
+    in_a, in_b, threshold = connecting_area(a, b, 0.05)
+    assert threshold == 0.05
+    for points in (a[in_a], b[in_b]):
+        assert len(points) > 3
+        assert (np.abs(points[:, 0] - 1) <= 0.05).all()
+        assert (points[:, 1:] > 0.2 - 1e-9).all()
+        assert (points[:, 1:] < 0.8 + 1e-9).all()
+
+
+def test_the_threshold_is_doubled_until_a_point_is_near() -> None:
+    a, b = np.zeros((1, 3)), np.array([[0, 0, 1.0], [0, 0, 9.0]])
+    in_a, in_b, threshold = connecting_area(a, b, 0.3)
+    assert (in_a.tolist(), in_b.tolist(), threshold) == ([True], [True, False], 1.2)
+    with pytest.raises(ValueError, match="positive, found 0"):
+        connecting_area(a, b, 0.0)
+
+
+def test_touching_boxes_are_one_body_that_touches_at_the_face() -> None:
+    found = contacts(BLOCK, box((1, 0, 0), (3, 1, 1)))
+    assert found.touch.tolist() == [[0, 1]]
+    assert len(found.near) == 0
+    assert found.body[0] == found.body[1]
+    assert found.area[0, 1] == pytest.approx(1, abs=0.1)  # from a thousand points
+    assert found.area[1, 0] == pytest.approx(1, abs=0.1)  # from a thousand points
+
+
+def test_a_clearance_keeps_bodies_apart_and_a_wide_one_makes_them_strangers() -> None:
+    near = contacts(BLOCK, box((1.01, 0, 0), (2, 1, 1)))
+    far = contacts(BLOCK, box((1.5, 0, 0), (2, 1, 1)))
+    assert (near.touch.tolist(), near.near.tolist()) == ([], [[0, 1]])
+    assert (far.touch.tolist(), far.near.tolist()) == ([], [])
+    assert near.body[0] != near.body[1]
+
+
+def test_boxes_that_cross_touch() -> None:
+    for x in np.linspace(0.1, 0.8, 8):  # points of one are near the other by chance only
+        assert contacts(BLOCK, box((x, 0.4, -1), (x + 0.1, 0.5, 2))).touch.tolist() == [[0, 1]]
+
+
+def test_what_reaches_the_root_only_through_a_piece_hangs_on_it() -> None:
+    """A tower 0-1-2, a bridge 3 from the root to 1, and a piece 4 by itself."""
+    found = contacts(
+        box((0, 0, 0), (3, 1, 1)),
+        box((0, 0, 1), (1, 1, 2)),
+        box((0, 0, 2), (1, 1, 3)),
+        box((1, 0, 1), (2, 1, 1.5)),
+        box((9, 0, 0), (9.5, 1, 1)),
+    )
+    hanging = hanging_on(found, np.arange(5), root=0)
+    assert {k: sorted(v) for k, v in hanging.items()} == {0: [0, 1, 2, 3, 4], 1: [1, 2], 2: [2], 3: [3], 4: [4]}

@@ -1,0 +1,171 @@
+"""The command line: exit codes, what is said where, and what is left on disk."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+import trimesh
+from assets import CABINET
+
+from anymesh import __version__, pipeline
+from anymesh.cli import run
+from anymesh.errors import MissingExtraError
+
+PARTS = ["--parts", "nodes", "--up", "z"]
+FACES = 12 * sum(len(pieces) for pieces in CABINET.values())
+
+
+@pytest.fixture
+def mesh(tmp_path, monkeypatch) -> Path:
+    """A cabinet with a node a part, Z up, alone in the working folder."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(pipeline, "write_preview", lambda _, path: path.write_bytes(b"drawing takes longest; tested elsewhere"))
+    scene = trimesh.Scene()
+    for name, pieces in CABINET.items():
+        solids = [trimesh.Trimesh(v, f, process=False) for v, f in pieces]
+        scene.add_geometry(trimesh.util.concatenate(solids), node_name=name, geom_name=name)
+    scene.export(tmp_path / "cabinet.glb")
+    return Path("cabinet.glb")
+
+
+def contents(folder: Path) -> dict[str, bytes]:
+    return {str(p.relative_to(folder)): p.read_bytes() if p.is_file() else b"" for p in sorted(folder.rglob("*"))}
+
+
+def called(capfd, *arguments) -> tuple[int, str, str]:
+    """Exit code, stdout, stderr."""
+    code = run([str(a) for a in arguments])
+    return (code, *capfd.readouterr())
+
+
+@pytest.mark.parametrize("command", [[], ["articulate"], ["segment"], ["joints"], ["export"]])
+@pytest.mark.parametrize("flag", ["-h", "--help"])
+def test_help_names_the_exit_codes(command, flag, capfd) -> None:
+    code, out, err = called(capfd, *command, flag)
+    assert (code, err) == (0, "")
+    assert "Usage" in out
+    assert "130 interrupted" in " ".join(out.split())
+
+
+def test_version(capfd) -> None:
+    assert called(capfd, "--version") == (0, f"anymesh {__version__}\n", "")
+
+
+def test_the_whole_job_tells_a_person_or_a_program_or_nobody(mesh, capfd) -> None:
+    call = ["articulate", mesh, "-o", "out", *PARTS]
+    code, out, err = called(capfd, *call)
+    assert (code, err) == (0, "")
+    assert all(word in out for word in ("door_joint", "drawer_joint", "up axis z (given)", "cabinet.urdf"))
+    assert {"cabinet.urdf", "cabinet.glb", "preview.png", "asset.json"} <= set(contents(Path("out")))
+    assert called(capfd, *call, "--force", "--quiet") == (0, "", "")
+    code, out, err = called(capfd, *call, "--force", "--json")
+    assert (code, err) == (0, "")
+    told, asset = json.loads(out), json.loads(Path("out/asset.json").read_text())
+    assert told["parts"] == [p["name"] for p in asset["parts"]]
+    assert set(told["parts"]) == set(CABINET)
+    for said, written in zip(told["joints"], asset["joints"], strict=True):
+        assert [said[k] for k in ("name", "type", "parent", "child")] == [
+            written[k] for k in ("name", "type", "parent", "child")
+        ]
+        assert said["axis"] == pytest.approx(written["axis"], abs=1e-9)
+        assert said["limits"] == (written["limits"] and pytest.approx(written["limits"], abs=1e-9))
+
+
+def test_stages_run_alone_write_the_same_bytes(mesh, capfd) -> None:
+    assert called(capfd, "articulate", mesh, "-o", "whole", *PARTS, "-q")[0] == 0
+    code, out, _ = called(capfd, "segment", mesh, "-o", "stages", *PARTS, "--json")
+    assert code == 0
+    assert sum(part["faces"] for part in json.loads(out)["parts"]) == FACES
+    assert not Path("stages/asset.json").exists()
+    code, out, _ = called(capfd, "joints", "stages", "--json")
+    assert code == 0
+    assert {j["child"] for j in json.loads(out)["joints"]} == set(CABINET) - {"base"}
+    assert called(capfd, "export", "stages", "--quiet") == (0, "", "")
+    whole, stages = contents(Path("whole")), contents(Path("stages"))
+    assert set(whole) == set(stages)
+    assert [name for name in whole if whole[name] != stages[name]] in ([], ["timing.json"])
+
+
+def faulty_calls() -> dict[str, tuple[int, list[str], str]]:
+    """What is wrong -> exit code, arguments, a word of the message."""
+    make = ["segment", "cabinet.glb", "-o", "out"]
+    return {
+        "no output": (2, ["segment", "cabinet.glb"], "--out"),
+        "unknown command": (2, ["fold", "cabinet.glb"], "fold"),
+        "unknown option": (2, [*make, "--colour", "red"], "--colour"),
+        "seed": (2, [*make, "--seed", "x"], "--seed"),
+        "up": (2, [*make, "--up", "w"], "auto, x, y, z"),
+        "scale": (2, [*make, "--scale", "-1"], "METRES:AXIS"),
+        "parts": (2, [*make, "--parts", "none.npy"], "none.npy"),
+        "answerer": (2, [*make, "--answerer", "oracle"], "valid is geometry"),
+        "answerer of the whole job": (2, ["articulate", *make[1:], "--answerer", "oracle"], "'oracle'"),
+        "answerer of joints": (2, ["joints", "old", "--answerer", "oracle"], "'oracle'"),
+        "no mesh": (3, ["segment", "none.glb", "-o", "out"], "none.glb"),
+        "a broken mesh": (3, ["segment", "broken.glb", "-o", "out"], "broken.glb"),
+        "another format": (3, ["segment", "notes.txt", "-o", "out"], ".glb, .gltf, .obj"),
+        "an output that exists": (4, ["segment", "cabinet.glb", "-o", "old"], "--force"),
+        "a folder of others": (4, ["segment", "cabinet.glb", "-o", "foreign", "--force"], "not replaced"),
+        "a file as output": (4, ["segment", "cabinet.glb", "-o", "notes.txt"], "is a file"),
+        "the source within": (4, ["segment", "cabinet.glb", "-o", "."], "source mesh"),
+        "joints of nothing": (4, ["joints", "none"], "anymesh segment"),
+        "export before joints": (4, ["export", "old"], "'joints'"),
+    }
+
+
+@pytest.fixture
+def crowded(mesh, capfd) -> Path:
+    """The working folder with an older output, files of others, and files that are no mesh."""
+    assert called(capfd, "segment", mesh, "-o", "old", *PARTS, "-q")[0] == 0
+    Path("foreign").mkdir()
+    for name in ("foreign/thesis.txt", "notes.txt"):
+        Path(name).write_text("mine")
+    Path("broken.glb").write_bytes(mesh.read_bytes()[:200])
+    return Path.cwd()
+
+
+@pytest.mark.parametrize("name", faulty_calls())
+def test_an_error_is_one_line_on_stderr_and_nothing_is_written(name: str, crowded, capfd) -> None:
+    expected, arguments, word = faulty_calls()[name]
+    before = contents(crowded)
+    code, out, err = called(capfd, *arguments)
+    assert (code, out) == (expected, "")
+    assert err.startswith("error: ")
+    assert word in err
+    assert (err.count("\n"), err[-1]) == (1, "\n")
+    assert contents(crowded) == before
+    if arguments[0] != "fold":
+        code, out, _ = called(capfd, *arguments, "--json")
+        assert json.loads(out)["exit_code"] == code == expected
+        assert f"error: {json.loads(out)['error']}\n" == err
+
+
+def test_force_replaces_an_output_of_this_program(crowded, capfd) -> None:
+    np.save("labels.npy", np.arange(FACES) // (FACES // 2))
+    assert called(capfd, "segment", "cabinet.glb", "-o", "old", "--parts", "labels.npy", "--force", "-q")[0] == 0
+    assert called(capfd, "joints", "old", "--json")[0] == 0
+
+
+@pytest.mark.parametrize(
+    ("raised", "code", "word"),
+    [
+        (MissingExtraError("needs articulate-anymesh[sim]"), 5, "[sim]"),
+        (RuntimeError("two\nlines\x1b[31m"), 1, "--debug"),
+        (KeyboardInterrupt(), 130, ""),
+    ],
+)
+def test_other_ends(raised, code: int, word: str, mesh, monkeypatch, capfd) -> None:
+    def fails(*_, **__):
+        raise raised
+
+    monkeypatch.setattr(pipeline, "segment_parts", fails)
+    before = contents(Path.cwd())
+    found, out, err = called(capfd, "articulate", mesh, "-o", "out")
+    assert (found, out) == (code, "")
+    assert err.count("\n") <= 1
+    assert word in err
+    assert "\x1b" not in err
+    assert contents(Path.cwd()) == before
+    if code == 1:
+        with pytest.raises(RuntimeError):
+            run(["--debug", "articulate", str(mesh), "-o", "out"])

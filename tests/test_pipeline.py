@@ -1,0 +1,73 @@
+"""The pipeline as a function: it says what it writes, repeats itself, and leaves its input alone."""
+
+import json
+from dataclasses import fields
+from pathlib import Path
+
+import numpy as np
+import pytest
+from assets import CABINET, cabinet, mesh_of
+
+import anymesh
+from anymesh.config import Config
+from anymesh.errors import OptionError
+from anymesh.pipeline import find_joints, find_parts, make_answerer
+from anymesh.types import Mesh
+
+EXAMPLE = Path(__file__).parents[1] / "examples" / "meshes" / "tilted_drawer.glb"
+WHO = make_answerer("geometry")
+
+
+def arrays(mesh: Mesh) -> dict[str, np.ndarray]:
+    found = {f.name: getattr(mesh, f.name) for f in fields(mesh)}
+    return {name: value.copy() for name, value in found.items() if isinstance(value, np.ndarray)}
+
+
+def test_what_is_returned_is_what_is_written_and_the_file_stays_as_it_is(tmp_path) -> None:
+    before = EXAMPLE.read_bytes(), EXAMPLE.stat().st_mtime_ns
+    asset = anymesh.articulate(EXAMPLE, tmp_path / "out")
+    assert (EXAMPLE.read_bytes(), EXAMPLE.stat().st_mtime_ns) == before
+    record = json.loads((tmp_path / "out" / "asset.json").read_text())
+    (joint,), (written,) = asset.joints, record["joints"]
+    assert (joint.name, joint.type, joint.parent) == (written["name"], written["type"], written["parent"])
+    assert joint.axis.tolist() == pytest.approx(written["axis"], abs=1e-9)
+    assert [p["face_count"] for p in record["parts"]] == np.bincount(asset.segmentation.face_part).tolist()
+
+
+def test_same_seed_same_result() -> None:
+    mesh, _ = mesh_of([piece for pieces in CABINET.values() for piece in pieces])
+    results = []
+    for _ in range(2):
+        parts = find_parts(mesh, "auto", WHO, Config(seed=7))
+        joints = find_joints(mesh, parts, WHO, Config(seed=7))
+        results.append(
+            [parts.parts, parts.face_part.tolist(), *((repr(j.axis), repr(j.origin), j.limits, j.reason) for j in joints)]
+        )
+    assert results[0] == results[1]
+    assert len(results[0]) > 2
+
+
+def test_another_seed_finds_the_same_motion() -> None:
+    asset = cabinet()
+    one, other = (find_joints(asset.mesh, asset.segmentation, WHO, Config(seed=s)) for s in (0, 1))
+    for a, b in zip(one, other, strict=True):
+        assert (a.type, a.parent, a.child) == (b.type, b.parent, b.child)
+        assert abs(a.axis @ b.axis) > 0.999
+
+
+def test_the_mesh_handed_in_is_not_changed() -> None:
+    mesh, _ = mesh_of([piece for pieces in CABINET.values() for piece in pieces])
+    before = arrays(mesh)
+    parts = find_parts(mesh, "auto", WHO, Config())
+    labels = parts.face_part.copy()
+    find_joints(mesh, parts, WHO, Config())
+    assert (parts.face_part == labels).all()
+    after = arrays(mesh)
+    assert before.keys() == after.keys()
+    assert all(np.array_equal(before[name], after[name]) for name in before)
+
+
+def test_an_unknown_answerer_is_refused_before_anything_is_read(tmp_path) -> None:
+    with pytest.raises(OptionError, match=r"found 'gpt'.*geometry"):
+        anymesh.articulate(tmp_path / "none.glb", tmp_path / "out", answerer="gpt")
+    assert not list(tmp_path.iterdir())
