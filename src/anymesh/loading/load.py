@@ -3,17 +3,33 @@
 from __future__ import annotations
 
 import hashlib
-import xml.etree.ElementTree as ET
+import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from anymesh.errors import InputError
-from anymesh.loading.checks import MOST_FACES, check_file, check_references, references
-from anymesh.loading.trimesh_ import read_scene
+from anymesh.loading.checks import MOST_FACES, check_file
+from anymesh.loading.folder import Folder
+from anymesh.loading.gltf import read_gltf
+from anymesh.loading.obj import read_obj
+from anymesh.loading.off import read_off
+from anymesh.loading.ply import read_ply
+from anymesh.loading.stl import read_stl
+from anymesh.loading.trimesh_ import parse_dae, read_dae
 from anymesh.types import Mesh
 
+READERS: dict[str, Callable[[bytes, Folder], Mesh]] = {
+    ".glb": read_gltf,
+    ".gltf": read_gltf,
+    ".obj": read_obj,
+    ".ply": read_ply,
+    ".stl": read_stl,
+    ".off": read_off,
+    ".dae": read_dae,
+}
 FARTHEST = 1e12  # a coordinate beyond this is no length of a thing
 
 
@@ -33,13 +49,20 @@ def load_mesh(path: str | Path) -> LoadedMesh:
     """Reads GLB, glTF, OBJ, PLY, STL, OFF or DAE. Raises InputError, with one line, for anything that is no usable mesh."""
     path = Path(path)
     data = check_file(path)
-    warnings = check_references(path, references(path, data))
-    mesh, notes = read_scene(path)
+    folder = Folder(path)
+    suffix = path.suffix.lower()
+    try:
+        mesh = READERS[suffix](data, folder)
+        up, unit = _frame(suffix, path.name, data)
+    except InputError:
+        raise
+    except Exception as error:  # whatever a broken file makes a reader raise is one thing to the user
+        told = " ".join(f"{type(error).__name__}: {error}".split())[:200]
+        raise InputError(f"{path.name} is no valid {suffix[1:].upper()} file, it is broken or truncated ({told})") from None
     if len(mesh.faces) > MOST_FACES:
         raise InputError(f"{path.name} has {len(mesh.faces)} faces; at most {MOST_FACES} are handled")
     _check_numbers(path.name, mesh)
-    up, unit = _frame(path, data)
-    return LoadedMesh(mesh, str(path), hashlib.sha256(data).hexdigest(), up, unit, (*warnings, *notes))
+    return LoadedMesh(mesh, str(path), hashlib.sha256(data).hexdigest(), up, unit, tuple(folder.warnings))
 
 
 def _check_numbers(name: str, mesh: Mesh) -> None:
@@ -50,19 +73,20 @@ def _check_numbers(name: str, mesh: Mesh) -> None:
         raise InputError(f"{name}: the mesh has no extent, all faces are degenerate")
 
 
-def _frame(path: Path, data: bytes) -> tuple[str | None, float | None]:
+def _frame(suffix: str, name: str, data: bytes) -> tuple[str | None, float | None]:
     """The up axis and the unit that the format or the file tells."""
-    match path.suffix.lower():
+    match suffix:
         case ".glb" | ".gltf":
             return "y", 1.0
         case ".dae":
-            root = ET.fromstring(data)
+            root = parse_dae(name, data)
             up = next((n.text or "" for n in root.iter() if n.tag.endswith("}up_axis")), "Y_UP").strip()
             unit = next((n.get("meter") for n in root.iter() if n.tag.endswith("}unit")), None)
             try:
                 metres = float(unit) if unit else None
             except ValueError:
                 metres = None
-            return {"X_UP": "x", "Z_UP": "z"}.get(up, "y"), metres if metres and metres > 0 else None
+            known = metres is not None and math.isfinite(metres) and metres > 0
+            return {"X_UP": "x", "Z_UP": "z"}.get(up, "y"), metres if known else None
         case _:
             return None, None

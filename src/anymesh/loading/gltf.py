@@ -1,0 +1,146 @@
+"""glTF 2.0, binary or with files beside it: every node with triangles, placed; instances are copies."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from anymesh.errors import InputError
+from anymesh.loading.folder import Folder
+from anymesh.loading.gltf_data import Buffers, parse_json, split_glb
+from anymesh.loading.gltf_looks import Look, read_looks
+from anymesh.loading.join import join, rgba, simple_mesh, unique_names, unit
+from anymesh.types import Mesh, Node
+
+TRIANGLES, STRIP, FAN = 4, 5, 6
+LEFT_OUT = {0: "points", 1: "lines", 2: "lines", 3: "lines"}
+
+
+def read_gltf(data: bytes, folder: Folder) -> Mesh:
+    """The default scene in file coordinates. Raises InputError."""
+    name = folder.path.name
+    binary = None
+    if data[:4] == b"glTF":
+        data, binary = split_glb(name, data)
+    tree = parse_json(name, data)
+    buffers = Buffers(tree, binary, folder)
+    looks = read_looks(tree, buffers, folder)
+    labels = unique_names(str(m.get("name") or f"mesh_{k}") for k, m in enumerate(tree["meshes"]))
+    meshes: dict[int, Mesh | None] = {}
+    placed = []
+    for index, T in _placed(name, tree):
+        node = tree["nodes"][index]
+        number = node.get("mesh")
+        if number is None:
+            continue
+        if number not in meshes:
+            meshes[number] = _mesh(f"{name}, mesh {labels[number]!r}", tree["meshes"][number], buffers, looks)
+        mesh = meshes[number]
+        if mesh is None:
+            continue
+        if "skin" in node:
+            folder.warn("a mesh has a skin; it is taken as it stands without it")
+        if not np.isfinite(T).all():
+            raise InputError(f"{name}: node {index} has a transform that is not finite")
+        nodes = (Node(str(node.get("name") or labels[number]), labels[number]),)
+        placed.append(replace(mesh.transformed(T), nodes=nodes))
+    if not placed:
+        modes = {p.get("mode", TRIANGLES) for m in tree["meshes"] for p in m["primitives"]}
+        only = sorted({LEFT_OUT[m] for m in modes if m in LEFT_OUT})
+        found = f"only {' and '.join(only)}" if only else "no mesh in its scene"
+        raise InputError(f"{name}: found {found}; a scene with at least one triangle is needed")
+    return join(placed)
+
+
+def _placed(name: str, tree: dict[str, Any]) -> Iterator[tuple[int, np.ndarray]]:
+    """Nodes of the scene with their transforms to it: parents first, of siblings the last first (face labels count so)."""
+    nodes, scenes = tree.get("nodes", []), tree.get("scenes", [])
+    if scenes:
+        roots = scenes[tree.get("scene", 0)].get("nodes", [])
+    else:
+        children = {c for node in nodes for c in node.get("children", [])}
+        roots = [k for k in range(len(nodes)) if k not in children]
+    waiting = [(index, np.eye(4)) for index in roots]
+    seen = set()
+    while waiting:
+        index, T_parent = waiting.pop()
+        if index in seen or not 0 <= index < len(nodes):
+            raise InputError(f"{name}: node {index} has two parents or is none of {len(nodes)}; valid is a tree of nodes")
+        seen.add(index)
+        T = T_parent @ _local(nodes[index])
+        yield index, T
+        waiting += [(child, T) for child in nodes[index].get("children", [])]
+
+
+def _local(node: dict[str, Any]) -> np.ndarray:
+    if "matrix" in node:
+        return np.array(node["matrix"], np.float64).reshape(4, 4).T
+    T = np.eye(4)
+    x, y, z, w = np.array(node.get("rotation", (0, 0, 0, 1)), np.float64)
+    n = x * x + y * y + z * z + w * w
+    s = 2 / n if n > 0 else 0.0
+    R = np.array(
+        [
+            [1 - s * (y * y + z * z), s * (x * y - z * w), s * (x * z + y * w)],
+            [s * (x * y + z * w), 1 - s * (x * x + z * z), s * (y * z - x * w)],
+            [s * (x * z - y * w), s * (y * z + x * w), 1 - s * (x * x + y * y)],
+        ]
+    )
+    T[:3, :3] = R * np.array(node.get("scale", (1, 1, 1)), np.float64).reshape(3)
+    T[:3, 3] = node.get("translation", (0, 0, 0))
+    return T
+
+
+def _mesh(where: str, mesh: dict[str, Any], buffers: Buffers, looks: list[Look]) -> Mesh | None:
+    """The triangles of a mesh's primitives, one node; None without any."""
+    found = [_primitive(where, p, buffers, looks) for p in mesh["primitives"] if p.get("mode", TRIANGLES) not in LEFT_OUT]
+    if not found:
+        return None
+    joined = join(found)
+    return replace(joined, face_node=np.zeros(len(joined.faces), np.int64), nodes=joined.nodes[:1])
+
+
+def _primitive(where: str, p: dict[str, Any], buffers: Buffers, looks: list[Look]) -> Mesh:
+    attributes = p["attributes"]
+    if "POSITION" not in attributes:
+        raise InputError(f"{where}: found a primitive without positions, which triangles need")
+    vertices = buffers.array(attributes["POSITION"])
+    index = buffers.array(p["indices"])[:, 0].astype(np.int64) if "indices" in p else np.arange(len(vertices))
+    faces = _faces(where, p.get("mode", TRIANGLES), index)
+    look = looks[p["material"]] if "material" in p else None
+
+    def corners(key: str) -> np.ndarray | None:
+        values = buffers.array(attributes[key]) if key in attributes else None
+        if values is not None and len(values) != len(vertices):
+            raise InputError(f"{where}: {key} has {len(values)} elements; valid are {len(vertices)}, as many as positions")
+        return values
+
+    uv = corners(f"TEXCOORD_{look.uv_set if look else 0}")
+    color, normal = corners("COLOR_0"), corners("NORMAL")
+    normal = None if normal is None else unit(normal)
+    mesh = simple_mesh(where, "mesh", vertices, faces, look.material if look else None)
+    return replace(
+        mesh,
+        corner_uv=None if uv is None else (look or Look(None)).place(uv)[faces],  # ty: ignore[invalid-argument-type]
+        corner_color=None if color is None else rgba(color)[faces],
+        corner_normal=None if normal is None else normal[faces],
+    )
+
+
+def _faces(where: str, mode: int, index: np.ndarray) -> np.ndarray:
+    match mode:
+        case 4:
+            if len(index) % 3:
+                raise InputError(f"{where}: found {len(index)} indices; triangles need a multiple of 3")
+            return index.reshape(-1, 3)
+        case 5:
+            faces = np.stack([index[:-2], index[1:-1], index[2:]], 1)
+            faces[1::2] = faces[1::2][:, [0, 2, 1]]
+            return faces[(faces != np.roll(faces, 1, axis=1)).all(1)]  # repeated indices only lead to the next strip
+        case 6:
+            return np.stack([index[1:-1], index[2:], np.full(max(len(index) - 2, 0), index[0])], 1)
+        case _:
+            raise InputError(f"{where}: found the primitive mode {mode}; valid are 4, 5 and 6 (triangles)")

@@ -1,0 +1,138 @@
+"""The numbers of a glTF 2.0 file: its JSON, buffers and accessors (sections 3.6 and 4.4 of the specification)."""
+
+from __future__ import annotations
+
+import base64
+import binascii
+import json
+import struct
+from typing import Any
+from urllib.parse import unquote_to_bytes
+
+import numpy as np
+
+from anymesh.errors import InputError
+from anymesh.loading.checks import MOST_FACES
+from anymesh.loading.folder import Folder
+
+TYPES = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
+WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
+UNREADABLE = {
+    "KHR_draco_mesh_compression": "compression",
+    "EXT_meshopt_compression": "compression",
+    "KHR_meshopt_compression": "compression",
+    "EXT_mesh_gpu_instancing": "GPU instancing",
+}
+
+
+def split_glb(name: str, data: bytes) -> tuple[bytes, bytes | None]:
+    """The JSON and the binary chunk of a GLB. Raises InputError."""
+    if len(data) < 20:
+        raise InputError(f"{name} is truncated: a GLB header has 20 bytes, found {len(data)}")
+    _, version, length = struct.unpack_from("<4sII", data)
+    if version != 2:
+        raise InputError(f"{name}: found glTF version {version}; valid is 2")
+    if length > len(data):
+        raise InputError(f"{name} is truncated: its header tells {length} bytes, found {len(data)}")
+    chunks: dict[bytes, bytes] = {}
+    at = 12
+    while at + 8 <= length:
+        size, kind = struct.unpack_from("<I4s", data, at)
+        if at + 8 + size > length:
+            raise InputError(f"{name} is truncated: a chunk tells {size} bytes, found {length - at - 8}")
+        chunks.setdefault(kind, data[at + 8 : at + 8 + size])
+        at += 8 + size
+    if b"JSON" not in chunks:
+        raise InputError(f"{name} is broken: found no JSON chunk, with which a GLB begins")
+    return chunks[b"JSON"], chunks.get(b"BIN\0")
+
+
+def parse_json(name: str, data: bytes) -> dict[str, Any]:
+    """The document, where it is one that can be read. Raises InputError."""
+    try:
+        tree = json.loads(data.decode("utf-8-sig"))
+    except (ValueError, RecursionError):
+        raise InputError(f"{name}: its JSON cannot be read; the file is broken or truncated") from None
+    if not isinstance(tree, dict) or not tree.get("meshes"):
+        raise InputError(f"{name} holds no mesh; at least one with a triangle is needed")
+    version = str(tree.get("asset", {}).get("version", "2.0"))
+    if not version.startswith("2"):
+        raise InputError(f"{name}: found glTF version {version[:20]}; valid is 2")
+    for extension in tree.get("extensionsRequired", []):
+        if extension in UNREADABLE:
+            what = UNREADABLE[extension]
+            raise InputError(f"{name} needs {extension}, which is not read; export it without {what}")
+    return tree
+
+
+class Buffers:
+    """The buffers of a document, and the arrays in them."""
+
+    def __init__(self, tree: dict[str, Any], binary: bytes | None, folder: Folder) -> None:
+        self._name = folder.path.name
+        self._tree = tree
+        self._buffers = [self._buffer(k, b, binary, folder) for k, b in enumerate(tree.get("buffers", []))]
+
+    def _buffer(self, number: int, buffer: dict[str, Any], binary: bytes | None, folder: Folder) -> bytes:
+        uri = buffer.get("uri")
+        data = (binary or b"") if uri is None else from_uri(uri, folder)
+        told = buffer["byteLength"]
+        if told > len(data):
+            raise InputError(f"{self._name} is truncated: buffer {number} tells {told} bytes, found {len(data)}")
+        return data
+
+    def view(self, index: int) -> bytes:
+        """The bytes of a buffer view. Raises InputError."""
+        view = _item(self._tree["bufferViews"], index)
+        data = _item(self._buffers, view["buffer"])
+        start, length = view.get("byteOffset", 0), view["byteLength"]
+        if start < 0 or length < 0 or start + length > len(data):
+            raise InputError(f"{self._name}: a buffer view ends at byte {start + length}, its buffer at {len(data)}")
+        return data[start : start + length]
+
+    def array(self, index: int) -> np.ndarray:
+        """(count, width) of an accessor; normalized integers become floats. Raises InputError."""
+        a = _item(self._tree["accessors"], index)
+        count, width, dtype = a["count"], WIDTHS[a["type"]], np.dtype(TYPES[a["componentType"]])
+        if not isinstance(count, int) or not 0 <= count <= 3 * MOST_FACES:
+            raise InputError(f"{self._name}: an accessor tells {count} elements; valid are 0 to {3 * MOST_FACES}")
+        if "bufferView" in a:
+            values = self._strided(a["bufferView"], a.get("byteOffset", 0), count, width, dtype)
+        else:
+            values = np.zeros((count, width), dtype)
+        if "sparse" in a:
+            sparse = a["sparse"]
+            where, what = sparse["indices"], sparse["values"]
+            kind = np.dtype(TYPES[where["componentType"]])
+            rows = self._strided(where["bufferView"], where.get("byteOffset", 0), sparse["count"], 1, kind)[:, 0]
+            values[rows] = self._strided(what["bufferView"], what.get("byteOffset", 0), sparse["count"], width, dtype)
+        if a.get("normalized") and dtype.kind in "iu":
+            return np.maximum(values / float(np.iinfo(dtype.name).max), -1.0)
+        return values
+
+    def _strided(self, view: int, start: int, count: int, width: int, dtype: np.dtype) -> np.ndarray:
+        data = self.view(view)
+        size = width * dtype.itemsize
+        stride = self._tree["bufferViews"][view].get("byteStride", size)
+        if start < 0 or stride < size or count < 0 or (count and start + stride * (count - 1) + size > len(data)):
+            raise InputError(f"{self._name}: an accessor tells {count} elements, its view of {len(data)} bytes holds fewer")
+        if count == 0:
+            return np.zeros((0, width), dtype)
+        return np.ndarray((count, width), dtype, data, start, (stride, dtype.itemsize)).copy()
+
+
+def from_uri(uri: str, folder: Folder) -> bytes:
+    """The bytes of a data URI or of a file in the folder. Raises InputError."""
+    if not uri.startswith("data:"):
+        return folder.read(uri)
+    head, _, body = uri.partition(",")
+    try:
+        return base64.b64decode(body, validate=True) if head.endswith(";base64") else unquote_to_bytes(body)
+    except binascii.Error:
+        raise InputError(f"{folder.path.name}: found a data URI whose base64 is broken or truncated") from None
+
+
+def _item(items: list, index: int) -> Any:
+    if isinstance(index, bool) or not isinstance(index, int) or not 0 <= index < len(items):
+        raise IndexError(f"found the index {index}; valid are 0 to {len(items) - 1}")
+    return items[index]

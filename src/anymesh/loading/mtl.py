@@ -1,0 +1,85 @@
+"""MTL, the materials of OBJ files; its colours are sRGB by convention, ours are linear."""
+
+from __future__ import annotations
+
+import math
+
+from anymesh.loading.folder import Folder
+from anymesh.loading.pictures import picture_file, to_linear
+from anymesh.types import Material, Texture
+
+SLOTS = {"map_kd": "base_color", "norm": "normal", "map_ke": "emissive"}
+VALUES = {"-mm": 2, "-o": 3, "-s": 3, "-t": 3}  # options of a picture that have more than one value
+FLAGS = {"-blendu", "-blendv", "-boost", "-bm", "-cc", "-clamp", "-imfchan", "-texres", "-type", "-colorspace"}
+BLACK = 0.02
+
+
+def read_mtl(data: bytes, folder: Folder) -> dict[str, Material]:
+    """Materials by name. A picture that is missing is a warning; one outside the folder raises InputError."""
+    found: dict[str, dict[str, str]] = {}
+    current: dict[str, str] = {}
+    for line in data.decode("utf-8-sig", "replace").splitlines():
+        key, _, rest = line.strip().replace("\t", " ").partition(" ")
+        if key.lower() == "newmtl":
+            current = found.setdefault(rest.strip(), {})
+        elif rest and not key.startswith("#"):
+            current[key.lower()] = rest.strip()
+    return {name: _material(name, fields, folder) for name, fields in found.items()}
+
+
+def _material(name: str, fields: dict[str, str], folder: Folder) -> Material:
+    textures: dict[str, Texture] = {}
+    for key, value in fields.items():
+        if key.startswith("map_") or key in ("bump", "norm", "disp", "refl"):
+            uri = _picture_name(value)
+            folder.find(uri)  # those that are not used must not lie outside either
+            texture = picture_file(folder, uri) if key in SLOTS else None
+            if texture is not None:
+                textures[SLOTS[key]] = texture
+    color = _numbers(fields.get("kd", ""))
+    if "base_color" in textures and (len(color) < 3 or max(color[:3]) < BLACK):
+        color = [1.0, 1.0, 1.0]  # a picture times black would be black
+    alpha = _numbers(fields.get("d", "").replace("-halo", ""))
+    alpha = alpha or [1 - t for t in _numbers(fields.get("tr", ""))] or [1.0]
+    opacity = min(max(alpha[0], 0.0), 1.0)
+    glow = _numbers(fields.get("ke", ""))
+    plain = Material()
+    r, g, b = to_linear(color[:3]) if len(color) >= 3 else plain.base_color[:3]
+    return Material(
+        name or plain.name,
+        (r, g, b, opacity),
+        metallic=_fraction(fields, "pm", plain.metallic),
+        roughness=_fraction(fields, "pr", plain.roughness),
+        emissive=to_linear(glow[:3]) if len(glow) >= 3 else plain.emissive,  # ty: ignore[invalid-argument-type]
+        alpha_mode="BLEND" if opacity < 1 else "OPAQUE",
+        textures=textures,
+    )
+
+
+def _picture_name(value: str) -> str:
+    """A file name, which may hold spaces, after the options that may stand before it."""
+    words = value.split(" ")
+    while len(words) > 1 and (words[0].lower() in VALUES or words[0].lower() in FLAGS):
+        most = VALUES.get(words[0].lower(), 1)
+        words = words[1:]
+        taken = 0
+        while len(words) > 1 and taken < most and (most == 1 or _numbers(words[0])):
+            words, taken = words[1:], taken + 1
+    return " ".join(words)
+
+
+def _numbers(text: str) -> list[float]:
+    """The numbers at the start of a text."""
+    found = []
+    for word in text.split():
+        try:
+            value = float(word)
+        except ValueError:
+            break
+        found.append(value if math.isfinite(value) else 0.0)
+    return found
+
+
+def _fraction(fields: dict[str, str], key: str, default: float) -> float:
+    value = _numbers(fields.get(key, ""))
+    return min(max(value[0], 0.0), 1.0) if value else default

@@ -1,0 +1,137 @@
+"""OBJ: polygons with normals and texture coordinates a corner; a node an object, or a group where there are no objects."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from anymesh.errors import InputError
+from anymesh.loading.folder import Folder
+from anymesh.loading.join import check_geometry, fans, rgba, unique_names, unit
+from anymesh.loading.mtl import read_mtl
+from anymesh.types import Material, Mesh, Node
+
+NO_LOOKS = "the surfaces keep no materials"
+
+
+class _Lines:
+    """What the lines of the file say, in their order. corners: three numbers each, from 0, -1 where there is none."""
+
+    def __init__(self) -> None:
+        self.v: list[list[float]] = []
+        self.vt: list[list[float]] = []
+        self.vn: list[list[float]] = []
+        self.corners: list[tuple[int, int, int]] = []
+        self.sizes: list[int] = []
+        self.labels: list[tuple[str, str, str]] = []  # object, group, material of each polygon
+        self.libraries: list[str] = []
+
+
+def read_obj(data: bytes, folder: Folder) -> Mesh:
+    """The mesh in file coordinates, its faces in the order of the file. Raises InputError."""
+    name = folder.path.name
+    lines = _read(name, data.decode("utf-8-sig", "replace"))
+    vertices = np.array([row[:3] for row in lines.v], np.float64).reshape(-1, 3)
+    corners = np.array(lines.corners, np.int64).reshape(-1, 3)
+    triangles, polygon = fans(np.array(lines.sizes, np.int64))
+    rows = corners[triangles]  # (F, 3, 3): vertex, texture coordinate, normal of each corner
+    faces = rows[:, :, 0]
+    check_geometry(name, vertices, faces)
+    vertices[~np.isfinite(vertices)] = 0.0  # of no face
+    labels = [lines.labels[k] for k in polygon]
+    objects = any(label[0] for label in labels)
+    face_node, nodes = _numbered([(label[0] if objects else label[1]) or folder.path.stem for label in labels])
+    materials = _materials(folder, lines.libraries)
+    used, order = _numbered([label[2] for label in labels])
+    known = [key for key in order if key in materials]
+    number = np.array([known.index(key) if key in materials else -1 for key in order], np.int64)
+    normal = unit(np.array(lines.vn).reshape(-1, 3)) if lines.vn else None
+    return Mesh(
+        vertices,
+        faces,
+        face_node,
+        tuple(Node(n, n) for n in unique_names(nodes)),
+        number[used],
+        tuple(materials[key] for key in known),
+        corner_uv=_looked_up(name, "texture coordinate", np.array([(*t[:2], 0.0)[:2] for t in lines.vt]), rows[:, :, 1]),
+        corner_color=_color(lines.v, faces),
+        corner_normal=None if normal is None else _looked_up(name, "normal", normal, rows[:, :, 2]),
+    )
+
+
+def _read(name: str, text: str) -> _Lines:
+    found = _Lines()
+    here = ["", "", ""]
+    switches = {"o": 0, "g": 1, "usemtl": 2}
+    tables = {"v": found.v, "vt": found.vt, "vn": found.vn}
+    least = {"v": 3, "vt": 1, "vn": 3}
+    for number, line in enumerate(text.replace("\\\r\n", " ").replace("\\\n", " ").split("\n"), 1):
+        key, _, rest = line.strip().replace("\t", " ").partition(" ")
+        try:
+            if key in tables:
+                row = [float(x) for x in rest.split("#", 1)[0].split()]
+                if len(row) < least[key]:
+                    raise ValueError(f"{len(row)} numbers, at least {least[key]} are needed")
+                tables[key].append(row)
+            elif key == "f":
+                corners = [_corner(word, found) for word in rest.split("#", 1)[0].split()]
+                found.corners += corners
+                found.sizes.append(len(corners))
+                found.labels.append((here[0], here[1], here[2]))
+            elif key in switches:
+                here[switches[key]] = rest.strip()
+            elif key == "mtllib":
+                found.libraries.append(rest.strip())
+        except ValueError as error:
+            raise InputError(f"{name}: line {number} is broken or truncated: {line.strip()[:60]!r}: {error}") from None
+    return found
+
+
+def _corner(word: str, lines: _Lines) -> tuple[int, int, int]:
+    """The numbers of `v/vt/vn`, counted from 0; negative ones count back from the line on which they stand."""
+    parts = [*word.split("/"), "", ""][:3]
+    found = []
+    for part, table in zip(parts, (lines.v, lines.vt, lines.vn), strict=True):
+        number = int(part) if part else 0
+        if number > 0:
+            found.append(number - 1)
+        elif number == 0 and part == "" and found:
+            found.append(-1)
+        elif number == 0 or -number > len(table):
+            raise ValueError(f"found the index {part or 'none'}; valid are 1 to {len(table)} and -1 to {-len(table)}")
+        else:
+            found.append(len(table) + number)
+    return found[0], found[1], found[2]
+
+
+def _numbered(keys: list[str]) -> tuple[np.ndarray, list[str]]:
+    """The keys by number, in the order in which they first come."""
+    order: dict[str, int] = {}
+    numbers = np.array([order.setdefault(key, len(order)) for key in keys], np.int64)
+    return numbers, list(order)
+
+
+def _materials(folder: Folder, libraries: list[str]) -> dict[str, Material]:
+    found: dict[str, Material] = {}
+    for line in dict.fromkeys(libraries):
+        several = line.split() if folder.find(line) is None and len(line.split()) > 1 else [line]
+        for uri in several:
+            data = folder.read_or_warn(uri, NO_LOOKS)
+            found |= {} if data is None else read_mtl(data, folder)
+    return found
+
+
+def _looked_up(name: str, what: str, table: np.ndarray, rows: np.ndarray) -> np.ndarray | None:
+    """Values a corner, zero at corners without; None where no corner has one."""
+    if not len(table) or (rows < 0).all():
+        return None
+    if rows.max() >= len(table):
+        raise InputError(f"{name}: a face refers to {what} {rows.max() + 1}; valid are 1 to {len(table)}")
+    return np.nan_to_num(np.where((rows < 0)[..., None], 0.0, table[rows])).astype(np.float32)
+
+
+def _color(v: list[list[float]], faces: np.ndarray) -> np.ndarray | None:
+    """Colours that stand behind the coordinates, where all vertices have them."""
+    if any(len(row) < 6 for row in v):
+        return None
+    values = np.array([row[3:6] for row in v])
+    return rgba(values if np.nanmax(values) <= 1 else values / 255)[faces]

@@ -1,0 +1,57 @@
+"""STL, binary and ASCII: triangles, one node a solid; its normals say no more than the winding does."""
+
+from __future__ import annotations
+
+import re
+import struct
+from typing import Any
+
+import numpy as np
+
+from anymesh.errors import InputError
+from anymesh.loading.checks import check_count
+from anymesh.loading.folder import Folder
+from anymesh.loading.join import join, simple_mesh
+from anymesh.types import Mesh
+
+TRIANGLE = np.dtype([("normal", "<f4", 3), ("vertices", "<f4", (3, 3)), ("attributes", "<u2")])
+ASCII = re.compile(rb"(?s)\s*solid\b.{0,2000}facet")
+VERTEX = re.compile(rb"(?mi)^\s*vertex\s+(\S+)\s+(\S+)\s+(\S+)\s*$")
+SOLID = re.compile(rb"(?mi)^\s*solid\b[ \t]*(.*?)\s*$")
+
+
+def read_stl(data: bytes, folder: Folder) -> Mesh:
+    """The triangles in file coordinates. Raises InputError."""
+    name = folder.path.name
+    if not ASCII.match(data):
+        return _binary(name, data)
+    starts = [m.start() for m in SOLID.finditer(data)]
+    parts = [data[a:b] for a, b in zip(starts, [*starts[1:], len(data)], strict=True)]
+    return join([_solid(name, part) for part in parts if b"facet" in part.lower()])
+
+
+def _binary(name: str, data: bytes) -> Mesh:
+    if len(data) < 84:
+        raise InputError(f"{name} is truncated: a binary STL header has 84 bytes, found {len(data)}")
+    count = struct.unpack_from("<I", data, 80)[0]
+    check_count(name, "triangles", count, (len(data) - 84) // TRIANGLE.itemsize)
+    table: Any = np.frombuffer(data, TRIANGLE, count, 84)
+    vertices = table["vertices"].reshape(-1, 3)
+    return simple_mesh(name, _stem(name), vertices, np.arange(len(vertices)))
+
+
+def _solid(name: str, text: bytes) -> Mesh:
+    label = SOLID.match(text)
+    title = label[1].decode("utf-8", "replace") if label else ""
+    if not re.search(rb"(?mi)^\s*endsolid", text):
+        raise InputError(f"{name} is truncated: the solid {title!r} has no endsolid, with which an ASCII STL ends")
+    rows = VERTEX.findall(text)
+    facets = len(re.findall(rb"(?mi)^\s*facet\b", text))
+    if len(rows) != 3 * facets:
+        raise InputError(f"{name} is broken: found {facets} facets with {len(rows)} vertices; valid are 3 each")
+    return simple_mesh(name, title or _stem(name), np.array(rows, float).reshape(-1, 3), np.arange(len(rows)))
+
+
+def _stem(name: str) -> str:
+    """A file's name without its ending."""
+    return name.rsplit(".", 1)[0]

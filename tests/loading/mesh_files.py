@@ -1,0 +1,170 @@
+"""One solid in every format, written by hand: a box from (1, 2, 3) to (2, 4, 6) in the coordinates of the file."""
+
+from __future__ import annotations
+
+import json
+import struct
+
+import numpy as np
+from assets import CUBE, CUBE_FACES
+
+LOW, HIGH = np.array([1.0, 2, 3]), np.array([2.0, 4, 6])
+POINTS = LOW + CUBE * (HIGH - LOW)
+FACES = CUBE_FACES
+UV = CUBE[:, :2] * 0.5 + 0.25
+RED = (1.0, 0.0, 0.0, 1.0)
+TYPES = {"f": 5126, "H": 5123, "B": 5121, "I": 5125}
+WIDTHS = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4"}
+
+
+class Gltf:
+    """A glTF document that grows: arrays go in, GLB or glTF comes out."""
+
+    def __init__(self) -> None:
+        self.bin = b""
+        self.doc: dict = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": []}], "nodes": [], "meshes": []}
+        self.doc |= {"accessors": [], "bufferViews": []}
+
+    def view(self, data: bytes, **more) -> int:
+        self.doc["bufferViews"].append({"buffer": 0, "byteOffset": len(self.bin), "byteLength": len(data), **more})
+        self.bin += data + b"\0" * (-len(data) % 4)
+        return len(self.doc["bufferViews"]) - 1
+
+    def array(self, values, kind: str = "f", **more) -> int:
+        values = np.asarray(values, "<" + {"H": "u2", "B": "u1", "I": "u4", "f": "f4"}[kind])
+        width = 1 if values.ndim == 1 else values.shape[1]
+        entry = {"bufferView": self.view(values.tobytes()), "componentType": TYPES[kind], "count": len(values)}
+        self.doc["accessors"].append(entry | {"type": WIDTHS[width]} | more)
+        return len(self.doc["accessors"]) - 1
+
+    def solid(self, faces=FACES, **attributes) -> dict:
+        found = {"attributes": {"POSITION": self.array(POINTS), **attributes}}
+        return found | {"indices": self.array(np.reshape(faces, -1), "H")}
+
+    def mesh(self, *primitives, name: str = "box") -> int:
+        self.doc["meshes"].append({"name": name, "primitives": list(primitives)})
+        return len(self.doc["meshes"]) - 1
+
+    def node(self, *, root: bool = True, **fields) -> int:
+        self.doc["nodes"].append(fields)
+        number = len(self.doc["nodes"]) - 1
+        if root:
+            self.doc["scenes"][0]["nodes"].append(number)
+        return number
+
+    def glb(self) -> bytes:
+        text = json.dumps({**self.doc, "buffers": [{"byteLength": len(self.bin)}]}).encode()
+        text += b" " * (-len(text) % 4)
+        body = struct.pack("<I4s", len(text), b"JSON") + text + struct.pack("<I4s", len(self.bin), b"BIN\0") + self.bin
+        return struct.pack("<4sII", b"glTF", 2, 12 + len(body)) + body
+
+    def gltf(self, uri: str = "box.bin") -> bytes:
+        return json.dumps({**self.doc, "buffers": [{"uri": uri, "byteLength": len(self.bin)}]}).encode()
+
+
+def plain_gltf() -> Gltf:
+    g = Gltf()
+    g.node(mesh=g.mesh(g.solid()), name="box")
+    return g
+
+
+def triples(faces=FACES, before: str = "f ", first: int = 1) -> str:
+    return "".join(f"{before}{a + first} {b + first} {c + first}\n" for a, b, c in faces)
+
+
+def rows(prefix: str, values) -> str:
+    return "".join(f"{prefix}{' '.join(repr(float(x)) for x in row)}\n" for row in values)
+
+
+def obj() -> bytes:
+    corners = "".join("f " + " ".join(f"{i + 1}/{i + 1}" for i in face) + "\n" for face in FACES)
+    return ("mtllib box.mtl\n" + rows("v ", POINTS) + rows("vt ", UV) + "o box\nusemtl red\n" + corners).encode()
+
+
+MTL = b"newmtl red\nKd 1 0 0\n"
+
+
+def ply_header(style: str, extra: str = "", faces: int = len(FACES)) -> bytes:
+    return (
+        f"ply\nformat {style} 1.0\ncomment made by hand\nelement vertex {len(POINTS)}\nproperty float x\nproperty float y\n"
+        f"property float z\n{extra}element face {faces}\nproperty list uchar int vertex_indices\nend_header\n"
+    ).encode()
+
+
+def ply_ascii() -> bytes:
+    return ply_header("ascii") + (rows("", POINTS) + triples(before="3 ", first=0)).encode()
+
+
+def ply_binary(order: str = "<") -> bytes:
+    style = "binary_little_endian" if order == "<" else "binary_big_endian"
+    faces = np.array([(3, f) for f in FACES], np.dtype([("n", "u1"), ("i", order + "i4", 3)]))
+    return ply_header(style) + POINTS.astype(order + "f4").tobytes() + faces.tobytes()
+
+
+def stl_binary() -> bytes:
+    triangles = np.zeros(len(FACES), np.dtype([("n", "<f4", 3), ("v", "<f4", (3, 3)), ("a", "<u2")]))
+    triangles["v"] = POINTS[FACES]
+    return b"\0" * 80 + struct.pack("<I", len(FACES)) + triangles.tobytes()
+
+
+def stl_ascii() -> bytes:
+    facet = "facet normal 0 0 0\n outer loop\n{} endloop\nendfacet\n"
+    return ("solid vertex box\n" + "".join(facet.format(rows("  vertex ", t)) for t in POINTS[FACES]) + "endsolid\n").encode()
+
+
+def off() -> bytes:
+    polygons = triples(before="3 ", first=0)
+    return (f"OFF\n# a comment\n{len(POINTS)} {len(FACES)} 0\n" + rows("", POINTS) + polygons).encode()
+
+
+def dae(up: str = "Z_UP", unit: str = '<unit meter="1"/>', nodes: str = "", look: str = "<color>1 0 0 1</color>") -> bytes:
+    nodes = nodes or f'<node id="n">{DAE_INSTANCE}</node>'
+    points, index = " ".join(map(str, POINTS.reshape(-1))), " ".join(map(str, FACES.reshape(-1)))
+    image = '<library_images><image id="pic"><init_from>checker.png</init_from></image></library_images>'
+    params = """<newparam sid="s"><surface type="2D"><init_from>pic</init_from></surface></newparam>
+<newparam sid="p"><sampler2D><source>s</source></sampler2D></newparam>"""
+    if "texture" not in look:
+        image = params = ""
+    return f"""<?xml version="1.0" encoding="utf-8"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1"><asset>{unit}<up_axis>{up}</up_axis></asset>
+{image}<library_effects><effect id="fx"><profile_COMMON>{params}
+<technique sid="t"><lambert><diffuse>{look}</diffuse></lambert></technique></profile_COMMON></effect></library_effects>
+<library_materials><material id="m" name="red"><instance_effect url="#fx"/></material></library_materials>
+<library_geometries><geometry id="g" name="g"><mesh><source id="p"><float_array id="pa" count="24">{points}</float_array>
+<technique_common><accessor source="#pa" count="8" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>
+<param name="Z" type="float"/></accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<triangles count="12" material="ms"><input semantic="VERTEX" source="#v" offset="0"/><p>{index}</p></triangles>
+</mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="s">{nodes}</visual_scene></library_visual_scenes>
+<scene><instance_visual_scene url="#s"/></scene></COLLADA>""".encode()
+
+
+DAE_INSTANCE = (
+    '<instance_geometry url="#g"><bind_material><technique_common><instance_material symbol="ms" target="#m"/>'
+    "</technique_common></bind_material></instance_geometry>"
+)
+
+
+def all_files() -> dict[str, bytes]:
+    """File name to content; the folder also needs box.mtl and box.bin."""
+    return {
+        "box.glb": plain_gltf().glb(),
+        "box.gltf": plain_gltf().gltf(),
+        "box.obj": obj(),
+        "ascii.ply": ply_ascii(),
+        "little.ply": ply_binary("<"),
+        "big.ply": ply_binary(">"),
+        "binary.stl": stl_binary(),
+        "ascii.stl": stl_ascii(),
+        "box.off": off(),
+        "box.dae": dae(),
+    }
+
+
+def put(folder, name: str, data: bytes):
+    """The path of a file that is written, with all that the files above refer to."""
+    (folder / "box.mtl").write_bytes(MTL)
+    (folder / "box.bin").write_bytes(plain_gltf().bin)
+    (folder / name).write_bytes(data)
+    return folder / name

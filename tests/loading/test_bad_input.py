@@ -1,0 +1,178 @@
+"""Whatever a file holds, the answer is a mesh or one InputError with one line; a reference leads nowhere outside."""
+
+import resource
+import struct
+
+import pytest
+from mesh_files import FACES, POINTS, Gltf, all_files, dae, plain_gltf, ply_header, put, rows, stl_binary
+
+from anymesh.errors import InputError
+from anymesh.loading import load_mesh
+
+FILES = all_files()
+HUGE = 2_000_000_000
+HEAD = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n"
+
+
+def refused(path, *told: str) -> str:
+    """The message of the one error, which is one line and holds the words told."""
+    with pytest.raises(InputError) as caught:
+        load_mesh(path)
+    message = str(caught.value)
+    assert "\n" not in message
+    assert path.name in message
+    for words in told:
+        assert words in message, message
+    return message
+
+
+def test_what_is_no_file(tmp_path) -> None:
+    refused(tmp_path / "none.glb", "found no file")
+    (tmp_path / "folder.glb").mkdir()
+    refused(tmp_path / "folder.glb", "is no file", ".glb, .gltf, .obj")
+
+
+@pytest.mark.parametrize("ending", [".glb", ".gltf", ".obj", ".ply", ".stl", ".off", ".dae"])
+def test_empty_files(tmp_path, ending) -> None:
+    refused(put(tmp_path, f"empty{ending}", b""), "0 bytes")
+    refused(put(tmp_path, f"blank{ending}", b" \n" * 60), ending[1:].upper())
+
+
+@pytest.mark.parametrize("name", ["box.fbx", "box", "box.glb.txt"])
+def test_an_unknown_ending_names_the_valid_ones(tmp_path, name) -> None:
+    refused(put(tmp_path, name, FILES["box.glb"]), "valid are .glb, .gltf, .obj, .ply, .stl, .off, .dae")
+
+
+@pytest.mark.parametrize("ending", [".glb", ".gltf", ".obj", ".ply", ".stl", ".off", ".dae"])
+@pytest.mark.parametrize("name", FILES)
+def test_the_content_of_another_format_is_said_to_be_one(tmp_path, name, ending) -> None:
+    if not name.endswith(ending) and {name[-5:], "_" + ending} != {"x.glb", "_.gltf"}:
+        refused(put(tmp_path, f"wrong{ending}", FILES[name]), f"no {ending[1:].upper()} file", "extension")
+
+
+def gltf_of(mode: int) -> bytes:
+    g = plain_gltf()
+    g.doc["meshes"][0]["primitives"][0]["mode"] = mode
+    return g.glb()
+
+
+EMPTY_SCENE = plain_gltf()
+EMPTY_SCENE.doc["scenes"][0]["nodes"] = []
+WITHOUT_TRIANGLES = {
+    "points.glb": (gltf_of(0), "points"),
+    "lines.glb": (gltf_of(1), "lines"),
+    "none.glb": (EMPTY_SCENE.glb(), "no mesh in its scene"),
+    "bare.gltf": (b'{"asset": {"version": "2.0"}}', "no mesh"),
+    "points.obj": (rows("v ", POINTS).encode(), "8 points"),
+    "lines.obj": ((rows("v ", POINTS) + "l 1 2 3\n").encode(), "no triangle"),
+    "points.ply": (ply_header("ascii", faces=0) + rows("", POINTS).encode(), "8 points"),
+    "only.ply": (ply_header("ascii").split(b"element face")[0] + b"end_header\n" + rows("", POINTS).encode(), "no faces"),
+    "none.stl": (b"\0" * 84, "no triangle"),
+    "points.off": (("OFF\n8 0 0\n" + rows("", POINTS)).encode(), "8 points"),
+    "none.dae": (dae(nodes='<node id="n"/>'), "no triangles"),
+    "flat.obj": (b"v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", "degenerate"),
+    "dot.obj": (b"v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n", "no extent"),
+    "far.obj": (b"v 0 0 0\nv 1e20 0 0\nv 0 1 0\nf 1 2 3\n", "1e+20"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", WITHOUT_TRIANGLES)
+def test_files_without_a_usable_triangle(tmp_path, name) -> None:
+    data, told = WITHOUT_TRIANGLES[name]
+    refused(put(tmp_path, name, data), told)
+
+
+@pytest.mark.parametrize("name", [name for name in FILES if name != "box.gltf"])  # its numbers lie in the other file
+@pytest.mark.parametrize("value", ["nan", "inf", "-inf"])
+def test_corners_that_are_not_finite(tmp_path, name, value) -> None:
+    data = FILES[name]
+    low, bad = struct.pack("<f", 3.0), struct.pack("<f", float(value))
+    swaps = [(b" 3.0", f" {value}".encode()), (low[::-1], bad[::-1]) if name == "big.ply" else (low, bad)]
+    old, new = next((a, b) for a, b in swaps if a in data)
+    refused(put(tmp_path, name, data.replace(old, new)), "finite")
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_truncated_anywhere(tmp_path, name) -> None:
+    data = FILES[name]
+    whole = 12 if name == "box.obj" else None
+    for part in (0.05, 0.3, 0.6, 0.9, 0.97):
+        path = put(tmp_path, name, data[: int(len(data) * part)])
+        if whole and part > 0.5:  # an OBJ does not tell where it ends
+            try:
+                assert 0 < len(load_mesh(path).mesh.faces) < whole
+            except InputError:
+                continue
+        else:
+            refused(path)
+
+
+def test_a_buffer_that_is_short_or_missing(tmp_path) -> None:
+    path = put(tmp_path, "box.gltf", FILES["box.gltf"])
+    (tmp_path / "box.bin").write_bytes(plain_gltf().bin[:50])
+    refused(path, "truncated", "found 50")
+    (tmp_path / "box.bin").unlink()
+    refused(path, "box.bin", "missing")
+
+
+@pytest.mark.parametrize("index", ["0", "9", "-9", "x", "1.5", "99999999999999999999"])
+def test_an_index_that_no_vertex_has(tmp_path, index) -> None:
+    refused(put(tmp_path, "x.obj", (rows("v ", POINTS) + f"f 1 2 {index}\n").encode()))
+    if index != "0":
+        refused(put(tmp_path, "x.off", FILES["box.off"].replace(b"\n3 0 1", f"\n3 {index} 1".encode())))
+        refused(put(tmp_path, "x.ply", FILES["ascii.ply"].replace(b"\n3 0 1", f"\n3 {index} 1".encode())))
+    if index == "9":
+        g = Gltf()
+        g.node(mesh=g.mesh(g.solid(FACES + 2)))
+        refused(put(tmp_path, "x.glb", g.glb()), "vertex 9", "valid are 0 to 7")
+        refused(put(tmp_path, "x.dae", dae().replace(b"<p>0 1 3", b"<p>0 1 9")))
+
+
+def absurd() -> dict[str, bytes]:
+    views = plain_gltf()
+    views.doc["accessors"][0]["count"] = HUGE
+    empty = plain_gltf()
+    del empty.doc["accessors"][0]["bufferView"]
+    empty.doc["accessors"][0]["count"] = HUGE
+    stride = plain_gltf()
+    stride.doc["accessors"][0]["count"] = 30_000_000
+    stride.doc["bufferViews"][0]["byteStride"] = 0
+    return {
+        "views.glb": views.glb(),
+        "empty.glb": empty.glb(),
+        "stride.glb": stride.glb(),
+        "chunk.glb": FILES["box.glb"][:12] + struct.pack("<I", HUGE) + FILES["box.glb"][16:],
+        "ascii.ply": FILES["ascii.ply"].replace(b"vertex 8", b"vertex 2000000000"),
+        "faces.ply": FILES["little.ply"].replace(b"face 12", b"face 2000000000"),
+        "list.ply": FILES["ascii.ply"].replace(b"\n3 0 1", b"\n2000000000 0 1"),
+        "box.off": FILES["box.off"].replace(b"8 12 0", b"2000000000 2000000000 0"),
+        "face.off": FILES["box.off"].replace(b"\n3 0 1", b"\n2000000000 0 1"),
+        "binary.stl": stl_binary()[:80] + struct.pack("<I", HUGE) + stl_binary()[84:],
+    }
+
+
+@pytest.mark.parametrize("name", absurd())
+def test_a_header_that_claims_billions_takes_no_memory(tmp_path, name) -> None:
+    path = put(tmp_path, name, absurd()[name])
+    before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    refused(path)
+    assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before < 200_000  # [KiB]
+
+
+def test_what_cannot_be_read_is_named(tmp_path) -> None:
+    draco, old, circle = plain_gltf(), plain_gltf(), plain_gltf()
+    draco.doc["extensionsRequired"] = ["KHR_draco_mesh_compression"]
+    refused(put(tmp_path, "draco.glb", draco.glb()), "KHR_draco_mesh_compression", "without compression")
+    old.doc["asset"]["version"] = "1.0"
+    refused(put(tmp_path, "old.glb", old.glb()), "version 1.0", "valid is 2")
+    circle.doc["nodes"][0]["children"] = [0]
+    refused(put(tmp_path, "circle.glb", circle.glb()), "valid is a tree")
+    bomb = b'<?xml version="1.0"?><!DOCTYPE x [<!ENTITY a "aaaa">]><COLLADA>&a;</COLLADA>'
+    refused(put(tmp_path, "bomb.dae", bomb), "document type")
+    deep = b'{"meshes": ' + b"[" * 100_000 + b"]" * 100_000 + b"}"
+    refused(put(tmp_path, "deep.gltf", deep))
+
+
+def test_names_with_spaces_and_texture_indices_out_of_range(tmp_path) -> None:
+    refused(put(tmp_path, "my file.obj", HEAD.replace("3/1", "3/7").encode()), "texture coordinate 7", "1 to 1")
+    assert len(load_mesh(put(tmp_path, "my file.obj", HEAD.encode())).mesh.faces) == 1

@@ -1,0 +1,81 @@
+"""glTF: materials as they are written, pictures byte by byte, every way to store triangles."""
+
+import io
+
+import numpy as np
+import pytest
+from assets import checker
+from mesh_files import (
+    FACES,
+    LOW,
+    POINTS,
+    UV,
+    Gltf,
+    plain_gltf,
+    put,
+)
+from PIL import Image
+
+from anymesh.loading import load_mesh
+
+
+def test_gltf_node_of_two_materials_is_one_node(tmp_path) -> None:
+    g = Gltf()
+    dark = {"name": "dark", "pbrMetallicRoughness": {"baseColorFactor": [0.002, 0.5, 0.25, 0.5]}, "alphaMode": "BLEND"}
+    g.doc["materials"] = [dark, {"name": "plain", "doubleSided": True, "emissiveFactor": [0, 1, 0]}]
+    halves = ({**g.solid(FACES[:6]), "material": 0}, {**g.solid(FACES[6:]), "material": 1})
+    g.node(mesh=g.mesh(*halves))
+    mesh = load_mesh(put(tmp_path, "two.glb", g.glb())).mesh
+    assert len(mesh.nodes) == 1
+    assert mesh.face_material.tolist() == [0] * 6 + [1] * 6
+    first, second = mesh.materials
+    assert first.base_color == pytest.approx((0.002, 0.5, 0.25, 0.5))  # linear already
+    assert (first.alpha_mode, first.metallic, second.metallic, second.roughness) == ("BLEND", 1, 1, 1)
+    assert second.double_sided
+    assert second.emissive == (0, 1, 0)
+
+
+@pytest.mark.parametrize("inside", [True, False])
+def test_gltf_picture_keeps_its_bytes_and_coordinates(tmp_path, inside) -> None:
+    g = Gltf()
+    uv = g.array(UV * 65535, "H", normalized=True)
+    jpeg = io.BytesIO()
+    Image.open(io.BytesIO(checker())).save(jpeg, "JPEG")
+    (tmp_path / "my picture.png").write_bytes(checker())
+    first = {"bufferView": g.view(checker()), "mimeType": "image/png"} if inside else {"uri": "my%20picture.png"}
+    g.doc["images"] = [first, {"bufferView": g.view(jpeg.getvalue()), "mimeType": "image/jpeg"}]
+    g.doc["textures"] = [{"source": 0}, {"source": 1}]
+    base = {"baseColorTexture": {"index": 0}, "metallicRoughnessTexture": {"index": 1}, "metallicFactor": 0.5}
+    g.doc["materials"] = [{"pbrMetallicRoughness": base, "normalTexture": {"index": 1}}]
+    g.node(mesh=g.mesh({**g.solid(TEXCOORD_0=uv), "material": 0}))
+    path = put(tmp_path, "x.glb" if inside else "x.gltf", g.glb() if inside else g.gltf("x.bin"))
+    (tmp_path / "x.bin").write_bytes(g.bin)
+    loaded = load_mesh(path)
+    (material,) = loaded.mesh.materials
+    assert material.textures["base_color"].data == checker()
+    assert material.textures["normal"].data == material.textures["metallic_roughness"].data == jpeg.getvalue()
+    assert material.textures["normal"].mime == "image/jpeg"
+    assert material.metallic == 0.5
+    np.testing.assert_allclose(loaded.mesh.corner_uv, np.c_[UV[:, 0], 1 - UV[:, 1]][FACES], atol=1e-4)
+    assert loaded.warnings == ()
+
+
+@pytest.mark.parametrize(("mode", "index"), [(5, [0, 1, 2, 3]), (6, [0, 1, 3, 2])])
+def test_gltf_strips_and_fans_are_triangles(tmp_path, mode, index) -> None:
+    g = Gltf()
+    corners = g.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]])
+    g.node(mesh=g.mesh({"attributes": {"POSITION": corners}, "indices": g.array(index, "B"), "mode": mode}))
+    mesh = load_mesh(put(tmp_path, "strip.glb", g.glb())).mesh
+    np.testing.assert_allclose(mesh.face_normals, [[0, 0, 1], [0, 0, 1]])
+    assert mesh.face_areas.sum() == pytest.approx(1)
+
+
+def test_gltf_interleaved_and_sparse_positions(tmp_path) -> None:
+    g = plain_gltf()
+    packed = np.c_[POINTS - LOW, np.full((8, 2), 7)].astype("<f4").tobytes()
+    where, what = g.view(np.arange(8, dtype="<u2").tobytes()), g.view(POINTS.astype("<f4").tobytes())
+    sparse = {"count": 8, "indices": {"bufferView": where, "componentType": 5123}, "values": {"bufferView": what}}
+    g.doc["accessors"][0] |= {"bufferView": g.view(packed, byteStride=20), "sparse": sparse}
+    np.testing.assert_allclose(load_mesh(put(tmp_path, "sparse.glb", g.glb())).mesh.triangles, POINTS[FACES])
+    del g.doc["accessors"][0]["sparse"]
+    np.testing.assert_allclose(load_mesh(put(tmp_path, "strided.glb", g.glb())).mesh.triangles, (POINTS - LOW)[FACES])
