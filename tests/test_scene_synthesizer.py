@@ -1,7 +1,5 @@
 """The bars on scene-synthesizer's ten classes: exact joints that this project did not make."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 

@@ -1,0 +1,127 @@
+"""The picture of a result."""
+
+import numpy as np
+import pytest
+from assets import box, cabinet, joint, mesh_of, slanted, source
+from PIL import Image
+
+from anymesh.geometry.kinematics import posed
+from anymesh.rendering import preview
+from anymesh.rendering.raycast_ import RayScene
+from anymesh.types import Asset, Part, Segmentation
+
+SIZE = 150
+
+
+@pytest.fixture(autouse=True)
+def _small(monkeypatch):
+    monkeypatch.setattr(preview, "SIZE", SIZE)
+
+
+def panels(asset):
+    picture = preview.render_preview(asset).astype(int)
+    return [picture[:SIZE, k * SIZE : (k + 1) * SIZE] for k in range(3)]
+
+
+def axis_pixels(panel) -> np.ndarray:
+    return np.argwhere(np.abs(panel - preview.AXIS_COLOR).sum(-1) < 6)[:, ::-1]
+
+
+def only(*moving):
+    """The cabinet with its other joints fixed."""
+    joints = cabinet().joints
+    fixed = [joint(j.name, "fixed", j.parent, j.child, j.origin, j.axis, None) for j in joints]
+    return cabinet(joints=tuple(j if j.name in moving else f for j, f in zip(joints, fixed, strict=True)))
+
+
+def test_the_picture_is_a_png_of_three_panels_and_a_legend(tmp_path):
+    for asset, rows in ((cabinet(), 1), (slanted(), 2)):
+        preview.write_preview(asset, tmp_path / "preview.png")
+        with Image.open(tmp_path / "preview.png") as picture:
+            assert picture.format == "PNG"
+            assert picture.size == (3 * SIZE, SIZE + 20 + 30 * rows)
+            legend = np.asarray(picture)[SIZE:]
+        assert (legend == 255).all(-1).mean() < 0.99
+
+
+def test_joints_are_drawn_on_the_parts_and_only_those_that_move():
+    looks, rest, opened = panels(cabinet())
+    assert len(axis_pixels(looks)) == 0
+    assert min(len(axis_pixels(rest)), len(axis_pixels(opened))) > 60
+    fixed = panels(only())
+    assert sum(len(axis_pixels(p)) for p in fixed) == 0
+    np.testing.assert_array_equal(fixed[1], fixed[2])
+    assert (rest != opened).any(-1).mean() > 0.05
+
+
+@pytest.mark.parametrize("name", ["hinge", "slide"])
+def test_an_axis_is_drawn_where_it_is(name):
+    asset = only(name)
+    j = next(j for j in asset.joints if j.name == name)
+    opened = posed(asset, {name: preview.shown_position(j)})
+    camera = preview.best_camera(asset, opened, [RayScene(m.vertices, m.faces) for m in (asset.mesh, opened)])
+    part = asset.segmentation.faces([p.name for p in asset.segmentation.parts].index(j.child))
+    through = j.origin if name == "hinge" else asset.mesh.triangles[part].mean((0, 1))
+    (start, end), _ = camera.project(np.stack([through, through + 0.3 * j.axis]))
+    along = (end - start) / np.linalg.norm(end - start)
+    offset = axis_pixels(panels(asset)[1]) + 0.5 - start / 2
+    assert len(offset) > 20
+    assert (np.abs(offset @ [-along[1], along[0]]) < 0.06 * SIZE).all()
+    assert np.ptp(offset @ along) > 0.1 * SIZE
+
+
+def test_an_axis_rides_on_its_parent():
+    for moving, same in ((("slide", "hinge"), True), (("slide", "turn"), False)):
+        _, rest, opened = panels(only(*moving))
+        assert np.array_equal(axis_pixels(rest), axis_pixels(opened)) == same
+
+
+def test_parts_have_colours_of_their_own():
+    asset = slanted()
+    colors = preview.part_colors(asset)
+    per_part = [np.unique(colors[asset.segmentation.faces(k)], axis=0) for k in range(5)]
+    assert all(len(c) == 1 for c in per_part)
+    assert len(np.unique(np.concatenate(per_part), axis=0)) == 5
+    np.testing.assert_array_equal(per_part[0][0], preview.BASE)
+
+
+def test_the_opened_pose_lies_within_the_limits_on_the_wider_side():
+    for j in (*cabinet().joints, *slanted().joints):
+        at = preview.shown_position(j)
+        low, high = j.limits or (-np.pi, np.pi)
+        assert low <= at <= high
+        assert (at == 0) == (j.type == "fixed")
+        assert at * (high + low) >= 0
+
+
+@pytest.mark.parametrize("azimuth", [0.0, 0.6, 2.5, -1.9])
+def test_the_camera_sees_the_whole_box_and_azimuth_0_looks_along_y(azimuth):
+    low, high = np.array([1.0, 2, 3]), np.array([1.5, 5, 4])
+    camera = preview.orbit_camera(np.stack([low, high]), azimuth, 0.4, 100)
+    pixel, depth = camera.project(box(low, high)[0])
+    assert (depth > 0).all()
+    assert pixel.min() >= 0
+    assert pixel.max() <= 100
+    assert np.ptp(pixel, axis=0).max() > 50
+    forward = camera.T_world_camera[:3, 2]
+    np.testing.assert_allclose(np.arctan2(-forward[0], forward[1]), azimuth, atol=1e-9)
+    assert forward[2] == pytest.approx(-np.sin(0.4))
+
+
+def test_the_view_is_from_the_side_of_the_moving_part():
+    for y in (-0.1, 1.0):
+        mesh, number = mesh_of([box((0, 0, 0), (1, 1, 1)), box((0.3, y, 0.3), (0.7, y + 0.1, 0.7))])
+        slide = joint("s", "prismatic", "a", "b", (0.5, y, 0.5), (0, 1 if y > 0 else -1, 0), (0.0, 0.2))
+        asset = Asset("a", source(), mesh, Segmentation(number, (Part("a", "base"), Part("b", "button"))), (slide,), "test")
+        opened = posed(asset, {"s": 0.2})
+        scenes = [RayScene(m.vertices, m.faces) for m in (mesh, opened)]
+        camera = preview.best_camera(asset, opened, scenes)
+        assert (camera.T_world_camera[1, 3] - 0.5) * y > 0
+
+
+def test_a_joint_is_told_in_its_units():
+    hinge, slide, turn = cabinet().joints
+    assert preview.describe(hinge) == "door: revolute 0..109 deg, confidence 0.90"
+    assert preview.extent(slide) == "0.0..30.0 cm"
+    assert preview.extent(turn) == "endless"
+    assert preview.extent(slanted().joints[3]) == ""
