@@ -163,8 +163,7 @@ class Surroundings:
         above = sign * local[:, k] - self.core.half[k]
         height = float(above.max())
         out = above > max(STAND_OUT * self.core.diagonal, height / 2)
-        share = float(out.mean())
-        if not 0.002 < share < 0.45:
+        if out.sum() < 3 or out.mean() > 0.45:
             return None
         face = [i for i in range(3) if i != k]
         at = local[out][:, face]

@@ -58,9 +58,7 @@ def find_contacts(whole: ObjectShape, config: SegmentationConfig) -> Contacts:
     return Contacts(shapes, pairs, apart, body, area)
 
 
-def _neighbours(
-    near: list[tuple[int, int, float]], body: np.ndarray, shapes: tuple[Shape, ...], slack: float
-) -> np.ndarray:
+def _neighbours(near: list[tuple[int, int, float]], body: np.ndarray, shapes: tuple[Shape, ...], slack: float) -> np.ndarray:
     """Of the pairs of bodies with a clearance, those that are among the nearest of the smaller body.
 
     A fit has clearances that differ by a factor of two; what is small against its nearest piece hangs on that alone.
