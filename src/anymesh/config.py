@@ -11,6 +11,10 @@ class PiecesConfig:
 
     crease: float = 25.0  # [deg] a concave edge sharper than this may bound a part on a fused surface
     fused_size: float = 0.35  # components smaller than this are not cut along their creases
+    superpoint_strength: float = 0.05  # of l0 cut pursuit on normals (the paper's implementation)
+    superpoint_faces: int = 40_000  # a denser component is simplified before it is cut into superpoints
+    soft_faces: int = 3000  # components with fewer faces have sharp creases only
+    reach: float = 0.01  # how far from a soft crease the surface tells its angle
     crumb: float = 0.03  # regions smaller than this, left by a cut, join their neighbour
     most_faces: int = 8000  # a denser mesh is simplified for questions of shape and motion, never in the output
     least_faces: int = 60  # that a piece keeps of those it has
@@ -25,8 +29,6 @@ class SegmentationConfig:
     near: float = 0.02  # bodies nearer than this, but not touching, have a clearance between them
     smallest: float = 0.004  # pieces with a smaller diagonal never move on their own
     most_candidates: int = 120  # largest units looked at
-    superpoint_reg: float = 0.05  # l0 cut pursuit strength (the paper's implementation)
-    superpoint_color: float = 0.3  # weight of colour against normals (the paper's implementation)
 
 
 @dataclass(frozen=True)

@@ -10,6 +10,7 @@ from jaxtyping import Bool, Int
 from scipy.spatial import KDTree
 
 from anymesh.config import PiecesConfig
+from anymesh.geometry.creases import convex_regions
 from anymesh.geometry.shape import Shape, Surface, surface_of
 from anymesh.geometry.simplify_ import simplify
 from anymesh.geometry.topology import label_connected
@@ -76,20 +77,34 @@ def _simplified(
 def split(whole: Surface, config: PiecesConfig) -> Int[np.ndarray, " F"]:
     """A piece number a face, numbered from 0 in the order of the pieces' first faces.
 
-    Components are cut along their concave creases where they are large enough to hide a fused part; crumbs left by the cut
-    go to the neighbour that they share the longest edge with.
+    Components are cut along their concave creases, sharp or soft, where they are large enough to hide a fused part; crumbs
+    left by the cut go to the neighbour that they share the longest edge with.
     """
     component = whole.parts.label
     large = _diagonals(whole, component) > config.fused_size * whole.diagonal
     edges = whole.parts.edges
     pairs = edges.faces
     concave = _concave(whole, config.crease)
-    cut = concave & edges.aligned & large[component[pairs[:, 0]]]
+    soft = _soft_regions(whole, component, large, config)
+    cut = (concave & edges.aligned & large[component[pairs[:, 0]]]) | (soft[pairs[:, 0]] != soft[pairs[:, 1]])
     region = label_connected(len(component), pairs[~cut])
     length = np.linalg.norm(_ends(whole, 0) - _ends(whole, 1), axis=1)
     region = _absorb_crumbs(whole, region, pairs[cut], length[cut], config)
     region = _fill_voids(whole, region)
     return _limit_count(whole, region, config.most_pieces)
+
+
+def _soft_regions(whole: Surface, component: np.ndarray, large: np.ndarray, config: PiecesConfig) -> np.ndarray:
+    """What soft concave creases bound, on large and dense components; one region a component elsewhere."""
+    region = component.copy()
+    count = np.bincount(component)
+    flip = whole.parts.flip & ~whole.void
+    for c in np.flatnonzero(large & (count > config.soft_faces)):
+        mine = np.flatnonzero(component == c)
+        triangles = whole.shape.triangles[mine]
+        found = convex_regions(triangles[:, ::-1] if flip[c] else triangles, whole.diagonal, config)
+        region[mine] = np.where(found > 0, int(region.max()) + found, c)
+    return region
 
 
 def _ends(whole: Surface, which: int) -> np.ndarray:
