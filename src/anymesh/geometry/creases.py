@@ -2,50 +2,54 @@
 
 from __future__ import annotations
 
+import heapq
+
 import numpy as np
-from jaxtyping import Bool, Float, Int
+from jaxtyping import Float, Int
 from scipy.spatial import KDTree
 
 from anymesh.config import PiecesConfig
 from anymesh.geometry.simplify_ import simplify
 from anymesh.geometry.superpoints import superpoints
-from anymesh.geometry.topology import EdgePairs, edge_pairs, label_connected
+from anymesh.geometry.topology import edge_pairs
 
 
 def convex_regions(triangles: Float[np.ndarray, "F 3 3"], diagonal: float, config: PiecesConfig) -> Int[np.ndarray, " F"]:
-    """A region a face: superpoints, joined across every border that is not a concave crease (locally convex patches,
-    Stein et al. 2014). A crease is judged by the surface within `reach` of it, so a bowl's inside stays whole."""
+    """A region a face: superpoints joined across their borders, unless these are concave creases (locally convex patches,
+    Stein et al. 2014), such that long creases outweigh short gaps in them (multicut by greedy contraction, Keuper et al.
+    2015). A crease is judged by the surface within `reach` of it, so that the inside of a bowl stays whole."""
     few = simplify(triangles, config.superpoint_faces)
     corners = few.reshape(-1, 3)
     edges = edge_pairs(corners, np.arange(len(corners)).reshape(-1, 3))
     cross = np.cross(few[:, 1] - few[:, 0], few[:, 2] - few[:, 0])
     double = np.maximum(np.linalg.norm(cross, axis=1), 1e-300)
     normals = cross / double[:, None]
+    middle = corners[edges.vertices].mean(1)
     length = np.linalg.norm(corners[edges.vertices[:, 0]] - corners[edges.vertices[:, 1]], axis=1)
     label = superpoints(normals, double / 2, edges.faces, length, config.superpoint_strength)
-    pairs = label[edges.faces]
-    cut = _concave_borders(few.mean(1), normals, double, label, edges, corners, config, diagonal)
-    region = label_connected(int(label.max()) + 1, pairs[~cut & (pairs[:, 0] != pairs[:, 1])])[label]
+    count = int(label.max()) + 1
+    pairs = np.sort(label[edges.faces], 1)
+    border = np.flatnonzero(pairs[:, 0] != pairs[:, 1])
+    key, where = np.unique(pairs[border] @ np.array([count, 1]), return_inverse=True)
+    pull = np.bincount(where.reshape(-1), length[border], len(key))
+    pull[_folds_inwards(few.mean(1), normals, double, label, key, where.reshape(-1), middle[border], diagonal, config)] *= -1
+    region = _contract(count, {divmod(int(k), count): float(p) for k, p in zip(key, pull, strict=True)})[label]
     if len(few) == len(triangles):
         return region
     return region[KDTree(few.mean(1)).query(triangles.mean(1), workers=-1)[1]]
 
 
-def _concave_borders(
-    centers: np.ndarray, normals: np.ndarray, weight: np.ndarray, label: np.ndarray, edges: EdgePairs, corners: np.ndarray,
-    config: PiecesConfig, diagonal: float,
-) -> Bool[np.ndarray, " m"]:  # fmt: skip
-    """Which edges lie on a border of two superpoints that folds inwards by more than `config.crease`."""
-    pairs = np.sort(label[edges.faces], 1)
-    border = np.flatnonzero(pairs[:, 0] != pairs[:, 1])
+def _folds_inwards(
+    centers: np.ndarray, normals: np.ndarray, weight: np.ndarray, label: np.ndarray, key: np.ndarray, where: np.ndarray,
+    middle: np.ndarray, diagonal: float, config: PiecesConfig,
+) -> np.ndarray:  # fmt: skip
+    """Which borders (pairs of superpoints, by key) fold inwards by more than `config.crease`; middle: of the edges there."""
     count = int(label.max()) + 1
-    key, where = np.unique(pairs[border] @ np.array([count, 1]), return_inverse=True)
     order = np.argsort(label, kind="stable")
     start = np.searchsorted(label[order], np.arange(count + 1))
-    middle = corners[edges.vertices[border]].mean(1)
-    rows = np.argsort(where.reshape(-1), kind="stable")
-    first = np.searchsorted(where.reshape(-1)[rows], np.arange(len(key) + 1))
-    concave = np.zeros(len(key), bool)
+    rows = np.argsort(where, kind="stable")
+    first = np.searchsorted(where[rows], np.arange(len(key) + 1))
+    inwards = np.zeros(len(key), bool)
     for k, pair in enumerate(key):
         tree = KDTree(middle[rows[first[k] : first[k + 1]]])
         ends = []
@@ -56,7 +60,33 @@ def _concave_borders(
             ends.append((np.average(centers[near], 0, weight[near]), np.average(normals[near], 0, weight[near])))
         (a, n), (b, m) = ends
         cosine = float(n @ m) / max(float(np.linalg.norm(n) * np.linalg.norm(m)), 1e-300)
-        concave[k] = (b - a) @ (n - m) > 0 and cosine < np.cos(np.deg2rad(config.crease))
-    cut = np.zeros(len(pairs), bool)
-    cut[border] = concave[where.reshape(-1)]
-    return cut
+        inwards[k] = (b - a) @ (n - m) > 0 and cosine < np.cos(np.deg2rad(config.crease))
+    return inwards
+
+
+def _contract(count: int, pull: dict[tuple[int, int], float]) -> Int[np.ndarray, " n"]:
+    """Joins the pair that pulls the most, adds up what the joined pull on others, until nothing pulls any more."""
+    near: list[dict[int, float]] = [{} for _ in range(count)]
+    for (a, b), p in pull.items():
+        near[a][b] = near[b][a] = p
+    heap = [(-p, a, b) for (a, b), p in pull.items() if p > 0]
+    heapq.heapify(heap)
+    target = np.arange(count)
+    while heap:
+        p, a, b = heapq.heappop(heap)
+        if near[a].get(b) != -p:
+            continue
+        if len(near[a]) < len(near[b]):
+            a, b = b, a
+        for other, q in near[b].items():
+            del near[other][b]
+            if other != a:
+                total = near[a].get(other, 0.0) + q
+                near[a][other] = near[other][a] = total
+                if total > 0:
+                    heapq.heappush(heap, (-total, *sorted((a, other))))
+        near[b] = {}
+        target[b] = a
+    while (target[target] != target).any():
+        target = target[target]
+    return np.unique(target, return_inverse=True)[1].reshape(-1)

@@ -7,6 +7,7 @@ from functools import cached_property
 
 import numpy as np
 from jaxtyping import Bool, Float
+from scipy.spatial import KDTree
 
 from anymesh.config import ArticulationConfig
 from anymesh.geometry.boxes import Box, box_in_frame
@@ -16,6 +17,7 @@ from anymesh.geometry.distance_ import distance_to_triangles
 from anymesh.geometry.pieces import ObjectShape
 from anymesh.geometry.shape import Shape
 from anymesh.geometry.sweep import Obstacles
+from anymesh.geometry.topology import label_connected
 from anymesh.types import Handle
 
 LEVEL = 0.12  # share of the surface facing a side that makes up the side's level
@@ -156,7 +158,8 @@ class Surroundings:
 
     @cached_property
     def handle(self) -> Handle | None:
-        """What stands out of the part's outer face the furthest, if it is small against the face and no mere raised panel."""
+        """What stands out of the part's outer face the furthest, if it is small against the face, no mere raised panel, and
+        in one or two places: more are controls."""
         k = int(np.abs(self.core.axes @ self.outward).argmax())
         sign = np.sign(self.core.axes[k] @ self.outward)
         local = self.core.local(self.part.samples.points)
@@ -167,6 +170,12 @@ class Surroundings:
             return None
         face = [i for i in range(3) if i != k]
         at = local[out][:, face]
+        spacing = np.sqrt(self.part.area / len(local))
+        groups = label_connected(
+            len(at), KDTree(at).query_pairs(max(0.03 * self.core.diagonal, 6 * spacing), output_type="ndarray")
+        )
+        if groups.max() > 1:
+            return None
         low, high = at.min(0), at.max(0)
         size = high - low
         middle = (low + high) / 2 / np.maximum(self.core.half[face], 1e-9)

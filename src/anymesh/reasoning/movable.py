@@ -6,6 +6,7 @@ from anymesh.reasoning.questions import PartAnswer, PartEvidence
 from anymesh.reasoning.vocabulary import Habit, is_fixed_name, recognize
 
 ENOUGH = 0.8  # evidence that makes a part
+GRIPPED = 0.06  # what stands out of something smaller is no handle
 GAP = (0.0, 0.3, 0.9, 1.6, 2.0)  # for 0..4 rims with a clearance
 
 
@@ -33,7 +34,7 @@ def _plate(e: PartEvidence) -> tuple[float, str, str]:
     if e.thinness > 0.35 or e.face_share < 0.012 or e.outside < 0.4:
         return (-3.0, "panel", "no plate on the outside")
     value, why = -0.7, ["a plate on the outside"]
-    if e.handle is not None and not e.on_movable:
+    if e.handle is not None and e.size > GRIPPED and not e.on_movable:
         value += 2.0 if e.handle.along is not None else 1.0  # a knob on a plate may also be a control on a panel
         why.append("with a handle")
     value += GAP[e.gap_sides]
@@ -57,10 +58,10 @@ def _plate(e: PartEvidence) -> tuple[float, str, str]:
 
 
 def _box(e: PartEvidence) -> tuple[float, str, str]:
-    if e.enclosed < 0.3 or e.outside < 0.15:
+    if e.enclosed < 0.3 or e.outside < 0.15 or e.touching > 0.7:  # what touches nearly all over is a lining
         return (-3.0, "drawer", "no box in a cavity")
     value, why = -1.0, ["a box in a cavity"]
-    if e.handle is not None:
+    if e.handle is not None and e.size > GRIPPED:
         value += 2.0 if e.handle.along is not None else 1.0
         why.append("with a handle")
     value += 0.6 * GAP[e.gap_sides]

@@ -88,10 +88,14 @@ def _touching(a: Shape, b: Shape, tolerance: float) -> float:
     return a.area * float((gap < tolerance).sum()) / max(len(samples), 1)
 
 
-def coplanar(contacts: Contacts, tolerance: float) -> list[tuple[int, int]]:
-    """Touching plates of one thickness that lie in one plane: the boards of a framed door."""
+def coplanar(contacts: Contacts, whole: ObjectShape, tolerance: float) -> list[tuple[int, int]]:
+    """Touching plates of one thickness that lie in one plane: the boards of a framed door. Not those that a crease in one
+    surface parts: drawers of a fused cabinet."""
+    parted = {(int(a), int(b)) for a, b in whole.shared}
     found = []
     for i, j in contacts.touch:
+        if (int(i), int(j)) in parted:
+            continue
         a, b = contacts.shapes[i].box, contacts.shapes[j].box
         if max(a.half[2] / max(a.half[1], 1e-12), b.half[2] / max(b.half[1], 1e-12)) > 0.5:
             continue

@@ -13,6 +13,7 @@ from anymesh.geometry.shape import Shape
 from anymesh.geometry.surroundings import Surroundings
 from anymesh.reasoning.questions import PartEvidence
 
+FACING = 0.5  # cosine between a rim's normal and what faces it across a clearance
 RIM = 0.75  # samples beyond this share of the half side belong to a rim
 
 
@@ -100,8 +101,9 @@ def _rim(around: Surroundings, config: SegmentationConfig) -> tuple[int, float]:
     hits = around.everything.scene.first_hit(start, samples.normals * reach, 1.0)
     gap = hits.distance * reach - 2 * touch
     face = np.maximum(hits.face, 0)
-    leaves = np.einsum("ij,ij->i", samples.normals, around.everything.normals[face]) > 0
-    gap[(hits.face >= 0) & around.everything.solid[face] & leaves] = 0  # the rim lies within what it would face
+    along = np.einsum("ij,ij->i", samples.normals, around.everything.normals[face])
+    gap[(hits.face >= 0) & around.everything.solid[face] & (along > 0)] = 0  # the rim lies within what it would face
+    gap[np.abs(along) < FACING] = np.inf  # a slope or a fillet beside the rim is no fit
     sides, touched, count = 0, 0, 0
     for axis in around.face_axes:
         for sign in (1, -1):

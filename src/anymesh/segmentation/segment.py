@@ -74,7 +74,7 @@ def _units(mesh: Mesh, whole: ObjectShape, contacts: Contacts, root_piece: int) 
     """Bodies that touch nothing move as one; so do the pieces of a node whose name means something."""
     shapes = contacts.shapes
     key = np.where(contacts.body == contacts.body[root_piece], np.arange(len(shapes)), len(shapes) + contacts.body)
-    same = np.array(coplanar(contacts, 1e-3 * whole.diagonal), np.int64).reshape(-1, 2)
+    same = np.array(coplanar(contacts, whole, 1e-3 * whole.diagonal), np.int64).reshape(-1, 2)
     key = np.where(key < len(shapes), label_connected(len(shapes), same), key)
     names = [""] * len(shapes)
     for p, shape in enumerate(shapes):
