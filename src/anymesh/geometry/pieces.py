@@ -136,6 +136,7 @@ def _absorb_crumbs(
     """Joins regions too small to matter to the neighbour with the longest common border; three rounds settle chains."""
     for _ in range(3):
         small = _diagonals(whole, region) < config.crumb * whole.diagonal
+        small |= np.bincount(region, whole.shape.areas) < (config.crumb * whole.diagonal) ** 2  # slivers along a groove
         a, b = region[pairs[:, 0]], region[pairs[:, 1]]
         source, target = np.r_[a, b], np.r_[b, a]
         weight = np.r_[length, length]
