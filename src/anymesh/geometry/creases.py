@@ -84,7 +84,7 @@ def _contract(count: int, pull: dict[tuple[int, int], float]) -> Int[np.ndarray,
                 total = near[a].get(other, 0.0) + q
                 near[a][other] = near[other][a] = total
                 if total > 0:
-                    heapq.heappush(heap, (-total, *sorted((a, other))))
+                    heapq.heappush(heap, (-total, min(a, other), max(a, other)))
         near[b] = {}
         target[b] = a
     while (target[target] != target).any():

@@ -36,14 +36,15 @@ def sweep_joints(urdf_path: Path, *, steps: int = 100) -> SweepReport:
 
     No gravity. Links collide as the convex hulls of their collision meshes, so links that a joint connects, and links
     that overlap at rest, are not tested against each other; the report lists them. Continuous joints make half a turn
-    each way. InputError when MuJoCo cannot load the file, MissingExtraError without MuJoCo.
+    each way. A joint that another link blocks (a tray behind a door) is tried again with that link's joint opened, which
+    the report says. InputError when MuJoCo cannot load the file, MissingExtraError without MuJoCo.
     """
     mujoco = _mujoco()
     try:
         bench, excluded = _bench(mujoco, Path(urdf_path))
     except ValueError as error:
         raise InputError(f"MuJoCo cannot load {urdf_path}: {error}") from error
-    joints = tuple(_sweep(bench, index, steps) for index in range(bench.model.njnt))
+    joints = tuple(_cleared_sweep(bench, index, steps) for index in range(bench.model.njnt))
     return SweepReport(f"mujoco {mujoco.__version__}", joints, excluded)
 
 
@@ -128,13 +129,30 @@ def _depths(model: Any, data: Any) -> dict[tuple[int, int], float]:
     return found
 
 
-def _sweep(bench: _Bench, index: int, steps: int) -> JointSweep:
+def _cleared_sweep(bench: _Bench, index: int, steps: int) -> JointSweep:
+    """The sweep at rest, or if another joint's link is in the way, with that joint at its upper limit."""
+    model = bench.model
+    posture = np.array(model.qpos0)
+    opened: list[str] = []
+    found = _sweep(bench, index, steps, posture)
+    for _ in range(model.njnt - 1):
+        blocking = [k for k in range(model.njnt) if bench.body(int(model.jnt_bodyid[k])) == found.against and k != index]
+        free = [k for k in blocking if not _carried(model, int(model.jnt_bodyid[k]))[model.jnt_bodyid[index]]]
+        if not found.faults or not free or model.joint(free[0]).name in opened:
+            break
+        opened.append(model.joint(free[0]).name)
+        posture[model.jnt_qposadr[free[0]]] = bench.ranges[free[0], 1]
+        found = replace(_sweep(bench, index, steps, posture), opened=tuple(opened))
+    return found
+
+
+def _sweep(bench: _Bench, index: int, steps: int, posture: np.ndarray) -> JointSweep:
     model = bench.model
     lower, upper = (float(v) for v in bench.ranges[index])
     turns = model.jnt_type[index] == bench.mujoco.mjtJoint.mjJNT_HINGE
     kind = "prismatic" if not turns else "revolute" if model.jnt_limited[index] else "continuous"
-    penetration, against = _placed(bench, index, np.linspace(lower, upper, steps))
-    driven = _driven(bench, index)
+    penetration, against = _placed(bench, index, np.linspace(lower, upper, steps), posture)
+    driven = _driven(bench, index, posture)
     result = JointSweep(
         name=model.joint(index).name,
         type=kind,
@@ -151,13 +169,14 @@ def _sweep(bench: _Bench, index: int, steps: int) -> JointSweep:
     return replace(result, faults=_faults(bench, result, driven.blew_up))
 
 
-def _placed(bench: _Bench, index: int, positions: np.ndarray) -> tuple[float, str]:
+def _placed(bench: _Bench, index: int, positions: np.ndarray, posture: np.ndarray) -> tuple[float, str]:
     """The deepest that any two links get beyond rest [m] while the joint is placed along its range, and into which."""
     model, data = bench.model, bench.data
     worst, against = 0.0, ""
     moved = _carried(model, int(model.jnt_bodyid[index]))
     for position in positions:
         bench.mujoco.mj_resetData(model, data)
+        data.qpos[:] = posture
         data.qpos[model.jnt_qposadr[index]] = position
         bench.mujoco.mj_fwdPosition(model, data)
         for pair, depth in _depths(model, data).items():
@@ -184,10 +203,12 @@ class _Drive:
     blew_up: bool
 
 
-def _driven(bench: _Bench, index: int) -> _Drive:
-    """The joint led by its motor to the upper limit, then the lower, while the others' motors hold them at rest."""
+def _driven(bench: _Bench, index: int, posture: np.ndarray) -> _Drive:
+    """The joint led by its motor to the upper limit, then the lower, while the others' motors hold them in `posture`."""
     mujoco, model, data = bench.mujoco, bench.model, bench.data
     mujoco.mj_resetData(model, data)
+    data.qpos[:] = posture
+    data.ctrl[:] = posture[model.jnt_qposadr]
     address = model.jnt_qposadr[index]
     geoms = np.flatnonzero(model.geom_bodyid == model.jnt_bodyid[index])
     others = np.arange(model.nq) != address
@@ -199,7 +220,7 @@ def _driven(bench: _Bench, index: int) -> _Drive:
         for command in start + (goal - start) * smooth:
             data.ctrl[index] = command
             mujoco.mj_step(model, data)
-            drift = max(drift, float(np.abs(data.qpos[others]).max(initial=0.0)))
+            drift = max(drift, float(np.abs((data.qpos - posture)[others]).max(initial=0.0)))
         start = goal
         mujoco.mj_forward(model, data)
         blew_up |= not np.isfinite(data.qpos).all() or any(w.number for w in data.warning)

@@ -25,6 +25,7 @@ class JointSweep:
     drift: float
     off: float
     faults: tuple[str, ...]
+    opened: tuple[str, ...] = ()  # joints that had to be opened first, for what they carry was in the way
 
     @property
     def ok(self) -> bool:
