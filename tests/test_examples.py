@@ -6,7 +6,6 @@ import contract
 import pytest
 
 from anymesh.config import Config
-from anymesh.evaluation.metrics import same_motion
 from anymesh.evaluation.score import ObjectScore, score
 from anymesh.evaluation.truth import example_truths
 from anymesh.loading import load_mesh, place_mesh
@@ -33,8 +32,7 @@ def test_example_comes_out_right(name: str) -> None:
     assert result.predicted == result.true == result.matched
     for joint in result.joints:
         assert joint.iou >= 0.8
-        assert joint.type_found is not None
-        assert same_motion(joint.type_true, joint.type_found)
+        assert joint.type_found is joint.type_true
         assert joint.angle is not None
         assert joint.angle <= 2
         assert joint.position is None or joint.position <= 0.02

@@ -138,3 +138,12 @@ def test_the_default_range_is_half_a_turn_or_two_diagonals():
     free = around([box((0, 0, 0), (1, 2, 2))], [box((50, 50, 50), (51, 51, 51))])
     assert sweep(free, turn(Z, (0, 0, 0))).forward == np.pi
     assert sweep(free, slide(Z)).backward == pytest.approx(6)
+
+
+@pytest.mark.parametrize("steps", [10, 40, 300])
+def test_a_wall_right_behind_a_surface_that_is_left_is_met(steps) -> None:
+    part = [box((0.06, -0.01, -0.01), (0.09, 0.01, 0.01))]
+    rest = [box((0, -2, -2), (0.1, 2, 2)), box((0.11, -2, -2), (0.5, 2, 2))]  # sunk in one plate, a second one behind
+    free, clear = free_amount(around(part, rest), slide((1, 0, 0)), 1, 1.0, steps)
+    assert not clear
+    assert 0.015 < free < 0.055

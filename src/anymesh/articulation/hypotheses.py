@@ -113,10 +113,10 @@ def propose(around: Surroundings) -> list[tuple[str, Motion]]:
     core, box = around.core, around.part.box
     found = _edges(core, "the part") + _edge_middles(core, "the part") + _through(core, "the part")
     found += _slides(core, "the part")
+    found[:0] = barrels(around)
     outline = around.outline
     if outline.roundness > 0.5:
         found.insert(0, ("round", Motion(MotionKind.TURN, _unit(outline.axis), outline.center, "axis of its round outline")))
-    found[:0] = barrels(around)
     bail = bail_line(around)
     if bail is not None:
         found.insert(0, ("bail", bail))

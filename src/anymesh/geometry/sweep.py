@@ -84,7 +84,10 @@ def _first_stop(points: np.ndarray, transforms: np.ndarray, amounts: np.ndarray,
         behind = [np.einsum("ij,ij->i", path[np.minimum(k + a, len(path) - 1), i] - point, normal) for a in (1, 2, 3)]
         counts &= np.abs(behind).max(0) > tolerance
         chosen = np.flatnonzero(counts)
-        counts[chosen] = _squarely(start[at[chosen]], span[at[chosen]], target, tolerance)
+        done = begin[struck[chosen], None]
+        counts[chosen] = _squarely(
+            start[at[chosen]] + span[at[chosen]] * done, span[at[chosen]] * (1 - done), target, tolerance
+        )
         stop[at[counts]] = amounts[k[counts]] + where[counts] * (amounts[k[counts] + 1] - amounts[k[counts]])
         live, begin = at[~counts], np.minimum(where[~counts] + 1e-4, 1.0)
     return stop.reshape(steps, n).min(0)
