@@ -20,6 +20,7 @@ PALETTE = np.array(  # distinct for colour-blind eyes too (after Okabe and Ito, 
      [130, 200, 120], [150, 120, 220], [120, 90, 60]], np.uint8)  # fmt: skip
 BASE = np.array([200, 200, 200], np.uint8)
 SIZE = 620  # [px] of a panel
+MARGIN, LEAST_WIDTH, LEAST_HEIGHT = 18, 500, 240  # [px] round what is drawn; of a panel, so that the legend fits
 OPEN = 0.75  # share of the range that is shown opened
 AXIS_COLOR = (190, 20, 40)
 MOST_NAMED = 18  # joints in the legend
@@ -47,7 +48,21 @@ def render_preview(asset: Asset) -> UInt8[np.ndarray, "H W 3"]:
         if k > 0:
             _draw_axes(ImageDraw.Draw(half), asset, opened if k == 2 else {}, camera)
         panels.append(np.asarray(half))
-    return np.concatenate([np.concatenate(panels, 1), _legend(asset, 3 * SIZE)])
+    panels = _trimmed(panels)
+    return np.concatenate([np.concatenate(panels, 1), _legend(asset, 3 * panels[0].shape[1])])
+
+
+def _trimmed(panels: list[np.ndarray]) -> list[np.ndarray]:
+    """The panels without the bands that are white in all of them, all of one size."""
+    drawn = (np.stack(panels) < 250).any((0, 3))
+    found = []
+    for axis, least in ((1, LEAST_HEIGHT), (0, LEAST_WIDTH)):
+        used = np.flatnonzero(drawn.any(axis))
+        first, last = (used[0], used[-1] + 1) if len(used) else (0, SIZE)
+        spare = max(2 * MARGIN, least - (last - first))
+        first = max(0, min(first - spare // 2, SIZE - (last - first) - spare))
+        found.append(slice(first, min(SIZE, last + spare - spare // 2)))
+    return [panel[found[0], found[1]] for panel in panels]
 
 
 def shown_position(joint: Joint) -> float:
