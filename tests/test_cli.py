@@ -48,6 +48,12 @@ def test_help_names_the_exit_codes(command, flag, capfd) -> None:
     assert "130 interrupted" in " ".join(out.split())
 
 
+def test_no_command_shows_the_help(capfd) -> None:
+    code, out, err = called(capfd)
+    assert (code, err) == (2, "")
+    assert "articulate" in out
+
+
 def test_version(capfd) -> None:
     assert called(capfd, "--version") == (0, f"anymesh {__version__}\n", "")
 
@@ -87,6 +93,25 @@ def test_stages_run_alone_write_the_same_bytes(mesh, capfd) -> None:
     assert [name for name in whole if whole[name] != stages[name]] in ([], ["timing.json"])
 
 
+def test_an_interrupt_is_an_object_where_one_is_asked_for(mesh, monkeypatch, capfd) -> None:
+    def interrupted(*_, **__):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(pipeline, "segment_parts", interrupted)
+    code, out, err = called(capfd, "articulate", mesh, "-o", "out", "--json")
+    assert (code, err) == (130, "interrupted\n")
+    assert json.loads(out) == {"error": "interrupted", "kind": "KeyboardInterrupt", "exit_code": 130}
+
+
+def test_the_category_changes_keys_and_nothing_else(mesh, capfd) -> None:
+    for out, more in (("plain", []), ("told", ["--category", "cabinet"])):
+        assert called(capfd, "articulate", mesh, "-o", out, *PARTS, *more, "-q")[0] == 0
+    plain, told = contents(Path("plain")), contents(Path("told"))
+    assert plain.keys() == told.keys()
+    changed = {name for name in plain if plain[name] != told[name]} - {"timing.json"}
+    assert changed == {"stages/segmentation.json", "stages/joints.json"}
+
+
 def faulty_calls() -> dict[str, tuple[int, list[str], str]]:
     """What is wrong -> exit code, arguments, a word of the message."""
     make = ["segment", "cabinet.glb", "-o", "out"]
@@ -95,8 +120,17 @@ def faulty_calls() -> dict[str, tuple[int, list[str], str]]:
         "unknown command": (2, ["fold", "cabinet.glb"], "fold"),
         "unknown option": (2, [*make, "--colour", "red"], "--colour"),
         "seed": (2, [*make, "--seed", "x"], "--seed"),
+        "a seed below 0": (2, [*make, "--seed", "-1"], "found -1"),
+        "a seed of joints below 0": (2, ["joints", "old", "--seed", "-1"], "found -1"),
         "up": (2, [*make, "--up", "w"], "auto, x, y, z"),
         "scale": (2, [*make, "--scale", "-1"], "METRES:AXIS"),
+        "scale 0": (2, [*make, "--scale", "0"], "found '0'"),
+        "scale nan": (2, [*make, "--scale", "nan"], "found 'nan'"),
+        "a huge scale": (2, [*make, "--scale", "1e300"], "1e-06 to 1e+06 m"),
+        "a tiny scale": (2, [*make, "--scale", "1e-300"], "1e-06 to 1e+06 m"),
+        "empty parts": (2, [*make, "--parts", "empty.npy"], "an empty file"),
+        "deep parts": (2, [*make, "--parts", "deep.json"], "nested too deep"),
+        "parts with a long name": (2, [*make, "--parts", f"{'a' * 300}.npy"], "cannot be opened"),
         "parts": (2, [*make, "--parts", "none.npy"], "none.npy"),
         "answerer": (2, [*make, "--answerer", "oracle"], "valid is geometry"),
         "answerer of the whole job": (2, ["articulate", *make[1:], "--answerer", "oracle"], "'oracle'"),
@@ -120,10 +154,13 @@ def crowded(mesh, capfd) -> Path:
     Path("foreign").mkdir()
     for name in ("foreign/thesis.txt", "notes.txt"):
         Path(name).write_text("mine")
+    Path("empty.npy").touch()
+    Path("deep.json").write_text("[" * 200_000)
     Path("broken.glb").write_bytes(mesh.read_bytes()[:200])
     return Path.cwd()
 
 
+@pytest.mark.filterwarnings("error")
 @pytest.mark.parametrize("name", faulty_calls())
 def test_an_error_is_one_line_on_stderr_and_nothing_is_written(name: str, crowded, capfd) -> None:
     expected, arguments, word = faulty_calls()[name]
@@ -151,7 +188,8 @@ def test_force_replaces_an_output_of_this_program(crowded, capfd) -> None:
     [
         (MissingExtraError("needs articulate-anymesh[sim]"), 5, "[sim]"),
         (RuntimeError("two\nlines\x1b[31m"), 1, "--debug"),
-        (KeyboardInterrupt(), 130, ""),
+        (EOFError("cut"), 1, "unexpected EOFError: cut"),
+        (KeyboardInterrupt(), 130, "interrupted\n"),
     ],
 )
 def test_other_ends(raised, code: int, word: str, mesh, monkeypatch, capfd) -> None:
@@ -162,10 +200,10 @@ def test_other_ends(raised, code: int, word: str, mesh, monkeypatch, capfd) -> N
     before = contents(Path.cwd())
     found, out, err = called(capfd, "articulate", mesh, "-o", "out")
     assert (found, out) == (code, "")
-    assert err.count("\n") <= 1
+    assert (err.count("\n"), err[-1]) == (1, "\n")
     assert word in err
     assert "\x1b" not in err
     assert contents(Path.cwd()) == before
     if code == 1:
-        with pytest.raises(RuntimeError):
+        with pytest.raises(type(raised)):
             run(["--debug", "articulate", str(mesh), "-o", "out"])

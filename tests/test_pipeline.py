@@ -67,6 +67,15 @@ def test_the_mesh_handed_in_is_not_changed() -> None:
     assert all(np.array_equal(before[name], after[name]) for name in before)
 
 
+@pytest.mark.parametrize("call", [anymesh.articulate, anymesh.segment])
+def test_a_negative_seed_is_refused_before_anything_is_read(call, tmp_path) -> None:
+    with pytest.raises(OptionError, match=r"--seed: found -1; valid are integers from 0 up"):
+        call(tmp_path / "none.glb", tmp_path / "out", seed=-1)
+    with pytest.raises(OptionError, match="--seed"):
+        anymesh.joints(tmp_path / "out", seed=-1)
+    assert not list(tmp_path.iterdir())
+
+
 def test_an_unknown_answerer_is_refused_before_anything_is_read(tmp_path) -> None:
     with pytest.raises(OptionError, match=r"found 'gpt'.*geometry"):
         anymesh.articulate(tmp_path / "none.glb", tmp_path / "out", answerer="gpt")

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
+from typer.core import TyperGroup
 
 from anymesh import __version__
 from anymesh.errors import AnymeshError
@@ -21,7 +22,25 @@ EXIT_CODES = (
     "Exit codes: 0 done; 1 unexpected error; 2 a wrong option; 3 the mesh cannot be used; 4 the output folder exists or "
     "cannot be written; 5 an optional dependency is missing; 130 interrupted."
 )
+
+
+class _Commands(TyperGroup):
+    """Hands on two errors that the library turns into others of its own: an interrupt, and the end of a file."""
+
+    def invoke(self, ctx: Any) -> Any:
+        try:
+            return super().invoke(ctx)
+        except (KeyboardInterrupt, EOFError) as error:
+            raise _HandedError(error) from error
+
+
+class _HandedError(Exception):
+    def __init__(self, error: BaseException) -> None:
+        self.error = error
+
+
 app = typer.Typer(
+    cls=_Commands,
     help="Any rigid 3D mesh in, a simulation-ready articulated asset out.",
     epilog=EXIT_CODES,
     no_args_is_help=True,
@@ -34,8 +53,8 @@ Folder = Annotated[Path, typer.Argument(metavar="DIR", help="A folder that `anym
 Out = Annotated[Path, typer.Option("--out", "-o", metavar="DIR", help="Folder to write.")]
 Parts = Annotated[str, typer.Option(help="auto, nodes (the scene's nodes), or a .npy/.json file of face labels.")]
 AnswererName = Annotated[str, typer.Option("--answerer", help="Who answers the questions: geometry.")]
-Category = Annotated[str | None, typer.Option(help="What the object is, if you know.")]
-Seed = Annotated[int, typer.Option(help="Same input and seed, same bytes.")]
+Category = Annotated[str | None, typer.Option(help="What the object is; geometry does not use it.")]
+Seed = Annotated[int, typer.Option(help="From 0 up; same input and seed, same bytes.")]
 Up = Annotated[str, typer.Option(help="The file's up axis: auto, x, y, z.")]
 Scale = Annotated[str, typer.Option(help="auto, a factor to metres, or METRES:AXIS such as 0.9:z.")]
 Force = Annotated[bool, typer.Option("--force", help="Replace an existing output.")]
@@ -51,7 +70,7 @@ def _version(wanted: bool) -> None:
 
 @app.callback()
 def _main(
-    version: Annotated[bool, typer.Option("--version", callback=_version, is_eager=True, help="Print it.")] = False,
+    version: Annotated[bool | None, typer.Option("--version", callback=_version, is_eager=True, help="Print it.")] = False,
     debug: Annotated[bool, typer.Option("--debug", help="Show the traceback of an unexpected error.")] = False,
 ) -> None: ...
 
@@ -233,20 +252,36 @@ def run(arguments: list[str]) -> int:
     try:
         code = app(arguments, standalone_mode=False)
         return code if isinstance(code, int) else 0
-    except AnymeshError as error:
-        return _fail(arguments, error, str(error), error.exit_code)
     except (typer.Exit, SystemExit) as stop:
         return int(getattr(stop, "exit_code", getattr(stop, "code", 0)) or 0)
     except (KeyboardInterrupt, typer.Abort):
-        typer.echo("interrupted; nothing was changed", err=True)
-        return 130
+        return _interrupted(arguments)
+    except _HandedError as handed:
+        if isinstance(handed.error, KeyboardInterrupt):
+            return _interrupted(arguments)
+        return _failed(arguments, handed.error)
     except Exception as error:
-        if hasattr(error, "format_message"):  # a usage error of the command line itself
-            return _fail(arguments, error, str(error.format_message()), 2)  # ty: ignore[not-callable]
-        if "--debug" in arguments:
-            raise
-        told = f"unexpected {type(error).__name__}: {error} (put --debug before the command for the traceback)"
-        return _fail(arguments, error, told, 1)
+        return _failed(arguments, error)
+
+
+def _failed(arguments: list[str], error: BaseException) -> int:
+    if isinstance(error, AnymeshError):
+        return _fail(arguments, error, str(error), error.exit_code)
+    if hasattr(error, "format_message"):  # a usage error of the command line itself
+        if not arguments:  # the help was shown instead
+            return 2
+        return _fail(arguments, error, str(error.format_message()), 2)  # ty: ignore[not-callable]
+    if "--debug" in arguments:
+        raise error
+    told = f"unexpected {type(error).__name__}: {error} (put --debug before the command for the traceback)"
+    return _fail(arguments, error, told, 1)
+
+
+def _interrupted(arguments: list[str]) -> int:
+    if "--json" in arguments:
+        typer.echo(json.dumps({"error": "interrupted", "kind": "KeyboardInterrupt", "exit_code": 130}))
+    typer.echo("interrupted", err=True)
+    return 130
 
 
 def _fail(arguments: list[str], error: BaseException, told: str, code: int) -> int:

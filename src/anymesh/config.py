@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import asdict, dataclass, field
 
+from anymesh.errors import OptionError
+
 
 @dataclass(frozen=True)
 class PiecesConfig:
@@ -50,11 +52,15 @@ class ArticulationConfig:
 class Config:
     """All settings of a run; its dictionary is part of the key of saved stage results."""
 
-    seed: int = 0
+    seed: int = 0  # 0 or more
     category: str | None = None  # what the object is, in a user's words
     pieces: PiecesConfig = field(default_factory=PiecesConfig)
     segmentation: SegmentationConfig = field(default_factory=SegmentationConfig)
     articulation: ArticulationConfig = field(default_factory=ArticulationConfig)
+
+    def __post_init__(self) -> None:
+        if self.seed < 0:
+            raise OptionError(f"--seed: found {self.seed}; valid are integers from 0 up")
 
     def as_dict(self) -> dict[str, object]:
         """Plain values, for keys and files."""

@@ -161,8 +161,7 @@ class _Ready:
 def _segment(
     run: RunFolder, placed: Placed, ready: _Ready, previous: str, parts: str, who: Answerer, config: Config, progress: Progress
 ) -> tuple[Segmented, str]:
-    labels = Path(parts).read_bytes().hex() if parts not in ("auto", "nodes") and Path(parts).is_file() else ""
-    settings = {**config.as_dict(), "parts": parts, "labels": labels, "answerer": who.name}
+    settings = {**config.as_dict(), "parts": parts, "labels": _bytes_of_labels(parts), "answerer": who.name}
     key = stage_key(SEGMENTATION, previous=previous, config=settings)
     found = run.load(SEGMENTATION, key)
     if found is None:
@@ -173,6 +172,14 @@ def _segment(
         found = Segmented(segmentation, who.name, (*placed.warnings, *none))
         run.save(SEGMENTATION, key, found)
     return found, key
+
+
+def _bytes_of_labels(parts: str) -> str:
+    """The label file in hex, "" when there is none that can be read: the stage then tells what is wrong with it."""
+    try:
+        return Path(parts).read_bytes().hex() if parts not in ("auto", "nodes") and Path(parts).is_file() else ""
+    except OSError:
+        return ""
 
 
 def _join(

@@ -51,20 +51,20 @@ def test_an_axis_that_only_crosses_the_true_one_is_seen_at_the_part() -> None:
     center = np.array([0.3, 0, 2.0])
     assert line_distance(np.zeros(3), X, np.zeros(3), Z) == pytest.approx(0)
     assert distance_at(center, np.zeros(3), X, np.zeros(3), Z) == pytest.approx(2)
-    assert distance_at(center, np.array([0, 0.1, 9]), -Z, np.array([0, 0, -5]), Z) == pytest.approx(0.1)
+    assert distance_at(center, np.array([0, 0.1, 9]), -Z, np.array([0, 0, -5.0]), Z) == pytest.approx(0.1)
 
 
 @pytest.mark.parametrize(
     ("a", "b", "expected"),
     [
-        ((0, 1), (0, 1), 1),
-        ((0, 1), (0, 2), 0.5),
-        ((-1, 1), (0, 3), 0.25),
-        ((0, 1), (-1, 0), 0),
-        ((0, 1), (2, 3), 0),
+        ((0.0, 1.0), (0.0, 1.0), 1),
+        ((0.0, 1.0), (0.0, 2.0), 0.5),
+        ((-1.0, 1.0), (0.0, 3.0), 0.25),
+        ((0.0, 1.0), (-1.0, 0.0), 0),
+        ((0.0, 1.0), (2.0, 3.0), 0),
         (None, None, 1),
-        (None, (0, 1), 0),
-        ((0, 1), None, 0),
+        (None, (0.0, 1.0), 0),
+        ((0.0, 1.0), None, 0),
     ],
 )
 def test_overlap_of_ranges(a, b, expected: float) -> None:

@@ -1,5 +1,7 @@
 """Welding, edges and components."""
 
+from itertools import product
+
 import numpy as np
 import pytest
 from assets import box, mesh_of
@@ -25,6 +27,32 @@ def test_welding_joins_what_is_near_and_keeps_what_is_not():
     points = np.concatenate([CUBE, [[1 / 3, 0, z] for z in (0, 1e-8, 1e-4)]])
     welded = weld(points)
     assert welded[8] == welded[9] != welded[10]
+
+
+def test_equal_points_meet_at_the_middle():
+    middle = [[0.5 + s * 1e-12 for s in signs] for signs in product([-1, 0, 1], repeat=3)]
+    welded = weld(np.concatenate([CUBE, middle]))
+    assert len(np.unique(welded)) == 9
+    assert len(np.unique(welded[8:])) == 1
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_points_a_hair_apart_meet_wherever_they_lie(seed):
+    rng = np.random.default_rng(seed)
+    points = rng.random((5000, 3)) * rng.uniform(0.1, 1, 3)
+    hair = rng.uniform(-1, 1, (5000, 3)) * np.ptp(points, axis=0).max() / 2**24
+    welded = weld(np.concatenate([points, points + hair]))
+    np.testing.assert_array_equal(welded[:5000], welded[5000:])
+    assert len(np.unique(welded)) == 5000
+    np.testing.assert_array_equal(np.unique(welded), np.arange(5000))
+
+
+@pytest.mark.parametrize("cells", [2**20, 2**20 - 1])
+def test_points_at_the_borders_of_a_grid_meet(cells):
+    border = (np.random.default_rng(0).integers(0, 2**20 - 2, (1000, 3)) + 0.5) / cells
+    both = np.concatenate([CUBE, border - 1e-12, border + 1e-12])
+    welded = weld(both)[8:]
+    np.testing.assert_array_equal(welded[:1000], welded[1000:])
 
 
 def test_a_closed_surface_pairs_every_edge_once():

@@ -228,5 +228,5 @@ def test_dae_instances_transforms_and_looks(tmp_path) -> None:
 def test_obj_material_is_red_and_the_solid_keeps_shared_corners(tmp_path) -> None:
     mesh = load_mesh(put(tmp_path, "box.obj", obj())).mesh
     assert MTL.startswith(b"newmtl red")
-    assert mesh.materials[0] == replace(mesh.materials[0], name="red", base_color=(1, 0, 0, 1))
+    assert mesh.materials[0] == replace(mesh.materials[0], name="red", base_color=(1.0, 0.0, 0.0, 1.0))
     assert len(mesh.vertices) == 8

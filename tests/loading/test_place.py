@@ -67,6 +67,13 @@ def test_a_scale_that_is_not_valid(scale) -> None:
     assert "\n" not in str(caught.value)
 
 
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("scale", ["1e300", "1e-300", "1e-320", "1e308:z", "1e-300:longest", "1e7", "1e-7"])
+def test_a_scale_that_no_output_could_hold(scale) -> None:
+    with pytest.raises(OptionError, match=r"--scale: found .*diagonal .*; valid are 1e-06 to 1e\+06 m"):
+        place_mesh(loaded(), scale=scale)
+
+
 def test_a_length_along_an_axis_without_extent() -> None:
     flat, _ = mesh_of([(np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]]), np.array([[0, 1, 2]]))])
     with pytest.raises(OptionError, match="no extent along z"):
@@ -94,13 +101,14 @@ def test_a_unit_that_cannot_be_true_is_said() -> None:
 def test_auto_up_prefers_what_the_format_tells_then_what_the_object_stands_on() -> None:
     assert place_mesh(loaded(up="x")).up == "x"
     assert place_mesh(loaded(up="x"), up="y").up == "y"
-    top, leg = box((-1, -1, 0.9), (1, 1, 1)), (0.05, 0.05, 0.9)
-    table = [box((-0.7, -0.7, 0), (0.7, 0.7, 0.05)), top, box(-np.array(leg) * [1, 1, 0], leg)]
-    upright = mesh_of(table)[0]
+    corners = np.array([[-1.0, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0], [0, 0, 2]])
+    pyramid = corners, np.array([[0, 2, 1], [0, 3, 2], [0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]])
+    upright = mesh_of([pyramid])[0]
     lying = upright.transformed(np.array([[1.0, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]]))
-    for path in ("table.stl", "table.obj"):
+    for path, usual in (("a.stl", "z"), ("a.obj", "y")):
         assert place_mesh(loaded(upright, path=path)).up == "z"
         assert place_mesh(loaded(lying, path=path)).up == "y"
+        assert place_mesh(loaded(mesh_of([box((0, 0, 0), (1, 1, 1))])[0], path=path)).up == usual
 
 
 def test_far_from_the_origin_the_shape_stays() -> None:

@@ -89,8 +89,8 @@ DOOR = {"thinness": 0.05, "face_share": 0.5, "outside": 0.5}
 
 def test_evidence_adds_up_to_a_part() -> None:
     plain = WHO.is_part(evidence(**DOOR))
-    gripped = WHO.is_part(evidence(**DOOR, handle=Handle((0.8, 0), 1, 0.3)))
-    free = WHO.is_part(evidence(**DOOR, handle=Handle((0.8, 0), 1, 0.3), gap_sides=4))
+    gripped = WHO.is_part(evidence(**DOOR, handle=Handle((0.8, 0.0), 1, 0.3)))
+    free = WHO.is_part(evidence(**DOOR, handle=Handle((0.8, 0.0), 1, 0.3), gap_sides=4))
     assert plain.score < gripped.score < free.score
     assert not plain.moves
     assert (free.moves, free.label) == (True, "door")
@@ -98,7 +98,7 @@ def test_evidence_adds_up_to_a_part() -> None:
 
 
 def test_a_name_outweighs_shape_both_ways() -> None:
-    door = {**DOOR, "handle": Handle((0.8, 0), 1, 0.3)}
+    door = {**DOOR, "handle": Handle((0.8, 0.0), 1, 0.3)}
     assert WHO.is_part(evidence(**door)).moves
     assert not WHO.is_part(evidence(**door, name="back_panel")).moves
     assert WHO.is_part(evidence(**DOOR, name="Drawer_1")).label == "drawer"

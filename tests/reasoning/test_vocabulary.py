@@ -14,6 +14,12 @@ from anymesh.reasoning.vocabulary import FIXED, WORDS, Habit, habit_of, is_fixed
         ("door-handle.001", ["door", "handle"]),
         ("frontGlass", ["front", "glass"]),
         ("DRAWERS", ["drawer"]),
+        ("chassis_Corpus", ["chassis", "corpus"]),  # no plurals
+        ("axis glass radius", ["axis", "glass", "radius"]),
+        ("switches latches bodies tapes", ["switch", "latch", "body", "tape"]),
+        ("Türe", ["ture"]),
+        ("Tu\u0308re", ["ture"]),
+        ("door世界Handle", ["door", "handle"]),
         ("42", []),
         ("", []),
     ],
@@ -32,6 +38,11 @@ def test_names_fall_into_words(name: str, words: list[str]) -> None:
         ("Schublade_2", "drawer"),
         ("steering_wheel", "wheel"),
         ("keycaps", "button"),
+        ("Switches", "lever"),
+        ("latches.001", "lever"),
+        ("hatches", "door"),
+        ("Poignée_2", "handle"),
+        ("cajón", "drawer"),
         ("door_frame", None),  # a frame stays, whatever it frames
         ("frame_door", "door"),
     ],
@@ -50,6 +61,17 @@ def test_names_that_mean_nothing(name: str) -> None:
     assert habit_of(name) is None
 
 
+@pytest.mark.parametrize("name", ["chassis", "Corpus_01", "CHASSIS", "lower_shelves", "glass panels", "bodies"])
+def test_names_of_what_stays(name: str) -> None:
+    assert is_fixed_name(name)
+    assert recognize(name) is None
+
+
+@pytest.mark.parametrize("name", ["tapes", "capes", "Türe"])
+def test_an_ending_is_not_cut_to_make_a_word(name: str) -> None:
+    assert recognize(name) is None
+
+
 @given(st.text(max_size=40))
 def test_a_name_never_speaks_both_ways(name: str) -> None:
     assert not (recognize(name) is not None and is_fixed_name(name))
@@ -62,6 +84,10 @@ def test_every_word_is_known_in_every_spelling(ending: str) -> None:
             found = recognize(spelled + ending)
             assert found is not None, spelled
             assert name in found.names
+
+
+def test_every_fixed_word_is_known_as_it_is_written() -> None:
+    assert all(is_fixed_name(name) for name in FIXED)
 
 
 def test_no_word_is_in_two_kinds() -> None:

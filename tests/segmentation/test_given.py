@@ -1,5 +1,6 @@
 """Parts that a user gives: as nodes of the scene, or as a file of face labels."""
 
+import io
 import json
 from dataclasses import replace
 
@@ -63,6 +64,12 @@ def test_labels_from_json_with_and_without_names(tmp_path) -> None:
     assert found.face_part.tolist() == np.array([1, 0, 2])[PIECE].tolist()
 
 
+@pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16"])
+def test_a_json_with_a_byte_order_mark_is_read(encoding, tmp_path) -> None:
+    (tmp_path / "l.json").write_text(json.dumps(LABELS), encoding=encoding)
+    assert parts_from_file(MESH, tmp_path / "l.json").face_part[-1] == 2
+
+
 FAULTY = {
     "short.npy": np.array(LABELS[:-1]),
     "float.npy": np.array(LABELS, float),
@@ -76,6 +83,8 @@ FAULTY = {
     "no_faces.json": {"names": ["a", "b", "c"]},
     "few_names.json": {"names": ["a", "b"], "faces": LABELS},
     "negative.json": {"names": ["a", "b", "c"], "faces": [-k for k in LABELS]},
+    "negative_without_names.json": [-k for k in LABELS],
+    "negative_without_names.npy": -PIECE,
     "labels.txt": LABELS,
 }
 
@@ -92,6 +101,44 @@ def test_faulty_labels_are_one_error_of_one_line_that_names_the_file(name: str, 
     assert "\n" not in str(told.value)
     assert str(told.value).startswith("--parts: ")
     assert name in str(told.value) or path.suffix == ".txt"
+
+
+def zipped() -> bytes:
+    file = io.BytesIO()
+    np.savez(file, labels=PIECE)
+    return file.getvalue()
+
+
+@pytest.mark.parametrize(
+    ("name", "data", "found"),
+    [
+        ("empty.npy", b"", "an empty file in empty.npy"),
+        ("zipped.npy", zipped(), "a ZIP archive"),
+        ("cut_zip.npy", zipped()[:50], "a ZIP archive"),
+        ("text.npy", b"0 1 2", "another format"),
+        ("cut.npy", b"\x93NUMPY\x01\x00", "a broken array"),
+        ("header.npy", b"\x93NUMPY\x01\x00\x04\x00{(((" + bytes(200), "a broken array"),
+        ("empty.json", b"", "an empty file in empty.json"),
+        ("deep.json", b"[" * 200_000, "nested too deep"),
+        ("deep_labels.json", b"[" * 200 + b"]" * 200, "lists of"),
+        ("binary.json", b"\xff\xfe\xff\x00", "no JSON"),
+        ("cut.json", b"[0, 1", "no JSON"),
+        ("no_faces.json", b'{"names": []}', 'no "faces"'),
+        ("minus.json", json.dumps([-1, *LABELS[1:]]).encode(), "the label -1"),
+    ],
+)
+def test_what_a_file_holds_instead_of_labels_is_told(name: str, data: bytes, found: str, tmp_path) -> None:
+    (tmp_path / name).write_bytes(data)
+    with pytest.raises(OptionError) as told:
+        parts_from_file(MESH, tmp_path / name)
+    assert f"found {found}" in str(told.value) or f"found lists {found}" in str(told.value)
+    assert name in str(told.value)
+    assert "; valid " in str(told.value)
+
+
+def test_a_name_that_is_too_long_for_a_file(tmp_path) -> None:
+    with pytest.raises(OptionError, match="cannot be opened"):
+        parts_from_file(MESH, tmp_path / f"{'a' * 300}.npy")
 
 
 def test_the_length_found_and_the_one_expected_are_told(tmp_path) -> None:

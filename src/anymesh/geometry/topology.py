@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import product
 
 import numpy as np
 from jaxtyping import Bool, Float, Int
@@ -11,12 +12,29 @@ from scipy.sparse.csgraph import connected_components
 
 
 def weld(vertices: Float[np.ndarray, "V 3"]) -> Int[np.ndarray, " V"]:
-    """A number a position: vertices that agree to one part in 2**20 of the largest extent share it."""
+    """A number a position: vertices nearer than one part in 2**24 of the largest extent share it, wherever they lie.
+
+    The cells of a grid of 2**20 parts are joined where each has a vertex a sixteenth of a cell or less from their border.
+    """
     low = vertices.min(0)
     extent = float((vertices.max(0) - low).max()) or 1.0
-    grid = np.round((vertices - low) * ((2**20 - 1) / extent)).astype(np.int64)
-    key = (grid[:, 0] << 42) | (grid[:, 1] << 21) | grid[:, 2]
-    return np.unique(key, return_inverse=True)[1].reshape(-1)
+    at = (vertices - low) / extent * 2**20
+    cell = np.rint(at).astype(np.int64)
+    number = np.unique(_grid_key(cell), return_inverse=True)[1].reshape(-1)
+    near = np.abs(at - cell) >= 7 / 16
+    joined = [np.zeros((0, 2), np.int64)]
+    for axes in list(product([False, True], repeat=3))[1:]:  # on which two vertices may lie on two sides of a border
+        rows = np.flatnonzero(near[:, axes].all(1))
+        key = _grid_key(np.where(axes, np.floor(at[rows]).astype(np.int64), cell[rows]))  # half a cell aside on those
+        order = np.argsort(key)
+        same = np.diff(key[order]) == 0
+        met = number[rows[order]]
+        joined.append(np.stack([met[:-1][same], met[1:][same]], 1))
+    return label_connected(int(number.max()) + 1, np.concatenate(joined))[number]
+
+
+def _grid_key(cell: np.ndarray) -> np.ndarray:
+    return (cell[:, 0] << 42) | (cell[:, 1] << 21) | cell[:, 2]
 
 
 @dataclass(frozen=True, eq=False)

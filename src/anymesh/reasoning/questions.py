@@ -7,7 +7,7 @@ The pipeline does not know which answerer it has.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 from jaxtyping import Float
@@ -122,6 +122,7 @@ class PartAnswer:
     reason: str
 
 
+@runtime_checkable
 class Answerer(Protocol):
     """Whoever answers: geometry alone, a vision-language model, or ground truth."""
 

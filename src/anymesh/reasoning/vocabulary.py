@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import unicodedata
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -45,17 +46,31 @@ WORDS = (
     Word("seat", Habit.LEVER, ("seat", "backrest", "recliner")),
 )  # fmt: skip
 FIXED = frozenset(
-    "base body frame corpus housing case carcass chassis shell panel board wall side back top bottom floor shelf leg foot "
-    "feet stand support table plinth fixed static burner hinge screw logo".split()
+    "base body frame corpus housing case carcass chassis shell panel board wall side back top bottom floor shelf shelves leg "
+    "foot feet stand support table plinth fixed static burner hinge screw logo".split()
 )
 _BY_NAME = {name: word for word in WORDS for name in word.names}
+_SIBILANTS = ("ches", "shes", "ses", "xes", "zes")  # their singular lacks "es": "switches"; but not "tapes"
 _SPLIT = re.compile(r"[^A-Za-z]+|(?<=[a-z])(?=[A-Z])")
 
 
 def words_of(name: str) -> list[str]:
-    """The words of a free name, lower case, plural s off: "LeftDoors_02" gives left, door."""
-    found = [w.lower() for w in _SPLIT.split(name) if w]
-    return [w[:-1] if len(w) > 3 and w.endswith("s") and not w.endswith("ss") else w for w in found]
+    """The words of a free name, lower case, accents and plural endings off: "LeftDoors_02" gives left, door."""
+    plain = "".join(c for c in unicodedata.normalize("NFKD", name) if not unicodedata.combining(c))
+    return [_singular(w.lower()) for w in _SPLIT.split(plain) if w]
+
+
+def _singular(word: str) -> str:
+    """A word that is known stays ("chassis"); else the singular that is known, else the likely one."""
+    if word in _BY_NAME or word in FIXED or len(word) <= 3 or not word.endswith("s"):
+        return word
+    singulars = [word[:-1]]
+    if word.endswith(_SIBILANTS):
+        singulars.append(word[:-2])
+    if word.endswith("ies"):
+        singulars.append(f"{word[:-3]}y")
+    likely = word if word.endswith(("ss", "us", "is")) else word[:-1]
+    return next((w for w in singulars if w in _BY_NAME or w in FIXED), likely)
 
 
 def recognize(name: str) -> Word | None:

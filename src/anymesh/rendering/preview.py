@@ -54,10 +54,11 @@ def render_preview(asset: Asset) -> UInt8[np.ndarray, "H W 3"]:
 
 def _trimmed(panels: list[np.ndarray]) -> list[np.ndarray]:
     """The panels without the bands that are white in all of them, all of one size."""
-    drawn = (np.stack(panels) < 250).any((0, 3))
+    drawn = np.stack(panels) < 250
+    bands = (drawn.any((0, 2, 3)), drawn.any((0, 1, 3)))
     found = []
-    for axis, least in ((1, LEAST_HEIGHT), (0, LEAST_WIDTH)):
-        used = np.flatnonzero(drawn.any(axis))
+    for band, least in zip(bands, (LEAST_HEIGHT, LEAST_WIDTH), strict=True):
+        used = np.flatnonzero(band)
         first, last = (used[0], used[-1] + 1) if len(used) else (0, SIZE)
         spare = max(2 * MARGIN, least - (last - first))
         first = max(0, min(first - spare // 2, SIZE - (last - first) - spare))

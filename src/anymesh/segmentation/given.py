@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import io
 import json
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -13,6 +15,7 @@ from anymesh.reasoning.vocabulary import recognize
 from anymesh.types import Mesh, Part, Segmentation
 
 GIVEN = "given"
+NPY, ZIP = b"\x93NUMPY", b"PK"  # what a file of the format starts with
 
 
 def parts_from_nodes(mesh: Mesh) -> Segmentation:
@@ -27,31 +30,60 @@ def parts_from_file(mesh: Mesh, path: Path) -> Segmentation:
 
     Raises OptionError when the file cannot be read as labels of this mesh.
     """
-    names: list[str] | None = None
-    if not path.is_file():
-        raise OptionError(f"--parts: found no file {path}; valid are auto, nodes, or a .npy or .json file of face labels")
-    try:
-        match path.suffix.lower():
-            case ".npy":
-                labels = np.load(path, allow_pickle=False)
-            case ".json":
-                data = json.loads(path.read_text(encoding="utf-8"))
-                names = data.get("names") if isinstance(data, dict) else None
-                labels = np.asarray(data["faces"] if isinstance(data, dict) else data)
-            case other:
-                raise OptionError(f"--parts: found a {other or 'nameless'} file; valid are .npy and .json")
-    except (ValueError, KeyError, OSError, TypeError) as error:
-        raise OptionError(f"--parts: {path.name} cannot be read as face labels ({type(error).__name__})") from None
+    labels, names = _read(path)
     if labels.shape != (len(mesh.faces),) or not np.issubdtype(labels.dtype, np.integer):
         raise OptionError(
             f"--parts: found labels of shape {labels.shape} and type {labels.dtype} in {path.name}; "
             f"valid is one integer for each of the mesh's {len(mesh.faces)} faces"
         )
     present, index = np.unique(labels, return_inverse=True)
-    if names is not None and (not isinstance(names, list) or present.min() < 0 or present.max() >= len(names)):
+    if present.min() < 0:
+        raise OptionError(f"--parts: found the label {present.min()} in {path.name}; valid are integers from 0 up")
+    if names is not None and (not isinstance(names, list) or present.max() >= len(names)):
         raise OptionError(f"--parts: names in {path.name} do not cover the labels {present.min()}..{present.max()}")
     found = [str(names[k]) if names is not None else ("base" if k == 0 else f"part_{k}") for k in present]
     return _segmentation(mesh, index.reshape(-1), found)
+
+
+def _read(path: Path) -> tuple[np.ndarray, Any]:
+    """The labels in a file, whatever they are, and the names where it has some. Raises OptionError."""
+    try:
+        data = path.read_bytes() if path.is_file() else None
+    except OSError as error:
+        raise OptionError(f"--parts: {path.name} cannot be opened: {error.strerror}") from None
+    if data is None:
+        raise OptionError(f"--parts: found no file {path}; valid are auto, nodes, or a .npy or .json file of face labels")
+    suffix = path.suffix.lower()
+    if suffix not in (".npy", ".json"):
+        raise OptionError(f"--parts: found a {suffix or 'nameless'} file; valid are .npy and .json")
+    return (_npy(path.name, data), None) if suffix == ".npy" else _json(path.name, data)
+
+
+def _npy(name: str, data: bytes) -> np.ndarray:
+    found = "a broken array, or one of objects"
+    if not data.startswith(NPY):
+        found = "a ZIP archive (an .npz?)" if data.startswith(ZIP) else "another format" if data else "an empty file"
+    try:
+        return np.lib.format.read_array(io.BytesIO(data), allow_pickle=False)
+    except Exception:  # a broken header ends in one of many errors, of the tokenizer too
+        raise OptionError(f"--parts: found {found} in {name}; valid is one .npy array of integers") from None
+
+
+def _json(name: str, data: bytes) -> tuple[np.ndarray, Any]:
+    valid = 'valid is a list of integers, or {"names": [...], "faces": [...]}'
+    try:
+        record = json.loads(data)  # bytes: in any Unicode encoding, with a byte order mark or without
+    except RecursionError:
+        raise OptionError(f"--parts: found lists nested too deep in {name}; {valid}") from None
+    except ValueError as error:
+        raise OptionError(f"--parts: found {'no JSON' if data else 'an empty file'} in {name} ({error}); {valid}") from None
+    names = record.get("names") if isinstance(record, dict) else None
+    if isinstance(record, dict) and "faces" not in record:
+        raise OptionError(f'--parts: found no "faces" in {name}; {valid}')
+    try:
+        return np.asarray(record["faces"] if isinstance(record, dict) else record), names
+    except (ValueError, OverflowError, RecursionError):
+        raise OptionError(f"--parts: found lists of unequal length or depth in {name}; {valid}") from None
 
 
 def _segmentation(mesh: Mesh, label: np.ndarray, names: list[str]) -> Segmentation:

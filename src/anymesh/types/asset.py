@@ -42,6 +42,9 @@ class Asset:
         children = [j.child for j in self.joints]
         if sorted(children) != sorted(names[1:]):
             raise ValueError(f"each part but the root {names[0]!r} needs one joint; parts {names[1:]}, joints for {children}")
+        joints = [j.name for j in self.joints]
+        if len(set(joints)) != len(joints):
+            raise ValueError(f"joint names must be unique, found {sorted(n for n in joints if joints.count(n) > 1)}")
         parent = {j.child: j.parent for j in self.joints}
         for name in names[1:]:
             seen, at = set(), name

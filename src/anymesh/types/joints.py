@@ -41,8 +41,10 @@ class Joint:
     friction: float = 0.05
 
     def __post_init__(self) -> None:
-        if abs(float(np.linalg.norm(self.axis)) - 1) > 1e-6:
+        if not abs(float(np.linalg.norm(self.axis)) - 1) <= 1e-6:  # NaN too
             raise ValueError(f"joint {self.name!r}: axis must be a unit vector, found {self.axis}")
+        if not np.isfinite(self.origin).all():
+            raise ValueError(f"joint {self.name!r}: origin must be finite, found {self.origin}")
         if not 0 <= self.confidence <= 1:
             raise ValueError(f"joint {self.name!r}: confidence must lie in 0..1, found {self.confidence}")
         if not self.reason:
@@ -50,5 +52,10 @@ class Joint:
         limited = self.type in (JointType.REVOLUTE, JointType.PRISMATIC)
         if limited != (self.limits is not None):
             raise ValueError(f"joint {self.name!r}: limits {self.limits} do not go with type {self.type}")
-        if self.limits is not None and not (self.limits[0] <= 0 <= self.limits[1] and self.limits[0] < self.limits[1]):
-            raise ValueError(f"joint {self.name!r}: limits must hold the rest pose 0 and a range, found {self.limits}")
+        if self.limits is None:
+            return
+        lower, upper = self.limits
+        if not (-np.inf < lower <= 0 <= upper < np.inf and lower < upper):
+            raise ValueError(
+                f"joint {self.name!r}: limits must be finite, hold the rest pose 0 and a range, found {self.limits}"
+            )

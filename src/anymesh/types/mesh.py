@@ -49,6 +49,12 @@ class Node:
     geometry: str = ""  # the geometry's name in the file, shared by instances
 
 
+def _check_range(name: str, numbers: np.ndarray, low: int, end: int) -> None:
+    least, most = int(numbers.min()), int(numbers.max())
+    if least < low or most >= end:
+        raise ValueError(f"{name} must lie in {low}..{end - 1}, found {least if least < low else most}")
+
+
 @dataclass(frozen=True, eq=False)
 class Mesh:
     """Triangles of the whole object in one frame, with the node and material of every face.
@@ -74,12 +80,13 @@ class Mesh:
             raise ValueError("a mesh needs at least one face, found none")
         if not np.isfinite(self.vertices).all():
             raise ValueError("vertices must be finite")
-        if self.faces.min() < 0 or self.faces.max() >= len(self.vertices):
-            raise ValueError(f"face indices must lie in 0..{len(self.vertices) - 1}, found {self.faces.max()}")
         for name in ("face_node", "face_material", "corner_uv", "corner_color", "corner_normal"):
             value = getattr(self, name)
             if value is not None and len(value) != count:
                 raise ValueError(f"{name} must have one row a face ({count}), found {len(value)}")
+        _check_range("face indices", self.faces, 0, len(self.vertices))
+        _check_range("face_node", self.face_node, 0, len(self.nodes))
+        _check_range("face_material", self.face_material, -1, len(self.materials))
 
     @cached_property
     def triangles(self) -> Float[np.ndarray, "F 3 3"]:

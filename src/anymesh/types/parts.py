@@ -40,8 +40,9 @@ class Segmentation:
         names = [p.name for p in self.parts]
         if len(set(names)) != len(names):
             raise ValueError(f"part names must be unique, found {sorted(n for n in names if names.count(n) > 1)}")
-        if self.face_part.min() < 0 or self.face_part.max() >= len(self.parts):
-            raise ValueError(f"face_part must lie in 0..{len(self.parts) - 1}, found {self.face_part.max()}")
+        least, most = int(self.face_part.min()), int(self.face_part.max())
+        if least < 0 or most >= len(self.parts):
+            raise ValueError(f"face_part must lie in 0..{len(self.parts) - 1}, found {least if least < 0 else most}")
         missing = [p.name for i, p in enumerate(self.parts) if not (self.face_part == i).any()]
         if missing:
             raise ValueError(f"parts without faces: {missing}")
