@@ -61,7 +61,8 @@ def main() -> None:
         }
         done = [report(title, truths, options.verbose) for title, truths in sets.items() if truths]
     if options.markdown:
-        head = "# Accuracy\n\nAnswerer: geometry alone. Position in shares of the diagonal; opens: share on the right side.\n"
+        head = "# Accuracy\n\n`python benchmarks/accuracy.py --markdown benchmarks/accuracy.md`. Answerer: geometry alone. Position in shares of the\n"
+            "diagonal; opens: share of joints that open to the right side; range: IoU of the ranges.\n"
         options.markdown.write_text("\n".join([head, *done]), encoding="utf-8")
 
 

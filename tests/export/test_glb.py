@@ -1,6 +1,7 @@
 """The GLB against the glTF 2.0 specification, a small player written for these tests, and trimesh."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ from anymesh.export.animation import tracks
 from anymesh.export.glb import glb_bytes
 from anymesh.export.links import split_links
 from anymesh.export.settings import ExportConfig
+from anymesh.loading import load_mesh
 from anymesh.types import JointType
 
 CONFIG = ExportConfig()
@@ -166,3 +168,11 @@ def test_a_rigid_object_has_no_animation():
     )
     doc = Player(glb(type(asset)(asset.name, asset.source, asset.mesh, asset.segmentation, joints, "geometry"))).doc
     assert "animations" not in doc
+
+
+def test_vertex_colours_are_linear_in_gltf_and_come_back_as_they_were(tmp_path):
+    shades = np.repeat(np.arange(36, dtype=np.uint8).reshape(12, 3, 1) * 7, 4, axis=2)
+    asset = replace(cabinet(), mesh=replace(cabinet().mesh, corner_color=np.resize(shades, (len(cabinet().mesh.faces), 3, 4))))
+    (tmp_path / "a.glb").write_bytes(glb_bytes(asset, split_links(asset), CONFIG))
+    back = load_mesh(tmp_path / "a.glb").mesh.corner_color
+    assert sorted(np.unique(back[..., 0])) == sorted(np.unique(shades[..., 0]))

@@ -27,6 +27,7 @@ from mesh_files import (
 from PIL import Image
 
 from anymesh.loading import load_mesh, place_mesh
+from anymesh.types.color import to_linear
 
 FILES = all_files()
 MIRROR = (-1, 1, 1)
@@ -118,7 +119,8 @@ def test_vertex_and_face_colours(tmp_path) -> None:
     faces = FILES["little.ply"][-13 * len(FACES) :]
     text = [" ".join(map(str, [*p, *c])) + "\n" for p, c in zip(POINTS, colors, strict=True)]
     g = Gltf()
-    g.node(mesh=g.mesh(g.solid(COLOR_0=g.array(colors, "B", normalized=True))))
+    light = np.c_[to_linear(colors[:, :3] / 255), colors[:, 3:] / 255].astype(np.float32)  # a factor of the linear colour
+    g.node(mesh=g.mesh(g.solid(COLOR_0=g.array(light, "f"))))
     files = {
         "a.ply": ply_header("ascii", extra) + "".join(text).encode() + rows("3 ", FACES).encode(),
         "b.ply": ply_header("binary_little_endian", extra) + table.tobytes() + faces,

@@ -14,6 +14,7 @@ from anymesh.export.links import Link, Primitive
 from anymesh.export.settings import ExportConfig
 from anymesh.names import legal_names
 from anymesh.types import Asset, Joint, Material, Texture
+from anymesh.types.color import to_linear
 
 Y_UP = [-(0.5**0.5), 0.0, 0.0, 0.5**0.5]  # turns +Z to +Y
 DEFAULT_SAMPLER = {"magFilter": 9729, "minFilter": 9987, "wrapS": 10497, "wrapT": 10497}
@@ -101,7 +102,9 @@ class _Looks:
             flipped = np.stack([p.uv[:, 0], 1 - p.uv[:, 1]], 1).astype(np.float32)
             attributes["TEXCOORD_0"] = buffer.accessor(flipped, target=VERTICES)
         if p.colors is not None:
-            attributes["COLOR_0"] = buffer.accessor(p.colors, target=VERTICES, normalized=True)
+            color = np.c_[to_linear(p.colors[:, :3] / 255), p.colors[:, 3:] / 255]  # bytes would band the dark ones
+            color = np.rint(color * 65535).astype(np.uint16)
+            attributes["COLOR_0"] = buffer.accessor(color, target=VERTICES, normalized=True)
         kind = np.uint16 if len(p.positions) < 0xFFFF else np.uint32
         indices = buffer.accessor(p.triangles.reshape(-1).astype(kind), target=INDICES)
         found: dict[str, Any] = {"attributes": attributes, "indices": indices}

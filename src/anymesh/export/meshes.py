@@ -13,6 +13,7 @@ from anymesh.export.links import Link, Primitive
 from anymesh.export.settings import ExportConfig
 from anymesh.names import legal_names
 from anymesh.types import Material, Mesh
+from anymesh.types.color import to_srgb
 
 FOLDER = "meshes"
 SUFFIXES = {"image/png": ".png", "image/jpeg": ".jpg"}
@@ -59,12 +60,6 @@ def material_names(materials: Sequence[Material]) -> list[str]:
     return legal_names([m.name for m in materials], fallback="material")
 
 
-def srgb(linear: float) -> float:
-    """A linear colour channel as a display value, both 0..1 (IEC 61966-2-1)."""
-    linear = min(max(float(linear), 0.0), 1.0)
-    return 12.92 * linear if linear <= 0.0031308 else 1.055 * linear ** (1 / 2.4) - 0.055
-
-
 def _write_textures(mesh: Mesh, folder: Path) -> dict[bytes, str]:
     """Each image once; image bytes -> file name."""
     found = {}
@@ -84,12 +79,12 @@ def _write_textures(mesh: Mesh, folder: Path) -> dict[bytes, str]:
 
 def _mtl(name: str, material: Material, textures: dict[bytes, str]) -> str:
     """One material; Kd is a display value as OBJ readers take it, Pr and Pm are the common PBR extension."""
-    r, g, b = (srgb(c) for c in material.base_color[:3])
+    r, g, b = to_srgb(material.base_color[:3])
     lines = [
         f"newmtl {name}",
         f"Kd {r:.6g} {g:.6g} {b:.6g}",
         "Ks 0 0 0",
-        "Ke " + " ".join(f"{srgb(c):.6g}" for c in material.emissive),
+        "Ke " + " ".join(f"{c:.6g}" for c in to_srgb(material.emissive)),
         f"d {material.base_color[3]:.6g}",
         f"Pr {material.roughness:.6g}",
         f"Pm {material.metallic:.6g}",

@@ -9,8 +9,9 @@ import numpy as np
 
 from anymesh.export.inertia import Inertia
 from anymesh.export.links import Link, Primitive
-from anymesh.export.meshes import collision_path, material_names, srgb, visual_path
+from anymesh.export.meshes import collision_path, material_names, visual_path
 from anymesh.types import Asset, Joint, JointType, Mesh
+from anymesh.types.color import to_srgb
 
 GREY = (0.7, 0.7, 0.7, 1.0)
 # MuJoCo by default drops visuals and folders of mesh names, and fuses links that do not move.
@@ -56,8 +57,8 @@ def _appearance(mesh: Mesh, link: Link, names: Sequence[str]) -> tuple[str, tupl
         return f"{link.name}_color", tuple(float(c) for c in color)
     if widest.material < 0:
         return "unassigned", GREY
-    red, green, blue, alpha = mesh.materials[widest.material].base_color
-    return names[widest.material], (srgb(red), srgb(green), srgb(blue), alpha)
+    *color, alpha = mesh.materials[widest.material].base_color
+    return names[widest.material], (*to_srgb(color).tolist(), alpha)
 
 
 def _add_link(robot: ElementTree.Element, link: Link, inertia: Inertia, appearance: tuple[str, tuple[float, ...]]) -> None:

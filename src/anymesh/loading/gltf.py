@@ -14,6 +14,7 @@ from anymesh.loading.gltf_data import Buffers, parse_json, split_glb
 from anymesh.loading.gltf_looks import Look, read_looks
 from anymesh.loading.join import join, rgba, simple_mesh, unique_names, unit
 from anymesh.types import Mesh, Node
+from anymesh.types.color import to_srgb
 
 TRIANGLES, STRIP, FAN = 4, 5, 6
 LEFT_OUT = {0: "points", 1: "lines", 2: "lines", 3: "lines"}
@@ -103,6 +104,13 @@ def _mesh(where: str, mesh: dict[str, Any], buffers: Buffers, looks: list[Look])
     return replace(joined, face_node=np.zeros(len(joined.faces), np.int64), nodes=joined.nodes[:1])
 
 
+def _display(color: np.ndarray) -> np.ndarray:
+    """COLOR_0, linear, as display values 0..1; alpha as it is."""
+    full = 1.0 if color.dtype.kind == "f" else float(np.iinfo(color.dtype).max)
+    values = np.nan_to_num(color.astype(np.float64) / full, nan=1.0)
+    return np.c_[to_srgb(values[:, :3]), values[:, 3:]]
+
+
 def _primitive(where: str, p: dict[str, Any], buffers: Buffers, looks: list[Look]) -> Mesh:
     attributes = p["attributes"]
     if "POSITION" not in attributes:
@@ -125,7 +133,7 @@ def _primitive(where: str, p: dict[str, Any], buffers: Buffers, looks: list[Look
     return replace(
         mesh,
         corner_uv=None if uv is None else (look or Look(None)).place(uv)[faces],  # ty: ignore[invalid-argument-type]
-        corner_color=None if color is None else rgba(color)[faces],
+        corner_color=None if color is None else rgba(_display(color))[faces],
         corner_normal=None if normal is None else normal[faces],
     )
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 
 from anymesh.loading.folder import Folder
-from anymesh.loading.pictures import picture_file, to_linear
+from anymesh.loading.pictures import picture_file
 from anymesh.types import Material, Texture
+from anymesh.types.color import to_linear
 
 SLOTS = {"map_kd": "base_color", "norm": "normal", "map_ke": "emissive"}
 VALUES = {"-mm": 2, "-o": 3, "-s": 3, "-t": 3}  # options of a picture that have more than one value
@@ -44,13 +45,13 @@ def _material(name: str, fields: dict[str, str], folder: Folder) -> Material:
     opacity = min(max(alpha[0], 0.0), 1.0)
     glow = _numbers(fields.get("ke", ""))
     plain = Material()
-    r, g, b = to_linear(color[:3]) if len(color) >= 3 else plain.base_color[:3]
+    r, g, b = to_linear(color[:3]).tolist() if len(color) >= 3 else plain.base_color[:3]
     return Material(
         name or plain.name,
         (r, g, b, opacity),
         metallic=_fraction(fields, "pm", plain.metallic),
         roughness=_fraction(fields, "pr", plain.roughness),
-        emissive=to_linear(glow[:3]) if len(glow) >= 3 else plain.emissive,  # ty: ignore[invalid-argument-type]
+        emissive=tuple(to_linear(glow[:3]).tolist()) if len(glow) >= 3 else plain.emissive,
         alpha_mode="BLEND" if opacity < 1 else "OPAQUE",
         textures=textures,
     )

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import io
 import warnings
-from collections.abc import Iterable
 from pathlib import PurePosixPath
 
 from PIL import Image
@@ -41,9 +40,3 @@ def picture(folder: Folder, data: bytes, name: str) -> Texture | None:
         folder.warn(f"the picture {name!r} cannot be read ({type(error).__name__}: {str(error)[:80]}); {LOSS}")
         return None
     return Texture(buffer.getvalue(), "image/png", stem)
-
-
-def to_linear(srgb: Iterable[float]) -> tuple[float, ...]:
-    """sRGB colour channels 0..1 as linear ones (IEC 61966-2-1)."""
-    channels = (min(max(float(c), 0.0), 1.0) for c in srgb)
-    return tuple(c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in channels)

@@ -13,8 +13,9 @@ import numpy as np
 from anymesh.errors import InputError
 from anymesh.loading.folder import Folder
 from anymesh.loading.join import join, rgba, simple_mesh, unit
-from anymesh.loading.pictures import picture_file, to_linear
+from anymesh.loading.pictures import picture_file
 from anymesh.types import Material, Mesh, Texture
+from anymesh.types.color import to_linear
 
 
 def read_dae(data: bytes, folder: Folder) -> Mesh:
@@ -106,8 +107,8 @@ def _material(material: Any) -> Material:
     roughness = material.roughnessFactor
     return Material(
         name=str(material.name),
-        base_color=(*to_linear((r, g, b)), float(alpha)),  # ty: ignore[invalid-argument-type]
-        emissive=to_linear(np.r_[_channels(material.emissiveFactor), 0.0, 0.0, 0.0][:3]),  # ty: ignore[invalid-argument-type]
+        base_color=(*to_linear((r, g, b)).tolist(), float(alpha)),
+        emissive=tuple(to_linear(np.r_[_channels(material.emissiveFactor), 0.0, 0.0, 0.0][:3]).tolist()),
         roughness=1.0 if roughness is None or not np.isfinite(roughness) else float(roughness),
         double_sided=False,
         alpha_mode="BLEND" if alpha < 1 else "OPAQUE",

@@ -12,6 +12,7 @@ from PIL import Image
 from anymesh.rendering.raycast_ import Hits, RayScene
 from anymesh.types import Material, Mesh
 from anymesh.types.camera import Camera
+from anymesh.types.color import to_linear, to_srgb
 
 KEY_LIGHT = np.array([-0.35, -0.55, 0.75]) / np.linalg.norm([-0.35, -0.55, 0.75])
 BACKGROUND = 255
@@ -74,12 +75,12 @@ def _base(mesh: Mesh, hits: Hits, seen: Int[np.ndarray, " n"]) -> Float[np.ndarr
             picture = _picture(material)
             if picture is not None and mesh.corner_uv is not None:
                 uv = np.einsum("nk,nkc->nc", weights[mine], mesh.corner_uv[face[mine]].astype(np.float64))
-                linear[mine] *= _to_linear(_look_up(picture, uv))
+                linear[mine] *= to_linear(_look_up(picture, uv))
     if mesh.corner_color is not None:
         tint = np.einsum("nk,nkc->nc", weights, mesh.corner_color[face, :, :3].astype(np.float64)) / 255
         plain = mesh.face_material[face] < 0
-        linear = np.where(plain[:, None], _to_linear(tint), linear * tint)
-    return 255 * np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * np.maximum(linear, 1e-9) ** (1 / 2.4) - 0.055)
+        linear = np.where(plain[:, None], 1.0, linear) * to_linear(tint)
+    return 255 * to_srgb(linear)
 
 
 def _picture(material: Material) -> UInt8[np.ndarray, "H W 3"] | None:
@@ -95,7 +96,3 @@ def _look_up(picture: np.ndarray, uv: np.ndarray) -> np.ndarray:
     x = np.floor((uv[:, 0] % 1.0) * width).astype(int) % width
     y = np.floor(((1 - uv[:, 1]) % 1.0) * height).astype(int) % height
     return picture[y, x] / 255.0
-
-
-def _to_linear(srgb: np.ndarray) -> np.ndarray:
-    return np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4)

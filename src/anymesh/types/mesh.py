@@ -61,7 +61,7 @@ class Mesh:
 
     vertices: (V, 3) [units of its frame]; faces: (F, 3) into vertices; face_node: (F,) into nodes;
     face_material: (F,) into materials, -1 = none. Corner attributes are per face corner, or None when the source has none:
-    corner_uv (F, 3, 2), v up as in OBJ; corner_color (F, 3, 4) RGBA 0..255; corner_normal (F, 3, 3) unit.
+    corner_uv (F, 3, 2), v up as in OBJ; corner_color (F, 3, 4) sRGB and alpha 0..255; corner_normal (F, 3, 3) unit.
     """
 
     vertices: Float[np.ndarray, "V 3"]
