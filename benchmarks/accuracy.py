@@ -18,6 +18,11 @@ from anymesh.evaluation.truth import Truth, example_truths
 from anymesh.loading import load_mesh, place_mesh
 from anymesh.pipeline import find_joints, find_parts, make_answerer
 
+HEAD = """# Accuracy
+
+`python benchmarks/accuracy.py --markdown benchmarks/accuracy.md`. Answerer: geometry alone. Position in shares of the
+diagonal; opens: share of joints that open to the right side; range: IoU of the ranges.
+"""
 EXAMPLES = Path(__file__).parents[1] / "examples"
 
 
@@ -61,9 +66,7 @@ def main() -> None:
         }
         done = [report(title, truths, options.verbose) for title, truths in sets.items() if truths]
     if options.markdown:
-        head = "# Accuracy\n\n`python benchmarks/accuracy.py --markdown benchmarks/accuracy.md`. Answerer: geometry alone. Position in shares of the\n"
-            "diagonal; opens: share of joints that open to the right side; range: IoU of the ranges.\n"
-        options.markdown.write_text("\n".join([head, *done]), encoding="utf-8")
+        options.markdown.write_text("\n".join([HEAD, *done]), encoding="utf-8")
 
 
 if __name__ == "__main__":
