@@ -77,16 +77,25 @@ def _units(mesh: Mesh, whole: ObjectShape, contacts: Contacts, root_piece: int) 
     same = np.array(coplanar(contacts, whole, 1e-3 * whole.diagonal), np.int64).reshape(-1, 2)
     key = np.where(key < len(shapes), label_connected(len(shapes), same), key)
     names = [""] * len(shapes)
+    common = {_most(mesh.face_material[whole.source[shapes[root_piece].faces]])}
     for p, shape in enumerate(shapes):
-        node = int(np.bincount(mesh.face_node[whole.source[shape.faces]]).argmax())
+        faces = whole.source[shape.faces]
+        node, material = _most(mesh.face_node[faces]), _most(mesh.face_material[faces])
         name = mesh.nodes[node].name
         if recognize(name) is not None or is_fixed_name(name):
             names[p] = name
             key[p] = 2 * len(shapes) + node
+        elif material >= 0 and material not in common and recognize(mesh.materials[material].name) is not None:
+            names[p] = mesh.materials[material].name  # tells what a piece is, not that pieces move as one
     _, first, unit = np.unique(key, return_index=True, return_inverse=True)
     unit = unit.reshape(-1)
     root = int(unit[root_piece])
     return _Units(contacts, unit, [names[p] for p in first], root, hanging_on(contacts, unit, root))
+
+
+def _most(numbers: np.ndarray) -> int:
+    """The number that occurs most; -1 stands for none."""
+    return int(np.bincount(numbers + 1).argmax()) - 1
 
 
 def _rooted(mesh: Mesh, whole: ObjectShape, contacts: Contacts, answerer: Answerer, moves: Moves, config: Config) -> _Units:
