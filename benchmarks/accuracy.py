@@ -11,12 +11,11 @@ import tempfile
 import time
 from pathlib import Path
 
-from anymesh.config import Config
 from anymesh.evaluation.datasets.scene_synthesizer_ import CLASSES, synthesize
-from anymesh.evaluation.score import ObjectScore, score, table
+from anymesh.evaluation.protocols import evaluate
+from anymesh.evaluation.score import table
 from anymesh.evaluation.truth import Truth, example_truths
-from anymesh.loading import load_mesh, place_mesh
-from anymesh.pipeline import find_joints, find_parts, make_answerer
+from anymesh.pipeline import solve
 
 HEAD = """# Accuracy
 
@@ -26,21 +25,12 @@ diagonal; opens: share of joints that open to the right side; range: IoU of the 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 
 
-def evaluate(truth: Truth, given: bool) -> ObjectScore:
-    """Runs both stages (the second alone when parts are given) and scores them."""
-    placed = place_mesh(load_mesh(truth.mesh))
-    who, config = make_answerer("geometry"), Config()
-    segmentation = truth.segmentation() if given else find_parts(placed.mesh, "auto", who, config)
-    joints = find_joints(placed.mesh, segmentation, who, config)
-    return score(truth, placed.mesh, placed.T_asset_source, segmentation, joints)
-
-
 def report(title: str, truths: list[Truth], verbose: bool) -> str:
     """Both protocols on one set, as Markdown."""
     lines = []
     for given in (True, False):
         begin = time.perf_counter()
-        scores = [evaluate(t, given) for t in truths]
+        scores = [evaluate(t, solve, given=given) for t in truths]
         protocol = "parts given" if given else "end to end"
         lines += [f"## {title}, {protocol} ({time.perf_counter() - begin:.0f} s)", "", table(scores), ""]
         print("\n".join(lines[-4:]))

@@ -11,12 +11,11 @@ from pathlib import Path
 import numpy as np
 from accuracy import EXAMPLES
 
-from anymesh.config import Config
-from anymesh.evaluation.score import ObjectScore, score, table
-from anymesh.evaluation.truth import Truth, example_truths
+from anymesh.evaluation.protocols import evaluate
+from anymesh.evaluation.score import table
+from anymesh.evaluation.truth import example_truths
 from anymesh.geometry.topology import weld
-from anymesh.loading import load_mesh, place_mesh
-from anymesh.pipeline import find_joints, find_parts, make_answerer
+from anymesh.pipeline import solve
 from anymesh.types import Mesh
 
 HEAD = """# Robustness
@@ -52,20 +51,11 @@ CASES = {
 }
 
 
-def evaluate(truth: Truth, case: str) -> ObjectScore:
-    """One object under one change."""
-    placed = place_mesh(load_mesh(truth.mesh))
-    mesh, T = CASES[case](placed.mesh)
-    who, config = make_answerer("geometry"), Config()
-    parts = find_parts(mesh, "auto", who, config)
-    return score(truth, mesh, T @ placed.T_asset_source, parts, find_joints(mesh, parts, who, config))
-
-
 def main() -> None:
     truths = example_truths(EXAMPLES)
     rows: list[str] = []
-    for case in CASES:
-        lines = table([evaluate(t, case) for t in truths]).splitlines()
+    for case, change in CASES.items():
+        lines = table([evaluate(t, solve, change=change) for t in truths]).splitlines()
         rows = rows or [lines[0].replace("object", "case"), lines[1]]
         rows.append(lines[-1].replace("**all**", case))
         print(rows[-1], flush=True)

@@ -5,11 +5,9 @@ from pathlib import Path
 import contract
 import pytest
 
-from anymesh.config import Config
-from anymesh.evaluation.score import ObjectScore, score
+from anymesh.evaluation.protocols import evaluate
 from anymesh.evaluation.truth import example_truths
-from anymesh.loading import load_mesh, place_mesh
-from anymesh.pipeline import articulate, find_joints, find_parts, make_answerer
+from anymesh.pipeline import articulate, solve
 from anymesh.simulation.mujoco_ import sweep_joints
 from anymesh.types import JointType
 
@@ -17,18 +15,9 @@ EXAMPLES = Path(__file__).parents[1] / "examples"
 TRUTHS = {t.name: t for t in example_truths(EXAMPLES)}
 
 
-def evaluated(name: str) -> ObjectScore:
-    truth = TRUTHS[name]
-    placed = place_mesh(load_mesh(truth.mesh))
-    who, config = make_answerer("geometry"), Config()
-    parts = find_parts(placed.mesh, "auto", who, config)
-    joints = find_joints(placed.mesh, parts, who, config)
-    return score(truth, placed.mesh, placed.T_asset_source, parts, joints)
-
-
 @pytest.mark.parametrize("name", sorted(TRUTHS))
 def test_example_comes_out_right(name: str) -> None:
-    result = evaluated(name)
+    result = evaluate(TRUTHS[name], solve)
     assert result.predicted == result.true == result.matched
     for joint in result.joints:
         assert joint.iou >= 0.8

@@ -3,27 +3,18 @@
 import numpy as np
 import pytest
 
-from anymesh.config import Config
 from anymesh.evaluation.datasets.scene_synthesizer_ import CLASSES, synthesize
 from anymesh.evaluation.metrics import same_motion
-from anymesh.evaluation.score import ObjectScore, score
+from anymesh.evaluation.protocols import evaluate
 from anymesh.evaluation.truth import Truth
 from anymesh.loading import load_mesh, place_mesh
-from anymesh.pipeline import find_joints, find_parts, make_answerer
+from anymesh.pipeline import solve
 
 
 @pytest.fixture(scope="module")
 def truths(tmp_path_factory: pytest.TempPathFactory) -> list[Truth]:
     folder = tmp_path_factory.mktemp("scene_synthesizer")
     return [synthesize(name, folder) for name in CLASSES]
-
-
-def evaluated(truth: Truth, given: bool) -> ObjectScore:
-    placed = place_mesh(load_mesh(truth.mesh))
-    who, config = make_answerer("geometry"), Config()
-    parts = truth.segmentation() if given else find_parts(placed.mesh, "auto", who, config)
-    joints = find_joints(placed.mesh, parts, who, config)
-    return score(truth, placed.mesh, placed.T_asset_source, parts, joints)
 
 
 def test_truth_is_of_the_mesh(truths: list[Truth]) -> None:
@@ -35,7 +26,7 @@ def test_truth_is_of_the_mesh(truths: list[Truth]) -> None:
 
 
 def test_parts_given(truths: list[Truth]) -> None:
-    joints = [j for t in truths for j in evaluated(t, given=True).joints]
+    joints = [j for t in truths for j in evaluate(t, solve, given=True).joints]
     right = [j.type_found is not None and same_motion(j.type_true, j.type_found) for j in joints]
     assert np.mean(right) >= 0.9
     assert np.mean([j.angle for j in joints]) <= 4
@@ -44,7 +35,7 @@ def test_parts_given(truths: list[Truth]) -> None:
 
 
 def test_end_to_end(truths: list[Truth]) -> None:
-    scores = [evaluated(t, given=False) for t in truths]
+    scores = [evaluate(t, solve) for t in truths]
     matched, true, predicted = (sum(getattr(s, k) for s in scores) for k in ("matched", "true", "predicted"))
     assert 2 * matched / (true + predicted) >= 0.7
     assert np.mean([s.f1 for s in scores]) >= 0.7

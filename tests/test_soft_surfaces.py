@@ -7,12 +7,11 @@ import igl
 import numpy as np
 import trimesh
 
-from anymesh.config import Config
 from anymesh.evaluation.metrics import same_motion
-from anymesh.evaluation.score import score
+from anymesh.evaluation.protocols import evaluate
 from anymesh.evaluation.truth import Truth, example_truths
-from anymesh.loading import load_mesh, place_mesh
-from anymesh.pipeline import find_joints, find_parts, make_answerer
+from anymesh.loading import load_mesh
+from anymesh.pipeline import solve
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 
@@ -31,10 +30,7 @@ def softened(truth: Truth, path: Path) -> Truth:
 
 def test_a_cabinet_without_a_sharp_edge(tmp_path: Path) -> None:
     truth = softened(next(t for t in example_truths(EXAMPLES) if t.name == "cabinet_fused"), tmp_path / "soft.glb")
-    placed = place_mesh(load_mesh(truth.mesh))
-    who, config = make_answerer("geometry"), Config()
-    parts = find_parts(placed.mesh, "auto", who, config)
-    result = score(truth, placed.mesh, placed.T_asset_source, parts, find_joints(placed.mesh, parts, who, config))
+    result = evaluate(truth, solve)
     assert result.f1 >= 0.9
     for joint in result.joints:
         assert joint.iou >= 0.8

@@ -133,6 +133,14 @@ def find_joints(
     return estimate_joints(whole, segmentation, who, config, progress)
 
 
+def solve(mesh: Mesh, given: Segmentation | None = None) -> tuple[Segmentation, tuple[Joint, ...]]:
+    """Both stages on a placed mesh with the default answerer and settings, for evaluation; the second where parts are given."""
+    who, config = make_answerer("geometry"), Config()
+    whole = object_shape(mesh, config.seed, config.pieces) if given is None else None
+    segmentation = given or find_parts(mesh, "auto", who, config, whole=whole)
+    return segmentation, find_joints(mesh, segmentation, who, config, whole=whole)
+
+
 def _place(run: RunFolder, path: Path, up: str, scale: str, progress: Progress) -> tuple[Placed, str]:
     progress("load", path.name, 0, 1)
     with _timed(run, "load"):

@@ -6,7 +6,11 @@ import json
 import struct
 
 import numpy as np
+import pytest
 from assets import CUBE, CUBE_FACES
+
+from anymesh.errors import InputError
+from anymesh.loading import load_mesh
 
 LOW, HIGH = np.array([1.0, 2, 3]), np.array([2.0, 4, 6])
 POINTS = LOW + CUBE * (HIGH - LOW)
@@ -168,3 +172,15 @@ def put(folder, name: str, data: bytes):
     (folder / "box.bin").write_bytes(plain_gltf().bin)
     (folder / name).write_bytes(data)
     return folder / name
+
+
+def refused(path, *told: str) -> str:
+    """The message of the one error, which is one line and holds the words told."""
+    with pytest.raises(InputError) as caught:
+        load_mesh(path)
+    message = str(caught.value)
+    assert "\n" not in message
+    assert path.name in message
+    for words in told:
+        assert words in message, message
+    return message

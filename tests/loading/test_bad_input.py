@@ -4,7 +4,7 @@ import resource
 import struct
 
 import pytest
-from mesh_files import FACES, POINTS, Gltf, all_files, dae, plain_gltf, ply_header, put, rows, stl_binary
+from mesh_files import FACES, POINTS, Gltf, all_files, dae, plain_gltf, ply_header, put, refused, rows, stl_binary
 
 from anymesh.errors import InputError
 from anymesh.loading import load_mesh
@@ -12,18 +12,6 @@ from anymesh.loading import load_mesh
 FILES = all_files()
 HUGE = 2_000_000_000
 HEAD = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n"
-
-
-def refused(path, *told: str) -> str:
-    """The message of the one error, which is one line and holds the words told."""
-    with pytest.raises(InputError) as caught:
-        load_mesh(path)
-    message = str(caught.value)
-    assert "\n" not in message
-    assert path.name in message
-    for words in told:
-        assert words in message, message
-    return message
 
 
 def test_what_is_no_file(tmp_path) -> None:
@@ -43,11 +31,13 @@ def test_an_unknown_ending_names_the_valid_ones(tmp_path, name) -> None:
     refused(put(tmp_path, name, FILES["box.glb"]), "valid are .glb, .gltf, .obj, .ply, .stl, .off, .dae")
 
 
-@pytest.mark.parametrize("ending", [".glb", ".gltf", ".obj", ".ply", ".stl", ".off", ".dae"])
-@pytest.mark.parametrize("name", FILES)
+ENDINGS = [".glb", ".gltf", ".obj", ".ply", ".stl", ".off", ".dae"]
+WRONG = [(name, ending) for name in FILES for ending in ENDINGS if not name.endswith(ending)]
+
+
+@pytest.mark.parametrize(("name", "ending"), WRONG)
 def test_the_content_of_another_format_is_said_to_be_one(tmp_path, name, ending) -> None:
-    if not name.endswith(ending) and {name[-5:], "_" + ending} != {"x.glb", "_.gltf"}:
-        refused(put(tmp_path, f"wrong{ending}", FILES[name]), f"no {ending[1:].upper()} file", "extension")
+    refused(put(tmp_path, f"wrong{ending}", FILES[name]), f"no {ending[1:].upper()} file", "extension")
 
 
 def gltf_of(mode: int) -> bytes:

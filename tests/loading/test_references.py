@@ -1,24 +1,11 @@
 """What a file names lies in its own folder; a picture may be missing, the rest may not."""
 
 import pytest
-from mesh_files import all_files, dae, obj, plain_gltf, put
+from mesh_files import all_files, dae, obj, plain_gltf, put, refused
 
-from anymesh.errors import InputError
 from anymesh.loading import load_mesh
 
 FILES = all_files()
-
-
-def refused(path, *told: str) -> str:
-    """The message of the one error, which is one line and holds the words told."""
-    with pytest.raises(InputError) as caught:
-        load_mesh(path)
-    message = str(caught.value)
-    assert "\n" not in message
-    assert path.name in message
-    for words in told:
-        assert words in message, message
-    return message
 
 
 OUTSIDE = ["../secret.png", "/etc/hostname", "a/../../secret.png", "..\\secret.png", "C:\\secret.png"]

@@ -158,7 +158,6 @@ def _handle_side(around: Surroundings, motion: Motion) -> float:
     for axis, where in zip(around.face_axes, handle.across, strict=True):
         if abs(around.core.axes[axis] @ motion.axis) < 0.3:
             side = float(arm @ around.core.axes[axis]) / max(float(around.core.half[axis]), 1e-9)
-            total += -float(np.clip(side, -1, 1)) * where
-            if handle.along is not None and around.face_axes[handle.along] == axis:
-                total *= ACROSS
+            across = handle.along is not None and around.face_axes[handle.along] == axis
+            total -= float(np.clip(side, -1, 1)) * where * (ACROSS if across else 1.0)
     return float(np.clip(total, -1, 1))

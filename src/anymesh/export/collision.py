@@ -7,6 +7,7 @@ from jaxtyping import Float, Int
 
 from anymesh.export.settings import ExportConfig
 from anymesh.geometry.topology import weld
+from anymesh.types.triangles import face_cross
 
 POINT = 1e-4  # [m] the side of a link that has no size at all
 FLAT = 1e-4  # thinner than this share of its diagonal: no engine makes a hull of it
@@ -42,7 +43,7 @@ def _thickened(vertices: np.ndarray, faces: np.ndarray, thickness: float) -> tup
     if normal is None:
         return vertices, faces
     t = vertices[faces]
-    up = np.cross(t[:, 1] - t[:, 0], t[:, 2] - t[:, 0]) @ normal > 0
+    up = face_cross(t) @ normal > 0
     front = np.where(up[:, None], faces, faces[:, ::-1])
     sheets = np.concatenate([vertices + normal * thickness / 2, vertices - normal * thickness / 2])
     return sheets, np.concatenate([front, front[:, ::-1] + len(vertices)])
@@ -53,7 +54,7 @@ def _joined(triangles: np.ndarray, number: np.ndarray) -> tuple[np.ndarray, np.n
     _, first, kind = np.unique(number, return_index=True, return_inverse=True)
     vertices, faces = triangles.reshape(-1, 3)[first], kind.reshape(-1, 3)
     t = vertices[faces]
-    faces = faces[np.linalg.norm(np.cross(t[:, 1] - t[:, 0], t[:, 2] - t[:, 0]), axis=1) > 0]
+    faces = faces[np.linalg.norm(face_cross(t), axis=1) > 0]
     turned = np.argmin(faces, axis=1)[:, None]
     faces = np.take_along_axis(faces, (turned + np.arange(3)) % 3, axis=1)
     if len(vertices) < 2**21:  # else three indices do not fit in one number; such a mesh is simplified next anyway
@@ -68,7 +69,7 @@ def _clustered(triangles: np.ndarray, most: int) -> tuple[np.ndarray, np.ndarray
     corners = triangles.reshape(-1, 3)
     low = corners.min(0)
     extent = float(np.ptp(corners, axis=0).max())
-    cross = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    cross = face_cross(triangles)
     cells = int(extent * np.sqrt(most / max(float(np.linalg.norm(cross, axis=1).sum()), 1e-12)))  # two faces a cell
     cells = min(max(cells, 8), 256)
     while True:

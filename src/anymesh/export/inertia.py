@@ -9,6 +9,7 @@ from jaxtyping import Float
 
 from anymesh.export.settings import ExportConfig
 from anymesh.geometry.topology import components
+from anymesh.types.triangles import face_cross
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,7 +34,7 @@ def raw_inertia(triangles: Float[np.ndarray, "n 3 3"], config: ExportConfig) -> 
     corners = triangles.reshape(-1, 3)
     base = corners.mean(0)  # near the body, so that large coordinates cost no digits
     t = triangles - base
-    cross = np.cross(t[:, 1] - t[:, 0], t[:, 2] - t[:, 0])
+    cross = face_cross(t)
     volumes = np.einsum("ij,ij->i", t[:, 0], cross) / 6
     areas = np.linalg.norm(cross, axis=1) / 2
     found = components(corners, np.arange(len(corners)).reshape(-1, 3))

@@ -14,6 +14,7 @@ from anymesh.export.settings import ExportConfig
 from anymesh.names import legal_names
 from anymesh.types import Material, Mesh
 from anymesh.types.color import to_srgb
+from anymesh.types.triangles import face_cross
 
 FOLDER = "meshes"
 SUFFIXES = {"image/png": ".png", "image/jpeg": ".jpg"}
@@ -100,7 +101,7 @@ def _visible(link: Link, config: ExportConfig) -> tuple[Primitive, ...]:
     """The link's primitives, given a little volume when they have none."""
     triangles = link.triangles
     size = float(np.linalg.norm(np.ptp(triangles.reshape(-1, 3), axis=0)))
-    cross = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    cross = face_cross(triangles)
     if not cross.any():
         vertices, faces = small_box(triangles, config)
         return (Primitive(link.primitives[0].material, vertices, faces, None, None, None),)
@@ -114,7 +115,7 @@ def _visible(link: Link, config: ExportConfig) -> tuple[Primitive, ...]:
 def _with_back(primitive: Primitive, shift: np.ndarray) -> Primitive:
     """The faces and, `shift` behind each, the same face seen from its other side."""
     t = primitive.positions[primitive.triangles]
-    facing = np.cross(t[:, 1] - t[:, 0], t[:, 2] - t[:, 0]) @ shift > 0
+    facing = face_cross(t) @ shift > 0
     front = np.where(facing[:, None], primitive.triangles, primitive.triangles[:, ::-1])
 
     def twice(a: np.ndarray | None, sign: int) -> np.ndarray | None:

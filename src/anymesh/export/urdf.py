@@ -12,6 +12,7 @@ from anymesh.export.links import Link, Primitive
 from anymesh.export.meshes import collision_path, material_names, visual_path
 from anymesh.types import Asset, Joint, JointType, Mesh
 from anymesh.types.color import to_srgb
+from anymesh.types.triangles import face_cross
 
 GREY = (0.7, 0.7, 0.7, 1.0)
 # MuJoCo by default drops visuals and folders of mesh names, and fuses links that do not move.
@@ -49,7 +50,7 @@ def _appearance(mesh: Mesh, link: Link, names: Sequence[str]) -> tuple[str, tupl
 
     def area(p: Primitive) -> float:
         t = p.positions[p.triangles]
-        return float(np.linalg.norm(np.cross(t[:, 1] - t[:, 0], t[:, 2] - t[:, 0]), axis=1).sum())
+        return float(np.linalg.norm(face_cross(t), axis=1).sum())
 
     widest = max(link.primitives, key=area)
     if widest.colors is not None and (widest.material < 0 or not mesh.materials[widest.material].textures):

@@ -12,6 +12,7 @@ from anymesh.config import PiecesConfig
 from anymesh.geometry.simplify_ import simplify
 from anymesh.geometry.superpoints import superpoints
 from anymesh.geometry.topology import edge_pairs
+from anymesh.types.triangles import normals_and_areas
 
 
 def convex_regions(triangles: Float[np.ndarray, "F 3 3"], diagonal: float, config: PiecesConfig) -> Int[np.ndarray, " F"]:
@@ -21,18 +22,17 @@ def convex_regions(triangles: Float[np.ndarray, "F 3 3"], diagonal: float, confi
     few = simplify(triangles, config.superpoint_faces)
     corners = few.reshape(-1, 3)
     edges = edge_pairs(corners, np.arange(len(corners)).reshape(-1, 3))
-    cross = np.cross(few[:, 1] - few[:, 0], few[:, 2] - few[:, 0])
-    double = np.maximum(np.linalg.norm(cross, axis=1), 1e-300)
-    normals = cross / double[:, None]
+    normals, areas = normals_and_areas(few)
+    areas = np.maximum(areas, 1e-300)
     middle = corners[edges.vertices].mean(1)
     length = np.linalg.norm(corners[edges.vertices[:, 0]] - corners[edges.vertices[:, 1]], axis=1)
-    label = superpoints(normals, double / 2, edges.faces, length, config.superpoint_strength)
+    label = superpoints(normals, areas, edges.faces, length, config.superpoint_strength)
     count = int(label.max()) + 1
     pairs = np.sort(label[edges.faces], 1)
     border = np.flatnonzero(pairs[:, 0] != pairs[:, 1])
     key, where = np.unique(pairs[border] @ np.array([count, 1]), return_inverse=True)
     pull = np.bincount(where.reshape(-1), length[border], len(key))
-    pull[_folds_inwards(few.mean(1), normals, double, label, key, where.reshape(-1), middle[border], diagonal, config)] *= -1
+    pull[_folds_inwards(few.mean(1), normals, areas, label, key, where.reshape(-1), middle[border], diagonal, config)] *= -1
     region = _contract(count, {divmod(int(k), count): float(p) for k, p in zip(key, pull, strict=True)})[label]
     if len(few) == len(triangles):
         return region

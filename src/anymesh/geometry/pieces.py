@@ -15,6 +15,7 @@ from anymesh.geometry.shape import Shape, Surface, surface_of
 from anymesh.geometry.simplify_ import simplify
 from anymesh.geometry.topology import label_connected
 from anymesh.types import Mesh
+from anymesh.types.triangles import normals_and_areas
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,10 +69,7 @@ def _simplified(
         kept.append(few)
         source.append(mine if len(few) == len(mine) else np.full(len(few), mine[0]))
     found, where = np.concatenate(kept), np.concatenate(source)
-    cross = np.cross(found[:, 1] - found[:, 0], found[:, 2] - found[:, 0])
-    length = np.linalg.norm(cross, axis=1, keepdims=True)
-    normals = np.divide(cross, length, out=np.zeros_like(cross), where=length > 0)
-    return Shape(found, normals, shape.solid[where], np.arange(len(found)), shape.seed), where
+    return Shape(found, normals_and_areas(found)[0], shape.solid[where], np.arange(len(found)), shape.seed), where
 
 
 def split(whole: Surface, config: PiecesConfig) -> Int[np.ndarray, " F"]:

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float, Int
 
+from anymesh.types.triangles import normals_and_areas
+
 
 @dataclass(frozen=True, eq=False)
 class SurfacePoints:
@@ -29,21 +31,19 @@ def sample_surface(triangles: Float[np.ndarray, "F 3 3"], count: int, seed: int,
 
     `at_least` = 1 adds the centroid of every face that got none, so that small faces are seen too.
     """
-    cross = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
-    length = np.linalg.norm(cross, axis=1)
-    normals = np.divide(cross, length[:, None], out=np.zeros_like(cross), where=length[:, None] > 0)
+    normals, areas = normals_and_areas(triangles)
     rng = np.random.default_rng(seed)
-    total = length.sum()
+    total = areas.sum()
     if total <= 0:
         index = np.zeros(0, np.int64)
     else:
         ticks = (np.arange(count) + rng.random()) / count * total
-        index = np.minimum(np.searchsorted(np.cumsum(length), ticks), len(length) - 1)
+        index = np.minimum(np.searchsorted(np.cumsum(areas), ticks), len(areas) - 1)
     r1, r2 = np.sqrt(rng.random(len(index))), rng.random(len(index))
     t = triangles[index]
     points = (1 - r1)[:, None] * t[:, 0] + (r1 * (1 - r2))[:, None] * t[:, 1] + (r1 * r2)[:, None] * t[:, 2]
     if at_least:
-        unseen = np.setdiff1d(np.flatnonzero(length > 0), index)
+        unseen = np.setdiff1d(np.flatnonzero(areas > 0), index)
         points = np.concatenate([points, triangles[unseen].mean(1)])
         index = np.concatenate([index, unseen])
     return SurfacePoints(points, normals[index], index)

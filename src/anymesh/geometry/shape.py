@@ -14,6 +14,7 @@ from anymesh.geometry.sampling import SurfacePoints, sample_surface
 from anymesh.geometry.topology import Components, components
 from anymesh.rendering.raycast_ import RayScene
 from anymesh.types import Mesh
+from anymesh.types.triangles import normals_and_areas
 
 SAMPLES = 3000  # surface points a shape; enough for a share of 1 % to be 30 points
 
@@ -35,8 +36,7 @@ class Shape:
     @cached_property
     def areas(self) -> Float[np.ndarray, " F"]:
         """Area of every face [m^2]."""
-        t = self.triangles
-        return 0.5 * np.linalg.norm(np.cross(t[:, 1] - t[:, 0], t[:, 2] - t[:, 0]), axis=1)
+        return normals_and_areas(self.triangles)[1]
 
     @cached_property
     def scene(self) -> RayScene:

@@ -103,7 +103,7 @@ def _rim(around: Surroundings, config: SegmentationConfig) -> tuple[int, float]:
     face = np.maximum(hits.face, 0)
     along = np.einsum("ij,ij->i", samples.normals, around.everything.normals[face])
     gap[(hits.face >= 0) & around.everything.solid[face] & (along > 0)] = 0  # the rim lies within what it would face
-    gap[np.abs(along) < FACING] = np.inf  # a slope or a fillet beside the rim is no fit
+    gap[(np.abs(along) < FACING) & (gap > touch)] = np.inf  # a slope or a fillet beside the rim is no fit
     sides, touched, count = 0, 0, 0
     for axis in around.face_axes:
         for sign in (1, -1):

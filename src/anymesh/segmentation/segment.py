@@ -7,7 +7,7 @@ no movable part.
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -16,12 +16,12 @@ from jaxtyping import Int
 from anymesh.config import Config
 from anymesh.geometry.pieces import ObjectShape
 from anymesh.geometry.surroundings import Surroundings
-from anymesh.geometry.topology import label_connected
 from anymesh.progress import Progress, silent
 from anymesh.reasoning.questions import Answerer, Candidate, MotionAnswer, PartAnswer
-from anymesh.reasoning.vocabulary import is_fixed_name, recognize
-from anymesh.segmentation.contacts import Contacts, coplanar, find_contacts, hanging_on
+from anymesh.reasoning.vocabulary import recognize
+from anymesh.segmentation.contacts import Contacts, find_contacts
 from anymesh.segmentation.evidence import Context, gather
+from anymesh.segmentation.units import Units, join_units, root_ranking, size_of, touches_outside, with_held
 from anymesh.types import JointType, Mesh, MotionKind, Part, Segmentation
 
 Moves = Callable[[Surroundings, str], tuple[MotionAnswer, Candidate]]  # Stage B's test of one part, by name of its label
@@ -42,21 +42,6 @@ class Found:
     label: str
 
 
-@dataclass(frozen=True, eq=False)
-class _Units:
-    """Pieces joined into units that move as one, and what hangs on each."""
-
-    contacts: Contacts
-    unit: Int[np.ndarray, " P"]
-    names: list[str]
-    root: int
-    hanging: dict[int, list[int]]
-
-    def faces(self, units: list[int]) -> np.ndarray:
-        chosen = np.flatnonzero(np.isin(self.unit, units))
-        return np.sort(np.concatenate([self.contacts.shapes[p].faces for p in chosen]))
-
-
 def segment_parts(
     mesh: Mesh, whole: ObjectShape, answerer: Answerer, moves: Moves, config: Config, progress: Progress = silent
 ) -> Segmentation:
@@ -70,40 +55,12 @@ def segment_parts(
     return _assemble(whole, found)
 
 
-def _units(mesh: Mesh, whole: ObjectShape, contacts: Contacts, root_piece: int) -> _Units:
-    """Bodies that touch nothing move as one; so do the pieces of a node whose name means something."""
-    shapes = contacts.shapes
-    key = np.where(contacts.body == contacts.body[root_piece], np.arange(len(shapes)), len(shapes) + contacts.body)
-    same = np.array(coplanar(contacts, whole, 1e-3 * whole.diagonal), np.int64).reshape(-1, 2)
-    key = np.where(key < len(shapes), label_connected(len(shapes), same), key)
-    names = [""] * len(shapes)
-    common = {_most(mesh.face_material[whole.source[shapes[root_piece].faces]])}
-    for p, shape in enumerate(shapes):
-        faces = whole.source[shape.faces]
-        node, material = _most(mesh.face_node[faces]), _most(mesh.face_material[faces])
-        name = mesh.nodes[node].name
-        if recognize(name) is not None or is_fixed_name(name):
-            names[p] = name
-            key[p] = 2 * len(shapes) + node
-        elif material >= 0 and material not in common and recognize(mesh.materials[material].name) is not None:
-            names[p] = mesh.materials[material].name  # tells what a piece is, not that pieces move as one
-    _, first, unit = np.unique(key, return_index=True, return_inverse=True)
-    unit = unit.reshape(-1)
-    root = int(unit[root_piece])
-    return _Units(contacts, unit, [names[p] for p in first], root, hanging_on(contacts, unit, root))
-
-
-def _most(numbers: np.ndarray) -> int:
-    """The number that occurs most; -1 stands for none."""
-    return int(np.bincount(numbers + 1).argmax()) - 1
-
-
-def _rooted(mesh: Mesh, whole: ObjectShape, contacts: Contacts, answerer: Answerer, moves: Moves, config: Config) -> _Units:
+def _rooted(mesh: Mesh, whole: ObjectShape, contacts: Contacts, answerer: Answerer, moves: Moves, config: Config) -> Units:
     """Units hung on the likeliest root; a root that is plainly a movable part itself (a fridge's door) gives way."""
-    ranked = _root_ranking(whole, contacts)[:4]
-    units = _units(mesh, whole, contacts, ranked[0])
+    ranked = root_ranking(whole, contacts)[:4]
+    units = join_units(mesh, whole, contacts, ranked[0])
     for first, second in itertools.pairwise(ranked):
-        other = _units(mesh, whole, contacts, second)
+        other = join_units(mesh, whole, contacts, second)
         hit = _candidate(whole, other, int(other.unit[first]), [], answerer, moves, config)
         if int(other.unit[first]) == other.root or hit is None or hit.answer.score < PLAINLY:
             break
@@ -111,31 +68,18 @@ def _rooted(mesh: Mesh, whole: ObjectShape, contacts: Contacts, answerer: Answer
     return units
 
 
-def _root_ranking(whole: ObjectShape, contacts: Contacts) -> list[int]:
-    """The pieces that the rest may hang on, likeliest first: large, much touched, standing on the ground."""
-    degree = np.bincount(contacts.touch.reshape(-1), minlength=len(contacts.shapes))
-    low = whole.shape.bounds[0, 2] + 0.02 * whole.diagonal
-    rank = []
-    for s, d in zip(contacts.shapes, degree, strict=True):
-        size = float(np.linalg.norm(s.bounds[1] - s.bounds[0])) * (1 + 0.1 * min(int(d), 10))
-        samples = s.samples
-        stands = ((samples.points[:, 2] < low) & (samples.normals[:, 2] < -0.7)).mean() if len(samples) else 0.0
-        rank.append(size * (1.3 if stands > 0.05 else 1.0))
-    return [int(i) for i in np.argsort(-np.array(rank), kind="stable")]
-
-
 def _search(
-    whole: ObjectShape, units: _Units, answerer: Answerer, moves: Moves, config: Config, progress: Progress
+    whole: ObjectShape, units: Units, answerer: Answerer, moves: Moves, config: Config, progress: Progress
 ) -> list[Found]:
     """Three rounds: what touches nothing, small before large, so that a knob is not taken for a panel's handle; what
     touches; and again what touches nothing and is free once those parts are out of the way (a tray behind a door)."""
-    size = {u: _size(units, [u]) / whole.diagonal for u in units.hanging}
+    size = {u: size_of(units, [u]) / whole.diagonal for u in units.hanging}
     area = np.bincount(units.unit, [s.area for s in units.contacts.shapes])
     least = config.segmentation.smallest
     todo = [u for u in sorted(units.hanging) if u != units.root and size[u] >= least and area[u] > 0]
     todo = sorted(todo, key=lambda u: (-size[u], u))[: config.segmentation.most_candidates]
     found: list[Found] = []
-    apart = [u for u in todo if not _touches_outside(units, units.hanging[u])]
+    apart = [u for u in todo if not touches_outside(units, units.hanging[u])]
     for batch in (apart[::-1], [u for u in todo if u not in apart], apart[::-1]):
         taken = {f.unit for f in found}
         new = []
@@ -148,18 +92,11 @@ def _search(
     return found
 
 
-def _size(units: _Units, chosen: list[int]) -> float:
-    shapes = [units.contacts.shapes[p] for p in np.flatnonzero(np.isin(units.unit, chosen))]
-    low = np.min([s.bounds[0] for s in shapes], 0)
-    high = np.max([s.bounds[1] for s in shapes], 0)
-    return float(np.linalg.norm(high - low))
-
-
 def _candidate(
-    whole: ObjectShape, units: _Units, u: int, found: list[Found], answerer: Answerer, moves: Moves, config: Config
+    whole: ObjectShape, units: Units, u: int, found: list[Found], answerer: Answerer, moves: Moves, config: Config
 ) -> Found | None:
     """The unit, grown by what it holds or else as it is, if the evidence is enough and it can move; else None."""
-    grown, plain = _grown(units, u), units.hanging[u]
+    grown, plain = with_held(units, u), units.hanging[u]
     hit = _judged(whole, units, u, grown, found, answerer, moves, config)
     if hit is None and len(grown) > len(plain):
         hit = _judged(whole, units, u, plain, found, answerer, moves, config)
@@ -167,7 +104,7 @@ def _candidate(
 
 
 def _judged(
-    whole: ObjectShape, units: _Units, u: int, members: list[int], found: list[Found], answerer: Answerer,
+    whole: ObjectShape, units: Units, u: int, members: list[int], found: list[Found], answerer: Answerer,
     moves: Moves, config: Config,
 ) -> Found | None:  # fmt: skip
     """These units as one part if the evidence is enough and they can move, else None."""
@@ -198,14 +135,14 @@ def _judged(
         center=whole.shape.bounds.mean(0),
         config=config.articulation,
     )  # fmt: skip
-    separate = not _touches_outside(units, members)
-    size = _size(units, members)
+    separate = not touches_outside(units, members)
+    size = size_of(units, members)
     twins = tuple(
         whole.of(units.faces(units.hanging[other]))
         for other in units.hanging
         if other not in (u, units.root)
         and other not in members
-        and abs(_size(units, units.hanging[other]) - size) < 0.02 * size
+        and abs(size_of(units, units.hanging[other]) - size) < 0.02 * size
     )
     context = Context(whole, config.segmentation, units.names[u], separate, twins, carrier is not None)
     evidence = gather(around, context)
@@ -220,27 +157,6 @@ def _judged(
     return Found(u, tuple(members), faces, answer, _label(answer, units.names[u], around, best))
 
 
-def _grown(units: _Units, u: int) -> list[int]:
-    """The unit, what hangs on it, and the smaller units that touch these more than all else (a shelf on a door)."""
-    members = set(units.hanging[u])
-    area = units.contacts.area
-    unit = units.unit
-    own = sum(units.contacts.shapes[p].area for p in np.flatnonzero(np.isin(unit, list(members))))
-    for _ in range(4):
-        inside = np.isin(unit, list(members))
-        hold: dict[int, list[float]] = {}
-        for (i, j), a in area.items():
-            if not inside[i] and unit[i] != unit[j]:
-                hold.setdefault(int(unit[i]), [0.0, 0.0])[int(inside[j])] += a
-        new = [v for v, (other, here) in hold.items() if here > other and v != units.root]
-        new = [v for v in new if sum(units.contacts.shapes[p].area for p in np.flatnonzero(unit == v)) < own]
-        grown = members.union(*(units.hanging[v] for v in new)) - {units.root}
-        if grown == members:
-            break
-        members = grown
-    return [u, *sorted(members - {u})]
-
-
 def _label(answer: PartAnswer, name: str, around: Surroundings, best: Candidate) -> str:
     """The field's word for a part that moves like this."""
     if recognize(name) is not None:
@@ -251,28 +167,22 @@ def _label(answer: PartAnswer, name: str, around: Surroundings, best: Candidate)
         return "drawer" if around.part.box.diagonal > 0.15 * around.diagonal else "button"
     if best.role == "round":
         return "knob" if around.part.box.diagonal < 0.16 * around.diagonal else "wheel"
-    if best.role == "bail" or answer.label == "handle":
+    if answer.label == "handle":
         return "handle"
-    return "lid" if around.outward[2] > 0.8 else "door"
+    return "lid" if around.outward[2] > 0.8 or best.role == "bail" else "door"  # a plate on two pivots: a laptop's
 
 
-def _outermost(units: _Units, new: list[Found]) -> list[Found]:
+def _outermost(units: Units, new: list[Found]) -> list[Found]:
     """Of parts found within each other in one round, the outer ones, and the inner ones that touch nothing."""
     kept = []
     for f in new:
         rank = (len(f.faces), -f.unit)
         outer = [g for g in new if f.unit in g.members and (len(g.faces), -g.unit) > rank]
-        apart = not _touches_outside(units, f.members)
+        apart = not touches_outside(units, f.members)
         named = units.names[f.unit] and all(g.label != f.label for g in outer)
         if not outer or apart or named:
             kept.append(f)
     return kept
-
-
-def _touches_outside(units: _Units, members: Sequence[int]) -> bool:
-    inside = np.isin(units.unit, list(members))
-    touch = units.contacts.touch
-    return bool((inside[touch[:, 0]] != inside[touch[:, 1]]).any())
 
 
 def _assemble(whole: ObjectShape, found: list[Found]) -> Segmentation:

@@ -9,6 +9,8 @@ from functools import cached_property
 import numpy as np
 from jaxtyping import Bool, Float, Float32, Int, UInt8
 
+from anymesh.types.triangles import face_cross
+
 TEXTURE_SLOTS = ("base_color", "metallic_roughness", "normal", "occlusion", "emissive")
 
 
@@ -96,8 +98,7 @@ class Mesh:
     @cached_property
     def face_cross(self) -> Float[np.ndarray, "F 3"]:
         """Twice the area times the unit normal of every face."""
-        t = self.triangles
-        return np.cross(t[:, 1] - t[:, 0], t[:, 2] - t[:, 0])
+        return face_cross(self.triangles)
 
     @cached_property
     def face_areas(self) -> Float[np.ndarray, " F"]:

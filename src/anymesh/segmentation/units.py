@@ -1,0 +1,105 @@
+"""Pieces joined into units that move as one, what hangs on each, and which of them the rest may hang on."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Int
+
+from anymesh.geometry.pieces import ObjectShape
+from anymesh.geometry.topology import label_connected
+from anymesh.reasoning.vocabulary import is_fixed_name, recognize
+from anymesh.segmentation.contacts import Contacts, coplanar, hanging_on
+from anymesh.types import Mesh
+
+
+@dataclass(frozen=True, eq=False)
+class Units:
+    """Pieces joined into units that move as one, and what hangs on each."""
+
+    contacts: Contacts
+    unit: Int[np.ndarray, " P"]
+    names: list[str]
+    root: int
+    hanging: dict[int, list[int]]
+
+    def faces(self, units: list[int]) -> np.ndarray:
+        chosen = np.flatnonzero(np.isin(self.unit, units))
+        return np.sort(np.concatenate([self.contacts.shapes[p].faces for p in chosen]))
+
+
+def join_units(mesh: Mesh, whole: ObjectShape, contacts: Contacts, root_piece: int) -> Units:
+    """Bodies that touch nothing move as one; so do the pieces of a node whose name means something."""
+    shapes = contacts.shapes
+    key = np.where(contacts.body == contacts.body[root_piece], np.arange(len(shapes)), len(shapes) + contacts.body)
+    same = np.array(coplanar(contacts, whole, 1e-3 * whole.diagonal), np.int64).reshape(-1, 2)
+    key = np.where(key < len(shapes), label_connected(len(shapes), same), key)
+    names = [""] * len(shapes)
+    faces = np.split(np.argsort(whole.mesh_piece, kind="stable"), np.cumsum(np.bincount(whole.mesh_piece))[:-1])
+    common = _most(mesh.face_material[faces[root_piece]])
+    for p, mine in enumerate(faces):
+        node, material = _most(mesh.face_node[mine]), _most(mesh.face_material[mine])
+        name = mesh.nodes[node].name
+        if recognize(name) is not None or is_fixed_name(name):
+            names[p] = name
+            key[p] = 2 * len(shapes) + node
+        elif material not in (-1, common) and recognize(mesh.materials[material].name) is not None:
+            names[p] = mesh.materials[material].name  # tells what a piece is, not that pieces move as one
+    _, first, unit = np.unique(key, return_index=True, return_inverse=True)
+    unit = unit.reshape(-1)
+    root = int(unit[root_piece])
+    return Units(contacts, unit, [names[p] for p in first], root, hanging_on(contacts, unit, root))
+
+
+def _most(numbers: np.ndarray) -> int:
+    """The number that occurs most; -1 stands for none."""
+    return int(np.bincount(numbers + 1).argmax()) - 1
+
+
+def root_ranking(whole: ObjectShape, contacts: Contacts) -> list[int]:
+    """The pieces that the rest may hang on, likeliest first: large, much touched, standing on the ground."""
+    degree = np.bincount(contacts.touch.reshape(-1), minlength=len(contacts.shapes))
+    low = whole.shape.bounds[0, 2] + 0.02 * whole.diagonal
+    rank = []
+    for s, d in zip(contacts.shapes, degree, strict=True):
+        size = float(np.linalg.norm(s.bounds[1] - s.bounds[0])) * (1 + 0.1 * min(int(d), 10))
+        samples = s.samples
+        stands = ((samples.points[:, 2] < low) & (samples.normals[:, 2] < -0.7)).mean() if len(samples) else 0.0
+        rank.append(size * (1.3 if stands > 0.05 else 1.0))
+    return [int(i) for i in np.argsort(-np.array(rank), kind="stable")]
+
+
+def size_of(units: Units, chosen: list[int]) -> float:
+    shapes = [units.contacts.shapes[p] for p in np.flatnonzero(np.isin(units.unit, chosen))]
+    low = np.min([s.bounds[0] for s in shapes], 0)
+    high = np.max([s.bounds[1] for s in shapes], 0)
+    return float(np.linalg.norm(high - low))
+
+
+def with_held(units: Units, u: int) -> list[int]:
+    """The unit, what hangs on it, and the smaller units that touch these more than all else (a shelf on a door)."""
+    members = set(units.hanging[u])
+    area = units.contacts.area
+    unit = units.unit
+    own = sum(units.contacts.shapes[p].area for p in np.flatnonzero(np.isin(unit, list(members))))
+    for _ in range(4):
+        inside = np.isin(unit, list(members))
+        hold: dict[int, list[float]] = {}
+        for (i, j), a in area.items():
+            if not inside[i] and unit[i] != unit[j]:
+                hold.setdefault(int(unit[i]), [0.0, 0.0])[int(inside[j])] += a
+        new = [v for v, (other, here) in hold.items() if here > other and v != units.root]
+        new = [v for v in new if sum(units.contacts.shapes[p].area for p in np.flatnonzero(unit == v)) < own]
+        grown = members.union(*(units.hanging[v] for v in new)) - {units.root}
+        if grown == members:
+            break
+        members = grown
+    return [u, *sorted(members - {u})]
+
+
+def touches_outside(units: Units, members: Sequence[int]) -> bool:
+    inside = np.isin(units.unit, list(members))
+    touch = units.contacts.touch
+    return bool((inside[touch[:, 0]] != inside[touch[:, 1]]).any())

@@ -1,0 +1,18 @@
+"""Areas and normals of triangles given by their corners."""
+
+from __future__ import annotations
+
+import numpy as np
+from jaxtyping import Float
+
+
+def face_cross(triangles: Float[np.ndarray, "F 3 3"]) -> Float[np.ndarray, "F 3"]:
+    """Twice the area times the unit normal of every triangle."""
+    return np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+
+
+def normals_and_areas(triangles: Float[np.ndarray, "F 3 3"]) -> tuple[Float[np.ndarray, "F 3"], Float[np.ndarray, " F"]]:
+    """Unit normals, zero where a triangle has no area, and areas."""
+    cross = face_cross(triangles)
+    double = np.linalg.norm(cross, axis=1)
+    return np.divide(cross, double[:, None], out=np.zeros_like(cross), where=double[:, None] > 0), double / 2
