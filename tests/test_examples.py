@@ -7,6 +7,7 @@ import pytest
 
 from anymesh.evaluation.protocols import evaluate
 from anymesh.evaluation.truth import example_truths
+from anymesh.loading import load_mesh, place_mesh
 from anymesh.pipeline import articulate, solve
 from anymesh.simulation.mujoco_ import sweep_joints
 from anymesh.types import JointType
@@ -39,6 +40,23 @@ def test_outputs_keep_the_contract_and_move_in_mujoco(name: str, tmp_path: Path)
     assert len(report.joints) == len(TRUTHS[name].joints)
     assert report.ok, report
     assert {j.opened for j in report.joints} <= {(), ("door_joint",)}
+
+
+@pytest.mark.parametrize(
+    ("name", "labels"),
+    [
+        ("bucket", ["handle"]),
+        ("laptop", ["lid"]),
+        ("laptop_fused", ["lid"]),
+        ("storage_box", ["lid"]),
+        ("microwave_fused", ["door"]),
+        ("cabinet", ["door", "door", "drawer", "drawer", "drawer"]),
+        ("valve", ["wheel"]),
+    ],
+)
+def test_parts_are_called_what_they_are(name: str, labels: list[str]) -> None:
+    segmentation, _ = solve(place_mesh(load_mesh(TRUTHS[name].mesh)).mesh)
+    assert sorted(p.label for p in segmentation.parts[1:]) == labels
 
 
 def test_same_input_same_bytes(tmp_path: Path) -> None:

@@ -71,6 +71,12 @@ class Shape:
         """Surface area [m^2]."""
         return float(self.areas.sum())
 
+    @property
+    def slender(self) -> bool:
+        """Whether it has far less surface than its box: a bar, a hoop, a frame."""
+        a, b, c = self.box.half
+        return bool(self.area < 0.6 * 8 * (a * b + b * c + a * c))
+
     def take(self, index: np.ndarray) -> Shape:
         """The shape of some of the faces (index into this shape, or a mask)."""
         return Shape(self.triangles[index], self.normals[index], self.solid[index], self.faces[index], self.seed)

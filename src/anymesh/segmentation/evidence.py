@@ -36,8 +36,6 @@ def gather(around: Surroundings, context: Context) -> PartEvidence:
     near, normals = _contact(around, context.config.touch * around.diagonal * 2)
     sides, flush = _rim(around, context.config)
     low, high = context.whole.shape.bounds[:, 2]
-    a, b, c = around.part.box.half
-    surface = 8 * (a * b + b * c + a * c)
     return PartEvidence(
         name=context.name,
         thinness=float(core.half[2] / max(core.half[1], 1e-12)),
@@ -61,7 +59,7 @@ def gather(around: Surroundings, context: Context) -> PartEvidence:
         opposite=any(_on_axis(around, twin) for twin in context.twins),
         handle=around.handle,
         pivots=_pivots(around, near, normals),
-        slender=bool(around.part.area < 0.6 * surface),
+        slender=around.part.slender,
         captured=False,
         on_movable=context.on_movable,
     )

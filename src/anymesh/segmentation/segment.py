@@ -167,9 +167,9 @@ def _label(answer: PartAnswer, name: str, around: Surroundings, best: Candidate)
         return "drawer" if around.part.box.diagonal > 0.15 * around.diagonal else "button"
     if best.role == "round":
         return "knob" if around.part.box.diagonal < 0.16 * around.diagonal else "wheel"
-    if answer.label == "handle":
+    if answer.label == "handle" or (best.role == "bail" and around.part.slender):
         return "handle"
-    return "lid" if around.outward[2] > 0.8 or best.role == "bail" else "door"  # a plate on two pivots: a laptop's
+    return "lid" if around.outward[2] > 0.8 or best.role == "bail" else "door"  # a plate on two pivots is a laptop's lid
 
 
 def _outermost(units: Units, new: list[Found]) -> list[Found]:
