@@ -49,6 +49,56 @@ class ArticulationConfig:
 
 
 @dataclass(frozen=True)
+class ViewsConfig:
+    """The views that a model is shown (the paper's implementation). Lengths are shares of the object's diagonal."""
+
+    count: int = 8
+    azimuth_step: float = 45.0  # [deg]
+    elevation: float = 15.0  # [deg]
+    distance: float = 1.0  # of the camera from the object's middle; 2 where the diagonal is 2
+    fov: float = 60.0  # [deg] vertical
+    size: int = 640  # [px] both ways
+    zoom_size: int = 4096  # [px] that a close-up is cut from
+    zoom_below: int = 5000  # [px] a part that covers less of the best view is shown in a close-up
+    zoom_margin: float = 0.3  # of the part's box in the picture, added on each side
+
+
+@dataclass(frozen=True)
+class GroundingConfig:
+    """Stage A by set-of-mark grounding (paper, 3.2; PartSlip++). Lengths are shares of the object's diagonal."""
+
+    points: int = 800_000  # samples of the surface
+    neighbours: int = 10
+    strength: float = 0.05  # of l0 cut pursuit on [normal, color_weight * colour]
+    color_weight: float = 0.3
+    least_points: int = 10  # smaller superpoints join a neighbour
+    least_mask: int = 1000  # [px] of a 640 px view; smaller masks are dropped
+    alpha: float = 0.1  # of the mask colours over the picture
+    whole: float = 0.95  # masks that cover more of the object are ignored
+    covered: float = 0.5  # share of a superpoint's visible points in a mask that gives it the label
+    join_component: float = 0.03  # how near a part a component is to join it
+    gap: float = 0.01  # superpoints whose boxes are this near are neighbours (instances)
+    alike: float = 0.2  # largest difference of their coverage in any mask
+    box_iou: float = 0.5  # of an instance with a mask in some view, to be kept
+    em_size: int = 800  # [px] of the views that the EM sees
+    em_extra: int = 5  # instances beyond those it starts from
+    em_most: int = 28
+    em_epochs: int = 10
+    em_rate: float = 1.0  # of Adam
+    em_connect: float = 0.025  # an instance is split where its points are further apart
+
+
+@dataclass(frozen=True)
+class PromptConfig:
+    """Stage B by visual prompting (paper, 3.3)."""
+
+    label_apart: float = 35.0  # [px] between the numbers of candidate points
+    most_candidates: int = 20  # of k-means
+    plane: float = 0.001  # of the connecting area's plane, a share of the diagonal; .002 where the diagonal is 2
+    motions: int = 6  # shown to choose from when motion is verified
+
+
+@dataclass(frozen=True)
 class Config:
     """All settings of a run; its dictionary is part of the key of saved stage results."""
 
@@ -57,6 +107,9 @@ class Config:
     pieces: PiecesConfig = field(default_factory=PiecesConfig)
     segmentation: SegmentationConfig = field(default_factory=SegmentationConfig)
     articulation: ArticulationConfig = field(default_factory=ArticulationConfig)
+    views: ViewsConfig = field(default_factory=ViewsConfig)
+    grounding: GroundingConfig = field(default_factory=GroundingConfig)
+    prompts: PromptConfig = field(default_factory=PromptConfig)
 
     def __post_init__(self) -> None:
         if self.seed < 0:

@@ -32,3 +32,15 @@ class MissingExtraError(AnymeshError):
     """An optional dependency is not installed; the message names the extra that brings it."""
 
     exit_code = 5
+
+
+class ModelError(AnymeshError):
+    """An outside model cannot be asked: no key, refused, unreachable after every retry. Holds no key and no header."""
+
+    exit_code = 6
+
+
+class BudgetError(ModelError):
+    """The next call would pass --max-calls or --max-cost. What was answered is kept; a rerun goes on from there."""
+
+    exit_code = 7

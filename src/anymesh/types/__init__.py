@@ -1,6 +1,7 @@
 """The nouns: frozen, numpy only, checked when made."""
 
 from anymesh.types.asset import Asset, Source
+from anymesh.types.exchange import Exchange, Picture
 from anymesh.types.joints import Joint, JointType
 from anymesh.types.mesh import Material, Mesh, Node, Texture
 from anymesh.types.motion import Handle, Motion, MotionKind, Sweep
@@ -8,6 +9,7 @@ from anymesh.types.parts import Part, Segmentation
 
 __all__ = [
     "Asset",
+    "Exchange",
     "Handle",
     "Joint",
     "JointType",
@@ -17,6 +19,7 @@ __all__ = [
     "MotionKind",
     "Node",
     "Part",
+    "Picture",
     "Segmentation",
     "Source",
     "Sweep",

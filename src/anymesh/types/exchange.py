@@ -1,0 +1,42 @@
+"""What is shown to a model that sees, and what was asked and answered."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+PNG = b"\x89PNG\r\n\x1a\n"
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A PNG file's bytes, and the words that introduce it ("view 3, from the right")."""
+
+    png: bytes
+    caption: str = ""
+
+    def __post_init__(self) -> None:
+        if not self.png.startswith(PNG):
+            raise ValueError(f"a picture must be a PNG, found bytes {self.png[:8]!r}")
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """(width, height) [px]."""
+        return int.from_bytes(self.png[16:20], "big"), int.from_bytes(self.png[20:24], "big")
+
+
+@dataclass(frozen=True)
+class Exchange:
+    """One call to a model: what it was shown and asked, what it answered, what that cost, and what became of it."""
+
+    kind: str  # the question ("recognize", "marks", ...)
+    key: str  # of the request, see `models.cache`
+    model: str
+    text: str
+    pictures: tuple[Picture, ...]
+    answer: str
+    verdict: str  # "accepted", or what was wrong with it and who answered instead
+    input_tokens: int
+    output_tokens: int
+    cost: float | None  # [USD], None when the price is not known
+    cached: bool  # taken from the cache or a recording: nothing was paid
+    seconds: float
