@@ -18,7 +18,7 @@ class Request:
     text: str
     pictures: tuple[Picture, ...]
     schema: Mapping[str, Any]
-    max_tokens: int = 4000
+    max_tokens: int = 8000  # of the answer, thinking included
 
 
 @dataclass(frozen=True)

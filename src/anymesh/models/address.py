@@ -1,0 +1,63 @@
+"""The name of a model: which provider, which model there, and where its key is."""
+
+from __future__ import annotations
+
+import os
+import re
+from dataclasses import dataclass
+from urllib.parse import urlsplit
+
+from anymesh.errors import ModelError, OptionError
+
+VALID = "openai:MODEL, anthropic:MODEL, google:MODEL, openai-compatible:BASE_URL#MODEL or replay:FOLDER"
+KEYS = {  # the environment variables that may hold the key; the first that is set counts
+    "openai": ("OPENAI_API_KEY",),
+    "anthropic": ("ANTHROPIC_API_KEY",),
+    "google": ("GOOGLE_API_KEY", "GEMINI_API_KEY"),
+    "openai-compatible": ("ANYMESH_API_KEY",),  # never OpenAI's: it must not reach a server of somebody else
+}
+BASES = {"openai": "OPENAI_BASE_URL", "anthropic": "ANTHROPIC_BASE_URL", "google": "GOOGLE_GEMINI_BASE_URL"}
+NO_KEY = "no-key"  # what a server that needs none is sent, since the client insists on one
+
+
+@dataclass(frozen=True)
+class Address:
+    """provider: one of KEYS. base_url: None for the provider's own."""
+
+    provider: str
+    model: str
+    base_url: str | None = None
+
+    def key(self) -> str:
+        """From the environment, at each call. Raises ModelError when there is none."""
+        names = KEYS[self.provider]
+        found = next((value for name in names if (value := os.environ.get(name, "").strip())), "")
+        if not found and self.provider != "openai-compatible":
+            raise ModelError(f"no key for {self.provider}: set the environment variable {' or '.join(names)}")
+        return found or NO_KEY
+
+    def url(self) -> str | None:
+        """Where to send requests; None for where the provider's client sends them by itself."""
+        return self.base_url or os.environ.get(BASES[self.provider], "").strip() or None
+
+
+def parse_address(name: str) -> Address:
+    """Raises OptionError for a name that is not valid."""
+    provider, _, rest = name.partition(":")
+    if provider not in KEYS:
+        raise OptionError(f"unknown provider {provider!r} of a model; valid are {VALID}")
+    if provider != "openai-compatible":
+        if not re.fullmatch(r"[\w.:/@-]+", rest):
+            raise OptionError(f"{name!r} names no model; valid are {VALID}")
+        return Address(provider, rest)
+    base, _, model = rest.partition("#")
+    try:
+        url = urlsplit(base)
+        host, _ = url.hostname, url.port
+    except ValueError:  # a port that is no number
+        host, url = None, urlsplit("")
+    if "@" in base or url.query:  # not shown, and not only told apart: it may hold a password
+        raise OptionError("a base URL must hold no user, password or query; a key is taken from ANYMESH_API_KEY")
+    if url.scheme not in ("http", "https") or not host or not model.strip():
+        raise OptionError(f"{name!r} must look like openai-compatible:http://localhost:8000/v1#MODEL")
+    return Address(provider, model.strip(), base)

@@ -1,0 +1,39 @@
+"""Answers from a recording: a transcript's folder, or a cache's."""
+
+from __future__ import annotations
+
+from collections import Counter
+from pathlib import Path
+
+from anymesh.errors import ModelError, OptionError
+from anymesh.models.cache import kept_reply, read_answer, request_key
+from anymesh.models.vision import Reply, Request
+
+
+class Replay:
+    """Answers each recorded question as it was answered then, without network, key or cost.
+
+    `name` is the recorded model's, since the questions are found by it; of several, the one that answered most. Of a
+    question that was recorded more than once the first answer counts. Raises OptionError when the folder holds none.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        if not folder.is_dir():
+            raise OptionError(f"no recording to replay: {folder} is no folder")
+        found = [record for path in sorted(folder.glob("*.json")) if (record := read_answer(path)) is not None]
+        if not found:
+            raise OptionError(f"no recording to replay: {folder} holds no recorded answer (NNN_KIND.json or KEY.json)")
+        self._folder = folder
+        self._records = {record["key"]: record for record in reversed(found)}
+        self._names = [name for name, _ in Counter(record["model"] for record in found).most_common()]
+        self.name: str = self._names[0]
+
+    def ask(self, request: Request) -> Reply:
+        """Raises ModelError for a question that was not recorded."""
+        for name in self._names:
+            if (record := self._records.get(request_key(name, request))) is not None:
+                return kept_reply(record)
+        raise ModelError(
+            f"the recording {self._folder} has no answer to this {request.kind!r} question: the input, the options or the "
+            "version differ from those of the recording; record again"
+        )

@@ -1,0 +1,65 @@
+"""A service on the loopback address, keys that can be found again, and no way out."""
+
+import os
+import socket
+import ssl
+from collections.abc import Callable, Iterator
+
+import pytest
+from wire import DIALECTS, SECRET, Dialect, Service
+
+from anymesh.models.vision import VisionModel
+
+
+@pytest.fixture
+def loopback_only(monkeypatch: pytest.MonkeyPatch) -> None:
+    real_connect, real_lookup = socket.socket.connect, socket.getaddrinfo
+
+    def connect(self: socket.socket, address: tuple) -> None:
+        assert self.family == socket.AF_UNIX or address[0] in ("127.0.0.1", "::1"), f"a test reaches out to {address}"
+        real_connect(self, address)
+
+    def lookup(host: str | bytes | None, *args: object, **options: object) -> list:
+        assert host in ("127.0.0.1", "localhost", b"127.0.0.1"), f"a test asks for the address of {host!r}"
+        return real_lookup(host, *args, **options)
+
+    monkeypatch.setattr(socket.socket, "connect", connect)
+    monkeypatch.setattr(socket, "getaddrinfo", lookup)
+
+
+@pytest.fixture
+def service(monkeypatch: pytest.MonkeyPatch, loopback_only: None) -> Iterator[Service]:
+    """Every provider's client is redirected to it; each key is another one."""
+    # No TLS here, and reading the certificates is most of what a client's start takes.
+    monkeypatch.setattr(ssl.SSLContext, "load_verify_locations", lambda *_, **__: None)
+    found = Service()
+    server = found.start()
+    for name in [
+        n for n in os.environ if n.startswith(("OPENAI_", "ANTHROPIC_", "GOOGLE_", "GEMINI_")) or "PROXY" in n.upper()
+    ]:
+        monkeypatch.delenv(name)
+    for provider, dialect in DIALECTS.items():
+        monkeypatch.setenv(dialect.key, f"{SECRET}-{provider}")
+        if dialect.base:
+            monkeypatch.setenv(dialect.base, found.url + ("/v1" if provider == "openai" else ""))
+    yield found
+    found.over.set()
+    server.shutdown()
+    server.server_close()
+
+
+@pytest.fixture(params=DIALECTS.values(), ids=DIALECTS)
+def dialect(request: pytest.FixtureRequest) -> Dialect:
+    return request.param
+
+
+@pytest.fixture
+def connected(service: Service) -> Callable[..., VisionModel]:
+    """The model of a name or a dialect, redirected to the service."""
+    pytest.importorskip("pydantic_ai")
+    from anymesh.models.pydantic_ai_ import connect
+
+    def make(name: str | Dialect, timeout: float = 4.0) -> VisionModel:
+        return connect((name if isinstance(name, str) else name.name).replace("URL", service.url), timeout=timeout)
+
+    return make
