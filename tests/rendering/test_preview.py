@@ -7,6 +7,7 @@ from PIL import Image
 
 from anymesh.geometry.kinematics import posed
 from anymesh.rendering import preview
+from anymesh.rendering.axes import AXIS_COLOR
 from anymesh.rendering.raycast_ import RayScene
 from anymesh.types import Asset, Part, Segmentation
 
@@ -24,7 +25,7 @@ def panels(asset):
 
 
 def axis_pixels(panel) -> np.ndarray:
-    return np.argwhere(np.abs(panel - preview.AXIS_COLOR).sum(-1) < 6)[:, ::-1]
+    return np.argwhere(np.abs(panel - AXIS_COLOR).sum(-1) < 6)[:, ::-1]
 
 
 def only(*moving):

@@ -6,12 +6,14 @@ import io
 from pathlib import Path
 
 import numpy as np
-from jaxtyping import Float, UInt8
+from jaxtyping import UInt8
 from PIL import Image, ImageDraw, ImageFont
 
 from anymesh.geometry.kinematics import link_transforms, posed
+from anymesh.rendering.axes import axis_line, draw_arrow, draw_ring, ring
 from anymesh.rendering.raycast_ import RayScene
 from anymesh.rendering.render import render
+from anymesh.rendering.viewpoints import orbit_camera
 from anymesh.types import Asset, Joint, JointType, Mesh
 from anymesh.types.camera import Camera
 
@@ -22,7 +24,6 @@ BASE = np.array([200, 200, 200], np.uint8)
 SIZE = 620  # [px] of a panel
 MARGIN, LEAST_WIDTH, LEAST_HEIGHT = 18, 500, 240  # [px] round what is drawn; of a panel, so that the legend fits
 OPEN = 0.75  # share of the range that is shown opened
-AXIS_COLOR = (190, 20, 40)
 MOST_NAMED = 18  # joints in the legend
 
 
@@ -82,15 +83,6 @@ def part_colors(asset: Asset) -> UInt8[np.ndarray, "F 3"]:
     return table[asset.segmentation.face_part]
 
 
-def orbit_camera(bounds: Float[np.ndarray, "2 3"], azimuth: float, elevation: float, size: int) -> Camera:
-    """A camera that sees the whole box, from an azimuth (0 looks along +y) and an elevation [rad]."""
-    center = bounds.mean(0)
-    radius = 0.5 * float(np.linalg.norm(bounds[1] - bounds[0]))
-    direction = np.array([np.sin(azimuth) * np.cos(elevation), -np.cos(azimuth) * np.cos(elevation), np.sin(elevation)])
-    fov = np.deg2rad(32)
-    return Camera.looking_at(center + direction * radius * 1.02 / np.sin(fov / 2), center, fov, size, size)
-
-
 def best_camera(asset: Asset, opened: Mesh, scenes: list[RayScene]) -> Camera:
     """The view in which the moving parts show most, at rest and opened alike."""
     bounds = np.array([np.minimum(asset.mesh.bounds[0], opened.bounds[0]), np.maximum(asset.mesh.bounds[1], opened.bounds[1])])
@@ -115,46 +107,14 @@ def _draw_axes(draw: ImageDraw.ImageDraw, asset: Asset, positions: dict[str, flo
         if joint.type is JointType.FIXED:
             continue
         part = next(i for i, p in enumerate(asset.segmentation.parts) if p.name == joint.child)
-        triangles = asset.mesh.triangles[asset.segmentation.face_part == part].reshape(-1, 3)
-        along = (triangles - joint.origin) @ joint.axis
-        reach = max(0.6 * float(np.ptp(along)), 0.06 * asset.mesh.diagonal)
-        start, end = (0.0, reach * 1.3) if joint.type is JointType.PRISMATIC else (-reach, reach)
-        if joint.type is JointType.PRISMATIC:
-            center = triangles.mean(0)
-        else:
-            center = joint.origin + (along.max() + along.min()) / 2 * joint.axis
+        corners = asset.mesh.triangles[asset.segmentation.face_part == part].reshape(-1, 3)
+        slides = joint.type is JointType.PRISMATIC
+        ends, center = axis_line(corners, joint.origin, joint.axis, slides, asset.mesh.diagonal)
         T = transforms[joint.parent]
-        line = np.stack([center + start * joint.axis, center + end * joint.axis]) @ T[:3, :3].T + T[:3, 3]
-        _arrow(draw, camera.project(line)[0] / 2)
-        if joint.type is not JointType.PRISMATIC:
-            _ring(draw, camera, center, joint.axis, 0.04 * asset.mesh.diagonal, T)
-
-
-def _arrow(draw: ImageDraw.ImageDraw, ends: np.ndarray) -> None:
-    (x0, y0), (x1, y1) = ends
-    draw.line([x0, y0, x1, y1], fill=(255, 255, 255), width=6)
-    draw.line([x0, y0, x1, y1], fill=AXIS_COLOR, width=3)
-    length = float(np.hypot(x1 - x0, y1 - y0))
-    if length > 4:
-        dx, dy = (x1 - x0) / length, (y1 - y0) / length
-        tip = [(x1 + 5 * dx, y1 + 5 * dy), (x1 - 9 * dx + 6 * dy, y1 - 9 * dy - 6 * dx),
-               (x1 - 9 * dx - 6 * dy, y1 - 9 * dy + 6 * dx)]  # fmt: skip
-        draw.polygon(tip, fill=AXIS_COLOR)
-
-
-def _ring(
-    draw: ImageDraw.ImageDraw, camera: Camera, center: np.ndarray, axis: np.ndarray, radius: float, T: np.ndarray
-) -> None:
-    """Three quarters of a circle about the axis, ending in an arrow head: the positive turn."""
-    u = np.cross(axis, np.eye(3)[np.abs(axis).argmin()])
-    u /= np.linalg.norm(u)
-    v = np.cross(axis, u)
-    t = np.linspace(0, 1.5 * np.pi, 40)[:, None]
-    points = (center + radius * (np.cos(t) * u + np.sin(t) * v)) @ T[:3, :3].T + T[:3, 3]
-    pixels = camera.project(points)[0] / 2
-    draw.line([tuple(p) for p in pixels], fill=(255, 255, 255), width=5, joint="curve")
-    draw.line([tuple(p) for p in pixels], fill=AXIS_COLOR, width=2, joint="curve")
-    _arrow(draw, pixels[[-4, -1]])
+        draw_arrow(draw, camera.project(ends @ T[:3, :3].T + T[:3, 3])[0] / 2)
+        if not slides:
+            circle = ring(center, joint.axis, 0.04 * asset.mesh.diagonal) @ T[:3, :3].T + T[:3, 3]
+            draw_ring(draw, camera.project(circle)[0] / 2)
 
 
 def extent(joint: Joint) -> str:

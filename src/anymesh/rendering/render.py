@@ -36,23 +36,36 @@ def render(
     scene = scene or RayScene(mesh.vertices, mesh.faces)
     origins, directions = camera.rays()
     hits = scene.first_hit(origins, directions)
-    seen = np.flatnonzero(hits.face >= 0)
-    normal = np.zeros((len(origins), 3))
-    normal[seen] = mesh.face_normals[hits.face[seen]]
-    toward = np.einsum("ij,ij->i", normal, directions) > 0
-    normal[toward] *= -1
-    color = np.full((len(origins), 3), BACKGROUND, np.float64)
-    base = face_color[hits.face[seen]].astype(np.float64) if face_color is not None else _base(mesh, hits, seen)
-    light = 0.42 + 0.38 * np.clip(normal[seen] @ KEY_LIGHT, 0, 1) + 0.2 * (0.5 + 0.5 * normal[seen, 2])
-    color[seen] = np.clip(base * light[:, None] * 1.12, 0, 255)
+    color, normal = shade(mesh, hits, directions, face_color)
     shape = (camera.height, camera.width)
     return View(
         camera,
-        color.astype(np.uint8).reshape(*shape, 3),
+        color.reshape(*shape, 3),
         hits.distance.reshape(shape),
         normal.reshape(*shape, 3),
         hits.face.reshape(shape),
     )
+
+
+def shade(
+    mesh: Mesh, hits: Hits, directions: Float[np.ndarray, "n 3"], face_color: UInt8[np.ndarray, "F 3"] | None = None
+) -> tuple[UInt8[np.ndarray, "n 3"], Float[np.ndarray, "n 3"]]:
+    """The lit colour of hits, and their normals, turned to face the rays; background and (0, 0, 0) where nothing is hit."""
+    seen = np.flatnonzero(hits.face >= 0)
+    normal = np.zeros((len(directions), 3))
+    normal[seen] = mesh.face_normals[hits.face[seen]]
+    toward = np.einsum("ij,ij->i", normal, directions) > 0
+    normal[toward] *= -1
+    color = np.full((len(directions), 3), BACKGROUND, np.float64)
+    base = face_color[hits.face[seen]].astype(np.float64) if face_color is not None else _base(mesh, hits, seen)
+    color[seen] = lit(base, normal[seen])
+    return color.astype(np.uint8), normal
+
+
+def lit(base: Float[np.ndarray, "n 3"], normal: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 3"]:
+    """Base colours (0..255) under the light of all our pictures."""
+    light = 0.42 + 0.38 * np.clip(normal @ KEY_LIGHT, 0, 1) + 0.2 * (0.5 + 0.5 * normal[:, 2])
+    return np.clip(base * light[:, None] * 1.12, 0, 255)
 
 
 def face_colors(mesh: Mesh) -> UInt8[np.ndarray, "F 3"]:

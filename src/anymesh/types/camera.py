@@ -43,10 +43,9 @@ class Camera:
     def rays(self) -> tuple[Float[np.ndarray, "n 3"], Float[np.ndarray, "n 3"]]:
         """Origins and directions (depth 1) of the rays through the pixels' centres, row by row."""
         u, v = np.meshgrid(np.arange(self.width) + 0.5, np.arange(self.height) + 0.5)
-        local = np.stack([(u - self.width / 2) / self.focal, (v - self.height / 2) / self.focal, np.ones_like(u)], -1).reshape(
-            -1, 3
-        )
-        return np.repeat(self.T_world_camera[None, :3, 3], len(local), 0), local @ self.T_world_camera[:3, :3].T
+        x, y = ((u - self.width / 2) / self.focal).reshape(-1, 1), ((v - self.height / 2) / self.focal).reshape(-1, 1)
+        right, down, ahead = self.T_world_camera[:3, :3].T
+        return np.repeat(self.T_world_camera[None, :3, 3], x.size, 0), x * right + y * down + ahead
 
     def project(self, points: Float[np.ndarray, "n 3"]) -> tuple[Float[np.ndarray, "n 2"], Float[np.ndarray, " n"]]:
         """Pixel positions and depths of points; points behind the camera have depth <= 0."""

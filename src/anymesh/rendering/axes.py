@@ -1,0 +1,60 @@
+"""Joint axes in pictures: an arrow along the axis, and a ring round it when the joint turns."""
+
+from __future__ import annotations
+
+import numpy as np
+from jaxtyping import Float
+from PIL import ImageDraw
+
+AXIS_COLOR = (190, 20, 40)
+WHITE = (255, 255, 255)
+
+
+def axis_line(
+    points: Float[np.ndarray, "n 3"],
+    origin: Float[np.ndarray, " 3"],
+    axis: Float[np.ndarray, " 3"],
+    slides: bool,
+    diagonal: float,
+) -> tuple[Float[np.ndarray, "2 3"], Float[np.ndarray, " 3"]]:
+    """Both ends of the arrow that shows the axis of a part with these points, and the middle of its ring.
+
+    A hinge is drawn on its axis, as long as the part and a little more; a slide from the part's middle outwards.
+    diagonal: of the object [m].
+    """
+    along = (points - origin) @ axis
+    reach = max(0.6 * float(np.ptp(along)), 0.06 * diagonal)
+    start, end = (0.0, reach * 1.3) if slides else (-reach, reach)
+    center = points.mean(0) if slides else origin + (along.max() + along.min()) / 2 * axis
+    return np.stack([center + start * axis, center + end * axis]), center
+
+
+def ring(center: Float[np.ndarray, " 3"], axis: Float[np.ndarray, " 3"], radius: float) -> Float[np.ndarray, "40 3"]:
+    """Three quarters of a circle about an axis, in the sense of the positive turn."""
+    u = np.cross(axis, np.eye(3)[np.abs(axis).argmin()])
+    u /= np.linalg.norm(u)
+    v = np.cross(axis, u)
+    t = np.linspace(0, 1.5 * np.pi, 40)[:, None]
+    return center + radius * (np.cos(t) * u + np.sin(t) * v)
+
+
+def draw_arrow(
+    draw: ImageDraw.ImageDraw, ends: Float[np.ndarray, "2 2"], color: tuple[int, int, int] = AXIS_COLOR, scale: float = 1.0
+) -> None:
+    """An arrow between two pixels with a white rim; `scale` 1 is 3 px wide."""
+    (x0, y0), (x1, y1) = ends
+    draw.line([x0, y0, x1, y1], fill=WHITE, width=round(6 * scale))
+    draw.line([x0, y0, x1, y1], fill=color, width=round(3 * scale))
+    length = float(np.hypot(x1 - x0, y1 - y0))
+    if length > 4:
+        dx, dy = scale * (x1 - x0) / length, scale * (y1 - y0) / length
+        tip = [(x1 + 5 * dx, y1 + 5 * dy), (x1 - 9 * dx + 6 * dy, y1 - 9 * dy - 6 * dx),
+               (x1 - 9 * dx - 6 * dy, y1 - 9 * dy + 6 * dx)]  # fmt: skip
+        draw.polygon(tip, fill=color)
+
+
+def draw_ring(draw: ImageDraw.ImageDraw, pixels: Float[np.ndarray, "n 2"], scale: float = 1.0) -> None:
+    """The points of `ring`, seen by a camera, as a curve that ends in an arrow head."""
+    draw.line([tuple(p) for p in pixels], fill=WHITE, width=round(5 * scale), joint="curve")
+    draw.line([tuple(p) for p in pixels], fill=AXIS_COLOR, width=round(2 * scale), joint="curve")
+    draw_arrow(draw, pixels[[-4, -1]], scale=scale)

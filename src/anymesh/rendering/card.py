@@ -1,0 +1,79 @@
+"""One picture that says which part is meant: the whole object with the part marked, and a close-up when it is small."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from jaxtyping import Int, UInt8
+from PIL import Image, ImageDraw
+
+from anymesh.config import ViewsConfig
+from anymesh.rendering.labels import font
+from anymesh.rendering.paint import HIGHLIGHT, highlight
+from anymesh.rendering.raycast_ import RayScene
+from anymesh.rendering.render import View
+from anymesh.rendering.strips import silhouette
+from anymesh.rendering.viewpoints import best_view, close_up, part_pixels
+from anymesh.types import Mesh
+
+TITLE = 22  # [px] font in a picture of 640 px
+BAR = 34  # [px] height of the title
+
+
+def part_card(
+    mesh: Mesh,
+    views: Sequence[View],
+    face_part: Int[np.ndarray, " F"],
+    part: int,
+    title: str,
+    config: ViewsConfig,
+    scene: RayScene,
+) -> UInt8[np.ndarray, "H W 3"]:
+    """The part in the view that shows most of it; beside that the close-up, if any; above them the title.
+
+    views: of this mesh; scene: its rays. A part that is hidden in every view shines through, and the title says so.
+    """
+    view = views[best_view(views, face_part, part)]
+    mask = part_pixels(view, face_part, part)
+    if not mask.any():
+        mask = silhouette(mesh.triangles[face_part == part], view.camera)
+        return titled(highlight(view.color, mask), f"{title} (hidden inside)")
+    near = close_up(mesh, view, face_part, part, config, scene)
+    whole = highlight(view.color, mask)
+    if near is None:
+        return titled(whole, title)
+    close = highlight(near.color, part_pixels(near, face_part, part), alpha=0.2)
+    return titled(np.concatenate([_framed(whole, view, near), _edged(close)], 1), title)
+
+
+def _framed(image: UInt8[np.ndarray, "H W 3"], view: View, near: View) -> UInt8[np.ndarray, "H W 3"]:
+    """The whole object with a frame round what the close-up shows."""
+    size = near.camera.width
+    corners = np.array([[0, 0], [size, 0], [size, size], [0, size]]) - size / 2
+    T = near.camera.T_world_camera
+    rays = np.concatenate([corners / near.camera.focal, np.ones((4, 1))], 1) @ T[:3, :3].T
+    pixels = view.camera.project(T[:3, 3] + rays)[0]
+    drawn = Image.fromarray(image)
+    outline = [tuple(p) for p in (*pixels, pixels[0])]
+    draw = ImageDraw.Draw(drawn)
+    draw.line(outline, fill=(255, 255, 255), width=5)
+    draw.line(outline, fill=(20, 20, 20), width=2)
+    return np.asarray(drawn)
+
+
+def _edged(image: UInt8[np.ndarray, "H W 3"]) -> UInt8[np.ndarray, "H W 3"]:
+    drawn = Image.fromarray(image)
+    ImageDraw.Draw(drawn).rectangle([0, 0, image.shape[1] - 1, image.shape[0] - 1], outline=(20, 20, 20), width=2)
+    return np.asarray(drawn)
+
+
+def titled(image: UInt8[np.ndarray, "H W 3"], title: str) -> UInt8[np.ndarray, "h W 3"]:
+    """The picture under a bar with a title; what the font lacks becomes a question mark."""
+    scale = max(1.0, image.shape[0] / 640)
+    bar = Image.new("RGB", (image.shape[1], round(BAR * scale)), (255, 255, 255))
+    text = title.encode("ascii", "replace").decode()
+    draw = ImageDraw.Draw(bar)
+    draw.rectangle([0, 0, round(10 * scale), bar.height], fill=HIGHLIGHT)
+    draw.text((20 * scale, bar.height / 2), text, fill=(20, 20, 20), font=font(round(TITLE * scale)), anchor="lm")
+    return np.concatenate([np.asarray(bar), image])

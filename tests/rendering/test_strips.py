@@ -1,0 +1,158 @@
+"""Strips show the part where its motion takes it; cards say which part is meant."""
+
+import numpy as np
+import pytest
+from assets import box, mesh_of
+
+from anymesh.config import ViewsConfig
+from anymesh.rendering.card import BAR, part_card, titled
+from anymesh.rendering.paint import HIGHLIGHT
+from anymesh.rendering.raycast_ import RayScene
+from anymesh.rendering.render import render
+from anymesh.rendering.strips import COLUMNS, PANEL, grid, motion_strip, moved, silhouette, strip_camera
+from anymesh.rendering.viewpoints import views
+from anymesh.types import Motion, MotionKind
+
+X, Y, Z = np.eye(3)
+
+
+def turn(axis, origin) -> Motion:
+    return Motion(MotionKind.TURN, np.asarray(axis, float), np.asarray(origin, float), "test")
+
+
+def slide(axis) -> Motion:
+    return Motion(MotionKind.SLIDE, np.asarray(axis, float), np.zeros(3), "test")
+
+
+def door():
+    """A block with a door on its front, hinged at either side."""
+    mesh, number = mesh_of([box((-0.5, 0, 0), (0.5, 0.6, 1)), box((-0.5, -0.05, 0), (0.5, -0.01, 1))])
+    return mesh, number == 1, (turn(-Z, (-0.5, -0.05, 0)), 1.2), (turn(Z, (0.5, -0.05, 0)), 1.2)
+
+
+def blue(picture: np.ndarray) -> np.ndarray:
+    """Where the part is drawn: nothing else has its hue."""
+    r, g, b = np.moveaxis(picture.astype(int), -1, 0)
+    return (b > 1.5 * g) & (g > 1.2 * r) & (b > 60)
+
+
+def test_a_moved_mesh_has_its_part_where_the_motion_says():
+    mesh, moving, (motion, amount), _ = door()
+    T = motion.transform(amount)
+    found = moved(mesh, moving, T)
+    np.testing.assert_array_equal(found.triangles[~moving], mesh.triangles[~moving])
+    np.testing.assert_allclose(found.triangles[moving], mesh.triangles[moving] @ T[:3, :3].T + T[:3, 3])
+    back = moved(found, moving, np.linalg.inv(T))
+    np.testing.assert_allclose(back.triangles, mesh.triangles, atol=1e-12)
+
+
+def test_panels_show_the_part_where_the_id_buffer_has_it():
+    mesh, moving, *motions = door()
+    camera = strip_camera(mesh, moving, motions)
+    strip = motion_strip(mesh, moving, motions)
+    assert strip.shape == (PANEL, 3 * PANEL, 3)
+    poses = [mesh, *(moved(mesh, moving, m.transform(a)) for m, a in motions)]
+    for k, pose in enumerate(poses):
+        panel = blue(strip[:, k * PANEL : (k + 1) * PANEL])
+        view = render(pose, camera)
+        expected = (view.face >= 0) & moving[view.face]
+        assert expected.sum() > 2000
+        axis_and_edges = 0.12 if k else 0.03  # these cover the part in a moved panel
+        assert (panel != expected).sum() < axis_and_edges * expected.sum()
+
+
+def test_the_camera_frames_every_pose_and_tells_them_apart():
+    mesh, moving, *motions = door()
+    camera = strip_camera(mesh, moving, motions)
+    poses = [mesh, *(moved(mesh, moving, m.transform(a)) for m, a in motions)]
+    seen = []
+    for pose in poses:
+        pixel, depth = camera.project(pose.triangles[moving].reshape(-1, 3))
+        assert (depth > 0).all()
+        assert pixel.min() >= 0
+        assert pixel.max() <= PANEL
+        view = render(pose, camera)
+        seen.append((view.face >= 0) & moving[view.face])
+    for k, a in enumerate(seen):
+        for b in seen[:k]:
+            assert (a != b).sum() > 0.3 * min(a.sum(), b.sum())
+    assert camera.T_world_camera[1, 3] < 0  # from the side of the door
+
+
+def test_a_small_part_is_shown_close_up():
+    mesh, number = mesh_of([box((-1, 0, 0), (1, 1, 2)), box((-0.02, -0.03, 1), (0.02, 0, 1.04))])
+    strip = motion_strip(mesh, number == 1, [(slide(-Y), 0.02), (turn(Y, (0, 0, 1.02)), 0.7)])
+    assert blue(strip[:, :PANEL]).mean() > 0.01  # one part in 3000 of the whole front
+
+
+def test_a_hidden_part_shines_through():
+    mesh, number = mesh_of([box((-1, -1, -1), (1, 1, 1)), box((-0.5, -0.5, -0.2), (0.5, 0.5, 0.2))])
+    motions = [(turn(Z, (0, 0, 0)), 0.5)]
+    camera = strip_camera(mesh, number == 1, motions, 120)
+    rest = motion_strip(mesh, number == 1, motions, camera=camera)[40:119, 1:119].astype(int)
+    tinted = rest[..., 2] > rest[..., 0] + 20  # the block is grey
+    expected = silhouette(mesh.triangles[number == 1], camera)[40:119, 1:119]
+    assert expected.sum() > 500
+    assert (tinted != expected).mean() < 0.05
+
+
+def test_the_arrow_points_the_way_that_the_part_goes():
+    mesh, moving, *_ = door()
+    camera = strip_camera(mesh, moving, [(slide(-Y), 0.4)], 120)
+    there, back, other = (
+        motion_strip(mesh, moving, [(slide(axis), amount)], camera=camera) for axis, amount in ((-Y, 0.4), (Y, -0.4), (Y, 0.4))
+    )
+    np.testing.assert_array_equal(there, back)
+    assert (there != other).any()
+
+
+def test_strips_are_the_same_every_time_and_bear_any_numbers():
+    mesh, moving, *motions = door()
+    camera = strip_camera(mesh, moving, motions, 120)
+    again = strip_camera(mesh, moving, motions, 120)
+    np.testing.assert_array_equal(camera.T_world_camera, again.T_world_camera)
+    first, second, other = (motion_strip(mesh, moving, motions, numbers=n, camera=camera) for n in (None, None, [4, 7]))
+    assert first.tobytes() == second.tobytes()
+    changed = np.argwhere((other != first).any(-1))
+    assert len(changed)
+    assert changed[:, 0].max() < 40  # the titles only
+    with pytest.raises(ValueError, match="faces that move"):
+        motion_strip(mesh, np.zeros_like(moving), motions)
+
+
+@pytest.mark.parametrize(("count", "shape"), [(1, (1, 1)), (4, (1, 4)), (5, (2, 3)), (7, (2, 4)), (9, (3, 3))])
+def test_panels_fill_even_rows(count, shape):
+    cells = [np.full((8, 8, 3), k, np.uint8) for k in range(count)]
+    found = grid(cells)
+    assert found.shape == (8 * shape[0], 8 * shape[1], 3)
+    assert shape[1] <= COLUMNS
+    order = [found[8 * (k // shape[1]), 8 * (k % shape[1]), 0] for k in range(shape[0] * shape[1])]
+    assert order == list(range(count)) + [255] * (shape[0] * shape[1] - count)
+
+
+def test_a_silhouette_ignores_what_is_before_it():
+    mesh, number = mesh_of([box((-1, -1, -1), (1, 1, 1)), box((-0.5, -0.5, -0.5), (0.5, 0.5, 0.5))])
+    config = ViewsConfig(size=64)
+    camera = views(mesh, config)[0].camera
+    inner = mesh.subset(number == 1)
+    np.testing.assert_array_equal(silhouette(mesh.triangles[number == 1], camera), render(inner, camera).face >= 0)
+
+
+def card(parts, part):
+    mesh, number = mesh_of(parts)
+    scene = RayScene(mesh.vertices, mesh.faces)
+    config = ViewsConfig(size=320)
+    return part_card(mesh, views(mesh, config, scene=scene), number, part, "part 1: knob", config, scene)
+
+
+def test_cards_have_a_close_up_only_for_small_parts():
+    body = box((-1, -1, -1), (1, 1, 1))
+    large = card([body, box((-0.9, -1.1, -0.9), (0.9, -1, 0.9))], 1)
+    small = card([body, box((-0.1, -1.1, -0.1), (0.1, -1, 0.1))], 1)
+    hidden = card([body, box((-0.5, -0.5, -0.5), (0.5, 0.5, 0.5))], 1)
+    assert large.shape == hidden.shape == (320 + BAR, 320, 3)
+    assert small.shape == (320 + BAR, 640, 3)
+    for picture in (large, small[:, :320], small[:, 320:], hidden):
+        assert (picture[BAR:] == np.array(HIGHLIGHT)).all(-1).sum() > 50
+    assert (hidden[:BAR] < 100).sum() > (large[:BAR] < 100).sum()  # its title says more
+    assert titled(large, "ä").shape[0] == 320 + 2 * BAR
