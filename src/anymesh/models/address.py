@@ -45,7 +45,7 @@ def parse_address(name: str) -> Address:
     """Raises OptionError for a name that is not valid."""
     provider, _, rest = name.partition(":")
     if provider not in KEYS:
-        raise OptionError(f"unknown provider {provider!r} of a model; valid are {VALID}")
+        raise OptionError(f"--answerer: found {name!r}; valid are geometry, {VALID}")
     if provider != "openai-compatible":
         if not re.fullmatch(r"[\w.:/@-]+", rest):
             raise OptionError(f"{name!r} names no model; valid are {VALID}")

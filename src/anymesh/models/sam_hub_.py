@@ -1,0 +1,53 @@
+"""Weights from a Hugging Face hub, by huggingface_hub; a commit that is in its cache already needs no network."""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+from types import ModuleType
+
+from anymesh.errors import MissingExtraError, ModelError
+
+
+@dataclass(frozen=True)
+class Hub:
+    """endpoint, cache: None for huggingface_hub's own (HF_ENDPOINT, HF_HOME)."""
+
+    endpoint: str | None = None
+    cache: Path | None = None
+
+    def fetch(self, hub_id: str, commit: str, names: Iterable[str]) -> list[Path]:
+        """Local paths of files of a repository at a commit. ModelError when one cannot be had."""
+        hub = _library()
+        try:
+            return [
+                Path(hub.hf_hub_download(hub_id, name, revision=commit, endpoint=self.endpoint, cache_dir=self.cache))
+                for name in names
+            ]
+        except Exception as error:  # the library's errors, those of HTTP and those of the disk are one thing to the user
+            raise ModelError(_told(hub_id, commit, error)) from None
+
+    def names(self, hub_id: str, commit: str) -> list[str]:
+        """All file names of a repository at a commit. ModelError when the hub cannot be asked."""
+        hub = _library()
+        try:
+            return hub.HfApi(endpoint=self.endpoint).list_repo_files(hub_id, revision=commit)
+        except Exception as error:
+            raise ModelError(_told(hub_id, commit, error)) from None
+
+
+def _library() -> ModuleType:
+    try:  # by name: the library is not installed everywhere that types are checked
+        return importlib.import_module("huggingface_hub")
+    except ImportError as error:
+        raise MissingExtraError(
+            "huggingface_hub is not installed; `pip install articulate-anymesh[sam]` brings it; "
+            "or give a folder that holds the weights: sam:FOLDER"
+        ) from error
+
+
+def _told(hub_id: str, commit: str, error: Exception) -> str:
+    reason = " ".join(str(error).split())[:200]
+    return f"{hub_id}@{commit}: the weights cannot be had ({type(error).__name__}: {reason})"

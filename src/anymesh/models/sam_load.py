@@ -1,0 +1,24 @@
+"""From `--proposer sam:...` to a model that can be asked."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from anymesh.models.sam import PromptedSegmenter
+from anymesh.models.sam_hub_ import Hub
+from anymesh.models.sam_onnx_ import OnnxSam
+from anymesh.models.sam_torch_ import TorchSam
+from anymesh.models.weights import resolve
+
+
+def load_sam(
+    spec: str, *, sha256: Mapping[str, str] | None = None, device: str | None = None, hub: Hub | None = None
+) -> PromptedSegmenter:
+    """`sam:NAME`, `sam:FOLDER` or `sam:HUB_ID@COMMIT`; see `weights.resolve` for what is valid and what is raised.
+
+    device: for PyTorch weights only, "cpu" or "cuda"; None takes CUDA where there is one.
+    """
+    weights = resolve(spec, sha256=sha256, hub=hub)
+    if weights.onnx:
+        return OnnxSam(*weights.onnx, name=weights.name)
+    return TorchSam(weights.folder, name=weights.name, device=device)

@@ -1,0 +1,99 @@
+"""SAM and SAM 2 by PyTorch and Hugging Face Transformers, from a folder with config.json and model.safetensors."""
+
+from __future__ import annotations
+
+import importlib
+import json
+from dataclasses import dataclass
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+from jaxtyping import Float, UInt8
+
+from anymesh.errors import MissingExtraError, ModelError, OptionError
+from anymesh.models.sam_frame import Frame
+
+MODELS = {  # model_type of config.json -> class of Transformers, and whether it pads
+    "sam": ("SamModel", True),
+    "sam2": ("Sam2Model", False),
+    "sam2_video": ("Sam2Model", False),  # published SAM 2 weights say this; the tracker's tensors are left out
+}
+
+
+@dataclass(frozen=True, eq=False)
+class _Embedding:
+    features: Any  # one tensor, or for SAM 2 a list of three
+    size: tuple[int, int]  # rows and columns of the picture
+
+
+class TorchSam:
+    """A `PromptedSegmenter` of a folder. device: "cpu", "cuda", ...; None takes CUDA where there is one."""
+
+    def __init__(self, folder: Path, *, name: str = "", device: str | None = None) -> None:
+        self.name = name or folder.name
+        kind, padded = _kind(folder)
+        self._torch, transformers = _library("torch"), _library("transformers")
+        self._device = _device(self._torch, device)
+        transformers.utils.logging.disable_progress_bar()  # it would write across ours
+        try:
+            model, told = getattr(transformers, kind).from_pretrained(
+                folder, local_files_only=True, use_safetensors=True, output_loading_info=True
+            )
+        except Exception as error:  # whatever a wrong folder makes Transformers raise is one thing to the user
+            reason = " ".join(f"{type(error).__name__}: {error}".split())[:300]
+            raise ModelError(f"{folder}: Transformers cannot load {kind} ({reason})") from None
+        if told["missing_keys"]:  # they would be random numbers
+            missing = sorted(told["missing_keys"])
+            raise ModelError(f"{folder}: model.safetensors lacks {len(missing)} tensors of {kind}, among them {missing[:3]}")
+        self._model = model.eval().to(self._device)
+        self.frame = Frame(int(model.config.prompt_encoder_config.image_size), padded)
+
+    def embed(self, image: UInt8[np.ndarray, "H W 3"]) -> _Embedding:
+        """Runs the image encoder once."""
+        pixels = self._torch.from_numpy(self.frame.normalized(image)).to(self._device)
+        with self._torch.inference_mode():
+            return _Embedding(self._model.get_image_embeddings(pixels), image.shape[:2])
+
+    def predict(
+        self, embedding: _Embedding, points: Float[np.ndarray, "n 2"]
+    ) -> tuple[Float[np.ndarray, "n m h w"], Float[np.ndarray, "n m"]]:
+        """Runs prompt encoder and mask decoder for all points at once."""
+        at = self.frame.points(points, *embedding.size).astype(np.float32)
+        prompts = self._torch.from_numpy(at)[None, :, None].to(self._device)
+        labels = self._torch.ones(prompts.shape[:3], dtype=self._torch.int64, device=self._device)
+        with self._torch.inference_mode():
+            found = self._model(
+                image_embeddings=embedding.features, input_points=prompts, input_labels=labels, multimask_output=True
+            )
+        return found.pred_masks[0].float().cpu().numpy(), found.iou_scores[0].float().cpu().numpy()
+
+
+def _kind(folder: Path) -> tuple[str, bool]:
+    try:
+        found = json.loads((folder / "config.json").read_text()).get("model_type")
+    except (OSError, ValueError, AttributeError) as error:
+        raise ModelError(f"{folder}: config.json cannot be read ({error})") from None
+    if found not in MODELS:
+        raise ModelError(f"{folder}: config.json has model_type {found!r}; valid are {', '.join(MODELS)}")
+    return MODELS[found]
+
+
+def _device(torch: ModuleType, wanted: str | None) -> Any:
+    device = wanted or ("cuda" if torch.cuda.is_available() else "cpu")
+    try:
+        torch.zeros(1, device=device)
+    except (RuntimeError, AssertionError) as error:
+        raise OptionError(f"device: found {device!r}, which PyTorch cannot use here ({error})"[:300]) from None
+    return device
+
+
+def _library(name: str) -> ModuleType:
+    try:  # by name: the library is not installed everywhere that types are checked
+        return importlib.import_module(name)
+    except ImportError as error:
+        raise MissingExtraError(
+            f"{name} is not installed; `pip install articulate-anymesh[sam-torch]` brings it; "
+            "weights in ONNX files need only the extra `sam`"
+        ) from error
