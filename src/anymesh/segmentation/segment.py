@@ -21,8 +21,9 @@ from anymesh.reasoning.questions import Answerer, Candidate, MotionAnswer, PartA
 from anymesh.reasoning.vocabulary import recognize
 from anymesh.segmentation.contacts import Contacts, find_contacts
 from anymesh.segmentation.evidence import Context, gather
+from anymesh.segmentation.naming import named_parts
 from anymesh.segmentation.units import Units, join_units, root_ranking, size_of, touches_outside, with_held
-from anymesh.types import JointType, Mesh, MotionKind, Part, Segmentation
+from anymesh.types import JointType, Mesh, MotionKind, Segmentation
 
 Moves = Callable[[Surroundings, str], tuple[MotionAnswer, Candidate]]  # Stage B's test of one part, by name of its label
 
@@ -52,7 +53,7 @@ def segment_parts(
     units = _rooted(mesh, whole, contacts, answerer, moves, config)
     progress("segment", "evidence", 1, 2)
     found = _search(whole, units, answerer, moves, config, progress)
-    return _assemble(whole, found)
+    return _assemble(mesh, whole, found)
 
 
 def _rooted(mesh: Mesh, whole: ObjectShape, contacts: Contacts, answerer: Answerer, moves: Moves, config: Config) -> Units:
@@ -185,28 +186,14 @@ def _outermost(units: Units, new: list[Found]) -> list[Found]:
     return kept
 
 
-def _assemble(whole: ObjectShape, found: list[Found]) -> Segmentation:
-    """Face numbers and unique names; a part within a part owns its faces."""
+def _assemble(mesh: Mesh, whole: ObjectShape, found: list[Found]) -> Segmentation:
+    """Face numbers; a part within a part owns its faces."""
     face_part = np.zeros(len(whole.mesh_piece), np.int64)
     found = sorted(found, key=lambda f: (-len(f.faces), f.unit))
     for number, f in enumerate(found, start=1):
         face_part[np.isin(whole.mesh_piece, whole.piece[f.faces])] = number
-    present = [n for n in range(1, len(found) + 1) if (face_part == n).any()]
-    renumber = np.zeros(len(found) + 1, np.int64)
-    renumber[present] = np.arange(1, len(present) + 1)
-    if not (face_part == 0).any():
-        face_part[:] = 0
-        present = []
-    parts = [Part("base", "base", 1.0, "what is left when the movable parts are taken")]
-    seen: dict[str, int] = {}
-    labels = [found[n - 1].label for n in present]
-    for n in present:
-        f = found[n - 1]
-        seen[f.label] = seen.get(f.label, 0) + 1
-        name = f.label if labels.count(f.label) == 1 else f"{f.label}_{seen[f.label]}"
-        confidence = float(np.clip(0.4 + 0.2 * f.answer.score, 0.05, 0.99))
-        parts.append(Part(name, f.label, confidence, f.answer.reason))
-    return Segmentation(renumber[face_part], tuple(parts))
+    confidence = [float(np.clip(0.4 + 0.2 * f.answer.score, 0.05, 0.99)) for f in found]
+    return named_parts(face_part, [f.label for f in found], mesh.face_areas, confidence, [f.answer.reason for f in found])
 
 
 __all__ = ["Moves", "segment_parts"]

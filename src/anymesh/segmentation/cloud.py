@@ -1,0 +1,179 @@
+"""Points on an object's surface, the superpoints that they form, and which of them a view sees (paper, 3.2)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from jaxtyping import Bool, Float, Int, UInt8
+from scipy.spatial import KDTree
+
+from anymesh.config import GroundingConfig
+from anymesh.geometry.pieces import ObjectShape
+from anymesh.geometry.sampling import SurfacePoints, sample_surface
+from anymesh.geometry.superpoints import superpoints
+from anymesh.geometry.topology import label_connected
+from anymesh.rendering.render import View, face_colors
+from anymesh.types import Mesh
+
+CUT_POINTS = 40_000  # the cut runs on so many points; 800k would take 20 s and find the same borders
+FOOTPRINT = 1.5  # [px] a point this near the depth that a pixel shows is seen there, if the surface there faces alike
+ALONG = 0.7  # cosine for that: the back of a door is not what the rim beside it shows
+SIMILAR = 0.9  # cosine from which two normals count as one surface
+TURN = 4.0  # a normal turned by 60 degrees is as far as so many spacings
+
+
+@dataclass(frozen=True, eq=False)
+class Cloud:
+    """Points on the surface. colors: sRGB; faces: of the mesh; superpoint: a number a point, no superpoint spans two pieces.
+
+    borders: (m, 2) superpoints that meet; boxes: (S, 2, 3) bounds of each; diagonal: of the object [m].
+    """
+
+    points: Float[np.ndarray, "n 3"]
+    normals: Float[np.ndarray, "n 3"]
+    colors: UInt8[np.ndarray, "n 3"]
+    faces: Int[np.ndarray, " n"]
+    superpoint: Int[np.ndarray, " n"]
+    borders: Int[np.ndarray, "m 2"]
+    boxes: Float[np.ndarray, "S 2 3"]
+    diagonal: float
+
+    @property
+    def count(self) -> int:
+        """How many superpoints there are."""
+        return len(self.boxes)
+
+    def __len__(self) -> int:
+        return len(self.points)
+
+
+@dataclass(frozen=True, eq=False)
+class Sight:
+    """What a view sees of a cloud. points: indices of the points; pixels: row * width + column of each."""
+
+    points: Int[np.ndarray, " k"]
+    pixels: Int[np.ndarray, " k"]
+
+
+def sample_cloud(mesh: Mesh, whole: ObjectShape, config: GroundingConfig | None = None, seed: int = 0) -> Cloud:
+    """Points spread evenly by area, one a face at least, with superpoints by l0 cut pursuit on normal and colour."""
+    config = config or GroundingConfig()
+    s = sample_surface(mesh.triangles, config.points, seed, at_least=1)
+    colors = point_colors(mesh, s)
+    label, borders = find_superpoints(s, colors, whole.mesh_piece[s.faces], config)
+    boxes = np.stack([np.full((int(label.max()) + 1, 3), np.inf), np.full((int(label.max()) + 1, 3), -np.inf)], 1)
+    np.minimum.at(boxes[:, 0], label, s.points)
+    np.maximum.at(boxes[:, 1], label, s.points)
+    return Cloud(s.points, s.normals, colors, s.faces, label, borders, boxes, whole.diagonal)
+
+
+def point_colors(mesh: Mesh, s: SurfacePoints) -> UInt8[np.ndarray, "n 3"]:
+    """The sRGB colour at every point; a textured face is not of one colour."""
+    if mesh.corner_color is None and (mesh.corner_uv is None or not any(m.textures for m in mesh.materials)):
+        return face_colors(mesh)[s.faces]
+    weights = _barycentric(mesh.triangles[s.faces], s.points)
+
+    def at_points(corners: np.ndarray | None) -> np.ndarray | None:
+        if corners is None:
+            return None
+        value = np.einsum("nk,nkc->nc", weights, corners[s.faces].astype(np.float64))
+        value = np.rint(value) if corners.dtype == np.uint8 else value
+        return np.repeat(value[:, None], 3, 1).astype(corners.dtype)
+
+    dots = replace(  # a mesh of which every face is one point: its colours are the points'
+        mesh, vertices=np.zeros((1, 3)), faces=np.zeros((len(s), 3), np.int64), face_node=mesh.face_node[s.faces],
+        face_material=mesh.face_material[s.faces], corner_uv=at_points(mesh.corner_uv),
+        corner_color=at_points(mesh.corner_color), corner_normal=None,
+    )  # fmt: skip
+    return face_colors(dots)
+
+
+def _barycentric(t: np.ndarray, points: np.ndarray) -> np.ndarray:
+    """Weights of the three corners (n, 3)."""
+    a, b, p = t[:, 1] - t[:, 0], t[:, 2] - t[:, 0], points - t[:, 0]
+    aa, ab, bb, pa, pb = (np.einsum("ij,ij->i", x, y) for x, y in ((a, a), (a, b), (b, b), (p, a), (p, b)))
+    below = np.maximum(aa * bb - ab * ab, 1e-300)
+    u, v = (bb * pa - ab * pb) / below, (aa * pb - ab * pa) / below
+    return np.clip(np.stack([1 - u - v, u, v], 1), 0, 1)
+
+
+def find_superpoints(
+    s: SurfacePoints, colors: UInt8[np.ndarray, "n 3"], piece: Int[np.ndarray, " n"], config: GroundingConfig
+) -> tuple[Int[np.ndarray, " n"], Int[np.ndarray, "m 2"]]:
+    """A superpoint number a point, and which superpoints meet. The cut runs on CUT_POINTS of them within each piece; every
+    point then takes the superpoint of the nearest of these in its piece whose normal is alike."""
+    chosen = np.arange(0, len(s), max(1, len(s) // CUT_POINTS))
+    first = np.unique(piece, return_index=True)[1]
+    chosen = np.union1d(chosen, first)  # no piece goes without
+    beyond = 10 * float(np.ptp(s.points, axis=0).max())
+    own = np.c_[s.points, beyond * piece][chosen]  # neighbours are of the same piece, however thin a gap is
+    near = KDTree(own).query(own, k=min(config.neighbours + 1, len(chosen)), workers=-1)[1]
+    near = near.reshape(len(chosen), -1)
+    edges = np.sort(np.stack([np.repeat(np.arange(len(chosen)), near.shape[1]), near.reshape(-1)], 1), 1)
+    edges = edges[(edges[:, 0] != edges[:, 1]) & (piece[chosen[edges[:, 0]]] == piece[chosen[edges[:, 1]]])]
+    key = np.unique(edges @ np.array([len(chosen), 1]))
+    edges = np.stack([key // len(chosen), key % len(chosen)], 1)
+    signal = np.concatenate([s.normals, config.color_weight * colors / 255.0], 1)[chosen]
+    ones = np.ones(len(chosen))
+    label = superpoints(signal, ones, edges, np.ones(len(edges)), config.strength)
+    nearest = _nearest_alike(s, piece, chosen)
+    label = _absorb_small(label, np.bincount(nearest, minlength=len(chosen)), edges, config.least_points)
+    pairs = np.sort(label[edges], 1)
+    return label[nearest], np.unique(pairs[pairs[:, 0] != pairs[:, 1]], axis=0)
+
+
+def _nearest_alike(s: SurfacePoints, piece: np.ndarray, chosen: np.ndarray) -> Int[np.ndarray, " n"]:
+    """For every point the nearest chosen one (index into these) of the same piece with a like normal."""
+    gap, nearest = KDTree(s.points[chosen]).query(s.points, workers=-1)
+    found = chosen[nearest]
+    alike = np.einsum("ij,ij->i", s.normals, s.normals[found]) > SIMILAR
+    wrong = np.flatnonzero((piece != piece[found]) | ~alike)
+    spacing = float(np.median(gap[gap > 0])) if (gap > 0).any() else 1.0
+    apart = 10 * float(np.ptp(s.points, axis=0).max()) / spacing + 10 * TURN  # further than anything within a piece
+
+    def feature(index: np.ndarray) -> np.ndarray:
+        return np.c_[s.points[index] / spacing, TURN * s.normals[index], apart * piece[index]]
+
+    if len(wrong):
+        nearest[wrong] = KDTree(feature(chosen)).query(feature(wrong), workers=-1)[1]
+    return nearest
+
+
+def _absorb_small(label: np.ndarray, weight: np.ndarray, edges: np.ndarray, least: int) -> Int[np.ndarray, " n"]:
+    """Superpoints of fewer than `least` points (weight: points a node stands for) join the neighbour that they border most."""
+    while True:
+        count = int(label.max()) + 1
+        small = np.bincount(label, weight, count) < least
+        a, b = label[edges].T
+        source, target = np.r_[a, b], np.r_[b, a]
+        use = small[source] & (source != target)
+        if not use.any():
+            return label
+        key, border = np.unique(source[use] * count + target[use], return_counts=True)
+        order = np.lexsort((key % count, -border, key // count))
+        best = order[np.r_[True, np.diff(key[order] // count) != 0]]
+        label = label_connected(count, np.stack([key[best] // count, key[best] % count], 1))[label]
+
+
+def visible(cloud: Cloud, view: View) -> Bool[np.ndarray, " n"]:
+    """Which points the view shows: their pixel shows their face, or their depth."""
+    found = np.zeros(len(cloud), bool)
+    found[sight(cloud, view).points] = True
+    return found
+
+
+def sight(cloud: Cloud, view: View) -> Sight:
+    """The points that the view shows and the pixel of each: those on the very face that the pixel shows, and, as faces may be
+    smaller than pixels, those within FOOTPRINT pixels of the depth there on a surface of like direction."""
+    camera = view.camera
+    pixel, depth = camera.project(cloud.points)
+    column, row = pixel.T
+    inside = np.flatnonzero((depth > 0) & (column >= 0) & (column < camera.width) & (row >= 0) & (row < camera.height))
+    at = row[inside].astype(np.int64) * camera.width + column[inside].astype(np.int64)
+    seen = view.face.reshape(-1)[at] == cloud.faces[inside]
+    off = np.abs(view.depth.reshape(-1)[at] - depth[inside])
+    near = np.flatnonzero(~seen & (off < FOOTPRINT * depth[inside] / camera.focal))
+    facing = np.einsum("ij,ij->i", view.normal.reshape(-1, 3)[at[near]], cloud.normals[inside[near]])
+    seen[near] = np.abs(facing) > ALONG
+    return Sight(inside[seen], at[seen])

@@ -1,0 +1,137 @@
+"""Instances that explain the masks of all views: the expectation maximisation of PartSlip++ (Zhou et al. 2023) on superpoints.
+
+Every superpoint has a logit an instance; a view compares the instances' probabilities with its masks point by point, so counts
+of points a (superpoint, mask) are all that it needs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from jaxtyping import Float, Int
+from scipy.optimize import linear_sum_assignment
+from scipy.spatial import KDTree
+
+from anymesh.config import GroundingConfig
+from anymesh.geometry.topology import label_connected
+from anymesh.segmentation.cloud import Cloud
+from anymesh.segmentation.fuse import Counts, Instances
+
+CERTAIN = 3.0  # logit of the instance that a superpoint starts in; the others start at 0
+LEAST = 1e-7  # probabilities are kept this far from 0 and 1
+ADAM = (0.9, 0.999, 1e-8)  # Kingma and Ba 2015: decay of the gradient's mean, of its square's, and what is added below
+JOIN_POINTS = 40_000  # of the cloud, that tell which superpoints are near each other
+
+
+def refine_instances(
+    cloud: Cloud, counts: Sequence[Counts], start: Instances, rng: np.random.Generator, config: GroundingConfig | None = None
+) -> Instances:
+    """The start's instances changed until they explain the masks, split where they are not connected, labelled by majority."""
+    config = config or GroundingConfig()
+    if not any(c.labels for c in counts):
+        return start
+    chosen = maximise(counts, start.number, len(start.labels), rng, config)
+    seen = np.asarray(sum(c.seen for c in counts)) > 0
+    split = _split(chosen, near_superpoints(cloud, config.em_connect * cloud.diagonal))
+    return _labelled(counts, np.where(seen, split, -1))
+
+
+def maximise(
+    counts: Sequence[Counts], start: Int[np.ndarray, " S"], initial: int, rng: np.random.Generator, config: GroundingConfig
+) -> Int[np.ndarray, " S"]:
+    """The likeliest instance (0..K - 1) of every superpoint after `em_epochs` passes over the views in random order.
+
+    start: as Instances.number; `initial` of them become the first instances, the rest starts in the one after them.
+    """
+    number = min(initial + config.em_extra, config.em_most)
+    first = np.where(start > 0, start - 1, initial)
+    kept = min(initial, number - 1)  # one is left for what is no part
+    if initial > kept:  # the largest stay
+        size = np.bincount(first, sum(c.seen for c in counts), initial + 1)[:initial]
+        rank = np.full(initial + 1, kept)
+        rank[np.argsort(-size, kind="stable")[:kept]] = np.arange(kept)
+        first = rank[first]
+    logits = np.zeros((len(start), number))
+    logits[np.arange(len(start)), np.minimum(first, kept)] = CERTAIN
+    mean, square = np.zeros_like(logits), np.zeros_like(logits)
+    step = 0
+    for _ in range(config.em_epochs):
+        for v in rng.permutation(len(counts)):
+            target = counts[v].top
+            pairs = match(logits, target)
+            _, gradient = loss_and_gradient(logits, target, pairs)
+            step += 1
+            mean = ADAM[0] * mean + (1 - ADAM[0]) * gradient
+            square = ADAM[1] * square + (1 - ADAM[1]) * gradient**2
+            unbiased, spread = mean / (1 - ADAM[0] ** step), square / (1 - ADAM[1] ** step)
+            logits = logits - config.em_rate * unbiased / (np.sqrt(spread) + ADAM[2])
+    return logits.argmax(1)
+
+
+def probabilities(logits: Float[np.ndarray, "S K"]) -> Float[np.ndarray, "S K"]:
+    """Softmax over the instances, kept from 0 and 1."""
+    p = np.exp(logits - logits.max(1, keepdims=True))
+    return np.clip(p / p.sum(1, keepdims=True), LEAST, 1 - LEAST)
+
+
+def match(logits: Float[np.ndarray, "S K"], target: Int[np.ndarray, "S N"]) -> tuple[np.ndarray, np.ndarray]:
+    """E-step: which instance is which mask, so that the binary cross-entropies of the pairs, one against all, are least."""
+    p = probabilities(logits)
+    seen = target.sum(1)
+    cost = -(np.log(p).T @ target) - np.log1p(-p).T @ (seen[:, None] - target)
+    return linear_sum_assignment(cost / max(int(seen.sum()), 1))
+
+
+def loss_and_gradient(
+    logits: Float[np.ndarray, "S K"], target: Int[np.ndarray, "S N"], pairs: tuple[np.ndarray, np.ndarray]
+) -> tuple[float, Float[np.ndarray, "S K"]]:
+    """Sum over the pairs (instance, mask) of the mean binary cross-entropy a visible point, and its gradient by the logits.
+
+    With c of a superpoint's n visible points in the mask and p the instance's probability, a pair costs
+    -(c log p + (n - c) log(1 - p)); its derivative by p, times p, is u = (n - c) p / (1 - p) - c, and through the softmax the
+    derivative by logit j is u_j - p_j sum_k u_k.
+    """
+    k, m = pairs
+    seen = target.sum(1)
+    points = max(int(seen.sum()), 1)
+    p = probabilities(logits)
+    q, c = p[:, k], target[:, m]
+    others = seen[:, None] - c
+    loss = -float((c * np.log(q) + others * np.log1p(-q)).sum()) / points
+    u = np.zeros_like(p)
+    u[:, k] = (others * q / (1 - q) - c) / points
+    return loss, u - p * u.sum(1, keepdims=True)
+
+
+def near_superpoints(cloud: Cloud, reach: float) -> Int[np.ndarray, "m 2"]:
+    """Pairs of superpoints of which points are within `reach` [m], and those that meet."""
+    chosen = np.arange(0, len(cloud), max(1, len(cloud) // JOIN_POINTS))
+    chosen = np.union1d(chosen, np.unique(cloud.superpoint, return_index=True)[1])
+    found = KDTree(cloud.points[chosen]).query_pairs(reach, output_type="ndarray")
+    pairs = np.sort(cloud.superpoint[chosen][found], 1)
+    pairs = np.concatenate([pairs[pairs[:, 0] != pairs[:, 1]], cloud.borders])
+    key = np.unique(pairs[:, 0] * cloud.count + pairs[:, 1])
+    return np.stack([key // cloud.count, key % cloud.count], 1)
+
+
+def _split(chosen: np.ndarray, near: np.ndarray) -> Int[np.ndarray, " S"]:
+    """Instances (from 1) that are connected."""
+    same = chosen[near[:, 0]] == chosen[near[:, 1]]
+    return label_connected(len(chosen), near[same]) + 1
+
+
+def _labelled(counts: Sequence[Counts], number: Int[np.ndarray, " S"]) -> Instances:
+    """Every instance takes the label of most of its visible points; where most lie in no mask it is no part."""
+    names = sorted({name for c in counts for name in c.labels})
+    votes = np.zeros((int(number.max(initial=0)) + 1, len(names) + 1), np.int64)
+    kept = number > 0
+    for c in counts:
+        for k, column in enumerate([*(names.index(name) for name in c.labels), len(names)]):
+            np.add.at(votes[:, column], number[kept], c.top[kept, k])
+    winner = votes.argmax(1)
+    parts = np.flatnonzero((winner < len(names)) & votes.any(1))
+    renumber = np.zeros(len(votes) + 1, np.int64)
+    renumber[parts] = np.arange(1, len(parts) + 1)
+    renumber[-1] = -1
+    return Instances(renumber[number], tuple(names[winner[p]] for p in parts))

@@ -1,0 +1,198 @@
+"""From masks in views to labels and instances of superpoints (paper, 3.2; PartSlip++)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Bool, Float, Int
+
+from anymesh.config import GroundingConfig
+from anymesh.reasoning.grounding import MarkedPart
+from anymesh.rendering.render import View
+from anymesh.segmentation.cloud import Cloud, sight
+from anymesh.segmentation.propose import Proposal
+
+
+@dataclass(frozen=True, eq=False)
+class Mask:
+    """What one view shows of one part. instance: tells parts of one label apart, in this view or in all (see `fuse_exact`)."""
+
+    pixels: Bool[np.ndarray, "H W"]
+    label: str
+    instance: int = 1
+
+
+@dataclass(frozen=True, eq=False)
+class Counts:
+    """One view in numbers. seen: visible points of each superpoint; inside: of these in each mask; top: the same where the
+    smallest mask owns a pixel, the last column those in none; points: those that are visible.
+
+    box: least and largest column and row of each superpoint's visible points [px], inf where there are none;
+    mask_box: the same of the masks; labels, instances: of the masks.
+    """
+
+    seen: Int[np.ndarray, " S"]
+    inside: Int[np.ndarray, "S M"]
+    top: Int[np.ndarray, "S N"]  # N = M + 1
+    box: Float[np.ndarray, "S 4"]
+    mask_box: Float[np.ndarray, "M 4"]
+    labels: tuple[str, ...]
+    instances: tuple[int, ...]
+    points: Int[np.ndarray, " k"]
+
+
+@dataclass(frozen=True, eq=False)
+class Instances:
+    """Which superpoint is which part. number: k is labels[k - 1], 0 is seen and no part, -1 is seen in no view."""
+
+    number: Int[np.ndarray, " S"]
+    labels: tuple[str, ...]
+
+    def __post_init__(self) -> None:
+        least, most = int(self.number.min(initial=0)), int(self.number.max(initial=0))
+        if least < -1 or most > len(self.labels):
+            raise ValueError(f"numbers must lie in -1..{len(self.labels)}, found {least if least < -1 else most}")
+
+
+def marked_masks(proposals: Sequence[Proposal], parts: Sequence[MarkedPart]) -> tuple[tuple[Mask, ...], ...]:
+    """The masks of every proposal's view: the regions of a part's marks as one. A part without a view is in all."""
+    found = []
+    for proposal in proposals:
+        here = [p for p in parts if p.view is None or p.view == proposal.view]
+        masks = [Mask(np.isin(proposal.labels, [m for m in p.marks if m > 0]), p.label, p.instance) for p in here]
+        found.append(tuple(m for m in masks if m.pixels.any()))
+    return tuple(found)
+
+
+def count_points(cloud: Cloud, view: View, masks: Sequence[Mask], config: GroundingConfig | None = None) -> Counts:
+    """Counts the visible points of every superpoint in every mask; masks that cover nearly all of the object are left out,
+    as are empty ones."""
+    config = config or GroundingConfig()
+    found = sight(cloud, view)
+    label = cloud.superpoint[found.points]
+    height, width = view.face.shape
+    drawn = view.face >= 0
+    kept = [m for m in masks if m.pixels.any() and (m.pixels & drawn).sum() <= config.whole * max(int(drawn.sum()), 1)]
+    kept.sort(key=lambda m: -int(m.pixels.sum()))
+    owner = np.full(height * width, len(kept))
+    inside = np.zeros((cloud.count, len(kept)), np.int64)
+    for k, mask in enumerate(kept):
+        pixels = mask.pixels.reshape(-1)
+        owner[pixels] = k
+        inside[:, k] = np.bincount(label[pixels[found.pixels]], minlength=cloud.count)
+    columns = len(kept) + 1
+    top = np.bincount(label * columns + owner[found.pixels], minlength=cloud.count * columns)
+    at = np.stack([found.pixels % width, found.pixels // width], 1).astype(np.float64)
+    box = np.concatenate([np.full((cloud.count, 2), np.inf), np.full((cloud.count, 2), -np.inf)], 1)
+    np.minimum.at(box[:, :2], label, at)
+    np.maximum.at(box[:, 2:], label, at)
+    return Counts(
+        np.bincount(label, minlength=cloud.count), inside, top.reshape(cloud.count, columns), box,
+        np.array([_pixel_box(m.pixels) for m in kept]).reshape(-1, 4),
+        tuple(m.label for m in kept), tuple(m.instance for m in kept), found.points,
+    )  # fmt: skip
+
+
+def _pixel_box(pixels: np.ndarray) -> tuple[float, float, float, float]:
+    columns, rows = np.flatnonzero(pixels.any(0)), np.flatnonzero(pixels.any(1))
+    return float(columns[0]), float(rows[0]), float(columns[-1]), float(rows[-1])
+
+
+def fuse_exact(counts: Sequence[Counts]) -> Instances:
+    """Superpoints take the (label, instance) that most of their visible points lie in; instances mean the same in all views."""
+    keys = sorted({key for c in counts for key in zip(c.labels, c.instances, strict=True)})
+    total = np.zeros((len(counts[0].seen), len(keys) + 1), np.int64)
+    for c in counts:
+        for k, key in enumerate(zip(c.labels, c.instances, strict=True)):
+            total[:, 1 + keys.index(key)] += c.top[:, k]
+        total[:, 0] += c.top[:, -1]
+    number = np.where(total.any(1), total.argmax(1), -1)
+    return _numbered(number, [label for label, _ in keys])
+
+
+def fuse_masks(cloud: Cloud, counts: Sequence[Counts], config: GroundingConfig | None = None) -> Instances:
+    """Labels of superpoints by coverage over the views that see them, and instances: near superpoints of one label that the
+    masks cover alike. Instances of which no view has a mask where they lie are dropped."""
+    config = config or GroundingConfig()
+    number = np.where(sum(c.seen for c in counts) > 0, 0, -1)
+    names, label = label_superpoints(counts, config)
+    labels: list[str] = []
+    for k, name in enumerate(names):
+        mine = np.flatnonzero(label == k)
+        for group in _groups(cloud, counts, mine, config):
+            if _confirmed(counts, group, name, config.box_iou):
+                labels.append(name)
+                number[group] = len(labels)
+    return Instances(number, tuple(labels))
+
+
+def label_superpoints(counts: Sequence[Counts], config: GroundingConfig) -> tuple[list[str], Int[np.ndarray, " S"]]:
+    """The labels, sorted, and which of them each superpoint has (-1 none): the one whose masks cover the largest share of
+    its visible points over all views that see it, if they cover `config.covered`."""
+    names = sorted({name for c in counts for name in c.labels})
+    seen = np.maximum(sum(c.seen for c in counts), 1)
+    share = np.zeros((len(seen), len(names) + 1))
+    for k, name in enumerate(names):
+        for c in counts:
+            which = [i for i, found in enumerate(c.labels) if found == name]
+            # A point that lies in two masks of a label is covered once.
+            share[:, k] += np.minimum(c.inside[:, which].sum(1), c.seen)
+    share /= np.asarray(seen)[:, None]
+    best = share.argmax(1)
+    return names, np.where((share.max(1) >= config.covered) & (best < len(names)), best, -1)
+
+
+def _groups(cloud: Cloud, counts: Sequence[Counts], mine: np.ndarray, config: GroundingConfig) -> list[np.ndarray]:
+    """Superpoints joined where their boxes are near and no mask covers one much more than the other.
+
+    What is seen best is joined first, and groups are compared as a whole: a chain of superpoints that hardly any view sees
+    would join what the masks tell apart.
+    """
+    low, high = cloud.boxes[mine, 0], cloud.boxes[mine, 1] + config.gap * cloud.diagonal
+    a, b = np.nonzero(np.triu(((low[:, None] <= high) & (low[None] <= high[:, None])).all(2), 1))
+    inside = np.concatenate([c.inside[mine] for c in counts], 1)
+    seen = np.concatenate([np.repeat(c.seen[mine, None], c.inside.shape[1], 1) for c in counts], 1)
+    weight = sum(c.seen[mine] for c in counts)
+    group = np.arange(len(mine))
+    for k in np.argsort(-np.minimum(weight[a], weight[b]), kind="stable"):
+        g, h = group[a[k]], group[b[k]]
+        if g == h:
+            continue
+        both = (seen[g] > 0) & (seen[h] > 0)  # a view that does not see both cannot tell
+        if (np.abs(inside[g, both] / seen[g, both] - inside[h, both] / seen[h, both]) < config.alike).all():
+            group[group == h] = g
+            inside[g] += inside[h]
+            seen[g] += seen[h]
+    return [mine[group == g] for g in np.unique(group)]
+
+
+def _confirmed(counts: Sequence[Counts], group: np.ndarray, label: str, least: float) -> bool:
+    """Whether some view has a mask of the label where the instance shows: boxes with an IoU above `least`."""
+    for c in counts:
+        which = [k for k, name in enumerate(c.labels) if name == label]
+        shown = group[c.seen[group] > 0]
+        if not which or len(shown) == 0:
+            continue
+        box = np.r_[c.box[shown, :2].min(0), c.box[shown, 2:].max(0)]
+        if (_box_ious(box, c.mask_box[which]) > least).any():
+            return True
+    return False
+
+
+def _box_ious(box: np.ndarray, others: np.ndarray) -> Float[np.ndarray, " n"]:
+    """IoU of a box with others [px]; pixels have a width."""
+    low, high = np.maximum(box[:2], others[:, :2]), np.minimum(box[2:], others[:, 2:]) + 1
+    both = np.prod(np.maximum(high - low, 0), axis=1)
+    area = np.prod(others[:, 2:] - others[:, :2] + 1, axis=1) + np.prod(box[2:] - box[:2] + 1)
+    return both / (area - both)
+
+
+def _numbered(number: np.ndarray, labels: Sequence[str]) -> Instances:
+    """Without the parts that no superpoint has."""
+    present = np.unique(number[number > 0])
+    renumber = np.zeros(len(labels) + 2, np.int64)
+    renumber[present] = np.arange(1, len(present) + 1)
+    renumber[-1] = -1
+    return Instances(renumber[number], tuple(labels[k - 1] for k in present))

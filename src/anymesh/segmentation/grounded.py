@@ -1,0 +1,127 @@
+"""STAGE A (paper, 3.2) with someone who sees: set-of-mark grounding in views, fused to parts of the surface."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from anymesh.config import Config
+from anymesh.geometry.pieces import ObjectShape
+from anymesh.models.sam import automatic_masks
+from anymesh.models.sam_load import load_sam
+from anymesh.progress import Progress, silent
+from anymesh.reasoning.asking import Seer
+from anymesh.reasoning.grounding import MarkedPart, WhichMarks, WhichViews
+from anymesh.rendering.encode import encode
+from anymesh.rendering.marks import draw_marks
+from anymesh.rendering.raycast_ import RayScene
+from anymesh.rendering.render import View
+from anymesh.rendering.viewpoints import caption, normal_picture, shown, views
+from anymesh.segmentation.close_ups import close_ups
+from anymesh.segmentation.cloud import Cloud, sample_cloud
+from anymesh.segmentation.em import refine_instances
+from anymesh.segmentation.faces import face_parts, point_parts
+from anymesh.segmentation.fuse import Counts, Instances, count_points, fuse_exact, fuse_masks, marked_masks
+from anymesh.segmentation.hidden import unseen_faces, with_hidden
+from anymesh.segmentation.naming import named_parts
+from anymesh.segmentation.propose import Proposal, propose_masks, propose_regions
+from anymesh.types import Mesh, Segmentation
+from anymesh.types.recognition import Recognition
+
+MOST_PICTURES = 12  # in one call
+SURE = 0.9  # that a part which somebody pointed at is one
+EXACT = "exact"
+
+
+def ground_parts(
+    mesh: Mesh,
+    whole: ObjectShape,
+    seer: Seer,
+    config: Config,
+    recognition: Recognition,
+    by_geometry: Callable[[], Segmentation],
+    progress: Progress = silent,
+) -> tuple[Segmentation, tuple[str, ...]]:
+    """The parts of the labels that recognition gave, and warnings. by_geometry: finds what no view shows."""
+    labels = tuple(r.label for r in recognition.labels)
+    progress("segment", "views", 0, 4)
+    cloud = sample_cloud(mesh, whole, config.grounding, config.seed)
+    seen = _views(mesh, whole, cloud, config)
+    progress("segment", "masks", 1, 4)
+    proposals = propose(whole, cloud, seen, config)
+    progress("segment", "marks", 2, 4)
+    marked = _ask(seer, seen, proposals, labels, config) if labels else ()
+    progress("segment", "fusion", 3, 4)
+    found, counts = fuse(cloud, seen, proposals, marked, config)
+    face_part = face_parts(mesh, whole, cloud, point_parts(cloud, found, counts), config)
+    count = len(found.labels)
+    parts = named_parts(face_part, found.labels, mesh.face_areas, [SURE] * count, [f"pointed at by {seer.name}"] * count)
+    unseen, inside = unseen_faces(whole, cloud, counts), ()
+    if labels and unseen.any():
+        parts, inside = with_hidden(parts, by_geometry(), unseen, mesh.face_areas)
+    missing = [label for label in labels if label not in {p.label for p in parts.parts}]
+    return parts, (*(f"no {label} was found, though {seer.name} expects one" for label in missing), *inside)
+
+
+def _views(mesh: Mesh, whole: ObjectShape, cloud: Cloud, config: Config) -> list[View]:
+    """The paper's views, and close-ups of what is too small there."""
+    scene = RayScene(mesh.vertices, mesh.faces)
+    seen = views(mesh, config.views, scene=scene)
+    return seen + [shown(mesh, camera, scene) for camera in close_ups(whole, cloud, seen, config.grounding, config.views)]
+
+
+def _caption(number: int, config: Config) -> str:
+    return caption(number, config.views) if number < config.views.count else f"view {number + 1}: a close-up"
+
+
+def propose(whole: ObjectShape, cloud: Cloud, seen: Sequence[View], config: Config) -> tuple[Proposal, ...]:
+    """The regions that get numbers: of `config.proposer`, exact, sam:..., or exact+sam:... for both."""
+    if config.proposer == EXACT:
+        return propose_regions(whole, cloud, seen, config.grounding)
+    both = config.proposer.startswith(f"{EXACT}+")
+    segmenter = load_sam(config.proposer.removeprefix(f"{EXACT}+"))
+    exact = propose_regions(whole, cloud, seen, config.grounding) if both else None
+    masks = []
+    for k, view in enumerate(seen):
+        some = [m.mask for image in (view.color, normal_picture(view)) for m in automatic_masks(segmenter, image)]
+        if exact is not None:
+            some += [exact[k].labels == n for n in exact[k].numbers]
+        masks.append(np.array(some, bool).reshape(len(some), *view.face.shape))
+    return propose_masks(masks, seen, config.grounding)
+
+
+def _ask(
+    seer: Seer, seen: Sequence[View], proposals: Sequence[Proposal], labels: tuple[str, ...], config: Config
+) -> tuple[MarkedPart, ...]:
+    """Which labels show in which view, then which marks are which part, in the views that show most of the labels."""
+    captions = [_caption(k, config) for k in range(len(seen))]
+    pictures = () if seer.blind else tuple(encode(v.color, c) for v, c in zip(seen, captions, strict=True))
+    seen_in = seer.ask(WhichViews(pictures, labels, tuple(v.face for v in seen)))
+    score = np.array([sum(k in found for found in seen_in.values()) for k in range(len(seen))])
+    chosen = [int(k) for k in np.sort(np.argsort(-score, kind="stable")[:MOST_PICTURES]) if score[k] > 0]
+    if not chosen:
+        return ()
+    regions = {k: np.where(np.isin(proposals[k].labels, proposals[k].numbers), proposals[k].labels, -1) for k in chosen}
+    drawn = [] if seer.blind else [draw_marks(seen[k].color, r, alpha=config.grounding.alpha) for k, r in regions.items()]
+    question = WhichMarks(
+        tuple(encode(image, captions[k]) for k, image in zip(regions, drawn, strict=False)),
+        tuple(label for label, found in seen_in.items() if found),
+        proposals[0].consistent,
+        tuple(regions.values()),
+        tuple(seen[k].face for k in chosen),
+    )
+    answer = seer.ask(question)
+    return tuple(MarkedPart(p.label, p.instance, None if p.view is None else chosen[p.view], p.marks) for p in answer)
+
+
+def fuse(
+    cloud: Cloud, seen: Sequence[View], proposals: Sequence[Proposal], marked: Sequence[MarkedPart], config: Config
+) -> tuple[Instances, list[Counts]]:
+    """Parts of superpoints from marks. Marks that are the same in all views need no vote; others are voted on by PartSlip++."""
+    masks = marked_masks(proposals, marked)
+    counts = [count_points(cloud, view, some, config.grounding) for view, some in zip(seen, masks, strict=True)]
+    if proposals[0].consistent:
+        return fuse_exact(counts), counts
+    start = fuse_masks(cloud, counts, config.grounding)
+    return refine_instances(cloud, counts, start, np.random.default_rng(config.seed), config.grounding), counts
