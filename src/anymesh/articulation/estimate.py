@@ -8,13 +8,13 @@ from anymesh.articulation.evidence import part_facts, weigh_all
 from anymesh.articulation.hypotheses import propose
 from anymesh.articulation.limits import limits, opening_motion
 from anymesh.articulation.tree import descendants, parents
-from anymesh.config import Config
+from anymesh.config import ArticulationConfig, Config
 from anymesh.geometry.pieces import ObjectShape
 from anymesh.geometry.shape import Shape
 from anymesh.geometry.surroundings import Surroundings, rods
 from anymesh.progress import Progress, silent
 from anymesh.reasoning.questions import Answerer, Candidate, MotionAnswer, MotionQuestion
-from anymesh.types import Joint, Motion, Segmentation
+from anymesh.types import Joint, JointType, Motion, Segmentation
 
 
 def estimate_joints(
@@ -31,13 +31,13 @@ def estimate_joints(
     joints = []
     for i, part in enumerate(segmentation.parts[1:], start=1):
         progress("joints", part.name, i - 1, len(shapes) - 1)
-        around = surroundings(whole, label, shapes, parent, i, config)
+        around = surroundings(whole, label, shapes, parent, i, config.articulation)
         joints.append(estimate_joint(around, part.name, segmentation.parts[parent[i]].name, part.label, answerer))
     return tuple(joints)
 
 
 def surroundings(
-    whole: ObjectShape, label: np.ndarray, shapes: list[Shape], parent: list[int], i: int, config: Config
+    whole: ObjectShape, label: np.ndarray, shapes: list[Shape], parent: list[int], i: int, config: ArticulationConfig
 ) -> Surroundings:
     """Part i with what hangs on it; what stands still is the root and the parts that i hangs on."""
     carried = [i, *descendants(parent, i)]
@@ -58,7 +58,7 @@ def surroundings(
         slim=rods(whole, shapes[i], shapes[parent[i]]),
         diagonal=whole.diagonal,
         center=center,
-        config=config.articulation,
+        config=config,
     )
 
 
@@ -74,17 +74,24 @@ def ask_motion(around: Surroundings, name: str, label: str, answerer: Answerer) 
 def estimate_joint(around: Surroundings, name: str, parent: str, label: str, answerer: Answerer) -> Joint:
     """The joint of one part."""
     answer, best = ask_motion(around, name, label, answerer)
+    return joint_of(around, name, parent, best, answer.type, answer.confidence, answer.reason)
+
+
+def joint_of(
+    around: Surroundings, name: str, parent: str, best: Candidate, kind: JointType, confidence: float, reason: str
+) -> Joint:
+    """The joint that a candidate motion makes: positive opens, limits by the sweep."""
     motion = opening_motion(best)
     return Joint(
         name=f"{name}_joint",
-        type=answer.type,
+        type=kind,
         parent=parent,
         child=name,
         origin=_on_part(motion, around),
         axis=motion.axis / np.linalg.norm(motion.axis),
-        limits=limits(around, best, answer.type),
-        confidence=answer.confidence,
-        reason=answer.reason,
+        limits=limits(around, best, kind),
+        confidence=confidence,
+        reason=reason,
     )
 
 
@@ -93,4 +100,4 @@ def _on_part(motion: Motion, around: Surroundings) -> np.ndarray:
     return motion.origin + ((around.part.box.center - motion.origin) @ motion.axis) * motion.axis
 
 
-__all__ = ["ask_motion", "estimate_joint", "estimate_joints", "surroundings"]
+__all__ = ["ask_motion", "estimate_joint", "estimate_joints", "joint_of", "surroundings"]

@@ -38,7 +38,7 @@ def _turn(around: Surroundings, c: Candidate) -> tuple[float, float]:
     lower, _ = free_amount(around.obstacles, motion, -1, most, steps)
     if not clear:
         upper = _floor(upper, np.deg2rad(1))
-    closed = c.role in ("edge", "edge_mid") and _shut(around)
+    closed = c.role in ("edge", "edge_mid", "asked") and _shut(around)
     lower = 0.0 if closed or lower < np.deg2rad(5) else _floor(lower, np.deg2rad(1))
     if upper < np.deg2rad(2):
         upper = most if lower == 0 else 0.0

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from anymesh.geometry.distance_ import distance_to_triangles
@@ -10,8 +12,11 @@ from anymesh.geometry.shape import Shape
 CLEARLY = 3.0  # a part hangs on another part rather than on the root when it is this much nearer, or touches this much more
 
 
-def parents(shapes: list[Shape], diagonal: float) -> list[int]:
-    """The parent's index of every part (the root, 0, has -1): the root, unless the part clearly hangs on a larger part."""
+def parents(shapes: list[Shape], diagonal: float, told: Sequence[set[int]] | None = None) -> list[int]:
+    """The parent's index of every part (the root, 0, has -1): the root, unless the part clearly hangs on a larger part.
+
+    told: for each part the indices that somebody named, empty where nobody did; the nearest of them that touches is taken.
+    """
     size = [float(np.linalg.norm(s.bounds[1] - s.bounds[0])) for s in shapes]
     found = [-1]
     for i in range(1, len(shapes)):
@@ -19,6 +24,10 @@ def parents(shapes: list[Shape], diagonal: float) -> list[int]:
         best, best_score = 0, 0.0
         base = distance_to_triangles(points, shapes[0].triangles)
         tolerance = 0.01 * min(diagonal, 5 * size[i])
+        named = _nearest(points, shapes, told[i] - {i}, tolerance) if told else None
+        if named is not None:
+            found.append(named)
+            continue
         touch_base = float((base < tolerance).mean())
         for j in range(1, len(shapes)):
             if j == i or size[j] < 1.15 * size[i]:
@@ -31,6 +40,13 @@ def parents(shapes: list[Shape], diagonal: float) -> list[int]:
                 best, best_score = j, touch
         found.append(best)
     return _without_circles(found)
+
+
+def _nearest(points: np.ndarray, shapes: list[Shape], among: set[int], reach: float) -> int | None:
+    """The one of some parts that is nearest to these points, None when none is within reach [m]."""
+    off = {j: float(distance_to_triangles(points, shapes[j].triangles).min()) for j in sorted(among)}
+    best = min(off, key=lambda j: off[j], default=None)
+    return best if best is not None and off[best] < reach else None
 
 
 def _without_circles(parent: list[int]) -> list[int]:

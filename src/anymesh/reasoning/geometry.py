@@ -134,7 +134,7 @@ def _score_slide(part: PartFacts, c: Candidate, habit: Habit | None) -> float:
         value += 0.8  # what lies in a cavity comes out of it
     if out:
         value += 4.0 * _central(part) * max(0.0, abs(c.outward) - 0.7) / 0.3
-    value += 0.3 if c.role == "slide" else -1.2
+    value += 0.3 if c.role in ("slide", "asked") else -1.2
     if habit is Habit.SLIDE:
         value += 2.0
     elif habit is Habit.PRESS:

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from jaxtyping import Float
 
+from anymesh.types.exchange import Exchange
 from anymesh.types.joints import Joint
 from anymesh.types.mesh import Mesh
 from anymesh.types.parts import Segmentation
@@ -36,6 +37,7 @@ class Asset:
     answerer: str
     warnings: tuple[str, ...] = ()
     timing: Mapping[str, float] = field(default_factory=dict)  # stage -> seconds
+    exchanges: tuple[Exchange, ...] = ()  # with a model that sees, in order
 
     def __post_init__(self) -> None:
         names = [p.name for p in self.segmentation.parts]

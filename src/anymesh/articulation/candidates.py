@@ -1,0 +1,76 @@
+"""Candidate points of a hinge (paper, 3.3): clusters of the connecting area and, where the hinge is hidden, superpoints."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from jaxtyping import Float
+from scipy.cluster.vq import kmeans2
+from scipy.spatial import KDTree
+
+from anymesh.config import GroundingConfig, PromptConfig
+from anymesh.geometry.sampling import SurfacePoints
+from anymesh.geometry.superpoints import superpoints
+
+Project = Callable[[Float[np.ndarray, "n 3"]], Float[np.ndarray, "n 2"]]  # points [m] to pixels of the picture that is shown
+MOST_POINTS = 4000  # of a connecting area that are clustered
+
+
+def cluster_points(contact: Float[np.ndarray, "n 3"], project: Project, config: PromptConfig) -> Float[np.ndarray, "k 3"]:
+    """Centres of the connecting area's clusters, on its points: as many as keep their numbers apart in the picture."""
+    points = contact[:: max(1, len(contact) // MOST_POINTS)]
+    order = _farthest(points, min(config.most_candidates, len(points)))
+    best = points[order[:1]]
+    for k in range(2, len(order) + 1):
+        centres, _ = kmeans2(points, points[order[:k]], iter=20, minit="matrix", missing="warn")
+        snapped = points[np.unique(KDTree(points).query(centres)[1])]
+        if len(snapped) == k and apart(project(snapped), config.label_apart):
+            best = snapped
+    return best
+
+
+def superpoint_centres(
+    points: SurfacePoints, colors: Float[np.ndarray, "n 3"], config: GroundingConfig
+) -> Float[np.ndarray, "s 3"]:
+    """The sample nearest to the middle of each superpoint of a part, the largest superpoint first. colors: 0..1 a sample."""
+    count = len(points)
+    nearest = KDTree(points.points).query(points.points, range(1, min(config.neighbours + 1, count) + 1), workers=-1)[1]
+    neighbours = nearest[:, 1:]
+    edges = np.stack([np.repeat(np.arange(count), neighbours.shape[1]), neighbours.reshape(-1)], 1)
+    signal = np.concatenate([points.normals, config.color_weight * colors], 1)
+    label = superpoints(signal, np.ones(count), edges, np.ones(len(edges)), config.strength)
+    size = np.bincount(label)
+    found = []
+    for s in np.argsort(-size, kind="stable"):
+        if size[s] >= min(config.least_points, count):
+            mine = points.points[label == s]
+            found.append(mine[np.linalg.norm(mine - mine.mean(0), axis=1).argmin()])
+    return np.array(found).reshape(-1, 3)
+
+
+def with_more(
+    first: Float[np.ndarray, "k 3"], more: Float[np.ndarray, "s 3"], project: Project, config: PromptConfig
+) -> Float[np.ndarray, "m 3"]:
+    """The first points, half of the places at most, and as many of the others, in their order, as keep their numbers apart."""
+    chosen = list(first[_farthest(first, min(len(first), config.most_candidates // 2))])
+    for point in more:
+        if len(chosen) < config.most_candidates and apart(project(np.array([*chosen, point])), config.label_apart):
+            chosen.append(point)
+    return np.array(chosen)
+
+
+def apart(pixels: Float[np.ndarray, "k 2"], least: float) -> bool:
+    """Whether all points of a picture are at least this far apart [px]."""
+    return len(pixels) < 2 or not len(KDTree(pixels).query_pairs(least * (1 - 1e-9)))
+
+
+def _farthest(points: np.ndarray, count: int) -> np.ndarray:
+    """Indices of points that are far from each other, the first the farthest from the middle; the order is fixed."""
+    off = np.linalg.norm(points - points.mean(0), axis=1)
+    chosen = [int(off.argmax())]
+    nearest = np.linalg.norm(points - points[chosen[0]], axis=1)
+    while len(chosen) < count and nearest.max() > 0:
+        chosen.append(int(nearest.argmax()))
+        nearest = np.minimum(nearest, np.linalg.norm(points - points[chosen[-1]], axis=1))
+    return np.array(chosen)

@@ -1,0 +1,102 @@
+"""Parts on their way to joints, and questions about all of them at once."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from anymesh.articulation.decode import plane_normal
+from anymesh.articulation.estimate import surroundings
+from anymesh.articulation.tree import descendants, parents
+from anymesh.config import ArticulationConfig, Config
+from anymesh.geometry.pieces import ObjectShape
+from anymesh.geometry.surroundings import Surroundings
+from anymesh.reasoning.asking import Answer, Question, Seer
+from anymesh.reasoning.prompting import JointKind, KindAnswer, PartShown
+from anymesh.types import Motion, Picture, Segmentation
+from anymesh.types.recognition import BASE, Moves, Recognition, RecognizedLabel
+
+MOST_PICTURES = 8  # in one call
+
+
+@dataclass(frozen=True, eq=False)
+class Case:
+    """A part on its way to a joint. number: in the segmentation; carried: parts that hang on it; asked: the motion answered."""
+
+    number: int
+    name: str
+    parent: str
+    carried: tuple[int, ...]
+    around: Surroundings
+    shown: PartShown
+    answer: KindAnswer = KindAnswer(JointKind.FIXED)  # noqa: RUF009 - frozen
+    asked: Motion | None = None
+
+    @property
+    def kind(self) -> JointKind:
+        return self.answer.kind
+
+    @property
+    def label(self) -> str:
+        return self.shown.label
+
+
+def make_cases(whole: ObjectShape, segmentation: Segmentation, recognition: Recognition | None, config: Config) -> list[Case]:
+    """A case for every part but the root, in the order of the parts."""
+    label = segmentation.face_part[whole.source]
+    shapes = [whole.of(np.flatnonzero(label == i)) for i in range(len(segmentation.parts))]
+    told = {r.label: r for r in recognition.labels} if recognition else {}
+    parent = parents(shapes, whole.diagonal, _told_parents(segmentation, told))
+    found = []
+    for i, part in enumerate(segmentation.parts[1:], start=1):
+        limited = _limited(config.articulation, told.get(part.label))
+        around = surroundings(whole, label, shapes, parent, i, limited)
+        contact = around.contact
+        shown = PartShown(
+            label=part.label,
+            faces=segmentation.faces(i),
+            points=around.part.samples.points,
+            outward=around.outward,
+            normal=plane_normal(contact, config.prompts.plane * whole.diagonal, config.seed),
+            contact=contact,
+        )
+        carried = tuple(descendants(parent, i))
+        found.append(Case(i, part.name, segmentation.parts[parent[i]].name, carried, around, shown))
+    return found
+
+
+def _limited(config: ArticulationConfig, told: RecognizedLabel | None) -> ArticulationConfig:
+    """With the range that was answered for a hinge which nothing stops; what the sweep stops needs no answer."""
+    if told is None or told.limits is None or told.moves is not Moves.REVOLUTE or told.limits[1] <= 0:
+        return config
+    most = float(np.degrees(told.limits[1]))
+    return replace(config, door_most=most, flap_most=most)
+
+
+def _told_parents(segmentation: Segmentation, told: Mapping[str, RecognizedLabel]) -> list[set[int]]:
+    """For each part the numbers of parts that recognition says it may hang on; empty when nobody said."""
+    found = []
+    for part in segmentation.parts:
+        over = told[part.label].parent if part.label in told else None
+        numbers = {j for j, other in enumerate(segmentation.parts) if other.label == over and j > 0}
+        found.append({0} if over == BASE else numbers)
+    return found
+
+
+def ask_each(
+    seer: Seer,
+    cases: Sequence[Case],
+    picture: Callable[[Case, str], Picture],
+    question: Callable[[tuple[Picture, ...], Sequence[Case]], Question[tuple[Answer, ...]]],
+) -> dict[int, Answer]:
+    """Asks about all cases, MOST_PICTURES in a call, a picture each that is titled with its place; answers by part number."""
+    found: dict[int, Answer] = {}
+    for begin in range(0, len(cases), MOST_PICTURES):
+        some = cases[begin : begin + MOST_PICTURES]
+        titles = [f"part {k}: {case.label}" for k, case in enumerate(some, 1)]
+        pictures = () if seer.blind else tuple(picture(case, title) for case, title in zip(some, titles, strict=True))
+        answers = seer.ask(question(pictures, some))
+        found |= {case.number: answer for case, answer in zip(some, answers, strict=True)}
+    return found

@@ -1,0 +1,49 @@
+"""From picks to motions (paper, 3.3): points to a hinge line, a plane's normal to an axis or a way out, arrows to a slide."""
+
+from __future__ import annotations
+
+import numpy as np
+from jaxtyping import Float
+
+from anymesh.geometry.surroundings import Surroundings
+from anymesh.types import Motion, MotionKind
+
+TRIALS = 200  # planes tried by RANSAC
+
+
+def plane_normal(points: Float[np.ndarray, "n 3"], tolerance: float, seed: int) -> Float[np.ndarray, " 3"]:
+    """Unit normal of the plane that most points lie on within `tolerance` [m] (RANSAC), fitted again to those."""
+    rng = np.random.default_rng(seed)
+    best, most = np.arange(len(points)), 2
+    for trio in rng.integers(0, len(points), (TRIALS, 3)) if len(points) > 3 else ():
+        a, b, c = points[trio]
+        normal = np.cross(b - a, c - a)
+        length = np.linalg.norm(normal)
+        if length < 1e-12:
+            continue
+        on = np.flatnonzero(np.abs((points - a) @ (normal / length)) < tolerance)
+        if len(on) > most:
+            best, most = on, len(on)
+    mine = points[best]
+    normal = np.linalg.svd(mine - mine.mean(0), full_matrices=True)[2][2]
+    return normal / np.linalg.norm(normal)
+
+
+def hinge(picked: Float[np.ndarray, "k 3"], normal: Float[np.ndarray, " 3"]) -> Motion:
+    """Two or more points: their line. One point: the normal of the connecting area's plane through it."""
+    if len(picked) == 1:
+        return Motion(MotionKind.TURN, normal / np.linalg.norm(normal), picked[0], "normal at the point picked")
+    middle = picked.mean(0)
+    axis = np.linalg.svd(picked - middle, full_matrices=False)[2][0]
+    return Motion(MotionKind.TURN, axis / np.linalg.norm(axis), middle, f"line through the {len(picked)} points picked")
+
+
+def surface_directions(around: Surroundings) -> Float[np.ndarray, "4 3"]:
+    """Both ways along the two sides of the part that lie along the surface."""
+    a, b = (around.core.axes[k] for k in around.face_axes)
+    return np.stack([a, -a, b, -b])
+
+
+def slide(direction: Float[np.ndarray, " 3"], around: Surroundings, source: str) -> Motion:
+    """A slide of the part along a direction."""
+    return Motion(MotionKind.SLIDE, direction / np.linalg.norm(direction), around.part.box.center, source)

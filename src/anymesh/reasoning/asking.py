@@ -1,0 +1,124 @@
+"""Questions with pictures, and the protocol of those who answer them.
+
+A question holds its pictures, the numbers drawn in them and what these stand for, so that an answer is always decoded with
+the very question that was asked. Its text, the schema of the answer and the check of it stand together in one class.
+"""
+
+from __future__ import annotations
+
+import reprlib
+from collections.abc import Mapping
+from typing import Any, Protocol, TypeVar, runtime_checkable
+
+from anymesh.types import Exchange, Picture
+
+Answer = TypeVar("Answer")
+Answer_co = TypeVar("Answer_co", covariant=True)
+
+
+class BadAnswerError(Exception):
+    """An answer that does not fit its question; the message says what is wrong and what would be valid."""
+
+
+@runtime_checkable
+class Question(Protocol[Answer_co]):
+    """One question about pictures, with an answer of a type of its own."""
+
+    @property
+    def kind(self) -> str: ...
+
+    @property
+    def pictures(self) -> tuple[Picture, ...]: ...
+
+    def text(self) -> str:
+        """What is asked, in words."""
+        ...
+
+    def schema(self) -> dict[str, Any]:
+        """The JSON schema of the answer: an object."""
+        ...
+
+    def parse(self, found: Mapping[str, Any]) -> Answer_co:
+        """The answer, from an object that satisfies the schema. Raises BadAnswerError."""
+        ...
+
+
+@runtime_checkable
+class Seer(Protocol):
+    """Whoever answers questions with pictures: a model, geometry in its place, or ground truth.
+
+    exchanges: every call so far; remarks: what a user should know (who answered instead of whom, and why); blind: answers
+    from what the question holds besides, so that no picture need be drawn for it.
+    """
+
+    name: str
+    blind: bool
+
+    @property
+    def exchanges(self) -> tuple[Exchange, ...]: ...
+
+    @property
+    def remarks(self) -> tuple[str, ...]: ...
+
+    def ask(self, question: Question[Answer]) -> Answer: ...
+
+
+def an_object(**properties: dict[str, Any]) -> dict[str, Any]:
+    """The schema of an object that has exactly these properties."""
+    return {"type": "object", "properties": properties, "required": list(properties), "additionalProperties": False}
+
+
+def a_list(items: dict[str, Any]) -> dict[str, Any]:
+    """The schema of a list."""
+    return {"type": "array", "items": items}
+
+
+def one_of(values: tuple[str, ...]) -> dict[str, Any]:
+    """The schema of one of some words."""
+    return {"type": "string", "enum": list(values)}
+
+
+LARGEST = 1e9  # no answer needs a larger number; one of a thousand digits would fill what is asked next
+INTEGER, NUMBER, STRING, BOOLEAN = ({"type": t} for t in ("integer", "number", "string", "boolean"))
+_TYPES: dict[str, tuple[type, ...]] = {
+    "object": (dict,), "array": (list,), "string": (str,), "boolean": (bool,), "integer": (int,), "number": (int, float),
+}  # fmt: skip
+
+
+def check_schema(value: Any, schema: Mapping[str, Any], at: str = "the answer") -> None:
+    """Raises BadAnswerError where a value does not satisfy a schema made of the functions above."""
+    kind = schema["type"]
+    numeric = kind in ("integer", "number")
+    wrong = not isinstance(value, _TYPES[kind]) or (isinstance(value, bool) and numeric)
+    if wrong or (numeric and not abs(value) < LARGEST):
+        raise BadAnswerError(f"{at} must be {_a(kind)}, found {_short(value)}")
+    if kind == "string" and "enum" in schema and value not in schema["enum"]:
+        raise BadAnswerError(f"{at} must be one of {', '.join(schema['enum'])}; found {_short(value)}")
+    if kind == "array":
+        for k, item in enumerate(value):
+            check_schema(item, schema["items"], f"{at}[{k}]")
+    if kind == "object":
+        missing, unknown = (sorted(a) for a in (set(schema["required"]) - set(value), set(value) - set(schema["properties"])))
+        if missing or unknown:
+            raise BadAnswerError(f"{at} must have exactly {schema['required']}; missing {missing}, unknown {_short(unknown)}")
+        for name, part in schema["properties"].items():
+            check_schema(value[name], part, f"{at}.{name}")
+
+
+def _a(kind: str) -> str:
+    return f"an {kind}" if kind[0] in "aio" else f"a {kind}"
+
+
+def _short(value: object) -> str:
+    text = _brief.repr(value)
+    return text if len(text) <= 80 else f"{text[:77]}..."
+
+
+_brief = reprlib.Repr()  # goes no deeper and no further than is shown: answers may be nested, or long, without end
+_brief.maxlevel, _brief.maxlist, _brief.maxdict, _brief.maxstring = 3, 24, 8, 78
+
+
+def one_each(found: list[int], wanted: int, what: str) -> None:
+    """Raises BadAnswerError unless every number 1..wanted occurs exactly once."""
+    if sorted(found) != list(range(1, wanted + 1)):
+        raise BadAnswerError(f"each {what} 1..{wanted} must be answered exactly once, found {_short(sorted(found))}")

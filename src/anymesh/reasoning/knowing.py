@@ -1,0 +1,249 @@
+"""An answerer that knows parts and joints already, and answers from the same marks, points and arrows as a model would.
+
+With ground truth it is the oracle (evaluation only): it shows what the geometry half of the method loses. With what the
+geometry answerer found it stands in for a model that gave no valid answer.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import combinations
+from typing import Any, cast
+
+import numpy as np
+from jaxtyping import Float, Int
+
+from anymesh.reasoning.asking import Answer, Question
+from anymesh.reasoning.grounding import MarkedPart, WhichMarks, WhichViews
+from anymesh.reasoning.prompting import (
+    JointKind,
+    KindAnswer,
+    PartShown,
+    PointTable,
+    WhichArrows,
+    WhichKinds,
+    WhichMotions,
+    WhichPoints,
+)
+from anymesh.reasoning.recognition import Recognize
+from anymesh.types import Exchange, JointType, Motion, MotionKind
+from anymesh.types.recognition import BASE, Moves, Recognition, RecognizedLabel
+
+LEAST_SEEN = 40  # [px] of a part that a viewer notices
+MOST = 0.5  # share of a mark's pixels that lie on the part it is given to
+NEAR = 0.05  # of the part's size: a contact point this near the axis lies on it
+SPREAD = 0.25  # of the part's extent along the axis: near points further apart show a hinge
+INTO = np.cos(np.deg2rad(20.0))  # an axis this near the contact plane's normal sticks into the surface
+OUT = 0.7  # a slide this much along the way out
+RIGHT = 0.5  # a motion is recognized when it takes the part no further than this from where it belongs, as a share of the way
+
+
+@dataclass(frozen=True, eq=False)
+class KnownJoint:
+    """A joint in the asset frame [m]; positive opens."""
+
+    type: JointType
+    axis: Float[np.ndarray, " 3"]
+    origin: Float[np.ndarray, " 3"]
+    limits: tuple[float, float] | None
+
+    @property
+    def motion(self) -> Motion:
+        """Turned so that positive goes into the larger part of the range."""
+        sign = -1.0 if self.limits is not None and sum(self.limits) < 0 else 1.0
+        kind = MotionKind.SLIDE if self.type is JointType.PRISMATIC else MotionKind.TURN
+        return Motion(kind, sign * self.axis / np.linalg.norm(self.axis), self.origin, "known")
+
+    @property
+    def range(self) -> tuple[float, float] | None:
+        """The limits of that motion."""
+        return (-self.limits[1], -self.limits[0]) if self.limits is not None and sum(self.limits) < 0 else self.limits
+
+
+@dataclass(frozen=True, eq=False)
+class Reference:
+    """What is known of an object. face_part: (F,) part of each face, 0 the base; the rest an entry a part, base first."""
+
+    category: str
+    size: float  # longest side [m]
+    face_part: Int[np.ndarray, " F"]
+    face_area: Float[np.ndarray, " F"]
+    labels: tuple[str, ...]
+    parents: tuple[int, ...]
+    joints: tuple[KnownJoint | None, ...]
+
+    @cached_property
+    def kinds(self) -> tuple[str, ...]:
+        """A label a part that also tells how it moves, where parts of one label move in different ways."""
+        moves = [None if j is None else j.type for j in self.joints]
+        ways = {label: {m for other, m in zip(self.labels, moves, strict=True) if other == label} for label in self.labels}
+        word = {JointType.PRISMATIC: "sliding", JointType.CONTINUOUS: "spinning", JointType.REVOLUTE: "hinged"}
+        return tuple(
+            f"{word[m]} {label}" if m in word and (len(ways[label]) > 1 or label == "part") else label
+            for label, m in zip(self.labels, moves, strict=True)
+        )
+
+
+class Knowing:
+    """Answers from a reference, which is made when it is first needed."""
+
+    exchanges: tuple[Exchange, ...] = ()
+    remarks: tuple[str, ...] = ()
+    blind = True
+
+    def __init__(self, name: str, reference: Callable[[], Reference]) -> None:
+        self.name, self._make = name, reference
+
+    @cached_property
+    def _known(self) -> Reference:
+        return self._make()
+
+    def ask(self, question: Question[Answer]) -> Answer:
+        answer: Any
+        match question:
+            case Recognize():
+                answer = self._recognition()
+            case WhichViews():
+                answer = self._views(question)
+            case WhichMarks():
+                answer = self._marks(question)
+            case WhichKinds():
+                answer = tuple(self._kind(p) for p in question.parts)
+            case WhichPoints():
+                answer = tuple(self._points(t) for t in question.tables)
+            case WhichArrows():
+                answer = tuple(self._arrow(t.part, t.directions) for t in question.tables)
+            case WhichMotions():
+                answer = tuple(self._motion(t.part, t.motions, t.amounts) for t in question.tables)
+            case _:
+                raise TypeError(f"no answer is known to {type(question).__name__}")
+        return cast(Answer, answer)
+
+    def _recognition(self) -> Recognition:
+        known, found = self._known, {}
+        for part, (label, joint) in enumerate(zip(known.kinds, known.joints, strict=True)):
+            if joint is not None and self._moves(part) and label not in found:
+                over = known.parents[part]
+                while over and not self._moves(over):
+                    over = known.parents[over]
+                parent = BASE if over == 0 or known.kinds[over] == label else known.kinds[over]
+                found[label] = RecognizedLabel(label, Moves(joint.type.value), parent, joint.range)
+        return Recognition(known.category, known.size, tuple(found.values()))
+
+    def _moves(self, part: int) -> bool:
+        joint = self._known.joints[part]
+        return joint is not None and joint.type is not JointType.FIXED
+
+    def _pixels(self, faces: np.ndarray) -> np.ndarray:
+        """The part a pixel, -1 where nothing is."""
+        return np.where(faces >= 0, self._known.face_part[faces], -1)
+
+    def _views(self, question: WhichViews) -> dict[str, tuple[int, ...]]:
+        kinds = self._known.kinds
+        seen = [np.bincount(self._pixels(f)[f >= 0], minlength=len(kinds)) for f in question.faces]
+        most = {label: [max(n[p] * (kinds[p] == label) for p in range(len(kinds))) for n in seen] for label in question.labels}
+        return {label: tuple(v for v, pixels in enumerate(found) if pixels >= LEAST_SEEN) for label, found in most.items()}
+
+    def _marks(self, question: WhichMarks) -> tuple[MarkedPart, ...]:
+        parts = [self._pixels(f) for f in question.faces]
+        if question.consistent:
+            views = [(None, np.concatenate([r.ravel() for r in question.regions]), np.concatenate([p.ravel() for p in parts]))]
+        else:
+            views = [(v, r.ravel(), p.ravel()) for v, (r, p) in enumerate(zip(question.regions, parts, strict=True))]
+        found: dict[tuple[int, int | None], list[int]] = {}
+        for view, region, part in views:
+            on = (region >= 0) & (part >= 0)
+            for mark in np.unique(region[on]):
+                counts = np.bincount(part[on & (region == mark)])
+                best = int(counts.argmax())
+                if best > 0 and counts[best] > MOST * counts.sum() and self._known.kinds[best] in question.labels:
+                    found.setdefault((best, view), []).append(int(mark))
+        return tuple(
+            MarkedPart(self._known.kinds[part], self._instance(part), view, tuple(marks))
+            for (part, view), marks in sorted(found.items(), key=lambda item: (item[0][0], item[0][1] or 0))
+        )
+
+    def _instance(self, part: int) -> int:
+        return sum(kind == self._known.kinds[part] for kind in self._known.kinds[1 : part + 1])
+
+    def _joint(self, part: PartShown) -> KnownJoint | None:
+        """Of the known part that this one covers most, None where that is fixed."""
+        known = self._known
+        area = np.bincount(known.face_part[part.faces], known.face_area[part.faces], len(known.labels))
+        moving = int(area[1:].argmax()) + 1 if len(area) > 1 and area[1:].max() > 0 else 0
+        return known.joints[moving] if moving and self._moves(moving) else None
+
+    def _kind(self, part: PartShown) -> KindAnswer:
+        joint = self._joint(part)
+        if joint is None:
+            return KindAnswer(JointKind.FIXED)
+        axis = joint.motion.axis
+        if joint.type is JointType.PRISMATIC:
+            return KindAnswer(JointKind.SLIDE_OUT if abs(float(axis @ part.outward)) > OUT else JointKind.SLIDE_ALONG)
+        endless = joint.type is JointType.CONTINUOUS
+        on = part.contact[_to_line(part.contact, joint) < NEAR * _size(part)]
+        along = np.ptp(on @ axis) if len(on) > 1 else 0.0
+        if along > SPREAD * np.ptp(part.points @ axis):
+            return KindAnswer(JointKind.HINGE_ALONG, endless)
+        return KindAnswer(JointKind.HINGE_INTO if abs(float(axis @ part.normal)) > INTO else JointKind.HINGE_HIDDEN, endless)
+
+    def _points(self, table: PointTable) -> tuple[int, ...]:
+        """The point nearest to the axis, or the two whose line takes the part nearest to where the joint takes it."""
+        joint = self._joint(table.part)
+        if joint is None:
+            return tuple(range(table.least))
+        off = _to_line(table.points, joint)
+        nearest = int(off.argmin())
+        if table.most == 1:
+            return (nearest,)
+        best, least = (0, 1), np.inf
+        if table.least == 1:
+            best, least = (nearest,), _turned_by(table.part.normal, joint) * _size(table.part) + float(off[nearest])
+        for a, b in combinations(range(len(table.points)), 2):
+            apart = table.points[b] - table.points[a]
+            length = float(np.linalg.norm(apart))
+            if length < 1e-9:
+                continue
+            error = _turned_by(apart / length, joint) * _size(table.part) + float(off[[a, b]].mean())
+            if error < least:
+                best, least = (a, b), error
+        return best
+
+    def _arrow(self, part: PartShown, directions: np.ndarray) -> int:
+        joint = self._joint(part)
+        return 0 if joint is None else int((directions @ joint.motion.axis).argmax())
+
+    def _motion(self, part: PartShown, motions: tuple[Motion, ...], amounts: tuple[float, ...]) -> int | None:
+        joint = self._joint(part)
+        if joint is None:
+            return None
+        true = joint.motion
+        both = joint.range is None or -joint.range[0] > 0.5 * joint.range[1]
+        off = np.full(len(motions), np.inf)
+        for k, (motion, amount) in enumerate(zip(motions, amounts, strict=True)):
+            if motion.kind is true.kind:
+                goal = [_moved(part.points, true, s * abs(amount)) for s in ((1, -1) if both else (1,))]
+                here = _moved(part.points, motion, amount)
+                way = float(np.linalg.norm(here - part.points, axis=1).mean())
+                off[k] = min(float(np.linalg.norm(here - g, axis=1).mean()) for g in goal) / max(way, 1e-12)
+        return int(off.argmin()) if off.min(initial=np.inf) < RIGHT else None
+
+
+def _to_line(points: np.ndarray, joint: KnownJoint) -> np.ndarray:
+    return np.linalg.norm(np.cross(points - joint.origin, joint.motion.axis), axis=1)
+
+
+def _turned_by(direction: np.ndarray, joint: KnownJoint) -> float:
+    """Sine of the angle between a unit direction and the axis."""
+    return float(np.linalg.norm(np.cross(direction, joint.motion.axis)))
+
+
+def _size(part: PartShown) -> float:
+    return float(np.linalg.norm(np.ptp(part.points, axis=0)))
+
+
+def _moved(points: np.ndarray, motion: Motion, amount: float) -> np.ndarray:
+    T = motion.transform(amount)
+    return points @ T[:3, :3].T + T[:3, 3]

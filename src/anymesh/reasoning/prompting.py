@@ -1,0 +1,214 @@
+"""How do the parts move? Geometry-aware visual prompting (paper, 3.3): kinds of joint, candidate points, arrows, motions."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import Any
+
+import numpy as np
+from jaxtyping import Float, Int
+
+from anymesh.reasoning.asking import BOOLEAN, INTEGER, BadAnswerError, a_list, an_object, one_each, one_of
+from anymesh.types import Motion, Picture
+
+
+class JointKind(StrEnum):
+    """What a joint looks like from outside (paper, 3.3)."""
+
+    HINGE_ALONG = "hinge_along_edge"  # two or more points of the axis can be seen where the parts meet
+    HINGE_INTO = "hinge_into_surface"  # the axis sticks into the surface: one point of it can be seen
+    HINGE_HIDDEN = "hinge_hidden"  # the mechanism is under the surface
+    SLIDE_OUT = "slide_in_or_out"
+    SLIDE_ALONG = "slide_along_surface"
+    FIXED = "fixed"
+
+    @property
+    def turns(self) -> bool:
+        return self in (JointKind.HINGE_ALONG, JointKind.HINGE_INTO, JointKind.HINGE_HIDDEN)
+
+
+@dataclass(frozen=True, eq=False)
+class PartShown:
+    """A part that is asked about. What follows the label is for those who answer without eyes [m]."""
+
+    label: str
+    faces: Int[np.ndarray, " f"]  # of the mesh
+    points: Float[np.ndarray, "n 3"]  # on its surface
+    outward: Float[np.ndarray, " 3"]  # the way out of the object
+    normal: Float[np.ndarray, " 3"]  # of the plane of the connecting area
+    contact: Float[np.ndarray, "c 3"]  # points of the connecting area
+
+
+@dataclass(frozen=True)
+class KindAnswer:
+    """endless: turns without limits."""
+
+    kind: JointKind
+    endless: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class WhichKinds:
+    """What kind of joint has each part? One picture a part."""
+
+    pictures: tuple[Picture, ...]
+    parts: tuple[PartShown, ...]
+    kind: str = "kinds"
+
+    def text(self) -> str:
+        return (
+            f"{_listed(self.parts)} How is each attached to the object that it belongs to? "
+            "hinge_along_edge: it turns about a line that runs along an edge where it meets the rest, as doors, lids and flaps "
+            "do; hinge_into_surface: it turns about a line that sticks into the surface it sits on, as knobs and wheels do; "
+            "hinge_hidden: it turns, but the hinge is under the surface; slide_in_or_out: it moves out of the object or into "
+            "it, as drawers and push buttons do; slide_along_surface: it slides along the surface, as sliding windows "
+            "and toaster levers do; fixed: it does not move. endless: it can turn round and round. The part is coloured."
+        )
+
+    def schema(self) -> dict[str, Any]:
+        return an_object(parts=a_list(an_object(part=INTEGER, joint=one_of(tuple(JointKind)), endless=BOOLEAN)))
+
+    def parse(self, found: Mapping[str, Any]) -> tuple[KindAnswer, ...]:
+        """In the order of the parts."""
+        one_each([p["part"] for p in found["parts"]], len(self.parts), "part")
+        by_part = {p["part"]: p for p in found["parts"]}
+        kinds = [(JointKind(p["joint"]), p["endless"]) for _, p in sorted(by_part.items())]
+        return tuple(KindAnswer(kind, endless and kind.turns) for kind, endless in kinds)
+
+
+@dataclass(frozen=True, eq=False)
+class PointTable:
+    """Numbered candidate points of one part, as drawn: number k is row k - 1; how many are asked for depends on the kind."""
+
+    part: PartShown
+    points: Float[np.ndarray, "k 3"]
+    kind: JointKind
+
+    @property
+    def least(self) -> int:
+        return 2 if self.kind is JointKind.HINGE_ALONG and len(self.points) > 1 else 1
+
+    @property
+    def most(self) -> int:
+        return 1 if self.kind is JointKind.HINGE_INTO else len(self.points)
+
+    @property
+    def wanted(self) -> str:
+        if self.most == 1:
+            return "the one point nearest to its axis"
+        far = "two or more points on its hinge line, far apart"
+        return far if self.least > 1 else f"{far}, or a single point if the axis sticks out of the surface there"
+
+
+@dataclass(frozen=True, eq=False)
+class WhichPoints:
+    """Which numbered points lie on the axis? One picture a part."""
+
+    pictures: tuple[Picture, ...]
+    tables: tuple[PointTable, ...]
+    kind: str = "points"
+
+    def text(self) -> str:
+        each = []
+        for k, t in enumerate(self.tables, 1):
+            each.append(f"part {k}, a {t.part.label}, points 1..{len(t.points)}: {t.wanted}")
+        return (
+            "Each picture shows one part (coloured) that turns about an axis, with numbered points on it and round it. Think "
+            "of how such a part is mounted and which side its handle is on; the hinge of a door lies opposite its handle. Give "
+            f"for {'; for '.join(each)}."
+        )
+
+    def schema(self) -> dict[str, Any]:
+        return an_object(parts=a_list(an_object(part=INTEGER, points=a_list(INTEGER))))
+
+    def parse(self, found: Mapping[str, Any]) -> tuple[tuple[int, ...], ...]:
+        """Rows of each table, in the order of the tables."""
+        one_each([p["part"] for p in found["parts"]], len(self.tables), "part")
+        by_part = {p["part"]: tuple(dict.fromkeys(p["points"])) for p in found["parts"]}
+        for k, table in enumerate(self.tables, 1):
+            wrong = [n for n in by_part[k] if not 1 <= n <= len(table.points)]
+            if wrong:
+                raise BadAnswerError(f"points of part {k} are 1..{len(table.points)}, found {wrong[:10]}")
+            if not table.least <= len(by_part[k]) <= table.most:
+                raise BadAnswerError(f"part {k} needs {table.wanted}; found {len(by_part[k])} points")
+        return tuple(tuple(n - 1 for n in by_part[k]) for k in range(1, len(self.tables) + 1))
+
+
+@dataclass(frozen=True, eq=False)
+class ArrowTable:
+    """Numbered arrows of one part, as drawn: unit directions, number k is row k - 1."""
+
+    part: PartShown
+    directions: Float[np.ndarray, "k 3"]
+
+
+@dataclass(frozen=True, eq=False)
+class WhichArrows:
+    """Along which arrow does the part open or move from where it is? One picture a part."""
+
+    pictures: tuple[Picture, ...]
+    tables: tuple[ArrowTable, ...]
+    kind: str = "arrows"
+
+    def text(self) -> str:
+        each = "; ".join(f"part {k}, a {t.part.label}, arrows 1..{len(t.directions)}" for k, t in enumerate(self.tables, 1))
+        return (
+            "Each picture shows one part (coloured) that slides along the surface of the object, and numbered arrows. Which "
+            f"arrow shows the way it slides when it is opened or used? {each}."
+        )
+
+    def schema(self) -> dict[str, Any]:
+        return an_object(parts=a_list(an_object(part=INTEGER, arrow=INTEGER)))
+
+    def parse(self, found: Mapping[str, Any]) -> tuple[int, ...]:
+        """A row of each table, in the order of the tables."""
+        return _rows(found["parts"], "arrow", [len(t.directions) for t in self.tables], 1)
+
+
+@dataclass(frozen=True, eq=False)
+class MotionTable:
+    """Numbered motions of one part, as drawn, and how far each was moved [rad or m]: number k is row k - 1."""
+
+    part: PartShown
+    motions: tuple[Motion, ...]
+    amounts: tuple[float, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class WhichMotions:
+    """Which of the motions shown is the right one? One strip of pictures a part: at rest, then moved by each motion."""
+
+    pictures: tuple[Picture, ...]
+    tables: tuple[MotionTable, ...]
+    kind: str = "motions"
+
+    def text(self) -> str:
+        each = "; ".join(f"part {k}, a {t.part.label}, motions 1..{len(t.motions)}" for k, t in enumerate(self.tables, 1))
+        return (
+            "Each picture shows one part (coloured) at rest and then moved in several numbered ways, all of which are "
+            "physically free. Which is the way that it moves in the real object, 0 if none of them is? Look at where its "
+            f"hinge would be, which side its handle is on, and what it would hit. {each}."
+        )
+
+    def schema(self) -> dict[str, Any]:
+        return an_object(parts=a_list(an_object(part=INTEGER, motion=INTEGER)))
+
+    def parse(self, found: Mapping[str, Any]) -> tuple[int | None, ...]:
+        """A row of each table, None for none of them, in the order of the tables."""
+        rows = _rows(found["parts"], "motion", [len(t.motions) for t in self.tables], 0)
+        return tuple(None if row < 0 else row for row in rows)
+
+
+def _rows(parts: list[Mapping[str, Any]], name: str, counts: Sequence[int], least: int) -> tuple[int, ...]:
+    one_each([p["part"] for p in parts], len(counts), "part")
+    by_part = {p["part"]: p[name] for p in parts}
+    for k, count in enumerate(counts, 1):
+        if not least <= by_part[k] <= count:
+            raise BadAnswerError(f"{name} of part {k} must be of {least}..{count}, found {by_part[k]}")
+    return tuple(by_part[k] - 1 for k in range(1, len(counts) + 1))
+
+
+def _listed(parts: Sequence[PartShown]) -> str:
+    return f"The pictures show, in this order, {', '.join(f'part {k}: a {p.label}' for k, p in enumerate(parts, 1))}."

@@ -1,0 +1,104 @@
+"""What is this, and which of its parts move? (paper, 3.2 and 4: labels, joint types, parents, limits by the VLM)."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from anymesh.errors import OptionError
+from anymesh.reasoning.asking import NUMBER, STRING, BadAnswerError, Seer, a_list, an_object, one_of
+from anymesh.types import Picture
+from anymesh.types.recognition import BASE, Moves, Recognition, RecognizedLabel
+
+MOST_LABELS = 24
+SIZES = (0.002, 200.0)  # [m] of things that this program is for
+WORD = re.compile(r"(?=.{1,40}$)[a-z][a-z0-9]*([ _'-][a-z0-9]+){0,4}")
+
+
+@dataclass(frozen=True, eq=False)
+class Recognize:
+    """What is the object, how large is the real one, which parts move and how."""
+
+    pictures: tuple[Picture, ...]
+    category: str | None = None  # where the user told it
+    kind: str = "recognize"
+
+    def text(self) -> str:
+        told = f" The user says that it is: {self.category!r}." if self.category else ""
+        return (
+            f"The pictures show one rigid 3D model of an object from several sides.{told} It is to become an articulated model "
+            "for a robot simulator. Name the category, estimate the length in metres of the longest side of such an object in "
+            "reality, and list every kind of part that moves against the rest in the real thing: doors, lids, drawers, knobs, "
+            "buttons, wheels, levers, handles that turn (not handles fixed to a door), and so on. Give one entry a kind, not "
+            "one a piece; leave out what does not move. label: one short English noun in lower case. moves: revolute (turns "
+            "within limits), continuous (turns endlessly) or prismatic (slides). parent: the label of the part that it is "
+            f"mounted on, or {BASE!r}. lower, upper: how far it can move from the pose that is shown, opening positive: "
+            "degrees for revolute, centimetres for prismatic, 0 and 0 for continuous; lower <= 0 <= upper."
+        )
+
+    def schema(self) -> dict[str, Any]:
+        label = an_object(label=STRING, moves=one_of(tuple(Moves)), parent=STRING, lower=NUMBER, upper=NUMBER)
+        return an_object(category=STRING, longest_side_m=NUMBER, parts=a_list(label))
+
+    def parse(self, found: Mapping[str, Any]) -> Recognition:
+        size = float(found["longest_side_m"])
+        if not SIZES[0] <= size <= SIZES[1]:
+            raise BadAnswerError(f"longest_side_m must lie in {SIZES[0]}..{SIZES[1]}, found {size:g}")
+        labels = check_labels([p["label"] for p in found["parts"]])
+        parts = tuple(self._label(p, labels) for p in found["parts"])
+        _check_tree({p["label"]: p["parent"] for p in found["parts"]})
+        category = " ".join(found["category"].split())[:60]
+        if not category or not (category.isascii() and category.isprintable()):
+            raise BadAnswerError(f"category must be one or a few English words, found {category!r}")
+        return Recognition(category, size, parts)
+
+    def _label(self, part: Mapping[str, Any], labels: Sequence[str]) -> RecognizedLabel:
+        if part["parent"] not in (*labels, BASE):
+            raise BadAnswerError(f"parent must be {BASE!r} or one of {list(labels)}, found {part['parent'][:40]!r}")
+        moves = Moves(part["moves"])
+        if moves is Moves.CONTINUOUS:
+            return RecognizedLabel(part["label"], moves, part["parent"], None)
+        unit, most = (3.141592653589793 / 180, 360.0) if moves is Moves.REVOLUTE else (0.01, 100 * SIZES[1])
+        lower, upper = float(part["lower"]), float(part["upper"])
+        if not (-most <= lower <= 0 <= upper <= most and lower < upper):
+            raise BadAnswerError(f"{part['label']}: valid is lower <= 0 <= upper, not both 0; found {lower:g}, {upper:g}")
+        return RecognizedLabel(part["label"], moves, part["parent"], (lower * unit, upper * unit))
+
+
+def check_labels(labels: Sequence[str]) -> tuple[str, ...]:
+    """The labels, if each is a plain English noun and none occurs twice. Raises BadAnswerError."""
+    for label in labels:
+        if not WORD.fullmatch(label) or label == BASE:
+            raise BadAnswerError(f"a label is a short English noun in lower case and not {BASE!r}, found {label[:40]!r}")
+    if len(set(labels)) != len(labels) or len(labels) > MOST_LABELS:
+        raise BadAnswerError(f"each label once and at most {MOST_LABELS} of them, found {len(labels)}: {list(labels)[:30]}")
+    return tuple(labels)
+
+
+def _check_tree(parent: Mapping[str, str]) -> None:
+    for label in parent:
+        seen, at = {label}, parent[label]
+        while at != BASE:
+            if at in seen:
+                raise BadAnswerError(f"parents must lead to {BASE!r}, but those of {label!r} go in a circle")
+            seen.add(at)
+            at = parent[at]
+
+
+def told_labels(labels: Sequence[str]) -> tuple[str, ...]:
+    """The labels that a user gives. Raises OptionError."""
+    try:
+        return check_labels([" ".join(label.lower().split()) for label in labels])
+    except BadAnswerError as error:
+        raise OptionError(f"--parts-list: {error}") from None
+
+
+def recognize(
+    pictures: Callable[[], tuple[Picture, ...]], seer: Seer, category: str | None, told: Sequence[str]
+) -> Recognition:
+    """Asks, unless the labels were told."""
+    if told:
+        return Recognition(category or "object", None, tuple(RecognizedLabel(label, None, None, None) for label in told))
+    return seer.ask(Recognize(() if seer.blind else pictures(), category))
