@@ -15,7 +15,7 @@ from anymesh.evaluation.datasets.scene_synthesizer_ import CLASSES, synthesize
 from anymesh.evaluation.protocols import evaluate
 from anymesh.evaluation.score import table
 from anymesh.evaluation.truth import Truth, example_truths
-from anymesh.pipeline import solve
+from anymesh.solving import solve
 
 HEAD = """# Accuracy
 

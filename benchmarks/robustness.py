@@ -15,7 +15,7 @@ from anymesh.evaluation.protocols import evaluate
 from anymesh.evaluation.score import table
 from anymesh.evaluation.truth import example_truths
 from anymesh.geometry.topology import weld
-from anymesh.pipeline import solve
+from anymesh.solving import solve
 from anymesh.types import Mesh
 
 HEAD = """# Robustness

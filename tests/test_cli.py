@@ -8,7 +8,7 @@ import pytest
 import trimesh
 from assets import CABINET
 
-from anymesh import __version__, pipeline
+from anymesh import __version__, pipeline, solving
 from anymesh.cli import run
 from anymesh.errors import MissingExtraError
 
@@ -97,7 +97,7 @@ def test_an_interrupt_is_an_object_where_one_is_asked_for(mesh, monkeypatch, cap
     def interrupted(*_, **__):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(pipeline, "segment_parts", interrupted)
+    monkeypatch.setattr(solving, "segment_parts", interrupted)
     code, out, err = called(capfd, "articulate", mesh, "-o", "out", "--json")
     assert (code, err) == (130, "interrupted\n")
     assert json.loads(out) == {"error": "interrupted", "kind": "KeyboardInterrupt", "exit_code": 130}
@@ -132,7 +132,7 @@ def faulty_calls() -> dict[str, tuple[int, list[str], str]]:
         "deep parts": (2, [*make, "--parts", "deep.json"], "nested too deep"),
         "parts with a long name": (2, [*make, "--parts", f"{'a' * 300}.npy"], "cannot be opened"),
         "parts": (2, [*make, "--parts", "none.npy"], "none.npy"),
-        "answerer": (2, [*make, "--answerer", "oracle"], "valid is geometry"),
+        "answerer": (2, [*make, "--answerer", "oracle"], "valid are geometry"),
         "answerer of the whole job": (2, ["articulate", *make[1:], "--answerer", "oracle"], "'oracle'"),
         "answerer of joints": (2, ["joints", "old", "--answerer", "oracle"], "'oracle'"),
         "no mesh": (3, ["segment", "none.glb", "-o", "out"], "none.glb"),
@@ -196,7 +196,7 @@ def test_other_ends(raised, code: int, word: str, mesh, monkeypatch, capfd) -> N
     def fails(*_, **__):
         raise raised
 
-    monkeypatch.setattr(pipeline, "segment_parts", fails)
+    monkeypatch.setattr(solving, "segment_parts", fails)
     before = contents(Path.cwd())
     found, out, err = called(capfd, "articulate", mesh, "-o", "out")
     assert (found, out) == (code, "")

@@ -8,8 +8,9 @@ import pytest
 from anymesh.evaluation.protocols import evaluate
 from anymesh.evaluation.truth import example_truths
 from anymesh.loading import load_mesh, place_mesh
-from anymesh.pipeline import articulate, solve
+from anymesh.pipeline import articulate
 from anymesh.simulation.mujoco_ import sweep_joints
+from anymesh.solving import solve
 from anymesh.types import JointType
 
 EXAMPLES = Path(__file__).parents[1] / "examples"

@@ -11,11 +11,10 @@ from assets import CABINET, cabinet, mesh_of
 import anymesh
 from anymesh.config import Config
 from anymesh.errors import OptionError
-from anymesh.pipeline import find_joints, find_parts, make_answerer
+from anymesh.solving import Solver
 from anymesh.types import Mesh
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "meshes" / "tilted_drawer.glb"
-WHO = make_answerer("geometry")
 
 
 def arrays(mesh: Mesh) -> dict[str, np.ndarray]:
@@ -38,8 +37,9 @@ def test_same_seed_same_result() -> None:
     mesh, _ = mesh_of([piece for pieces in CABINET.values() for piece in pieces])
     results = []
     for _ in range(2):
-        parts = find_parts(mesh, "auto", WHO, Config(seed=7))
-        joints = find_joints(mesh, parts, WHO, Config(seed=7))
+        solver = Solver(mesh, Config(seed=7))
+        parts = solver.parts().segmentation
+        joints = solver.joints(parts).joints
         results.append(
             [parts.parts, parts.face_part.tolist(), *((repr(j.axis), repr(j.origin), j.limits, j.reason) for j in joints)]
         )
@@ -49,7 +49,7 @@ def test_same_seed_same_result() -> None:
 
 def test_another_seed_finds_the_same_motion() -> None:
     asset = cabinet()
-    one, other = (find_joints(asset.mesh, asset.segmentation, WHO, Config(seed=s)) for s in (0, 1))
+    one, other = (Solver(asset.mesh, Config(seed=s)).joints(asset.segmentation).joints for s in (0, 1))
     for a, b in zip(one, other, strict=True):
         assert (a.type, a.parent, a.child) == (b.type, b.parent, b.child)
         assert abs(a.axis @ b.axis) > 0.999
@@ -58,9 +58,9 @@ def test_another_seed_finds_the_same_motion() -> None:
 def test_the_mesh_handed_in_is_not_changed() -> None:
     mesh, _ = mesh_of([piece for pieces in CABINET.values() for piece in pieces])
     before = arrays(mesh)
-    parts = find_parts(mesh, "auto", WHO, Config())
+    parts = Solver(mesh).parts().segmentation
     labels = parts.face_part.copy()
-    find_joints(mesh, parts, WHO, Config())
+    Solver(mesh).joints(parts)
     assert (parts.face_part == labels).all()
     after = arrays(mesh)
     assert before.keys() == after.keys()

@@ -8,7 +8,7 @@ from anymesh.evaluation.metrics import same_motion
 from anymesh.evaluation.protocols import evaluate
 from anymesh.evaluation.truth import Truth
 from anymesh.loading import load_mesh, place_mesh
-from anymesh.pipeline import solve
+from anymesh.solving import solve
 
 
 @pytest.fixture(scope="module")

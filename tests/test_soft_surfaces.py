@@ -11,7 +11,7 @@ from anymesh.evaluation.metrics import same_motion
 from anymesh.evaluation.protocols import evaluate
 from anymesh.evaluation.truth import Truth, example_truths
 from anymesh.loading import load_mesh
-from anymesh.pipeline import solve
+from anymesh.solving import solve
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 

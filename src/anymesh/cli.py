@@ -4,23 +4,19 @@ from __future__ import annotations
 
 import json
 import sys
-import time
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
 from typer.core import TyperGroup
 
 from anymesh import __version__
+from anymesh.cli_output import JOINT_COLUMNS, Shown, joint_row, plain, tell, tell_asset
 from anymesh.errors import AnymeshError
-from anymesh.progress import Progress, silent
-
-if TYPE_CHECKING:
-    from anymesh.types import Asset, Joint
 
 EXIT_CODES = (
     "Exit codes: 0 done; 1 unexpected error; 2 a wrong option; 3 the mesh cannot be used; 4 the output folder exists or "
-    "cannot be written; 5 an optional dependency is missing; 130 interrupted."
+    "cannot be written; 5 an optional dependency is missing; 6 a model cannot be asked; 7 the budget is spent; 130 interrupted."
 )
 
 
@@ -52,8 +48,24 @@ MeshPath = Annotated[Path, typer.Argument(metavar="MESH", help="GLB, glTF, OBJ, 
 Folder = Annotated[Path, typer.Argument(metavar="DIR", help="A folder that `anymesh segment` made.")]
 Out = Annotated[Path, typer.Option("--out", "-o", metavar="DIR", help="Folder to write.")]
 Parts = Annotated[str, typer.Option(help="auto, nodes (the scene's nodes), or a .npy/.json file of face labels.")]
-AnswererName = Annotated[str, typer.Option("--answerer", help="Who answers the questions: geometry.")]
-Category = Annotated[str | None, typer.Option(help="What the object is; geometry does not use it.")]
+AnswererName = Annotated[
+    str,
+    typer.Option(
+        "--answerer",
+        help="geometry, openai:MODEL, anthropic:MODEL, google:MODEL, openai-compatible:BASE_URL#MODEL or replay:FOLDER.",
+    ),
+]
+Category = Annotated[str | None, typer.Option(help="What the object is; a model is told, geometry does not use it.")]
+PartsList = Annotated[
+    str, typer.Option("--parts-list", metavar="LABELS", help="What moves, such as door,drawer; a model is not asked then.")
+]
+Proposer = Annotated[str, typer.Option(help="Of masks for a model: exact, sam:WEIGHTS or exact+sam:WEIGHTS.")]
+Verify = Annotated[str, typer.Option(help="motion: a model chooses among free motions; off: the paper's method as it is.")]
+MaxCalls = Annotated[int | None, typer.Option("--max-calls", help="No call of a model beyond so many.")]
+MaxCost = Annotated[float | None, typer.Option("--max-cost", metavar="USD", help="No call that could pass this cost.")]
+Cache = Annotated[
+    str, typer.Option(metavar="DIR", help="Answers of models are kept here: auto (the user's cache folder), off, or a folder.")
+]
 Seed = Annotated[int, typer.Option(help="From 0 up; same input and seed, same bytes.")]
 Up = Annotated[str, typer.Option(help="The file's up axis: auto, x, y, z.")]
 Scale = Annotated[str, typer.Option(help="auto, a factor to metres, or METRES:AXIS such as 0.9:z.")]
@@ -81,7 +93,13 @@ def articulate(
     out: Out,
     parts: Parts = "auto",
     answerer: AnswererName = "geometry",
+    parts_list: PartsList = "",
+    proposer: Proposer = "exact",
+    verify: Verify = "motion",
     category: Category = None,
+    max_calls: MaxCalls = None,
+    max_cost: MaxCost = None,
+    cache: Cache = "auto",
     seed: Seed = 0,
     up: Up = "auto",
     scale: Scale = "auto",
@@ -92,12 +110,13 @@ def articulate(
     """The whole job: MESH to an articulated asset in DIR."""
     from anymesh import pipeline
 
-    with _Shown(quiet or json_) as progress:
+    with Shown(quiet or json_) as progress:
         asset = pipeline.articulate(
-            mesh, out, parts=parts, answerer=answerer, category=category, seed=seed, up=up, scale=scale, force=force,
-            progress=progress,
+            mesh, out, parts=parts, up=up, scale=scale, force=force, progress=progress,
+            answerer=answerer, parts_list=_labels(parts_list), proposer=proposer, verify=verify, category=category,
+            seed=seed, max_calls=max_calls, max_cost=max_cost, **_cache(cache),
         )  # fmt: skip
-    _tell_asset(asset, out, json_, quiet)
+    tell_asset(asset, out, json_, quiet)
 
 
 @app.command(epilog=EXIT_CODES)
@@ -106,7 +125,12 @@ def segment(
     out: Out,
     parts: Parts = "auto",
     answerer: AnswererName = "geometry",
+    parts_list: PartsList = "",
+    proposer: Proposer = "exact",
     category: Category = None,
+    max_calls: MaxCalls = None,
+    max_cost: MaxCost = None,
+    cache: Cache = "auto",
     seed: Seed = 0,
     up: Up = "auto",
     scale: Scale = "auto",
@@ -117,23 +141,28 @@ def segment(
     """Stage A alone: which parts move. `anymesh joints DIR` goes on from there."""
     from anymesh import pipeline
 
-    with _Shown(quiet or json_) as progress:
+    with Shown(quiet or json_) as progress:
         found = pipeline.segment(
-            mesh, out, parts=parts, answerer=answerer, category=category, seed=seed, up=up, scale=scale, force=force,
-            progress=progress,
+            mesh, out, parts=parts, up=up, scale=scale, force=force, progress=progress,
+            answerer=answerer, parts_list=_labels(parts_list), proposer=proposer, category=category,
+            seed=seed, max_calls=max_calls, max_cost=max_cost, **_cache(cache),
         )  # fmt: skip
     rows = [
         {"name": p.name, "label": p.label, "faces": len(found.faces(k)), "confidence": p.confidence, "reason": p.reason}
         for k, p in enumerate(found.parts)
     ]
-    _tell({"out": str(out), "parts": rows}, rows, ("name", "label", "faces", "confidence", "reason"), json_, quiet)
+    tell({"out": str(out), "parts": rows}, rows, ("name", "label", "faces", "confidence", "reason"), json_, quiet)
 
 
 @app.command(epilog=EXIT_CODES)
 def joints(
     folder: Folder,
     answerer: AnswererName = "geometry",
+    verify: Verify = "motion",
     category: Category = None,
+    max_calls: MaxCalls = None,
+    max_cost: MaxCost = None,
+    cache: Cache = "auto",
     seed: Seed = 0,
     json_: Json = False,
     quiet: Quiet = False,
@@ -141,10 +170,22 @@ def joints(
     """Stage B alone: the joints of the parts in DIR. `anymesh export DIR` goes on from there."""
     from anymesh import pipeline
 
-    with _Shown(quiet or json_) as progress:
-        found = pipeline.joints(folder, answerer=answerer, category=category, seed=seed, progress=progress)
-    rows = [_joint_row(j) for j in found]
-    _tell({"out": str(folder), "joints": rows}, rows, JOINT_COLUMNS, json_, quiet)
+    with Shown(quiet or json_) as progress:
+        found = pipeline.joints(
+            folder, progress=progress, answerer=answerer, verify=verify, category=category,
+            seed=seed, max_calls=max_calls, max_cost=max_cost, **_cache(cache),
+        )  # fmt: skip
+    rows = [joint_row(j) for j in found]
+    tell({"out": str(folder), "joints": rows}, rows, JOINT_COLUMNS, json_, quiet)
+
+
+def _labels(told: str) -> tuple[str, ...]:
+    return tuple(label for label in told.split(",") if label.strip())
+
+
+def _cache(told: str) -> dict[str, Any]:
+    """auto: as `pipeline.Answering` has it."""
+    return {} if told == "auto" else {"cache": None if told == "off" else Path(told)}
 
 
 @app.command(epilog=EXIT_CODES)
@@ -152,94 +193,9 @@ def export(folder: Folder, json_: Json = False, quiet: Quiet = False) -> None:
     """Writes the files of the asset whose stages are in DIR."""
     from anymesh import pipeline
 
-    with _Shown(quiet or json_) as progress:
+    with Shown(quiet or json_) as progress:
         asset = pipeline.export(folder, progress=progress)
-    _tell_asset(asset, folder, json_, quiet)
-
-
-JOINT_COLUMNS = ("name", "type", "parent", "range", "confidence", "reason")
-
-
-def _joint_row(joint: Joint) -> dict[str, Any]:
-    from anymesh.rendering.preview import extent
-
-    return {
-        "name": joint.name,
-        "type": joint.type.value,
-        "parent": joint.parent,
-        "child": joint.child,
-        "origin": [float(v) for v in joint.origin],
-        "axis": [float(v) for v in joint.axis],
-        "limits": None if joint.limits is None else list(joint.limits),
-        "range": extent(joint),
-        "confidence": joint.confidence,
-        "reason": joint.reason,
-    }
-
-
-def _tell_asset(asset: Asset, out: Path, json_: bool, quiet: bool) -> None:
-    rows = [_joint_row(j) for j in asset.joints]
-    record = {
-        "name": asset.name,
-        "out": str(out),
-        "parts": [p.name for p in asset.segmentation.parts],
-        "joints": rows,
-        "notes": list(asset.source.notes),
-        "warnings": list(asset.warnings),
-        "timing": dict(asset.timing),
-    }
-    if not (json_ or quiet):
-        for line in (*(f"warning: {w}" for w in asset.warnings), *asset.source.notes):
-            typer.echo(_plain(line))
-    _tell(record, rows, JOINT_COLUMNS, json_, quiet)
-    if not (json_ or quiet):
-        typer.echo(f"wrote {out / asset.name}.urdf, {asset.name}.glb, preview.png and asset.json")
-
-
-def _tell(record: dict[str, Any], rows: list[dict[str, Any]], columns: tuple[str, ...], json_: bool, quiet: bool) -> None:
-    if json_:
-        typer.echo(json.dumps(record, indent=2))
-    elif not quiet:
-        from rich.console import Console
-        from rich.table import Table
-        from rich.text import Text
-
-        table = Table(*columns)
-        for row in rows:
-            cells = (f"{row[c]:.2f}" if isinstance(row[c], float) else str(row[c]) for c in columns)
-            table.add_row(*(Text(_plain(cell)) for cell in cells))
-        Console(width=None if sys.stdout.isatty() else 140).print(table)
-
-
-def _plain(text: str) -> str:
-    """Without control characters: a name in a file must not steer the terminal."""
-    return "".join(c if c.isprintable() else "?" for c in text)
-
-
-class _Shown:
-    """Progress on stderr (stage, what it is at, seconds), only where someone looks."""
-
-    def __init__(self, hidden: bool) -> None:
-        self._status: Any = None
-        self._hidden = hidden or not sys.stderr.isatty()
-        self._begin = time.monotonic()
-
-    def __enter__(self) -> Progress:
-        if self._hidden:
-            return silent
-        from rich.console import Console
-
-        self._status = Console(stderr=True).status("")
-        self._status.start()
-        return self._tell
-
-    def _tell(self, stage: str, item: str, done: int, total: int) -> None:
-        seconds = time.monotonic() - self._begin
-        self._status.update(f"{stage} {_plain(item)} ({done + 1}/{total}, {seconds:.0f} s)")
-
-    def __exit__(self, *_: object) -> None:
-        if self._status is not None:
-            self._status.stop()
+    tell_asset(asset, folder, json_, quiet)
 
 
 def main(arguments: list[str] | None = None) -> None:
@@ -285,7 +241,7 @@ def _interrupted(arguments: list[str]) -> int:
 
 
 def _fail(arguments: list[str], error: BaseException, told: str, code: int) -> int:
-    told = _plain(" ".join(told.split()))
+    told = plain(" ".join(told.split()))
     if "--json" in arguments:
         typer.echo(json.dumps({"error": told, "kind": type(error).__name__, "exit_code": code}))
     typer.echo(f"error: {told}", err=True)

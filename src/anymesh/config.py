@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import asdict, dataclass, field
 
 from anymesh.errors import OptionError
@@ -80,7 +81,6 @@ class GroundingConfig:
     gap: float = 0.01  # superpoints whose boxes are this near are neighbours (instances)
     alike: float = 0.2  # largest difference of their coverage in any mask
     box_iou: float = 0.5  # of an instance with a mask in some view, to be kept
-    em_size: int = 800  # [px] of the views that the EM sees
     em_extra: int = 5  # instances beyond those it starts from
     em_most: int = 28
     em_epochs: int = 10
@@ -98,12 +98,19 @@ class PromptConfig:
     motions: int = 6  # shown to choose from when motion is verified
 
 
+VERIFY = ("motion", "off")
+PROPOSERS = r"exact|(exact\+)?sam:.+"
+
+
 @dataclass(frozen=True)
 class Config:
     """All settings of a run; its dictionary is part of the key of saved stage results."""
 
     seed: int = 0  # 0 or more
     category: str | None = None  # what the object is, in a user's words
+    parts_list: tuple[str, ...] = ()  # labels of what moves, in a user's words; a model is not asked for them then
+    proposer: str = "exact"  # of masks, see `segmentation.propose`
+    verify: str = "motion"  # or "off": the paper's method as it is
     pieces: PiecesConfig = field(default_factory=PiecesConfig)
     segmentation: SegmentationConfig = field(default_factory=SegmentationConfig)
     articulation: ArticulationConfig = field(default_factory=ArticulationConfig)
@@ -114,6 +121,10 @@ class Config:
     def __post_init__(self) -> None:
         if self.seed < 0:
             raise OptionError(f"--seed: found {self.seed}; valid are integers from 0 up")
+        if self.verify not in VERIFY:
+            raise OptionError(f"--verify: found {self.verify!r}; valid are {', '.join(VERIFY)}")
+        if not re.fullmatch(PROPOSERS, self.proposer):
+            raise OptionError(f"--proposer: found {self.proposer!r}; valid are exact, sam:WEIGHTS and exact+sam:WEIGHTS")
 
     def as_dict(self) -> dict[str, object]:
         """Plain values, for keys and files."""

@@ -3,31 +3,55 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Generator
+from collections.abc import Generator, Sequence
 from contextlib import contextmanager
-from dataclasses import replace
-from functools import cached_property
+from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import TypedDict, Unpack
 
-import numpy as np
-
-from anymesh.articulation.estimate import ask_motion, estimate_joints
 from anymesh.config import Config
 from anymesh.errors import OptionError
 from anymesh.export import write_asset
-from anymesh.geometry.pieces import ObjectShape, object_shape
 from anymesh.loading import load_mesh, place_mesh
+from anymesh.models.cache import cache_folder
+from anymesh.models.connect import open_model
 from anymesh.progress import Progress, silent
-from anymesh.reasoning.geometry import GeometryAnswerer
-from anymesh.reasoning.questions import Answerer
+from anymesh.reasoning.recognition import told_labels
+from anymesh.reasoning.vlm import VlmAnswerer
 from anymesh.rendering.preview import write_preview
 from anymesh.run_folder import RunFolder, stage_key
-from anymesh.segmentation.given import parts_from_file, parts_from_nodes
-from anymesh.segmentation.segment import segment_parts
-from anymesh.stage_results import JOINTS, MESH, SEGMENTATION, Jointed, Placed, Segmented
-from anymesh.types import Asset, Joint, Mesh, Segmentation, Source
+from anymesh.solving import Seeing, Solver
+from anymesh.stage_results import JOINTS, MESH, RECOGNITION, SEGMENTATION, Jointed, Placed, Recognized, Segmented
+from anymesh.types import Asset, Joint, Segmentation, Source
 
-ANSWERERS = ("geometry",)
+
+class Answering(TypedDict, total=False):
+    """Who answers the questions of both stages, and how. All have defaults.
+
+    answerer: geometry, openai:MODEL, anthropic:MODEL, google:MODEL, openai-compatible:BASE_URL#MODEL or replay:FOLDER;
+    category: what the object is; seed: from 0 up; parts_list: labels of the parts that move, which a model is then not asked
+    for; proposer: of masks for a model, exact, sam:..., or exact+sam:...; verify: motion or off; max_calls, max_cost [USD]:
+    no call is made that would pass them; cache: folder of answers (None: no cache).
+    """
+
+    answerer: str
+    category: str | None
+    seed: int
+    parts_list: Sequence[str]
+    proposer: str
+    verify: str
+    max_calls: int | None
+    max_cost: float | None
+    cache: Path | None
+
+
+@dataclass(frozen=True, eq=False)
+class _Answerer:
+    """The settings of a run, the name of who answers, and what makes the answerer (None: geometry)."""
+
+    config: Config
+    name: str
+    see: Seeing | None
 
 
 def articulate(
@@ -35,25 +59,22 @@ def articulate(
     out: str | Path,
     *,
     parts: str = "auto",
-    answerer: str = "geometry",
-    category: str | None = None,
-    seed: int = 0,
     up: str = "auto",
     scale: str = "auto",
     force: bool = False,
     progress: Progress = silent,
+    **answering: Unpack[Answering],
 ) -> Asset:
     """Turns a rigid mesh into an articulated asset and writes it to the folder `out`.
 
     parts: "auto", "nodes" (the scene's nodes) or a file of face labels; up: auto, x, y, z; scale: auto, a factor (file units
-    to metres) or METRES:AXIS. Raises InputError, OptionError, OutputError; then nothing is written.
+    to metres) or METRES:AXIS. Raises InputError, OptionError, OutputError, ModelError; then nothing is written.
     """
-    config, who = Config(seed=seed, category=category), make_answerer(answerer)
+    who = _answerer(answering)
     with RunFolder.create(Path(out), source=Path(mesh_path), force=force) as run:
-        placed, key = _place(run, Path(mesh_path), up, scale, progress)
-        ready = _Ready(placed.mesh, config)
-        segmented, key = _segment(run, placed, ready, key, parts, who, config, progress)
-        _join(run, placed, ready, segmented, key, who, config, progress)
+        solver, recognized, key = _seen(run, Path(mesh_path), up, scale, who, progress)
+        segmented, key = _segment(run, solver, recognized, key, parts, who, progress)
+        _join(run, solver, recognized, segmented, key, who, progress)
         return _export(run, progress)
 
 
@@ -62,35 +83,26 @@ def segment(
     out: str | Path,
     *,
     parts: str = "auto",
-    answerer: str = "geometry",
-    category: str | None = None,
-    seed: int = 0,
     up: str = "auto",
     scale: str = "auto",
     force: bool = False,
     progress: Progress = silent,
+    **answering: Unpack[Answering],
 ) -> Segmentation:
     """Stage A alone: the parts of a mesh, saved in `out` for `joints`. Options as for `articulate`."""
-    config, who = Config(seed=seed, category=category), make_answerer(answerer)
+    who = _answerer(answering)
     with RunFolder.create(Path(out), source=Path(mesh_path), force=force) as run:
-        placed, key = _place(run, Path(mesh_path), up, scale, progress)
-        return _segment(run, placed, _Ready(placed.mesh, config), key, parts, who, config, progress)[0].segmentation
+        solver, recognized, key = _seen(run, Path(mesh_path), up, scale, who, progress)
+        return _segment(run, solver, recognized, key, parts, who, progress)[0].segmentation
 
 
-def joints(
-    folder: str | Path,
-    *,
-    answerer: str = "geometry",
-    category: str | None = None,
-    seed: int = 0,
-    progress: Progress = silent,
-) -> tuple[Joint, ...]:
-    """Stage B alone, on the parts that `segment` saved in `folder`."""
-    config, who = Config(seed=seed, category=category), make_answerer(answerer)
+def joints(folder: str | Path, *, progress: Progress = silent, **answering: Unpack[Answering]) -> tuple[Joint, ...]:
+    """Stage B alone, on the parts that `segment` saved in `folder`. Options as for `articulate`."""
+    who = _answerer(answering)
     with RunFolder.open(Path(folder)) as run:
-        placed, segmented = run.need(MESH), run.need(SEGMENTATION)
-        ready = _Ready(placed.mesh, config)
-        return _join(run, placed, ready, segmented, run.key(SEGMENTATION), who, config, progress).joints
+        recognized, segmented = run.recognized(), run.need(SEGMENTATION)
+        solver = Solver(recognized.sized(run.need(MESH)).mesh, who.config, who.see)
+        return _join(run, solver, recognized, segmented, run.key(SEGMENTATION), who, progress).joints
 
 
 def export(folder: str | Path, *, progress: Progress = silent) -> Asset:
@@ -99,46 +111,34 @@ def export(folder: str | Path, *, progress: Progress = silent) -> Asset:
         return _export(run, progress)
 
 
-def make_answerer(name: str) -> Answerer:
-    """The answerer of that name. Raises OptionError for one that is not known."""
-    if name != "geometry":
-        raise OptionError(f"--answerer: found {name!r}; valid is {', '.join(ANSWERERS)}")
-    return GeometryAnswerer()
+def _answerer(options: Answering) -> _Answerer:
+    """Raises OptionError for what is not valid, ModelError where a model cannot be asked at all (no key)."""
+    name, labels = options.get("answerer", "geometry"), told_labels(options.get("parts_list", ()))
+    config = Config(
+        seed=options.get("seed", 0),
+        category=options.get("category"),
+        parts_list=labels,
+        proposer=options.get("proposer", "exact"),
+        verify=options.get("verify", "motion"),
+    )
+    if name == "geometry":
+        if labels:
+            raise OptionError("--parts-list: geometry cannot find parts by their names; it needs an --answerer that sees")
+        return _Answerer(config, name, None)
+    cache = options["cache"] if "cache" in options else cache_folder()
+    model = open_model(name, cache=cache, max_calls=options.get("max_calls"), max_cost=options.get("max_cost"))
+    return _Answerer(config, name, lambda instead: VlmAnswerer(model, instead))
 
 
-def find_parts(
-    mesh: Mesh, parts: str, who: Answerer, config: Config, progress: Progress = silent, whole: ObjectShape | None = None
-) -> Segmentation:
-    """Stage A on a placed mesh [m, Z up]. `whole` is the mesh made ready, where that was done already."""
-    if parts == "nodes":
-        return parts_from_nodes(mesh)
-    if parts != "auto":
-        return parts_from_file(mesh, Path(parts))
-    whole = whole or object_shape(mesh, config.seed, config.pieces)
-    return segment_parts(mesh, whole, who, lambda around, label: ask_motion(around, "candidate", label, who), config, progress)
-
-
-def find_joints(
-    mesh: Mesh,
-    segmentation: Segmentation,
-    who: Answerer,
-    config: Config,
-    progress: Progress = silent,
-    whole: ObjectShape | None = None,
-) -> tuple[Joint, ...]:
-    """Stage B on a placed mesh and its parts. `whole` serves again where the parts are made of its pieces."""
-    label = segmentation.face_part
-    if whole is None or (label != label[whole.source][np.unique(whole.piece, return_index=True)[1]][whole.mesh_piece]).any():
-        whole = object_shape(mesh, config.seed, config.pieces, label)
-    return estimate_joints(whole, segmentation, who, config, progress)
-
-
-def solve(mesh: Mesh, given: Segmentation | None = None) -> tuple[Segmentation, tuple[Joint, ...]]:
-    """Both stages on a placed mesh with the default answerer and settings, for evaluation; the second where parts are given."""
-    who, config = make_answerer("geometry"), Config()
-    whole = object_shape(mesh, config.seed, config.pieces) if given is None else None
-    segmentation = given or find_parts(mesh, "auto", who, config, whole=whole)
-    return segmentation, find_joints(mesh, segmentation, who, config, whole=whole)
+def _seen(
+    run: RunFolder, path: Path, up: str, scale: str, who: _Answerer, progress: Progress
+) -> tuple[Solver, Recognized, str]:
+    """The mesh placed, looked at, and in the size that was answered; ready for both stages."""
+    placed, key = _place(run, path, up, scale, progress)
+    solver = Solver(placed.mesh, who.config, who.see)
+    recognized, key = _recognize(run, solver, key, who, scale == "auto")
+    sized = recognized.sized(placed)
+    return (solver if sized is placed else Solver(sized.mesh, who.config, who.see)), recognized, key
 
 
 def _place(run: RunFolder, path: Path, up: str, scale: str, progress: Progress) -> tuple[Placed, str]:
@@ -155,29 +155,27 @@ def _place(run: RunFolder, path: Path, up: str, scale: str, progress: Progress) 
     return found, key
 
 
-class _Ready:
-    """The mesh made ready for both stages, when it is first asked for."""
-
-    def __init__(self, mesh: Mesh, config: Config) -> None:
-        self._mesh, self._config = mesh, config
-
-    @cached_property
-    def whole(self) -> ObjectShape:
-        return object_shape(self._mesh, self._config.seed, self._config.pieces)
+def _recognize(run: RunFolder, solver: Solver, previous: str, who: _Answerer, sized: bool) -> tuple[Recognized, str]:
+    if who.see is None:
+        return solver.recognize(), previous
+    key = stage_key(RECOGNITION, previous=previous, config={**who.config.as_dict(), "answerer": who.name, "sized": sized})
+    found = run.load(RECOGNITION, key)
+    if found is None:
+        with _timed(run, "recognize"):
+            found = solver.recognize(sized=sized)
+        run.save(RECOGNITION, key, found)
+    return found, key
 
 
 def _segment(
-    run: RunFolder, placed: Placed, ready: _Ready, previous: str, parts: str, who: Answerer, config: Config, progress: Progress
+    run: RunFolder, solver: Solver, recognized: Recognized, previous: str, parts: str, who: _Answerer, progress: Progress
 ) -> tuple[Segmented, str]:
-    settings = {**config.as_dict(), "parts": parts, "labels": _bytes_of_labels(parts), "answerer": who.name}
+    settings = {**who.config.as_dict(), "parts": parts, "labels": _bytes_of_labels(parts), "answerer": who.name}
     key = stage_key(SEGMENTATION, previous=previous, config=settings)
     found = run.load(SEGMENTATION, key)
     if found is None:
         with _timed(run, "segment"):
-            whole = ready.whole if parts == "auto" else None
-            segmentation = find_parts(placed.mesh, parts, who, config, progress, whole)
-        none = ("nothing was found that moves",) if len(segmentation.parts) == 1 else ()
-        found = Segmented(segmentation, who.name, (*placed.warnings, *none))
+            found = solver.parts(parts, recognized.recognition, progress)
         run.save(SEGMENTATION, key, found)
     return found, key
 
@@ -192,28 +190,20 @@ def _bytes_of_labels(parts: str) -> str:
 
 def _join(
     run: RunFolder,
-    placed: Placed,
-    ready: _Ready,
+    solver: Solver,
+    recognized: Recognized,
     segmented: Segmented,
     previous: str,
-    who: Answerer,
-    config: Config,
+    who: _Answerer,
     progress: Progress,
 ) -> Jointed:
-    key = stage_key(JOINTS, previous=previous, config={**config.as_dict(), "answerer": who.name})
+    key = stage_key(JOINTS, previous=previous, config={**who.config.as_dict(), "answerer": who.name})
     found = run.load(JOINTS, key)
     if found is None:
         with _timed(run, "joints"):
-            made = find_joints(placed.mesh, segmented.segmentation, who, config, progress, ready.whole)
-        unsure = tuple(
-            f"joint {j.name}: low confidence ({j.confidence:.2f}), please check" for j in made if j.confidence < UNSURE
-        )
-        found = Jointed(made, who.name, unsure)
+            found = solver.joints(segmented.segmentation, recognized.recognition, progress)
         run.save(JOINTS, key, found)
     return found
-
-
-UNSURE = 0.4  # joints below this confidence are named in the warnings
 
 
 def _export(run: RunFolder, progress: Progress) -> Asset:

@@ -14,9 +14,20 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any, TypeVar
 
-from anymesh.errors import OutputError
+from anymesh.errors import BudgetError, OutputError
 from anymesh.names import legal_name
-from anymesh.stage_results import JOINTS, MESH, SEGMENTATION, STAGES, Jointed, Placed, Segmented, Stage
+from anymesh.stage_results import (
+    JOINTS,
+    MESH,
+    RECOGNITION,
+    SEGMENTATION,
+    STAGES,
+    Jointed,
+    Placed,
+    Recognized,
+    Segmented,
+    Stage,
+)
 from anymesh.storage.hidden import OURS, Hidden, dead_hidden, list_files, make_hidden, move_in, recover, swap_in
 from anymesh.storage.stage_files import (
     read_json,
@@ -29,7 +40,18 @@ from anymesh.storage.stage_files import (
 )
 from anymesh.types import Asset
 
-__all__ = ["JOINTS", "MESH", "SEGMENTATION", "Jointed", "Placed", "RunFolder", "Segmented", "stage_key"]
+__all__ = [
+    "JOINTS",
+    "MESH",
+    "RECOGNITION",
+    "SEGMENTATION",
+    "Jointed",
+    "Placed",
+    "Recognized",
+    "RunFolder",
+    "Segmented",
+    "stage_key",
+]
 Result = TypeVar("Result")
 GENERATOR = "articulate-anymesh"
 MANIFEST = "stages/files.json"  # what was written here; nothing else is ever removed
@@ -64,7 +86,8 @@ def _check_replaceable(target: Path, force: bool) -> None:
 class RunFolder:
     """An output folder while it is written. `folder` is where files go; leaving the `with` block puts them in place.
 
-    An exception inside the block leaves the output as it was.
+    An exception inside the block leaves the output as it was; when a budget ends the run, the finished stages stay in the
+    hidden folder, where the next run finds them.
     """
 
     def __init__(
@@ -138,11 +161,17 @@ class RunFolder:
 
     def need(self, stage: Stage[Result]) -> Result:
         """The result of a stage, whatever it was made with. OutputError when this output has none."""
-        for place in self._places(stage):
-            found = read_stage(place, stage, None)
-            if found is not None:
-                return found
-        raise self._missing(stage)
+        found = self._find(stage)
+        if found is None:
+            raise self._missing(stage)
+        return found
+
+    def recognized(self) -> Recognized:
+        """What was recognized; nothing where nobody who sees was asked."""
+        return self._find(RECOGNITION) or Recognized(None, "")
+
+    def _find(self, stage: Stage[Result]) -> Result | None:
+        return next((found for place in self._places(stage) if (found := read_stage(place, stage, None)) is not None), None)
 
     def key(self, stage: Stage[Any]) -> str:
         """The key under which the result of a stage was saved. OutputError when this output has none."""
@@ -182,6 +211,8 @@ class RunFolder:
     def asset(self) -> Asset:
         """The asset that the saved stages make. OutputError when one is missing."""
         placed, segmented, jointed = self.need(MESH), self.need(SEGMENTATION), self.need(JOINTS)
+        recognized = self.recognized()
+        placed = recognized.sized(placed)
         return Asset(
             name=legal_name(Path(placed.source.path).stem, fallback="asset"),
             source=placed.source,
@@ -189,8 +220,9 @@ class RunFolder:
             segmentation=segmented.segmentation,
             joints=jointed.joints,
             answerer=jointed.answerer,
-            warnings=(*segmented.warnings, *jointed.warnings),
+            warnings=(*recognized.warnings, *segmented.warnings, *jointed.warnings),
             timing=self.timing(),
+            exchanges=(*recognized.exchanges, *segmented.exchanges, *jointed.exchanges),
         )
 
     def _commit(self) -> None:
@@ -231,7 +263,10 @@ class RunFolder:
                 raise OutputError(f"cannot write {self.target}: {error.strerror or error}") from error
         finally:
             for hidden in (self._hidden, *self._dead):
-                hidden.discard()
+                if isinstance(error, BudgetError) and hidden is self._hidden:
+                    hidden.release()
+                else:
+                    hidden.discard()
 
     def _is_mine(self, error: OSError) -> bool:
         full = error.errno in (errno.ENOSPC, errno.EROFS, getattr(errno, "EDQUOT", errno.ENOSPC))

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import asdict, dataclass, fields
+from dataclasses import asdict, dataclass, fields, replace
 from typing import Any, Generic, TypeVar
 
 import numpy as np
 
-from anymesh.types import Joint, JointType, Material, Mesh, Node, Part, Segmentation, Source, Texture
+from anymesh.types import Exchange, Joint, JointType, Material, Mesh, Node, Part, Picture, Segmentation, Source, Texture
+from anymesh.types.recognition import Moves, Recognition, RecognizedLabel
 
 Result = TypeVar("Result")
 Arrays = Mapping[str, np.ndarray]
@@ -25,12 +26,35 @@ class Placed:
 
 
 @dataclass(frozen=True, eq=False)
+class Recognized:
+    """What the object is, when someone who sees was asked; scale: what the placed mesh is multiplied by, with the reason."""
+
+    recognition: Recognition | None
+    answerer: str
+    scale: float = 1.0
+    note: str = ""
+    warnings: tuple[str, ...] = ()
+    exchanges: tuple[Exchange, ...] = ()
+
+    def sized(self, placed: Placed) -> Placed:
+        """The mesh in the size that was answered."""
+        if self.scale == 1:
+            return placed
+        S = np.diag([self.scale] * 3 + [1.0])
+        source = replace(
+            placed.source, T_asset_source=S @ placed.source.T_asset_source, notes=(*placed.source.notes, self.note)
+        )
+        return Placed(placed.mesh.transformed(S), source, placed.warnings)
+
+
+@dataclass(frozen=True, eq=False)
 class Segmented:
     """Stage A: the parts, who answered, and what a user should know."""
 
     segmentation: Segmentation
     answerer: str
     warnings: tuple[str, ...] = ()
+    exchanges: tuple[Exchange, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,6 +64,7 @@ class Jointed:
     joints: tuple[Joint, ...]
     answerer: str
     warnings: tuple[str, ...] = ()
+    exchanges: tuple[Exchange, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -100,18 +125,66 @@ def _unpack_mesh(record: Record, arrays: Arrays) -> Placed:
     return Placed(mesh, source, tuple(record["warnings"]))
 
 
+def _pack_exchanges(exchanges: tuple[Exchange, ...]) -> tuple[list[Record], dict[str, np.ndarray]]:
+    """A picture that was shown twice is kept once."""
+    names: dict[bytes, str] = {}
+    records = []
+    for exchange in exchanges:
+        record: Record = {f.name: getattr(exchange, f.name) for f in fields(exchange)}
+        record["pictures"] = [[names.setdefault(p.png, f"picture_{len(names)}"), p.caption] for p in exchange.pictures]
+        records.append(record)
+    return records, {name: np.frombuffer(png, np.uint8) for png, name in names.items()}
+
+
+def _unpack_exchanges(records: list[Record], arrays: Arrays) -> tuple[Exchange, ...]:
+    def exchange(found: Record) -> Exchange:
+        pictures = tuple(Picture(arrays[name].tobytes(), caption) for name, caption in found["pictures"])
+        values: dict[str, Any] = {**found, "pictures": pictures}
+        return Exchange(**values)
+
+    return tuple(exchange(found) for found in records)
+
+
+def _pack_recognition(result: Recognized) -> tuple[Record, dict[str, np.ndarray]]:
+    exchanges, arrays = _pack_exchanges(result.exchanges)
+    record = {
+        "recognition": None if result.recognition is None else asdict(result.recognition),
+        "answerer": result.answerer,
+        "scale": result.scale,
+        "note": result.note,
+        "warnings": list(result.warnings),
+        "exchanges": exchanges,
+    }
+    return record, arrays
+
+
+def _unpack_recognition(record: Record, arrays: Arrays) -> Recognized:
+    def label(found: Record) -> RecognizedLabel:
+        limits = None if found["limits"] is None else (float(found["limits"][0]), float(found["limits"][1]))
+        moves = None if found["moves"] is None else Moves(found["moves"])
+        return RecognizedLabel(found["label"], moves, found["parent"], limits)
+
+    r = record["recognition"]
+    recognition = None if r is None else Recognition(r["category"], r["size"], tuple(label(found) for found in r["labels"]))
+    exchanges = _unpack_exchanges(record["exchanges"], arrays)
+    return Recognized(recognition, record["answerer"], record["scale"], record["note"], tuple(record["warnings"]), exchanges)
+
+
 def _pack_segmentation(result: Segmented) -> tuple[Record, dict[str, np.ndarray]]:
+    exchanges, arrays = _pack_exchanges(result.exchanges)
     record = {
         "parts": [asdict(part) for part in result.segmentation.parts],
         "answerer": result.answerer,
         "warnings": list(result.warnings),
+        "exchanges": exchanges,
     }
-    return record, {"face_part": result.segmentation.face_part}
+    return record, {**arrays, "face_part": result.segmentation.face_part}
 
 
 def _unpack_segmentation(record: Record, arrays: Arrays) -> Segmented:
     segmentation = Segmentation(arrays["face_part"], tuple(Part(**part) for part in record["parts"]))
-    return Segmented(segmentation, record["answerer"], tuple(record["warnings"]))
+    exchanges = _unpack_exchanges(record["exchanges"], arrays)
+    return Segmented(segmentation, record["answerer"], tuple(record["warnings"]), exchanges)
 
 
 def _pack_joints(result: Jointed) -> tuple[Record, dict[str, np.ndarray]]:
@@ -120,7 +193,9 @@ def _pack_joints(result: Jointed) -> tuple[Record, dict[str, np.ndarray]]:
         record = {f.name: getattr(joint, f.name) for f in fields(joint)}
         record |= {"type": str(joint.type), "origin": joint.origin.tolist(), "axis": joint.axis.tolist()}
         joints.append(record)
-    return {"joints": joints, "answerer": result.answerer, "warnings": list(result.warnings)}, {}
+    exchanges, arrays = _pack_exchanges(result.exchanges)
+    record = {"joints": joints, "answerer": result.answerer, "warnings": list(result.warnings), "exchanges": exchanges}
+    return record, arrays
 
 
 def _unpack_joints(record: Record, arrays: Arrays) -> Jointed:
@@ -130,10 +205,12 @@ def _unpack_joints(record: Record, arrays: Arrays) -> Jointed:
         values["origin"], values["axis"] = np.array(found["origin"], float), np.array(found["axis"], float)
         return Joint(**values)
 
-    return Jointed(tuple(joint(j) for j in record["joints"]), record["answerer"], tuple(record["warnings"]))
+    joints = tuple(joint(j) for j in record["joints"])
+    return Jointed(joints, record["answerer"], tuple(record["warnings"]), _unpack_exchanges(record["exchanges"], arrays))
 
 
 MESH = Stage("mesh", _pack_mesh, _unpack_mesh)
+RECOGNITION = Stage("recognition", _pack_recognition, _unpack_recognition)
 SEGMENTATION = Stage("segmentation", _pack_segmentation, _unpack_segmentation)
 JOINTS = Stage("joints", _pack_joints, _unpack_joints)
-STAGES = (MESH, SEGMENTATION, JOINTS)
+STAGES = (MESH, RECOGNITION, SEGMENTATION, JOINTS)

@@ -3,21 +3,45 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 
+from anymesh.evaluation.oracle import oracle
 from anymesh.evaluation.score import ObjectScore, score
 from anymesh.evaluation.truth import Truth
 from anymesh.loading import load_mesh, place_mesh
+from anymesh.reasoning.asking import Seer
 from anymesh.types import Joint, Mesh, Segmentation
 
-Solver = Callable[[Mesh, Segmentation | None], tuple[Segmentation, tuple[Joint, ...]]]  # the parts are given, or None
 Change = Callable[[Mesh], tuple[Mesh, np.ndarray]]  # a changed mesh, and the (4, 4) transform that takes the truth there
 
 
-def evaluate(truth: Truth, solver: Solver, *, given: bool = False, change: Change | None = None) -> ObjectScore:
-    """Loads and places the mesh, changes it, lets the solver find its parts (unless given) and joints, and scores them."""
+@runtime_checkable
+class Solver(Protocol):
+    """Finds parts (unless they are given) and joints of a placed mesh; see: makes who answers, None for geometry."""
+
+    def __call__(
+        self, mesh: Mesh, given: Segmentation | None, *, see: Callable[[Seer], Seer] | None = None
+    ) -> tuple[Segmentation, tuple[Joint, ...]]: ...
+
+
+def evaluate(
+    truth: Truth,
+    solver: Solver,
+    *,
+    given: bool = False,
+    change: Change | None = None,
+    knowing: Callable[[Seer], Seer] | None = None,
+) -> ObjectScore:
+    """Loads and places the mesh, changes it, lets the solver find its parts (unless given) and joints, and scores them.
+
+    knowing: the oracle answers, or what this function makes of it (see `oracle.Noisy`).
+    """
     placed = place_mesh(load_mesh(truth.mesh))
     mesh, T = change(placed.mesh) if change else (placed.mesh, np.eye(4))
-    segmentation, joints = solver(mesh, truth.segmentation() if given else None)
-    return score(truth, mesh, T @ placed.T_asset_source, segmentation, joints)
+    T = T @ placed.T_asset_source
+    parts = truth.segmentation() if given else None
+    see = None if knowing is None else (lambda _: knowing(oracle(truth, mesh, T)))
+    segmentation, joints = solver(mesh, parts, see=see)
+    return score(truth, mesh, T, segmentation, joints)

@@ -11,13 +11,16 @@ from anymesh.export.links import split_links, with_legal_names
 from anymesh.export.meshes import write_meshes
 from anymesh.export.settings import ExportConfig
 from anymesh.export.urdf import urdf_text
+from anymesh.models.transcript import write_transcript
 from anymesh.types import Asset
+
+TRANSCRIPT = "transcript"  # folder of what was asked and answered, browsable and replayable
 
 __all__ = ["ExportConfig", "write_asset"]
 
 
 def write_asset(asset: Asset, folder: Path, *, config: ExportConfig = ExportConfig()) -> None:  # noqa: B008 - frozen
-    """Writes <name>.urdf, <name>.glb, meshes/, timing.json and, last, asset.json into an existing folder.
+    """Writes <name>.urdf, <name>.glb, meshes/, transcript/, timing.json and, last, asset.json into an existing folder.
 
     Names of the asset, its parts and joints are made legal where they are not (`anymesh.names.legal_names`).
     The same asset gives the same bytes, but for timing.json.
@@ -26,6 +29,8 @@ def write_asset(asset: Asset, folder: Path, *, config: ExportConfig = ExportConf
     links = split_links(asset)
     inertias = {link.name: link_inertia(link.triangles, config) for link in links}
     write_meshes(asset.mesh, links, folder, config)
+    if asset.exchanges:
+        write_transcript(asset.exchanges, folder / TRANSCRIPT)
     (folder / f"{asset.name}.glb").write_bytes(glb_bytes(asset, links, config))
     texts = {
         f"{asset.name}.urdf": urdf_text(asset, links, inertias),

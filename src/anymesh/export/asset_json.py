@@ -11,9 +11,9 @@ import anymesh
 from anymesh.export.inertia import Inertia
 from anymesh.export.links import Link
 from anymesh.export.meshes import faces_path
-from anymesh.types import Asset, Joint, Mesh
+from anymesh.types import Asset, Exchange, Joint, Mesh
 
-SCHEMA_VERSION = "1.0"
+SCHEMA_VERSION = "1.1"
 TIMING_FILE = "timing.json"  # apart, so that everything else is the same from run to run
 
 
@@ -34,8 +34,21 @@ def asset_record(asset: Asset, links: Sequence[Link], inertias: Mapping[str, Ine
         "parts": [_part(asset.mesh, link, inertias[link.name]) for link in links],
         "joints": [_joint(joint) for joint in asset.joints],
         "answerer": asset.answerer,
+        "usage": usage(asset.exchanges),
         "warnings": list(asset.warnings),
         "timing": TIMING_FILE,
+    }
+
+
+def usage(exchanges: Sequence[Exchange]) -> dict[str, Any]:
+    """What the answers of a model took: calls (of which from a cache or a recording), tokens, and dollars paid."""
+    costs = [e.cost for e in exchanges if not e.cached]
+    return {
+        "calls": len(exchanges),
+        "cached_calls": sum(e.cached for e in exchanges),
+        "input_tokens": sum(e.input_tokens for e in exchanges),
+        "output_tokens": sum(e.output_tokens for e in exchanges),
+        "cost_usd": None if None in costs else _round(sum((c for c in costs if c is not None), 0.0)),
     }
 
 

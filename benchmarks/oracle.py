@@ -1,0 +1,122 @@
+"""What the geometry half of the visual method loses: ground truth answers every question, without and with errors on purpose.
+
+python benchmarks/oracle.py                     parts given and end to end, with motions verified and without
+python benchmarks/oracle.py --noise             also how a wrong answer with probability p shows
+python benchmarks/oracle.py --markdown FILE --plot FILE.svg
+"""
+
+from __future__ import annotations
+
+import argparse
+import tempfile
+import time
+from collections.abc import Sequence
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+
+from anymesh.config import Config
+from anymesh.evaluation.datasets.scene_synthesizer_ import CLASSES, synthesize
+from anymesh.evaluation.oracle import Noisy
+from anymesh.evaluation.protocols import evaluate
+from anymesh.evaluation.score import JointScore, ObjectScore, table
+from anymesh.evaluation.truth import Truth, example_truths
+from anymesh.solving import solve
+
+HEAD = """# The oracle
+
+`python benchmarks/oracle.py --noise --markdown benchmarks/oracle.md --plot docs/images/noise.svg`. Each question is
+answered from the truth, by the same marks, points, arrows and motions that a model would see; what is left is the error of
+the geometry.
+Position in shares of the diagonal; mIoU over the movable parts, a part that is not found counts as 0.
+"""
+EXAMPLES = Path(__file__).parents[1] / "examples"
+VERIFY = ("motion", "off")
+WRONG = (0.0, 0.1, 0.2, 0.35, 0.5)
+COLORS = {"motion": "#0a6", "off": "#c33"}
+
+
+def run(truths: Sequence[Truth], verify: str, *, given: bool, wrong: float = 0.0) -> list[ObjectScore]:
+    rng = np.random.default_rng(0)
+    solver = partial(solve, config=Config(verify=verify))
+    return [evaluate(t, solver, given=given, knowing=lambda seer: Noisy(seer, wrong, rng) if wrong else seer) for t in truths]
+
+
+def right(j: JointScore) -> bool:
+    """Type, axis within 10 degrees, line within .05 of the diagonal, opening side."""
+    near = (j.angle or 0.0) <= 10 and (j.position or 0.0) <= 0.05
+    return j.type_found == j.type_true and near and j.opens_right is not False
+
+
+def report(title: str, truths: Sequence[Truth], verify: str, given: bool) -> str:
+    begin = time.perf_counter()
+    scores = run(truths, verify, given=given)
+    joints = [j for s in scores for j in s.joints]
+    protocol = f"{title}, {'parts given' if given else 'end to end'}, --verify {verify}"
+    lines = [f"## {protocol} ({time.perf_counter() - begin:.0f} s)", ""]
+    exact, iou = np.mean([j.type_found == j.type_true for j in joints]), np.mean([j.iou for j in joints])
+    lines += [f"Exact types {exact:.3f}, part mIoU {iou:.3f}, joints right {np.mean([right(j) for j in joints]):.3f}.", ""]
+    lines += [table(scores), ""]
+    print("\n".join(lines), flush=True)
+    return "\n".join(lines)
+
+
+def noise(truths: Sequence[Truth]) -> tuple[str, dict[str, list[float]]]:
+    shares: dict[str, list[float]] = {v: [] for v in VERIFY}
+    for verify in VERIFY:
+        for p in WRONG:
+            joints = [j for s in run(truths, verify, given=True, wrong=p) for j in s.joints]
+            shares[verify].append(float(np.mean([right(j) for j in joints])))
+            print(f"wrong {p:.2f}, verify {verify}: {shares[verify][-1]:.3f} right", flush=True)
+    lines = ["## Examples, parts given, each answer wrong with probability p: share of joints right", ""]
+    lines += ["| p | " + " | ".join(f"--verify {v}" for v in VERIFY) + " |", "|---|" + "---|" * len(VERIFY)]
+    lines += [f"| {p} | " + " | ".join(f"{shares[v][k]:.3f}" for v in VERIFY) + " |" for k, p in enumerate(WRONG)]
+    return "\n".join([*lines, ""]), shares
+
+
+def plot(shares: dict[str, list[float]]) -> str:
+    """A line a setting, as SVG."""
+
+    def at(p: float, share: float) -> str:
+        return f"{60 + 400 * p / WRONG[-1]:.1f},{260 - 220 * share:.1f}"
+
+    lines = ['<svg xmlns="http://www.w3.org/2000/svg" width="500" height="310" font-family="sans-serif" font-size="13">',
+             '<rect width="500" height="310" fill="#fff"/>']  # fmt: skip
+    for share in (0, 0.25, 0.5, 0.75, 1):
+        y = 260 - 220 * share
+        lines.append(
+            f'<path d="M60 {y:.1f}H460" stroke="#ddd"/><text x="52" y="{y + 4:.1f}" text-anchor="end">{share:g}</text>'
+        )
+    for p in WRONG:
+        lines.append(f'<text x="{60 + 400 * p / WRONG[-1]:.1f}" y="278" text-anchor="middle">{p:g}</text>')
+    for k, (verify, found) in enumerate(shares.items()):
+        points = " ".join(at(p, s) for p, s in zip(WRONG, found, strict=True))
+        lines.append(f'<polyline points="{points}" fill="none" stroke="{COLORS[verify]}" stroke-width="2.5"/>')
+        lines.append(f'<text x="70" y="{220 + 18 * k}" fill="{COLORS[verify]}">--verify {verify}</text>')
+    lines.append('<text x="260" y="299" text-anchor="middle">probability that an answer is wrong</text>')
+    lines.append('<text x="60" y="22">share of joints right</text></svg>')
+    return "\n".join(lines) + "\n"
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description="What the geometry half of the visual method loses.")
+    parser.add_argument("--noise", action="store_true", help="also with wrong answers")
+    parser.add_argument("--markdown", type=Path, help="file to write the tables to")
+    parser.add_argument("--plot", type=Path, help="file to write the plot of --noise to")
+    options = parser.parse_args()
+    examples = example_truths(EXAMPLES)
+    with tempfile.TemporaryDirectory() as folder:
+        sets = {"Examples": examples, "scene-synthesizer": [synthesize(c, Path(folder)) for c in CLASSES]}
+        done = [report(t, some, v, given) for given in (True, False) for t, some in sets.items() for v in VERIFY[: 1 + given]]
+    if options.noise:
+        told, shares = noise(examples)
+        done.append(told)
+        if options.plot:
+            options.plot.write_text(plot(shares), encoding="utf-8")
+    if options.markdown:
+        options.markdown.write_text("\n".join([HEAD, *done]), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,97 @@
+"""Ground truth in the place of a model, with errors on purpose where wanted: what the geometry half of the method loses."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any, TypeVar, cast
+
+import numpy as np
+
+from anymesh.evaluation.truth import TrueJoint, Truth
+from anymesh.reasoning.asking import Answer, Question, Seer
+from anymesh.reasoning.grounding import WhichMarks
+from anymesh.reasoning.knowing import Knowing, KnownJoint, Reference
+from anymesh.reasoning.prompting import JointKind, KindAnswer, WhichArrows, WhichKinds, WhichMotions, WhichPoints
+from anymesh.reasoning.vocabulary import recognize
+from anymesh.types import Exchange, JointType, Mesh
+
+Item = TypeVar("Item")
+
+
+def oracle(truth: Truth, mesh: Mesh, T_asset_source: np.ndarray) -> Knowing:
+    """Answers each question as a perfect model would. mesh: the placed one, whose faces are the truth's."""
+    return Knowing("oracle", lambda: true_reference(truth, mesh, T_asset_source))
+
+
+def true_reference(truth: Truth, mesh: Mesh, T_asset_source: np.ndarray) -> Reference:
+    """The truth in the asset frame."""
+    names = [p.name for p in truth.parts]
+    joints = {j.child: j for j in truth.joints}
+    made = [joints.get(name) for name in names]
+    labels = [recognize(p.label) or recognize(p.name) for p in truth.parts]
+    return Reference(
+        category="object",
+        size=float(mesh.extents.max()),
+        face_part=truth.labels,
+        face_area=mesh.face_areas,
+        labels=("base", *(word.label if word else "part" for word in labels[1:])),
+        parents=tuple(0 if j is None or j.parent not in names else names.index(j.parent) for j in made),
+        joints=tuple(None if j is None else _in_asset(j, T_asset_source) for j in made),
+    )
+
+
+def _in_asset(joint: TrueJoint, T: np.ndarray) -> KnownJoint:
+    axis = T[:3, :3] @ joint.axis
+    scale = float(np.linalg.norm(axis))
+    factor = scale if joint.type is JointType.PRISMATIC else 1.0
+    limits = None if joint.limits is None else (joint.limits[0] * factor, joint.limits[1] * factor)
+    return KnownJoint(joint.type, axis / scale, T[:3, :3] @ joint.origin + T[:3, 3], limits)
+
+
+class Noisy:
+    """Another seer, of whose answers each item is wrong with a probability: another mark, kind, point, arrow or motion."""
+
+    exchanges: tuple[Exchange, ...] = ()
+    remarks: tuple[str, ...] = ()
+    blind = True
+
+    def __init__(self, seer: Seer, wrong: float, rng: np.random.Generator) -> None:
+        self.name, self._seer, self._wrong, self._rng = f"noisy {seer.name}", seer, wrong, rng
+
+    def ask(self, question: Question[Answer]) -> Answer:
+        answer: Any = self._seer.ask(question)
+        match question:
+            case WhichMarks():
+                present = [np.unique(r[r >= 0]) for r in question.regions]
+                every = np.unique(np.concatenate(present))
+                answer = tuple(
+                    replace(p, marks=tuple(sorted(self._others(p.marks, every if p.view is None else present[p.view]))))
+                    for p in answer
+                )
+            case WhichKinds():
+                moving = [kind for kind in JointKind if kind is not JointKind.FIXED]
+                answer = tuple(KindAnswer(self._other(k.kind, moving), k.endless) for k in answer)
+            case WhichPoints():
+                answer = tuple(
+                    self._others(rows, range(len(t.points))) for rows, t in zip(answer, question.tables, strict=True)
+                )
+            case WhichArrows():
+                answer = tuple(self._other(n, range(len(t.directions))) for n, t in zip(answer, question.tables, strict=True))
+            case WhichMotions():
+                answer = tuple(self._other(n, range(len(t.motions))) for n, t in zip(answer, question.tables, strict=True))
+            case _:
+                pass
+        return cast(Answer, answer)
+
+    def _other(self, right: Item, among: Sequence[Item]) -> Item:
+        """The right one, or with the probability any other of these."""
+        others = [n for n in among if n != right]
+        return others[int(self._rng.integers(len(others)))] if others and self._rng.random() < self._wrong else right
+
+    def _others(self, right: tuple[int, ...], among: range | np.ndarray) -> tuple[int, ...]:
+        """Each of these that are right together, or with the probability one that is not: none of them, and none twice."""
+        spare = [int(n) for n in among if n not in right]
+        return tuple(
+            spare.pop(int(self._rng.integers(len(spare)))) if spare and self._rng.random() < self._wrong else n for n in right
+        )

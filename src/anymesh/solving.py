@@ -1,0 +1,151 @@
+"""Both stages on one placed mesh, with whoever answers: geometry, a model that sees, or ground truth in an evaluation."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+
+from anymesh.articulation.estimate import ask_motion, estimate_joints
+from anymesh.articulation.prompted import prompt_joints
+from anymesh.config import Config
+from anymesh.geometry.pieces import ObjectShape, object_shape
+from anymesh.progress import Progress, silent
+from anymesh.reasoning.asking import Seer
+from anymesh.reasoning.geometry import GeometryAnswerer
+from anymesh.reasoning.knowing import Knowing, KnownJoint, Reference
+from anymesh.reasoning.recognition import recognize
+from anymesh.rendering.studio import view_pictures
+from anymesh.segmentation.given import GIVEN, parts_from_file, parts_from_nodes
+from anymesh.segmentation.grounded import ground_parts
+from anymesh.segmentation.segment import segment_parts
+from anymesh.stage_results import Jointed, Recognized, Segmented
+from anymesh.types import Joint, Mesh, Segmentation
+from anymesh.types.recognition import Recognition
+
+Seeing = Callable[[Seer], Seer]  # an answerer that sees, given who answers in its place where it cannot
+UNSURE = 0.4  # joints below this confidence are named in the warnings
+ROUGH = 1.5  # an answered size is a guess: the mesh keeps its own when both agree within this factor
+GEOMETRY = GeometryAnswerer()
+
+
+class Solver:
+    """Stage A and Stage B for one placed mesh [m, Z up]. `see` makes the answerer; without it geometry answers."""
+
+    def __init__(self, mesh: Mesh, config: Config | None = None, see: Seeing | None = None) -> None:
+        self.mesh, self.config, self._see = mesh, config or Config(), see
+
+    @cached_property
+    def whole(self) -> ObjectShape:
+        """The mesh made ready for both stages."""
+        return object_shape(self.mesh, self.config.seed, self.config.pieces)
+
+    def recognize(self, *, sized: bool = False) -> Recognized:
+        """What the object is and which parts move, from someone who sees. sized: the answered size sets the scale."""
+        if self._see is None:
+            return Recognized(None, GEOMETRY.name)
+        seer = self._see(Knowing(GEOMETRY.name, self._by_geometry))
+        found = recognize(lambda: view_pictures(self.mesh, self.config), seer, self.config.category, self.config.parts_list)
+        scale, note = _scale(found, self.mesh) if sized else (1.0, "")
+        return Recognized(found, seer.name, scale, note, seer.remarks, seer.exchanges)
+
+    def parts(self, parts: str = "auto", recognition: Recognition | None = None, progress: Progress = silent) -> Segmented:
+        """Stage A. parts: auto, nodes, or a file of face labels."""
+        if parts != "auto":
+            given = parts_from_nodes(self.mesh) if parts == "nodes" else parts_from_file(self.mesh, Path(parts))
+            return _segmented(given, GIVEN)
+        if self._see is None or recognition is None:
+            return _segmented(self._geometric_parts(progress), GEOMETRY.name)
+        seer = self._see(Knowing(GEOMETRY.name, self._by_geometry))
+        found, warnings = ground_parts(self.mesh, self.whole, seer, self.config, recognition, self._geometric_parts, progress)
+        return _segmented(found, seer.name, seer, warnings)
+
+    def joints(
+        self, segmentation: Segmentation, recognition: Recognition | None = None, progress: Progress = silent
+    ) -> Jointed:
+        """Stage B."""
+        whole = self._ready_for(segmentation)
+        if self._see is None:
+            return _jointed(estimate_joints(whole, segmentation, GEOMETRY, self.config, progress), GEOMETRY.name)
+        seer = self._see(Knowing(GEOMETRY.name, lambda: self._reference(segmentation)))
+        made = prompt_joints(
+            self.mesh, whole, segmentation, seer, self.config,
+            recognition=recognition, verify=self.config.verify == "motion", progress=progress,
+        )  # fmt: skip
+        return _jointed(made, seer.name, seer)
+
+    def _geometric_parts(self, progress: Progress = silent) -> Segmentation:
+        def moves(around, label):
+            return ask_motion(around, "candidate", label, GEOMETRY)
+
+        return segment_parts(self.mesh, self.whole, GEOMETRY, moves, self.config, progress)
+
+    def _ready_for(self, segmentation: Segmentation) -> ObjectShape:
+        """The mesh made ready, in pieces that each belong to one of these parts."""
+        label, whole = segmentation.face_part, self.whole
+        if (label == label[whole.source][np.unique(whole.piece, return_index=True)[1]][whole.mesh_piece]).all():
+            return whole
+        return object_shape(self.mesh, self.config.seed, self.config.pieces, label)
+
+    def _by_geometry(self) -> Reference:
+        return self._reference(self._geometric_parts())
+
+    def _reference(self, segmentation: Segmentation) -> Reference:
+        """What geometry would answer, for questions that a model could not."""
+        joints = estimate_joints(self._ready_for(segmentation), segmentation, GEOMETRY, self.config)
+        return reference_of(self.mesh, segmentation, joints, self.config.category or "object")
+
+
+def reference_of(mesh: Mesh, segmentation: Segmentation, joints: tuple[Joint, ...], category: str) -> Reference:
+    """Parts and joints as things that are known."""
+    number = {p.name: k for k, p in enumerate(segmentation.parts)}
+    by_child = {j.child: j for j in joints}
+    made = [by_child.get(p.name) for p in segmentation.parts]
+    return Reference(
+        category=category,
+        size=float(mesh.extents.max()),
+        face_part=segmentation.face_part,
+        face_area=mesh.face_areas,
+        labels=tuple(p.label for p in segmentation.parts),
+        parents=tuple(0 if j is None else number[j.parent] for j in made),
+        joints=tuple(None if j is None else KnownJoint(j.type, j.axis, j.origin, j.limits) for j in made),
+    )
+
+
+def _scale(found: Recognition, mesh: Mesh) -> tuple[float, str]:
+    size = float(mesh.extents.max())
+    if found.size is None:
+        return 1.0, ""
+    factor = found.size / size
+    if 1 / ROUGH <= factor <= ROUGH:
+        return 1.0, ""
+    return factor, f"scale {factor:g} (answered: a {found.category} is about {found.size:g} m long; the mesh was {size:.3g} m)"
+
+
+def _segmented(
+    segmentation: Segmentation, answerer: str, seer: Seer | None = None, warnings: tuple[str, ...] = ()
+) -> Segmented:
+    none = ("nothing was found that moves",) if len(segmentation.parts) == 1 else ()
+    remarks = seer.remarks if seer else ()
+    return Segmented(segmentation, answerer, (*remarks, *warnings, *none), seer.exchanges if seer else ())
+
+
+def _jointed(joints: tuple[Joint, ...], answerer: str, seer: Seer | None = None) -> Jointed:
+    unsure = tuple(
+        f"joint {j.name}: low confidence ({j.confidence:.2f}), please check" for j in joints if j.confidence < UNSURE
+    )
+    return Jointed(joints, answerer, ((*seer.remarks, *unsure) if seer else unsure), seer.exchanges if seer else ())
+
+
+def solve(
+    mesh: Mesh, given: Segmentation | None = None, *, config: Config | None = None, see: Seeing | None = None
+) -> tuple[Segmentation, tuple[Joint, ...]]:
+    """Both stages on a placed mesh, the second alone where the parts are given."""
+    solver = Solver(mesh, config, see)
+    if given is not None:
+        return given, solver.joints(given).joints
+    recognition = solver.recognize().recognition
+    segmentation = solver.parts("auto", recognition).segmentation
+    return segmentation, solver.joints(segmentation, recognition).joints
