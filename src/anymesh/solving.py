@@ -17,7 +17,7 @@ from anymesh.reasoning.asking import Seer
 from anymesh.reasoning.geometry import GeometryAnswerer
 from anymesh.reasoning.knowing import Knowing, KnownJoint, Reference
 from anymesh.reasoning.recognition import recognize
-from anymesh.rendering.studio import view_pictures
+from anymesh.rendering.studio import Studio
 from anymesh.segmentation.given import GIVEN, parts_from_file, parts_from_nodes
 from anymesh.segmentation.grounded import ground_parts
 from anymesh.segmentation.segment import segment_parts
@@ -42,12 +42,16 @@ class Solver:
         """The mesh made ready for both stages."""
         return object_shape(self.mesh, self.config.seed, self.config.pieces)
 
+    @cached_property
+    def _studio(self) -> Studio:
+        return Studio(self.mesh, self.config)
+
     def recognize(self, *, sized: bool = False) -> Recognized:
         """What the object is and which parts move, from someone who sees. sized: the answered size sets the scale."""
         if self._see is None:
             return Recognized(None, GEOMETRY.name)
         seer = self._see(Knowing(GEOMETRY.name, self._by_geometry))
-        found = recognize(lambda: view_pictures(self.mesh, self.config), seer, self.config.category, self.config.parts_list)
+        found = recognize(lambda: self._studio.pictures(self._studio.views), seer, self.config.category, self.config.parts_list)
         scale, note = _scale(found, self.mesh) if sized else (1.0, "")
         return Recognized(found, seer.name, scale, note, seer.remarks, seer.exchanges)
 
@@ -59,7 +63,9 @@ class Solver:
         if self._see is None or recognition is None:
             return _segmented(self._geometric_parts(progress), GEOMETRY.name)
         seer = self._see(Knowing(GEOMETRY.name, self._by_geometry))
-        found, warnings = ground_parts(self.mesh, self.whole, seer, self.config, recognition, self._geometric_parts, progress)
+        found, warnings = ground_parts(
+            self.mesh, self.whole, seer, self.config, recognition, self._studio, self._geometric_parts, progress
+        )
         return _segmented(found, seer.name, seer, warnings)
 
     def joints(
@@ -71,7 +77,7 @@ class Solver:
             return _jointed(estimate_joints(whole, segmentation, GEOMETRY, self.config, progress), GEOMETRY.name)
         seer = self._see(Knowing(GEOMETRY.name, lambda: self._reference(segmentation)))
         made = prompt_joints(
-            self.mesh, whole, segmentation, seer, self.config,
+            self._studio, whole, segmentation, seer, self.config,
             recognition=recognition, verify=self.config.verify == "motion", progress=progress,
         )  # fmt: skip
         return _jointed(made, seer.name, seer)

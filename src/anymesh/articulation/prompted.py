@@ -7,6 +7,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
+
 from anymesh.articulation.candidates import cluster_points, superpoint_centres, with_more
 from anymesh.articulation.cases import Case, ask_each, make_cases
 from anymesh.articulation.decode import hinge, slide, surface_directions
@@ -17,16 +19,17 @@ from anymesh.config import Config
 from anymesh.geometry.pieces import ObjectShape
 from anymesh.progress import Progress, silent
 from anymesh.reasoning.asking import Seer
+from anymesh.reasoning.geometry import turns_freely
 from anymesh.reasoning.prompting import ArrowTable, JointKind, PointTable, WhichArrows, WhichKinds, WhichPoints
 from anymesh.rendering.studio import Studio
-from anymesh.types import Joint, JointType, Mesh, Motion, MotionKind, Segmentation
+from anymesh.types import Joint, JointType, Motion, MotionKind, Segmentation
 from anymesh.types.recognition import Recognition
 
 GUIDED = 0.4  # share of the ways sideways in which what slides out is held
 
 
 def prompt_joints(
-    mesh: Mesh,
+    studio: Studio,
     whole: ObjectShape,
     segmentation: Segmentation,
     seer: Seer,
@@ -38,26 +41,31 @@ def prompt_joints(
 ) -> tuple[Joint, ...]:
     """One joint for every part but the root, in the order of the parts. verify: choose among free motions at the end."""
     cases = make_cases(whole, segmentation, recognition, config)
-    studio = Studio(mesh, segmentation.face_part, config)
+    labels = segmentation.face_part
     progress("joints", "kinds", 0, 4)
     kinds = ask_each(
-        seer, cases, lambda c, title: studio.card(c.number, title), lambda p, some: WhichKinds(p, tuple(c.shown for c in some))
+        seer,
+        cases,
+        lambda c, title: studio.card(labels, c.number, title),
+        lambda p, some: WhichKinds(p, tuple(c.shown for c in some)),
     )
     cases = [replace(c, answer=kinds[c.number]) for c in cases]
     progress("joints", "points and arrows", 1, 4)
-    asked = {**_hinges(cases, whole, studio, seer, config), **_surface_slides(cases, studio, seer)}
+    asked = {**_hinges(cases, whole, studio, labels, seer, config), **_surface_slides(cases, studio, labels, seer)}
     asked |= {c.number: way_out(c) for c in cases if c.kind is JointKind.SLIDE_OUT}
     cases = [replace(c, asked=asked.get(c.number)) for c in cases]
     progress("joints", "motions", 2, 4)
-    chosen = choose(cases, studio, seer, config.prompts.motions) if verify else {c.number: _taken(c) for c in cases}
+    chosen = choose(cases, studio, labels, seer, config.prompts.motions) if verify else {c.number: _taken(c) for c in cases}
     progress("joints", "limits", 3, 4)
-    return tuple(_joint(c, chosen[c.number]) for c in cases)
+    return tuple(_joint(c, chosen[c.number], verify) for c in cases)
 
 
-def _hinges(cases: list[Case], whole: ObjectShape, studio: Studio, seer: Seer, config: Config) -> dict[int, Motion]:
+def _hinges(
+    cases: list[Case], whole: ObjectShape, studio: Studio, labels: np.ndarray, seer: Seer, config: Config
+) -> dict[int, Motion]:
     """Hinges, by part number: points are clustered, shown, picked, and their line taken."""
     turning = [c for c in cases if c.kind.turns]
-    shots = {c.number: studio.shot(c.number) for c in turning}
+    shots = {c.number: studio.shot(labels, c.number) for c in turning}
     tables = {}
     for case in turning:
         project = shots[case.number].project
@@ -76,14 +84,14 @@ def _hinges(cases: list[Case], whole: ObjectShape, studio: Studio, seer: Seer, c
     return {c.number: hinge(tables[c.number].points[list(picks[c.number])], c.shown.normal) for c in turning}
 
 
-def _surface_slides(cases: list[Case], studio: Studio, seer: Seer) -> dict[int, Motion]:
+def _surface_slides(cases: list[Case], studio: Studio, labels: np.ndarray, seer: Seer) -> dict[int, Motion]:
     """Slides along the surface, by part number: arrows in its plane are shown, and one is picked."""
     sliding = [c for c in cases if c.kind is JointKind.SLIDE_ALONG]
     tables = {c.number: ArrowTable(c.shown, surface_directions(c.around)) for c in sliding}
     rows = ask_each(
         seer,
         sliding,
-        lambda c, title: studio.arrows(c.number, title, c.around.part.box.center, tables[c.number].directions),
+        lambda c, title: studio.arrows(labels, c.number, title, c.around.part.box.center, tables[c.number].directions),
         lambda p, some: WhichArrows(p, tuple(tables[c.number] for c in some)),
     )
     return {c.number: slide(tables[c.number].directions[rows[c.number]], c.around, "arrow picked") for c in sliding}
@@ -113,9 +121,10 @@ def _taken(case: Case) -> Choice:
     return Choice(best, f"answered: {words(case.kind)}; {motion.source}", 0.7 if is_free(best) else 0.3)
 
 
-def _joint(case: Case, choice: Choice) -> Joint:
+def _joint(case: Case, choice: Choice, verify: bool) -> Joint:
     kind = JointType.FIXED
     if case.kind is not JointKind.FIXED:
         turns = choice.best.motion.kind is MotionKind.TURN
-        kind = JointType.PRISMATIC if not turns else JointType.CONTINUOUS if case.answer.endless else JointType.REVOLUTE
+        endless = case.answer.endless and (turns_freely(choice.best) or not verify)
+        kind = JointType.PRISMATIC if not turns else JointType.CONTINUOUS if endless else JointType.REVOLUTE
     return joint_of(case.around, case.name, case.parent, choice.best, kind, choice.confidence, choice.reason)

@@ -6,6 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from jaxtyping import Int
 
 from anymesh.articulation.cases import Case, ask_each
 from anymesh.articulation.evidence import part_facts, weigh_all
@@ -37,8 +38,11 @@ class Choice:
     confidence: float
 
 
-def choose(cases: list[Case], studio: Studio, seer: Seer, most: int) -> dict[int, Choice]:
-    """The free motions of each part are shown, moved, and one is chosen; by part number. most: motions in a picture."""
+def choose(cases: list[Case], studio: Studio, labels: Int[np.ndarray, " F"], seer: Seer, most: int) -> dict[int, Choice]:
+    """The free motions of each part are shown, moved, and one is chosen; by part number.
+
+    labels: the part of each face; most: motions in a picture.
+    """
     found: dict[int, Choice] = {}
     facts, shown, tables = {}, {}, {}
     for c in cases:
@@ -55,7 +59,9 @@ def choose(cases: list[Case], studio: Studio, seer: Seer, most: int) -> dict[int
     rows = ask_each(
         seer,
         [c for c in cases if c.number in tables],
-        lambda c, title: studio.strip(c.number, c.carried, title, tables[c.number].motions, tables[c.number].amounts),
+        lambda c, title: studio.strip(
+            np.isin(labels, [c.number, *c.carried]), title, tables[c.number].motions, tables[c.number].amounts
+        ),
         lambda p, some: WhichMotions(p, tuple(tables[c.number] for c in some)),
     )
     for c in cases:

@@ -148,9 +148,14 @@ def joint_type(part: PartFacts, c: Candidate) -> JointType:
     """The joint's type that goes with a candidate."""
     if c.motion.kind is MotionKind.SLIDE:
         return JointType.PRISMATIC
-    if c.role == "round" and min(c.opening, c.closing) > 3.0:
+    if c.role == "round" and turns_freely(c):
         return JointType.CONTINUOUS
     return JointType.REVOLUTE
+
+
+def turns_freely(c: Candidate) -> bool:
+    """Whether nothing stops a turn, either way."""
+    return min(c.opening, c.closing) > 3.0
 
 
 def reason(part: PartFacts, c: Candidate) -> str:

@@ -1,4 +1,4 @@
-"""The pictures that questions about joints are asked with: one object with its parts, seen from the paper's views."""
+"""The pictures that questions are asked with: one object, with its parts, seen from the paper's views."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from jaxtyping import Float, Int
+from jaxtyping import Bool, Float, Int
 
 from anymesh.config import Config
 from anymesh.rendering.arrows import draw_arrows, most_distinct_view
@@ -18,16 +18,11 @@ from anymesh.rendering.points import draw_points
 from anymesh.rendering.raycast_ import RayScene
 from anymesh.rendering.render import View, face_colors
 from anymesh.rendering.strips import motion_strip, silhouette
-from anymesh.rendering.viewpoints import best_view, caption, close_up, part_pixels, views
+from anymesh.rendering.viewpoints import best_view, caption, close_up, part_pixels, shown, views
 from anymesh.types import Mesh, Motion, Picture
+from anymesh.types.camera import Camera
 
 ARROW = 0.35  # length of an arrow, as a share of the part's size
-
-
-def view_pictures(mesh: Mesh, config: Config) -> tuple[Picture, ...]:
-    """The object from all sides, for questions about the whole of it."""
-    shown = views(mesh, config.views)
-    return tuple(encode(v.color, caption(k, config.views)) for k, v in enumerate(shown))
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,48 +43,72 @@ class Shot:
 
 
 class Studio:
-    """Draws one object. face_part: (F,) the part of each face."""
+    """Draws one object, with its parts where they are known (face_part: (F,) the part of each face)."""
 
-    def __init__(self, mesh: Mesh, face_part: Int[np.ndarray, " F"], config: Config) -> None:
-        self._mesh, self._part, self._config = mesh, face_part, config
-        self._scene = RayScene(mesh.vertices, mesh.faces)
+    def __init__(self, mesh: Mesh, config: Config) -> None:
+        self._mesh, self._config = mesh, config
 
     @cached_property
-    def _views(self) -> list[View]:
-        return views(self._mesh, self._config.views, scene=self._scene)
+    def scene(self) -> RayScene:
+        """The mesh's rays."""
+        return RayScene(self._mesh.vertices, self._mesh.faces)
+
+    @cached_property
+    def views(self) -> list[View]:
+        """The object from all sides."""
+        return views(self._mesh, self._config.views, scene=self.scene)
 
     @cached_property
     def face_colors(self) -> Float[np.ndarray, "F 3"]:
         """sRGB colour of every face, 0..1."""
         return face_colors(self._mesh) / 255.0
 
-    def card(self, part: int, title: str) -> Picture:
+    def view(self, camera: Camera) -> View:
+        """What one more camera sees."""
+        return shown(self._mesh, camera, self.scene)
+
+    def pictures(self, seen: Sequence[View]) -> tuple[Picture, ...]:
+        """Views as pictures: those from all sides first, then close-ups."""
+        return tuple(encode(v.color, self.caption(k)) for k, v in enumerate(seen))
+
+    def caption(self, number: int) -> str:
+        """A view in words; what follows those from all sides are close-ups."""
+        return caption(number, self._config.views) if number < len(self.views) else f"view {number + 1}: a close-up"
+
+    def card(self, face_part: Int[np.ndarray, " F"], part: int, title: str) -> Picture:
         """The whole object with the part marked, and a close-up when it is small."""
-        return encode(part_card(self._mesh, self._views, self._part, part, title, self._config.views, self._scene))
+        return encode(part_card(self._mesh, self.views, face_part, part, title, self._config.views, self.scene))
 
-    def shot(self, part: int) -> Shot:
+    def shot(self, face_part: Int[np.ndarray, " F"], part: int) -> Shot:
         """The part in its best view."""
-        view = self._views[best_view(self._views, self._part, part)]
-        view = close_up(self._mesh, view, self._part, part, self._config.views, self._scene) or view
-        return Shot(view, self._mask(view, part))
+        view = self._near(self.views[best_view(self.views, face_part, part)], face_part, part)
+        return Shot(view, self._mask(view, face_part, part))
 
-    def arrows(self, part: int, title: str, center: Float[np.ndarray, " 3"], directions: Float[np.ndarray, "k 3"]) -> Picture:
+    def arrows(
+        self,
+        face_part: Int[np.ndarray, " F"],
+        part: int,
+        title: str,
+        center: Float[np.ndarray, " 3"],
+        directions: Float[np.ndarray, "k 3"],
+    ) -> Picture:
         """The part with numbered arrows, in the view where they are most distinct."""
-        view = self._views[most_distinct_view(self._views, center, directions, self._part, part)]
-        view = close_up(self._mesh, view, self._part, part, self._config.views, self._scene) or view
-        length = ARROW * float(np.linalg.norm(np.ptp(self._mesh.triangles[self._part == part].reshape(-1, 3), axis=0)))
-        image = highlight(view.color, self._mask(view, part))
+        view = self.views[most_distinct_view(self.views, center, directions, face_part, part)]
+        view = self._near(view, face_part, part)
+        length = ARROW * float(np.linalg.norm(np.ptp(self._mesh.triangles[face_part == part].reshape(-1, 3), axis=0)))
+        image = highlight(view.color, self._mask(view, face_part, part))
         drawn = draw_arrows(image, view.camera, center, directions, range(1, len(directions) + 1), length)
         return encode(titled(drawn, title))
 
-    def strip(
-        self, part: int, carried: Sequence[int], title: str, motions: Sequence[Motion], amounts: Sequence[float]
-    ) -> Picture:
-        """The part, with what it carries, at rest and moved by the amount of each motion [rad or m]."""
-        moving = np.isin(self._part, [part, *carried])
+    def strip(self, moving: Bool[np.ndarray, " F"], title: str, motions: Sequence[Motion], amounts: Sequence[float]) -> Picture:
+        """A part, with what it carries, at rest and moved by the amount of each motion [rad or m]."""
         return encode(titled(motion_strip(self._mesh, moving, list(zip(motions, amounts, strict=True))), title))
 
-    def _mask(self, view: View, part: int) -> np.ndarray:
+    def _near(self, view: View, face_part: np.ndarray, part: int) -> View:
+        """A close-up where the part is small in the view."""
+        return close_up(self._mesh, view, face_part, part, self._config.views, self.scene) or view
+
+    def _mask(self, view: View, face_part: np.ndarray, part: int) -> np.ndarray:
         """Where the part is; the shape that shines through when nothing of it is seen."""
-        mask = part_pixels(view, self._part, part)
-        return mask if mask.any() else silhouette(self._mesh.triangles[self._part == part], view.camera)
+        mask = part_pixels(view, face_part, part)
+        return mask if mask.any() else silhouette(self._mesh.triangles[face_part == part], view.camera)

@@ -15,9 +15,9 @@ from anymesh.reasoning.asking import Seer
 from anymesh.reasoning.grounding import MarkedPart, WhichMarks, WhichViews
 from anymesh.rendering.encode import encode
 from anymesh.rendering.marks import draw_marks
-from anymesh.rendering.raycast_ import RayScene
 from anymesh.rendering.render import View
-from anymesh.rendering.viewpoints import caption, normal_picture, shown, views
+from anymesh.rendering.studio import Studio
+from anymesh.rendering.viewpoints import normal_picture
 from anymesh.segmentation.close_ups import close_ups
 from anymesh.segmentation.cloud import Cloud, sample_cloud
 from anymesh.segmentation.em import refine_instances
@@ -40,6 +40,7 @@ def ground_parts(
     seer: Seer,
     config: Config,
     recognition: Recognition,
+    studio: Studio,
     by_geometry: Callable[[], Segmentation],
     progress: Progress = silent,
 ) -> tuple[Segmentation, tuple[str, ...]]:
@@ -47,11 +48,12 @@ def ground_parts(
     labels = tuple(r.label for r in recognition.labels)
     progress("segment", "views", 0, 4)
     cloud = sample_cloud(mesh, whole, config.grounding, config.seed)
-    seen = _views(mesh, whole, cloud, config)
+    small = close_ups(whole, cloud, studio.views, config.grounding, config.views)
+    seen = [*studio.views, *(studio.view(camera) for camera in small)]
     progress("segment", "masks", 1, 4)
     proposals = propose(whole, cloud, seen, config)
     progress("segment", "marks", 2, 4)
-    marked = _ask(seer, seen, proposals, labels, config) if labels else ()
+    marked = _ask(seer, studio, seen, proposals, labels, config) if labels else ()
     progress("segment", "fusion", 3, 4)
     found, counts = fuse(cloud, seen, proposals, marked, config)
     face_part = face_parts(mesh, whole, cloud, point_parts(cloud, found, counts), config)
@@ -62,17 +64,6 @@ def ground_parts(
         parts, inside = with_hidden(parts, by_geometry(), unseen, mesh.face_areas)
     missing = [label for label in labels if label not in {p.label for p in parts.parts}]
     return parts, (*(f"no {label} was found, though {seer.name} expects one" for label in missing), *inside)
-
-
-def _views(mesh: Mesh, whole: ObjectShape, cloud: Cloud, config: Config) -> list[View]:
-    """The paper's views, and close-ups of what is too small there."""
-    scene = RayScene(mesh.vertices, mesh.faces)
-    seen = views(mesh, config.views, scene=scene)
-    return seen + [shown(mesh, camera, scene) for camera in close_ups(whole, cloud, seen, config.grounding, config.views)]
-
-
-def _caption(number: int, config: Config) -> str:
-    return caption(number, config.views) if number < config.views.count else f"view {number + 1}: a close-up"
 
 
 def propose(whole: ObjectShape, cloud: Cloud, seen: Sequence[View], config: Config) -> tuple[Proposal, ...]:
@@ -92,11 +83,10 @@ def propose(whole: ObjectShape, cloud: Cloud, seen: Sequence[View], config: Conf
 
 
 def _ask(
-    seer: Seer, seen: Sequence[View], proposals: Sequence[Proposal], labels: tuple[str, ...], config: Config
+    seer: Seer, studio: Studio, seen: Sequence[View], proposals: Sequence[Proposal], labels: tuple[str, ...], config: Config
 ) -> tuple[MarkedPart, ...]:
     """Which labels show in which view, then which marks are which part, in the views that show most of the labels."""
-    captions = [_caption(k, config) for k in range(len(seen))]
-    pictures = () if seer.blind else tuple(encode(v.color, c) for v, c in zip(seen, captions, strict=True))
+    pictures = () if seer.blind else studio.pictures(seen)
     seen_in = seer.ask(WhichViews(pictures, labels, tuple(v.face for v in seen)))
     score = np.array([sum(k in found for found in seen_in.values()) for k in range(len(seen))])
     chosen = [int(k) for k in np.sort(np.argsort(-score, kind="stable")[:MOST_PICTURES]) if score[k] > 0]
@@ -105,7 +95,7 @@ def _ask(
     regions = {k: np.where(np.isin(proposals[k].labels, proposals[k].numbers), proposals[k].labels, -1) for k in chosen}
     drawn = [] if seer.blind else [draw_marks(seen[k].color, r, alpha=config.grounding.alpha) for k, r in regions.items()]
     question = WhichMarks(
-        tuple(encode(image, captions[k]) for k, image in zip(regions, drawn, strict=False)),
+        tuple(encode(image, studio.caption(k)) for k, image in zip(regions, drawn, strict=False)),
         tuple(label for label, found in seen_in.items() if found),
         proposals[0].consistent,
         tuple(regions.values()),

@@ -49,8 +49,7 @@ class Camera:
 
     def project(self, points: Float[np.ndarray, "n 3"]) -> tuple[Float[np.ndarray, "n 2"], Float[np.ndarray, " n"]]:
         """Pixel positions and depths of points; points behind the camera have depth <= 0."""
-        local = (points - self.T_world_camera[:3, 3]) @ self.T_world_camera[:3, :3]
-        depth = local[:, 2]
-        safe = np.where(np.abs(depth) < 1e-9, 1e-9, depth)
-        pixel = local[:, :2] / safe[:, None] * self.focal + np.array([self.width, self.height]) / 2
-        return pixel, depth
+        x, y, z = (points - self.T_world_camera[:3, 3]).T
+        across, down, depth = (a * x + b * y + c * z for a, b, c in self.T_world_camera[:3, :3].T)
+        scale = self.focal / np.where(np.abs(depth) < 1e-9, 1e-9, depth)
+        return np.stack([across * scale + self.width / 2, down * scale + self.height / 2], 1), depth
