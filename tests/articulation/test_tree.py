@@ -1,10 +1,11 @@
 """Who hangs on whom."""
 
 import numpy as np
+import pytest
 from assets import box
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from scenes import built, door, drawer, joints_of
+from scenes import Scene, built, door, drawer, joints_of
 
 from anymesh.articulation.tree import descendants, parents
 from anymesh.geometry.pieces import object_shape
@@ -47,3 +48,38 @@ def test_descendants_are_those_whose_way_up_leads_through(draws) -> None:
 
     for i in range(len(parent)):
         assert descendants(parent, i) == [j for j in range(len(parent)) if i in way_up(j)]
+
+
+BESIDE = {
+    "base": [box((0, 0, 0), (9, 9, 1))],
+    "a": [box((1, 1, 1), (3, 3, 4))],
+    "b": [box((3, 1, 1), (4, 3, 3))],
+    "far": [box((7, 7, 1.5), (8, 8, 9))],
+}
+
+
+@pytest.mark.parametrize(
+    ("told", "parent"),
+    [
+        ([set(), set(), {1}, set()], 1),  # it touches the base as well
+        ([set(), set(), {0}, set()], 0),
+        ([set(), set(), {1, 3}, set()], 1),  # the nearest of those that are named
+        ([set(), set(), {2}, set()], 0),  # not on itself
+        ([set(), set(), {3}, set()], 0),  # out of reach: geometry decides
+        (None, 0),
+    ],
+)
+def test_what_somebody_said_is_taken_where_it_touches(told, parent: int) -> None:
+    assert parents_of(BESIDE, told)[2] == parent
+
+
+def test_what_somebody_said_in_a_circle_is_broken() -> None:
+    found = parents_of(BESIDE, [set(), {2}, {1}, set()])
+    assert found[1:3] in ([0, 1], [2, 0])
+
+
+def parents_of(scene: Scene, told) -> list[int]:
+    mesh, segmentation = built(scene)
+    whole = object_shape(mesh, 0, labels=segmentation.face_part)
+    shapes = [whole.of(np.flatnonzero(segmentation.face_part[whole.source] == k)) for k in range(len(scene))]
+    return parents(shapes, whole.diagonal, told)

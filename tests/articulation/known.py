@@ -1,0 +1,117 @@
+"""Small scenes with someone who knows their joints, and what became of the joints that were asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+from assets import box
+from scenes import Scene, built, case, door, drawer, lid, slider, wheel
+
+from anymesh.articulation.cases import Case, make_cases
+from anymesh.articulation.prompted import prompt_joints
+from anymesh.config import Config, PromptConfig, ViewsConfig
+from anymesh.geometry.pieces import ObjectShape, object_shape
+from anymesh.reasoning.asking import Seer
+from anymesh.reasoning.knowing import Knowing, KnownJoint, Reference
+from anymesh.rendering.studio import Studio
+from anymesh.types import Exchange, Joint, JointType, Mesh, Segmentation
+
+X, Y, Z = np.eye(3)
+QUICK = Config(
+    views=ViewsConfig(size=320, zoom_size=2048, zoom_below=1250), prompts=PromptConfig(label_apart=17.5)
+)  # half as fine
+
+
+def known(kind: str, axis, origin=(0.0, 0, 0), limits: tuple[float, float] | None = (0.0, 1.9)) -> KnownJoint:
+    return KnownJoint(JointType(kind), np.asarray(axis, float), np.asarray(origin, float), limits)
+
+
+def open_drawer() -> Scene:
+    """A box of boards in a case, half out: what is near the case are its sides and its floor, and no rim."""
+    tray = [
+        box((0.022, -0.18, 0.025), (0.578, 0.18, 0.033)),
+        box((0.022, -0.18, 0.033), (0.032, 0.18, 0.2)),
+        box((0.568, -0.18, 0.033), (0.578, 0.18, 0.2)),
+        box((0.032, 0.17, 0.033), (0.568, 0.18, 0.2)),
+    ]
+    return {"base": case(0.28), "box": [box((0.005, -0.2, 0.005), (0.595, -0.18, 0.275)), *tray]}
+
+
+@dataclass(frozen=True)
+class Known:
+    """A scene and the true joint of its one moving part."""
+
+    scene: Scene
+    joint: KnownJoint
+
+
+KNOWN = {
+    "left": Known(door("left"), known("revolute", Z, (0.598, -0.012, 0))),
+    "right": Known(door("right"), known("revolute", -Z, (0.002, -0.012, 0))),
+    "drawer": Known(drawer(), known("prismatic", -Y, limits=(0.0, 0.3))),
+    "open drawer": Known(open_drawer(), known("prismatic", -Y, limits=(-0.15, 0.15))),
+    "lid": Known(lid(), known("revolute", -X, (0, 0.4, 0.305), (0.0, 1.6))),
+    "slider": Known(slider(), known("prismatic", X, limits=(0.0, 0.5))),
+    "wheel": Known(wheel(), known("continuous", Y, (0, 0, 0.2), None)),
+}
+
+
+def row_of(*names: str) -> tuple[Scene, tuple[KnownJoint, ...]]:
+    """Some of these beside each other, on one base."""
+    scene, joints = {"base": []}, []
+    for k, name in enumerate(names):
+        shift = np.array([1.5 * k, 0, 0])
+        for part, pieces in KNOWN[name].scene.items():
+            scene.setdefault(part if part == "base" else name, []).extend((v + shift, f) for v, f in pieces)
+        joints.append(replace(KNOWN[name].joint, origin=KNOWN[name].joint.origin + shift))
+    return scene, tuple(joints)
+
+
+def ready(scene: Scene) -> tuple[Mesh, ObjectShape, Segmentation]:
+    mesh, segmentation = built(scene)
+    return mesh, object_shape(mesh, 0, labels=segmentation.face_part), segmentation
+
+
+def the_case(scene: Scene) -> Case:
+    """The one moving part of a scene."""
+    _, whole, segmentation = ready(scene)
+    (found,) = make_cases(whole, segmentation, None, Config())
+    return found
+
+
+def knowing(mesh: Mesh, segmentation: Segmentation, joints: tuple[KnownJoint, ...]) -> Knowing:
+    """Answers from these joints, one a part after the base, all on the base."""
+    labels = ("base", *(p.label for p in segmentation.parts[1:]))
+    made = Reference("object", 1.0, segmentation.face_part, mesh.face_areas, labels, (0,) * len(labels), (None, *joints))
+    return Knowing("oracle", lambda: made)
+
+
+@dataclass
+class Watched:
+    """Another seer, with what it was asked; changed: answers given in its place, of a question, by its kind.
+
+    blind=False makes the pictures be drawn that a model would see.
+    """
+
+    seer: Seer
+    blind: bool = True
+    changed: dict[str, Callable[[Any], Any]] = field(default_factory=dict)
+    asked: list[Any] = field(default_factory=list)
+    name: str = "watched"
+    exchanges: tuple[Exchange, ...] = ()
+    remarks: tuple[str, ...] = ()
+
+    def ask(self, question: Any) -> Any:
+        self.asked.append(question)
+        return self.changed[question.kind](question) if question.kind in self.changed else self.seer.ask(question)
+
+
+def prompted(scene: Scene, joints: tuple[KnownJoint, ...], **options: Any) -> tuple[tuple[Joint, ...], Watched]:
+    """The joints of a scene, asked of someone who knows them; options: of Watched, or verify."""
+    mesh, whole, segmentation = ready(scene)
+    verify = options.pop("verify", True)
+    watched = Watched(knowing(mesh, segmentation, joints), **options)
+    return prompt_joints(Studio(mesh, QUICK), whole, segmentation, watched, QUICK, verify=verify), watched

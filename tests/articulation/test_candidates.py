@@ -1,0 +1,139 @@
+"""Candidate points: on the surface, as many as can be told apart in the picture, the same every time."""
+
+import warnings
+
+import numpy as np
+import pytest
+from assets import box
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.spatial import KDTree
+from scipy.spatial.distance import pdist
+
+from anymesh.articulation.candidates import apart, cluster_points, superpoint_centres, with_more
+from anymesh.config import GroundingConfig, PromptConfig
+from anymesh.geometry.sampling import sample_surface
+from anymesh.types.camera import Camera
+
+CONFIG = PromptConfig()
+GROUNDING = GroundingConfig()
+
+
+def across(scale: float):
+    """A picture that shows x and z, so many pixels a metre."""
+    return lambda points: points[:, [0, 2]] * scale
+
+
+def camera(seed: int):
+    """A view from somewhere round the unit cube."""
+    rng = np.random.default_rng(seed)
+    eye = rng.normal(size=3)
+    eye *= rng.uniform(1.5, 6) / np.linalg.norm(eye)
+    found = Camera.looking_at(eye, np.zeros(3), np.deg2rad(60), 640, 640)
+    return lambda points: found.project(points)[0]
+
+
+def cloud(seed: int, count: int) -> np.ndarray:
+    rng = np.random.default_rng(seed)
+    return rng.uniform(-0.5, 0.5, (count, 3)) * rng.uniform(0.01, 1, 3)
+
+
+@settings(max_examples=25, deadline=None)
+@given(st.integers(0, 10**6), st.integers(1, 300))
+def test_numbers_keep_apart_and_points_lie_on_the_contact(seed: int, count: int) -> None:
+    contact, project = cloud(seed, count), camera(seed)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        found = cluster_points(contact, project, CONFIG)
+    assert 1 <= len(found) <= CONFIG.most_candidates
+    assert KDTree(contact).query(found)[0].max() == 0
+    assert pdist(project(found)).min(initial=np.inf) >= CONFIG.label_apart * (1 - 1e-6)
+    assert np.array_equal(found, cluster_points(contact, project, CONFIG))
+
+
+@pytest.mark.parametrize(("length", "count"), [(34, 1), (36, 2), (69, 2), (71, 3), (141, 5), (5000, 20)])
+def test_as_many_points_are_kept_as_have_room(length: float, count: int) -> None:
+    """Clusters of a few pixels, evenly along a line: one more would stand too near."""
+    ends = np.linspace(0, 1, count)
+    contact = np.concatenate([np.c_[ends, 0 * ends, d + 0 * ends] for d in (-1e-4, 0, 1e-4)])
+    found = cluster_points(contact, across(length), CONFIG)
+    assert np.sort(found[:, 0]) == pytest.approx(ends)
+
+
+def test_of_points_behind_one_another_one_is_kept() -> None:
+    contact = np.array([[0, 0, 0], [0, 1, 0], [0, 2, 0]], float)
+    assert len(cluster_points(contact, across(100), CONFIG)) == 1
+
+
+def test_the_picture_that_is_shown_decides() -> None:
+    contact = cloud(3, 200)
+    counts = [len(cluster_points(contact, across(scale), CONFIG)) for scale in (10, 200, 2000)]
+    assert counts[0] < counts[1] < counts[2]
+
+
+def test_many_contacts_are_thinned_and_still_cover_all() -> None:
+    contact = np.c_[np.linspace(0, 1, 20_001), np.zeros((20_001, 2))]
+    found = cluster_points(contact, across(140), CONFIG)[:, 0]
+    assert len(found) >= 3
+    assert np.ptp(found) > 0.6
+
+
+CORNERS, FACES = box((0, 0, 0), (1, 1, 1))
+CUBE = CORNERS[FACES]
+
+
+def centres(colors: np.ndarray | None = None, count: int = 1200) -> np.ndarray:
+    samples = sample_surface(CUBE, count, 0)
+    return superpoint_centres(samples, np.zeros((count, 3)) if colors is None else colors, GROUNDING)
+
+
+def test_a_box_has_a_superpoint_a_side() -> None:
+    found = centres()
+    assert len(found) == 6
+    middles = np.concatenate([0.5 + 0.5 * np.eye(3), 0.5 - 0.5 * np.eye(3)])
+    far, side = KDTree(middles).query(found)
+    assert sorted(side) == list(range(6))
+    assert far.max() < 0.1
+
+
+def test_superpoint_centres_are_samples_of_the_surface() -> None:
+    assert KDTree(sample_surface(CUBE, 1200, 0).points).query(centres())[0].max() == 0
+
+
+def test_a_patch_of_another_colour_has_one_of_its_own() -> None:
+    points = sample_surface(CUBE, 1200, 0).points
+    patch = (points[:, 2] == 1) & (points[:, 0] < 0.5)
+    found = centres(np.where(patch[:, None], 1.0, 0.0) * np.ones(3))
+    assert len(found) == 7
+    assert sum((found[:, 2] == 1) & (found[:, 0] < 0.5)) == 1
+
+
+@pytest.mark.parametrize("count", [1, 2, 5])
+def test_few_samples_have_a_centre_too(count: int) -> None:
+    assert len(centres(count=count)) <= count
+
+
+def test_more_points_are_added_in_their_order_where_they_have_room() -> None:
+    first = np.array([[0.0, 0, 0], [1, 0, 0]])
+    more = np.array([[0.1, 0, 0.1], [0.5, 0, 0], [0.6, 0, 0.1], [0.5, 0, 0.5]])
+    found = with_more(first, more, across(100), CONFIG)
+    assert len(found) == 4
+    assert np.array_equal(found[2:], more[[1, 3]])  # the others stand too near to one that came before
+
+
+@settings(max_examples=20, deadline=None)
+@given(st.integers(0, 10**6))
+def test_the_first_points_take_half_of_the_places_at_most(seed: int) -> None:
+    first, more = cloud(seed, 20), cloud(seed + 1, 60)
+    found = with_more(first, more, across(10_000), CONFIG)
+    assert len(found) <= CONFIG.most_candidates
+    ours = KDTree(first).query(found)[0] == 0
+    assert ours.sum() == CONFIG.most_candidates // 2
+
+
+def test_apart_is_at_least_so_far() -> None:
+    at = np.array([[0.0, 0], [35, 0], [0, 35]])
+    assert apart(at, 35.0)
+    assert not apart(at, 35.1)
+    assert apart(at[:1], 35.0)
+    assert apart(at[:0], 35.0)
