@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from assets import box, mesh_of
+from scipy.spatial.distance import cdist
 
 from anymesh.config import SegmentationConfig
 from anymesh.geometry.contact import connecting_area
@@ -16,11 +17,16 @@ def contacts(*boxes) -> Contacts:
     return find_contacts(object_shape(mesh_of(boxes)[0]), SegmentationConfig())
 
 
+def gaps(a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    between = cdist(a, b)
+    return between.min(1), between.min(0)
+
+
 def test_the_connecting_area_of_two_boxes_is_their_common_face() -> None:
     boxes = [BLOCK, box((1, 0.25, 0.25), (2, 0.75, 0.75))]
     whole = object_shape(mesh_of(boxes)[0])
     a, b = (whole.of(np.flatnonzero(whole.piece == k)).samples.points for k in (0, 1))
-    in_a, in_b, threshold = connecting_area(a, b, 0.05)
+    in_a, in_b, threshold = connecting_area(*gaps(a, b), 0.05)
     assert threshold == 0.05
     for points in (a[in_a], b[in_b]):
         assert len(points) > 3
@@ -31,10 +37,10 @@ def test_the_connecting_area_of_two_boxes_is_their_common_face() -> None:
 
 def test_the_threshold_is_doubled_until_a_point_is_near() -> None:
     a, b = np.zeros((1, 3)), np.array([[0, 0, 1.0], [0, 0, 9.0]])
-    in_a, in_b, threshold = connecting_area(a, b, 0.3)
+    in_a, in_b, threshold = connecting_area(*gaps(a, b), 0.3)
     assert (in_a.tolist(), in_b.tolist(), threshold) == ([True], [True, False], 1.2)
     with pytest.raises(ValueError, match="positive, found 0"):
-        connecting_area(a, b, 0.0)
+        connecting_area(*gaps(a, b), 0.0)
 
 
 def test_touching_boxes_are_one_body_that_touches_at_the_face() -> None:

@@ -6,13 +6,11 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from jaxtyping import Float
 
 from anymesh.articulation.decode import plane_normal
 from anymesh.articulation.estimate import surroundings
 from anymesh.articulation.tree import descendants, parents
 from anymesh.config import ArticulationConfig, Config
-from anymesh.geometry.distance_ import distance_to_triangles
 from anymesh.geometry.pieces import ObjectShape
 from anymesh.geometry.surroundings import Surroundings
 from anymesh.reasoning.asking import Answer, Question, Seer
@@ -55,7 +53,7 @@ def make_cases(whole: ObjectShape, segmentation: Segmentation, recognition: Reco
     for i, part in enumerate(segmentation.parts[1:], start=1):
         limited = _limited(config.articulation, told.get(part.label))
         around = surroundings(whole, label, shapes, parent, i, limited)
-        contact = connecting_points(around)
+        contact = around.contact
         shown = PartShown(
             label=part.label,
             faces=segmentation.faces(i),
@@ -67,19 +65,6 @@ def make_cases(whole: ObjectShape, segmentation: Segmentation, recognition: Reco
         carried = tuple(descendants(parent, i))
         found.append(Case(i, part.name, segmentation.parts[parent[i]].name, carried, around, shown))
     return found
-
-
-def connecting_points(around: Surroundings) -> Float[np.ndarray, "n 3"]:
-    """Points of the connecting area, of both (paper, 3.3) [m], measured to the other's surface rather than to its samples.
-
-    On a large parent samples lie far apart: next to a small part there may be none.
-    """
-    reach = around.config.connecting * max(around.scale, 1e-3 * around.diagonal)
-    theirs = around.parent.samples.points
-    off = distance_to_triangles(theirs, around.part.triangles)
-    while not ((around.gap < reach).any() or (off < reach).any()):
-        reach *= 2
-    return np.concatenate([around.part.samples.points[around.gap < reach], theirs[off < reach]])
 
 
 def _limited(config: ArticulationConfig, told: RecognizedLabel | None) -> ArticulationConfig:

@@ -120,10 +120,14 @@ class Surroundings:
 
     @cached_property
     def contact(self) -> Float[np.ndarray, "n 3"]:
-        """Points of the connecting area, of both (paper, 3.3) [m]."""
-        a, b = self.part.samples.points, self.parent.samples.points
-        in_a, in_b, _ = connecting_area(a, b, self.config.connecting * self.scale)
-        return np.concatenate([a[in_a], b[in_b]])
+        """Points of the connecting area, of both (paper, 3.3) [m].
+
+        Measured to the other's surface rather than to its samples: on a large parent these may all lie apart from a small part.
+        """
+        theirs = self.parent.samples.points
+        off = distance_to_triangles(theirs, self.part.triangles)
+        near, far, _ = connecting_area(self.gap, off, self.config.connecting * max(self.scale, 1e-3 * self.diagonal))
+        return np.concatenate([self.part.samples.points[near], theirs[far]])
 
     def sees_outside(self, direction: Float[np.ndarray, " 3"]) -> Bool[np.ndarray, " n"]:
         """Which samples of the part see no other surface of the object along `direction`."""
