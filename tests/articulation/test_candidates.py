@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from scipy.spatial import KDTree
 from scipy.spatial.distance import pdist
 
-from anymesh.articulation.candidates import apart, cluster_points, superpoint_centres, with_more
+from anymesh.articulation.candidates import cluster_points, superpoint_centres, with_more
 from anymesh.config import GroundingConfig, PromptConfig
 from anymesh.geometry.sampling import sample_surface
 from anymesh.types.camera import Camera
@@ -129,11 +129,3 @@ def test_the_first_points_take_half_of_the_places_at_most(seed: int) -> None:
     assert len(found) <= CONFIG.most_candidates
     ours = KDTree(first).query(found)[0] == 0
     assert ours.sum() == CONFIG.most_candidates // 2
-
-
-def test_apart_is_at_least_so_far() -> None:
-    at = np.array([[0.0, 0], [35, 0], [0, 35]])
-    assert apart(at, 35.0)
-    assert not apart(at, 35.1)
-    assert apart(at[:1], 35.0)
-    assert apart(at[:0], 35.0)

@@ -12,6 +12,7 @@ from scipy.spatial import KDTree
 from anymesh.config import GroundingConfig, PromptConfig
 from anymesh.geometry.sampling import SurfacePoints
 from anymesh.geometry.superpoints import superpoints
+from anymesh.rendering.points import labels_apart
 
 Project = Callable[[Float[np.ndarray, "n 3"]], Float[np.ndarray, "n 2"]]  # points [m] to pixels of the picture that is shown
 MOST_POINTS = 4000  # of a connecting area that are clustered
@@ -25,7 +26,7 @@ def cluster_points(contact: Float[np.ndarray, "n 3"], project: Project, config: 
     for k in range(2, len(order) + 1):
         centres, _ = kmeans2(points, points[order[:k]], iter=20, minit="matrix", missing="warn")
         snapped = points[np.unique(KDTree(points).query(centres)[1])]
-        if len(snapped) == k and apart(project(snapped), config.label_apart):
+        if len(snapped) == k and labels_apart(project(snapped), config.label_apart):
             best = snapped
     return best
 
@@ -55,14 +56,9 @@ def with_more(
     """The first points, half of the places at most, and as many of the others, in their order, as keep their numbers apart."""
     chosen = list(first[_farthest(first, min(len(first), config.most_candidates // 2))])
     for point in more:
-        if len(chosen) < config.most_candidates and apart(project(np.array([*chosen, point])), config.label_apart):
+        if len(chosen) < config.most_candidates and labels_apart(project(np.array([*chosen, point])), config.label_apart):
             chosen.append(point)
     return np.array(chosen)
-
-
-def apart(pixels: Float[np.ndarray, "k 2"], least: float) -> bool:
-    """Whether all points of a picture are at least this far apart [px]."""
-    return len(pixels) < 2 or not len(KDTree(pixels).query_pairs(least * (1 - 1e-9)))
 
 
 def _farthest(points: np.ndarray, count: int) -> np.ndarray:

@@ -1,0 +1,91 @@
+"""Stage A with someone who sees, whole: exact regions or masks of a model, what no view shows, labels that nothing bears."""
+
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from anymesh.config import Config, GroundingConfig
+from anymesh.evaluation.matching import match_parts, part_ious
+from anymesh.evaluation.oracle import oracle
+from anymesh.evaluation.truth import Truth, example_truths
+from anymesh.loading import load_mesh, place_mesh
+from anymesh.rendering.viewpoints import part_pixels, views
+from anymesh.segmentation import grounded
+from anymesh.solving import Solver
+from anymesh.stage_results import Segmented
+from anymesh.types import Mesh, Segmentation
+from anymesh.types.recognition import Recognition, RecognizedLabel
+
+TRUTHS = {t.name: t for t in example_truths(Path(__file__).parents[2] / "examples")}
+FEW = GroundingConfig(points=60_000)
+
+
+def found_in(name: str, proposer: str = "exact") -> tuple[Truth, Mesh, Segmented]:
+    truth = TRUTHS[name]
+    placed = place_mesh(load_mesh(truth.mesh))
+    solver = Solver(
+        placed.mesh, Config(grounding=FEW, proposer=proposer), lambda _: oracle(truth, placed.mesh, placed.T_asset_source)
+    )
+    return truth, placed.mesh, solver.parts("auto", solver.recognize().recognition)
+
+
+def ious(truth: Truth, mesh: Mesh, found: Segmentation) -> dict[str, float]:
+    pairs = match_parts(part_ious(found.face_part, truth.labels, mesh.face_areas))
+    return {truth.parts[t].name: iou for _, t, iou in pairs}
+
+
+def test_marks_become_parts_and_geometry_finds_what_no_view_shows() -> None:
+    truth, mesh, found = found_in("microwave")
+    got = ious(truth, mesh, found.segmentation)
+    assert set(got) == {p.name for p in truth.parts[1:]}
+    assert min(got.values()) > 0.97
+    reason = {p.label: p.reason for p in found.segmentation.parts}
+    assert reason["door"] == "pointed at by oracle"
+    assert "no view shows it" in reason["wheel"]
+    assert any("no view shows the wheel" in w for w in found.warnings)
+
+
+@pytest.mark.parametrize("name", ["microwave_fused", "tilted_drawer"])
+def test_masks_of_a_model_become_parts_by_partslip(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A model that masks every part in every view, with numbers that mean nothing from view to view."""
+    truth = TRUTHS[name]
+    mesh = place_mesh(load_mesh(truth.mesh)).mesh
+    shown = {v.color.tobytes(): v for v in views(mesh, Config().views)}
+
+    def masks(_: object, image: np.ndarray) -> list[SimpleNamespace]:
+        view = shown.get(image.tobytes())
+        parts = [] if view is None else [part_pixels(view, truth.labels, k) for k in range(len(truth.parts))]
+        return [SimpleNamespace(mask=m) for m in parts if m.any()]
+
+    monkeypatch.setattr(grounded, "load_sam", lambda spec: spec)
+    monkeypatch.setattr(grounded, "automatic_masks", masks)
+    truth, mesh, found = found_in(name, "sam:some")
+    got = ious(truth, mesh, found.segmentation)
+    assert set(got) == {p.name for p in truth.parts[1:]}
+    assert min(got.values()) > 0.9
+
+
+def test_what_is_expected_and_not_there_is_told() -> None:
+    truth = TRUTHS["tilted_drawer"]
+    placed = place_mesh(load_mesh(truth.mesh))
+    solver = Solver(placed.mesh, Config(grounding=FEW), lambda _: oracle(truth, placed.mesh, placed.T_asset_source))
+    asked = [RecognizedLabel(label, None, None, None) for label in ("drawer", "trapdoor")]
+    found = solver.parts("auto", Recognition("cabinet", None, tuple(asked)))
+    assert [p.label for p in found.segmentation.parts] == ["base", "drawer"]
+    assert found.warnings == ("no trapdoor was found, though oracle expects one",)
+
+
+def test_where_nothing_moves_nothing_is_asked() -> None:
+    placed = place_mesh(load_mesh(TRUTHS["table"].mesh))
+
+    class Silent:
+        name, blind, exchanges, remarks = "silent", True, (), ()
+
+        def ask(self, question):
+            raise AssertionError(f"asked {question.kind}")
+
+    found = Solver(placed.mesh, Config(grounding=FEW), lambda _: Silent()).parts("auto", Recognition("table", None, ()))
+    assert [p.name for p in found.segmentation.parts] == ["base"]
+    assert "nothing was found that moves" in found.warnings
