@@ -13,9 +13,9 @@ from anymesh.articulation.cases import MOST_PICTURES, ask_each
 from anymesh.articulation.prompted import prompt_joints
 from anymesh.evaluation.metrics import angle_error, line_distance
 from anymesh.reasoning.knowing import KnownJoint
-from anymesh.reasoning.prompting import JointKind, KindAnswer
+from anymesh.reasoning.prompting import JointKind, KindAnswer, WhichMotions
 from anymesh.rendering.studio import Studio
-from anymesh.types import Joint, JointType, Part, Picture
+from anymesh.types import Joint, JointType, Motion, Part, Picture
 from anymesh.types.recognition import Moves, Recognition, RecognizedLabel
 
 X, Y, Z = np.eye(3)
@@ -116,7 +116,7 @@ def test_where_no_motion_is_recognized_the_likeliest_is_taken_and_it_is_told() -
     scene, true = KNOWN["left"].scene, KNOWN["left"].joint
     (found,), _ = prompted(scene, (true,), changed={"motions": lambda q: (None,)})
     assert found.confidence < 0.4  # such joints are named in the warnings
-    assert "none of" in found.reason
+    assert "none recognized" in found.reason
     assert found.type is JointType.REVOLUTE
 
 
@@ -211,3 +211,28 @@ def test_more_parts_than_pictures_in_a_call_take_more_calls() -> None:
     assert [len(pictures) for pictures, _ in calls] == [MOST_PICTURES, 3]
     assert titles[MOST_PICTURES:] == ["part 1: part", "part 2: part", "part 3: part"]
     assert found == {10 + k: k % MOST_PICTURES for k in range(MOST_PICTURES + 3)}
+
+
+def test_a_choice_against_all_that_was_answered_before_must_be_given_twice() -> None:
+    scene, true = KNOWN["left"].scene, KNOWN["left"].joint
+    asked: list[WhichMotions] = []
+
+    def once(question: WhichMotions) -> tuple[int, ...]:
+        """A slip: wrong the first time, right when asked again."""
+        asked.append(question)
+        return (len(question.tables[0].motions) - 1,)  # the last; the same row of the other order is the first
+
+    (found,), _ = prompted(scene, (true,), changed={"motions": once})
+    first, again = (q.tables[0].motions for q in asked)
+    assert [m.source for m in again] == [m.source for m in first][::-1]
+    check(found, true, size(scene))
+    assert "asked twice" in found.reason
+    (insisted,), _ = prompted(scene, (true,), changed={"motions": lambda q: (_row_of(q, first[-1]),)})
+    assert abs(insisted.axis @ first[-1].axis) == pytest.approx(1)
+    assert insisted.confidence < 0.7
+
+
+def _row_of(question: WhichMotions, motion: Motion) -> int:
+    motions = question.tables[0].motions
+    same = [m.kind is motion.kind and np.allclose([m.axis, m.origin], [motion.axis, motion.origin]) for m in motions]
+    return same.index(True)

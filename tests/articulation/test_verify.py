@@ -36,7 +36,7 @@ def candidates_of(name: str, asked: Motion | None = None) -> tuple[PartFacts, tu
 
 def shown(name: str, asked: Motion | None, kind: JointKind, most: int = MOST) -> list[Candidate]:
     """The motions that would be shown."""
-    return feasible(case_of(name).around, *candidates_of(name, asked), kind, most)
+    return feasible(case_of(name).around, *candidates_of(name, asked), kind, most)[0]
 
 
 def moved(c: Candidate, case: Case) -> np.ndarray:

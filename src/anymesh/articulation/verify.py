@@ -3,7 +3,7 @@ would look different are shown to choose from."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Int
@@ -38,36 +38,63 @@ class Choice:
     confidence: float
 
 
+@dataclass(frozen=True, eq=False)
+class Open:
+    """A part with several free motions, likeliest first. answered: the one that is, or looks like, what was answered before."""
+
+    case: Case
+    facts: PartFacts
+    free: tuple[Candidate, ...]
+    answered: int | None
+
+    @property
+    def table(self) -> MotionTable:
+        amounts = tuple(shown_amount(c, self.case.around) for c in self.free)
+        return MotionTable(self.case.shown, tuple(opening_motion(c) for c in self.free), amounts)
+
+    def turned_over(self) -> Open:
+        """The same in the opposite order, which makes another picture."""
+        return replace(self, free=self.free[::-1])
+
+
 def choose(cases: list[Case], studio: Studio, labels: Int[np.ndarray, " F"], seer: Seer, most: int) -> dict[int, Choice]:
     """The free motions of each part are shown, moved, and one is chosen; by part number.
 
-    labels: the part of each face; most: motions in a picture.
+    Where the choice contradicts what geometry and the answers before agree on, it is asked for again, in another order, and
+    must be the same. labels: the part of each face; most: motions in a picture.
     """
     found: dict[int, Choice] = {}
-    facts, shown, tables = {}, {}, {}
+    left: dict[int, Open] = {}
     for c in cases:
-        facts[c.number], candidates = weighed(c.around, c.label, c.asked)
-        shown[c.number] = feasible(c.around, facts[c.number], candidates, c.kind, most)
+        facts, candidates = weighed(c.around, c.label, c.asked)
+        free, answered = feasible(c.around, facts, candidates, c.kind, most)
         if c.kind is JointKind.FIXED:
             found[c.number] = Choice(candidates[0], "answered: it does not move", 0.7)
-        elif len(shown[c.number]) < 2:
-            found[c.number] = _without_choice(facts[c.number], shown[c.number], candidates[0])
+        elif len(free) < 2:
+            found[c.number] = _without_choice(facts, free, candidates[0])
         else:
-            free = shown[c.number]
-            amounts = tuple(shown_amount(motion, c.around) for motion in free)
-            tables[c.number] = MotionTable(c.shown, tuple(opening_motion(motion) for motion in free), amounts)
-    rows = ask_each(
+            left[c.number] = Open(c, facts, tuple(free), answered)
+    rows = _ask(left, studio, labels, seer)
+    doubted = {n: o.turned_over() for n, o in left.items() if o.answered == 0 and rows[n] != 0}
+    again = _ask(doubted, studio, labels, seer)
+    for n, o in left.items():
+        row = rows[n]
+        if n in again and again[n] != (None if row is None else len(o.free) - 1 - row):
+            row = 0
+        found[n] = _chosen(o, row, doubted=n in again)
+    return found
+
+
+def _ask(left: dict[int, Open], studio: Studio, labels: Int[np.ndarray, " F"], seer: Seer) -> dict[int, int | None]:
+    tables = {n: o.table for n, o in left.items()}
+    return ask_each(
         seer,
-        [c for c in cases if c.number in tables],
+        [o.case for o in left.values()],
         lambda c, title: studio.strip(
             np.isin(labels, [c.number, *c.carried]), title, tables[c.number].motions, tables[c.number].amounts
         ),
         lambda p, some: WhichMotions(p, tuple(tables[c.number] for c in some)),
     )
-    for c in cases:
-        if c.number in rows:
-            found[c.number] = _chosen(c.kind, facts[c.number], shown[c.number], rows[c.number])
-    return found
 
 
 def _without_choice(facts: PartFacts, free: list[Candidate], answered: Candidate) -> Choice:
@@ -76,12 +103,13 @@ def _without_choice(facts: PartFacts, free: list[Candidate], answered: Candidate
     return Choice(best, f"{told}: {reason(facts, best)}", 0.8 if free else 0.2)
 
 
-def _chosen(kind: JointKind, facts: PartFacts, free: list[Candidate], row: int | None) -> Choice:
-    best = free[row or 0]
-    told = reason(facts, best)
+def _chosen(o: Open, row: int | None, *, doubted: bool) -> Choice:
+    best = o.free[row or 0]
+    told = f"{len(o.free)} free motions{', asked twice' if doubted else ''}: {reason(o.facts, best)}"
     if row is None:
-        return Choice(best, f"none of {len(free)} free motions was recognized; the likeliest: {told}", 0.25)
-    return Choice(best, f"answered: {words(kind)}, among {len(free)} free motions: {told}", 0.9 if row == 0 else 0.7)
+        return Choice(best, f"none recognized of {told}", 0.25)
+    sure = 0.6 if doubted else 0.9 if row == 0 else 0.7
+    return Choice(best, f"answered: {words(o.case.kind)}, among {told}", sure)
 
 
 def words(kind: JointKind) -> str:
@@ -104,10 +132,10 @@ def is_free(c: Candidate) -> bool:
 
 def feasible(
     around: Surroundings, facts: PartFacts, candidates: tuple[Candidate, ...], kind: JointKind, most: int
-) -> list[Candidate]:
+) -> tuple[list[Candidate], int | None]:
     """The free motions that look different, the likeliest first; of those that look alike, the likeliest stands for all.
 
-    What was answered keeps its place among them if it is free.
+    What was answered keeps its place among them if it is free; its index is returned too.
     """
     habit = habit_of(facts.label)
     points = around.part.samples.points[:: max(1, len(around.part.samples) // 200)]
@@ -130,7 +158,7 @@ def feasible(
     shown = kept[:most]
     if answered is not None and answered not in shown:
         shown = [*shown[: most - 1], answered]
-    return [candidates[k] for k in shown]
+    return [candidates[k] for k in shown], None if answered is None else shown.index(answered)
 
 
 def fits(c: Candidate, kind: JointKind) -> bool:

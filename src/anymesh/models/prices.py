@@ -2,7 +2,7 @@
 
 USD for a million tokens of (input, output), standard service, without the discounts for batches and repeated input, so a
 bill is never more than is said here. From genai-prices 0.2.3 on 2026-11-21; a price that is announced to end before
-February 2027 is left out in favour of what follows it. A test compares the rows with the package that is installed.
+February 2027 is left out in favour of what follows it. A test compares the rows with that package.
 """
 
 from __future__ import annotations
