@@ -144,6 +144,13 @@ def test_no_secret_and_no_request_in_errors_logs_and_reprs(
     assert SECRET not in _chain(error)
 
 
+def test_a_key_that_a_server_says_is_taken_out_of_its_answer(dialect: Dialect, service: Service, connected: Connect) -> None:
+    service.says(dialect.reply(f'{{"hinge": 1, "why": "your key is {SECRET}-{dialect.name.partition(":")[0]}"}}', "stop"))
+    said = connected(dialect).ask(a_request()).text
+    assert SECRET not in said
+    assert "your key is [removed]" in said
+
+
 def test_no_secret_after_a_time_out_or_a_cut(
     dialect: Dialect, service: Service, connected: Connect, caplog: pytest.LogCaptureFixture
 ) -> None:

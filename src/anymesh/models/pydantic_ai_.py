@@ -104,7 +104,7 @@ class Client:
             log.warning("%s: the answer to %r was cut off at %d tokens", self.name, request.kind, request.max_tokens)
         text, usage = the_text(found), found.usage
         return Reply(
-            text=text if schema else unfenced(text),
+            text=_without_keys(text if schema else unfenced(text)),
             model=self.name,
             input_tokens=usage.input_tokens,
             output_tokens=usage.output_tokens,
@@ -152,13 +152,24 @@ class Client:
         if status in (401, 403):  # its words are about the key, and often hold parts of it
             message += f", the key in {' or '.join(names)} is missing or refused"
             return _Failure(ModelError(message), status)
-        secrets = [value for group in KEYS.values() for n in group if (value := os.environ.get(n, "").strip())]
-        if words := safe_words(_words(error.body), request, secrets):
+        if words := safe_words(_words(error.body), request, _keys()):
             message += f", it says: {words}"
         passing = status in (408, 425, 429) or status >= 500
         if passing and not isinstance(error, ModelQuotaExceededError):
             return _Failure(TransientError(message, error.retry_after), status)
         return _Failure(ModelError(message), status)
+
+
+def _keys() -> list[str]:
+    """Every key in the environment."""
+    return [value for group in KEYS.values() for n in group if (value := os.environ.get(n, "").strip())]
+
+
+def _without_keys(text: str) -> str:
+    """A server may say the key that it was sent; an answer is kept in files."""
+    for key in (k for k in _keys() if len(k) >= 8):  # what is shorter is no key, and may be a word
+        text = text.replace(key, "[removed]")
+    return text
 
 
 def _in_thread(work: Callable[[], Coroutine[Any, Any, T]]) -> T:
