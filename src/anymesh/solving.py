@@ -12,6 +12,8 @@ from anymesh.articulation.estimate import ask_motion, estimate_joints
 from anymesh.articulation.prompted import prompt_joints
 from anymesh.config import Config
 from anymesh.geometry.pieces import ObjectShape, object_shape
+from anymesh.models.sam import PromptedSegmenter
+from anymesh.models.sam_load import load_sam
 from anymesh.progress import Progress, silent
 from anymesh.reasoning.asking import Seer
 from anymesh.reasoning.geometry import GeometryAnswerer
@@ -19,7 +21,7 @@ from anymesh.reasoning.knowing import Knowing, KnownJoint, Reference
 from anymesh.reasoning.recognition import recognize
 from anymesh.rendering.studio import Studio
 from anymesh.segmentation.given import GIVEN, parts_from_file, parts_from_nodes
-from anymesh.segmentation.grounded import ground_parts
+from anymesh.segmentation.grounded import EXACT, ground_parts
 from anymesh.segmentation.segment import segment_parts
 from anymesh.stage_results import Jointed, Recognized, Segmented
 from anymesh.types import Joint, Mesh, Segmentation
@@ -43,6 +45,11 @@ class Solver:
         return object_shape(self.mesh, self.config.seed, self.config.pieces)
 
     @cached_property
+    def _segmenter(self) -> PromptedSegmenter | None:
+        spec = self.config.proposer.removeprefix(f"{EXACT}+")
+        return None if spec == EXACT else load_sam(spec)
+
+    @cached_property
     def _studio(self) -> Studio:
         return Studio(self.mesh, self.config)
 
@@ -50,6 +57,7 @@ class Solver:
         """What the object is and which parts move, from someone who sees. sized: the answered size sets the scale."""
         if self._see is None:
             return Recognized(None, GEOMETRY.name)
+        _ = self._segmenter  # weights that cannot be used are better missed before anything is asked
         seer = self._see(Knowing(GEOMETRY.name, self._by_geometry))
         found = recognize(lambda: self._studio.pictures(self._studio.views), seer, self.config.category, self.config.parts_list)
         scale, note = _scale(found, self.mesh) if sized else (1.0, "")
@@ -64,7 +72,15 @@ class Solver:
             return _segmented(self._geometric_parts(progress), GEOMETRY.name)
         seer = self._see(Knowing(GEOMETRY.name, self._by_geometry))
         found, warnings = ground_parts(
-            self.mesh, self.whole, seer, self.config, recognition, self._studio, self._geometric_parts, progress
+            self.mesh,
+            self.whole,
+            seer,
+            self.config,
+            recognition,
+            self._studio,
+            self._segmenter,
+            self._geometric_parts,
+            progress,
         )
         return _segmented(found, seer.name, seer, warnings)
 

@@ -154,6 +154,14 @@ def test_what_a_model_cannot_answer_geometry_answers_and_the_asset_says_so(model
     assert [j["type"] for j in found["joints"]] == ["revolute"]
 
 
+def test_weights_that_cannot_be_had_are_missed_before_anything_is_asked(model: Model, capfd) -> None:
+    assert articulate(model, "out", "--proposer", "sam:nowhere") == 2
+    assert "--proposer sam: found 'nowhere'" in capfd.readouterr().err
+    assert articulate(model, "out", "--proposer", "foo") == 2
+    assert model.asked == []
+    assert not Path("out").exists()
+
+
 def test_no_answer_at_all_ends_with_one_line_and_leaves_nothing(model: Model, capfd) -> None:
     model.service.turns[:] = [(401, {}, json.dumps({"error": {"message": f"bad key {SECRET}"}}).encode())] * 9
     assert articulate(model, "out") == 6

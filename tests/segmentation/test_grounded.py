@@ -6,6 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from anymesh import solving
 from anymesh.config import Config, GroundingConfig
 from anymesh.evaluation.matching import match_parts, part_ious
 from anymesh.evaluation.oracle import oracle
@@ -54,12 +55,19 @@ def test_masks_of_a_model_become_parts_by_partslip(name: str, monkeypatch: pytes
     mesh = place_mesh(load_mesh(truth.mesh)).mesh
     shown = {v.color.tobytes(): v for v in views(mesh, Config().views)}
 
+    class Masker:
+        name, frame = "masker", None
+
+        def embed(self, image): ...
+
+        def predict(self, embedding, points): ...
+
     def masks(_: object, image: np.ndarray) -> list[SimpleNamespace]:
         view = shown.get(image.tobytes())
         parts = [] if view is None else [part_pixels(view, truth.labels, k) for k in range(len(truth.parts))]
         return [SimpleNamespace(mask=m) for m in parts if m.any()]
 
-    monkeypatch.setattr(grounded, "load_sam", lambda spec: spec)
+    monkeypatch.setattr(solving, "load_sam", lambda spec: Masker())
     monkeypatch.setattr(grounded, "automatic_masks", masks)
     truth, mesh, found = found_in(name, "sam:some")
     got = ious(truth, mesh, found.segmentation)

@@ -8,8 +8,7 @@ import numpy as np
 
 from anymesh.config import Config
 from anymesh.geometry.pieces import ObjectShape
-from anymesh.models.sam import automatic_masks
-from anymesh.models.sam_load import load_sam
+from anymesh.models.sam import PromptedSegmenter, automatic_masks
 from anymesh.progress import Progress, silent
 from anymesh.reasoning.asking import Seer
 from anymesh.reasoning.grounding import MarkedPart, WhichMarks, WhichViews
@@ -41,17 +40,21 @@ def ground_parts(
     config: Config,
     recognition: Recognition,
     studio: Studio,
+    segmenter: PromptedSegmenter | None,
     by_geometry: Callable[[], Segmentation],
     progress: Progress = silent,
 ) -> tuple[Segmentation, tuple[str, ...]]:
-    """The parts of the labels that recognition gave, and warnings. by_geometry: finds what no view shows."""
+    """The parts of the labels that recognition gave, and warnings.
+
+    segmenter: proposes masks where `config.proposer` names one; by_geometry: finds what no view shows.
+    """
     labels = tuple(r.label for r in recognition.labels)
     progress("segment", "views", 0, 4)
     cloud = sample_cloud(mesh, whole, config.grounding, config.seed)
     small = close_ups(whole, cloud, studio.views, config.grounding, config.views)
     seen = [*studio.views, *(studio.view(camera) for camera in small)]
     progress("segment", "masks", 1, 4)
-    proposals = propose(whole, cloud, seen, config)
+    proposals = propose(whole, cloud, seen, segmenter, config)
     progress("segment", "marks", 2, 4)
     marked = _ask(seer, studio, seen, proposals, labels, config) if labels else ()
     progress("segment", "fusion", 3, 4)
@@ -66,13 +69,13 @@ def ground_parts(
     return parts, (*(f"no {label} was found, though {seer.name} expects one" for label in missing), *inside)
 
 
-def propose(whole: ObjectShape, cloud: Cloud, seen: Sequence[View], config: Config) -> tuple[Proposal, ...]:
-    """The regions that get numbers: of `config.proposer`, exact, sam:..., or exact+sam:... for both."""
-    if config.proposer == EXACT:
-        return propose_regions(whole, cloud, seen, config.grounding)
-    both = config.proposer.startswith(f"{EXACT}+")
-    segmenter = load_sam(config.proposer.removeprefix(f"{EXACT}+"))
-    exact = propose_regions(whole, cloud, seen, config.grounding) if both else None
+def propose(
+    whole: ObjectShape, cloud: Cloud, seen: Sequence[View], segmenter: PromptedSegmenter | None, config: Config
+) -> tuple[Proposal, ...]:
+    """The regions that get numbers: exact ones without a segmenter, else its masks, with `exact+sam:...` both."""
+    exact = propose_regions(whole, cloud, seen, config.grounding) if config.proposer.startswith(EXACT) else None
+    if segmenter is None:
+        return exact or ()
     masks = []
     for k, view in enumerate(seen):
         some = [m.mask for image in (view.color, normal_picture(view)) for m in automatic_masks(segmenter, image)]
