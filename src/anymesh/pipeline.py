@@ -7,7 +7,7 @@ from collections.abc import Generator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TypedDict, Unpack
+from typing import TypedDict, TypeVar, Unpack
 
 from anymesh.config import Config
 from anymesh.errors import OptionError
@@ -24,6 +24,8 @@ from anymesh.solving import Seeing, Solver
 from anymesh.stage_results import JOINTS, MESH, RECOGNITION, SEGMENTATION, Jointed, Placed, Recognized, Segmented
 from anymesh.types import Asset, Joint, Segmentation, Source
 
+Result = TypeVar("Result", Recognized, Segmented, Jointed)
+
 
 class Answering(TypedDict, total=False):
     """Who answers the questions of both stages, and how. All have defaults.
@@ -37,12 +39,12 @@ class Answering(TypedDict, total=False):
     answerer: str
     category: str | None
     seed: int
-    parts_list: Sequence[str]
+    parts_list: Sequence[str] | str
     proposer: str
     verify: str
     max_calls: int | None
     max_cost: float | None
-    cache: Path | None
+    cache: Path | str | None
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,7 +74,7 @@ def articulate(
     """
     who = _answerer(answering)
     with RunFolder.create(Path(out), source=Path(mesh_path), force=force) as run:
-        solver, recognized, key = _seen(run, Path(mesh_path), up, scale, who, progress)
+        solver, recognized, key = _seen(run, Path(mesh_path), parts, up, scale, who, progress)
         segmented, key = _segment(run, solver, recognized, key, parts, who, progress)
         _join(run, solver, recognized, segmented, key, who, progress)
         return _export(run, progress)
@@ -92,7 +94,7 @@ def segment(
     """Stage A alone: the parts of a mesh, saved in `out` for `joints`. Options as for `articulate`."""
     who = _answerer(answering)
     with RunFolder.create(Path(out), source=Path(mesh_path), force=force) as run:
-        solver, recognized, key = _seen(run, Path(mesh_path), up, scale, who, progress)
+        solver, recognized, key = _seen(run, Path(mesh_path), parts, up, scale, who, progress)
         return _segment(run, solver, recognized, key, parts, who, progress)[0].segmentation
 
 
@@ -113,7 +115,11 @@ def export(folder: str | Path, *, progress: Progress = silent) -> Asset:
 
 def _answerer(options: Answering) -> _Answerer:
     """Raises OptionError for what is not valid, ModelError where a model cannot be asked at all (no key)."""
-    name, labels = options.get("answerer", "geometry"), told_labels(options.get("parts_list", ()))
+    unknown = sorted(set(options) - set(Answering.__annotations__))
+    if unknown:
+        raise OptionError(f"found the options {unknown}; valid are {', '.join(Answering.__annotations__)}")
+    told = options.get("parts_list", ())
+    name, labels = options.get("answerer", "geometry"), told_labels(told.split(",") if isinstance(told, str) else told)
     config = Config(
         seed=options.get("seed", 0),
         category=options.get("category"),
@@ -126,16 +132,19 @@ def _answerer(options: Answering) -> _Answerer:
             raise OptionError("--parts-list: geometry cannot find parts by their names; it needs an --answerer that sees")
         return _Answerer(config, name, None)
     cache = options["cache"] if "cache" in options else cache_folder()
+    cache = None if cache is None else Path(cache)
     model = open_model(name, cache=cache, max_calls=options.get("max_calls"), max_cost=options.get("max_cost"))
     return _Answerer(config, name, lambda instead: VlmAnswerer(model, instead))
 
 
 def _seen(
-    run: RunFolder, path: Path, up: str, scale: str, who: _Answerer, progress: Progress
+    run: RunFolder, path: Path, parts: str, up: str, scale: str, who: _Answerer, progress: Progress
 ) -> tuple[Solver, Recognized, str]:
     """The mesh placed, looked at, and in the size that was answered; ready for both stages."""
     placed, key = _place(run, path, up, scale, progress)
     solver = Solver(placed.mesh, who.config, who.see)
+    if parts != "auto":
+        solver.parts(parts)  # what is wrong with them is better told before anything is asked
     recognized, key = _recognize(run, solver, key, who, scale == "auto")
     sized = recognized.sized(placed)
     return (solver if sized is placed else Solver(sized.mesh, who.config, who.see)), recognized, key
@@ -155,11 +164,16 @@ def _place(run: RunFolder, path: Path, up: str, scale: str, progress: Progress) 
     return found, key
 
 
+def _answered(found: Result | None) -> Result | None:
+    """A saved stage, unless geometry stood in for a model there: the model is asked again."""
+    return None if found is None or any(e.given_up for e in found.exchanges) else found
+
+
 def _recognize(run: RunFolder, solver: Solver, previous: str, who: _Answerer, sized: bool) -> tuple[Recognized, str]:
     if who.see is None:
         return solver.recognize(), previous
     key = stage_key(RECOGNITION, previous=previous, config={**who.config.as_dict(), "answerer": who.name, "sized": sized})
-    found = run.load(RECOGNITION, key)
+    found = _answered(run.load(RECOGNITION, key))
     if found is None:
         with _timed(run, "recognize"):
             found = solver.recognize(sized=sized)
@@ -172,7 +186,7 @@ def _segment(
 ) -> tuple[Segmented, str]:
     settings = {**who.config.as_dict(), "parts": parts, "labels": _bytes_of_labels(parts), "answerer": who.name}
     key = stage_key(SEGMENTATION, previous=previous, config=settings)
-    found = run.load(SEGMENTATION, key)
+    found = _answered(run.load(SEGMENTATION, key))
     if found is None:
         with _timed(run, "segment"):
             found = solver.parts(parts, recognized.recognition, progress)
@@ -198,7 +212,7 @@ def _join(
     progress: Progress,
 ) -> Jointed:
     key = stage_key(JOINTS, previous=previous, config={**who.config.as_dict(), "answerer": who.name})
-    found = run.load(JOINTS, key)
+    found = _answered(run.load(JOINTS, key))
     if found is None:
         with _timed(run, "joints"):
             found = solver.joints(segmented.segmentation, recognized.recognition, progress)

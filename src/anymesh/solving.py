@@ -30,6 +30,7 @@ from anymesh.types.recognition import Recognition
 Seeing = Callable[[Seer], Seer]  # an answerer that sees, given who answers in its place where it cannot
 UNSURE = 0.4  # joints below this confidence are named in the warnings
 ROUGH = 1.5  # an answered size is a guess: the mesh keeps its own when both agree within this factor
+FAR = 10.0  # an answered size that differs by more is worth a warning
 GEOMETRY = GeometryAnswerer()
 
 
@@ -61,7 +62,8 @@ class Solver:
         seer = self._see(Knowing(GEOMETRY.name, self._by_geometry))
         found = recognize(lambda: self._studio.pictures(self._studio.views), seer, self.config.category, self.config.parts_list)
         scale, note = _scale(found, self.mesh) if sized else (1.0, "")
-        return Recognized(found, seer.name, scale, note, seer.remarks, seer.exchanges)
+        far = () if 1 / FAR <= scale <= FAR else (f"{note}; if that is wrong, give --scale",)
+        return Recognized(found, seer.name, scale, note, (*seer.remarks, *far), seer.exchanges)
 
     def parts(self, parts: str = "auto", recognition: Recognition | None = None, progress: Progress = silent) -> Segmented:
         """Stage A. parts: auto, nodes, or a file of face labels."""

@@ -123,6 +123,7 @@ def test_a_budget_stops_before_the_next_call_and_the_next_run_goes_on(model: Mod
     assert len(model.asked) == len(model.said)
 
 
+@pytest.mark.slow
 def test_stages_one_by_one_ask_what_the_whole_job_asks(model: Model) -> None:
     assert articulate(model, "whole", "--cache", "off") == 0
     name = f"openai-compatible:{model.service.url}/v1#m"
@@ -137,9 +138,9 @@ def test_stages_one_by_one_ask_what_the_whole_job_asks(model: Model) -> None:
 @pytest.mark.parametrize(
     ("kind", "bad"),
     [
-        ("recognize", "I cannot help with that."),
+        pytest.param("recognize", "I cannot help with that.", marks=pytest.mark.slow),
         ("marks", '{"parts": [{"label": "lid", "instance": 1, "view": 0, "marks": [9999]}]}'),  # as a texture told it to
-        ("motions", 'Here it is: {"parts": []}'),
+        pytest.param("motions", 'Here it is: {"parts": []}', marks=pytest.mark.slow),
     ],
 )
 def test_what_a_model_cannot_answer_geometry_answers_and_the_asset_says_so(model: Model, kind: str, bad: str) -> None:

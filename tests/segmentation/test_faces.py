@@ -145,7 +145,7 @@ def grounded(truth: Truth, exact: bool) -> tuple[float, float]:
     return sum(iou for _, _, iou in match_parts(ious)) / (len(truth.parts) - 1), float(ious[0, 0])
 
 
-@pytest.mark.parametrize("exact", [True, False], ids=["exact", "em"])
+@pytest.mark.parametrize("exact", [pytest.param(True, marks=pytest.mark.slow), False], ids=["exact", "em"])
 @pytest.mark.parametrize("name", ["cabinet", "cabinet_fused", "stove_fused", "laptop", "toy_car"])
 def test_true_labels_on_proposals_give_the_true_parts(name: str, exact: bool) -> None:
     parts, base = grounded(TRUTHS[name], exact)

@@ -19,6 +19,7 @@ from anymesh.types import Motion, Picture, Segmentation
 from anymesh.types.recognition import BASE, Moves, Recognition, RecognizedLabel
 
 MOST_PICTURES = 8  # in one call
+LEAST_RANGE = np.deg2rad(5.0)  # an answered range of a hinge that is less is no help
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,7 +70,7 @@ def make_cases(whole: ObjectShape, segmentation: Segmentation, recognition: Reco
 
 def _limited(config: ArticulationConfig, told: RecognizedLabel | None) -> ArticulationConfig:
     """With the range that was answered for a hinge which nothing stops; what the sweep stops needs no answer."""
-    if told is None or told.limits is None or told.moves is not Moves.REVOLUTE or told.limits[1] <= 0:
+    if told is None or told.limits is None or told.moves is not Moves.REVOLUTE or told.limits[1] < LEAST_RANGE:
         return config
     most = float(np.degrees(told.limits[1]))
     return replace(config, door_most=most, flap_most=most)

@@ -105,11 +105,12 @@ def _without_choice(facts: PartFacts, free: list[Candidate], answered: Candidate
 
 def _chosen(o: Open, row: int | None, *, doubted: bool) -> Choice:
     best = o.free[row or 0]
-    told = f"{len(o.free)} free motions{', asked twice' if doubted else ''}: {reason(o.facts, best)}"
+    against = "" if fits(best, o.case.kind) else f", though {words(o.case.kind)} was answered"
+    told = f"{len(o.free)} free motions{', asked twice' if doubted else ''}{against}: {reason(o.facts, best)}"
     if row is None:
         return Choice(best, f"none recognized of {told}", 0.25)
     sure = 0.6 if doubted else 0.9 if row == 0 else 0.7
-    return Choice(best, f"answered: {words(o.case.kind)}, among {told}", sure)
+    return Choice(best, f"chosen among {told}", 0.8 * sure if against else sure)
 
 
 def words(kind: JointKind) -> str:

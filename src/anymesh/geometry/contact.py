@@ -15,6 +15,8 @@ def connecting_area(
     """
     if threshold <= 0:
         raise ValueError(f"the threshold of a connecting area must be positive, found {threshold}")
+    if not (np.isfinite(gap_a).any() or np.isfinite(gap_b).any()):
+        raise ValueError("a connecting area needs points of both parts, found none")
     while not ((gap_a < threshold).any() or (gap_b < threshold).any()):
         threshold *= 2
     return gap_a < threshold, gap_b < threshold, threshold

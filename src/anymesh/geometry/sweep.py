@@ -16,7 +16,6 @@ from jaxtyping import Float
 from anymesh.geometry.shape import Shape
 from anymesh.types import Motion, MotionKind, Sweep
 
-FULL_TURN = 2 * np.pi
 CHUNK = 9  # steps cast at a time
 LOOK_AHEAD = 2  # further steps that tell whether a point goes on behind what it struck
 SHARE_STOPPED = 0.006  # of the points; fewer may be stopped by flaws of the mesh

@@ -104,7 +104,7 @@ class Client:
             log.warning("%s: the answer to %r was cut off at %d tokens", self.name, request.kind, request.max_tokens)
         text, usage = the_text(found), found.usage
         return Reply(
-            text=_without_keys(text if schema else unfenced(text)),
+            text=_without_keys(unfenced(text) if self.address.provider == "openai-compatible" else text),
             model=self.name,
             input_tokens=usage.input_tokens,
             output_tokens=usage.output_tokens,
@@ -141,6 +141,8 @@ class Client:
         if isinstance(error, theirs.ModelHTTPError):
             return self._http_failure(error, request)
         if isinstance(error, theirs.ModelAPIError | theirs.UnexpectedModelBehavior):
+            return _Failure(TransientError(f"{self.name}: the reply could not be read ({type(error).__name__})"))
+        if isinstance(error, LookupError | TypeError | ValueError):
             return _Failure(TransientError(f"{self.name}: the reply could not be read ({type(error).__name__})"))
         return _Failure(ModelError(f"{self.name}: cannot be asked ({type(error).__name__})"))
 

@@ -41,7 +41,7 @@ def write_transcript(exchanges: Sequence[Exchange], folder: Path) -> None:
     for number, exchange in enumerate(exchanges, start=1):
         kind = re.sub(r"[^a-z0-9]+", "-", exchange.kind.lower()).strip("-") or "question"
         write_whole(folder / f"{number:03d}_{kind}.json", json.dumps(_record(exchange), indent=1).encode())
-    write_whole(folder / "index.html", _page(exchanges).encode())
+    write_whole(folder / "index.html", _page(exchanges).encode(errors="backslashreplace"))
 
 
 def _file(picture: Picture) -> str:

@@ -11,6 +11,7 @@ from anymesh.models.cache import request_key
 from anymesh.models.vision import Reply, Request, VisionModel
 from anymesh.reasoning.asking import Answer, BadAnswerError, Question, Seer, check_schema
 from anymesh.types import Exchange
+from anymesh.types.exchange import INSTEAD
 
 SYSTEM = (
     "You help to turn rigid 3D models into articulated ones for robot simulators. You are shown rendered pictures and asked "
@@ -51,9 +52,7 @@ class VlmAnswerer:
         self._remarks.append(
             f"{self.name} gave no valid answer to {question.kind!r} ({second}); {self._instead.name} answered it"
         )
-        self._exchanges[-1] = replace(
-            self._exchanges[-1], verdict=f"not valid: {second}; {self._instead.name} answered instead"
-        )
+        self._exchanges[-1] = replace(self._exchanges[-1], verdict=f"not valid: {second}; {self._instead.name} {INSTEAD}")
         return self._instead.ask(question)
 
     def _try(self, request: Request, question: Question[Answer]) -> Answer | BadAnswerError:
@@ -72,7 +71,9 @@ def _object(text: str, schema: Mapping[str, Any]) -> dict[str, Any]:
     if not text.strip():
         raise BadAnswerError("it was empty, or a refusal")
     try:
+        text.encode()  # half of a surrogate pair is no text
         found = json.loads(text, parse_constant=_no_constant, object_pairs_hook=_once)
+        json.dumps(found, ensure_ascii=False).encode()
     except (ValueError, RecursionError):
         raise BadAnswerError(f"it was no JSON, or not JSON alone: {' '.join(text.split())[:60]!r}") from None
     check_schema(found, schema)
@@ -100,7 +101,7 @@ def _exchange(model: str, request: Request, reply: Reply, verdict: str) -> Excha
         model=reply.model,
         text=request.text,
         pictures=request.pictures,
-        answer=reply.text,
+        answer=reply.text.encode(errors="backslashreplace").decode(),
         verdict=verdict,
         input_tokens=reply.input_tokens,
         output_tokens=reply.output_tokens,

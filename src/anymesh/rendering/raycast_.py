@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cache
+from typing import Any
 
 import numpy as np
 from jaxtyping import Float, Int
@@ -24,6 +26,14 @@ class Hits:
     v: Float[np.ndarray, " n"]
 
 
+@cache
+def _device() -> Any:
+    """One for all scenes: each takes a key of the process, of which there are about a thousand."""
+    from embreex.rtcore import EmbreeDevice  # ty: ignore[import-not-found]
+
+    return EmbreeDevice()
+
+
 class RayScene:
     """Triangles to cast rays at. Embree counts in float32, so geometry is centred and scaled to keep its precision."""
 
@@ -35,7 +45,7 @@ class RayScene:
             raise MissingExtraError("embreex is missing; it comes with articulate-anymesh, install that again") from None
         low, high = vertices.min(0), vertices.max(0)
         self._center, self._scale = (low + high) / 2, 1.0 / (float((high - low).max()) or 1.0)
-        self._scene = EmbreeScene()
+        self._scene = EmbreeScene(_device())
         inside = ((vertices - self._center) * self._scale).astype(np.float32)
         self._mesh = TriangleMesh(self._scene, inside, np.ascontiguousarray(faces, np.int32))
 

@@ -61,12 +61,21 @@ def ground_parts(
     found, counts = fuse(cloud, seen, proposals, marked, config)
     face_part = face_parts(mesh, whole, cloud, point_parts(cloud, found, counts), config)
     count = len(found.labels)
-    parts = named_parts(face_part, found.labels, mesh.face_areas, [SURE] * count, [f"pointed at by {seer.name}"] * count)
+    parts = named_parts(face_part, found.labels, mesh.face_areas, [SURE] * count, [_pointed(seer)] * count)
     unseen, inside = unseen_faces(whole, cloud, counts), ()
     if labels and unseen.any():
         parts, inside = with_hidden(parts, by_geometry(), unseen, mesh.face_areas)
     missing = [label for label in labels if label not in {p.label for p in parts.parts}]
-    return parts, (*(f"no {label} was found, though {seer.name} expects one" for label in missing), *inside)
+    pointed = {p.label for p in marked}
+    told = {True: "what was pointed at is all of the object, or too little of it", False: f"though {seer.name} expects one"}
+    return parts, (*(f"no {label} was found, {told[label in pointed]}" for label in missing), *inside)
+
+
+def _pointed(seer: Seer) -> str:
+    """Who pointed at the parts: whoever answered the question about marks."""
+    if any(e.kind == "marks" and e.given_up for e in seer.exchanges):
+        return f"geometry points at it in place of {seer.name}"
+    return f"pointed at by {seer.name}"
 
 
 def propose(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+INSTEAD = "answered instead"  # how the verdict ends where a model gave no valid answer
 PNG = b"\x89PNG\r\n\x1a\n"
 
 
@@ -40,3 +41,8 @@ class Exchange:
     cost: float | None  # [USD], None when the price is not known
     cached: bool  # taken from the cache or a recording: nothing was paid
     seconds: float
+
+    @property
+    def given_up(self) -> bool:
+        """Whether somebody else answered in the model's place."""
+        return self.verdict.endswith(INSTEAD)
