@@ -80,3 +80,12 @@ def test_an_unknown_answerer_is_refused_before_anything_is_read(tmp_path) -> Non
     with pytest.raises(OptionError, match=r"found 'gpt'.*geometry"):
         anymesh.articulate(tmp_path / "none.glb", tmp_path / "out", answerer="gpt")
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(
+    ("options", "word"), [({"max_call": 3}, "max_call"), ({"answerer": "geometry", "parts_list": "door"}, "--parts-list")]
+)
+def test_options_that_are_not_valid_are_refused_before_anything_is_read(options, word: str, tmp_path) -> None:
+    with pytest.raises(OptionError, match=word):
+        anymesh.articulate(tmp_path / "none.glb", tmp_path / "out", **options)
+    assert not list(tmp_path.iterdir())

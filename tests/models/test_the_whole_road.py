@@ -155,6 +155,18 @@ def test_what_a_model_cannot_answer_geometry_answers_and_the_asset_says_so(model
     assert [j["type"] for j in found["joints"]] == ["revolute"]
 
 
+def test_what_geometry_answered_is_asked_again_when_the_model_has_recovered(model: Model) -> None:
+    right = dict(model.said.values())
+    model.instead["kinds"] = "no"
+    assert articulate(model, "out", "--cache", "off") == 0
+    assert any("geometry answered" in w for w in record("out")["warnings"])
+    before = [kind for kind, _ in model.asked]
+    model.instead["kinds"] = right["kinds"]
+    assert articulate(model, "out", "--cache", "off", "--force") == 0
+    assert record("out")["warnings"] == []
+    assert [kind for kind, _ in model.asked][len(before) :] == ["kinds", "points", "motions"]  # stage A stands
+
+
 def test_weights_that_cannot_be_had_are_missed_before_anything_is_asked(model: Model, capfd) -> None:
     assert articulate(model, "out", "--proposer", "sam:nowhere") == 2
     assert "--proposer sam: found 'nowhere'" in capfd.readouterr().err

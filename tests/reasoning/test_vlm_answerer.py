@@ -32,6 +32,8 @@ FAULTS = {
     "too large": ('{"parts": [{"part": 1, "arrow": 1e999}]}', "the answer.parts[0].arrow must be an integer, found inf"),
     "many digits": ('{"parts": [{"part": 1, "arrow": ' + "9" * 5000 + "}]}", "no JSON"),
     "a name twice": ('{"parts": [{"part": 1, "arrow": 1, "arrow": 2}]}', "each name once, found 'arrow' twice"),
+    "half a character": ('{"parts": "\\ud800"}', "no JSON"),
+    "half a character, raw": ('{"parts": "\ud800"}', "no JSON"),
     "a list": ("[]", "the answer must be an object, found []"),
     "null": ("null", "the answer must be an object"),
     "wrong language": ('{"teile": []}', "missing ['parts'], unknown ['teile']"),
@@ -84,7 +86,8 @@ def test_a_bad_answer_is_asked_again_with_what_was_wrong(fault: str) -> None:
     assert words in seer.exchanges[0].verdict
     assert seer.exchanges[0].verdict.endswith("asked again")
     assert seer.exchanges[1].verdict == "accepted"
-    assert [e.answer for e in seer.exchanges] == [bad, json.dumps(GOOD)]
+    kept = bad.encode(errors="backslashreplace").decode()  # a file can hold it
+    assert [e.answer for e in seer.exchanges] == [kept, json.dumps(GOOD)]
 
 
 @pytest.mark.parametrize("fault", FAULTS)

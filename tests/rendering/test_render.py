@@ -132,3 +132,10 @@ def test_a_texture_is_shown_with_v_up():
     assert (view.face >= 0).all()
     squares = (np.indices((64, 64)) // 16).sum(0) % 2
     np.testing.assert_array_equal(view.color[..., 2] > view.color[..., 0], squares == 1)
+
+
+def test_any_number_of_scenes_may_live() -> None:
+    """A process has about a thousand keys for the ray caster's devices."""
+    vertices, faces = np.eye(3), np.array([[0, 1, 2]])
+    alive = [RayScene(vertices, faces) for _ in range(1100)]
+    assert alive[-1].first_hit(np.ones((1, 3)), -np.ones((1, 3))).face[0] == 0
