@@ -55,6 +55,10 @@ class _Answerer:
     name: str
     see: Seeing | None
 
+    def settings(self, *without: str) -> dict[str, object]:
+        """What the result of a stage hangs on, without what that stage does not use."""
+        return {**{k: v for k, v in self.config.as_dict().items() if k not in without}, "answerer": self.name}
+
 
 def articulate(
     mesh_path: str | Path,
@@ -172,7 +176,7 @@ def _answered(found: Result | None) -> Result | None:
 def _recognize(run: RunFolder, solver: Solver, previous: str, who: _Answerer, sized: bool) -> tuple[Recognized, str]:
     if who.see is None:
         return solver.recognize(), previous
-    key = stage_key(RECOGNITION, previous=previous, config={**who.config.as_dict(), "answerer": who.name, "sized": sized})
+    key = stage_key(RECOGNITION, previous=previous, config={**who.settings("verify", "proposer"), "sized": sized})
     found = _answered(run.load(RECOGNITION, key))
     if found is None:
         with _timed(run, "recognize"):
@@ -184,7 +188,7 @@ def _recognize(run: RunFolder, solver: Solver, previous: str, who: _Answerer, si
 def _segment(
     run: RunFolder, solver: Solver, recognized: Recognized, previous: str, parts: str, who: _Answerer, progress: Progress
 ) -> tuple[Segmented, str]:
-    settings = {**who.config.as_dict(), "parts": parts, "labels": _bytes_of_labels(parts), "answerer": who.name}
+    settings = {**who.settings("verify"), "parts": parts, "labels": _bytes_of_labels(parts)}
     key = stage_key(SEGMENTATION, previous=previous, config=settings)
     found = _answered(run.load(SEGMENTATION, key))
     if found is None:
@@ -211,7 +215,7 @@ def _join(
     who: _Answerer,
     progress: Progress,
 ) -> Jointed:
-    key = stage_key(JOINTS, previous=previous, config={**who.config.as_dict(), "answerer": who.name})
+    key = stage_key(JOINTS, previous=previous, config=who.settings())
     found = _answered(run.load(JOINTS, key))
     if found is None:
         with _timed(run, "joints"):

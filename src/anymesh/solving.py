@@ -39,6 +39,7 @@ class Solver:
 
     def __init__(self, mesh: Mesh, config: Config | None = None, see: Seeing | None = None) -> None:
         self.mesh, self.config, self._see = mesh, config or Config(), see
+        self._by_itself: Segmentation | None = None
 
     @cached_property
     def whole(self) -> ObjectShape:
@@ -59,7 +60,7 @@ class Solver:
         if self._see is None:
             return Recognized(None, GEOMETRY.name)
         _ = self._segmenter  # weights that cannot be used are better missed before anything is asked
-        seer = self._see(Knowing(GEOMETRY.name, self._by_geometry))
+        seer = self._see(Knowing(GEOMETRY.name, lambda: self._geometric_reference))
         found = recognize(lambda: self._studio.pictures(self._studio.views), seer, self.config.category, self.config.parts_list)
         scale, note = _scale(found, self.mesh) if sized else (1.0, "")
         far = () if 1 / FAR <= scale <= FAR else (f"{note}; if that is wrong, give --scale",)
@@ -72,7 +73,7 @@ class Solver:
             return _segmented(given, GIVEN)
         if self._see is None or recognition is None:
             return _segmented(self._geometric_parts(progress), GEOMETRY.name)
-        seer = self._see(Knowing(GEOMETRY.name, self._by_geometry))
+        seer = self._see(Knowing(GEOMETRY.name, lambda: self._geometric_reference))
         found, warnings = ground_parts(
             self.mesh,
             self.whole,
@@ -101,10 +102,14 @@ class Solver:
         return _jointed(made, seer.name, seer)
 
     def _geometric_parts(self, progress: Progress = silent) -> Segmentation:
-        def moves(around, label):
-            return ask_motion(around, "candidate", label, GEOMETRY)
+        """What geometry finds; once, however many questions it answers."""
+        if self._by_itself is None:
 
-        return segment_parts(self.mesh, self.whole, GEOMETRY, moves, self.config, progress)
+            def moves(around, label):
+                return ask_motion(around, "candidate", label, GEOMETRY)
+
+            self._by_itself = segment_parts(self.mesh, self.whole, GEOMETRY, moves, self.config, progress)
+        return self._by_itself
 
     def _ready_for(self, segmentation: Segmentation) -> ObjectShape:
         """The mesh made ready, in pieces that each belong to one of these parts."""
@@ -113,7 +118,8 @@ class Solver:
             return whole
         return object_shape(self.mesh, self.config.seed, self.config.pieces, label)
 
-    def _by_geometry(self) -> Reference:
+    @cached_property
+    def _geometric_reference(self) -> Reference:
         return self._reference(self._geometric_parts())
 
     def _reference(self, segmentation: Segmentation) -> Reference:

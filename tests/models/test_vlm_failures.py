@@ -108,7 +108,7 @@ def test_an_answer_of_another_shape_is_an_error_of_ours(
     body: bytes, dialect: Dialect, service: Service, connected: Connect
 ) -> None:
     service.says(body)
-    fail(connected(dialect))
+    assert "could not be read" in str(fail(connected(dialect)))
 
 
 def test_google_without_candidates_is_an_empty_reply(service: Service, connected: Connect) -> None:

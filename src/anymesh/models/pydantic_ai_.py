@@ -142,7 +142,7 @@ class Client:
             return self._http_failure(error, request)
         if isinstance(error, theirs.ModelAPIError | theirs.UnexpectedModelBehavior):
             return _Failure(TransientError(f"{self.name}: the reply could not be read ({type(error).__name__})"))
-        if isinstance(error, LookupError | TypeError | ValueError):
+        if isinstance(error, AttributeError | LookupError | TypeError | ValueError):
             return _Failure(TransientError(f"{self.name}: the reply could not be read ({type(error).__name__})"))
         return _Failure(ModelError(f"{self.name}: cannot be asked ({type(error).__name__})"))
 

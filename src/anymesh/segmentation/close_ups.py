@@ -11,7 +11,7 @@ from anymesh.config import GroundingConfig, ViewsConfig
 from anymesh.geometry.pieces import ObjectShape
 from anymesh.rendering.render import View
 from anymesh.segmentation.cloud import Cloud, sight
-from anymesh.segmentation.propose import EXACT, face_regions, least_pixels
+from anymesh.segmentation.propose import LEAST_EXACT, face_regions, least_pixels
 from anymesh.types.camera import Camera
 
 MOST = 4  # close-ups; each is one more picture in a question
@@ -29,7 +29,7 @@ def close_ups(
     region = face_regions(whole, cloud)
     size, middle = _shown(region, views)
     zoom = pictures.zoom_size / pictures.size
-    least = np.array([EXACT * least_pixels(v, grounding) for v in views])[:, None]
+    least = np.array([LEAST_EXACT * least_pixels(v, grounding) for v in views])[:, None]
     open_to = ((size < least).all(0) & (size * zoom**2 >= least).any(0)) & _open(region, cloud, views)
     found = []
     while open_to.any() and len(found) < MOST:

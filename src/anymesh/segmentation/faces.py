@@ -90,8 +90,17 @@ def _unseen_joined(whole: ObjectShape, part: Int[np.ndarray, " P"], config: Conf
     reach = config.grounding.join_component * whole.diagonal
     part = _of_one_body(contacts.body, part)
     for together in (False, True):  # each on its own first; then unseen pieces that touch, a drawer's box, as one
-        part = _held(contacts, part, together, reach)
+        part = np.where(_goes_on(whole, part), 0, _held(contacts, part, together, reach))
     return part
+
+
+def _goes_on(whole: ObjectShape, part: np.ndarray) -> Bool[np.ndarray, " P"]:
+    """Unseen pieces from which a fused surface goes on into the rest: a strip of the floor behind a drawer's front."""
+    found = np.zeros(len(part), bool)
+    if len(whole.shared):
+        a, b = whole.shared.T
+        found[a[part[b] == 0]] = found[b[part[a] == 0]] = True
+    return found & (part < 0)
 
 
 def _of_one_body(body: np.ndarray, part: np.ndarray) -> Int[np.ndarray, " P"]:

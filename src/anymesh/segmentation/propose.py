@@ -16,7 +16,7 @@ from anymesh.rendering.render import View
 from anymesh.segmentation.cloud import Cloud
 
 MOST_MARKS = 50  # more cannot be told apart in one picture
-EXACT = 0.05  # of least_mask: a region drawn from the geometry is no noise however small, if its number can be placed
+LEAST_EXACT = 0.05  # of least_mask: a region drawn from the geometry is no noise however small, if its number can be placed
 COLOR_STEP = 0.12  # distance of mean colours (0..1 a channel) that parts two regions of one piece
 LARGE = 0.02  # share of the surface from which a piece may hide a part that only its colour tells
 DOMINANT = 0.8  # share of the surface from which a piece is the whole object, and its large sides are told apart too
@@ -53,7 +53,7 @@ def propose_regions(
     config = config or GroundingConfig()
     region = face_regions(whole, cloud)
     shown = [np.where(v.face >= 0, region[np.maximum(v.face, 0)], -1) for v in views]
-    least = [EXACT * least_pixels(v, config) for v in views]
+    least = [LEAST_EXACT * least_pixels(v, config) for v in views]
     count = int(region.max()) + 1
     size = np.stack([np.bincount(s[s >= 0], minlength=count) / few for s, few in zip(shown, least, strict=True)])
     target = _merged(size, _touching(shown, views, count, cloud.diagonal))
