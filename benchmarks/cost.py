@@ -14,6 +14,7 @@ import time
 from pathlib import Path
 
 from anymesh.evaluation.oracle import oracle
+from anymesh.evaluation.protocols import prepared
 from anymesh.evaluation.truth import Truth, example_truths
 from anymesh.evaluation.voice import Spoken
 from anymesh.export.asset_json import usage
@@ -37,9 +38,7 @@ def row(truth: Truth, like: str, cache: Path) -> str:
     seconds, exchanges, parts = [], [], 0
     for _ in range(2):
         begin = time.perf_counter()
-        solver = Solver(
-            placed.mesh, see=lambda instead: Spoken(oracle(truth, placed.mesh, placed.T_asset_source), instead, like, cache)
-        )
+        solver = Solver(placed.mesh, see=lambda instead: Spoken(oracle(prepared(truth)), instead, like, cache))
         recognized = solver.recognize()
         segmented = solver.parts("auto", recognized.recognition)
         jointed = solver.joints(segmented.segmentation, recognized.recognition)

@@ -29,7 +29,7 @@ HEAD = """# The oracle
 `python benchmarks/oracle.py --noise --markdown benchmarks/oracle.md --plot docs/images/noise.svg`. Each question is
 answered from the truth, by the same marks, points, arrows and motions that a model would see; what is left is the error of
 the geometry.
-Position in shares of the diagonal; mIoU over the movable parts, a part that is not found counts as 0.
+Position: the diagonal is 2; mIoU over the movable parts, a part that is not found counts as 0.
 """
 EXAMPLES = Path(__file__).parents[1] / "examples"
 VERIFY = ("motion", "off")
@@ -45,7 +45,7 @@ def run(truths: Sequence[Truth], verify: str, *, given: bool, wrong: float = 0.0
 
 def right(j: JointScore) -> bool:
     """Type, axis within 10 degrees, line within .05 of the diagonal, opening side."""
-    near = (j.angle or 0.0) <= 10 and (j.position or 0.0) <= 0.05
+    near = (j.angle or 0.0) <= 10 and (j.line_distance or 0.0) <= 0.1
     return j.type_found == j.type_true and near and j.opens_right is not False
 
 

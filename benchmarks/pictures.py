@@ -9,6 +9,7 @@ import argparse
 from pathlib import Path
 
 from anymesh.evaluation.oracle import oracle
+from anymesh.evaluation.protocols import prepared
 from anymesh.evaluation.truth import example_truths
 from anymesh.evaluation.voice import Spoken
 from anymesh.loading import load_mesh, place_mesh
@@ -25,7 +26,7 @@ def main() -> None:
     options = parser.parse_args()
     truth = next(t for t in example_truths(EXAMPLES) if t.name == options.name)
     placed = place_mesh(load_mesh(truth.mesh))
-    solver = Solver(placed.mesh, see=lambda instead: Spoken(oracle(truth, placed.mesh, placed.T_asset_source), instead))
+    solver = Solver(placed.mesh, see=lambda instead: Spoken(oracle(prepared(truth)), instead))
     recognized = solver.recognize()
     segmented = solver.parts("auto", recognized.recognition)
     jointed = solver.joints(segmented.segmentation, recognized.recognition)

@@ -26,7 +26,7 @@ def test_example_comes_out_right(name: str) -> None:
         assert joint.type_found is joint.type_true
         assert joint.angle is not None
         assert joint.angle <= 2
-        assert joint.position is None or joint.position <= 0.02
+        assert joint.line_distance is None or joint.line_distance <= 0.04
         assert joint.opens_right is not False
         assert joint.range_iou is None or joint.range_iou >= 0.3 or joint.type_true is JointType.CONTINUOUS
         assert joint.parent_right

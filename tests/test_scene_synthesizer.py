@@ -30,7 +30,7 @@ def test_parts_given(truths: list[Truth]) -> None:
     right = [j.type_found is not None and same_motion(j.type_true, j.type_found) for j in joints]
     assert np.mean(right) >= 0.9
     assert np.mean([j.angle for j in joints]) <= 4
-    assert np.mean([j.position for j in joints if j.position is not None]) <= 0.01
+    assert np.mean([j.line_distance for j in joints if j.line_distance is not None]) <= 0.02
     assert np.mean([j.opens_right for j in joints]) >= 0.95
 
 

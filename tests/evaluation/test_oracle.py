@@ -8,7 +8,7 @@ import pytest
 from assets import cabinet
 
 from anymesh.evaluation.oracle import Noisy, oracle, true_reference
-from anymesh.evaluation.truth import TrueJoint, Truth
+from anymesh.evaluation.truth import Subject, TrueJoint, Truth
 from anymesh.geometry.kinematics import joint_transform
 from anymesh.reasoning.asking import Seer
 from anymesh.reasoning.grounding import WhichMarks
@@ -31,8 +31,8 @@ ASSET = cabinet()
 TURNED = np.array([[0, -0.01, 0, 1], [0, 0, 0.01, 2], [-0.01, 0, 0, 3], [0, 0, 0, 1]])  # in centimetres, and lying
 
 
-def truth(T_asset_source: np.ndarray, labels=("base", "Door_01", "drawer", "knob")) -> Truth:
-    """The cabinet's truth in the coordinates of a file."""
+def subject(T_asset_source: np.ndarray, labels=("base", "Door_01", "drawer", "knob")) -> Subject:
+    """The cabinet's truth in the coordinates of a file, on the cabinet."""
     T = np.linalg.inv(T_asset_source)
     scale = float(np.linalg.norm(T[:3, 0]))
 
@@ -43,12 +43,13 @@ def truth(T_asset_source: np.ndarray, labels=("base", "Door_01", "drawer", "knob
 
     s = ASSET.segmentation
     parts = tuple(Part(p.name, label) for p, label in zip(s.parts, labels, strict=True))
-    return Truth("cabinet", Path("mesh.glb"), parts, s.face_part, tuple(map(one, ASSET.joints)))
+    truth = Truth("cabinet", Path("mesh.glb"), parts, s.face_part, tuple(map(one, ASSET.joints)))
+    return Subject(truth, ASSET.mesh, s.face_part, T_asset_source)
 
 
 @pytest.mark.parametrize("T", [np.eye(4), TURNED], ids=["same frame", "other frame and unit"])
 def test_the_truth_of_a_file_moves_the_asset_as_it_should(T: np.ndarray) -> None:
-    found = true_reference(truth(T), ASSET.mesh, T)
+    found = true_reference(subject(T))
     by_child = {j.child: j for j in ASSET.joints}
     for part, joint in zip(ASSET.segmentation.parts[1:], found.joints[1:], strict=True):
         asked = by_child[part.name]
@@ -60,7 +61,7 @@ def test_the_truth_of_a_file_moves_the_asset_as_it_should(T: np.ndarray) -> None
 
 
 def test_the_reference_tells_what_is_where() -> None:
-    found = true_reference(truth(TURNED), ASSET.mesh, TURNED)
+    found = true_reference(subject(TURNED))
     assert found.labels == ("base", "door", "drawer", "knob")
     assert found.parents == (0, 0, 0, 2)
     assert found.joints[0] is None
@@ -70,14 +71,14 @@ def test_the_reference_tells_what_is_where() -> None:
 
 
 def test_a_part_without_a_word_for_it_is_named_by_its_motion() -> None:
-    made = true_reference(truth(np.eye(4), ("base", "x1", "x2", "x3")), ASSET.mesh, np.eye(4))
+    made = true_reference(subject(np.eye(4), ("base", "x1", "x2", "x3")))
     assert made.labels == ("base", "door", "drawer", "knob")  # by the parts' own names
     nameless = Truth("x", Path("x"), tuple(Part(f"x{k}", "?") for k in range(4)), made.face_part, ())
-    assert true_reference(nameless, ASSET.mesh, np.eye(4)).kinds[1:] == ("part",) * 3
+    assert true_reference(Subject(nameless, ASSET.mesh, made.face_part, np.eye(4))).kinds[1:] == ("part",) * 3
 
 
 def test_the_oracle_knows_the_truth() -> None:
-    seer = oracle(truth(TURNED), ASSET.mesh, TURNED)
+    seer = oracle(subject(TURNED))
     assert isinstance(seer, Seer)
     assert (seer.name, seer.blind) == ("oracle", True)
     faces = np.flatnonzero(ASSET.segmentation.face_part == 2)

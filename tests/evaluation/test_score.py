@@ -8,7 +8,7 @@ import pytest
 from assets import cabinet
 
 from anymesh.evaluation.score import ObjectScore, score, table
-from anymesh.evaluation.truth import TrueJoint, Truth
+from anymesh.evaluation.truth import Subject, TrueJoint, Truth
 from anymesh.types import Asset, Joint, JointType, Part, Segmentation
 
 ASSET = cabinet()
@@ -32,7 +32,7 @@ def truth_of(asset: Asset, T_asset_source: np.ndarray) -> Truth:
 
 def scored(joints=ASSET.joints, segmentation=ASSET.segmentation, T=None) -> ObjectScore:
     T = np.eye(4) if T is None else T
-    return score(truth_of(ASSET, T), ASSET.mesh, T, segmentation, tuple(joints))
+    return score(Subject(truth_of(ASSET, T), ASSET.mesh, ASSET.segmentation.face_part, T), segmentation, tuple(joints))
 
 
 def changed(child: str, **changes) -> ObjectScore:
@@ -55,7 +55,7 @@ def test_the_truth_against_itself_is_perfect(T) -> None:
         assert (j.iou, j.angle, j.range_iou) == pytest.approx((1, 0, 1), abs=1e-9)
         assert j.parent_right
     assert [j.opens_right for j in result.joints] == [True, True, None]  # an endless joint opens nowhere
-    assert [j.position for j in result.joints] == [pytest.approx(0, abs=1e-9), None, pytest.approx(0, abs=1e-9)]
+    assert [j.line_distance for j in result.joints] == [pytest.approx(0, abs=1e-9), None, pytest.approx(0, abs=1e-9)]
 
 
 def test_nothing_found_is_worth_nothing() -> None:
@@ -75,7 +75,7 @@ def test_swapped_types_are_told_and_their_ranges_worth_nothing() -> None:
     door = of(changed("door", type=JointType.PRISMATIC, limits=(0.0, 1.9)), "door")
     for found in (drawer, door):
         assert found.type_found is not found.type_true
-        assert (found.range_iou, found.opens_right, found.position) == (0.0, False, None)
+        assert (found.range_iou, found.opens_right, found.line_distance) == (0.0, False, None)
         assert found.iou == 1
 
 
@@ -89,8 +89,8 @@ def test_a_turned_over_axis_keeps_its_angle_but_opens_wrongly() -> None:
 def test_a_shifted_hinge_is_off_by_its_shift_and_a_shifted_slide_is_not() -> None:
     shift = np.array([0.03, 0.04, 0.5])  # .5 along the hinge does not count
     found = of(changed("door", origin=np.array([0.6, 0, 0.3]) + shift), "door")
-    assert found.position == found.at_part == pytest.approx(0.05 / ASSET.mesh.diagonal)
-    assert of(changed("drawer", origin=np.array([9.0, 9, 9])), "drawer").position is None
+    assert found.line_distance == found.at_part == pytest.approx(2 * 0.05 / ASSET.mesh.diagonal)
+    assert of(changed("drawer", origin=np.array([9.0, 9, 9])), "drawer").line_distance is None
 
 
 def test_a_wrong_parent_and_half_a_range_are_told() -> None:

@@ -13,6 +13,7 @@ from anymesh import pipeline
 from anymesh.cli import run
 from anymesh.config import Config, GroundingConfig, ViewsConfig
 from anymesh.evaluation.oracle import oracle
+from anymesh.evaluation.protocols import prepared
 from anymesh.evaluation.truth import Truth, example_truths
 from anymesh.evaluation.voice import Spoken
 from anymesh.export.asset_json import schema
@@ -28,7 +29,7 @@ Said = dict[str, tuple[str, str]]  # question -> its kind and the answer
 def perfect(truth: Truth) -> Said:
     """What a perfect model says to each question about an object."""
     placed = place_mesh(load_mesh(truth.mesh))
-    solver = Solver(placed.mesh, FEW(), lambda instead: Spoken(oracle(truth, placed.mesh, placed.T_asset_source), instead))
+    solver = Solver(placed.mesh, FEW(), lambda instead: Spoken(oracle(prepared(truth)), instead))
     recognized = solver.recognize()
     segmented = solver.parts("auto", recognized.recognition)
     jointed = solver.joints(segmented.segmentation, recognized.recognition)

@@ -10,6 +10,7 @@ from anymesh import solving
 from anymesh.config import Config, GroundingConfig
 from anymesh.evaluation.matching import match_parts, part_ious
 from anymesh.evaluation.oracle import oracle
+from anymesh.evaluation.protocols import prepared
 from anymesh.evaluation.truth import Truth, example_truths
 from anymesh.loading import load_mesh, place_mesh
 from anymesh.rendering.viewpoints import part_pixels, views
@@ -26,9 +27,7 @@ FEW = GroundingConfig(points=60_000)
 def found_in(name: str, proposer: str = "exact") -> tuple[Truth, Mesh, Segmented]:
     truth = TRUTHS[name]
     placed = place_mesh(load_mesh(truth.mesh))
-    solver = Solver(
-        placed.mesh, Config(grounding=FEW, proposer=proposer), lambda _: oracle(truth, placed.mesh, placed.T_asset_source)
-    )
+    solver = Solver(placed.mesh, Config(grounding=FEW, proposer=proposer), lambda _: oracle(prepared(truth)))
     return truth, placed.mesh, solver.parts("auto", solver.recognize().recognition)
 
 
@@ -78,7 +77,7 @@ def test_masks_of_a_model_become_parts_by_partslip(name: str, monkeypatch: pytes
 def test_what_is_expected_and_not_there_is_told() -> None:
     truth = TRUTHS["tilted_drawer"]
     placed = place_mesh(load_mesh(truth.mesh))
-    solver = Solver(placed.mesh, Config(grounding=FEW), lambda _: oracle(truth, placed.mesh, placed.T_asset_source))
+    solver = Solver(placed.mesh, Config(grounding=FEW), lambda _: oracle(prepared(truth)))
     asked = [RecognizedLabel(label, None, None, None) for label in ("drawer", "trapdoor")]
     found = solver.parts("auto", Recognition("cabinet", None, tuple(asked)))
     assert [p.label for p in found.segmentation.parts] == ["base", "drawer"]

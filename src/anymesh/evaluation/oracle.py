@@ -8,45 +8,38 @@ from typing import Any, TypeVar, cast
 
 import numpy as np
 
-from anymesh.evaluation.truth import TrueJoint, Truth
+from anymesh.evaluation.truth import Subject
 from anymesh.reasoning.asking import Answer, Question, Seer
 from anymesh.reasoning.grounding import WhichMarks
 from anymesh.reasoning.knowing import Knowing, KnownJoint, Reference
 from anymesh.reasoning.prompting import JointKind, KindAnswer, WhichArrows, WhichKinds, WhichMotions, WhichPoints
 from anymesh.reasoning.vocabulary import recognize
-from anymesh.types import Exchange, JointType, Mesh
+from anymesh.types import Exchange
 
 Item = TypeVar("Item")
 
 
-def oracle(truth: Truth, mesh: Mesh, T_asset_source: np.ndarray) -> Knowing:
-    """Answers each question as a perfect model would. mesh: the placed one, whose faces are the truth's."""
-    return Knowing("oracle", lambda: true_reference(truth, mesh, T_asset_source))
+def oracle(subject: Subject) -> Knowing:
+    """Answers each question as a perfect model would."""
+    return Knowing("oracle", lambda: true_reference(subject))
 
 
-def true_reference(truth: Truth, mesh: Mesh, T_asset_source: np.ndarray) -> Reference:
+def true_reference(subject: Subject) -> Reference:
     """The truth in the asset frame."""
+    truth, mesh = subject.truth, subject.mesh
     names = [p.name for p in truth.parts]
-    joints = {j.child: j for j in truth.joints}
+    joints = {j.child: subject.joint(j) for j in truth.joints}
     made = [joints.get(name) for name in names]
     labels = [recognize(p.label) or recognize(p.name) for p in truth.parts]
     return Reference(
-        category="object",
+        category=truth.category,
         size=float(mesh.extents.max()),
-        face_part=truth.labels,
+        face_part=subject.labels,
         face_area=mesh.face_areas,
         labels=("base", *(word.label if word else "part" for word in labels[1:])),
         parents=tuple(0 if j is None or j.parent not in names else names.index(j.parent) for j in made),
-        joints=tuple(None if j is None else _in_asset(j, T_asset_source) for j in made),
+        joints=tuple(None if j is None else KnownJoint(j.type, j.axis, j.origin, j.limits) for j in made),
     )
-
-
-def _in_asset(joint: TrueJoint, T: np.ndarray) -> KnownJoint:
-    axis = T[:3, :3] @ joint.axis
-    scale = float(np.linalg.norm(axis))
-    factor = scale if joint.type is JointType.PRISMATIC else 1.0
-    limits = None if joint.limits is None else (joint.limits[0] * factor, joint.limits[1] * factor)
-    return KnownJoint(joint.type, axis / scale, T[:3, :3] @ joint.origin + T[:3, 3], limits)
 
 
 class Noisy:

@@ -5,16 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Protocol, runtime_checkable
 
-import numpy as np
-
 from anymesh.evaluation.oracle import oracle
 from anymesh.evaluation.score import ObjectScore, score
-from anymesh.evaluation.truth import Truth
+from anymesh.evaluation.truth import Subject, Truth
 from anymesh.loading import load_mesh, place_mesh
 from anymesh.reasoning.asking import Seer
 from anymesh.types import Joint, Mesh, Segmentation
 
-Change = Callable[[Mesh], tuple[Mesh, np.ndarray]]  # a changed mesh, and the (4, 4) transform that takes the truth there
+Change = Callable[[Subject], Subject]  # turned, shaken, fused, and so on
 
 
 @runtime_checkable
@@ -38,10 +36,14 @@ def evaluate(
 
     knowing: the oracle answers, or what this function makes of it (see `oracle.Noisy`).
     """
+    subject = prepared(truth, change)
+    see = None if knowing is None else (lambda _: knowing(oracle(subject)))
+    segmentation, joints = solver(subject.mesh, subject.segmentation() if given else None, see=see)
+    return score(subject, segmentation, joints)
+
+
+def prepared(truth: Truth, change: Change | None = None) -> Subject:
+    """The truth's mesh loaded, placed, and changed on purpose."""
     placed = place_mesh(load_mesh(truth.mesh))
-    mesh, T = change(placed.mesh) if change else (placed.mesh, np.eye(4))
-    T = T @ placed.T_asset_source
-    parts = truth.segmentation() if given else None
-    see = None if knowing is None else (lambda _: knowing(oracle(truth, mesh, T)))
-    segmentation, joints = solver(mesh, parts, see=see)
-    return score(truth, mesh, T, segmentation, joints)
+    subject = Subject(truth, placed.mesh, truth.labels, placed.T_asset_source)
+    return change(subject) if change else subject

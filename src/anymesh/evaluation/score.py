@@ -1,4 +1,4 @@
-"""An asset against the truth. What is missing counts as a failure."""
+"""An asset against the truth. What is missing counts as a failure. Lengths as the field has them: the diagonal is 2."""
 
 from __future__ import annotations
 
@@ -8,26 +8,43 @@ import numpy as np
 
 from anymesh.evaluation.matching import match_parts, part_ious
 from anymesh.evaluation.metrics import angle_error, distance_at, line_distance, range_iou, same_motion
-from anymesh.evaluation.truth import TrueJoint, Truth
-from anymesh.types import Joint, JointType, Mesh, Segmentation
+from anymesh.evaluation.truth import Subject, TrueJoint
+from anymesh.types import Joint, JointType, Segmentation
 
 FOUND = 0.5  # IoU from which a part counts as found
 
 
 @dataclass(frozen=True)
 class JointScore:
-    """One true joint. iou 0 and the rest None when no part was found for it. position, at_part: shares of the diagonal."""
+    """One true joint. iou 0 and the rest None when no part was found for it. Lengths in units of half the diagonal."""
 
     part: str
     iou: float
     type_true: JointType
     type_found: JointType | None = None
-    angle: float | None = None  # [deg]
-    position: float | None = None  # None for a slide
-    at_part: float | None = None
-    opens_right: bool | None = None
+    angle: float | None = None  # [deg], whatever the axis' sign
+    line_distance: float | None = None  # of the two axes; None unless both joints turn
+    at_part: float | None = None  # of the found axis from the true one, level with the part
+    displacement: float | None = None  # mean distance of the part's points from where they belong, half way open
+    opens_right: bool | None = None  # None for a joint that turns endlessly
     range_iou: float | None = None
     parent_right: bool | None = None
+    confidence: float | None = None  # that the joint itself tells
+    part_size: float = 0.0  # diagonal of the true part
+
+    @property
+    def type_right(self) -> bool:
+        """Whether the joint was found and moves in the right way."""
+        return self.type_found is not None and same_motion(self.type_true, self.type_found)
+
+
+@dataclass(frozen=True)
+class Likeness:
+    """How alike two sets of parts are (Particulate's measures): mean box IoU in -1..1, mean IoU, Chamfer distance."""
+
+    giou: float
+    miou: float
+    chamfer: float
 
 
 @dataclass(frozen=True)
@@ -39,6 +56,12 @@ class ObjectScore:
     predicted: int
     true: int
     matched: int
+    part_miou: float = 1.0  # over the true movable parts, 0 for one that was not found
+    tree_right: bool = True  # every true joint was found, no other, each with the right parent
+    rest: Likeness | None = None
+    posed: Likeness | None = None  # mean over poses along the range
+    executable: bool | None = None  # None: not tried
+    faults: tuple[str, ...] = ()  # of joints that were driven
 
     @property
     def f1(self) -> float:
@@ -46,12 +69,10 @@ class ObjectScore:
         return 2 * self.matched / (self.predicted + self.true) if self.predicted + self.true else 1.0
 
 
-def score(
-    truth: Truth, mesh: Mesh, T_asset_source: np.ndarray, segmentation: Segmentation, joints: tuple[Joint, ...]
-) -> ObjectScore:
-    """Compares in the asset frame; `mesh` is the placed one, T_asset_source (4, 4) takes the truth there."""
-    ious = part_ious(segmentation.face_part, truth.labels, mesh.face_areas)
-    pairs = match_parts(ious)
+def score(subject: Subject, segmentation: Segmentation, joints: tuple[Joint, ...]) -> ObjectScore:
+    """Compares what was found on the subject's mesh with the truth."""
+    truth, mesh = subject.truth, subject.mesh
+    pairs = match_parts(part_ious(segmentation.face_part, subject.labels, mesh.face_areas))
     by_child = {j.child: j for j in joints}
     found = {truth.parts[t].name: (segmentation.parts[p].name, iou) for p, t, iou in pairs}
     scores = []
@@ -61,38 +82,30 @@ def score(
             scores.append(JointScore(joint.child, iou, joint.type))
             continue
         number = next(k for k, p in enumerate(truth.parts) if p.name == joint.child)
-        center = mesh.triangles[truth.labels == number].reshape(-1, 3).mean(0)
+        center = mesh.triangles[subject.labels == number].reshape(-1, 3).mean(0)
         parent = found.get(joint.parent, (segmentation.parts[0].name, 1.0))[0]
-        scores.append(_joint(joint, by_child[part], iou, T_asset_source, center, mesh.diagonal, parent))
+        scores.append(_joint(subject.joint(joint), by_child[part], iou, center, subject.unit, parent))
     matched = sum(iou >= FOUND for _, _, iou in pairs)
     return ObjectScore(truth.name, tuple(scores), len(segmentation.parts) - 1, len(truth.parts) - 1, matched)
 
 
-def _joint(
-    true: TrueJoint, found: Joint, iou: float, T: np.ndarray, center: np.ndarray, diagonal: float, parent: str
-) -> JointScore:
-    axis = T[:3, :3] @ true.axis
-    scale = float(np.linalg.norm(axis))
-    axis, origin = axis / scale, T[:3, :3] @ true.origin + T[:3, 3]
-    sliding = true.type is JointType.PRISMATIC
-    limits = true.limits
-    if limits is not None and sliding:
-        limits = (limits[0] * scale, limits[1] * scale)
+def _joint(true: TrueJoint, found: Joint, iou: float, center: np.ndarray, unit: float, parent: str) -> JointScore:
     same = same_motion(true.type, found.type)
-    flip = float(found.axis @ axis) < 0
+    flip = float(found.axis @ true.axis) < 0
     ours = found.limits if found.limits is None or not flip else (-found.limits[1], -found.limits[0])
-    turning = not sliding and same
+    turning = true.type is not JointType.PRISMATIC and same
     endless = true.type is JointType.CONTINUOUS
+    at = (found.origin, found.axis, true.origin, true.axis)
     return JointScore(
         part=true.child,
         iou=iou,
         type_true=true.type,
         type_found=found.type,
-        angle=angle_error(found.axis, axis),
-        position=line_distance(found.origin, found.axis, origin, axis) / diagonal if turning else None,
-        at_part=distance_at(center, found.origin, found.axis, origin, axis) / diagonal if turning else None,
-        opens_right=None if endless else _opens_alike(ours, limits) if same else False,
-        range_iou=range_iou(ours, limits) if same else 0.0,
+        angle=angle_error(found.axis, true.axis),
+        line_distance=line_distance(*at) / unit if turning else None,
+        at_part=distance_at(center, *at) / unit if turning else None,
+        opens_right=None if endless else _opens_alike(ours, true.limits) if same else False,
+        range_iou=range_iou(ours, true.limits) if same else 0.0,
         parent_right=found.parent == parent,
     )
 
@@ -123,8 +136,8 @@ def _row(name: str, joints: list[JointScore], matched: int, true: int, predicted
         return f"{np.mean(values):.3f}" if values else "-"
 
     angles = [j.angle for j in joints if j.angle is not None]
-    positions = [j.position for j in joints if j.position is not None]
-    types = [float(j.type_found is not None and same_motion(j.type_true, j.type_found)) for j in joints]
+    positions = [j.line_distance for j in joints if j.line_distance is not None]
+    types = [float(j.type_right) for j in joints]
     opens = [float(j.opens_right) for j in joints if j.opens_right is not None]
     ranges = [j.range_iou or 0.0 for j in joints]
     angle = f"{np.mean(angles):.2f} / {max(angles):.2f}" if angles else "-"

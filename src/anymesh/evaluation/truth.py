@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 from jaxtyping import Float, Int
 
-from anymesh.types import JointType, Part, Segmentation
+from anymesh.types import JointType, Mesh, Part, Segmentation
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,10 +33,39 @@ class Truth:
     parts: tuple[Part, ...]
     labels: Int[np.ndarray, " F"]
     joints: tuple[TrueJoint, ...]
+    category: str = "object"  # what the object is, where the data set says it
+
+
+@dataclass(frozen=True, eq=False)
+class Subject:
+    """A truth on the mesh that is put to the test: placed, and perhaps changed on purpose.
+
+    labels: (F,) true part numbers of the mesh's faces; T: (4, 4) takes the truth's coordinates to the mesh's.
+    """
+
+    truth: Truth
+    mesh: Mesh
+    labels: Int[np.ndarray, " F"]
+    T: Float[np.ndarray, "4 4"]
+
+    @property
+    def unit(self) -> float:
+        """Length that the field's position errors are told in [m]: the diagonal is 2 (see docs/paper_tables.md)."""
+        return self.mesh.diagonal / 2
+
+    def joint(self, true: TrueJoint) -> TrueJoint:
+        """The true joint in the mesh's coordinates, its axis a unit vector."""
+        axis = self.T[:3, :3] @ true.axis
+        scale = float(np.linalg.norm(axis))
+        factor = scale if true.type is JointType.PRISMATIC else 1.0
+        limits = None if true.limits is None else (true.limits[0] * factor, true.limits[1] * factor)
+        return replace(true, axis=axis / scale, origin=self.T[:3, :3] @ true.origin + self.T[:3, 3], limits=limits)
 
     def segmentation(self) -> Segmentation:
         """The true parts, for the protocol in which parts are given; labels are not told."""
-        return Segmentation(self.labels, tuple(Part(p.name, "base" if k == 0 else "part") for k, p in enumerate(self.parts)))
+        return Segmentation(
+            self.labels, tuple(Part(p.name, "base" if k == 0 else "part") for k, p in enumerate(self.truth.parts))
+        )
 
 
 def read_truth(path: Path, mesh: Path) -> Truth:
