@@ -1,4 +1,4 @@
-"""Steps that the readers of all formats share: polygons to triangles, colours to bytes, pieces to one mesh."""
+"""Steps that the readers of all formats share: colours to bytes, pieces to one mesh."""
 
 from __future__ import annotations
 
@@ -10,15 +10,6 @@ from jaxtyping import Float, Float32, Int, UInt8
 
 from anymesh.errors import InputError
 from anymesh.types import Material, Mesh, Node
-
-
-def fans(counts: Int[np.ndarray, " n"]) -> tuple[Int[np.ndarray, "F 3"], Int[np.ndarray, " F"]]:
-    """Triangles of polygons that lie one after another: three numbers into all their corners, and the polygon, a triangle."""
-    each = np.maximum(counts - 2, 0)
-    polygon = np.repeat(np.arange(len(counts)), each)
-    start = (np.cumsum(counts) - counts)[polygon]
-    step = np.arange(len(polygon)) - (np.cumsum(each) - each)[polygon]
-    return np.stack([start, start + step + 1, start + step + 2], 1), polygon
 
 
 def check_geometry(name: str, vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"]) -> None:

@@ -6,8 +6,9 @@ import numpy as np
 
 from anymesh.errors import InputError
 from anymesh.loading.folder import Folder
-from anymesh.loading.join import check_geometry, fans, rgba, unique_names, unit
+from anymesh.loading.join import check_geometry, rgba, unique_names, unit
 from anymesh.loading.mtl import read_mtl
+from anymesh.loading.polygons import fans, recut
 from anymesh.types import Material, Mesh, Node
 
 NO_LOOKS = "the surfaces keep no materials"
@@ -32,10 +33,11 @@ def read_obj(data: bytes, folder: Folder) -> Mesh:
     lines = _read(name, data.decode("utf-8-sig", "replace"))
     vertices = np.array([row[:3] for row in lines.v], np.float64).reshape(-1, 3)
     corners = np.array(lines.corners, np.int64).reshape(-1, 3)
-    triangles, polygon = fans(np.array(lines.sizes, np.int64))
-    rows = corners[triangles]  # (F, 3, 3): vertex, texture coordinate, normal of each corner
+    counts = np.array(lines.sizes, np.int64)
+    triangles, polygon = fans(counts)
+    check_geometry(name, vertices, corners[triangles][:, :, 0])
+    rows = corners[recut(triangles, polygon, counts, vertices, corners[:, 0])]  # (F, 3, 3): vertex, texture, normal a corner
     faces = rows[:, :, 0]
-    check_geometry(name, vertices, faces)
     vertices[~np.isfinite(vertices)] = 0.0  # of no face
     labels = [lines.labels[k] for k in polygon]
     objects = any(label[0] for label in labels)

@@ -9,7 +9,8 @@ import numpy as np
 from anymesh.errors import InputError
 from anymesh.loading.checks import check_count
 from anymesh.loading.folder import Folder
-from anymesh.loading.join import fans, rgba, simple_mesh
+from anymesh.loading.join import rgba, simple_mesh
+from anymesh.loading.polygons import fans, recut
 from anymesh.types import Mesh
 
 
@@ -36,7 +37,8 @@ def read_off(data: bytes, folder: Folder) -> Mesh:
         raise InputError(f"{name} is truncated or broken: a face has fewer indices than it tells")
     corner = np.array([int(i) for row, size in zip(rows, sizes, strict=True) for i in row[1 : size + 1]], np.int64)
     triangles, polygon = fans(sizes)
-    faces = corner[triangles]
+    simple_mesh(name, folder.path.stem, vertices, corner[triangles])  # the corners can be looked up
+    faces = corner[recut(triangles, polygon, sizes, vertices, corner)]
     mesh = simple_mesh(name, folder.path.stem, vertices, faces)
     if color is None:
         color = _colors([row[size + 1 :] for row, size in zip(rows, sizes, strict=True)])

@@ -8,9 +8,10 @@ import numpy as np
 
 from anymesh.errors import InputError
 from anymesh.loading.folder import Folder
-from anymesh.loading.join import fans, rgba, simple_mesh, unit
+from anymesh.loading.join import rgba, simple_mesh, unit
 from anymesh.loading.pictures import picture_file
 from anymesh.loading.ply_data import Columns, parse_header, read_elements
+from anymesh.loading.polygons import fans, recut
 from anymesh.types import Material, Mesh
 
 INDICES = ("vertex_indices", "vertex_index")
@@ -33,8 +34,9 @@ def read_ply(data: bytes, folder: Folder) -> Mesh:
     triangles, polygon = fans(counts)
     if not (np.abs(indices, dtype=np.float64) < 2**53).all() or (indices != np.rint(indices)).any():  # ASCII may hold any
         raise InputError(f"{name}: found a vertex index that is no whole number; valid are 0 to {len(points) - 1}")
-    faces = indices.astype(np.int64)[triangles]
-    simple_mesh(name, folder.path.stem, points, faces)  # the corners can be looked up
+    corner = indices.astype(np.int64)
+    simple_mesh(name, folder.path.stem, points, corner[triangles])  # the corners can be looked up
+    faces = corner[recut(triangles, polygon, counts, points, corner)]
     normal = _table(vertex, ("nx", "ny", "nz"))
     normal = None if normal is None else unit(normal)
     return simple_mesh(
