@@ -11,7 +11,8 @@ import typer
 from typer.core import TyperGroup
 
 from anymesh import __version__
-from anymesh.cli_output import JOINT_COLUMNS, Shown, joint_row, plain, tell, tell_asset
+from anymesh.cli_eval import evaluate
+from anymesh.cli_output import JOINT_COLUMNS, Shown, cache_of, joint_row, plain, tell, tell_asset
 from anymesh.errors import AnymeshError
 
 EXIT_CODES = (
@@ -114,7 +115,7 @@ def articulate(
         asset = pipeline.articulate(
             mesh, out, parts=parts, up=up, scale=scale, force=force, progress=progress,
             answerer=answerer, parts_list=_labels(parts_list), proposer=proposer, verify=verify, category=category,
-            seed=seed, max_calls=max_calls, max_cost=max_cost, **_cache(cache),
+            seed=seed, max_calls=max_calls, max_cost=max_cost, **cache_of(cache),
         )  # fmt: skip
     tell_asset(asset, out, json_, quiet)
 
@@ -145,7 +146,7 @@ def segment(
         found = pipeline.segment(
             mesh, out, parts=parts, up=up, scale=scale, force=force, progress=progress,
             answerer=answerer, parts_list=_labels(parts_list), proposer=proposer, category=category,
-            seed=seed, max_calls=max_calls, max_cost=max_cost, **_cache(cache),
+            seed=seed, max_calls=max_calls, max_cost=max_cost, **cache_of(cache),
         )  # fmt: skip
     rows = [
         {"name": p.name, "label": p.label, "faces": len(found.faces(k)), "confidence": p.confidence, "reason": p.reason}
@@ -173,7 +174,7 @@ def joints(
     with Shown(quiet or json_) as progress:
         found = pipeline.joints(
             folder, progress=progress, answerer=answerer, verify=verify, category=category,
-            seed=seed, max_calls=max_calls, max_cost=max_cost, **_cache(cache),
+            seed=seed, max_calls=max_calls, max_cost=max_cost, **cache_of(cache),
         )  # fmt: skip
     rows = [joint_row(j) for j in found]
     tell({"out": str(folder), "joints": rows}, rows, JOINT_COLUMNS, json_, quiet)
@@ -181,11 +182,6 @@ def joints(
 
 def _labels(told: str) -> tuple[str, ...]:
     return tuple(label for label in told.split(",") if label.strip())
-
-
-def _cache(told: str) -> dict[str, Any]:
-    """auto: as `pipeline.Answering` has it."""
-    return {} if told == "auto" else {"cache": None if told == "off" else Path(told)}
 
 
 @app.command(epilog=EXIT_CODES)
@@ -196,6 +192,9 @@ def export(folder: Folder, json_: Json = False, quiet: Quiet = False) -> None:
     with Shown(quiet or json_) as progress:
         asset = pipeline.export(folder, progress=progress)
     tell_asset(asset, folder, json_, quiet)
+
+
+app.command("eval", epilog=EXIT_CODES)(evaluate)
 
 
 def main(arguments: list[str] | None = None) -> None:

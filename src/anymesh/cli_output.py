@@ -81,6 +81,11 @@ def tell(record: dict[str, Any], rows: list[dict[str, Any]], columns: tuple[str,
         Console(width=None if sys.stdout.isatty() else 140).print(table)
 
 
+def cache_of(told: str) -> dict[str, Any]:
+    """The option `cache` of whoever answers; auto: as `Answering` has it."""
+    return {} if told == "auto" else {"cache": None if told == "off" else Path(told)}
+
+
 def plain(text: str) -> str:
     """Without control characters: a name in a file must not steer the terminal."""
     return "".join(c if c.isprintable() else "?" for c in text)

@@ -3,61 +3,23 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Generator, Sequence
+from collections.abc import Generator
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
-from typing import TypedDict, TypeVar, Unpack
+from typing import TypeVar, Unpack
 
-from anymesh.config import Config
-from anymesh.errors import OptionError
+from anymesh.answering import Answerer, Answering, choose_answerer
 from anymesh.export import write_asset
 from anymesh.loading import load_mesh, place_mesh
-from anymesh.models.cache import cache_folder
-from anymesh.models.connect import open_model
 from anymesh.progress import Progress, silent
-from anymesh.reasoning.recognition import told_labels
-from anymesh.reasoning.vlm import VlmAnswerer
 from anymesh.rendering.preview import write_preview
 from anymesh.run_folder import RunFolder, stage_key
-from anymesh.solving import Seeing, Solver
+from anymesh.solving import Solver
 from anymesh.stage_results import JOINTS, MESH, RECOGNITION, SEGMENTATION, Jointed, Placed, Recognized, Segmented
 from anymesh.types import Asset, Joint, Segmentation, Source
 
 Result = TypeVar("Result", Recognized, Segmented, Jointed)
-
-
-class Answering(TypedDict, total=False):
-    """Who answers the questions of both stages, and how. All have defaults.
-
-    answerer: geometry, openai:MODEL, anthropic:MODEL, google:MODEL, openai-compatible:BASE_URL#MODEL or replay:FOLDER;
-    category: what the object is; seed: from 0 up; parts_list: labels of the parts that move, which a model is then not asked
-    for; proposer: of masks for a model, exact, sam:..., or exact+sam:...; verify: motion or off; max_calls, max_cost [USD]:
-    no call is made that would pass them; cache: folder of answers (None: no cache).
-    """
-
-    answerer: str
-    category: str | None
-    seed: int
-    parts_list: Sequence[str] | str
-    proposer: str
-    verify: str
-    max_calls: int | None
-    max_cost: float | None
-    cache: Path | str | None
-
-
-@dataclass(frozen=True, eq=False)
-class _Answerer:
-    """The settings of a run, the name of who answers, and what makes the answerer (None: geometry)."""
-
-    config: Config
-    name: str
-    see: Seeing | None
-
-    def settings(self, *without: str) -> dict[str, object]:
-        """What the result of a stage hangs on, without what that stage does not use."""
-        return {**{k: v for k, v in self.config.as_dict().items() if k not in without}, "answerer": self.name}
 
 
 def articulate(
@@ -76,7 +38,7 @@ def articulate(
     parts: "auto", "nodes" (the scene's nodes) or a file of face labels; up: auto, x, y, z; scale: auto, a factor (file units
     to metres) or METRES:AXIS. Raises InputError, OptionError, OutputError, ModelError; then nothing is written.
     """
-    who = _answerer(answering)
+    who = choose_answerer(answering)
     with RunFolder.create(Path(out), source=Path(mesh_path), force=force) as run:
         solver, recognized, key = _seen(run, Path(mesh_path), parts, up, scale, who, progress)
         segmented, key = _segment(run, solver, recognized, key, parts, who, progress)
@@ -96,7 +58,7 @@ def segment(
     **answering: Unpack[Answering],
 ) -> Segmentation:
     """Stage A alone: the parts of a mesh, saved in `out` for `joints`. Options as for `articulate`."""
-    who = _answerer(answering)
+    who = choose_answerer(answering)
     with RunFolder.create(Path(out), source=Path(mesh_path), force=force) as run:
         solver, recognized, key = _seen(run, Path(mesh_path), parts, up, scale, who, progress)
         return _segment(run, solver, recognized, key, parts, who, progress)[0].segmentation
@@ -104,7 +66,7 @@ def segment(
 
 def joints(folder: str | Path, *, progress: Progress = silent, **answering: Unpack[Answering]) -> tuple[Joint, ...]:
     """Stage B alone, on the parts that `segment` saved in `folder`. Options as for `articulate`."""
-    who = _answerer(answering)
+    who = choose_answerer(answering)
     with RunFolder.open(Path(folder)) as run:
         recognized, segmented = run.recognized(), run.need(SEGMENTATION)
         solver = Solver(recognized.sized(run.need(MESH)).mesh, who.config, who.see)
@@ -117,32 +79,8 @@ def export(folder: str | Path, *, progress: Progress = silent) -> Asset:
         return _export(run, progress)
 
 
-def _answerer(options: Answering) -> _Answerer:
-    """Raises OptionError for what is not valid, ModelError where a model cannot be asked at all (no key)."""
-    unknown = sorted(set(options) - set(Answering.__annotations__))
-    if unknown:
-        raise OptionError(f"found the options {unknown}; valid are {', '.join(Answering.__annotations__)}")
-    told = options.get("parts_list", ())
-    name, labels = options.get("answerer", "geometry"), told_labels(told.split(",") if isinstance(told, str) else told)
-    config = Config(
-        seed=options.get("seed", 0),
-        category=options.get("category"),
-        parts_list=labels,
-        proposer=options.get("proposer", "exact"),
-        verify=options.get("verify", "motion"),
-    )
-    if name == "geometry":
-        if labels:
-            raise OptionError("--parts-list: geometry cannot find parts by their names; it needs an --answerer that sees")
-        return _Answerer(config, name, None)
-    cache = options["cache"] if "cache" in options else cache_folder()
-    cache = None if cache is None else Path(cache)
-    model = open_model(name, cache=cache, max_calls=options.get("max_calls"), max_cost=options.get("max_cost"))
-    return _Answerer(config, name, lambda instead: VlmAnswerer(model, instead))
-
-
 def _seen(
-    run: RunFolder, path: Path, parts: str, up: str, scale: str, who: _Answerer, progress: Progress
+    run: RunFolder, path: Path, parts: str, up: str, scale: str, who: Answerer, progress: Progress
 ) -> tuple[Solver, Recognized, str]:
     """The mesh placed, looked at, and in the size that was answered; ready for both stages."""
     placed, key = _place(run, path, up, scale, progress)
@@ -173,7 +111,7 @@ def _answered(found: Result | None) -> Result | None:
     return None if found is None or any(e.given_up for e in found.exchanges) else found
 
 
-def _recognize(run: RunFolder, solver: Solver, previous: str, who: _Answerer, sized: bool) -> tuple[Recognized, str]:
+def _recognize(run: RunFolder, solver: Solver, previous: str, who: Answerer, sized: bool) -> tuple[Recognized, str]:
     if who.see is None:
         return solver.recognize(), previous
     key = stage_key(RECOGNITION, previous=previous, config={**who.settings("verify", "proposer"), "sized": sized})
@@ -186,7 +124,7 @@ def _recognize(run: RunFolder, solver: Solver, previous: str, who: _Answerer, si
 
 
 def _segment(
-    run: RunFolder, solver: Solver, recognized: Recognized, previous: str, parts: str, who: _Answerer, progress: Progress
+    run: RunFolder, solver: Solver, recognized: Recognized, previous: str, parts: str, who: Answerer, progress: Progress
 ) -> tuple[Segmented, str]:
     settings = {**who.settings("verify"), "parts": parts, "labels": _bytes_of_labels(parts)}
     key = stage_key(SEGMENTATION, previous=previous, config=settings)
@@ -212,7 +150,7 @@ def _join(
     recognized: Recognized,
     segmented: Segmented,
     previous: str,
-    who: _Answerer,
+    who: Answerer,
     progress: Progress,
 ) -> Jointed:
     key = stage_key(JOINTS, previous=previous, config=who.settings())

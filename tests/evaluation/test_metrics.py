@@ -5,7 +5,16 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from anymesh.evaluation.metrics import angle_error, distance_at, line_distance, range_iou, same_motion
+from anymesh.evaluation.metrics import (
+    angle_error,
+    distance_at,
+    line_distance,
+    opening_side,
+    opens_both_ways,
+    point_distance,
+    range_iou,
+    same_motion,
+)
 from anymesh.types import JointType
 
 X, Y, Z = np.eye(3)
@@ -32,19 +41,77 @@ def test_distance_of_lines() -> None:
     assert line_distance(np.zeros(3), X, np.array([5, 0, 0.0]), Y) == pytest.approx(0)  # they cross
 
 
-def test_nearly_parallel_hinges_far_apart_are_far_apart() -> None:
-    a = np.deg2rad(0.5)
-    crossing_far_away = np.array([np.cos(a), np.sin(a), 0])
-    assert line_distance(np.zeros(3), X, np.array([0, 0.4, 0]), crossing_far_away) == pytest.approx(0.4)
+def tilted(degrees: float) -> np.ndarray:
+    """X, turned towards Y."""
+    return np.array([np.cos(np.deg2rad(degrees)), np.sin(np.deg2rad(degrees)), 0])
 
 
-@given(points, axes, points, axes, number, number)
-def test_distance_does_not_depend_on_the_points_that_name_the_lines(p, a, q, b, s, t) -> None:
-    if np.linalg.norm(np.cross(a, b)) < 0.1:
+@pytest.mark.parametrize("degrees", [0, 1e-7, 0.01, 0.5, 0.99])
+@pytest.mark.parametrize("sign", [1, -1])
+def test_nearly_parallel_hinges_far_apart_are_far_apart(degrees: float, sign: int) -> None:
+    crossing_far_away = sign * tilted(degrees)
+    assert line_distance(np.zeros(3), X, np.array([0, 0.4, 0]), crossing_far_away) == pytest.approx(0.4, abs=1e-3)
+
+
+def test_at_the_part_nothing_jumps_where_the_published_figure_does() -> None:
+    hinge, center = np.array([0, 0.4, 0]), np.array([0.1, 0.2, 0])
+    steps = np.linspace(0, 3, 301)
+    published = np.array([line_distance(np.zeros(3), X, hinge, tilted(d), center) for d in steps])
+    at_part = np.array([distance_at(center, np.zeros(3), X, hinge, tilted(d)) for d in steps])
+    assert np.abs(np.diff(at_part)).max() < 1e-3
+    assert at_part == pytest.approx(0.4, abs=0.01)
+    assert published[steps < 0.999] == pytest.approx(at_part[steps < 0.999], abs=1e-3)
+    assert published[steps > 1.001] == pytest.approx(0, abs=1e-12)  # as the field has it: they cross, if 20 m away
+
+
+tilts = st.sampled_from([0.0, 1e-6, 0.3, 0.9, 1.1, 5.0, 40.0, 90.0])
+
+
+@given(points, axes, points, axes, points, tilts, number, number)
+def test_distance_does_not_depend_on_the_points_that_name_the_lines(p, a, q, other, c, degrees, s, t) -> None:
+    side = np.cross(a, other)
+    if np.linalg.norm(side) < 0.1:
         return
-    expected = line_distance(p, a, q, b)
-    assert line_distance(p + s * a, -a, q + t * b, b) == pytest.approx(expected, abs=1e-6)
-    assert line_distance(q, b, p, a) == pytest.approx(expected, abs=1e-6)
+    side, angle = side / np.linalg.norm(side), np.deg2rad(degrees)
+    b = np.cos(angle) * a + np.sin(angle) * side
+    expected = line_distance(p, a, q, b, c)
+    assert line_distance(p + s * a, -a, q + t * b, b, c) == pytest.approx(expected, abs=1e-6)
+    assert line_distance(q, b, p, a, c) == pytest.approx(expected, abs=1e-6)
+
+
+@given(points, axes, points, axes, points, axes, st.floats(-3, 3), st.floats(0.01, 100))
+def test_errors_turn_shift_and_scale_with_the_object(p, a, q, b, c, axis, angle, scale) -> None:
+    K = np.cross(np.eye(3), axis)
+    R = np.eye(3) + np.sin(angle) * K + (1 - np.cos(angle)) * K @ K
+
+    def moved(point: np.ndarray) -> np.ndarray:
+        return scale * R @ point + (1, 2, 3)
+
+    assert angle_error(R @ a, R @ b) == pytest.approx(angle_error(a, b), abs=1e-6)
+    if abs(angle_error(a, b) - 1) > 1e-6:
+        ours = line_distance(moved(p), R @ a, moved(q), R @ b, moved(c))
+        assert ours == pytest.approx(scale * line_distance(p, a, q, b, c), abs=1e-5 * scale)
+    ours = distance_at(moved(c), moved(p), R @ a, moved(q), R @ b)
+    assert ours == pytest.approx(scale * distance_at(c, p, a, q, b), abs=1e-6 * scale)
+
+
+def test_distance_of_a_point_from_a_line() -> None:
+    assert point_distance(np.array([3, 4, 9.0]), np.array([0, 0, -2.0]), Z) == pytest.approx(5)
+
+
+@pytest.mark.parametrize(
+    ("limits", "side", "both"),
+    [
+        ((0.0, 1.0), 1, False),
+        ((-1.0, 0.0), -1, False),
+        ((-0.4, 1.0), 1, False),
+        ((-1.0, 0.6), -1, True),
+        ((-1.0, 1.0), 1, True),
+        (None, 1, True),
+    ],
+)
+def test_a_joint_opens_where_its_range_is_larger(limits, side: int, both: bool) -> None:
+    assert (opening_side(limits), opens_both_ways(limits)) == (side, both)
 
 
 def test_an_axis_that_only_crosses_the_true_one_is_seen_at_the_part() -> None:

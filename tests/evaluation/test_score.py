@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from assets import cabinet
 
-from anymesh.evaluation.score import ObjectScore, score, table
+from anymesh.evaluation.score import ObjectScore, failed, score, table
 from anymesh.evaluation.truth import Subject, TrueJoint, Truth
 from anymesh.types import Asset, Joint, JointType, Part, Segmentation
 
@@ -30,9 +30,10 @@ def truth_of(asset: Asset, T_asset_source: np.ndarray) -> Truth:
     return Truth(asset.name, Path("mesh.glb"), s.parts, s.face_part, tuple(map(one, asset.joints)))
 
 
-def scored(joints=ASSET.joints, segmentation=ASSET.segmentation, T=None) -> ObjectScore:
+def scored(joints=ASSET.joints, segmentation=ASSET.segmentation, T=None, truth=None) -> ObjectScore:
     T = np.eye(4) if T is None else T
-    return score(Subject(truth_of(ASSET, T), ASSET.mesh, ASSET.segmentation.face_part, T), segmentation, tuple(joints))
+    truth = truth_of(ASSET, T) if truth is None else truth
+    return score(Subject(truth, ASSET.mesh, ASSET.segmentation.face_part, T), segmentation, tuple(joints))
 
 
 def changed(child: str, **changes) -> ObjectScore:
@@ -56,6 +57,13 @@ def test_the_truth_against_itself_is_perfect(T) -> None:
         assert j.parent_right
     assert [j.opens_right for j in result.joints] == [True, True, None]  # an endless joint opens nowhere
     assert [j.line_distance for j in result.joints] == [pytest.approx(0, abs=1e-9), None, pytest.approx(0, abs=1e-9)]
+    assert [j.displacement for j in result.joints] == pytest.approx([0, 0, 0], abs=1e-9)
+    assert [j.confidence for j in result.joints] == [0.9] * 3
+    assert [j.found for j in result.joints] == ["door", "drawer", "knob"]
+    assert (result.part_miou, result.tree_right) == (pytest.approx(1), True)
+    for alike in (result.rest, result.posed, result.opened):
+        assert alike is not None
+        assert (alike.giou, alike.miou, alike.chamfer) == pytest.approx((1, 1, 0), abs=1e-9)
 
 
 def test_nothing_found_is_worth_nothing() -> None:
@@ -63,6 +71,15 @@ def test_nothing_found_is_worth_nothing() -> None:
     result = scored((), nothing)
     assert (result.predicted, result.true, result.matched, result.f1) == (0, 3, 0, 0.0)
     assert all(j.iou == 0 and j.type_found is None and j.angle is None and j.range_iou is None for j in result.joints)
+    assert (result.part_miou, result.tree_right) == (0, False)
+
+
+def test_a_crash_is_worth_nothing() -> None:
+    lost = failed(truth_of(ASSET, np.eye(4)))
+    assert (lost.predicted, lost.true, lost.matched, lost.f1, lost.part_miou, lost.tree_right) == (0, 3, 0, 0.0, 0.0, False)
+    assert [(j.part, j.type_true) for j in lost.joints] == [(j.child, j.type) for j in ASSET.joints]
+    assert all(j.iou == 0 and j.type_found is None and j.displacement is None and not j.type_right for j in lost.joints)
+    assert (lost.rest, lost.posed, lost.executable) == (None, None, None)
 
 
 def test_nothing_to_find_and_nothing_found_is_right() -> None:
@@ -106,6 +123,73 @@ def test_names_and_numbers_of_predicted_parts_do_not_matter() -> None:
     joints = [replace(j, parent=names[j.parent], child=names[j.child]) for j in ASSET.joints]
     result = scored(joints, Segmentation(number[ASSET.segmentation.face_part], parts))
     assert result.joints == scored().joints
+
+
+def test_a_tree_is_right_when_each_part_is_there_once_and_hangs_where_it_should() -> None:
+    assert changed("door", axis=np.array([1.0, 0, 0])).tree_right  # of motions it tells nothing
+    assert not changed("knob", parent="base").tree_right
+    face_part = ASSET.segmentation.face_part.copy()
+    face_part[:2] = 4  # a piece of the case is a part of its own
+    more = Segmentation(face_part, (*ASSET.segmentation.parts, Part("panel", "part")))
+    panel = replace(ASSET.joints[0], name="p", child="panel")
+    assert not scored((*ASSET.joints, panel), more).tree_right
+
+
+def test_what_hangs_on_a_part_that_was_not_found_has_no_right_parent() -> None:
+    kept = np.where(ASSET.segmentation.face_part == 2, 0, ASSET.segmentation.face_part)
+    kept[kept == 3] = 2
+    parts = tuple(ASSET.segmentation.parts[k] for k in (0, 1, 3))
+    joints = [replace(j, parent="base") for j in ASSET.joints if j.child != "drawer"]
+    result = scored(joints, Segmentation(kept, parts))
+    assert of(result, "drawer").type_found is None
+    assert of(result, "knob").parent_right is False
+    assert result.part_miou == pytest.approx(2 / 3)
+    assert not result.tree_right
+
+
+def test_sizes_are_of_the_true_part() -> None:
+    size = np.linalg.norm([0.59, 0.02, 0.575])
+    for result in (scored(), scored(()), scored(T=SHRUNK_AND_TURNED)):
+        assert of(result, "door").part_size == pytest.approx(2 * size / ASSET.mesh.diagonal)
+
+
+def test_the_origin_is_where_the_joint_says_and_the_line_is_not() -> None:
+    tilted = np.array([0, np.sin(0.1), np.cos(0.1)])
+    low = of(changed("door", axis=tilted), "door")
+    high = of(changed("door", axis=tilted, origin=np.array([0.6, 0, 0.3]) + 2 * tilted), "door")
+    assert low.origin == pytest.approx(0, abs=1e-9)
+    assert high.origin == pytest.approx(2 * 2 * np.sin(0.1) / ASSET.mesh.diagonal)
+    assert low.line_distance == pytest.approx(high.line_distance, abs=1e-9)
+
+
+def test_where_the_range_is_not_known_neither_side_nor_range_counts() -> None:
+    truth = truth_of(ASSET, np.eye(4))
+    unknown = replace(truth, joints=tuple(replace(j, limits=None, range_known=False) for j in truth.joints))
+    turned = [replace(j, axis=-j.axis) for j in ASSET.joints]
+    for joints in (ASSET.joints, turned):
+        result = scored(joints, truth=unknown)
+        for j in result.joints:
+            assert (j.opens_right, j.range_iou, j.range_known) == (None, None, False)
+            assert (j.angle, j.displacement) == pytest.approx((0, 0), abs=1e-9)
+        assert (result.posed, result.opened) == (None, None)
+        assert result.rest is not None
+        assert result.tree_right
+
+
+def test_a_truth_that_opens_against_its_axis_opens_there() -> None:
+    truth = truth_of(ASSET, np.eye(4))
+    turned = tuple(j if j.limits is None else replace(j, axis=-j.axis, limits=(-j.limits[1], 0.0)) for j in truth.joints)
+    for j in scored(truth=replace(truth, joints=turned)).joints[:2]:
+        assert (j.opens_right, j.range_iou, j.displacement) == (True, pytest.approx(1), pytest.approx(0, abs=1e-9))
+
+
+def test_opening_both_ways_is_right_either_way() -> None:
+    truth = truth_of(ASSET, np.eye(4))
+    swing = replace(truth, joints=tuple(replace(j, limits=(-1.0, 1.5)) if j.child == "door" else j for j in truth.joints))
+    for limits in ((0.0, 1.5), (-1.5, 0.0)):
+        joints = [replace(j, limits=limits) if j.child == "door" else j for j in ASSET.joints]
+        found = of(scored(joints, truth=swing), "door")
+        assert (found.opens_right, found.displacement) == (True, pytest.approx(0, abs=1e-9))
 
 
 def test_the_table_has_a_row_an_object_and_the_totals() -> None:

@@ -1,8 +1,12 @@
-"""What is kept of one object that was put to the test."""
+"""What is kept of one object that was put to the test, as JSON there and back."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import json
+from dataclasses import asdict, dataclass, fields, is_dataclass
+from enum import Enum
+from types import NoneType, UnionType
+from typing import Any, get_args, get_origin, get_type_hints
 
 from anymesh.evaluation.score import ObjectScore
 
@@ -17,3 +21,52 @@ class Record:
     seconds: float = 0.0  # that both stages took
     error: str = ""
     pictures: tuple[tuple[str, str], ...] = ()  # (part, path under the report's folder) of joints that are off
+
+    @property
+    def title(self) -> str:
+        """The object and what was changed."""
+        return self.score.name if self.change == "none" else f"{self.score.name} ({self.change})"
+
+
+def record_text(record: Record) -> str:
+    """One line of JSON. ValueError for a number that is not finite."""
+    return json.dumps(asdict(record), allow_nan=False)
+
+
+def record_of(text: str) -> Record:
+    """The record that `record_text` wrote. ValueError where the text holds anything else."""
+    return _read(Record, json.loads(text, parse_constant=_refuse), "record")
+
+
+def _read(kind: Any, value: Any, where: str) -> Any:
+    """A JSON value as what the annotation says: a dataclass, tuple, enum, plain value or one of several."""
+    if is_dataclass(kind) and isinstance(kind, type):
+        return _read_fields(kind, value, where)
+    if get_origin(kind) is tuple:
+        inner = get_args(kind)
+        count = len(value) if isinstance(value, list) else -1
+        kinds = [inner[0]] * count if inner[-1] is Ellipsis else list(inner)
+        if count != len(kinds):
+            raise ValueError(f"{where}: expected a list as {kind}, found {value!r}")
+        return tuple(_read(k, v, f"{where}[{n}]") for n, (k, v) in enumerate(zip(kinds, value, strict=True)))
+    if isinstance(kind, UnionType):
+        return None if value is None else _read(next(k for k in get_args(kind) if k is not NoneType), value, where)
+    if isinstance(kind, type) and issubclass(kind, Enum):
+        return kind(value)
+    if kind is float and type(value) is int:
+        return float(value)
+    if type(value) is not kind:
+        raise ValueError(f"{where}: expected {kind.__name__}, found {value!r}")
+    return value
+
+
+def _read_fields(kind: Any, value: Any, where: str) -> Any:
+    names = {f.name for f in fields(kind)}
+    if not isinstance(value, dict) or set(value) != names:
+        raise ValueError(f"{where}: expected an object with {sorted(names)}, found {value!r:.200}")
+    hints = get_type_hints(kind)
+    return kind(**{name: _read(hints[name], value[name], f"{where}.{name}") for name in names})
+
+
+def _refuse(constant: str) -> float:
+    raise ValueError(f"expected finite numbers, found {constant}")

@@ -2,16 +2,29 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
+from anymesh.evaluation.displacement import displacement
+from anymesh.evaluation.likeness import Likeness, likeness
 from anymesh.evaluation.matching import match_parts, part_ious
-from anymesh.evaluation.metrics import angle_error, distance_at, line_distance, range_iou, same_motion
-from anymesh.evaluation.truth import Subject, TrueJoint
-from anymesh.types import Joint, JointType, Segmentation
+from anymesh.evaluation.metrics import (
+    angle_error,
+    distance_at,
+    line_distance,
+    opening_side,
+    opens_both_ways,
+    point_distance,
+    range_iou,
+    same_motion,
+)
+from anymesh.evaluation.truth import Subject, TrueJoint, Truth
+from anymesh.geometry.sampling import sample_surface
+from anymesh.types import Joint, JointType, Mesh, Segmentation
 
 FOUND = 0.5  # IoU from which a part counts as found
+POINTS = 1000  # on a part, that its displacement is the mean of
 
 
 @dataclass(frozen=True)
@@ -26,25 +39,19 @@ class JointScore:
     line_distance: float | None = None  # of the two axes; None unless both joints turn
     at_part: float | None = None  # of the found axis from the true one, level with the part
     displacement: float | None = None  # mean distance of the part's points from where they belong, half way open
-    opens_right: bool | None = None  # None for a joint that turns endlessly
-    range_iou: float | None = None
+    opens_right: bool | None = None  # None for a joint that turns endlessly, or whose range is not known
+    range_iou: float | None = None  # None where the range is not known
     parent_right: bool | None = None
     confidence: float | None = None  # that the joint itself tells
     part_size: float = 0.0  # diagonal of the true part
+    origin: float | None = None  # of the found joint's own origin from the true axis; None unless both joints turn
+    range_known: bool = True  # without it, neither opening side nor range is scored
+    found: str = field(default="", compare=False)  # the part of the found joint, by its own name
 
     @property
     def type_right(self) -> bool:
         """Whether the joint was found and moves in the right way."""
         return self.type_found is not None and same_motion(self.type_true, self.type_found)
-
-
-@dataclass(frozen=True)
-class Likeness:
-    """How alike two sets of parts are (Particulate's measures): mean box IoU in -1..1, mean IoU, Chamfer distance."""
-
-    giou: float
-    miou: float
-    chamfer: float
 
 
 @dataclass(frozen=True)
@@ -56,12 +63,13 @@ class ObjectScore:
     predicted: int
     true: int
     matched: int
-    part_miou: float = 1.0  # over the true movable parts, 0 for one that was not found
+    part_miou: float = 1.0  # over the true movable parts, of the part that was matched with it; 0 where none was
     tree_right: bool = True  # every true joint was found, no other, each with the right parent
     rest: Likeness | None = None
     posed: Likeness | None = None  # mean over poses along the range
     executable: bool | None = None  # None: not tried
     faults: tuple[str, ...] = ()  # of joints that were driven
+    opened: Likeness | None = None  # at the upper ends of all ranges
 
     @property
     def f1(self) -> float:
@@ -71,52 +79,91 @@ class ObjectScore:
 
 def score(subject: Subject, segmentation: Segmentation, joints: tuple[Joint, ...]) -> ObjectScore:
     """Compares what was found on the subject's mesh with the truth."""
-    truth, mesh = subject.truth, subject.mesh
-    pairs = match_parts(part_ious(segmentation.face_part, subject.labels, mesh.face_areas))
+    truth = subject.truth
+    pairs = match_parts(part_ious(segmentation.face_part, subject.labels, subject.mesh.face_areas))
     by_child = {j.child: j for j in joints}
-    found = {truth.parts[t].name: (segmentation.parts[p].name, iou) for p, t, iou in pairs}
+    matched = {truth.parts[t].name: (segmentation.parts[p].name, iou) for p, t, iou in pairs}
+    found = {true: part for true, (part, iou) in matched.items() if iou >= FOUND}
+    parents = {truth.parts[0].name: segmentation.parts[0].name, **found}
     scores = []
     for joint in truth.joints:
-        part, iou = found.get(joint.child, ("", 0.0))
-        if iou < FOUND or part not in by_child:
-            scores.append(JointScore(joint.child, iou, joint.type))
-            continue
-        number = next(k for k, p in enumerate(truth.parts) if p.name == joint.child)
-        center = mesh.triangles[subject.labels == number].reshape(-1, 3).mean(0)
-        parent = found.get(joint.parent, (segmentation.parts[0].name, 1.0))[0]
-        scores.append(_joint(subject.joint(joint), by_child[part], iou, center, subject.unit, parent))
-    matched = sum(iou >= FOUND for _, _, iou in pairs)
-    return ObjectScore(truth.name, tuple(scores), len(segmentation.parts) - 1, len(truth.parts) - 1, matched)
+        own = by_child.get(found.get(joint.child, ""))
+        iou = matched.get(joint.child, ("", 0.0))[1]
+        scores.append(_joint(subject, joint, own, iou, parents.get(joint.parent)))
+    movable, predicted = len(truth.parts) - 1, len(segmentation.parts) - 1
+    alike = likeness(subject, segmentation, joints)
+    return ObjectScore(
+        name=truth.name,
+        joints=tuple(scores),
+        predicted=predicted,
+        true=movable,
+        matched=len(found),
+        part_miou=sum(iou for _, _, iou in pairs) / movable if movable else 1.0,
+        tree_right=len(found) == movable == predicted and all(j.parent_right for j in scores),
+        rest=alike.rest,
+        posed=alike.posed,
+        opened=alike.opened,
+    )
 
 
-def _joint(true: TrueJoint, found: Joint, iou: float, center: np.ndarray, unit: float, parent: str) -> JointScore:
+def failed(truth: Truth) -> ObjectScore:
+    """The score of an object for which the tool gave nothing: everything is missing."""
+    joints = tuple(JointScore(j.child, 0.0, j.type, range_known=j.range_known) for j in truth.joints)
+    movable = len(truth.parts) - 1
+    return ObjectScore(truth.name, joints, 0, movable, 0, part_miou=0.0 if movable else 1.0, tree_right=False)
+
+
+def _joint(subject: Subject, joint: TrueJoint, found: Joint | None, iou: float, parent: str | None) -> JointScore:
+    """parent: the found part that is the true joint's parent, None where there is none."""
+    true, mesh, unit = subject.joint(joint), subject.mesh, subject.unit
+    number = next(k for k, p in enumerate(subject.truth.parts) if p.name == joint.child)
+    faces = np.flatnonzero(subject.labels == number)
+    size = float(np.linalg.norm(np.ptp(mesh.triangles[faces].reshape(-1, 3), axis=0)))
+    if found is None:
+        return JointScore(joint.child, iou, joint.type, part_size=size / unit, range_known=joint.range_known)
     same = same_motion(true.type, found.type)
+    turning = true.type is not JointType.PRISMATIC and same
+    points, center = _points(mesh, faces)
+    at = (found.origin, found.axis, true.origin, true.axis)
     flip = float(found.axis @ true.axis) < 0
     ours = found.limits if found.limits is None or not flip else (-found.limits[1], -found.limits[0])
-    turning = true.type is not JointType.PRISMATIC and same
-    endless = true.type is JointType.CONTINUOUS
-    at = (found.origin, found.axis, true.origin, true.axis)
     return JointScore(
-        part=true.child,
+        part=joint.child,
         iou=iou,
         type_true=true.type,
         type_found=found.type,
         angle=angle_error(found.axis, true.axis),
-        line_distance=line_distance(*at) / unit if turning else None,
+        line_distance=line_distance(*at, center) / unit if turning else None,
         at_part=distance_at(center, *at) / unit if turning else None,
-        opens_right=None if endless else _opens_alike(ours, true.limits) if same else False,
-        range_iou=range_iou(ours, true.limits) if same else 0.0,
+        displacement=displacement(points, found, true, size) / unit,
+        opens_right=_opens_alike(found, true),
+        range_iou=None if not true.range_known else range_iou(ours, true.limits) if same else 0.0,
         parent_right=found.parent == parent,
+        confidence=found.confidence,
+        part_size=size / unit,
+        origin=point_distance(found.origin, true.origin, true.axis) / unit if turning else None,
+        range_known=true.range_known,
+        found=found.child,
     )
 
 
-def _opens_alike(ours: tuple[float, float] | None, true: tuple[float, float] | None) -> bool:
-    """Whether the larger part of both ranges lies on the same side of rest (about the true axis)."""
-    if ours is None or true is None:
-        return ours is None and true is None
-    if min(true[1], -true[0]) > 0.5 * max(true[1], -true[0]):
-        return True  # opens both ways
-    return bool((ours[0] + ours[1] > 0) == (true[0] + true[1] > 0))
+def _points(mesh: Mesh, faces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Points on some faces, and the middle of their surface; of their corners where they have no area."""
+    triangles, areas = mesh.triangles[faces], mesh.face_areas[faces]
+    if areas.sum() <= 0:
+        corners = triangles.reshape(-1, 3)
+        return corners, corners.mean(0)
+    return sample_surface(triangles, POINTS, 0).points, np.average(triangles.mean(1), axis=0, weights=areas)
+
+
+def _opens_alike(found: Joint, true: TrueJoint) -> bool | None:
+    """Whether both open towards the same side. None where the truth has none: it turns endlessly, or it is not known."""
+    if true.limits is None or not true.range_known:
+        return None
+    if not same_motion(true.type, found.type) or found.limits is None:
+        return False
+    way = opening_side(found.limits) * opening_side(true.limits) * float(found.axis @ true.axis)
+    return opens_both_ways(true.limits) or way > 0
 
 
 def table(scores: list[ObjectScore]) -> str:
@@ -139,7 +186,7 @@ def _row(name: str, joints: list[JointScore], matched: int, true: int, predicted
     positions = [j.line_distance for j in joints if j.line_distance is not None]
     types = [float(j.type_right) for j in joints]
     opens = [float(j.opens_right) for j in joints if j.opens_right is not None]
-    ranges = [j.range_iou or 0.0 for j in joints]
+    ranges = [j.range_iou or 0.0 for j in joints if j.range_known]
     angle = f"{np.mean(angles):.2f} / {max(angles):.2f}" if angles else "-"
     position = f"{np.mean(positions):.4f} / {max(positions):.4f}" if positions else "-"
     return (

@@ -14,7 +14,11 @@ from anymesh.types import JointType, Mesh, Part, Segmentation
 
 @dataclass(frozen=True, eq=False)
 class TrueJoint:
-    """A joint in the coordinates of the mesh file; positive opens."""
+    """A joint in the coordinates of the mesh file; positive opens.
+
+    limits: (lower, upper) [rad or lengths of the file]; None for a joint that turns endlessly, or whose range is not known:
+    then `range_known` is False, the axis' sign means nothing, and neither opening side nor range is scored.
+    """
 
     child: str
     parent: str
@@ -22,6 +26,7 @@ class TrueJoint:
     origin: Float[np.ndarray, " 3"]
     axis: Float[np.ndarray, " 3"]
     limits: tuple[float, float] | None
+    range_known: bool = True
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,18 +45,20 @@ class Truth:
 class Subject:
     """A truth on the mesh that is put to the test: placed, and perhaps changed on purpose.
 
-    labels: (F,) true part numbers of the mesh's faces; T: (4, 4) takes the truth's coordinates to the mesh's.
+    labels: (F,) true part numbers of the mesh's faces; T: (4, 4) takes the truth's coordinates to the mesh's; diagonal: of
+    the whole object at rest [m], where the mesh is not that.
     """
 
     truth: Truth
     mesh: Mesh
     labels: Int[np.ndarray, " F"]
     T: Float[np.ndarray, "4 4"]
+    diagonal: float | None = None
 
     @property
     def unit(self) -> float:
         """Length that the field's position errors are told in [m]: the diagonal is 2 (see docs/paper_tables.md)."""
-        return self.mesh.diagonal / 2
+        return (self.diagonal or self.mesh.diagonal) / 2
 
     def joint(self, true: TrueJoint) -> TrueJoint:
         """The true joint in the mesh's coordinates, its axis a unit vector."""

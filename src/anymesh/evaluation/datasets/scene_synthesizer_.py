@@ -4,9 +4,13 @@ from __future__ import annotations
 
 import contextlib
 import io
+import re
 import warnings
+from dataclasses import dataclass, replace
 from pathlib import Path
 
+from anymesh.errors import InputError
+from anymesh.evaluation.datasets.splits import check_split
 from anymesh.evaluation.datasets.urdf_ import flatten_urdf
 from anymesh.evaluation.truth import Truth
 
@@ -14,15 +18,47 @@ CLASSES = (
     "BaseCabinet", "WallCabinet", "SinkCabinet", "KitchenIsland", "Dishwasher", "Range", "Refrigerator", "Microwave",
     "HandWheel", "CNCMachine",
 )  # fmt: skip
+VARIED = ("BaseCabinet", "WallCabinet", "SinkCabinet", "Dishwasher", "Range", "Refrigerator")  # forms can be drawn of these
+VARIANTS = 7  # of each, in the subset "random"
+
+
+@dataclass(frozen=True)
+class SceneSynthesizer:
+    """The classes in their default form; CLASS-SEED is a form that is drawn. HandWheel stands on nothing, so nothing of it
+    moves against anything that can be seen: a mesh in which no joint is to be found."""
+
+    name: str = "scene-synthesizer"
+    splits: tuple[str, ...] = ("default", "random")
+
+    def objects(self, split: str | None = None) -> list[str]:
+        """The default forms; those drawn are the subset "random"."""
+        check_split(self.name, split, self.splits)
+        return sorted(f"{c}-{k}" for c in VARIED for k in range(1, VARIANTS + 1)) if split == "random" else sorted(CLASSES)
+
+    def truth(self, name: str, folder: Path) -> Truth:
+        return synthesize(name, folder)
 
 
 def synthesize(name: str, folder: Path) -> Truth:
-    """Builds one of CLASSES in its default form and writes it under `folder`: NAME/NAME.urdf and NAME.glb, flattened."""
+    """Builds CLASS (its default form) or CLASS-SEED and writes it under `folder`: NAME/NAME.urdf and NAME.glb, flattened."""
     from scene_synthesizer import procedural_assets
 
+    kind, _, seed = name.partition("-")
+    valid = VARIED if seed else CLASSES
+    if kind not in valid or not (seed.isdecimal() or name == kind):
+        raise InputError(
+            f"scene-synthesizer: found no object {name!r}; valid are {', '.join(CLASSES)}, {', '.join(VARIED)}-SEED"
+        )
     urdf = folder / name / f"{name}.urdf"
     urdf.parent.mkdir(parents=True, exist_ok=True)
     with warnings.catch_warnings(), contextlib.redirect_stdout(io.StringIO()):
         warnings.simplefilter("ignore")
-        getattr(procedural_assets, f"{name}Asset")().scene(name).export(str(urdf))
-        return flatten_urdf(urdf, folder / f"{name}.glb")
+        make = getattr(procedural_assets, f"{kind}Asset")
+        asset = make.random(seed=int(seed)) if seed else make()
+        asset.scene(kind).export(str(urdf))
+        truth = flatten_urdf(urdf, folder / f"{name}.glb", category=_words(kind))
+    return replace(truth, name=name)
+
+
+def _words(kind: str) -> str:
+    return re.sub(r"(?<=[a-z])(?=[A-Z])", " ", kind).lower()

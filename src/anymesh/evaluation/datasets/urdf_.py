@@ -1,62 +1,153 @@
-"""An articulated URDF as an object with known joints: its visuals as one mesh without names, and the truth about it."""
+"""An articulated URDF as an object with known joints: its visuals as one mesh without names, and the truth about it.
+
+Rest is where all joints are at 0. Every joint that turns or slides counts, a mimicking one too. Where links without a visual
+stand between two parts, so that one has several freedoms, the joint that carries it is its joint.
+"""
 
 from __future__ import annotations
 
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
-import trimesh
 from yourdfpy import URDF
+from yourdfpy import urdf as parsed
 
-from anymesh.evaluation.truth import TrueJoint, Truth
-from anymesh.types import JointType, Part
+from anymesh.errors import InputError
+from anymesh.evaluation.datasets.bodies import Y_UP, Body, Motion, assemble, moved
+from anymesh.evaluation.datasets.shapes_ import box, cylinder, ellipsoid
+from anymesh.evaluation.datasets.splits import check_split, chosen, listed
+from anymesh.evaluation.datasets.visuals import find_mesh, read_visual
+from anymesh.evaluation.truth import Truth
+from anymesh.types import JointType, Material, Mesh
+from anymesh.types.color import to_linear
 
-Y_UP = np.array([[1.0, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]])  # from URDF's Z-up to glTF's Y-up
 MOVING = {"revolute", "continuous", "prismatic"}
+JOINT = re.compile(r"""<joint[^>]*type\s*=\s*["'](revolute|continuous|prismatic)["']""")
 
 
-def flatten_urdf(urdf: Path, mesh: Path) -> Truth:
+@dataclass(frozen=True)
+class UrdfFolder:
+    """Every *.urdf below a folder with a joint that moves. Files split_NAME.txt in it list subsets, a name a line."""
+
+    folder: Path
+    name: str = "urdf"
+
+    @property
+    def splits(self) -> tuple[str, ...]:
+        return tuple(listed(self.folder))
+
+    def objects(self, split: str | None = None) -> list[str]:
+        """Paths without suffix, with - for the folders between."""
+        check_split(self.name, split, self.splits)
+        names = sorted(name for name, path in self._files().items() if JOINT.search(path.read_text(errors="replace")))
+        if not names:
+            raise InputError(f"{self.folder}: found no .urdf file with a joint that moves; at least one is needed")
+        return names if split is None else chosen(self.folder, split, names)
+
+    def truth(self, name: str, folder: Path) -> Truth:
+        path = self._files().get(name)
+        if path is None:
+            raise InputError(f"{self.folder.name}: found no object {name!r}; valid are names such as {self.objects()[:3]}")
+        return replace(flatten_urdf(path, folder / f"{name}.glb", root=self.folder), name=name)
+
+    def _files(self) -> dict[str, Path]:
+        files = sorted(self.folder.rglob("*.urdf"))
+        return {"-".join(path.relative_to(self.folder).with_suffix("").parts): path for path in files}
+
+
+def flatten_urdf(
+    urdf: Path, mesh: Path, *, root: Path | None = None, labels: Mapping[str, str] | None = None, category: str = "object"
+) -> Truth:
     """Writes the visuals at rest as one nameless GLB at `mesh`; returns its truth in that file's coordinates.
 
-    Links that do not move against each other are one part; links without a visual are left out, so that where the root link
-    has none, the first link stands for it. An axis is turned so that positive goes towards the larger limit.
+    root: files that the visuals name must lie below it (None: below the URDF's folder); labels: of links. Links that do not
+    move against each other are one part; see `assemble`. Raises InputError, with the URDF's name.
     """
-    robot = URDF.load(str(urdf), mesh_dir=str(urdf.parent), build_scene_graph=True, load_meshes=True)
-    carrier = {j.child: j for j in robot.joint_map.values()}
-
-    def body(link: str) -> str:
-        while link in carrier and carrier[link].type not in MOVING:
-            link = carrier[link].parent
-        return link
-
-    graph = robot.scene.graph
-    pieces: list[trimesh.Trimesh] = []
-    owners: list[str] = []
-    for node in sorted(graph.nodes_geometry):
-        T, geometry = graph[node]
-        link = node
-        while link not in robot.link_map:
-            link = graph.transforms.parents[link]
-        piece = robot.scene.geometry[geometry]
-        pieces.append(trimesh.Trimesh(trimesh.transform_points(piece.vertices, Y_UP @ T), piece.faces, process=False))
-        owners.append(body(link))
-    base = body(robot.base_link)
-    names = sorted(set(owners), key=lambda name: (name != base, name))
-    mesh.parent.mkdir(parents=True, exist_ok=True)
-    trimesh.util.concatenate(pieces).export(mesh)
-    labels = np.repeat([names.index(o) for o in owners], [len(p.faces) for p in pieces])
-    joints = tuple(_joint(robot, carrier[name], body(carrier[name].parent)) for name in names[1:])
-    return Truth(urdf.stem, mesh, tuple(Part(_plain(n), "part") for n in names), labels.astype(np.int64), joints)
+    try:
+        return assemble(urdf.stem, read_bodies(urdf, root or urdf.parent, labels or {}), mesh, category)
+    except InputError as error:
+        raise InputError(f"{urdf.name}: {error}") from None
 
 
-def _plain(name: str) -> str:
-    return name.replace("/", "_")
+def read_bodies(urdf: Path, root: Path, labels: Mapping[str, str]) -> list[Body]:
+    """A body a link, Y up. Raises InputError."""
+    try:
+        robot = URDF.load(str(urdf), build_scene_graph=False, load_meshes=False)
+        carrier = {j.child: j for j in robot.joint_map.values()}
+        roots = [link for link in robot.link_map if link not in carrier]
+    except Exception as error:  # whatever a broken file makes the reader raise is one thing to the user
+        raise InputError(f"it is no valid URDF ({type(error).__name__}: {' '.join(str(error).split())[:150]})") from None
+    if len(roots) != 1:
+        raise InputError(f"found the root links {sorted(roots)}; valid is a tree with one")
+    colors = {m.name: m.color for m in robot.robot.materials if m.color is not None}
+    bodies = []
+    for name, link in robot.link_map.items():
+        T = _rest(name, carrier, robot.link_map)
+        visuals = [_visual(v, urdf.parent, root, colors) for v in link.visuals]
+        meshes = tuple(m.transformed(T) for m in visuals)
+        joint = carrier.get(name)
+        motion = _motion(joint, T) if joint is not None and joint.type in MOVING else None
+        body = Body(name, None if joint is None else joint.parent, motion, meshes, labels.get(name, "part"))
+        bodies.append(moved(body, Y_UP))
+    return bodies
 
 
-def _joint(robot: URDF, joint, parent: str) -> TrueJoint:
-    T = Y_UP @ robot.get_transform(joint.child)
-    axis = T[:3, :3] @ np.asarray(joint.axis, float)
-    limits = None if joint.type == "continuous" else (float(joint.limit.lower), float(joint.limit.upper))
-    if limits is not None and -limits[0] > limits[1]:
-        axis, limits = -axis, (-limits[1], -limits[0])
-    return TrueJoint(_plain(joint.child), _plain(parent), JointType(joint.type), T[:3, 3], axis / np.linalg.norm(axis), limits)
+def _rest(link: str, carrier: Mapping[str, parsed.Joint], links: Mapping[str, parsed.Link]) -> np.ndarray:
+    """From a link's frame to the root's, all joints at 0."""
+    T = np.eye(4)
+    for _ in range(len(links)):
+        joint = carrier.get(link)
+        if joint is None:
+            return T
+        if joint.parent not in links:
+            raise InputError(f"joint {joint.name!r} refers to a link {joint.parent!r} that is not there")
+        T = (np.eye(4) if joint.origin is None else joint.origin) @ T
+        link = joint.parent
+    raise InputError(f"its joints run in a circle through the link {link!r}; valid is a tree")
+
+
+def _motion(joint: parsed.Joint, T: np.ndarray) -> Motion | None:
+    """In the root's frame; None for a joint whose range has no length."""
+    axis = np.array([1.0, 0, 0]) if joint.axis is None else np.asarray(joint.axis, float)
+    if not (np.isfinite(axis).all() and np.linalg.norm(axis) > 0):
+        raise InputError(f"joint {joint.name!r}: found the axis {joint.axis}; valid is a direction")
+    axis, origin, kind = T[:3, :3] @ axis, T[:3, 3], JointType(joint.type)
+    if kind is JointType.CONTINUOUS:
+        return Motion(kind, origin, axis, None)
+    lower, upper = (None, None) if joint.limit is None else (joint.limit.lower, joint.limit.upper)
+    if lower is None and upper is None:
+        return Motion(kind, origin, axis, None, range_known=False)
+    limits = (float(lower or 0.0), float(upper or 0.0))
+    if not (np.isfinite(limits).all() and limits[0] <= limits[1]):
+        raise InputError(f"joint {joint.name!r}: found the limits {limits}; valid are finite ones, the lower first")
+    return Motion(kind, origin, axis, limits) if limits[0] < limits[1] else None
+
+
+def _visual(visual: parsed.Visual, folder: Path, root: Path, colors: Mapping) -> Mesh:
+    """In the link's frame; colours that a mesh file tells go before those that the URDF tells."""
+    T = np.eye(4) if visual.origin is None else visual.origin
+    color = None if visual.material is None else visual.material.color or colors.get(visual.material.name)
+    material = None
+    if color is not None:
+        rgba = np.r_[np.asarray(color.rgba, float), 1.0][:4]
+        base = (*to_linear(rgba[:3]).tolist(), float(rgba[3]))
+        material = Material(base_color=base, alpha_mode="BLEND" if rgba[3] < 1 else "OPAQUE")
+    shape = visual.geometry
+    if shape is None:
+        raise InputError("found a visual without a geometry; valid are box, cylinder, sphere and mesh")
+    if shape.box is not None:
+        return box(shape.box.size, material).transformed(T)
+    if shape.cylinder is not None:
+        return cylinder(shape.cylinder.radius, shape.cylinder.length, material).transformed(T)
+    if shape.sphere is not None:
+        return ellipsoid([shape.sphere.radius] * 3, material).transformed(T)
+    if shape.mesh is None:
+        raise InputError("found a visual without a geometry; valid are box, cylinder, sphere and mesh")
+    scale = np.ones(3) * (1.0 if shape.mesh.scale is None else shape.mesh.scale)
+    mesh = read_visual(find_mesh(shape.mesh.filename, folder), root)
+    if material is not None and not mesh.materials:
+        mesh = replace(mesh, face_material=np.zeros(len(mesh.faces), np.int64), materials=(material,))
+    return mesh.transformed(T @ np.diag([*scale, 1.0]))

@@ -1,0 +1,81 @@
+"""The command line of `anymesh eval`."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from anymesh.cli_output import Shown, cache_of, tell
+
+DatasetName = Annotated[
+    str,
+    typer.Argument(
+        metavar="DATASET",
+        help="examples, scene-synthesizer, sweethome3d, metaworld, libero, partnet-mobility:DIR, urdf:DIR or mjcf:DIR.",
+    ),
+]
+ReportOut = Annotated[Path, typer.Option("--out", "-o", metavar="DIR", help="Folder of the report; a stopped one goes on.")]
+ProtocolName = Annotated[str, typer.Option(help="parts (given), views (parts given in one view), end-to-end, executability.")]
+Split = Annotated[str | None, typer.Option(help="A subset of the data set, such as ID, OOD or OneDoor.")]
+Changes = Annotated[
+    str, typer.Option("--changes", metavar="NAMES", help="What is done to each mesh, such as none,turned,noise,fused; or all.")
+]
+Views = Annotated[int, typer.Option(help="Of each object, for the protocol of that name.")]
+Only = Annotated[str, typer.Option(metavar="NAMES", help="Only these objects.")]
+Jobs = Annotated[int | None, typer.Option("--jobs", "-j", help="Objects at a time; one a core when not given.")]
+EvalAnswerer = Annotated[
+    str, typer.Option("--answerer", help="As for articulate; or oracle (the truth), or oracle:P (wrong with probability P).")
+]
+
+SHOWN = ("change", "objects", "joints", "type", "angle", "line", "at part", "opens", "range", "part F1", "part mIoU", "runs")
+
+
+def evaluate(
+    dataset: DatasetName,
+    out: ReportOut,
+    protocol: ProtocolName = "parts",
+    answerer: EvalAnswerer = "geometry",
+    split: Split = None,
+    changes: Changes = "none",
+    views: Views = 1,
+    only: Only = "",
+    jobs: Jobs = None,
+    proposer: Annotated[str, typer.Option(help="Of masks for a model: exact, sam:WEIGHTS or exact+sam:WEIGHTS.")] = "exact",
+    verify: Annotated[str, typer.Option(help="motion, or off: the paper's method as it is.")] = "motion",
+    max_calls: Annotated[int | None, typer.Option("--max-calls", help="No call of a model beyond so many.")] = None,
+    max_cost: Annotated[float | None, typer.Option("--max-cost", metavar="USD", help="No call that could pass it.")] = None,
+    cache: Annotated[str, typer.Option(metavar="DIR", help="Answers of models: auto, off, or a folder.")] = "auto",
+    seed: Annotated[int, typer.Option(help="From 0 up.")] = 0,
+    force: Annotated[bool, typer.Option("--force", help="Begin anew.")] = False,
+    json_: Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")] = False,
+    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="No progress, no summary.")] = False,
+) -> None:
+    """Puts every object of a data set with known joints to the test; writes tables, pictures of the worst, a line a joint."""
+    from anymesh import evaluating
+    from anymesh.evaluation.changes import CHANGES
+    from anymesh.evaluation.summary import summarize
+    from anymesh.evaluation.tables import group_table, grouped
+
+    chosen = tuple(CHANGES) if changes == "all" else _names(changes)
+    with Shown(quiet or json_) as progress:
+        records = evaluating.evaluate(
+            dataset, out, protocol=protocol, split=split, changes=chosen, views=views, only=_names(only), jobs=jobs,
+            force=force, progress=progress, answerer=answerer, proposer=proposer, verify=verify, seed=seed,
+            max_calls=max_calls, max_cost=max_cost,
+            **cache_of(cache),
+        )  # fmt: skip
+    groups = grouped(records, lambda r: r.change)
+    table = group_table("By change", groups)
+    rows = [dict(zip(("change", *table.head[1:]), (cell.text for cell in row), strict=True)) for row in table.rows]
+    head = tuple(name for name in SHOWN if name in ("change", *table.head))
+    results = {name: asdict(summarize(some)) for name, some in groups}
+    tell({"out": str(out), "results": results}, rows, head, json_, quiet)
+    if not (json_ or quiet):
+        typer.echo(f"wrote {out / 'report.html'}, report.md, worst.png and joints.jsonl")
+
+
+def _names(told: str) -> tuple[str, ...]:
+    return tuple(name.strip() for name in told.split(",") if name.strip())

@@ -1,0 +1,175 @@
+"""`anymesh eval`: every object of a data set put to the test; in parallel, resumable, with a report at the end."""
+
+from __future__ import annotations
+
+import datetime
+import os
+import platform
+from collections.abc import Iterator, Sequence
+from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor, as_completed
+from concurrent.futures.process import BrokenProcessPool
+from functools import partial
+from multiprocessing import get_context
+from pathlib import Path
+from typing import Unpack
+from zlib import crc32
+
+import numpy as np
+
+from anymesh import __version__
+from anymesh.answering import Answering, choose_answerer
+from anymesh.errors import OptionError
+from anymesh.evaluation.changes import CHANGES
+from anymesh.evaluation.datasets.dataset import Dataset
+from anymesh.evaluation.datasets.named import open_dataset
+from anymesh.evaluation.examine import Exam, Protocol, See, examine
+from anymesh.evaluation.oracle import Noisy, oracle
+from anymesh.evaluation.record import Record
+from anymesh.evaluation.report import write_report
+from anymesh.evaluation.results import ResultsFolder
+from anymesh.evaluation.score import ObjectScore
+from anymesh.evaluation.truth import Subject
+from anymesh.progress import Progress, silent
+from anymesh.solving import GEOMETRY, Seeing, solve
+
+ORACLE = "oracle"
+Done = Iterator[tuple[str, list[Record]]]
+
+
+def evaluate(
+    dataset: str,
+    out: str | Path,
+    *,
+    protocol: str = Protocol.PARTS,
+    split: str | None = None,
+    changes: Sequence[str] = ("none",),
+    views: int = 1,
+    only: Sequence[str] = (),
+    jobs: int | None = None,
+    force: bool = False,
+    progress: Progress = silent,
+    **answering: Unpack[Answering],
+) -> list[Record]:
+    """Puts each object of a data set to the test and writes the report to the folder `out`; goes on where it was stopped.
+
+    dataset: see `open_dataset`; protocol: parts, views, end-to-end or executability; changes: see `evaluation.changes`;
+    views: observations of each object, for the protocol of that name; only: names of objects; jobs: objects at a time
+    (None: one a core). answerer: as for `articulate`, or oracle, or oracle:P (each answer wrong with probability P).
+    Raises OptionError, OutputError, MissingExtraError, ModelError; what was done until then is kept.
+    """
+    exam = _exam(protocol, changes, views, answering.get("seed", 0))
+    see, data = _see(answering, exam.seed), open_dataset(dataset)
+    names = _chosen(data, split, only)
+    results = ResultsFolder.open(Path(out), _settings(dataset, split, only, exam, answering), force=force)
+    left = [name for name in names if not results.has(name)]
+    before, total = len(names) - len(left), len(names)
+    progress("eval", f"{before} done before" if before else "begins", before, total)
+    work = partial(_examined, dataset, exam, answering, results.folder)
+    shared = not results.settings["answerer"].startswith((GEOMETRY.name, ORACLE))
+    for done, (name, records) in enumerate(_all(left, work, see, shared, jobs or _cores()), start=before):
+        results.save(name, records)
+        progress("eval", name, done, total)
+    every = [record for name in names for record in results.load(name)]
+    title = f"{data.name}{f' {split}' if split else ''}, {exam.protocol}, {results.settings['answerer']}"
+    write_report(every, results.folder, title=title, settings=results.settings)
+    return every
+
+
+def _exam(protocol: str, changes: Sequence[str], views: int, seed: int) -> Exam:
+    if protocol not in list(Protocol):
+        raise OptionError(f"--protocol: found {protocol!r}; valid are {', '.join(Protocol)}")
+    unknown = [c for c in changes if c not in CHANGES]
+    if unknown or not changes:
+        raise OptionError(f"--change: found {', '.join(unknown) or 'none'}; valid are {', '.join(CHANGES)}")
+    if views < 1:
+        raise OptionError(f"--views must be 1 or more, found {views}")
+    return Exam(Protocol(protocol), tuple(dict.fromkeys(changes)), views, seed)
+
+
+def _chosen(data: Dataset, split: str | None, only: Sequence[str]) -> list[str]:
+    names = list(data.objects(split))
+    unknown = sorted(set(only) - set(names))
+    if unknown:
+        raise OptionError(f"--only: found {', '.join(unknown)}; valid are {', '.join(names)}")
+    if not names:
+        raise OptionError(f"the data set {data.name} has no objects{f' in its split {split}' if split else ''}")
+    return [n for n in names if not only or n in only]
+
+
+def _settings(dataset: str, split: str | None, only: Sequence[str], exam: Exam, answering: Answering) -> dict[str, str]:
+    """What an evaluation hangs on, in words, and with what it was made."""
+    told = {
+        "dataset": dataset,
+        "split": split or "all",
+        "protocol": str(exam.protocol),
+        "answerer": answering.get("answerer", GEOMETRY.name),
+        "changes": ", ".join(exam.changes),
+        "seed": str(exam.seed),
+        "anymesh": __version__,
+    }
+    if exam.protocol is Protocol.VIEWS:
+        told["views"] = str(exam.views)
+    if only:
+        told["only"] = ", ".join(sorted(only))
+    told |= {k: str(answering[k]) for k in ("verify", "proposer") if k in answering}
+    made = {"date": datetime.datetime.now(datetime.UTC).date().isoformat(), "python": platform.python_version()}
+    return told | made | {"numpy": np.__version__, "machine": f"{platform.machine()}, {_cores()} cores"}
+
+
+def _cores() -> int:
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+def _see(answering: Answering, seed: int) -> See:
+    """Who answers about a subject: geometry, its truth (with errors on purpose where wanted), or a model."""
+    name, _, share = answering.get("answerer", GEOMETRY.name).partition(":")
+    if name != ORACLE:
+        see = choose_answerer(answering).see
+        return lambda subject: see
+    try:
+        wrong = float(share or 0)
+    except ValueError:
+        wrong = -1.0
+    if not 0 <= wrong <= 1:
+        raise OptionError(f"--answerer oracle:P needs a probability P from 0 to 1, found {share!r}")
+
+    def known(subject: Subject) -> Seeing:
+        rng = np.random.default_rng((seed, crc32(subject.truth.name.encode())))
+        return lambda instead: Noisy(oracle(subject), wrong, rng) if wrong else oracle(subject)
+
+    return known
+
+
+def _examined(dataset: str, exam: Exam, answering: Answering, folder: Path, name: str, see: See | None = None) -> list[Record]:
+    """One object's records; in a process of its own, which opens the data set anew."""
+    options: Answering = {**answering, "answerer": GEOMETRY.name, "parts_list": ()}
+    solver = partial(solve, config=choose_answerer(options).config)
+    return examine(exam, open_dataset(dataset), name, folder, solver, see or _see(answering, exam.seed))
+
+
+def _all(names: Sequence[str], work: partial[list[Record]], see: See, shared: bool, jobs: int) -> Done:
+    """The records of each object as they come. shared: a model and its budget, so in threads; else in processes."""
+    if jobs == 1 or len(names) < 2:
+        yield from ((name, work(name, see)) for name in names)
+        return
+    pool: Executor = ThreadPoolExecutor(jobs) if shared else ProcessPoolExecutor(jobs, get_context("spawn"))
+    lost = []
+    try:
+        futures = {pool.submit(work, name, see if shared else None): name for name in names}
+        for future in as_completed(futures):
+            try:
+                yield futures[future], future.result()
+            except BrokenProcessPool:
+                lost.append(futures[future])
+    finally:
+        pool.shutdown(cancel_futures=True)
+    for name in lost:  # one of them ended its process and with it the others
+        yield name, _alone(name, work)
+
+
+def _alone(name: str, work: partial[list[Record]]) -> list[Record]:
+    with ProcessPoolExecutor(1, get_context("spawn")) as pool:
+        try:
+            return pool.submit(work, name).result()
+        except BrokenProcessPool:
+            return [Record(ObjectScore(name, (), 0, 0, 0), error="its process ended without a word (out of memory?)")]

@@ -1,0 +1,221 @@
+"""What scans, generators and careless exports do to a mesh, done on purpose: the truth is carried over."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from functools import partial
+from types import MappingProxyType
+
+import numpy as np
+from jaxtyping import Bool, Float, Int
+
+from anymesh.errors import OptionError
+from anymesh.evaluation.fused_ import joined, wrapped
+from anymesh.evaluation.truth import Subject
+from anymesh.geometry.distance_ import distance_to_mesh
+from anymesh.geometry.sampling import SurfacePoints, sample_surface
+from anymesh.geometry.simplify_ import simplify
+from anymesh.geometry.topology import components, weld
+from anymesh.rendering.raycast_ import RayScene
+from anymesh.segmentation.cloud import point_colors
+from anymesh.types import Mesh, Node
+from anymesh.types.triangles import normals_and_areas
+
+Change = Callable[[Subject, np.random.Generator], Subject]
+
+TILT = 5.0  # [deg] off level, as of a scan
+SCALES = (0.01, 100.0)  # centimetres and metres taken for each other, either way
+ROUGHEST = 60  # faces of a component that are left alone when a mesh is decimated: a box has 12, and no more to give
+PROBES = 20_000  # points on the surface that decide which faces can be seen, besides the middle of every face
+DIRECTIONS = 128  # from which each is looked at
+FINE, COARSE = 256, 128  # cells along the longest side of an object of which one surface is made
+FUSED_FACES = 50_000  # of that surface; generated meshes come with about as many
+
+
+def changed(name: str, subject: Subject, seed: int = 0) -> Subject:
+    """The subject after one of CHANGES; the same for the same seed and subject."""
+    if name not in CHANGES:
+        raise OptionError(f"change {name!r}; valid are {', '.join(CHANGES)}")
+    return CHANGES[name](subject, np.random.default_rng([seed, *name.encode(), *subject.truth.name.encode()]))
+
+
+def moved(subject: Subject, T: Float[np.ndarray, "4 4"]) -> Subject:
+    """The subject moved by a rigid motion with a scale; its lengths are told in units of the box that it had before."""
+    size = 2 * subject.unit * float(np.cbrt(np.linalg.det(T[:3, :3])))
+    return replace(subject, mesh=subject.mesh.transformed(T), T=T @ subject.T, diagonal=size)
+
+
+def rotation(axis: Float[np.ndarray, " 3"], angle: float) -> Float[np.ndarray, "4 4"]:
+    """A turn by `angle` [rad] about a unit axis through the origin (Rodrigues)."""
+    x, y, z = axis
+    K = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    T = np.eye(4)
+    T[:3, :3] += np.sin(angle) * K + (1 - np.cos(angle)) * K @ K
+    return T
+
+
+def _turned(subject: Subject, rng: np.random.Generator) -> Subject:
+    return moved(subject, rotation(np.array([0, 0, 1.0]), rng.uniform(0, 2 * np.pi)))
+
+
+def _tilted(subject: Subject, rng: np.random.Generator) -> Subject:
+    way = rng.uniform(0, 2 * np.pi)
+    return moved(subject, rotation(np.array([np.cos(way), np.sin(way), 0]), np.deg2rad(TILT)))
+
+
+def _lying(subject: Subject, rng: np.random.Generator) -> Subject:
+    """On one of four sides: whoever placed it took another axis for up."""
+    return moved(subject, rotation(np.eye(3)[rng.integers(2)], rng.choice([-1, 1]) * np.pi / 2))
+
+
+def _overturned(subject: Subject, rng: np.random.Generator) -> Subject:
+    return moved(subject, rotation(np.eye(3)[rng.integers(2)], np.pi))
+
+
+def _spun(subject: Subject, rng: np.random.Generator) -> Subject:
+    """Turned any way at all, evenly over all rotations."""
+    w, x, y, z = (q := rng.normal(size=4)) / np.linalg.norm(q)
+    sine = max(float(np.linalg.norm([x, y, z])), 1e-300)
+    return moved(subject, rotation(np.array([x, y, z]) / sine, 2 * np.arctan2(sine, w)))
+
+
+def _scaled(subject: Subject, rng: np.random.Generator, *, factor: float) -> Subject:
+    return moved(subject, np.diag([factor, factor, factor, 1.0]))
+
+
+def _noisy(subject: Subject, rng: np.random.Generator, *, share: float) -> Subject:
+    """Gaussian noise of `share` diagonals on every welded corner, so that no seam opens."""
+    mesh = subject.mesh
+    corner = weld(mesh.vertices)
+    shift = rng.normal(size=(int(corner.max()) + 1, 3)) * share * mesh.diagonal
+    return replace(subject, mesh=replace(mesh, vertices=mesh.vertices + shift[corner], corner_normal=None))
+
+
+def _decimated(subject: Subject, rng: np.random.Generator, *, share: float) -> Subject:
+    """Every connected component with this share of its faces, by quadric error."""
+    mesh = subject.mesh
+    label = components(mesh.vertices, mesh.faces).label
+    made = [
+        simplify(mesh.triangles[mine], max(ROUGHEST, round(share * len(mine))))
+        for mine in np.split(np.argsort(label, kind="stable"), np.cumsum(np.bincount(label))[:-1])
+    ]
+    corners = np.concatenate(made).reshape(-1, 3)
+    return resurfaced(subject, corners, np.arange(len(corners)).reshape(-1, 3), nodes=True)
+
+
+def _unseen_gone(subject: Subject, rng: np.random.Generator) -> Subject:
+    """Without the faces that nobody sees from outside, whatever their winding; a face that shows in part stays."""
+    mesh = subject.mesh
+    s = sample_surface(mesh.triangles, PROBES, int(rng.integers(2**31)), at_least=1)
+    middles = SurfacePoints(mesh.triangles.mean(1), mesh.face_normals, np.arange(len(mesh.faces)))
+    seen = np.zeros(len(mesh.faces), bool)
+    for probe in (middles, s):
+        seen[probe.faces[_seen(mesh, probe)]] = True
+    return _only(subject, seen)
+
+
+def _seen(mesh: Mesh, probe: SurfacePoints) -> Bool[np.ndarray, " n"]:
+    """Which points are in sight from far away, in one of DIRECTIONS spread evenly (a Fibonacci sphere)."""
+    scene = RayScene(mesh.vertices, mesh.faces)
+    z = 1 - (2 * np.arange(DIRECTIONS) + 1) / DIRECTIONS
+    turn = np.arange(DIRECTIONS) * np.pi * (3 - np.sqrt(5))
+    ways = np.stack([np.sqrt(1 - z * z) * np.cos(turn), np.sqrt(1 - z * z) * np.sin(turn), z], 1)
+    seen = np.zeros(len(probe), bool)
+    for way in ways:
+        left = np.flatnonzero(~seen)
+        side = np.where(probe.normals[left] @ way < 0, -1.0, 1.0)[:, None] * probe.normals[left]
+        start = probe.points[left] + 1e-5 * mesh.diagonal * side
+        blocked = scene.first_hit(start, np.repeat(way[None] * 2 * mesh.diagonal, len(left), 0), 1.0).face >= 0
+        seen[left[~blocked]] = True
+    return seen
+
+
+def _fused(subject: Subject, rng: np.random.Generator, *, cells: int) -> Subject:
+    """One closed surface round the object, as voxel fusion and generators make it: gaps below two cells become grooves,
+    what lies behind them is gone. Colours stay, names do not."""
+    t = subject.mesh.triangles
+    vertices, faces = wrapped(t, float(subject.mesh.extents.max()) / cells)
+    few = simplify(vertices[faces], FUSED_FACES)
+    return resurfaced(subject, few.reshape(-1, 3), np.arange(3 * len(few)).reshape(-1, 3))
+
+
+def _joined(subject: Subject, rng: np.random.Generator) -> Subject:
+    """The exact union of all closed components, as a CAD export or a boolean makes it; open ones stay as they are."""
+    mesh = subject.mesh
+    found = components(mesh.vertices, mesh.faces)
+    flipped = found.flip[found.label]
+    triangles = np.where(flipped[:, None, None], mesh.triangles[:, ::-1], mesh.triangles)
+    solids = [triangles[found.label == c] for c in np.flatnonzero(found.solid)]
+    open_ones = triangles[~found.solid[found.label]]
+    corners = np.concatenate([joined(solids), open_ones] if solids else [open_ones]).reshape(-1, 3)
+    return resurfaced(subject, corners, np.arange(len(corners)).reshape(-1, 3))
+
+
+def resurfaced(
+    subject: Subject, vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"], *, nodes: bool = False
+) -> Subject:
+    """The subject with another surface, of which each face takes the label, and each corner the colour, of the nearest
+    point of the old one. nodes: the faces stay in their nodes, else all are one."""
+    mesh = subject.mesh
+    _, first, inverse = np.unique(weld(vertices), return_index=True, return_inverse=True)
+    vertices, faces = vertices[first], inverse.reshape(-1)[faces]
+    faces = faces[normals_and_areas(vertices[faces])[1] > 0]
+    nearest = distance_to_mesh(vertices[faces].mean(1), mesh.vertices, mesh.faces)[1]
+    _, face, point = distance_to_mesh(vertices, mesh.vertices, mesh.faces)
+    color = point_colors(mesh, SurfacePoints(point, mesh.face_normals[face], face))
+    color = np.concatenate([color, np.full((len(color), 1), 255, np.uint8)], 1)
+    made = Mesh(
+        vertices=vertices,
+        faces=faces,
+        face_node=mesh.face_node[nearest] if nodes else np.zeros(len(faces), np.int64),
+        nodes=mesh.nodes if nodes else (Node("object"),),
+        face_material=np.full(len(faces), -1),
+        corner_color=color[faces],
+    )
+    return _only(replace(subject, mesh=made, labels=subject.labels[nearest]), np.ones(len(faces), bool))
+
+
+def _only(subject: Subject, kept: Bool[np.ndarray, " F"]) -> Subject:
+    """The subject with these faces alone. A part without any is no longer there to be found: what moved on it moves on what
+    carried it."""
+    truth, labels = subject.truth, subject.labels[kept]
+    there = np.bincount(labels, minlength=len(truth.parts)) > 0
+    there[0] = True
+    number = np.cumsum(there) - 1
+    parts = tuple(p for p, here in zip(truth.parts, there, strict=True) if here)
+    names = {p.name for p in parts}
+    parent = {j.child: j.parent for j in truth.joints}
+
+    def carrier(name: str) -> str:
+        while name not in names and name in parent:
+            name = parent[name]
+        return name
+
+    joints = tuple(replace(j, parent=carrier(j.parent)) for j in truth.joints if j.child in names)
+    return replace(
+        subject, truth=replace(truth, parts=parts, joints=joints), mesh=subject.mesh.subset(kept), labels=number[labels]
+    )
+
+
+CHANGES: Mapping[str, Change] = MappingProxyType(
+    {
+        "none": lambda subject, rng: subject,
+        "turned": _turned,  # about the upright, by any angle
+        "tilted": _tilted,
+        "lying": _lying,
+        "overturned": _overturned,
+        "spun": _spun,
+        "shrunk": partial(_scaled, factor=SCALES[0]),
+        "grown": partial(_scaled, factor=SCALES[1]),
+        "noise.0001": partial(_noisy, share=1e-4),
+        "noise.0005": partial(_noisy, share=5e-4),
+        "noise.001": partial(_noisy, share=1e-3),
+        "half-faces": partial(_decimated, share=0.5),
+        "quarter-faces": partial(_decimated, share=0.25),
+        "unseen-gone": _unseen_gone,
+        "joined": _joined,
+        "fused": partial(_fused, cells=FINE),
+        "fused-coarse": partial(_fused, cells=COARSE),
+    }
+)

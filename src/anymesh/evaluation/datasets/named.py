@@ -1,0 +1,80 @@
+"""A data set by its name on the command line."""
+
+from __future__ import annotations
+
+from importlib.util import find_spec
+from pathlib import Path
+
+from anymesh.errors import InputError, MissingExtraError, OptionError
+from anymesh.evaluation.datasets.dataset import Dataset
+
+NAMES = (
+    "examples[:FOLDER], scene-synthesizer, sweethome3d[:FILE], metaworld[:FOLDER], libero[:FOLDER], "
+    "partnet-mobility:FOLDER, urdf:FOLDER, mjcf:FOLDER"
+)
+NEEDED = {  # import name -> how it is had
+    "scene_synthesizer": "pip install 'articulate-anymesh[eval]'",
+    "yourdfpy": "pip install 'articulate-anymesh[eval]'",
+    "mujoco": "pip install 'articulate-anymesh[sim]'",
+}
+
+
+def open_dataset(spec: str) -> Dataset:
+    """The set that NAME or NAME:PLACE means. OptionError for another; InputError for a place that is not there;
+    MissingExtraError, with the command, for what is not installed."""
+    name, _, place = spec.partition(":")
+    try:
+        return _open(spec, name, Path(place).expanduser() if place else None)
+    except ModuleNotFoundError as error:
+        command = NEEDED.get((error.name or "").split(".")[0])
+        if command is None:
+            raise
+        raise MissingExtraError(f"the data set {name} needs {error.name}; `{command}` brings it") from None
+
+
+def _open(spec: str, name: str, place: Path | None) -> Dataset:
+    match name:
+        case "examples":
+            from anymesh.evaluation.datasets.examples import Examples
+
+            return Examples(_folder(place or Path("examples")))
+        case "sweethome3d":
+            from anymesh.evaluation.datasets.sweethome3d import INSTALLED, SweetHome3D
+
+            return SweetHome3D(place or INSTALLED)
+        case "scene-synthesizer" if place is None:
+            from anymesh.evaluation.datasets.scene_synthesizer_ import SceneSynthesizer
+
+            if find_spec("scene_synthesizer") is None:  # which it imports only when it builds an object
+                raise ModuleNotFoundError("scene_synthesizer", name="scene_synthesizer")
+            return SceneSynthesizer()
+        case "metaworld" | "libero":
+            from anymesh.evaluation.datasets.mjcf_sets import libero, metaworld
+
+            return (metaworld if name == "metaworld" else libero)(None if place is None else _folder(place))
+        case "partnet-mobility" | "urdf" | "mjcf" if place is not None:
+            return _in_folder(name, _folder(place))
+        case _:
+            raise OptionError(f"found the data set {spec!r}; valid are {NAMES}")
+
+
+def _in_folder(name: str, folder: Path) -> Dataset:
+    match name:
+        case "partnet-mobility":
+            from anymesh.evaluation.datasets.partnet_mobility import PartNetMobility
+
+            return PartNetMobility(folder)
+        case "urdf":
+            from anymesh.evaluation.datasets.urdf_ import UrdfFolder
+
+            return UrdfFolder(folder)
+        case _:
+            from anymesh.evaluation.datasets.mjcf_sets import MjcfFolder
+
+            return MjcfFolder(folder)
+
+
+def _folder(place: Path) -> Path:
+    if not place.is_dir():
+        raise InputError(f"found no folder {place}; the data set's folder is expected")
+    return place

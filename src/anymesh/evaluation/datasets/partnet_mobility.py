@@ -1,0 +1,112 @@
+"""PartNet-Mobility, the paper's benchmark: ID/{mobility.urdf, semantics.txt, meta.json, textured_objs/*.obj, images/*}.
+
+The data are gated and non-commercial (SAPIEN's terms), so that nothing of them ships here; whoever has accepted the terms
+unpacks them into a folder with an object a sub-folder. Parts, joints and ranges come from mobility.urdf (which says the same
+as mobility_v2.json), labels from semantics.txt (`link_0 hinge door`), the category from meta.json (model_cat).
+A part that slides and turns (slider+) has the joint that carries it; parts that lie loose (free) are not told from the base.
+
+Subsets. ID, OOD: the paper's five in-domain categories, and all others. cage-ID: the objects that CAGE tests on; cage-OOD:
+the categories that CAGE does not train on. OneDoor: one hinge door and nothing else that moves (what ANCSH's fixed tree
+takes). Which objects of these the paper took it does not say; a file split_NAME.txt in the folder, with an id a line, sets
+or replaces a subset.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+
+from anymesh.errors import InputError
+from anymesh.evaluation.datasets.cage import CAGE_CATEGORIES, CAGE_TEST
+from anymesh.evaluation.datasets.splits import check_split, chosen, listed
+from anymesh.evaluation.datasets.urdf_ import flatten_urdf
+from anymesh.evaluation.truth import Truth
+
+URDFORMER = frozenset({"Oven", "Refrigerator", "StorageFurniture", "WashingMachine", "Dishwasher"})  # in-domain, section 4.1
+MOVING = frozenset({"hinge", "slider", "slider+"})
+SPLITS = ("ID", "OOD", "cage-ID", "cage-OOD", "OneDoor")
+
+
+@dataclass(frozen=True)
+class Entry:
+    """What is told of an object. links: (name, kind of joint, label) each."""
+
+    category: str
+    links: tuple[tuple[str, str, str], ...]
+
+    @property
+    def moving(self) -> list[tuple[str, str]]:
+        """(kind, label) of each link that turns or slides."""
+        return [(kind, label) for _, kind, label in self.links if kind in MOVING]
+
+
+@dataclass(frozen=True)
+class PartNetMobility:
+    """folder: holds the objects' folders, each named by its id."""
+
+    folder: Path
+    name: str = "partnet-mobility"
+
+    @property
+    def splits(self) -> tuple[str, ...]:
+        return tuple(dict.fromkeys([*SPLITS, *listed(self.folder)]))
+
+    def objects(self, split: str | None = None) -> list[str]:
+        """Ids of the objects with something that turns or slides."""
+        check_split(self.name, split, self.splits)
+        names = sorted(self._entries)
+        if split is None:
+            return names
+        if split in listed(self.folder):
+            return chosen(self.folder, split, names)
+        return [name for name in names if _belongs(split, name, self._entries[name])]
+
+    def truth(self, name: str, folder: Path) -> Truth:
+        place = self.folder / name
+        if not (place / "mobility.urdf").is_file():
+            raise InputError(f"{self.folder.name}: found no object {name!r}; valid are ids such as {self.objects()[:3]}")
+        entry = _read(place)
+        labels = {link: label for link, _, label in entry.links}
+        path = folder / f"{name}.glb"
+        try:
+            truth = flatten_urdf(place / "mobility.urdf", path, root=place, labels=labels, category=entry.category)
+        except InputError as error:
+            raise InputError(f"{name}/{error}") from None
+        return replace(truth, name=name)
+
+    @cached_property
+    def _entries(self) -> dict[str, Entry]:
+        places = [path.parent for path in self.folder.glob("*/mobility.urdf")]
+        if not places:
+            raise InputError(f"{self.folder}: found no ID/mobility.urdf; a folder with PartNet-Mobility's objects is expected")
+        entries = {place.name: _read(place) for place in places}
+        return {name: entry for name, entry in entries.items() if entry.moving}
+
+
+def _read(place: Path) -> Entry:
+    try:
+        category = json.loads((place / "meta.json").read_text(encoding="utf-8"))["model_cat"]
+        lines = (place / "semantics.txt").read_text(encoding="utf-8").splitlines()
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        told = "model_cat is missing" if isinstance(error, KeyError) else error
+        raise InputError(f"{place.name}: meta.json or semantics.txt cannot be used ({told})") from None
+    rows = [line.split() for line in lines if line.strip()]
+    if any(len(row) != 3 for row in rows):
+        raise InputError(f"{place.name}/semantics.txt: valid is a link, a kind and a label a line, such as `link_0 hinge door`")
+    return Entry(str(category), tuple((link, kind, label) for link, kind, label in rows))
+
+
+def _belongs(split: str, name: str, entry: Entry) -> bool:
+    match split:
+        case "ID":
+            return entry.category in URDFORMER
+        case "OOD":
+            return entry.category not in URDFORMER
+        case "cage-ID":
+            return name in CAGE_TEST
+        case "cage-OOD":
+            return entry.category not in CAGE_CATEGORIES
+        case _:
+            return entry.moving == [("hinge", "door")]

@@ -1,0 +1,62 @@
+"""Mesh files that a robot description names: found by the ways such files name them, and read with their looks."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+
+from anymesh.errors import InputError
+from anymesh.loading.checks import check_file
+from anymesh.loading.folder import Folder
+from anymesh.loading.load import READERS
+from anymesh.types import Mesh
+
+UNIT = re.compile(rb"""<unit[^>]*\bmeter\s*=\s*["']([0-9.eE+-]+)""")
+
+
+class Below(Folder):
+    """References may lead out of the mesh file's folder (such as ../images/a.jpg), but not out of the data set's."""
+
+    def __init__(self, path: Path, root: Path) -> None:
+        super().__init__(path)
+        self._root = root.resolve()
+
+    def _inside(self, name: str) -> Path | None:
+        target = (self.path.parent / name).resolve()
+        return target if target.is_relative_to(self._root) else None
+
+
+def find_mesh(reference: str, folder: Path) -> Path:
+    """The file that a description in `folder` means. package://NAME/PATH is looked for in the folder NAME here or above, then
+    as PATH. Raises InputError."""
+    plain = re.sub(r"^(package|model|file)://", "", reference.strip().replace("\\", "/"))
+    rest = plain.split("/", 1)[-1]
+    above = [folder, *folder.resolve().parents]
+    named = "package://" in reference or "model://" in reference
+    candidates = [place / plain for place in (above if named else above[:1])]
+    candidates += [place / rest for place in above[:2]] if named else []
+    for candidate in candidates:
+        if candidate.is_file():
+            return candidate
+    raise InputError(f"it refers to the mesh {reference!r}, which is missing")
+
+
+def read_visual(path: Path, root: Path) -> Mesh:
+    """The mesh in file coordinates, with materials and textures from anywhere below `root`. Raises InputError.
+
+    As viewers of robots do it: of COLLADA the unit counts, its up axis does not; other formats are taken as they are.
+    """
+    data = check_file(path)
+    try:
+        mesh = READERS[path.suffix.lower()](data, Below(path, root))
+    except InputError:
+        raise
+    except Exception as error:  # whatever a broken file makes a reader raise is one thing to the user
+        told = " ".join(f"{type(error).__name__}: {error}".split())[:150]
+        raise InputError(f"{path.name} is broken or truncated ({told})") from None
+    if not np.isfinite(mesh.vertices).all():
+        raise InputError(f"{path.name}: found a vertex that is not finite (NaN or infinite)")
+    unit = UNIT.search(data) if path.suffix.lower() == ".dae" else None
+    return mesh.transformed(np.diag([*[float(unit[1])] * 3, 1.0])) if unit else mesh

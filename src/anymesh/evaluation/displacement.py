@@ -1,0 +1,50 @@
+"""How far a joint takes its part from where it belongs: type, axis, origin and opening side in one length."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from jaxtyping import Float
+
+from anymesh.evaluation.metrics import opening_side, opens_both_ways, same_motion
+from anymesh.evaluation.truth import TrueJoint
+from anymesh.types import Joint, JointType, Motion, MotionKind
+
+TURNED = np.pi / 6  # [rad] that turning joints are opened by
+TRAVEL = 0.5  # share of their travel that slides are opened by
+
+
+def displacement(points: Float[np.ndarray, "N 3"], found: Joint, true: TrueJoint, size: float) -> float:
+    """Mean distance of the true part's points between where the found and the true joint take them.
+
+    Turns are opened by 30 degrees, slides by half the true travel, each joint towards its own opening side, so that a wrong
+    side shows. A found joint of another type moves as its own kind does: by 30 degrees, or half its own travel. Where the
+    truth opens both ways, turns endlessly, or has no known range, the better of both ways counts. `size` of the part stands
+    for a travel that is not known. `true`: in the frame of the points, its axis a unit vector.
+    """
+    true = true if true.range_known else replace(true, limits=None)
+    sides = (1, -1) if opens_both_ways(true.limits) else (opening_side(true.limits),)
+    return min(_apart(points, found, true, side, size) for side in sides)
+
+
+def _apart(points: Float[np.ndarray, "N 3"], found: Joint, true: TrueJoint, side: int, size: float) -> float:
+    ours = opening_side(found.limits)
+    amount = _amount(true, side, size)
+    own = amount if same_motion(found.type, true.type) else _amount(found, ours, size)
+    T = _transform(true, side * amount) - _transform(found, ours * own)
+    return float(np.linalg.norm(points @ T[:3, :3].T + T[:3, 3], axis=1).mean())
+
+
+def _amount(joint: Joint | TrueJoint, side: int, size: float) -> float:
+    """How far a joint is opened [rad or m], without sign."""
+    if joint.type is not JointType.PRISMATIC:
+        return TURNED
+    return TRAVEL * (size if joint.limits is None else side * joint.limits[0 if side < 0 else 1])
+
+
+def _transform(joint: Joint | TrueJoint, amount: float) -> Float[np.ndarray, "4 4"]:
+    if joint.type is JointType.FIXED:
+        return np.eye(4)
+    kind = MotionKind.SLIDE if joint.type is JointType.PRISMATIC else MotionKind.TURN
+    return Motion(kind, joint.axis, joint.origin, "joint").transform(amount)

@@ -1,0 +1,219 @@
+"""The picture of a joint that is off: found and true, at rest and half way open."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from jaxtyping import Bool, Float, UInt8
+from PIL import Image, ImageDraw
+
+from anymesh.evaluation.matching import part_ious
+from anymesh.evaluation.score import JointScore
+from anymesh.evaluation.truth import Subject, TrueJoint
+from anymesh.evaluation.worst import what_is_off
+from anymesh.rendering.axes import axis_line, draw_arrow, ring
+from anymesh.rendering.labels import font
+from anymesh.rendering.paint import Color, blend, lighten, rim
+from anymesh.rendering.raycast_ import RayScene
+from anymesh.rendering.render import lit, render
+from anymesh.rendering.strips import moved, silhouette, strip_camera
+from anymesh.rendering.viewpoints import zoom
+from anymesh.types import Joint, JointType, Mesh, Motion, MotionKind, Segmentation
+from anymesh.types.camera import Camera
+
+PANEL = 420  # [px] of each of the two panels
+TEXT, LINE = 17, 24  # [px] font and height of a line of the caption
+CAPTION = 2 * LINE + 10  # [px] its height
+TRUE, FOUND = (0, 150, 110), (213, 94, 0)  # green and vermilion that colour-blind eyes tell apart (Okabe and Ito)
+GREY = np.array([185, 185, 185], np.uint8)
+PALE = 0.45  # of what stands still
+GHOST = 0.25  # of a part where something hides it
+AIR = 0.06  # round the object, a share of the picture
+LEGIBLE, LEAST, RING = 0.4, 3.0, 0.1  # as in motion strips: the least size of an axis (share of the picture), of its ring
+RIM = 5  # [px] of outlines, in pictures of twice the size
+AXES = (4.2, 2.0)  # thickness of the true and the found axis
+DENSE = 20_000  # faces from which a mesh is thinned to choose the camera
+HALF_WAY = 0.5  # share of the range
+TURNED, TRAVEL = np.pi / 4, 0.5  # [rad], share of the part's size: where a range is endless or not known
+
+
+@dataclass(frozen=True, eq=False)
+class _Move:
+    """Faces, and the motion that the truth or the finding gives them. `motion` None: it stays."""
+
+    faces: Bool[np.ndarray, " F"]
+    motion: Motion | None
+    amount: float
+    color: Color
+
+    def pose(self, mesh: Mesh) -> Mesh:
+        return mesh if self.motion is None else moved(mesh, self.faces, self.motion.transform(self.amount))
+
+
+def draw_joint(
+    subject: Subject, segmentation: Segmentation, true: TrueJoint, found: Joint | None, score: JointScore
+) -> UInt8[np.ndarray, "H W 3"]:
+    """Left the whole object at rest, right the part half way open and near; the truth in green, what was found in vermilion.
+
+    true: in the subject's coordinates; found: the joint of the matched part, None where there is none.
+    """
+    mesh = subject.mesh
+    numbers = {p.name: k for k, p in enumerate(subject.truth.parts)}
+    mine = subject.labels == numbers[true.child]
+    size = float(np.linalg.norm(np.ptp(mesh.triangles[mine].reshape(-1, 3), axis=0)))
+    carried = np.isin(subject.labels, [numbers[name] for name in _carried(subject, true.child)])
+    theirs = _found_faces(subject, segmentation, found, numbers[true.child])
+    right = _Move(mine | carried, *_motion(true, size), TRUE)
+    ours = _Move(theirs | (carried if found else False), *(_motion(found, size) if found else (None, 0.0)), FOUND)
+    moves = [m for m in (right, ours) if m.motion is not None]
+    near = strip_camera(*_sketch(mesh, right.faces), [(m.motion, m.amount) for m in moves if m.motion], 2 * PANEL)
+    panels = [_at_rest(mesh, mine, theirs, moves, _whole(near, mesh, mine, right)), _opened(mesh, right, ours, moves, near)]
+    drawn = np.concatenate([_half(p) for p in panels], 1)
+    return captioned(drawn, f"{subject.truth.name} / {true.child}", what_is_off(score))
+
+
+def captioned(image: UInt8[np.ndarray, "h W 3"], title: str, told: str) -> UInt8[np.ndarray, "H W 3"]:
+    """The picture above two lines; what the font lacks becomes a question mark."""
+    bar = Image.new("RGB", (image.shape[1], CAPTION), (255, 255, 255))
+    draw = ImageDraw.Draw(bar)
+    for k, (text, color) in enumerate(((title, (20, 20, 20)), (told, (90, 90, 90)))):
+        plain = text.encode("ascii", "replace").decode()
+        draw.text((8, 4 + (k + 0.5) * LINE), plain, fill=color, font=font(TEXT), anchor="lm")
+    for word, color, right in (("found", FOUND, 8), ("true", TRUE, 62)):
+        draw.text((bar.width - right, 4 + 0.5 * LINE), word, fill=color, font=font(TEXT), anchor="rm")
+    return np.concatenate([image, np.asarray(bar)])
+
+
+def without_caption(image: UInt8[np.ndarray, "H W 3"]) -> UInt8[np.ndarray, "h W 3"]:
+    """The picture that `captioned` was given."""
+    return image[:-CAPTION]
+
+
+def contact_sheet(pictures: Sequence[UInt8[np.ndarray, "h w 3"]], columns: int, width: int) -> UInt8[np.ndarray, "H W 3"]:
+    """Pictures in rows, each shrunk to one width [px]."""
+    small = [
+        Image.fromarray(p).resize((width, round(p.shape[0] * width / p.shape[1])), Image.Resampling.LANCZOS) for p in pictures
+    ]
+    height = max(s.height for s in small)
+    sheet = Image.new("RGB", (width * min(columns, len(small)), height * -(-len(small) // columns)), (255, 255, 255))
+    for k, picture in enumerate(small):
+        sheet.paste(picture, (width * (k % columns), height * (k // columns)))
+    return np.asarray(sheet)
+
+
+def _motion(joint: TrueJoint | Joint, size: float) -> tuple[Motion | None, float]:
+    """What a joint does, and how far half way is; size: of its part [m]."""
+    if joint.type is JointType.FIXED:
+        return None, 0.0
+    slides = joint.type is JointType.PRISMATIC
+    motion = Motion(MotionKind.SLIDE if slides else MotionKind.TURN, joint.axis, joint.origin, "joint")
+    if joint.limits is None or (isinstance(joint, TrueJoint) and not joint.range_known):
+        return motion, TRAVEL * size if slides else TURNED
+    return motion, HALF_WAY * max(joint.limits, key=abs)
+
+
+def _carried(subject: Subject, name: str) -> list[str]:
+    """The parts that move with a part."""
+    direct = [j.child for j in subject.truth.joints if j.parent == name]
+    return [*direct, *(part for child in direct for part in _carried(subject, child))]
+
+
+def _found_faces(subject: Subject, segmentation: Segmentation, found: Joint | None, true: int) -> Bool[np.ndarray, " F"]:
+    """The faces of the found part; without a joint, of the part that has most in common with the true one."""
+    names = [p.name for p in segmentation.parts]
+    if found is not None:
+        return segmentation.face_part == names.index(found.child)
+    ious = part_ious(segmentation.face_part, subject.labels, subject.mesh.face_areas)
+    return segmentation.face_part == int(ious[:, true].argmax())
+
+
+def _sketch(mesh: Mesh, faces: Bool[np.ndarray, " F"]) -> tuple[Mesh, Bool[np.ndarray, " n"]]:
+    """Of a dense mesh every so many faces, enlarged to cover as much: good enough to choose a camera by."""
+    step = -(-len(mesh.faces) // DENSE)
+    if step == 1 or not faces[::step].any():
+        return mesh, faces
+    corners = mesh.triangles[::step]
+    middle = corners.mean(1, keepdims=True)
+    sparse = mesh.subset(np.arange(0, len(mesh.faces), step))
+    corners = (middle + np.sqrt(step) * (corners - middle)).reshape(-1, 3)
+    return replace(sparse, vertices=corners, faces=np.arange(len(corners)).reshape(-1, 3)), faces[::step]
+
+
+def _whole(near: Camera, mesh: Mesh, mine: Bool[np.ndarray, " F"], right: _Move) -> Camera:
+    """From the same place, turned at the whole object, and at the true axis as it is drawn then."""
+    camera = _turned(near, mesh.vertices)
+    ends = [_axis(mesh, mine, right, camera, AXES[0])[0]] if right.motion else []
+    return _turned(near, np.concatenate([mesh.vertices, *ends]))
+
+
+def _turned(camera: Camera, points: Float[np.ndarray, "n 3"]) -> Camera:
+    pixels = camera.project(points)[0]
+    return zoom(camera, np.concatenate([pixels.min(0), pixels.max(0)]), AIR, camera.height)
+
+
+def _at_rest(
+    mesh: Mesh, mine: Bool[np.ndarray, " F"], theirs: Bool[np.ndarray, " F"], moves: Sequence[_Move], camera: Camera
+) -> UInt8[np.ndarray, "H W 3"]:
+    """The true part tinted, the found one outlined."""
+    picture = _painted(mesh, camera, TRUE, mine)
+    picture = blend(picture, rim(silhouette(mesh.triangles[theirs], camera), RIM), FOUND, 1.0)
+    return _with_axes(picture, mesh, mine, moves, camera)
+
+
+def _opened(mesh: Mesh, right: _Move, ours: _Move, moves: Sequence[_Move], camera: Camera) -> UInt8[np.ndarray, "H W 3"]:
+    """The part where the found joint takes it; outlined where it should be."""
+    pose = ours.pose(mesh)
+    picture = _painted(pose, camera, FOUND, ours.faces & (ours.motion is not None))
+    should = silhouette(right.pose(mesh).triangles[right.faces], camera)
+    picture = blend(picture, rim(should, RIM), TRUE, 1.0)
+    return _with_axes(picture, mesh, right.faces, moves, camera)
+
+
+def _axis(
+    mesh: Mesh, faces: Bool[np.ndarray, " F"], move: _Move, camera: Camera, scale: float
+) -> tuple[Float[np.ndarray, "2 3"], Float[np.ndarray, "k 3"] | None]:
+    """The arrow along the axis, the way that the part opens, and the ring of a turn."""
+    motion = move.motion
+    assert motion is not None
+    corners = mesh.triangles[faces].reshape(-1, 3)
+    depth = float(camera.project(corners.mean(0)[None])[1][0])
+    size = max(float(np.linalg.norm(np.ptp(corners, axis=0))), LEGIBLE * 2 * depth * float(np.tan(camera.fov / 2)))
+    axis, slides = (-motion.axis if move.amount < 0 else motion.axis), motion.kind is MotionKind.SLIDE
+    ends, center = axis_line(corners, motion.origin, axis, slides, LEAST * size)
+    return ends, None if slides else ring(center, axis, RING * size * (1 + scale / AXES[0]))
+
+
+def _painted(mesh: Mesh, camera: Camera, color: Color, faces: Bool[np.ndarray, " F"]) -> UInt8[np.ndarray, "H W 3"]:
+    """The object pale and grey, some faces in colour, and shining through where something hides them."""
+    scene = RayScene(mesh.vertices, mesh.faces)
+    view = render(mesh, camera, face_color=np.tile(GREY, (len(mesh.faces), 1)), scene=scene)
+    picture = lighten(view.color, PALE)
+    if not faces.any():
+        return picture
+    seen = (view.face >= 0) & faces[view.face]
+    picture[seen] = lit(np.tile(np.array(color, float), (int(seen.sum()), 1)), view.normal[seen])
+    return blend(picture, silhouette(mesh.triangles[faces], camera) & ~seen, color, GHOST)
+
+
+def _with_axes(
+    picture: UInt8[np.ndarray, "H W 3"], mesh: Mesh, faces: Bool[np.ndarray, " F"], moves: Sequence[_Move], camera: Camera
+) -> UInt8[np.ndarray, "H W 3"]:
+    """The true axis thick, the found one thinner on top of it: where they agree both are seen."""
+    drawn = Image.fromarray(picture)
+    draw = ImageDraw.Draw(drawn)
+    for move, scale in zip(moves, AXES, strict=False):
+        ends, circle = _axis(mesh, faces, move, camera, scale)
+        draw_arrow(draw, camera.project(ends)[0], move.color, scale)
+        if circle is not None:
+            pixels = camera.project(circle)[0]
+            draw.line([tuple(p) for p in pixels], fill=move.color, width=round(2 * scale), joint="curve")
+            draw_arrow(draw, pixels[[-4, -1]], move.color, scale)
+    return np.asarray(drawn)
+
+
+def _half(picture: UInt8[np.ndarray, "H W 3"]) -> UInt8[np.ndarray, "h w 3"]:
+    drawn = Image.fromarray(picture).resize((picture.shape[1] // 2, picture.shape[0] // 2), Image.Resampling.BOX)
+    ImageDraw.Draw(drawn).rectangle([0, 0, drawn.width - 1, drawn.height - 1], outline=(200, 200, 200))
+    return np.asarray(drawn)

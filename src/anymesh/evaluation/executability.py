@@ -1,0 +1,59 @@
+"""Whether what was found works in a simulator (MuJoCo), as the files that a user would get."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from anymesh.errors import InputError
+from anymesh.evaluation.score import ObjectScore
+from anymesh.evaluation.truth import Subject
+from anymesh.export import write_asset
+from anymesh.simulation.mujoco_ import sweep_joints
+from anymesh.types import Asset, Joint, JointType, Mesh, Segmentation, Source
+
+STEPS = 100  # places along each range
+NAME = "object"
+
+
+def executability(subject: Subject, segmentation: Segmentation, joints: tuple[Joint, ...], found: ObjectScore) -> ObjectScore:
+    """The score with what driving every found joint through its range showed.
+
+    The rule (see `success.motion_anymesh`) is about the joints that were found: what is missing among them is told by other
+    figures. But an object of which nothing was found that moves, though it does in truth, is not executable.
+    """
+    faults = drive(subject.mesh, segmentation, joints)
+    if subject.truth.joints and not _movable(joints):
+        faults = ("object: nothing was found that moves",)
+    return replace(found, executable=not faults, faults=faults)
+
+
+def drive(mesh: Mesh, segmentation: Segmentation, joints: tuple[Joint, ...], steps: int = STEPS) -> tuple[str, ...]:
+    """Writes the asset's files, drives every joint through its range in MuJoCo; what is wrong, as "joint: fault".
+
+    mesh: [m, Z up]. MissingExtraError without MuJoCo.
+    """
+    if not _movable(joints):
+        return ()
+    asset = Asset(NAME, Source("", "", np.eye(4), "z"), mesh, segmentation, joints, "")
+    with tempfile.TemporaryDirectory() as folder:
+        write_asset(asset, Path(folder))
+        return tuple(_faults(Path(folder) / f"{NAME}.urdf", steps))
+
+
+def _faults(urdf: Path, steps: int) -> Iterator[str]:
+    try:
+        report = sweep_joints(urdf, steps=steps)
+    except InputError as error:
+        yield f"object: {error}"
+        return
+    for joint in report.joints:
+        yield from (f"{joint.name}: {fault}" for fault in joint.faults)
+
+
+def _movable(joints: tuple[Joint, ...]) -> bool:
+    return any(j.type is not JointType.FIXED for j in joints)

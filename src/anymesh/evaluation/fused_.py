@@ -1,0 +1,87 @@
+"""One surface of many bodies: wrapped on a grid with libigl (MPL-2), or united exactly with manifold3d (Apache-2.0)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from jaxtyping import Float, Int
+from scipy import ndimage
+
+from anymesh.errors import MissingExtraError
+from anymesh.geometry.distance_ import distance_to_mesh
+from anymesh.geometry.sampling import sample_surface
+from anymesh.geometry.topology import weld
+from anymesh.types.triangles import normals_and_areas
+
+OFFSET = 0.6  # [cells] of the wrap from the surface; from a half on nothing leaks through a sheet
+BAND = 2  # [cells] from the surface in which distances are measured
+LEAST = 1e-3  # [cells] between the wrap and a corner of a cell, or triangles would have no area
+DENSITY = 6  # points a cell of surface, to find that band
+
+_CUBE = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]])  # libigl's order
+
+
+def wrapped(triangles: Float[np.ndarray, "F 3 3"], cell: float) -> tuple[Float[np.ndarray, "V 3"], Int[np.ndarray, "R 3"]]:
+    """The closed surface at OFFSET cells round the triangles, as seen from outside: open or closed, they need no winding.
+
+    Gaps narrower than twice the offset close; what they shut off is gone.
+    """
+    import igl
+
+    low = triangles.min((0, 1)) - (BAND + 2) * cell
+    field = _field(triangles, low, cell)
+    corners = _CUBE + np.argwhere(_on_both_sides(field))[:, None]
+    number = np.ravel_multi_index(tuple(corners.reshape(-1, 3).T), field.shape)
+    used, cubes = np.unique(number, return_inverse=True)
+    nodes = np.stack(np.unravel_index(used, field.shape), 1) * cell + low
+    vertices, faces = igl.marching_cubes(field.reshape(-1)[used], nodes, cubes.reshape(-1, 8).astype(np.int64), 0.0)[:2]
+    return np.asarray(vertices, np.float64), np.asarray(faces).astype(np.int64)
+
+
+def _field(triangles: np.ndarray, low: np.ndarray, cell: float) -> np.ndarray:
+    """Distance from the wrap at the nodes of a grid [m], negative inside; only its sign is right further off than BAND."""
+    shape = tuple(np.ceil((triangles.max((0, 1)) - low) / cell).astype(int) + BAND + 3)
+    count = int(DENSITY * normals_and_areas(triangles)[1].sum() / cell**2) + 1
+    at = np.rint((sample_surface(triangles, count, 0, at_least=1).points - low) / cell).astype(int)
+    band = np.zeros(shape, bool)
+    band[tuple(at.T)] = True
+    band = ndimage.binary_dilation(band, np.ones((3, 3, 3)), iterations=BAND)
+    corners = triangles.reshape(-1, 3)
+    field = np.full(shape, BAND * cell)
+    field[band] = distance_to_mesh(np.argwhere(band) * cell + low, corners, np.arange(len(corners)).reshape(-1, 3))[0]
+    field -= OFFSET * cell
+    region = ndimage.label(field >= 0)[0]
+    outside = (field >= LEAST * cell) & (region == region[0, 0, 0])
+    field[~outside] = np.minimum(-np.abs(field[~outside]), -LEAST * cell)  # no corner of a cube lies on the surface
+    return field
+
+
+def _on_both_sides(field: np.ndarray) -> np.ndarray:
+    """Cubes that the surface passes through, by their first corner."""
+    x, y, z = (n - 1 for n in field.shape)
+    inside = np.sum([field[i : x + i, j : y + j, k : z + k] < 0 for i, j, k in _CUBE], 0)
+    return (inside > 0) & (inside < 8)
+
+
+def joined(solids: Sequence[np.ndarray]) -> Float[np.ndarray, "R 3 3"]:
+    """The union of closed, outward surfaces (n, 3, 3). What touches grows together; one that is no manifold stays as it is.
+
+    MissingExtraError without manifold3d.
+    """
+    try:
+        from manifold3d import Error, Manifold, OpType
+        from manifold3d import Mesh as Triangles
+    except ImportError:
+        raise MissingExtraError("manifold3d is missing; pip install 'articulate-anymesh[test]' has it") from None
+    usable, others = [], []
+    for triangles in solids:
+        corners = triangles.reshape(-1, 3)
+        _, first, inverse = np.unique(weld(corners), return_index=True, return_inverse=True)
+        faces = inverse.reshape(-1, 3)
+        made = Manifold(Triangles(corners[first].astype(np.float32), faces.astype(np.uint32)))
+        good = made.status() == Error.NoError and not made.is_empty()
+        (usable if good else others).append(made if good else triangles)
+    union = Manifold.batch_boolean(usable, OpType.Add).to_mesh() if usable else None
+    found = [np.asarray(union.vert_properties, np.float64)[:, :3][union.tri_verts]] if union else []
+    return np.concatenate([*found, *others])

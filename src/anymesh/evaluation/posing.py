@@ -1,0 +1,59 @@
+"""A subject with some of its joints moved."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+from jaxtyping import Float
+
+from anymesh.evaluation.truth import Subject, TrueJoint
+from anymesh.types import JointType, Motion, MotionKind
+
+
+def posed(subject: Subject, positions: Mapping[str, float]) -> Subject:
+    """The subject with joints, told by their children's names, at positions in the truth's units; the others stay at rest.
+
+    Joints and their limits are told from there on: a door that stands half way open closes to its lower limit.
+    """
+    T = link_transforms(subject, positions)
+    triangles = subject.mesh.triangles.copy()
+    for number, part in enumerate(subject.truth.parts):
+        mine = subject.labels == number
+        triangles[mine] = triangles[mine] @ T[part.name][:3, :3].T + T[part.name][:3, 3]
+    faces = np.arange(3 * len(triangles)).reshape(-1, 3)
+    mesh = replace(subject.mesh, vertices=triangles.reshape(-1, 3), faces=faces, corner_normal=None)
+    back = np.linalg.inv(subject.T)
+    joints = tuple(_moved(j, back @ T[j.parent] @ subject.T, positions.get(j.child, 0.0)) for j in subject.truth.joints)
+    return replace(subject, truth=replace(subject.truth, joints=joints), mesh=mesh, diagonal=2 * subject.unit)
+
+
+def link_transforms(subject: Subject, positions: Mapping[str, float]) -> dict[str, Float[np.ndarray, "4 4"]]:
+    """Part name -> transform from rest in the mesh's frame; what is no joint's child stands still."""
+    by_child = {j.child: j for j in subject.truth.joints}
+    found: dict[str, np.ndarray] = {}
+
+    def of(name: str) -> np.ndarray:
+        if name not in found:
+            joint = by_child.get(name)
+            found[name] = np.eye(4) if joint is None else of(joint.parent) @ _motion(subject, joint, positions.get(name, 0.0))
+        return found[name]
+
+    for part in (*subject.truth.parts, *(j.parent for j in subject.truth.joints)):
+        of(part if isinstance(part, str) else part.name)
+    return found
+
+
+def _motion(subject: Subject, joint: TrueJoint, position: float) -> np.ndarray:
+    placed = subject.joint(joint)
+    slides = joint.type is JointType.PRISMATIC
+    scale = float(np.linalg.norm(subject.T[:3, :3] @ joint.axis)) if slides else 1.0
+    kind = MotionKind.SLIDE if slides else MotionKind.TURN
+    return Motion(kind, placed.axis, placed.origin, "true joint").transform(position * scale)
+
+
+def _moved(joint: TrueJoint, T: np.ndarray, position: float) -> TrueJoint:
+    """The joint carried along by its parent (T in the truth's coordinates), told from where it stands."""
+    limits = None if joint.limits is None else (joint.limits[0] - position, joint.limits[1] - position)
+    return replace(joint, origin=T[:3, :3] @ joint.origin + T[:3, 3], axis=T[:3, :3] @ joint.axis, limits=limits)

@@ -1,0 +1,68 @@
+"""The joints that a person should look at first, and in words what is off with each."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from anymesh.evaluation.record import Record
+from anymesh.evaluation.score import FOUND, JointScore
+
+STAYS = 0.25  # of its size: about how far a part that was not found stays behind one that turned by 30 degrees
+
+
+@dataclass(frozen=True)
+class Off:
+    """A joint that is off, and its picture."""
+
+    record: Record
+    joint: JointScore
+    picture: str  # path under the report's folder
+
+    @property
+    def title(self) -> str:
+        """The object and the part."""
+        return f"{self.record.title} / {self.joint.part}"
+
+
+def badness(joint: JointScore) -> float:
+    """How far the part's points are from where they belong, opened; of one that was not found, about."""
+    return STAYS * joint.part_size if joint.displacement is None else joint.displacement
+
+
+def worst(records: Sequence[Record], count: int) -> list[Off]:
+    """The worst of the joints that were drawn.
+
+    The same joint under another change, and other joints that were not found of the same object, come after all others:
+    they seldom show anything new.
+    """
+    seen: Counter[tuple[str, str]] = Counter()
+    ranked = []
+    for off in sorted(_drawn(records), key=lambda o: -badness(o.joint)):
+        key = off.record.score.name, "" if off.joint.type_found is None else off.joint.part
+        ranked.append((seen[key], off))
+        seen[key] += 1
+    return [off for _, off in sorted(ranked, key=lambda r: r[0])][:count]
+
+
+def what_is_off(j: JointScore) -> str:
+    """The errors of a joint in a line."""
+    if j.type_found is None:
+        parts = f"nearest part has IoU {j.iou:.2f}" if j.iou < FOUND else "its part has no joint"
+        return f"{j.type_true}, not found: {parts}" if j.iou else f"{j.type_true}, not found"
+    told = [f"{j.type_found} instead of {j.type_true}" if not j.type_right else str(j.type_true)]
+    told += [] if j.angle is None else [f"angle {j.angle:.1f} deg"]
+    told += [] if j.at_part is None else [f"line off {j.at_part:.3f}"]
+    told += [] if j.displacement is None else [f"points off {j.displacement:.3f}"]
+    told += ["opens the wrong way"] if j.opens_right is False and j.type_right else []
+    told += [] if j.range_iou is None else [f"range IoU {j.range_iou:.2f}"]
+    told += ["wrong parent"] if j.parent_right is False else []
+    return ", ".join(told)
+
+
+def _drawn(records: Sequence[Record]) -> Iterator[Off]:
+    for record in records:
+        joints = {j.part: j for j in record.score.joints}
+        for part, path in record.pictures:
+            yield Off(record, joints[part], path)

@@ -1,0 +1,149 @@
+"""A change does to the mesh what it says, and the truth stays the truth of what is left."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from assets import cabinet
+
+from anymesh.errors import OptionError
+from anymesh.evaluation.changes import CHANGES, changed, moved, rotation
+from anymesh.evaluation.fused_ import joined, wrapped
+from anymesh.evaluation.protocols import prepared
+from anymesh.evaluation.truth import Subject, TrueJoint, Truth, example_truths
+from anymesh.geometry.distance_ import distance_to_mesh
+from anymesh.geometry.topology import components
+from anymesh.types import Part
+
+TRUTHS = {t.name: t for t in example_truths(Path(__file__).parents[2] / "examples")}
+MOTIONS = ("turned", "tilted", "lying", "overturned", "spun", "shrunk", "grown")
+
+
+@pytest.fixture(scope="module")
+def microwave() -> Subject:
+    return prepared(TRUTHS["microwave"])
+
+
+def off_the_old_surface(new: Subject, old: Subject) -> float:
+    """Largest distance of the new faces of each part from that part's old faces [diagonals], whatever moved."""
+    back = new.mesh.transformed(old.T @ np.linalg.inv(new.T))
+    names = [p.name for p in old.truth.parts]
+    off = []
+    for number, part in enumerate(new.truth.parts):
+        mine = old.mesh.faces[old.labels == names.index(part.name)]
+        off.append(distance_to_mesh(back.triangles[new.labels == number].mean(1), old.mesh.vertices, mine)[0].max())
+    return max(off) / old.mesh.diagonal
+
+
+@pytest.mark.parametrize("name", MOTIONS)
+def test_a_motion_moves_mesh_and_truth_alike(name: str, microwave: Subject) -> None:
+    new = changed(name, microwave)
+    M = new.T @ np.linalg.inv(microwave.T)
+    assert np.linalg.norm(M - np.eye(4)) > 0.01
+    assert np.linalg.det(M) > 0
+    assert np.allclose(M[:3, :3] @ M[:3, :3].T, np.cbrt(np.linalg.det(M)) ** 2 * np.eye(3))
+    assert off_the_old_surface(new, microwave) < 1e-9
+    assert new.unit == pytest.approx(microwave.unit * np.cbrt(np.linalg.det(M)))
+
+
+def test_up_stays_up_when_turned_alone(microwave: Subject) -> None:
+    up = {name: (changed(name, microwave).T @ np.linalg.inv(microwave.T))[:3, :3] @ [0, 0, 1] for name in MOTIONS}
+    assert np.allclose(up["turned"], [0, 0, 1])
+    assert up["tilted"][2] == pytest.approx(np.cos(np.deg2rad(5)))
+    assert up["lying"][2] == pytest.approx(0)
+    assert up["overturned"][2] == pytest.approx(-1)
+
+
+@pytest.mark.parametrize("name", sorted(set(CHANGES) - {"none", "fused", *MOTIONS}))
+def test_every_part_keeps_to_its_own_surface(name: str, microwave: Subject) -> None:
+    new = changed(name, microwave)
+    assert len(new.labels) == len(new.mesh.faces)
+    assert off_the_old_surface(new, microwave) < 0.02
+    assert {j.child for j in new.truth.joints} == {p.name for p in new.truth.parts[1:]}
+    assert set(new.labels) == set(range(len(new.truth.parts)))
+
+
+def test_the_same_seed_gives_the_same_mesh_and_another_seed_another(microwave: Subject) -> None:
+    first, again, other = (changed("noise.001", microwave, seed).mesh.vertices for seed in (3, 3, 4))
+    assert (first == again).all()
+    assert not np.allclose(first, other)
+
+
+def test_noise_opens_no_seam(microwave: Subject) -> None:
+    new = changed("noise.001", microwave)
+    spread = np.abs(new.mesh.vertices - microwave.mesh.vertices).mean() / microwave.mesh.diagonal
+    assert 0.0006 < spread < 0.001  # of a normal distribution it is .8 of the deviation
+    assert components(new.mesh.vertices, new.mesh.faces).solid.all()
+
+
+def test_a_quarter_of_the_faces(microwave: Subject) -> None:
+    label = components(microwave.mesh.vertices, microwave.mesh.faces).label
+    dense = np.bincount(label).max()
+    new = changed("quarter-faces", microwave)
+    assert np.bincount(components(new.mesh.vertices, new.mesh.faces).label).max() <= max(60, 0.3 * dense)
+
+
+def test_what_is_behind_a_door_is_gone_and_not_to_be_found(microwave: Subject) -> None:
+    hidden = [changed(name, microwave).truth for name in ("unseen-gone", "fused-coarse")]
+    assert [len(t.parts) for t in (microwave.truth, *hidden)] == [4, 3, 3]  # without the turntable
+    assert [len(t.joints) for t in hidden] == [2, 2]
+
+
+def test_what_moved_on_a_part_that_is_gone_moves_on_its_carrier() -> None:
+    mesh = cabinet().mesh
+    joint = TrueJoint("a", "base", cabinet().joints[0].type, np.zeros(3), np.array([0, 0, 1.0]), (0.0, 1.0))
+    parts = tuple(Part(name, "part") for name in ("base", "a", "b"))
+    inside = np.zeros(len(mesh.faces), np.int64)
+    inside[-1] = 2
+    subject = Subject(
+        Truth("x", Path("x.glb"), parts, inside, (joint, replace(joint, child="b", parent="a"))), mesh, inside, np.eye(4)
+    )
+    new = changed("noise.0001", subject)
+    assert new.truth is subject.truth  # faces stay
+    left = changed("half-faces", subject).truth
+    assert [(j.child, j.parent) for j in left.joints] == [("b", "base")]
+
+
+def box(low: list[float], high: list[float]) -> np.ndarray:
+    """12 triangles, outward."""
+    at = np.array([low, high])
+    v = np.array([[at[i, 0], at[j, 1], at[k, 2]] for i in (0, 1) for j in (0, 1) for k in (0, 1)], float)
+    quads = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
+    return np.array([v[[q[0], q[a], q[a + 1]]] for q in quads for a in (1, 2)])
+
+
+def volume(t: np.ndarray) -> float:
+    return float(np.einsum("ij,ij->i", t[:, 0], np.cross(t[:, 1], t[:, 2])).sum() / 6)
+
+
+def test_a_union_has_no_walls_inside() -> None:
+    whole = joined([box([0, 0, 0], [1, 1, 1]), box([1, 0, 0], [2, 1, 1]), box([0.5, 0.5, 0.5], [1.5, 0.9, 1.5])])
+    assert volume(whole) == pytest.approx(2.2, abs=1e-4)
+    assert components(whole.reshape(-1, 3), np.arange(3 * len(whole)).reshape(-1, 3)).count == 1
+
+
+def test_a_wrap_closes_narrow_gaps_and_leaves_wide_ones() -> None:
+    one = box([0, 0, 0], [1, 1, 1])
+    for gap, bodies in ((0.02, 1), (0.2, 2)):
+        vertices, faces = wrapped(np.concatenate([one, one + np.array([1 + gap, 0, 0])]), 0.05)
+        found = components(vertices, faces)
+        assert (found.count, found.solid.all(), found.flip.any()) == (bodies, True, False)
+
+
+def test_a_wrap_keeps_its_distance_and_needs_no_closed_surface() -> None:
+    sheet = box([0, 0, 0], [1, 1, 1])[2:]  # a side is missing: an open box stays open
+    vertices, faces = wrapped(sheet, 0.05)
+    gap = distance_to_mesh(vertices, sheet.reshape(-1, 3), np.arange(3 * len(sheet)).reshape(-1, 3))[0]
+    assert gap == pytest.approx(0.03, abs=0.004)
+    assert volume(vertices[faces]) == pytest.approx(5 * 0.06, rel=0.2)  # five sides, each as thick as twice the distance
+
+
+def test_an_unknown_change_is_told_with_the_known_ones(microwave: Subject) -> None:
+    with pytest.raises(OptionError, match=r"'melted'.*turned.*fused"):
+        changed("melted", microwave)
+
+
+def test_moving_twice_is_moving_by_the_product(microwave: Subject) -> None:
+    a, b = rotation(np.array([0, 0, 1.0]), 0.4), rotation(np.array([1.0, 0, 0]), -1.0)
+    assert np.allclose(moved(moved(microwave, a), b).mesh.vertices, moved(microwave, b @ a).mesh.vertices)

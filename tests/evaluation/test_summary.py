@@ -1,0 +1,86 @@
+"""Figures of a group: means by hand, and what is missing counts."""
+
+from dataclasses import astuple, replace
+
+import pytest
+from records import ALIKE, DOOR, DRAWER, KNOB, MISSING, record
+
+from anymesh.evaluation.summary import Mean, of_type, summarize
+from anymesh.types import JointType
+
+
+def test_figures_of_joints_that_were_found_are_their_means() -> None:
+    s = summarize([record(DOOR, seconds=1.0), record(DRAWER, KNOB, seconds=3.0)])
+    assert (s.objects, s.joints, s.errors, s.found, s.type_right) == (2, 3, 0, 1.0, 1.0)
+    assert astuple(s.angle) == pytest.approx((8 / 3, 2.0, 8 / 3))
+    assert astuple(s.line_distance) == pytest.approx((0.02, 0.02, 0.02))  # a slide has none, and misses none
+    assert s.displacement.all == pytest.approx(0.05 / 3)
+    assert s.opens_right == 0.5  # of door and drawer; a knob opens nowhere
+    assert s.range_iou == pytest.approx(2.2 / 3)
+    assert (s.parent_right, s.tree_right, s.part_f1, s.seconds) == (1.0, 1.0, 1.0, 2.0)
+    assert s.success == {"articulate_anything": 1.0, "opd": 1.0, "s2o": 1.0}
+
+
+def test_a_missing_joint_counts_as_the_farthest_and_as_no_success() -> None:
+    s = summarize([record(DOOR, MISSING)])
+    assert s.angle == Mean(46.0, 46.0, 2.0)
+    assert astuple(s.line_distance) == pytest.approx((0.51, 0.51, 0.02))
+    assert s.at_part.all == pytest.approx(0.515)
+    assert s.displacement.all == pytest.approx(0.505)
+    assert (s.found, s.type_right, s.opens_right, s.range_iou, s.parent_right) == (0.5, 0.5, 0.5, 0.4, 0.5)
+    assert set(s.success.values()) == {0.5}
+    assert (s.part_precision, s.part_recall, s.part_f1) == (1.0, 0.5, pytest.approx(2 / 3))
+
+
+def test_a_slide_taken_for_a_hinge_has_no_line_and_the_other_way_round_misses_it() -> None:
+    hinge = replace(DOOR, type_found=JointType.PRISMATIC, line_distance=None, at_part=None)
+    slide = replace(DRAWER, type_found=JointType.REVOLUTE)
+    s = summarize([record(hinge, slide)])
+    assert s.type_right == 0
+    assert s.line_distance == Mean(1.0, 1.0, None)
+
+
+def test_joints_whose_range_nobody_knows_are_scored_on_the_rest_alone() -> None:
+    unknown = replace(DOOR, range_known=False, opens_right=None, range_iou=None)
+    s = summarize([record(unknown, MISSING)])
+    assert (s.opens_right, s.range_iou) == (0.0, 0.0)  # of the missing one
+    assert summarize([record(unknown)]).opens_right is None
+    assert summarize([record(unknown)]).range_iou is None
+
+
+def test_part_figures_are_over_all_parts_not_over_objects() -> None:
+    s = summarize([record(DOOR, part_miou=1.0), record(DOOR, DRAWER, KNOB, part_miou=0.5, predicted=5)])
+    assert (s.part_precision, s.part_recall) == (pytest.approx(4 / 6), 1.0)
+    assert s.part_f1 == pytest.approx(8 / 10)
+    assert s.part_miou == pytest.approx(2.5 / 4)
+
+
+def test_an_error_is_a_failure_of_all_that_was_asked() -> None:
+    right = record(DOOR, rest=ALIKE, executable=True, seconds=5.0)
+    s = summarize([right, record(MISSING, error="ValueError: no", part_miou=0.0, tree_right=False)])
+    assert (s.errors, s.tree_right, s.executable, s.part_miou) == (1, 0.5, 0.5, 0.45)
+    assert s.rest is not None
+    assert (s.rest.giou, s.rest.miou) == (pytest.approx(-0.1), pytest.approx(0.35))
+    assert s.seconds == 5.0
+    # an object that could not even be read has no joints to be missing, yet is none that succeeded
+    unread = summarize([right, record(error="InputError: no file", part_miou=1.0)])
+    assert (unread.tree_right, unread.executable) == (0.5, 0.5)
+
+
+def test_nothing_to_score_is_told_as_none() -> None:
+    for records in ([], [record()]):
+        s = summarize(records)
+        assert s.angle == s.displacement == Mean()
+        assert all(v is None for v in (s.type_right, s.opens_right, s.part_f1, s.part_miou, s.executable, s.rest, s.posed))
+        assert set(s.success.values()) == {None}
+    assert summarize([]).tree_right is None
+
+
+def test_what_was_not_tried_is_no_failure() -> None:
+    assert summarize([record(DOOR), record(MISSING, error="x")]).executable is None
+    assert summarize([record(DOOR, executable=True), record(DOOR)]).executable == 1.0
+
+
+def test_joints_of_one_type() -> None:
+    (only,) = of_type([record(DOOR, DRAWER, KNOB)], JointType.PRISMATIC)
+    assert only.score.joints == (DRAWER,)
