@@ -12,7 +12,25 @@ from anymesh.types import Handle, JointType, Motion, MotionKind, Sweep
 WHO = GeometryAnswerer()
 X, Y, Z = np.eye(3)
 PLATE = PartFacts(
-    "p", "part", (0.6, 0.4, 0.02), 0.05, 0.3, 0.1, -Y, 1.0, 0.0, size=0.7, horizontal=False, handle=None, touches_ends=False
+    "p",
+    "part",
+    (0.6, 0.4, 0.02),
+    0.05,
+    0.3,
+    0.1,
+    -Y,
+    1.0,
+    0.0,
+    size=0.7,
+    diagonal=1.0,
+    horizontal=False,
+    handle=None,
+    touches_ends=False,
+    tall=-0.6,
+    height=0.5,
+    seated=0.0,
+    free_rim=0.0,
+    lid=0.0,
 )
 
 

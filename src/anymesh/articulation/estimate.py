@@ -59,6 +59,7 @@ def surroundings(
         diagonal=whole.diagonal,
         center=center,
         config=config,
+        siblings=tuple(shapes[k] for k in range(1, len(shapes)) if k not in carried and k not in line),
     )
 
 

@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
-from anymesh.geometry.distance_ import distance_to_triangles
+from anymesh.articulation.hold import kept, lever, support
+from anymesh.articulation.leaves import meeting_sides, outer_side, pair_side, passes
 from anymesh.geometry.surroundings import Surroundings
 from anymesh.geometry.sweep import free_amount, sweep
 from anymesh.reasoning.questions import Candidate, PartFacts
 from anymesh.types import Motion, MotionKind, Sweep
 
-LINE_POINTS = 21  # along a hinge line
 ACROSS = 0.6  # weight of a bar that runs across the line
+SLACKS = (3.0, 10.0)  # factors on the penetration that counts, tried in turn where nothing is free
+OUTWARDS = 0.5  # cosine of a motion with the way out
+STUCK = np.deg2rad(12)  # a hinge that opens less is not free
+SQUARE = 0.7  # cosine from which a surface faces the way out, or away from it
 HELD = 0.02  # a slide is held sideways when stopped within this share of the diagonal
 
 
@@ -32,57 +36,105 @@ def part_facts(around: Surroundings, name: str, label: str, bail: bool) -> PartF
         openness=around.openness,
         buried=around.buried,
         size=around.part.box.diagonal / around.diagonal,
+        diagonal=around.diagonal,
         horizontal=bool(abs(around.outward[2]) > 0.8),
         handle=around.handle,
         touches_ends=bail,
+        tall=_tall(around),
+        height=float((around.part.bounds.mean(0)[2] - around.bounds[0, 2]) / max(np.ptp(around.bounds[:, 2]), 1e-9)),
+        seated=_seated(around),
+        free_rim=_free_rim(around) if around.outline.roundness > 0.5 else 0.0,
+        lid=_lid(around) if around.outline.roundness > 0.5 else 0.0,
     )
 
 
+def _tall(around: Surroundings) -> float:
+    if abs(around.outward[2]) > 0.8:
+        return 0.0
+    across = np.cross(around.outward, (0.0, 0.0, 1.0))
+    width = float(np.ptp(around.part.corners @ (across / np.linalg.norm(across))))
+    return float(np.log2(max(float(np.ptp(around.part.bounds[:, 2])), 1e-9) / max(width, 1e-9)))
+
+
+def _seated(around: Surroundings) -> float:
+    """Share of what faces away from the way out that lies on the parent, or in it."""
+    back = around.part.samples.normals @ around.outward < -SQUARE
+    near = around.gap < max(2 * around.config.connecting * around.scale, 1.5 * float(around.gap.min()))
+    return float(near[back].mean()) if back.sum() > 3 else 0.0
+
+
+def _free_rim(around: Surroundings) -> float:
+    """Share of a round part's rim that sees nothing of the rest within two radii, straight away from its axis."""
+    outline, points = around.outline, around.part.samples.points
+    arm = points - outline.center
+    arm -= (arm @ outline.axis)[:, None] * outline.axis
+    radius = np.linalg.norm(arm, axis=1)
+    rim = np.flatnonzero(radius > 0.85 * outline.radius)[:300]
+    if len(rim) < 3:
+        return 0.0
+    away = arm[rim] / radius[rim, None]
+    start = points[rim] + 0.02 * outline.radius * away
+    return float((around.rest.scene.first_hit(start, 2 * outline.radius * away, 1.0).face < 0).mean())
+
+
+def _lid(around: Surroundings) -> float:
+    """How much of a round part's rim lies near the parent, times the share of its back with nothing close behind."""
+    outline, points = around.outline, around.part.samples.points
+    arm = points - outline.center
+    radius = np.linalg.norm(arm - (arm @ outline.axis)[:, None] * outline.axis, axis=1)
+    rim, back = radius > 0.85 * outline.radius, radius < 0.6 * outline.radius
+    if rim.sum() < 3 or back.sum() < 3:
+        return 0.0
+    held = float((around.gap[rim] < 0.1 * outline.radius).mean())
+    rays = np.repeat(-around.outward[None] * 0.5 * outline.radius, int(back.sum()), 0)
+    empty = float((around.rest.scene.first_hit(points[back], rays, 1.0).face < 0).mean())
+    return held * empty
+
+
 def weigh_all(around: Surroundings, proposed: list[tuple[str, Motion]]) -> tuple[Candidate, ...]:
-    """Sweeps every motion and gathers the evidence for it."""
-    along = _support(around, [m for _, m in proposed if m.kind is MotionKind.TURN])
+    """Sweeps every motion and gathers the evidence for it.
+
+    Where no hinge lets it out, part and rest may be stuck in each other at rest, as artists leave them: the hinges are swept
+    again with more penetration allowed, until one is free.
+    """
+    found = _weigh(around, proposed)
+    hinges = [k for k, c in enumerate(found) if c.role != "round" and c.motion.kind is MotionKind.TURN]
+    for slack in SLACKS:
+        out = [k for k in hinges if found[k].outward > OUTWARDS]
+        if not out or max(found[k].opening for k in out) > STUCK:
+            break
+        looser = _weigh(replace(around, slack=slack), [proposed[k] for k in hinges])
+        freed = {k: replace(c, slack=slack) for k, c in zip(hinges, looser, strict=True)}
+        found = tuple(freed.get(k, c) for k, c in enumerate(found))
+    return found
+
+
+def _weigh(around: Surroundings, proposed: list[tuple[str, Motion]]) -> tuple[Candidate, ...]:
+    along = iter(support(around, [m for _, m in proposed if m.kind is MotionKind.TURN]))
+    meeting = meeting_sides(around)
     found = []
     for role, motion in proposed:
         if motion.kind is MotionKind.TURN:
-            found.append(_turn(around, role, motion, *next(along)))
+            found.append(_turn(around, role, motion, next(along), meeting))
         else:
             found.append(_slide(around, role, motion))
-    return tuple(found)
+    shares = kept(around, [c.motion for c in found], [c.opens for c in found])
+    return tuple(replace(c, kept=float(share)) for c, share in zip(found, shares, strict=True))
 
 
-def _support(around: Surroundings, turns: list[Motion]) -> Iterator[tuple[float, float]]:
-    """For each hinge line, as long as the part: the shares that have the parent, and another movable part, near."""
-    if not turns:
-        return
-    points = around.part.samples.points
-    lines = []
-    for motion in turns:
-        along = points @ motion.axis
-        at = np.linspace(along.min(), along.max(), LINE_POINTS) - motion.origin @ motion.axis
-        lines.append(motion.origin + at[:, None] * motion.axis)
-    probe = np.concatenate(lines)
-    reach = around.config.support * around.scale
-    parent = distance_to_triangles(probe, around.parent.triangles) < reach
-    other = np.zeros(len(probe), bool)
-    if around.others is not None:
-        other = distance_to_triangles(probe, around.others.triangles) < reach
-    shares = (near.reshape(len(turns), LINE_POINTS).mean(1) for near in (parent, other))
-    for support, sibling in zip(*shares, strict=True):
-        yield float(support), float(sibling)
-
-
-def _turn(around: Surroundings, role: str, motion: Motion, support: float, sibling: float) -> Candidate:
+def _turn(around: Surroundings, role: str, motion: Motion, near: np.ndarray, meeting: np.ndarray) -> Candidate:
     swept = sweep(around.obstacles, motion, steps=around.config.sweep_steps)
     moves = np.cross(motion.axis, around.part.samples.points.mean(0) - motion.origin)
     outward = float(moves @ around.outward)
     across = float(np.linalg.norm(moves))
     toward = outward / across if across > 1e-9 else 0.0
     opens = _opening_sign(toward, swept.forward, swept.backward, np.deg2rad(20))
+    reach, hugs, thick = lever(around, motion)
     return Candidate(
         motion, swept, role, opens,
         *((swept.forward, swept.backward) if opens > 0 else (swept.backward, swept.forward)),
-        support=support,
-        sibling=sibling,
+        support=float(near[0]),
+        sibling=float(near[1]),
         handle_side=_handle_side(around, motion),
         guided=0.0,
         depth=0.0,
@@ -90,6 +142,13 @@ def _turn(around: Surroundings, role: str, motion: Motion, support: float, sibli
         above=_above(around, motion),
         captured=False,
         outward=toward * opens,
+        pair=pair_side(around, motion, meeting),
+        outer=outer_side(around, motion),
+        handle_off=_handle_off(around, motion),
+        opposite=float(near[2]),
+        reach=reach,
+        hugs=hugs,
+        thick=thick,
     )  # fmt: skip
 
 
@@ -123,6 +182,7 @@ def _slide(around: Surroundings, role: str, motion: Motion) -> Candidate:
         above=0.0,
         captured=_captured(around, swept),
         outward=toward * opens,
+        passes=passes(around, motion, (swept.forward, swept.backward)),
     )  # fmt: skip
 
 
@@ -161,3 +221,11 @@ def _handle_side(around: Surroundings, motion: Motion) -> float:
             across = handle.along is not None and around.face_axes[handle.along] == axis
             total -= float(np.clip(side, -1, 1)) * where * (ACROSS if across else 1.0)
     return float(np.clip(total, -1, 1))
+
+
+def _handle_off(around: Surroundings, motion: Motion) -> float:
+    """How far the handle sits from the middle of the hinge's length: flaps have it in the middle, doors where hands reach."""
+    if around.handle is None:
+        return 0.0
+    across = zip(around.face_axes, around.handle.across, strict=True)
+    return max((abs(w) for axis, w in across if abs(around.core.axes[axis] @ motion.axis) > 0.7), default=0.0)

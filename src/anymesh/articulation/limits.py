@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from anymesh.geometry.surroundings import Surroundings
@@ -16,6 +18,7 @@ CONTROL = 0.25  # a part with less of the object's diagonal may be a button or a
 
 def limits(around: Surroundings, c: Candidate, kind: JointType) -> tuple[float, float] | None:
     """(lower, upper) about the opening axis [rad or m]; None for continuous and fixed joints."""
+    around = replace(around, slack=c.slack)
     match kind:
         case JointType.CONTINUOUS | JointType.FIXED:
             return None

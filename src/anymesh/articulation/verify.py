@@ -14,18 +14,20 @@ from anymesh.articulation.hypotheses import propose
 from anymesh.articulation.limits import opening_motion
 from anymesh.geometry.surroundings import Surroundings
 from anymesh.reasoning.asking import Seer
-from anymesh.reasoning.geometry import BLOCKED, LEAST, LITTLE, reason, score
+from anymesh.reasoning.geometry import reason
 from anymesh.reasoning.prompting import JointKind, MotionTable, WhichMotions
 from anymesh.reasoning.questions import Candidate, PartFacts
 from anymesh.reasoning.vocabulary import habit_of
+from anymesh.reasoning.weighing import BLOCKED, LITTLE, score
 from anymesh.rendering.studio import Studio
 from anymesh.types import Motion, MotionKind
 
 SHOWN_TURN = np.deg2rad(60.0)  # most of a turn in a picture
 SHOWN_SLIDE = 0.6  # most of a slide in a picture, as a share of the part's size
 ALIKE = 0.2  # motions that take the part's points to places this near, as a share of the way, look alike
+BEHIND = 8.0  # a motion that is less plausible than the best one by more is not shown, unless few are left
 FEW = 3  # free motions that are shown however implausible
-ROUGH = 1.0  # a line through picked points is rougher than one of the part's own that looks like it
+ROUGH = 2.0  # a line through picked points is rougher than one of the part's own that looks like it
 ANSWERED = 1.0  # what it is worth, in units of clear evidence, that a motion is of the kind that was answered
 
 
@@ -143,7 +145,8 @@ def feasible(
     worth = [score(facts, c, habit) + ANSWERED * fits(c, kind) - ROUGH * (c.role == "asked") for c in candidates]
     free = [k for k, c in enumerate(candidates) if is_free(c)]
     order = sorted(free, key=lambda k: (-worth[k], k))
-    order = [k for rank, k in enumerate(order) if worth[k] > LEAST or rank < FEW or candidates[k].role == "asked"]
+    least = max((worth[k] for k in free), default=0.0) - BEHIND
+    order = [k for rank, k in enumerate(order) if worth[k] > least or rank < FEW or candidates[k].role == "asked"]
     kept: list[int] = []
     ends: list[np.ndarray] = []
     answered = None  # the one kept that is, or looks like, what was answered

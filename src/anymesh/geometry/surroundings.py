@@ -22,6 +22,9 @@ from anymesh.types import Handle
 
 LEVEL = 0.12  # share of the surface facing a side that makes up the side's level
 MOST_OUT = 0.25  # what sticks out is less than this share of the surface
+DOWN = 0.4  # what being open below is worth less: most things stand on something
+FACES = 0.5  # cosine from which a surface faces a direction
+FREE = 0.01  # of the scale: what is nearer to the parent is no tab, but a hinge's barrel
 GRIP = 0.3  # a grip stands out by this share of its smaller width at least
 STAND_OUT = 0.012  # a handle stands out by this share of the part's diagonal at least
 
@@ -74,6 +77,14 @@ class Surroundings:
     diagonal: float
     center: Float[np.ndarray, " 3"]
     config: ArticulationConfig
+    siblings: tuple[Shape, ...] = ()  # the other movable parts, each by itself
+    slack: float = 1.0  # factor on the penetration that counts, where the part is stuck in the rest already
+
+    @cached_property
+    def bounds(self) -> Float[np.ndarray, "2 3"]:
+        """Of the whole object [m]."""
+        both = np.array([self.part.bounds, self.everything.bounds])
+        return np.array([both[:, 0].min(0), both[:, 1].max(0)])
 
     @cached_property
     def core(self) -> Box:
@@ -100,12 +111,12 @@ class Surroundings:
 
     @cached_property
     def obstacles(self) -> Obstacles:
-        return Obstacles(self.part, self.rest, self.config.penetration * self.scale)
+        return Obstacles(self.part, self.rest, self.slack * self.config.penetration * self.scale)
 
     @cached_property
     def held_by(self) -> Obstacles:
         """The same with the other movable parts at rest: what keeps the part from moving sideways."""
-        return Obstacles(self.part, self.everything, self.config.penetration * self.scale)
+        return Obstacles(self.part, self.everything, self.slack * self.config.penetration * self.scale)
 
     @cached_property
     def outline(self) -> Outline:
@@ -131,39 +142,65 @@ class Surroundings:
 
     def sees_outside(self, direction: Float[np.ndarray, " 3"]) -> Bool[np.ndarray, " n"]:
         """Which samples of the part see no other surface of the object along `direction`."""
-        points = self.part.samples.points[::6]
+        return self._sees(self.part.samples.points[::6], direction)
+
+    def _sees(self, points: np.ndarray, direction: np.ndarray) -> np.ndarray:
         start = points + 1e-4 * self.diagonal * direction
         rays = np.repeat(direction[None] * 4 * self.diagonal, len(start), 0)
         return self.rest.scene.first_hit(start, rays, 1.0).face < 0
 
+    def _open_face(self, direction: np.ndarray) -> float:
+        """Share that sees the outside along `direction` of the surface that faces it, or of all where hardly any does."""
+        facing = self.part.samples.normals @ direction
+        solid = self.part.solid[self.part.samples.faces]
+        faces = np.flatnonzero(np.where(solid, facing, np.abs(facing)) > FACES)
+        points = self.part.samples.points[faces] if len(faces) > 0.02 * len(facing) else self.part.samples.points
+        return float(self._sees(points[:: max(1, len(points) // 500)], direction).mean())
+
     @cached_property
-    def _out(self) -> tuple[np.ndarray, float]:
-        """The way out among the core box's directions: the thin one unless another is far more open."""
-        best, best_score, best_open = self.core.axes[2], -np.inf, 0.0
+    def outward(self) -> Float[np.ndarray, " 3"]:
+        """The way out of the object, unit, among the core box's directions: the thin one unless another is far more open."""
+        best, best_score = self.core.axes[2], -np.inf
         away = self.part.samples.points.mean(0) - self.center
         for k, axis in enumerate(self.core.axes):
             for sign in (1.0, -1.0):
-                seen = float(self.sees_outside(sign * axis).mean())
+                seen = self._open_face(sign * axis)
                 facing = self.core.half[2] / max(self.core.half[k], 1e-12)
                 score = seen + 0.5 * facing + 0.3 * sign * float(axis @ away) / self.diagonal
+                score -= DOWN * max(0.0, -sign * float(axis[2]))
                 if score > best_score + 1e-9:
-                    best, best_score, best_open = sign * axis, score, seen
-        return best, best_open
+                    best, best_score = sign * axis, score
+        return best
 
-    @property
-    def outward(self) -> Float[np.ndarray, " 3"]:
-        """The way out of the object for this part, unit."""
-        return self._out[0]
-
-    @property
+    @cached_property
     def openness(self) -> float:
         """Share of the part that sees the outside along the way out."""
-        return self._out[1]
+        return float(self.sees_outside(self.outward).mean())
 
     @cached_property
     def handle(self) -> Handle | None:
         """What stands out of the part's outer face the furthest, if it is small against the face, no mere raised panel, and
-        in one or two places: more are controls."""
+        in one or two places: more are controls. Where nothing does, a tab that stands out of one rim into the air.
+        """
+        return self._face_handle() or self._tab()
+
+    def _tab(self) -> Handle | None:
+        face, core = self.face_axes, self.core
+        local = core.local(self.part.samples.points)
+        found = []
+        for row, k in enumerate(face):
+            for sign in (-1.0, 1.0):
+                out = sign * local[:, k] > core.half[k] + STAND_OUT * core.diagonal
+                if out.sum() >= 3 and out.mean() < MOST_OUT and float(np.median(self.gap[out])) > FREE * self.scale:
+                    found.append((row, sign, local[out][:, face[1 - row]].mean() / max(core.half[face[1 - row]], 1e-9), out))
+        if len(found) != 1:
+            return None
+        row, sign, level, out = found[0]
+        across = [sign, float(np.clip(level, -1, 1))]
+        size = float(np.ptp(local[out][:, face], axis=0).max() / core.diagonal)
+        return Handle((across[0], across[1]) if row == 0 else (across[1], across[0]), None, size)
+
+    def _face_handle(self) -> Handle | None:
         k = int(np.abs(self.core.axes @ self.outward).argmax())
         sign = np.sign(self.core.axes[k] @ self.outward)
         local = self.core.local(self.part.samples.points)

@@ -29,9 +29,15 @@ class PartFacts:
     openness: float  # 0..1, share of the part's surface that sees the outside along `outward`
     buried: float  # depth within the parent along `outward`, over the smallest side across
     size: float  # its diagonal over the object's
+    diagonal: float  # the object's [m]
     horizontal: bool  # its face looks up or down
     handle: Handle | None
     touches_ends: bool  # held by two contacts far apart with free space between (a bail)
+    tall: float  # log2 of its face's height over its width; 0 for a level face
+    height: float  # 0..1, of its middle in the object's height
+    seated: float  # 0..1, share of its back that lies on the parent
+    free_rim: float  # 0..1, a round part: share of its rim that sees the outside across its axis
+    lid: float  # 0..1, a round part: how much of its rim lies on the parent around an opening behind it
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,6 +63,16 @@ class Candidate:
     above: float  # -1..1: where the axis lies between the lowest (-1) and highest (1) of the part
     captured: bool  # a slide that is stopped both ways, with room to move between
     outward: float  # opening direction . outward, -1..1
+    pair: float = 0.0  # -1..1: 1 a leaf like it meets the part opposite the hinge, -1 at the hinge
+    outer: float = 0.0  # -1..1: 1 the hinge lies at the object's outer side, -1 towards its middle
+    handle_off: float = 0.0  # 0..1, how far from the middle of the hinge's length the handle sits
+    opposite: float = 0.0  # 0..1, as support, of the line at the part's other side: a free side has nothing near
+    reach: float = 0.0  # log2 of the part's reach across the line over its length along it
+    hugs: float = 0.0  # 0..1, how near the line the contact lies
+    thick: float = 0.0  # 0..1, thickness at the line over the part's largest
+    kept: float = 0.0  # 0..1, share of the contact that stays when the part opens a little
+    slack: float = 1.0  # factor on the penetration that counts, more than 1 for a part that is stuck in the rest
+    passes: float = 0.0  # 0..1, a slide: the part comes to lie over what it did not lie over
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,107 @@
+"""Every committed report of `anymesh eval`, made anew, and one table over all of them.
+
+python benchmarks/reports.py WORK               all; WORK keeps what is done, so a stopped run goes on
+python benchmarks/reports.py WORK NAME ...      some of them, such as sweethome3d-parts; the table is of those in WORK
+python benchmarks/reports.py WORK --place sweethome3d=FILE.deb     a set that lies elsewhere
+"""
+
+from __future__ import annotations
+
+import argparse
+import shlex
+import shutil
+from collections.abc import Sequence
+from pathlib import Path
+
+from anymesh.cli import run
+from anymesh.evaluation.record import Record, record_of
+from anymesh.evaluation.report import markdown
+from anymesh.evaluation.tables import group_table
+
+REPORTS = Path(__file__).parent / "reports"
+SETS = ("examples", "scene-synthesizer", "sweethome3d", "metaworld", "libero")
+HARSH = "none,turned,spun,lying,noise.0005,half-faces,unseen-gone,joined,fused,fused-coarse"
+RUNS = {
+    **{f"{name}-parts": f"{name} --protocol parts" for name in SETS},
+    **{f"{name}-end-to-end": f"{name} --protocol executability" for name in SETS},
+    **{f"{name}-fused": f"{name} --protocol end-to-end --changes fused" for name in SETS},
+    **{f"{name}-views": f"{name} --protocol views --views 2" for name in ("examples", "scene-synthesizer", "sweethome3d")},
+    "scene-synthesizer-random-parts": "scene-synthesizer --split random --protocol parts",
+    "kinds-parts": "urdf:{kinds} --protocol parts",
+    "examples-robustness": f"examples --protocol end-to-end --changes {HARSH}",
+    "sweethome3d-robustness": "sweethome3d --protocol parts --changes none,turned,spun,noise.0005,half-faces,unseen-gone",
+}
+TABLES = {
+    "Parts given": [f"{name}-parts" for name in SETS],
+    "End to end, multi-component mesh": [f"{name}-end-to-end" for name in SETS],
+    "End to end, fused surface": [f"{name}-fused" for name in SETS],
+    "One view": [f"{name}-views" for name in ("examples", "scene-synthesizer", "sweethome3d")],
+}
+HEAD = """# Reports
+
+Made by `python benchmarks/reports.py WORK`; the command of each report stands above it. Answerer: geometry (no key,
+no network). The columns are told in [docs/evaluation.md](../../docs/evaluation.md); "all" is over all sets together.
+`kinds` are made by `python benchmarks/kinds.py FOLDER --seed 7 --count 2` and named as `urdf:FOLDER`.
+"""
+
+
+def command(name: str, work: Path, places: dict[str, str]) -> list[str]:
+    """The arguments of the command line for one report."""
+    words = shlex.split(RUNS[name].format(**places) if "{" in RUNS[name] else RUNS[name])
+    words[0] = f"{words[0]}:{places[words[0]]}" if words[0] in places else words[0]
+    return ["eval", *words, "-o", str(work / name)]
+
+
+def records(folder: Path) -> list[Record]:
+    lines = (line for path in sorted((folder / "objects").glob("*.jsonl")) for line in path.read_text().splitlines())
+    return [record_of(line) for line in lines]
+
+
+def summary(work: Path) -> str:
+    """The tables over all sets."""
+    text = [HEAD]
+    for title, names in TABLES.items():
+        groups = [(name, records(work / name)) for name in names if (work / name / "report.md").is_file()]
+        if groups:
+            groups.append(("all", [r for _, some in groups for r in some]))
+            text.append(markdown(group_table(title, groups)))
+    return "\n".join(text)
+
+
+def make(names: Sequence[str], work: Path, places: dict[str, str]) -> int:
+    """Runs what is left of these, and copies the reports. Returns the last exit code that was not 0."""
+    failed = 0
+    for name in names:
+        print(f"{name}: anymesh eval {RUNS[name]}", flush=True)
+        code = run([*command(name, work, places), "--quiet"])
+        failed = code or failed
+        if code == 0:
+            text = (work / name / "report.md").read_text(encoding="utf-8")
+            for place in places.values():
+                text = text.replace(f":{place}", "")
+            (REPORTS / f"{name}.md").write_text(f"`anymesh eval {RUNS[name]} -o DIR`\n\n{text}", encoding="utf-8")
+    return failed
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description="Makes the committed reports anew.")
+    parser.add_argument("work", type=Path, metavar="WORK")
+    parser.add_argument("names", nargs="*", metavar="NAME", help=f"of {', '.join(RUNS)}")
+    parser.add_argument("--place", action="append", default=[], metavar="SET=PLACE", help="where a set lies; kinds=FOLDER")
+    parser.add_argument("--anew", action="store_true", help="remove what was done of these before")
+    options = parser.parse_args()
+    unknown = sorted(set(options.names) - set(RUNS))
+    if unknown:
+        parser.error(f"found {', '.join(unknown)}; valid are {', '.join(RUNS)}")
+    REPORTS.mkdir(exist_ok=True)
+    names = options.names or list(RUNS)
+    if options.anew:
+        for name in names:
+            shutil.rmtree(options.work / name, ignore_errors=True)
+    code = make(names, options.work, dict(place.split("=", 1) for place in options.place))
+    (REPORTS / "README.md").write_text(summary(options.work), encoding="utf-8")
+    return code
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

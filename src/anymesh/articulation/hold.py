@@ -1,0 +1,76 @@
+"""What holds a part to its parent while it moves: a joint keeps contact, and keeps it near its axis."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from anymesh.geometry.distance_ import distance_to_triangles
+from anymesh.geometry.surroundings import Surroundings
+from anymesh.types import Motion, MotionKind
+
+LINE_POINTS = 21  # along a hinge line
+POINTS = 120  # of the contact, that are moved
+TURN = np.deg2rad(30)  # how far contact is watched on a turn
+TRAVEL = 0.5  # and on a slide, as a share of the part's extent along it
+NEAR = 1.5  # contact is kept within this factor of what it was, and of the tolerance below
+TOUCH = 0.008  # share of the scale; what is nearer to the parent is contact
+RIM = 0.15  # share of the part's reach across a line; surface nearer to the line is at its rim
+
+
+def kept(around: Surroundings, motions: list[Motion], signs: list[int]) -> np.ndarray:
+    """(motions,) share of the part's contact that stays near the parent when it opens a little (sign: of the opening)."""
+    tolerance = max(TOUCH * around.scale, NEAR * float(around.gap.min()))
+    contact = around.part.samples.points[around.gap <= tolerance]
+    if len(contact) < 3 or not motions:
+        return np.zeros(len(motions))
+    contact = contact[:: max(1, len(contact) // POINTS)]
+    moved = []
+    for motion, sign in zip(motions, signs, strict=True):
+        extent = float(np.ptp(around.part.corners @ motion.axis))
+        amount = TURN if motion.kind is MotionKind.TURN else TRAVEL * extent
+        T = motion.transform(sign * amount)
+        moved.append(contact @ T[:3, :3].T + T[:3, 3])
+    off = distance_to_triangles(np.concatenate(moved), around.parent.triangles)
+    return (off.reshape(len(motions), -1) < NEAR * tolerance).mean(1)
+
+
+def support(around: Surroundings, motions: list[Motion]) -> np.ndarray:
+    """(turns, 3) for each hinge line, as long as the part: the shares that have the parent, and another movable part, near;
+    and the first for the line mirrored at the part's middle, which is its free side if there is one."""
+    if not motions:
+        return np.zeros((0, 3))
+    points, lines = around.part.samples.points, []
+    for motion in motions:
+        along = points @ motion.axis
+        at = np.linspace(along.min(), along.max(), LINE_POINTS) - motion.origin @ motion.axis
+        line = motion.origin + at[:, None] * motion.axis
+        arm = around.core.center - motion.origin
+        lines += [line, line + 2 * (arm - (arm @ motion.axis) * motion.axis)]
+    probe = np.concatenate(lines)
+    reach = around.config.support * around.scale
+    parent = (distance_to_triangles(probe, around.parent.triangles) < reach).reshape(len(motions), 2, LINE_POINTS).mean(2)
+    other = np.zeros(len(motions))
+    if around.others is not None:
+        near = distance_to_triangles(probe, around.others.triangles) < reach
+        other = near.reshape(len(motions), 2, LINE_POINTS).mean(2)[:, 0]
+    return np.stack([parent[:, 0], other, parent[:, 1]], 1)
+
+
+def lever(around: Surroundings, motion: Motion) -> tuple[float, float, float]:
+    """Of a hinge line: log2 of the part's reach across it over its length along it; how near the line the contact lies
+    (0..1); and the part's thickness at the line over its largest (0..1), thin edges being free ones."""
+    points = around.part.samples.points
+    arm = points - motion.origin
+    along = arm @ motion.axis
+    across = arm - along[:, None] * motion.axis
+    off = np.linalg.norm(across, axis=1)
+    reach = max(float(off.max()), 1e-9)
+    length = max(float(np.ptp(along)), 1e-9)
+    tolerance = max(TOUCH * around.scale, NEAR * float(around.gap.min()))
+    contact = off[around.gap <= tolerance]
+    hugs = 1 - float(np.median(contact)) / reach if len(contact) else 0.0
+    normal = around.core.axes[2]
+    height = points @ normal
+    rim = off < RIM * reach
+    thick = float(np.ptp(height[rim])) / max(float(np.ptp(height)), 1e-9) if rim.sum() > 3 else 0.0
+    return float(np.log2(reach / length)), hugs, thick

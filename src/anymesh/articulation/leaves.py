@@ -1,0 +1,89 @@
+"""What the neighbours of a leaf tell: doors in pairs meet in the middle, sliding leaves pass one another."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from anymesh.geometry.boxes import Box
+from anymesh.geometry.surroundings import Surroundings
+from anymesh.types import Motion
+
+ALIKE = 0.25  # leaves whose sides differ by less, relatively, are alike
+MEET = 0.15  # of a leaf's side: leaves that meet are not further apart, nor shifted against each other
+BEHIND = 3.0  # thicknesses: what lies within this of a leaf lies right behind it
+GAIN = 0.5  # share of a leaf that must come to lie over something when it passes it
+
+
+def meeting_sides(around: Surroundings) -> np.ndarray:
+    """(2, 2) for the face axes and their two signs (-, +): how many leaves like the part adjoin it there, in its plane."""
+    core, found = around.core, np.zeros((2, 2))
+    flat = around.face_axes
+    thin = next(k for k in range(3) if k not in flat)
+    for leaf in around.siblings:
+        size, offset = _extent(leaf.box, core), core.local(leaf.box.center[None])[0]
+        mine = 2 * core.half
+        if any(abs(size[k] - mine[k]) > ALIKE * max(size[k], mine[k]) for k in flat):
+            continue
+        if abs(offset[thin]) > max(core.half[thin] + size[thin] / 2, 0.05 * mine[flat].max()) * 0.6:
+            continue
+        for row, (k, other) in enumerate((flat, flat[::-1])):
+            gap = abs(offset[k]) - (mine[k] + size[k]) / 2
+            if abs(gap) < MEET * mine[k] and abs(offset[other]) < MEET * mine[other]:
+                found[row, int(offset[k] > 0)] += 1
+    return found
+
+
+def _extent(box: Box, frame: Box) -> np.ndarray:
+    """Sides of a box, measured along the axes of another."""
+    return 2 * np.abs(frame.axes @ box.axes.T) @ box.half
+
+
+def pair_side(around: Surroundings, motion: Motion, meeting: np.ndarray) -> float:
+    """1: leaves of a pair meet at the side opposite this hinge; -1: at the hinge; 0: no pair, or in the middle of three."""
+    core, total = around.core, 0.0
+    arm = motion.origin - core.center
+    for axis, sides in zip(around.face_axes, meeting, strict=True):
+        if abs(core.axes[axis] @ motion.axis) < 0.3:
+            side = float(np.clip(arm @ core.axes[axis] / max(float(core.half[axis]), 1e-9), -1, 1))
+            total -= side * float(np.clip(sides[1] - sides[0], -1, 1))
+    return float(np.clip(total, -1, 1))
+
+
+def outer_side(around: Surroundings, motion: Motion) -> float:
+    """1: the line lies at the object's outer side, as a cabinet's hinges do; -1: at its middle; 0: the part is central."""
+    core = around.core
+    arm, away = motion.origin - core.center, core.center - around.center
+    total = 0.0
+    for axis in around.face_axes:
+        direction = core.axes[axis]
+        if abs(direction @ motion.axis) < 0.3:
+            side = float(np.clip(arm @ direction / max(float(core.half[axis]), 1e-9), -1, 1))
+            reach = float(np.abs(around.bounds - around.center).max(0) @ np.abs(direction))
+            total += side * float(np.clip(2 * (away @ direction) / max(reach, 1e-9), -1, 1))
+    return float(np.clip(total, -1, 1))
+
+
+def passes(around: Surroundings, motion: Motion, free: tuple[float, float]) -> float:
+    """How much more of the part lies over something else when it has slid its own width, one way or the other (0..1).
+
+    free: what it is free for along +axis and -axis [m]; sashes and sliding doors come to lie over their twins.
+    """
+    width = float(np.ptp(around.part.corners @ motion.axis))
+    thin = max(2 * float(around.core.half[2]), 0.004 * around.scale)
+    normal = around.core.axes[2]
+    if abs(float(normal @ motion.axis)) > 0.3:
+        return 0.0
+    points = around.part.samples.points[::6]
+
+    def over(shift: float) -> float:
+        best = 0.0
+        for sign in (1.0, -1.0):
+            rays = np.repeat(sign * normal[None] * (BEHIND + 1) * thin, len(points), 0)
+            hits = around.everything.scene.first_hit(points + shift * motion.axis, rays, 1.0)
+            best = max(best, float((hits.face >= 0).mean()))
+        return best
+
+    rest = over(0.0)
+    shifts = [sign * 0.9 * width for sign, room in zip((1, -1), free, strict=True) if room > 0.8 * width]
+    gain = max((over(s) - rest for s in shifts), default=0.0)
+    return float(np.clip(gain / GAIN, 0, 1))
