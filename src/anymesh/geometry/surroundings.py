@@ -191,8 +191,11 @@ class Surroundings:
         for row, k in enumerate(face):
             for sign in (-1.0, 1.0):
                 out = sign * local[:, k] > core.half[k] + STAND_OUT * core.diagonal
-                if out.sum() >= 3 and out.mean() < MOST_OUT and float(np.median(self.gap[out])) > FREE * self.scale:
-                    found.append((row, sign, local[out][:, face[1 - row]].mean() / max(core.half[face[1 - row]], 1e-9), out))
+                if out.sum() < 3 or out.mean() > MOST_OUT or float(np.median(self.gap[out])) < FREE * self.scale:
+                    continue
+                along, half = local[out][:, face[1 - row]], max(float(core.half[face[1 - row]]), 1e-9)
+                if np.ptp(along) < half:  # half of the rim; what is wider is a ledge
+                    found.append((row, sign, float(along.mean()) / half, out))
         if len(found) != 1:
             return None
         row, sign, level, out = found[0]
