@@ -14,7 +14,7 @@ from anymesh.geometry.shape import Shape
 from anymesh.geometry.surroundings import Surroundings, rods
 from anymesh.progress import Progress, silent
 from anymesh.reasoning.questions import Answerer, Candidate, MotionAnswer, MotionQuestion
-from anymesh.types import Joint, JointType, Motion, Segmentation
+from anymesh.types import Joint, JointType, Motion, MotionKind, Segmentation
 
 
 def estimate_joints(
@@ -75,7 +75,10 @@ def ask_motion(around: Surroundings, name: str, label: str, answerer: Answerer) 
 def estimate_joint(around: Surroundings, name: str, parent: str, label: str, answerer: Answerer) -> Joint:
     """The joint of one part."""
     answer, best = ask_motion(around, name, label, answerer)
-    return joint_of(around, name, parent, best, answer.type, answer.confidence, answer.reason)
+    if answer.type is not JointType.FIXED:
+        return joint_of(around, name, parent, best, answer.type, answer.confidence, answer.reason)
+    kind = JointType.PRISMATIC if best.motion.kind is MotionKind.SLIDE else JointType.REVOLUTE  # somebody said that it moves
+    return joint_of(around, name, parent, best, kind, answer.confidence, f"{answer.reason}; likeliest: {best.motion.source}")
 
 
 def joint_of(

@@ -1,8 +1,11 @@
-"""The paper's single-observation setting (appendix A, table 3): what one picture with depth shows, its parts told by the
-segmentation of that picture, is all there is for the joints.
+"""The paper's single-observation setting (appendix A, table 3): one picture with depth, its parts told by the segmentation
+of that picture, is all there is for the joints.
 
-Pictures are as in OPDSynth, 256 pixels wide, from the front half and above, with a part at rest or part way open. Parts are
-the true ones in the picture (the paper's come from SAM and a vision-language model).
+Like OPDSynth's, pictures are 256 pixels wide, and one part stands part way open in some. Ours, where the paper does not say:
+- The masks are the true parts' (the paper's come from SAM and a vision-language model).
+- Cameras look from the side on which most of the movable parts is seen, up to 60 degrees aside and 10 to 40 above.
+- Every other picture shows the object at rest.
+- What the picture leaves open is filled before the joints are asked for (see `geometry.unseen`); the truth has no say in that.
 """
 
 from __future__ import annotations
@@ -62,7 +65,7 @@ def observed(subject: Subject, camera: Camera, rays: RayScene | None = None) -> 
     movable part or no base. Lengths of scores stay shares of the whole object's diagonal."""
     view = render(subject.mesh, camera, scene=rays)
     part = np.where(view.face >= 0, subject.labels[view.face], -1)
-    bordering = (part == 0) & (maximum_filter(part, 3) > 0)
+    bordering = (part == 0) & (maximum_filter(part, 3) > 0)  # a pixel of clearance: edges are known no better than that
     try:
         mesh, labels = visible_surface(view, np.where(bordering, -1, part))
     except ValueError:
@@ -74,7 +77,7 @@ def observed(subject: Subject, camera: Camera, rays: RayScene | None = None) -> 
     kept = np.flatnonzero(covered[labels])
     truth, number = _of_parts(subject.truth, np.flatnonzero(covered))
     mesh, labels = _closed(mesh.subset(kept), number[labels[kept]], view)
-    return Subject(truth, mesh, labels, subject.T, 2 * subject.unit)
+    return replace(subject, truth=truth, mesh=mesh, labels=labels, diagonal=2 * subject.unit)
 
 
 def _closed(mesh: Mesh, labels: Int[np.ndarray, " F"], view: View) -> tuple[Mesh, Int[np.ndarray, " G"]]:
@@ -99,7 +102,7 @@ def _closed(mesh: Mesh, labels: Int[np.ndarray, " F"], view: View) -> tuple[Mesh
 def opened(subject: Subject, among: Int[np.ndarray, " k"], rng: np.random.Generator) -> Subject:
     """The subject with the joint of one of these parts, drawn at random, part way open; as it is where none has limits."""
     names = {subject.truth.parts[k].name for k in among}
-    able = [j for j in subject.truth.joints if j.limits is not None and j.child in names]
+    able = [j for j in subject.truth.joints if j.limits is not None and j.range_known and j.child in names]
     if not able:
         return subject
     joint = able[int(rng.integers(len(able)))]

@@ -38,6 +38,9 @@ def _frame(first: np.ndarray, second: np.ndarray) -> np.ndarray | None:
     return np.stack([first, second, np.cross(first, second)])
 
 
+FLAT = 0.6  # share of the surface that faces one way from which a box lies along it
+
+
 def dominant_normals(
     normals: Float[np.ndarray, "n 3"], weights: Float[np.ndarray, " n"], count: int = 4
 ) -> Float[np.ndarray, "k 3"]:
@@ -63,7 +66,8 @@ def dominant_normals(
 def fit_box(points: Float[np.ndarray, "n 3"], normals: Float[np.ndarray, "m 3"], weights: Float[np.ndarray, " m"]) -> Box:
     """The smallest of the boxes along the asset axes, the dominant normals, and the principal directions.
 
-    A frame must be clearly smaller (3 %) to be preferred to the asset's own axes.
+    A frame must be clearly smaller (3 %) to be preferred to the asset's own axes. What is flat for the most part gets a box
+    along its face: a smaller one may tilt, where a handle stands out or less than all of the surface is known.
     """
     frames = [np.eye(3)]
     directions = dominant_normals(normals, weights)
@@ -76,6 +80,8 @@ def fit_box(points: Float[np.ndarray, "n 3"], normals: Float[np.ndarray, "m 3"],
         rest.extend(np.eye(3))
         frames.extend(f for second in rest if (f := _frame(first, second)) is not None)
     frames.append(_frame(principal[0], principal[1]) if len(points) > 2 else None)
+    if len(directions) and weights[np.abs(normals @ directions[0]) > np.cos(np.deg2rad(5))].sum() > FLAT * weights.sum():
+        frames = [f for f in frames if f is not None and np.abs(f @ directions[0]).max() > 1 - 1e-6] or frames
     best, best_volume = np.eye(3), np.inf
     slack = 1e-3 * float(np.linalg.norm(np.ptp(points, axis=0)))
     for frame in frames:

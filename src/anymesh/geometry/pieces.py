@@ -11,6 +11,8 @@ from scipy.spatial import KDTree
 
 from anymesh.config import PiecesConfig
 from anymesh.geometry.creases import convex_regions
+from anymesh.geometry.fronts import divide_fronts
+from anymesh.geometry.grips import region_sizes
 from anymesh.geometry.shape import Shape, Surface, surface_of
 from anymesh.geometry.simplify_ import simplify
 from anymesh.geometry.topology import label_connected
@@ -23,7 +25,8 @@ class ObjectShape:
     """The whole object, ready for both stages. Its surface is simplified where the mesh is dense, each piece on its own.
 
     shape: R faces; piece: (R,) the piece of each, see `split`; source: (R,) for each a face of the mesh in the same piece;
-    mesh_piece: (F,) the piece of every face of the mesh; shared: (k, 2) pieces that share edges; diagonal [m].
+    mesh_piece: (F,) the piece of every face of the mesh; shared: (k, 2) pieces that share edges; fronts: pieces that nothing
+    but a handle tells (see `fronts`); diagonal [m].
     """
 
     shape: Shape
@@ -31,6 +34,7 @@ class ObjectShape:
     source: Int[np.ndarray, " R"]
     mesh_piece: Int[np.ndarray, " F"]
     shared: Int[np.ndarray, "k 2"]
+    fronts: Int[np.ndarray, " p"]
     diagonal: float
 
     def of(self, faces: Int[np.ndarray, " n"]) -> Shape:
@@ -44,12 +48,13 @@ def object_shape(
     """Orients, splits and simplifies a mesh; the mesh itself is not changed. labels: (F,) parts that are kept apart."""
     config = config or PiecesConfig()
     s = surface_of(mesh, seed)
-    piece = split(s, config)
+    piece, told = split(s, config)
     pairs = np.sort(piece[s.parts.edges.faces], 1)
     shared = np.unique(pairs[pairs[:, 0] != pairs[:, 1]], axis=0)
     group = piece if labels is None else piece * (int(labels.max()) + 1) + labels
     shape, source = _simplified(s.shape, s.parts.flip[s.parts.label] & ~s.void[s.parts.label], group, config)
-    return ObjectShape(shape, piece[source], source, piece, shared, s.diagonal)
+    fronts = np.flatnonzero(np.bincount(piece, np.where(told, s.shape.areas, -s.shape.areas)) > 0)
+    return ObjectShape(shape, piece[source], source, piece, shared, fronts, s.diagonal)
 
 
 def _simplified(
@@ -72,24 +77,26 @@ def _simplified(
     return Shape(found, normals_and_areas(found)[0], shape.solid[where], np.arange(len(found)), shape.seed), where
 
 
-def split(whole: Surface, config: PiecesConfig) -> Int[np.ndarray, " F"]:
-    """A piece number a face, numbered from 0 in the order of the pieces' first faces.
+def split(whole: Surface, config: PiecesConfig) -> tuple[Int[np.ndarray, " F"], Bool[np.ndarray, " F"]]:
+    """A piece number a face, numbered from 0 in the order of the pieces' first faces; and the faces that are on a front that
+    nothing but a handle tells.
 
     Components are cut along their concave creases, sharp or soft, where they are large enough to hide a fused part; crumbs
     left by the cut go to the neighbour that they share the longest edge with.
     """
     component = whole.parts.label
-    large = _diagonals(whole, component) > config.fused_size * whole.diagonal
+    large = region_sizes(whole, component) > config.fused_size * whole.diagonal
     edges = whole.parts.edges
     pairs = edges.faces
     concave = _concave(whole, config.crease)
     soft = _soft_regions(whole, component, large, config)
     cut = (concave & edges.aligned & large[component[pairs[:, 0]]]) | (soft[pairs[:, 0]] != soft[pairs[:, 1]])
-    region = label_connected(len(component), pairs[~cut])
+    region, told = divide_fronts(whole, label_connected(len(component), pairs[~cut]))
+    cut |= region[pairs[:, 0]] != region[pairs[:, 1]]
     length = np.linalg.norm(_ends(whole, 0) - _ends(whole, 1), axis=1)
     region = _absorb_crumbs(whole, region, pairs[cut], length[cut], config)
     region = _fill_voids(whole, region)
-    return _limit_count(whole, region, config.most_pieces)
+    return _limit_count(whole, region, config.most_pieces), told
 
 
 def _soft_regions(whole: Surface, component: np.ndarray, large: np.ndarray, config: PiecesConfig) -> np.ndarray:
@@ -119,21 +126,12 @@ def _concave(whole: Surface, least: float) -> np.ndarray:
     return (inward > 0) & (cosine < np.cos(np.deg2rad(least)))
 
 
-def _diagonals(whole: Surface, label: np.ndarray) -> np.ndarray:
-    """Diagonal of the axis-aligned box of every label [m]."""
-    count = int(label.max()) + 1
-    low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
-    np.minimum.at(low, label, whole.shape.triangles.min(1))
-    np.maximum.at(high, label, whole.shape.triangles.max(1))
-    return np.linalg.norm(high - low, axis=1)
-
-
 def _absorb_crumbs(
     whole: Surface, region: np.ndarray, pairs: np.ndarray, length: np.ndarray, config: PiecesConfig
 ) -> np.ndarray:
     """Joins regions too small to matter to the neighbour with the longest common border; three rounds settle chains."""
     for _ in range(3):
-        small = _diagonals(whole, region) < config.crumb * whole.diagonal
+        small = region_sizes(whole, region) < config.crumb * whole.diagonal
         small |= np.bincount(region, whole.shape.areas) < (config.crumb * whole.diagonal) ** 2  # slivers along a groove
         a, b = region[pairs[:, 0]], region[pairs[:, 1]]
         source, target = np.r_[a, b], np.r_[b, a]
@@ -169,7 +167,7 @@ def _limit_count(whole: Surface, region: np.ndarray, most: int) -> np.ndarray:
     count = int(region.max()) + 1
     if count <= most:
         return region
-    size = _diagonals(whole, region)
+    size = region_sizes(whole, region)
     keep = np.sort(np.argsort(-size, kind="stable")[:most])
     kept = np.isin(region, keep)
     centers = whole.shape.triangles.mean(1)

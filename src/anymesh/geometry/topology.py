@@ -10,6 +10,8 @@ from jaxtyping import Bool, Float, Int
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
+LEVEL = 0.05  # [rad] faces at an edge that differ by less lie in one plane, as far as careless exports go
+
 
 def weld(vertices: Float[np.ndarray, "V 3"]) -> Int[np.ndarray, " V"]:
     """A number a position: vertices nearer than one part in 2**24 of the largest extent share it, wherever they lie.
@@ -74,7 +76,7 @@ def edge_pairs(vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"]
     left, right = [two], [two + 1]
     for count in np.unique(size[size > 2]):
         rows = start[size == count][:, None] + np.arange(count)
-        i, j = _across_material(vertices, ends[rows], third[rows], forward[rows])
+        i, j = _across_material(vertices, ends[rows], third[rows], forward[rows], owner[rows])
         left.append(rows[i, j[0]])
         right.append(rows[i, j[1]])
     i, j = np.concatenate(left), np.concatenate(right)
@@ -85,9 +87,10 @@ def edge_pairs(vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"]
 
 
 def _across_material(
-    vertices: np.ndarray, ends: np.ndarray, third: np.ndarray, forward: np.ndarray
+    vertices: np.ndarray, ends: np.ndarray, third: np.ndarray, forward: np.ndarray, owner: np.ndarray
 ) -> tuple[np.ndarray, tuple[np.ndarray, np.ndarray]]:
-    """Pairs (row, (slot, slot)) among the n faces around each of m edges: a face and the next one behind its surface."""
+    """Pairs (row, (slot, slot)) among the n faces around each of m edges: a face and the next one behind its surface, of
+    several that lie in one plane (bodies that overlap) the nearest in the file."""
     low = np.where(forward[:, :1, None], vertices[ends[:, :1, 0]], vertices[ends[:, :1, 1]])
     high = np.where(forward[:, :1, None], vertices[ends[:, :1, 1]], vertices[ends[:, :1, 0]])
     edge = high - low
@@ -98,9 +101,10 @@ def _across_material(
     v = np.cross(edge, u)
     angle = np.arctan2((into * v).sum(2), (into * u).sum(2))
     turn = (angle[:, :, None] - angle[:, None, :]) % (2 * np.pi)
-    turn = np.where((turn < 1e-4) | (turn > 2 * np.pi - 1e-4), 2 * np.pi, turn)
+    turn = np.where((turn < LEVEL) | (turn > 2 * np.pi - LEVEL), 2 * np.pi, turn)
     turn = np.where(forward[:, :, None] & ~forward[:, None, :], turn, np.inf)
-    mate, back = turn.argmin(2), turn.argmin(1)
+    apart = np.abs(owner[:, :, None] - owner[:, None, :])
+    mate, back = (np.where(turn <= turn.min(k, keepdims=True) + LEVEL, apart, np.inf).argmin(k) for k in (2, 1))
     row, slot = np.nonzero(np.isfinite(turn.min(2)))
     mutual = back[row, mate[row, slot]] == slot
     row, slot = row[mutual], slot[mutual]

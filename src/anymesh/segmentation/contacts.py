@@ -15,6 +15,8 @@ from anymesh.geometry.pieces import ObjectShape
 from anymesh.geometry.shape import Shape
 from anymesh.geometry.topology import label_connected
 
+FLAT = 0.6  # length of the mean normal of a sheet, with its handle; 1 where it is plane
+SAME_WAY = 0.95  # cosine
 PROBES = 160  # points of a piece that are measured against another
 
 
@@ -30,7 +32,7 @@ class Contacts:
     touch: Int[np.ndarray, "m 2"]
     near: Int[np.ndarray, "k 2"]
     body: Int[np.ndarray, " P"]
-    area: dict[tuple[int, int], float]  # area of the first piece that touches the second [m^2]
+    area: dict[tuple[int, int], float]  # of the first piece that touches the second [m^2]; none for one flat surface
 
 
 def find_contacts(whole: ObjectShape, config: SegmentationConfig) -> Contacts:
@@ -54,6 +56,8 @@ def find_contacts(whole: ObjectShape, config: SegmentationConfig) -> Contacts:
     apart = _neighbours(near, body, shapes, tolerance)
     area = {}
     for i, j in touch:
+        if (i, j) in shared and _goes_on(shapes[i], shapes[j]):
+            continue  # fronts side by side hold nothing of each other
         area[i, j], area[j, i] = (_touching(shapes[a], shapes[b], 2 * tolerance) for a, b in ((i, j), (j, i)))
     return Contacts(shapes, pairs, apart, body, area)
 
@@ -78,6 +82,13 @@ def _neighbours(near: list[tuple[int, int, float]], body: np.ndarray, shapes: tu
         if gap <= most.setdefault(int(body[small]), factor * gap) + slack:
             kept.append((min(small, large), max(small, large)))
     return np.array(sorted(kept), np.int64).reshape(-1, 2)
+
+
+def _goes_on(a: Shape, b: Shape) -> bool:
+    """Whether both are sheets that face the same way."""
+    mean = [s.areas @ s.normals / max(s.area, 1e-300) for s in (a, b)]
+    length = [float(np.linalg.norm(m)) for m in mean]
+    return min(length) > FLAT and bool(mean[0] @ mean[1] > SAME_WAY * length[0] * length[1])
 
 
 def _touching(a: Shape, b: Shape, tolerance: float) -> float:

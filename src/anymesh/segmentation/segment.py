@@ -17,6 +17,7 @@ from anymesh.config import Config
 from anymesh.geometry.pieces import ObjectShape
 from anymesh.geometry.surroundings import Surroundings
 from anymesh.progress import Progress, silent
+from anymesh.reasoning.movable import ENOUGH
 from anymesh.reasoning.questions import Answerer, Candidate, MotionAnswer, PartAnswer
 from anymesh.reasoning.vocabulary import recognize
 from anymesh.segmentation.contacts import Contacts, find_contacts
@@ -30,6 +31,7 @@ Moves = Callable[[Surroundings, str], tuple[MotionAnswer, Candidate]]  # Stage B
 
 DOUBTFUL = -0.4  # evidence from which the motion of what touches nothing is looked at
 PLAINLY = 1.8  # evidence that unseats a root
+FRONT = 1.6  # what it counts that a layout of handles makes a piece one of the fronts
 
 
 @dataclass(frozen=True, eq=False)
@@ -148,6 +150,9 @@ def _judged(
     context = Context(whole, config.segmentation, units.names[u], separate, twins, carrier is not None)
     evidence = gather(around, context)
     answer = answerer.is_part(evidence)
+    if not answer.moves and np.isin(np.flatnonzero(units.unit == u), whole.fronts).any():
+        score = answer.score + FRONT
+        answer = replace(answer, moves=score >= ENOUGH, label="door", score=score, reason="a front with a handle of its own")
     if not answer.moves and not (separate and answer.score > DOUBTFUL):
         return None
     motion, best = moves(around, answer.label if units.names[u] else "part")

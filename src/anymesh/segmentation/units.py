@@ -59,7 +59,7 @@ def _most(numbers: np.ndarray) -> int:
 
 
 def root_ranking(whole: ObjectShape, contacts: Contacts) -> list[int]:
-    """The pieces that the rest may hang on, likeliest first: large, much touched, standing on the ground."""
+    """The pieces that the rest may hang on, likeliest first: large, much touched, standing on the ground, and no front."""
     degree = np.bincount(contacts.touch.reshape(-1), minlength=len(contacts.shapes))
     low = whole.shape.bounds[0, 2] + 0.02 * whole.diagonal
     rank = []
@@ -68,7 +68,8 @@ def root_ranking(whole: ObjectShape, contacts: Contacts) -> list[int]:
         samples = s.samples
         stands = ((samples.points[:, 2] < low) & (samples.normals[:, 2] < -0.7)).mean() if len(samples) else 0.0
         rank.append(size * (1.3 if stands > 0.05 else 1.0))
-    return [int(i) for i in np.argsort(-np.array(rank), kind="stable")]
+    order = np.lexsort((-np.array(rank), np.isin(np.arange(len(rank)), whole.fronts)))
+    return [int(i) for i in order]
 
 
 def size_of(units: Units, chosen: list[int]) -> float:

@@ -1,0 +1,117 @@
+"""Where the borders of fronts run that nothing but their handles tell: a face of a fused cabinet, one front a handle.
+
+Fronts tile a face by cuts from side to side (a guillotine layout, as of facades). A grip sits in the middle of its front
+along itself (a drawer, a flap) or next to an edge that it runs along (a door); a knob in the middle or next to an edge.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+
+import numpy as np
+from jaxtyping import Float, Int
+from scipy import ndimage
+
+MIDDLE = 0.25  # what being off the middle across the grip counts, against along it
+SLENDER = 5.0  # sides of a front; what would be longer is no front, but one in a row of controls
+GRID = 32  # cells along each side of a face, to find the rectangle that it fills
+FILL = 0.9  # share of the cells that it must fill
+MOST = 12  # handles on one face; more of them are no handles
+
+
+@dataclass(frozen=True)
+class Front:
+    """A rectangle of the face and the handle in it."""
+
+    low: tuple[float, float]
+    high: tuple[float, float]
+    handle: int
+
+
+def filled(
+    points: Float[np.ndarray, "n 2"], around: Float[np.ndarray, "2 2"]
+) -> tuple[Float[np.ndarray, " 2"], Float[np.ndarray, " 2"]] | None:
+    """Lower and upper corner of the largest rectangle that the points fill, holes counted in, and that holds `around` (its
+    lower and upper corner); None when there is none."""
+    low, high = points.min(0), points.max(0)
+    size = np.maximum((high - low) / GRID, 1e-300)
+
+    def cell(p: np.ndarray) -> np.ndarray:
+        return np.clip(((p - low) / size).astype(int), 0, GRID - 1)
+
+    there = np.zeros((GRID, GRID), bool)
+    there[tuple(cell(points).T)] = True
+    total = np.pad(ndimage.binary_fill_holes(there), ((1, 0), (1, 0))).astype(int).cumsum(0).cumsum(1)
+    (a0, b0), (a1, b1) = cell(around)
+    i, j, k, m = np.meshgrid(
+        np.arange(a0 + 1), np.arange(b0 + 1), np.arange(a1 + 1, GRID + 1), np.arange(b1 + 1, GRID + 1), indexing="ij"
+    )
+    area = (k - i) * (m - j)
+    full = total[k, m] - total[i, m] - total[k, j] + total[i, j] >= FILL * area
+    if not full.any():
+        return None
+    at = np.unravel_index(np.where(full, area, 0).argmax(), area.shape)
+    return low + size * [i[at], j[at]], low + size * [k[at], m[at]]
+
+
+def tile(
+    low: Float[np.ndarray, " 2"],
+    high: Float[np.ndarray, " 2"],
+    handles: Float[np.ndarray, "h 2 2"],
+    along: Int[np.ndarray, " h"],
+) -> tuple[Front, ...]:
+    """The fronts of the likeliest layout of a face, one a handle; none where that is no layout of fronts.
+
+    handles: (h, 2, 2) lower and upper corner of each; along: (h,) the axis that each runs along, -1 for a knob.
+    """
+    if not 0 < len(handles) <= MOST:
+        return ()
+
+    @cache
+    def best(box: tuple[float, ...], members: tuple[int, ...]) -> tuple[float, tuple[Front, ...]]:
+        if len(members) == 1:
+            front = Front((box[0], box[1]), (box[2], box[3]), members[0])
+            return _unlikely(front, handles[members[0]], int(along[members[0]])), (front,)
+        found: tuple[float, tuple[Front, ...]] = (np.inf, ())
+        for axis in (0, 1):
+            for at, before, after in _cuts(box, members, handles, axis):
+                one = best((*box[: 2 + axis], at, *box[3 + axis :]), before)
+                two = best((*box[:axis], at, *box[axis + 1 :]), after)
+                if one[0] + two[0] < found[0]:
+                    found = (one[0] + two[0], one[1] + two[1])
+        return found
+
+    cost, fronts = best((float(low[0]), float(low[1]), float(high[0]), float(high[1])), tuple(range(len(handles))))
+    return fronts if np.isfinite(cost) else ()
+
+
+def _unlikely(front: Front, handle: np.ndarray, along: int) -> float:
+    """How far the handle is from where it would be on such a front: 0 just there; infinite for what is no front."""
+    low, high = np.array(front.low), np.array(front.high)
+    sides = high - low
+    if sides.max() > SLENDER * sides.min():
+        return np.inf
+    off = np.abs(handle.mean(0) - (low + high) / 2) / sides  # 0 in the middle, .5 at the edge
+    if along < 0:
+        return float(min(off.sum(), 1 - 2 * off.max()))
+    return float(min(2 * off[along] + MIDDLE * off[1 - along], 1 - 2 * off[1 - along]))
+
+
+def _cuts(
+    box: tuple[float, ...], members: tuple[int, ...], handles: np.ndarray, axis: int
+) -> list[tuple[float, tuple[int, ...], tuple[int, ...]]]:
+    """Places to cut a rectangle across an axis, with the handles on both sides: half way between two handles, and where a
+    handle would be in the middle of its front."""
+    order = sorted(members, key=lambda h: handles[h, 0, axis])
+    found = []
+    for k in range(1, len(order)):
+        before, after = tuple(sorted(order[:k])), tuple(sorted(order[k:]))
+        start = max(handles[h, 1, axis] for h in before)
+        end = min(handles[h, 0, axis] for h in after)
+        if start >= end:
+            continue
+        middles = [float(handles[h, :, axis].mean()) for h in members]
+        mirrored = [2 * m - box[axis + side] for m in middles for side in (0, 2)]
+        found += [(at, before, after) for at in ((start + end) / 2, *mirrored) if start < at < end]
+    return found
