@@ -20,7 +20,10 @@ from anymesh.config import Config
 from anymesh.evaluation.datasets.scene_synthesizer_ import CLASSES, synthesize
 from anymesh.evaluation.oracle import Noisy
 from anymesh.evaluation.protocols import evaluate
-from anymesh.evaluation.score import JointScore, ObjectScore, table
+from anymesh.evaluation.record import Record
+from anymesh.evaluation.report import markdown
+from anymesh.evaluation.score import JointScore, ObjectScore
+from anymesh.evaluation.tables import group_table
 from anymesh.evaluation.truth import Truth, example_truths
 from anymesh.solving import solve
 
@@ -57,7 +60,8 @@ def report(title: str, truths: Sequence[Truth], verify: str, given: bool) -> str
     lines = [f"## {protocol} ({time.perf_counter() - begin:.0f} s)", ""]
     exact, iou = np.mean([j.type_found == j.type_true for j in joints]), np.mean([j.iou for j in joints])
     lines += [f"Exact types {exact:.3f}, part mIoU {iou:.3f}, joints right {np.mean([right(j) for j in joints]):.3f}.", ""]
-    lines += [table(scores), ""]
+    records = [Record(s) for s in scores]
+    lines += [markdown(group_table("Objects", [*((r.title, [r]) for r in records), ("all", records)])), ""]
     print("\n".join(lines), flush=True)
     return "\n".join(lines)
 

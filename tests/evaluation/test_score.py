@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from assets import cabinet
 
-from anymesh.evaluation.score import ObjectScore, failed, score, table
+from anymesh.evaluation.score import ObjectScore, failed, score
 from anymesh.evaluation.truth import Subject, TrueJoint, Truth
 from anymesh.types import Asset, Joint, JointType, Part, Segmentation
 
@@ -190,11 +190,3 @@ def test_opening_both_ways_is_right_either_way() -> None:
         joints = [replace(j, limits=limits) if j.child == "door" else j for j in ASSET.joints]
         found = of(scored(joints, truth=swing), "door")
         assert (found.opens_right, found.displacement) == (True, pytest.approx(0, abs=1e-9))
-
-
-def test_the_table_has_a_row_an_object_and_the_totals() -> None:
-    lines = table([scored(), changed("door", type=JointType.PRISMATIC)]).splitlines()
-    assert len(lines) == 2 + 2 + 1
-    assert {line.count("|") for line in lines} == {lines[0].count("|")}
-    assert "6 / 6 / 6" in lines[-1]
-    assert "| 0.833 |" in lines[-1]  # five of six types

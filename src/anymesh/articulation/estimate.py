@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from anymesh.articulation.evidence import part_facts, weigh_all
@@ -12,9 +14,16 @@ from anymesh.config import ArticulationConfig, Config
 from anymesh.geometry.pieces import ObjectShape
 from anymesh.geometry.shape import Shape
 from anymesh.geometry.surroundings import Surroundings, rods
+from anymesh.geometry.sweep import free_amount
 from anymesh.progress import Progress, silent
 from anymesh.reasoning.questions import Answerer, Candidate, MotionAnswer, MotionQuestion
 from anymesh.types import Joint, JointType, Motion, MotionKind, Segmentation
+
+SAME_RIM = 0.01  # share of the scale: hinge lines this near, or as near as the part is thick, are at one rim
+PARALLEL = 0.999  # cosine of their axes
+WIDE = np.deg2rad(110)  # of an opening that a hinge needs no more than
+TIGHT = 0.2  # factor on the penetration that counts: neighbours are a few millimetres away
+NOTICED = np.deg2rad(5)  # a line that lets the part open further by less is no better
 
 
 def estimate_joints(
@@ -69,7 +78,31 @@ def ask_motion(around: Surroundings, name: str, label: str, answerer: Answerer) 
     candidates = weigh_all(around, proposed)
     facts = part_facts(around, name, label, any(role == "bail" for role, _ in proposed))
     answer = answerer.which_motion(MotionQuestion(facts, candidates))
-    return answer, candidates[answer.ranking[0]]
+    return answer, _clear_of_others(around, candidates[answer.ranking[0]], candidates)
+
+
+def _clear_of_others(around: Surroundings, best: Candidate, candidates: tuple[Candidate, ...]) -> Candidate:
+    """Of the lines through the thickness of the part at the hinge that was chosen, the one about which the other parts, at
+    rest, let it open furthest: nothing of the part's own shape tells them apart."""
+    rims = ("edge", "edge_mid")
+    if best.role not in rims or not around.siblings:
+        return best
+    near = replace(around, slack=TIGHT).held_by
+    thickness = max(2 * float(around.core.half[2]), SAME_RIM * around.scale)
+
+    def opens(c: Candidate) -> float:
+        return free_amount(near, opening_motion(c), 1, min(c.opening, WIDE), around.config.sweep_steps)[0]
+
+    twins = [c for c in candidates if c.role in rims and _at_one_rim(best, c, thickness)]
+    free = {id(c): opens(c) for c in twins}
+    most = max(free.values())
+    return best if free[id(best)] > most - NOTICED else next(c for c in twins if free[id(c)] == most)
+
+
+def _at_one_rim(a: Candidate, b: Candidate, thickness: float) -> bool:
+    if abs(float(a.motion.axis @ b.motion.axis)) < PARALLEL:
+        return False
+    return float(np.linalg.norm(np.cross(b.motion.origin - a.motion.origin, a.motion.axis))) < 1.5 * thickness
 
 
 def estimate_joint(around: Surroundings, name: str, parent: str, label: str, answerer: Answerer) -> Joint:

@@ -164,32 +164,3 @@ def _opens_alike(found: Joint, true: TrueJoint) -> bool | None:
         return False
     way = opening_side(found.limits) * opening_side(true.limits) * float(found.axis @ true.axis)
     return opens_both_ways(true.limits) or way > 0
-
-
-def table(scores: list[ObjectScore]) -> str:
-    """A Markdown table, an object a row, and the totals."""
-    columns = "object, parts found / true / predicted, F1, type, angle mean / worst [deg], position mean / worst, opens, range"
-    head = f"| {columns.replace(', ', ' | ')} |"
-    lines = [head, "|---|---|---|---|---|---|---|---|"]
-    lines += [_row(s.name, list(s.joints), s.matched, s.true, s.predicted, s.f1) for s in scores]
-    joints = [j for s in scores for j in s.joints]
-    matched, true, predicted = (sum(getattr(s, k) for s in scores) for k in ("matched", "true", "predicted"))
-    lines.append(_row("**all**", joints, matched, true, predicted, 2 * matched / max(true + predicted, 1)))
-    return "\n".join(lines)
-
-
-def _row(name: str, joints: list[JointScore], matched: int, true: int, predicted: int, f1: float) -> str:
-    def mean(values: list[float]) -> str:
-        return f"{np.mean(values):.3f}" if values else "-"
-
-    angles = [j.angle for j in joints if j.angle is not None]
-    positions = [j.line_distance for j in joints if j.line_distance is not None]
-    types = [float(j.type_right) for j in joints]
-    opens = [float(j.opens_right) for j in joints if j.opens_right is not None]
-    ranges = [j.range_iou or 0.0 for j in joints if j.range_known]
-    angle = f"{np.mean(angles):.2f} / {max(angles):.2f}" if angles else "-"
-    position = f"{np.mean(positions):.4f} / {max(positions):.4f}" if positions else "-"
-    return (
-        f"| {name} | {matched} / {true} / {predicted} | {f1:.2f} | {mean(types)} | {angle} | {position} | "
-        f"{mean(opens)} | {mean(ranges)} |"
-    )
