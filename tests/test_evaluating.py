@@ -87,6 +87,7 @@ def test_a_crash_is_this_objects_failure_and_a_silent_model_ends_it_all(tmp_path
         evaluate(SET, tmp_path / "b", only=["valve"], jobs=1)
 
 
+@pytest.mark.slow
 def test_processes_and_this_one_find_the_same(tmp_path: Path) -> None:
     def found(jobs: int) -> list[object]:
         records = evaluate(SET, tmp_path / str(jobs), only=["valve", "laptop"], jobs=jobs)

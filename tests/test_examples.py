@@ -5,7 +5,8 @@ from pathlib import Path
 import contract
 import pytest
 
-from anymesh.evaluation.protocols import evaluate
+from anymesh.evaluation.protocols import prepared
+from anymesh.evaluation.score import score
 from anymesh.evaluation.truth import example_truths
 from anymesh.loading import load_mesh, place_mesh
 from anymesh.pipeline import articulate
@@ -18,8 +19,10 @@ TRUTHS = {t.name: t for t in example_truths(EXAMPLES)}
 
 
 @pytest.mark.parametrize("name", sorted(TRUTHS))
-def test_example_comes_out_right(name: str) -> None:
-    result = evaluate(TRUTHS[name], solve)
+def test_example_comes_out_right_keeps_the_contract_and_moves_in_mujoco(name: str, tmp_path: Path) -> None:
+    subject = prepared(TRUTHS[name])
+    asset = articulate(TRUTHS[name].mesh, tmp_path / "out")
+    result = score(subject, asset.segmentation, asset.joints)
     assert result.predicted == result.true == result.matched
     for joint in result.joints:
         assert joint.iou >= 0.8
@@ -30,13 +33,7 @@ def test_example_comes_out_right(name: str) -> None:
         assert joint.opens_right is not False
         assert joint.range_iou is None or joint.range_iou >= 0.3 or joint.type_true is JointType.CONTINUOUS
         assert joint.parent_right
-
-
-@pytest.mark.parametrize("name", sorted(TRUTHS))
-def test_outputs_keep_the_contract_and_move_in_mujoco(name: str, tmp_path: Path) -> None:
-    mesh = TRUTHS[name].mesh
-    articulate(mesh, tmp_path / "out")
-    assert list(contract.faults(tmp_path / "out", mesh)) == []
+    assert list(contract.faults(tmp_path / "out", TRUTHS[name].mesh)) == []
     report = sweep_joints(tmp_path / "out" / f"{name}.urdf", steps=40)
     assert len(report.joints) == len(TRUTHS[name].joints)
     assert report.ok, report

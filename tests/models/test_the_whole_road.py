@@ -9,7 +9,7 @@ import jsonschema
 import pytest
 from wire import SECRET, Service, _openai, _openai_content
 
-from anymesh import pipeline
+from anymesh import answering
 from anymesh.cli import run
 from anymesh.config import Config, GroundingConfig, ViewsConfig
 from anymesh.evaluation.oracle import oracle
@@ -67,7 +67,7 @@ class Model:
 def model(said: Said, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[Model]:
     monkeypatch.setenv("ANYMESH_API_KEY", SECRET)
     monkeypatch.setenv("ANYMESH_CACHE", str(tmp_path / "cache"))
-    monkeypatch.setattr(pipeline, "Config", FEW)
+    monkeypatch.setattr(answering, "Config", FEW)
     monkeypatch.chdir(tmp_path)
     found = Model(said)
     found.service.turns.append(found.answer)
