@@ -64,6 +64,8 @@ def examine(exam: Exam, dataset: Dataset, name: str, folder: Path, solver: Solve
             truth = dataset.truth(name, Path(work))
         except InputError as error:
             return [Record(ObjectScore(name, (), 0, 0, 0), error=str(error))]
+        if exam.protocol is Protocol.VIEWS and not truth.joints:
+            return []  # no picture shows a part that moves
         return [_record(exam, truth, variant, folder, solver, see) for variant in _variants(exam)]
 
 
