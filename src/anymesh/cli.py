@@ -70,6 +70,11 @@ Cache = Annotated[
 Seed = Annotated[int, typer.Option(help="From 0 up; same input and seed, same bytes.")]
 Up = Annotated[str, typer.Option(help="The file's up axis: auto, x, y, z.")]
 Scale = Annotated[str, typer.Option(help="auto, a factor to metres, or METRES:AXIS such as 0.9:z.")]
+FORMATS = "urdf,mjcf,sdf,glb"
+Package = Annotated[Path | None, typer.Option(metavar="DIR", help="Also a ROS 2 package of the URDF, as a new folder in DIR.")]
+Zip = Annotated[Path | None, typer.Option("--zip", metavar="FILE", help="Also the asset as one zip file.")]
+BaseName = Annotated[str, typer.Option("--base", help="fixed or free: whether the root link is fixed to the world.")]
+Formats = Annotated[str, typer.Option(help="Of urdf, mjcf, usd, sdf, glb, with commas between; usd needs its extra.")]
 Force = Annotated[bool, typer.Option("--force", help="Replace an existing output.")]
 Json = Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")]
 Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="No progress, no summary.")]
@@ -104,6 +109,8 @@ def articulate(
     seed: Seed = 0,
     up: Up = "auto",
     scale: Scale = "auto",
+    base: BaseName = "fixed",
+    formats: Formats = FORMATS,
     force: Force = False,
     json_: Json = False,
     quiet: Quiet = False,
@@ -113,7 +120,7 @@ def articulate(
 
     with Shown(quiet or json_) as progress:
         asset = pipeline.articulate(
-            mesh, out, parts=parts, up=up, scale=scale, force=force, progress=progress,
+            mesh, out, parts=parts, up=up, scale=scale, base=base, formats=formats, force=force, progress=progress,
             answerer=answerer, parts_list=_labels(parts_list), proposer=proposer, verify=verify, category=category,
             seed=seed, max_calls=max_calls, max_cost=max_cost, **cache_of(cache),
         )  # fmt: skip
@@ -185,12 +192,20 @@ def _labels(told: str) -> tuple[str, ...]:
 
 
 @app.command(epilog=EXIT_CODES)
-def export(folder: Folder, json_: Json = False, quiet: Quiet = False) -> None:
+def export(
+    folder: Folder,
+    base: BaseName = "fixed",
+    formats: Formats = FORMATS,
+    package: Package = None,
+    zip_: Zip = None,
+    json_: Json = False,
+    quiet: Quiet = False,
+) -> None:
     """Writes the files of the asset whose stages are in DIR."""
     from anymesh import pipeline
 
     with Shown(quiet or json_) as progress:
-        asset = pipeline.export(folder, progress=progress)
+        asset = pipeline.export(folder, base=base, formats=formats, package=package, archive=zip_, progress=progress)
     tell_asset(asset, folder, json_, quiet)
 
 

@@ -56,7 +56,7 @@ def tell_asset(asset: Asset, out: Path, json_: bool, quiet: bool) -> None:
     if not (json_ or quiet):
         if asset.exchanges:
             typer.echo(_spent(record["usage"], out))
-        typer.echo(f"wrote {out / asset.name}.urdf, {asset.name}.glb, preview.png and asset.json")
+        typer.echo(f"wrote {asset.name} to {out}: preview.png shows it, asset.json names its files")
 
 
 def _spent(usage: dict[str, Any], out: Path) -> str:

@@ -21,8 +21,8 @@ def legal_name(name: str, *, fallback: str = "part") -> str:
     if not plain[0].isalpha():
         plain = f"{fallback}_{plain.lstrip('_')}"
     plain = plain[:LONGEST]
-    # `door` writes door_collision.obj, so no link may be called that.
-    if plain.lower() in RESERVED or plain.lower().endswith("_collision"):
+    # `door` writes door_collision.obj and door_collision_1.obj, so no link may be called that.
+    if plain.lower() in RESERVED or re.search(r"_collision(_\d+)?$", plain.lower()):
         plain = f"{plain[: LONGEST - 5]}_{fallback}"
     return plain
 

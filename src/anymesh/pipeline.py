@@ -5,13 +5,18 @@ from __future__ import annotations
 import time
 from collections.abc import Generator
 from contextlib import contextmanager
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TypeVar, Unpack
 
 from anymesh.answering import Answerer, Answering, choose_answerer
-from anymesh.export import write_asset
+from anymesh.errors import OptionError
+from anymesh.export import Base, Format, parse_formats, write_asset
+from anymesh.export.archive import write_zip
+from anymesh.export.formats import DEFAULT
+from anymesh.export.package import write_package
 from anymesh.loading import load_mesh, place_mesh
+from anymesh.models.cache import cache_folder
 from anymesh.progress import Progress, silent
 from anymesh.rendering.preview import write_preview
 from anymesh.run_folder import RunFolder, stage_key
@@ -30,20 +35,24 @@ def articulate(
     up: str = "auto",
     scale: str = "auto",
     force: bool = False,
+    base: str = Base.FIXED,
+    formats: str = ",".join(DEFAULT),
     progress: Progress = silent,
     **answering: Unpack[Answering],
 ) -> Asset:
     """Turns a rigid mesh into an articulated asset and writes it to the folder `out`.
 
     parts: "auto", "nodes" (the scene's nodes) or a file of face labels; up: auto, x, y, z; scale: auto, a factor (file units
-    to metres) or METRES:AXIS. Raises InputError, OptionError, OutputError, ModelError; then nothing is written.
+    to metres) or METRES:AXIS; base: fixed or free; formats: of urdf, mjcf, usd, sdf, glb, with commas between. Raises
+    InputError, OptionError, OutputError, ModelError; then nothing is written.
     """
+    how = Exported.parse(base, formats)
     who = choose_answerer(answering)
     with RunFolder.create(Path(out), source=Path(mesh_path), force=force) as run:
         solver, recognized, key = _seen(run, Path(mesh_path), parts, up, scale, who, progress)
         segmented, key = _segment(run, solver, recognized, key, parts, who, progress)
         _join(run, solver, recognized, segmented, key, who, progress)
-        return _export(run, progress)
+        return _export(run, how, progress)
 
 
 def segment(
@@ -73,17 +82,36 @@ def joints(folder: str | Path, *, progress: Progress = silent, **answering: Unpa
         return _join(run, solver, recognized, segmented, run.key(SEGMENTATION), who, progress).joints
 
 
-def export(folder: str | Path, *, progress: Progress = silent) -> Asset:
-    """Writes the files of the asset that `segment` and `joints` saved in `folder`."""
+def export(
+    folder: str | Path,
+    *,
+    base: str = Base.FIXED,
+    formats: str = ",".join(DEFAULT),
+    package: str | Path | None = None,
+    archive: str | Path | None = None,
+    progress: Progress = silent,
+) -> Asset:
+    """Writes the files of the asset that `segment` and `joints` saved in `folder`. Options as for `articulate`.
+
+    package: a folder that gets a ROS 2 package of the URDF; archive: a zip file of the asset.
+    """
+    how = Exported.parse(base, formats)
+    if package is not None and Format.URDF not in how.formats:
+        raise OptionError(f"--package needs the format urdf, found {formats!r}")
     with RunFolder.open(Path(folder)) as run:
-        return _export(run, progress)
+        asset = _export(run, how, progress)
+    if package is not None:
+        write_package(Path(folder), Path(package), base=how.base)
+    if archive is not None:
+        write_zip(Path(folder), Path(archive))
+    return asset
 
 
 def _seen(
     run: RunFolder, path: Path, parts: str, up: str, scale: str, who: Answerer, progress: Progress
 ) -> tuple[Solver, Recognized, str]:
     """The mesh placed, looked at, and in the size that was answered; ready for both stages."""
-    placed, key = _place(run, path, up, scale, progress)
+    placed, key = _place(run, path, up, scale, who.config.category, progress)
     solver = Solver(placed.mesh, who.config, who.see)
     if parts != "auto":
         solver.parts(parts)  # what is wrong with them is better told before anything is asked
@@ -92,14 +120,16 @@ def _seen(
     return (solver if sized is placed else Solver(sized.mesh, who.config, who.see)), recognized, key
 
 
-def _place(run: RunFolder, path: Path, up: str, scale: str, progress: Progress) -> tuple[Placed, str]:
+def _place(run: RunFolder, path: Path, up: str, scale: str, category: str | None, progress: Progress) -> tuple[Placed, str]:
     progress("load", path.name, 0, 1)
     with _timed(run, "load"):
         loaded = load_mesh(path)
-        key = stage_key(MESH, previous=loaded.sha256, config={"up": up, "scale": scale, "path": str(path)})
+        key = stage_key(
+            MESH, previous=loaded.sha256, config={"up": up, "scale": scale, "category": category, "path": str(path)}
+        )
         found = run.load(MESH, key)
         if found is None:
-            p = place_mesh(loaded, up=up, scale=scale)
+            p = place_mesh(loaded, up=up, scale=scale, category=category)
             source = Source(str(path), loaded.sha256, p.T_asset_source, p.up, p.notes)
             found = Placed(p.mesh, source, (*loaded.warnings, *p.warnings))
             run.save(MESH, key, found)
@@ -162,11 +192,26 @@ def _join(
     return found
 
 
-def _export(run: RunFolder, progress: Progress) -> Asset:
+@dataclass(frozen=True)
+class Exported:
+    """How an asset is written."""
+
+    base: Base
+    formats: tuple[Format, ...]
+
+    @classmethod
+    def parse(cls, base: str, formats: str) -> Exported:
+        """From the words of an option; OptionError names what would have been valid."""
+        if base not in set(Base):
+            raise OptionError(f"--base: found {base!r}; valid are {', '.join(Base)}")
+        return cls(Base(base), parse_formats(formats))
+
+
+def _export(run: RunFolder, how: Exported, progress: Progress) -> Asset:
     progress("export", "files", 0, 2)
     asset = run.asset()
     with _timed(run, "export"):
-        write_asset(asset, run.folder)
+        write_asset(asset, run.folder, base=how.base, formats=how.formats, cache=cache_folder("shapes"))
         progress("export", "preview", 1, 2)
         write_preview(asset, run.folder / "preview.png")
     return replace(asset, timing=run.timing())

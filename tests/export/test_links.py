@@ -3,10 +3,8 @@
 from dataclasses import replace
 
 import numpy as np
-import pytest
-from assets import cabinet, mesh_of, slanted
+from assets import cabinet
 
-from anymesh.export.collision import POINT, collision_mesh
 from anymesh.export.links import split_links, unique_rows
 from anymesh.export.settings import ExportConfig
 
@@ -51,29 +49,3 @@ def test_unique_rows_against_numpy():
     np.testing.assert_array_equal(rows[first][inverse], rows)
     assert len(first) == len(np.unique(rows, axis=0))
     assert (np.diff(first) > 0).all()
-
-
-def test_collision_of_a_box_is_welded():
-    triangles = split_links(slanted())[1].triangles
-    doubled = np.concatenate([triangles, triangles, triangles[:, [0, 0, 1]]])  # twice, and faces without area
-    vertices, faces = collision_mesh(doubled, CONFIG)
-    assert (len(vertices), len(faces)) == (8, 12)
-
-
-def test_flat_and_empty_links_get_a_thickness():
-    sheet = np.array([[[0, 0, 0], [1, 0, 0], [1, 1, 0]], [[0, 0, 0], [1, 1, 0], [0, 1.0, 0]]])
-    for triangles, thickness in ((sheet, CONFIG.shell_thickness), (np.zeros((1, 3, 3)), POINT)):
-        vertices, _ = collision_mesh(triangles, CONFIG)
-        assert np.ptp(vertices, axis=0).min() == pytest.approx(thickness)
-
-
-def test_a_huge_link_is_simplified_and_keeps_its_size():
-    side = np.linspace(0, 1, 120)
-    x, y = np.meshgrid(side, side, indexing="ij")
-    vertices = np.stack([x, y, 0.2 * np.sin(5 * x) * np.cos(4 * y)], -1).reshape(-1, 3)
-    a = (np.arange(119)[:, None] * 120 + np.arange(119)).reshape(-1)
-    faces = np.concatenate([np.stack([a, a + 120, a + 121], 1), np.stack([a, a + 121, a + 1], 1)])
-    mesh, _ = mesh_of([(vertices, faces)])
-    light, kept = collision_mesh(mesh.triangles, replace(CONFIG, collision_faces=2000))
-    assert 500 < len(kept) <= 2000
-    np.testing.assert_allclose(np.ptp(light, axis=0), np.ptp(vertices, axis=0), atol=0.06)

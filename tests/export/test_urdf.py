@@ -9,17 +9,27 @@ import numpy as np
 import pytest
 import yourdfpy
 from assets import cabinet, posed_triangles, poses, read_obj, slanted, within_limits
+from models import CONFIG, desk, model_of, with_meshes
 
-from anymesh.export import write_asset
+from anymesh.export.formats import Format, write_formats
+from anymesh.export.model import Base
+from anymesh.export.urdf import urdf_text
 from anymesh.types import JointType
 
-ASSETS = {"cabinet": cabinet, "slanted": slanted}
+ASSETS = {"cabinet": cabinet, "slanted": slanted, "desk": desk}
+
+
+def write(asset, folder):
+    """Writes the URDF and the meshes; returns the model."""
+    model = model_of(asset)
+    write_formats(model, with_meshes(model, folder), [Format.URDF], CONFIG)
+    return model
 
 
 @pytest.fixture(params=ASSETS)
 def written(request, tmp_path):
     asset = ASSETS[request.param]()
-    write_asset(asset, tmp_path)
+    write(asset, tmp_path)
     return asset, tmp_path
 
 
@@ -33,8 +43,8 @@ def test_yourdfpy_reads_the_same_joints_and_poses(written):
         if j.type is JointType.FIXED:
             continue
         np.testing.assert_allclose(read.axis, j.axis, atol=1e-9)
-        assert (read.limit.effort, read.limit.velocity) == (j.effort, j.velocity)
-        assert (float(read.dynamics.damping), float(read.dynamics.friction)) == (j.damping, j.friction)
+        assert (read.limit.effort, read.limit.velocity) == pytest.approx((j.effort, j.velocity))
+        assert (float(read.dynamics.damping), float(read.dynamics.friction)) == pytest.approx((j.damping, j.friction))
         if j.limits is not None:
             np.testing.assert_allclose((read.limit.lower, read.limit.upper), j.limits, atol=1e-9)
     rng = np.random.default_rng(1)
@@ -45,14 +55,21 @@ def test_yourdfpy_reads_the_same_joints_and_poses(written):
         for part in asset.segmentation.parts:
             T = robot.get_transform(part.name)
             found = read_obj(folder / "meshes" / f"{part.name}.obj") @ T[:3, :3].T + T[:3, 3]
-            np.testing.assert_allclose(found, expected[part.name], atol=1e-5)
+            np.testing.assert_allclose(ordered(found), ordered(expected[part.name]), atol=1e-5)
+
+
+def ordered(triangles):
+    """Triangles sorted by their corners, for an OBJ lists them by material."""
+    rows = np.round(triangles.reshape(-1, 9), 3)
+    return triangles[np.lexsort(rows.T)]
 
 
 def test_mujoco_reads_the_same_from_any_folder(written, monkeypatch):
     asset, folder = written
     monkeypatch.chdir("/")
     model = mujoco.MjModel.from_xml_path(os.path.relpath(folder / f"{asset.name}.urdf"))
-    assert model.ngeom == 2 * len(asset.segmentation.parts)
+    shapes = sum(len(body.shapes) for body in model_of(asset).bodies)
+    assert model.ngeom == len(asset.segmentation.parts) + shapes
     data = mujoco.MjData(model)
     positions = within_limits(asset, np.random.default_rng(2))
     for name, value in positions.items():
@@ -89,16 +106,44 @@ def test_flat_links_load_in_mujoco(tmp_path):
     vertices[door, 1] = 0.0  # the door is a sheet
     knob = np.unique(asset.mesh.faces[asset.segmentation.faces(3)])
     vertices[knob] = vertices[knob[0]]  # and the knob has shrunk to a point
-    write_asset(replace(asset, mesh=replace(asset.mesh, vertices=vertices)), tmp_path)
-    model = mujoco.MjModel.from_xml_path(str(tmp_path / "cabinet.urdf"))
-    assert model.njnt == 3
+    model = model_of(cabinet())  # its shapes have volume
+    flat = model_of(replace(asset, mesh=replace(asset.mesh, vertices=vertices)), like=model)
+    write_formats(flat, with_meshes(flat, tmp_path), [Format.URDF, Format.MJCF], CONFIG)
+    for name in ("cabinet.urdf", "cabinet.xml"):
+        assert mujoco.MjModel.from_xml_path(str(tmp_path / name)).njnt == 3
 
 
 def test_obj_keeps_material_texture_and_colour(tmp_path):
-    write_asset(cabinet(), tmp_path)
+    write(cabinet(), tmp_path)
     assert "map_Kd checker.png" in (tmp_path / "meshes" / "door.mtl").read_text()
     assert (tmp_path / "meshes" / "checker.png").read_bytes().startswith(b"\x89PNG")
     assert "usemtl wood_oak" in (tmp_path / "meshes" / "base.obj").read_text()
     knob = (tmp_path / "meshes" / "knob.obj").read_text().splitlines()
     assert next(line for line in knob if line.startswith("v ")).endswith("0.03922 0.7843 0.3529")
     assert len(next(line for line in (tmp_path / "meshes" / "door.obj").open() if line.startswith("v ")).split()) == 4
+
+
+def test_every_shape_is_a_collision_of_its_own(tmp_path):
+    write(cabinet(), tmp_path)
+    root = ElementTree.parse(tmp_path / "cabinet.urdf").getroot()
+    shapes = {
+        str(link.get("name")): [c.find("geometry")[0].tag for c in link.findall("collision")] for link in root.findall("link")
+    }
+    assert shapes == {
+        "base": ["mesh", "mesh"],
+        "door": ["box", "mesh", "cylinder"],
+        "drawer": ["mesh"],
+        "knob": ["mesh"],
+    }
+    files = sorted(p.name for p in (tmp_path / "meshes").glob("*_collision*.obj"))
+    assert files == [
+        "base_collision_0.obj",
+        "base_collision_1.obj",
+        "door_collision.obj",
+        "drawer_collision.obj",
+        "knob_collision.obj",
+    ]
+
+
+def test_whether_the_base_is_free_is_left_to_the_simulator():
+    assert urdf_text(model_of(cabinet(), base=Base.FREE)) == urdf_text(model_of(cabinet()))

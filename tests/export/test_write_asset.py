@@ -60,7 +60,7 @@ FAULTS = {
     "not where the source is": lambda f: changed(
         f, lambda r: r["source"].update(T_asset_source=np.diag([2, 2, 2, 1]).tolist())
     ),
-    "no such file": lambda f: (f / "meshes" / "door_collision.obj").unlink(),
+    "no such file": lambda f: (f / "meshes" / "door.obj").unlink(),
 }
 
 

@@ -126,7 +126,7 @@ def test_processes_share_a_folder(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("system", "variables", "expected"),
     [
-        ("linux", {"ANYMESH_CACHE": "/c"}, "/c"),
+        ("linux", {"ANYMESH_CACHE": "/c"}, "/c/answers"),
         ("linux", {"XDG_CACHE_HOME": "/x"}, "/x/anymesh/answers"),
         ("linux", {}, "/h/.cache/anymesh/answers"),
         ("darwin", {"XDG_CACHE_HOME": "/x"}, "/h/Library/Caches/anymesh/answers"),

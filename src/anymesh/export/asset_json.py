@@ -8,17 +8,17 @@ from importlib.resources import files
 from typing import Any
 
 import anymesh
-from anymesh.export.inertia import Inertia
-from anymesh.export.links import Link
-from anymesh.export.meshes import faces_path
-from anymesh.types import Asset, Exchange, Joint, Mesh
+from anymesh.export.formats import Format, main_file
+from anymesh.export.model import Body, Model
+from anymesh.types import Exchange, Joint, Mesh
 
-SCHEMA_VERSION = "1.1"
+SCHEMA_VERSION = "1.2"
 TIMING_FILE = "timing.json"  # apart, so that everything else is the same from run to run
 
 
-def asset_record(asset: Asset, links: Sequence[Link], inertias: Mapping[str, Inertia]) -> dict[str, Any]:
+def asset_record(model: Model, formats: Sequence[Format]) -> dict[str, Any]:
     """The content of asset.json as plain values."""
+    asset = model.asset
     source = asset.source
     return {
         "schema_version": SCHEMA_VERSION,
@@ -31,8 +31,11 @@ def asset_record(asset: Asset, links: Sequence[Link], inertias: Mapping[str, Ine
             "up": source.up,
             "notes": list(source.notes),
         },
-        "parts": [_part(asset.mesh, link, inertias[link.name]) for link in links],
+        "base": str(model.base),
+        "files": {str(kind): main_file(kind, asset.name) for kind in formats},
+        "parts": [_part(asset.mesh, body) for body in model.bodies],
         "joints": [_joint(joint) for joint in asset.joints],
+        "no_contact": [{"links": [e.a, e.b], "reason": e.why} for e in model.exclusions],
         "answerer": asset.answerer,
         "usage": usage(asset.exchanges),
         "warnings": list(asset.warnings),
@@ -62,15 +65,17 @@ def json_text(record: Mapping[str, Any]) -> str:
     return json.dumps(record, indent=2, allow_nan=False) + "\n"
 
 
-def _part(mesh: Mesh, link: Link, inertia: Inertia) -> dict[str, Any]:
+def _part(mesh: Mesh, body: Body) -> dict[str, Any]:
+    link, shapes = body.link, [type(shape).__name__.lower() for shape in body.shapes]
     return {
         "name": link.name,
         "label": link.part.label,
         "parent": None if link.joint is None else link.joint.parent,
         "area": _round(mesh.face_areas[link.faces].sum()),
-        "mass": _round(inertia.mass),
+        "mass": _round(body.inertia.mass),
         "face_count": len(link.faces),
-        "faces": faces_path(link),
+        "faces": body.faces_path(),
+        "collision": {kind: shapes.count(kind) for kind in ("box", "cylinder", "hull") if kind in shapes},
         "confidence": _round(link.part.confidence),
         "reason": link.part.reason,
     }

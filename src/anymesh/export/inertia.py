@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float
 
+from anymesh.export.densities import Substance
 from anymesh.export.settings import ExportConfig
 from anymesh.geometry.topology import components
 from anymesh.types.triangles import face_cross
+
+MadeOf = Sequence[Substance | None]
 
 
 @dataclass(frozen=True, eq=False)
@@ -21,16 +25,20 @@ class Inertia:
     tensor: Float[np.ndarray, "3 3"]
 
 
-def link_inertia(triangles: Float[np.ndarray, "n 3 3"], config: ExportConfig) -> Inertia:
+def link_inertia(triangles: Float[np.ndarray, "n 3 3"], config: ExportConfig, made_of: MadeOf | None = None) -> Inertia:
     """Mass properties of a link: closed components are solids, open ones shells, overlaps are added.
 
-    Made physical: a floor for the mass, principal moments positive and each at most the sum of the other two.
+    made_of: what each triangle is made of, None where that is not known. Made physical: a floor for the mass, principal
+    moments positive and each at most the sum of the other two.
     """
-    return physical(raw_inertia(triangles, config), config)
+    return physical(raw_inertia(triangles, config, made_of), config)
 
 
-def raw_inertia(triangles: Float[np.ndarray, "n 3 3"], config: ExportConfig) -> Inertia:
-    """The exact integrals over solids (signed tetrahedra; inside out counts as the right way round) and shells."""
+def raw_inertia(triangles: Float[np.ndarray, "n 3 3"], config: ExportConfig, made_of: MadeOf | None = None) -> Inertia:
+    """The exact integrals over solids (signed tetrahedra; inside out counts as the right way round) and shells.
+
+    A closed component that is thicker than things of its substance are made in full is taken as hollow.
+    """
     corners = triangles.reshape(-1, 3)
     base = corners.mean(0)  # near the body, so that large coordinates cost no digits
     t = triangles - base
@@ -40,10 +48,11 @@ def raw_inertia(triangles: Float[np.ndarray, "n 3 3"], config: ExportConfig) -> 
     found = components(corners, np.arange(len(corners)).reshape(-1, 3))
     volume = np.bincount(found.label, volumes, found.count)
     flat = np.abs(volume) <= 1e-9 * np.bincount(found.label, np.abs(volumes), found.count)
-    solid = (found.solid & ~flat)[found.label]
-    thickness = config.wall(float(np.linalg.norm(np.ptp(corners, axis=0))))
-    filled = np.where(solid, config.density * np.sign(volume)[found.label] * volumes, 0.0)
-    sheet = np.where(solid, 0.0, config.shell_density * thickness * areas)
+    wall = config.wall(float(np.linalg.norm(np.ptp(corners, axis=0))))
+    body, sheet_density, closed = _densities(found.label, areas, np.abs(volume), found.solid & ~flat, wall, config, made_of)
+    solid = closed[found.label]
+    filled = np.where(solid, (body * np.sign(volume))[found.label] * volumes, 0.0)
+    sheet = np.where(solid, 0.0, sheet_density[found.label] * areas)
     mass = float(filled.sum() + sheet.sum())
     if mass <= 0:
         return Inertia(0.0, base, np.zeros((3, 3)))
@@ -55,6 +64,33 @@ def raw_inertia(triangles: Float[np.ndarray, "n 3 3"], config: ExportConfig) -> 
     covariance = second - mass * np.outer(center, center)
     tensor = np.trace(covariance) * np.eye(3) - covariance
     return Inertia(mass, center + base, (tensor + tensor.T) / 2)
+
+
+def _densities(
+    label: np.ndarray,
+    areas: np.ndarray,
+    volume: np.ndarray,
+    closed: np.ndarray,
+    wall: float,
+    config: ExportConfig,
+    made_of: MadeOf | None,
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Of each component: density [kg/m^3], what a square metre of its shell weighs [kg/m^2], and whether it is solid."""
+    count = len(volume)
+    body, sheet, solid = np.full(count, config.density), np.full(count, config.shell_density * wall), closed.copy()
+    if made_of is None or not any(made_of):
+        return body, sheet, solid
+    kinds = sorted({m for m in made_of if m is not None}, key=lambda m: (m.density, m.solid_to, m.sheet))
+    number = np.array([len(kinds) if m is None else kinds.index(m) for m in made_of])
+    covered = np.zeros((count, len(kinds) + 1))
+    np.add.at(covered, (label, number), areas)
+    area = np.maximum(covered.sum(1), 1e-300)
+    for k in np.flatnonzero(covered.argmax(1) < len(kinds)):
+        substance = kinds[int(covered[k].argmax())]
+        body[k], sheet[k] = substance.density, substance.density * min(substance.sheet, wall)
+        if 2 * volume[k] / area[k] > substance.solid_to:  # both faces of the wall are there to be counted
+            solid[k], sheet[k] = False, substance.density * substance.sheet
+    return body, sheet, solid
 
 
 def physical(body: Inertia, config: ExportConfig) -> Inertia:

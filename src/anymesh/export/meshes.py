@@ -1,59 +1,55 @@
-"""The meshes folder: a visual OBJ with materials and textures and a collision OBJ a link."""
+"""The meshes folder: a visual OBJ a link with materials and textures, and an OBJ a convex hull of its collision."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
-from anymesh.export.collision import collision_mesh, flat_normal, small_box
+from anymesh.export.flat import flat_normal, small_box
 from anymesh.export.links import Link, Primitive
+from anymesh.export.looks import write_textures
+from anymesh.export.model import FOLDER, Body, Model
 from anymesh.export.settings import ExportConfig
 from anymesh.names import legal_names
-from anymesh.types import Material, Mesh
+from anymesh.types import Hull, Material
 from anymesh.types.color import to_srgb
 from anymesh.types.triangles import face_cross
 
-FOLDER = "meshes"
-SUFFIXES = {"image/png": ".png", "image/jpeg": ".jpg"}
 SHEET = 1e-5  # share of the diagonal; a visual thinner than this gets a back sheet, since MuJoCo refuses flat meshes
 MTL_MAPS = {"base_color": "map_Kd", "emissive": "map_Ke", "normal": "norm"}  # the ones whose channels MTL can name
 
 
-def visual_path(link: Link) -> str:
-    """Relative to the asset folder, with forward slashes."""
-    return f"{FOLDER}/{link.name}.obj"
-
-
-def collision_path(link: Link) -> str:
-    """Relative to the asset folder, with forward slashes."""
-    return f"{FOLDER}/{link.name}_collision.obj"
-
-
-def faces_path(link: Link) -> str:
-    """Relative to the asset folder: the source's face indices of the link, an int64 .npy."""
-    return f"{FOLDER}/{link.name}.faces.npy"
-
-
-def write_meshes(mesh: Mesh, links: Sequence[Link], folder: Path, config: ExportConfig) -> None:
-    """Writes `meshes/` of an asset folder: <link>.obj, .mtl, _collision.obj, .faces.npy, and the textures they use."""
+def write_meshes(model: Model, folder: Path, config: ExportConfig) -> None:
+    """Writes `meshes/` of an asset folder: <link>.obj, .mtl, .faces.npy, a file a hull, and the textures they use."""
+    mesh = model.asset.mesh
     (folder / FOLDER).mkdir(exist_ok=True)
-    textures = _write_textures(mesh, folder / FOLDER)
+    textures = write_textures(mesh, folder / FOLDER, MTL_MAPS)
     names = material_names(mesh.materials)
-    for link in links:
-        primitives = _visible(link, config)
+    for body in model.bodies:
+        primitives = visible(body.link, config)
         used = sorted({p.material for p in primitives if p.material >= 0})
         mtl = "".join(_mtl(names[i], mesh.materials[i], textures) for i in used)
         if used:
-            (folder / FOLDER / f"{link.name}.mtl").write_text(mtl, encoding="ascii", newline="\n")
-        library = f"{link.name}.mtl" if used else None
-        _write_lines(folder / visual_path(link), _visual_lines(link.name, library, primitives, names))
-        vertices, faces = collision_mesh(link.triangles, config)
-        lines = _rows("v %.8g %.8g %.8g\n", vertices), _rows("f %d %d %d\n", faces + 1)
-        _write_lines(folder / collision_path(link), (text for part in lines for text in part))
-        np.save(folder / faces_path(link), link.faces.astype(np.int64), allow_pickle=False)
+            (folder / FOLDER / f"{body.name}.mtl").write_text(mtl, encoding="ascii", newline="\n")
+        library = f"{body.name}.mtl" if used else None
+        write_obj(folder / body.visual_path(), body.name, library, primitives, names)
+        _write_hulls(body, folder)
+        np.save(folder / body.faces_path(), body.link.faces.astype(np.int64), allow_pickle=False)
+
+
+def _write_hulls(body: Body, folder: Path) -> None:
+    for shape, path in zip(body.shapes, body.hull_paths(), strict=True):
+        if isinstance(shape, Hull) and path is not None:
+            lines = _rows("v %.10g %.10g %.10g\n", shape.vertices), _rows("f %d %d %d\n", shape.faces + 1)
+            _write_lines(folder / path, (text for part in lines for text in part))
+
+
+def write_obj(path: Path, name: str, library: str | None, primitives: Sequence[Primitive], materials: Sequence[str]) -> None:
+    """One OBJ of some primitives; library: the MTL beside it; materials: the names in it, by index."""
+    _write_lines(path, _visual_lines(name, library, primitives, materials))
 
 
 def material_names(materials: Sequence[Material]) -> list[str]:
@@ -61,24 +57,7 @@ def material_names(materials: Sequence[Material]) -> list[str]:
     return legal_names([m.name for m in materials], fallback="material")
 
 
-def _write_textures(mesh: Mesh, folder: Path) -> dict[bytes, str]:
-    """Each image once; image bytes -> file name."""
-    found = {}
-    for index in sorted(set(mesh.face_material.tolist()) - {-1}):
-        material = mesh.materials[index]
-        for slot in MTL_MAPS:
-            texture = material.textures.get(slot)
-            if texture is not None and mesh.corner_uv is not None:
-                found.setdefault(texture.data, (texture, Path(texture.name).stem or f"{material.name}_{slot}"))
-    names = legal_names([stem for _, stem in found.values()], fallback="texture")
-    files = {}
-    for (data, (texture, _)), name in zip(found.items(), names, strict=True):
-        files[data] = name + SUFFIXES.get(texture.mime, ".png")
-        (folder / files[data]).write_bytes(data)
-    return files
-
-
-def _mtl(name: str, material: Material, textures: dict[bytes, str]) -> str:
+def _mtl(name: str, material: Material, textures: Mapping[bytes, str]) -> str:
     """One material; Kd is a display value as OBJ readers take it, Pr and Pm are the common PBR extension."""
     r, g, b = to_srgb(material.base_color[:3])
     lines = [
@@ -97,7 +76,7 @@ def _mtl(name: str, material: Material, textures: dict[bytes, str]) -> str:
     return "\n".join(lines) + "\n\n"
 
 
-def _visible(link: Link, config: ExportConfig) -> tuple[Primitive, ...]:
+def visible(link: Link, config: ExportConfig) -> tuple[Primitive, ...]:
     """The link's primitives, given a little volume when they have none."""
     triangles = link.triangles
     size = float(np.linalg.norm(np.ptp(triangles.reshape(-1, 3), axis=0)))

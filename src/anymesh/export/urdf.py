@@ -2,94 +2,93 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
+from typing import assert_never
 from xml.etree import ElementTree
 
 import numpy as np
 
-from anymesh.export.inertia import Inertia
-from anymesh.export.links import Link, Primitive
-from anymesh.export.meshes import collision_path, material_names, visual_path
-from anymesh.types import Asset, Joint, JointType, Mesh
-from anymesh.types.color import to_srgb
-from anymesh.types.triangles import face_cross
+from anymesh.export.links import Link
+from anymesh.export.looks import display_color, painted, widest
+from anymesh.export.meshes import material_names
+from anymesh.export.model import Body, Model
+from anymesh.export.rotations import rpy
+from anymesh.export.xml_text import document, moments, number, vector
+from anymesh.types import Box, Cylinder, Hull, Joint, JointType, Mesh, Shape
 
-GREY = (0.7, 0.7, 0.7, 1.0)
 # MuJoCo by default drops visuals and folders of mesh names, and fuses links that do not move.
 MUJOCO = {"discardvisual": "false", "fusestatic": "false", "strippath": "false", "balanceinertia": "true"}
 
 
-def urdf_text(asset: Asset, links: Sequence[Link], inertias: Mapping[str, Inertia]) -> str:
-    """The URDF of an asset with legal names; mesh paths are relative to its folder.
+def urdf_text(model: Model) -> str:
+    """The URDF of a model; mesh paths are relative to its folder.
 
-    Every link frame has the asset's axes, so joint origins are differences and axes stand as they are.
+    Every link frame has the asset's axes, so joint origins are differences and axes stand as they are. Whether the root
+    is fixed is for the simulator to say (PyBullet's `useFixedBase`, Isaac's `fix_base`; MuJoCo fixes it): a `world` link
+    would be one link too many where it is not asked for.
     """
+    asset = model.asset
     robot = ElementTree.Element("robot", name=asset.name)
     ElementTree.SubElement(ElementTree.SubElement(robot, "mujoco"), "compiler", MUJOCO)
     names = material_names(asset.mesh.materials)
-    origins = {link.name: link.origin for link in links}
-    for link in links:
-        _add_link(robot, link, inertias[link.name], _appearance(asset.mesh, link, names))
+    origins = {link.name: link.origin for link in model.links}
+    for body in model.bodies:
+        _add_link(robot, body, _appearance(asset.mesh, body.link, names))
     for joint in asset.joints:
         _add_joint(robot, joint, origins)
-    ElementTree.indent(robot)
-    return '<?xml version="1.0" encoding="utf-8"?>\n' + ElementTree.tostring(robot, encoding="unicode") + "\n"
-
-
-def number(value: float) -> str:
-    """Ten significant digits; what is zero but for rounding is 0."""
-    return "0" if abs(value) < 1e-12 else f"{float(value):.10g}"
-
-
-def _vector(values: Iterable[float]) -> str:
-    return " ".join(number(v) for v in values)
+    return document(robot)
 
 
 def _appearance(mesh: Mesh, link: Link, names: Sequence[str]) -> tuple[str, tuple[float, ...]]:
     """Name and display colour (RGBA 0..1) of the material that covers most of the link."""
-
-    def area(p: Primitive) -> float:
-        t = p.positions[p.triangles]
-        return float(np.linalg.norm(face_cross(t), axis=1).sum())
-
-    widest = max(link.primitives, key=area)
-    if widest.colors is not None and (widest.material < 0 or not mesh.materials[widest.material].textures):
-        color = widest.colors.mean(0) / 255
-        return f"{link.name}_color", tuple(float(c) for c in color)
-    if widest.material < 0:
-        return "unassigned", GREY
-    *color, alpha = mesh.materials[widest.material].base_color
-    return names[widest.material], (*to_srgb(color).tolist(), alpha)
+    most = widest(link)
+    if painted(mesh, most):
+        return f"{link.name}_color", display_color(mesh, most)
+    return "unassigned" if most.material < 0 else names[most.material], display_color(mesh, most)
 
 
-def _add_link(robot: ElementTree.Element, link: Link, inertia: Inertia, appearance: tuple[str, tuple[float, ...]]) -> None:
+def _add_link(robot: ElementTree.Element, body: Body, look: tuple[str, tuple[float, ...]]) -> None:
     sub = ElementTree.SubElement
-    element = sub(robot, "link", name=link.name)
+    element = sub(robot, "link", name=body.name)
     inertial = sub(element, "inertial")
-    sub(inertial, "origin", xyz=_vector(inertia.center), rpy="0 0 0")
-    sub(inertial, "mass", value=number(inertia.mass))
-    (xx, xy, xz), (_, yy, yz), (_, _, zz) = inertia.tensor
-    noise = 1e-12 * (xx + yy + zz)
-    values = {"ixx": xx, "ixy": xy, "ixz": xz, "iyy": yy, "iyz": yz, "izz": zz}
-    sub(inertial, "inertia", {key: f"{v:.10g}" if abs(v) > noise else "0" for key, v in values.items()})
-    for tag, path in (("visual", visual_path(link)), ("collision", collision_path(link))):
-        shape = sub(element, tag)
-        sub(shape, "origin", xyz="0 0 0", rpy="0 0 0")
-        sub(sub(shape, "geometry"), "mesh", filename=path)
-        if tag == "visual":
-            name, color = appearance
-            sub(sub(shape, "material", name=name), "color", rgba=" ".join(f"{c:.6g}" for c in color))
+    sub(inertial, "origin", xyz=vector(body.inertia.center), rpy="0 0 0")
+    sub(inertial, "mass", value=number(body.inertia.mass))
+    sub(inertial, "inertia", moments(body.inertia.tensor))
+    visual = sub(element, "visual")
+    sub(visual, "origin", xyz="0 0 0", rpy="0 0 0")
+    sub(sub(visual, "geometry"), "mesh", filename=body.visual_path())
+    name, color = look
+    sub(sub(visual, "material", name=name), "color", rgba=" ".join(f"{c:.6g}" for c in color))
+    for shape, path in zip(body.shapes, body.hull_paths(), strict=True):
+        _add_collision(element, shape, path)
+
+
+def _add_collision(link: ElementTree.Element, shape: Shape, path: str | None) -> None:
+    sub = ElementTree.SubElement
+    element = sub(link, "collision")
+    center, rotation = (np.zeros(3), np.eye(3)) if isinstance(shape, Hull) else (shape.center, shape.rotation)
+    sub(element, "origin", xyz=vector(center), rpy=vector(rpy(rotation)))
+    geometry = sub(element, "geometry")
+    match shape:
+        case Box():
+            sub(geometry, "box", size=vector(shape.size))
+        case Cylinder():
+            sub(geometry, "cylinder", radius=number(shape.radius), length=number(shape.length))
+        case Hull():
+            sub(geometry, "mesh", filename=str(path))
+        case _:
+            assert_never(shape)
 
 
 def _add_joint(robot: ElementTree.Element, joint: Joint, origins: Mapping[str, np.ndarray]) -> None:
     sub = ElementTree.SubElement
     element = sub(robot, "joint", name=joint.name, type=str(joint.type))
-    sub(element, "origin", xyz=_vector(origins[joint.child] - origins[joint.parent]), rpy="0 0 0")
+    sub(element, "origin", xyz=vector(origins[joint.child] - origins[joint.parent]), rpy="0 0 0")
     sub(element, "parent", link=joint.parent)
     sub(element, "child", link=joint.child)
     if joint.type is JointType.FIXED:
         return
-    sub(element, "axis", xyz=_vector(joint.axis / np.linalg.norm(joint.axis)))
+    sub(element, "axis", xyz=vector(joint.axis / np.linalg.norm(joint.axis)))
     limit = {"effort": number(joint.effort), "velocity": number(joint.velocity)}
     if joint.limits is not None:
         limit = {"lower": number(joint.limits[0]), "upper": number(joint.limits[1])} | limit

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 from jaxtyping import Float
 
 from anymesh.errors import OptionError
 from anymesh.loading.load import LoadedMesh
+from anymesh.loading.sizes import is_near, usual_size
 from anymesh.types import Mesh
 
 AXES = "xyz"
@@ -35,12 +37,15 @@ class PlacedMesh:
     warnings: tuple[str, ...]
 
 
-def place_mesh(loaded: LoadedMesh, *, up: str = "auto", scale: str = "auto") -> PlacedMesh:
-    """Turns, scales and sets the mesh on the ground. Raises OptionError for an up or a scale that is not valid."""
+def place_mesh(loaded: LoadedMesh, *, up: str = "auto", scale: str = "auto", category: str | None = None) -> PlacedMesh:
+    """Turns, scales and sets the mesh on the ground. category: what the object is, which tells how large it is.
+
+    Raises OptionError for an up or a scale that is not valid.
+    """
     axis, up_note = _up(loaded, up)
     R = TO_Z_UP[axis]
     extents = R @ loaded.mesh.extents
-    factor, scale_note, warnings = _scale(loaded, np.abs(extents), scale)
+    factor, scale_note, warnings = _scale(loaded, np.abs(extents), scale, category)
     T = np.eye(4)
     T[:3, :3] = factor * R
     turned = loaded.mesh.bounds @ T[:3, :3].T
@@ -83,7 +88,7 @@ def infer_up(mesh: Mesh, usual: str) -> tuple[str, str]:
     return best, f"up axis {best} (inferred from what the object stands on)"
 
 
-def _scale(loaded: LoadedMesh, extents: np.ndarray, scale: str) -> tuple[float, str, tuple[str, ...]]:
+def _scale(loaded: LoadedMesh, extents: np.ndarray, scale: str, category: str | None) -> tuple[float, str, tuple[str, ...]]:
     diagonal = float(np.linalg.norm(extents))
     if scale != "auto":
         factor, note = _given_scale(extents, scale)
@@ -92,6 +97,9 @@ def _scale(loaded: LoadedMesh, extents: np.ndarray, scale: str) -> tuple[float, 
             raise OptionError(f"--scale: found {scale!r}, which {told}; valid are {GIVEN[0]:g} to {GIVEN[1]:g} m")
         return factor, note, ()
     unit = loaded.unit_in_metres
+    prior = usual_size(category) if category else usual_size(Path(loaded.path).stem) if unit is None else None
+    if prior is not None:  # a unit in the file counts for more than the file's name, but less than what the user says it is
+        return _scale_of_kind(extents, unit, *prior)
     if unit is not None:
         if ABSURD[0] <= diagonal * unit <= ABSURD[1]:
             return unit, f"scale {unit:g} (the file's unit)", ()
@@ -104,6 +112,18 @@ def _scale(loaded: LoadedMesh, extents: np.ndarray, scale: str) -> tuple[float, 
             return factor, f"scale {factor:g} (inferred: a diagonal of {diagonal:.4g} is taken as {name})", ()
     told = f"no unit makes a diagonal of {diagonal:.3g} plausible; the object was scaled to a diagonal of 1 m"
     return 1 / diagonal, f"scale {1 / diagonal:g} (normalised)", (told,)
+
+
+def _scale_of_kind(extents: np.ndarray, unit: float | None, kind: str, usual: float) -> tuple[float, str, tuple[str, ...]]:
+    """The file's unit, or a common one, that makes the object as large as things of its kind are; else their usual size."""
+    longest = float(extents.max())
+    told = [("the file's unit", unit)] if unit is not None else [("metres", 1.0), *UNITS]
+    for name, factor in told:
+        if is_near(longest * factor, usual):
+            return factor, f"scale {factor:g} ({name}; plausible for a {kind})", ()
+    factor, (name, first) = usual / longest, told[0]
+    warning = f"{name} would make the {kind} {longest * first:.3g} m long; it was scaled to {usual:g} m"
+    return factor, f"scale {factor:g} (size prior: a {kind} is about {usual:g} m long)", (warning,)
 
 
 def _given_scale(extents: np.ndarray, scale: str) -> tuple[float, str]:

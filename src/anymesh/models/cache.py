@@ -27,17 +27,20 @@ def request_key(model_name: str, request: Request) -> str:
     return hashlib.sha256(json.dumps(parts, sort_keys=True, default=dict).encode()).hexdigest()
 
 
-def cache_folder() -> Path:
-    """$ANYMESH_CACHE, or where this system's programs keep what they can do without. Not created."""
+def cache_folder(kind: str = "answers") -> Path:
+    """Where a kind of thing is kept, in $ANYMESH_CACHE or where this system's programs keep what they can do without.
+
+    Not created.
+    """
     if own := os.environ.get("ANYMESH_CACHE"):
-        return Path(own)
+        return Path(own) / kind
     if sys.platform == "win32":
         base = os.environ.get("LOCALAPPDATA") or str(Path.home() / "AppData" / "Local")
     elif sys.platform == "darwin":
         base = str(Path.home() / "Library" / "Caches")
     else:
         base = os.environ.get("XDG_CACHE_HOME") or str(Path.home() / ".cache")
-    return Path(base) / "anymesh" / "answers"
+    return Path(base) / "anymesh" / kind
 
 
 class Cached:

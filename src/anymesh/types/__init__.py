@@ -6,11 +6,15 @@ from anymesh.types.joints import Joint, JointType
 from anymesh.types.mesh import Material, Mesh, Node, Texture
 from anymesh.types.motion import Handle, Motion, MotionKind, Sweep
 from anymesh.types.parts import Part, Segmentation
+from anymesh.types.shapes import Box, Cylinder, Hull, Shape
 
 __all__ = [
     "Asset",
+    "Box",
+    "Cylinder",
     "Exchange",
     "Handle",
+    "Hull",
     "Joint",
     "JointType",
     "Material",
@@ -21,6 +25,7 @@ __all__ = [
     "Part",
     "Picture",
     "Segmentation",
+    "Shape",
     "Source",
     "Sweep",
     "Texture",

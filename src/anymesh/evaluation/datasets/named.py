@@ -15,7 +15,7 @@ NAMES = (
 NEEDED = {  # import name -> how it is had
     "scene_synthesizer": "pip install 'articulate-anymesh[eval]'",
     "yourdfpy": "pip install 'articulate-anymesh[eval]'",
-    "mujoco": "pip install 'articulate-anymesh[sim]'",
+    "mujoco": "pip install mujoco",
 }
 
 

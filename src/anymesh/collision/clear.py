@@ -1,0 +1,160 @@
+"""Collision shapes that let every joint move: false contacts are found at sampled poses and refined or planed away.
+
+A contact of shapes is false where the surfaces themselves do not go through each other. First the components at fault are
+decomposed finer; what still stands out is planed off along the contact. Links whose surfaces overlap at rest are excluded from
+contact, and listed; a collision that is there in truth (a tray behind a closed door) stays.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from anymesh.collision.contacts_ import Contact, ContactBench, Pose
+from anymesh.collision.convex import trimmed, volume
+from anymesh.collision.crossing import Surface, cross
+from anymesh.collision.decompose import Component
+from anymesh.collision.primitives import EXACT, as_hull, fitted
+from anymesh.types import Shape
+
+LITTLE = 0.15  # share of a shape that is planed off rather than its piece refined
+MUCH = 0.7  # share that is planed off where nothing finer is left
+Refine = Callable[[Component, int], tuple[Shape, ...]]  # the shapes of a component at a level of fineness
+
+
+@dataclass(frozen=True, eq=False)
+class Piece:
+    """A component of a link and its shapes at a level of fineness."""
+
+    link: str
+    component: Component
+    level: int
+    shapes: tuple[Shape, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Fault:
+    """A false contact at a pose, between shapes of two pieces: (number of the piece, number of its shape)."""
+
+    first: tuple[int, int]
+    second: tuple[int, int]
+    depth: float
+    normal: np.ndarray  # from the first to the second, where the pose places them
+    pose: Pose
+
+
+@dataclass(frozen=True, eq=False)
+class Scene:
+    """Surfaces a link in link frames, poses (the first one is rest), and depths that count [m]."""
+
+    surfaces: dict[str, Surface]
+    poses: Sequence[Pose]
+    contact: float
+    crossing: float
+
+    @cached_property
+    def overlapping(self) -> tuple[tuple[str, str], ...]:
+        """Pairs of links whose surfaces go through each other at rest."""
+        names = sorted(self.surfaces)
+        return tuple((a, b) for i, a in enumerate(names) for b in names[i + 1 :] if self._cross(a, b, self.poses[0]))
+
+    def _cross(self, a: str, b: str, pose: Pose) -> bool:
+        return cross(self.surfaces[a], pose[a], self.surfaces[b], pose[b], self.crossing)
+
+    def faults(self, pieces: Sequence[Piece]) -> list[Fault]:
+        """The deepest false contact of each pair of shapes over all poses, deepest first."""
+        owner = {
+            link: [(k, n) for k, p in enumerate(pieces) if p.link == link for n in range(len(p.shapes))]
+            for link in self.surfaces
+        }
+        bench = ContactBench({link: [pieces[k].shapes[n] for k, n in some] for link, some in owner.items()})
+        skipped = set(self.overlapping)
+        worst: dict[tuple[tuple[int, int], tuple[int, int]], Fault] = {}
+        for pose in self.poses:
+            found: dict[tuple[str, str], list[Contact]] = {}
+            for contact in bench.contacts(pose, self.contact):
+                a, b = sorted((contact.first[0], contact.second[0]))
+                found.setdefault((a, b), []).append(contact)
+            for (a, b), contacts in found.items():
+                if (a, b) in skipped or self._cross(a, b, pose):
+                    continue
+                for c in contacts:
+                    key = owner[c.first[0]][c.first[1]], owner[c.second[0]][c.second[1]]
+                    if key not in worst or c.depth > worst[key].depth:
+                        worst[key] = Fault(*key, c.depth, c.normal, pose)
+        return sorted(worst.values(), key=lambda f: (-f.depth, f.first, f.second))
+
+
+@dataclass(frozen=True, eq=False)
+class Cleared:
+    """Pieces after clearing, how many false contacts there were first, and the pairs of links that still have some."""
+
+    pieces: list[Piece]
+    before: int
+    left: tuple[tuple[str, str], ...]
+
+
+def clear(scene: Scene, pieces: list[Piece], refine: Refine, *, levels: int, rounds: int) -> Cleared:
+    """Planes the shapes of false contacts where that costs them little; refines pieces up to the last of `levels` where not."""
+    faults = scene.faults(pieces)
+    before = len(faults)
+    while faults and rounds > 0:
+        rounds -= 1
+        planed, costly = _planed(pieces, faults, scene.contact, LITTLE)
+        coarse = sorted({k for f in costly for k, _ in (f.first, f.second) if pieces[k].level + 1 < levels})
+        if coarse:
+            with ThreadPoolExecutor() as pool:  # CoACD works outside the lock
+                finer = pool.map(refine, [pieces[k].component for k in coarse], [pieces[k].level + 1 for k in coarse])
+            for k, shapes in zip(coarse, finer, strict=True):
+                planed[k] = replace(pieces[k], level=pieces[k].level + 1, shapes=shapes)
+        elif costly:
+            planed, _ = _planed(pieces, faults, scene.contact, MUCH)
+        pieces = planed
+        faults = scene.faults(pieces)
+    left = sorted({(min(a, b), max(a, b)) for f in faults for a, b in [(pieces[f.first[0]].link, pieces[f.second[0]].link)]})
+    return Cleared(pieces, before, tuple(left))
+
+
+def _planed(pieces: list[Piece], faults: Sequence[Fault], slack: float, most: float) -> tuple[list[Piece], list[Fault]]:
+    """Of each fault, the shape that loses the smaller share of itself is cut back, and the faults that would cost more than
+    the share `most`."""
+    shapes: list[list[Shape | None]] = [list(p.shapes) for p in pieces]
+    costly = []
+    for fault in faults:
+        sides = [(k, n, fault.pose[pieces[k].link], shapes[k][n]) for k, n in (fault.first, fault.second)]
+        reach = [
+            None if shape is None else float((placed_hull(shape, T) @ (sign * fault.normal)).max())
+            for (_, _, T, shape), sign in zip(sides, (1.0, -1.0), strict=True)
+        ]
+        if reach[0] is None or reach[1] is None or reach[0] + reach[1] <= 0:  # parted by an earlier cut
+            continue
+        depth = reach[0] + reach[1] + slack
+        cuts = [
+            _cut(shape, T, sign * fault.normal, depth)
+            for (_, _, T, shape), sign in zip(sides, (1.0, -1.0), strict=True)
+            if shape is not None
+        ]
+        side = 0 if cuts[0][0] <= cuts[1][0] else 1
+        if cuts[side][0] > most:
+            costly.append(fault)
+        else:
+            shapes[sides[side][0]][sides[side][1]] = cuts[side][1]
+    kept = [replace(p, shapes=tuple(s for s in some if s is not None)) for p, some in zip(pieces, shapes, strict=True)]
+    return kept, costly
+
+
+def placed_hull(shape: Shape, T: np.ndarray) -> np.ndarray:
+    """The corners of a shape where a pose has it."""
+    return as_hull(shape).vertices @ T[:3, :3].T + T[:3, 3]
+
+
+def _cut(shape: Shape, T: np.ndarray, normal: np.ndarray, depth: float) -> tuple[float, Shape | None]:
+    """The share that a shape loses, and what is left, when it is cut back by `depth` [m] from where it reaches furthest."""
+    hull = as_hull(shape)
+    n = T[:3, :3].T @ normal
+    left = trimmed(hull, n, float((hull.vertices @ n).max()) - depth)
+    return (1.0, None) if left is None else (1 - volume(left) / volume(hull), fitted(left, EXACT))

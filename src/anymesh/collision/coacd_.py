@@ -1,0 +1,25 @@
+"""Convex decomposition of closed solids, by CoACD (MIT)."""
+
+from __future__ import annotations
+
+import numpy as np
+from jaxtyping import Float, Int
+
+from anymesh.errors import MissingExtraError
+
+
+def decompose(
+    vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"], *, concavity: float, seed: int = 0
+) -> list[Float[np.ndarray, "n 3"]]:
+    """The corner points of convex pieces of a closed solid.
+
+    concavity: how far a piece may be from the surface, as a share of half the longest side (CoACD's threshold). The same
+    input gives the same pieces.
+    """
+    try:
+        import coacd
+    except ImportError:
+        raise MissingExtraError("coacd is missing; it comes with articulate-anymesh, install that again") from None
+    coacd.set_log_level("off")
+    pieces = coacd.run_coacd(coacd.Mesh(vertices, faces), threshold=concavity, preprocess_mode="off", seed=seed)
+    return [np.asarray(points, float) for points, _ in pieces]

@@ -1,0 +1,95 @@
+"""Which collision shapes of different links touch at given joint positions, by MuJoCo."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from jaxtyping import Float
+
+from anymesh.collision.primitives import as_hull
+from anymesh.errors import MissingExtraError
+from anymesh.types import Box, Cylinder, Shape
+
+Pose = Mapping[str, Float[np.ndarray, "4 4"]]  # link -> where its frame is
+
+
+@dataclass(frozen=True, eq=False)
+class Contact:
+    """The deepest contact of two shapes of different links. first, second: (link, number of its shape); depth [m].
+
+    normal: unit, from the first to the second, in the frame that poses are given in; point: in it [m].
+    """
+
+    first: tuple[str, int]
+    second: tuple[str, int]
+    depth: float
+    normal: Float[np.ndarray, " 3"]
+    point: Float[np.ndarray, " 3"]
+
+
+def _mujoco() -> Any:
+    try:
+        import mujoco
+    except ImportError:
+        raise MissingExtraError("mujoco is missing; it comes with articulate-anymesh, install that again") from None
+    return mujoco
+
+
+class ContactBench:
+    """The shapes of all links, to be placed anywhere. Every pair of links may touch; no filter hides a pair."""
+
+    def __init__(self, shapes: Mapping[str, Sequence[Shape]]) -> None:
+        mujoco = _mujoco()
+        spec = mujoco.MjSpec()
+        spec.memory = 1 << 28
+        self._owner: list[tuple[str, int]] = []
+        for link, some in shapes.items():
+            body = spec.worldbody.add_body(name=link)
+            body.add_freejoint()  # MuJoCo does not look at pairs of bodies that cannot move
+            for number, shape in enumerate(some):
+                _add(mujoco, spec, body, f"{link} {number}", shape)
+                self._owner.append((link, number))
+        self._mujoco, self._model = mujoco, spec.compile()
+        self._data = mujoco.MjData(self._model)
+        self._address = {link: int(self._model.jnt_qposadr[self._model.body(link).jntadr[0]]) for link in shapes}
+
+    def contacts(self, pose: Pose, least: float) -> list[Contact]:
+        """All pairs of shapes that are more than `least` [m] in each other, in the order of the shapes."""
+        mujoco, model, data = self._mujoco, self._model, self._data
+        quat = np.zeros(4)
+        for link, k in self._address.items():
+            mujoco.mju_mat2Quat(quat, np.ascontiguousarray(pose[link][:3, :3]).reshape(-1))
+            data.qpos[k : k + 3], data.qpos[k + 3 : k + 7] = pose[link][:3, 3], quat
+        mujoco.mj_kinematics(model, data)
+        mujoco.mj_collision(model, data)
+        deepest: dict[tuple[int, int], Contact] = {}
+        for contact in data.contact[: data.ncon]:
+            a, b = (int(g) for g in contact.geom)
+            depth = -float(contact.dist)
+            if depth > least and (deepest.get((a, b)) is None or depth > deepest[a, b].depth):
+                found = Contact(self._owner[a], self._owner[b], depth, contact.frame[:3].copy(), contact.pos.copy())
+                deepest[a, b] = found
+        return [deepest[pair] for pair in sorted(deepest)]
+
+
+def _add(mujoco: Any, spec: Any, body: Any, name: str, shape: Shape) -> None:
+    quat = np.zeros(4)
+    if isinstance(shape, Box | Cylinder):
+        mujoco.mju_mat2Quat(quat, np.ascontiguousarray(shape.rotation).reshape(-1))
+    match shape:
+        case Box():
+            size, kind = shape.size / 2, mujoco.mjtGeom.mjGEOM_BOX
+        case Cylinder():
+            size = np.array([shape.radius, shape.length / 2, 0])
+            kind = mujoco.mjtGeom.mjGEOM_CYLINDER
+        case _:
+            hull = as_hull(shape)
+            mesh = spec.add_mesh(name=name)
+            mesh.uservert, mesh.userface = hull.vertices.reshape(-1), hull.faces.reshape(-1).astype(np.int32)
+            mesh.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL
+            body.add_geom(type=mujoco.mjtGeom.mjGEOM_MESH, meshname=name)
+            return
+    body.add_geom(type=kind, size=size, pos=shape.center, quat=quat)

@@ -1,0 +1,64 @@
+"""Boxes and cylinders in the place of hulls that they fit."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from anymesh.collision.convex import hull_of, volume
+from anymesh.geometry.boxes import dominant_normals, fit_box
+from anymesh.geometry.circles import roundest
+from anymesh.types import Box, Cylinder, Hull, Shape
+from anymesh.types.triangles import normals_and_areas
+
+EXACT = 1e-6  # for a hull that was cut: a box in its place must not stand out again
+FIT = 0.02  # a primitive's volume may differ by this share from the hull's ...
+ROUND = 0.97  # ... and this share of a cylinder's outline is round; an octagon is none
+SIDES = 12  # corners that a round outline has at least
+
+
+def fitted(hull: Hull, fit: float = FIT) -> Shape:
+    """The box or cylinder that a hull is, within the share `fit` of its volume; else the hull."""
+    normals, areas = normals_and_areas(hull.vertices[hull.faces])
+    exact = volume(hull)
+    box = fit_box(hull.vertices, normals, areas)
+    size = 2 * box.half
+    if abs(float(size.prod()) - exact) <= fit * exact:
+        return Box(box.center, box.axes.T.copy(), size)
+    return _cylinder(hull, dominant_normals(normals, areas, count=2), exact, fit) or hull
+
+
+def _cylinder(hull: Hull, directions: np.ndarray, exact: float, fit: float) -> Cylinder | None:
+    if len(directions) == 0:
+        return None
+    found = roundest(hull.vertices, directions)
+    if found.roundness < ROUND or len(hull.vertices) < 2 * SIDES:
+        return None
+    along = (hull.vertices - found.center) @ found.axis
+    ends = np.abs(np.abs(along) - found.height / 2) <= 0.02 * found.height
+    ideal = np.pi * found.radius**2 * found.height
+    if not ends.all() or abs(ideal - exact) > 2 * fit * exact:
+        return None
+    helper = np.eye(3)[np.abs(found.axis).argmin()]
+    u = np.cross(helper, found.axis)
+    u /= np.linalg.norm(u)
+    rotation = np.stack([u, np.cross(found.axis, u), found.axis], 1)
+    return Cylinder(found.center, rotation, found.radius, found.height)
+
+
+def as_hull(shape: Shape) -> Hull:
+    """A shape as a convex polyhedron; a cylinder as the prism of 32 sides that lies in it."""
+    match shape:
+        case Hull():
+            return shape
+        case Box():
+            signs = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]) / 2
+            points = (signs * shape.size) @ shape.rotation.T + shape.center
+        case Cylinder():
+            angle = np.arange(32) / 32 * 2 * np.pi
+            ring = np.c_[np.cos(angle), np.sin(angle)] * shape.radius
+            ends = [np.c_[ring, np.full(32, z)] for z in (-shape.length / 2, shape.length / 2)]
+            points = np.concatenate(ends) @ shape.rotation.T + shape.center
+    found = hull_of(points)
+    if found is None:
+        raise ValueError(f"a shape needs a volume, found {shape}")
+    return found

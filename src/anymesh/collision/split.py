@@ -1,0 +1,114 @@
+"""Convex decomposition of open surfaces: the surface itself is cut by planes until every piece is near its hull.
+
+A voxel remesh, as decomposers of solids need it, would give an open shell thick walls; cut as it is, it stays thin, and what it
+surrounds stays open.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+from anymesh.collision.convex import cut, hull_of, volume
+from anymesh.geometry.boxes import dominant_normals
+from anymesh.geometry.distance_ import distance_to_triangles
+from anymesh.geometry.sampling import sample_surface
+from anymesh.types import Hull
+from anymesh.types.triangles import normals_and_areas
+
+SAMPLES = 200  # of a hull, for its distance from the surface
+PLACES = 7  # of a cutting plane along each direction
+
+
+@dataclass(frozen=True, eq=False)
+class Patch:
+    """A piece of surface, its hull, and how far the hull is from it at most [m]."""
+
+    triangles: Float[np.ndarray, "n 3 3"]
+    hull: Hull
+    gap: float
+
+
+def patch_of(triangles: Float[np.ndarray, "n 3 3"], wall: float) -> Patch | None:
+    """The patch of some triangles; a flat one gets a hull of `wall` [m] behind it. None where there is no surface."""
+    if len(triangles) == 0:
+        return None
+    normals, areas = normals_and_areas(triangles)
+    facing = (normals * areas[:, None]).sum(0)
+    hull = hull_of(triangles.reshape(-1, 3), wall, -facing if float(np.linalg.norm(facing)) > 0 else None)
+    if hull is None:
+        return None
+    sides = hull.vertices[hull.faces]
+    points = np.concatenate([sample_surface(sides, SAMPLES, 0).points, sides.mean(1)])
+    return Patch(triangles, hull, float(distance_to_triangles(points, triangles).max()))
+
+
+def split_surface(triangles: Float[np.ndarray, "n 3 3"], *, gap: float, wall: float, most: int) -> list[Hull]:
+    """Hulls of pieces that are within `gap` [m] of the surface, or `most` pieces; thin ones are `wall` [m] thick."""
+    first = patch_of(triangles, wall)
+    done, waiting = [], [] if first is None else [first]
+    while waiting:
+        worst = max(range(len(waiting)), key=lambda k: waiting[k].gap)
+        patch = waiting.pop(worst)
+        if patch.gap <= max(gap, 2 * wall) or len(done) + len(waiting) + 1 >= most:
+            done.append(patch)
+            continue
+        halves = _halves(patch, wall)
+        if len(halves) < 2:
+            done.append(patch)
+        else:
+            waiting += halves
+    return [patch.hull for patch in done]
+
+
+def _halves(patch: Patch, wall: float) -> list[Patch]:
+    """The two pieces, by the plane that leaves the least volume in both hulls."""
+    best = None
+    for normal, offset in _planes(patch, wall):
+        left = sum(_thick_volume(points, wall) for points in _sides(patch.triangles, normal, offset))
+        if best is None or left < best[0] * (1 - 1e-9):
+            best = (left, normal, offset)
+    if best is None:
+        return []
+    pieces = (patch_of(piece, wall) for piece in cut(patch.triangles, best[1], best[2]))
+    return [piece for piece in pieces if piece is not None]
+
+
+def _planes(patch: Patch, wall: float) -> Iterator[tuple[np.ndarray, float]]:
+    """Cutting planes: across the directions that the patch faces and its principal ones, beside and between its corners."""
+    normals, areas = normals_and_areas(patch.triangles)
+    corners = patch.triangles.reshape(-1, 3)
+    spread = corners - corners.mean(0)
+    directions = [*dominant_normals(normals, areas, count=4), *np.linalg.svd(spread.T @ spread)[2]]
+    kept: list[np.ndarray] = []
+    for direction in directions:
+        if all(abs(float(direction @ other)) < 0.99 for other in kept):
+            kept.append(direction)
+    for direction in kept:
+        along = np.unique(np.round((corners @ direction) / wall)) * wall
+        low, high = float(along[0]), float(along[-1])
+        if high - low < 4 * wall:
+            continue
+        inner = along[(along > low + 1.5 * wall) & (along < high - 1.5 * wall)]
+        chosen = inner[np.unique(np.linspace(0, len(inner) - 1, PLACES).astype(int))] if len(inner) else inner
+        for offset in (low + wall, *chosen.tolist(), (low + high) / 2, high - wall):
+            yield direction, float(offset)
+
+
+def _sides(triangles: np.ndarray, normal: np.ndarray, offset: float) -> tuple[np.ndarray, np.ndarray]:
+    """Corner points of what a plane leaves on each side, without dividing the triangles."""
+    height = triangles @ normal - offset
+    nxt = [1, 2, 0]
+    crossing = height * height[:, nxt] < 0
+    a, b = triangles[crossing], triangles[:, nxt][crossing]
+    share = (height[crossing] / (height[crossing] - height[:, nxt][crossing]))[:, None]
+    met = a + (b - a) * share
+    return np.concatenate([triangles[height <= 0], met]), np.concatenate([triangles[height >= 0], met])
+
+
+def _thick_volume(points: np.ndarray, wall: float) -> float:
+    hull = hull_of(points, wall)
+    return 0.0 if hull is None else volume(hull)

@@ -1,0 +1,71 @@
+"""Decompositions kept by content: the slow step of an export is done once for a surface."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+from pathlib import Path
+
+import numpy as np
+
+from anymesh.types import Box, Cylinder, Hull, Shape
+
+VERSION = b"1"  # another one where the same surface would give other shapes
+
+
+def content_key(*values: np.ndarray | float | int) -> str:
+    """A key over arrays and numbers."""
+    digest = hashlib.sha256(VERSION)
+    for value in values:
+        digest.update(np.ascontiguousarray(value, np.float64).tobytes())
+    return digest.hexdigest()
+
+
+def load_shapes(folder: Path | None, key: str) -> tuple[Shape, ...] | None:
+    """The shapes kept under a key; None when there are none, or the file is not whole."""
+    if folder is None:
+        return None
+    try:
+        with np.load(folder / f"{key}.npz", allow_pickle=False) as found:
+            return tuple(
+                _shape([found[f"{k}_{n}"] for n in range(int(found["arrays"][k]))]) for k in range(len(found["arrays"]))
+            )
+    except (OSError, ValueError, KeyError, EOFError):
+        return None
+
+
+def save_shapes(folder: Path | None, key: str, shapes: tuple[Shape, ...]) -> None:
+    """Keeps shapes under a key; a folder that cannot be written is no reason to stop."""
+    if folder is None:
+        return
+    rows = [_arrays(shape) for shape in shapes]
+    named = {f"{k}_{n}": array for k, some in enumerate(rows) for n, array in enumerate(some)}
+    own = folder / f"{key}.{os.getpid()}.tmp.npz"
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        np.savez_compressed(own, arrays=np.array([len(some) for some in rows], np.int64), **named)  # ty: ignore[invalid-argument-type]
+        own.replace(folder / f"{key}.npz")
+    except OSError:
+        return
+
+
+def _arrays(shape: Shape) -> list[np.ndarray]:
+    match shape:
+        case Hull():
+            return [shape.vertices, shape.faces]
+        case Box():
+            return [shape.center, shape.rotation, shape.size]
+        case Cylinder():
+            return [shape.center, shape.rotation, np.array(shape.radius), np.array(shape.length)]
+
+
+def _shape(arrays: list[np.ndarray]) -> Shape:
+    match arrays:
+        case [vertices, faces]:
+            return Hull(vertices, faces)
+        case [center, rotation, size]:
+            return Box(center, rotation, size)
+        case [center, rotation, radius, length]:
+            return Cylinder(center, rotation, float(radius), float(length))
+        case _:
+            raise ValueError(f"a shape is kept in 2 to 4 arrays, found {len(arrays)}")

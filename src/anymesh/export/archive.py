@@ -1,0 +1,26 @@
+"""A folder as a zip whose bytes depend on nothing but its content."""
+
+from __future__ import annotations
+
+import zipfile
+from pathlib import Path
+
+EPOCH = (1980, 1, 1, 0, 0, 0)  # the first date that a zip can hold
+PLAIN_FILE = 0o100644 << 16  # a file that all may read, its owner write
+
+
+def write_zip(folder: Path, path: Path) -> None:
+    """Zips an asset folder, its own name first, files sorted by name, dates and rights all the same.
+
+    Hidden files and saved stages, which no simulator needs, stay out.
+    """
+    partial = path.with_name(f".{path.name}.partial")
+    with zipfile.ZipFile(partial, "w", zipfile.ZIP_DEFLATED, compresslevel=6) as archive:
+        for file in sorted(p for p in folder.rglob("*") if p.is_file()):
+            inside = file.relative_to(folder)
+            if file == path or inside.parts[0] == "stages" or any(part.startswith(".") for part in inside.parts):
+                continue
+            entry = zipfile.ZipInfo(f"{folder.name}/{inside.as_posix()}", EPOCH)
+            entry.compress_type, entry.external_attr, entry.create_system = zipfile.ZIP_DEFLATED, PLAIN_FILE, 3
+            archive.writestr(entry, file.read_bytes())
+    partial.replace(path)

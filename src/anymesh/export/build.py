@@ -1,0 +1,47 @@
+"""An asset as bodies: links with mass and collision, ready for every format."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from anymesh.collision import Collision, collision_shapes
+from anymesh.export.densities import Substance, substance_of
+from anymesh.export.inertia import link_inertia
+from anymesh.export.links import Link, split_links, with_legal_names
+from anymesh.export.model import Base, Body, Exclusion, Model
+from anymesh.export.settings import ExportConfig
+from anymesh.types import Asset, Mesh
+
+OVERLAP = "their surfaces overlap at rest"
+TIGHT = "their collision shapes touch where the surfaces do not"
+
+
+@dataclass(frozen=True, eq=False)
+class Built:
+    """A model, and how its collision shapes came about."""
+
+    model: Model
+    collision: Collision
+
+
+def build_model(asset: Asset, *, base: Base, config: ExportConfig, cache: Path | None) -> Built:
+    """The model of an asset, with legal names. cache: folder of decompositions, None for none."""
+    asset = with_legal_names(asset)
+    links = split_links(asset)
+    triangles = {link.name: link.triangles for link in links}
+    origins = {link.name: link.origin for link in links}
+    collision = collision_shapes(asset, triangles, origins, config.collision, cache)
+    bodies = tuple(
+        Body(link, link_inertia(triangles[link.name], config, _made_of(asset.mesh, link)), collision.shapes[link.name])
+        for link in links
+    )
+    excluded = [Exclusion(a, b, OVERLAP) for a, b in collision.overlapping]
+    excluded += [Exclusion(a, b, TIGHT) for a, b in collision.tight]
+    return Built(Model(asset, bodies, base, tuple(excluded)), collision)
+
+
+def _made_of(mesh: Mesh, link: Link) -> list[Substance | None]:
+    """The substance of each triangle of a link, by the name of its material."""
+    named = {p.material: None if p.material < 0 else substance_of(mesh.materials[p.material].name) for p in link.primitives}
+    return [named[p.material] for p in link.primitives for _ in range(len(p.triangles))]

@@ -1,0 +1,79 @@
+"""The drive of a joint: a spring and a damper towards a commanded position, the same numbers in every format."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from anymesh.export.model import Body, Model
+from anymesh.types import Joint, JointType
+
+GRAVITY = 9.81  # [m/s^2]
+WITHIN = 0.02  # of a joint's range: what a drive carries must not push it further from where it is told to be
+
+UPRIGHT = 0.999  # cosine to the vertical; such a joint tilts nothing that it carries
+
+
+@dataclass(frozen=True)
+class Drive:
+    """stiffness [N m/rad or N/m], damping [N m s/rad or N s/m], effort [N m or N] at most."""
+
+    stiffness: float
+    damping: float
+    effort: float
+
+
+def drives(model: Model) -> Mapping[str, Drive]:
+    """A drive for each joint that moves, by the joint's name.
+
+    Damping over stiffness is the time in which the joint crosses its range at its velocity, so that a drive is led no
+    faster. The stiffness holds friction and the weight carried within a share of the range, and is at least what makes
+    the motion critically damped, so no drive rings or overshoots.
+    """
+    return {j.name: _drive(model, j) for j in model.asset.joints if j.type is not JointType.FIXED}
+
+
+def _drive(model: Model, joint: Joint) -> Drive:
+    span = 2 * np.pi if joint.limits is None else joint.limits[1] - joint.limits[0]
+    seconds = span / joint.velocity
+    inertia, load = _carried(model, joint)
+    stiffness = max(4 * inertia / seconds**2, (joint.friction + load) / (WITHIN * span))
+    return Drive(float(stiffness), float(stiffness * seconds), joint.effort)
+
+
+def _carried(model: Model, joint: Joint) -> tuple[float, float]:
+    """Inertia [kg m^2 or kg] that the joint moves at rest, and the most that gravity can pull at it [N m or N]."""
+    bodies = _subtree(model, joint.child)
+    masses = np.array([b.inertia.mass for b in bodies])
+    along, tilt = (1.0, 1.0) if _is_tilted(model, joint) else (abs(joint.axis[2]), float(np.linalg.norm(joint.axis[:2])))
+    if joint.type is JointType.PRISMATIC:
+        return float(masses.sum()), float(masses.sum() * GRAVITY * along)
+    levers = np.array([b.link.origin + b.inertia.center - joint.origin for b in bodies])
+    levers -= np.outer(levers @ joint.axis, joint.axis)
+    own = sum(float(joint.axis @ b.inertia.tensor @ joint.axis) for b in bodies)
+    return own + float(masses @ (levers**2).sum(1)), float(np.linalg.norm(masses @ levers)) * GRAVITY * tilt
+
+
+def _is_tilted(model: Model, joint: Joint) -> bool:
+    """Whether a joint before this one can turn its axis towards or away from upright."""
+    carriers = {j.child: j for j in model.asset.joints}
+    at = carriers.get(joint.parent)
+    while at is not None:
+        if at.type in (JointType.REVOLUTE, JointType.CONTINUOUS) and abs(at.axis[2]) < UPRIGHT:
+            return True
+        at = carriers.get(at.parent)
+    return False
+
+
+def _subtree(model: Model, name: str) -> list[Body]:
+    """A body and all that it carries."""
+    found = {name}
+    waiting = [name]
+    while waiting:
+        at = waiting.pop()
+        children = {j.child for j in model.asset.joints if j.parent == at}
+        found |= children
+        waiting += sorted(children)
+    return [b for b in model.bodies if b.name in found]

@@ -1,0 +1,75 @@
+"""The formats that an asset is written in: a closed set, a writer each."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from enum import StrEnum
+from pathlib import Path
+
+from anymesh.errors import OptionError
+from anymesh.export.glb import glb_bytes
+from anymesh.export.mjcf_ import write_mjcf
+from anymesh.export.model import Model
+from anymesh.export.sdf import write_sdf
+from anymesh.export.settings import ExportConfig
+from anymesh.export.urdf import urdf_text
+from anymesh.export.usd_ import write_usd
+
+
+class Format(StrEnum):
+    """Names of the formats, as options take them."""
+
+    URDF = "urdf"
+    MJCF = "mjcf"
+    USD = "usd"  # needs the extra
+    SDF = "sdf"
+    GLB = "glb"
+
+
+Writer = Callable[[Model, Path, ExportConfig], None]  # into an asset folder whose meshes/ is there
+DEFAULT = (Format.URDF, Format.MJCF, Format.SDF, Format.GLB)
+
+
+def parse_formats(text: str) -> tuple[Format, ...]:
+    """Formats by name with commas between, each once, in the order of the set. OptionError names what is not known."""
+    asked = {word.strip().lower() for word in text.split(",") if word.strip()}
+    unknown = sorted(asked - set(Format))
+    if unknown or not asked:
+        found = f"unknown {', '.join(map(repr, unknown))}" if unknown else "none"
+        raise OptionError(f"formats {text!r}: {found}; valid are {', '.join(Format)}, with commas between")
+    return tuple(f for f in Format if f in asked)
+
+
+def main_file(kind: Format, name: str) -> str:
+    """The file to open of an asset called `name`, relative to its folder."""
+    return {
+        Format.URDF: f"{name}.urdf",
+        Format.MJCF: f"{name}.xml",
+        Format.USD: f"{name}.usdc",
+        Format.SDF: "model.sdf",
+        Format.GLB: f"{name}.glb",
+    }[kind]
+
+
+def write_formats(model: Model, folder: Path, formats: Sequence[Format], config: ExportConfig) -> None:
+    """Writes each format into an asset folder whose meshes/ is there. MissingExtraError for one that is not installed."""
+    for kind in formats:
+        WRITERS[kind](model, folder, config)
+
+
+def _write_urdf(model: Model, folder: Path, config: ExportConfig) -> None:
+    (folder / main_file(Format.URDF, model.asset.name)).write_text(urdf_text(model), encoding="utf-8", newline="\n")
+
+
+def _write_glb(model: Model, folder: Path, config: ExportConfig) -> None:
+    found = glb_bytes(model.asset, model.links, config)
+    (folder / main_file(Format.GLB, model.asset.name)).write_bytes(found)
+
+
+WRITERS: Mapping[Format, Writer] = {
+    Format.URDF: _write_urdf,
+    Format.MJCF: write_mjcf,
+    Format.USD: write_usd,
+    Format.SDF: write_sdf,
+    Format.GLB: _write_glb,
+}

@@ -1,0 +1,63 @@
+"""What a primitive shows where a format takes one colour, and the files of the textures."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from pathlib import Path
+
+import numpy as np
+
+from anymesh.export.links import Link, Primitive
+from anymesh.names import legal_names
+from anymesh.types import Mesh
+from anymesh.types.color import to_srgb
+from anymesh.types.mesh import TEXTURE_SLOTS
+from anymesh.types.triangles import face_cross
+
+GREY = (0.7, 0.7, 0.7, 1.0)
+SUFFIXES = {"image/png": ".png", "image/jpeg": ".jpg"}
+
+
+def painted(mesh: Mesh, p: Primitive) -> bool:
+    """Whether its colours are those of its corners, for no texture says otherwise."""
+    return p.colors is not None and (p.material < 0 or not mesh.materials[p.material].textures)
+
+
+def display_color(mesh: Mesh, p: Primitive) -> tuple[float, ...]:
+    """One colour (sRGB and alpha, 0..1) for a primitive; a texture multiplies it."""
+    if p.colors is not None and painted(mesh, p):
+        return tuple(float(c) for c in p.colors.mean(0) / 255)
+    if p.material < 0:
+        return GREY
+    *color, alpha = mesh.materials[p.material].base_color
+    return (*to_srgb(color).tolist(), alpha)
+
+
+def widest(link: Link) -> Primitive:
+    """The primitive that covers most of the link."""
+    return max(link.primitives, key=lambda p: float(np.linalg.norm(face_cross(p.positions[p.triangles]), axis=1).sum()))
+
+
+def texture_files(mesh: Mesh) -> dict[bytes, str]:
+    """The file name of each image in use, by its bytes; stems are unique whatever the suffix."""
+    found = {}
+    for index in sorted(set(mesh.face_material.tolist()) - {-1}) if mesh.corner_uv is not None else []:
+        material = mesh.materials[index]
+        for slot in TEXTURE_SLOTS:
+            texture = material.textures.get(slot)
+            if texture is not None:
+                found.setdefault(texture.data, (texture, Path(texture.name).stem or f"{material.name}_{slot}"))
+    names = legal_names([stem for _, stem in found.values()], fallback="texture")
+    return {
+        data: name + SUFFIXES.get(texture.mime, ".png") for (data, (texture, _)), name in zip(found.items(), names, strict=True)
+    }
+
+
+def write_textures(mesh: Mesh, folder: Path, slots: Collection[str]) -> Mapping[bytes, str]:
+    """Writes the images of some slots as they are; returns the file names by the bytes."""
+    files = texture_files(mesh)
+    for index in sorted(set(mesh.face_material.tolist()) - {-1}):
+        for slot, texture in mesh.materials[index].textures.items():
+            if slot in slots and texture.data in files:
+                (folder / files[texture.data]).write_bytes(texture.data)
+    return files

@@ -1,0 +1,91 @@
+"""Ten digits where MuJoCo writes six, and position actuators in the words of every version."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from xml.etree import ElementTree
+
+import numpy as np
+
+from anymesh.export.drives import Drive
+from anymesh.export.model import Body, Model
+from anymesh.export.rotations import quaternion
+from anymesh.export.xml_text import moments, number, vector
+from anymesh.types import Box, Cylinder, Hull, Joint
+
+
+def with_digits(text: str, model: Model, motors: Mapping[str, Drive]) -> str:
+    """The MJCF of a model with its numbers written in full; elements are found by name."""
+    root = ElementTree.fromstring(text)
+    origins = {link.name: link.origin for link in model.links}
+    bodies = {element.get("name"): element for element in root.iter("body")}
+    for body in model.bodies:
+        joint = body.link.joint
+        element = bodies[body.name]
+        if joint is not None:
+            element.set("pos", vector(body.link.origin - origins[joint.parent]))
+        _inertial(element, body)
+        _geoms(element, body)
+    joints = {element.get("name"): element for element in root.iter("joint")}
+    for joint in model.asset.joints:
+        if joint.name in joints:
+            _joint(joints[joint.name], joint)
+    for element in root.iter("texture"):
+        element.attrib.pop("colorspace", None)  # guessed at compile time; older versions do not know the word
+    actuators = root.find("actuator")
+    if actuators is not None:
+        _actuators(actuators, {j.name: j for j in model.asset.joints}, motors)
+    ElementTree.indent(root)
+    return ElementTree.tostring(root, encoding="unicode") + "\n"
+
+
+def _inertial(element: ElementTree.Element, body: Body) -> None:
+    inertial = element.find("inertial")
+    if inertial is None:
+        raise ValueError(f"body {body.name!r} was written without its inertia")
+    found = moments(body.inertia.tensor)
+    inertial.attrib.clear()
+    inertial.set("pos", vector(body.inertia.center))
+    inertial.set("mass", number(body.inertia.mass))
+    inertial.set("fullinertia", " ".join(found[key] for key in ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")))
+
+
+def _joint(element: ElementTree.Element, joint: Joint) -> None:
+    element.set("axis", vector(joint.axis / np.linalg.norm(joint.axis)))
+    element.set("damping", number(joint.damping))
+    element.set("frictionloss", number(joint.friction))
+    element.set("actuatorfrcrange", vector((-joint.effort, joint.effort)))
+    if joint.limits is not None:
+        element.set("range", vector(joint.limits))
+
+
+def _geoms(element: ElementTree.Element, body: Body) -> None:
+    """Places and sizes of primitives; meshes lie where their files say."""
+    shapes = {f"{body.name}_collision_{i}": shape for i, shape in enumerate(body.shapes)}
+    for geom in element.findall("geom"):
+        shape = shapes.get(str(geom.get("name")))
+        if shape is None or isinstance(shape, Hull):
+            geom.attrib.pop("pos", None)  # what the compiler moved a mesh by and back, and its rounding
+            geom.attrib.pop("quat", None)
+            continue
+        geom.set("pos", vector(shape.center))
+        geom.set("quat", vector(quaternion(shape.rotation)))
+        match shape:
+            case Box():
+                geom.set("size", vector(shape.size / 2))
+            case Cylinder():
+                geom.set("size", vector((shape.radius, shape.length / 2)))
+
+
+def _actuators(actuators: ElementTree.Element, joints: Mapping[str, Joint], motors: Mapping[str, Drive]) -> None:
+    """`general` with its parameters becomes `position`, which says the same."""
+    for element in list(actuators):
+        name = str(element.get("name"))
+        limits, drive = joints[name].limits, motors[name]
+        words = {"name": name, "joint": name, "group": str(element.get("group")), "kp": number(drive.stiffness)}
+        words |= {"kv": number(drive.damping), "forcerange": vector((-drive.effort, drive.effort)), "forcelimited": "true"}
+        if limits is not None:
+            words |= {"ctrlrange": vector(limits), "ctrllimited": "true"}
+        element.tag = "position"
+        element.attrib.clear()
+        element.attrib.update(words)

@@ -1,0 +1,73 @@
+"""What every format is written from: links as bodies with inertia and collision shapes, joints, and a base."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+
+from anymesh.export.inertia import Inertia
+from anymesh.export.links import Link
+from anymesh.types import Asset, Hull, Shape
+
+FOLDER = "meshes"
+
+
+class Base(StrEnum):
+    """Whether the root link is fixed to the world or moves freely in it."""
+
+    FIXED = "fixed"
+    FREE = "free"
+
+
+@dataclass(frozen=True, eq=False)
+class Body:
+    """A link with what physics needs. shapes: its collision, convex, in the link frame."""
+
+    link: Link
+    inertia: Inertia
+    shapes: tuple[Shape, ...]
+
+    @property
+    def name(self) -> str:
+        return self.link.name
+
+    def visual_path(self) -> str:
+        """Relative to the asset folder, with forward slashes."""
+        return f"{FOLDER}/{self.name}.obj"
+
+    def faces_path(self) -> str:
+        """Relative to the asset folder: the source's face indices of the link, an int64 .npy."""
+        return f"{FOLDER}/{self.name}.faces.npy"
+
+    def hull_paths(self) -> tuple[str | None, ...]:
+        """A path relative to the asset folder for each shape; None for boxes and cylinders, which need no file."""
+        hulls = sum(isinstance(s, Hull) for s in self.shapes)
+        found: list[str | None] = []
+        for shape in self.shapes:
+            number = f"_{len(found) - found.count(None)}" if hulls > 1 else ""
+            found.append(f"{FOLDER}/{self.name}_collision{number}.obj" if isinstance(shape, Hull) else None)
+        return tuple(found)
+
+
+@dataclass(frozen=True)
+class Exclusion:
+    """Two links whose contact no engine should look at, and why."""
+
+    a: str
+    b: str
+    why: str
+
+
+@dataclass(frozen=True, eq=False)
+class Model:
+    """An asset with legal names, ready to be written. bodies: in the order of the parts, the root first."""
+
+    asset: Asset
+    bodies: tuple[Body, ...]
+    base: Base = Base.FIXED
+    exclusions: tuple[Exclusion, ...] = ()
+
+    @property
+    def links(self) -> Sequence[Link]:
+        return tuple(body.link for body in self.bodies)

@@ -1,0 +1,84 @@
+"""A ROS 2 package of an asset folder: package.xml, CMakeLists.txt, urdf/ with package:// paths, meshes/."""
+
+from __future__ import annotations
+
+import re
+import shutil
+from pathlib import Path
+from xml.etree import ElementTree
+
+import anymesh
+from anymesh.errors import InputError, OutputError
+from anymesh.export.model import FOLDER, Base
+from anymesh.export.xml_text import document
+from anymesh.names import legal_names
+
+CMAKE = """cmake_minimum_required(VERSION 3.8)
+project({name})
+find_package(ament_cmake REQUIRED)
+install(DIRECTORY urdf meshes DESTINATION share/${{PROJECT_NAME}})
+ament_package()
+"""
+SUFFIXES = {".obj", ".mtl", ".png", ".jpg"}  # what a URDF's meshes need; face numbers stay behind
+
+
+def write_package(folder: Path, into: Path, *, base: Base) -> Path:
+    """Writes a package of the one URDF in an asset folder as a new folder in `into`; returns the package's folder.
+
+    A fixed base gets the link `world` that ROS and Gazebo hold it by; a free one has none. InputError when the folder
+    has no URDF, OutputError when the package exists.
+    """
+    urdfs = sorted(folder.glob("*.urdf"))
+    if len(urdfs) != 1:
+        raise InputError(f"{folder}: a package needs one .urdf, found {len(urdfs)}")
+    name = package_name(urdfs[0].stem)
+    package = into / name
+    if package.exists():
+        raise OutputError(f"{package} exists")
+    (package / "urdf").mkdir(parents=True)
+    (package / FOLDER).mkdir()
+    for file in sorted((folder / FOLDER).iterdir()):
+        if file.suffix in SUFFIXES:
+            shutil.copyfile(file, package / FOLDER / file.name)
+    texts = {
+        "package.xml": _manifest(name),
+        "CMakeLists.txt": CMAKE.format(name=name),
+        f"urdf/{urdfs[0].name}": _packaged(urdfs[0].read_text(encoding="utf-8"), name, base),
+    }
+    for path, text in texts.items():
+        (package / path).write_text(text, encoding="utf-8", newline="\n")
+    return package
+
+
+def package_name(name: str) -> str:
+    """A name as ROS asks for: lower case, starting with a letter, no two underscores together, none at the end."""
+    return re.sub(r"_+", "_", name.lower()).strip("_")
+
+
+def _manifest(name: str) -> str:
+    root = ElementTree.Element("package", format="3")
+    sub = ElementTree.SubElement
+    sub(root, "name").text = name
+    sub(root, "version").text = ".".join(re.findall(r"\d+", anymesh.__version__)[:3])
+    sub(root, "description").text = "An articulated object, made by Articulate AnyMesh"
+    sub(root, "maintainer", email="nobody@example.com").text = "nobody"
+    sub(root, "license").text = "As the mesh that it was made from"
+    sub(root, "buildtool_depend").text = "ament_cmake"
+    sub(sub(root, "export"), "build_type").text = "ament_cmake"
+    return document(root)
+
+
+def _packaged(text: str, name: str, base: Base) -> str:
+    """The URDF with paths in the package, and with a world to stand in where its base is fixed."""
+    robot = ElementTree.fromstring(text)
+    for mesh in robot.iter("mesh"):
+        mesh.set("filename", f"package://{name}/{mesh.get('filename')}")
+    if base is Base.FIXED:
+        children = {str(c.get("link")) for c in robot.iter("child")}
+        root = next(str(link.get("name")) for link in robot.iter("link") if link.get("name") not in children)
+        taken = [str(j.get("name")) for j in robot.findall("joint")]
+        joint = ElementTree.Element("joint", name=legal_names([*taken, "fixed_base"], fallback="joint")[-1], type="fixed")
+        ElementTree.SubElement(joint, "parent", link="world")
+        ElementTree.SubElement(joint, "child", link=root)
+        robot[:0] = [ElementTree.Element("link", name="world"), joint]
+    return document(robot)

@@ -1,0 +1,49 @@
+"""Rotation matrices as the formats write them."""
+
+from __future__ import annotations
+
+import numpy as np
+from jaxtyping import Float
+
+
+def rpy(rotation: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, " 3"]:
+    """Roll, pitch, yaw [rad] about the fixed x, y, z in this order, as URDF and SDFormat mean them; no roll at the pole."""
+    pitch = float(np.arctan2(-rotation[2, 0], np.hypot(rotation[0, 0], rotation[1, 0])))
+    if np.hypot(rotation[0, 0], rotation[1, 0]) < 1e-9:
+        return np.array([0.0, pitch, np.arctan2(-rotation[0, 1], rotation[1, 1])])
+    return np.array([np.arctan2(rotation[2, 1], rotation[2, 2]), pitch, np.arctan2(rotation[1, 0], rotation[0, 0])])
+
+
+def quaternion(rotation: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, " 4"]:
+    """w, x, y, z, unit, w >= 0."""
+    (a, b, c), (d, e, f), (g, h, i) = rotation
+    squares = np.maximum(0.0, [1 + a + e + i, 1 + a - e - i, 1 - a + e - i, 1 - a - e + i])  # of 2w, 2x, 2y, 2z
+    rows = np.array(
+        [
+            [squares[0], h - f, c - g, d - b],
+            [h - f, squares[1], b + d, c + g],
+            [c - g, b + d, squares[2], f + h],
+            [d - b, c + g, f + h, squares[3]],
+        ]
+    )
+    found = rows[int(np.argmax(squares))]
+    found = found / np.linalg.norm(found)
+    return found + 0.0 if found[0] >= 0 else 0.0 - found
+
+
+def turning_x_to(axis: Float[np.ndarray, " 3"]) -> Float[np.ndarray, "3 3"]:
+    """A rotation whose first column is a unit axis, the shortest way where there is one."""
+    cosine = float(axis[0])
+    if cosine < -1 + 1e-12:
+        return np.diag([-1.0, -1.0, 1.0])
+    x, y, z = np.cross([1.0, 0, 0], axis)
+    K = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    return np.eye(3) + K + K @ K / (1 + cosine)
+
+
+def principal(tensor: Float[np.ndarray, "3 3"]) -> tuple[Float[np.ndarray, " 3"], Float[np.ndarray, "3 3"]]:
+    """Moments of an inertia, rising, and the right-handed axes they are about, as columns."""
+    found, axes = np.linalg.eigh(tensor)
+    axes = axes * np.sign(axes[np.abs(axes).argmax(0), range(3)])
+    axes[:, 2] = np.cross(axes[:, 0], axes[:, 1])
+    return found, axes

@@ -1,0 +1,148 @@
+"""SDFormat: model.sdf and the model.config that lets Gazebo find it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import assert_never
+from xml.etree import ElementTree
+
+import numpy as np
+
+from anymesh.export.looks import display_color, painted, widest
+from anymesh.export.model import Base, Body, Model
+from anymesh.export.rotations import rpy
+from anymesh.export.settings import ExportConfig
+from anymesh.export.xml_text import document, moments, number, vector
+from anymesh.names import legal_names
+from anymesh.types import Box, Cylinder, Hull, Joint, JointType, Mesh, Shape
+
+VERSION = "1.9"
+FILE, CONFIG_FILE = "model.sdf", "model.config"
+
+
+def write_sdf(model: Model, folder: Path, config: ExportConfig) -> None:
+    """Writes model.sdf and model.config into an asset folder whose meshes/ is there."""
+    for name, text in ((FILE, sdf_text(model)), (CONFIG_FILE, config_text(model))):
+        (folder / name).write_text(text, encoding="utf-8", newline="\n")
+
+
+def config_text(model: Model) -> str:
+    """The model.config of a model."""
+    root = ElementTree.Element("model")
+    ElementTree.SubElement(root, "name").text = model.asset.name
+    ElementTree.SubElement(root, "version").text = "1.0"
+    ElementTree.SubElement(root, "sdf", version=VERSION).text = FILE
+    ElementTree.SubElement(root, "description").text = "An articulated object, made by Articulate AnyMesh"
+    return document(root)
+
+
+def sdf_text(model: Model) -> str:
+    """The SDFormat of a model. A link's frame is also its joint's, so a joint has no pose and its axis stands as it is.
+
+    A fixed base is a fixed joint to the world: <static> would hold the other joints too. Links of one name with a joint
+    are not allowed in SDFormat: such a joint's name gets a number.
+    """
+    asset = model.asset
+    root = ElementTree.Element("sdf", version=VERSION)
+    element = ElementTree.SubElement(root, "model", name=asset.name, canonical_link=model.bodies[0].name)
+    _leaf(element, "self_collide", "true" if _only_neighbours_excluded(model) else "false")
+    origins = {link.name: link.origin for link in model.links}
+    for body in model.bodies:
+        _add_link(element, asset.mesh, body, origins)
+    names = joint_names(model)
+    if model.base is Base.FIXED:
+        fixed = ElementTree.SubElement(element, "joint", name=legal_names([*origins, *names.values(), "fixed_base"])[-1])
+        fixed.set("type", "fixed")
+        _leaf(fixed, "parent", "world")
+        _leaf(fixed, "child", model.bodies[0].name)
+    for joint in asset.joints:
+        _add_joint(element, joint, names[joint.name])
+    return document(root)
+
+
+def joint_names(model: Model) -> Mapping[str, str]:
+    """The names of the joints in SDFormat, where no joint may have a link's name."""
+    joints = [j.name for j in model.asset.joints]
+    taken = [link.name for link in model.links]
+    return dict(zip(joints, legal_names([*taken, *joints])[len(taken) :], strict=True))
+
+
+def _only_neighbours_excluded(model: Model) -> bool:
+    """Links that a joint connects never collide in Gazebo; other pairs can only be excluded all at once."""
+    joined = {frozenset((j.parent, j.child)) for j in model.asset.joints}
+    return all(frozenset((pair.a, pair.b)) in joined for pair in model.exclusions)
+
+
+def _leaf(parent: ElementTree.Element, tag: str, text: str) -> ElementTree.Element:
+    element = ElementTree.SubElement(parent, tag)
+    element.text = text
+    return element
+
+
+def _add_link(model: ElementTree.Element, mesh: Mesh, body: Body, origins: Mapping[str, np.ndarray]) -> None:
+    element = ElementTree.SubElement(model, "link", name=body.name)
+    joint = body.link.joint
+    if joint is not None:
+        pose = _leaf(element, "pose", _pose(body.link.origin - origins[joint.parent], np.eye(3)))
+        pose.set("relative_to", joint.parent)
+    inertial = ElementTree.SubElement(element, "inertial")
+    _leaf(inertial, "pose", _pose(body.inertia.center, np.eye(3)))
+    _leaf(inertial, "mass", number(body.inertia.mass))
+    tensor = ElementTree.SubElement(inertial, "inertia")
+    for key, value in moments(body.inertia.tensor).items():
+        _leaf(tensor, key, value)
+    _add_visual(element, mesh, body)
+    for index, (shape, path) in enumerate(zip(body.shapes, body.hull_paths(), strict=True)):
+        collision = ElementTree.SubElement(element, "collision", name=f"collision_{index}")
+        if not isinstance(shape, Hull):
+            _leaf(collision, "pose", _pose(shape.center, shape.rotation))
+        _add_shape(ElementTree.SubElement(collision, "geometry"), shape, path)
+
+
+def _add_visual(link: ElementTree.Element, mesh: Mesh, body: Body) -> None:
+    """The visual OBJ with the materials of its MTL; a colour where it has none."""
+    visual = ElementTree.SubElement(link, "visual", name="visual")
+    _leaf(ElementTree.SubElement(ElementTree.SubElement(visual, "geometry"), "mesh"), "uri", body.visual_path())
+    if all(p.material < 0 or painted(mesh, p) for p in body.link.primitives):
+        color = " ".join(f"{c:.6g}" for c in display_color(mesh, widest(body.link)))
+        material = ElementTree.SubElement(visual, "material")
+        _leaf(material, "ambient", color)
+        _leaf(material, "diffuse", color)
+
+
+def _add_shape(geometry: ElementTree.Element, shape: Shape, path: str | None) -> None:
+    match shape:
+        case Box():
+            _leaf(ElementTree.SubElement(geometry, "box"), "size", vector(shape.size))
+        case Cylinder():
+            element = ElementTree.SubElement(geometry, "cylinder")
+            _leaf(element, "radius", number(shape.radius))
+            _leaf(element, "length", number(shape.length))
+        case Hull():
+            _leaf(ElementTree.SubElement(geometry, "mesh"), "uri", str(path))
+        case _:
+            assert_never(shape)
+
+
+def _add_joint(model: ElementTree.Element, joint: Joint, name: str) -> None:
+    element = ElementTree.SubElement(model, "joint", name=name, type=str(joint.type))
+    _leaf(element, "parent", joint.parent)
+    _leaf(element, "child", joint.child)
+    if joint.type is JointType.FIXED:
+        return
+    axis = ElementTree.SubElement(element, "axis")
+    _leaf(axis, "xyz", vector(joint.axis / np.linalg.norm(joint.axis)))
+    limit = ElementTree.SubElement(axis, "limit")
+    if joint.limits is not None:
+        _leaf(limit, "lower", number(joint.limits[0]))
+        _leaf(limit, "upper", number(joint.limits[1]))
+    _leaf(limit, "effort", number(joint.effort))
+    _leaf(limit, "velocity", number(joint.velocity))
+    dynamics = ElementTree.SubElement(axis, "dynamics")
+    _leaf(dynamics, "damping", number(joint.damping))
+    _leaf(dynamics, "friction", number(joint.friction))
+
+
+def _pose(place: np.ndarray, rotation: np.ndarray) -> str:
+    return f"{vector(place)} {vector(rpy(rotation))}"

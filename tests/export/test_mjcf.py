@@ -1,0 +1,113 @@
+"""MJCF in MuJoCo: it compiles, steps, and its drives do what they say."""
+
+import shutil
+from dataclasses import replace
+from xml.etree import ElementTree
+
+import mujoco
+import numpy as np
+import pytest
+from assets import cabinet, slanted
+from models import CONFIG, desk, model_of, with_meshes
+
+from anymesh.errors import OutputError
+from anymesh.export.drives import WITHIN, drives
+from anymesh.export.mjcf_ import write_mjcf
+from anymesh.export.model import Base, Exclusion
+from anymesh.types import Hull
+
+
+def load(model, folder):
+    write_mjcf(model, with_meshes(model, folder), CONFIG)
+    return mujoco.MjModel.from_xml_path(str(folder / f"{model.asset.name}.xml"))
+
+
+@pytest.mark.parametrize("base", Base)
+@pytest.mark.parametrize("make", [cabinet, slanted, desk])
+def test_it_steps_without_a_warning(make, base, tmp_path):
+    read = load(model_of(make(), base=base), tmp_path)
+    data = mujoco.MjData(read)
+    for _ in range(200):
+        mujoco.mj_step(read, data)
+    assert not any(w.number for w in data.warning)
+    assert np.isfinite(data.qpos).all()
+    if base is Base.FREE:
+        assert data.qpos[2] < -0.5  # gravity is on and nothing holds it
+
+
+def test_the_file_moves_with_its_folder(tmp_path):
+    load(model_of(desk()), tmp_path)
+    shutil.copytree(tmp_path, tmp_path / "elsewhere")
+    mujoco.MjModel.from_xml_path(str(tmp_path / "elsewhere" / "desk.xml"))
+    root = ElementTree.parse(tmp_path / "desk.xml").getroot()
+    files = [str(e.get("file")) for e in root.iter() if e.get("file")]
+    assert all(f.startswith("meshes/") for f in files)
+    assert not [f for f in files if f.endswith(".jpg")]
+
+
+def stronger(asset):
+    """The asset with joints that can carry what hangs on them."""
+    return replace(asset, joints=tuple(replace(j, effort=1e5) for j in asset.joints))
+
+
+@pytest.mark.parametrize("make", [cabinet, slanted, desk])
+def test_drives_lead_to_the_limits_no_faster_than_the_joint_may_and_hold_there(make, tmp_path):
+    model = model_of(stronger(make()))
+    read = load(model, tmp_path)
+    read.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_CONTACT)
+    data = mujoco.MjData(read)
+    limited = [j for j in model.asset.joints if j.limits is not None]
+    for j in limited:
+        data.actuator(j.name).ctrl = j.limits[1] if j.limits[1] > 0 else j.limits[0]
+    seconds = max((j.limits[1] - j.limits[0]) / j.velocity for j in limited)
+    fastest = {j.name: 0.0 for j in limited}
+    for _ in range(int(8 * seconds / read.opt.timestep)):
+        mujoco.mj_step(read, data)
+        fastest = {name: max(v, abs(float(data.joint(name).qvel[0]))) for name, v in fastest.items()}
+    for j in limited:
+        span = j.limits[1] - j.limits[0]
+        goal = j.limits[1] if j.limits[1] > 0 else j.limits[0]
+        assert abs(float(data.joint(j.name).qpos[0]) - goal) < 1.5 * WITHIN * span, j.name
+        assert fastest[j.name] < 1.1 * j.velocity + 0.05, j.name
+
+
+def test_drives_are_at_least_critically_damped():
+    for asset in (cabinet(), slanted(), desk()):
+        model = model_of(asset)
+        for j in asset.joints:
+            if j.name in drives(model):
+                drive = drives(model)[j.name]
+                span = 2 * np.pi if j.limits is None else j.limits[1] - j.limits[0]
+                assert drive.damping / drive.stiffness == pytest.approx(span / j.velocity)
+                assert drive.stiffness * WITHIN * span >= j.friction
+
+
+def test_the_drives_can_be_switched_off_as_a_group(tmp_path):
+    read = load(model_of(cabinet()), tmp_path)
+    read.opt.gravity[:] = 0
+    read.opt.disableactuator = 1 << 1
+    data = mujoco.MjData(read)
+    data.ctrl[:] = 1
+    mujoco.mj_forward(read, data)
+    assert not data.actuator_force.any()
+
+
+def test_excluded_pairs_do_not_touch_and_others_do_whether_the_base_is_fixed_or_free(tmp_path):
+    for base in Base:
+        for exclusions in ((), (Exclusion("base", "door", "they share a wall"),)):
+            folder = tmp_path / f"{base}{len(exclusions)}"
+            folder.mkdir()
+            read = load(model_of(cabinet(), base=base, exclusions=exclusions), folder)
+            data = mujoco.MjData(read)
+            data.joint("hinge").qpos = -0.1  # into the case
+            mujoco.mj_forward(read, data)
+            pairs = {frozenset(read.body(read.geom_bodyid[g]).name for g in c.geom) for c in data.contact[: data.ncon]}
+            assert (frozenset(("base", "door")) in pairs) == (not exclusions)
+
+
+def test_a_hull_that_mujoco_refuses_is_an_error_of_ours(tmp_path):
+    model = model_of(cabinet())
+    flat = Hull(np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]]), np.array([[0, 1, 2]]))
+    model = replace(model, bodies=(replace(model.bodies[0], shapes=(flat,)), *model.bodies[1:]))
+    with pytest.raises(OutputError, match="MuJoCo cannot compile cabinet"):
+        load(model, tmp_path)
