@@ -103,13 +103,13 @@ def test_an_interrupt_is_an_object_where_one_is_asked_for(mesh, monkeypatch, cap
     assert json.loads(out) == {"error": "interrupted", "kind": "KeyboardInterrupt", "exit_code": 130}
 
 
-def test_the_category_changes_keys_and_nothing_else(mesh, capfd) -> None:
+def test_the_category_changes_keys_and_the_note_on_size(mesh, capfd) -> None:
     for out, more in (("plain", []), ("told", ["--category", "cabinet"])):
         assert called(capfd, "articulate", mesh, "-o", out, *PARTS, *more, "-q")[0] == 0
     plain, told = contents(Path("plain")), contents(Path("told"))
     assert plain.keys() == told.keys()
     changed = {name for name in plain if plain[name] != told[name]} - {"timing.json"}
-    assert changed == {"stages/segmentation.json", "stages/joints.json"}
+    assert changed == {"asset.json", "stages/mesh.json", "stages/segmentation.json", "stages/joints.json"}
 
 
 def faulty_calls() -> dict[str, tuple[int, list[str], str]]:

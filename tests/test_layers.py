@@ -10,24 +10,24 @@ import pytest
 ROOT = Path(__file__).parents[1]
 SOURCE = ROOT / "src" / "anymesh"
 FLOORS = [
-    {"errors", "config", "progress", "names"},
+    {"errors", "config", "progress", "names", "mujoco_"},
     {"types"},
     {"storage", "stage_results", "geometry", "rendering", "loading", "models"},
     {"collision"},
     {"export", "run_folder"},
     {"reasoning"},
     {"segmentation", "articulation", "postprocessing", "simulation", "evaluation"},
-    {"solving"},
+    {"solving", "finishing"},
     {"answering"},
-    {"pipeline", "evaluating"},
-    {"applications", "viewer", "checking"},
+    {"pipeline", "evaluating", "checking"},
+    {"applications", "viewer"},
     {"cli", "cli_output", "cli_eval", "cli_check", "cli_finish"},
 ]
 STAGES = {"segmentation", "articulation", "postprocessing"}
 OUTSIDE = set(
     "trimesh embreex igl mujoco torch transformers onnxruntime huggingface_hub "
     "pydantic_ai openai anthropic google genai_prices httpx2 yourdfpy scene_synthesizer "
-    "coacd pxr manifold3d pybullet sapien pydrake genesis newton pinocchio".split()
+    "coacd pxr manifold3d pybullet sapien pydrake genesis newton pinocchio warp jsonschema".split()
 )
 FILES = sorted(SOURCE.rglob("*.py"))
 

@@ -11,13 +11,16 @@ import typer
 from typer.core import TyperGroup
 
 from anymesh import __version__
+from anymesh.cli_check import check
 from anymesh.cli_eval import evaluate
+from anymesh.cli_finish import finish
 from anymesh.cli_output import JOINT_COLUMNS, Shown, cache_of, joint_row, plain, tell, tell_asset
 from anymesh.errors import AnymeshError
 
 EXIT_CODES = (
     "Exit codes: 0 done; 1 unexpected error; 2 a wrong option; 3 the mesh cannot be used; 4 the output folder exists or "
-    "cannot be written; 5 an optional dependency is missing; 6 a model cannot be asked; 7 the budget is spent; 130 interrupted."
+    "cannot be written; 5 an optional dependency is missing; 6 a model cannot be asked; 7 the budget is spent; "
+    "8 a check failed; 130 interrupted."
 )
 
 
@@ -209,6 +212,8 @@ def export(
     tell_asset(asset, folder, json_, quiet)
 
 
+app.command(epilog=EXIT_CODES)(finish)
+app.command("check", epilog=EXIT_CODES)(check)
 app.command("eval", epilog=EXIT_CODES)(evaluate)
 
 

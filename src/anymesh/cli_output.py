@@ -45,18 +45,20 @@ def tell_asset(asset: Asset, out: Path, json_: bool, quiet: bool) -> None:
         "parts": [p.name for p in asset.segmentation.parts],
         "joints": rows,
         "notes": list(asset.source.notes),
+        "finish": list(asset.notes),
         "warnings": list(asset.warnings),
         "usage": usage(asset.exchanges),
         "timing": dict(asset.timing),
     }
     if not (json_ or quiet):
-        for line in (*(f"warning: {w}" for w in asset.warnings), *asset.source.notes):
+        for line in (*(f"warning: {w}" for w in asset.warnings), *asset.source.notes, *asset.notes):
             typer.echo(plain(line))
     tell(record, rows, JOINT_COLUMNS, json_, quiet)
     if not (json_ or quiet):
         if asset.exchanges:
             typer.echo(_spent(record["usage"], out))
-        typer.echo(f"wrote {asset.name} to {out}: preview.png shows it, asset.json names its files")
+        files = json.loads((out / "asset.json").read_bytes())["files"].values()
+        typer.echo(f"wrote {', '.join(files)}, preview.png and asset.json to {out}")
 
 
 def _spent(usage: dict[str, Any], out: Path) -> str:

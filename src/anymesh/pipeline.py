@@ -15,13 +15,16 @@ from anymesh.export import Base, Format, parse_formats, write_asset
 from anymesh.export.archive import write_zip
 from anymesh.export.formats import DEFAULT
 from anymesh.export.package import write_package
+from anymesh.finishing import finish_asset
 from anymesh.loading import load_mesh, place_mesh
 from anymesh.models.cache import cache_folder
+from anymesh.postprocessing.outside import open_completer, open_retexturer
+from anymesh.postprocessing.settings import ShapeConfig
 from anymesh.progress import Progress, silent
 from anymesh.rendering.preview import write_preview
 from anymesh.run_folder import RunFolder, stage_key
 from anymesh.solving import Solver
-from anymesh.stage_results import JOINTS, MESH, RECOGNITION, SEGMENTATION, Jointed, Placed, Recognized, Segmented
+from anymesh.stage_results import COMPLETION, JOINTS, MESH, RECOGNITION, SEGMENTATION, Jointed, Placed, Recognized, Segmented
 from anymesh.types import Asset, Joint, Segmentation, Source
 
 Result = TypeVar("Result", Recognized, Segmented, Jointed)
@@ -105,6 +108,46 @@ def export(
     if archive is not None:
         write_zip(Path(folder), Path(archive))
     return asset
+
+
+def finish(
+    folder: str | Path,
+    out: str | Path,
+    *,
+    completer: str = "builtin",
+    texture: str = "builtin",
+    watertight: bool = True,
+    max_calls: int | None = None,
+    base: str = Base.FIXED,
+    formats: str = ",".join(DEFAULT),
+    force: bool = False,
+    progress: Progress = silent,
+) -> Asset:
+    """Stage C: completes shapes and looks of the asset in `folder`, an output of `articulate`, and writes it to `out`.
+
+    completer: builtin, off, holopart:FOLDER[#PYTHON] or holopart:URL; texture: builtin, bake, bake:PIXELS, meshy or
+    meshy:PROMPT, with at most `max_calls` paid tasks; watertight: also close what no motion lays open. Raises OptionError,
+    OutputError, ModelError, BudgetError; a paid task that was begun is gone on with by the next run.
+    """
+    how = Exported.parse(base, formats)
+    out = Path(out)
+    who = open_completer(completer)
+    looks = open_retexturer(texture, state=out.parent / f".{out.name}.meshy.json", max_calls=max_calls)
+    with RunFolder.create(out, source=Path(folder) / "asset.json", force=force) as run:
+        run.take_over(Path(folder))
+        progress("finish", completer, 0, 1)
+        key = stage_key(COMPLETION, previous=run.key(JOINTS), config={"by": completer, "texture": texture, "tight": watertight})
+        if run.load(COMPLETION, key) is None:
+            with _timed(run, "finish"):
+                done = finish_asset(
+                    run.asset(),
+                    shapes=completer != "off",
+                    completer=who,
+                    retexturer=looks,
+                    config=ShapeConfig(watertight=watertight),
+                )
+            run.save(COMPLETION, key, done)
+        return _export(run, how, progress)
 
 
 def _seen(

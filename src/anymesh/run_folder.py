@@ -17,6 +17,7 @@ from typing import Any, TypeVar
 from anymesh.errors import BudgetError, OutputError
 from anymesh.names import legal_name
 from anymesh.stage_results import (
+    COMPLETION,
     JOINTS,
     MESH,
     RECOGNITION,
@@ -41,6 +42,7 @@ from anymesh.storage.stage_files import (
 from anymesh.types import Asset
 
 __all__ = [
+    "COMPLETION",
     "JOINTS",
     "MESH",
     "RECOGNITION",
@@ -213,17 +215,32 @@ class RunFolder:
         placed, segmented, jointed = self.need(MESH), self.need(SEGMENTATION), self.need(JOINTS)
         recognized = self.recognized()
         placed = recognized.sized(placed)
+        completed = self._find(COMPLETION)
         return Asset(
             name=legal_name(Path(placed.source.path).stem, fallback="asset"),
             source=placed.source,
-            mesh=placed.mesh,
-            segmentation=segmented.segmentation,
+            mesh=placed.mesh if completed is None else completed.mesh,
+            segmentation=segmented.segmentation if completed is None else completed.parted(segmented.segmentation),
             joints=jointed.joints,
             answerer=jointed.answerer,
             warnings=(*recognized.warnings, *segmented.warnings, *jointed.warnings),
             timing=self.timing(),
             exchanges=(*recognized.exchanges, *segmented.exchanges, *jointed.exchanges),
+            source_face=None if completed is None else completed.source_face,
+            notes=() if completed is None else completed.notes,
         )
+
+    def take_over(self, folder: Path) -> None:
+        """The stages of another output, up to its joints, become stages of this one. OutputError when it has none."""
+        if _manifest(folder) is None:
+            raise OutputError(f"{folder} is no output of anymesh; `anymesh articulate MESH -o {folder}` makes one")
+        self._earlier = (Path(folder).resolve(), *self._earlier)
+        for stage in STAGES[: STAGES.index(JOINTS) + 1]:
+            key = saved_key(folder, stage)
+            if key is not None:
+                self.load(stage, key)
+        for stage in (MESH, SEGMENTATION, JOINTS):
+            self.need(stage)
 
     def _commit(self) -> None:
         """Puts everything written in place."""

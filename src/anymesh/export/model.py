@@ -6,6 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 
+import numpy as np
+from jaxtyping import Int
+
 from anymesh.export.inertia import Inertia
 from anymesh.export.links import Link
 from anymesh.types import Asset, Hull, Shape
@@ -39,6 +42,13 @@ class Body:
     def faces_path(self) -> str:
         """Relative to the asset folder: the source's face indices of the link, an int64 .npy."""
         return f"{FOLDER}/{self.name}.faces.npy"
+
+    def source_faces(self, source_face: Int[np.ndarray, " F"] | None) -> Int[np.ndarray, " n"]:
+        """The numbers in the source file of the faces of the link, without those that Stage C added."""
+        if source_face is None:
+            return self.link.faces
+        found = source_face[self.link.faces]
+        return found[found >= 0]
 
     def hull_paths(self) -> tuple[str | None, ...]:
         """A path relative to the asset folder for each shape; None for boxes and cylinders, which need no file."""

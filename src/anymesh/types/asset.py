@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, Int
 
 from anymesh.types.exchange import Exchange
 from anymesh.types.joints import Joint
@@ -38,6 +38,8 @@ class Asset:
     warnings: tuple[str, ...] = ()
     timing: Mapping[str, float] = field(default_factory=dict)  # stage -> seconds
     exchanges: tuple[Exchange, ...] = ()  # with a model that sees, in order
+    source_face: Int[np.ndarray, " F"] | None = None  # where Stage C added faces: the number in the source, -1 for those
+    notes: tuple[str, ...] = ()  # what Stage C did, in words
 
     def __post_init__(self) -> None:
         names = [p.name for p in self.segmentation.parts]

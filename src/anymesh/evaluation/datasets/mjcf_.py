@@ -15,17 +15,17 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-import mujoco as untyped
 import numpy as np
 
 from anymesh.evaluation.datasets.bodies import Y_UP, Body, Motion, assemble, moved
 from anymesh.evaluation.datasets.mjcf_looks_ import Looks
 from anymesh.evaluation.datasets.mjcf_reading_ import compile_mjcf
 from anymesh.evaluation.truth import Truth
+from anymesh.mujoco_ import load_mujoco
 from anymesh.names import legal_name
 from anymesh.types import JointType, Mesh
 
-mujoco: Any = untyped  # its compiled names have no stubs
+mujoco = load_mujoco()
 
 TYPES = {int(mujoco.mjtJoint.mjJNT_HINGE): JointType.REVOLUTE, int(mujoco.mjtJoint.mjJNT_SLIDE): JointType.PRISMATIC}
 WORLD = 0

@@ -5,17 +5,17 @@ from __future__ import annotations
 import io
 from typing import Any
 
-import mujoco as untyped
 import numpy as np
 from PIL import Image
 
 from anymesh.errors import InputError
 from anymesh.evaluation.datasets.shapes_ import box, capsule, cylinder, ellipsoid
 from anymesh.loading.join import simple_mesh
+from anymesh.mujoco_ import load_mujoco
 from anymesh.types import Material, Mesh, Texture
 from anymesh.types.color import to_linear
 
-mujoco: Any = untyped  # its compiled names have no stubs
+mujoco = load_mujoco()
 
 PLAIN = np.array([0.5, 0.5, 0.5, 1.0])  # MuJoCo's own colour of a geom that is given none
 

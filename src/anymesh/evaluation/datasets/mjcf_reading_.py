@@ -7,11 +7,10 @@ import xml.etree.ElementTree as ET
 from pathlib import Path
 from typing import Any
 
-import mujoco as untyped
-
 from anymesh.errors import InputError
+from anymesh.mujoco_ import load_mujoco
 
-mujoco: Any = untyped  # its compiled names have no stubs
+mujoco = load_mujoco()
 
 UNKNOWN = re.compile(r"unrecognized element\s+Element '([^']+)'")
 

@@ -15,7 +15,6 @@ NAMES = (
 NEEDED = {  # import name -> how it is had
     "scene_synthesizer": "pip install 'articulate-anymesh[eval]'",
     "yourdfpy": "pip install 'articulate-anymesh[eval]'",
-    "mujoco": "pip install mujoco",
 }
 
 

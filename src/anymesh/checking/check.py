@@ -1,0 +1,96 @@
+"""All checks on one asset."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+from anymesh.checking.collision import check_collision
+from anymesh.checking.content import Content, read_content
+from anymesh.checking.direction import check_direction
+from anymesh.checking.find import MJCF, find_description, kind_of
+from anymesh.checking.inertia import check_inertia
+from anymesh.checking.joints import check_joints
+from anymesh.checking.meshes import check_meshes
+from anymesh.checking.motion import motion_findings, sweep_all
+from anymesh.checking.naming import check_naming
+from anymesh.checking.report import CheckReport, Finding, Severity, failure
+from anymesh.checking.scale import check_scale
+from anymesh.checking.schema_ import NAME, check_asset_json
+from anymesh.checking.texture import check_texture
+from anymesh.checking.tree import CHECK, check_files, check_tree
+from anymesh.errors import InputError, MissingExtraError
+from anymesh.simulation.contacts_ import rest_contacts
+from anymesh.simulation.engines import check_engine
+from anymesh.simulation.mjcf_ import read_mjcf
+from anymesh.simulation.report import SweepReport
+from anymesh.simulation.robot import Robot
+from anymesh.simulation.urdf import read_urdf
+
+
+def check_asset(path: str | Path, *, engines: Sequence[str] = ("mujoco",)) -> CheckReport:
+    """Everything a simulator needs of an asset, looked at: our output folder, any URDF or MJCF, or a folder with one.
+
+    engines: names of `simulation.engines.ENGINES` in which every joint is driven; none for what can be told without. What is
+    wrong with the asset is a finding; InputError is raised where there is nothing to check, OptionError for an engine that
+    does not exist, MissingExtraError for an MJCF without MuJoCo.
+    """
+    chosen = tuple(dict.fromkeys(check_engine(name) for name in engines))
+    file = find_description(Path(path))
+    try:
+        robot = read_mjcf(file) if kind_of(file) == MJCF else read_urdf(file)
+    except InputError as error:
+        return CheckReport(str(path), (failure(CHECK, file.name, str(error)),))
+    broken = tuple(check_tree(robot))
+    if any(f.severity is Severity.FAILURE for f in broken):
+        return CheckReport(str(path), broken)
+    content = read_content(robot)
+    findings = [*_still(content)]
+    sweeps: list[SweepReport] = []
+    if any(f.check in (CHECK, "joints") and f.severity is Severity.FAILURE for f in findings):
+        chosen = ()  # engines disagree on what is broken, or end the process
+    for engine, told in sweep_all(file, chosen):
+        findings += motion_findings(engine, told)
+        if isinstance(told, SweepReport):
+            sweeps.append(told)
+    return CheckReport(str(path), tuple(findings), tuple(sweeps))
+
+
+def _still(content: Content) -> Iterator[Finding]:
+    """What can be told without driving a joint; a check that found nothing says what it looked at."""
+    robot = content.robot
+    beside = robot.path.parent / NAME
+    ours = beside.is_file()
+    schema = [*check_files(content), *(check_asset_json(beside, robot) if ours else ())]
+    joints = [*check_joints(robot, content.diagonal)]
+    straight = not any(f.severity is Severity.FAILURE for f in joints)
+    told = f"{len(robot.links)} links and {len(robot.joints)} joints in a tree with the root {robot.roots[0]!r}"
+    yield from _or_ok(CHECK, schema, f"{told}{', asset.json keeps its schema' if ours else ''}")
+    yield from _or_ok("naming", [*check_naming(robot)], "names are legal, unique and plain ASCII")
+    shapes = sum(len(some) for kind in (content.visuals, content.collisions) for some in kind.values())
+    yield from _or_ok("meshes", [*check_meshes(content)], f"{shapes} shapes are read, with area, and of sensible size")
+    yield from _or_ok("scale", [*check_scale(content)], f"the diagonal is {content.diagonal:.3g} m")
+    yield from _or_ok("joints", joints, f"{len(robot.moving)} joints move, with axes, limits and strengths")
+    yield from _or_ok("inertia", [*check_inertia(content)], _masses(robot))
+    collision = [*check_collision(content, _contacts(robot))]
+    yield from _or_ok("collision", collision, "what moves collides, cavities are open, nothing overlaps at rest")
+    yield from _or_ok("texture", [*check_texture(content, ours=ours)], "materials and pictures are there")
+    if straight:
+        yield from _or_ok("direction", [*check_direction(content)], "no joint drives its link into its parent")
+
+
+def _or_ok(check: str, found: list[Finding], told: str) -> Iterator[Finding]:
+    yield from found or [Finding(check, Severity.OK, "", told)]
+
+
+def _masses(robot: Robot) -> str:
+    masses = [link.inertial.mass for link in robot.links if link.inertial is not None]
+    return f"{len(masses)} links weigh {sum(masses):.3g} kg, with possible inertias"
+
+
+def _contacts(robot: Robot) -> dict[tuple[str, str], float] | None:
+    """None without MuJoCo, or when it refuses the file, which the check of motion tells."""
+    try:
+        return rest_contacts(robot.path)
+    except (InputError, MissingExtraError):
+        return None

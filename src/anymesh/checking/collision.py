@@ -1,0 +1,83 @@
+"""Check "collision": what moves can be touched, cavities are open, and nothing is pushed apart at the start."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+from jaxtyping import Bool, Float
+from scipy.spatial import ConvexHull, QhullError
+
+from anymesh.checking.content import Content
+from anymesh.checking.groups import joined, rigid_groups
+from anymesh.checking.report import Finding, failure, warning
+from anymesh.geometry.distance_ import distance_to_triangles, winding_number
+from anymesh.geometry.simplify_ import simplify
+
+CHECK = "collision"
+DEEP = 0.01  # of the object's diagonal; engines push apart what is deeper in each other at rest
+GRID = 16  # places a side of the box that cavities are looked for at
+HOLLOW = 0.1  # of the hull of what is seen; less empty space than this is no cavity
+FILLED = 0.5  # of the empty space; a collision that takes more closes the cavity
+FACES = 10_000  # of the visible surface, for this question
+
+
+def check_collision(content: Content, contacts: Mapping[tuple[str, str], float] | None) -> Iterator[Finding]:
+    """contacts: depth of each pair of links in contact at rest [m], None when no engine could tell."""
+    robot = content.robot
+    groups = rigid_groups(robot)
+    for joint in robot.moving:
+        body = groups[joint.child]
+        if any(content.visuals[name] for name in body) and not any(content.collisions[name] for name in body):
+            yield failure(CHECK, joint.child, "it moves and has no collision shape; nothing can touch it")
+    for link in robot.links:
+        yield from _cavity(content, link.name)
+    adjacent = joined(robot)
+    for (a, b), depth in (contacts or {}).items():
+        pair = frozenset((a, b))
+        if depth <= DEEP * content.diagonal or pair in robot.excluded:
+            continue
+        told = f"at rest it is {depth:.3g} m deep in {a!r}, by their convex collision shapes"
+        if pair in adjacent or len(pair & set(groups)) < 2:
+            yield warning(CHECK, b, f"{told}; engines that collide what a joint connects push them apart")
+        else:
+            yield failure(CHECK, b, f"{told}; they are pushed apart, at most {DEEP * content.diagonal:.2g} m is valid")
+
+
+def _cavity(content: Content, link: str) -> Iterator[Finding]:
+    seen = content.shown(link)
+    shapes = [s.triangles for s in content.collisions[link]]
+    if not content.visuals[link] or not shapes or not np.isfinite(seen).all():
+        return
+    points = seen.reshape(-1, 3)
+    low, high = points.min(0), points.max(0)
+    steps = (high - low) / GRID
+    axes = [low[k] + steps[k] * (np.arange(GRID) + 0.5) for k in range(3)]
+    grid = np.stack(np.meshgrid(*axes, indexing="ij"), -1).reshape(-1, 3)
+    inside = _in_hull(points, grid)
+    if not inside.any():
+        return
+    surface = simplify(seen, FACES)
+    empty = grid[inside]
+    empty = empty[distance_to_triangles(empty, surface) > 0.5 * float(np.linalg.norm(steps))]
+    corners = surface.reshape(-1, 3)
+    empty = empty[winding_number(empty, corners, np.arange(len(corners)).reshape(-1, 3)) < 0.5] if len(empty) else empty
+    if len(empty) < HOLLOW * inside.sum():
+        return
+    taken = np.zeros(len(empty), bool)
+    for shape in shapes:
+        taken |= _in_hull(shape.reshape(-1, 3), empty)
+    if taken.mean() > FILLED:
+        volume = float(taken.sum() * np.prod(steps))
+        count = "one convex shape" if len(shapes) == 1 else f"{len(shapes)} convex shapes"
+        told = f"its collision ({count}) takes {taken.mean():.0%} of the empty space in it, {volume:.3g} m3"
+        yield warning(CHECK, link, f"{told}; convex parts that leave the cavity open are needed to reach into it")
+
+
+def _in_hull(points: Float[np.ndarray, "n 3"], asked: Float[np.ndarray, "m 3"]) -> Bool[np.ndarray, " m"]:
+    """Which of the points asked for lie in the convex hull; none where the hull is flat."""
+    try:
+        planes = ConvexHull(points).equations
+    except QhullError:
+        return np.zeros(len(asked), bool)
+    return (asked @ planes[:, :3].T + planes[:, 3] <= 0).all(1)

@@ -1,0 +1,117 @@
+"""The meshes that a robot description refers to, read; what could not be read is kept as words."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+from jaxtyping import Float
+
+from anymesh.errors import InputError
+from anymesh.evaluation.datasets.visuals import Below
+from anymesh.loading.checks import check_file
+from anymesh.loading.load import READERS
+from anymesh.simulation.files import find_file
+from anymesh.simulation.robot import Geometry, Robot, shape_triangles
+from anymesh.types import Mesh
+
+
+@dataclass(frozen=True, eq=False)
+class Solid:
+    """One shape of a link, in the link frame. shown: its file or its kind; warnings: of its reader."""
+
+    shown: str
+    triangles: Float[np.ndarray, "F 3 3"]
+    mesh: Mesh | None = None
+    warnings: tuple[str, ...] = ()
+
+    @property
+    def bounds(self) -> Float[np.ndarray, "2 3"]:
+        points = self.triangles.reshape(-1, 3)
+        return np.array([points.min(0), points.max(0)])
+
+
+@dataclass(frozen=True, eq=False)
+class Content:
+    """A robot with the shapes of its links. missing, unread: (link, file, why) of files that are not there or not usable."""
+
+    robot: Robot
+    visuals: Mapping[str, tuple[Solid, ...]]
+    collisions: Mapping[str, tuple[Solid, ...]]
+    missing: tuple[tuple[str, str], ...] = ()
+    unread: tuple[tuple[str, str], ...] = ()
+
+    @cached_property
+    def places(self) -> dict[str, Float[np.ndarray, "4 4"]]:
+        """Links at rest, in the root's frame."""
+        return self.robot.placements({})
+
+    def shown(self, link: str) -> Float[np.ndarray, "F 3 3"]:
+        """The visible surface of a link in its frame, else its collision shapes; empty when it has none [m]."""
+        solids = self.visuals[link] or self.collisions[link]
+        return np.concatenate([np.zeros((0, 3, 3)), *(s.triangles for s in solids)])
+
+    def at_rest(self, links: frozenset[str]) -> Float[np.ndarray, "F 3 3"]:
+        """The surface of several links in the root's frame [m]."""
+        found = [np.zeros((0, 3, 3))]
+        for link in sorted(links):
+            T = self.places[link]
+            found.append(self.shown(link) @ T[:3, :3].T + T[:3, 3])
+        return np.concatenate(found)
+
+    @cached_property
+    def diagonal(self) -> float:
+        """Of the whole object's box at rest [m]; 0 when it has no shape."""
+        points = self.at_rest(frozenset(link.name for link in self.robot.links)).reshape(-1, 3)
+        return float(np.linalg.norm(np.ptp(points, axis=0))) if len(points) else 0.0
+
+
+def read_content(robot: Robot) -> Content:
+    """Reads every mesh once. References may lead anywhere below the description's folder, or above it for package://."""
+    missing: list[tuple[str, str]] = []
+    unread: list[tuple[str, str]] = []
+    known: dict[str, tuple[Mesh, tuple[str, ...]] | None] = {}
+    folder = robot.path.parent
+
+    def solid(link: str, shape: Geometry) -> Solid | None:
+        if shape.triangles is not None:
+            return Solid(shape.file or shape.kind, shape.triangles)
+        if shape.file is None:
+            return Solid(shape.kind, shape_triangles(shape))
+        if shape.file not in known:
+            found = find_file(shape.file, folder)
+            try:
+                known[shape.file] = None if found is None else _read(found, folder)
+            except InputError as error:
+                known[shape.file] = None
+                unread.append((link, str(error)))
+            if found is None:
+                missing.append((link, shape.file))
+        content = known[shape.file]
+        if content is None:
+            return None
+        T = shape.T_link_shape @ np.diag([*shape.scale, 1.0])
+        return Solid(shape.file, content[0].triangles @ T[:3, :3].T + T[:3, 3], content[0], content[1])
+
+    def solids(link: str, shapes: tuple[Geometry, ...]) -> tuple[Solid, ...]:
+        return tuple(s for shape in shapes if (s := solid(link, shape)) is not None)
+
+    visuals = {b.name: solids(b.name, b.visuals) for b in robot.links}
+    collisions = {b.name: solids(b.name, b.collisions) for b in robot.links}
+    return Content(robot, visuals, collisions, tuple(missing), tuple(unread))
+
+
+def _read(path: Path, folder: Path) -> tuple[Mesh, tuple[str, ...]]:
+    data = check_file(path)
+    inside = path.resolve().is_relative_to(folder.resolve())
+    below = Below(path, folder if inside else path.parent.parent)
+    try:
+        mesh = READERS[path.suffix.lower()](data, below)
+    except InputError:
+        raise
+    except Exception as error:  # whatever a broken file makes a reader raise is one thing to the user
+        raise InputError(f"{path.name} is broken or truncated ({type(error).__name__}: {error})") from None
+    return mesh, tuple(below.warnings)

@@ -1,0 +1,70 @@
+"""Check "direction": a joint does not drive its link into what carries it, as one with its axis reversed does."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from anymesh.checking.content import Content
+from anymesh.checking.groups import rigid_groups
+from anymesh.checking.report import Finding, failure, warning
+from anymesh.geometry.shape import Shape
+from anymesh.geometry.simplify_ import simplify
+from anymesh.geometry.sweep import Obstacles, free_amount
+from anymesh.geometry.topology import components
+from anymesh.simulation.robot import RobotJoint
+from anymesh.types import Motion, MotionKind
+from anymesh.types.triangles import normals_and_areas
+
+CHECK = "direction"
+TOLERANCE = 0.01  # of the object's diagonal; how far a surface may go behind another
+STOPPED = 0.5  # of the way to a limit; a link that is stopped before goes into its parent
+FREER = 2.0  # times as far the other way: the axis is the wrong way round
+STEPS = 24
+FACES = 20_000
+LEAST = 0.02  # of the object's diagonal or of a turn; a shorter way cannot be told
+
+
+def check_direction(content: Content) -> Iterator[Finding]:
+    """Each way that the limits allow is free of the parent, by the visible surfaces at rest."""
+    groups = rigid_groups(content.robot)
+    for joint in content.robot.moving:
+        length = float(np.linalg.norm(joint.axis))
+        part = content.at_rest(content.robot.carried(joint.child))
+        rest = content.at_rest(groups[joint.parent] - content.robot.carried(joint.child))
+        usable = length > 0 and joint.range[0] < joint.range[1] and len(part) and len(rest)
+        if usable and np.isfinite(part).all() and np.isfinite(rest).all():
+            yield from _ways(content, joint, _shape(part), _shape(rest))
+
+
+def _shape(triangles: np.ndarray) -> Shape:
+    """With outward normals where it is closed."""
+    triangles = simplify(triangles, FACES)
+    corners = triangles.reshape(-1, 3)
+    found = components(corners, np.arange(len(corners)).reshape(-1, 3))
+    normals = normals_and_areas(triangles)[0]
+    normals = np.where(found.flip[found.label][:, None], -normals, normals)
+    return Shape(triangles, normals, found.solid[found.label], np.arange(len(triangles)))
+
+
+def _ways(content: Content, joint: RobotJoint, part: Shape, rest: Shape) -> Iterator[Finding]:
+    T = content.places[joint.child]
+    axis = T[:3, :3] @ joint.axis / np.linalg.norm(joint.axis)
+    slides = joint.type == "prismatic"
+    motion = Motion(MotionKind.SLIDE if slides else MotionKind.TURN, axis, T[:3, 3], joint.name)
+    obstacles = Obstacles(part, rest, TOLERANCE * content.diagonal)
+    unit = "m" if slides else "rad"
+    for sign, most in ((1, joint.range[1]), (-1, -joint.range[0])):
+        if most < LEAST * (content.diagonal if slides else 2 * np.pi):
+            continue
+        free = free_amount(obstacles, motion, sign, most, STEPS)[0]
+        if free >= STOPPED * most:
+            continue
+        other = free_amount(obstacles, motion, -sign, most, STEPS)[0]
+        way = "positive" if sign > 0 else "negative"
+        told = f"{way} motion drives {joint.child!r} into {joint.parent!r} after {free:.3g} of {most:.3g} {unit}"
+        if other >= FREER * free and other >= STOPPED * most:
+            yield failure(CHECK, joint.name, f"{told}; the other way is free for {other:.3g} {unit}, so the axis is reversed")
+        else:
+            yield warning(CHECK, joint.name, f"{told}; the visible surfaces meet")

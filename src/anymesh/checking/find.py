@@ -1,0 +1,59 @@
+"""Which file of an asset is checked."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+
+from anymesh.errors import InputError
+
+URDF, MJCF = ".urdf", ".mjcf"
+OPENING = re.compile(rb"<(robot|mujoco)[\s>/]")
+
+
+def find_description(path: Path) -> Path:
+    """The URDF or MJCF that `path` is, or that lies in the folder `path`: the one asset.json names, else the only one.
+
+    A URDF goes before an MJCF beside it. InputError when there is none, or several and no asset.json to choose.
+    """
+    path = Path(path)
+    if path.is_file():
+        if kind_of(path) is None:
+            raise InputError(f"{path.name} is neither URDF nor MJCF; valid are files with <robot> or <mujoco> at the top")
+        return path
+    if not path.is_dir():
+        raise InputError(f"{path} is not there; valid are a folder of an asset, a URDF or an MJCF")
+    named = _named(path)
+    if named is not None:
+        return named
+    files = [p for p in sorted(path.iterdir()) if p.suffix.lower() in (URDF, ".xml", MJCF) and kind_of(p) is not None]
+    for kind in (URDF, MJCF):
+        some = [p for p in files if kind_of(p) == kind]
+        if len(some) == 1:
+            return some[0]
+        if some:
+            raise InputError(f"{path} holds {', '.join(p.name for p in some)}; say which")
+    raise InputError(f"{path} holds no URDF and no MJCF; one is needed")
+
+
+def kind_of(path: Path) -> str | None:
+    """URDF or MJCF by what a file holds, whatever its name ends in; a file with .urdf is a URDF, broken or not."""
+    if path.suffix.lower() == URDF:
+        return URDF
+    try:
+        found = OPENING.search(path.read_bytes()[:100_000])
+    except OSError:
+        return None
+    if found is None:
+        return None
+    return URDF if found[1] == b"robot" else MJCF
+
+
+def _named(folder: Path) -> Path | None:
+    try:
+        name = json.loads((folder / "asset.json").read_text(encoding="utf-8"))["name"]
+    except (OSError, ValueError, KeyError, TypeError):
+        return None
+    found = folder / f"{name}{URDF}"
+    return found if found.is_file() else None

@@ -1,0 +1,72 @@
+"""Check "joints": what the file says of each joint makes sense."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from anymesh.checking.report import Finding, failure, warning
+from anymesh.simulation.robot import MOVING, Robot, RobotJoint
+
+CHECK = "joints"
+TYPES = (*MOVING, "fixed", "floating", "planar")
+UNIT = 1e-3  # an axis is unit to this
+TURNS = 4 * np.pi  # [rad] a wider range of a hinge is degrees or a mistake
+TRAVEL = 3.0  # of the object's diagonal; a slide that goes further is in other units
+
+
+def check_joints(robot: Robot, diagonal: float) -> Iterator[Finding]:
+    """Types known, axes with a direction, limits in order and around rest, effort and velocity given. diagonal [m]."""
+    for joint in robot.joints:
+        if joint.type not in TYPES:
+            yield failure(CHECK, joint.name, f"its type is {joint.type!r}; valid are {', '.join(TYPES)}")
+        elif joint.moves:
+            yield from _axis(joint)
+            yield from _limits(joint, diagonal)
+            if robot.format == "URDF":  # an MJCF says this of motors, not of joints
+                yield from _strength(joint)
+        elif joint.type != "fixed":
+            yield warning(CHECK, joint.name, f"its type {joint.type} has several freedoms; it is not driven here")
+    if not robot.moving:
+        yield warning(CHECK, "", "no joint moves; an articulated asset has one at least")
+
+
+def _axis(joint: RobotJoint) -> Iterator[Finding]:
+    length = float(np.linalg.norm(joint.axis))
+    if length < UNIT:
+        yield failure(CHECK, joint.name, f"its axis is {_vector(joint)}; valid is a direction")
+    elif abs(length - 1) > UNIT:
+        yield warning(CHECK, joint.name, f"its axis {_vector(joint)} has length {length:.4g}; some engines need length 1")
+
+
+def _vector(joint: RobotJoint) -> str:
+    return "(" + ", ".join(f"{v:.4g}" for v in joint.axis) + ")"
+
+
+def _limits(joint: RobotJoint, diagonal: float) -> Iterator[Finding]:
+    if joint.type == "continuous":
+        return
+    if joint.limits is None:
+        yield failure(CHECK, joint.name, f"it has no limits; a {joint.type} joint needs lower and upper")
+        return
+    lower, upper = joint.limits
+    shown = f"its limits are {lower:.4g} to {upper:.4g}"
+    if lower > upper:
+        yield failure(CHECK, joint.name, f"{shown}; the lower must come first")
+    elif lower == upper:
+        yield failure(CHECK, joint.name, f"{shown}; a joint that moves needs a range (fixed is a type of its own)")
+    elif not lower <= 0 <= upper:
+        yield warning(CHECK, joint.name, f"{shown}, without the rest position 0; engines start it outside and jerk it in")
+    most = TURNS if joint.type == "revolute" else TRAVEL * diagonal
+    unit = "rad" if joint.type == "revolute" else "m"
+    if upper - lower > most > 0:
+        yield warning(CHECK, joint.name, f"{shown} {unit}, a range beyond {most:.3g} {unit}; are the units right?")
+
+
+def _strength(joint: RobotJoint) -> Iterator[Finding]:
+    for word, value in (("effort", joint.effort), ("velocity", joint.velocity)):
+        if value is None and joint.type != "continuous":
+            yield warning(CHECK, joint.name, f"it has no {word} limit; engines put 0 or their own in its place")
+        elif value is not None and value <= 0:
+            yield warning(CHECK, joint.name, f"its {word} limit is {value:.4g}; no motor may move it, so above 0 is needed")

@@ -1,0 +1,102 @@
+"""Check "meshes": what is drawn and what collides are usable surfaces."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from anymesh.checking.content import Content, Solid
+from anymesh.checking.report import Finding, failure, warning
+from anymesh.geometry.topology import components
+from anymesh.types.triangles import normals_and_areas
+
+CHECK = "meshes"
+NOTHING = 1e-12  # of a mesh's squared diagonal; a smaller face has no area
+MANY = 0.05  # of a mesh's faces without area are worth a word
+CLOSED = 0.5  # of a link's surface; when less belongs to closed bodies, volume and inertia cannot be told from it
+TINY, HUGE = 1e-4, 1e2  # [m] diagonal of a link
+APART = 0.25  # of the link's diagonal; how far collision may lie outside what is seen
+UNITS = 10.0  # times larger or smaller: other units
+LARGE = 200_000  # faces of a collision mesh; engines take long, and hulls need few
+
+
+def check_meshes(content: Content) -> Iterator[Finding]:
+    """Read, not empty, not degenerate, closed, of sensible size, and collision where the visible surface is."""
+    for link, text in content.unread:
+        yield failure(CHECK, link, text)
+    for link in content.robot.links:
+        for solid in (*content.visuals[link.name], *content.collisions[link.name]):
+            yield from _faces(link.name, solid)
+        yield from _closed(content, link.name)
+        yield from _size(content, link.name)
+        yield from _agreement(content, link.name)
+
+
+def _faces(link: str, solid: Solid) -> Iterator[Finding]:
+    if not np.isfinite(solid.triangles).all():
+        yield failure(CHECK, link, f"{solid.shown} has corners that are not finite")
+        return
+    areas = normals_and_areas(solid.triangles)[1]
+    diagonal = float(np.linalg.norm(np.ptp(solid.bounds, axis=0)))
+    flat = float((areas <= NOTHING * diagonal**2).mean())
+    if not areas.any():
+        yield failure(CHECK, link, f"{solid.shown} has no face with an area")
+    elif flat > MANY:
+        yield warning(CHECK, link, f"{flat:.0%} of the faces of {solid.shown} have no area; valid is at most {MANY:.0%}")
+    if len(areas) > LARGE:
+        yield warning(CHECK, link, f"{solid.shown} has {len(areas)} faces; at most {LARGE} load in reasonable time")
+
+
+def closed_share(solid: Solid) -> float:
+    """The share of a surface that belongs to closed, evenly wound bodies."""
+    triangles = solid.triangles
+    if solid.mesh is None or not np.isfinite(triangles).all():
+        return 1.0
+    areas = normals_and_areas(triangles)[1]
+    found = components(solid.mesh.vertices, solid.mesh.faces)
+    return float(areas[found.solid[found.label]].sum() / max(areas.sum(), 1e-300))
+
+
+def _closed(content: Content, link: str) -> Iterator[Finding]:
+    solids = content.visuals[link]
+    if not solids:
+        return
+    area = np.array([normals_and_areas(s.triangles)[1].sum() for s in solids])
+    share = float((area * [closed_share(s) for s in solids]).sum() / max(area.sum(), 1e-300))
+    if share < CLOSED:
+        told = f"{share:.0%} of its surface belongs to closed bodies"
+        yield warning(CHECK, link, f"{told}; below {CLOSED:.0%} volume and inertia cannot be told from it")
+
+
+def _size(content: Content, link: str) -> Iterator[Finding]:
+    points = content.shown(link).reshape(-1, 3)
+    if not len(points) or not np.isfinite(points).all():
+        return
+    diagonal = float(np.linalg.norm(np.ptp(points, axis=0)))
+    if not TINY <= diagonal <= HUGE:
+        yield warning(CHECK, link, f"its diagonal is {diagonal:.3g} m; valid is {TINY:g} to {HUGE:g} m")
+
+
+def _agreement(content: Content, link: str) -> Iterator[Finding]:
+    seen, met = ([s.triangles for s in some[link]] for some in (content.visuals, content.collisions))
+    if not seen or not met:
+        return
+    (low, high), (a, b) = (_bounds(seen), _bounds(met))
+    diagonal, other = float(np.linalg.norm(high - low)), float(np.linalg.norm(b - a))
+    if not np.isfinite([diagonal, other]).all() or diagonal <= 0 or other <= 0:
+        return
+    if not 1 / UNITS < other / diagonal < UNITS:
+        yield failure(
+            CHECK, link, f"its collision is {other / diagonal:.3g} times as large as its visual; are the units right?"
+        )
+        return
+    outside = max(float((low - a).max()), float((b - high).max())) / diagonal
+    if outside > APART:
+        told = f"its collision reaches {outside:.0%} of its diagonal out of the visible surface"
+        yield warning(CHECK, link, f"{told}; at most {APART:.0%} is valid")
+
+
+def _bounds(shapes: list[np.ndarray]) -> np.ndarray:
+    points = np.concatenate(shapes).reshape(-1, 3)
+    return np.array([points.min(0), points.max(0)])

@@ -1,0 +1,76 @@
+"""What a check found: a list of findings, as JSON and as lines to read."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+from enum import StrEnum
+from typing import Any
+
+from anymesh.simulation.report import SweepReport, as_record
+
+
+class Severity(StrEnum):
+    """failure: an engine refuses it or it does not work; warning: it works less well than it could."""
+
+    OK = "ok"
+    WARNING = "warning"
+    FAILURE = "failure"
+
+
+@dataclass(frozen=True)
+class Finding:
+    """check: its name; subject: the link, joint or file, empty for the whole; text: what was found and what would be valid."""
+
+    check: str
+    severity: Severity
+    subject: str
+    text: str
+
+    def __str__(self) -> str:
+        subject = f" {self.subject}:" if self.subject else ""
+        return f"{self.severity:<7} {self.check}:{subject} {self.text}"
+
+
+@dataclass(frozen=True)
+class CheckReport:
+    """All findings on one file. sweeps: what each engine that could be asked told, in the order asked for."""
+
+    path: str
+    findings: tuple[Finding, ...]
+    sweeps: tuple[SweepReport, ...] = ()
+
+    @property
+    def ok(self) -> bool:
+        return not self.count(Severity.FAILURE)
+
+    def count(self, severity: Severity) -> int:
+        """How many findings are of this severity."""
+        return sum(f.severity is severity for f in self.findings)
+
+    def as_json(self) -> dict[str, Any]:
+        """Plain values, as docs/check.md describes them."""
+        return {
+            "path": self.path,
+            "ok": self.ok,
+            "failures": self.count(Severity.FAILURE),
+            "warnings": self.count(Severity.WARNING),
+            "findings": [asdict(f) for f in self.findings],
+            "sweeps": [as_record(s) for s in self.sweeps],
+        }
+
+    def lines(self) -> tuple[str, ...]:
+        """To read: failures first, then warnings, then what is in order; the verdict last."""
+        order = (Severity.FAILURE, Severity.WARNING, Severity.OK)
+        told = [str(f) for severity in order for f in self.findings if f.severity is severity]
+        counts = f"{self.count(Severity.FAILURE)} failures, {self.count(Severity.WARNING)} warnings"
+        return (*told, f"{self.path}: {'in order' if self.ok else 'not in order'}, {counts}")
+
+
+def failure(check: str, subject: str, text: str) -> Finding:
+    """A finding that fails the asset."""
+    return Finding(check, Severity.FAILURE, subject, text)
+
+
+def warning(check: str, subject: str, text: str) -> Finding:
+    """A finding that does not fail the asset."""
+    return Finding(check, Severity.WARNING, subject, text)

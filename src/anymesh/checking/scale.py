@@ -1,0 +1,23 @@
+"""Check "scale": the object is as large as a thing can be, in metres."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from anymesh.checking.content import Content
+from anymesh.checking.report import Finding, failure, warning
+
+CHECK = "scale"
+LEAST, MOST = 0.01, 20.0  # [m] diagonal of things with joints, from a clasp to a gate
+BEYOND = 10.0  # times that is other units
+
+
+def check_scale(content: Content) -> Iterator[Finding]:
+    """The diagonal at rest is plausible in metres."""
+    diagonal = content.diagonal
+    if diagonal == 0:
+        yield failure(CHECK, "", "the object has no shape at all; links need visual or collision shapes")
+    elif not LEAST <= diagonal <= MOST:
+        far = not LEAST / BEYOND <= diagonal <= MOST * BEYOND
+        told = f"the object's diagonal is {diagonal:.4g} m; plausible is {LEAST:g} to {MOST:g} m"
+        yield failure(CHECK, "", f"{told}; are the units metres?") if far else warning(CHECK, "", told)

@@ -1,0 +1,54 @@
+"""Check "texture": looks that the files promise are there."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+from PIL import Image
+
+from anymesh.checking.content import Content
+from anymesh.checking.report import Finding, failure, warning
+from anymesh.simulation.files import find_file
+
+CHECK = "texture"
+MESHES = "meshes"  # the folder of an asset of ours
+PICTURES = (".png", ".jpg", ".jpeg")
+
+
+def check_texture(content: Content, *, ours: bool) -> Iterator[Finding]:
+    """Material files and pictures are there and can be read; of ours, none lies there unused. ours: made by anymesh.
+
+    What a mesh file of anyone else lacks is a warning, since it is shown in one colour instead.
+    """
+    for link in content.robot.links:
+        told = [text for solid in content.visuals[link.name] for text in solid.warnings]
+        for text in dict.fromkeys(told):
+            yield failure(CHECK, link.name, text) if ours else warning(CHECK, link.name, text)
+    folder = content.robot.path.parent
+    for reference in content.robot.pictures:
+        found = find_file(reference, folder)
+        if found is None:
+            yield failure(CHECK, "", f"the picture {reference} is not there")
+        elif (broken := _broken(found)) is not None:
+            yield failure(CHECK, "", f"the picture {reference} cannot be read: {broken}")
+    if ours:
+        yield from _unused(folder / MESHES)
+
+
+def _broken(path: Path) -> str | None:
+    try:
+        with Image.open(path) as picture:
+            picture.load()
+    except (OSError, ValueError, SyntaxError, Image.DecompressionBombError) as error:
+        return " ".join(str(error).split())
+    return None
+
+
+def _unused(folder: Path) -> Iterator[Finding]:
+    libraries = "\n".join(p.read_text(encoding="utf-8", errors="replace") for p in sorted(folder.glob("*.mtl")))
+    used = {Path(name).name for name in re.findall(r"\S+\.\w+\s*$", libraries, re.M)}
+    for path in sorted(folder.iterdir()) if folder.is_dir() else ():
+        if path.suffix.lower() in PICTURES and path.name not in {name.strip() for name in used}:
+            yield warning(CHECK, path.name, "no material uses this picture")

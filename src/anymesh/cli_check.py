@@ -1,0 +1,43 @@
+"""The command line of `anymesh check`."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from anymesh.cli_output import plain
+
+NOT_IN_ORDER = 8  # the exit code when a check fails
+
+AssetPath = Annotated[
+    Path,
+    typer.Argument(metavar="ASSET", help="A folder that anymesh made, any URDF or MJCF, or a folder with one."),
+]
+Engines = Annotated[
+    list[str],
+    typer.Option(
+        "--engine",
+        help="Where every joint is driven; may be repeated: mujoco, pybullet, sapien, drake, pinocchio, newton, genesis.",
+    ),
+]
+
+
+def check(
+    asset: AssetPath,
+    engine: Engines = ["mujoco"],  # noqa: B006, the command line's way to give a list
+    json_: Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")] = False,
+    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="No report; the exit code tells.")] = False,
+) -> None:
+    """Does ASSET hold what a simulator needs? Exit code 8 when a check fails."""
+    from anymesh.checking import check_asset
+
+    report = check_asset(asset, engines=engine)
+    if json_:
+        typer.echo(json.dumps(report.as_json(), indent=2))
+    elif not quiet:
+        typer.echo("\n".join(plain(line) for line in report.lines()))
+    if not report.ok:
+        raise typer.Exit(NOT_IN_ORDER)

@@ -1,0 +1,30 @@
+"""Shapes completed by someone else where that agrees with what is seen, by geometry where it does not."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from anymesh.postprocessing.accept import accept, accepted
+from anymesh.postprocessing.protocol import Completer, Finished
+from anymesh.postprocessing.settings import ShapeConfig
+from anymesh.postprocessing.shape import complete_shapes
+from anymesh.types import Asset
+
+
+def complete(
+    asset: Asset,
+    config: ShapeConfig = ShapeConfig(),  # noqa: B008 - frozen
+    *,
+    completer: Completer | None = None,
+) -> Finished:
+    """The asset with the shapes of its parts completed: those that `completer` makes and `accept` takes, the others by
+    `complete_shapes`. Errors of the completer are passed on."""
+    if completer is None:
+        return complete_shapes(asset, config)
+    first = accept(asset, completer.complete(asset), who=completer.name)
+    taken = set(accepted(first, completer.name))
+    second = complete_shapes(first.asset, config, parts=[p.name for p in asset.segmentation.parts if p.name not in taken])
+    source = np.where(second.source_face < 0, -1, first.source_face[second.source_face])
+    names = [p.name for p in asset.segmentation.parts]
+    notes = {n: (*first.notes.get(n, ()), *second.notes.get(n, ())) for n in names}
+    return Finished(second.asset, source, {n: told for n, told in notes.items() if told})

@@ -1,0 +1,108 @@
+"""A drawer's front that slides gets a box behind it, which fits the hollow that it slides in."""
+
+from __future__ import annotations
+
+import numpy as np
+from jaxtyping import Float
+
+from anymesh.postprocessing.blocks import tray
+from anymesh.postprocessing.free import moves_freely
+from anymesh.postprocessing.fronts import Front
+from anymesh.postprocessing.scenes import Growing, scene_of
+from anymesh.postprocessing.settings import ShapeConfig
+from anymesh.rendering.raycast_ import RayScene
+from anymesh.types import JointType
+
+STRAIGHT = 0.95  # cosine from which a slide goes straight out of the hollow
+UPRIGHT = 0.5  # vertical part of a box's up direction at least
+PROBES = 12  # rays along each direction
+THIN = 0.08  # of its smallest side: no wall of a box is thicker
+THERE = 0.6  # share of the rays to a side of a box that show it is there
+TRIES = (1.0, 2.0, 4.0)  # times the clearance on each side, until the box is free
+
+
+def add_box(front: Front, growing: Growing, config: ShapeConfig) -> None:
+    """Adds a box to a front that slides straight out and has none, unless it would strike something on its way."""
+    joint = growing.scenes.joint[front.part]
+    if joint.type is not JointType.PRISMATIC or joint.limits is None or front.axes[1][2] < UPRIGHT:
+        return
+    travel = -front.inward @ joint.axis * (joint.limits[1] if front.inward @ joint.axis < 0 else joint.limits[0])
+    if abs(front.inward @ joint.axis) < STRAIGHT or travel <= 0:
+        return
+    own, others = scene_of(growing.triangles(front.part)), scene_of(growing.others(front.part))
+    if own is None or others is None or _has_box(front, own):
+        return
+    for more in TRIES:
+        clear = more * config.clearance * growing.scenes.diagonal
+        low, high = _inside(front, others, own, clear)
+        high[2] = min(high[2], low[2] + max(travel / (1 - config.drawer_keep), 0.0))
+        high[1] = low[1] + config.drawer_height * (high[1] - low[1])
+        wall = min(config.wall * growing.scenes.diagonal, THIN * float((high - low).min()))
+        if wall <= config.sheet * growing.scenes.diagonal:
+            continue
+        box = _upwards(low, high, front.axes, wall)
+        if moves_freely(front.part, growing, growing, more=box):
+            reach = high[2] - low[2]
+            growing.add(
+                front.part, box, [f"a drawer's box put behind its front, {reach:.2g} m deep for a travel of {travel:.2g} m"]
+            )
+            return
+    growing.add(front.part, np.zeros((0, 3, 3)), ["no drawer's box: none is free on its way"])
+
+
+def _upwards(low: np.ndarray, high: np.ndarray, axes: np.ndarray, wall: float) -> Float[np.ndarray, "n 3 3"]:
+    """A tray that is open along the second of the axes."""
+    order = [2, 0, 1]
+    return tray(low[order], high[order], axes[order], wall)
+
+
+def _inside(front: Front, others: RayScene, own: RayScene, clear: float) -> tuple[np.ndarray, np.ndarray]:
+    """Corners of the space behind a front that is free at rest, less the clearance on each side but the front's."""
+    low, high = front.low.copy(), front.high.copy()
+    low[:2] += clear
+    high -= clear
+    scenes = (others, own)
+    middle = (low + high) / 2
+    core = (middle + (low - middle) / 2, middle + (high - middle) / 2)
+    high[2] = min(high[2], low[2] + _way(front.axes, 2, 1.0, low[2], *core, scenes) - clear)
+    for axis in (0, 1):
+        down = _way(front.axes, axis, -1.0, middle[axis], low, high, scenes)
+        up = _way(front.axes, axis, 1.0, middle[axis], low, high, scenes)
+        low[axis], high[axis] = max(low[axis], middle[axis] - down + clear), min(high[axis], middle[axis] + up - clear)
+    high[2] = min(high[2], low[2] + _way(front.axes, 2, 1.0, low[2], low, high, scenes) - clear)
+    return low, high
+
+
+def _grid(axes: np.ndarray, axis: int, level: float, low: np.ndarray, high: np.ndarray) -> Float[np.ndarray, "n 3"]:
+    """Points spread over a section of a box, at a level along one of its axes, away from its edges."""
+    share = (np.arange(PROBES) + 0.5) / PROBES
+    share[0], share[-1] = 0.02, 0.98
+    at = np.stack(np.meshgrid(share, share, indexing="ij"), -1).reshape(-1, 2)
+    local = np.full((len(at), 3), level)
+    for column, k in enumerate(a for a in range(3) if a != axis):
+        local[:, k] = low[k] + at[:, column] * (high[k] - low[k])
+    return local @ axes
+
+
+def _way(
+    axes: np.ndarray, axis: int, sign: float, level: float, low: np.ndarray, high: np.ndarray, scenes: tuple[RayScene, ...]
+) -> float:
+    """How far it is from a section of a box to the first surface along one of its axes [m]."""
+    skip = 1e-3 * float((high - low)[axis])
+    start = _grid(axes, axis, level + sign * skip, low, high)
+    ways = np.repeat(sign * axes[axis][None], len(start), 0)
+    far = 2 * float(np.abs(high - low).max())
+    return min(float(np.minimum(s.first_hit(start, ways, far).distance, far).min()) for s in scenes) + skip
+
+
+def _has_box(front: Front, own: RayScene) -> bool:
+    """Whether the part has a bottom, two sides and a back of its own in the hollow, as rays from its middle show."""
+    middle, size = (front.low + front.high) / 2, front.high - front.low
+    for axis, sign in ((0, -1.0), (0, 1.0), (1, -1.0), (2, 1.0)):
+        low, high = middle - size / 4, middle + size / 4
+        low[1] = high[1] = front.low[1] + 0.3 * size[1]
+        start = _grid(front.axes, axis, float(low[1] if axis == 1 else middle[axis]), low, high)
+        hits = own.first_hit(start, np.repeat(sign * front.axes[axis][None], len(start), 0), float(size[axis]))
+        if (hits.face >= 0).mean() < THERE:
+            return False
+    return True

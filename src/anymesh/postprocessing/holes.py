@@ -1,0 +1,88 @@
+"""Flat holes that others hid: those that nothing ever uncovers get a cap, what moves away from the others opens a cavity."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from anymesh.geometry.sampling import sample_surface
+from anymesh.postprocessing.closing import backed, cap, covers_itself
+from anymesh.postprocessing.scenes import SKIP, Scenes, room
+from anymesh.postprocessing.seen import Seen
+from anymesh.postprocessing.settings import ShapeConfig
+from anymesh.postprocessing.sheets import Sheet
+
+PROBES = 120  # points on a cap
+PARALLEL = 0.99  # cosine from which borders lie in one plane
+UNCOVERED = 0.5  # share of a hole's points from which that which covers it moves away
+AWAY = 0.1  # of the hole's size: how far it moves at least, and two walls
+
+
+def with_caps(seen: Seen, part: int, scenes: Scenes, config: ShapeConfig) -> tuple[Sheet, bool]:
+    """The sheet with its flat holes closed that something hides for good, and whether one is left open for what moves away
+    from it."""
+    sheet = seen.sheet
+    done, found, opens = [], sheet, False
+    for normal, numbers in _flat_holes(sheet, config):
+        points, faces = np.zeros((0, 3)), cap(sheet.points, [sheet.loops[k] for k in numbers], normal)
+        hidden, opened = _covered(sheet.points[faces], seen.sign * normal, part, scenes, config)
+        opens |= opened
+        if not hidden or opened:
+            continue
+        if covers_itself(sheet.faces, faces):  # then the cap lies a little before the hole
+            rim, out = replace(found, loops=tuple(sheet.loops[k] for k in numbers)), seen.sign * normal
+            level = float((sheet.points[np.concatenate(rim.loops)] @ out).max()) + config.sheet * scenes.diagonal / 2
+            points, faces = backed(rim, out, level, faces_out=seen.faces_out)
+        found = found.with_faces(points, faces)
+        done += numbers
+    return found.without(done), opens
+
+
+def _flat_holes(sheet: Sheet, config: ShapeConfig) -> list[tuple[np.ndarray, list[int]]]:
+    """Normals of the flat holes of a body, and the numbers of the borders that lie in the plane of each."""
+    groups: list[tuple[np.ndarray, np.ndarray, list[int]]] = []
+    for k, loop in enumerate(sheet.loops):
+        flat = _flat_hole(sheet, loop, config)
+        if flat is None:
+            continue
+        near = config.flat * sheet.size
+        same = [g for g in groups if abs(g[0] @ flat[0]) > PARALLEL and abs((g[1] - flat[1]) @ flat[0]) < near]
+        if same:
+            same[0][2].append(k)
+        else:
+            groups.append((*flat, [k]))
+    return [(normal, numbers) for normal, _, numbers in groups]
+
+
+def _flat_hole(sheet: Sheet, loop: np.ndarray, config: ShapeConfig) -> tuple[np.ndarray, np.ndarray] | None:
+    """Normal (as a cap of the loop is wound) and middle of the plane of a border, None where it is no flat hole of a body:
+    it leaves the plane, or the body lies in it."""
+    points = sheet.points[loop]
+    middle = (points.min(0) + points.max(0)) / 2
+    size = float(np.linalg.norm(np.ptp(points, axis=0)))
+    around = points - middle
+    normal = -np.cross(around, np.roll(around, -1, axis=0)).sum(0)
+    length = float(np.linalg.norm(normal))
+    if length < 1e-6 * size**2:
+        return None
+    normal /= length
+    off = np.abs(around @ normal).max()
+    depth = np.ptp((sheet.points - middle) @ normal)
+    return (normal, middle) if off < config.flat * size and depth > 2 * max(off, config.flat * size / 2) else None
+
+
+def _covered(triangles: np.ndarray, outward: np.ndarray, part: int, scenes: Scenes, config: ShapeConfig) -> tuple[bool, bool]:
+    """Whether a hole is out of sight at rest, and whether what covers it moves away."""
+    probe = sample_surface(triangles, PROBES, 0)
+    if len(probe) == 0:
+        return True, False
+    ways = np.repeat(outward[None], len(probe), 0)
+    if not scenes.on_the_ground(probe.points) and scenes.seen(probe.points, ways)[:, 0].mean() > config.shown:
+        return False, False
+    far, skip = 2 * scenes.diagonal, SKIP * scenes.diagonal
+    before = room(scenes.rest, probe.points, ways, far, skip)
+    after = room(scenes.scene_opened(part), probe.points, ways, far, skip)
+    size = float(np.linalg.norm(np.ptp(probe.points, axis=0)))
+    away = (before < far) & (after > before + max(2 * config.wall * scenes.diagonal, AWAY * size))
+    return True, bool(away.mean() > UNCOVERED)

@@ -1,0 +1,112 @@
+"""Parts completed by HoloPart: sent in a box of its size, thick enough, and found again in what comes back (paper, 3.4)."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+from scipy.optimize import linear_sum_assignment
+
+from anymesh.errors import InputError, ModelError
+from anymesh.geometry.distance_ import distance_to_triangles
+from anymesh.geometry.sampling import sample_surface
+from anymesh.models.holopart import CrashError, PartService
+from anymesh.postprocessing.protocol import PartMesh
+from anymesh.postprocessing.scene_glb import Y_UP, read_scene, scene_glb
+from anymesh.postprocessing.thicken import Thickened, thicken
+from anymesh.types import Asset, Mesh, Node
+
+log = logging.getLogger("anymesh")
+BOX = 0.95  # half the longest side of the whole object as it is sent; the model was trained in -1..1
+LEAST = 0.04  # of its longest side, the thickness of a part as it is sent; the decoder's first grid has cells of .025
+SAMPLES = 400  # points a part to find it again by
+
+
+@dataclass(frozen=True)
+class HoloPart:
+    """A completer. Closed parts are sent, since the others are completed in their light, and stay as they are.
+
+    A crash is answered once with twice the thickness: thin parts are what it is known to crash on.
+    """
+
+    service: PartService
+    name: str = "holopart"
+
+    def complete(self, asset: Asset) -> Mapping[str, PartMesh]:
+        """The surface of each open part. ModelError where nothing comes back that can be told apart."""
+        try:
+            return self._complete(asset, LEAST)
+        except CrashError as error:
+            log.warning("%s; once more with parts twice as thick", error)
+        return self._complete(asset, 2 * LEAST)
+
+    def _complete(self, asset: Asset, least: float) -> Mapping[str, PartMesh]:
+        parts = {
+            part.name: thicken(asset.mesh.triangles[asset.segmentation.faces(number)], least)
+            for number, part in enumerate(asset.segmentation.parts)
+        }
+        for name, part in parts.items():
+            if part.added:
+                log.info("%s: %s is sent %.3g m thicker than it is", self.name, name, part.added)
+        if all(part.closed for part in parts.values()):
+            return {}
+        T = box_transform(asset.mesh)
+        glb = self.service.complete(scene_glb({name: _mesh(name, part) for name, part in parts.items()}, T))
+        pieces = {name: _moved(mesh, np.linalg.inv(T)) for name, mesh in read_pieces(glb).items()}
+        found = told_apart(pieces, {name: part.mesh for name, part in parts.items()})
+        return {name: found[name] for name, part in parts.items() if not part.closed and name in found}
+
+
+def box_transform(mesh: Mesh) -> Float[np.ndarray, "4 4"]:
+    """T_box_asset: centred, Y up, the longest side 2 * BOX long."""
+    T = np.eye(4)
+    T[:3, :3] = Y_UP * (2 * BOX / mesh.extents.max())
+    T[:3, 3] = -T[:3, :3] @ mesh.bounds.mean(0)
+    return T
+
+
+def read_pieces(glb: bytes) -> dict[str, Mesh]:
+    """The nodes of a GLB by their geometry's name. Raises ModelError for one that cannot be read."""
+    try:
+        mesh = read_scene(glb, "output.glb")
+    except InputError as error:
+        raise ModelError(f"HoloPart's result cannot be used: {error}") from None
+    names = [node.geometry for node in mesh.nodes]
+    names = names if len(set(names)) == len(names) else [node.name for node in mesh.nodes]
+    return {name: mesh.subset(mesh.face_node == number) for number, name in enumerate(names)}
+
+
+def told_apart(pieces: Mapping[str, PartMesh], parts: Mapping[str, PartMesh]) -> dict[str, PartMesh]:
+    """The piece of each part: by name where all are known, else by which lies nearest to the parts that were sent.
+
+    Raises ModelError where names are unknown and the numbers differ.
+    """
+    if set(pieces) <= set(parts):
+        return {name: piece for name, piece in pieces.items() if len(piece.faces)}
+    if len(pieces) != len(parts):
+        raise ModelError(
+            f"HoloPart gave {len(pieces)} parts for {len(parts)}, under names that were not sent: {sorted(pieces)[:5]}"
+        )
+    off = np.empty((len(parts), len(pieces)))
+    for row, part in enumerate(parts.values()):
+        points = sample_surface(part.triangles, SAMPLES, 0).points
+        off[row] = [np.median(distance_to_triangles(points, piece.triangles)) for piece in pieces.values()]
+    rows, columns = linear_sum_assignment(off)
+    names, found = list(parts), list(pieces.values())
+    return {names[row]: found[column] for row, column in zip(rows, columns, strict=True)}
+
+
+def _mesh(name: str, part: Thickened) -> Mesh:
+    faces = part.mesh.faces
+    return Mesh(part.mesh.vertices, faces, np.zeros(len(faces), int), (Node(name, name),), np.full(len(faces), -1))
+
+
+def _moved(mesh: Mesh, T: Float[np.ndarray, "4 4"]) -> PartMesh:
+    """In the asset frame, wound outwards."""
+    moved = mesh.transformed(T)
+    t = moved.triangles - moved.triangles.mean((0, 1))
+    inward = np.einsum("ij,ij->i", t[:, 0], np.cross(t[:, 1], t[:, 2])).sum() < 0
+    return PartMesh(moved.vertices, moved.faces[:, ::-1] if inward else moved.faces)

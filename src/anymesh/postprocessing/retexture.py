@@ -1,0 +1,99 @@
+"""Looks by an outside service: the finished asset goes out with an atlas, and comes back with another picture on it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Protocol, runtime_checkable
+
+import numpy as np
+
+from anymesh.errors import InputError
+from anymesh.postprocessing.bake import Baked, atlas_materials, atlas_uv, check_layout
+from anymesh.postprocessing.protocol import Finished
+from anymesh.postprocessing.retexture_match import MOST_OFF, aligned, has_picture, nearest, same_faces, surface_gap
+from anymesh.postprocessing.scene_glb import Y_UP, read_scene, scene_glb
+from anymesh.postprocessing.texture import Painted
+from anymesh.types import Asset, Mesh
+
+T_SCENE = np.block([[Y_UP, np.zeros((3, 1))], [np.zeros((1, 3)), np.ones((1, 1))]])
+
+
+@runtime_checkable
+class TextureService(Protocol):
+    """Whoever makes textures, such as `models.meshy.Meshy`."""
+
+    name: str
+
+    def retexture(self, glb: bytes, prompt: str) -> bytes:
+        """The GLB with new textures, on the texture coordinates that it has."""
+        ...
+
+
+@dataclass(frozen=True)
+class Remote:
+    """Looks by a service. prompt: what it should look like, None to name the object and its parts; size [px] of the atlas.
+
+    What comes back is used where it is the surface that was sent: its pictures as they are where it has our faces, else their
+    colours part by part from the nearest place. Otherwise the baked built-in looks stay, and a note says why. Faces that are
+    seen through keep theirs in any case: the service knows no glass.
+    """
+
+    service: TextureService
+    prompt: str | None = None
+    size: int = 2048
+    padding: int = 4
+
+    @property
+    def name(self) -> str:
+        return self.service.name
+
+    def retexture(self, finished: Finished) -> Painted:
+        baked = Baked(self.size, self.padding).retexture(finished)
+        asset, ours = baked.asset, baked.asset.mesh
+        glb = self.service.retexture(scene_glb({asset.name: ours}, T_SCENE), self.prompt or described(asset))
+        try:
+            back = read_scene(glb, f"{self.name}.glb")
+        except InputError as error:
+            return self._refused(baked, str(error))
+        back = aligned(back.transformed(T_SCENE.T), ours)
+        if not has_picture(back):
+            return self._refused(baked, "it has faces without a picture")
+        if same_faces(back, ours):
+            return Painted(replace(asset, mesh=_taken_over(back, ours)), (*baked.notes, f"{self.name}: its pictures are used"))
+        gap = surface_gap(back, ours)
+        if gap > MOST_OFF:
+            return self._refused(baked, f"{gap:.0%} of its surface is not that of the object")
+        note = f"{self.name}: it has other faces, its colours are used from the nearest place of the same part"
+        return Painted(replace(asset, mesh=self._transferred(back, asset)), (*baked.notes, note))
+
+    def _refused(self, baked: Painted, why: str) -> Painted:
+        return replace(baked, notes=(*baked.notes, f"{self.name}: not accepted, {why}; the built-in looks stay"))
+
+    def _transferred(self, back: Mesh, asset: Asset) -> Mesh:
+        ours = asset.mesh
+        layout = check_layout(ours, self.size, self.padding)
+        material = atlas_materials(layout, back, "retextured", place=nearest(back, ours, asset.segmentation.face_part))[0]
+        return replace(ours, materials=(material, *ours.materials[1:]), corner_uv=atlas_uv(layout))
+
+
+def described(asset: Asset) -> str:
+    """A prompt of what is known: the object's name and the labels of its parts."""
+    labels = dict.fromkeys(part.label for part in asset.segmentation.parts[1:] if part.label)
+    what = asset.name.replace("_", " ")
+    told = f"a {what} with {', '.join(labels)}" if labels else f"a {what}"
+    return f"{told}, realistic materials"[:600]
+
+
+def _taken_over(back: Mesh, ours: Mesh) -> Mesh:
+    """Our mesh with the materials and texture coordinates that came back, but for faces that are seen through."""
+    clear, count = ours.face_material > 0, len(back.materials)
+    uv = np.zeros((len(clear), 3, 2), np.float32)
+    for mesh, rows in ((ours, clear), (back, ~clear)):
+        if mesh.corner_uv is not None:
+            uv[rows] = mesh.corner_uv[rows]
+    return replace(
+        ours,
+        materials=(*back.materials, *ours.materials[1:]),
+        face_material=np.where(clear, count + ours.face_material - 1, back.face_material),
+        corner_uv=uv,
+    )

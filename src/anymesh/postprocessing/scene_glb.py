@@ -1,0 +1,83 @@
+"""Meshes as outside models take them: a GLB, a node and a geometry a mesh, nothing placed by a transform; and what returns."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from jaxtyping import Float
+
+from anymesh.errors import InputError
+from anymesh.export.glb_buffer import INDICES, VERTICES, GlbBuffer
+from anymesh.export.links import unique_rows
+from anymesh.loading.folder import Folder
+from anymesh.loading.gltf import read_gltf
+from anymesh.types import Mesh
+
+Y_UP = np.array([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]])  # from Z up
+SAMPLER = {"magFilter": 9729, "minFilter": 9987, "wrapS": 10497, "wrapT": 10497}
+
+
+def scene_glb(meshes: Mapping[str, Mesh], T_scene_asset: Float[np.ndarray, "4 4"]) -> bytes:
+    """Named meshes, moved by a transform. One primitive each, faces in their order, with the first material's base colour
+    where a mesh has texture coordinates: readers that make a geometry of each primitive must find one geometry a part."""
+    buffer = GlbBuffer()
+    entries: dict[str, list[Any]] = {"nodes": [], "meshes": [], "materials": [], "textures": [], "images": []}
+    for name, mesh in meshes.items():
+        moved = mesh.transformed(T_scene_asset)
+        primitive = _primitive(moved, buffer)
+        if moved.corner_uv is not None and moved.materials:
+            primitive["material"] = len(entries["materials"])
+            entries["materials"].append(_material(moved, buffer, entries))
+        entries["nodes"].append({"name": name, "mesh": len(entries["meshes"])})
+        entries["meshes"].append({"name": name, "primitives": [primitive]})
+    document = {
+        "asset": {"version": "2.0"},
+        "scene": 0,
+        "scenes": [{"nodes": list(range(len(entries["nodes"])))}],
+        **{key: value for key, value in entries.items() if value},
+    }
+    return buffer.encode(document | ({"samplers": [SAMPLER]} if entries["textures"] else {}))
+
+
+def read_scene(glb: bytes, name: str) -> Mesh:
+    """A GLB that came back, in its own coordinates. Raises InputError for anything that is no usable mesh, and for one that
+    refers to files: it has no folder."""
+    try:
+        return read_gltf(glb, Folder(Path("of-no-folder") / name))
+    except InputError:
+        raise
+    except Exception as error:  # whatever a broken file makes the reader raise is one thing to the user
+        raise InputError(f"{name} is no readable GLB ({type(error).__name__})") from None
+
+
+def _primitive(mesh: Mesh, buffer: GlbBuffer) -> dict[str, Any]:
+    corners = mesh.faces.reshape(-1)
+    columns = [corners.astype(np.uint64)]
+    if mesh.corner_uv is not None:
+        uv = np.ascontiguousarray(mesh.corner_uv.reshape(-1, 2)) + np.float32(0)
+        columns += [c.astype(np.uint64) for c in uv.view(np.uint32).T]
+    first, inverse = unique_rows(columns)
+    positions = mesh.vertices[corners[first]].astype(np.float32)
+    attributes = {"POSITION": buffer.accessor(positions, target=VERTICES, bounds=True)}
+    if mesh.corner_uv is not None:
+        flipped = np.stack([uv[first, 0], 1 - uv[first, 1]], 1).astype(np.float32)
+        attributes["TEXCOORD_0"] = buffer.accessor(flipped, target=VERTICES)
+    return {"attributes": attributes, "indices": buffer.accessor(inverse.astype(np.uint32), target=INDICES)}
+
+
+def _material(mesh: Mesh, buffer: GlbBuffer, entries: dict[str, list[Any]]) -> dict[str, Any]:
+    material = mesh.materials[0]
+    pbr: dict[str, Any] = {
+        "baseColorFactor": [float(c) for c in material.base_color],
+        "metallicFactor": float(material.metallic),
+        "roughnessFactor": float(material.roughness),
+    }
+    texture = material.textures.get("base_color")
+    if texture is not None:
+        entries["images"].append({"mimeType": texture.mime, "bufferView": buffer.view(texture.data)})
+        entries["textures"].append({"sampler": 0, "source": len(entries["images"]) - 1})
+        pbr["baseColorTexture"] = {"index": len(entries["textures"]) - 1}
+    return {"name": material.name, "pbrMetallicRoughness": pbr}

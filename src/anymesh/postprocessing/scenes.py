@@ -1,0 +1,150 @@
+"""An asset at rest and with its joints open, to cast rays at; parts grow while they are completed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+from jaxtyping import Bool, Float, Int
+
+from anymesh.geometry.kinematics import link_transforms
+from anymesh.postprocessing.visible import GRAZE, escapes
+from anymesh.rendering.raycast_ import RayScene
+from anymesh.types import Asset, Joint, JointType
+
+HALF_TURN = np.pi
+SKIP = 1e-4  # of the diagonal: what is nearer is touched
+FLOOR = 1e-3  # of the diagonal: what lies so near to the ground stands on it
+
+
+@dataclass(frozen=True, eq=False)
+class Scenes:
+    """The surface that was there. Part numbers are those of the asset's segmentation."""
+
+    asset: Asset
+
+    @cached_property
+    def diagonal(self) -> float:
+        return self.asset.mesh.diagonal
+
+    @cached_property
+    def rest(self) -> RayScene:
+        return RayScene(self.asset.mesh.vertices, self.asset.mesh.faces)
+
+    @cached_property
+    def number(self) -> dict[str, int]:
+        """Part name -> number."""
+        return {part.name: k for k, part in enumerate(self.asset.segmentation.parts)}
+
+    @cached_property
+    def joint(self) -> dict[int, Joint]:
+        """Part number -> the joint that carries it."""
+        return {self.number[j.child]: j for j in self.asset.joints}
+
+    @cached_property
+    def order(self) -> tuple[int, ...]:
+        """Part numbers, each after the one that carries it."""
+        return tuple(sorted(range(len(self.number)), key=lambda k: (len(self.carriers(k)), k)))
+
+    def carriers(self, part: int) -> tuple[int, ...]:
+        """The parts that carry a part, the nearest first."""
+        found: list[int] = []
+        while (joint := self.joint.get(found[-1] if found else part)) is not None:
+            found.append(self.number[joint.parent])
+        return tuple(found)
+
+    def opened(self, part: int) -> Float[np.ndarray, "p 4 4"]:
+        """Where each part goes when all that `part` carries is moved as far as it goes, seen from `part`."""
+        wide = {j.name: widest(j) for k, j in self.joint.items() if part in self.carriers(k)}
+        moved = link_transforms(self.asset, wide)
+        return np.stack([moved[p.name] for p in self.asset.segmentation.parts])
+
+    @cached_property
+    def _opened_scenes(self) -> dict[int, RayScene]:
+        return {}
+
+    def scene_opened(self, part: int) -> RayScene:
+        """The surface with all that `part` carries moved as far as it goes."""
+        if part not in self._opened_scenes:
+            self._opened_scenes[part] = self._scene_opened(part)
+        return self._opened_scenes[part]
+
+    def _scene_opened(self, part: int) -> RayScene:
+        T = self.opened(part)[self.asset.segmentation.face_part]
+        t = np.einsum("fij,fkj->fki", T[:, :3, :3], self.asset.mesh.triangles) + T[:, None, :3, 3]
+        return RayScene(t.reshape(-1, 3), np.arange(3 * len(t)).reshape(-1, 3))
+
+    def seen(self, points: Float[np.ndarray, "n 3"], normals: Float[np.ndarray, "n 3"]) -> Bool[np.ndarray, "n 2"]:
+        """Which points are in sight at rest from the side of their normals, and which from the other."""
+        return escapes(self.rest, points, normals, self.diagonal) >= GRAZE
+
+    def on_the_ground(self, points: Float[np.ndarray, "n 3"]) -> bool:
+        """Whether points lie in the plane that the object stands on."""
+        return bool((points[:, 2] < self.asset.mesh.bounds[0, 2] + FLOOR * self.diagonal).all())
+
+
+def widest(joint: Joint) -> float:
+    """The position furthest from rest [rad or m]; half a turn of what turns endlessly."""
+    if joint.type is JointType.FIXED:
+        return 0.0
+    return HALF_TURN if joint.limits is None else max(joint.limits[::-1], key=abs)
+
+
+@dataclass(eq=False)
+class Growing:
+    """The parts while they are completed: what was there and what was added, with what was done, in words."""
+
+    scenes: Scenes
+    added: dict[int, list[Float[np.ndarray, "n 3 3"]]] = field(default_factory=dict)
+    notes: dict[int, list[str]] = field(default_factory=dict)
+
+    def undo(self, part: int) -> None:
+        """Takes back all that was added to a part."""
+        self.added.pop(part, None)
+        self.notes.pop(part, None)
+
+    def add(self, part: int, triangles: Float[np.ndarray, "n 3 3"], notes: Sequence[str]) -> None:
+        if len(triangles):
+            self.added.setdefault(part, []).append(triangles)
+        if notes:
+            self.notes.setdefault(part, []).extend(notes)
+
+    def faces(self, part: int) -> Int[np.ndarray, " n"]:
+        return self.scenes.asset.segmentation.faces(part)
+
+    def triangles(self, *parts: int) -> Float[np.ndarray, "n 3 3"]:
+        """All that these parts are made of by now."""
+        old = [self.scenes.asset.mesh.triangles[self.faces(k)] for k in parts]
+        return np.concatenate([*old, *(t for k in parts for t in self.added.get(k, []))])
+
+    def others(self, part: int) -> Float[np.ndarray, "n 3 3"]:
+        """All that the other parts are made of by now."""
+        rest = [k for k in self.scenes.order if k != part]
+        return self.triangles(*rest) if rest else np.zeros((0, 3, 3))
+
+
+def scene_of(triangles: Float[np.ndarray, "n 3 3"]) -> RayScene | None:
+    """Triangles to cast rays at; None without any."""
+    if len(triangles) == 0:
+        return None
+    return RayScene(triangles.reshape(-1, 3), np.arange(3 * len(triangles)).reshape(-1, 3))
+
+
+def room(
+    scene: RayScene | None,
+    points: Float[np.ndarray, "n 3"],
+    ways: Float[np.ndarray, "n 3"],
+    most: float,
+    skip: float,
+    *,
+    without: Int[np.ndarray, " m"] | None = None,
+) -> Float[np.ndarray, " n"]:
+    """How far it is from points along unit ways to the first surface [m], `most` where there is none so near, or where it is
+    one of the faces `without`; surfaces nearer than `skip` are touched, not met."""
+    if scene is None or len(points) == 0:
+        return np.full(len(points), most)
+    hits = scene.first_hit(points + skip * ways, ways, most)
+    far = np.minimum(hits.distance + skip, most)
+    return far if without is None else np.where(np.isin(hits.face, without), most, far)

@@ -1,0 +1,63 @@
+"""An open sheet as it is seen at rest: from which side, and whether it is a plate."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from jaxtyping import Float
+
+from anymesh.geometry.boxes import Box, fit_box
+from anymesh.geometry.sampling import SurfacePoints, sample_surface
+from anymesh.postprocessing.scenes import Scenes
+from anymesh.postprocessing.settings import ShapeConfig
+from anymesh.postprocessing.sheets import Sheet
+from anymesh.postprocessing.visible import GRAZE, escapes
+
+PROBES = 120  # points on a sheet
+
+
+@dataclass(frozen=True, eq=False)
+class Seen:
+    """A sheet as it is seen. faces_out: its faces are wound to the side that is seen; both: it is seen from both sides."""
+
+    sheet: Sheet
+    probe: SurfacePoints
+    faces_out: bool
+    both: bool
+
+    @property
+    def sign(self) -> float:
+        return 1.0 if self.faces_out else -1.0
+
+    @cached_property
+    def box(self) -> Box:
+        return fit_box(self.sheet.points, self.sheet.normals, self.sheet.areas)
+
+    @property
+    def inward(self) -> Float[np.ndarray, " 3"]:
+        """The thin direction of its box, away from the side that is seen."""
+        axis = self.box.axes[2]
+        mean = self.sign * self.sheet.areas @ self.sheet.normals
+        return -axis if mean @ axis > 0 else axis
+
+    def is_plate(self, most: float) -> bool:
+        return bool(self.box.half[2] < most * self.box.half[1])
+
+
+def look_at(sheet: Sheet, scenes: Scenes, config: ShapeConfig) -> Seen:
+    """From which sides a sheet is seen at rest."""
+    probe = sample_surface(sheet.triangles, PROBES, 0)
+    front, back = scenes.seen(probe.points, probe.normals).mean(0) if len(probe) else (1.0, 0.0)
+    inside_out = back > config.shown and back > 2 * front  # what is hardly seen is taken as it is wound
+    return Seen(sheet, probe, not inside_out, bool(min(front, back) > config.shown))
+
+
+def is_laid_open(seen: Seen, part: int, scenes: Scenes, config: ShapeConfig) -> bool:
+    """Whether the side of a sheet of a part that is not seen at rest is seen when all joints are open."""
+    root = scenes.order[0]
+    T, probe = scenes.opened(root)[part], seen.probe
+    points, normals = probe.points @ T[:3, :3].T + T[:3, 3], probe.normals @ T[:3, :3].T
+    shown = escapes(scenes.scene_opened(root), points, -seen.sign * normals, scenes.diagonal)[:, 0] >= GRAZE
+    return bool(shown.mean() > config.shown) if len(shown) else False

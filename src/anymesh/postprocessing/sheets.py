@@ -1,0 +1,112 @@
+"""The open sheets of a part: surfaces with borders, evenly wound, each vertex on one border at most."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from jaxtyping import Float, Int
+
+from anymesh.geometry.topology import EdgePairs, edge_pairs, label_connected, weld
+from anymesh.types.triangles import normals_and_areas
+
+
+@dataclass(frozen=True, eq=False)
+class Sheet:
+    """A connected surface with a border. points: (V, 3) [m]; faces: (F, 3) into them, as wound; own: (F,) their numbers in
+    what it was cut from; loops: each border's vertices, in the direction in which the faces along it run."""
+
+    points: Float[np.ndarray, "V 3"]
+    faces: Int[np.ndarray, "F 3"]
+    own: Int[np.ndarray, " F"]
+    loops: tuple[Int[np.ndarray, " n"], ...]
+
+    @property
+    def triangles(self) -> Float[np.ndarray, "F 3 3"]:
+        return self.points[self.faces]
+
+    @cached_property
+    def normals(self) -> Float[np.ndarray, "F 3"]:
+        """Unit, as wound; zero where a face has no area."""
+        return normals_and_areas(self.triangles)[0]
+
+    @cached_property
+    def areas(self) -> Float[np.ndarray, " F"]:
+        return normals_and_areas(self.triangles)[1]
+
+    @property
+    def size(self) -> float:
+        """Diagonal of its axis-aligned box [m]."""
+        return float(np.linalg.norm(np.ptp(self.points, axis=0)))
+
+    def with_faces(self, points: Float[np.ndarray, "k 3"], faces: Int[np.ndarray, "m 3"]) -> Sheet:
+        """The sheet with further points, and with faces over its points and these; new faces have the number -1."""
+        own = np.concatenate([self.own, np.full(len(faces), -1)])
+        return Sheet(np.concatenate([self.points, points]), np.concatenate([self.faces, faces]), own, self.loops)
+
+    def without(self, loops: Collection[int]) -> Sheet:
+        """The sheet whose loops of these numbers have been closed."""
+        return replace(self, loops=tuple(loop for k, loop in enumerate(self.loops) if k not in loops))
+
+
+def open_sheets(vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"]) -> list[Sheet]:
+    """All sheets among some faces, in the order of their first face; closed, evenly wound surfaces are none.
+
+    Surfaces are cut where their winding changes sides, and vertices are split where surfaces only meet in a point.
+    Faces with two corners in one place bound nothing and are left out.
+    """
+    number = weld(vertices)
+    kept = np.flatnonzero((number[faces] != np.roll(number[faces], -1, axis=1)).all(1))
+    if len(kept) == 0:
+        return []
+    faces, welded = faces[kept], number[faces[kept]]
+    half, mate = _joined_halves(welded, number, edge_pairs(vertices, faces))
+    label = label_connected(len(faces), np.stack([half // 3, mate // 3], 1))
+    corner = _corners(len(faces), half, mate)
+    border = np.ones(3 * len(faces), bool)
+    border[half] = border[mate] = False
+    edges = np.flatnonzero(border)
+    sheets = []
+    for k in np.unique(label[edges // 3]):
+        mine = np.flatnonzero(label == k)
+        _, first, inverse = np.unique(corner[mine], return_index=True, return_inverse=True)
+        own, along = inverse.reshape(-1, 3), edges[label[edges // 3] == k]
+        row = np.searchsorted(mine, along // 3)
+        loops = _loops(own[row, along % 3], own[row, (along % 3 + 1) % 3])
+        sheets.append(Sheet(vertices[faces[mine].reshape(-1)[first]], own, kept[mine], loops))
+    return sheets
+
+
+def _joined_halves(welded: np.ndarray, number: np.ndarray, pairs: EdgePairs) -> tuple[np.ndarray, np.ndarray]:
+    """Half edges (3 * face + the corner that it starts from) that are joined where the winding agrees."""
+    ends = number[pairs.vertices[pairs.aligned]]
+    left, right = pairs.faces[pairs.aligned].T
+    return tuple(
+        3 * face + (welded[face] == start[:, None]).argmax(1) for face, start in ((left, ends[:, 0]), (right, ends[:, 1]))
+    )
+
+
+def _corners(count: int, half: np.ndarray, mate: np.ndarray) -> Int[np.ndarray, "F 3"]:
+    """A vertex a corner: corners are one where faces that hang together round it share it."""
+
+    def end(h: np.ndarray) -> np.ndarray:
+        return h - h % 3 + (h % 3 + 1) % 3
+
+    pairs = np.concatenate([np.stack([half, end(mate)], 1), np.stack([end(half), mate], 1)])
+    return label_connected(3 * count, pairs).reshape(-1, 3)
+
+
+def _loops(start: np.ndarray, end: np.ndarray) -> tuple[Int[np.ndarray, " n"], ...]:
+    """Closed chains of border edges, each from its first vertex in the file."""
+    follows = dict(zip(start.tolist(), end.tolist(), strict=True))
+    found = []
+    for vertex in sorted(follows):
+        chain = []
+        while vertex in follows:
+            chain.append(vertex)
+            vertex = follows.pop(vertex)
+        if len(chain) > 2:
+            found.append(np.array(chain))
+    return tuple(found)

@@ -1,0 +1,99 @@
+"""Places on a surface: which face, where on it, and what colour is there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from jaxtyping import Float, Int, UInt8
+
+from anymesh.geometry.distance_ import distance_to_mesh
+from anymesh.rendering.render import face_colors
+from anymesh.types import Mesh
+
+FINE = 4  # a face is probed in the middles of the FINE squared like triangles that it is cut into
+
+
+def _probes() -> Float[np.ndarray, "p 3"]:
+    """Barycentric weights of those middles."""
+    n, ticks = 3 * FINE, range(FINE)
+    upright = [(3 * i + 1, 3 * j + 1) for i in ticks for j in ticks if i + j < FINE]
+    turned = [(3 * i + 2, 3 * j + 2) for i in ticks for j in ticks if i + j < FINE - 1]
+    return np.array([(n - a - b, a, b) for a, b in upright + turned]) / n
+
+
+PROBES = _probes()
+
+
+@dataclass(frozen=True, eq=False)
+class Spots:
+    """Where points of some faces (`owner`, by their place in the list) are nearest to a surface: its face, the barycentric
+    weights of that face's corners there, the distance [m], and the area that a point stands for [m2]."""
+
+    owner: Int[np.ndarray, " n"]
+    face: Int[np.ndarray, " n"]
+    weights: Float[np.ndarray, "n 3"]
+    distance: Float[np.ndarray, " n"]
+    area: Float[np.ndarray, " n"]
+
+    def colors(self, mesh: Mesh) -> UInt8[np.ndarray, "n 3"]:
+        """sRGB colour of the mesh there."""
+        return colors_at(mesh, self.face, self.weights)
+
+
+def spots_on(mesh: Mesh, faces: Int[np.ndarray, " n"], sources: Int[np.ndarray, " m"]) -> Spots:
+    """The places on `sources` (faces of the mesh, by number) nearest to points spread over `faces`."""
+    points = np.einsum("pk,nkd->npd", PROBES, mesh.triangles[faces]).reshape(-1, 3)
+    distance, near, closest = distance_to_mesh(points, mesh.vertices, mesh.faces[sources])
+    face = sources[near]
+    area = np.repeat(mesh.face_areas[faces], len(PROBES)) + 1e-30
+    owner = np.repeat(np.arange(len(faces)), len(PROBES))
+    return Spots(owner, face, inside(barycentric(closest, mesh.triangles[face])), distance, area)
+
+
+def barycentric(points: Float[np.ndarray, "n 3"], triangles: Float[np.ndarray, "n 3 3"]) -> Float[np.ndarray, "n 3"]:
+    """Weights of each triangle's corners that give the point, or its foot on the triangle's plane; thirds where a triangle
+    has no area."""
+    a, b, c = (triangles[:, k] for k in range(3))
+    normal = np.cross(b - a, c - a)
+    square = np.einsum("ij,ij->i", normal, normal)
+    flat = square <= 1e-300
+    scale = np.where(flat, 1.0, square)
+    second = np.einsum("ij,ij->i", np.cross(points - a, c - a), normal) / scale
+    third = np.einsum("ij,ij->i", np.cross(b - a, points - a), normal) / scale
+    found = np.stack([1 - second - third, second, third], 1)
+    found[flat] = 1 / 3
+    return found
+
+
+def inside(weights: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 3"]:
+    """Barycentric weights without what rounding puts outside the triangle."""
+    kept = np.clip(weights, 0, 1)
+    return kept / kept.sum(1, keepdims=True)
+
+
+def colors_at(mesh: Mesh, face: Int[np.ndarray, " n"], weights: Float[np.ndarray, "n 3"]) -> UInt8[np.ndarray, "n 3"]:
+    """The sRGB colour at places on a mesh, as all our pictures show it."""
+    return face_colors(points_mesh(mesh, face, weights))
+
+
+def points_mesh(mesh: Mesh, face: Int[np.ndarray, " n"], weights: Float[np.ndarray, "n 3"]) -> Mesh:
+    """A mesh with a face a place, all of it looking as that place does."""
+
+    def at(rows: np.ndarray | None) -> np.ndarray | None:
+        if rows is None:
+            return None
+        value = np.einsum("nk,nkd->nd", weights, rows[face].astype(np.float64))
+        value = np.rint(value) if rows.dtype == np.uint8 else value
+        return np.repeat(value.astype(rows.dtype)[:, None], 3, axis=1)
+
+    return replace(
+        mesh,
+        vertices=np.zeros((1, 3)),
+        faces=np.zeros((len(face), 3), np.int64),
+        face_node=mesh.face_node[face],
+        face_material=mesh.face_material[face],
+        corner_uv=at(mesh.corner_uv),
+        corner_color=at(mesh.corner_color),
+        corner_normal=None,
+    )

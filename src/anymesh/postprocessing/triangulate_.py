@@ -1,0 +1,23 @@
+"""Triangles of outlines with holes, by manifold3d (Apache-2.0)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from jaxtyping import Float, Int
+
+from anymesh.errors import MissingExtraError
+
+
+def triangulate(outlines: Sequence[Float[np.ndarray, "n 2"]]) -> Int[np.ndarray, "m 3"]:
+    """Triangles, counterclockwise, into the outlines' points one after another; no point is added or left out.
+
+    outlines: counterclockwise, holes clockwise. Whatever their shape, each of their edges bounds one triangle, and each edge
+    within two. MissingExtraError without manifold3d.
+    """
+    try:
+        from manifold3d import triangulate as cut
+    except ImportError:
+        raise MissingExtraError("manifold3d is missing; `pip install 'articulate-anymesh[finish]'` brings it") from None
+    return np.asarray(cut([np.ascontiguousarray(o, np.float64) for o in outlines]), np.int64).reshape(-1, 3)

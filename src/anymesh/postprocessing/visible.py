@@ -1,0 +1,55 @@
+"""What of a mesh is seen from outside at rest."""
+
+from __future__ import annotations
+
+import numpy as np
+from jaxtyping import Bool, Float
+
+from anymesh.geometry.sampling import SurfacePoints, sample_surface
+from anymesh.rendering.raycast_ import RayScene
+from anymesh.types import Mesh
+
+PROBES = 20_000  # points on the surface, besides the middle of every face
+DIRECTIONS = 96  # from which each is looked at
+GRAZE = 0.02  # share of them in which a point must be in sight to count as seen from a side: less is through a gap
+OFF = 1e-5  # of the diagonal: how far off the surface rays begin
+
+
+def directions(count: int = DIRECTIONS) -> Float[np.ndarray, "n 3"]:
+    """Unit directions spread evenly (a Fibonacci sphere)."""
+    z = 1 - (2 * np.arange(count) + 1) / count
+    turn = np.arange(count) * np.pi * (3 - np.sqrt(5))
+    return np.stack([np.sqrt(1 - z * z) * np.cos(turn), np.sqrt(1 - z * z) * np.sin(turn), z], 1)
+
+
+def seen_from_outside(
+    scene: RayScene, points: Float[np.ndarray, "n 3"], normals: Float[np.ndarray, "n 3"], diagonal: float
+) -> Bool[np.ndarray, " n"]:
+    """Which points are in sight from far away, from either side of their surface. diagonal: of all that the scene holds."""
+    return (escapes(scene, points, normals, diagonal) != 0).any(1)
+
+
+def escapes(
+    scene: RayScene, points: Float[np.ndarray, "n 3"], normals: Float[np.ndarray, "n 3"], diagonal: float
+) -> Float[np.ndarray, "n 2"]:
+    """Share of all directions in which nothing stands between a point and far away: on the side its normal points to, and
+    on the other."""
+    found = np.zeros((len(points), 2))
+    ways = directions()
+    for way in ways:
+        front = normals @ way > 0
+        start = points + OFF * diagonal * np.where(front, 1.0, -1.0)[:, None] * normals
+        free = scene.first_hit(start, np.repeat(way[None] * 2 * diagonal, len(points), 0), 1.0).face < 0
+        found[:, 0] += free & front
+        found[:, 1] += free & ~front
+    return found / len(ways)
+
+
+def visible_faces(mesh: Mesh) -> Bool[np.ndarray, " F"]:
+    """Which faces are seen from outside, in part at least, whatever their winding."""
+    scene = RayScene(mesh.vertices, mesh.faces)
+    middles = SurfacePoints(mesh.triangles.mean(1), mesh.face_normals, np.arange(len(mesh.faces)))
+    seen = np.zeros(len(mesh.faces), bool)
+    for probe in (middles, sample_surface(mesh.triangles, PROBES, 0)):
+        seen[probe.faces[seen_from_outside(scene, probe.points, probe.normals, mesh.diagonal)]] = True
+    return seen

@@ -1,0 +1,159 @@
+"""Every joint driven through its range by a motor: the loop that is the same for all engines but MuJoCo."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Protocol, runtime_checkable
+
+import numpy as np
+from jaxtyping import Float
+
+from anymesh.simulation.motors import NEAR, Motor, motors_of
+from anymesh.simulation.report import JointSweep, SweepReport
+from anymesh.simulation.robot import Robot, RobotJoint
+
+STEP = 0.005  # [s] of simulated time
+HELD = 100  # steps that a motor is held at a limit
+SAME = 1e-4  # limits as read back differ by less [rad or m]
+DEEP = 0.01  # of the asset's extent: displacement that counts
+
+
+@dataclass(frozen=True)
+class ReadBack:
+    """A joint as an engine read it; limits are None where it knows none."""
+
+    name: str
+    child: str
+    limits: tuple[float, float] | None
+
+
+@runtime_checkable
+class World(Protocol):
+    """One asset in one engine: root fixed, no gravity, a motor a joint."""
+
+    engine: str  # its name and version
+
+    @property
+    def joints(self) -> Sequence[ReadBack]:
+        """Those that move."""
+
+    def reset(self) -> None:
+        """All joints to 0, at rest."""
+
+    def step(self, targets: Float[np.ndarray, " n"]) -> None:
+        """STEP seconds on, the motors led to targets [rad or m], in the order of `joints`."""
+
+    def positions(self) -> Float[np.ndarray, " n"]:
+        """Of the joints, in the order of `joints`."""
+
+    def origin(self, link: str) -> Float[np.ndarray, " 3"]:
+        """Of a link's frame, in the root's [m]."""
+
+    def turned(self, link: str) -> Float[np.ndarray, "3 3"]:
+        """A link's axes in the root's frame."""
+
+
+def drive(world: World, robot: Robot) -> SweepReport:
+    """Leads every joint to its upper limit, then its lower, the others held at rest; tells how it went.
+
+    A joint that does not come through is tried again with others opened (a drawer behind a door), which the report says.
+    A joint that the engine does not know is a fault, and so are limits that it reads otherwise than the file has them.
+    """
+    known = {j.name: k for k, j in enumerate(world.joints)}
+    motors = {m.joint: m for m in motors_of(robot)}
+    extent = _extent(robot)
+    found = []
+    for joint in robot.moving:
+        if joint.name not in known:
+            lower, upper = joint.range
+            missing = ("the engine does not know this joint",)
+            found.append(JointSweep(joint.name, joint.type, lower, upper, 0.0, 0.0, None, "", 0.0, 0.0, missing))
+            continue
+        found.append(_cleared(world, robot, joint, motors, extent))
+    return SweepReport(world.engine, tuple(found), ())
+
+
+def _extent(robot: Robot) -> float:
+    """A length that displacements are judged by: the spread of the links' centres of mass and frames [m]."""
+    at = robot.placements({})
+    points = [at[link.name][:3, 3] for link in robot.links]
+    points += [(at[b.name] @ np.r_[b.inertial.center, 1])[:3] for b in robot.links if b.inertial is not None]
+    return max(float(np.linalg.norm(np.ptp(points, axis=0))), 1e-3)
+
+
+def _cleared(world: World, robot: Robot, joint: RobotJoint, motors: Mapping[str, Motor], extent: float) -> JointSweep:
+    """The sweep at rest; if that fails, with another joint opened that may be in the way, or with all of those."""
+    found = _swept(world, robot, joint, motors, extent, ())
+    related = robot.carried(joint.child)
+    known = {j.name for j in world.joints}
+    free = [
+        j.name for j in robot.moving if j.name in known and j.child not in related and joint.child not in robot.carried(j.child)
+    ]
+    tries = [(name,) for name in free] + ([tuple(free)] if len(free) > 1 else [])
+    for opened in tries if found.faults else ():
+        again = _swept(world, robot, joint, motors, extent, opened)
+        if again.ok:
+            return replace(again, opened=opened)
+    return found
+
+
+def _swept(
+    world: World, robot: Robot, joint: RobotJoint, motors: Mapping[str, Motor], extent: float, opened: Sequence[str]
+) -> JointSweep:
+    lower, upper = joint.range
+    reached, drift, off = {}, 0.0, 0.0
+    names = [j.name for j in world.joints]
+    index = names.index(joint.name)
+    others = np.arange(len(names)) != index
+    targets = np.zeros(len(names))
+    open_at = np.array([j.range[1] if j.name in opened else 0.0 for name in names for j in robot.moving if j.name == name])
+    world.reset()
+    for share in _smooth(max(motors[name].seconds for name in opened)) if opened else ():
+        targets = share * open_at
+        world.step(targets)
+    smooth = _smooth(motors[joint.name].seconds)
+    start = 0.0
+    for goal in (upper, lower):
+        for command in (*(start + (goal - start) * smooth), *[goal] * HELD):
+            targets[index] = command
+            world.step(targets)
+        now = world.positions()
+        drift = max(drift, float(np.abs((now - open_at)[others]).max(initial=0.0)))
+        off = max(off, _off(world, robot, joint, now))
+        reached[goal] = float(now[index])
+        start = goal
+    faults = _faults(joint, world.joints[index], (reached[lower], reached[upper]), off, extent)
+    return JointSweep(joint.name, joint.type, lower, upper, reached[lower], reached[upper], None, "", drift, off, faults)
+
+
+def _smooth(seconds: float) -> Float[np.ndarray, " n"]:
+    """Shares of a way, from 0 to 1, a step each."""
+    return (1 - np.cos(np.linspace(0, np.pi, round(seconds / STEP)))) / 2
+
+
+def _off(world: World, robot: Robot, joint: RobotJoint, positions: np.ndarray) -> float:
+    """How far the link's centre of mass is from where the file's joints put it at the positions reached [m]."""
+    at = robot.placements(dict(zip((j.name for j in world.joints), positions.tolist(), strict=True)))
+    T = np.linalg.inv(at[robot.roots[0]]) @ at[joint.child]
+    link = next(b for b in robot.links if b.name == joint.child)
+    center = np.zeros(3) if link.inertial is None else link.inertial.center
+    there = world.turned(joint.child) @ center + world.origin(joint.child)
+    return float(np.linalg.norm(T[:3, :3] @ center + T[:3, 3] - there))
+
+
+def _faults(joint: RobotJoint, read: ReadBack, reached: tuple[float, float], off: float, extent: float) -> tuple[str, ...]:
+    if not np.isfinite([*reached, off]).all():
+        return ("the simulation became unstable",)
+    faults = []
+    span = float(np.ptp(joint.range))
+    if joint.type != "continuous" and (read.limits is None or np.abs(np.subtract(read.limits, joint.range)).max() > SAME):
+        faults.append(f"the engine reads the limits {joint.range} as {read.limits}")
+    for word, limit, at in (("upper", joint.range[1], reached[1]), ("lower", joint.range[0], reached[0])):
+        if abs(at - limit) > NEAR * span:
+            faults.append(f"a motor brings it to {at:.4g} only, not to its {word} limit {limit:.4g}")
+    if abs(reached[1] - reached[0]) < NEAR * span:
+        faults.append("it is stuck")
+    if off > DEEP * extent:
+        faults.append(f"its link is {off:.4g} m from where the joint should hold it")
+    return tuple(faults)

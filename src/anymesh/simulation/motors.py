@@ -1,0 +1,74 @@
+"""The motors that drive an asset's joints, as strong as what they carry needs."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from anymesh.errors import InputError
+from anymesh.simulation.robot import Robot, RobotJoint
+
+NEAR = 0.02  # of a joint's range: reached, or not moved
+STIFF = 20.0  # [rad/s] natural frequency of the motors
+SETTLED = 10.0  # the least that one way is longer than what a motor takes against the joint's damping
+SLOWEST = 10.0  # [s] a way
+EFFORT = 1000.0  # [N or N m] of a motor where the file gives none
+
+
+@dataclass(frozen=True)
+class Motor:
+    """A position motor. stiffness [N m/rad or N/m], damping [N m s/rad or N s/m], effort [N m or N]."""
+
+    joint: str
+    stiffness: float
+    damping: float
+    effort: float
+    seconds: float  # for one way
+
+
+def motors_of(robot: Robot) -> tuple[Motor, ...]:
+    """A critically damped motor for each joint that moves, by the inertia that it carries at rest and its friction."""
+    found = []
+    at = robot.placements({})
+    for joint in robot.moving:
+        inertia = max(_inertia(robot, joint, at), 1e-6)
+        span = float(np.ptp(joint.range))
+        effort = joint.effort or EFFORT
+        seconds = min(max(1.0, np.pi * np.sqrt(inertia * span / effort)), SLOWEST)
+        against = max(4 * joint.friction / max(NEAR * span, 1e-9), SETTLED * joint.damping / seconds)
+        stiffness = max(inertia * STIFF**2, against)
+        found.append(Motor(joint.name, stiffness, 2 * float(np.sqrt(stiffness * inertia)), effort, float(seconds)))
+    return tuple(found)
+
+
+def _inertia(robot: Robot, joint: RobotJoint, at: dict[str, np.ndarray]) -> float:
+    """What a motor of the joint has to move, at rest [kg or kg m2]."""
+    carried = robot.carried(joint.child)
+    T = at[joint.child]
+    axis = T[:3, :3] @ joint.axis / np.linalg.norm(joint.axis)
+    total = 0.0
+    for link in robot.links:
+        if link.name not in carried or link.inertial is None:
+            continue
+        if joint.type == "prismatic":
+            total += link.inertial.mass
+            continue
+        turn, place = at[link.name][:3, :3], at[link.name][:3, 3]
+        arm = np.cross(axis, turn @ link.inertial.center + place - T[:3, 3])
+        own = axis @ turn @ link.inertial.tensor @ turn.T @ axis
+        total += float(own + link.inertial.mass * arm @ arm)
+    return total
+
+
+def readable(robot: Robot) -> Robot:
+    """The robot when an engine can be tried on it. InputError when its joints are no tree, or one has no direction."""
+    names = {link.name for link in robot.links}
+    lost = [j.name for j in robot.joints if not {j.parent, j.child} <= names]
+    if lost or len(robot.roots) != 1 or any(not np.linalg.norm(j.axis) > 0 for j in robot.moving):
+        raise InputError(f"{robot.path.name} is no tree of joints with one root and axes of some length")
+    try:
+        robot.placements({})
+    except ValueError as error:
+        raise InputError(f"{robot.path.name}: {error}") from None
+    return robot

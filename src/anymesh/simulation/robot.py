@@ -1,0 +1,168 @@
+"""What a robot description file says, whichever format: links, joints, shapes, as found, right or wrong."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from jaxtyping import Float, Int
+
+from anymesh.types import Motion, MotionKind
+
+MOVING = ("revolute", "continuous", "prismatic")
+
+
+@dataclass(frozen=True, eq=False)
+class Geometry:
+    """A shape of a link. kind: box (whole sides), sphere (radius), cylinder and capsule (radius, length along z), mesh.
+
+    T_link_shape: (4, 4); size: as `kind` tells [m]; file: of a mesh, as written; scale: of its coordinates;
+    triangles: (F, 3, 3) in the link frame [m] where the format's reader gave them, None where the file has to be read.
+    """
+
+    kind: str
+    T_link_shape: Float[np.ndarray, "4 4"]
+    size: tuple[float, ...] = ()
+    file: str | None = None
+    scale: tuple[float, float, float] = (1.0, 1.0, 1.0)
+    triangles: Float[np.ndarray, "F 3 3"] | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Inertial:
+    """mass [kg]; center: (3,) of mass in the link frame [m]; tensor: (3, 3) about it, along the link's axes [kg m2]."""
+
+    mass: float
+    center: Float[np.ndarray, " 3"]
+    tensor: Float[np.ndarray, "3 3"]
+
+
+@dataclass(frozen=True, eq=False)
+class RobotLink:
+    """A rigid body; inertial is None where the file gives none."""
+
+    name: str
+    visuals: tuple[Geometry, ...] = ()
+    collisions: tuple[Geometry, ...] = ()
+    inertial: Inertial | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class RobotJoint:
+    """A joint as written. T_parent_joint: (4, 4) at position 0; axis: in the joint frame, any length.
+
+    limits [rad or m], effort [N m or N], velocity [rad/s or m/s]: None where the file gives none; friction [N m or N], damping
+    [N m s/rad or N s/m]: 0 where it gives none.
+    """
+
+    name: str
+    type: str
+    parent: str
+    child: str
+    T_parent_joint: Float[np.ndarray, "4 4"]
+    axis: Float[np.ndarray, " 3"]
+    limits: tuple[float, float] | None = None
+    effort: float | None = None
+    velocity: float | None = None
+    friction: float = 0.0
+    damping: float = 0.0
+
+    @property
+    def moves(self) -> bool:
+        return self.type in MOVING
+
+    @property
+    def range(self) -> tuple[float, float]:
+        """The limits; half a turn each way where there are none."""
+        return (-np.pi, np.pi) if self.type == "continuous" or self.limits is None else self.limits
+
+    def transform(self, position: float) -> Float[np.ndarray, "4 4"]:
+        """From the child's frame to the parent's, at a position [rad or m]."""
+        if not self.moves or position == 0:
+            return self.T_parent_joint
+        kind = MotionKind.SLIDE if self.type == "prismatic" else MotionKind.TURN
+        motion = Motion(kind, self.axis / np.linalg.norm(self.axis), np.zeros(3), self.name)
+        return self.T_parent_joint @ motion.transform(position)
+
+
+@dataclass(frozen=True, eq=False)
+class Robot:
+    """A file's content. excluded: pairs of links that the file says do not collide; problems: (subject, what is wrong);
+    pictures: texture files that the description itself names."""
+
+    path: Path
+    name: str
+    links: tuple[RobotLink, ...]
+    joints: tuple[RobotJoint, ...]
+    excluded: frozenset[frozenset[str]] = frozenset()
+    problems: tuple[tuple[str, str], ...] = ()
+    pictures: tuple[str, ...] = ()
+    format: str = "URDF"
+
+    @property
+    def moving(self) -> tuple[RobotJoint, ...]:
+        return tuple(j for j in self.joints if j.moves)
+
+    @property
+    def roots(self) -> tuple[str, ...]:
+        children = {j.child for j in self.joints}
+        return tuple(link.name for link in self.links if link.name not in children)
+
+    def carried(self, link: str) -> frozenset[str]:
+        """A link and all that it carries."""
+        found, fresh = {link}, {link}
+        while fresh:
+            fresh = {j.child for j in self.joints if j.parent in fresh} - found
+            found |= fresh
+        return frozenset(found)
+
+    def placements(self, positions: Mapping[str, float]) -> dict[str, Float[np.ndarray, "4 4"]]:
+        """From each link's frame to the root's, joints that are not named at 0. The file must hold a tree."""
+        found = {name: np.eye(4) for name in self.roots}
+        waiting = list(self.joints)
+        while waiting:
+            ready = [j for j in waiting if j.parent in found]
+            if not ready:
+                raise ValueError(f"joints {[j.name for j in waiting]} do not hang on a root; a tree is needed")
+            for j in ready:
+                found[j.child] = found[j.parent] @ j.transform(positions.get(j.name, 0.0))
+            waiting = [j for j in waiting if j.child not in found]
+        return found
+
+
+def shape_triangles(shape: Geometry) -> Float[np.ndarray, "F 3 3"]:
+    """The surface of a box, sphere, cylinder or capsule in the link frame [m]; round ones as polyhedra."""
+    if shape.kind == "box":
+        vertices, faces = _lathe([(1.0, -0.5), (1.0, 0.5)], 4, reach=0.5, turned=np.pi / 4)
+        vertices = vertices * [*(np.asarray(shape.size[:2]) / np.sqrt(2)), shape.size[2]]
+    else:
+        radius = shape.size[0]
+        half = shape.size[1] / 2 if shape.kind != "sphere" else 0.0
+        profile = [(radius, -half), (radius, half)]
+        if shape.kind != "cylinder":
+            angles = np.linspace(-np.pi / 2, np.pi / 2, 10)[1:-1]
+            profile = [(radius * np.cos(a), radius * np.sin(a) + np.sign(a) * half) for a in angles]
+        vertices, faces = _lathe(profile, 24, reach=half if shape.kind == "cylinder" else half + radius)
+    T = shape.T_link_shape
+    return (vertices @ T[:3, :3].T + T[:3, 3])[faces]
+
+
+def _lathe(
+    profile: list[tuple[float, float]], count: int, *, reach: float, turned: float = 0.0
+) -> tuple[Float[np.ndarray, "n 3"], Int[np.ndarray, "m 3"]]:
+    """A closed surface of revolution about z through (radius, height), in `count` segments, its ends at z = -reach, reach."""
+    angle = np.arange(count) * 2 * np.pi / count + turned
+    ring = np.stack([np.cos(angle), np.sin(angle)], 1)
+    rings = [np.column_stack([ring * radius, np.full(count, height)]) for radius, height in profile]
+    low, high = np.array([[0, 0, -reach]]), np.array([[0, 0, reach]])
+    vertices = np.concatenate([*rings, low, high])
+    k = np.arange(count)
+    after = (k + 1) % count
+    bottom, top, last = len(vertices) - 2, len(vertices) - 1, (len(profile) - 1) * count
+    faces = [np.stack([np.full(count, bottom), after, k], 1), np.stack([np.full(count, top), last + k, last + after], 1)]
+    for row in range(len(profile) - 1):
+        a, b = row * count, (row + 1) * count
+        faces += [np.stack([a + k, a + after, b + after], 1), np.stack([a + k, b + after, b + k], 1)]
+    return vertices, np.concatenate(faces)

@@ -1,0 +1,254 @@
+"""One fault an asset: what the check says of it, and how bad it is."""
+
+import json
+import re
+import struct
+import sys
+
+import mujoco
+import numpy as np
+import pytest
+from assets import cabinet, slanted
+from drawn import chest
+
+from anymesh.checking import Severity, check_asset
+from anymesh.errors import InputError, OptionError
+from anymesh.export import write_asset
+
+INWARD = ('axis xyz="0 -1 0"', 'axis xyz="0 1 0"')
+DRAWER_VISUAL = '<mesh filename="meshes/drawer.obj" />'
+FAULTS = {  # name: (changes to the chest's text, check, severity, subject, words)
+    "zero axis": ([('axis xyz="0 -1 0"', 'axis xyz="0 0 0"')], "joints", "failure", "slide", r"\(0, 0, 0\).*direction"),
+    "long axis": ([('axis xyz="0 -1 0"', 'axis xyz="0 -2 0"')], "joints", "warning", "slide", "length 2"),
+    "inverted limits": ([('lower="0" upper="0.3"', 'lower="0.3" upper="0"')], "joints", "failure", "slide", "0.3 to 0"),
+    "no limits": ([('lower="0" upper="0.3"', "")], "joints", "failure", "slide", "no limits"),
+    "no range": ([('upper="0.3"', 'upper="0"')], "joints", "failure", "slide", "range"),
+    "rest outside": ([('lower="0" upper="0.3"', 'lower="0.1" upper="0.3"')], "joints", "warning", "slide", "rest position"),
+    "degrees": ([('upper="1.6"', 'upper="90"')], "joints", "warning", "hinge", "units"),
+    "millimetres of travel": ([('upper="0.3"', 'upper="300"')], "joints", "warning", "slide", "units"),
+    "unknown type": ([('type="prismatic"', 'type="sliding"')], "joints", "failure", "slide", "'sliding'"),
+    "no effort": ([('effort="20" ', "")], "joints", "warning", "hinge", "effort"),
+    "no velocity": ([('velocity="2"', 'velocity="0"')], "joints", "warning", "hinge", "velocity"),
+    "missing mesh": ([("meshes/drawer.obj", "meshes/lost.obj")], "schema", "failure", "drawer", "lost.obj is not there"),
+    "backslash": ([("meshes/drawer.obj", "meshes\\drawer.obj")], "schema", "warning", "drawer", "backslash"),
+    "lost parent": ([('<child link="door"', '<child link="gate"')], "schema", "failure", "hinge", "'gate'"),
+    "two parents": ([('<child link="door"', '<child link="drawer"')], "schema", "failure", "drawer", "2 joints"),
+    "circle": ([('<parent link="case" />\n    <child link="door"', '<parent link="door" />\n    <child link="door"')],
+               "schema", "failure", "door", "tree"),
+    "same name twice": ([('name="slide"', 'name="hinge"')], "schema", "failure", "hinge", "2 joints"),
+    "no number": ([('upper="1.6"', 'upper="wide"')], "schema", "failure", "hinge", "'wide'"),
+    "space in a name": ([('"drawer"', '"top drawer"')], "naming", "warning", "top drawer", "top_drawer"),
+    "accent": ([('"door"', '"tür"')], "naming", "warning", "tür", "tur"),
+    "case alone": ([('name="hinge"', 'name="Slide"')], "naming", "warning", "Slide", "case alone"),
+    "inward drawer": ([INWARD], "direction", "failure", "slide", "axis is reversed"),
+    "inward door": ([('axis xyz="0 0 1"', 'axis xyz="0 0 -1"')], "direction", "failure", "hinge", "axis is reversed"),
+    "jammed drawer": ([('<origin xyz="0.3 0 0.6" />', '<origin xyz="0.3 0.05 0.6" />')],
+                      "collision", "warning", "drawer", "deep in 'case'"),
+    "scale of a mesh": ([(DRAWER_VISUAL, DRAWER_VISUAL.replace("/>", 'scale="20 20 20" />'))],
+                        "meshes", "failure", "drawer", "units"),
+    "no mass": ([('mass value="3.864"', 'mass value="0"')], "inertia", "failure", "door", "above 0"),
+    "osmium": ([('mass value="3.864"', 'mass value="386400"')], "inertia", "warning", "door", "kg/m3"),
+    "mass elsewhere": ([('xyz="-0.28 -0.0125 0" />\n      <mass', 'xyz="-2.8 -0.0125 0" />\n      <mass')],
+                       "inertia", "failure", "door", "centre of mass"),
+}  # fmt: skip
+
+
+def found(report, check, severity):
+    return [f for f in report.findings if f.check == check and f.severity == severity]
+
+
+def test_a_good_asset_is_in_order(tmp_path):
+    report = check_asset(chest(tmp_path))
+    assert report.ok
+    assert {f.severity for f in report.findings} == {Severity.OK}, "\n".join(report.lines())
+    checks = {f.check for f in report.findings}
+    assert checks == {*"schema naming meshes scale joints inertia collision texture direction motion".split()}
+    assert [s.engine.split()[0] for s in report.sweeps] == ["mujoco"]
+
+
+@pytest.mark.parametrize("name", FAULTS)
+def test_each_fault_is_told_with_its_subject(name, tmp_path):
+    changes, check, severity, subject, words = FAULTS[name]
+    report = check_asset(chest(tmp_path, *changes), engines=())
+    told = [f for f in found(report, check, severity) if f.subject == subject]
+    assert any(re.search(words, f.text) for f in told), "\n".join(report.lines())
+    assert report.ok == (severity != "failure")
+    others = {f.check for f in report.findings if f.severity == Severity.FAILURE} - {check}
+    assert not others, "\n".join(report.lines())
+
+
+def edited(path, pattern, new, count=0):
+    text, times = re.subn(pattern, new, path.read_text(), count=count)
+    assert times
+    path.write_text(text)
+    return path
+
+
+def test_placeholder_inertia_is_told(tmp_path):
+    ball = '<inertia ixx="0.001" ixy="0" ixz="0" iyy="0.001" iyz="0" izz="0.001" />'
+    report = check_asset(edited(chest(tmp_path), "<inertia .*/>", ball), engines=())
+    assert any("placeholders" in f.text for f in found(report, "inertia", "warning"))
+
+
+@pytest.mark.parametrize(("values", "words"), [((-1, 1, 1), "above 0"), ((1, 1, 3), "sum of the others")])
+def test_impossible_tensors_fail(values, words, tmp_path):
+    xx, yy, zz = values
+    tensor = f'<inertia ixx="{xx}" ixy="0" ixz="0" iyy="{yy}" iyz="0" izz="{zz}" />'
+    report = check_asset(edited(chest(tmp_path), "<inertia .*/>", tensor, 1), engines=())
+    assert any(words in f.text for f in found(report, "inertia", "failure"))
+
+
+def test_a_moving_link_without_inertia_or_collision_fails(tmp_path):
+    path = edited(chest(tmp_path), r"(?s)(<link name=\"door\">\s*)<inertial>.*?</inertial>", r"\1")
+    assert [f.subject for f in found(check_asset(path, engines=()), "inertia", "failure")] == ["door"]
+    path = edited(chest(tmp_path), r"(?s)(<link name=\"door\">.*?)<collision>.*?</collision>", r"\1")
+    assert [f.subject for f in found(check_asset(path, engines=()), "collision", "failure")] == ["door"]
+
+
+def test_one_hull_for_the_case_fills_it_and_is_told(tmp_path):
+    hull = '<collision><geometry><mesh filename="meshes/case.obj"/></geometry></collision></link>'
+    path = edited(chest(tmp_path), r"(?s)<collision>.*?</collision>\s*</link>", hull, 1)
+    (cavity, *contacts) = found(check_asset(path, engines=()), "collision", "warning")
+    assert cavity.subject == "case"
+    assert "one convex shape) takes 100%" in cavity.text
+    assert any("deep in 'case'" in f.text for f in contacts)
+
+
+def test_links_that_no_joint_connects_must_not_overlap(tmp_path):
+    path = chest(tmp_path, ('<origin xyz="0.59 -0.005 0.26" />', '<origin xyz="0.59 -0.005 0.4" />'))
+    (told,) = found(check_asset(path, engines=()), "collision", "failure")
+    assert "'drawer'" in told.text
+
+
+def test_meshes_that_are_broken_empty_or_open(tmp_path):
+    path = chest(tmp_path)
+    obj = tmp_path / "meshes" / "door.obj"
+    whole = obj.read_text()
+    obj.write_text(whole.replace("f 1/", "f 999/"))
+    assert found(check_asset(path, engines=()), "meshes", "failure")[0].subject == "door"
+    lines = whole.splitlines()
+    obj.write_text("\n".join([*lines[:-1], *[line for line in lines if line.startswith("f")][:1]]))  # a face missing
+    assert "closed" in found(check_asset(path, engines=()), "meshes", "warning")[0].text
+    obj.write_text(whole + "f 1/1 1/1 2/2\n" * 20)
+    assert "no area" in found(check_asset(path, engines=()), "meshes", "warning")[0].text
+
+
+def test_scale_in_millimetres_fails(tmp_path):
+    path = chest(tmp_path)
+    for name in ("case", "drawer", "door"):
+        edited(path, f'filename="meshes/{name}.obj"', f'filename="meshes/{name}.obj" scale="1000 1000 1000"')
+    assert "metres" in found(check_asset(path, engines=()), "scale", "failure")[0].text
+
+
+def test_textures_that_are_missing_or_broken_are_told(tmp_path):
+    path = chest(tmp_path)
+    picture = tmp_path / "meshes" / "checker.png"
+    data = picture.read_bytes()
+    picture.write_bytes(data[:20])
+    assert "checker.png" in found(check_asset(path, engines=()), "texture", "warning")[0].text
+    picture.unlink()
+    assert "missing" in found(check_asset(path, engines=()), "texture", "warning")[0].text
+    picture.write_bytes(data)
+    path = chest(tmp_path, ("</robot>", '<material name="m"><texture filename="meshes/gone.png"/></material></robot>'))
+    assert "gone.png is not there" in found(check_asset(path, engines=()), "texture", "failure")[0].text
+
+
+def test_a_joint_that_cannot_move_fails_in_the_engine(tmp_path):
+    report = check_asset(chest(tmp_path, ('effort="50"', 'effort="0.0001"')))
+    told = found(report, "motion", "failure")
+    assert {f.subject for f in told} == {"slide"}
+    assert any("it is stuck" in f.text for f in told)
+
+
+def as_mjcf(path):
+    spec = mujoco.MjSpec.from_file(str(path))
+    spec.compiler.fusestatic = spec.compiler.discardvisual = False
+    spec.compile()
+    target = path.parent / "chest.xml"
+    target.write_text(spec.to_xml())
+    path.unlink()
+    return target
+
+
+def test_mjcf_is_checked_as_urdf_is(tmp_path):
+    path = as_mjcf(chest(tmp_path))
+    assert check_asset(tmp_path).ok
+    bad = check_asset(edited(path, 'axis="0 -1 0"', 'axis="0 1 0"'))
+    assert [f.subject for f in found(bad, "direction", "failure")] == ["slide"]
+    edited(path, "</mujoco>", "<contact><exclude body1='case' body2='drawer'/></contact><junk/></mujoco>")
+    assert "junk" in found(check_asset(path), "schema", "failure")[0].text
+
+
+def test_our_own_output_is_in_order_and_its_asset_json_is_read(tmp_path):
+    write_asset(cabinet(), tmp_path)
+    report = check_asset(tmp_path)
+    assert report.ok, "\n".join(report.lines())
+    record = json.loads((tmp_path / "asset.json").read_text())
+    record["joints"][0]["limits"] = [0.0, 0.5]
+    (tmp_path / "asset.json").write_text(json.dumps(record))
+    assert "limits of 'hinge'" in found(check_asset(tmp_path, engines=()), "schema", "failure")[0].text
+    record["joints"][0]["axis"] = "up"
+    (tmp_path / "asset.json").write_text(json.dumps(record))
+    assert "axis" in found(check_asset(tmp_path, engines=()), "schema", "failure")[0].text
+    (tmp_path / "meshes" / "stray.png").write_bytes(b"")
+    assert found(check_asset(tmp_path, engines=()), "texture", "warning")[0].subject == "stray.png"
+
+
+def test_what_is_checked_in_a_folder(tmp_path):
+    with pytest.raises(InputError, match="no URDF and no MJCF"):
+        check_asset(tmp_path)
+    path = chest(tmp_path)
+    assert check_asset(tmp_path, engines=()).ok
+    (tmp_path / "other.urdf").write_text(path.read_text())
+    with pytest.raises(InputError, match=r"chest\.urdf, other\.urdf"):
+        check_asset(tmp_path)
+    with pytest.raises(InputError, match="not there"):
+        check_asset(tmp_path / "none")
+    (tmp_path / "a.xml").write_text("<svg/>")
+    with pytest.raises(InputError, match="neither URDF nor MJCF"):
+        check_asset(tmp_path / "a.xml")
+
+
+def test_the_mjcf_of_our_own_output_is_in_order_too(tmp_path):
+    write_asset(slanted(), tmp_path)  # with a fixed joint
+    report = check_asset(tmp_path / "slanted.xml")
+    assert report.ok, "\n".join(report.lines())
+
+
+def test_a_file_that_is_no_xml_is_a_finding(tmp_path):
+    (tmp_path / "a.urdf").write_bytes(struct.pack("<4I", *range(4)))
+    report = check_asset(tmp_path)
+    assert not report.ok
+    assert report.findings[0].check == "schema"
+
+
+def test_an_engine_that_is_not_installed_is_a_warning_and_one_that_is_unknown_an_error(tmp_path, monkeypatch):
+    path = chest(tmp_path)
+    with pytest.raises(OptionError, match="mujoco, pybullet"):
+        check_asset(path, engines=("unity",))
+    monkeypatch.setitem(sys.modules, "mujoco", None)
+    report = check_asset(path)
+    assert report.ok
+    assert "mujoco is missing" in found(report, "motion", "warning")[0].text
+
+
+def test_the_report_as_json_and_as_lines(tmp_path):
+    report = check_asset(chest(tmp_path, INWARD))
+    record = json.loads(json.dumps(report.as_json()))
+    assert (record["ok"], record["failures"]) == (False, 1)
+    assert {"check", "severity", "subject", "text"} == set(record["findings"][0])
+    assert record["sweeps"][0]["joints"][0]["name"] == "slide"
+    lines = report.lines()
+    assert lines[0].startswith("failure direction: slide:")
+    assert lines[-1].endswith("not in order, 1 failures, 0 warnings")
+    assert report == check_asset(tmp_path / "chest.urdf")
+
+
+def test_random_poses_of_the_hull_question():
+    """A box lies in itself, and nothing outside it does."""
+    from anymesh.checking.collision import _in_hull
+
+    rng = np.random.default_rng(0)
+    corners = np.array([[x, y, z] for x in (0, 1) for y in (0, 2) for z in (0, 3)], float)
+    points = rng.uniform(-1, 4, (500, 3))
+    assert (_in_hull(corners, points) == ((points >= 0) & (points <= (1, 2, 3))).all(1)).all()
