@@ -78,6 +78,7 @@ Package = Annotated[Path | None, typer.Option(metavar="DIR", help="Also a ROS 2 
 Zip = Annotated[Path | None, typer.Option("--zip", metavar="FILE", help="Also the asset as one zip file.")]
 BaseName = Annotated[str, typer.Option("--base", help="fixed or free: whether the root link is fixed to the world.")]
 Formats = Annotated[str, typer.Option(help="Of urdf, mjcf, usd, sdf, glb, with commas between; usd needs its extra.")]
+Drives = Annotated[str, typer.Option(help="passive, or position: joints are led to a commanded position, 0 at first.")]
 Force = Annotated[bool, typer.Option("--force", help="Replace an existing output.")]
 Json = Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")]
 Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="No progress, no summary.")]
@@ -114,6 +115,7 @@ def articulate(
     scale: Scale = "auto",
     base: BaseName = "fixed",
     formats: Formats = FORMATS,
+    drives: Drives = "passive",
     force: Force = False,
     json_: Json = False,
     quiet: Quiet = False,
@@ -123,9 +125,9 @@ def articulate(
 
     with Shown(quiet or json_) as progress:
         asset = pipeline.articulate(
-            mesh, out, parts=parts, up=up, scale=scale, base=base, formats=formats, force=force, progress=progress,
-            answerer=answerer, parts_list=_labels(parts_list), proposer=proposer, verify=verify, category=category,
-            seed=seed, max_calls=max_calls, max_cost=max_cost, **cache_of(cache),
+            mesh, out, parts=parts, up=up, scale=scale, base=base, formats=formats, drives=drives, force=force,
+            progress=progress, answerer=answerer, parts_list=_labels(parts_list), proposer=proposer, verify=verify,
+            category=category, seed=seed, max_calls=max_calls, max_cost=max_cost, **cache_of(cache),
         )  # fmt: skip
     tell_asset(asset, out, json_, quiet)
 
@@ -199,6 +201,7 @@ def export(
     folder: Folder,
     base: BaseName = "fixed",
     formats: Formats = FORMATS,
+    drives: Drives = "passive",
     package: Package = None,
     zip_: Zip = None,
     json_: Json = False,
@@ -208,7 +211,9 @@ def export(
     from anymesh import pipeline
 
     with Shown(quiet or json_) as progress:
-        asset = pipeline.export(folder, base=base, formats=formats, package=package, archive=zip_, progress=progress)
+        asset = pipeline.export(
+            folder, base=base, formats=formats, drives=drives, package=package, archive=zip_, progress=progress
+        )
     tell_asset(asset, folder, json_, quiet)
 
 

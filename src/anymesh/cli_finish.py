@@ -17,6 +17,7 @@ Watertight = Annotated[bool, typer.Option(help="Also close what no motion ever l
 MaxCalls = Annotated[int | None, typer.Option("--max-calls", help="No paid task beyond so many.")]
 BaseName = Annotated[str, typer.Option("--base", help="fixed or free: whether the root link is fixed to the world.")]
 Formats = Annotated[str, typer.Option(help="Of urdf, mjcf, usd, sdf, glb, with commas between; usd needs its extra.")]
+Drives = Annotated[str, typer.Option(help="passive, or position: joints are led to a commanded position, 0 at first.")]
 Force = Annotated[bool, typer.Option("--force", help="Replace an existing output.")]
 Json = Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")]
 Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="No progress, no summary.")]
@@ -31,6 +32,7 @@ def finish(
     max_calls: MaxCalls = None,
     base: BaseName = "fixed",
     formats: Formats = "urdf,mjcf,sdf,glb",
+    drives: Drives = "passive",
     force: Force = False,
     json_: Json = False,
     quiet: Quiet = False,
@@ -41,6 +43,6 @@ def finish(
     with Shown(quiet or json_) as progress:
         asset = pipeline.finish(
             folder, out, completer=completer, texture=texture, watertight=watertight, max_calls=max_calls, base=base,
-            formats=formats, force=force, progress=progress,
+            formats=formats, drives=drives, force=force, progress=progress,
         )  # fmt: skip
     tell_asset(asset, out, json_, quiet)

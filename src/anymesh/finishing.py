@@ -3,20 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 
 import numpy as np
 
 from anymesh.errors import ModelError
-from anymesh.postprocessing.accept import accept, accepted
+from anymesh.postprocessing.complete import complete
 from anymesh.postprocessing.protocol import Completer, Finished
 from anymesh.postprocessing.settings import ShapeConfig
-from anymesh.postprocessing.shape import complete_shapes
 from anymesh.postprocessing.texture import Retexturer
 from anymesh.stage_results import Completed
 from anymesh.types import Asset
-
-BUILT_IN = "builtin"
 
 
 def finish_asset(
@@ -37,19 +33,14 @@ def finish_asset(
 
 
 def _completed(asset: Asset, completer: Completer | None, config: ShapeConfig) -> tuple[Finished, list[str]]:
-    if completer is None:
-        found = complete_shapes(asset, config)
-        return found, list(_told(found))
     try:
-        taken = accept(asset, completer.complete(asset), who=completer.name)
+        found = complete(asset, config, completer=completer)
+        return found, list(_told(found))
     except ModelError as error:
-        found = complete_shapes(asset, config)
+        if completer is None:
+            raise
+        found = complete(asset, config)
         return found, [f"{completer.name}: {error}; the built-in completer did all parts", *_told(found)]
-    done = set(accepted(taken, completer.name))
-    rest = [part.name for part in asset.segmentation.parts if part.name not in done]
-    found = complete_shapes(taken.asset, config, parts=rest)
-    source = np.where(found.source_face >= 0, taken.source_face[found.source_face], -1)
-    return replace(found, source_face=source), [*_told(taken), *_told(found)]
 
 
 def _told(finished: Finished) -> Iterator[str]:

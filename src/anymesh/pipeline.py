@@ -11,7 +11,7 @@ from typing import TypeVar, Unpack
 
 from anymesh.answering import Answerer, Answering, choose_answerer
 from anymesh.errors import OptionError
-from anymesh.export import Base, Format, parse_formats, write_asset
+from anymesh.export import Base, Driven, Format, parse_formats, write_asset
 from anymesh.export.archive import write_zip
 from anymesh.export.formats import DEFAULT
 from anymesh.export.package import write_package
@@ -40,16 +40,18 @@ def articulate(
     force: bool = False,
     base: str = Base.FIXED,
     formats: str = ",".join(DEFAULT),
+    drives: str = Driven.PASSIVE,
     progress: Progress = silent,
     **answering: Unpack[Answering],
 ) -> Asset:
     """Turns a rigid mesh into an articulated asset and writes it to the folder `out`.
 
     parts: "auto", "nodes" (the scene's nodes) or a file of face labels; up: auto, x, y, z; scale: auto, a factor (file units
-    to metres) or METRES:AXIS; base: fixed or free; formats: of urdf, mjcf, usd, sdf, glb, with commas between. Raises
+    to metres) or METRES:AXIS; base: fixed or free; formats: of urdf, mjcf, usd, sdf, glb, with commas between;
+    drives: passive, or position (joints are led to a commanded position). Raises
     InputError, OptionError, OutputError, ModelError; then nothing is written.
     """
-    how = Exported.parse(base, formats)
+    how = Exported.parse(base, formats, drives)
     who = choose_answerer(answering)
     with RunFolder.create(Path(out), source=Path(mesh_path), force=force) as run:
         solver, recognized, key = _seen(run, Path(mesh_path), parts, up, scale, who, progress)
@@ -90,6 +92,7 @@ def export(
     *,
     base: str = Base.FIXED,
     formats: str = ",".join(DEFAULT),
+    drives: str = Driven.PASSIVE,
     package: str | Path | None = None,
     archive: str | Path | None = None,
     progress: Progress = silent,
@@ -98,7 +101,7 @@ def export(
 
     package: a folder that gets a ROS 2 package of the URDF; archive: a zip file of the asset.
     """
-    how = Exported.parse(base, formats)
+    how = Exported.parse(base, formats, drives)
     if package is not None and Format.URDF not in how.formats:
         raise OptionError(f"--package needs the format urdf, found {formats!r}")
     with RunFolder.open(Path(folder)) as run:
@@ -120,6 +123,7 @@ def finish(
     max_calls: int | None = None,
     base: str = Base.FIXED,
     formats: str = ",".join(DEFAULT),
+    drives: str = Driven.PASSIVE,
     force: bool = False,
     progress: Progress = silent,
 ) -> Asset:
@@ -129,7 +133,7 @@ def finish(
     meshy:PROMPT, with at most `max_calls` paid tasks; watertight: also close what no motion lays open. Raises OptionError,
     OutputError, ModelError, BudgetError; a paid task that was begun is gone on with by the next run.
     """
-    how = Exported.parse(base, formats)
+    how = Exported.parse(base, formats, drives)
     out = Path(out)
     who = open_completer(completer)
     looks = open_retexturer(texture, state=out.parent / f".{out.name}.meshy.json", max_calls=max_calls)
@@ -241,20 +245,23 @@ class Exported:
 
     base: Base
     formats: tuple[Format, ...]
+    driven: Driven
 
     @classmethod
-    def parse(cls, base: str, formats: str) -> Exported:
+    def parse(cls, base: str, formats: str, drives: str) -> Exported:
         """From the words of an option; OptionError names what would have been valid."""
         if base not in set(Base):
             raise OptionError(f"--base: found {base!r}; valid are {', '.join(Base)}")
-        return cls(Base(base), parse_formats(formats))
+        if drives not in set(Driven):
+            raise OptionError(f"--drives: found {drives!r}; valid are {', '.join(Driven)}")
+        return cls(Base(base), parse_formats(formats), Driven(drives))
 
 
 def _export(run: RunFolder, how: Exported, progress: Progress) -> Asset:
     progress("export", "files", 0, 2)
     asset = run.asset()
     with _timed(run, "export"):
-        write_asset(asset, run.folder, base=how.base, formats=how.formats, cache=cache_folder("shapes"))
+        write_asset(asset, run.folder, base=how.base, formats=how.formats, driven=how.driven, cache=cache_folder("shapes"))
         progress("export", "preview", 1, 2)
         write_preview(asset, run.folder / "preview.png")
     return replace(asset, timing=run.timing())

@@ -5,6 +5,7 @@ import pytest
 import trimesh
 from assets import CUBE_FACES, box
 
+from anymesh.export.densities import SUBSTANCES, substance_of
 from anymesh.export.inertia import Inertia, link_inertia, physical, raw_inertia
 from anymesh.export.settings import ExportConfig
 
@@ -118,3 +119,43 @@ def test_what_is_written_is_always_physical(shape):
 def test_a_physical_body_is_left_alone():
     found = raw_inertia(blob(), CONFIG)
     assert_equal(physical(found, CONFIG), found)
+
+
+def made(name: str, count: int):
+    return [substance_of(name)] * count
+
+
+def test_a_material_by_its_name():
+    steel, wood = SUBSTANCES["steel"], SUBSTANCES["wood"]
+    for name in ("steel", "Black_Steel.001", "brushedSteel", "wood_STEEL"):
+        assert substance_of(name) == steel, name
+    assert substance_of("dark wood (matte)") == wood
+    assert substance_of("Material.001") is None
+    assert substance_of("steeled") is None  # a word, not a part of one
+
+
+def test_substances_have_physical_numbers():
+    for word, s in SUBSTANCES.items():
+        assert word == word.lower()
+        assert 20 <= s.density <= 20_000
+        assert 0 < s.sheet <= 0.02
+        assert s.solid_to > s.sheet
+
+
+def test_a_thin_bar_of_steel_is_solid_and_a_thick_block_is_a_box_of_sheet():
+    bar, block = triangles_of(box((0, 0, 0), (0.3, 0.01, 0.01))), triangles_of(box((0, 0, 0), (0.6, 0.6, 0.8)))
+    steel = SUBSTANCES["steel"]
+    assert link_inertia(bar, CONFIG, made("steel", 12)).mass == pytest.approx(7850 * 0.3 * 0.01 * 0.01)
+    area = 2 * (0.36 + 0.48 + 0.48)
+    hollow = link_inertia(block, CONFIG, made("steel", 12))
+    assert hollow.mass == pytest.approx(7850 * steel.sheet * area)
+    np.testing.assert_allclose(hollow.center, (0.3, 0.3, 0.4))
+    assert link_inertia(block, CONFIG, made("marble", 12)).mass == pytest.approx(2700 * 0.36 * 0.8)
+
+
+def test_each_component_has_its_own_substance():
+    bar, plate = box((0, 0, 0), (0.3, 0.01, 0.01)), box((1, 0, 0), (1.4, 0.02, 0.3))
+    found = link_inertia(triangles_of(bar, plate), CONFIG, made("brass", 12) + made("oak", 12))
+    masses = np.array([8500 * 0.3 * 1e-4, 720 * 0.4 * 0.02 * 0.3])
+    assert found.mass == pytest.approx(masses.sum())
+    assert found.center[0] == pytest.approx((masses * [0.15, 1.2]).sum() / masses.sum())

@@ -13,7 +13,7 @@ from models import CONFIG, desk, model_of, with_meshes
 from anymesh.errors import OutputError
 from anymesh.export.drives import WITHIN, drives
 from anymesh.export.mjcf_ import write_mjcf
-from anymesh.export.model import Base, Exclusion
+from anymesh.export.model import Base, Driven, Exclusion
 from anymesh.types import Hull
 
 
@@ -90,6 +90,17 @@ def test_the_drives_can_be_switched_off_as_a_group(tmp_path):
     data.ctrl[:] = 1
     mujoco.mj_forward(read, data)
     assert not data.actuator_force.any()
+
+
+def test_an_asset_is_passive_unless_position_drives_are_asked_for(tmp_path):
+    read = load(model_of(cabinet(), driven=Driven.PASSIVE), tmp_path)
+    data = mujoco.MjData(read)
+    data.joint("slide").qpos = 0.1
+    mujoco.mj_forward(read, data)
+    assert not data.actuator_force.any()  # pulled out, the drawer is left where it is
+    data.ctrl[:] = 1e9
+    mujoco.mj_forward(read, data)
+    np.testing.assert_allclose(np.sort(data.actuator_force), sorted(j.effort for j in cabinet().joints if j.type != "fixed"))
 
 
 def test_excluded_pairs_do_not_touch_and_others_do_whether_the_base_is_fixed_or_free(tmp_path):

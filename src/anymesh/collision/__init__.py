@@ -16,9 +16,9 @@ from anymesh.collision.decompose import Component, Fineness, component_shapes, l
 from anymesh.collision.settings import CollisionConfig
 from anymesh.collision.store import content_key, load_shapes, save_shapes
 from anymesh.geometry.kinematics import link_transforms
-from anymesh.types import Asset, JointType, Shape
+from anymesh.types import Asset, Joint, JointType, Shape
 
-__all__ = ["Collision", "CollisionConfig", "collision_shapes"]
+__all__ = ["Collision", "CollisionConfig", "collision_shapes", "joint_poses"]
 SMALL = 0.3  # components smaller than this share of the first gap need no shape beside larger ones
 
 
@@ -70,19 +70,32 @@ def collision_shapes(
     return Collision(found, scene.overlapping, done.before, done.left)
 
 
+def joint_poses(
+    asset: Asset, origins: Mapping[str, Float[np.ndarray, " 3"]], joint: Joint, count: int
+) -> list[dict[str, Float[np.ndarray, "4 4"]]]:
+    """Where link frames are at rest, and at `count` places of one joint over its range, the others at rest."""
+    lower, upper = (-np.pi, np.pi) if joint.limits is None else joint.limits
+    places = [0.0, *(float(v) for v in np.linspace(lower, upper, count) if v != 0)]
+    return [_placed(asset, origins, {joint.name: v}) for v in places]
+
+
 def _poses(
     asset: Asset, origins: Mapping[str, Float[np.ndarray, " 3"]], count: int
 ) -> Iterator[dict[str, Float[np.ndarray, "4 4"]]]:
     """Where link frames are at rest, with each joint alone over its range, and with all joints opened."""
     moving = [j for j in asset.joints if j.type is not JointType.FIXED]
-    ranges = {j.name: (-np.pi, np.pi) if j.limits is None else j.limits for j in moving}
-    positions = [{}]
-    positions += [{name: float(v)} for name, limits in ranges.items() for v in np.linspace(*limits, count) if v != 0]
-    positions.append({name: upper for name, (_, upper) in ranges.items()})
-    for some in positions:
-        placed = link_transforms(asset, some)
-        for name, origin in origins.items():
-            shift = np.eye(4)
-            shift[:3, 3] = origin
-            placed[name] = placed[name] @ shift
-        yield placed
+    yield _placed(asset, origins, {})
+    for joint in moving:
+        yield from joint_poses(asset, origins, joint, count)[1:]
+    yield _placed(asset, origins, {j.name: np.pi if j.limits is None else j.limits[1] for j in moving})
+
+
+def _placed(
+    asset: Asset, origins: Mapping[str, Float[np.ndarray, " 3"]], positions: Mapping[str, float]
+) -> dict[str, Float[np.ndarray, "4 4"]]:
+    placed = link_transforms(asset, positions)
+    for name, origin in origins.items():
+        shift = np.eye(4)
+        shift[:3, 3] = origin
+        placed[name] = placed[name] @ shift
+    return placed

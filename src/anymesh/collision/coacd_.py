@@ -11,12 +11,12 @@ SEARCH = {"mcts_iterations": 20, "mcts_nodes": 10, "resolution": 500}  # 2.5 tim
 
 
 def decompose(
-    vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"], *, concavity: float, seed: int = 0
+    vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"], *, concavity: float, seed: int = 0, remesh: bool = False
 ) -> list[Float[np.ndarray, "n 3"]]:
     """The corner points of convex pieces of a closed solid.
 
-    concavity: how far a piece may be from the surface, as a share of half the longest side (CoACD's threshold). The same
-    input gives the same pieces.
+    concavity: how far a piece may be from the surface, as a share of half the longest side (CoACD's threshold); remesh: first
+    make one closed solid of whatever it is, which thickens thin walls. The same input gives the same pieces.
     """
     try:
         import coacd
@@ -24,5 +24,6 @@ def decompose(
         raise MissingExtraError("coacd is missing; it comes with articulate-anymesh, install that again") from None
     coacd.set_log_level("off")
     mesh = coacd.Mesh(vertices, faces)
-    pieces = coacd.run_coacd(mesh, threshold=concavity, preprocess_mode="off", seed=seed, **SEARCH)  # ty: ignore[invalid-argument-type]
+    how = {"threshold": concavity, "preprocess_mode": "on" if remesh else "off", "seed": seed, **SEARCH}
+    pieces = coacd.run_coacd(mesh, **how)  # ty: ignore[invalid-argument-type]
     return [np.asarray(points, float) for points, _ in pieces]

@@ -9,14 +9,14 @@ from anymesh.export.asset_json import TIMING_FILE, asset_record, json_text
 from anymesh.export.build import build_model
 from anymesh.export.formats import DEFAULT, Format, parse_formats, write_formats
 from anymesh.export.meshes import write_meshes
-from anymesh.export.model import Base, Model
+from anymesh.export.model import Base, Driven, Model
 from anymesh.export.settings import ExportConfig
 from anymesh.models.transcript import write_transcript
 from anymesh.types import Asset
 
 TRANSCRIPT = "transcript"  # folder of what was asked and answered, browsable and replayable
 
-__all__ = ["Base", "ExportConfig", "Format", "parse_formats", "write_asset"]
+__all__ = ["Base", "Driven", "ExportConfig", "Format", "parse_formats", "write_asset"]
 
 
 def write_asset(
@@ -25,6 +25,7 @@ def write_asset(
     *,
     base: Base = Base.FIXED,
     formats: Sequence[Format] = DEFAULT,
+    driven: Driven = Driven.PASSIVE,
     config: ExportConfig = ExportConfig(),  # noqa: B008 - frozen
     cache: Path | None = None,
 ) -> Model:
@@ -33,7 +34,7 @@ def write_asset(
     Names of the asset, its parts and joints are made legal where they are not (`anymesh.names.legal_names`). cache: a folder
     that keeps convex decompositions. The same asset gives the same bytes, but for timing.json.
     """
-    built = build_model(asset, base=base, config=config, cache=cache)
+    built = build_model(asset, base=base, driven=driven, config=config, cache=cache)
     model = built.model
     write_meshes(model, folder, config)
     write_formats(model, folder, formats, config)

@@ -9,7 +9,7 @@ from anymesh.collision import Collision, collision_shapes
 from anymesh.export.densities import Substance, substance_of
 from anymesh.export.inertia import link_inertia
 from anymesh.export.links import Link, split_links, with_legal_names
-from anymesh.export.model import Base, Body, Exclusion, Model
+from anymesh.export.model import Base, Body, Driven, Exclusion, Model
 from anymesh.export.settings import ExportConfig
 from anymesh.types import Asset, Mesh
 
@@ -25,7 +25,7 @@ class Built:
     collision: Collision
 
 
-def build_model(asset: Asset, *, base: Base, config: ExportConfig, cache: Path | None) -> Built:
+def build_model(asset: Asset, *, base: Base, driven: Driven, config: ExportConfig, cache: Path | None) -> Built:
     """The model of an asset, with legal names. cache: folder of decompositions, None for none."""
     asset = with_legal_names(asset)
     links = split_links(asset)
@@ -38,7 +38,7 @@ def build_model(asset: Asset, *, base: Base, config: ExportConfig, cache: Path |
     )
     excluded = [Exclusion(a, b, OVERLAP) for a, b in collision.overlapping]
     excluded += [Exclusion(a, b, TIGHT) for a, b in collision.tight]
-    return Built(Model(asset, bodies, base, tuple(excluded)), collision)
+    return Built(Model(asset, bodies, base, tuple(excluded), driven), collision)
 
 
 def _made_of(mesh: Mesh, link: Link) -> list[Substance | None]:

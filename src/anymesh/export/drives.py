@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from anymesh.export.model import Body, Model
+from anymesh.export.model import Body, Driven, Model
 from anymesh.types import Joint, JointType
 
 GRAVITY = 9.81  # [m/s^2]
@@ -26,13 +26,16 @@ class Drive:
 
 
 def drives(model: Model) -> Mapping[str, Drive]:
-    """A drive for each joint that moves, by the joint's name.
+    """A drive for each joint that moves, by the joint's name. A passive one has neither stiffness nor damping.
 
     Damping over stiffness is the time in which the joint crosses its range at its velocity, so that a drive is led no
     faster. The stiffness holds friction and the weight carried within a share of the range, and is at least what makes
     the motion critically damped, so no drive rings or overshoots.
     """
-    return {j.name: _drive(model, j) for j in model.asset.joints if j.type is not JointType.FIXED}
+    moving = [j for j in model.asset.joints if j.type is not JointType.FIXED]
+    if model.driven is Driven.PASSIVE:
+        return {j.name: Drive(0.0, 0.0, j.effort) for j in moving}
+    return {j.name: _drive(model, j) for j in moving}
 
 
 def _drive(model: Model, joint: Joint) -> Drive:

@@ -13,7 +13,7 @@ from anymesh.export.drives import Drive, drives
 from anymesh.export.meshes import material_names
 from anymesh.export.mjcf_digits import with_digits
 from anymesh.export.mjcf_looks import GeomLook, geom_looks, png_textures
-from anymesh.export.model import Base, Body, Model
+from anymesh.export.model import Base, Body, Driven, Model
 from anymesh.export.rotations import quaternion
 from anymesh.export.settings import ExportConfig
 from anymesh.mujoco_ import load_mujoco
@@ -157,7 +157,11 @@ def _shape(mujoco: Any, spec: Any, geom: Any, shape: Shape, path: str | None) ->
 def _add_drive(mujoco: Any, spec: Any, model: Model, name: str, drive: Drive) -> None:
     joint = next(j for j in model.asset.joints if j.name == name)
     motor = spec.add_actuator(name=name, target=name, trntype=mujoco.mjtTrn.mjTRN_JOINT, group=DRIVES)
-    motor.set_to_position(kp=drive.stiffness, kv=drive.damping)
     motor.forcelimited, motor.forcerange = 1, [-drive.effort, drive.effort]
+    if model.driven is Driven.PASSIVE:
+        motor.set_to_motor()
+        motor.ctrllimited, motor.ctrlrange = 1, [-drive.effort, drive.effort]
+        return
+    motor.set_to_position(kp=drive.stiffness, kv=drive.damping)
     if joint.limits is not None:
         motor.ctrllimited, motor.ctrlrange = 1, joint.limits

@@ -8,7 +8,7 @@ from xml.etree import ElementTree
 import numpy as np
 
 from anymesh.export.drives import Drive
-from anymesh.export.model import Body, Model
+from anymesh.export.model import Body, Driven, Model
 from anymesh.export.rotations import quaternion
 from anymesh.export.xml_text import moments, number, vector
 from anymesh.types import Box, Cylinder, Hull, Joint
@@ -34,7 +34,7 @@ def with_digits(text: str, model: Model, motors: Mapping[str, Drive]) -> str:
         element.attrib.pop("colorspace", None)  # guessed at compile time; older versions do not know the word
     actuators = root.find("actuator")
     if actuators is not None:
-        _actuators(actuators, {j.name: j for j in model.asset.joints}, motors)
+        _actuators(actuators, model, motors)
     ElementTree.indent(root)
     return ElementTree.tostring(root, encoding="unicode") + "\n"
 
@@ -77,15 +77,20 @@ def _geoms(element: ElementTree.Element, body: Body) -> None:
                 geom.set("size", vector((shape.radius, shape.length / 2)))
 
 
-def _actuators(actuators: ElementTree.Element, joints: Mapping[str, Joint], motors: Mapping[str, Drive]) -> None:
-    """`general` with its parameters becomes `position`, which says the same."""
+def _actuators(actuators: ElementTree.Element, model: Model, motors: Mapping[str, Drive]) -> None:
+    """`general` with its parameters becomes `motor` or `position`, which says the same."""
+    passive = model.driven is Driven.PASSIVE
+    joints = {j.name: j for j in model.asset.joints}
     for element in list(actuators):
         name = str(element.get("name"))
         limits, drive = joints[name].limits, motors[name]
-        words = {"name": name, "joint": name, "group": str(element.get("group")), "kp": number(drive.stiffness)}
-        words |= {"kv": number(drive.damping), "forcerange": vector((-drive.effort, drive.effort)), "forcelimited": "true"}
-        if limits is not None:
-            words |= {"ctrlrange": vector(limits), "ctrllimited": "true"}
-        element.tag = "position"
+        span = vector((-drive.effort, drive.effort))
+        words = {"name": name, "joint": name, "group": str(element.get("group")), "forcerange": span, "forcelimited": "true"}
+        if passive:
+            words |= {"ctrlrange": span, "ctrllimited": "true"}
+        else:
+            words |= {"kp": number(drive.stiffness), "kv": number(drive.damping)}
+            words |= {} if limits is None else {"ctrlrange": vector(limits), "ctrllimited": "true"}
+        element.tag = "motor" if passive else "position"
         element.attrib.clear()
         element.attrib.update(words)

@@ -23,6 +23,13 @@ class Base(StrEnum):
     FREE = "free"
 
 
+class Driven(StrEnum):
+    """Whether drives leave joints to whoever pushes them, or lead them to a commanded position."""
+
+    PASSIVE = "passive"
+    POSITION = "position"
+
+
 @dataclass(frozen=True, eq=False)
 class Body:
     """A link with what physics needs. shapes: its collision, convex, in the link frame."""
@@ -77,6 +84,7 @@ class Model:
     bodies: tuple[Body, ...]
     base: Base = Base.FIXED
     exclusions: tuple[Exclusion, ...] = ()
+    driven: Driven = Driven.PASSIVE
 
     @property
     def links(self) -> Sequence[Link]:

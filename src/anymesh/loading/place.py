@@ -116,7 +116,7 @@ def _scale(loaded: LoadedMesh, extents: np.ndarray, scale: str, category: str | 
 
 def _scale_of_kind(extents: np.ndarray, unit: float | None, kind: str, usual: float) -> tuple[float, str, tuple[str, ...]]:
     """The file's unit, or a common one, that makes the object as large as things of its kind are; else their usual size."""
-    longest = float(extents.max())
+    longest, kind = float(extents.max()), kind.replace("_", " ")
     told = [("the file's unit", unit)] if unit is not None else [("metres", 1.0), *UNITS]
     for name, factor in told:
         if is_near(longest * factor, usual):

@@ -1,0 +1,132 @@
+"""Do collision shapes let joints move? Ours against one hull a link and one CoACD a link, true parts and joints given.
+
+python benchmarks/collision.py [SET ...]      writes benchmarks/collision.md; a set as `anymesh eval` names it
+
+A joint is free when no two shapes of different links touch deeper than .1 % of the diagonal, at 21 places over its range, where
+the surfaces do not go through each other. Shapes are made without the cache.
+"""
+
+from __future__ import annotations
+
+import datetime
+import platform
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Iterator
+from importlib.metadata import version
+from pathlib import Path
+
+import numpy as np
+
+from anymesh.collision import CollisionConfig, collision_shapes, joint_poses
+from anymesh.collision.clear import Piece, Scene
+from anymesh.collision.coacd_ import decompose
+from anymesh.collision.convex import hull_of
+from anymesh.collision.crossing import Surface
+from anymesh.collision.decompose import Component
+from anymesh.evaluation.datasets.named import open_dataset
+from anymesh.evaluation.protocols import prepared
+from anymesh.evaluation.truth import Subject
+from anymesh.export.links import Link, split_links
+from anymesh.geometry.topology import weld
+from anymesh.types import Asset, Joint, JointType, Shape, Source
+
+PAGE = Path(__file__).with_suffix(".md")
+SETS = ("examples", "scene-synthesizer", "metaworld", "libero")
+DEEP = 1e-3  # of the diagonal
+Shapes = dict[str, tuple[Shape, ...]]
+
+
+def true_asset(subject: Subject) -> Asset:
+    """The subject as an asset; joints whose range is not known get a small one."""
+    joints = []
+    for number, true in enumerate(subject.truth.joints):
+        j = subject.joint(true)
+        limits = None
+        if j.type in (JointType.REVOLUTE, JointType.PRISMATIC):
+            lower, upper = j.limits or ((0, 0.5) if j.type is JointType.REVOLUTE else (0, 0.05 * subject.mesh.diagonal))
+            limits = (min(float(lower), 0.0), max(float(upper), 0.0))
+        joints.append(Joint(f"joint_{number}", j.type, j.parent, j.child, j.origin, j.axis, limits, 1.0, "known"))
+    source = Source("", "0" * 64, np.eye(4), "z")
+    return Asset("object", source, subject.mesh, subject.segmentation(), tuple(joints), "oracle")
+
+
+def one_hull(asset: Asset, links: tuple[Link, ...]) -> Shapes:
+    found = {link.name: hull_of(link.triangles.reshape(-1, 3), 1e-3 * asset.mesh.diagonal) for link in links}
+    return {name: () if hull is None else (hull,) for name, hull in found.items()}
+
+
+def one_coacd(asset: Asset, links: tuple[Link, ...]) -> Shapes:
+    """CoACD on all of a link at its usual concavity, as it is often done; its own remesh makes a link one solid."""
+    found = {}
+    for link in links:
+        corners = link.triangles.reshape(-1, 3)
+        _, first, faces = np.unique(weld(corners), return_index=True, return_inverse=True)
+        pieces = decompose(corners[first], faces.reshape(-1, 3), concavity=0.05, remesh=True)
+        found[link.name] = tuple(hull for points in pieces if (hull := hull_of(points)) is not None)
+    return found
+
+
+def ours(asset: Asset, links: tuple[Link, ...]) -> Shapes:
+    found = collision_shapes(asset, {k.name: k.triangles for k in links}, {k.name: k.origin for k in links})
+    return dict(found.shapes)
+
+
+WAYS: dict[str, Callable[[Asset, tuple[Link, ...]], Shapes]] = {
+    "one hull a link": one_hull,
+    "one CoACD a link": one_coacd,
+    "ours": ours,
+}
+
+
+def free_joints(asset: Asset, links: tuple[Link, ...], shapes: Shapes) -> tuple[int, int]:
+    """How many joints are free, of how many that move."""
+    size, config = asset.mesh.diagonal, CollisionConfig()
+    surfaces = {link.name: Surface(link.triangles) for link in links}
+    origins = {link.name: link.origin for link in links}
+    pieces = [Piece(name, Component(np.zeros((0, 3, 3)), False), 0, some) for name, some in shapes.items()]
+    free = moving = 0
+    for joint in asset.joints:
+        if joint.type is not JointType.FIXED:
+            scene = Scene(surfaces, joint_poses(asset, origins, joint, 21), DEEP * size, config.crossing * size)
+            moving += 1
+            free += not any({pieces[f.first[0]].link, pieces[f.second[0]].link} & {joint.child} for f in scene.faults(pieces))
+    return free, moving
+
+
+def measured(spec: str) -> Iterator[tuple[str, int, int, int, int, float]]:
+    """Of each object and way: its name, free joints, moving joints, shapes, links, seconds."""
+    data = open_dataset(spec)
+    for name in data.objects():
+        with tempfile.TemporaryDirectory() as folder:
+            asset = true_asset(prepared(data.truth(name, Path(folder))))
+        links = split_links(asset)
+        for way, make in WAYS.items():
+            begin = time.perf_counter()
+            shapes = make(asset, links)
+            seconds = time.perf_counter() - begin
+            yield way, *free_joints(asset, links, shapes), sum(map(len, shapes.values())), len(links), seconds
+
+
+def main() -> None:
+    rows = []
+    for spec in sys.argv[1:] or SETS:
+        found = list(measured(spec))
+        for way in WAYS:
+            mine = np.array([row[1:] for row in found if row[0] == way])
+            free, moving, shapes, links, _ = mine.sum(0)
+            times = np.sort(mine[:, 4])
+            share = f"{free:.0f}/{moving:.0f} ({free / moving:.1%})"
+            cells = (spec.split(":")[0], way, share, f"{shapes / links:.1f}", f"{np.median(times):.2f}", f"{times[-1]:.1f}")
+            rows.append("| " + " | ".join(cells) + " |")
+            print(rows[-1], flush=True)
+    head = "| set | shapes | joints free | shapes a link | seconds an object, median | most |\n|---|---|---|---|---|---|"
+    packages = ", ".join(f"{p} {version(p)}" for p in ("coacd", "mujoco", "numpy"))
+    told = f"{datetime.date.today()}, Python {platform.python_version()}, {packages}; `python benchmarks/collision.py`."
+    text = "\n\n".join(["# Collision shapes", (__doc__ or "").split("\n\n", 2)[2].strip(), "\n".join([head, *rows]), told])
+    PAGE.write_text(text + "\n", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
