@@ -1,6 +1,7 @@
-"""Do collision shapes let joints move? Ours against one hull a link and one CoACD a link, true parts and joints given.
+"""Do collision shapes let joints move? Ours against others, true parts and joints given.
 
-python benchmarks/collision.py [SET ...]      writes benchmarks/collision.md; a set as `anymesh eval` names it
+python benchmarks/collision.py [--coacd] [SET ...]      writes benchmarks/collision.md; a set as `anymesh eval` names it;
+                                                        --coacd: one CoACD a link, too, which takes minutes an object
 
 A joint is free when no two shapes of different links touch deeper than .1 % of the diagonal, at 21 places over its range, where
 the surfaces do not go through each other. Shapes are made without the cache.
@@ -13,7 +14,7 @@ import platform
 import sys
 import tempfile
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from importlib.metadata import version
 from pathlib import Path
 
@@ -95,14 +96,14 @@ def free_joints(asset: Asset, links: tuple[Link, ...], shapes: Shapes) -> tuple[
     return free, moving
 
 
-def measured(spec: str) -> Iterator[tuple[str, int, int, int, int, float]]:
+def measured(spec: str, ways: Sequence[str]) -> Iterator[tuple[str, int, int, int, int, float]]:
     """Of each object and way: its name, free joints, moving joints, shapes, links, seconds."""
     data = open_dataset(spec)
     for name in data.objects():
         with tempfile.TemporaryDirectory() as folder:
             asset = true_asset(prepared(data.truth(name, Path(folder))))
         links = split_links(asset)
-        for way, make in WAYS.items():
+        for way, make in ((way, WAYS[way]) for way in ways):
             begin = time.perf_counter()
             shapes = make(asset, links)
             seconds = time.perf_counter() - begin
@@ -111,9 +112,11 @@ def measured(spec: str) -> Iterator[tuple[str, int, int, int, int, float]]:
 
 def main() -> None:
     rows = []
-    for spec in sys.argv[1:] or SETS:
-        found = list(measured(spec))
-        for way in WAYS:
+    asked = [word for word in sys.argv[1:] if word != "--coacd"]
+    ways = [way for way in WAYS if "--coacd" in sys.argv or way != "one CoACD a link"]
+    for spec in asked or SETS:
+        found = list(measured(spec, ways))
+        for way in ways:
             mine = np.array([row[1:] for row in found if row[0] == way])
             free, moving, shapes, links, _ = mine.sum(0)
             times = np.sort(mine[:, 4])
