@@ -25,6 +25,7 @@ def test_truth_is_of_the_mesh(truths: list[Truth]) -> None:
     assert sum(len(t.joints) for t in truths) >= 30
 
 
+@pytest.mark.slow
 def test_parts_given(truths: list[Truth]) -> None:
     joints = [j for t in truths for j in evaluate(t, solve, given=True).joints]
     right = [j.type_found is not None and same_motion(j.type_true, j.type_found) for j in joints]
@@ -34,6 +35,7 @@ def test_parts_given(truths: list[Truth]) -> None:
     assert np.mean([j.opens_right for j in joints]) >= 0.95
 
 
+@pytest.mark.slow
 def test_end_to_end(truths: list[Truth]) -> None:
     scores = [evaluate(t, solve) for t in truths]
     matched, true, predicted = (sum(getattr(s, k) for s in scores) for k in ("matched", "true", "predicted"))

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import igl
 import numpy as np
+import pytest
 import trimesh
 
 from anymesh.evaluation.metrics import same_motion
@@ -28,6 +29,7 @@ def softened(truth: Truth, path: Path) -> Truth:
     return replace(truth, mesh=path, labels=truth.labels[nearest])
 
 
+@pytest.mark.slow
 def test_a_cabinet_without_a_sharp_edge(tmp_path: Path) -> None:
     truth = softened(next(t for t in example_truths(EXAMPLES) if t.name == "cabinet_fused"), tmp_path / "soft.glb")
     result = evaluate(truth, solve)
