@@ -65,7 +65,7 @@ def summary(work: Path) -> str:
         groups = [(name, records(work / name)) for name in names if (work / name / "report.md").is_file()]
         if groups:
             groups.append(("all", [r for _, some in groups for r in some]))
-            text.append(markdown(group_table(title, groups)))
+            text.append(f"## {title}\n\n{markdown(group_table(title, groups))}")
     return "\n".join(text)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator
 
 import numpy as np
@@ -45,4 +46,5 @@ def _completed(asset: Asset, completer: Completer | None, config: ShapeConfig) -
 
 def _told(finished: Finished) -> Iterator[str]:
     for part, notes in finished.notes.items():
-        yield from (f"{part}: {note}" for note in notes)
+        for note, times in Counter(notes).items():
+            yield f"{part}: {note}" + (f" ({times} times)" if times > 1 else "")

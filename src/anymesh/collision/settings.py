@@ -15,5 +15,5 @@ class CollisionConfig:
     wall_most: float = 0.005  # [m]
     contact: float = 1e-4  # shapes deeper in each other than this touch; engines push them apart
     crossing: float = 0.003  # surfaces that go this deep through each other collide in truth: sweeps allow as much
-    poses: int = 9  # of each joint over its range
+    poses: int = 17  # of each joint over its range
     rounds: int = 10  # of planing and refining
