@@ -27,7 +27,7 @@ STAGES = {"segmentation", "articulation", "postprocessing"}
 OUTSIDE = set(
     "trimesh embreex igl mujoco torch transformers onnxruntime huggingface_hub "
     "pydantic_ai openai anthropic google genai_prices httpx2 yourdfpy scene_synthesizer "
-    "coacd pxr manifold3d pybullet sapien pydrake genesis newton pinocchio warp jsonschema".split()
+    "coacd pxr manifold3d pybullet sapien pydrake genesis newton pinocchio warp jsonschema imageio_ffmpeg viser".split()
 )
 FILES = sorted(SOURCE.rglob("*.py"))
 

@@ -6,18 +6,23 @@
 Functions and nouns load what they need on first use, so that importing this package costs next to nothing.
 """
 
+import sys
 from importlib import import_module
 from typing import TYPE_CHECKING
 
 from anymesh.errors import AnymeshError, InputError, MissingExtraError, OptionError, OutputError
 
 if TYPE_CHECKING:
-    from anymesh.pipeline import articulate, export, joints, segment
+    from anymesh.checking import check_asset
+    from anymesh.pipeline import articulate, export, finish, joints, segment
     from anymesh.types import Asset, Joint, JointType, Mesh, Part, Segmentation
+    from anymesh.viewer.report_notebook import show
 
 __version__ = "0.1.0"
 _HOME = {
-    **dict.fromkeys(("articulate", "segment", "joints", "export"), "anymesh.pipeline"),
+    **dict.fromkeys(("articulate", "segment", "joints", "export", "finish"), "anymesh.pipeline"),
+    "check_asset": "anymesh.checking",
+    "show": "anymesh.viewer.report_notebook",
     **dict.fromkeys(("Asset", "Joint", "JointType", "Mesh", "Part", "Segmentation"), "anymesh.types"),
 }
 __all__ = [
@@ -34,9 +39,12 @@ __all__ = [
     "Segmentation",
     "__version__",
     "articulate",
+    "check_asset",
     "export",
+    "finish",
     "joints",
     "segment",
+    "show",
 ]
 
 
@@ -44,3 +52,7 @@ def __getattr__(name: str) -> object:
     if name in _HOME:
         return getattr(import_module(_HOME[name]), name)
     raise AttributeError(f"module 'anymesh' has no attribute {name!r}")
+
+
+if "IPython" in sys.modules and (_shell := sys.modules["IPython"].get_ipython()) is not None:
+    import_module("anymesh.viewer.report_notebook").register(_shell)  # in a notebook, assets display themselves

@@ -15,6 +15,7 @@ from anymesh.cli_check import check
 from anymesh.cli_eval import evaluate
 from anymesh.cli_finish import finish
 from anymesh.cli_output import JOINT_COLUMNS, Shown, cache_of, joint_row, plain, tell, tell_asset
+from anymesh.cli_report import picture, report
 from anymesh.errors import AnymeshError
 
 EXIT_CODES = (
@@ -218,6 +219,8 @@ def export(
 
 
 app.command(epilog=EXIT_CODES)(finish)
+app.command(epilog=EXIT_CODES)(report)
+app.command(epilog=EXIT_CODES)(picture)
 app.command("check", epilog=EXIT_CODES)(check)
 app.command("eval", epilog=EXIT_CODES)(evaluate)
 

@@ -189,3 +189,13 @@ def test_a_tight_drawer_is_free_and_open_after_clearing():
 
 def test_links_that_overlap_at_rest_are_listed():
     assert collision_of(sliding(0.002, depth=0.02)).overlapping == (("case", "tray"),)
+
+
+def test_a_round_hull_keeps_few_corners_and_nearly_all_of_its_volume():
+    ball = trimesh.creation.icosphere(5)
+    hull = fitted(hull_of(np.asarray(ball.vertices)))
+    assert isinstance(hull, Hull)
+    assert len(hull.vertices) <= 64
+    assert 0.85 < volume(hull) / ball.volume < 1
+    inner = np.abs(np.einsum("ij,ij->i", hull.vertices, hull.vertices) - 1)
+    assert inner.max() < 1e-9  # they are corners of the ball

@@ -16,9 +16,11 @@ from anymesh.collision.decompose import Component, Fineness, component_shapes, l
 from anymesh.collision.settings import CollisionConfig
 from anymesh.collision.store import content_key, load_shapes, save_shapes
 from anymesh.geometry.kinematics import link_transforms
+from anymesh.geometry.simplify_ import simplify
 from anymesh.types import Asset, Joint, JointType, Shape
 
 __all__ = ["Collision", "CollisionConfig", "collision_shapes", "joint_poses"]
+FACES = 50_000  # of a link, for the question whether surfaces cross
 SMALL = 0.3  # components smaller than this share of the first gap need no shape beside larger ones
 
 
@@ -59,7 +61,7 @@ def collision_shapes(
         first = pool.map(lambda part: shapes_of(part[1], 0), parts)
         pieces = [Piece(link, c, 0, shapes) for (link, c), shapes in zip(parts, first, strict=True)]
     scene = Scene(
-        {link: Surface(t) for link, t in triangles.items()},
+        {link: Surface(simplify(t, FACES)) for link, t in triangles.items()},
         list(_poses(asset, origins, config.poses)),
         config.contact * size,
         config.crossing * size,

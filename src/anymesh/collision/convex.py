@@ -9,7 +9,19 @@ from scipy.spatial import ConvexHull, QhullError
 from anymesh.types import Hull
 from anymesh.types.triangles import face_cross
 
+MOST = 64  # corners of a hull; engines on a GPU take no more
 FLAT = 1e-4  # thinner than this share of the diagonal: no engine takes the hull
+
+
+def _spread_directions(count: int) -> Float[np.ndarray, "n 3"]:
+    """Unit vectors that are spread evenly over the sphere (Fibonacci)."""
+    k = np.arange(count) + 0.5
+    height, angle = 1 - 2 * k / count, np.pi * (1 + 5**0.5) * k
+    radius = np.sqrt(1 - height**2)
+    return np.stack([radius * np.cos(angle), radius * np.sin(angle), height], 1)
+
+
+DIRECTIONS = _spread_directions(MOST)
 
 
 def hull_of(points: Float[np.ndarray, "n 3"], wall: float = 0.0, inward: np.ndarray | None = None) -> Hull | None:
@@ -44,6 +56,14 @@ def hull_of(points: Float[np.ndarray, "n 3"], wall: float = 0.0, inward: np.ndar
     inside = np.einsum("ij,ij->i", face_cross(vertices[faces]), found.equations[:, :3]) < 0
     faces[inside] = faces[inside][:, ::-1]
     return Hull(vertices, faces)
+
+
+def thinned(hull: Hull) -> Hull:
+    """A hull with more than MOST corners keeps those that reach furthest, each in its direction."""
+    if len(hull.vertices) <= MOST:
+        return hull
+    furthest = np.unique((hull.vertices @ DIRECTIONS.T).argmax(0))
+    return hull_of(hull.vertices[furthest]) or hull
 
 
 def volume(hull: Hull) -> float:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from anymesh.collision.convex import hull_of, volume
+from anymesh.collision.convex import hull_of, thinned, volume
 from anymesh.geometry.boxes import dominant_normals, fit_box
 from anymesh.geometry.circles import roundest
 from anymesh.types import Box, Cylinder, Hull, Shape
@@ -17,14 +17,14 @@ SIDES = 12  # corners that a round outline has at least
 
 
 def fitted(hull: Hull, fit: float = FIT) -> Shape:
-    """The box or cylinder that a hull is, within the share `fit` of its volume; else the hull."""
+    """The box or cylinder that a hull is, within the share `fit` of its volume; else the hull, with few corners."""
     normals, areas = normals_and_areas(hull.vertices[hull.faces])
     exact = volume(hull)
     box = fit_box(hull.vertices, normals, areas)
     size = 2 * box.half
     if abs(float(size.prod()) - exact) <= fit * exact:
         return Box(box.center, box.axes.T.copy(), size)
-    return _cylinder(hull, dominant_normals(normals, areas, count=2), exact, fit) or hull
+    return _cylinder(hull, dominant_normals(normals, areas, count=2), exact, fit) or thinned(hull)
 
 
 def _cylinder(hull: Hull, directions: np.ndarray, exact: float, fit: float) -> Cylinder | None:

@@ -1,0 +1,73 @@
+"""`anymesh report`: what lies in a folder, as one page."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from pathlib import Path
+
+from anymesh.errors import InputError, OutputError
+from anymesh.progress import Progress, silent
+from anymesh.viewer.report_asset import find_assets
+from anymesh.viewer.report_display import FACES
+from anymesh.viewer.report_entry import Entry, folder_entry, within
+from anymesh.viewer.report_html import html_report
+
+MEGABYTES = 100.0  # of a page that browsers still open at once
+
+
+@dataclass(frozen=True)
+class Reported:
+    """What a report shows."""
+
+    path: Path
+    assets: int
+    unreadable: tuple[str, ...]  # folders, with the reason in the page
+    notes: tuple[str, ...]  # what was decimated or left out
+    size: int  # [bytes] of the file
+
+
+def write_report(
+    folder: str | Path,
+    out: str | Path | None = None,
+    *,
+    faces: int = FACES,
+    megabytes: float = MEGABYTES,
+    progress: Progress = silent,
+) -> Reported:
+    """Writes one HTML file of the asset in `folder`, or of all assets below it, the least sure first.
+
+    out: FOLDER_report.html beside the folder when None; replaced when it is there. faces: from which an asset is decimated
+    for display; megabytes: what would make the file larger is left out, and said so. Raises InputError when there is no
+    asset at all, OutputError when the file cannot be written.
+    """
+    folder = Path(folder)
+    if not folder.is_dir():
+        raise InputError(f"{folder} is not a folder; valid is one that `anymesh articulate` made, or a folder of such")
+    whole = folder.resolve()
+    out = whole.parent / f"{whole.name}_report.html" if out is None else Path(out)
+    found = find_assets(folder)
+    entries = []
+    for k, place in enumerate(found):
+        title = whole.name if place == folder else place.relative_to(folder).as_posix()
+        progress("report", title, k, len(found))
+        entries.append(folder_entry(place, title, faces=faces))
+    entries = within(sorted(entries, key=_order), megabytes)
+    data = html_report(whole.name, entries).encode()
+    try:
+        temporary = out.with_name(f".{out.name}.part")  # a page is there whole or not at all
+        temporary.write_bytes(data)
+        temporary.replace(out)
+    except OSError as error:
+        raise OutputError(f"cannot write {out}: {os.strerror(error.errno) if error.errno else error}") from error
+    return Reported(
+        path=out,
+        assets=len(entries),
+        unreadable=tuple(e.title for e in entries if e.asset is None),
+        notes=tuple(f"{e.title}: {note}" for e in entries for note in e.notes),
+        size=len(data),
+    )
+
+
+def _order(entry: Entry) -> tuple[float, str]:
+    return (entry.least, entry.title)

@@ -1,0 +1,122 @@
+"""One asset of a report: what is told of it, and the data that its 3D view needs."""
+
+from __future__ import annotations
+
+import gzip
+import hashlib
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+from anymesh.errors import InputError
+from anymesh.export.links import with_legal_names
+from anymesh.types import Asset
+from anymesh.viewer.report_asset import glb_path, read_asset
+from anymesh.viewer.report_display import display_glb, displayed, jpeg, materials_shown
+from anymesh.viewer.report_scene import scene
+
+PREVIEW = "preview.png"
+WIDTH, QUALITY = 1280, 82  # [px] of the preview, its JPEG quality
+ASKED_WIDTH, ASKED_QUALITY = 800, 75  # of the pictures that a model was shown
+
+
+@dataclass(frozen=True, eq=False)
+class Entry:
+    """title: where the asset lies, as the page says it; glb: gzipped; pictures: what a model was shown, JPEG by SHA-256."""
+
+    title: str
+    asset: Asset | None  # None when it cannot be read
+    problem: str = ""  # why not
+    scene: Mapping[str, Any] | None = None
+    glb: bytes = b""
+    preview: bytes = b""  # JPEG
+    pictures: Mapping[str, bytes] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()  # what was done for display
+
+    @property
+    def least(self) -> float:
+        """The lowest confidence of a joint; 1 when nothing moves."""
+        return min((j.confidence for j in self.asset.joints), default=1.0) if self.asset else 0.0
+
+    @property
+    def size(self) -> int:
+        """Bytes of the page that this asset takes, about: base64 makes 4 of 3."""
+        return (len(self.glb) + len(self.preview) + sum(map(len, self.pictures.values()))) * 4 // 3
+
+
+def folder_entry(folder: Path, title: str, *, faces: int) -> Entry:
+    """An asset's folder; one that cannot be read says why instead of ending the report."""
+    try:
+        asset = read_asset(folder)
+    except InputError as error:
+        return Entry(title, None, problem=str(error))
+    shown, notes = displayed(asset, faces=faces)
+    glb = display_glb(shown) if notes else glb_path(folder).read_bytes()
+    return _entry(title, asset, shown, glb, notes, _preview(folder / PREVIEW))
+
+
+def asset_entry(asset: Asset, *, faces: int) -> Entry:
+    """An asset in memory; without a preview, which takes longer than all the rest."""
+    asset = with_legal_names(asset)
+    shown, notes = displayed(asset, faces=faces)
+    return _entry(asset.name, asset, shown, display_glb(shown), notes, b"")
+
+
+def within(entries: list[Entry], megabytes: float) -> list[Entry]:
+    """The entries without what would make the page larger than this: first go pictures shown to models, then 3D views."""
+    left = int(megabytes * 1e6) - sum(len(e.preview) * 4 // 3 for e in entries)
+    found = []
+    for entry in entries:
+        notes = entry.notes
+        if entry.glb and len(entry.glb) * 4 // 3 > left:
+            entry = replace(entry, glb=b"", notes=(*notes, f"No 3D view: the page is limited to {megabytes:g} MB."))
+        left -= len(entry.glb) * 4 // 3
+        found.append(entry)
+    for k, entry in enumerate(found):
+        taken = sum(map(len, entry.pictures.values())) * 4 // 3
+        if taken > left:
+            told = f"Pictures of the questions are left out: the page is limited to {megabytes:g} MB."
+            found[k] = replace(entry, pictures={}, notes=(*entry.notes, told))
+        else:
+            left -= taken
+    return found
+
+
+def picture_key(png: bytes) -> str:
+    """The name of a picture that a model was shown."""
+    return hashlib.sha256(png).hexdigest()[:16]
+
+
+def _entry(title: str, asset: Asset, shown: Asset, glb: bytes, notes: tuple[str, ...], preview: bytes) -> Entry:
+    mesh = asset.mesh
+    return Entry(
+        title=title,
+        asset=asset,
+        scene=scene(shown, looks=materials_shown(mesh.materials, mesh.corner_color)),
+        glb=gzip.compress(glb, 6, mtime=0),
+        preview=preview,
+        pictures=_pictures(asset),
+        notes=notes,
+    )
+
+
+def _pictures(asset: Asset) -> dict[str, bytes]:
+    found: dict[str, bytes] = {}
+    for picture in (p for e in asset.exchanges for p in e.pictures):
+        key = picture_key(picture.png)
+        if key not in found:
+            found[key] = _jpeg(picture.png, ASKED_WIDTH, ASKED_QUALITY)
+    return {key: data for key, data in found.items() if data}
+
+
+def _preview(path: Path) -> bytes:
+    return _jpeg(path.read_bytes(), WIDTH, QUALITY) if path.is_file() else b""
+
+
+def _jpeg(picture: bytes, width: int, quality: int) -> bytes:
+    """Nothing for a file that is no picture."""
+    try:
+        return jpeg(picture, width, quality)
+    except (OSError, ValueError, SyntaxError):
+        return b""
