@@ -9,6 +9,7 @@ from typing import Annotated
 
 import typer
 
+from anymesh.cli_options import Json, Quiet
 from anymesh.cli_output import Shown, plain
 
 FolderPath = Annotated[
@@ -20,8 +21,6 @@ Page = Annotated[
 File = Annotated[
     Path, typer.Option("--out", "-o", metavar="FILE", help=".gif or .mp4: a turntable of the motion; .png: a contact sheet.")
 ]
-Json = Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")]
-Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="No progress, no summary.")]
 
 
 def report(
