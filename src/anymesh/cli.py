@@ -41,6 +41,7 @@ from anymesh.cli_options import (
 )
 from anymesh.cli_output import JOINT_COLUMNS, Shown, cache_of, joint_row, plain, tell, tell_asset
 from anymesh.cli_report import picture, report
+from anymesh.cli_view import view
 from anymesh.errors import AnymeshError
 
 EXIT_CODES = (
@@ -211,6 +212,7 @@ def export(
 app.command(epilog=EXIT_CODES)(finish)
 app.command(epilog=EXIT_CODES)(report)
 app.command(epilog=EXIT_CODES)(picture)
+app.command(epilog=EXIT_CODES)(view)
 app.command("check", epilog=EXIT_CODES)(check)
 app.command("eval", epilog=EXIT_CODES)(evaluate)
 

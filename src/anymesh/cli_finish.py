@@ -11,9 +11,7 @@ from anymesh.cli_options import FORMATS, BaseName, Drives, Force, Formats, Json,
 from anymesh.cli_output import Shown, tell_asset
 
 Asset = Annotated[Path, typer.Argument(metavar="DIR", help="An output of `anymesh articulate`.")]
-Completer = Annotated[
-    str, typer.Option(help="Of shapes: builtin, off, holopart:FOLDER(#PYTHON) or holopart:URL.")
-]
+Completer = Annotated[str, typer.Option(help="Of shapes: builtin, off, holopart:FOLDER(#PYTHON) or holopart:URL.")]
 Texture = Annotated[str, typer.Option(help="builtin, bake or bake:PIXELS (one atlas), meshy or meshy:PROMPT (paid).")]
 Watertight = Annotated[bool, typer.Option(help="Also close what no motion ever lays open.")]
 

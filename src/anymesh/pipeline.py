@@ -140,7 +140,7 @@ def finish(
     with RunFolder.create(out, source=Path(folder) / "asset.json", force=force) as run:
         run.take_over(Path(folder))
         progress("finish", completer, 0, 1)
-        key = stage_key(COMPLETION, previous=run.key(JOINTS), config={"by": completer, "texture": texture, "tight": watertight})
+        key = stage_key(COMPLETION, previous=run.last_key(), config={"by": completer, "texture": texture, "tight": watertight})
         if run.load(COMPLETION, key) is None:
             with _timed(run, "finish"):
                 done = finish_asset(

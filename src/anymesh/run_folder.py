@@ -15,12 +15,13 @@ from types import TracebackType
 from typing import Any, TypeVar
 
 from anymesh.errors import BudgetError, OutputError
-from anymesh.names import legal_name
 from anymesh.stage_results import (
     COMPLETION,
+    CORRECTION,
     JOINTS,
     MESH,
     RECOGNITION,
+    REVISION,
     SEGMENTATION,
     STAGES,
     Jointed,
@@ -30,8 +31,17 @@ from anymesh.stage_results import (
     Stage,
 )
 from anymesh.storage.hidden import OURS, Hidden, dead_hidden, list_files, make_hidden, move_in, recover, swap_in
+from anymesh.storage.outputs import (
+    CORRECTIONS,
+    GENERATOR,
+    MANIFEST,
+    check_replaceable,
+    check_uncorrected,
+    hidden_prefix,
+    written_files,
+)
+from anymesh.storage.saved import TIMING, Saved
 from anymesh.storage.stage_files import (
-    read_json,
     read_stage,
     saved_key,
     stage_files,
@@ -39,7 +49,6 @@ from anymesh.storage.stage_files import (
     write_json,
     write_stage,
 )
-from anymesh.types import Asset
 
 __all__ = [
     "COMPLETION",
@@ -55,37 +64,19 @@ __all__ = [
     "stage_key",
 ]
 Result = TypeVar("Result")
-GENERATOR = "articulate-anymesh"
-MANIFEST = "stages/files.json"  # what was written here; nothing else is ever removed
-TIMING = "timing.json"
 LAST = "asset.json"  # an output that has it is finished
 
 
-def _prefix(target: Path, word: str) -> str:
-    return f".{target.name[:100]}.{word}-"
-
-
-def _manifest(target: Path) -> list[str] | None:
-    """The files that this program wrote into a folder, None when it is no output."""
-    found = read_json(target / MANIFEST)
-    files = found.get("files") if found is not None and found.get("generator") == GENERATOR else None
-    return files if isinstance(files, list) else None
-
-
-def _check_replaceable(target: Path, force: bool) -> None:
-    written = _manifest(target)
-    if not force:
-        hint = " (--force replaces an older output)" if written is not None else ""
-        raise OutputError(f"the output folder {target} is not empty; choose another{hint}")
+def _existing(target: Path) -> list[str]:
+    """The files that this program wrote into an output, a killed run put right. OutputError when it is none."""
+    recover(target, hidden_prefix(target, "old"))
+    written = written_files(target)
     if written is None:
-        raise OutputError(f"{target} is not empty and no output of anymesh, so it is not replaced; choose another folder")
-    foreign = sorted(set(list_files(target)) - set(written))
-    if foreign:
-        shown = ", ".join(foreign[:5]) + (", ..." if len(foreign) > 5 else "")
-        raise OutputError(f"{target} also holds files that anymesh did not write ({shown}); move them away first")
+        raise OutputError(f"{target} is no output of anymesh; `anymesh segment MESH -o {target}` makes one")
+    return written
 
 
-class RunFolder:
+class RunFolder(Saved):
     """An output folder while it is written. `folder` is where files go; leaving the `with` block puts them in place.
 
     An exception inside the block leaves the output as it was; when a budget ends the run, the finished stages stay in the
@@ -95,13 +86,14 @@ class RunFolder:
     def __init__(
         self, target: Path, hidden: Hidden, *, base: Path | None, earlier: Sequence[Path], dead: Sequence[Hidden]
     ) -> None:
-        self.target = target
+        super().__init__(target)
         self.folder = hidden.path
         self._hidden = hidden
         self._base = base  # files are added to this folder; None: the whole folder is new
         self._earlier = tuple(earlier)  # where results of runs before may be taken from
         self._dead = tuple(dead)
         self._replaces = base is None and target in self._earlier
+        self._foreign: set[str] = set()  # files of others that go along
         self._stale: set[str] = set()  # stages whose results no longer follow from the ones before
 
     @classmethod
@@ -115,15 +107,15 @@ class RunFolder:
         if source.resolve().is_relative_to(target):
             raise OutputError(f"the source mesh {source} lies in the output folder {target}; choose another folder")
         try:
-            recover(target, _prefix(target, "old"))
+            recover(target, hidden_prefix(target, "old"))
             if target.exists() and not target.is_dir():
                 raise OutputError(f"{target} is a file; an output is a folder")
             inside = target.is_dir() and os.path.ismount(target)  # a mount point cannot be renamed
             old = target.is_dir() and any(p for p in target.iterdir() if not p.name.startswith(OURS))
             if old:
-                _check_replaceable(target, force)
+                check_replaceable(target, force)
             target.parent.mkdir(parents=True, exist_ok=True)
-            place = (target, f"{OURS}tmp-") if inside else (target.parent, _prefix(target, "tmp"))
+            place = (target, f"{OURS}tmp-") if inside else (target.parent, hidden_prefix(target, "tmp"))
             dead = dead_hidden(*place)
             earlier = [d.path for d in dead] + ([target] if old else [])
             base = target if inside else None
@@ -138,14 +130,33 @@ class RunFolder:
         """An output that exists, to add to: another stage, or the final files. OutputError when there is none."""
         target = Path(target).resolve()
         try:
-            recover(target, _prefix(target, "old"))
-            if _manifest(target) is None:
-                raise OutputError(f"{target} is no output of anymesh; `anymesh segment MESH -o {target}` makes one")
+            _existing(target)
             dead = dead_hidden(target, f"{OURS}tmp-")
             hidden = make_hidden(target, f"{OURS}tmp-")
         except OSError as error:
             raise OutputError(f"cannot write {target}: {error.strerror or error}") from error
         return cls(target, hidden, base=target, earlier=[], dead=dead)
+
+    @classmethod
+    def revise(cls, target: Path) -> RunFolder:
+        """An output that exists, to be replaced at once by one that has its stages and all files that are not ours.
+
+        OutputError when there is none. A mount point cannot be replaced at once: files are added to it as by `open`.
+        """
+        target = Path(target).resolve()
+        if os.path.ismount(target):
+            return cls.open(target)
+        try:
+            ours = set(_existing(target))
+            run = cls(target, make_hidden(target.parent, hidden_prefix(target, "tmp")), base=None, earlier=[target], dead=[])
+            run._foreign = set(list_files(target)) - ours
+            stages = {name for stage in STAGES for name in stage_files(stage)}
+            for name in sorted((ours & (stages | {TIMING})) | run._foreign):
+                (run.folder / name).parent.mkdir(parents=True, exist_ok=True)
+                shutil.copy2(target / name, run.folder / name)
+        except OSError as error:
+            raise OutputError(f"cannot write {target}: {error.strerror or error}") from error
+        return run
 
     def load(self, stage: Stage[Result], key: str) -> Result | None:
         """The saved result of a stage if it was made under this key; else None. It becomes part of this output."""
@@ -161,81 +172,30 @@ class RunFolder:
             return found
         return None
 
-    def need(self, stage: Stage[Result]) -> Result:
-        """The result of a stage, whatever it was made with. OutputError when this output has none."""
-        found = self._find(stage)
-        if found is None:
-            raise self._missing(stage)
-        return found
-
-    def recognized(self) -> Recognized:
-        """What was recognized; nothing where nobody who sees was asked."""
-        return self._find(RECOGNITION) or Recognized(None, "")
-
-    def _find(self, stage: Stage[Result]) -> Result | None:
-        return next((found for place in self._places(stage) if (found := read_stage(place, stage, None)) is not None), None)
-
-    def key(self, stage: Stage[Any]) -> str:
-        """The key under which the result of a stage was saved. OutputError when this output has none."""
-        for place in self._places(stage):
-            found = saved_key(place, stage)
-            if found is not None:
-                return found
-        raise self._missing(stage)
-
     def save(self, stage: Stage[Result], key: str, result: Result) -> None:
         """Saves the result of a stage; results of later stages, and final files, no longer follow and go."""
+        if self._base is not None and stage not in (CORRECTION, REVISION):
+            check_uncorrected(self._base)
         write_stage(self.folder, stage, key, result)
         later = STAGES[STAGES.index(stage) + 1 :]
         self._stale |= {s.name for s in (stage, *later)}
         for name in (name for s in later for name in stage_files(s)):
             (self.folder / name).unlink(missing_ok=True)
 
-    def _places(self, stage: Stage[Any]) -> list[Path]:
-        """Where the result of a stage that belongs to this output may lie."""
-        return [self.folder] if self._base is None or stage.name in self._stale else [self.folder, self._base]
-
-    def _missing(self, stage: Stage[Any]) -> OutputError:
-        return OutputError(f"{self.target} has no usable result of the stage {stage.name!r}; run that stage first")
+    def _places(self, stage: Stage[Any] | None) -> list[Path]:
+        stale = stage is not None and stage.name in self._stale
+        return [self.folder] if self._base is None or stale else [self.folder, self._base]
 
     def add_time(self, stage: str, seconds: float) -> None:
         """Adds to the seconds that each stage took."""
         write_json(self.folder / TIMING, {**self.timing(), stage: round(seconds, 4)})
 
-    def timing(self) -> dict[str, float]:
-        """Seconds a stage, so far."""
-        for place in (self.folder, self._base):
-            found = read_json(place / TIMING) if place else None
-            if found is not None:
-                return found
-        return {}
-
-    def asset(self) -> Asset:
-        """The asset that the saved stages make. OutputError when one is missing."""
-        placed, segmented, jointed = self.need(MESH), self.need(SEGMENTATION), self.need(JOINTS)
-        recognized = self.recognized()
-        placed = recognized.sized(placed)
-        completed = self._find(COMPLETION)
-        return Asset(
-            name=legal_name(Path(placed.source.path).stem, fallback="asset"),
-            source=placed.source,
-            mesh=placed.mesh if completed is None else completed.mesh,
-            segmentation=segmented.segmentation if completed is None else completed.parted(segmented.segmentation),
-            joints=jointed.joints,
-            answerer=jointed.answerer,
-            warnings=(*recognized.warnings, *segmented.warnings, *jointed.warnings),
-            timing=self.timing(),
-            exchanges=(*recognized.exchanges, *segmented.exchanges, *jointed.exchanges),
-            source_face=None if completed is None else completed.source_face,
-            notes=() if completed is None else completed.notes,
-        )
-
     def take_over(self, folder: Path) -> None:
-        """The stages of another output, up to its joints, become stages of this one. OutputError when it has none."""
-        if _manifest(folder) is None:
+        """The stages of another output, up to its joints and their corrections, become this one's. OutputError without any."""
+        if written_files(folder) is None:
             raise OutputError(f"{folder} is no output of anymesh; `anymesh articulate MESH -o {folder}` makes one")
         self._earlier = (Path(folder).resolve(), *self._earlier)
-        for stage in STAGES[: STAGES.index(JOINTS) + 1]:
+        for stage in STAGES[: STAGES.index(COMPLETION)]:
             key = saved_key(folder, stage)
             if key is not None:
                 self.load(stage, key)
@@ -244,14 +204,14 @@ class RunFolder:
 
     def _commit(self) -> None:
         """Puts everything written in place."""
-        new = {*list_files(self.folder), MANIFEST}
+        new = {*list_files(self.folder), MANIFEST} - self._foreign
         try:
             if self._base is None:
                 self._write_manifest(new)
-                aside = self.target.parent / f"{_prefix(self.target, 'old')}{os.getpid()}"
+                aside = self.target.parent / f"{hidden_prefix(self.target, 'old')}{os.getpid()}"
                 swap_in(self.folder, self.target, aside if self._replaces else None)
             else:
-                before = set(_manifest(self.target) or ())
+                before = set(written_files(self.target) or ())
                 kept = before - self._outdated(before, new)
                 self._write_manifest(new | kept)
                 move_in(self.folder, self.target, remove=sorted(before - kept - new), last=LAST)
@@ -262,7 +222,7 @@ class RunFolder:
         """Files from before that no longer follow from the stages, or that the final files written now replace."""
         stages = {name for stage in STAGES for name in stage_files(stage)}
         stale = {name for stage in STAGES if stage.name in self._stale for name in stage_files(stage)}
-        final = before - stages - {MANIFEST, TIMING} if self._stale or LAST in new else set()
+        final = before - stages - {MANIFEST, TIMING, CORRECTIONS} if self._stale or LAST in new else set()
         return stale | final
 
     def _write_manifest(self, files: set[str]) -> None:

@@ -82,6 +82,16 @@ class Completed:
         return Segmentation(self.face_part, before.parts)
 
 
+@dataclass(frozen=True, eq=False)
+class Corrected:
+    """What a person made of the parts and joints; log: each correction as JSON values, in order."""
+
+    segmentation: Segmentation
+    joints: tuple[Joint, ...]
+    warnings: tuple[str, ...]
+    log: tuple[Record, ...]
+
+
 @dataclass(frozen=True)
 class Stage(Generic[Result]):
     """A stage whose result can be saved: its name, and the two ways."""
@@ -209,25 +219,27 @@ def _unpack_segmentation(record: Record, arrays: Arrays) -> Segmented:
     return Segmented(segmentation, record["answerer"], tuple(record["warnings"]), exchanges)
 
 
+def _pack_joint(joint: Joint) -> Record:
+    record = {f.name: getattr(joint, f.name) for f in fields(joint)}
+    return record | {"type": str(joint.type), "origin": joint.origin.tolist(), "axis": joint.axis.tolist()}
+
+
+def _unpack_joint(found: Record) -> Joint:
+    limits = None if found["limits"] is None else (float(found["limits"][0]), float(found["limits"][1]))
+    values: dict[str, Any] = {**found, "type": JointType(found["type"]), "limits": limits}
+    values["origin"], values["axis"] = np.array(found["origin"], float), np.array(found["axis"], float)
+    return Joint(**values)
+
+
 def _pack_joints(result: Jointed) -> tuple[Record, dict[str, np.ndarray]]:
-    joints = []
-    for joint in result.joints:
-        record = {f.name: getattr(joint, f.name) for f in fields(joint)}
-        record |= {"type": str(joint.type), "origin": joint.origin.tolist(), "axis": joint.axis.tolist()}
-        joints.append(record)
+    joints = [_pack_joint(joint) for joint in result.joints]
     exchanges, arrays = _pack_exchanges(result.exchanges)
     record = {"joints": joints, "answerer": result.answerer, "warnings": list(result.warnings), "exchanges": exchanges}
     return record, arrays
 
 
 def _unpack_joints(record: Record, arrays: Arrays) -> Jointed:
-    def joint(found: Record) -> Joint:
-        limits = None if found["limits"] is None else (float(found["limits"][0]), float(found["limits"][1]))
-        values: dict[str, Any] = {**found, "type": JointType(found["type"]), "limits": limits}
-        values["origin"], values["axis"] = np.array(found["origin"], float), np.array(found["axis"], float)
-        return Joint(**values)
-
-    joints = tuple(joint(j) for j in record["joints"])
+    joints = tuple(_unpack_joint(j) for j in record["joints"])
     return Jointed(joints, record["answerer"], tuple(record["warnings"]), _unpack_exchanges(record["exchanges"], arrays))
 
 
@@ -244,9 +256,27 @@ def _unpack_completed(record: Record, arrays: Arrays) -> Completed:
     return Completed(_unpack_mesh(record, arrays), arrays["face_part"], arrays["source_face"], tuple(record["notes"]))
 
 
+def _pack_corrected(result: Corrected) -> tuple[Record, dict[str, np.ndarray]]:
+    record = {
+        "parts": [asdict(part) for part in result.segmentation.parts],
+        "joints": [_pack_joint(joint) for joint in result.joints],
+        "warnings": list(result.warnings),
+        "log": list(result.log),
+    }
+    return record, {"face_part": result.segmentation.face_part}
+
+
+def _unpack_corrected(record: Record, arrays: Arrays) -> Corrected:
+    segmentation = Segmentation(arrays["face_part"], tuple(Part(**part) for part in record["parts"]))
+    joints = tuple(_unpack_joint(j) for j in record["joints"])
+    return Corrected(segmentation, joints, tuple(record["warnings"]), tuple(record["log"]))
+
+
 MESH = Stage("mesh", _pack_placed, _unpack_placed)
 RECOGNITION = Stage("recognition", _pack_recognition, _unpack_recognition)
 SEGMENTATION = Stage("segmentation", _pack_segmentation, _unpack_segmentation)
 JOINTS = Stage("joints", _pack_joints, _unpack_joints)
+CORRECTION = Stage("correction", _pack_corrected, _unpack_corrected)  # by a person, of what Stage B gave
 COMPLETION = Stage("completion", _pack_completed, _unpack_completed)
-STAGES = (MESH, RECOGNITION, SEGMENTATION, JOINTS, COMPLETION)
+REVISION = Stage("revision", _pack_corrected, _unpack_corrected)  # by a person, of what Stage C gave
+STAGES = (MESH, RECOGNITION, SEGMENTATION, JOINTS, CORRECTION, COMPLETION, REVISION)

@@ -1,0 +1,57 @@
+"""The command line of `anymesh view`."""
+
+from __future__ import annotations
+
+import getpass
+import threading
+import webbrowser
+from contextlib import ExitStack, suppress
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from anymesh.cli_output import Shown, plain
+
+Target = Annotated[
+    Path,
+    typer.Argument(
+        metavar="ASSET|MESH|FOLDER", help="An output of anymesh, a mesh (articulated first), or a folder of outputs."
+    ),
+]
+Host = Annotated[str, typer.Option(help="Address to listen on; the default is reached from this machine alone.")]
+Port = Annotated[int, typer.Option(help="A port that is taken moves on to the next.")]
+NoBrowser = Annotated[bool, typer.Option("--no-browser", help="Do not open a browser.")]
+Reviewer = Annotated[
+    str, typer.Option(metavar="NAME", help="Who corrects and decides, for the logs; the user's name by default.")
+]
+
+
+def view(
+    target: Target, host: Host = "127.0.0.1", port: Port = 8080, no_browser: NoBrowser = False, reviewer: Reviewer = ""
+) -> None:
+    """See, play, correct and review in the browser, until Ctrl-C."""
+    from anymesh.viewer.live_serve_ import serve
+
+    with ExitStack() as stack:
+        with Shown(hidden=False) as progress:
+            page = serve(target, host=host, port=port, author=reviewer or _user(), clock=_now, progress=progress)
+            serving = stack.enter_context(page)
+        for line in (*serving.told, f"{serving.url} (Ctrl-C ends it)"):
+            typer.echo(plain(line))
+        if not no_browser:
+            webbrowser.open(serving.url)
+        with suppress(KeyboardInterrupt):
+            threading.Event().wait()
+
+
+def _now() -> str:
+    return datetime.now(UTC).isoformat(timespec="seconds")
+
+
+def _user() -> str:
+    try:
+        return getpass.getuser()
+    except (OSError, KeyError):
+        return "unknown"

@@ -1,0 +1,65 @@
+"""What was corrected, in order, with undo and redo. Values: every step gives a new history."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from anymesh.correcting.apply import apply
+from anymesh.correcting.corrections import Correction, CorrectionError
+from anymesh.types import Asset
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A correction, when it was made (ISO 8601), and by whom."""
+
+    correction: Correction
+    time: str
+    author: str
+
+
+@dataclass(frozen=True, eq=False)
+class History:
+    """states: the asset before the first correction and after each; done: one entry a correction; undone: latest last."""
+
+    states: tuple[Asset, ...]
+    done: tuple[Entry, ...] = ()
+    undone: tuple[Entry, ...] = ()
+
+    def __post_init__(self) -> None:
+        if len(self.states) != len(self.done) + 1:
+            raise ValueError(f"a history needs one state more than corrections, found {len(self.states)}, {len(self.done)}")
+
+    @classmethod
+    def of(cls, original: Asset, log: tuple[Entry, ...] = ()) -> History:
+        """The history that a log makes of an asset. CorrectionError when it is the log of another asset."""
+        found = cls((original,))
+        for entry in log:
+            found = found.do(entry)
+        return found
+
+    @property
+    def original(self) -> Asset:
+        """The asset before any correction."""
+        return self.states[0]
+
+    @property
+    def asset(self) -> Asset:
+        """The asset as it is now."""
+        return self.states[-1]
+
+    def do(self, entry: Entry) -> History:
+        """One correction more; what was undone is gone. CorrectionError when it makes no sense."""
+        return History((*self.states, apply(self.asset, entry.correction)), (*self.done, entry))
+
+    def undo(self) -> History:
+        """Without the last correction, which can be made again."""
+        if not self.done:
+            raise CorrectionError("there is nothing to undo")
+        return History(self.states[:-1], self.done[:-1], (*self.undone, self.done[-1]))
+
+    def redo(self) -> History:
+        """With the correction that was undone last."""
+        if not self.undone:
+            raise CorrectionError("there is nothing to redo")
+        return replace(self.do(self.undone[-1]), undone=self.undone[:-1])

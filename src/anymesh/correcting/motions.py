@@ -1,0 +1,103 @@
+"""The ranked free motions of one part: what Stage B weighed, found again on demand."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from jaxtyping import Int
+
+from anymesh.articulation.estimate import joint_of, surroundings
+from anymesh.articulation.evidence import part_facts, weigh_all
+from anymesh.articulation.hypotheses import propose
+from anymesh.config import Config
+from anymesh.correcting.corrections import ChooseMotion, vector
+from anymesh.correcting.finding import joint_of_part, part_number
+from anymesh.geometry.pieces import ObjectShape, object_shape
+from anymesh.geometry.simplify_ import simplify
+from anymesh.reasoning.geometry import is_free, joint_type, reason
+from anymesh.reasoning.vocabulary import habit_of
+from anymesh.reasoning.weighing import score
+from anymesh.types import Asset, Joint, JointType, Mesh
+
+MOST = 8
+DENSE = 60_000  # faces of an asset from which its surface is simplified before it is made ready
+LEAST = 500  # faces that a part keeps
+ALIKE = 0.97  # cosine of axes that are one to a user
+NEAR = 0.02  # of the object's diagonal: hinge lines this near are one to a user
+
+
+@dataclass(frozen=True, eq=False)
+class Ready:
+    """The mesh of an asset made ready for both stages, in pieces that each belong to one part; part: of each triangle."""
+
+    whole: ObjectShape
+    part: Int[np.ndarray, " n"]
+
+
+def made_ready(asset: Asset, config: Config | None = None) -> Ready:
+    """What `ranked_motions` needs of all parts as they are; the slow half. Dense parts are simplified first."""
+    settings = config or Config()
+    mesh, label, pieces = asset.mesh, asset.segmentation.face_part, settings.pieces
+    if len(mesh.faces) > DENSE:
+        mesh, label = _lighter(mesh, label)
+        pieces = replace(pieces, soft_faces=len(mesh.faces))  # parts are known: soft creases are not looked for again
+    whole = object_shape(mesh, settings.seed, pieces, label)
+    return Ready(whole, label[whole.source])
+
+
+def _lighter(mesh: Mesh, label: np.ndarray) -> tuple[Mesh, np.ndarray]:
+    """The surface in about DENSE triangles, each part for itself, and the part of each triangle."""
+    groups = [mesh.triangles[label == k] for k in range(int(label.max()) + 1)]
+    few = [simplify(t, max(LEAST, DENSE * len(t) // len(label))) for t in groups]
+    triangles, count = np.concatenate(few), sum(len(t) for t in few)
+    nothing = np.zeros(count, np.int64)
+    light = Mesh(triangles.reshape(-1, 3), np.arange(3 * count).reshape(-1, 3), nothing, mesh.nodes[:1], nothing - 1)
+    return light, np.repeat(np.arange(len(few)), [len(t) for t in few])
+
+
+def ranked_motions(
+    asset: Asset, part: str, *, ready: Ready | None = None, most: int = MOST, config: Config | None = None
+) -> tuple[ChooseMotion, ...]:
+    """The motions that the rest leaves free to a part, the likeliest first, each ready to be chosen.
+
+    Swept against the other parts as they hang now. confidence: its share of the likelihood of all free motions; limits by the
+    sweep; reason: the evidence in words. Motions that a user could not tell apart are given once. CorrectionError for the root.
+    """
+    settings = config or Config()
+    joint_of_part(asset, part)
+    ready = ready or made_ready(asset, settings)
+    names = [p.name for p in asset.segmentation.parts]
+    hangs = {j.child: names.index(j.parent) for j in asset.joints}
+    whole, label = ready.whole, ready.part
+    shapes = [whole.of(np.flatnonzero(label == k)) for k in range(len(names))]
+    number = part_number(asset, part)
+    around = surroundings(whole, label, shapes, [hangs.get(n, -1) for n in names], number, settings.articulation)
+    proposed = propose(around)
+    told = asset.segmentation.parts[number].label
+    facts = part_facts(around, part, told, any(role == "bail" for role, _ in proposed))
+    free = [c for c in weigh_all(around, proposed) if is_free(c)]
+    scores = np.array([score(facts, c, habit_of(told)) for c in free])
+    likely = np.exp(scores - scores.max()) if len(scores) else scores
+    found: list[ChooseMotion] = []
+    for k in np.argsort(-scores, kind="stable"):
+        kind = joint_type(facts, free[k])
+        joint = joint_of(around, part, names[hangs[part]], free[k], kind, 1.0, reason(facts, free[k]))
+        motion = _choice(joint, float(likely[k] / likely.sum()))
+        if not any(_alike(other, motion, asset.mesh.diagonal) for other in found):
+            found.append(motion)
+        if len(found) == most:
+            break
+    return tuple(found)
+
+
+def _choice(joint: Joint, share: float) -> ChooseMotion:
+    return ChooseMotion(joint.child, joint.type, vector(joint.axis), vector(joint.origin), joint.limits, share, joint.reason)
+
+
+def _alike(a: ChooseMotion, b: ChooseMotion, diagonal: float) -> bool:
+    axis = np.array(a.axis)
+    if (a.type is JointType.PRISMATIC) != (b.type is JointType.PRISMATIC) or abs(float(axis @ b.axis)) < ALIKE:
+        return False
+    apart = np.linalg.norm(np.cross(np.subtract(b.origin, a.origin), axis))
+    return a.type is JointType.PRISMATIC or float(apart) < NEAR * diagonal

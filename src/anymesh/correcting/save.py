@@ -1,0 +1,81 @@
+"""An output opened for corrections, and saved again: whole or not at all, and never over what somebody else saved since."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Generator
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from anymesh.correcting.history import History
+from anymesh.correcting.log import pack_log, unpack_log
+from anymesh.errors import OutputError
+from anymesh.export import Base, Format, write_asset
+from anymesh.export.formats import DEFAULT
+from anymesh.models.cache import cache_folder
+from anymesh.rendering.preview import write_preview
+from anymesh.run_folder import RunFolder, stage_key
+from anymesh.stage_results import CORRECTION, Corrected
+from anymesh.storage.hidden import locked
+from anymesh.storage.outputs import CORRECTIONS
+from anymesh.storage.saved import Saved
+from anymesh.storage.stage_files import read_json, write_json
+
+
+class StaleError(OutputError):
+    """Somebody saved this asset after it was opened; saving now would lose what they did."""
+
+
+@dataclass(frozen=True, eq=False)
+class Opened:
+    """An asset under correction. version: of the saved state that its history continues."""
+
+    folder: Path
+    history: History
+    version: str
+
+
+def open_asset(folder: str | Path) -> Opened:
+    """An output with the corrections that it has. OutputError when the folder is none, or lacks a stage."""
+    saved = Saved.at(Path(folder))
+    version = saved.last_key()
+    log = unpack_log(saved.corrections(saved.editing()))
+    return Opened(saved.target, History.of(saved.asset(edited=False), log), version)
+
+
+def save_asset(opened: Opened) -> Opened:
+    """Saves the corrections and writes all files again; the stages before stay, so that the original can be had again.
+
+    StaleError when another process saved, or is saving, this asset since it was opened; then nothing is written.
+    """
+    with locked(opened.folder) as mine:
+        if not mine:
+            raise StaleError(f"{opened.folder} is being saved by another process; try again")
+        with RunFolder.revise(opened.folder) as run:
+            if run.last_key() != opened.version:
+                raise StaleError(f"{opened.folder} was saved by someone else since it was opened; open it again to go on")
+            _write(run, opened.history)
+            version = run.last_key()
+    return replace(opened, version=version)
+
+
+def _write(run: RunFolder, history: History) -> None:
+    stage, log, asset = run.editing(), pack_log(history.done), history.asset
+    key = stage_key(stage, previous=run.last_key(edited=False), config={"log": log})
+    run.save(stage, key, Corrected(asset.segmentation, asset.joints, asset.warnings, tuple(log)))
+    with _timed(run):
+        written = read_json(run.target / "asset.json") or {}
+        formats = tuple(Format(name) for name in written.get("files", {})) or DEFAULT
+        base = Base(written.get("base", Base.FIXED))
+        write_asset(run.asset(), run.folder, base=base, formats=formats, cache=cache_folder("shapes"))
+        write_preview(asset, run.folder / "preview.png")
+    before = () if stage is CORRECTION else run.corrections(CORRECTION)
+    write_json(run.folder / CORRECTIONS, {"asset": asset.name, "corrections": [*before, *log]})
+
+
+@contextmanager
+def _timed(run: RunFolder) -> Generator[None]:
+    begin = time.perf_counter()
+    yield
+    run.add_time("export", time.perf_counter() - begin)

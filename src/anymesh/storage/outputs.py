@@ -1,0 +1,47 @@
+"""What tells an output of this program from any other folder, and which outputs may be replaced."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from anymesh.errors import OutputError
+from anymesh.storage.hidden import list_files
+from anymesh.storage.stage_files import read_json
+
+GENERATOR = "articulate-anymesh"
+MANIFEST = "stages/files.json"  # what was written here; nothing else is ever removed
+CORRECTIONS = "corrections.json"  # what a person corrected; a new run never takes it away
+
+
+def hidden_prefix(target: Path, word: str) -> str:
+    """How the hidden folders of an output begin, which lie beside it."""
+    return f".{target.name[:100]}.{word}-"
+
+
+def written_files(target: Path) -> list[str] | None:
+    """The files that this program wrote into a folder, None when it is no output."""
+    found = read_json(target / MANIFEST)
+    files = found.get("files") if found is not None and found.get("generator") == GENERATOR else None
+    return files if isinstance(files, list) else None
+
+
+def check_replaceable(target: Path, force: bool) -> None:
+    """OutputError unless a folder that holds anything may be replaced by a new output."""
+    written = written_files(target)
+    if not force:
+        hint = " (--force replaces an older output)" if written is not None else ""
+        raise OutputError(f"the output folder {target} is not empty; choose another{hint}")
+    check_uncorrected(target)
+    if written is None:
+        raise OutputError(f"{target} is not empty and no output of anymesh, so it is not replaced; choose another folder")
+    foreign = sorted(set(list_files(target)) - set(written))
+    if foreign:
+        shown = ", ".join(foreign[:5]) + (", ..." if len(foreign) > 5 else "")
+        raise OutputError(f"{target} also holds files that anymesh did not write ({shown}); move them away first")
+
+
+def check_uncorrected(target: Path) -> None:
+    """OutputError when an output holds corrections by hand."""
+    if (target / CORRECTIONS).exists():
+        raise OutputError(f"{target} was corrected by hand, which a new run would lose; choose another folder, or remove "
+                          f"{CORRECTIONS} to give the corrections up")  # fmt: skip

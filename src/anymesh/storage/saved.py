@@ -1,0 +1,106 @@
+"""The stages saved in an output, to read: nothing is written."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any, TypeVar
+
+from anymesh.errors import OutputError
+from anymesh.stage_results import (
+    COMPLETION,
+    CORRECTION,
+    JOINTS,
+    MESH,
+    RECOGNITION,
+    REVISION,
+    SEGMENTATION,
+    STAGES,
+    Corrected,
+    Recognized,
+    Record,
+    Stage,
+)
+from anymesh.storage.assemble import assemble
+from anymesh.storage.outputs import written_files
+from anymesh.storage.stage_files import read_json, read_stage, saved_key
+from anymesh.types import Asset
+
+Result = TypeVar("Result")
+TIMING = "timing.json"
+
+
+class Saved:
+    """What an output folder holds. `target`: its place."""
+
+    def __init__(self, target: Path) -> None:
+        self.target = target
+
+    @classmethod
+    def at(cls, target: Path) -> Saved:
+        """An output that exists. OutputError when there is none."""
+        target = Path(target).resolve()
+        if written_files(target) is None:
+            raise OutputError(f"{target} is no output of anymesh; `anymesh articulate MESH -o {target}` makes one")
+        return Saved(target)
+
+    def _places(self, stage: Stage[Any] | None) -> list[Path]:
+        """Where what belongs to this output may lie: the result of a stage, or (None) a file that is of none."""
+        return [self.target]
+
+    def need(self, stage: Stage[Result]) -> Result:
+        """The result of a stage, whatever it was made with. OutputError when this output has none."""
+        found = self._find(stage)
+        if found is None:
+            raise self._missing(stage)
+        return found
+
+    def recognized(self) -> Recognized:
+        """What was recognized; nothing where nobody who sees was asked."""
+        return self._find(RECOGNITION) or Recognized(None, "")
+
+    def _find(self, stage: Stage[Result]) -> Result | None:
+        return next((found for place in self._places(stage) if (found := read_stage(place, stage, None)) is not None), None)
+
+    def key(self, stage: Stage[Any]) -> str:
+        """The key under which the result of a stage was saved. OutputError when this output has none."""
+        found = self._key(stage)
+        if found is None:
+            raise self._missing(stage)
+        return found
+
+    def _key(self, stage: Stage[Any]) -> str | None:
+        return next((found for place in self._places(stage) if (found := saved_key(place, stage)) is not None), None)
+
+    def _missing(self, stage: Stage[Any]) -> OutputError:
+        return OutputError(f"{self.target} has no usable result of the stage {stage.name!r}; run that stage first")
+
+    def timing(self) -> dict[str, float]:
+        """Seconds a stage, so far."""
+        return next((found for place in self._places(None) if (found := read_json(place / TIMING)) is not None), {})
+
+    def asset(self, *, edited: bool = True) -> Asset:
+        """The asset that the saved stages make. OutputError when one is missing. edited: with the last corrections by hand."""
+        last = self.editing()
+
+        def found(stage: Stage[Result]) -> Result | None:
+            return None if stage is last and not edited else self._find(stage)
+
+        return assemble(
+            self.need(MESH), self.recognized(), self.need(SEGMENTATION), self.need(JOINTS),
+            corrected=found(CORRECTION), completed=found(COMPLETION), revised=found(REVISION), timing=self.timing(),
+        )  # fmt: skip
+
+    def editing(self) -> Stage[Corrected]:
+        """The stage that holds corrections of this output as it is."""
+        return CORRECTION if self._key(COMPLETION) is None else REVISION
+
+    def corrections(self, stage: Stage[Corrected]) -> tuple[Record, ...]:
+        """The log of corrections in a stage, empty when there are none."""
+        found = self._find(stage)
+        return () if found is None else found.log
+
+    def last_key(self, *, edited: bool = True) -> str:
+        """The key of the last stage that the asset comes from. edited: with the last corrections by hand."""
+        skipped = None if edited else self.editing()
+        made = (k for s in reversed(STAGES) if s is not skipped and (k := self._key(s)) is not None)
+        return next(made, "")

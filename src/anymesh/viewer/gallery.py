@@ -1,0 +1,166 @@
+"""Review of many: the outputs in a folder, the least sure first, and what people decided about them (review.json)."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+from pathlib import Path
+from typing import Any
+
+from anymesh.errors import OutputError
+from anymesh.storage.hidden import locked
+from anymesh.storage.outputs import written_files
+from anymesh.storage.stage_files import read_json
+
+REVIEW = "review.json"
+DEEP = 3  # folders down to which outputs are looked for
+PATIENCE, PAUSE = 5.0, 0.02  # [s] for another process that writes a decision
+UNSURE = 0.4  # an item below this confidence is unsure
+
+
+class Verdict(StrEnum):
+    """What a reviewer said of an asset."""
+
+    ACCEPTED = "accepted"
+    REJECTED = "rejected"
+    CORRECT = "to correct"
+
+
+class Filter(StrEnum):
+    """Which items are gone through."""
+
+    ALL = "all"
+    UNDECIDED = "undecided"
+    ACCEPTED = "accepted"
+    REJECTED = "rejected"
+    CORRECT = "to correct"
+    UNSURE = "unsure"
+    WARNED = "with warnings"
+
+
+@dataclass(frozen=True)
+class Item:
+    """An output. key: its path below the folder; confidence: of its least sure joint, 0 when nothing moves."""
+
+    key: str
+    folder: Path
+    name: str
+    confidence: float
+    warnings: tuple[str, ...]
+    version: str  # digest of asset.json: a decision is about one version
+
+
+@dataclass(frozen=True)
+class Decision:
+    """What was said, by whom, when (ISO 8601), and of which version of the asset."""
+
+    verdict: Verdict
+    reviewer: str
+    time: str
+    version: str
+
+
+@dataclass(frozen=True)
+class Review:
+    """The items of a folder, the least sure first, and every decision about them, in order."""
+
+    folder: Path
+    items: tuple[Item, ...]
+    decisions: dict[str, tuple[Decision, ...]]
+
+    def standing(self, item: Item) -> Decision | None:
+        """The last decision about an item, None when there is none or the asset was changed since."""
+        last = self.decisions.get(item.key, ())[-1:]
+        return last[0] if last and last[0].version == item.version else None
+
+    def chosen(self, filter_: Filter) -> tuple[Item, ...]:
+        """The items that a filter lets through."""
+        return tuple(item for item in self.items if self._passes(item, filter_))
+
+    def _passes(self, item: Item, filter_: Filter) -> bool:
+        decision = self.standing(item)
+        match filter_:
+            case Filter.ALL:
+                return True
+            case Filter.UNDECIDED:
+                return decision is None
+            case Filter.UNSURE:
+                return item.confidence < UNSURE
+            case Filter.WARNED:
+                return bool(item.warnings)
+            case _:
+                return decision is not None and str(decision.verdict) == str(filter_)
+
+
+def read_review(folder: Path) -> Review:
+    """The outputs below a folder and the decisions beside them. OutputError when there is no output."""
+    folder = Path(folder).resolve()
+    items = [item for path in _outputs(folder, DEEP) if (item := _item(folder, path)) is not None]
+    if not items:
+        raise OutputError(f"{folder} holds no output of anymesh; `anymesh articulate MESH -o {folder}/NAME` makes one")
+    items.sort(key=lambda item: (item.confidence, item.key))
+    return Review(folder, tuple(items), _read_decisions(folder))
+
+
+def decide(folder: Path, key: str, decision: Decision) -> None:
+    """Adds a decision to review.json, whatever others added meanwhile. OutputError when it cannot be written."""
+    end = time.monotonic() + PATIENCE
+    while True:
+        with locked(folder) as mine:
+            if mine:
+                found = _read_decisions(folder)
+                found[key] = (*found.get(key, ()), decision)
+                _write(folder, found)
+                return
+        if time.monotonic() > end:
+            raise OutputError(f"{folder / REVIEW} is being written by another process; try again")
+        time.sleep(PAUSE)
+
+
+def _outputs(folder: Path, deep: int) -> Sequence[Path]:
+    if written_files(folder) is not None:
+        return [folder]
+    below = sorted(p for p in folder.iterdir() if p.is_dir() and not p.name.startswith(".")) if deep else []
+    return [found for path in below for found in _outputs(path, deep - 1)]
+
+
+def _item(folder: Path, path: Path) -> Item | None:
+    """None for an output without final files."""
+    record = read_json(path / "asset.json")
+    if record is None:
+        return None
+    sure = [float(j["confidence"]) for j in record.get("joints", ())]
+    digest = hashlib.sha256((path / "asset.json").read_bytes()).hexdigest()[:16]
+    key = path.relative_to(folder).as_posix()
+    return Item(
+        key, path, str(record.get("name", path.name)), min(sure, default=0.0), tuple(record.get("warnings", ())), digest
+    )
+
+
+def _read_decisions(folder: Path) -> dict[str, tuple[Decision, ...]]:
+    path = folder / REVIEW
+    found = read_json(path)
+    if found is None and path.exists():
+        raise OutputError(f"{path} cannot be read; move it away to begin a new review")
+    try:
+        told: dict[str, list[dict[str, Any]]] = (found or {}).get("decisions", {})
+        return {key: tuple(Decision(**{**d, "verdict": Verdict(d["verdict"])}) for d in made) for key, made in told.items()}
+    except (TypeError, ValueError, KeyError, AttributeError) as error:
+        raise OutputError(f"{path} is no review ({error}); move it away to begin a new one") from error
+
+
+def _write(folder: Path, decisions: dict[str, tuple[Decision, ...]]) -> None:
+    told = {key: [{**vars(d), "verdict": str(d.verdict)} for d in made] for key, made in sorted(decisions.items())}
+    new = folder / f".{REVIEW}.{os.getpid()}"
+    try:
+        new.write_text(json.dumps({"decisions": told}, indent=1) + "\n", encoding="ascii", newline="\n")
+        new.replace(folder / REVIEW)
+    except OSError as error:
+        raise OutputError(f"cannot write {folder / REVIEW}: {error.strerror or error}") from error
+    finally:
+        new.unlink(missing_ok=True)

@@ -1,0 +1,194 @@
+"""The live page (viser): one asset, shared by every tab, with what a person can do to it."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from anymesh.correcting import Correction
+from anymesh.errors import AnymeshError, MissingExtraError
+from anymesh.types import Asset
+from anymesh.viewer.gallery_ import ReviewPanel
+from anymesh.viewer.live import Clock, Session
+from anymesh.viewer.panels import head
+from anymesh.viewer.panels_correct_ import CorrectPanel
+from anymesh.viewer.panels_play_ import PlayPanel
+from anymesh.viewer.panels_tools_ import Tools
+from anymesh.viewer.scene import swayed
+from anymesh.viewer.scene_ import SceneView
+
+SECONDS = 4.0  # of a play: there and back
+TICK = 0.05  # [s] between poses
+TOLD = 6.0  # [s] that a message stays
+
+
+def start_server(host: str, port: int, label: str) -> Any:
+    """A viser server. MissingExtraError without the package."""
+    try:
+        import viser
+    except ImportError:
+        raise MissingExtraError("the viewer needs the extra `view`: pip install 'articulate-anymesh[view]'") from None
+    return viser.ViserServer(host=host, port=port, label=label, verbose=False)
+
+
+class LivePage:
+    """Everything of one page. Callbacks of the server come from many threads; `act` lets one at a time do its work.
+
+    review: a folder of outputs to go through, None for a page of one asset.
+    """
+
+    def __init__(self, server: Any, *, author: str, clock: Clock, review: Path | None = None) -> None:
+        self.server, self.gui = server, server.gui
+        self._author, self._clock = author, clock
+        self._lock, self._ended = threading.RLock(), threading.Event()
+        self.view = SceneView(server)
+        self.session: Session | None = None
+        self.playing: str | None = None  # a joint's name, "" for all, None for a pose that stands still
+        self._began = 0.0
+        self.gui.main_panel.dock_right()
+        self.gui.main_panel.set_width(390)
+        self._head = self.gui.add_html("")
+        self._buttons = self.gui.add_button_group("Edits", ("Undo", "Redo", "Save"))
+        self._buttons.on_click(
+            lambda event: self.act({"Undo": self.undo, "Redo": self.redo, "Save": self.save}[event.target.value])
+        )
+        tabs = self.gui.add_tab_group()
+        first = None if review is None else tabs.add_tab("Review")
+        self.play = PlayPanel(self, tabs.add_tab("Play"))
+        correct = tabs.add_tab("Correct")
+        self._panels: list[Any] = [self.play, CorrectPanel(self, correct)]
+        self.tools = Tools(self, correct)
+        self._panels.append(self.tools)
+        self._keys()
+        if review is not None:
+            self._panels.append(ReviewPanel(self, first, review, reviewer=author, clock=clock, open_=self.open))
+        self._player = threading.Thread(target=self._run, daemon=True)
+        self._player.start()
+
+    def open(self, folder: Path) -> None:
+        """Shows the asset of an output folder. OutputError when there is none."""
+        with self._lock:
+            self.session = Session(folder, self._author, self._clock)
+            self.playing = None
+            self.view.look_at(self.session.asset)
+            self.refresh()
+
+    def close(self) -> None:
+        """Ends the play and the server."""
+        self._ended.set()
+        self._player.join()
+        self.server.stop()
+
+    @property
+    def asset(self) -> Asset | None:
+        """What is shown, with the correction that is previewed."""
+        return None if self.session is None else self.session.shown
+
+    def act(self, what: Callable[[], None]) -> None:
+        """Does something for a person; what makes no sense is told, and nothing changes."""
+        with self._lock:
+            try:
+                what()
+            except AnymeshError as error:
+                self.tell(str(error), bad=True)
+
+    def tell(self, text: str, *, bad: bool = False) -> None:
+        """A message in every tab."""
+        for client in self.server.get_clients().values():
+            client.add_notification(
+                "Not done" if bad else "Done", text, auto_close_seconds=TOLD, color="red" if bad else "green"
+            )
+
+    def refresh(self) -> None:
+        """Draws everything anew from the session."""
+        if self.session is None:
+            return
+        shown = self.session.shown
+        self.view.show(shown)
+        self.view.pose(self.session.positions, self.session.explode)
+        self.view.mark(self.session.selected, self.session.chosen)
+        for panel in self._panels:
+            panel.refresh(self.session)
+        self.tell_head()
+
+    def tell_head(self) -> None:
+        """The top of the page."""
+        if self.session is not None:
+            unsaved = max(len(self.session.history.done), 1) if self.session.unsaved else 0
+            self._head.content = head(self.session.asset, unsaved=unsaved, note=self.view.note(), tool=self.tools.told)
+
+    def correct(self, correction: Correction) -> None:
+        """Makes a correction on the asset shown."""
+        if self.session is not None:
+            self.session.correct(correction)
+            self.playing = None
+            self.refresh()
+
+    def undo(self) -> None:
+        if self.session is not None:
+            self.session.undo()
+            self.refresh()
+
+    def redo(self) -> None:
+        if self.session is not None:
+            self.session.redo()
+            self.refresh()
+
+    def save(self) -> None:
+        if self.session is not None:
+            self.session.save()
+            self.refresh()
+            self.tell(f"saved to {self.session.folder}")
+
+    def escape(self) -> None:
+        """Leaves what is under way: a tool, a preview, the faces chosen; then the selection."""
+        if self.session is None:
+            return
+        busy = self.tools.leave() or self.session.preview is not None or len(self.session.chosen) > 0
+        self.session.preview, self.session.chosen = None, np.zeros(0, np.int64)
+        self.playing = None if busy else self.playing
+        if not busy:
+            self.session.selected = None
+        self.refresh()
+
+    def select(self, name: str | None) -> None:
+        """Makes a part the one that corrections are about."""
+        if self.session is not None and name != self.session.selected:
+            self.session.selected, self.session.preview = name, None
+            self.refresh()
+
+    def play_joint(self, joint: str | None) -> None:
+        """Moves a joint to and fro ("" for all, None for none) from now on."""
+        self.playing, self._began = joint, time.monotonic()
+        if joint is None and self.session is not None:
+            self.view.pose(self.session.positions, self.session.explode)
+        self.play.tell_playing(joint == "")
+
+    def _run(self) -> None:
+        while not self._ended.wait(TICK):
+            with self._lock:
+                session = self.session
+                if session is None or self.playing is None:
+                    continue
+                phase = (time.monotonic() - self._began) / SECONDS % 1
+                moved = {j.name: swayed(j, phase) for j in session.shown.joints if self.playing in ("", j.name)}
+                self.view.pose({**session.positions, **moved}, session.explode)
+
+    def _keys(self) -> None:
+        for label, key, modifier, what in (
+            ("Undo", "Z", "cmd/ctrl", self.undo),
+            ("Redo", "Z", "cmd/ctrl+shift", self.redo),
+            ("Save", "S", "cmd/ctrl", self.save),
+            ("Leave the tool, the preview, the selection", "escape", None, self.escape),
+            ("Play or stop", "space", None, lambda: self.play_joint(None if self.playing is not None else "")),
+        ):
+            self.key(label, key, what, modifier)
+
+    def key(self, label: str, key: str, what: Callable[[], None], modifier: str | None = None) -> None:
+        """A key of the page; also in its list of commands (Ctrl-K)."""
+        self.gui.add_command(label, hotkey=key, modifier=modifier).on_trigger(lambda _: self.act(what))

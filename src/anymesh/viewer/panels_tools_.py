@@ -1,0 +1,175 @@
+"""Tools of the live page that work on the mesh: click to select, snap an axis, drag it, choose faces."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from typing import Any
+
+import numpy as np
+
+from anymesh.correcting import FaceSet, MoveFaces, SetAxis, SplitPart
+from anymesh.correcting.corrections import vector
+from anymesh.correcting.picking import Line, PickedPart
+from anymesh.export.rotations import quaternion, turning_x_to
+from anymesh.types import Joint
+from anymesh.viewer.live import Hit, Session
+from anymesh.viewer.panels_correct_ import NONE
+from anymesh.viewer.panels_page import Page, offer
+from anymesh.viewer.scene_ import ray_through
+
+GIZMO = 0.25  # of the diagonal
+
+
+class Tool(StrEnum):
+    """What the next click on the mesh does."""
+
+    SELECT = "Select"
+    EDGE = "Edge"
+    PLANE = "Plane"
+    ROUND = "Round"
+    PATCH = "Patch"
+    BRUSH = "Brush"
+
+
+TOLD = {
+    Tool.EDGE: "Click near an edge: the axis goes along it. Esc leaves.",
+    Tool.PLANE: "Click a flat face: the axis goes along its normal. Esc leaves.",
+    Tool.ROUND: "Click a round face: the axis becomes its own. Esc leaves.",
+    Tool.PATCH: "Click patches to choose their faces, again to let go. Esc leaves.",
+    Tool.BRUSH: "Hold Shift and drag over faces to choose what is seen. Esc leaves.",
+}
+SNAPS, BRUSHES = (Tool.EDGE, Tool.PLANE, Tool.ROUND), (Tool.PATCH, Tool.BRUSH)
+
+
+class Tools:
+    """The folders "Axis" and "Faces" of the tab "Correct", and what clicks mean."""
+
+    def __init__(self, page: Page, tab: Any) -> None:
+        self._page, gui = page, page.gui
+        self._tool = Tool.SELECT
+        self._gizmo: Any = None
+        with tab:
+            self._axis_folder = gui.add_folder("Axis", expand_by_default=False)
+            self._face_folder = gui.add_folder("Faces", expand_by_default=False)
+        with self._axis_folder:
+            self._snap = gui.add_button_group("Snap to", tuple(SNAPS))
+            self._drag = gui.add_checkbox("Drag the axis", False)
+        with self._face_folder:
+            self._choose = gui.add_button_group("Choose by", tuple(BRUSHES))
+            self._count = gui.add_text("Chosen", "no faces", disabled=True)
+            self._into = gui.add_dropdown("Move to", (NONE,))
+            self._move = gui.add_button("Move faces", color="gray")
+            self._name = gui.add_text("New part", "part")
+            self._make = gui.add_button("Make them a part", color="gray")
+        for group in (self._snap, self._choose):
+            group.on_click(lambda event: page.act(lambda: self._take(Tool(event.target.value))))
+        self._drag.on_update(lambda event: page.act(page.refresh) if event.client is not None else None)
+        self._move.on_click(lambda _: page.act(self._move_faces))
+        self._make.on_click(lambda _: page.act(self._make_part))
+        page.server.scene.on_click()(lambda event: page.act(lambda: self._clicked(event)))
+        page.server.scene.on_rect_select(modifier="shift")(lambda event: page.act(lambda: self._brushed(event)))
+
+    @property
+    def told(self) -> str:
+        """What the tool in hand is for, "" when it is none."""
+        return TOLD.get(self._tool, "")
+
+    def leave(self) -> bool:
+        """Puts the tool down; False when there was none."""
+        busy = self._tool is not Tool.SELECT or self._drag.value
+        self._tool, self._drag.value = Tool.SELECT, False
+        return busy
+
+    def refresh(self, session: Session) -> None:
+        """Follows the selection."""
+        joint = session.joint()
+        self._axis_folder.visible = joint is not None
+        self._count.value = f"{len(session.chosen):,} faces"
+        offer(self._into, (NONE, *(p.name for p in session.asset.segmentation.parts)), self._into.value)
+        if self._gizmo is not None:
+            self._gizmo.remove()
+            self._gizmo = None
+        if joint is not None and self._drag.value:
+            self._add_gizmo(session, joint)
+
+    def _take(self, tool: Tool) -> None:
+        self._tool = tool
+        self._page.tell_head()
+
+    def _clicked(self, event: Any) -> None:
+        session = self._page.session
+        if session is None:
+            return
+        hit = session.hit(np.array(event.ray_origin), np.array(event.ray_direction))
+        if self._tool in SNAPS:
+            if hit is not None and session.selected is not None:
+                self._snap_to(session, session.selected, hit)
+        elif self._tool is Tool.PATCH:
+            if hit is not None:
+                patch = PickedPart(session.asset, hit.face).patch()
+                again = np.isin(patch, session.chosen).all()
+                self._choose_faces(session, np.setdiff1d(session.chosen, patch) if again else np.union1d(session.chosen, patch))
+        else:
+            self._page.select(None if hit is None else session.asset.segmentation.parts[hit.part].name)
+
+    def _snap_to(self, session: Session, part: str, hit: Hit) -> None:
+        line = _line(self._tool, PickedPart(session.asset, hit.face), hit.point)
+        self._tool = Tool.SELECT
+        joint = session.joint()
+        axis = line.axis if joint is None or line.axis @ joint.axis >= 0 else -line.axis  # opens the way that it did
+        self._page.correct(SetAxis(part, vector(axis), vector(line.origin), line.how))
+
+    def _brushed(self, event: Any) -> None:
+        session = self._page.session
+        if session is None or self._tool is not Tool.BRUSH:
+            return
+        (x0, y0), (x1, y1) = event.screen_min, event.screen_max
+        camera = event.client.camera
+        across, down = (
+            max(2, round(abs(b - a) * n)) for a, b, n in ((x0, x1, camera.image_width), (y0, y1, camera.image_height))
+        )
+        x, y = np.meshgrid(np.linspace(x0, x1, across), np.linspace(y0, y1, down))
+        eye, ways = ray_through(camera, x.reshape(-1), y.reshape(-1))
+        seen = session.hits(np.tile(eye, (len(ways), 1)), ways)
+        faces = np.unique([h.face for h in seen if h is not None and session.selected in (None, self._part_of(session, h))])
+        self._choose_faces(session, np.union1d(session.chosen, faces.astype(np.int64)))
+
+    def _part_of(self, session: Session, hit: Hit) -> str:
+        return session.asset.segmentation.parts[hit.part].name
+
+    def _choose_faces(self, session: Session, faces: np.ndarray) -> None:
+        session.chosen = faces
+        self._count.value = f"{len(faces):,} faces"
+        self._page.view.mark(session.selected, faces)
+
+    def _move_faces(self) -> None:
+        if self._page.session is not None:
+            self._page.correct(MoveFaces(FaceSet.of(self._page.session.chosen), self._into.value))
+
+    def _make_part(self) -> None:
+        session = self._page.session
+        if session is not None:
+            of = session.asset.segmentation.face_part[session.chosen]
+            part = session.selected or session.asset.segmentation.parts[int(of[0]) if len(of) else 0].name
+            self._page.correct(SplitPart(part, FaceSet.of(session.chosen), self._name.value))
+
+    def _add_gizmo(self, session: Session, joint: Joint) -> None:
+        """Handles at the joint; its red arrow is the axis. Let go, they are a correction."""
+        self._gizmo = self._page.server.scene.add_transform_controls(
+            "/gizmo", scale=GIZMO * session.asset.mesh.diagonal, depth_test=False,
+            wxyz=quaternion(turning_x_to(joint.axis)), position=joint.origin,
+        )  # fmt: skip
+
+        def let_go(event: Any) -> None:
+            w, x, y, z = event.target.wxyz
+            axis = np.array([1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)])
+            c = SetAxis(joint.child, vector(axis), vector(np.asarray(event.target.position)), "dragged")
+            self._page.act(lambda: self._page.correct(c))
+
+        self._gizmo.on_drag_end(let_go)
+
+
+def _line(tool: Tool, picked: PickedPart, point: np.ndarray) -> Line:
+    if tool is Tool.EDGE:
+        return picked.edge(point)
+    return picked.normal(point) if tool is Tool.PLANE else picked.symmetry()

@@ -1,0 +1,200 @@
+"""What the live page draws of an asset, as plain arrays: parts light enough to stay interactive, axes, limits, inertia."""
+
+from __future__ import annotations
+
+import hashlib
+from dataclasses import dataclass, field
+
+import numpy as np
+from jaxtyping import Float, Int
+
+from anymesh.export.inertia import Inertia
+from anymesh.geometry.kinematics import joint_transform
+from anymesh.geometry.simplify_ import simplify
+from anymesh.rendering.axes import axis_line, ring
+from anymesh.rendering.preview import BASE, PALETTE
+from anymesh.types import Asset, Box, Cylinder, Hull, Joint, JointType, Mesh, Shape
+
+MOST = 200_000  # faces drawn; a denser object is decimated for display
+LEAST = 200  # faces that a part keeps, however small its share
+APART = 0.3  # how far a part moves off its parent in the exploded view, a share of the diagonal
+RADIUS = 0.05  # of the ring round an axis, a share of the diagonal
+SIDES = 24  # of a drawn cylinder
+FADED = 0.65  # share of white in the colour of parts that are not selected
+SHADES = (1.0, 0.78, 0.9, 0.68)  # of the collision shapes of one part
+BOX = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float) / 2
+BOX_FACES = np.array([
+    [0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1], [2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4], [1, 5, 7],
+    [1, 7, 3],
+])  # fmt: skip
+BOX_EDGES = np.array([[0, 1], [2, 3], [4, 5], [6, 7], [0, 2], [1, 3], [4, 6], [5, 7], [0, 4], [1, 5], [2, 6], [3, 7]])
+Color = tuple[int, int, int]
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """Triangles to draw [m]."""
+
+    vertices: Float[np.ndarray, "V 3"]
+    faces: Int[np.ndarray, "F 3"]
+
+
+@dataclass
+class Surfaces:
+    """The surface that each part is drawn with; one that was decimated once is kept while its mesh and faces are the same."""
+
+    most: int = MOST
+    _of: Mesh | None = None
+    _kept: dict[bytes, Surface] = field(default_factory=dict)
+
+    def of(self, asset: Asset) -> dict[str, Surface]:
+        """Part name -> surface in the asset frame at rest."""
+        mesh, found, keys = asset.mesh, {}, {}
+        if mesh is not self._of:
+            self._of, self._kept = mesh, {}
+        dense = len(mesh.faces) > self.most
+        for number, part in enumerate(asset.segmentation.parts):
+            faces = asset.segmentation.faces(number)
+            keys[part.name] = key = hashlib.sha256(faces.tobytes()).digest()
+            if key in self._kept:
+                found[part.name] = self._kept[key]
+            elif dense:
+                few = simplify(mesh.triangles[faces], max(LEAST, self.most * len(faces) // len(mesh.faces)))
+                found[part.name] = Surface(few.reshape(-1, 3), np.arange(3 * len(few)).reshape(-1, 3))
+            else:
+                piece = mesh.subset(faces)
+                found[part.name] = Surface(piece.vertices, piece.faces)
+        self._kept |= {keys[name]: surface for name, surface in found.items()}
+        return found
+
+    def note(self, asset: Asset) -> str:
+        """What a person should know about what is drawn, "" for nothing."""
+        count = len(asset.mesh.faces)
+        if count <= self.most:
+            return ""
+        return f"Decimated for display to about {self.most:,} of {count:,} faces; corrections and files use them all."
+
+
+def color_of(number: int, *, faded: bool = False) -> Color:
+    """The colour of a part, as in the preview."""
+    r, g, b = (float(v) for v in (BASE if number == 0 else PALETTE[(number - 1) % len(PALETTE)]))
+    share = FADED if faded else 0.0
+    return round(r + share * (255 - r)), round(g + share * (255 - g)), round(b + share * (255 - b))
+
+
+def shade_of(number: int, shape: int) -> Color:
+    """The colour of a collision shape of a part: that of the part, in shades that tell neighbours apart."""
+    r, g, b = color_of(number)
+    share = SHADES[shape % len(SHADES)]
+    return round(share * r), round(share * g), round(share * b)
+
+
+def apart(asset: Asset) -> dict[str, Float[np.ndarray, " 3"]]:
+    """Part name -> how far it lies from its place in the exploded view [m]: off its parent, the way that it opens."""
+    middle, found = {}, {asset.segmentation.parts[0].name: np.zeros(3)}
+    for number, part in enumerate(asset.segmentation.parts):
+        corners = asset.mesh.triangles[asset.segmentation.faces(number)].reshape(-1, 3)
+        middle[part.name] = (corners.min(0) + corners.max(0)) / 2
+    carried = {j.child: j for j in asset.joints}
+
+    def of(name: str) -> np.ndarray:
+        if name not in found:
+            joint = carried[name]
+            found[name] = of(joint.parent) + APART * asset.mesh.diagonal * _way_out(joint, middle)
+        return found[name]
+
+    return {part.name: of(part.name) for part in asset.segmentation.parts}
+
+
+def _way_out(joint: Joint, middle: dict[str, np.ndarray]) -> np.ndarray:
+    if joint.type is JointType.PRISMATIC:
+        return joint.axis
+    off = middle[joint.child] - middle[joint.parent]
+    length = float(np.linalg.norm(off))
+    return off / length if length > 1e-9 else joint.axis
+
+
+@dataclass(frozen=True, eq=False)
+class JointLines:
+    """A joint at rest: an arrow along its axis (its two ends), the sense of a turn, and the way that its limits leave."""
+
+    arrow: Float[np.ndarray, "2 3"]
+    sense: Float[np.ndarray, "k 2 3"]  # segments
+    range: Float[np.ndarray, "m 2 3"]  # segments: the path of the part's farthest point from limit to limit
+
+
+def joint_lines(asset: Asset, joint: Joint) -> JointLines:
+    """The lines that show a joint, in the asset frame at rest [m]."""
+    number = next(k for k, p in enumerate(asset.segmentation.parts) if p.name == joint.child)
+    corners, diagonal = asset.mesh.triangles[asset.segmentation.faces(number)].reshape(-1, 3), asset.mesh.diagonal
+    slides = joint.type is JointType.PRISMATIC
+    arrow, center = axis_line(corners, joint.origin, joint.axis, slides, diagonal)
+    nothing = np.zeros((0, 2, 3))
+    sense = nothing if slides else _segments(ring(center, joint.axis, RADIUS * diagonal))
+    if joint.limits is None:
+        return JointLines(arrow, sense, nothing)
+    arm = corners - joint.origin
+    arm = arm - (arm @ joint.axis)[:, None] * joint.axis
+    tip = corners.mean(0) if slides else corners[np.linalg.norm(arm, axis=1).argmax()]
+    steps = (joint_transform(joint, p) for p in np.linspace(*joint.limits, 2 if slides else 33))
+    path = np.array([T[:3, :3] @ tip + T[:3, 3] for T in steps])
+    ends = [nothing] if slides else [np.stack([path[k], _on_axis(joint, path[k])])[None] for k in (0, -1)]
+    return JointLines(arrow, sense, np.concatenate([_segments(path), *ends]))
+
+
+def _on_axis(joint: Joint, point: np.ndarray) -> np.ndarray:
+    return joint.origin + ((point - joint.origin) @ joint.axis) * joint.axis
+
+
+def _segments(points: np.ndarray) -> Float[np.ndarray, "k 2 3"]:
+    return np.stack([points[:-1], points[1:]], 1)
+
+
+def box_lines(points: Float[np.ndarray, "n 3"], wider: float) -> Float[np.ndarray, "12 2 3"]:
+    """The edges of the axis-aligned box of points, `wider` [m] on each side."""
+    low, high = points.min(0) - wider, points.max(0) + wider
+    return ((low + high) / 2 + BOX * (high - low))[BOX_EDGES]
+
+
+def shape_surface(shape: Shape) -> Surface:
+    """A collision shape as triangles in its link's frame."""
+    match shape:
+        case Box():
+            return Surface(shape.center + (BOX * shape.size) @ shape.rotation.T, BOX_FACES)
+        case Hull():
+            return Surface(shape.vertices, shape.faces)
+        case Cylinder():
+            t = 2 * np.pi * np.arange(SIDES) / SIDES
+            rim = np.c_[shape.radius * np.cos(t), shape.radius * np.sin(t)]
+            half = np.full(SIDES, shape.length / 2)
+            local = np.concatenate([np.c_[rim, -half], np.c_[rim, half], [[0, 0, -half[0]], [0, 0, half[0]]]])
+            k, n = np.arange(SIDES), (np.arange(SIDES) + 1) % SIDES
+            low, high = np.full(SIDES, 2 * SIDES), np.full(SIDES, 2 * SIDES + 1)
+            sides = [
+                np.c_[k, n, n + SIDES],
+                np.c_[k, n + SIDES, k + SIDES],
+                np.c_[n, k, low],
+                np.c_[k + SIDES, n + SIDES, high],
+            ]
+            return Surface(shape.center + local @ shape.rotation.T, np.concatenate(sides))
+
+
+def inertia_box(inertia: Inertia) -> Surface:
+    """The box of even density that has this mass and these moments, in the link's frame."""
+    moments, axes = np.linalg.eigh(inertia.tensor)
+    squares = 6 * (moments.sum() - 2 * moments) / max(inertia.mass, 1e-12)
+    size = np.sqrt(np.maximum(squares, 0))
+    return Surface(inertia.center + (BOX * size) @ axes.T, BOX_FACES)
+
+
+def swayed(joint: Joint, phase: float) -> float:
+    """Where a joint is [rad or m] at a phase 0..1 of its play: rest, one limit, rest, the other limit where there is one."""
+    if joint.type is JointType.FIXED:
+        return 0.0
+    if joint.limits is None:
+        return 2 * np.pi * phase
+    lower, upper = joint.limits
+    if lower == 0 or upper == 0:
+        return (lower + upper) * (1 - np.cos(2 * np.pi * phase)) / 2
+    s = float(np.sin(2 * np.pi * phase))
+    return upper * max(s, 0.0) - lower * min(s, 0.0)

@@ -1,0 +1,206 @@
+"""The 3D scene of the live page (viser): parts, axes, limits, overlays. Nodes are named by number, never by a part's name."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from itertools import count
+from typing import Any
+
+import numpy as np
+from jaxtyping import Float
+
+from anymesh.correcting.corrections import Vector, vector
+from anymesh.export.build import build_model
+from anymesh.export.model import Base, Driven, Model
+from anymesh.export.rotations import quaternion
+from anymesh.export.settings import ExportConfig
+from anymesh.models.cache import cache_folder
+from anymesh.rendering.viewpoints import away
+from anymesh.types import Asset, JointType, Mesh, Segmentation
+from anymesh.viewer.live import part_poses
+from anymesh.viewer.report_display import display_glb, displayed
+from anymesh.viewer.scene import Surface, Surfaces, box_lines, color_of, inertia_box, joint_lines, shade_of, shape_surface
+
+AXIS, SENSE, RANGE, SELECTED, CHOSEN = (190, 20, 40), (190, 20, 40), (30, 110, 200), (255, 120, 0), (230, 0, 200)
+INERTIA = (140, 70, 200)
+THIN, THICK = 2.0, 3.0  # [px] of lines
+SEE_THROUGH = 0.35  # opacity of overlays
+FROM_Y_UP = (0.5**0.5, 0.5**0.5, 0.0, 0.0)  # wxyz; a GLB has Y up
+DISTANCE, FOV = 2.3, np.deg2rad(35)  # of the first view: diagonals off, vertical
+LIFT = 1e-3  # of chosen faces off the surface, a share of the diagonal
+PIXELS = 2048  # of a texture, longest side
+
+
+class SceneView:
+    """Draws one asset on a viser server; every tab sees the same."""
+
+    def __init__(self, server: Any) -> None:
+        self._server, self._scene = server, server.scene
+        self._surfaces = Surfaces()
+        self._asset: Asset | None = None
+        self._drawn: tuple[Segmentation, bool] | None = None
+        self._frames: dict[str, Any] = {}  # part name -> frame
+        self._meshes: dict[str, Any] = {}  # part name -> mesh, when parts are coloured
+        self._looks: list[Any] = []  # the same, or their GLBs
+        self._axes: list[tuple[str, Any]] = []  # the part that each joint's frame goes with
+        self._overlays: list[Any] = []
+        self._made = count()  # in every name: a tab keeps the place of a node that is gone for the next of that name
+        self._built: tuple[Asset, Model] | None = None
+        self._marks: list[Any] = []
+        self.textured, self.axes, self.collision, self.inertia = False, True, False, False
+        self._scene.set_up_direction("+z")
+        self._scene.configure_default_lights(cast_shadow=False)
+        server.gui.configure_theme(show_logo=False, show_share_button=False, control_width="large", brand_color=(190, 60, 20))
+
+    def note(self) -> str:
+        """What a person should know about what is drawn."""
+        return "" if self._asset is None else self._surfaces.note(self._asset)
+
+    def look_at(self, asset: Asset) -> None:
+        """The first view, for tabs that open from now on and those that are open."""
+        center, diagonal = asset.mesh.bounds.mean(0), asset.mesh.diagonal
+        eye = center + DISTANCE * diagonal * away(np.deg2rad(35), np.deg2rad(24))
+        for camera in (self._server.initial_camera, *(c.camera for c in self._server.get_clients().values())):
+            camera.position, camera.look_at, camera.fov = eye, center, FOV
+            camera.near, camera.far = 0.01 * diagonal, 100 * diagonal
+
+    def show(self, asset: Asset) -> None:
+        """Draws an asset; parts whose faces are as before are kept."""
+        _remove(self._marks)
+        _remove(self._overlays)
+        if self._drawn is None or self._drawn[0] is not asset.segmentation or self._drawn[1] != self.textured:
+            self._draw_parts(asset)
+            self._drawn = (asset.segmentation, self.textured)
+        self._asset = asset
+        self._draw_axes(asset)
+        self._draw_overlays(asset)
+
+    def _draw_parts(self, asset: Asset) -> None:
+        _remove([*self._frames.values()])
+        self._frames, self._meshes, self._looks = {}, {}, []
+        surfaces = self._surfaces.of(asset)
+        textured = self.textured and not self._surfaces.note(asset)
+        for number, part in enumerate(asset.segmentation.parts):
+            self._frames[part.name] = frame = self._frame()
+            if textured:
+                look = self._scene.add_glb(f"{frame.name}/look", _glb(asset, number), wxyz=FROM_Y_UP, cast_shadow=False)
+                self._looks.append(look)
+                continue
+            self._meshes[part.name] = mesh = self._mesh(f"{frame.name}/look", surfaces[part.name], color_of(number), None)
+            self._looks.append(mesh)
+
+    def _frame(self) -> Any:
+        return self._scene.add_frame(f"/node{next(self._made)}", show_axes=False)
+
+    def _below(self, part: str) -> str:
+        """The name of a new node that goes with a part."""
+        return f"{self._frames[part].name}/node{next(self._made)}"
+
+    def _mesh(self, name: str, surface: Surface, color: tuple[int, int, int], opacity: float | None) -> Any:
+        return self._scene.add_mesh_simple(
+            name, surface.vertices, surface.faces, color=color, opacity=opacity, flat_shading=True, side="double",
+            cast_shadow=False, receive_shadow=False,
+        )  # fmt: skip
+
+    def _draw_axes(self, asset: Asset) -> None:
+        _remove([frame for _, frame in self._axes])
+        self._axes = []
+        for joint in asset.joints if self.axes else ():
+            if joint.type is JointType.FIXED:
+                continue
+            lines, frame, size = joint_lines(asset, joint), self._frame(), asset.mesh.diagonal
+            name = frame.name
+            self._axes.append((joint.parent, frame))
+            self._scene.add_arrows(
+                f"{name}/axis", lines.arrow[None], AXIS, shaft_radius=0.004 * size, head_radius=0.012 * size,
+                head_length=0.03 * size,
+            )  # fmt: skip
+            for kind, segments, color in (("sense", lines.sense, SENSE), ("range", lines.range, RANGE)):
+                if len(segments):
+                    self._lines(f"{name}/{kind}", segments, color, THIN)
+
+    def _lines(self, name: str, segments: np.ndarray, color: tuple[int, int, int], width: float) -> Any:
+        return self._scene.add_line_segments(name, segments, color, thickness=width, thickness_units="screen")
+
+    def pose(self, positions: Mapping[str, float], explode: float) -> None:
+        """Puts every part where joint positions [rad or m] and the exploded view (0..1) have it."""
+        if self._asset is None:
+            return
+        poses = part_poses(self._asset, positions, explode)
+        with self._server.atomic():
+            for name, frame in (*self._frames.items(), *self._axes):
+                frame.wxyz, frame.position = quaternion(poses[name][:3, :3]), poses[name][:3, 3]
+
+    def mark(self, selected: str | None, chosen: np.ndarray) -> None:
+        """Shows which part is selected and which faces are chosen."""
+        _remove(self._marks)
+        if self._asset is None:
+            return
+        asset, names = self._asset, [p.name for p in self._asset.segmentation.parts]
+        for number, name in enumerate(names):
+            if name in self._meshes:
+                self._meshes[name].color = color_of(number, faded=selected not in (None, name))
+            mine = chosen[asset.segmentation.face_part[chosen] == number]
+            if len(mine):
+                piece = asset.mesh.subset(mine)
+                lifted = piece.vertices + LIFT * asset.mesh.diagonal * _vertex_normals(piece)
+                self._marks.append(self._mesh(self._below(name), Surface(lifted, piece.faces), CHOSEN, None))
+        if selected in names:
+            number = names.index(selected)
+            corners = asset.mesh.triangles[asset.segmentation.faces(number)].reshape(-1, 3)
+            edges = box_lines(corners, 0.005 * asset.mesh.diagonal)
+            self._marks.append(self._lines(self._below(names[number]), edges, SELECTED, THICK))
+
+    def _draw_overlays(self, asset: Asset) -> None:
+        """Collision shapes in place of the parts, and boxes of equal inertia. Building them can take seconds."""
+        for look in self._looks:
+            look.visible = not self.collision
+        if not (self.collision or self.inertia):
+            return
+        if self._built is None or self._built[0] is not asset:
+            self._built = (asset, _model(asset))
+        for number, (body, part) in enumerate(zip(self._built[1].bodies, asset.segmentation.parts, strict=True)):
+            shapes = body.shapes if self.collision else ()
+            drawn = [(shape_surface(s), shade_of(number, k), None) for k, s in enumerate(shapes)]
+            drawn += [(inertia_box(body.inertia), INERTIA, SEE_THROUGH)] if self.inertia else []
+            for surface, color, opacity in drawn:
+                placed = Surface(surface.vertices + body.link.origin, surface.faces)
+                self._overlays.append(self._mesh(self._below(part.name), placed, color, opacity))
+
+
+def ray_through(camera: Any, x: Float[np.ndarray, " n"], y: Float[np.ndarray, " n"]) -> tuple[Vector, np.ndarray]:
+    """Where a tab's camera is, and the directions (n, 3) through places of its picture, 0..1 from the upper left corner."""
+    w, i, j, k = camera.wxyz
+    half = np.tan(camera.fov / 2)
+    local = np.stack([(2 * x - 1) * half * camera.aspect, (2 * y - 1) * half, np.ones(len(x))], 1)
+    R = np.array([
+        [1 - 2 * (j * j + k * k), 2 * (i * j - k * w), 2 * (i * k + j * w)],
+        [2 * (i * j + k * w), 1 - 2 * (i * i + k * k), 2 * (j * k - i * w)],
+        [2 * (i * k - j * w), 2 * (j * k + i * w), 1 - 2 * (i * i + j * j)],
+    ])  # fmt: skip
+    return vector(camera.position), local @ R.T
+
+
+def _model(asset: Asset) -> Model:
+    return build_model(asset, base=Base.FIXED, driven=Driven.PASSIVE, config=ExportConfig(), cache=cache_folder("shapes")).model
+
+
+def _glb(asset: Asset, number: int) -> bytes:
+    """One part with its looks."""
+    faces = asset.segmentation.faces(number)
+    part = asset.segmentation.parts[number]
+    alone = Asset("part", asset.source, asset.mesh.subset(faces), Segmentation(np.zeros(len(faces), int), (part,)), (), "")
+    return display_glb(displayed(alone, faces=len(faces), pixels=PIXELS)[0])
+
+
+def _vertex_normals(mesh: Mesh) -> np.ndarray:
+    total = np.zeros((len(mesh.vertices), 3))
+    for k in range(3):
+        np.add.at(total, mesh.faces[:, k], mesh.face_cross)
+    return total / np.maximum(np.linalg.norm(total, axis=1, keepdims=True), 1e-300)
+
+
+def _remove(handles: list[Any]) -> None:
+    """Takes nodes out of the scene, and out of the list."""
+    while handles:
+        handles.pop().remove()
