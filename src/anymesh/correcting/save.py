@@ -11,7 +11,7 @@ from pathlib import Path
 from anymesh.correcting.history import History
 from anymesh.correcting.log import pack_log, unpack_log
 from anymesh.errors import OutputError
-from anymesh.export import Base, Format, write_asset
+from anymesh.export import Base, Driven, Format, write_asset
 from anymesh.export.formats import DEFAULT
 from anymesh.models.cache import cache_folder
 from anymesh.rendering.preview import write_preview
@@ -68,7 +68,8 @@ def _write(run: RunFolder, history: History) -> None:
         written = read_json(run.target / "asset.json") or {}
         formats = tuple(Format(name) for name in written.get("files", {})) or DEFAULT
         base = Base(written.get("base", Base.FIXED))
-        write_asset(run.asset(), run.folder, base=base, formats=formats, cache=cache_folder("shapes"))
+        driven = Driven(written.get("drives", Driven.PASSIVE))
+        write_asset(run.asset(), run.folder, base=base, formats=formats, driven=driven, cache=cache_folder("shapes"))
         write_preview(asset, run.folder / "preview.png")
     before = () if stage is CORRECTION else run.corrections(CORRECTION)
     write_json(run.folder / CORRECTIONS, {"asset": asset.name, "corrections": [*before, *log]})

@@ -34,6 +34,7 @@ def asset_record(model: Model, formats: Sequence[Format]) -> dict[str, Any]:
             "notes": list(source.notes),
         },
         "base": str(model.base),
+        "drives": str(model.driven),
         "files": {str(kind): main_file(kind, asset.name) for kind in formats},
         "parts": [_part(asset.mesh, body, asset.source_face) for body in model.bodies],
         "joints": [_joint(joint) for joint in asset.joints],
