@@ -28,29 +28,14 @@ from anymesh.collision.crossing import Surface
 from anymesh.collision.decompose import Component
 from anymesh.evaluation.datasets.named import open_dataset
 from anymesh.evaluation.protocols import prepared
-from anymesh.evaluation.truth import Subject
 from anymesh.export.links import Link, split_links
 from anymesh.geometry.topology import weld
-from anymesh.types import Asset, Joint, JointType, Shape, Source
+from anymesh.types import Asset, JointType, Shape
 
 PAGE = Path(__file__).with_suffix(".md")
 SETS = ("examples", "scene-synthesizer", "metaworld", "libero")
 DEEP = 1e-3  # of the diagonal
 Shapes = dict[str, tuple[Shape, ...]]
-
-
-def true_asset(subject: Subject) -> Asset:
-    """The subject as an asset; joints whose range is not known get a small one."""
-    joints = []
-    for number, true in enumerate(subject.truth.joints):
-        j = subject.joint(true)
-        limits = None
-        if j.type in (JointType.REVOLUTE, JointType.PRISMATIC):
-            lower, upper = j.limits or ((0, 0.5) if j.type is JointType.REVOLUTE else (0, 0.05 * subject.mesh.diagonal))
-            limits = (min(float(lower), 0.0), max(float(upper), 0.0))
-        joints.append(Joint(f"joint_{number}", j.type, j.parent, j.child, j.origin, j.axis, limits, 1.0, "known"))
-    source = Source("", "0" * 64, np.eye(4), "z")
-    return Asset("object", source, subject.mesh, subject.segmentation(), tuple(joints), "oracle")
 
 
 def one_hull(asset: Asset, links: tuple[Link, ...]) -> Shapes:
@@ -101,7 +86,7 @@ def measured(spec: str, ways: Sequence[str]) -> Iterator[tuple[str, int, int, in
     data = open_dataset(spec)
     for name in data.objects():
         with tempfile.TemporaryDirectory() as folder:
-            asset = true_asset(prepared(data.truth(name, Path(folder))))
+            asset = prepared(data.truth(name, Path(folder))).asset()
         links = split_links(asset)
         for way, make in ((way, WAYS[way]) for way in ways):
             begin = time.perf_counter()

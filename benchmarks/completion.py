@@ -24,9 +24,9 @@ from anymesh.evaluation.changes import changed
 from anymesh.evaluation.datasets.scene_synthesizer_ import CLASSES, synthesize
 from anymesh.evaluation.executability import drive
 from anymesh.evaluation.protocols import prepared
-from anymesh.evaluation.truth import Subject, Truth, example_truths
+from anymesh.evaluation.truth import Truth, example_truths
 from anymesh.postprocessing.shape import complete_shapes
-from anymesh.types import Asset, Joint, JointType, Source
+from anymesh.types import JointType
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 CHANGES = ("unseen-gone", "fused")
@@ -64,21 +64,9 @@ class Row:
     seconds: float
 
 
-def asset_of(subject: Subject) -> Asset:
-    """The subject as an asset, with its true parts and joints; what has no joint is fixed to the base."""
-    segmentation = subject.segmentation()
-    names = [p.name for p in segmentation.parts]
-    placed = [subject.joint(j) for j in subject.truth.joints]
-    joints = [Joint(f"{j.child}_joint", j.type, j.parent, j.child, j.origin, j.axis, j.limits, 1.0, "given") for j in placed]
-    loose = set(names[1:]) - {j.child for j in joints}
-    up = np.array([0.0, 0, 1])
-    joints += [Joint(f"{n}_joint", JointType.FIXED, names[0], n, 0 * up, up, None, 1.0, "given") for n in sorted(loose)]
-    return Asset(subject.truth.name, Source("", "", np.eye(4), "z"), subject.mesh, segmentation, tuple(joints), "given")
-
-
 def measure(truth: Truth, change: str, pictures: Path | None) -> Row:
     whole = prepared(truth)
-    true, surface = asset_of(whole), asset_of(changed(change, whole))
+    true, surface = whole.asset(), changed(change, whole).asset()
     begin = time.perf_counter()
     finished = complete_shapes(surface)
     seconds = time.perf_counter() - begin

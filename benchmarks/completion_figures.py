@@ -12,11 +12,11 @@ from scipy import ndimage
 
 from anymesh.geometry.distance_ import distance_to_mesh, winding_number
 from anymesh.geometry.kinematics import posed
-from anymesh.geometry.sampling import sample_surface
+from anymesh.geometry.sampling import sample_surface, spread_directions
 from anymesh.geometry.topology import components, weld
 from anymesh.postprocessing.protocol import Finished
 from anymesh.postprocessing.scenes import widest
-from anymesh.postprocessing.visible import GRAZE, directions, escapes
+from anymesh.postprocessing.visible import GRAZE, escapes
 from anymesh.rendering.raycast_ import RayScene
 from anymesh.rendering.render import render
 from anymesh.rendering.viewpoints import orbit_camera
@@ -109,7 +109,7 @@ def _outward(mesh: Mesh) -> np.ndarray:
 def _free_ways(mesh: Mesh, points: np.ndarray) -> np.ndarray:
     """Share of the directions in which nothing stands between a point and far away."""
     scene, free = RayScene(mesh.vertices, mesh.faces), np.zeros(len(points))
-    for way in directions(WAYS):
+    for way in spread_directions(WAYS):
         free += scene.first_hit(points, np.repeat(way[None] * 2 * mesh.diagonal, len(points), 0), 1.0).face < 0
     return free / WAYS
 

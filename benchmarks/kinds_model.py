@@ -14,6 +14,8 @@ from jaxtyping import Bool, Float
 from kinds_solids import Point, together
 from trimesh import Trimesh
 
+from anymesh.geometry.sampling import spread_directions
+
 BASE = "base"
 Option = TypeVar("Option")
 SPREAD = 48  # directions in which a face is looked at from outside
@@ -118,14 +120,11 @@ def without_hidden(model: Model) -> Model:
 
 def _seen(mesh: Trimesh) -> Bool[np.ndarray, " F"]:
     """Which faces a ray reaches from outside, at their middle or near a corner."""
-    step = np.arange(SPREAD) + 0.5
-    z, turn = 1 - 2 * step / SPREAD, np.pi * (1 + 5**0.5) * step
-    directions = np.c_[np.sqrt(1 - z**2) * np.cos(turn), np.sqrt(1 - z**2) * np.sin(turn), z]
     middle = mesh.triangles.mean(1, keepdims=True)
     points = np.concatenate([middle, middle + 0.8 * (mesh.triangles - middle)], axis=1)
     points = points + 1e-5 * mesh.scale * mesh.face_normals[:, None]
     seen = np.zeros(len(mesh.faces), bool)
-    for direction in directions:
+    for direction in spread_directions(SPREAD):
         todo = np.flatnonzero(~seen & (mesh.face_normals @ direction > 0.02))
         start = points[todo].reshape(-1, 3)
         if len(start):

@@ -2,12 +2,12 @@
 
 import hashlib
 import json
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 import trimesh
+from surfaces import case_with_door
 
 from anymesh.checking import check_asset
 from anymesh.errors import ModelError, OptionError, OutputError
@@ -15,9 +15,6 @@ from anymesh.finishing import finish_asset
 from anymesh.pipeline import articulate, export, finish
 from anymesh.postprocessing.settings import ShapeConfig
 from anymesh.postprocessing.texture import Carried
-
-sys.path.insert(0, str(Path(__file__).parent / "postprocessing"))
-from surfaces import case_with_door
 
 
 @pytest.fixture(scope="module")

@@ -10,7 +10,7 @@ from anymesh.evaluation.protocols import prepared
 from anymesh.evaluation.truth import read_truth
 from anymesh.export import write_asset
 from anymesh.rendering.raycast_ import RayScene
-from anymesh.types import Asset, Joint, JointType, Source
+from anymesh.types import Asset, JointType
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 BALL = 0.03  # of the object's diagonal, its radius
@@ -18,13 +18,7 @@ BALL = 0.03  # of the object's diagonal, its radius
 
 def true_asset(name: str) -> Asset:
     """A shipped example with its true parts and joints."""
-    subject = prepared(read_truth(EXAMPLES / "truth" / f"{name}.json", EXAMPLES / "meshes" / f"{name}.glb"))
-    joints = []
-    for true in subject.truth.joints:
-        j = subject.joint(true)
-        joints.append(Joint(f"{j.child}_joint", j.type, j.parent, j.child, j.origin, j.axis, j.limits, 1.0, "known"))
-    source = Source("", "0" * 64, np.eye(4), "z")
-    return Asset(name, source, subject.mesh, subject.segmentation(), tuple(joints), "oracle")
+    return prepared(read_truth(EXAMPLES / "truth" / f"{name}.json", EXAMPLES / "meshes" / f"{name}.glb")).asset()
 
 
 class World:

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from assets import box
-from postprocessing.surfaces import FRONT, SIZE, case_with_door, is_closed, part_triangles
+from surfaces import FRONT, SIZE, case_with_door, is_closed, part_triangles
 
 from anymesh.postprocessing.accept import accept, accepted
 from anymesh.postprocessing.complete import complete

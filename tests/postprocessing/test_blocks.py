@@ -5,7 +5,7 @@ import sys
 import numpy as np
 import pytest
 from assets import box
-from postprocessing.surfaces import is_closed, shell
+from surfaces import is_closed, shell
 
 from anymesh.errors import MissingExtraError
 from anymesh.postprocessing.blocks import board, tray

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from assets import cabinet, joint
 from geometry.rigid import move
-from postprocessing.surfaces import (
+from surfaces import (
     FRONT,
     SIZE,
     asset_of,

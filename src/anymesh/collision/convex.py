@@ -6,6 +6,7 @@ import numpy as np
 from jaxtyping import Float
 from scipy.spatial import ConvexHull, QhullError
 
+from anymesh.geometry.sampling import spread_directions
 from anymesh.types import Hull
 from anymesh.types.triangles import face_cross
 
@@ -13,15 +14,7 @@ MOST = 64  # corners of a hull; engines on a GPU take no more
 FLAT = 1e-4  # thinner than this share of the diagonal: no engine takes the hull
 
 
-def _spread_directions(count: int) -> Float[np.ndarray, "n 3"]:
-    """Unit vectors that are spread evenly over the sphere (Fibonacci)."""
-    k = np.arange(count) + 0.5
-    height, angle = 1 - 2 * k / count, np.pi * (1 + 5**0.5) * k
-    radius = np.sqrt(1 - height**2)
-    return np.stack([radius * np.cos(angle), radius * np.sin(angle), height], 1)
-
-
-DIRECTIONS = _spread_directions(MOST)
+DIRECTIONS = spread_directions(MOST)
 
 
 def hull_of(points: Float[np.ndarray, "n 3"], wall: float = 0.0, inward: np.ndarray | None = None) -> Hull | None:

@@ -14,7 +14,7 @@ from anymesh.errors import OptionError
 from anymesh.evaluation.fused_ import joined, wrapped
 from anymesh.evaluation.truth import Subject
 from anymesh.geometry.distance_ import distance_to_mesh
-from anymesh.geometry.sampling import SurfacePoints, sample_surface
+from anymesh.geometry.sampling import SurfacePoints, sample_surface, spread_directions
 from anymesh.geometry.simplify_ import simplify
 from anymesh.geometry.topology import components, weld
 from anymesh.rendering.raycast_ import RayScene
@@ -116,13 +116,10 @@ def _unseen_gone(subject: Subject, rng: np.random.Generator) -> Subject:
 
 
 def _seen(mesh: Mesh, probe: SurfacePoints) -> Bool[np.ndarray, " n"]:
-    """Which points are in sight from far away, in one of DIRECTIONS spread evenly (a Fibonacci sphere)."""
+    """Which points are in sight from far away, in one of DIRECTIONS."""
     scene = RayScene(mesh.vertices, mesh.faces)
-    z = 1 - (2 * np.arange(DIRECTIONS) + 1) / DIRECTIONS
-    turn = np.arange(DIRECTIONS) * np.pi * (3 - np.sqrt(5))
-    ways = np.stack([np.sqrt(1 - z * z) * np.cos(turn), np.sqrt(1 - z * z) * np.sin(turn), z], 1)
     seen = np.zeros(len(probe), bool)
-    for way in ways:
+    for way in spread_directions(DIRECTIONS):
         left = np.flatnonzero(~seen)
         side = np.where(probe.normals[left] @ way < 0, -1.0, 1.0)[:, None] * probe.normals[left]
         start = probe.points[left] + 1e-5 * mesh.diagonal * side

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float, Int
 
-from anymesh.types import JointType, Mesh, Part, Segmentation
+from anymesh.types import Asset, Joint, JointType, Mesh, Part, Segmentation, Source
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,6 +73,26 @@ class Subject:
         return Segmentation(
             self.labels, tuple(Part(p.name, "base" if k == 0 else "part") for k, p in enumerate(self.truth.parts))
         )
+
+    def asset(self) -> Asset:
+        """The subject with its true parts and joints. A range that is not known is a small one; what has no joint is fixed
+        to the base."""
+        segmentation = self.segmentation()
+        names = [part.name for part in segmentation.parts]
+        joints = [self._known(true) for true in self.truth.joints]
+        up = np.array([0.0, 0.0, 1.0])
+        for name in sorted(set(names[1:]) - {j.child for j in joints}):
+            joints.append(Joint(f"{name}_joint", JointType.FIXED, names[0], name, 0 * up, up, None, 1.0, "known"))
+        source = Source("", "0" * 64, np.eye(4), "z")
+        return Asset(self.truth.name, source, self.mesh, segmentation, tuple(joints), "oracle")
+
+    def _known(self, true: TrueJoint) -> Joint:
+        j = self.joint(true)
+        limits = None
+        if j.type in (JointType.REVOLUTE, JointType.PRISMATIC):
+            lower, upper = j.limits or (0.0, 0.5 if j.type is JointType.REVOLUTE else 0.05 * self.mesh.diagonal)
+            limits = (min(float(lower), 0.0), max(float(upper), 0.0))
+        return Joint(f"{j.child}_joint", j.type, j.parent, j.child, j.origin, j.axis, limits, 1.0, "known")
 
 
 def read_truth(path: Path, mesh: Path) -> Truth:

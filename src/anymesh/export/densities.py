@@ -1,8 +1,9 @@
 """Densities by the words of a material's name.
 
-Densities: rounded from common engineering tables (Engineering ToolBox, "Solids and Metals - Specific Gravity", "Wood Species -
-Densities"; Ashby, Materials Selection in Mechanical Design, appendix A). How thick a body may be to be solid, and how thick
-its wall is where it is thicker, are our own estimates from how household things are made.
+Steel, aluminium, brass, bronze, copper, iron, glass, stone, concrete, rubber, water and oak lie within the ranges of the table
+of mass densities in Gere, Mechanics of Materials (5th edition). The others are usual values, rounded, and vary by a tenth and
+more. How thick a body may be to be solid, and how thick its wall is where it is thicker, are our own estimates from how
+household things are made.
 """
 
 from __future__ import annotations
@@ -34,7 +35,7 @@ SUBSTANCES = {
     "aluminum": Substance(2700.0, *METAL),
     "brass": Substance(8500.0, *METAL),
     "bronze": Substance(8800.0, *METAL),
-    "copper": Substance(8960.0, *METAL),
+    "copper": Substance(8900.0, *METAL),
     "zinc": Substance(7140.0, *METAL),
     "silver": Substance(10490.0, *METAL),
     "gold": Substance(19300.0, *METAL),

@@ -26,6 +26,13 @@ class SurfacePoints:
         return SurfacePoints(self.points[index], self.normals[index], self.faces[index])
 
 
+def spread_directions(count: int) -> Float[np.ndarray, "n 3"]:
+    """Unit vectors spread evenly over the sphere (Fibonacci), from the top down."""
+    z = 1 - (2 * np.arange(count) + 1) / count
+    turn = np.arange(count) * np.pi * (3 - np.sqrt(5))
+    return np.stack([np.sqrt(1 - z * z) * np.cos(turn), np.sqrt(1 - z * z) * np.sin(turn), z], 1)
+
+
 def sample_surface(triangles: Float[np.ndarray, "F 3 3"], count: int, seed: int, at_least: int = 0) -> SurfacePoints:
     """`count` points, as many on a face as its area asks for (systematic sampling: even, and stable for a seed).
 

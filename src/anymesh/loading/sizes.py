@@ -1,7 +1,8 @@
 """How large things of a kind are: a scale for files that do not tell, or tell what cannot be.
 
-Longest side of the closed object [m], rounded from product sheets and furniture standards (EN 1116 kitchen modules, ISO 7617
-and DIN 68 881 heights, makers' catalogues); a kind is a word of the category or of the file's name.
+Longest side of the closed object [m]; a kind is a word of the category or of the file's name. The values are our estimates of
+common things. Where Sweet Home 3D 7.0.2's catalogue states sizes (26 of the kinds), its medians lie within a factor of 1.5 of
+them for 24, and of 2.5 for a box and a fridge; a size is only believed or not within a factor of 3.
 """
 
 from __future__ import annotations

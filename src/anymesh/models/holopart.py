@@ -18,7 +18,8 @@ from typing import Protocol, runtime_checkable
 
 from anymesh.errors import ModelError, OptionError
 from anymesh.models.hearsay import LONGEST, SECRET
-from anymesh.models.web import Call, LostError, exchange, is_web, persist
+from anymesh.models.retry import persist
+from anymesh.models.web import Call, LostError, exchange, is_web
 
 log = logging.getLogger("anymesh")
 VALID = "holopart:FOLDER, holopart:FOLDER#PYTHON or holopart:URL"

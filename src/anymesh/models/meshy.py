@@ -16,7 +16,8 @@ from typing import TypeVar
 from anymesh.errors import BudgetError, ModelError, OptionError
 from anymesh.models.meshy_api import CREDITS, RefusedError, Task, create_task, download_glb, get_task, list_tasks, read_key
 from anymesh.models.meshy_task import Pending, read_pending, write_pending
-from anymesh.models.web import LostError, persist
+from anymesh.models.retry import persist
+from anymesh.models.web import LostError
 
 log = logging.getLogger("anymesh")
 T = TypeVar("T")

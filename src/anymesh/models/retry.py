@@ -6,11 +6,13 @@ import logging
 import random
 import time
 from collections.abc import Callable
+from typing import TypeVar
 
 from anymesh.errors import ModelError, OptionError
 from anymesh.models.vision import Reply, Request, VisionModel
 
 log = logging.getLogger("anymesh")
+T = TypeVar("T")
 PATIENCE = 120.0  # [s]; a service that asks for a longer wait than this is not waited for
 
 
@@ -50,21 +52,37 @@ class Retrying:
         self._sleep, self._chance = sleep, chance
 
     def ask(self, request: Request) -> Reply:
-        for attempt in range(1, self._attempts + 1):
-            try:
-                return self._model.ask(request)
-            except TransientError as error:
-                failure = error
-            if attempt == self._attempts:
-                break
-            if (failure.retry_after or 0) > PATIENCE:
-                raise ModelError(
-                    f"{failure}; it asks to wait {failure.retry_after:.0f} s, which is longer than {PATIENCE:.0f} s"
-                )
-            wait = max(self._wait(attempt), failure.retry_after or 0.0)
-            log.info("%s; attempt %d of %d in %.1f s", failure, attempt + 1, self._attempts, wait)
-            self._sleep(wait)
-        raise ModelError(f"{failure}; gave up after {self._attempts} attempts")
+        return persist(
+            lambda: self._model.ask(request),
+            attempts=self._attempts,
+            first=self._first,
+            most=self._most,
+            sleep=self._sleep,
+            chance=self._chance,
+        )
 
-    def _wait(self, attempt: int) -> float:
-        return min(self._most, self._first * 2 ** (attempt - 1)) * (1 - self._chance() / 2)
+
+def persist(
+    call: Callable[[], T],
+    *,
+    attempts: int = 5,
+    first: float = 1.0,
+    most: float = 30.0,
+    sleep: Callable[[float], None] = time.sleep,
+    chance: Callable[[], float] = random.random,
+) -> T:
+    """What `call` gives, called again after a TransientError, with the waits of `Retrying`. Raises ModelError as that does."""
+    failure = TransientError("nothing was tried")
+    for attempt in range(1, attempts + 1):
+        try:
+            return call()
+        except TransientError as error:
+            failure = error
+        if attempt == attempts:
+            break
+        if (failure.retry_after or 0) > PATIENCE:
+            raise ModelError(f"{failure}; it asks to wait {failure.retry_after:.0f} s, which is longer than {PATIENCE:.0f} s")
+        wait = max(min(most, first * 2 ** (attempt - 1)) * (1 - chance() / 2), failure.retry_after or 0.0)
+        log.info("%s; attempt %d of %d in %.1f s", failure, attempt + 1, attempts, wait)
+        sleep(wait)
+    raise ModelError(f"{failure}; gave up after {attempts} attempts")

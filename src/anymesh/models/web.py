@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import http.client
 import logging
-import random
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TypeVar
 from urllib.error import HTTPError, URLError
@@ -24,7 +23,7 @@ from urllib.request import (
 )
 
 from anymesh.errors import ModelError
-from anymesh.models.retry import PATIENCE, TransientError
+from anymesh.models.retry import TransientError
 
 log = logging.getLogger("anymesh")
 T = TypeVar("T")
@@ -131,29 +130,3 @@ def _opener(call: Call) -> OpenerDirector:
     for handler in handlers:
         opener.add_handler(handler)
     return opener
-
-
-def persist(
-    call: Callable[[], T],
-    *,
-    attempts: int = 5,
-    first: float = 1.0,
-    most: float = 30.0,
-    sleep: Callable[[float], None] = time.sleep,
-    chance: Callable[[], float] = random.random,
-) -> T:
-    """Calls again after a TransientError, with the waits of `retry.Retrying`. Raises ModelError when the last failed too."""
-    failure = TransientError("nothing was tried")
-    for attempt in range(1, attempts + 1):
-        try:
-            return call()
-        except TransientError as error:
-            failure = error
-        if attempt == attempts:
-            break
-        if (failure.retry_after or 0) > PATIENCE:
-            raise ModelError(f"{failure}; it asks to wait {failure.retry_after:.0f} s, which is longer than {PATIENCE:.0f} s")
-        wait = max(min(most, first * 2 ** (attempt - 1)) * (1 - chance() / 2), failure.retry_after or 0.0)
-        log.info("%s; attempt %d of %d in %.1f s", failure, attempt + 1, attempts, wait)
-        sleep(wait)
-    raise ModelError(f"{failure}; gave up after {attempts} attempts")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from jaxtyping import Bool, Float
 
-from anymesh.geometry.sampling import SurfacePoints, sample_surface
+from anymesh.geometry.sampling import SurfacePoints, sample_surface, spread_directions
 from anymesh.rendering.raycast_ import RayScene
 from anymesh.types import Mesh
 
@@ -13,13 +13,6 @@ PROBES = 20_000  # points on the surface, besides the middle of every face
 DIRECTIONS = 96  # from which each is looked at
 GRAZE = 0.02  # share of them in which a point must be in sight to count as seen from a side: less is through a gap
 OFF = 1e-5  # of the diagonal: how far off the surface rays begin
-
-
-def directions(count: int = DIRECTIONS) -> Float[np.ndarray, "n 3"]:
-    """Unit directions spread evenly (a Fibonacci sphere)."""
-    z = 1 - (2 * np.arange(count) + 1) / count
-    turn = np.arange(count) * np.pi * (3 - np.sqrt(5))
-    return np.stack([np.sqrt(1 - z * z) * np.cos(turn), np.sqrt(1 - z * z) * np.sin(turn), z], 1)
 
 
 def seen_from_outside(
@@ -35,7 +28,7 @@ def escapes(
     """Share of all directions in which nothing stands between a point and far away: on the side its normal points to, and
     on the other."""
     found = np.zeros((len(points), 2))
-    ways = directions()
+    ways = spread_directions(DIRECTIONS)
     for way in ways:
         front = normals @ way > 0
         start = points + OFF * diagonal * np.where(front, 1.0, -1.0)[:, None] * normals

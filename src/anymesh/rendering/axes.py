@@ -2,9 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 from jaxtyping import Float
 from PIL import ImageDraw
+
+from anymesh.geometry.kinematics import link_transforms
+from anymesh.types import Asset, JointType
+from anymesh.types.camera import Camera
 
 AXIS_COLOR = (190, 20, 40)
 WHITE = (255, 255, 255)
@@ -58,3 +64,24 @@ def draw_ring(draw: ImageDraw.ImageDraw, pixels: Float[np.ndarray, "n 2"], scale
     draw.line([tuple(p) for p in pixels], fill=WHITE, width=round(5 * scale), joint="curve")
     draw.line([tuple(p) for p in pixels], fill=AXIS_COLOR, width=round(2 * scale), joint="curve")
     draw_arrow(draw, pixels[[-4, -1]], scale=scale)
+
+
+def draw_axes(
+    draw: ImageDraw.ImageDraw, asset: Asset, positions: Mapping[str, float], camera: Camera, *, fine: int, scale: float = 1.0
+) -> None:
+    """An arrow along each axis, where the joint is in this pose; a ring round it when the joint turns.
+
+    fine: pixels of the camera to a pixel drawn on; scale: of the lines' width.
+    """
+    transforms = link_transforms(asset, positions)
+    number = {part.name: k for k, part in enumerate(asset.segmentation.parts)}
+    for joint in asset.joints:
+        if joint.type is JointType.FIXED:
+            continue
+        corners = asset.mesh.triangles[asset.segmentation.face_part == number[joint.child]].reshape(-1, 3)
+        slides, T = joint.type is JointType.PRISMATIC, transforms[joint.parent]
+        ends, center = axis_line(corners, joint.origin, joint.axis, slides, asset.mesh.diagonal)
+        draw_arrow(draw, camera.project(ends @ T[:3, :3].T + T[:3, 3])[0] / fine, scale=scale)
+        if not slides:
+            circle = ring(center, joint.axis, 0.04 * asset.mesh.diagonal) @ T[:3, :3].T + T[:3, 3]
+            draw_ring(draw, camera.project(circle)[0] / fine, scale=scale)

@@ -9,8 +9,8 @@ import numpy as np
 from jaxtyping import UInt8
 from PIL import Image, ImageDraw, ImageFont
 
-from anymesh.geometry.kinematics import link_transforms, posed
-from anymesh.rendering.axes import axis_line, draw_arrow, draw_ring, ring
+from anymesh.geometry.kinematics import posed
+from anymesh.rendering.axes import draw_axes
 from anymesh.rendering.raycast_ import RayScene
 from anymesh.rendering.render import render
 from anymesh.rendering.viewpoints import orbit_camera
@@ -47,7 +47,7 @@ def render_preview(asset: Asset) -> UInt8[np.ndarray, "H W 3"]:
         view = render(poses[pose], camera, face_color=None if k == 0 else colors, scene=scenes[pose])
         half = Image.fromarray(view.color).resize((SIZE, SIZE), Image.Resampling.BOX)
         if k > 0:
-            _draw_axes(ImageDraw.Draw(half), asset, opened if k == 2 else {}, camera)
+            draw_axes(ImageDraw.Draw(half), asset, opened if k == 2 else {}, camera, fine=2)
         panels.append(np.asarray(half))
     panels = _trimmed(panels)
     return np.concatenate([np.concatenate(panels, 1), _legend(asset, 3 * panels[0].shape[1])])
@@ -98,23 +98,6 @@ def best_camera(asset: Asset, opened: Mesh, scenes: list[RayScene]) -> Camera:
         if seen > 1.05 * most:
             best, most = orbit_camera(bounds, np.deg2rad(azimuth), np.deg2rad(24), 2 * SIZE), float(seen)
     return best
-
-
-def _draw_axes(draw: ImageDraw.ImageDraw, asset: Asset, positions: dict[str, float], camera: Camera) -> None:
-    """An arrow along each axis, where the joint is in this pose; a ring round it when the joint turns."""
-    transforms = link_transforms(asset, positions)
-    for joint in asset.joints:
-        if joint.type is JointType.FIXED:
-            continue
-        part = next(i for i, p in enumerate(asset.segmentation.parts) if p.name == joint.child)
-        corners = asset.mesh.triangles[asset.segmentation.face_part == part].reshape(-1, 3)
-        slides = joint.type is JointType.PRISMATIC
-        ends, center = axis_line(corners, joint.origin, joint.axis, slides, asset.mesh.diagonal)
-        T = transforms[joint.parent]
-        draw_arrow(draw, camera.project(ends @ T[:3, :3].T + T[:3, 3])[0] / 2)
-        if not slides:
-            circle = ring(center, joint.axis, 0.04 * asset.mesh.diagonal) @ T[:3, :3].T + T[:3, 3]
-            draw_ring(draw, camera.project(circle)[0] / 2)
 
 
 def extent(joint: Joint) -> str:

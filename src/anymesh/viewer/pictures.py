@@ -12,8 +12,8 @@ from PIL import Image, ImageDraw
 
 from anymesh.export.animation import tracks
 from anymesh.export.settings import ExportConfig
-from anymesh.geometry.kinematics import link_transforms, posed
-from anymesh.rendering.axes import axis_line, draw_arrow, draw_ring, ring
+from anymesh.geometry.kinematics import posed
+from anymesh.rendering.axes import draw_axes
 from anymesh.rendering.labels import font
 from anymesh.rendering.preview import best_camera, part_colors, shown_position
 from anymesh.rendering.raycast_ import RayScene
@@ -108,24 +108,8 @@ def _opened(asset: Asset) -> UInt8[np.ndarray, "h w 3"]:
     found = best_camera(asset, opened, [RayScene(asset.mesh.vertices, asset.mesh.faces), scene])
     camera = Camera(found.T_world_camera, found.fov, FINE * CELL, FINE * CELL)
     picture = Image.fromarray(_drawn(opened, camera, part_colors(asset), scene))
-    _axes(ImageDraw.Draw(picture), asset, at, camera)
+    draw_axes(ImageDraw.Draw(picture), asset, at, camera, fine=FINE, scale=0.8)
     return np.asarray(picture)
-
-
-def _axes(draw: ImageDraw.ImageDraw, asset: Asset, at: dict[str, float], camera: Camera) -> None:
-    """An arrow along each axis where the joint is, and a ring round it where the joint turns."""
-    transforms = link_transforms(asset, at)
-    number = {part.name: k for k, part in enumerate(asset.segmentation.parts)}
-    for joint in asset.joints:
-        if joint.type is JointType.FIXED:
-            continue
-        slides, T = joint.type is JointType.PRISMATIC, transforms[joint.parent]
-        corners = asset.mesh.triangles[asset.segmentation.face_part == number[joint.child]].reshape(-1, 3)
-        ends, center = axis_line(corners, joint.origin, joint.axis, slides, asset.mesh.diagonal)
-        draw_arrow(draw, camera.project(ends @ T[:3, :3].T + T[:3, 3])[0] / FINE, scale=0.8)
-        if not slides:
-            circle = ring(center, joint.axis, 0.04 * asset.mesh.diagonal) @ T[:3, :3].T + T[:3, 3]
-            draw_ring(draw, camera.project(circle)[0] / FINE, scale=0.8)
 
 
 def _drawn(mesh: Mesh, camera: Camera, color: np.ndarray | None, scene: RayScene | None = None) -> np.ndarray:
