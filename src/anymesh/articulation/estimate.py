@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -10,6 +11,7 @@ from anymesh.articulation.evidence import part_facts, weigh_all
 from anymesh.articulation.hypotheses import propose
 from anymesh.articulation.limits import limits, opening_motion
 from anymesh.articulation.tree import descendants, parents
+from anymesh.articulation.twins import agree, in_a_row, same_size
 from anymesh.config import ArticulationConfig, Config
 from anymesh.geometry.pieces import ObjectShape
 from anymesh.geometry.shape import Shape
@@ -34,15 +36,26 @@ def estimate_joints(
     progress: Progress = silent,
 ) -> tuple[Joint, ...]:
     """One joint for every part but the root, in the order of the parts."""
-    label = segmentation.face_part[whole.source]
-    shapes = [whole.of(np.flatnonzero(label == i)) for i in range(len(segmentation.parts))]
+    parts, joints = segmentation.parts, {}
+    for i, over, around, question in motion_questions(whole, segmentation, config):
+        progress("joints", parts[i].name, len(joints), len(parts) - 1)
+        joints[i] = estimate_joint(around, parts[i].name, parts[over].name, question, answerer)
+    return tuple(joints[i] for i in sorted(joints))
+
+
+def motion_questions(
+    whole: ObjectShape, segmentation: Segmentation, config: Config
+) -> Iterator[tuple[int, int, Surroundings, MotionQuestion]]:
+    """Of every part but the root, copies together: its number, its parent's, what is around it, and the question."""
+    label, parts = segmentation.face_part[whole.source], segmentation.parts
+    shapes = [whole.of(np.flatnonzero(label == i)) for i in range(len(parts))]
     parent = parents(shapes, whole.diagonal)
-    joints = []
-    for i, part in enumerate(segmentation.parts[1:], start=1):
-        progress("joints", part.name, i - 1, len(shapes) - 1)
-        around = surroundings(whole, label, shapes, parent, i, config.articulation)
-        joints.append(estimate_joint(around, part.name, segmentation.parts[parent[i]].name, part.label, answerer))
-    return tuple(joints)
+    for numbers in same_size(shapes, parent):
+        arounds = agree([surroundings(whole, label, shapes, parent, i, config.articulation) for i in numbers])
+        questions = [motion_question(a, parts[i].name, parts[i].label) for i, a in zip(numbers, arounds, strict=True)]
+        for i, around, question in zip(numbers, arounds, questions, strict=True):
+            twins = tuple(q for q, a in zip(questions, arounds, strict=True) if a is not around and in_a_row(around, a))
+            yield i, parent[i], around, replace(question, twins=twins)
 
 
 def surroundings(
@@ -73,12 +86,21 @@ def surroundings(
 
 
 def ask_motion(around: Surroundings, name: str, label: str, answerer: Answerer) -> tuple[MotionAnswer, Candidate]:
-    """How a part moves: proposes and sweeps the candidates, asks, and returns the answer with the candidate chosen."""
+    """How a part by itself moves: the answer with the candidate chosen."""
+    return _answered(around, motion_question(around, name, label), answerer)
+
+
+def _answered(around: Surroundings, question: MotionQuestion, answerer: Answerer) -> tuple[MotionAnswer, Candidate]:
+    answer = answerer.which_motion(question)
+    return answer, _clear_of_others(around, question.candidates[answer.ranking[0]], question.candidates)
+
+
+def motion_question(around: Surroundings, name: str, label: str) -> MotionQuestion:
+    """How does a part move? The candidates are proposed and swept."""
     proposed = propose(around)
-    candidates = weigh_all(around, proposed)
-    facts = part_facts(around, name, label, any(role == "bail" for role, _ in proposed))
-    answer = answerer.which_motion(MotionQuestion(facts, candidates))
-    return answer, _clear_of_others(around, candidates[answer.ranking[0]], candidates)
+    return MotionQuestion(
+        part_facts(around, name, label, any(role == "bail" for role, _ in proposed)), weigh_all(around, proposed)
+    )
 
 
 def _clear_of_others(around: Surroundings, best: Candidate, candidates: tuple[Candidate, ...]) -> Candidate:
@@ -87,13 +109,13 @@ def _clear_of_others(around: Surroundings, best: Candidate, candidates: tuple[Ca
     rims = ("edge", "edge_mid")
     if best.role not in rims or not around.siblings:
         return best
-    near = replace(around, slack=TIGHT).held_by
+    near = replace(around.held_by, tolerance=TIGHT * around.penetration)
     thickness = max(2 * float(around.core.half[2]), SAME_RIM * around.scale)
 
     def opens(c: Candidate) -> float:
         return free_amount(near, opening_motion(c), 1, min(c.opening, WIDE), around.config.sweep_steps)[0]
 
-    twins = [c for c in candidates if c.role in rims and _at_one_rim(best, c, thickness)]
+    twins = [c for c in candidates if c.role in rims and c.outward * best.outward > 0 and _at_one_rim(best, c, thickness)]
     free = {id(c): opens(c) for c in twins}
     most = max(free.values())
     return best if free[id(best)] > most - NOTICED else next(c for c in twins if free[id(c)] == most)
@@ -105,9 +127,9 @@ def _at_one_rim(a: Candidate, b: Candidate, thickness: float) -> bool:
     return float(np.linalg.norm(np.cross(b.motion.origin - a.motion.origin, a.motion.axis))) < 1.5 * thickness
 
 
-def estimate_joint(around: Surroundings, name: str, parent: str, label: str, answerer: Answerer) -> Joint:
+def estimate_joint(around: Surroundings, name: str, parent: str, question: MotionQuestion, answerer: Answerer) -> Joint:
     """The joint of one part."""
-    answer, best = ask_motion(around, name, label, answerer)
+    answer, best = _answered(around, question, answerer)
     if answer.type is not JointType.FIXED:
         return joint_of(around, name, parent, best, answer.type, answer.confidence, answer.reason)
     kind = JointType.PRISMATIC if best.motion.kind is MotionKind.SLIDE else JointType.REVOLUTE  # somebody said that it moves
@@ -137,4 +159,4 @@ def _on_part(motion: Motion, around: Surroundings) -> np.ndarray:
     return motion.origin + ((around.part.box.center - motion.origin) @ motion.axis) * motion.axis
 
 
-__all__ = ["ask_motion", "estimate_joint", "estimate_joints", "joint_of", "surroundings"]
+__all__ = ["ask_motion", "estimate_joints", "joint_of", "motion_questions", "surroundings"]

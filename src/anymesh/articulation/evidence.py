@@ -8,16 +8,20 @@ import numpy as np
 
 from anymesh.articulation.hold import kept, lever, support
 from anymesh.articulation.leaves import meeting_sides, outer_side, pair_side, passes
-from anymesh.geometry.surroundings import Surroundings
+from anymesh.geometry.distance_ import distance_to_triangles
+from anymesh.geometry.surroundings import CARVED, Surroundings
 from anymesh.geometry.sweep import free_amount, sweep
 from anymesh.reasoning.questions import Candidate, PartFacts
 from anymesh.types import Motion, MotionKind, Sweep
 
 ACROSS = 0.6  # weight of a bar that runs across the line
-SLACKS = (3.0, 10.0)  # factors on the penetration that counts, tried in turn where nothing is free
+SLACKS = (3.0, CARVED)  # factors on the penetration that counts, tried in turn where a hinge is blocked
+LEVER = 1.0  # [rad] free each way: what turns up and down, and is held by nothing, is pressed down, as levers are
+RIMS = ("edge", "edge_mid", "barrel")  # hinges at a rim of the part: it may be stuck in the rest, and still turn about them
 OUTWARDS = 0.5  # cosine of a motion with the way out
 STUCK = np.deg2rad(12)  # a hinge that opens less is not free
 SQUARE = 0.7  # cosine from which a surface faces the way out, or away from it
+TURNS = (37, 90, 141, 200, 285)  # [deg] about its axis; a body of revolution looks the same after all of them
 HELD = 0.02  # a slide is held sideways when stopped within this share of the diagonal
 
 
@@ -45,6 +49,7 @@ def part_facts(around: Surroundings, name: str, label: str, bail: bool) -> PartF
         seated=_seated(around),
         free_rim=_free_rim(around) if around.outline.roundness > 0.5 else 0.0,
         lid=_lid(around) if around.outline.roundness > 0.5 else 0.0,
+        marked=_marked(around) if around.outline.roundness > 0.5 else 1.0,
     )
 
 
@@ -77,6 +82,17 @@ def _free_rim(around: Surroundings) -> float:
     return float((around.rest.scene.first_hit(start, 2 * outline.radius * away, 1.0).face < 0).mean())
 
 
+def _marked(around: Surroundings) -> float:
+    """How far a round part is from a body of revolution, over its radius: what turns has something on it that shows it."""
+    outline, points = around.outline, around.part.samples.points[::4]
+    off = 0.0
+    for turn in np.deg2rad(TURNS):
+        T = Motion(MotionKind.TURN, outline.axis, outline.center, "").transform(turn)
+        turned = points @ T[:3, :3].T + T[:3, 3]
+        off = max(off, float(np.percentile(distance_to_triangles(turned, around.part.triangles), 99)))
+    return off / max(outline.radius, 1e-9)
+
+
 def _lid(around: Surroundings) -> float:
     """How much of a round part's rim lies near the parent, times the share of its back with nothing close behind."""
     outline, points = around.outline, around.part.samples.points
@@ -94,41 +110,43 @@ def _lid(around: Surroundings) -> float:
 def weigh_all(around: Surroundings, proposed: list[tuple[str, Motion]]) -> tuple[Candidate, ...]:
     """Sweeps every motion and gathers the evidence for it.
 
-    Where no hinge lets it out, part and rest may be stuck in each other at rest, as artists leave them: the hinges are swept
-    again with more penetration allowed, until one is free.
+    Part and rest may be stuck in each other at rest, as artists leave them: hinges that are blocked are swept again with more
+    penetration allowed, and at last as if the rest made room for the part.
     """
-    found = _weigh(around, proposed)
-    hinges = [k for k, c in enumerate(found) if c.role != "round" and c.motion.kind is MotionKind.TURN]
-    for slack in SLACKS:
-        out = [k for k in hinges if found[k].outward > OUTWARDS]
-        if not out or max(found[k].opening for k in out) > STUCK:
-            break
-        looser = _weigh(replace(around, slack=slack), [proposed[k] for k in hinges])
-        freed = {k: replace(c, slack=slack) for k, c in zip(hinges, looser, strict=True)}
-        found = tuple(freed.get(k, c) for k, c in enumerate(found))
-    return found
-
-
-def _weigh(around: Surroundings, proposed: list[tuple[str, Motion]]) -> tuple[Candidate, ...]:
     along = iter(support(around, [m for _, m in proposed if m.kind is MotionKind.TURN]))
     meeting = meeting_sides(around)
     found = []
     for role, motion in proposed:
         if motion.kind is MotionKind.TURN:
-            found.append(_turn(around, role, motion, next(along), meeting))
+            found.append(_loosened(around, _turn(around, role, motion, next(along), meeting)))
         else:
             found.append(_slide(around, role, motion))
     shares = kept(around, [c.motion for c in found], [c.opens for c in found])
     return tuple(replace(c, kept=float(share)) for c, share in zip(found, shares, strict=True))
 
 
+def _loosened(around: Surroundings, c: Candidate) -> Candidate:
+    """A hinge that would let the part out but for what holds it, with as little of the hold ignored as sets it free."""
+    if c.role not in RIMS or c.outward < OUTWARDS or c.opening > STUCK:
+        return c
+    for slack in SLACKS:
+        swept = sweep(around.obstacles(slack), c.motion, steps=around.config.sweep_steps)
+        opening, closing = (swept.forward, swept.backward)[:: c.opens]
+        if opening > STUCK:
+            return replace(c, sweep=swept, opening=opening, closing=closing, slack=slack)
+    return c
+
+
 def _turn(around: Surroundings, role: str, motion: Motion, near: np.ndarray, meeting: np.ndarray) -> Candidate:
-    swept = sweep(around.obstacles, motion, steps=around.config.sweep_steps)
+    swept = sweep(around.obstacles(), motion, steps=around.config.sweep_steps)
     moves = np.cross(motion.axis, around.part.samples.points.mean(0) - motion.origin)
     outward = float(moves @ around.outward)
     across = float(np.linalg.norm(moves))
     toward = outward / across if across > 1e-9 else 0.0
     opens = _opening_sign(toward, swept.forward, swept.backward, np.deg2rad(20))
+    out = toward * opens
+    if min(swept.forward, swept.backward) > LEVER and abs(moves[2]) > 0.5 * across:
+        opens = -1 if moves[2] > 0 else 1
     reach, hugs, thick = lever(around, motion)
     return Candidate(
         motion, swept, role, opens,
@@ -141,7 +159,7 @@ def _turn(around: Surroundings, role: str, motion: Motion, near: np.ndarray, mee
         vertical=float(abs(motion.axis[2])),
         above=_above(around, motion),
         captured=False,
-        outward=toward * opens,
+        outward=out,
         pair=pair_side(around, motion, meeting),
         outer=outer_side(around, motion),
         handle_off=_handle_off(around, motion),
@@ -154,7 +172,7 @@ def _turn(around: Surroundings, role: str, motion: Motion, near: np.ndarray, mee
 
 def _slide(around: Surroundings, role: str, motion: Motion) -> Candidate:
     outward = abs(float(motion.axis @ around.outward)) > 0.5
-    swept = sweep(around.obstacles if outward else around.held_by, motion, steps=around.config.sweep_steps)
+    swept = sweep(around.obstacles() if outward else around.held_by, motion, steps=around.config.sweep_steps)
     toward = float(motion.axis @ around.outward)
     opens = _opening_sign(toward, swept.forward, swept.backward, 0.0)
     side = np.linalg.svd(motion.axis[None])[2][1:]

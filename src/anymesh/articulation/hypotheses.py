@@ -67,6 +67,7 @@ def _from_contact(around: Surroundings) -> list[tuple[str, Motion]]:
     _, directions = _principal(contact)
     found = [("contact", Motion(MotionKind.TURN, _unit(directions[0]), middle, "line along the connecting area"))]
     found.append(("center", Motion(MotionKind.TURN, _unit(directions[2]), middle, "normal of the connecting area")))
+    found.append(("pin", Motion(MotionKind.TURN, _unit(directions[1]), middle, "width of the connecting area")))
     found += [
         ("contact_slide", Motion(MotionKind.SLIDE, _unit(d), middle, f"{what} of the connecting area"))
         for d, what in zip(directions, ("length", "width", "plane normal"), strict=True)

@@ -76,12 +76,11 @@ def passes(around: Surroundings, motion: Motion, free: tuple[float, float]) -> f
     points = around.part.samples.points[::6]
 
     def over(shift: float) -> float:
-        best = 0.0
-        for sign in (1.0, -1.0):
-            rays = np.repeat(sign * normal[None] * (BEHIND + 1) * thin, len(points), 0)
-            hits = around.everything.scene.first_hit(points + shift * motion.axis, rays, 1.0)
-            best = max(best, float((hits.face >= 0).mean()))
-        return best
+        """Share of the part that has something on one side only: with something on both it would go into a hollow."""
+        start = points + shift * motion.axis
+        rays = np.repeat(normal[None] * (BEHIND + 1) * thin, len(points), 0)
+        front, back = (around.everything.scene.first_hit(start, sign * rays, 1.0).face >= 0 for sign in (1.0, -1.0))
+        return float(max((front & ~back).mean(), (back & ~front).mean()))
 
     rest = over(0.0)
     shifts = [sign * 0.9 * width for sign, room in zip((1, -1), free, strict=True) if room > 0.8 * width]

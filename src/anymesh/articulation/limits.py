@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 
 from anymesh.geometry.surroundings import Surroundings
@@ -12,13 +10,14 @@ from anymesh.reasoning.questions import Candidate
 from anymesh.types import JointType, Motion
 
 FRONT = 0.35  # a slide less deep than this share of its parent is only a front
+ROUND = 0.8  # a part this round that slides outwards without a grip is a button
+STROKE = 0.5  # of its height: how far a button goes in at least
 BUTTON = 0.06  # a part with less of the object's diagonal that slides outwards is a button, whatever is behind it
 CONTROL = 0.25  # a part with less of the object's diagonal may be a button or a trigger
 
 
 def limits(around: Surroundings, c: Candidate, kind: JointType) -> tuple[float, float] | None:
     """(lower, upper) about the opening axis [rad or m]; None for continuous and fixed joints."""
-    around = replace(around, slack=c.slack)
     match kind:
         case JointType.CONTINUOUS | JointType.FIXED:
             return None
@@ -37,8 +36,8 @@ def _turn(around: Surroundings, c: Candidate) -> tuple[float, float]:
     config, motion = around.config, opening_motion(c)
     most = np.deg2rad(config.door_most if c.vertical > 0.7 else config.flap_most)
     steps = config.fine_steps * 3
-    upper, clear = free_amount(around.obstacles, motion, 1, most, steps)
-    lower, _ = free_amount(around.obstacles, motion, -1, most, steps)
+    upper, clear = free_amount(around.obstacles(c.slack), motion, 1, most, steps)
+    lower, _ = free_amount(around.obstacles(c.slack), motion, -1, most, steps)
     if not clear:
         upper = _floor(upper, np.deg2rad(1))
     closed = c.role in ("edge", "edge_mid", "asked") and _shut(around)
@@ -63,12 +62,16 @@ def _tiny(around: Surroundings) -> bool:
 
 
 def _pressed(around: Surroundings, c: Candidate, inward: float, clear: bool) -> bool:
-    """Whether a small part is pushed in rather than pulled out: it has room behind it and no grip."""
-    if _tiny(around) and around.handle is None:
-        return True
+    """Whether a part is pushed in rather than pulled out: it has no grip, and is a button, or small with room behind it."""
+    if around.handle is not None:
+        return False
     small = around.part.box.diagonal < CONTROL * around.diagonal
-    room = 0.1 * around.part.box.diagonal
-    return small and around.handle is None and not clear and inward > room
+    return _button(around) or (small and not clear and inward > 0.1 * around.part.box.diagonal)
+
+
+def _button(around: Surroundings) -> bool:
+    """Whether what slides outwards can only be a button, whatever is behind it: a tiny part or a round one."""
+    return _tiny(around) or around.outline.roundness > ROUND
 
 
 def _floor(value: float, step: float) -> float:
@@ -87,10 +90,10 @@ def _slide(around: Surroundings, c: Candidate) -> tuple[float, float]:
     if outward and not _tiny(around) and extent < FRONT * behind and around.core.half[2] < 0.3 * around.core.half[1]:
         most = around.config.slide_hidden * behind  # a front whose box the surface does not show
     steps = around.config.fine_steps * 2
-    upper, _ = free_amount(around.obstacles, motion, 1, most, steps)
-    lower, clear = free_amount(around.obstacles, motion, -1, most, steps)
+    upper, _ = free_amount(around.obstacles(c.slack), motion, 1, most, steps)
+    lower, clear = free_amount(around.obstacles(c.slack), motion, -1, most, steps)
     if outward and _pressed(around, c, lower, clear):
-        return (0.0 - max(lower, 0.5 * extent if _tiny(around) else 0.0), 0.0)
+        return (0.0 - max(lower, STROKE * extent if _button(around) else 0.0), 0.0)
     if outward or clear or lower < 0.01 * around.scale:
         lower = 0.0
     if upper < 1e-3 * around.scale:

@@ -22,9 +22,12 @@ from anymesh.types import Handle
 
 LEVEL = 0.12  # share of the surface facing a side that makes up the side's level
 MOST_OUT = 0.25  # what sticks out is less than this share of the surface
+CARVED = 10.0  # slack from which the rest is taken as if room for the part were yet to be carved out of it
 DOWN = 0.4  # what being open below is worth less: most things stand on something
 FACES = 0.5  # cosine from which a surface faces a direction
 FREE = 0.01  # of the scale: what is nearer to the parent is no tab, but a hinge's barrel
+BULGE = 0.25  # of a grip's height: around a grip the face is lower, around the top of a face that bulges it is not
+TOUCHES = 0.002  # of the scale: what is nearer to the parent is no grip, but what holds the part
 GRIP = 0.3  # a grip stands out by this share of its smaller width at least
 STAND_OUT = 0.012  # a handle stands out by this share of the part's diagonal at least
 
@@ -78,7 +81,7 @@ class Surroundings:
     center: Float[np.ndarray, " 3"]
     config: ArticulationConfig
     siblings: tuple[Shape, ...] = ()  # the other movable parts, each by itself
-    slack: float = 1.0  # factor on the penetration that counts, where the part is stuck in the rest already
+    agreed: Float[np.ndarray, " 3"] | None = None  # the way out that it shares with its copies
 
     @cached_property
     def bounds(self) -> Float[np.ndarray, "2 3"]:
@@ -109,14 +112,27 @@ class Surroundings:
         low, high = np.percentile(along, 0.5), np.percentile(along, 99.5)
         return float(max(0.0, min(high, parent.max()) - max(low, parent.min())))
 
+    def obstacles(self, slack: float = 1.0) -> Obstacles:
+        """What the part could hit. slack: factor on the penetration that counts, for a part that is stuck in the rest; CARVED
+        or more: where the part lies, the rest makes room."""
+        if slack not in self._obstacles:
+            hole = self.core if slack >= CARVED else None
+            self._obstacles[slack] = Obstacles(self.part, self.rest, slack * self.penetration, hole)
+        return self._obstacles[slack]
+
     @cached_property
-    def obstacles(self) -> Obstacles:
-        return Obstacles(self.part, self.rest, self.slack * self.config.penetration * self.scale)
+    def _obstacles(self) -> dict[float, Obstacles]:
+        return {}
+
+    @cached_property
+    def penetration(self) -> float:
+        """How far a path may go behind a surface before it is stopped [m]."""
+        return self.config.penetration * self.scale
 
     @cached_property
     def held_by(self) -> Obstacles:
         """The same with the other movable parts at rest: what keeps the part from moving sideways."""
-        return Obstacles(self.part, self.everything, self.slack * self.config.penetration * self.scale)
+        return Obstacles(self.part, self.everything, self.penetration)
 
     @cached_property
     def outline(self) -> Outline:
@@ -158,19 +174,26 @@ class Surroundings:
         return float(self._sees(points[:: max(1, len(points) // 500)], direction).mean())
 
     @cached_property
-    def outward(self) -> Float[np.ndarray, " 3"]:
-        """The way out of the object, unit, among the core box's directions: the thin one unless another is far more open."""
-        best, best_score = self.core.axes[2], -np.inf
+    def ways_out(self) -> tuple[Float[np.ndarray, "6 3"], Float[np.ndarray, " 6"]]:
+        """The core box's directions both ways, and how much each looks like the way out: open, thin, away from the middle."""
+        ways, worth = [], []
         away = self.part.samples.points.mean(0) - self.center
         for k, axis in enumerate(self.core.axes):
             for sign in (1.0, -1.0):
                 seen = self._open_face(sign * axis)
                 facing = self.core.half[2] / max(self.core.half[k], 1e-12)
                 score = seen + 0.5 * facing + 0.3 * sign * float(axis @ away) / self.diagonal
-                score -= DOWN * max(0.0, -sign * float(axis[2]))
-                if score > best_score + 1e-9:
-                    best, best_score = sign * axis, score
-        return best
+                ways.append(sign * axis)
+                worth.append(score - DOWN * max(0.0, -sign * float(axis[2])))
+        return np.array(ways), np.array(worth)
+
+    @cached_property
+    def outward(self) -> Float[np.ndarray, " 3"]:
+        """The way out of the object, unit, among the core box's directions: the thin one unless another is far more open."""
+        if self.agreed is not None:
+            return self.agreed
+        ways, worth = self.ways_out
+        return ways[int(np.flatnonzero(worth > worth.max() - 1e-9)[0])]
 
     @cached_property
     def openness(self) -> float:
@@ -210,7 +233,7 @@ class Surroundings:
         above = sign * local[:, k] - self.core.half[k]
         height = float(above.max())
         out = above > max(STAND_OUT * self.core.diagonal, height / 2)
-        if out.sum() < 3 or out.mean() > 0.45:
+        if out.sum() < 3 or out.mean() > 0.45 or float(np.quantile(self.gap[out], 0.1)) < TOUCHES * self.scale:
             return None
         face = [i for i in range(3) if i != k]
         at = local[out][:, face]
@@ -222,6 +245,12 @@ class Surroundings:
             return None
         low, high = at.min(0), at.max(0)
         size = high - low
+        margin = max(height, 2 * spacing)
+        around = ((local[:, face] > low - margin) & (local[:, face] < high + margin)).all(1)
+        around &= ~((local[:, face] >= low) & (local[:, face] <= high)).all(1)
+        around &= self.part.samples.normals @ self.outward > FACES
+        if around.any() and (above[around] > BULGE * height).mean() > 0.5:
+            return None
         middle = (low + high) / 2 / np.maximum(self.core.half[face], 1e-9)
         along = None if size.max() < 1.6 * size.min() + 1e-9 else int(size.argmax())
         if (size > 1.7 * self.core.half[face]).all() or height < GRIP * size.min():

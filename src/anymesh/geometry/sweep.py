@@ -7,12 +7,14 @@ and cast as rays, so open shells, thin boards and bad winding count like solids;
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Bool, Float
 
+from anymesh.geometry.boxes import Box
 from anymesh.geometry.shape import Shape
 from anymesh.types import Motion, MotionKind, Sweep
 
@@ -23,11 +25,13 @@ SHARE_STOPPED = 0.006  # of the points; fewer may be stopped by flaws of the mes
 
 @dataclass(frozen=True, eq=False)
 class Obstacles:
-    """The rest of the object around a part, with the points used both ways. tolerance: penetration that counts [m]."""
+    """The rest of the object around a part, with the points used both ways. tolerance: penetration that counts [m];
+    hole: the rest's surface in it is no obstacle."""
 
     part: Shape
     rest: Shape
     tolerance: float
+    hole: Box | None = None
     count: int = 350
 
     @cached_property
@@ -44,7 +48,14 @@ class Obstacles:
         near = np.flatnonzero(((center > low - reach) & (center < high + reach)).all(1))
         close = np.flatnonzero(((center > low - 0.1 * reach) & (center < high + 0.1 * reach)).all(1))
         found = [_spread(self.rest.take(index), self.count) for index in (near, close) if len(index)]
-        return np.concatenate(found) if found else np.zeros((0, 3))
+        points = np.concatenate(found) if found else np.zeros((0, 3))
+        return points[~self.carved(points)]
+
+    def carved(self, points: Float[np.ndarray, "n 3"]) -> Bool[np.ndarray, " n"]:
+        """Which points of the rest lie in the hole."""
+        if self.hole is None:
+            return np.zeros(len(points), bool)
+        return np.all(np.abs(self.hole.local(points)) < self.hole.half + self.tolerance, axis=1)
 
 
 def _spread(shape: Shape, count: int) -> np.ndarray:
@@ -58,8 +69,15 @@ def _spread(shape: Shape, count: int) -> np.ndarray:
     return np.concatenate([samples.points[::step], inside])
 
 
-def _first_stop(points: np.ndarray, transforms: np.ndarray, amounts: np.ndarray, target: Shape, tolerance: float) -> np.ndarray:
-    """The amount at which each point is stopped by the target, inf when it never is."""
+def _first_stop(
+    points: np.ndarray,
+    transforms: np.ndarray,
+    amounts: np.ndarray,
+    target: Shape,
+    tolerance: float,
+    gone: Callable[[np.ndarray], np.ndarray] | None = None,
+) -> np.ndarray:
+    """The amount at which each point is stopped by the target, inf when it never is. gone: where the target does not count."""
     if len(points) == 0 or len(target.triangles) == 0:
         return np.full(len(points), np.inf)
     path = points @ transforms[:, :3, :3].transpose(0, 2, 1) + transforms[:, None, :3, 3]
@@ -80,6 +98,8 @@ def _first_stop(points: np.ndarray, transforms: np.ndarray, amounts: np.ndarray,
         normal = target.normals[face]
         k, i = at // n, at % n
         counts = ~(target.solid[face] & (np.einsum("ij,ij->i", span[at], normal) >= 0))
+        if gone is not None:
+            counts &= ~gone(point)
         behind = [np.einsum("ij,ij->i", path[np.minimum(k + a, len(path) - 1), i] - point, normal) for a in (1, 2, 3)]
         counts &= np.abs(behind).max(0) > tolerance
         chosen = np.flatnonzero(counts)
@@ -122,15 +142,16 @@ def free_amount(obstacles: Obstacles, motion: Motion, sign: int, most: float, st
     """How far (in 0..most) the part moves along sign * motion before it is stopped, and whether it never was."""
     amounts = np.linspace(0, most, steps + 1)
     there, back = motion.transforms(sign * amounts), motion.transforms(-sign * amounts)
-    pairs = ((obstacles.part_points, there, obstacles.rest), (obstacles.rest_points, back, obstacles.part))
-    quorum = max(2, int(SHARE_STOPPED * sum(len(points) for points, _, _ in pairs)))
+    gone = None if obstacles.hole is None else obstacles.carved
+    pairs = ((obstacles.part_points, there, obstacles.rest, gone), (obstacles.rest_points, back, obstacles.part, None))
+    quorum = max(2, int(SHARE_STOPPED * sum(len(points) for points, *_ in pairs)))
     found = np.zeros(0)
     for begin in range(0, steps, CHUNK):  # stops are met in the order of the steps, so an early quorum is the answer
         end = min(begin + CHUNK, steps)
         reach = slice(begin, min(end + LOOK_AHEAD, steps) + 1)
         stops = [
-            _first_stop(points, transforms[reach], amounts[begin : end + 1], target, obstacles.tolerance)
-            for points, transforms, target in pairs
+            _first_stop(points, transforms[reach], amounts[begin : end + 1], target, obstacles.tolerance, hole)
+            for points, transforms, target, hole in pairs
         ]
         found = np.concatenate([found, *(s[np.isfinite(s)] for s in stops)])
         if len(found) >= quorum:

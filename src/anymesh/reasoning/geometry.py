@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from jaxtyping import Float
 
 from anymesh.reasoning.movable import judge
 from anymesh.reasoning.questions import Candidate, MotionAnswer, MotionQuestion, PartAnswer, PartEvidence, PartFacts
@@ -12,6 +13,7 @@ from anymesh.types import JointType, MotionKind
 
 UNSURE = 0.3  # confidence of a joint that no motion speaks for
 SAME_AXIS = 0.97  # cosine of axes that are one to a user
+OWN_WAY = 2.0  # what it takes, in units of clear evidence, for a part to move in another manner than its copy
 SAME_LINE = 0.1  # and the share of the part's own size that their lines may be apart
 
 
@@ -26,8 +28,9 @@ class GeometryAnswerer:
 
     def which_motion(self, question: MotionQuestion) -> MotionAnswer:
         """Scores every candidate; the best one wins, its lead over other motions is the confidence."""
-        habit = habit_of(question.part.label)
-        scores = np.array([score(question.part, c, habit) for c in question.candidates])
+        scores = _scores(question)
+        for twin in question.twins:
+            scores = scores - _against(question, twin)
         ranking = tuple(int(i) for i in np.argsort(-scores, kind="stable"))
         best = question.candidates[ranking[0]]
         if not is_free(best):
@@ -36,6 +39,30 @@ class GeometryAnswerer:
         alike = np.array([not _differs(best, c, question.part) for c in question.candidates])
         confidence = float(np.clip(likely[alike].sum() / likely.sum(), 0.05, 0.99))
         return MotionAnswer(ranking, joint_type(question.part, best), confidence, reason(question.part, best))
+
+
+def _scores(question: MotionQuestion) -> Float[np.ndarray, " k"]:
+    habit = habit_of(question.part.label)
+    return np.array([score(question.part, c, habit) for c in question.candidates])
+
+
+def _against(question: MotionQuestion, twin: MotionQuestion) -> Float[np.ndarray, " k"]:
+    """What each candidate costs because a copy of the part would have to move in the same manner: OWN_WAY at most."""
+    theirs = _scores(twin)
+    loss = np.minimum(theirs.max() - theirs, OWN_WAY)
+    alike = np.array([[_in_one_manner(c, other) for other in twin.candidates] for c in question.candidates])
+    return np.where(alike, loss, OWN_WAY).min(1)
+
+
+def _in_one_manner(a: Candidate, b: Candidate) -> bool:
+    """Whether copies that move so look alike: doors hinged left or right do, flaps hinged above or below do not."""
+    if a.motion.kind is not b.motion.kind or (a.role == "round") != (b.role == "round"):
+        return False
+    if abs(float(a.motion.axis @ b.motion.axis)) < SAME_AXIS:
+        return False
+    if a.motion.kind is MotionKind.SLIDE or a.role == "round":
+        return True
+    return a.outward * b.outward >= 0 and (a.vertical > SAME_AXIS or a.above * b.above >= 0)
 
 
 def is_free(c: Candidate) -> bool:

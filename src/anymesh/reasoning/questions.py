@@ -38,6 +38,7 @@ class PartFacts:
     seated: float  # 0..1, share of its back that lies on the parent
     free_rim: float  # 0..1, a round part: share of its rim that sees the outside across its axis
     lid: float  # 0..1, a round part: how much of its rim lies on the parent around an opening behind it
+    marked: float = 1.0  # a round part: how far it is from a body of revolution, over its radius
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,7 +63,7 @@ class Candidate:
     vertical: float  # |axis . up|
     above: float  # -1..1: where the axis lies between the lowest (-1) and highest (1) of the part
     captured: bool  # a slide that is stopped both ways, with room to move between
-    outward: float  # opening direction . outward, -1..1
+    outward: float  # opening direction . outward, -1..1; a lever that is pressed down counts as it would open otherwise
     pair: float = 0.0  # -1..1: 1 a leaf like it meets the part opposite the hinge, -1 at the hinge
     outer: float = 0.0  # -1..1: 1 the hinge lies at the object's outer side, -1 towards its middle
     handle_off: float = 0.0  # 0..1, how far from the middle of the hinge's length the handle sits
@@ -77,10 +78,11 @@ class Candidate:
 
 @dataclass(frozen=True)
 class MotionQuestion:
-    """How does this part move? One of the candidates, or not at all."""
+    """How does this part move? One of the candidates, or not at all. twins: the same of its copies in a row with it."""
 
     part: PartFacts
     candidates: tuple[Candidate, ...]
+    twins: tuple[MotionQuestion, ...] = ()
 
 
 @dataclass(frozen=True)

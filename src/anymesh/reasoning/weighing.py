@@ -18,11 +18,15 @@ FLAT = 0.9  # a control lower than this share of its radius is a button
 SMALL = 0.06  # a part with less of the object's diagonal is a control, not a door
 CONTROL = 0.25  # a part with less of it may be a lever
 ROUND = 0.8  # an outline this round may turn about its axis
+HIGH = 1.5  # a round part higher than this times its radius is a pin or a button, less a wheel or a dial
+MARKED = 0.15  # a round part that is this share of its radius off a body of revolution shows that it turns
 PLATE = 0.5  # a part thinner than this share of its width is a plate, else a block
 LEVEL = 0.5  # a part that lies deeper in its parent than this share of its width is held by its walls
 DEEP = 0.6  # a drawer reaches this share of its width into its parent
 GUIDED = 0.7  # held on three of four sides
 BOTH_WAYS = 1.0  # [rad] free each way: it swings
+SWINGS = 0.5  # [rad] free each way at least: what swings hangs
+ROOM = 0.3  # of its size, which a part that slides has room for at least
 ALONG = 0.5  # cosine of an axis with the way out
 TELLING = 0.3  # a handle nearer to the line's level than this tells nothing of it
 TOLD = {  # what a part's name says of a hinge, a turn about a round outline, a slide
@@ -76,6 +80,7 @@ def _hinge(part: PartFacts, c: Candidate) -> dict[str, float]:
         "hinge: size": part.size,
         "hinge: round part": float(part.roundness > ROUND),
         "hinge: round lid": 0.0 if part.horizontal else part.lid * (part.roundness > ROUND),
+        "hinge: round lid, upright": 0.0 if part.horizontal else up * (part.roundness > ROUND),
     }
     return found | _hand(part, c, up) | _habit(part, c, up)
 
@@ -100,10 +105,10 @@ def _habit(part: PartFacts, c: Candidate, up: float) -> dict[str, float]:
     return {
         "hinge: upright": up,
         "hinge: upright, tall": up * _within(part.tall, -1.5, 1.5),
-        "hinge: upright, no handle": untold * up,
         "hinge: above": (1 - up) * c.above,
         "hinge: above, high part": (1 - up) * c.above * (2 * part.height - 1),
         "hinge: above, no handle": untold * (1 - up) * c.above,
+        "hinge: above, swings": (1 - up) * c.above * (min(c.opening, c.closing) > SWINGS),
         "hinge: pair": untold * c.pair * up,
         "hinge: pair, level": c.pair * (1 - up),
         "hinge: outer": untold * c.outer * up,
@@ -124,6 +129,8 @@ def _round(part: PartFacts, c: Candidate) -> dict[str, float]:
         "round: small, flat": float(small and flat) * about,
         "round: small, flat and seated": float(small and flat) * part.seated * about,
         "round: high": _within(part.flatness - 1.5, 0.0, 2.0),
+        "round: unmarked": _plain(part) * about,
+        "round: unmarked, high": _plain(part) * about * (part.flatness > HIGH),
         "round: lid": 0.0 if part.horizontal else lid,
         "round: lid above": lid if part.horizontal else 0.0,
         "round: across the way out": 1 - about,
@@ -145,6 +152,7 @@ def _slide(part: PartFacts, c: Candidate) -> dict[str, float]:
         "slide: guided": c.guided,
         "slide: blocked": float(max(c.opening, c.closing) < LITTLE),
         "slide: stuck": float(np.log(c.slack)),
+        "slide: room": _within(max(c.opening, c.closing) / max(part.size, 1e-9) / ROOM, 0.0, 1.0),
         "slide: size": part.size,
     }
     out, along = _within((way - 0.7) / 0.3, 0.0, 1.0), _within((0.5 - way) / 0.5, 0.0, 1.0)
@@ -169,6 +177,9 @@ def _out(part: PartFacts, c: Candidate) -> dict[str, float]:
         "slide: out, block": float(not plate),
         "slide: out, buried": float(part.buried > LEVEL and part.size > CONTROL),
         "slide: out, round and high": round_ * _within(part.flatness - 1.5, 0.0, 2.0),
+        "slide: out, unmarked": round_ * _plain(part),
+        "slide: out, unmarked and high": round_ * _plain(part) * (part.flatness > HIGH),
+        "slide: out, free inwards": _within(c.closing / max(part.size, 1e-9), 0.0, 1.0),
         "slide: out, round and buried": round_ * min(part.buried, 1.0),
         "slide: out, lying": float(part.horizontal),
         "slide: out, wide": _within(-part.tall, -1.5, 1.5),
@@ -194,6 +205,11 @@ def _along(part: PartFacts, c: Candidate) -> dict[str, float]:
         "slide: along, upright": c.vertical,
         "slide: along, small": float(part.size < CONTROL),
     }
+
+
+def _plain(part: PartFacts) -> float:
+    """0..1: how much a round part looks the same after any turn."""
+    return 1 - _within(part.marked / MARKED, 0.0, 1.0)
 
 
 def _central(part: PartFacts) -> float:
