@@ -16,6 +16,7 @@ from anymesh.cli_finish import finish
 from anymesh.cli_options import (
     FORMATS,
     AnswererName,
+    AtLeast,
     BaseName,
     Cache,
     Category,
@@ -96,6 +97,7 @@ def articulate(
     parts: Parts = "auto",
     answerer: AnswererName = "geometry",
     parts_list: PartsList = "",
+    at_least: AtLeast = 0,
     proposer: Proposer = "exact",
     verify: Verify = "motion",
     category: Category = None,
@@ -118,8 +120,8 @@ def articulate(
     with Shown(quiet or json_) as progress:
         asset = pipeline.articulate(
             mesh, out, parts=parts, up=up, scale=scale, base=base, formats=formats, drives=drives, force=force,
-            progress=progress, answerer=answerer, parts_list=_labels(parts_list), proposer=proposer, verify=verify,
-            category=category, seed=seed, max_calls=max_calls, max_cost=max_cost, **cache_of(cache),
+            progress=progress, answerer=answerer, parts_list=_labels(parts_list), at_least=at_least, proposer=proposer,
+            verify=verify, category=category, seed=seed, max_calls=max_calls, max_cost=max_cost, **cache_of(cache),
         )  # fmt: skip
     tell_asset(asset, out, json_, quiet)
 
@@ -131,6 +133,7 @@ def segment(
     parts: Parts = "auto",
     answerer: AnswererName = "geometry",
     parts_list: PartsList = "",
+    at_least: AtLeast = 0,
     proposer: Proposer = "exact",
     category: Category = None,
     max_calls: MaxCalls = None,
@@ -149,7 +152,7 @@ def segment(
     with Shown(quiet or json_) as progress:
         found = pipeline.segment(
             mesh, out, parts=parts, up=up, scale=scale, force=force, progress=progress,
-            answerer=answerer, parts_list=_labels(parts_list), proposer=proposer, category=category,
+            answerer=answerer, parts_list=_labels(parts_list), at_least=at_least, proposer=proposer, category=category,
             seed=seed, max_calls=max_calls, max_cost=max_cost, **cache_of(cache),
         )  # fmt: skip
     rows = [

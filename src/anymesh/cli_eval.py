@@ -45,6 +45,9 @@ def evaluate(
     jobs: Jobs = None,
     proposer: Annotated[str, typer.Option(help="Of masks for a model: exact, sam:WEIGHTS or exact+sam:WEIGHTS.")] = "exact",
     verify: Annotated[str, typer.Option(help="motion, or off: the paper's method as it is.")] = "motion",
+    at_least: Annotated[
+        int, typer.Option("--at-least", metavar="N", help="Parts that geometry takes however thin the evidence is.")
+    ] = 1,
     max_calls: Annotated[int | None, typer.Option("--max-calls", help="No call of a model beyond so many.")] = None,
     max_cost: Annotated[float | None, typer.Option("--max-cost", metavar="USD", help="No call that could pass it.")] = None,
     cache: Annotated[str, typer.Option(metavar="DIR", help="Answers of models: auto, off, or a folder.")] = "auto",
@@ -64,7 +67,7 @@ def evaluate(
         records = evaluating.evaluate(
             dataset, out, protocol=protocol, split=split, changes=chosen, views=views, only=_names(only), jobs=jobs,
             force=force, progress=progress, answerer=answerer, proposer=proposer, verify=verify, seed=seed,
-            max_calls=max_calls, max_cost=max_cost,
+            at_least=at_least, max_calls=max_calls, max_cost=max_cost,
             **cache_of(cache),
         )  # fmt: skip
     groups = grouped(records, lambda r: r.change)

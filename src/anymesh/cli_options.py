@@ -22,6 +22,9 @@ Category = Annotated[str | None, typer.Option(help="What the object is; a model 
 PartsList = Annotated[
     str, typer.Option("--parts-list", metavar="LABELS", help="What moves, such as door,drawer; a model is not asked then.")
 ]
+AtLeast = Annotated[
+    int, typer.Option("--at-least", metavar="N", help="Parts taken however thin the evidence is; 1 for what is known to move.")
+]
 Proposer = Annotated[str, typer.Option(help="Of masks for a model: exact, sam:WEIGHTS or exact+sam:WEIGHTS.")]
 Verify = Annotated[str, typer.Option(help="motion: a model chooses among free motions; off: the paper's method as it is.")]
 MaxCalls = Annotated[int | None, typer.Option("--max-calls", help="No call of a model beyond so many.")]

@@ -32,6 +32,11 @@ class SegmentationConfig:
     near: float = 0.02  # bodies nearer than this, but not touching, have a clearance between them
     smallest: float = 0.004  # pieces with a smaller diagonal never move on their own
     most_candidates: int = 120  # largest units looked at
+    at_least: int = 0  # parts that are taken however thin the evidence is: for objects that are known to move
+
+    def __post_init__(self) -> None:
+        if self.at_least < 0:
+            raise OptionError(f"--at-least: found {self.at_least}; valid are integers from 0 up")
 
 
 @dataclass(frozen=True)

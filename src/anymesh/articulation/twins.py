@@ -9,12 +9,10 @@ from dataclasses import replace
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.geometry.boxes import Box
+from anymesh.geometry.boxes import alike
 from anymesh.geometry.shape import Shape
 from anymesh.geometry.surroundings import Surroundings, core_box
 
-SAME_SIZE = 0.03  # of the diagonal: sides of copies differ by less
-PARALLEL = 0.99  # cosine of the axes of their boxes
 LEVEL = 0.25  # of the way from one to the other: a row goes across its way out, but for this share
 
 
@@ -23,19 +21,12 @@ def same_size(shapes: Sequence[Shape], parent: Sequence[int]) -> list[list[int]]
     groups: list[list[int]] = []
     boxes = [core_box(shape) for shape in shapes]
     for i in range(1, len(shapes)):
-        found = next((g for g in groups if parent[g[0]] == parent[i] and _same(boxes[g[0]], boxes[i])), None)
+        found = next((g for g in groups if parent[g[0]] == parent[i] and alike(boxes[g[0]], boxes[i])), None)
         if found is None:
             groups.append([i])
         else:
             found.append(i)
     return groups
-
-
-def _same(a: Box, b: Box) -> bool:
-    cosines = np.abs(a.axes @ b.axes.T)
-    if cosines.max(1).min() < PARALLEL:
-        return False
-    return bool(np.abs(b.half[cosines.argmax(1)] - a.half).max() < SAME_SIZE * a.diagonal / 2)
 
 
 def agree(arounds: Sequence[Surroundings]) -> list[Surroundings]:

@@ -7,6 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
+SAME_SIZE = 0.03  # of the diagonal: sides of copies differ by less
+PARALLEL = 0.99  # cosine of the axes of copies
+
 
 @dataclass(frozen=True, eq=False)
 class Box:
@@ -27,6 +30,14 @@ class Box:
     def world(self, local: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 3"]:
         """Points given in the box frame, in the frame of the box."""
         return local @ self.axes + self.center
+
+
+def alike(a: Box, b: Box) -> bool:
+    """Whether two boxes have the same sides in the same directions: around copies, mirrored ones too."""
+    cosines = np.abs(a.axes @ b.axes.T)
+    if cosines.max(1).min() < PARALLEL:
+        return False
+    return bool(np.abs(b.half[cosines.argmax(1)] - a.half).max() < SAME_SIZE * a.diagonal / 2)
 
 
 def _frame(first: np.ndarray, second: np.ndarray) -> np.ndarray | None:

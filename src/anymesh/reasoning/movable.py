@@ -6,6 +6,8 @@ from anymesh.reasoning.questions import PartAnswer, PartEvidence
 from anymesh.reasoning.vocabulary import Habit, is_fixed_name, recognize
 
 ENOUGH = 0.8  # evidence that makes a part
+KEY = "button"  # the label of a key
+KEYS = 2  # others like it that a key of a control panel has at least
 GRIPPED = 0.06  # what stands out of something smaller is no handle
 GAP = (0.0, 0.3, 0.9, 1.6, 2.0)  # for 0..4 rims with a clearance
 
@@ -13,12 +15,19 @@ GAP = (0.0, 0.3, 0.9, 1.6, 2.0)  # for 0..4 rims with a clearance
 def judge(e: PartEvidence) -> PartAnswer:
     """The kind of part that the evidence speaks for most; it moves if that is enough."""
     named = _named(e)
-    kinds = [_plate(e), _box(e), _round(e), _bail(e), _control(e)]
+    kinds = [_plate(e), _box(e), _round(e), _bail(e), _control(e), _key(e)]
     score, label, why = max(kinds, key=lambda kind: kind[0])
+    if e.copied is not None and e.copied > score and not e.on_movable:  # copies move alike: they are judged together
+        score, why = (score + e.copied) / 2, f"{why}, a copy of a part that moves"
     if named is not None:
         bonus, word = named
         return PartAnswer(score + bonus >= ENOUGH, word or label, score + bonus, f'named "{e.name}"; {why}')
     return PartAnswer(score >= ENOUGH, label, score, why)
+
+
+def stands_out(e: PartEvidence) -> float:
+    """How much it looks like what hands move, where nothing else does: in the open, held at little of its surface, small."""
+    return 2 * e.outside - 5 * e.touching - 0.5 * e.size - 1.0 * e.at_bottom
 
 
 def _named(e: PartEvidence) -> tuple[float, str] | None:
@@ -107,6 +116,13 @@ def _bail(e: PartEvidence) -> tuple[float, str, str]:
     if not (e.pivots and e.slender) or e.size < 0.1:
         return (-3.0, "handle", "no pivots")
     return (1.0 + 0.8 * e.separate, "handle", "slender, held by pivots at both ends")
+
+
+def _key(e: PartEvidence) -> tuple[float, str, str]:
+    """A key: one of several alike that stand out of a surface side by side, a clearance between them."""
+    if e.size > GRIPPED or e.outside < 0.8 or e.gap_sides < 2 or e.twins < KEYS or e.faces_down:
+        return (-3.0, KEY, "no key")
+    return (0.2 + 0.2 * e.gap_sides + 0.1 * min(e.twins, 4), KEY, f"{e.twins + 1} alike, clearance at {e.gap_sides} rims")
 
 
 def _control(e: PartEvidence) -> tuple[float, str, str]:

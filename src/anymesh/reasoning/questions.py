@@ -128,6 +128,7 @@ class PartEvidence:
     slender: bool  # much less surface than its box
     captured: bool  # it slides between two stops, held sideways
     on_movable: bool  # it sits on a part that moves already
+    copied: float | None = None  # the score of a part with the same sides that was found
 
 
 @dataclass(frozen=True)

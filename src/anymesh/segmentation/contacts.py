@@ -10,12 +10,14 @@ import numpy as np
 from jaxtyping import Int
 
 from anymesh.config import SegmentationConfig
+from anymesh.geometry.boxes import alike
 from anymesh.geometry.distance_ import distance_to_triangles
 from anymesh.geometry.pieces import ObjectShape
 from anymesh.geometry.shape import Shape
 from anymesh.geometry.topology import label_connected
 
 FLAT = 0.6  # length of the mean normal of a sheet, with its handle; 1 where it is plane
+LEAF = 0.3  # width of a plate over its length; planks are narrower
 SAME_WAY = 0.95  # cosine
 PROBES = 160  # points of a piece that are measured against another
 
@@ -101,7 +103,7 @@ def _touching(a: Shape, b: Shape, tolerance: float) -> float:
 
 def coplanar(contacts: Contacts, whole: ObjectShape, tolerance: float) -> list[tuple[int, int]]:
     """Touching plates of one thickness that lie in one plane: the boards of a framed door. Not those that a crease in one
-    surface parts: drawers of a fused cabinet."""
+    surface parts (drawers of a fused cabinet), nor two leaves alike."""
     parted = {(int(a), int(b)) for a, b in whole.shared}
     found = []
     for i, j in contacts.touch:
@@ -111,6 +113,8 @@ def coplanar(contacts: Contacts, whole: ObjectShape, tolerance: float) -> list[t
         if max(a.half[2] / max(a.half[1], 1e-12), b.half[2] / max(b.half[1], 1e-12)) > 0.5:
             continue
         level = abs(float((a.center - b.center) @ a.axes[2]))
+        if min(a.half[1] / a.half[0], b.half[1] / b.half[0]) > LEAF and alike(a, b):
+            continue  # two leaves of a window
         if abs(float(a.axes[2] @ b.axes[2])) > 0.9995 and level < tolerance and abs(a.half[2] - b.half[2]) < tolerance:
             found.append((int(i), int(j)))
     return found

@@ -27,6 +27,7 @@ class Context:
     separate: bool
     twins: tuple[Shape, ...]  # other pieces of the same size
     on_movable: bool
+    copied: float | None  # the evidence for a part with the same sides that was found
 
 
 def gather(around: Surroundings, context: Context) -> PartEvidence:
@@ -62,6 +63,7 @@ def gather(around: Surroundings, context: Context) -> PartEvidence:
         slender=around.part.slender,
         captured=False,
         on_movable=context.on_movable,
+        copied=context.copied,
     )
 
 

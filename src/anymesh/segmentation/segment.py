@@ -8,20 +8,19 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
-from jaxtyping import Int
 
 from anymesh.config import Config
 from anymesh.geometry.pieces import ObjectShape
 from anymesh.geometry.surroundings import Surroundings
 from anymesh.progress import Progress, silent
-from anymesh.reasoning.movable import ENOUGH
+from anymesh.reasoning.movable import ENOUGH, KEY, stands_out
 from anymesh.reasoning.questions import Answerer, Candidate, MotionAnswer, PartAnswer
 from anymesh.reasoning.vocabulary import recognize
 from anymesh.segmentation.contacts import Contacts, find_contacts
-from anymesh.segmentation.evidence import Context, gather
+from anymesh.segmentation.looking import Found, look_at
 from anymesh.segmentation.naming import named_parts
 from anymesh.segmentation.units import Units, join_units, root_ranking, size_of, touches_outside, with_held
 from anymesh.types import JointType, Mesh, MotionKind, Segmentation
@@ -31,18 +30,8 @@ Moves = Callable[[Surroundings, str], tuple[MotionAnswer, Candidate]]  # Stage B
 
 DOUBTFUL = -0.4  # evidence from which the motion of what touches nothing is looked at
 PLAINLY = 1.8  # evidence that unseats a root
+MOST_KEYS = 16  # more are a keyboard, whose keys nobody wants as joints
 FRONT = 1.6  # what it counts that a layout of handles makes a piece one of the fronts
-
-
-@dataclass(frozen=True, eq=False)
-class Found:
-    """A candidate that was taken as a part: its unit, its faces, the answer about it."""
-
-    unit: int
-    members: tuple[int, ...]
-    faces: Int[np.ndarray, " n"]
-    answer: PartAnswer
-    label: str
 
 
 def segment_parts(
@@ -55,6 +44,8 @@ def segment_parts(
     units = _rooted(mesh, whole, contacts, answerer, moves, config)
     progress("segment", "evidence", 1, 2)
     found = _search(whole, units, answerer, moves, config, progress)
+    if len(found) < settings.at_least:
+        found += _likeliest(whole, units, found, moves, config)[: settings.at_least - len(found)]
     return _assemble(mesh, whole, found)
 
 
@@ -74,25 +65,60 @@ def _rooted(mesh: Mesh, whole: ObjectShape, contacts: Contacts, answerer: Answer
 def _search(
     whole: ObjectShape, units: Units, answerer: Answerer, moves: Moves, config: Config, progress: Progress
 ) -> list[Found]:
-    """Three rounds: what touches nothing, small before large, so that a knob is not taken for a panel's handle; what
-    touches; and again what touches nothing and is free once those parts are out of the way (a tray behind a door)."""
-    size = {u: size_of(units, [u]) / whole.diagonal for u in units.hanging}
-    area = np.bincount(units.unit, [s.area for s in units.contacts.shapes])
-    least = config.segmentation.smallest
-    todo = [u for u in sorted(units.hanging) if u != units.root and size[u] >= least and area[u] > 0]
-    todo = sorted(todo, key=lambda u: (-size[u], u))[: config.segmentation.most_candidates]
+    """Four rounds: what touches nothing, small before large, so that a knob is not taken for a panel's handle; what touches;
+    again what touches nothing and is free once those parts are out of the way (a tray behind a door); and copies of parts
+    that were found."""
+    size = _sizes(whole, units)
+    todo = _large_enough(units, size, config)
     found: list[Found] = []
     apart = [u for u in todo if not touches_outside(units, units.hanging[u])]
-    for batch in (apart[::-1], [u for u in todo if u not in apart], apart[::-1]):
+    for batch in (apart[::-1], [u for u in todo if u not in apart], apart[::-1], todo):
         taken = {f.unit for f in found}
+        left = [u for u in batch if u not in taken and (batch is not todo or _is_copy(size, u, found))]
         new = []
-        for k, u in enumerate(u for u in batch if u not in taken):
-            progress("segment", units.names[u] or f"piece {u}", k, len(batch))
+        for k, u in enumerate(left):
+            progress("segment", units.names[u] or f"piece {u}", k, len(left))
             hit = _candidate(whole, units, u, found, answerer, moves, config)
             if hit is not None:
                 new.append(hit)
         found += _outermost(units, new)
-    return found
+    keys = [f for f in found if f.answer.label == KEY and not units.names[f.unit]]
+    return _outermost(units, found if len(keys) <= MOST_KEYS else [f for f in found if f not in keys])
+
+
+def _sizes(whole: ObjectShape, units: Units) -> dict[int, float]:
+    return {u: size_of(units, [u]) / whole.diagonal for u in units.hanging}
+
+
+def _large_enough(units: Units, size: dict[int, float], config: Config) -> list[int]:
+    """The units that are looked at, largest first."""
+    area = np.bincount(units.unit, [s.area for s in units.contacts.shapes])
+    least = config.segmentation.smallest
+    todo = [u for u in sorted(units.hanging) if u != units.root and size[u] >= least and area[u] > 0]
+    return sorted(todo, key=lambda u: (-size[u], u))[: config.segmentation.most_candidates]
+
+
+def _likeliest(whole: ObjectShape, units: Units, found: list[Found], moves: Moves, config: Config) -> list[Found]:
+    """What stands out most and can move, of what the evidence was not enough for; nothing of it lies within another."""
+    seen = [
+        look_at(whole, units, u, with_held(units, u), found, config) for u in _large_enough(units, _sizes(whole, units), config)
+    ]
+    taken = {m for f in found for m in f.members}
+    chosen: list[Found] = []
+    for look in sorted((s for s in seen if s is not None), key=lambda s: -stands_out(s.evidence)):
+        if taken & set(look.members):
+            continue
+        motion, best = moves(look.around, "part")
+        if motion.type is not JointType.FIXED:
+            answer = PartAnswer(True, "part", 0.0, "nothing else was found, and this stands out most")
+            chosen.append(Found(look.unit, look.members, look.faces, answer, _label(answer, "", look.around, best)))
+            taken |= set(look.members)
+    return chosen
+
+
+def _is_copy(size: dict[int, float], u: int, found: list[Found]) -> bool:
+    """Whether a unit may be a copy of a part that was found: one may show what another hides."""
+    return any(abs(size[f.unit] - size[u]) < 0.02 * size[u] for f in found)
 
 
 def _candidate(
@@ -111,56 +137,21 @@ def _judged(
     moves: Moves, config: Config,
 ) -> Found | None:  # fmt: skip
     """These units as one part if the evidence is enough and they can move, else None."""
-    faces = units.faces(members)
-    moving = np.zeros(len(whole.shape.areas), bool)
-    moving[faces] = True
-    inner = [f for f in found if f.unit in members and f.unit != u]
-    for f in inner:
-        moving[f.faces] = False
-    faces = np.flatnonzero(moving)
-    if len(faces) == 0:
+    look = look_at(whole, units, u, members, found, config)
+    if look is None:
         return None
-    elsewhere = [f for f in found if f.unit not in members] + inner
-    away = np.zeros_like(moving)
-    for f in elsewhere:
-        away[f.faces] = True
-    carrier = next((f for f in elsewhere if u in f.members), None)
-    if carrier is not None:
-        away[carrier.faces] = False
-    away &= ~moving
-    still = ~moving & ~away
-    if not still.any():
-        return None
-    rest = whole.of(np.flatnonzero(still))
-    around = Surroundings(
-        part=whole.of(faces), parent=rest, rest=rest, others=whole.of(np.flatnonzero(away)) if away.any() else None,
-        everything=whole.of(np.flatnonzero(~moving)), slim=(), diagonal=whole.diagonal,
-        center=whole.shape.bounds.mean(0),
-        config=config.articulation,
-    )  # fmt: skip
-    separate = not touches_outside(units, members)
-    size = size_of(units, members)
-    twins = tuple(
-        whole.of(units.faces(units.hanging[other]))
-        for other in units.hanging
-        if other not in (u, units.root)
-        and other not in members
-        and abs(size_of(units, units.hanging[other]) - size) < 0.02 * size
-    )
-    context = Context(whole, config.segmentation, units.names[u], separate, twins, carrier is not None)
-    evidence = gather(around, context)
-    answer = answerer.is_part(evidence)
+    answer = answerer.is_part(look.evidence)
     if not answer.moves and np.isin(np.flatnonzero(units.unit == u), whole.fronts).any():
         score = answer.score + FRONT
         answer = replace(answer, moves=score >= ENOUGH, label="door", score=score, reason="a front with a handle of its own")
-    if not answer.moves and not (separate and answer.score > DOUBTFUL):
+    if not answer.moves and not (look.separate and answer.score > DOUBTFUL):
         return None
-    motion, best = moves(around, answer.label if units.names[u] else "part")
+    motion, best = moves(look.around, answer.label if units.names[u] else "part")
     if not answer.moves:  # a fit that lets it slide between two stops is evidence of its own
-        answer = answerer.is_part(replace(evidence, captured=best.captured and best.guided > 0.4))
+        answer = answerer.is_part(replace(look.evidence, captured=best.captured and best.guided > 0.4))
     if not answer.moves or motion.type is JointType.FIXED:
         return None
-    return Found(u, tuple(members), faces, answer, _label(answer, units.names[u], around, best))
+    return Found(u, look.members, look.faces, answer, _label(answer, units.names[u], look.around, best))
 
 
 def _label(answer: PartAnswer, name: str, around: Surroundings, best: Candidate) -> str:

@@ -14,6 +14,8 @@ from anymesh.reasoning.vocabulary import is_fixed_name, recognize
 from anymesh.segmentation.contacts import Contacts, coplanar, hanging_on
 from anymesh.types import Mesh
 
+MOST = 0.5  # share of the object's surface: what is one with more is the object, creases or not
+
 
 @dataclass(frozen=True, eq=False)
 class Units:
@@ -24,6 +26,7 @@ class Units:
     names: list[str]
     root: int
     hanging: dict[int, list[int]]
+    surface: Int[np.ndarray, " P"]  # pieces of one number are parted by creases only
 
     def faces(self, units: list[int]) -> np.ndarray:
         chosen = np.flatnonzero(np.isin(self.unit, units))
@@ -50,7 +53,8 @@ def join_units(mesh: Mesh, whole: ObjectShape, contacts: Contacts, root_piece: i
     _, first, unit = np.unique(key, return_index=True, return_inverse=True)
     unit = unit.reshape(-1)
     root = int(unit[root_piece])
-    return Units(contacts, unit, [names[p] for p in first], root, hanging_on(contacts, unit, root))
+    surface = label_connected(len(shapes), np.array(whole.shared, np.int64).reshape(-1, 2))
+    return Units(contacts, unit, [names[p] for p in first], root, hanging_on(contacts, unit, root), surface)
 
 
 def _most(numbers: np.ndarray) -> int:
@@ -59,15 +63,18 @@ def _most(numbers: np.ndarray) -> int:
 
 
 def root_ranking(whole: ObjectShape, contacts: Contacts) -> list[int]:
-    """The pieces that the rest may hang on, likeliest first: large, much touched, standing on the ground, and no front."""
+    """The pieces that the rest may hang on, likeliest first: large, much touched, standing on the ground, reaching
+    far, and no front."""
     degree = np.bincount(contacts.touch.reshape(-1), minlength=len(contacts.shapes))
-    low = whole.shape.bounds[0, 2] + 0.02 * whole.diagonal
+    bounds = whole.shape.bounds
+    low = bounds[0, 2] + 0.02 * whole.diagonal
     rank = []
     for s, d in zip(contacts.shapes, degree, strict=True):
         size = float(np.linalg.norm(s.bounds[1] - s.bounds[0])) * (1 + 0.1 * min(int(d), 10))
         samples = s.samples
         stands = ((samples.points[:, 2] < low) & (samples.normals[:, 2] < -0.7)).mean() if len(samples) else 0.0
-        rank.append(size * (1.3 if stands > 0.05 else 1.0))
+        sides = int((np.abs(s.bounds - bounds) < 0.02 * whole.diagonal).sum())  # of the object: walls reach most of them
+        rank.append(size * (1.3 if stands > 0.05 else 1.0) * (1 + 0.1 * sides))
     order = np.lexsort((-np.array(rank), np.isin(np.arange(len(rank)), whole.fronts)))
     return [int(i) for i in order]
 
@@ -80,10 +87,17 @@ def size_of(units: Units, chosen: list[int]) -> float:
 
 
 def with_held(units: Units, u: int) -> list[int]:
-    """The unit, what hangs on it, and the smaller units that touch these more than all else (a shelf on a door)."""
-    members = set(units.hanging[u])
-    area = units.contacts.area
-    unit = units.unit
+    """The unit, what hangs on it, and the rest of its surface (the box behind a drawer's front, whatever it stands on); of a
+    unit that is a surface by itself, the smaller units that touch these more than all else (a shelf on a door)."""
+    surface = _of_one_surface(units, u)
+    members = set(units.hanging[u]).union(*(units.hanging[v] for v in surface))
+    if not surface:
+        members = _grown(units, members)
+    return [u, *sorted(members - {u, units.root})]
+
+
+def _grown(units: Units, members: set[int]) -> set[int]:
+    area, unit = units.contacts.area, units.unit
     own = sum(units.contacts.shapes[p].area for p in np.flatnonzero(np.isin(unit, list(members))))
     for _ in range(4):
         inside = np.isin(unit, list(members))
@@ -97,7 +111,17 @@ def with_held(units: Units, u: int) -> list[int]:
         if grown == members:
             break
         members = grown
-    return [u, *sorted(members - {u})]
+    return members
+
+
+def _of_one_surface(units: Units, u: int) -> list[int]:
+    """The units that creases alone part from this one, if their common surface is neither the root's nor most of the object."""
+    shapes, surface = units.contacts.shapes, units.surface
+    own = np.isin(surface, surface[units.unit == u])
+    area = np.array([s.area for s in shapes])
+    if own[units.unit == units.root].any() or area[own].sum() > MOST * area.sum():
+        return []
+    return [int(v) for v in np.unique(units.unit[own]) if v != u]
 
 
 def touches_outside(units: Units, members: Sequence[int]) -> bool:

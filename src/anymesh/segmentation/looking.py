@@ -1,0 +1,83 @@
+"""A candidate part: what it is made of, what is around it, what it shows."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Int
+
+from anymesh.config import Config
+from anymesh.geometry.boxes import alike
+from anymesh.geometry.pieces import ObjectShape
+from anymesh.geometry.surroundings import Surroundings, core_box
+from anymesh.reasoning.questions import PartAnswer, PartEvidence
+from anymesh.segmentation.evidence import Context, gather
+from anymesh.segmentation.units import Units, size_of, touches_outside
+
+
+@dataclass(frozen=True, eq=False)
+class Found:
+    """A candidate that was taken as a part: its unit, its faces, the answer about it."""
+
+    unit: int
+    members: tuple[int, ...]
+    faces: Int[np.ndarray, " n"]
+    answer: PartAnswer
+    label: str
+
+
+@dataclass(frozen=True, eq=False)
+class Look:
+    """Units that may be one part, and what they show."""
+
+    unit: int
+    members: tuple[int, ...]
+    faces: Int[np.ndarray, " n"]
+    around: Surroundings
+    evidence: PartEvidence
+    separate: bool
+
+
+def look_at(whole: ObjectShape, units: Units, u: int, members: list[int], found: list[Found], config: Config) -> Look | None:
+    """The evidence for these units as one part; None where no face of them, or of the rest, is left."""
+    faces = units.faces(members)
+    moving = np.zeros(len(whole.shape.areas), bool)
+    moving[faces] = True
+    inner = [f for f in found if f.unit in members and f.unit != u]
+    for f in inner:
+        moving[f.faces] = False
+    faces = np.flatnonzero(moving)
+    if len(faces) == 0:
+        return None
+    elsewhere = [f for f in found if f.unit not in members] + inner
+    away = np.zeros_like(moving)
+    for f in elsewhere:
+        away[f.faces] = True
+    carrier = next((f for f in elsewhere if u in f.members), None)
+    if carrier is not None:
+        away[carrier.faces] = False
+    away &= ~moving
+    still = ~moving & ~away
+    if not still.any():
+        return None
+    rest = whole.of(np.flatnonzero(still))
+    around = Surroundings(
+        part=whole.of(faces), parent=rest, rest=rest, others=whole.of(np.flatnonzero(away)) if away.any() else None,
+        everything=whole.of(np.flatnonzero(~moving)), slim=(), diagonal=whole.diagonal,
+        center=whole.shape.bounds.mean(0),
+        config=config.articulation,
+    )  # fmt: skip
+    separate = not touches_outside(units, members)
+    size = size_of(units, members)
+    twins = tuple(
+        whole.of(units.faces(units.hanging[other]))
+        for other in units.hanging
+        if other not in (u, units.root)
+        and other not in members
+        and abs(size_of(units, units.hanging[other]) - size) < 0.02 * size
+    )
+    copies = [f.answer.score for f in elsewhere if alike(around.core, core_box(whole.of(f.faces)))]
+    copied = max(copies, default=None)
+    context = Context(whole, config.segmentation, units.names[u], separate, twins, carrier is not None, copied)
+    return Look(u, tuple(members), faces, around, gather(around, context), separate)
