@@ -120,3 +120,17 @@ def test_only_thin_rods_between_part_and_parent_may_be_barrels(seed):
     whole = object_shape(mesh.transformed(place(seed)))
     part, parent = whole.of(np.flatnonzero(number == 0)), whole.of(np.flatnonzero(number > 0))
     assert [set(number[r.faces]) for r in rods(whole, part, parent)] == [{1}]
+
+
+def test_a_face_that_bulges_has_no_grip_and_a_grip_on_it_is_found():
+    u, v = np.meshgrid(np.linspace(-1, 1, 25), np.linspace(-1, 1, 25), indexing="ij")
+    front = np.stack([0.3 * u, -0.1 * (1 - (u**2 + v**2) / 2), 0.4 * v], -1).reshape(-1, 3)
+    corner = (np.arange(24)[:, None] * 25 + np.arange(24)).reshape(-1)
+    faces = np.concatenate([np.stack([corner, corner + 25, corner + 26], 1), np.stack([corner, corner + 26, corner + 1], 1)])
+    hull = (front, faces)
+    body = box((-0.3, 0.01, -0.4), (0.3, 0.5, 0.4))
+    assert surroundings([hull], [body], np.eye(4)).handle is None
+    grip = box((0.18, -0.13, -0.06), (0.2, -0.05, 0.06))
+    found = surroundings([hull, grip], [body], np.eye(4)).handle
+    assert found is not None
+    assert max(abs(a) for a in found.across) > 0.5

@@ -97,7 +97,7 @@ def test_an_answer_is_checked(confidence: float, reason: str) -> None:
 
 def evidence(**changes) -> PartEvidence:
     """Of a lump that nothing speaks for."""
-    plain = {"str": "", "float": 0.0, "int": 0, "bool": False, "Handle | None": None}
+    plain = {"str": "", "float": 0.0, "int": 0, "bool": False, "Handle | None": None, "float | None": None}
     made = PartEvidence(**{f.name: plain[str(f.type)] for f in fields(PartEvidence)})
     return replace(made, **{"thinness": 1.0, "size": 0.3, "touching": 0.3, **changes})
 
@@ -122,3 +122,31 @@ def test_a_name_outweighs_shape_both_ways() -> None:
     assert WHO.is_part(evidence(**DOOR, name="Drawer_1")).label == "drawer"
     assert WHO.is_part(evidence(**DOOR, name="Drawer_1")).moves
     assert WHO.is_part(evidence(**door, name="Mesh_042")) == WHO.is_part(evidence(**door))
+
+
+def test_copies_are_judged_together() -> None:
+    weak = WHO.is_part(evidence(**DOOR, gap_sides=2))
+    assert not weak.moves
+    assert WHO.is_part(evidence(**DOOR, gap_sides=2, copied=2.8)).score == pytest.approx((weak.score + 2.8) / 2)
+    assert WHO.is_part(evidence(**DOOR, gap_sides=2, copied=2.8)).moves
+    assert WHO.is_part(evidence(**DOOR, gap_sides=2, copied=weak.score - 1)) == weak  # a worse one takes nothing away
+    assert not WHO.is_part(evidence(**DOOR, gap_sides=2, copied=2.8, on_movable=True)).moves
+
+
+def test_keys_come_in_numbers() -> None:
+    key = {"size": 0.02, "outside": 1.0, "gap_sides": 3}
+    assert WHO.is_part(evidence(**key, twins=8)).label == "button"
+    assert WHO.is_part(evidence(**key, twins=8)).moves
+    assert not WHO.is_part(evidence(**key, twins=1)).moves
+    assert not WHO.is_part(evidence(**{**key, "gap_sides": 0}, twins=8)).moves  # rivets
+
+
+def test_copies_move_in_one_manner() -> None:
+    flap = replace(EDGE, motion=Motion(MotionKind.TURN, X, np.zeros(3), "its upper edge"), vertical=0.0, above=1.0)
+    slightly = replace(EDGE, support=0.85)
+    alone = asked(PLATE, flap, slightly)
+    sure = replace(PLATE, handle=Handle((0.9, 0.0), 1, 0.2))
+    twin = MotionQuestion(sure, (replace(flap, handle_side=0.0), replace(EDGE, handle_side=0.9)))
+    with_twin = WHO.which_motion(MotionQuestion(PLATE, (flap, slightly), (twin,)))
+    assert with_twin.ranking[0] == 1
+    assert with_twin.confidence > alone.confidence or alone.ranking[0] == 0

@@ -10,6 +10,7 @@ import numpy as np
 from anymesh.articulation.decode import plane_normal
 from anymesh.articulation.estimate import surroundings
 from anymesh.articulation.tree import descendants, parents
+from anymesh.articulation.twins import agree, same_size
 from anymesh.config import ArticulationConfig, Config
 from anymesh.geometry.pieces import ObjectShape
 from anymesh.geometry.surroundings import Surroundings
@@ -50,10 +51,14 @@ def make_cases(whole: ObjectShape, segmentation: Segmentation, recognition: Reco
     shapes = [whole.of(np.flatnonzero(label == i)) for i in range(len(segmentation.parts))]
     told = {r.label: r for r in recognition.labels} if recognition else {}
     parent = parents(shapes, whole.diagonal, _told_parents(segmentation, told))
+    arounds = {}
+    for numbers in same_size(shapes, parent):
+        limits = [_limited(config.articulation, told.get(segmentation.parts[i].label)) for i in numbers]
+        some = [surroundings(whole, label, shapes, parent, i, limited) for i, limited in zip(numbers, limits, strict=True)]
+        arounds |= zip(numbers, agree(some), strict=True)
     found = []
     for i, part in enumerate(segmentation.parts[1:], start=1):
-        limited = _limited(config.articulation, told.get(part.label))
-        around = surroundings(whole, label, shapes, parent, i, limited)
+        around = arounds[i]
         contact = around.contact
         shown = PartShown(
             label=part.label,

@@ -119,8 +119,10 @@ def _bail(e: PartEvidence) -> tuple[float, str, str]:
 
 
 def _key(e: PartEvidence) -> tuple[float, str, str]:
-    """A key: one of several alike that stand out of a surface side by side, a clearance between them."""
-    if e.size > GRIPPED or e.outside < 0.8 or e.gap_sides < 2 or e.twins < KEYS or e.faces_down:
+    """A key: one of several alike that stand out of a surface side by side, a clearance between them; the last of a row has
+    a neighbour on one side only."""
+    least = 2 if e.copied is None else 1
+    if e.size > GRIPPED or e.outside < 0.8 or e.gap_sides < least or e.twins < KEYS or e.faces_down:
         return (-3.0, KEY, "no key")
     return (0.2 + 0.2 * e.gap_sides + 0.1 * min(e.twins, 4), KEY, f"{e.twins + 1} alike, clearance at {e.gap_sides} rims")
 
