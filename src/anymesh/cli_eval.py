@@ -47,7 +47,7 @@ def evaluate(
     verify: Annotated[str, typer.Option(help="motion, or off: the paper's method as it is.")] = "motion",
     at_least: Annotated[
         int, typer.Option("--at-least", metavar="N", help="Parts that geometry takes however thin the evidence is.")
-    ] = 1,
+    ] = 0,
     max_calls: Annotated[int | None, typer.Option("--max-calls", help="No call of a model beyond so many.")] = None,
     max_cost: Annotated[float | None, typer.Option("--max-cost", metavar="USD", help="No call that could pass it.")] = None,
     cache: Annotated[str, typer.Option(metavar="DIR", help="Answers of models: auto, off, or a folder.")] = "auto",

@@ -55,10 +55,8 @@ def evaluate(
     dataset: see `open_dataset`; protocol: parts, views, end-to-end or executability; changes: see `evaluation.changes`;
     views: observations of each object, for the protocol of that name; only: names of objects; jobs: objects at a time
     (None: one a core). answerer: as for `articulate`, or oracle, or oracle:P (each answer wrong with probability P).
-    at_least is 1 unless given: every object of a data set is known to move.
     Raises OptionError, OutputError, MissingExtraError, ModelError; what was done until then is kept.
     """
-    answering = {"at_least": 1, **answering}
     exam = _exam(protocol, changes, views, answering.get("seed", 0))
     see, data = _see(answering, exam.seed), open_dataset(dataset)
     names = _chosen(data, split, only)
@@ -115,7 +113,7 @@ def _settings(dataset: str, split: str | None, only: Sequence[str], exam: Exam, 
         told["only"] = ", ".join(sorted(only))
     told |= {k: str(answering[k]) for k in ("verify", "proposer") if k in answering}
     if exam.protocol in (Protocol.END_TO_END, Protocol.EXECUTABILITY):
-        told["at least"] = str(answering["at_least"])
+        told["at least"] = str(answering.get("at_least", 0))
     made = {"date": datetime.datetime.now(datetime.UTC).date().isoformat(), "python": platform.python_version()}
     return told | made | {"numpy": np.__version__, "machine": f"{platform.machine()}, {_cores()} cores"}
 

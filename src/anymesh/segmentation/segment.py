@@ -19,8 +19,9 @@ from anymesh.progress import Progress, silent
 from anymesh.reasoning.movable import ENOUGH, KEY, stands_out
 from anymesh.reasoning.questions import Answerer, Candidate, MotionAnswer, PartAnswer
 from anymesh.reasoning.vocabulary import recognize
+from anymesh.reasoning.weighing import CONTROL
 from anymesh.segmentation.contacts import Contacts, find_contacts
-from anymesh.segmentation.looking import Found, look_at
+from anymesh.segmentation.looking import Found, Look, look_at
 from anymesh.segmentation.naming import named_parts
 from anymesh.segmentation.units import Units, join_units, root_ranking, size_of, touches_outside, with_held
 from anymesh.types import JointType, Mesh, MotionKind, Segmentation
@@ -31,6 +32,7 @@ Moves = Callable[[Surroundings, str], tuple[MotionAnswer, Candidate]]  # Stage B
 DOUBTFUL = -0.4  # evidence from which the motion of what touches nothing is looked at
 PLAINLY = 1.8  # evidence that unseats a root
 MOST_KEYS = 16  # more are a keyboard, whose keys nobody wants as joints
+TRAVEL = 0.1  # of its size, by which a drawer comes out at least
 FRONT = 1.6  # what it counts that a layout of handles makes a piece one of the fronts
 
 
@@ -149,9 +151,15 @@ def _judged(
     motion, best = moves(look.around, answer.label if units.names[u] else "part")
     if not answer.moves:  # a fit that lets it slide between two stops is evidence of its own
         answer = answerer.is_part(replace(look.evidence, captured=best.captured and best.guided > 0.4))
-    if not answer.moves or motion.type is JointType.FIXED:
+    if not answer.moves or motion.type is JointType.FIXED or _stays_in(look, best):
         return None
     return Found(u, look.members, look.faces, answer, _label(answer, units.names[u], look.around, best))
+
+
+def _stays_in(look: Look, best: Candidate) -> bool:
+    """Whether what is too large for a button would come out by next to nothing: it is no drawer."""
+    size = look.evidence.size
+    return best.motion.kind is MotionKind.SLIDE and best.outward > 0.7 and size > CONTROL and best.opening < TRAVEL * size
 
 
 def _label(answer: PartAnswer, name: str, around: Surroundings, best: Candidate) -> str:
