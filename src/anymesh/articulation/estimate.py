@@ -115,7 +115,8 @@ def _clear_of_others(around: Surroundings, best: Candidate, candidates: tuple[Ca
     def opens(c: Candidate) -> float:
         return free_amount(near, opening_motion(c), 1, min(c.opening, WIDE), around.config.sweep_steps)[0]
 
-    twins = [c for c in candidates if c.role in rims and c.outward * best.outward > 0 and _at_one_rim(best, c, thickness)]
+    alike = [c for c in candidates if c is best or (c.role in rims and c.outward * best.outward > 0)]
+    twins = [c for c in alike if _at_one_rim(best, c, thickness)]
     free = {id(c): opens(c) for c in twins}
     most = max(free.values())
     return best if free[id(best)] > most - NOTICED else next(c for c in twins if free[id(c)] == most)
