@@ -198,7 +198,7 @@ def _along(part: PartFacts, c: Candidate) -> dict[str, float]:
         "slide: along, guided": float(c.guided > GUIDED),
         "slide: along, captured": float(captured),
         "slide: along, captured, small or level": float(captured and (part.size < CONTROL or c.vertical < 0.7)),
-        "slide: along, passes another": c.passes,
+        "slide: along, passes another": c.passes * (c.guided > 0),
         "slide: along, contact kept": c.kept,
         "slide: along, room": _within(room, 0.0, 1.0),
         "slide: along, endless": _within(room - 1.5, 0.0, 1.0),
