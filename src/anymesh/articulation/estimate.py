@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator
 from dataclasses import replace
 
@@ -25,6 +26,7 @@ SAME_RIM = 0.01  # share of the scale: hinge lines this near, or as near as the 
 PARALLEL = 0.999  # cosine of their axes
 WIDE = np.deg2rad(110)  # of an opening that a hinge needs no more than
 TIGHT = 0.2  # factor on the penetration that counts: neighbours are a few millimetres away
+MOST_TWINS = 8  # copies of a part that are asked with it
 NOTICED = np.deg2rad(5)  # a line that lets the part open further by less is no better
 
 
@@ -54,8 +56,8 @@ def motion_questions(
         arounds = agree([surroundings(whole, label, shapes, parent, i, config.articulation) for i in numbers])
         questions = [motion_question(a, parts[i].name, parts[i].label) for i, a in zip(numbers, arounds, strict=True)]
         for i, around, question in zip(numbers, arounds, questions, strict=True):
-            twins = tuple(q for q, a in zip(questions, arounds, strict=True) if a is not around and in_a_row(around, a))
-            yield i, parent[i], around, replace(question, twins=twins)
+            row = (q for q, a in zip(questions, arounds, strict=True) if a is not around and in_a_row(around, a))
+            yield i, parent[i], around, replace(question, twins=tuple(itertools.islice(row, MOST_TWINS)))
 
 
 def surroundings(

@@ -8,9 +8,9 @@ import numpy as np
 from jaxtyping import Int
 
 from anymesh.config import Config
-from anymesh.geometry.boxes import alike
+from anymesh.geometry.boxes import Box, alike
 from anymesh.geometry.pieces import ObjectShape
-from anymesh.geometry.surroundings import Surroundings, core_box
+from anymesh.geometry.surroundings import Surroundings
 from anymesh.reasoning.questions import PartAnswer, PartEvidence
 from anymesh.segmentation.evidence import Context, gather
 from anymesh.segmentation.units import Units, size_of, touches_outside
@@ -18,11 +18,12 @@ from anymesh.segmentation.units import Units, size_of, touches_outside
 
 @dataclass(frozen=True, eq=False)
 class Found:
-    """A candidate that was taken as a part: its unit, its faces, the answer about it."""
+    """A candidate that was taken as a part: its unit, its faces, its core box, the answer about it."""
 
     unit: int
     members: tuple[int, ...]
     faces: Int[np.ndarray, " n"]
+    box: Box
     answer: PartAnswer
     label: str
 
@@ -77,7 +78,7 @@ def look_at(whole: ObjectShape, units: Units, u: int, members: list[int], found:
         and other not in members
         and abs(size_of(units, units.hanging[other]) - size) < 0.02 * size
     )
-    copies = [f.answer.score for f in elsewhere if alike(around.core, core_box(whole.of(f.faces)))]
+    copies = [f.answer.score for f in elsewhere if alike(around.core, f.box)]
     copied = max(copies, default=None)
     context = Context(whole, config.segmentation, units.names[u], separate, twins, carrier is not None, copied)
     return Look(u, tuple(members), faces, around, gather(around, context), separate)

@@ -113,7 +113,9 @@ def _likeliest(whole: ObjectShape, units: Units, found: list[Found], moves: Move
         motion, best = moves(look.around, "part")
         if motion.type is not JointType.FIXED:
             answer = PartAnswer(True, "part", 0.0, "nothing else was found, and this stands out most")
-            chosen.append(Found(look.unit, look.members, look.faces, answer, _label(answer, "", look.around, best)))
+            chosen.append(
+                Found(look.unit, look.members, look.faces, look.around.core, answer, _label(answer, "", look.around, best))
+            )
             taken |= set(look.members)
     return chosen
 
@@ -153,7 +155,7 @@ def _judged(
         answer = answerer.is_part(replace(look.evidence, captured=best.captured and best.guided > 0.4))
     if not answer.moves or motion.type is JointType.FIXED or _stays_in(look, best):
         return None
-    return Found(u, look.members, look.faces, answer, _label(answer, units.names[u], look.around, best))
+    return Found(u, look.members, look.faces, look.around.core, answer, _label(answer, units.names[u], look.around, best))
 
 
 def _stays_in(look: Look, best: Candidate) -> bool:
