@@ -131,6 +131,9 @@ def test_copies_are_judged_together() -> None:
     assert WHO.is_part(evidence(**DOOR, gap_sides=2, copied=2.8)).moves
     assert WHO.is_part(evidence(**DOOR, gap_sides=2, copied=weak.score - 1)) == weak  # a worse one takes nothing away
     assert not WHO.is_part(evidence(**DOOR, gap_sides=2, copied=2.8, on_movable=True)).moves
+    held = WHO.is_part(evidence(**DOOR, flush=1.0))
+    assert held.score < 0
+    assert WHO.is_part(evidence(**DOOR, flush=1.0, copied=2.8)) == held  # the fixed pane beside a sash
 
 
 def test_keys_come_in_numbers() -> None:

@@ -17,7 +17,7 @@ def judge(e: PartEvidence) -> PartAnswer:
     named = _named(e)
     kinds = [_plate(e), _box(e), _round(e), _bail(e), _control(e), _key(e)]
     score, label, why = max(kinds, key=lambda kind: kind[0])
-    if e.copied is not None and e.copied > score and not e.on_movable:  # copies move alike: they are judged together
+    if e.copied is not None and 0 < score < e.copied and not e.on_movable:  # copies, unless much speaks against, are one case
         score, why = (score + e.copied) / 2, f"{why}, a copy of a part that moves"
     if named is not None:
         bonus, word = named
