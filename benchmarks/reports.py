@@ -79,8 +79,8 @@ def make(names: Sequence[str], work: Path, places: dict[str, str]) -> int:
         failed = code or failed
         if code == 0:
             text = (work / name / "report.md").read_text(encoding="utf-8")
-            for known in places:
-                text = re.sub(rf"\b{known}:\S+", known, text)  # where it lies is nobody's business
+            for known, place in places.items():
+                text = re.sub(rf"\b{known}:\S+", known, text).replace(place, known)  # where it lies is nobody's business
             (REPORTS / f"{name}.md").write_text(f"`anymesh eval {RUNS[name]} -o DIR`\n\n{text}", encoding="utf-8")
     return failed
 
