@@ -10,7 +10,7 @@ import pytest
 ROOT = Path(__file__).parents[1]
 SOURCE = ROOT / "src" / "anymesh"
 FLOORS = [
-    {"errors", "config", "progress", "names", "mujoco_"},
+    {"errors", "config", "deadline", "isolation", "progress", "names", "mujoco_"},
     {"types"},
     {"storage", "stage_results", "geometry", "rendering", "loading", "models"},
     {"collision"},

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -11,12 +10,15 @@ import numpy as np
 from jaxtyping import Float
 
 from anymesh.collision.clear import Piece, Scene, clear
+from anymesh.collision.convex import hull_of, thinned
 from anymesh.collision.crossing import Surface
-from anymesh.collision.decompose import Component, Fineness, component_shapes, least_box, split_components
+from anymesh.collision.decompose import Component, Fineness, least_box, split_components
+from anymesh.collision.decomposer import Decomposer, Fallback
 from anymesh.collision.settings import CollisionConfig
-from anymesh.collision.store import content_key, load_shapes, save_shapes
+from anymesh.deadline import COLLISION, Deadline
 from anymesh.geometry.kinematics import link_transforms
 from anymesh.geometry.simplify_ import simplify
+from anymesh.isolation import ChildPool, shared_pool
 from anymesh.types import Asset, Joint, JointType, Shape
 
 __all__ = ["Collision", "CollisionConfig", "collision_shapes", "joint_poses"]
@@ -26,14 +28,15 @@ SMALL = 0.3  # components smaller than this share of the first gap need no shape
 
 @dataclass(frozen=True, eq=False)
 class Collision:
-    """Shapes a link, in its frame; overlapping: pairs of links whose surfaces go through each other at rest; false_before:
+    """Shapes per link, in its frame. overlapping: pairs of links whose surfaces go through each other at rest; false_before:
     pairs of shapes that touched at a sampled pose though the surfaces do not, before they were planed and refined; tight:
-    pairs of links of which some still do."""
+    pairs of links of which some still do; warnings: per link, what was not done as it should be, and why."""
 
     shapes: Mapping[str, tuple[Shape, ...]]
     overlapping: tuple[tuple[str, str], ...]
     false_before: int
     tight: tuple[tuple[str, str], ...]
+    warnings: tuple[str, ...] = ()
 
 
 def collision_shapes(
@@ -42,34 +45,56 @@ def collision_shapes(
     origins: Mapping[str, Float[np.ndarray, " 3"]],
     config: CollisionConfig = CollisionConfig(),  # noqa: B008 - frozen
     cache: Path | None = None,
+    *,
+    deadline: Deadline | None = None,
+    pool: ChildPool | None = None,
 ) -> Collision:
-    """Shapes for every link. triangles: a link, in its frame [m]; origins: where link frames lie at rest [m]."""
+    """Make shapes for every link. Components that are not convex are divided in child processes.
+
+    triangles: per link, in its frame [m]; origins: where link frames lie at rest [m]; deadline: past it, components get one
+    hull each and false contacts stay; pool: of children, the process's own by default.
+    """
+    deadline = deadline or Deadline()
     size = asset.mesh.diagonal
     wall = min(config.wall * size, config.wall_most)
+    decomposer = Decomposer(pool or shared_pool(), cache, config.seconds)
+    fallbacks: dict[str, Fallback] = {}
+    parts = [
+        (link, c)
+        for link, t in triangles.items()
+        for c in split_components(t, SMALL * config.gaps[0] * size, config.most_components)
+    ]
+    owner = {id(c): link for link, c in parts}
 
-    def shapes_of(component: Component, level: int) -> tuple[Shape, ...]:
-        fineness = Fineness(config.gaps[level] * size, wall, config.pieces[level])
-        key = content_key(component.triangles, component.solid, fineness.gap, fineness.wall, fineness.most)
-        found = load_shapes(cache, key)
-        if found is None:
-            found = component_shapes(component, fineness)
-            save_shapes(cache, key, found)
-        return found
+    def shapes_of(some: Sequence[Component], levels: Sequence[int]) -> list[tuple[Shape, ...]]:
+        if deadline.late(COLLISION):
+            deadline.leave_out("collision: one convex hull per component, and false contacts stay")
+            return [_one_hull(c, wall) for c in some]
+        fineness = [Fineness(config.gaps[k] * size, wall, config.pieces[k]) for k in levels]
+        divided = decomposer.divide(some, fineness)
+        fallbacks.update({owner[id(c)]: d.fallback for c, d in zip(some, divided, strict=True) if d.fallback is not None})
+        return [d.shapes for d in divided]
 
-    parts = [(link, c) for link, t in triangles.items() for c in split_components(t, SMALL * config.gaps[0] * size)]
-    with ThreadPoolExecutor() as pool:  # CoACD works outside the lock
-        first = pool.map(lambda part: shapes_of(part[1], 0), parts)
-        pieces = [Piece(link, c, 0, shapes) for (link, c), shapes in zip(parts, first, strict=True)]
+    first = shapes_of([c for _, c in parts], [0] * len(parts))
+    pieces = [Piece(link, c, 0, shapes) for (link, c), shapes in zip(parts, first, strict=True)]
     scene = Scene(
         {link: Surface(simplify(t, FACES)) for link, t in triangles.items()},
         list(_poses(asset, origins, config.poses)),
         config.contact * size,
         config.crossing * size,
     )
-    done = clear(scene, pieces, shapes_of, levels=len(config.gaps), rounds=config.rounds)
+    done = clear(scene, pieces, shapes_of, levels=len(config.gaps), rounds=config.rounds, late=lambda: deadline.late(COLLISION))
     found = {link: tuple(s for p in done.pieces if p.link == link for s in p.shapes) for link in triangles}
     found = {link: shapes or (least_box(triangles[link], wall),) for link, shapes in found.items()}
-    return Collision(found, scene.overlapping, done.before, done.left)
+    warnings = tuple(
+        f"link {link}: collision made by {f.used}, since {'; '.join(f.reasons)}" for link, f in sorted(fallbacks.items())
+    )
+    return Collision(found, scene.overlapping, done.before, done.left, warnings)
+
+
+def _one_hull(component: Component, wall: float) -> tuple[Shape, ...]:
+    hull = hull_of(component.triangles.reshape(-1, 3), wall)
+    return () if hull is None else (thinned(hull),)
 
 
 def joint_poses(

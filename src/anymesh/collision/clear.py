@@ -8,7 +8,6 @@ contact, and listed; a collision that is there in truth (a tray behind a closed 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -23,7 +22,7 @@ from anymesh.types import Shape
 
 LITTLE = 0.15  # share of a shape that is planed off rather than its piece refined
 MUCH = 0.7  # share that is planed off where nothing finer is left
-Refine = Callable[[Component, int], tuple[Shape, ...]]  # the shapes of a component at a level of fineness
+Refine = Callable[[Sequence[Component], Sequence[int]], list[tuple[Shape, ...]]]  # shapes of components at levels of fineness
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,8 +47,16 @@ class Fault:
 
 
 @dataclass(frozen=True, eq=False)
+class Faults:
+    """The deepest false contact of each pair of shapes, deepest first. poses: numbers of the poses that have any."""
+
+    found: list[Fault]
+    poses: tuple[int, ...]
+
+
+@dataclass(frozen=True, eq=False)
 class Scene:
-    """Surfaces a link in link frames, poses (the first one is rest), and depths that count [m]."""
+    """Surfaces per link in link frames, poses (the first one is rest), and depths that count [m]."""
 
     surfaces: dict[str, Surface]
     poses: Sequence[Pose]
@@ -60,33 +67,40 @@ class Scene:
     def overlapping(self) -> tuple[tuple[str, str], ...]:
         """Pairs of links whose surfaces go through each other at rest."""
         names = sorted(self.surfaces)
-        return tuple((a, b) for i, a in enumerate(names) for b in names[i + 1 :] if self._cross(a, b, self.poses[0]))
+        return tuple((a, b) for i, a in enumerate(names) for b in names[i + 1 :] if self._cross(a, b, 0))
 
-    def _cross(self, a: str, b: str, pose: Pose) -> bool:
-        return cross(self.surfaces[a], pose[a], self.surfaces[b], pose[b], self.crossing)
+    @cached_property
+    def _crossings(self) -> dict[tuple[str, str, int], bool]:
+        return {}
 
-    def faults(self, pieces: Sequence[Piece]) -> list[Fault]:
-        """The deepest false contact of each pair of shapes over all poses, deepest first."""
+    def _cross(self, a: str, b: str, at: int) -> bool:
+        """Whether the surfaces of two links go through each other at a pose. Kept: surfaces do not change."""
+        if (a, b, at) not in self._crossings:
+            pose = self.poses[at]
+            self._crossings[a, b, at] = cross(self.surfaces[a], pose[a], self.surfaces[b], pose[b], self.crossing)
+        return self._crossings[a, b, at]
+
+    def faults(self, pieces: Sequence[Piece], at: Sequence[int] | None = None) -> Faults:
+        """Find the false contacts at some poses, all by default."""
         owner = {
             link: [(k, n) for k, p in enumerate(pieces) if p.link == link for n in range(len(p.shapes))]
             for link in self.surfaces
         }
-        bench = ContactBench({link: [pieces[k].shapes[n] for k, n in some] for link, some in owner.items()})
-        skipped = set(self.overlapping)
+        bench = ContactBench({link: [pieces[k].shapes[n] for k, n in some] for link, some in owner.items()}, self.overlapping)
         worst: dict[tuple[tuple[int, int], tuple[int, int]], Fault] = {}
-        for pose in self.poses:
+        poses = []
+        for number in range(len(self.poses)) if at is None else at:
             found: dict[tuple[str, str], list[Contact]] = {}
-            for contact in bench.contacts(pose, self.contact):
+            for contact in bench.contacts(self.poses[number], self.contact):
                 a, b = sorted((contact.first[0], contact.second[0]))
                 found.setdefault((a, b), []).append(contact)
-            for (a, b), contacts in found.items():
-                if (a, b) in skipped or self._cross(a, b, pose):
-                    continue
-                for c in contacts:
-                    key = owner[c.first[0]][c.first[1]], owner[c.second[0]][c.second[1]]
-                    if key not in worst or c.depth > worst[key].depth:
-                        worst[key] = Fault(*key, c.depth, c.normal, pose)
-        return sorted(worst.values(), key=lambda f: (-f.depth, f.first, f.second))
+            false = [c for (a, b), contacts in found.items() if not self._cross(a, b, number) for c in contacts]
+            poses += [number] if false else []
+            for c in false:
+                key = owner[c.first[0]][c.first[1]], owner[c.second[0]][c.second[1]]
+                if key not in worst or c.depth > worst[key].depth:
+                    worst[key] = Fault(*key, c.depth, c.normal, self.poses[number])
+        return Faults(sorted(worst.values(), key=lambda f: (-f.depth, f.first, f.second)), tuple(poses))
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,25 +112,31 @@ class Cleared:
     left: tuple[tuple[str, str], ...]
 
 
-def clear(scene: Scene, pieces: list[Piece], refine: Refine, *, levels: int, rounds: int) -> Cleared:
-    """Planes the shapes of false contacts where that costs them little; refines pieces up to the last of `levels` where not."""
+def clear(
+    scene: Scene, pieces: list[Piece], refine: Refine, *, levels: int, rounds: int, late: Callable[[], bool] = lambda: False
+) -> Cleared:
+    """Plane the shapes of false contacts where that costs them little; refine pieces up to the last of `levels` where not.
+
+    Shapes only shrink, so a round looks at the poses that had false contacts; when these are free, all are looked at again.
+    late: tells that the time is over, after which false contacts stay.
+    """
     faults = scene.faults(pieces)
-    before = len(faults)
-    while faults and rounds > 0:
+    before = len(faults.found)
+    while faults.found and rounds > 0 and not late():
         rounds -= 1
-        planed, costly = _planed(pieces, faults, scene.contact, LITTLE)
+        planed, costly = _planed(pieces, faults.found, scene.contact, LITTLE)
         coarse = sorted({k for f in costly for k, _ in (f.first, f.second) if pieces[k].level + 1 < levels})
         if coarse:
-            with ThreadPoolExecutor() as pool:  # CoACD works outside the lock
-                finer = pool.map(refine, [pieces[k].component for k in coarse], [pieces[k].level + 1 for k in coarse])
+            finer = refine([pieces[k].component for k in coarse], [pieces[k].level + 1 for k in coarse])
             for k, shapes in zip(coarse, finer, strict=True):
                 planed[k] = replace(pieces[k], level=pieces[k].level + 1, shapes=shapes)
         elif costly:
-            planed, _ = _planed(pieces, faults, scene.contact, MUCH)
+            planed, _ = _planed(pieces, faults.found, scene.contact, MUCH)
         pieces = planed
-        faults = scene.faults(pieces)
-    left = sorted({(min(a, b), max(a, b)) for f in faults for a, b in [(pieces[f.first[0]].link, pieces[f.second[0]].link)]})
-    return Cleared(pieces, before, tuple(left))
+        again = scene.faults(pieces, faults.poses)
+        faults = again if again.found else scene.faults(pieces)
+    links = [(pieces[f.first[0]].link, pieces[f.second[0]].link) for f in faults.found]
+    return Cleared(pieces, before, tuple(sorted({(min(pair), max(pair)) for pair in links})))
 
 
 def _planed(pieces: list[Piece], faults: Sequence[Fault], slack: float, most: float) -> tuple[list[Piece], list[Fault]]:

@@ -1,4 +1,4 @@
-"""Convex decomposition of closed solids, by CoACD (MIT)."""
+"""Convex decomposition of closed solids, by CoACD (MIT). To be called in a child process: it may crash (docs/decisions.md)."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ SEARCH = {"mcts_iterations": 20, "mcts_nodes": 10, "resolution": 500}  # 2.5 tim
 def decompose(
     vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"], *, concavity: float, seed: int = 0, remesh: bool = False
 ) -> list[Float[np.ndarray, "n 3"]]:
-    """The corner points of convex pieces of a closed solid.
+    """Return the corner points of convex pieces of a closed solid.
 
     concavity: how far a piece may be from the surface, as a share of half the longest side (CoACD's threshold); remesh: first
-    make one closed solid of whatever it is, which thickens thin walls. The same input gives the same pieces.
+    make one closed solid of the input, which thickens thin walls. The same input gives the same pieces.
     """
     try:
         import coacd

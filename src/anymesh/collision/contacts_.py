@@ -31,9 +31,9 @@ class Contact:
 
 
 class ContactBench:
-    """The shapes of all links, to be placed anywhere. Every pair of links may touch; no filter hides a pair."""
+    """The shapes of all links, to be placed anywhere. Every pair of links may touch but those in `excluded`."""
 
-    def __init__(self, shapes: Mapping[str, Sequence[Shape]]) -> None:
+    def __init__(self, shapes: Mapping[str, Sequence[Shape]], excluded: Sequence[tuple[str, str]] = ()) -> None:
         mujoco = load_mujoco()
         spec = mujoco.MjSpec()
         spec.memory = 1 << 28
@@ -44,6 +44,8 @@ class ContactBench:
             for number, shape in enumerate(some):
                 _add(mujoco, spec, body, f"{link} {number}", shape)
                 self._owner.append((link, number))
+        for a, b in excluded:
+            spec.add_exclude(bodyname1=a, bodyname2=b)
         self._mujoco, self._model = mujoco, spec.compile()
         self._data = mujoco.MjData(self._model)
         self._address = {link: int(self._model.jnt_qposadr[self._model.body(link).jntadr[0]]) for link in shapes}
@@ -57,14 +59,15 @@ class ContactBench:
             data.qpos[k : k + 3], data.qpos[k + 3 : k + 7] = pose[link][:3, 3], quat
         mujoco.mj_kinematics(model, data)
         mujoco.mj_collision(model, data)
-        deepest: dict[tuple[int, int], Contact] = {}
-        for contact in data.contact[: data.ncon]:
-            a, b = (int(g) for g in contact.geom)
-            depth = -float(contact.dist)
-            if depth > least and (deepest.get((a, b)) is None or depth > deepest[a, b].depth):
-                found = Contact(self._owner[a], self._owner[b], depth, contact.frame[:3].copy(), contact.pos.copy())
-                deepest[a, b] = found
-        return [deepest[pair] for pair in sorted(deepest)]
+        found = data.contact
+        depth, pair = -np.asarray(found.dist), np.asarray(found.geom)
+        deep = np.flatnonzero(depth > least)
+        order = deep[np.lexsort((deep, -depth[deep], pair[deep, 1], pair[deep, 0]))]
+        first = np.r_[True, (np.diff(pair[order], axis=0) != 0).any(1)][: len(order)]
+        return [
+            Contact(*(self._owner[g] for g in pair[k]), float(depth[k]), found.frame[k, :3].copy(), found.pos[k].copy())
+            for k in order[first]
+        ]
 
 
 def _add(mujoco: Any, spec: Any, body: Any, name: str, shape: Shape) -> None:

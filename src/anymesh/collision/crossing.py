@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from itertools import product
+
 import numpy as np
 from jaxtyping import Float
 
 from anymesh.rendering.raycast_ import RayScene
 from anymesh.types.triangles import normals_and_areas
+
+CORNERS = np.array(list(product((0, 1), repeat=3)))  # of a box: which of its two bounds each takes along x, y, z
 
 
 class Surface:
@@ -15,17 +19,18 @@ class Surface:
     def __init__(self, triangles: Float[np.ndarray, "n 3 3"]) -> None:
         self.normals, _ = normals_and_areas(triangles)
         self.triangles = triangles
-        ends = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
-        first = (ends[:, 0] < ends[:, 1]).argmax(1), (ends[:, 0] > ends[:, 1]).argmax(1)
-        turned = first[0] > first[1]
-        ends[turned] = ends[turned][:, ::-1]
-        self.edges = np.unique(ends.reshape(-1, 6) + 0.0, axis=0).reshape(-1, 2, 3)
+        corners = triangles.reshape(-1, 3)
+        self.low, self.high = corners.min(0), corners.max(0)
+        points, index = np.unique(corners, axis=0, return_inverse=True)
+        index = index.reshape(-1, 3)
+        ends = np.sort(np.concatenate([index[:, [0, 1]], index[:, [1, 2]], index[:, [2, 0]]]), axis=1)
+        key = np.unique(ends[:, 0] * len(points) + ends[:, 1])
+        self.edges = points[np.stack([key // len(points), key % len(points)], 1)]
         self._scene: RayScene | None = None
 
     def crossed_by(self, edges: Float[np.ndarray, "m 2 3"], depth: float) -> bool:
         """Whether an edge, in this frame, goes through a triangle and ends more than `depth` [m] behind and before it."""
-        low, high = self.triangles.min((0, 1)), self.triangles.max((0, 1))
-        near = (edges.max(1) >= low).all(1) & (edges.min(1) <= high).all(1)
+        near = (edges.max(1) >= self.low).all(1) & (edges.min(1) <= self.high).all(1)
         start, way = edges[near, 0], edges[near, 1] - edges[near, 0]
         if self._scene is None:
             corners = self.triangles.reshape(-1, 3)
@@ -44,6 +49,9 @@ def cross(a: Surface, T_a: Float[np.ndarray, "4 4"], b: Surface, T_b: Float[np.n
     """Whether the surfaces of two links, placed by their transforms, go more than `depth` [m] through each other."""
     for one, T_one, other, T_other in ((a, T_a, b, T_b), (b, T_b, a, T_a)):
         T = np.linalg.inv(T_other) @ T_one
+        corners = np.array([one.low, one.high])[CORNERS, [0, 1, 2]] @ T[:3, :3].T + T[:3, 3]
+        if (corners.max(0) < other.low).any() or (corners.min(0) > other.high).any():
+            return False
         if other.crossed_by(one.edges @ T[:3, :3].T + T[:3, 3], depth):
             return True
     return False

@@ -1,27 +1,41 @@
-"""The collision shapes of one link at a given fineness: primitives, hulls of convex components, decompositions of others."""
+"""The collision shapes of one connected component: a primitive, a hull, or several where it is not convex."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from enum import StrEnum
 
 import numpy as np
 from jaxtyping import Float
 
 from anymesh.collision.coacd_ import decompose
 from anymesh.collision.convex import hull_of, planes
+from anymesh.collision.cuts import cut_solid
 from anymesh.collision.primitives import fitted
 from anymesh.collision.split import patch_of, split_surface
 from anymesh.geometry.simplify_ import simplify
 from anymesh.geometry.topology import components, weld
 from anymesh.types import Hull, Shape
+from anymesh.types.triangles import normals_and_areas
 
-FACES = 3000  # of a component, for decomposition; more add seconds, not accuracy
-LIMITS = (0.01, 1.0)  # of CoACD's concavity
+FACES = 3000  # of a component, for questions of shape; more add seconds, not accuracy
+COACD_FACES = 1000  # of a solid that CoACD divides: a third less time than with 3000, as many pieces
+CONCAVITY = (0.01, 1.0)  # lowest and highest threshold that CoACD takes
+CELLS = 4  # per side of a link's bounds: small components that lie in one cell share a hull
+SLIVER = 1e-9  # area of a face, as a share of the squared diagonal, below which cleaning removes it
+
+
+class Method(StrEnum):
+    """How a component that is not convex is divided, in the order in which the ways are tried."""
+
+    CUTS = "cuts along concave edges, else CoACD"
+    CLEANED = "CoACD on a cleaned surface"
+    SPLIT = "cuts by planes"
 
 
 @dataclass(frozen=True)
 class Fineness:
-    """gap: how far a shape may stand off the surface [m]; wall: thickness of open shells [m]; most: pieces a component."""
+    """gap: how far a shape may stand off the surface [m]; wall: thickness of open shells [m]; most: pieces per component."""
 
     gap: float
     wall: float
@@ -36,52 +50,115 @@ class Component:
     solid: bool
 
 
-def split_components(triangles: Float[np.ndarray, "n 3 3"], least: float) -> list[Component]:
-    """The components of a link that need shapes of their own: not those smaller than `least` [m], unless all are; not those
-    without a surface; and not those within the hull of a convex one."""
+def split_components(triangles: Float[np.ndarray, "n 3 3"], least: float, most: int | None = None) -> list[Component]:
+    """Return the components of a link that need shapes of their own, largest first.
+
+    Left out are those smaller than `least` [m], unless all are; those without a surface; and those within the hull of a convex
+    one. Of more than `most`, the smaller ones that lie in one cell of a grid are joined.
+    """
     found = components(triangles.reshape(-1, 3), np.arange(3 * len(triangles)).reshape(-1, 3))
-    pieces = [triangles[found.label == k] for k in range(found.count)]
-    sizes = [float(np.linalg.norm(np.ptp(piece.reshape(-1, 3), axis=0))) for piece in pieces]
+    order = np.argsort(found.label, kind="stable")
+    pieces = np.split(triangles[order], np.cumsum(np.bincount(found.label, minlength=found.count))[:-1])
+    sizes = np.array([float(np.linalg.norm(np.ptp(piece.reshape(-1, 3), axis=0))) for piece in pieces])
+    by_size = np.argsort(sizes, kind="stable")[::-1]
+    large = [int(k) for k in by_size if sizes[k] >= min(least, sizes.max())]
+    small = [] if most is None else large[most:]
     kept: list[Component] = []
-    around: list[np.ndarray] = []  # planes of the hulls of convex components
-    for k in np.argsort(sizes, kind="stable")[::-1]:
+    around: list[_Around] = []
+    for k in large[: len(large) - len(small)]:
         corners = pieces[k].reshape(-1, 3)
-        slack = 1e-6 * sizes[k]
-        if sizes[k] < min(least, max(sizes)) or any((corners @ p[:, :3].T + p[:, 3] <= slack).all() for p in around):
+        if any(other.holds(corners, 1e-6 * sizes[k]) for other in around):
             continue
         kept.append(Component(pieces[k][:, ::-1] if found.flip[k] else pieces[k], bool(found.solid[k])))
         hull = hull_of(corners) if found.solid[k] else None
-        if hull is not None and bool((_heights(corners, hull) > -slack).all()):
-            around.append(planes(hull))
-    return kept
+        if hull is not None:
+            this = _Around(planes(hull), corners.min(0), corners.max(0))
+            if bool((this.heights(corners) > -1e-6 * sizes[k]).all()):
+                around.append(this)
+    return kept + _gathered([pieces[k] for k in small])
 
 
-def _heights(points: np.ndarray, hull: Hull) -> np.ndarray:
-    sides = planes(hull)
-    return np.max(points @ sides[:, :3].T + sides[:, 3], axis=1)
+@dataclass(frozen=True, eq=False)
+class _Around:
+    """The hull of a convex component: outward planes, and its bounds."""
+
+    planes: np.ndarray
+    low: np.ndarray
+    high: np.ndarray
+
+    def heights(self, points: np.ndarray) -> np.ndarray:
+        return np.max(points @ self.planes[:, :3].T + self.planes[:, 3], axis=1)
+
+    def holds(self, points: np.ndarray, slack: float) -> bool:
+        inside = (points >= self.low - slack).all() and (points <= self.high + slack).all()
+        return bool(inside and (self.heights(points) <= slack).all())
 
 
-def component_shapes(component: Component, fineness: Fineness) -> tuple[Shape, ...]:
-    """One shape where the hull is near enough to the surface; else pieces of a solid (CoACD) or of an open surface."""
+def _gathered(pieces: list[np.ndarray]) -> list[Component]:
+    """One component for all the pieces whose middles lie in one cell of a grid."""
+    if not pieces:
+        return []
+    middle = np.array([piece.reshape(-1, 3).mean(0) for piece in pieces])
+    low, side = middle.min(0), np.maximum(np.ptp(middle, axis=0), 1e-12)
+    cell = np.minimum(((middle - low) / side * CELLS).astype(np.int64), CELLS - 1) @ [CELLS * CELLS, CELLS, 1]
+    return [Component(np.concatenate([pieces[k] for k in np.flatnonzero(cell == c)]), False) for c in np.unique(cell)]
+
+
+def component_shapes(component: Component, fineness: Fineness, method: Method = Method.CUTS) -> tuple[Shape, ...]:
+    """Return one shape where the hull is near enough to the surface, else the shapes of its pieces.
+
+    method: how a solid is divided; an open surface is always cut by planes. Call it in a child process unless the method is
+    SPLIT: CoACD may crash.
+    """
     triangles = simplify(component.triangles, FACES)
     whole = patch_of(triangles, fineness.wall)
     if whole is None:
         return ()
     if whole.gap <= fineness.gap:
         return (fitted(hull_of(component.triangles.reshape(-1, 3)) or whole.hull),)
-    _, first, faces = np.unique(weld(triangles.reshape(-1, 3)), return_index=True, return_inverse=True)
-    vertices, faces = triangles.reshape(-1, 3)[first], faces.reshape(-1, 3)
-    if component.solid and components(vertices, faces).solid.all():
-        half = float(np.ptp(vertices, axis=0).max()) / 2
-        corners = decompose(vertices, faces, concavity=float(np.clip(fineness.gap / half, *LIMITS)))
-        hulls = [hull for points in corners if (hull := hull_of(points)) is not None]
-    else:
+    hulls = _divided(triangles, fineness, method) if component.solid else []
+    if not hulls:
         hulls = split_surface(triangles, gap=fineness.gap, wall=fineness.wall, most=fineness.most)
     return tuple(fitted(hull) for hull in hulls)
 
 
+def _divided(triangles: np.ndarray, fineness: Fineness, method: Method) -> list[Hull]:
+    """The hulls of a solid's pieces; none where the method has none."""
+    match method:
+        case Method.CUTS:
+            return cut_solid(triangles, gap=fineness.gap, most=fineness.most) or _by_coacd(triangles, fineness)
+        case Method.CLEANED:
+            return _by_coacd(cleaned(triangles), fineness)
+        case Method.SPLIT:
+            return []
+
+
+def _by_coacd(triangles: np.ndarray, fineness: Fineness) -> list[Hull]:
+    """The hulls of CoACD's pieces; none where the surface is not closed."""
+    triangles = simplify(triangles, COACD_FACES)
+    _, first, faces = np.unique(weld(triangles.reshape(-1, 3)), return_index=True, return_inverse=True)
+    vertices, faces = triangles.reshape(-1, 3)[first], faces.reshape(-1, 3)
+    if len(faces) == 0 or not components(vertices, faces).solid.all():
+        return []
+    half = float(np.ptp(vertices, axis=0).max()) / 2
+    corners = decompose(vertices, faces, concavity=float(np.clip(fineness.gap / half, *CONCAVITY)))
+    return [hull for points in corners if (hull := hull_of(points)) is not None]
+
+
+def cleaned(triangles: Float[np.ndarray, "n 3 3"]) -> Float[np.ndarray, "m 3 3"]:
+    """Return a surface without slivers and double faces, its corners moved to a grid of one millionth of the diagonal."""
+    low = triangles.reshape(-1, 3).min(0)
+    size = float(np.linalg.norm(np.ptp(triangles.reshape(-1, 3), axis=0)))
+    step = 1e-6 * size
+    snapped = np.round((triangles - low) / step) * step + low
+    rows = np.sort(np.unique(snapped.reshape(-1, 3), axis=0, return_inverse=True)[1].reshape(-1, 3), axis=1)
+    kept = np.zeros(len(snapped), bool)
+    kept[np.unique(rows, axis=0, return_index=True)[1]] = True
+    return snapped[kept & (normals_and_areas(snapped)[1] > SLIVER * size**2)]
+
+
 def least_box(triangles: Float[np.ndarray, "n 3 3"], wall: float) -> Shape:
-    """A box round a link that has no extent to make a hull of, `wall` [m] thick at least."""
+    """Return a box round a link that has no extent to make a hull of, `wall` [m] thick at least."""
     corners = triangles.reshape(-1, 3)
     low, high = corners.min(0), corners.max(0)
     half = np.maximum(high - low, wall) / 2

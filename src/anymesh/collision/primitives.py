@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
+from jaxtyping import Float
 
 from anymesh.collision.convex import hull_of, thinned, volume
 from anymesh.geometry.boxes import dominant_normals, fit_box
@@ -62,3 +65,12 @@ def as_hull(shape: Shape) -> Hull:
     if found is None:
         raise ValueError(f"a shape needs a volume, found {shape}")
     return found
+
+
+def shifted(shape: Shape, by: Float[np.ndarray, " 3"]) -> Shape:
+    """Return a shape moved by a vector [m]."""
+    match shape:
+        case Hull():
+            return Hull(shape.vertices + by, shape.faces)
+        case Box() | Cylinder():
+            return replace(shape, center=shape.center + by)

@@ -68,7 +68,7 @@ def _halves(patch: Patch, wall: float) -> list[Patch]:
     """The two pieces, by the plane that leaves the least volume in both hulls."""
     best = None
     for normal, offset in _planes(patch, wall):
-        left = sum(_thick_volume(points, wall) for points in _sides(patch.triangles, normal, offset))
+        left = sum(_thick_volume(points, wall) for points in below_and_above(patch.triangles, normal, offset))
         if best is None or left < best[0] * (1 - 1e-9):
             best = (left, normal, offset)
     if best is None:
@@ -98,8 +98,8 @@ def _planes(patch: Patch, wall: float) -> Iterator[tuple[np.ndarray, float]]:
             yield direction, float(offset)
 
 
-def _sides(triangles: np.ndarray, normal: np.ndarray, offset: float) -> tuple[np.ndarray, np.ndarray]:
-    """Corner points of what a plane leaves on each side, without dividing the triangles."""
+def below_and_above(triangles: np.ndarray, normal: np.ndarray, offset: float) -> tuple[np.ndarray, np.ndarray]:
+    """Return the corner points of what a plane leaves on each side, without dividing the triangles."""
     height = triangles @ normal - offset
     nxt = [1, 2, 0]
     crossing = height * height[:, nxt] < 0

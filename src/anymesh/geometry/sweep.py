@@ -180,7 +180,7 @@ class _Passage:
         face = self.target.scene.first_hit_unit(origin[todo] + offset[todo], reach[todo]).face
         leaves = self.target.solid[face] & (np.einsum("ij,ij->i", span[todo % n], self.target.normals[face]) >= 0)
         struck[todo] = (face >= 0) & ~leaves
-        return struck.reshape(4, n).all(0)
+        return np.logical_and.reduce(struck.reshape(4, n))
 
 
 def _rows(path: Float32[np.ndarray, "3 k"], columns: Int[np.ndarray, " m"]) -> Float32[np.ndarray, "m 3"]:

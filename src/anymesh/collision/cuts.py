@@ -1,0 +1,126 @@
+"""Exact convex decomposition of faceted solids: cuts along the planes of faces that meet at concave edges.
+
+A drawer, a frame or a bracket has few such planes, and cuts along them leave convex blocks. Smooth solids have too many; they
+are left to CoACD.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+from scipy.spatial import ConvexHull, QhullError
+
+from anymesh.collision.convex import cut, hull_of
+from anymesh.collision.split import SAMPLES, below_and_above
+from anymesh.geometry.distance_ import distance_to_mesh, winding_number
+from anymesh.geometry.sampling import sample_surface
+from anymesh.geometry.topology import edge_pairs, weld
+from anymesh.types import Hull
+from anymesh.types.triangles import normals_and_areas
+
+CONCAVE = 10.0  # [deg] of the fold at an edge from which it counts as concave
+MOST_PLANES = 32  # distinct planes at concave edges; a solid with more is not faceted
+TRIED = 16  # planes per cut, those with the longest concave edges first
+FLAT = 1e-9  # volume of a side, as a share of both, below which a plane does not divide
+SAME_PLANE = (0.9999, 1e-4)  # cosine of the normals, and offset as a share of the diagonal
+
+
+@dataclass(frozen=True, eq=False)
+class _Block:
+    """A piece of the solid's surface, its hull, and how far the hull stands off the solid [m]."""
+
+    triangles: np.ndarray
+    hull: Hull
+    gap: float
+
+
+def cut_solid(triangles: Float[np.ndarray, "n 3 3"], *, gap: float, most: int) -> list[Hull] | None:
+    """Return convex pieces that stand off a closed solid by at most `gap` [m], or None if that takes more than `most` pieces
+    or the solid is not faceted."""
+    planes = _concave_planes(triangles)
+    if len(planes) > MOST_PLANES:
+        return None
+    corners = triangles.reshape(-1, 3)
+    _, first, faces = np.unique(weld(corners), return_index=True, return_inverse=True)
+    solid = corners[first], faces.reshape(-1, 3)
+    whole = _block(triangles, solid)
+    done, waiting = [], [] if whole is None else [whole]
+    while waiting:
+        if len(done) + len(waiting) > most:
+            return None
+        block = waiting.pop()
+        if block.gap <= gap:
+            done.append(block.hull)
+            continue
+        halves = [_block(half, solid) for half in _halves(block.triangles, planes)]
+        if not halves or None in halves:
+            return None
+        waiting += [half for half in halves if half is not None]
+    return done or None
+
+
+def _block(triangles: np.ndarray, solid: tuple[np.ndarray, np.ndarray]) -> _Block | None:
+    hull = hull_of(triangles.reshape(-1, 3)) if len(triangles) else None
+    if hull is None:
+        return None
+    sides = hull.vertices[hull.faces]
+    points = np.concatenate([sample_surface(sides, SAMPLES, 0).points, sides.mean(1)])
+    off = distance_to_mesh(points, *solid)[0]
+    away = np.flatnonzero(off > 0)
+    off[away] *= winding_number(points[away], *solid) < 0.5  # inside the solid the hull stands off nothing
+    return _Block(triangles, hull, float(off.max()))
+
+
+def _halves(triangles: np.ndarray, planes: Sequence[tuple[np.ndarray, float]]) -> list[np.ndarray]:
+    """The two sides of the plane that leaves the least volume in both hulls; none where no plane divides."""
+    best, tried = None, 0
+    for normal, offset in planes:
+        sides = [_volume(points) for points in below_and_above(triangles, normal, offset)]
+        if min(sides) <= FLAT * sum(sides):
+            continue
+        tried += 1
+        if best is None or sum(sides) < best[0] * (1 - 1e-9):
+            best = (sum(sides), normal, offset)
+        if tried == TRIED:
+            break
+    return [] if best is None else list(cut(triangles, best[1], best[2]))
+
+
+def _concave_planes(triangles: np.ndarray) -> list[tuple[np.ndarray, float]]:
+    """The distinct planes of faces that meet at concave edges, those with the longest edges first."""
+    corners = triangles.reshape(-1, 3)
+    pairs = edge_pairs(corners, np.arange(len(corners)).reshape(-1, 3))
+    normals, middle = normals_and_areas(triangles)[0], triangles.mean(1)
+    f, g = pairs.faces.T
+    inward = np.einsum("ij,ij->i", middle[g] - middle[f], normals[f] - normals[g])
+    folded = np.einsum("ij,ij->i", normals[f], normals[g]) < np.cos(np.deg2rad(CONCAVE))
+    concave = np.flatnonzero((inward > 0) & folded)
+    ends = corners[pairs.vertices[concave]]
+    length = np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1)
+    normal = np.concatenate([normals[f[concave]], normals[g[concave]]])
+    offset = np.einsum("ij,ij->i", normal, np.tile(ends[:, 0], (2, 1)))
+    return _distinct(normal, offset, np.tile(length, 2), float(np.linalg.norm(np.ptp(corners, axis=0))))
+
+
+def _distinct(normal: np.ndarray, offset: np.ndarray, weight: np.ndarray, size: float) -> list[tuple[np.ndarray, float]]:
+    """Planes without near copies, by the sum of the weights of each and its copies, at most one more than MOST_PLANES."""
+    left = np.argsort(-weight, kind="stable")
+    found: list[tuple[float, np.ndarray, float]] = []
+    while len(left) and len(found) <= MOST_PLANES:
+        n, o = normal[left[0]], float(offset[left[0]])
+        along = normal[left] @ n
+        same = (np.abs(along) > SAME_PLANE[0]) & (np.abs(offset[left] * np.sign(along) - o) < SAME_PLANE[1] * size)
+        same[0] = True
+        found.append((float(weight[left[same]].sum()), n, o))
+        left = left[~same]
+    return [(n, o) for _, n, o in sorted(found, key=lambda plane: -plane[0])]
+
+
+def _volume(points: np.ndarray) -> float:
+    try:
+        return float(ConvexHull(points).volume) if len(points) > 3 else 0.0
+    except QhullError:
+        return 0.0

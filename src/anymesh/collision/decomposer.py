@@ -1,0 +1,119 @@
+"""Decomposition in child processes: a crash, hang or memory blow-up costs one component its way of division, not the run."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+
+from anymesh.collision.convex import hull_of
+from anymesh.collision.decompose import Component, Fineness, Method, component_shapes
+from anymesh.collision.primitives import shifted
+from anymesh.collision.store import content_key, load_shapes, save_shapes
+from anymesh.isolation import ChildError, ChildPool
+from anymesh.types import Shape
+
+DIGITS = 30  # binary, of the coordinates of a component, so that copies at different places become equal
+TINY = 1e-12  # [m] least size of a component
+BATCH_FACES = 2000  # of small components that one call takes together
+
+
+@dataclass(frozen=True)
+class Fallback:
+    """A component whose division failed: what failed and why, and what was done instead."""
+
+    reasons: tuple[str, ...]
+    used: str
+
+
+@dataclass(frozen=True, eq=False)
+class Divided:
+    """The shapes of a component. fallback: None unless the first method failed."""
+
+    shapes: tuple[Shape, ...]
+    fallback: Fallback | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Decomposer:
+    """Divides components in the children of a pool; what it found is kept in `cache` by content. seconds: per call [s]."""
+
+    pool: ChildPool
+    cache: Path | None
+    seconds: float
+    methods: tuple[Method, ...] = tuple(Method)
+
+    def divide(self, components: Sequence[Component], fineness: Sequence[Fineness]) -> list[Divided]:
+        """Return the shapes of each component, in their order. Never raises for what a child process does.
+
+        Components that differ by a shift alone are divided once.
+        """
+        low = [c.triangles.reshape(-1, 3).min(0) for c in components]
+        local = [_at_origin(c, corner) for c, corner in zip(components, low, strict=True)]
+        keys = [content_key(c.triangles, c.solid, f.gap, f.wall, f.most) for c, f in zip(local, fineness, strict=True)]
+        found = {key: Divided(shapes) for key in set(keys) if (shapes := load_shapes(self.cache, key)) is not None}
+        todo = {key: k for k, key in reversed(list(enumerate(keys))) if key not in found}
+        order = sorted(todo.values())
+        calls = [
+            [(local[order[n]], fineness[order[n]]) for n in batch]
+            for batch in _batches([len(local[k].triangles) for k in order])
+        ]
+        with ThreadPoolExecutor(self.pool.size) as threads:
+            made = [d for some in threads.map(self._divide_batch, calls) for d in some]
+        for k, divided in zip(order, made, strict=True):
+            found[keys[k]] = divided
+            if divided.fallback is None:
+                save_shapes(self.cache, keys[k], divided.shapes)
+        return [
+            Divided(tuple(shifted(s, corner) for s in found[key].shapes), found[key].fallback)
+            for key, corner in zip(keys, low, strict=True)
+        ]
+
+    def _divide_batch(self, batch: list[tuple[Component, Fineness]]) -> list[Divided]:
+        """All of a batch in one call; one by one where that fails, so that one component does not cost the others."""
+        try:
+            return [Divided(shapes) for shapes in self._call(batch, self.methods[0])]
+        except ChildError as error:
+            if len(batch) > 1:
+                return [d for pair in batch for d in self._divide_batch([pair])]
+            return [self._fall_back(*batch[0], f"{self.methods[0].value}: {error}")]
+
+    def _fall_back(self, component: Component, fineness: Fineness, reason: str) -> Divided:
+        reasons = [reason]
+        for method in self.methods[1:]:
+            try:
+                (shapes,) = self._call([(component, fineness)], method)
+                return Divided(shapes, Fallback(tuple(reasons), method.value))
+            except ChildError as error:
+                reasons.append(f"{method.value}: {error}")
+        hull = hull_of(component.triangles.reshape(-1, 3), fineness.wall)
+        return Divided(() if hull is None else (hull,), Fallback(tuple(reasons), "one convex hull"))
+
+    def _call(self, batch: list[tuple[Component, Fineness]], method: Method) -> list[tuple[Shape, ...]]:
+        arguments = {"batch": batch, "method": method}
+        return self.pool.run("anymesh.collision.decomposer", "divide_here", arguments, seconds=self.seconds)
+
+
+def _at_origin(component: Component, corner: np.ndarray) -> Component:
+    """The component with a corner of its bounds at 0, rounded, so that copies become equal."""
+    moved = component.triangles - corner
+    step = float(np.exp2(np.floor(np.log2(max(float(moved.max()), TINY))) - DIGITS))
+    return Component(np.round(moved / step) * step, component.solid)
+
+
+def divide_here(batch: list[tuple[Component, Fineness]], method: Method) -> list[tuple[Shape, ...]]:
+    """Divide components in this process. The function that children run."""
+    return [component_shapes(component, fineness, method) for component, fineness in batch]
+
+
+def _batches(sizes: Sequence[int]) -> list[range]:
+    """Consecutive numbers whose sizes add up to about BATCH_FACES; a larger one is by itself."""
+    if not sizes:
+        return []
+    total = np.cumsum(np.minimum(sizes, BATCH_FACES))
+    ends = np.flatnonzero(np.diff(total // BATCH_FACES)) + 1
+    return [range(int(a), int(b)) for a, b in pairwise([0, *ends, len(sizes)])]

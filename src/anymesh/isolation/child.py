@@ -1,0 +1,62 @@
+"""Main loop of a child process: read a call from standard input, run it, write its result.
+
+A message is an 8-byte little-endian length and a pickle. Only the parent writes here, so the pickles are trusted.
+"""
+
+from __future__ import annotations
+
+import faulthandler
+import os
+import pickle
+import sys
+from importlib import import_module
+from typing import IO, Any
+
+LENGTH = 8  # [bytes] of the length before each message
+GRACE = 2.0  # [s] after the time limit, at which a child whose parent is gone ends by itself
+
+
+def write_message(stream: IO[bytes], value: Any) -> None:
+    """Write one value and flush."""
+    data = pickle.dumps(value, protocol=5)
+    stream.write(len(data).to_bytes(LENGTH, "little") + data)
+    stream.flush()
+
+
+def limit_memory(size: int) -> None:
+    """Limit the address space of this process to `size` bytes, where the system can (not on Windows)."""
+    try:
+        import resource
+
+        resource.setrlimit(resource.RLIMIT_AS, (size, size))
+    except (ImportError, ValueError, OSError):
+        return
+
+
+def call(module: str, function: str, arguments: dict[str, Any]) -> tuple[str, Any]:
+    """Run one call: ("done", its result), ("memory", why) or ("error", why)."""
+    try:
+        return "done", getattr(import_module(module), function)(**arguments)
+    except MemoryError as error:
+        return "memory", str(error)
+    except Exception as error:
+        return "error", f"{type(error).__name__}: {error}"
+
+
+def main() -> None:
+    """Serve calls until standard input ends. What native code prints goes nowhere."""
+    requests, replies = sys.stdin.buffer, os.fdopen(os.dup(1), "wb")
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nowhere, 1)
+    os.dup2(nowhere, 2)
+    limit_memory(int(sys.argv[1]))
+    while head := requests.read(LENGTH):
+        module, function, arguments, seconds = pickle.loads(requests.read(int.from_bytes(head, "little")))
+        faulthandler.dump_traceback_later(seconds + GRACE, exit=True)
+        answer = call(module, function, arguments)
+        faulthandler.cancel_dump_traceback_later()
+        write_message(replies, answer)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,168 @@
+"""A pool of warm child processes, one call at a time each, with limits on time and memory."""
+
+from __future__ import annotations
+
+import atexit
+import contextlib
+import os
+import pickle
+import queue
+import subprocess
+import sys
+import threading
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import StrEnum
+from functools import cache
+from typing import Any
+
+from anymesh.isolation.child import LENGTH, write_message
+
+ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")  # results must not depend on the cores
+
+
+class Failure(StrEnum):
+    """Why a call gave no result."""
+
+    CRASH = "crash"  # the process ended
+    TIME = "time limit"
+    MEMORY = "memory limit"
+    ERROR = "error"  # the function raised
+
+
+class ChildError(Exception):
+    """A call that gave no result. The message says why."""
+
+    def __init__(self, failure: Failure, detail: str = "") -> None:
+        super().__init__(f"{failure.value}: {detail}" if detail else failure.value)
+        self.failure = failure
+
+
+@dataclass(frozen=True)
+class ChildLimits:
+    """Limits of one child process. seconds: for one call [s]; memory: address space [bytes]."""
+
+    seconds: float = 60.0
+    memory: int = 4 << 30
+
+
+class ChildPool:
+    """Child processes that are started on demand, kept warm, and replaced when one fails.
+
+    At most `size` calls run at once; calls from more threads wait. Children end with the pool, with the parent's pipes, or
+    when a call outlasts its time limit.
+    """
+
+    def __init__(self, size: int | None = None, limits: ChildLimits = ChildLimits()) -> None:
+        self.size, self.limits = size or os.cpu_count() or 1, limits
+        self._idle: queue.LifoQueue[_Child | None] = queue.LifoQueue()
+        for _ in range(self.size):
+            self._idle.put(None)
+        self._live: set[_Child] = set()
+        self._closed = False
+
+    def run(self, module: str, function: str, arguments: Mapping[str, Any], *, seconds: float | None = None) -> Any:
+        """Call a function of a module in a child and return its result.
+
+        arguments: keyword arguments, which are pickled; seconds: time limit of this call [s], at most the pool's. Raises
+        ChildError, after which the next call gets a fresh child.
+        """
+        limit = min(self.limits.seconds, seconds) if seconds is not None else self.limits.seconds
+        child = self._idle.get()
+        kept = None
+        try:
+            if child is None:
+                child = self._started()
+            kind, result = child.call((module, function, dict(arguments), limit), limit)
+            kept = child
+        finally:
+            if kept is None and child is not None:
+                self._end(child)
+            self._idle.put(kept)
+        if kind != "done":
+            raise ChildError(Failure.MEMORY if kind == "memory" else Failure.ERROR, result)
+        return result
+
+    def close(self) -> None:
+        """End all children, whatever they are at."""
+        self._closed = True
+        for child in list(self._live):
+            self._end(child)
+
+    def _started(self) -> _Child:
+        if self._closed:
+            raise ChildError(Failure.ERROR, "the pool is closed")
+        child = _Child(self.limits.memory)
+        self._live.add(child)
+        return child
+
+    def _end(self, child: _Child) -> None:
+        child.kill()
+        self._live.discard(child)
+
+    def __enter__(self) -> ChildPool:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+
+class _Child:
+    """One child process."""
+
+    def __init__(self, memory: int) -> None:
+        command = [sys.executable, "-c", "from anymesh.isolation.child import main; main()", str(memory)]
+        environment = {**os.environ, **dict.fromkeys(ONE_THREAD, "1"), "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
+        try:
+            self._process = subprocess.Popen(
+                command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=environment, start_new_session=True
+            )
+        except OSError as error:
+            raise ChildError(Failure.ERROR, f"a child process cannot be started: {error}") from None
+
+    def call(self, request: tuple[Any, ...], seconds: float) -> tuple[str, Any]:
+        """Send a request and wait for the answer. Raises ChildError when the process ends or the time is over."""
+        late = threading.Event()
+        timer = threading.Timer(seconds, lambda: (late.set(), self._process.kill()))
+        timer.daemon = True
+        timer.start()
+        try:
+            assert self._process.stdin is not None
+            write_message(self._process.stdin, request)
+            return self._answer()
+        except (OSError, EOFError):
+            code = self._process.wait()
+            if late.is_set():
+                raise ChildError(Failure.TIME, f"{seconds:.0f} s") from None
+            raise ChildError(Failure.CRASH, f"signal {-code}" if code < 0 else f"exit code {code}") from None
+        finally:
+            timer.cancel()
+
+    def _answer(self) -> tuple[str, Any]:
+        assert self._process.stdout is not None
+        head = self._process.stdout.read(LENGTH)
+        size = int.from_bytes(head, "little")
+        data = self._process.stdout.read(size)
+        if len(head) < LENGTH or len(data) < size:
+            raise EOFError
+        return pickle.loads(data)
+
+    def kill(self) -> None:
+        self._process.kill()
+        for stream in (self._process.stdin, self._process.stdout):
+            if stream is not None:
+                with contextlib.suppress(OSError):
+                    stream.close()
+        self._process.wait()
+
+
+@cache
+def shared_pool() -> ChildPool:
+    """The pool of this process, one child per core."""
+    pool = ChildPool()
+    atexit.register(pool.close)
+    return pool
+
+
+if hasattr(os, "register_at_fork"):  # a forked process must not share the pipes
+    os.register_at_fork(after_in_child=shared_pool.cache_clear)
