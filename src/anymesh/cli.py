@@ -34,6 +34,7 @@ from anymesh.cli_options import (
     PartsList,
     Proposer,
     Quiet,
+    Root,
     Scale,
     Seed,
     Up,
@@ -107,6 +108,7 @@ def articulate(
     seed: Seed = 0,
     up: Up = "auto",
     scale: Scale = "auto",
+    root: Root = None,
     base: BaseName = "fixed",
     formats: Formats = FORMATS,
     drives: Drives = "passive",
@@ -119,7 +121,7 @@ def articulate(
 
     with Shown(quiet or json_) as progress:
         asset = pipeline.articulate(
-            mesh, out, parts=parts, up=up, scale=scale, base=base, formats=formats, drives=drives, force=force,
+            mesh, out, parts=parts, up=up, scale=scale, root=root, base=base, formats=formats, drives=drives, force=force,
             progress=progress, answerer=answerer, parts_list=_labels(parts_list), at_least=at_least, proposer=proposer,
             verify=verify, category=category, seed=seed, max_calls=max_calls, max_cost=max_cost, **cache_of(cache),
         )  # fmt: skip
@@ -142,6 +144,7 @@ def segment(
     seed: Seed = 0,
     up: Up = "auto",
     scale: Scale = "auto",
+    root: Root = None,
     force: Force = False,
     json_: Json = False,
     quiet: Quiet = False,
@@ -151,7 +154,7 @@ def segment(
 
     with Shown(quiet or json_) as progress:
         found = pipeline.segment(
-            mesh, out, parts=parts, up=up, scale=scale, force=force, progress=progress,
+            mesh, out, parts=parts, up=up, scale=scale, root=root, force=force, progress=progress,
             answerer=answerer, parts_list=_labels(parts_list), at_least=at_least, proposer=proposer, category=category,
             seed=seed, max_calls=max_calls, max_cost=max_cost, **cache_of(cache),
         )  # fmt: skip
