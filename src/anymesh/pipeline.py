@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TypeVar, Unpack
 
 from anymesh.answering import Answerer, Answering, choose_answerer
-from anymesh.errors import OptionError
+from anymesh.errors import OptionError, note_stage
 from anymesh.export import Base, Driven, Format, parse_formats, write_asset
 from anymesh.export.archive import write_zip
 from anymesh.export.formats import DEFAULT
@@ -281,5 +281,9 @@ def _export(run: RunFolder, how: Exported, progress: Progress) -> Asset:
 @contextmanager
 def _timed(run: RunFolder, stage: str) -> Generator[None]:
     begin = time.perf_counter()
-    yield
+    try:
+        yield
+    except Exception as error:
+        note_stage(error, stage)
+        raise
     run.add_time(stage, time.perf_counter() - begin)

@@ -135,4 +135,4 @@ def _color(v: list[list[float]], faces: np.ndarray) -> np.ndarray | None:
     if any(len(row) < 6 for row in v):
         return None
     values = np.array([row[3:6] for row in v])
-    return rgba(values if np.nanmax(values) <= 1 else values / 255)[faces]
+    return rgba(values if np.nan_to_num(values).max(initial=0) <= 1 else values / 255)[faces]
