@@ -138,10 +138,10 @@ def test_a_command_without_an_output_reports_into_the_working_folder_or_a_tempor
     ("told", "left"),
     [
         ("openai-compatible:http://10.0.0.1:8000/v1#qwen", "openai-compatible:[address]#qwen"),
-        ("holopart:/home/me/holo", "holopart:holo"),
+        ("holopart:/srv/me/holo", "holopart:holo"),
         ("exact+sam:weights/vit_b.onnx", "exact+sam:vit_b.onnx"),
         (r"C:\Users\me\labels.npy", "labels.npy"),
-        ("No such file: '/home/me and you/x.obj'", "No such file: 'x.obj'"),
+        ("No such file: '/srv/me and you/x.obj'", "No such file: 'x.obj'"),
         ("door,drawer", "door,drawer"),
         ("x" * 40, "[removed]"),
     ],
