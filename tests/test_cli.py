@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 import trimesh
 from assets import CABINET
+from PIL import Image
 
 from anymesh import __version__, pipeline, solving
 from anymesh.cli import run
@@ -112,6 +113,26 @@ def test_the_category_changes_keys_and_the_note_on_size(mesh, capfd) -> None:
     assert changed == {"asset.json", "stages/mesh.json", "stages/segmentation.json", "stages/joints.json"}
 
 
+def test_a_root_admits_textures_and_computes_the_mesh_anew(mesh, capfd) -> None:
+    box = trimesh.creation.box().export(file_type="obj", include_texture=False)
+    Path("model/meshes").mkdir(parents=True)
+    Path("model/meshes/box.obj").write_text(f"mtllib box.mtl\nusemtl red\n{box}")
+    Path("model/meshes/box.mtl").write_text("newmtl red\nmap_Kd ../textures/red.png\nmap_Ke model://model/textures/red.png\n")
+    Path("model/textures").mkdir()
+    Image.new("RGB", (2, 2), "red").save("model/textures/red.png")
+    call = ["segment", "model/meshes/box.obj", "-o", "out", *PARTS]
+    keys = []
+    for root, count in ((), 2), (("--root", "model"), 0):
+        assert called(capfd, *call, *root, "--force", "--quiet") == (0, "", "")
+        saved = json.loads(Path("out/stages/mesh.json").read_text())
+        assert len([w for w in saved["result"]["warnings"] if "red.png" in w]) == count
+        keys.append(saved["key"])
+    assert keys[0] != keys[1]
+    code, out, err = called(capfd, *call, "--root", "model/textures", "--force")
+    assert (code, out) == (2, "")
+    assert err.startswith("error: --root: ")
+
+
 def faulty_calls() -> dict[str, tuple[int, list[str], str]]:
     """What is wrong -> exit code, arguments, a word of the message."""
     make = ["segment", "cabinet.glb", "-o", "out"]
@@ -187,8 +208,8 @@ def test_force_replaces_an_output_of_this_program(crowded, capfd) -> None:
     ("raised", "code", "word"),
     [
         (MissingExtraError("needs articulate-anymesh[sim]"), 5, "[sim]"),
-        (RuntimeError("two\nlines\x1b[31m"), 1, "--debug"),
-        (EOFError("cut"), 1, "unexpected EOFError: cut"),
+        (RuntimeError("two\nlines\x1b[31m"), 70, "--debug"),
+        (EOFError("cut"), 70, "internal defect, EOFError: cut"),
         (KeyboardInterrupt(), 130, "interrupted\n"),
     ],
 )
@@ -203,7 +224,10 @@ def test_other_ends(raised, code: int, word: str, mesh, monkeypatch, capfd) -> N
     assert (err.count("\n"), err[-1]) == (1, "\n")
     assert word in err
     assert "\x1b" not in err
-    assert contents(Path.cwd()) == before
-    if code == 1:
+    if code != 70:
+        assert contents(Path.cwd()) == before
+    else:
+        assert Path("out.defect.json").exists()
+        assert not Path("out").exists()
         with pytest.raises(type(raised)):
             run(["--debug", "articulate", str(mesh), "-o", "out"])

@@ -21,7 +21,8 @@ FLOORS = [
     {"answering"},
     {"pipeline", "evaluating", "checking", "correcting"},
     {"applications", "viewer"},
-    {"cli", "cli_output", "cli_eval", "cli_check", "cli_finish", "cli_view", "cli_report", "cli_options"},
+    {"cli", "cli_output", "cli_eval", "cli_check", "cli_finish", "cli_view", "cli_report", "cli_options"}
+    | {"cli_quiet", "cli_defect"},
 ]
 STAGES = {"segmentation", "articulation", "postprocessing"}
 OUTSIDE = set(

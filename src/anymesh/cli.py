@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import json
 import sys
+from functools import partial
 from typing import Annotated, Any
 
 import typer
-from typer.core import TyperGroup
+from typer.core import TyperCommand
 
 from anymesh import __version__
 from anymesh.cli_check import check
@@ -34,6 +35,7 @@ from anymesh.cli_options import (
     PartsList,
     Proposer,
     Quiet,
+    Root,
     Scale,
     Seed,
     Up,
@@ -41,40 +43,45 @@ from anymesh.cli_options import (
     Zip,
 )
 from anymesh.cli_output import JOINT_COLUMNS, Shown, cache_of, joint_row, plain, tell, tell_asset
+from anymesh.cli_quiet import quiet_libraries
 from anymesh.cli_report import picture, report
 from anymesh.cli_view import view
-from anymesh.errors import AnymeshError
+from anymesh.errors import DEFECT, AnymeshError
 
 EXIT_CODES = (
-    "Exit codes: 0 done; 1 unexpected error; 2 a wrong option; 3 the mesh cannot be used; 4 the output folder exists or "
+    "Exit codes: 0 done; 2 a wrong option; 3 the mesh cannot be used; 4 the output folder exists or "
     "cannot be written; 5 an optional dependency is missing; 6 a model cannot be asked; 7 the budget is spent; "
-    "8 a check failed; 130 interrupted."
+    "8 a check failed; 70 an internal defect, with a report to send; 130 interrupted."
 )
 
 
-class _Commands(TyperGroup):
-    """Hands on two errors that the library turns into others of its own: an interrupt, and the end of a file."""
+class _Command(TyperCommand):
+    """Hands on errors that are not ours with the call they came up in; the library turns two of them into others of its own."""
 
     def invoke(self, ctx: Any) -> Any:
         try:
             return super().invoke(ctx)
-        except (KeyboardInterrupt, EOFError) as error:
-            raise _HandedError(error) from error
+        except (AnymeshError, typer.Exit, typer.Abort):
+            raise
+        except (KeyboardInterrupt, Exception) as error:
+            if hasattr(error, "format_message") or isinstance(error, BrokenPipeError):
+                raise
+            raise _HandedError(error, str(ctx.info_name), dict(ctx.params)) from error
 
 
 class _HandedError(Exception):
-    def __init__(self, error: BaseException) -> None:
-        self.error = error
+    def __init__(self, error: BaseException, command: str, options: dict[str, Any]) -> None:
+        self.error, self.command, self.options = error, command, options
 
 
 app = typer.Typer(
-    cls=_Commands,
     help="Any rigid 3D mesh in, a simulation-ready articulated asset out.",
     epilog=EXIT_CODES,
     no_args_is_help=True,
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
+_command = partial(app.command, cls=_Command, epilog=EXIT_CODES)
 
 
 def _version(wanted: bool) -> None:
@@ -90,7 +97,7 @@ def _main(
 ) -> None: ...
 
 
-@app.command(epilog=EXIT_CODES)
+@_command()
 def articulate(
     mesh: MeshPath,
     out: Out,
@@ -107,6 +114,7 @@ def articulate(
     seed: Seed = 0,
     up: Up = "auto",
     scale: Scale = "auto",
+    root: Root = None,
     base: BaseName = "fixed",
     formats: Formats = FORMATS,
     drives: Drives = "passive",
@@ -119,14 +127,14 @@ def articulate(
 
     with Shown(quiet or json_) as progress:
         asset = pipeline.articulate(
-            mesh, out, parts=parts, up=up, scale=scale, base=base, formats=formats, drives=drives, force=force,
+            mesh, out, parts=parts, up=up, scale=scale, root=root, base=base, formats=formats, drives=drives, force=force,
             progress=progress, answerer=answerer, parts_list=_labels(parts_list), at_least=at_least, proposer=proposer,
             verify=verify, category=category, seed=seed, max_calls=max_calls, max_cost=max_cost, **cache_of(cache),
         )  # fmt: skip
     tell_asset(asset, out, json_, quiet)
 
 
-@app.command(epilog=EXIT_CODES)
+@_command()
 def segment(
     mesh: MeshPath,
     out: Out,
@@ -142,6 +150,7 @@ def segment(
     seed: Seed = 0,
     up: Up = "auto",
     scale: Scale = "auto",
+    root: Root = None,
     force: Force = False,
     json_: Json = False,
     quiet: Quiet = False,
@@ -151,7 +160,7 @@ def segment(
 
     with Shown(quiet or json_) as progress:
         found = pipeline.segment(
-            mesh, out, parts=parts, up=up, scale=scale, force=force, progress=progress,
+            mesh, out, parts=parts, up=up, scale=scale, root=root, force=force, progress=progress,
             answerer=answerer, parts_list=_labels(parts_list), at_least=at_least, proposer=proposer, category=category,
             seed=seed, max_calls=max_calls, max_cost=max_cost, **cache_of(cache),
         )  # fmt: skip
@@ -162,7 +171,7 @@ def segment(
     tell({"out": str(out), "parts": rows}, rows, ("name", "label", "faces", "confidence", "reason"), json_, quiet)
 
 
-@app.command(epilog=EXIT_CODES)
+@_command()
 def joints(
     folder: Folder,
     answerer: AnswererName = "geometry",
@@ -191,7 +200,7 @@ def _labels(told: str) -> tuple[str, ...]:
     return tuple(label for label in told.split(",") if label.strip())
 
 
-@app.command(epilog=EXIT_CODES)
+@_command()
 def export(
     folder: Folder,
     base: BaseName = "fixed",
@@ -212,12 +221,12 @@ def export(
     tell_asset(asset, folder, json_, quiet)
 
 
-app.command(epilog=EXIT_CODES)(finish)
-app.command(epilog=EXIT_CODES)(report)
-app.command(epilog=EXIT_CODES)(picture)
-app.command(epilog=EXIT_CODES)(view)
-app.command("check", epilog=EXIT_CODES)(check)
-app.command("eval", epilog=EXIT_CODES)(evaluate)
+_command()(finish)
+_command()(report)
+_command()(picture)
+_command()(view)
+_command("check")(check)
+_command("eval")(evaluate)
 
 
 def main(arguments: list[str] | None = None) -> None:
@@ -227,6 +236,11 @@ def main(arguments: list[str] | None = None) -> None:
 
 def run(arguments: list[str]) -> int:
     """Runs the command line; returns the exit code."""
+    with quiet_libraries():
+        return _run(arguments)
+
+
+def _run(arguments: list[str]) -> int:
     try:
         code = app(arguments, standalone_mode=False)
         return code if isinstance(code, int) else 0
@@ -237,22 +251,26 @@ def run(arguments: list[str]) -> int:
     except _HandedError as handed:
         if isinstance(handed.error, KeyboardInterrupt):
             return _interrupted(arguments)
-        return _failed(arguments, handed.error)
+        return _defect(arguments, handed)
     except Exception as error:
-        return _failed(arguments, error)
+        if isinstance(error, AnymeshError):
+            return _fail(arguments, error, str(error), error.exit_code)
+        if hasattr(error, "format_message"):  # a usage error of the command line itself
+            return _fail(arguments, error, str(error.format_message()), 2) if arguments else 2  # ty: ignore[not-callable]
+        return _defect(arguments, _HandedError(error, "", {}))
 
 
-def _failed(arguments: list[str], error: BaseException) -> int:
-    if isinstance(error, AnymeshError):
-        return _fail(arguments, error, str(error), error.exit_code)
-    if hasattr(error, "format_message"):  # a usage error of the command line itself
-        if not arguments:  # the help was shown instead
-            return 2
-        return _fail(arguments, error, str(error.format_message()), 2)  # ty: ignore[not-callable]
+def _defect(arguments: list[str], handed: _HandedError) -> int:
+    """Tells of an error that should not be, and where its report is."""
+    from anymesh.cli_defect import write_defect
+
+    error = handed.error
     if "--debug" in arguments:
         raise error
-    told = f"unexpected {type(error).__name__}: {error} (put --debug before the command for the traceback)"
-    return _fail(arguments, error, told, 1)
+    report = write_defect(error, handed.command, handed.options)
+    where = "" if report is None else f"; please report it with {report} (versions, options, traceback; no mesh, no keys)"
+    told = f"internal defect, {type(error).__name__}: {error}{where}; --debug before the command shows the traceback"
+    return _fail(arguments, error, told, DEFECT, report=None if report is None else str(report))
 
 
 def _interrupted(arguments: list[str]) -> int:
@@ -262,10 +280,10 @@ def _interrupted(arguments: list[str]) -> int:
     return 130
 
 
-def _fail(arguments: list[str], error: BaseException, told: str, code: int) -> int:
+def _fail(arguments: list[str], error: BaseException, told: str, code: int, **more: str | None) -> int:
     told = plain(" ".join(told.split()))
     if "--json" in arguments:
-        typer.echo(json.dumps({"error": told, "kind": type(error).__name__, "exit_code": code}))
+        typer.echo(json.dumps({"error": told, "kind": type(error).__name__, "exit_code": code, **more}))
     typer.echo(f"error: {told}", err=True)
     return code
 

@@ -35,6 +35,10 @@ Cache = Annotated[
 Seed = Annotated[int, typer.Option(help="From 0 up; same input and seed, same bytes.")]
 Up = Annotated[str, typer.Option(help="The file's up axis: auto, x, y, z.")]
 Scale = Annotated[str, typer.Option(help="auto, a factor to metres, or METRES:AXIS such as 0.9:z.")]
+Root = Annotated[
+    Path | None,
+    typer.Option("--root", metavar="FOLDER", help="Textures may be read within it, and package://, model:// resolve in it."),
+]
 FORMATS = "urdf,mjcf,sdf,glb"
 Package = Annotated[Path | None, typer.Option(metavar="DIR", help="Also a ROS 2 package of the URDF, as a new folder in DIR.")]
 Zip = Annotated[Path | None, typer.Option("--zip", metavar="FILE", help="Also the asset as one zip file.")]

@@ -12,6 +12,7 @@ from typing import Annotated
 
 import typer
 
+from anymesh.cli_options import Root
 from anymesh.cli_output import Shown, plain
 
 Target = Annotated[
@@ -29,14 +30,19 @@ Reviewer = Annotated[
 
 
 def view(
-    target: Target, host: Host = "127.0.0.1", port: Port = 8080, no_browser: NoBrowser = False, reviewer: Reviewer = ""
+    target: Target,
+    host: Host = "127.0.0.1",
+    port: Port = 8080,
+    no_browser: NoBrowser = False,
+    reviewer: Reviewer = "",
+    root: Root = None,
 ) -> None:
     """See, play, correct and review in the browser, until Ctrl-C."""
     from anymesh.viewer.live_serve_ import serve
 
     with ExitStack() as stack:
         with Shown(hidden=False) as progress:
-            page = serve(target, host=host, port=port, author=reviewer or _user(), clock=_now, progress=progress)
+            page = serve(target, host=host, port=port, author=reviewer or _user(), clock=_now, root=root, progress=progress)
             serving = stack.enter_context(page)
         for line in (*serving.told, f"{serving.url} (Ctrl-C ends it)"):
             typer.echo(plain(line))

@@ -3,11 +3,14 @@
 A message says what was found and what would have been valid. `exit_code` is what the command line returns.
 """
 
+DEFECT = 70  # exit code of an internal defect: EX_SOFTWARE of sysexits.h
+STAGE = "in the stage "  # how the note begins that names the stage in which an error came up
+
 
 class AnymeshError(Exception):
-    """Base of all errors of this package."""
+    """Base of all errors of this package; only its subclasses are raised."""
 
-    exit_code = 1
+    exit_code = DEFECT
 
 
 class InputError(AnymeshError):
@@ -44,3 +47,14 @@ class BudgetError(ModelError):
     """The next call would pass --max-calls or --max-cost. What was answered is kept; a rerun goes on from there."""
 
     exit_code = 7
+
+
+def note_stage(error: BaseException, stage: str) -> None:
+    """Add to an error's traceback the stage in which it came up."""
+    error.add_note(f"{STAGE}{stage}")
+
+
+def failed_stage(error: BaseException) -> str | None:
+    """The stage that was noted on an error."""
+    notes = (note for note in getattr(error, "__notes__", ()) if note.startswith(STAGE))
+    return next((note.removeprefix(STAGE) for note in notes), None)

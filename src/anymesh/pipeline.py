@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TypeVar, Unpack
 
 from anymesh.answering import Answerer, Answering, choose_answerer
-from anymesh.errors import OptionError
+from anymesh.errors import OptionError, note_stage
 from anymesh.export import Base, Driven, Format, parse_formats, write_asset
 from anymesh.export.archive import write_zip
 from anymesh.export.formats import DEFAULT
@@ -37,6 +37,7 @@ def articulate(
     parts: str = "auto",
     up: str = "auto",
     scale: str = "auto",
+    root: str | Path | None = None,
     force: bool = False,
     base: str = Base.FIXED,
     formats: str = ",".join(DEFAULT),
@@ -47,14 +48,15 @@ def articulate(
     """Turns a rigid mesh into an articulated asset and writes it to the folder `out`.
 
     parts: "auto", "nodes" (the scene's nodes) or a file of face labels; up: auto, x, y, z; scale: auto, a factor (file units
-    to metres) or METRES:AXIS; base: fixed or free; formats: of urdf, mjcf, usd, sdf, glb, with commas between;
+    to metres) or METRES:AXIS; root: the folder within which files that the mesh refers to may be read (default: the mesh's
+    own); base: fixed or free; formats: of urdf, mjcf, usd, sdf, glb, with commas between;
     drives: passive, or position (joints are led to a commanded position). Raises
     InputError, OptionError, OutputError, ModelError; then nothing is written.
     """
     how = Exported.parse(base, formats, drives)
     who = choose_answerer(answering)
     with RunFolder.create(Path(out), source=Path(mesh_path), force=force) as run:
-        solver, recognized, key = _seen(run, Path(mesh_path), parts, up, scale, who, progress)
+        solver, recognized, key = _seen(run, Path(mesh_path), parts, Placement(up, scale, root), who, progress)
         segmented, key = _segment(run, solver, recognized, key, parts, who, progress)
         _join(run, solver, recognized, segmented, key, who, progress)
         return _export(run, how, progress)
@@ -67,6 +69,7 @@ def segment(
     parts: str = "auto",
     up: str = "auto",
     scale: str = "auto",
+    root: str | Path | None = None,
     force: bool = False,
     progress: Progress = silent,
     **answering: Unpack[Answering],
@@ -74,7 +77,7 @@ def segment(
     """Stage A alone: the parts of a mesh, saved in `out` for `joints`. Options as for `articulate`."""
     who = choose_answerer(answering)
     with RunFolder.create(Path(out), source=Path(mesh_path), force=force) as run:
-        solver, recognized, key = _seen(run, Path(mesh_path), parts, up, scale, who, progress)
+        solver, recognized, key = _seen(run, Path(mesh_path), parts, Placement(up, scale, root), who, progress)
         return _segment(run, solver, recognized, key, parts, who, progress)[0].segmentation
 
 
@@ -154,29 +157,37 @@ def finish(
         return _export(run, how, progress)
 
 
+@dataclass(frozen=True)
+class Placement:
+    """How a mesh is read and placed; the words of the options."""
+
+    up: str
+    scale: str
+    root: str | Path | None
+
+
 def _seen(
-    run: RunFolder, path: Path, parts: str, up: str, scale: str, who: Answerer, progress: Progress
+    run: RunFolder, path: Path, parts: str, how: Placement, who: Answerer, progress: Progress
 ) -> tuple[Solver, Recognized, str]:
     """The mesh placed, looked at, and in the size that was answered; ready for both stages."""
-    placed, key = _place(run, path, up, scale, who.config.category, progress)
+    placed, key = _place(run, path, how, who.config.category, progress)
     solver = Solver(placed.mesh, who.config, who.see)
     if parts != "auto":
         solver.parts(parts)  # what is wrong with them is better told before anything is asked
-    recognized, key = _recognize(run, solver, key, who, scale == "auto")
+    recognized, key = _recognize(run, solver, key, who, how.scale == "auto")
     sized = recognized.sized(placed)
     return (solver if sized is placed else Solver(sized.mesh, who.config, who.see)), recognized, key
 
 
-def _place(run: RunFolder, path: Path, up: str, scale: str, category: str | None, progress: Progress) -> tuple[Placed, str]:
+def _place(run: RunFolder, path: Path, how: Placement, category: str | None, progress: Progress) -> tuple[Placed, str]:
     progress("load", path.name, 0, 1)
     with _timed(run, "load"):
-        loaded = load_mesh(path)
-        key = stage_key(
-            MESH, previous=loaded.sha256, config={"up": up, "scale": scale, "category": category, "path": str(path)}
-        )
+        loaded = load_mesh(path, root=how.root)
+        settings = {"up": how.up, "scale": how.scale, "category": category, "path": str(path), "references": loaded.references}
+        key = stage_key(MESH, previous=loaded.sha256, config=settings)
         found = run.load(MESH, key)
         if found is None:
-            p = place_mesh(loaded, up=up, scale=scale, category=category)
+            p = place_mesh(loaded, up=how.up, scale=how.scale, category=category)
             source = Source(str(path), loaded.sha256, p.T_asset_source, p.up, p.notes)
             found = Placed(p.mesh, source, (*loaded.warnings, *p.warnings))
             run.save(MESH, key, found)
@@ -270,5 +281,9 @@ def _export(run: RunFolder, how: Exported, progress: Progress) -> Asset:
 @contextmanager
 def _timed(run: RunFolder, stage: str) -> Generator[None]:
     begin = time.perf_counter()
-    yield
+    try:
+        yield
+    except Exception as error:
+        note_stage(error, stage)
+        raise
     run.add_time(stage, time.perf_counter() - begin)

@@ -1,7 +1,8 @@
 """The output folder, the only place that knows file names: stages are kept, and it is there whole or not at all.
 
 Everything is written into a hidden folder beside the output (same file system), which takes its place at the end. A
-process that is killed leaves at most the hidden folder; the next run takes over its finished stages and removes it.
+process that is killed, or ended by a budget or an internal defect, leaves at most the hidden folder; the next run takes
+over its finished stages and removes it.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any, TypeVar
 
-from anymesh.errors import BudgetError, OutputError
+from anymesh.errors import AnymeshError, BudgetError, OutputError
 from anymesh.stage_results import (
     COMPLETION,
     CORRECTION,
@@ -30,7 +31,7 @@ from anymesh.stage_results import (
     Segmented,
     Stage,
 )
-from anymesh.storage.hidden import OURS, Hidden, dead_hidden, list_files, make_hidden, move_in, recover, swap_in
+from anymesh.storage.hidden import OURS, Hidden, dead_hidden, list_files, locks_known, make_hidden, move_in, recover, swap_in
 from anymesh.storage.outputs import (
     CORRECTIONS,
     GENERATOR,
@@ -79,8 +80,8 @@ def _existing(target: Path) -> list[str]:
 class RunFolder(Saved):
     """An output folder while it is written. `folder` is where files go; leaving the `with` block puts them in place.
 
-    An exception inside the block leaves the output as it was; when a budget ends the run, the finished stages stay in the
-    hidden folder, where the next run finds them.
+    An exception inside the block leaves the output as it was; when a budget or an internal defect ends the run, the finished
+    stages stay in the hidden folder, where the next run finds them.
     """
 
     def __init__(
@@ -93,6 +94,7 @@ class RunFolder(Saved):
         self._earlier = tuple(earlier)  # where results of runs before may be taken from
         self._dead = tuple(dead)
         self._replaces = base is None and target in self._earlier
+        self._resumable = False  # the next run looks for what this one leaves
         self._foreign: set[str] = set()  # files of others that go along
         self._stale: set[str] = set()  # stages whose results no longer follow from the ones before
 
@@ -122,6 +124,7 @@ class RunFolder(Saved):
             run = cls(target, make_hidden(*place), base=base, earlier=earlier, dead=dead)
         except OSError as error:
             raise OutputError(f"cannot write {target}: {error.strerror or error}") from error
+        run._resumable = locks_known()
         run._stale = {stage.name for stage in STAGES} if inside else set()
         return run
 
@@ -239,11 +242,19 @@ class RunFolder(Saved):
             elif isinstance(error, OSError) and self._is_mine(error):
                 raise OutputError(f"cannot write {self.target}: {error.strerror or error}") from error
         finally:
-            for hidden in (self._hidden, *self._dead):
-                if isinstance(error, BudgetError) and hidden is self._hidden:
-                    hidden.release()
-                else:
-                    hidden.discard()
+            if self._resumed_later(error):
+                self._hidden.release()
+            else:
+                self._hidden.discard()
+            for hidden in self._dead:
+                hidden.discard()
+
+    def _resumed_later(self, error: BaseException | None) -> bool:
+        """Whether the finished stages are kept: a budget ended the run, or a defect after which a rerun may go further."""
+        told = isinstance(error, AnymeshError) or (isinstance(error, OSError) and self._is_mine(error))
+        defect = isinstance(error, Exception) and not told
+        saved = any((self.folder / stage_files(stage)[0]).exists() for stage in STAGES)
+        return isinstance(error, BudgetError) or (defect and saved and self._resumable)
 
     def _is_mine(self, error: OSError) -> bool:
         full = error.errno in (errno.ENOSPC, errno.EROFS, getattr(errno, "EDQUOT", errno.ENOSPC))

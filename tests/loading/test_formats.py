@@ -1,6 +1,7 @@
 """One solid comes out of every format alike, with its looks, and placed as the file says."""
 
 import io
+import warnings
 from dataclasses import replace
 
 import numpy as np
@@ -132,6 +133,9 @@ def test_vertex_and_face_colours(tmp_path) -> None:
     lines = rows("v ", np.c_[POINTS, colors[:, :3] / 255]) + triples()
     found = load_mesh(put(tmp_path, "e.obj", lines.encode())).mesh.corner_color
     np.testing.assert_array_equal(found[..., :3], colors[FACES][..., :3])
+    lines = rows("v ", np.c_[POINTS, np.full((8, 3), np.nan)]) + triples()
+    with warnings.catch_warnings(action="error"):
+        assert (load_mesh(put(tmp_path, "n.obj", lines.encode())).mesh.corner_color == 255).all()
     off = "OFF\n8 12 0\n" + rows("", POINTS) + "".join(f"3 {a} {b} {c} {k} 0 255\n" for k, (a, b, c) in enumerate(FACES))
     found = load_mesh(put(tmp_path, "f.off", off.encode())).mesh.corner_color
     assert found[:, 0].tolist() == found[:, 2].tolist() == [[k, 0, 255, 255] for k in range(12)]

@@ -41,7 +41,7 @@ def test_a_mesh_is_articulated_first_and_its_folder_goes_when_nothing_was_saved(
     pytest.importorskip("viser", reason="needs the extra view")
     made = []
 
-    def articulate(mesh, folder, *, progress):
+    def articulate(mesh, folder, *, root, progress):
         made.append(folder)
         write_output(folder)
 

@@ -11,8 +11,8 @@ import numpy as np
 from jaxtyping import Float
 
 from anymesh.errors import InputError
-from anymesh.evaluation.datasets.visuals import Below
 from anymesh.loading.checks import check_file
+from anymesh.loading.folder import Folder
 from anymesh.loading.load import READERS
 from anymesh.simulation.files import find_file
 from anymesh.simulation.robot import Geometry, Robot, shape_triangles
@@ -106,12 +106,12 @@ def read_content(robot: Robot) -> Content:
 
 def _read(path: Path, folder: Path) -> tuple[Mesh, tuple[str, ...]]:
     data = check_file(path)
-    inside = path.resolve().is_relative_to(folder.resolve())
-    below = Below(path, folder if inside else path.parent.parent)
+    inside = path.parent.resolve().is_relative_to(folder.resolve())
+    files = Folder(path, folder if inside else path.parent.parent)
     try:
-        mesh = READERS[path.suffix.lower()](data, below)
+        mesh = READERS[path.suffix.lower()](data, files)
     except InputError:
         raise
     except Exception as error:  # whatever a broken file makes a reader raise is one thing to the user
         raise InputError(f"{path.name} is broken or truncated ({type(error).__name__}: {error})") from None
-    return mesh, tuple(below.warnings)
+    return mesh, tuple(files.warnings)

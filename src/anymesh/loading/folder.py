@@ -1,74 +1,91 @@
-"""The files that a mesh file names: read from its own folder and from nowhere else."""
+"""Read the files that a mesh file refers to, within its own folder or a given root, and from nowhere else."""
 
 from __future__ import annotations
 
-import re
+import copy
+import hashlib
+import json
+import os
 from pathlib import Path
-from urllib.parse import unquote
 
-from anymesh.errors import InputError
+from anymesh.errors import InputError, OptionError
+from anymesh.loading.references import OUTSIDE, Unresolved, resolve_reference
 
-URL = re.compile(r"^[a-zA-Z][a-zA-Z0-9+.-]+:")
+SHOWN = 100  # characters of a reference in a message
+HINT = "--root FOLDER names the folder within which files may be read"
 
 
 class Folder:
-    """The folder of one mesh file, and the warnings that came up while reading what the file refers to."""
+    """The files around one mesh file, and the warnings that came up while reading what the file refers to.
 
-    def __init__(self, path: Path) -> None:
+    root: the folder within which references may be read, the mesh's own when not given. Raises OptionError when it is not a
+    folder or the mesh does not lie within it.
+    """
+
+    def __init__(self, path: Path, root: str | Path | None = None) -> None:
         self.path = path
         self.warnings: list[str] = []
+        self._digests: dict[str, str] = {}  # of the files that were read
+        own = path.parent.resolve()
+        self._root = own if root is None else _checked(Path(root), path, own)
+        self._bases: tuple[Path, ...] = (own,)
 
-    def find(self, uri: str) -> Path | None:
-        """The file that a reference means, None if there is none. Raises InputError for a URL or a place outside."""
-        if URL.match(uri):
-            raise InputError(f"{self.path.name} refers to the URL {uri[:100]!r}; valid are files in its own folder")
-        found = None
-        for name in dict.fromkeys((uri, unquote(uri))):
-            target = self._inside(name.replace("\\", "/"))
-            if target is None:
-                raise InputError(f"{self.path.name} refers to {uri[:100]!r} outside its own folder; valid are files within it")
-            found = found or (target if _is_file(target) else None)
+    def beside(self, file: Path) -> Folder:
+        """The same files, but relative references start from the folder of `file` first: those in a material library."""
+        found = copy.copy(self)  # what is kept is shared
+        found._bases = tuple(dict.fromkeys((file.parent, *self._bases)))
         return found
 
-    def _inside(self, name: str) -> Path | None:
-        if name.startswith("/") or re.match(r"^[a-zA-Z]:", name) or "\0" in name:
-            return None
-        folder = self.path.parent.resolve()
-        try:
-            target = (folder / name).resolve()
-        except (OSError, RuntimeError):  # links in a circle
-            return None
-        return target if target.is_relative_to(folder) else None
+    def find(self, uri: str) -> Path | None:
+        """The file that a reference means; None where none may be read."""
+        found = resolve_reference(uri, self._bases, self._root)
+        return None if isinstance(found, Unresolved) else found
 
     def read(self, uri: str) -> bytes:
         """The bytes of a file that the mesh cannot do without. Raises InputError."""
-        found = self.find(uri)
-        if found is None:
-            raise InputError(f"{self.path.name} refers to {uri[:100]!r}, which is missing")
-        return found.read_bytes()
+        found = self._bytes(uri)
+        if isinstance(found, Unresolved):
+            raise InputError(f"{self.path.name} refers to {uri[:SHOWN]!r}, which {_told(found)}")
+        return found
 
-    def read_or_warn(self, uri: str, loss: str) -> bytes | None:
-        """The bytes of a file that the mesh can do without; a warning names the loss where it is missing."""
-        found = self.find(uri)
-        if found is None:
-            self.warn(f"{uri} is missing; {loss}")
+    def read_or_warn(self, uri: str, what: str) -> bytes | None:
+        """The bytes of a file that the mesh can do without; where it cannot be read, None and a warning. what: its role."""
+        found = self._bytes(uri)
+        if isinstance(found, Unresolved):
+            self.warn(f"{what} {uri[:SHOWN]!r} left out: it {_told(found)}")
             return None
-        return found.read_bytes()
+        return found
+
+    def _bytes(self, uri: str) -> bytes | Unresolved:
+        found = resolve_reference(uri, self._bases, self._root)
+        if isinstance(found, Unresolved):
+            return found
+        try:
+            data = found.read_bytes()
+        except OSError as error:
+            return Unresolved(f"cannot be opened ({error.strerror})")
+        self._digests[os.path.relpath(found, self._bases[-1])] = hashlib.sha256(data).hexdigest()
+        return data
 
     def warn(self, text: str) -> None:
-        """Keeps a warning, once."""
+        """Keep a warning, once."""
         if text not in self.warnings:
             self.warnings.append(text)
 
-    def get(self, name: str) -> bytes:
-        """As `read`, under the name by which trimesh asks."""
-        return self.read(name)
+    def digest(self) -> str:
+        """What tells apart two loads of the same mesh file: the contents of the other files, and the warnings."""
+        told = (sorted(self._digests.items()), self.warnings)
+        return hashlib.sha256(json.dumps(told).encode()).hexdigest()
 
-    __getitem__ = get
+
+def _told(found: Unresolved) -> str:
+    return f"{found.reason} ({HINT})" if found.reason == OUTSIDE else found.reason
 
 
-def _is_file(path: Path) -> bool:
-    try:
-        return path.is_file()
-    except OSError:  # such as a name that is too long
-        return False
+def _checked(root: Path, path: Path, own: Path) -> Path:
+    if not root.is_dir():
+        raise OptionError(f"--root: found {str(root)!r}, which is not a folder; valid is the mesh's folder or one above it")
+    resolved = root.resolve()
+    if not own.is_relative_to(resolved):
+        raise OptionError(f"--root: {path} does not lie within {str(root)!r}; valid is the mesh's folder or one above it")
+    return resolved

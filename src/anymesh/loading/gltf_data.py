@@ -66,25 +66,30 @@ def parse_json(name: str, data: bytes) -> dict[str, Any]:
 
 
 class Buffers:
-    """The buffers of a document, and the arrays in them."""
+    """The buffers of a document, each read when it is first needed, and the arrays in them."""
 
     def __init__(self, tree: dict[str, Any], binary: bytes | None, folder: Folder) -> None:
         self._name = folder.path.name
         self._tree = tree
-        self._buffers = [self._buffer(k, b, binary, folder) for k, b in enumerate(tree.get("buffers", []))]
+        self._binary = binary
+        self._folder = folder
+        self._read: dict[int, bytes] = {}
 
-    def _buffer(self, number: int, buffer: dict[str, Any], binary: bytes | None, folder: Folder) -> bytes:
-        uri = buffer.get("uri")
-        data = (binary or b"") if uri is None else from_uri(uri, folder)
-        told = buffer["byteLength"]
-        if told > len(data):
-            raise InputError(f"{self._name} is truncated: buffer {number} tells {told} bytes, found {len(data)}")
-        return data
+    def _buffer(self, number: int) -> bytes:
+        if number not in self._read:
+            buffer = _item(self._tree.get("buffers", []), number)
+            uri = buffer.get("uri")
+            data = (self._binary or b"") if uri is None else from_uri(uri, self._folder)
+            told = buffer["byteLength"]
+            if told > len(data):
+                raise InputError(f"{self._name} is truncated: buffer {number} tells {told} bytes, found {len(data)}")
+            self._read[number] = data
+        return self._read[number]
 
     def view(self, index: int) -> bytes:
         """The bytes of a buffer view. Raises InputError."""
         view = _item(self._tree["bufferViews"], index)
-        data = _item(self._buffers, view["buffer"])
+        data = self._buffer(view["buffer"])
         start, length = view.get("byteOffset", 0), view["byteLength"]
         if start < 0 or length < 0 or start + length > len(data):
             raise InputError(f"{self._name}: a buffer view ends at byte {start + length}, its buffer at {len(data)}")

@@ -8,9 +8,10 @@ from typing import Any
 import numpy as np
 from jaxtyping import Float32
 
+from anymesh.errors import InputError
 from anymesh.loading.folder import Folder
 from anymesh.loading.gltf_data import Buffers, from_uri
-from anymesh.loading.pictures import picture, picture_file
+from anymesh.loading.pictures import picture, picture_file, warn_unreadable
 from anymesh.types import Material, Texture
 
 
@@ -40,11 +41,14 @@ def read_looks(tree: dict[str, Any], buffers: Buffers, folder: Folder) -> list[L
 
 def _image(number: int, image: dict[str, Any], buffers: Buffers, folder: Folder) -> Texture | None:
     uri, name = image.get("uri"), str(image.get("name") or f"image_{number}")
-    if uri is None:
-        return picture(folder, buffers.view(image["bufferView"]), name)
-    if uri.startswith("data:"):
-        return picture(folder, from_uri(uri, folder), name)
-    return picture_file(folder, uri)
+    if uri is not None and not uri.startswith("data:"):
+        return picture_file(folder, uri)
+    try:
+        data = buffers.view(image["bufferView"]) if uri is None else from_uri(uri, folder)
+    except (InputError, LookupError, TypeError) as error:  # a mesh can do without it
+        warn_unreadable(folder, name, error)
+        return None
+    return picture(folder, data, name)
 
 
 def _look(number: int, m: dict[str, Any], textures: list[dict[str, Any]], images: list[Texture | None]) -> Look:

@@ -43,13 +43,19 @@ class LoadedMesh:
     format_up: str | None  # "y" or "z" or "x" where the format tells
     unit_in_metres: float | None  # where the format tells
     warnings: tuple[str, ...]
+    references: str = ""  # digest of the other files that it was read from, and of the warnings
 
 
-def load_mesh(path: str | Path) -> LoadedMesh:
-    """Reads GLB, glTF, OBJ, PLY, STL, OFF or DAE. Raises InputError, with one line, for anything that is no usable mesh."""
+def load_mesh(path: str | Path, *, root: str | Path | None = None) -> LoadedMesh:
+    """Read GLB, glTF, OBJ, PLY, STL, OFF or DAE.
+
+    root: the folder within which the files that the mesh refers to may be read; its own folder when not given. A texture or a
+    material library that cannot be read there is left out with a warning.
+    Raises InputError, with one line, for anything that is no usable mesh, and OptionError for a root that is not valid.
+    """
     path = Path(path)
     data = check_file(path)
-    folder = Folder(path)
+    folder = Folder(path, root)
     suffix = path.suffix.lower()
     try:
         mesh = READERS[suffix](data, folder)
@@ -62,7 +68,7 @@ def load_mesh(path: str | Path) -> LoadedMesh:
     if len(mesh.faces) > MOST_FACES:
         raise InputError(f"{path.name} has {len(mesh.faces)} faces; at most {MOST_FACES} are handled")
     _check_numbers(path.name, mesh)
-    return LoadedMesh(mesh, str(path), hashlib.sha256(data).hexdigest(), up, unit, tuple(folder.warnings))
+    return LoadedMesh(mesh, str(path), hashlib.sha256(data).hexdigest(), up, unit, tuple(folder.warnings), folder.digest())
 
 
 def _check_numbers(name: str, mesh: Mesh) -> None:

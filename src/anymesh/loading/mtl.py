@@ -16,7 +16,7 @@ BLACK = 0.02
 
 
 def read_mtl(data: bytes, folder: Folder) -> dict[str, Material]:
-    """Materials by name. A picture that is missing is a warning; one outside the folder raises InputError."""
+    """Materials by name. A texture that cannot be read is a warning."""
     found: dict[str, dict[str, str]] = {}
     current: dict[str, str] = {}
     for line in data.decode("utf-8-sig", "replace").splitlines():
@@ -31,10 +31,8 @@ def read_mtl(data: bytes, folder: Folder) -> dict[str, Material]:
 def _material(name: str, fields: dict[str, str], folder: Folder) -> Material:
     textures: dict[str, Texture] = {}
     for key, value in fields.items():
-        if key.startswith("map_") or key in ("bump", "norm", "disp", "refl"):
-            uri = _picture_name(value)
-            folder.find(uri)  # those that are not used must not lie outside either
-            texture = picture_file(folder, uri) if key in SLOTS else None
+        if key in SLOTS:
+            texture = picture_file(folder, _picture_name(value))
             if texture is not None:
                 textures[SLOTS[key]] = texture
     color = _numbers(fields.get("kd", ""))

@@ -11,8 +11,6 @@ from anymesh.loading.mtl import read_mtl
 from anymesh.loading.polygons import fans, recut
 from anymesh.types import Material, Mesh, Node
 
-NO_LOOKS = "the surfaces keep no materials"
-
 
 class _Lines:
     """What the lines of the file say, in their order. corners: three numbers each, from 0, -1 where there is none."""
@@ -117,8 +115,9 @@ def _materials(folder: Folder, libraries: list[str]) -> dict[str, Material]:
     for line in dict.fromkeys(libraries):
         several = line.split() if folder.find(line) is None and len(line.split()) > 1 else [line]
         for uri in several:
-            data = folder.read_or_warn(uri, NO_LOOKS)
-            found |= {} if data is None else read_mtl(data, folder)
+            data = folder.read_or_warn(uri, "material library")
+            file = folder.find(uri)
+            found |= {} if data is None or file is None else read_mtl(data, folder.beside(file))
     return found
 
 
@@ -136,4 +135,4 @@ def _color(v: list[list[float]], faces: np.ndarray) -> np.ndarray | None:
     if any(len(row) < 6 for row in v):
         return None
     values = np.array([row[3:6] for row in v])
-    return rgba(values if np.nanmax(values) <= 1 else values / 255)[faces]
+    return rgba(values if np.nan_to_num(values).max(initial=0) <= 1 else values / 255)[faces]

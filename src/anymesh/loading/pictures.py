@@ -3,22 +3,25 @@
 from __future__ import annotations
 
 import io
+import re
 import warnings
+from collections.abc import Generator
+from contextlib import contextmanager
 from pathlib import PurePosixPath
 
 from PIL import Image
 
-from anymesh.loading.folder import Folder
+from anymesh.loading.folder import SHOWN, Folder
 from anymesh.types import Texture
 
-LOSS = "the surfaces that use it have no picture"
 MOST_PIXELS = 16384**2
 KEPT = {"PNG": "image/png", "JPEG": "image/jpeg"}
+OBJECT = re.compile(r"\s*<[^>]*>")  # how Python names a stream in an error: with an address that differs from run to run
 
 
 def picture_file(folder: Folder, uri: str) -> Texture | None:
-    """The picture in a file that is named; None, with a warning, where it is missing or broken."""
-    data = folder.read_or_warn(uri, LOSS)
+    """The texture in a file that is named; None, with a warning, where it cannot be read."""
+    data = folder.read_or_warn(uri, "texture")
     return None if data is None else picture(folder, data, uri)
 
 
@@ -26,8 +29,7 @@ def picture(folder: Folder, data: bytes, name: str) -> Texture | None:
     """A texture of encoded bytes: PNG and JPEG as they are, others turned into PNG; None, with a warning, where broken."""
     stem = PurePosixPath(name.replace("\\", "/")).stem
     try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", Image.DecompressionBombWarning)
+        with quiet_decoder():
             image = Image.open(io.BytesIO(data))
         if image.width * image.height > MOST_PIXELS:
             raise ValueError(f"{image.width} x {image.height} pixels")
@@ -37,6 +39,20 @@ def picture(folder: Folder, data: bytes, name: str) -> Texture | None:
         buffer = io.BytesIO()
         image.convert("RGBA" if image.has_transparency_data else "RGB").save(buffer, "PNG")
     except Exception as error:  # whatever a broken picture makes the decoder raise is one thing to the user
-        folder.warn(f"the picture {name!r} cannot be read ({type(error).__name__}: {str(error)[:80]}); {LOSS}")
+        warn_unreadable(folder, name, error)
         return None
     return Texture(buffer.getvalue(), "image/png", stem)
+
+
+def warn_unreadable(folder: Folder, name: str, error: Exception) -> None:
+    """Warn of a texture that is there and cannot be read."""
+    told = f"{type(error).__name__}: {OBJECT.sub('', str(error))}"[:100]
+    folder.warn(f"texture {name[:SHOWN]!r} left out: it cannot be read ({told})")
+
+
+@contextmanager
+def quiet_decoder() -> Generator[None]:
+    """Large pictures are limited here, without the decoder's own warning."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", Image.DecompressionBombWarning)
+        yield

@@ -13,7 +13,7 @@ import numpy as np
 from anymesh.errors import InputError
 from anymesh.loading.folder import Folder
 from anymesh.loading.join import join, rgba, simple_mesh, unit
-from anymesh.loading.pictures import picture_file
+from anymesh.loading.pictures import picture_file, quiet_decoder
 from anymesh.types import Material, Mesh, Texture
 from anymesh.types.color import to_linear
 
@@ -23,10 +23,9 @@ def read_dae(data: bytes, folder: Folder) -> Mesh:
     name = folder.path.name
     root = parse_dae(name, data)
     _check_positions(name, root)
-    for uri in _pictures(root):
-        picture_file(folder, uri)
+    textures = {uri: picture_file(folder, uri) for uri in dict.fromkeys(_pictures(root))}
     placed = []
-    for node, geometry, T in _geometries(data, folder):
+    for node, geometry, T in _geometries(data, folder, _Readable({k: t.data for k, t in textures.items() if t is not None})):
         if not np.isfinite(T).all():
             raise InputError(f"{name}: node {node!r} has a transform that is not finite")
         placed.append(_mesh(f"{name}, node {node!r}", node, geometry).transformed(T))
@@ -66,15 +65,29 @@ def _pictures(root: ET.Element) -> Iterator[str]:
                 yield text
 
 
-def _geometries(data: bytes, folder: Folder) -> Iterator[tuple[str, dict[str, Any], np.ndarray]]:
+class _Readable:
+    """The textures that can be read, as trimesh asks for them."""
+
+    def __init__(self, textures: dict[str, bytes]) -> None:
+        self._textures = textures
+
+    def get(self, name: str) -> bytes:
+        """The bytes of a texture. Raises KeyError where it is left out, which trimesh passes over."""
+        return self._textures[name.strip()]
+
+    __getitem__ = get
+
+
+def _geometries(data: bytes, folder: Folder, textures: _Readable) -> Iterator[tuple[str, dict[str, Any], np.ndarray]]:
     from trimesh.exchange.load import mesh_loaders
 
     read: Any = mesh_loaders["dae"]
-    try:
-        scene = read(file_obj=io.BytesIO(data), resolver=folder, ignore_broken=False)
-    except Exception as error:  # pycollada is strict; what it would pass over is often of no matter
-        scene = read(file_obj=io.BytesIO(data), resolver=folder, ignore_broken=True)
-        folder.warn(f"some of the file is broken and left out ({type(error).__name__}: {str(error)[:100]})")
+    with quiet_decoder():
+        try:
+            scene = read(file_obj=io.BytesIO(data), resolver=textures, ignore_broken=False)
+        except Exception as error:  # pycollada is strict; what it would pass over is often of no matter
+            scene = read(file_obj=io.BytesIO(data), resolver=textures, ignore_broken=True)
+            folder.warn(f"some of the file is broken and left out ({type(error).__name__}: {str(error)[:100]})")
     for entry in scene["graph"]:
         geometry = scene["geometry"][entry["geometry"]]
         if len(geometry["faces"]):

@@ -43,8 +43,10 @@ def scene_glb(meshes: Mapping[str, Mesh], T_scene_asset: Float[np.ndarray, "4 4"
 
 
 def read_scene(glb: bytes, name: str) -> Mesh:
-    """A GLB that came back, in its own coordinates. Raises InputError for anything that is no usable mesh, and for one that
-    refers to files: it has no folder."""
+    """A GLB that came back, in its own coordinates; it has no folder, so textures in other files are left out.
+
+    Raises InputError for anything that is no usable mesh.
+    """
     try:
         return read_gltf(glb, Folder(Path("of-no-folder") / name))
     except InputError:

@@ -31,7 +31,7 @@ def assemble(
         segmentation=segmented.segmentation,
         joints=jointed.joints,
         answerer=jointed.answerer,
-        warnings=(*recognized.warnings, *segmented.warnings, *jointed.warnings),
+        warnings=_once((*placed.warnings, *recognized.warnings, *segmented.warnings, *jointed.warnings)),
         timing=timing,
         exchanges=(*recognized.exchanges, *segmented.exchanges, *jointed.exchanges),
     )
@@ -48,4 +48,8 @@ def assemble(
 
 
 def _corrected(asset: Asset, by: Corrected) -> Asset:
-    return replace(asset, segmentation=by.segmentation, joints=by.joints, warnings=by.warnings)
+    return replace(asset, segmentation=by.segmentation, joints=by.joints, warnings=_once(by.warnings))
+
+
+def _once(warnings: tuple[str, ...]) -> tuple[str, ...]:
+    return tuple(dict.fromkeys(warnings))

@@ -64,6 +64,11 @@ def locked(path: Path) -> Generator[bool]:
             os.close(descriptor)
 
 
+def locks_known() -> bool:
+    """Whether the living can be told from the dead here, so that a folder left behind is found again."""
+    return fcntl is not None
+
+
 def make_hidden(parent: Path, prefix: str) -> Hidden:
     """A new, locked folder `<parent>/<prefix><random>`."""
     while True:

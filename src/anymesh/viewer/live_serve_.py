@@ -28,18 +28,25 @@ class Serving:
 
 @contextlib.contextmanager
 def serve(
-    target: str | Path, *, host: str = "127.0.0.1", port: int = 8080, author: str, clock: Clock, progress: Progress = silent
+    target: str | Path,
+    *,
+    host: str = "127.0.0.1",
+    port: int = 8080,
+    author: str,
+    clock: Clock,
+    root: str | Path | None = None,
+    progress: Progress = silent,
 ) -> Generator[Serving]:
     """The live page of a target, for as long as the `with` block lasts.
 
     A mesh is articulated first, into a temporary folder that stays when corrections were saved in it. A port that is taken
-    moves on to the next. Raises InputError, OutputError, MissingExtraError.
+    moves on to the next. root: as for `articulate`. Raises InputError, OutputError, MissingExtraError.
     """
     target = Path(target)
     with contextlib.ExitStack() as stack:
         told: tuple[str, ...] = ()
         if not target.is_dir():
-            folder, told = stack.enter_context(_articulated(target, progress))
+            folder, told = stack.enter_context(_articulated(target, root, progress))
         else:
             folder = target.resolve()
         one = written_files(folder) is not None
@@ -57,12 +64,12 @@ def serve(
 
 
 @contextlib.contextmanager
-def _articulated(mesh: Path, progress: Progress) -> Generator[tuple[Path, tuple[str, ...]]]:
+def _articulated(mesh: Path, root: str | Path | None, progress: Progress) -> Generator[tuple[Path, tuple[str, ...]]]:
     """A mesh as an output in a temporary folder."""
     temporary = Path(tempfile.mkdtemp(prefix="anymesh-view-"))
     folder = temporary / "asset"
     try:
-        pipeline.articulate(mesh, folder, progress=progress)
+        pipeline.articulate(mesh, folder, root=root, progress=progress)
         yield folder, (f"The mesh was articulated into {folder}, which is removed at the end unless corrections are saved.",)
     finally:
         if not (folder / CORRECTIONS).exists():

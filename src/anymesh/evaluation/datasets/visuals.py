@@ -16,18 +16,6 @@ from anymesh.types import Mesh
 UNIT = re.compile(rb"""<unit[^>]*\bmeter\s*=\s*["']([0-9.eE+-]+)""")
 
 
-class Below(Folder):
-    """References may lead out of the mesh file's folder (such as ../images/a.jpg), but not out of the data set's."""
-
-    def __init__(self, path: Path, root: Path) -> None:
-        super().__init__(path)
-        self._root = root.resolve()
-
-    def _inside(self, name: str) -> Path | None:
-        target = (self.path.parent / name).resolve()
-        return target if target.is_relative_to(self._root) else None
-
-
 def find_mesh(reference: str, folder: Path) -> Path:
     """The file that a description in `folder` means. package://NAME/PATH is looked for in the folder NAME here or above, then
     as PATH. Raises InputError."""
@@ -44,13 +32,14 @@ def find_mesh(reference: str, folder: Path) -> Path:
 
 
 def read_visual(path: Path, root: Path) -> Mesh:
-    """The mesh in file coordinates, with materials and textures from anywhere below `root`. Raises InputError.
+    """The mesh in file coordinates, with materials and textures from anywhere within `root`. Raises InputError.
 
     As viewers of robots do it: of COLLADA the unit counts, its up axis does not; other formats are taken as they are.
     """
     data = check_file(path)
+    within = path.parent.resolve().is_relative_to(root.resolve())
     try:
-        mesh = READERS[path.suffix.lower()](data, Below(path, root))
+        mesh = READERS[path.suffix.lower()](data, Folder(path, root if within else None))
     except InputError:
         raise
     except Exception as error:  # whatever a broken file makes a reader raise is one thing to the user
