@@ -39,9 +39,15 @@ def posed(asset: Asset, positions: Mapping[str, float]) -> Mesh:
     """The mesh with its parts moved; faces keep their numbers, vertices are no longer shared."""
     transforms = link_transforms(asset, positions)
     triangles = asset.mesh.triangles.copy()
+    normal = None if asset.mesh.corner_normal is None else asset.mesh.corner_normal.copy()
     for number, part in enumerate(asset.segmentation.parts):
-        mine = asset.segmentation.face_part == number
         T = transforms[part.name]
+        if np.array_equal(T, np.eye(4)):
+            continue
+        mine = asset.segmentation.face_part == number
         triangles[mine] = triangles[mine] @ T[:3, :3].T + T[:3, 3]
+        if normal is not None:
+            normal[mine] = normal[mine] @ T[:3, :3].T.astype(np.float32)
     count = len(triangles)
-    return replace(asset.mesh, vertices=triangles.reshape(-1, 3), faces=np.arange(3 * count).reshape(-1, 3), corner_normal=None)
+    faces = np.arange(3 * count).reshape(-1, 3)
+    return replace(asset.mesh, vertices=triangles.reshape(-1, 3), faces=faces, corner_normal=normal)
