@@ -103,7 +103,7 @@ def draw_axes(
     shapes: Sequence[AxisShape],
     camera: Camera,
     *,
-    corner: tuple[float, float] = (0.0, 0.0),
+    corner: tuple[int, int] = (0, 0),
     scale: float = 1.0,
 ) -> UInt8[np.ndarray, "h w 3"]:
     """The picture with these axes drawn over it, smoothly.

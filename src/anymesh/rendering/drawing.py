@@ -12,14 +12,14 @@ from anymesh.rendering.render import KEY_LIGHT
 from anymesh.rendering.samples import GRID, Samples, Subject
 from anymesh.types import Mesh
 
-GROUND = (232.0, 200.0)  # grey of the ground (0..255), at its top and at its bottom
-SHEEN = 30.0  # light (0..255) that any surface reflects, whatever its colour: black ones have a shape, too
+GROUND = (222.0, 190.0)  # grey of the ground (0..255), at its top and at its bottom
+SHEEN = 30.0  # brightness (0..255) of a black surface in full light, so that its shape can be seen
 DARK, LIGHT = (38.0, 40.0, 46.0), (176.0, 178.0, 184.0)  # colours of lines on bright and on dark surfaces
 DARK_SURFACE = 78.0  # brightness (0..255) below which lines are light
 OUTLINE, CREASE = 0.9, 0.6  # opacity of lines
 COLOR_BITS = 4  # of vertex colours that are dropped: smaller differences need no smoothing
 LINE_WIDTH = 1  # [px of the finer grid] of lines, beyond the two rays between which they lie
-AMBIENT, KEY, SKY = 0.44, 0.38, 0.18  # shares of the light; they add to 1
+AMBIENT, KEY, SKY = 0.48, 0.4, 0.18  # light from everywhere, from one side, from above; a surface that faces up gets 0.96
 BRIGHTNESS = np.array([0.299, 0.587, 0.114], np.float32)  # weights of red, green, blue (ITU-R BT.601)
 
 
@@ -53,20 +53,24 @@ def look_of_faces(color: UInt8[np.ndarray, "F 3"], samples: Samples) -> Float32[
     return np.where(samples.hits.face[:, None] >= 0, color[samples.hits.face], 0).astype(np.float32)
 
 
-def draw(samples: Samples, base: Float32[np.ndarray, "n 3"], behind: Float32[np.ndarray, "h w 3"]) -> UInt8[np.ndarray, "h w 3"]:
+def draw(
+    samples: Samples, base: Float32[np.ndarray, "n 3"], behind: Float32[np.ndarray, "h w 3"]
+) -> UInt8[np.ndarray, "h w 3"]:
     """The picture of surfaces in these colours, with lines, over what is behind."""
     color = _lit(base, samples.normal)
     nothing = np.flatnonzero(samples.hits.face < 0)
-    height, width = samples.window.shape
     pixel = samples.split[(nothing - len(samples.plain)) // GRID**2]
     color[nothing] = behind.reshape(-1, 3)[pixel]
     return np.round(samples.resolve(_with_lines(samples, color), behind)).astype(np.uint8)
 
 
 def _lit(base: Float32[np.ndarray, "n 3"], normal: Float32[np.ndarray, "n 3"]) -> Float32[np.ndarray, "n 3"]:
-    toward = KEY_LIGHT.astype(np.float32)
-    light = AMBIENT + KEY * np.clip(normal @ toward, 0, 1) + SKY * (0.5 + 0.5 * normal[:, 2])
-    return (SHEEN + (255 - SHEEN) / 255 * base) * light[:, None].astype(np.float32)
+    light = normal @ KEY_LIGHT.astype(np.float32)
+    np.maximum(light, 0, out=light)
+    light *= KEY
+    light += AMBIENT + SKY / 2 + SKY / 2 * normal[:, 2]
+    sheen = SHEEN - SHEEN / 255 * np.maximum(np.maximum(base[:, 0], base[:, 1]), base[:, 2])
+    return (base + sheen[:, None]) * light[:, None]
 
 
 def _with_lines(samples: Samples, color: Float32[np.ndarray, "n 3"]) -> Float32[np.ndarray, "n 3"]:

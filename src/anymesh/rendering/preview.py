@@ -17,7 +17,7 @@ from anymesh.rendering.drawing import draw, ground, look_of_faces, look_of_mater
 from anymesh.rendering.labels import font
 from anymesh.rendering.raycast_ import RayScene
 from anymesh.rendering.samples import Window, sample
-from anymesh.rendering.smooth import shading_normals
+from anymesh.rendering.smooth import smoothed
 from anymesh.rendering.viewpoints import orbit_camera
 from anymesh.types import Asset, Joint, JointType, Mesh
 from anymesh.types.camera import Camera
@@ -57,7 +57,7 @@ def write_preview(asset: Asset, path: Path) -> None:
 
 def render_preview(asset: Asset) -> UInt8[np.ndarray, "H W 3"]:
     """Draw the object as it looks, its parts at rest, and its parts opened, side by side; below them the legend."""
-    asset = replace(asset, mesh=replace(asset.mesh, corner_normal=shading_normals(asset.mesh)))
+    asset = replace(asset, mesh=smoothed(asset.mesh))
     at = {j.name: shown_position(j) for j in asset.joints}
     rest = _Pose(asset.mesh, axis_shapes(asset, {}))
     opened = _Pose(posed(asset, at), axis_shapes(asset, at)) if any(at.values()) else rest

@@ -32,8 +32,8 @@ class Hits:
 class SurfaceHits:
     """First hits in single precision, with the surface normal, for pictures.
 
-    face: (n,) -1 where nothing is hit; depth: (n,) in lengths of the ray's direction, inf where nothing is hit; u, v: (n,) as in
-    `Hits`; normal: (n, 3) unit normal of the face, turned toward the ray's origin, zero where nothing is hit.
+    face, u, v: (n,) as in `Hits`; depth: (n,) in lengths of the ray's direction, inf where nothing is hit;
+    normal: (n, 3) unit normal of the face, turned toward the ray's origin, zero where nothing is hit.
     """
 
     face: Int32[np.ndarray, " n"]

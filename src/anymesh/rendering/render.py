@@ -55,7 +55,11 @@ def shade(
     toward = np.einsum("ij,ij->i", normal, directions) > 0
     normal[toward] *= -1
     color = np.full((len(directions), 3), BACKGROUND, np.float64)
-    base = face_color[hits.face[seen]].astype(np.float64) if face_color is not None else base_colors(mesh, hits.face[seen], hits.u[seen], hits.v[seen])
+    base = (
+        face_color[hits.face[seen]].astype(np.float64)
+        if face_color is not None
+        else base_colors(mesh, hits.face[seen], hits.u[seen], hits.v[seen])
+    )
     color[seen] = lit(base, normal[seen])
     return color.astype(np.uint8), normal
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float, Float32, Int
+from jaxtyping import Float32, Int
 
 from anymesh.rendering.outlines import Steps, changes, find_steps
 from anymesh.rendering.raycast_ import RayScene, SurfaceHits
@@ -36,8 +36,8 @@ class Samples:
     """What the rays of a window meet, and the lines between them.
 
     plain: (p,) pixels (flat indices into the window) with one ray, that hits; split: (k,) pixels with GRID x GRID rays;
-    hits, directions, normal (for shading): of all p + k * GRID**2 rays, the plain ones first; steps: between rays of split
-    pixels; place: (k * GRID**2,) where their rays are in a picture of the window that is GRID times finer (flat indices).
+    hits, normal (for shading): of all p + k * GRID**2 rays, the plain ones first; steps: between rays of split pixels;
+    place: (k * GRID**2,) where those rays are in a picture of the window that is GRID times finer (flat indices).
     """
 
     window: Window
@@ -74,30 +74,34 @@ class Subject:
 
 
 def sample(subject: Subject, camera: Camera, window: Window) -> Samples:
-    """Casts the rays of a window."""
+    """Cast the rays of a window."""
     height, width = window.shape
     origin, pixel = camera.T_world_camera[:3, 3], 1 / camera.focal
-    across, down = camera.ray_grid(np.arange(window.left, window.right) + 0.5, np.arange(window.top, window.bottom) + 0.5)
+    across, down = _terms(camera, window, 1)
     directions = (down[:, None] + across).reshape(-1, 3)
     hits = subject.scene.surface_hits(origin, directions)
     normal = _shading_normals(hits, subject.corner_normal)
-    split = _split(subject, hits, directions, normal, window.shape, pixel)
-    plain = np.flatnonzero((hits.face >= 0) & ~split)
-    split = np.flatnonzero(split)
+    divided = _split(subject, hits, directions, normal, window.shape, pixel)
+    plain, split = np.flatnonzero((hits.face >= 0) & ~divided), np.flatnonzero(divided)
     place = _places(split, width)
-    inside = (np.arange(GRID) + 0.5) / GRID
-    fine = [(np.arange(a, b)[:, None] + inside).reshape(-1) for a, b in ((window.left, window.right), (window.top, window.bottom))]
-    across, down = camera.ray_grid(*fine)
+    across, down = _terms(camera, window, GRID)
     more = down[place // (width * GRID)] + across[place % (width * GRID)]
     grids = subject.scene.surface_hits(origin, more)
-    all_hits = SurfaceHits.joined(hits.take(plain), grids)
-    all_normals = np.concatenate([normal[plain], _shading_normals(grids, subject.corner_normal)])
+    joined = SurfaceHits.joined(hits.take(plain), grids)
+    normals = np.concatenate([normal[plain], _shading_normals(grids, subject.corner_normal)])
     rows = np.full((height * GRID, width * GRID), -1, np.int32)
     rows.reshape(-1)[place] = np.arange(len(plain), len(plain) + len(place))
     face = np.full(rows.shape, -2, np.int32)
     face.reshape(-1)[place] = grids.face
-    steps = find_steps(all_hits, np.concatenate([directions[plain], more]), all_normals, changes(face, rows), pixel)
-    return Samples(window, plain, split, all_hits, all_normals, steps, place)
+    steps = find_steps(joined, np.concatenate([directions[plain], more]), normals, changes(face, rows), pixel)
+    return Samples(window, plain, split, joined, normals, steps, place)
+
+
+def _terms(camera: Camera, window: Window, grid: int) -> tuple[np.ndarray, np.ndarray]:
+    """Terms of the directions of grid x grid rays per pixel of a window (`Camera.ray_grid`)."""
+    inside = (np.arange(grid) + 0.5) / grid
+    x, y = np.arange(window.left, window.right), np.arange(window.top, window.bottom)
+    return camera.ray_grid((x[:, None] + inside).reshape(-1), (y[:, None] + inside).reshape(-1))
 
 
 def _split(
