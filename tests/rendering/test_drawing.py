@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from assets import QUAD_UV, box, checker, mesh_of
 
-from anymesh.rendering.drawing import BRIGHTNESS, draw, ground, look_of_faces, look_of_materials, subject_of
+from anymesh.rendering.drawing import BRIGHTNESS, draw, ground, light_on, look_of_faces, look_of_materials, subject_of
 from anymesh.rendering.materials import texels_per_pixel
 from anymesh.rendering.outlines import stroke
 from anymesh.rendering.raycast_ import RayScene
@@ -27,7 +27,7 @@ def samples_of(mesh: Mesh, camera: Camera = CAMERA):
 
 def picture(mesh: Mesh) -> np.ndarray:
     samples = samples_of(mesh)
-    return draw(samples, look_of_materials(mesh, samples), ground(SIZE, SIZE))
+    return draw(samples, look_of_materials(mesh, samples), light_on(samples), ground(SIZE, SIZE))
 
 
 def painted(pieces, grey: float) -> Mesh:
@@ -147,7 +147,7 @@ def test_faces_of_two_colours_meet_in_a_smooth_edge():
     colors = np.tile(np.array([[200, 60, 60], [60, 60, 200]], np.uint8), (6, 1))
     subject = subject_of(mesh, RayScene(mesh.vertices, mesh.faces), np.arange(12))
     samples = sample(subject, camera, WHOLE)
-    drawn = draw(samples, look_of_faces(colors, samples), ground(SIZE, SIZE))
+    drawn = draw(samples, look_of_faces(colors, samples), light_on(samples), ground(SIZE, SIZE))
     inner = drawn[SIZE // 2 - 20 : SIZE // 2 + 20, SIZE // 2 - 20 : SIZE // 2 + 20].reshape(-1, 3)
     assert len(np.unique(inner, axis=0)) > 2
     assert len(samples.steps.pairs[samples.steps.crease > 0]) == 0

@@ -16,6 +16,7 @@ from anymesh.types.camera import Camera
 AXIS_COLOR = (190, 20, 40)
 WHITE = (255, 255, 255)
 RING_RADIUS = 0.04  # of the ring, as a share of the object's diagonal
+HEAD = 12  # [px] at scale 1 that arrow heads and lines reach beyond their points
 FINE = 3  # pixels each way, of those that are drawn on, to a pixel of a picture
 
 
@@ -113,10 +114,20 @@ def draw_axes(
     if not shapes:
         return image
     height, width = image.shape[:2]
-    fine = Image.fromarray(image).resize((width * FINE, height * FINE), Image.Resampling.NEAREST)
+    lines = [
+        (camera.project(s.arrow)[0] - corner, None if s.ring is None else camera.project(s.ring)[0] - corner) for s in shapes
+    ]
+    points = np.concatenate([p for pair in lines for p in pair if p is not None])
+    reach = np.ceil(HEAD * scale)
+    left, top = (int(v) for v in np.clip(points.min(0) - reach, 0, [width, height]))
+    right, bottom = (int(v) for v in np.clip(points.max(0) + reach, [left + 1, top + 1], [width, height]))
+    box = (slice(top, bottom), slice(left, right))
+    fine = Image.fromarray(image[box]).resize(((right - left) * FINE, (bottom - top) * FINE), Image.Resampling.NEAREST)
     draw = ImageDraw.Draw(fine)
-    for shape in shapes:
-        draw_arrow(draw, FINE * (camera.project(shape.arrow)[0] - corner), scale=FINE * scale)
-        if shape.ring is not None:
-            draw_ring(draw, FINE * (camera.project(shape.ring)[0] - corner), scale=FINE * scale)
-    return np.asarray(fine.reduce(FINE))
+    for arrow, circle in lines:
+        draw_arrow(draw, FINE * (arrow - [left, top]), scale=FINE * scale)
+        if circle is not None:
+            draw_ring(draw, FINE * (circle - [left, top]), scale=FINE * scale)
+    drawn = image.copy()
+    drawn[box] = np.asarray(fine.reduce(FINE))
+    return drawn

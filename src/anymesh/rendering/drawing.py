@@ -49,43 +49,48 @@ def look_of_materials(mesh: Mesh, samples: Samples) -> Float32[np.ndarray, "n 3"
 
 
 def look_of_faces(color: UInt8[np.ndarray, "F 3"], samples: Samples) -> Float32[np.ndarray, "n 3"]:
-    """The colour of the face that each ray meets; black where none is."""
-    return np.where(samples.hits.face[:, None] >= 0, color[samples.hits.face], 0).astype(np.float32)
+    """The colour of the face that each ray meets; anything where none is."""
+    return color.astype(np.float32)[samples.hits.face]
+
+
+def light_on(samples: Samples) -> Float32[np.ndarray, " n"]:
+    """How brightly each ray's surface is lit."""
+    light = samples.normal @ KEY_LIGHT.astype(np.float32)
+    np.maximum(light, 0, out=light)
+    light *= KEY
+    light += AMBIENT + SKY / 2 + SKY / 2 * samples.normal[:, 2]
+    return light
 
 
 def draw(
-    samples: Samples, base: Float32[np.ndarray, "n 3"], behind: Float32[np.ndarray, "h w 3"]
+    samples: Samples,
+    base: Float32[np.ndarray, "n 3"],
+    light: Float32[np.ndarray, " n"],
+    behind: Float32[np.ndarray, "h w 3"],
 ) -> UInt8[np.ndarray, "h w 3"]:
-    """The picture of surfaces in these colours, with lines, over what is behind."""
-    color = _lit(base, samples.normal)
+    """The picture of surfaces in these colours under this light, with lines, over what is behind."""
+    color = base + (SHEEN - SHEEN / 255 * np.maximum(np.maximum(base[:, 0], base[:, 1]), base[:, 2]))[:, None]
+    color *= light[:, None]
     nothing = np.flatnonzero(samples.hits.face < 0)
     pixel = samples.split[(nothing - len(samples.plain)) // GRID**2]
     color[nothing] = behind.reshape(-1, 3)[pixel]
-    return np.round(samples.resolve(_with_lines(samples, color), behind)).astype(np.uint8)
+    _draw_lines(samples, color)
+    return (samples.resolve(color, behind) + np.float32(0.5)).astype(np.uint8)
 
 
-def _lit(base: Float32[np.ndarray, "n 3"], normal: Float32[np.ndarray, "n 3"]) -> Float32[np.ndarray, "n 3"]:
-    light = normal @ KEY_LIGHT.astype(np.float32)
-    np.maximum(light, 0, out=light)
-    light *= KEY
-    light += AMBIENT + SKY / 2 + SKY / 2 * normal[:, 2]
-    sheen = SHEEN - SHEEN / 255 * np.maximum(np.maximum(base[:, 0], base[:, 1]), base[:, 2])
-    return (base + sheen[:, None]) * light[:, None]
-
-
-def _with_lines(samples: Samples, color: Float32[np.ndarray, "n 3"]) -> Float32[np.ndarray, "n 3"]:
-    """The colours of the rays with lines drawn over them, dark ones on bright surfaces and light ones on dark."""
+def _draw_lines(samples: Samples, color: Float32[np.ndarray, "n 3"]) -> None:
+    """Draw lines over the colours of the rays, in place: dark ones on bright surfaces and light ones on dark."""
     steps, first = samples.steps, len(samples.plain)
     height, width = samples.window.shape
-    bright = (color @ BRIGHTNESS)[steps.pairs].max(1) > DARK_SURFACE
+    bright = (color[steps.pairs] @ BRIGHTNESS).max(1) > DARK_SURFACE
     strength = np.round(255 * np.maximum(OUTLINE * steps.outline, CREASE * steps.crease)).astype(np.uint8)
-    drawn = color.copy()
     for tone, line in ((False, LIGHT), (True, DARK)):
         mine = np.flatnonzero(bright == tone)
         if len(mine) == 0:
             continue
         at = samples.place[steps.pairs[mine].reshape(-1) - first]
         lines = stroke((height * GRID, width * GRID), at, np.repeat(strength[mine], 2), LINE_WIDTH)
-        opacity = (lines.reshape(-1)[samples.place] / np.float32(255))[:, None]
-        drawn[first:] += opacity * (np.array(line, np.float32) - drawn[first:])
-    return drawn
+        opacity = lines.reshape(-1)[samples.place]
+        drawn = np.flatnonzero(opacity)
+        rows = first + drawn
+        color[rows] += (opacity[drawn] / np.float32(255))[:, None] * (np.array(line, np.float32) - color[rows])

@@ -13,7 +13,7 @@ from PIL import Image, ImageDraw
 
 from anymesh.geometry.kinematics import posed
 from anymesh.rendering.axes import AxisShape, axis_shapes, draw_axes
-from anymesh.rendering.drawing import draw, ground, look_of_faces, look_of_materials, subject_of
+from anymesh.rendering.drawing import draw, ground, light_on, look_of_faces, look_of_materials, subject_of
 from anymesh.rendering.labels import font
 from anymesh.rendering.raycast_ import RayScene
 from anymesh.rendering.samples import Window, sample
@@ -35,7 +35,7 @@ AZIMUTHS = (35, -35, 145, -145, 65, -65)  # [deg] of the views to choose from, t
 ELEVATION = 24  # [deg] of all of them
 PREFERRED = 1.05  # a later view must show so many times more of the moving parts than an earlier one
 SKETCH = 64  # [px] of the pictures that the view is chosen with
-COMPRESSION = 4  # of zlib, 0..9: higher ones take twice the time for a few per cent
+COMPRESSION = 3  # of zlib, 0..9: higher levels take twice the time for 7 % less
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,9 +68,10 @@ def render_preview(asset: Asset) -> UInt8[np.ndarray, "H W 3"]:
     panels = []
     for pose in (rest, opened):
         samples = sample(subject_of(pose.mesh, pose.scene, parts), camera, window)
+        light = light_on(samples)
         if not panels:
-            panels.append(draw(samples, look_of_materials(pose.mesh, samples), behind))
-        picture = draw(samples, look_of_faces(colors, samples), behind)
+            panels.append(draw(samples, look_of_materials(pose.mesh, samples), light, behind))
+        picture = draw(samples, look_of_faces(colors, samples), light, behind)
         panels.append(draw_axes(picture, pose.axes, camera, corner=(window.left, window.top)))
     return np.concatenate([np.concatenate(panels, 1), _legend(asset, 3 * panels[0].shape[1])])
 

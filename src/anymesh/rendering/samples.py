@@ -85,7 +85,8 @@ def sample(subject: Subject, camera: Camera, window: Window) -> Samples:
     plain, split = np.flatnonzero((hits.face >= 0) & ~divided), np.flatnonzero(divided)
     place = _places(split, width)
     across, down = _terms(camera, window, GRID)
-    more = down[place // (width * GRID)] + across[place % (width * GRID)]
+    row, column = np.divmod(place, width * GRID)
+    more = down[row] + across[column]
     grids = subject.scene.surface_hits(origin, more)
     joined = SurfaceHits.joined(hits.take(plain), grids)
     normals = np.concatenate([normal[plain], _shading_normals(grids, subject.corner_normal)])

@@ -14,7 +14,7 @@ from anymesh.export.animation import tracks
 from anymesh.export.settings import ExportConfig
 from anymesh.geometry.kinematics import posed
 from anymesh.rendering.axes import axis_shapes, draw_axes
-from anymesh.rendering.drawing import draw, ground, look_of_faces, look_of_materials, subject_of
+from anymesh.rendering.drawing import draw, ground, light_on, look_of_faces, look_of_materials, subject_of
 from anymesh.rendering.labels import font
 from anymesh.rendering.preview import best_camera, part_colors, shown_position
 from anymesh.rendering.raycast_ import RayScene
@@ -29,7 +29,7 @@ LOOPS = 3  # times that every joint goes through its range in a turn: open at 60
 COLORS = 256  # of a GIF
 CELL = 300  # [px] of a contact sheet
 BAR = 44  # [px] of text under a cell
-ROOM = 1.1  # round what is seen, with its outline
+ROOM = 1.12  # round what is seen, with its outline
 REACHED = 5  # places of a range, from limit to limit, that must be in the picture
 
 
@@ -120,7 +120,7 @@ def _drawn(
     subject = subject_of(pose, scene or RayScene(pose.vertices, pose.faces), asset.segmentation.face_part)
     samples = sample(subject, camera, Window(0, 0, camera.width, camera.height))
     look = look_of_materials(pose, samples) if color is None else look_of_faces(color, samples)
-    return draw(samples, look, ground(camera.height, camera.width))
+    return draw(samples, look, light_on(samples), ground(camera.height, camera.width))
 
 
 def _camera(points: np.ndarray, azimuth: float, size: int) -> Camera:
