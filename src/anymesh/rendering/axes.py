@@ -119,7 +119,7 @@ def draw_axes(
     ]
     points = np.concatenate([p for pair in lines for p in pair if p is not None])
     reach = np.ceil(HEAD * scale)
-    left, top = (int(v) for v in np.clip(points.min(0) - reach, 0, [width, height]))
+    left, top = (int(v) for v in np.clip(points.min(0) - reach, 0, [width - 1, height - 1]))
     right, bottom = (int(v) for v in np.clip(points.max(0) + reach, [left + 1, top + 1], [width, height]))
     box = (slice(top, bottom), slice(left, right))
     fine = Image.fromarray(image[box]).resize(((right - left) * FINE, (bottom - top) * FINE), Image.Resampling.NEAREST)
