@@ -10,9 +10,7 @@ from typing import TypedDict
 from anymesh.config import Config, SegmentationConfig
 from anymesh.errors import OptionError
 from anymesh.models.cache import cache_folder
-from anymesh.models.connect import open_model
 from anymesh.reasoning.recognition import told_labels
-from anymesh.reasoning.vlm import VlmAnswerer
 from anymesh.solving import GEOMETRY, Seeing
 
 
@@ -70,6 +68,9 @@ def choose_answerer(options: Answering) -> Answerer:
         if labels:
             raise OptionError("--parts-list: geometry cannot find parts by their names; it needs an --answerer that sees")
         return Answerer(config, name, None)
+    from anymesh.models.connect import open_model  # only those who ask a model wait for its modules
+    from anymesh.reasoning.vlm import VlmAnswerer
+
     cache = options["cache"] if "cache" in options else cache_folder()
     cache = None if cache is None else Path(cache)
     model = open_model(name, cache=cache, max_calls=options.get("max_calls"), max_cost=options.get("max_cost"))

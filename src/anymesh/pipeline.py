@@ -15,11 +15,8 @@ from anymesh.export import Base, Driven, Format, parse_formats, write_asset
 from anymesh.export.archive import write_zip
 from anymesh.export.formats import DEFAULT
 from anymesh.export.package import write_package
-from anymesh.finishing import finish_asset
 from anymesh.loading import load_mesh, place_mesh
 from anymesh.models.cache import cache_folder
-from anymesh.postprocessing.outside import open_completer, open_retexturer
-from anymesh.postprocessing.settings import ShapeConfig
 from anymesh.progress import Progress, silent
 from anymesh.rendering.preview import write_preview
 from anymesh.run_folder import RunFolder, stage_key
@@ -136,6 +133,10 @@ def finish(
     meshy:PROMPT, with at most `max_calls` paid tasks; watertight: also close what no motion lays open. Raises OptionError,
     OutputError, ModelError, BudgetError; a paid task that was begun is gone on with by the next run.
     """
+    from anymesh.finishing import finish_asset
+    from anymesh.postprocessing.outside import open_completer, open_retexturer
+    from anymesh.postprocessing.settings import ShapeConfig
+
     how = Exported.parse(base, formats, drives)
     out = Path(out)
     who = open_completer(completer)

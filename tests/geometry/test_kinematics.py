@@ -41,3 +41,12 @@ def test_a_pose_does_not_depend_on_the_order_of_joints_and_keeps_the_faces():
         for k, expected in enumerate(posed_triangles(ASSET, positions).values()):
             np.testing.assert_allclose(mesh.triangles[ASSET.segmentation.faces(k)], expected, atol=1e-9)
         np.testing.assert_allclose(mesh.face_areas, ASSET.mesh.face_areas)
+
+
+def test_corner_normals_turn_with_their_parts_and_vertices_stay_shared():
+    flat = np.repeat(ASSET.mesh.face_normals[:, None], 3, axis=1).astype(np.float32)
+    asset = replace(ASSET, mesh=replace(ASSET.mesh, corner_normal=flat))
+    mesh = posed(asset, {j.name: 0.7 for j in asset.joints})
+    assert mesh.corner_normal is not None
+    np.testing.assert_allclose(mesh.corner_normal, np.repeat(mesh.face_normals[:, None], 3, axis=1), atol=1e-6)
+    assert len(mesh.vertices) < 3 * len(mesh.faces)

@@ -65,7 +65,7 @@ def test_an_axis_is_drawn_where_it_is(name):
     through = j.origin if name == "hinge" else asset.mesh.triangles[part].mean((0, 1))
     (start, end), _ = camera.project(np.stack([through, through + 0.3 * j.axis]))
     along = (end - start) / np.linalg.norm(end - start)
-    offset = axis_pixels(panels(asset)[1]) + 0.5 - start / 2
+    offset = axis_pixels(panels(asset)[1]) + 0.5 - start
     assert len(offset) > 20
     assert (np.abs(offset @ [-along[1], along[0]]) < 0.06 * SIZE).all()
     assert np.ptp(offset @ along) > 0.1 * SIZE
@@ -126,3 +126,20 @@ def test_a_joint_is_told_in_its_units():
     assert preview.extent(slide) == "0.0..30.0 cm"
     assert preview.extent(turn) == "endless"
     assert preview.extent(slanted().joints[3]) == ""
+
+
+def test_legend_colours_are_those_of_the_parts():
+    asset = cabinet()
+    turned = cabinet(joints=asset.joints[::-1])
+    first = {j.child: preview.PALETTE[k] for k, j in enumerate(asset.joints)}
+    picture = preview.render_preview(turned)
+    for k, j in enumerate(turned.joints):
+        x = 20 + k * (picture.shape[1] // 3)
+        np.testing.assert_array_equal(picture[SIZE + 20, x + 8], first[j.child])
+
+
+def test_everything_that_moves_lies_in_the_window():
+    """The door of the cabinet opens beyond the box at rest; no panel cuts it off."""
+    opened = panels(cabinet())[2]
+    border = np.concatenate([opened[0], opened[-1], opened[:, 0], opened[:, -1]])
+    assert np.ptp(border, axis=1).max() == 0, "only the grey ground"

@@ -36,12 +36,17 @@ def link_transforms(asset: Asset, positions: Mapping[str, float]) -> dict[str, F
 
 
 def posed(asset: Asset, positions: Mapping[str, float]) -> Mesh:
-    """The mesh with its parts moved; faces keep their numbers, vertices are no longer shared."""
-    transforms = link_transforms(asset, positions)
-    triangles = asset.mesh.triangles.copy()
+    """The mesh with its parts moved; faces keep their numbers, vertices are shared within a part only."""
+    transforms, mesh, face_part = link_transforms(asset, positions), asset.mesh, asset.segmentation.face_part
+    vertices, faces, count = [], np.empty_like(mesh.faces), 0
+    normal = None if mesh.corner_normal is None else mesh.corner_normal.copy()
     for number, part in enumerate(asset.segmentation.parts):
-        mine = asset.segmentation.face_part == number
-        T = transforms[part.name]
-        triangles[mine] = triangles[mine] @ T[:3, :3].T + T[:3, 3]
-    count = len(triangles)
-    return replace(asset.mesh, vertices=triangles.reshape(-1, 3), faces=np.arange(3 * count).reshape(-1, 3), corner_normal=None)
+        mine, T = np.flatnonzero(face_part == number), transforms[part.name]
+        used = np.zeros(len(mesh.vertices), bool)
+        used[mesh.faces[mine]] = True
+        faces[mine] = (np.cumsum(used) - 1 + count)[mesh.faces[mine]]
+        vertices.append(mesh.vertices[used] @ T[:3, :3].T + T[:3, 3])
+        count += len(vertices[-1])
+        if normal is not None:
+            normal[mine] = normal[mine] @ T[:3, :3].T.astype(np.float32)
+    return replace(mesh, vertices=np.concatenate(vertices), faces=faces, corner_normal=normal)

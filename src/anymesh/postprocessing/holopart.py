@@ -8,7 +8,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float
-from scipy.optimize import linear_sum_assignment
 
 from anymesh.errors import InputError, ModelError
 from anymesh.geometry.distance_ import distance_to_triangles
@@ -94,6 +93,8 @@ def told_apart(pieces: Mapping[str, PartMesh], parts: Mapping[str, PartMesh]) ->
     for row, part in enumerate(parts.values()):
         points = sample_surface(part.triangles, SAMPLES, 0).points
         off[row] = [np.median(distance_to_triangles(points, piece.triangles)) for piece in pieces.values()]
+    from scipy.optimize import linear_sum_assignment  # 0.1 s to import, and only this completer needs it
+
     rows, columns = linear_sum_assignment(off)
     names, found = list(parts), list(pieces.values())
     return {names[row]: found[column] for row, column in zip(rows, columns, strict=True)}

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float
-from PIL import ImageDraw
+from jaxtyping import Float, UInt8
+from PIL import Image, ImageDraw
 
 from anymesh.geometry.kinematics import link_transforms
 from anymesh.types import Asset, JointType
@@ -14,6 +15,9 @@ from anymesh.types.camera import Camera
 
 AXIS_COLOR = (190, 20, 40)
 WHITE = (255, 255, 255)
+RING_RADIUS = 0.04  # of the ring, as a share of the object's diagonal
+HEAD = 12  # [px] at scale 1 that arrow heads and lines reach beyond their points
+FINE = 3  # pixels each way, of those that are drawn on, to a pixel of a picture
 
 
 def axis_line(
@@ -66,22 +70,64 @@ def draw_ring(draw: ImageDraw.ImageDraw, pixels: Float[np.ndarray, "n 2"], scale
     draw_arrow(draw, pixels[[-4, -1]], scale=scale)
 
 
-def draw_axes(
-    draw: ImageDraw.ImageDraw, asset: Asset, positions: Mapping[str, float], camera: Camera, *, fine: int, scale: float = 1.0
-) -> None:
-    """An arrow along each axis, where the joint is in this pose; a ring round it when the joint turns.
+@dataclass(frozen=True, eq=False)
+class AxisShape:
+    """What is drawn of a joint [m]. arrow: its two ends; ring: a curve about the axis, None where the joint does not turn."""
 
-    fine: pixels of the camera to a pixel drawn on; scale: of the lines' width.
-    """
+    arrow: Float[np.ndarray, "2 3"]
+    ring: Float[np.ndarray, "40 3"] | None
+
+    @property
+    def points(self) -> Float[np.ndarray, "n 3"]:
+        """All points."""
+        return self.arrow if self.ring is None else np.concatenate([self.arrow, self.ring])
+
+
+def axis_shapes(asset: Asset, positions: Mapping[str, float]) -> list[AxisShape]:
+    """Arrow and ring of every joint that moves, where it is in this pose."""
     transforms = link_transforms(asset, positions)
     number = {part.name: k for k, part in enumerate(asset.segmentation.parts)}
+    shapes = []
     for joint in asset.joints:
         if joint.type is JointType.FIXED:
             continue
         corners = asset.mesh.triangles[asset.segmentation.face_part == number[joint.child]].reshape(-1, 3)
         slides, T = joint.type is JointType.PRISMATIC, transforms[joint.parent]
         ends, center = axis_line(corners, joint.origin, joint.axis, slides, asset.mesh.diagonal)
-        draw_arrow(draw, camera.project(ends @ T[:3, :3].T + T[:3, 3])[0] / fine, scale=scale)
-        if not slides:
-            circle = ring(center, joint.axis, 0.04 * asset.mesh.diagonal) @ T[:3, :3].T + T[:3, 3]
-            draw_ring(draw, camera.project(circle)[0] / fine, scale=scale)
+        circle = None if slides else ring(center, joint.axis, RING_RADIUS * asset.mesh.diagonal) @ T[:3, :3].T + T[:3, 3]
+        shapes.append(AxisShape(ends @ T[:3, :3].T + T[:3, 3], circle))
+    return shapes
+
+
+def draw_axes(
+    image: UInt8[np.ndarray, "h w 3"],
+    shapes: Sequence[AxisShape],
+    camera: Camera,
+    *,
+    corner: tuple[int, int] = (0, 0),
+    scale: float = 1.0,
+) -> UInt8[np.ndarray, "h w 3"]:
+    """The picture with these axes drawn over it, smoothly.
+
+    corner: of the picture in that of the camera, x and y [px]; scale: of the lines' width.
+    """
+    if not shapes:
+        return image
+    height, width = image.shape[:2]
+    lines = [
+        (camera.project(s.arrow)[0] - corner, None if s.ring is None else camera.project(s.ring)[0] - corner) for s in shapes
+    ]
+    points = np.concatenate([p for pair in lines for p in pair if p is not None])
+    reach = np.ceil(HEAD * scale)
+    left, top = (int(v) for v in np.clip(points.min(0) - reach, 0, [width - 1, height - 1]))
+    right, bottom = (int(v) for v in np.clip(points.max(0) + reach, [left + 1, top + 1], [width, height]))
+    box = (slice(top, bottom), slice(left, right))
+    fine = Image.fromarray(image[box]).resize(((right - left) * FINE, (bottom - top) * FINE), Image.Resampling.NEAREST)
+    draw = ImageDraw.Draw(fine)
+    for arrow, circle in lines:
+        draw_arrow(draw, FINE * (arrow - [left, top]), scale=FINE * scale)
+        if circle is not None:
+            draw_ring(draw, FINE * (circle - [left, top]), scale=FINE * scale)
+    drawn = image.copy()
+    drawn[box] = np.asarray(fine.reduce(FINE))
+    return drawn

@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
-import io
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
 from jaxtyping import UInt8
-from PIL import Image, ImageDraw, ImageFont
+from PIL import Image, ImageDraw
 
 from anymesh.geometry.kinematics import posed
-from anymesh.rendering.axes import draw_axes
+from anymesh.rendering.axes import AxisShape, axis_shapes, draw_axes
+from anymesh.rendering.drawing import draw, ground, light_on, look_of_faces, look_of_materials, subject_of
+from anymesh.rendering.labels import font
 from anymesh.rendering.raycast_ import RayScene
-from anymesh.rendering.render import render
+from anymesh.rendering.samples import Window, sample
+from anymesh.rendering.smooth import smoothed
 from anymesh.rendering.viewpoints import orbit_camera
 from anymesh.types import Asset, Joint, JointType, Mesh
 from anymesh.types.camera import Camera
@@ -21,50 +26,67 @@ PALETTE = np.array(  # distinct for colour-blind eyes too (after Okabe and Ito, 
     [[230, 159, 0], [86, 180, 233], [0, 158, 115], [240, 228, 66], [0, 114, 178], [213, 94, 0], [204, 121, 167],
      [130, 200, 120], [150, 120, 220], [120, 90, 60]], np.uint8)  # fmt: skip
 BASE = np.array([200, 200, 200], np.uint8)
-SIZE = 620  # [px] of a panel
+SIZE = 620  # [px] of the camera's picture, from which the panels are cut
 MARGIN, LEAST_WIDTH, LEAST_HEIGHT = 18, 500, 240  # [px] round what is drawn; of a panel, so that the legend fits
 OPEN = 0.75  # share of the range that is shown opened
+LETTERS = 19  # [px] font of the legend
 MOST_NAMED = 18  # joints in the legend
+AZIMUTHS = (35, -35, 145, -145, 65, -65)  # [deg] of the views to choose from, the preferred ones first
+ELEVATION = 24  # [deg] of all of them
+PREFERRED = 1.05  # a later view must show so many times more of the moving parts than an earlier one
+SKETCH = 64  # [px] of the pictures that the view is chosen with
+COMPRESSION = 3  # of zlib, 0..9: higher levels take twice the time for 7 % less
+
+
+@dataclass(frozen=True, eq=False)
+class _Pose:
+    """The object with its joints at some positions."""
+
+    mesh: Mesh
+    axes: list[AxisShape]
+
+    @cached_property
+    def scene(self) -> RayScene:
+        return RayScene(self.mesh.vertices, self.mesh.faces)
 
 
 def write_preview(asset: Asset, path: Path) -> None:
-    """Writes the picture as PNG."""
-    buffer = io.BytesIO()
-    Image.fromarray(render_preview(asset)).save(buffer, "PNG", optimize=False)
-    path.write_bytes(buffer.getvalue())
+    """Write the picture as PNG."""
+    Image.fromarray(render_preview(asset)).save(path, "PNG", compress_level=COMPRESSION)
 
 
 def render_preview(asset: Asset) -> UInt8[np.ndarray, "H W 3"]:
-    """Panels: the object as it looks, its parts at rest, its parts opened; below them the legend."""
-    opened = {j.name: shown_position(j) for j in asset.joints}
-    colors = part_colors(asset)
-    poses = [asset.mesh, posed(asset, opened)]
-    scenes = [RayScene(m.vertices, m.faces) for m in poses]
-    camera = best_camera(asset, poses[1], scenes)
+    """Draw the object as it looks, its parts at rest, and its parts opened, side by side; below them the legend."""
+    asset = replace(asset, mesh=smoothed(asset.mesh))
+    at = {j.name: shown_position(j) for j in asset.joints}
+    rest = _Pose(asset.mesh, axis_shapes(asset, {}))
+    opened = _Pose(posed(asset, at), axis_shapes(asset, at)) if any(at.values()) else rest
+    camera = best_camera(asset, opened.mesh, [rest.scene, opened.scene])
+    window = _window(camera, [rest, opened])
+    colors, parts = part_colors(asset), asset.segmentation.face_part
+    behind = ground(*window.shape)
     panels = []
-    for k in range(3):
-        pose = k // 2
-        view = render(poses[pose], camera, face_color=None if k == 0 else colors, scene=scenes[pose])
-        half = Image.fromarray(view.color).resize((SIZE, SIZE), Image.Resampling.BOX)
-        if k > 0:
-            draw_axes(ImageDraw.Draw(half), asset, opened if k == 2 else {}, camera, fine=2)
-        panels.append(np.asarray(half))
-    panels = _trimmed(panels)
+    for pose in (rest, opened):
+        samples = sample(subject_of(pose.mesh, pose.scene, parts), camera, window)
+        light = light_on(samples)
+        if not panels:
+            panels.append(draw(samples, look_of_materials(pose.mesh, samples), light, behind))
+        picture = draw(samples, look_of_faces(colors, samples), light, behind)
+        panels.append(draw_axes(picture, pose.axes, camera, corner=(window.left, window.top)))
     return np.concatenate([np.concatenate(panels, 1), _legend(asset, 3 * panels[0].shape[1])])
 
 
-def _trimmed(panels: list[np.ndarray]) -> list[np.ndarray]:
-    """The panels without the bands that are white in all of them, all of one size."""
-    drawn = np.stack(panels) < 250
-    bands = (drawn.any((0, 2, 3)), drawn.any((0, 1, 3)))
-    found = []
-    for band, least in zip(bands, (LEAST_HEIGHT, LEAST_WIDTH), strict=True):
-        used = np.flatnonzero(band)
-        first, last = (used[0], used[-1] + 1) if len(used) else (0, SIZE)
+def _window(camera: Camera, poses: Sequence[_Pose]) -> Window:
+    """What the panels show of the camera's picture: all poses with their axes, and a margin."""
+    boxes = [camera.project(points)[0] for pose in poses for points in (pose.mesh.vertices, *(a.points for a in pose.axes))]
+    low, high = np.min([b.min(0) for b in boxes], 0), np.max([b.max(0) for b in boxes], 0)
+    sides = []
+    for k, least in enumerate((LEAST_WIDTH, LEAST_HEIGHT)):
+        first, last = max(0, int(np.floor(low[k]))), min(SIZE, int(np.ceil(high[k])))
         spare = max(2 * MARGIN, least - (last - first))
         first = max(0, min(first - spare // 2, SIZE - (last - first) - spare))
-        found.append(slice(first, min(SIZE, last + spare - spare // 2)))
-    return [panel[found[0], found[1]] for panel in panels]
+        sides.append((first, min(SIZE, last + spare - spare // 2)))
+    return Window(sides[0][0], sides[1][0], sides[0][1], sides[1][1])
 
 
 def shown_position(joint: Joint) -> float:
@@ -83,21 +105,19 @@ def part_colors(asset: Asset) -> UInt8[np.ndarray, "F 3"]:
     return table[asset.segmentation.face_part]
 
 
-def best_camera(asset: Asset, opened: Mesh, scenes: list[RayScene]) -> Camera:
+def best_camera(asset: Asset, opened: Mesh, scenes: Sequence[RayScene]) -> Camera:
     """The view in which the moving parts show most, at rest and opened alike."""
     bounds = np.array([np.minimum(asset.mesh.bounds[0], opened.bounds[0]), np.maximum(asset.mesh.bounds[1], opened.bounds[1])])
     moving = asset.segmentation.face_part > 0
-    best, most = orbit_camera(bounds, np.deg2rad(35), np.deg2rad(24), 2 * SIZE), -1.0
-    for azimuth in (35, -35, 145, -145, 90, -90):
-        small = orbit_camera(bounds, np.deg2rad(azimuth), np.deg2rad(24), 96)
+    best, most = AZIMUTHS[0], -1.0
+    for azimuth in AZIMUTHS:
+        small = orbit_camera(bounds, np.deg2rad(azimuth), np.deg2rad(ELEVATION), SKETCH)
         origins, directions = small.rays()
-        seen = 0
-        for scene in scenes:
-            face = scene.first_hit(origins, directions).face
-            seen += int(moving[face[face >= 0]].sum())
-        if seen > 1.05 * most:
-            best, most = orbit_camera(bounds, np.deg2rad(azimuth), np.deg2rad(24), 2 * SIZE), float(seen)
-    return best
+        faces = [scene.first_hit(origins, directions).face for scene in scenes]
+        seen = sum(int(moving[face[face >= 0]].sum()) for face in faces)
+        if seen > PREFERRED * most:
+            best, most = azimuth, float(seen)
+    return orbit_camera(bounds, np.deg2rad(best), np.deg2rad(ELEVATION), SIZE)
 
 
 def extent(joint: Joint) -> str:
@@ -115,7 +135,7 @@ def describe(joint: Joint) -> str:
 
 
 def _legend(asset: Asset, width: int) -> UInt8[np.ndarray, "h W 3"]:
-    font = ImageFont.load_default(size=19)
+    letters = font(LETTERS)
     lines = [describe(j) for j in asset.joints[:MOST_NAMED]]
     if len(asset.joints) > MOST_NAMED:
         lines.append(f"and {len(asset.joints) - MOST_NAMED} more")
@@ -123,10 +143,12 @@ def _legend(asset: Asset, width: int) -> UInt8[np.ndarray, "h W 3"]:
     image = Image.new("RGB", (width, 20 + 30 * rows), (255, 255, 255))
     draw = ImageDraw.Draw(image)
     if not lines:
-        draw.text((20, 10), "nothing moves", fill=(60, 60, 60), font=font)
+        draw.text((20, 10), "nothing moves", fill=(60, 60, 60), font=letters)
+    number = {part.name: k for k, part in enumerate(asset.segmentation.parts)}
     for k, line in enumerate(lines):
         x, y = 20 + (k % 3) * (width // 3), 10 + 30 * (k // 3)
         if k < len(asset.joints):
-            draw.rectangle([x, y + 3, x + 16, y + 19], fill=tuple(int(c) for c in PALETTE[k % len(PALETTE)]))
-        draw.text((x + 24, y), line.encode("ascii", "replace").decode(), fill=(30, 30, 30), font=font)
+            color = PALETTE[(number[asset.joints[k].child] - 1) % len(PALETTE)]
+            draw.rectangle([x, y + 3, x + 16, y + 19], fill=tuple(int(c) for c in color))
+        draw.text((x + 24, y), line.encode("ascii", "replace").decode(), fill=(30, 30, 30), font=letters)
     return np.asarray(image)

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import cache
 from typing import Any
 
 import numpy as np
-from jaxtyping import Float, Float32, Int
+from jaxtyping import Float, Float32, Int, Int32
 
 from anymesh.errors import MissingExtraError
 
-FAR = 1e30  # of a ray without an end, in lengths of its direction
+FAR = 1e30  # distance that stands for endless, in lengths of the ray's direction
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,6 +26,31 @@ class Hits:
     distance: Float[np.ndarray, " n"]
     u: Float[np.ndarray, " n"]
     v: Float[np.ndarray, " n"]
+
+
+@dataclass(frozen=True, eq=False)
+class SurfaceHits:
+    """First hits in single precision, with the surface normal, for pictures.
+
+    face, u, v: (n,) as in `Hits`; depth: (n,) in lengths of the ray's direction, inf where nothing is hit;
+    normal: (n, 3) unit normal of the face, turned toward the ray's origin, zero where nothing is hit.
+    """
+
+    face: Int32[np.ndarray, " n"]
+    depth: Float32[np.ndarray, " n"]
+    u: Float32[np.ndarray, " n"]
+    v: Float32[np.ndarray, " n"]
+    normal: Float32[np.ndarray, "n 3"]
+
+    def take(self, rows: Int[np.ndarray, " m"]) -> SurfaceHits:
+        """Some of the hits."""
+        return SurfaceHits(*(getattr(self, f.name)[rows] for f in fields(self)))
+
+    @staticmethod
+    def joined(first: SurfaceHits, second: SurfaceHits) -> SurfaceHits:
+        """The hits of both, the first ones first."""
+        pairs = ((getattr(first, f.name), getattr(second, f.name)) for f in fields(SurfaceHits))
+        return SurfaceHits(*(np.concatenate(pair) for pair in pairs))
 
 
 @cache
@@ -51,6 +76,9 @@ class RayScene:
         self._scene = EmbreeScene(_device())
         inside = self.to_unit(vertices)
         self._mesh = TriangleMesh(self._scene, inside, np.ascontiguousarray(faces, np.int32))
+        self.first_hit_unit(
+            np.zeros((1, 3), np.float32), np.ones((1, 3), np.float32)
+        )  # builds the tree before threads cast rays
 
     def first_hit(
         self,
@@ -82,3 +110,20 @@ class RayScene:
         out = self._scene.run(origins, directions, dists=far, output=1)
         face = out["primID"].astype(np.int64)
         return Hits(face, np.where(face >= 0, out["tfar"], np.float32(np.inf)), out["u"], out["v"])
+
+    def surface_hits(self, origin: Float[np.ndarray, " 3"], directions: Float32[np.ndarray, "n 3"]) -> SurfaceHits:
+        """The first surface that each ray from one origin meets, for pictures: without conversions to double precision."""
+        count = len(directions)
+        if count == 0:
+            none = np.zeros(0, np.float32)
+            return SurfaceHits(np.zeros(0, np.int32), none, none, none, np.zeros((0, 3), np.float32))
+        starts = np.tile(self.to_unit(origin[None]), (count, 1))
+        far = np.full(count, FAR, np.float32)
+        out = self._scene.run(starts, directions * np.float32(self.scale), dists=far, output=1)
+        face, depth, normal = out["primID"], np.full(count, np.inf, np.float32), np.zeros((count, 3), np.float32)
+        seen = np.flatnonzero(face >= 0)
+        found, toward = out["Ng"][seen], np.einsum("ij,ij->i", out["Ng"][seen], directions[seen])
+        length = np.maximum(np.sqrt(np.einsum("ij,ij->i", found, found)), np.finfo(np.float32).tiny)
+        normal[seen] = found * (np.where(toward > 0, np.float32(-1), np.float32(1)) / length)[:, None]
+        depth[seen] = out["tfar"][seen]
+        return SurfaceHits(face, depth, out["u"], out["v"], normal)

@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-import io
 from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float, Int, UInt8
-from PIL import Image
 
+from anymesh.rendering.materials import base_colors
 from anymesh.rendering.raycast_ import Hits, RayScene
-from anymesh.types import Material, Mesh
+from anymesh.types import Mesh
 from anymesh.types.camera import Camera
-from anymesh.types.color import to_linear, to_srgb
 
 KEY_LIGHT = np.array([-0.35, -0.55, 0.75]) / np.linalg.norm([-0.35, -0.55, 0.75])
 BACKGROUND = 255
@@ -57,7 +55,11 @@ def shade(
     toward = np.einsum("ij,ij->i", normal, directions) > 0
     normal[toward] *= -1
     color = np.full((len(directions), 3), BACKGROUND, np.float64)
-    base = face_color[hits.face[seen]].astype(np.float64) if face_color is not None else _base(mesh, hits, seen)
+    base = (
+        face_color[hits.face[seen]].astype(np.float64)
+        if face_color is not None
+        else base_colors(mesh, hits.face[seen], hits.u[seen], hits.v[seen])
+    )
     color[seen] = lit(base, normal[seen])
     return color.astype(np.uint8), normal
 
@@ -72,40 +74,4 @@ def face_colors(mesh: Mesh) -> UInt8[np.ndarray, "F 3"]:
     """The sRGB colour at the middle of every face: material times texture times vertex colour."""
     count = len(mesh.faces)
     third = np.full(count, 1 / 3)
-    hits = Hits(np.arange(count), np.zeros(count), third, third)
-    return np.clip(_base(mesh, hits, np.arange(count)) + 0.5, 0, 255).astype(np.uint8)
-
-
-def _base(mesh: Mesh, hits: Hits, seen: Int[np.ndarray, " n"]) -> Float[np.ndarray, "n 3"]:
-    """sRGB base colour at hits, 0..255."""
-    face = hits.face[seen]
-    weights = np.stack([1 - hits.u[seen] - hits.v[seen], hits.u[seen], hits.v[seen]], 1)
-    linear = np.full((len(face), 3), 0.45)
-    for number, material in enumerate(mesh.materials):
-        mine = np.flatnonzero(mesh.face_material[face] == number)
-        if len(mine):
-            linear[mine] = material.base_color[:3]
-            picture = _picture(material)
-            if picture is not None and mesh.corner_uv is not None:
-                uv = np.einsum("nk,nkc->nc", weights[mine], mesh.corner_uv[face[mine]].astype(np.float64))
-                linear[mine] *= to_linear(_look_up(picture, uv))
-    if mesh.corner_color is not None:
-        tint = np.einsum("nk,nkc->nc", weights, mesh.corner_color[face, :, :3].astype(np.float64)) / 255
-        plain = mesh.face_material[face] < 0
-        linear = np.where(plain[:, None], 1.0, linear) * to_linear(tint)
-    return 255 * to_srgb(linear)
-
-
-def _picture(material: Material) -> UInt8[np.ndarray, "H W 3"] | None:
-    texture = material.textures.get("base_color")
-    if texture is None:
-        return None
-    with Image.open(io.BytesIO(texture.data)) as image:
-        return np.asarray(image.convert("RGB"))
-
-
-def _look_up(picture: np.ndarray, uv: np.ndarray) -> np.ndarray:
-    height, width = picture.shape[:2]
-    x = np.floor((uv[:, 0] % 1.0) * width).astype(int) % width
-    y = np.floor(((1 - uv[:, 1]) % 1.0) * height).astype(int) % height
-    return picture[y, x] / 255.0
+    return np.clip(base_colors(mesh, np.arange(count), third, third) + 0.5, 0, 255).astype(np.uint8)

@@ -10,7 +10,6 @@ from collections.abc import Sequence
 
 import numpy as np
 from jaxtyping import Float, Int
-from scipy.optimize import linear_sum_assignment
 from scipy.spatial import KDTree
 
 from anymesh.config import GroundingConfig
@@ -80,6 +79,8 @@ def match(logits: Float[np.ndarray, "S K"], target: Int[np.ndarray, "S N"]) -> t
     p = probabilities(logits)
     seen = target.sum(1)
     cost = -(np.log(p).T @ target) - np.log1p(-p).T @ (seen[:, None] - target)
+    from scipy.optimize import linear_sum_assignment  # 0.1 s to import, and only models need it
+
     return linear_sum_assignment(cost / max(int(seen.sum()), 1))
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, Float32
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,6 +46,15 @@ class Camera:
         x, y = ((u - self.width / 2) / self.focal).reshape(-1, 1), ((v - self.height / 2) / self.focal).reshape(-1, 1)
         right, down, ahead = self.T_world_camera[:3, :3].T
         return np.repeat(self.T_world_camera[None, :3, 3], x.size, 0), x * right + y * down + ahead
+
+    def ray_grid(
+        self, x: Float[np.ndarray, " w"], y: Float[np.ndarray, " h"]
+    ) -> tuple[Float32[np.ndarray, "w 3"], Float32[np.ndarray, "h 3"]]:
+        """Terms of the directions (depth 1) of rays: that through the position x[i], y[j] [px] is the sum of terms i and j."""
+        right, down, ahead = self.T_world_camera[:3, :3].T
+        across = ((x - self.width / 2) / self.focal)[:, None] * right + ahead
+        along = ((y - self.height / 2) / self.focal)[:, None] * down
+        return across.astype(np.float32), along.astype(np.float32)
 
     def project(self, points: Float[np.ndarray, "n 3"]) -> tuple[Float[np.ndarray, "n 2"], Float[np.ndarray, " n"]]:
         """Pixel positions and depths of points; points behind the camera have depth <= 0."""

@@ -114,8 +114,10 @@ class Mesh:
     @cached_property
     def bounds(self) -> Float[np.ndarray, "2 3"]:
         """Lower and upper corner of the axis-aligned box of all vertices in use."""
-        used = self.triangles.reshape(-1, 3)
-        return np.array([used.min(0), used.max(0)])
+        used = np.zeros(len(self.vertices), bool)
+        used[self.faces] = True
+        columns = [axis[used] for axis in self.vertices.T]
+        return np.array([[c.min() for c in columns], [c.max() for c in columns]])
 
     @property
     def extents(self) -> Float[np.ndarray, " 3"]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import UInt8
@@ -13,22 +13,23 @@ from PIL import Image, ImageDraw
 from anymesh.export.animation import tracks
 from anymesh.export.settings import ExportConfig
 from anymesh.geometry.kinematics import posed
-from anymesh.rendering.axes import draw_axes
+from anymesh.rendering.axes import axis_shapes, draw_axes
+from anymesh.rendering.drawing import draw, ground, light_on, look_of_faces, look_of_materials, subject_of
 from anymesh.rendering.labels import font
 from anymesh.rendering.preview import best_camera, part_colors, shown_position
 from anymesh.rendering.raycast_ import RayScene
-from anymesh.rendering.render import render
+from anymesh.rendering.samples import Window, sample
+from anymesh.rendering.smooth import smoothed
 from anymesh.rendering.viewpoints import away
 from anymesh.types import Asset, JointType, Mesh
 from anymesh.types.camera import Camera
 
-FINE = 2  # rays a pixel each way
 ELEVATION = 20.0  # [deg] of the turntable's camera
 LOOPS = 3  # times that every joint goes through its range in a turn: open at 60 and 300 degrees, where the front is seen
 COLORS = 256  # of a GIF
 CELL = 300  # [px] of a contact sheet
 BAR = 44  # [px] of text under a cell
-ROOM = 1.06  # round what is seen
+ROOM = 1.12  # round what is seen, with its outline
 REACHED = 5  # places of a range, from limit to limit, that must be in the picture
 
 
@@ -60,14 +61,15 @@ def film(asset: Asset, how: Turntable) -> Iterator[UInt8[np.ndarray, "H W 3"]]:
     toward = -begin.T_world_camera[:3, 2]
     front = float(np.arctan2(toward[0], -toward[1]))
     points = np.concatenate([asset.mesh.vertices, *_reach(asset)])
+    asset = replace(asset, mesh=smoothed(asset.mesh))
     color = None if how.materials else part_colors(asset)
     for frame in range(count):
         share = frame / count
         swing = how.turn * share if how.turn == 360 else how.turn / 2 * np.sin(2 * np.pi * share)
-        camera = _camera(points, front + float(np.deg2rad(swing)), how.size * FINE)
+        camera = _camera(points, front + float(np.deg2rad(swing)), how.size)
         time = length * share % (length / LOOPS)
         mesh = posed(asset, {t.joint.name: float(np.interp(time, t.times, t.amounts)) for t in moving})
-        yield _drawn(mesh, camera, color)
+        yield _drawn(asset, mesh, camera, color)
 
 
 def gif_bytes(frames: Sequence[UInt8[np.ndarray, "H W 3"]], rate: float) -> bytes:
@@ -91,31 +93,34 @@ def contact_sheet(assets: Sequence[tuple[str, Asset | None]], *, columns: int = 
     columns = min(columns, len(assets))
     rows = -(-len(assets) // columns)
     sheet = Image.new("RGB", (columns * CELL, rows * (CELL + BAR)), (255, 255, 255))
-    draw = ImageDraw.Draw(sheet)
+    pen = ImageDraw.Draw(sheet)
     for k, (title, asset) in enumerate(assets):
         x, y = k % columns * CELL, k // columns * (CELL + BAR)
         if asset is not None:
             sheet.paste(Image.fromarray(_opened(asset)), (x, y))
-        _words(draw, x, y + CELL, title, _told(asset))
-        draw.rectangle([x, y, x + CELL - 1, y + CELL + BAR - 1], outline=(210, 210, 210))
+        _words(pen, x, y + CELL, title, _told(asset))
+        pen.rectangle([x, y, x + CELL - 1, y + CELL + BAR - 1], outline=(210, 210, 210))
     return np.asarray(sheet)
 
 
 def _opened(asset: Asset) -> UInt8[np.ndarray, "h w 3"]:
+    asset = replace(asset, mesh=smoothed(asset.mesh))
     at = {j.name: shown_position(j) for j in asset.joints}
     opened = posed(asset, at)
     scene = RayScene(opened.vertices, opened.faces)
     found = best_camera(asset, opened, [RayScene(asset.mesh.vertices, asset.mesh.faces), scene])
-    camera = Camera(found.T_world_camera, found.fov, FINE * CELL, FINE * CELL)
-    picture = Image.fromarray(_drawn(opened, camera, part_colors(asset), scene))
-    draw_axes(ImageDraw.Draw(picture), asset, at, camera, fine=FINE, scale=0.8)
-    return np.asarray(picture)
+    camera = Camera(found.T_world_camera, found.fov, CELL, CELL)
+    return draw_axes(_drawn(asset, opened, camera, part_colors(asset), scene), axis_shapes(asset, at), camera, scale=0.8)
 
 
-def _drawn(mesh: Mesh, camera: Camera, color: np.ndarray | None, scene: RayScene | None = None) -> np.ndarray:
-    view = render(mesh, camera, face_color=color, scene=scene)
-    size = (camera.width // FINE, camera.height // FINE)
-    return np.asarray(Image.fromarray(view.color).resize(size, Image.Resampling.BOX))
+def _drawn(
+    asset: Asset, pose: Mesh, camera: Camera, color: UInt8[np.ndarray, "F 3"] | None, scene: RayScene | None = None
+) -> UInt8[np.ndarray, "H W 3"]:
+    """The asset in a pose, in colours per face, or in its materials."""
+    subject = subject_of(pose, scene or RayScene(pose.vertices, pose.faces), asset.segmentation.face_part)
+    samples = sample(subject, camera, Window(0, 0, camera.width, camera.height))
+    look = look_of_materials(pose, samples) if color is None else look_of_faces(color, samples)
+    return draw(samples, look, light_on(samples), ground(camera.height, camera.width))
 
 
 def _camera(points: np.ndarray, azimuth: float, size: int) -> Camera:

@@ -1,0 +1,144 @@
+"""Rays for smooth pictures: one per pixel, and a grid of rays in pixels where the surface changes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float32, Int
+
+from anymesh.rendering.outlines import Steps, changes, find_steps
+from anymesh.rendering.raycast_ import RayScene, SurfaceHits
+from anymesh.types.camera import Camera
+
+GRID = 3  # rays per pixel each way where the surface changes
+FLAT = 1e-4  # corner normals whose cosine to the face's normal is this near to 1 are not interpolated
+MEAN = np.tile(np.eye(3, dtype=np.float32), (GRID**2, 1)) / GRID**2  # the rays' colours of a pixel to its colour
+
+
+@dataclass(frozen=True, eq=False)
+class Window:
+    """A rectangle of a camera's picture [px]; the last row and column are exclusive."""
+
+    left: int
+    top: int
+    right: int
+    bottom: int
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Rows and columns."""
+        return self.bottom - self.top, self.right - self.left
+
+
+@dataclass(frozen=True, eq=False)
+class Samples:
+    """What the rays of a window meet, and the lines between them.
+
+    plain: (p,) pixels (flat indices into the window) with one ray, that hits; split: (k,) pixels with GRID x GRID rays;
+    hits, normal (for shading): of all p + k * GRID**2 rays, the plain ones first; steps: between rays of split pixels;
+    place: (k * GRID**2,) where those rays are in a picture of the window that is GRID times finer (flat indices).
+    """
+
+    window: Window
+    plain: Int[np.ndarray, " p"]
+    split: Int[np.ndarray, " k"]
+    hits: SurfaceHits
+    normal: Float32[np.ndarray, "n 3"]
+    steps: Steps
+    place: Int[np.ndarray, " m"]
+
+    def pairs_beside(self) -> Int[np.ndarray, "m 2"]:
+        """Rows of rays of plain pixels side by side that meet the same face."""
+        face = self.hits.face[: len(self.plain)]
+        left = np.flatnonzero((np.diff(self.plain) == 1) & (face[1:] == face[:-1]))
+        return np.stack([left, left + 1], 1)
+
+    def resolve(self, color: Float32[np.ndarray, "n 3"], ground: Float32[np.ndarray, "h w 3"]) -> Float32[np.ndarray, "h w 3"]:
+        """The picture of the rays' colours over a ground."""
+        picture = ground.reshape(-1, 3).copy()
+        count = len(self.plain)
+        picture[self.plain] = color[:count]
+        picture[self.split] = color[count:].reshape(len(self.split), -1) @ MEAN
+        return picture.reshape(ground.shape)
+
+
+@dataclass(frozen=True, eq=False)
+class Subject:
+    """What rays are cast at. corner_normal: for shading, None where surfaces are flat; face_key: where it changes between
+    faces, pixels are split, as the faces do not look alike."""
+
+    scene: RayScene
+    corner_normal: Float32[np.ndarray, "F 3 3"] | None
+    face_key: Int[np.ndarray, " F"]
+
+
+def sample(subject: Subject, camera: Camera, window: Window) -> Samples:
+    """Cast the rays of a window."""
+    height, width = window.shape
+    origin, pixel = camera.T_world_camera[:3, 3], 1 / camera.focal
+    across, down = _terms(camera, window, 1)
+    directions = (down[:, None] + across).reshape(-1, 3)
+    hits = subject.scene.surface_hits(origin, directions)
+    normal = _shading_normals(hits, subject.corner_normal)
+    divided = _split(subject, hits, directions, normal, window.shape, pixel)
+    plain, split = np.flatnonzero((hits.face >= 0) & ~divided), np.flatnonzero(divided)
+    place = _places(split, width)
+    across, down = _terms(camera, window, GRID)
+    row, column = np.divmod(place, width * GRID)
+    more = down[row] + across[column]
+    grids = subject.scene.surface_hits(origin, more)
+    joined = SurfaceHits.joined(hits.take(plain), grids)
+    normals = np.concatenate([normal[plain], _shading_normals(grids, subject.corner_normal)])
+    rows = np.full((height * GRID, width * GRID), -1, np.int32)
+    rows.reshape(-1)[place] = np.arange(len(plain), len(plain) + len(place))
+    face = np.full(rows.shape, -2, np.int32)
+    face.reshape(-1)[place] = grids.face
+    steps = find_steps(joined, np.concatenate([directions[plain], more]), normals, changes(face, rows), pixel)
+    return Samples(window, plain, split, joined, normals, steps, place)
+
+
+def _terms(camera: Camera, window: Window, grid: int) -> tuple[np.ndarray, np.ndarray]:
+    """Terms of the directions of grid x grid rays per pixel of a window (`Camera.ray_grid`)."""
+    inside = (np.arange(grid) + 0.5) / grid
+    x, y = np.arange(window.left, window.right), np.arange(window.top, window.bottom)
+    return camera.ray_grid((x[:, None] + inside).reshape(-1), (y[:, None] + inside).reshape(-1))
+
+
+def _split(
+    subject: Subject, hits: SurfaceHits, directions: np.ndarray, normal: np.ndarray, shape: tuple[int, int], pixel: float
+) -> np.ndarray:
+    """Which pixels differ from one beside or above them, as a flat mask."""
+    rows = np.arange(len(directions), dtype=np.int32).reshape(shape)
+    pairs = changes(hits.face.reshape(shape), rows)
+    key = np.where(hits.face < 0, -1, subject.face_key[hits.face])
+    found = np.zeros(len(directions), bool)
+    found[pairs[key[pairs[:, 0]] != key[pairs[:, 1]]]] = True
+    found[find_steps(hits, directions, normal, pairs, pixel).pairs] = True
+    return found
+
+
+def _places(split: Int[np.ndarray, " k"], width: int) -> Int[np.ndarray, " m"]:
+    """Where the grids of some pixels are in the finer picture, as flat indices."""
+    row, column = np.divmod(split, width)
+    first = row * GRID * width * GRID + column * GRID
+    grid = np.arange(GRID)[:, None] * width * GRID + np.arange(GRID)
+    return (first[:, None, None] + grid).reshape(-1)
+
+
+def _shading_normals(hits: SurfaceHits, corner_normal: Float32[np.ndarray, "F 3 3"] | None) -> Float32[np.ndarray, "n 3"]:
+    """Corner normals interpolated where there are any, turned toward the camera; the faces' own elsewhere."""
+    if corner_normal is None:
+        return hits.normal
+    rows = np.flatnonzero(hits.face >= 0)
+    corners = corner_normal[hits.face[rows]]
+    cosine = np.einsum("nkc,nc->nk", corners, hits.normal[rows])
+    curved = np.flatnonzero(np.abs(cosine).min(1) < 1 - FLAT)
+    rows, corners, cosine = rows[curved], corners[curved], cosine[curved]
+    u, v = hits.u[rows], hits.v[rows]
+    mixed = np.einsum("nk,nkc->nc", np.stack([1 - u - v, u, v], 1), corners)
+    length = np.linalg.norm(mixed, axis=1) * np.sign(cosine.sum(1))
+    normal = hits.normal.copy()
+    usable = length != 0
+    normal[rows[usable]] = mixed[usable] / length[usable, None]
+    return normal
