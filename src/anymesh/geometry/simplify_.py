@@ -25,9 +25,11 @@ def simplify(triangles: Float[np.ndarray, "F 3 3"], most: int) -> Float[np.ndarr
     from fast_simplification import simplify as quadric
 
     corners = triangles.reshape(-1, 3)
-    _, first, inverse = np.unique(weld(corners), return_index=True, return_inverse=True)
+    number = weld(corners)  # without gaps, in the order of the first corners
+    first = np.empty(int(number.max()) + 1, np.int64)
+    first[number[::-1]] = np.arange(len(number))[::-1]
     center = corners.mean(0)  # float32 inside: near the origin it keeps its digits
-    before, corner = corners[first] - center, inverse.reshape(-1, 3)
+    before, corner = corners[first] - center, number.reshape(-1, 3)
     points, faces = before, corner
     if len(faces) > max(DENSE * most, FEWEST):
         points, faces = _clustered(points, faces, CLUSTERED * most)

@@ -10,8 +10,7 @@ import numpy as np
 from jaxtyping import Int
 
 from anymesh.config import SegmentationConfig
-from anymesh.geometry.boxes import alike
-from anymesh.geometry.distance_ import distance_to_triangles
+from anymesh.geometry.boxes import alike, box_pairs
 from anymesh.geometry.pieces import ObjectShape
 from anymesh.geometry.shape import Shape
 from anymesh.geometry.topology import label_connected
@@ -40,15 +39,17 @@ class Contacts:
 def find_contacts(whole: ObjectShape, config: SegmentationConfig) -> Contacts:
     """Measures all pairs of pieces whose boxes are near each other."""
     order = np.argsort(whole.piece, kind="stable")
-    bounds = np.searchsorted(whole.piece[order], np.arange(int(whole.piece.max()) + 2))
-    shapes = tuple(whole.of(order[a:b]) for a, b in itertools.pairwise(bounds))
+    start = np.searchsorted(whole.piece[order], np.arange(int(whole.piece.max()) + 2))
+    shapes = tuple(whole.of(order[a:b]) for a, b in itertools.pairwise(start))
     shared = {(int(a), int(b)) for a, b in whole.shared}
     touch, near = sorted(shared), []
     tolerance, reach = config.touch * whole.diagonal, config.near * whole.diagonal
-    for i, j in _box_pairs(shapes, reach):
+    bounds = np.array([s.bounds for s in shapes])
+    for i, j in box_pairs(bounds[:, 0], bounds[:, 1], reach):
         if (i, j) in shared:
             continue
-        gap = min(_gap(shapes[i], shapes[j], reach), _gap(shapes[j], shapes[i], reach))
+        gap = _gap(shapes[i], shapes[j], reach)
+        gap = gap if gap < tolerance else min(gap, _gap(shapes[j], shapes[i], reach))
         if gap < tolerance or (gap < reach and _crosses(shapes[i], shapes[j])):
             touch.append((i, j))
         elif gap < reach:
@@ -97,7 +98,7 @@ def _touching(a: Shape, b: Shape, tolerance: float) -> float:
     """Area of a within the tolerance of b [m^2]."""
     samples = a.samples.points[::3]
     near = ((samples >= b.bounds[0] - tolerance) & (samples <= b.bounds[1] + tolerance)).all(1)
-    gap = distance_to_triangles(samples[near], b.triangles)
+    gap = b.tree.distance(samples[near])
     return a.area * float((gap < tolerance).sum()) / max(len(samples), 1)
 
 
@@ -120,23 +121,13 @@ def coplanar(contacts: Contacts, whole: ObjectShape, tolerance: float) -> list[t
     return found
 
 
-def _box_pairs(shapes: tuple[Shape, ...], reach: float) -> list[tuple[int, int]]:
-    low = np.array([s.bounds[0] for s in shapes]) - reach / 2
-    high = np.array([s.bounds[1] for s in shapes]) + reach / 2
-    found = []
-    for i in range(len(shapes) - 1):
-        meets = ((low[i + 1 :] <= high[i]) & (high[i + 1 :] >= low[i])).all(1)
-        found += [(i, int(j) + i + 1) for j in np.flatnonzero(meets)]
-    return found
-
-
 def _gap(a: Shape, b: Shape, reach: float) -> float:
     """Smallest distance of a's corners and samples, as far as they lie in b's box, to b [m]."""
     low, high = b.bounds[0] - reach, b.bounds[1] + reach
     points = [p[((p >= low) & (p <= high)).all(1)] for p in (a.corners, a.samples.points)]
     points = [p[:: max(1, len(p) // PROBES)] for p in points]
     probe = np.concatenate(points)
-    return float(distance_to_triangles(probe, b.triangles).min()) if len(probe) else np.inf
+    return float(b.tree.distance(probe).min()) if len(probe) else np.inf
 
 
 def _crosses(a: Shape, b: Shape) -> bool:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Int
+from jaxtyping import Float, Int
 
 from anymesh.config import Config
 from anymesh.geometry.boxes import Box, alike
@@ -14,6 +14,8 @@ from anymesh.geometry.surroundings import Surroundings
 from anymesh.reasoning.questions import PartAnswer, PartEvidence
 from anymesh.segmentation.evidence import Context, gather
 from anymesh.segmentation.units import Units, size_of, touches_outside
+
+SAME_SIZE = 0.02  # of the diagonal, by which the diagonals of copies differ at most
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,22 +65,24 @@ def look_at(whole: ObjectShape, units: Units, u: int, members: list[int], found:
     if not still.any():
         return None
     rest = whole.of(np.flatnonzero(still))
+    others = whole.of(np.flatnonzero(away)) if away.any() else None
     around = Surroundings(
-        part=whole.of(faces), parent=rest, rest=rest, others=whole.of(np.flatnonzero(away)) if away.any() else None,
-        everything=whole.of(np.flatnonzero(~moving)), slim=(), diagonal=whole.diagonal,
+        part=whole.of(faces), parent=rest, rest=rest, others=others,
+        everything=rest if others is None else whole.of(np.flatnonzero(~moving)), slim=(), diagonal=whole.diagonal,
         center=whole.shape.bounds.mean(0),
         config=config.articulation,
     )  # fmt: skip
     separate = not touches_outside(units, members)
-    size = size_of(units, members)
-    twins = tuple(
-        whole.of(units.faces(units.hanging[other]))
-        for other in units.hanging
-        if other not in (u, units.root)
-        and other not in members
-        and abs(size_of(units, units.hanging[other]) - size) < 0.02 * size
-    )
+    twins = _twins(units, u, members)
     copies = [f.answer.score for f in elsewhere if alike(around.core, f.box)]
     copied = max(copies, default=None)
     context = Context(whole, config.segmentation, units.names[u], separate, twins, carrier is not None, copied)
     return Look(u, tuple(members), faces, around, gather(around, context), separate)
+
+
+def _twins(units: Units, u: int, members: list[int]) -> Float[np.ndarray, "n 3"]:
+    """Middles of the other units of the same size as these [m]."""
+    size = size_of(units, members)
+    alike = np.abs(units.size - size) < SAME_SIZE * size
+    alike[[u, units.root, *members]] = False
+    return units.bounds[alike].mean(1)
