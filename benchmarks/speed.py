@@ -1,6 +1,9 @@
-"""Wall time, peak memory and the cost of each stage for growing meshes.
+"""Wall time, peak memory and the time of each stage on synthetic objects with more and more faces or components.
 
-python benchmarks/speed.py [FACES ...]      writes benchmarks/speed.md
+python benchmarks/speed.py [NAME[:SIZE,...] ...]      writes benchmarks/speed.md
+
+Names: pot (by faces), boards, chandelier and shelf (by connected components), see speed_scenes.py. The slope is that of
+a line fitted to log(time) over log(size), sizes below a tenth of the largest left out: 1 is linear.
 """
 
 from __future__ import annotations
@@ -13,59 +16,99 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections.abc import Iterator
+from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
 
-import trimesh
+import numpy as np
+from speed_scenes import COMPONENTS, FACES
 
 HERE = Path(__file__).parent
-SOURCE = HERE.parent / "examples" / "meshes" / "cabinet.glb"
+STAGES = ("load", "segment", "joints", "export")
+SIZES = {"pot": (1_000, 10_000, 61_000, 250_000, 1_000_000)} | dict.fromkeys(COMPONENTS, (1, 10, 100, 500, 2_000, 5_000))
+Z_TO_Y = np.array([[1.0, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]])  # GLB files are Y up
+LIMIT = 600.0  # [s] for one object
+TAIL = 0.1  # of the largest size: smaller ones do not count in the slope
 
 
-def subdivided(faces: int, path: Path) -> int:
-    """The cabinet with at least this many faces, as a GLB; returns how many."""
-    scene = trimesh.load_scene(SOURCE)
-    mesh = trimesh.Trimesh(*(lambda m: (m.vertices, m.faces))(scene.to_geometry()), process=False)
-    while len(mesh.faces) * 4 <= faces:
-        mesh = mesh.subdivide()
-    if len(mesh.faces) < faces:
-        mesh = mesh.subdivide(range((faces - len(mesh.faces)) // 3))
-    mesh.export(path)
-    return len(mesh.faces)
+@dataclass(frozen=True)
+class Run:
+    """One object through all stages: times [s] and memory [GiB] of the child process."""
+
+    name: str
+    size: int
+    faces: int
+    joints: int
+    wall: float
+    peak: float
+    stages: tuple[float, ...]
+
+    @property
+    def row(self) -> str:
+        """One row of the table."""
+        stages = " | ".join(f"{s:.1f}" for s in self.stages)
+        return f"| {self.name} | {self.size} | {self.faces} | {self.joints} | {self.wall:.1f} | {self.peak:.2f} | {stages} |"
+
+
+def timed(name: str, size: int) -> Run:
+    """Run `anymesh articulate` on one object in a child process. Raises SystemExit where it fails or takes too long."""
+    with tempfile.TemporaryDirectory() as folder:
+        path, out = Path(folder) / f"{name}.glb", Path(folder) / "out"
+        mesh = (FACES | COMPONENTS)[name](size).apply_transform(Z_TO_Y)
+        mesh.export(path)
+        command = [sys.executable, "-m", "anymesh.cli", "articulate", str(path), "-o", str(out), "-q"]
+        begin = time.perf_counter()
+        child = subprocess.Popen(["timeout", str(LIMIT), *command])
+        _, status, usage = os.wait4(child.pid, 0)
+        wall = time.perf_counter() - begin
+        if status:
+            raise SystemExit(f"{name} {size}: failed, or took longer than {LIMIT:g} s")
+        seconds = json.loads((out / "timing.json").read_text())
+        joints = len(json.loads((out / "asset.json").read_text())["joints"])
+    stages = tuple(float(seconds.get(s, 0)) for s in STAGES)
+    return Run(name, size, len(mesh.faces), joints, wall, usage.ru_maxrss / 2**20, stages)
+
+
+def slope(runs: list[Run]) -> float:
+    """Return the exponent of the growth of time with size, NaN for fewer than two sizes."""
+    tail = [r for r in runs if r.size >= TAIL * runs[-1].size]
+    if len(tail) < 2:
+        return float("nan")
+    return float(np.polyfit(np.log([r.size for r in tail]), np.log([r.wall for r in tail]), 1)[0])
+
+
+def requested(arguments: list[str]) -> Iterator[tuple[str, tuple[int, ...]]]:
+    """Yield names with sizes: all by default."""
+    for argument in arguments or SIZES:
+        name, _, sizes = argument.partition(":")
+        if name not in SIZES:
+            raise SystemExit(f"found {name!r}; valid are {', '.join(SIZES)}")
+        yield name, tuple(int(s) for s in sizes.split(",")) if sizes else SIZES[name]
 
 
 def main() -> None:
-    sizes = [int(a) for a in sys.argv[1:]] or [10_000, 50_000, 100_000, 1_000_000]
-    rows = []
-    with tempfile.TemporaryDirectory() as folder:
-        for size in sizes:
-            path, out = Path(folder) / f"{size}.glb", Path(folder) / f"out_{size}"
-            count = subdivided(size, path)
-            begin = time.perf_counter()
-            child = subprocess.Popen([sys.executable, "-m", "anymesh.cli", "articulate", str(path), "-o", str(out), "-q"])
-            _, status, usage = os.wait4(child.pid, 0)
-            wall = time.perf_counter() - begin
-            if status:
-                sys.exit(f"failed on {count} faces")
-            told = json.loads((out / "timing.json").read_text())
-            joints = len(json.loads((out / "asset.json").read_text())["joints"])
-            stages = " | ".join(f"{told.get(s, 0):.1f}" for s in ("load", "segment", "joints", "export"))
-            rows.append(f"| {count} | {joints} | {wall:.1f} | {usage.ru_maxrss / 2**20:.2f} | {stages} |")
-            print(rows[-1], flush=True)
-    text = "\n".join(
-        [
-            "# Speed",
-            "",
-            f"`python benchmarks/speed.py`, {datetime.date.today()}, version {version('articulate-anymesh')}, "
-            f"Python {platform.python_version()}, {os.cpu_count()} cores. The cabinet of the examples, subdivided.",
-            "",
-            "| faces | joints | wall [s] | peak [GiB] | load | segment | joints [s] | export |",
-            "|---|---|---|---|---|---|---|---|",
-            *rows,
-            "",
-        ]
-    )
-    (HERE / "speed.md").write_text(text, encoding="utf-8")
+    """Time all that is asked for and write the table."""
+    lines = []
+    for name, sizes in requested(sys.argv[1:]):
+        runs = []
+        for size in sorted(sizes):
+            runs.append(timed(name, size))
+            print(runs[-1].row, flush=True)
+        lines += [r.row for r in runs] + [f"| {name} | slope | | | {slope(runs):.2f} | | | | | |"]
+        print(lines[-1], flush=True)
+    head = [
+        "# Speed",
+        "",
+        f"`python benchmarks/speed.py {' '.join(sys.argv[1:])}`, {datetime.date.today()}, "
+        f"version {version('articulate-anymesh')}, Python {platform.python_version()}, {os.cpu_count()} cores. Synthetic "
+        "objects of `speed_scenes.py`; size: faces asked for (pot), connected components (the others). Slope: exponent of "
+        "the growth of the wall time with the size, over the largest tenfold.",
+        "",
+        "| object | size | faces | joints | wall [s] | peak [GiB] | load [s] | segment [s] | joints [s] | export [s] |",
+        "|---|---|---|---|---|---|---|---|---|---|",
+    ]
+    (HERE / "speed.md").write_text("\n".join([*head, *lines, ""]), encoding="utf-8")
 
 
 if __name__ == "__main__":

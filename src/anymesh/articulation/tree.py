@@ -6,7 +6,6 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from anymesh.geometry.distance_ import distance_to_triangles
 from anymesh.geometry.shape import Shape
 
 CLEARLY = 3.0  # a part hangs on another part rather than on the root when it is this much nearer, or touches this much more
@@ -22,7 +21,7 @@ def parents(shapes: list[Shape], diagonal: float, told: Sequence[set[int]] | Non
     for i in range(1, len(shapes)):
         points = shapes[i].samples.points[::6]
         best, best_score = 0, 0.0
-        base = distance_to_triangles(points, shapes[0].triangles)
+        base = shapes[0].tree.distance(points)
         tolerance = 0.01 * min(diagonal, 5 * size[i])
         named = _nearest(points, shapes, told[i] - {i}, tolerance) if told else None
         if named is not None:
@@ -30,9 +29,9 @@ def parents(shapes: list[Shape], diagonal: float, told: Sequence[set[int]] | Non
             continue
         touch_base = float((base < tolerance).mean())
         for j in range(1, len(shapes)):
-            if j == i or size[j] < 1.15 * size[i]:
+            if j == i or size[j] < 1.15 * size[i] or not _boxes_near(shapes[i], shapes[j], tolerance):
                 continue
-            to = distance_to_triangles(points, shapes[j].triangles)
+            to = shapes[j].tree.distance(points)
             touch = float((to < tolerance).mean())
             nearer = base.min() > max(CLEARLY * to.min(), 0.4 * tolerance) and to.min() < tolerance
             more = touch > CLEARLY * touch_base + 0.01
@@ -42,9 +41,14 @@ def parents(shapes: list[Shape], diagonal: float, told: Sequence[set[int]] | Non
     return _without_circles(found)
 
 
+def _boxes_near(a: Shape, b: Shape, reach: float) -> bool:
+    """Whether two shapes may have points within `reach` of each other [m]."""
+    return bool((a.bounds[0] - reach <= b.bounds[1]).all() and (b.bounds[0] - reach <= a.bounds[1]).all())
+
+
 def _nearest(points: np.ndarray, shapes: list[Shape], among: set[int], reach: float) -> int | None:
     """The one of some parts that is nearest to these points, None when none is within reach [m]."""
-    off = {j: float(distance_to_triangles(points, shapes[j].triangles).min()) for j in sorted(among)}
+    off = {j: float(shapes[j].tree.distance(points).min()) for j in sorted(among)}
     best = min(off, key=lambda j: off[j], default=None)
     return best if best is not None and off[best] < reach else None
 

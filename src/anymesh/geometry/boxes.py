@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, Int
 
 SAME_SIZE = 0.03  # of the diagonal: sides of copies differ by less
 PARALLEL = 0.99  # cosine of the axes of copies
@@ -118,3 +118,25 @@ def box_in_frame(points: Float[np.ndarray, "n 3"], axes: Float[np.ndarray, "3 3"
     if np.linalg.det(sorted_axes) < 0:
         sorted_axes[2] *= -1
     return Box(center, sorted_axes, ((high - low) / 2)[order])
+
+
+def box_pairs(low: Float[np.ndarray, "n 3"], high: Float[np.ndarray, "n 3"], reach: float) -> list[tuple[int, int]]:
+    """Return the pairs (i < j) of axis-aligned boxes that are no further apart than `reach` along any axis, in order.
+
+    Sorts and sweeps along the axis on which the fewest overlap.
+    """
+    low, high = low - reach / 2, high + reach / 2
+    order, end = min((_sorted_overlaps(low[:, k], high[:, k]) for k in range(3)), key=lambda found: int(found[1].sum()))
+    found = [np.zeros((0, 2), np.int64)]
+    for at, (i, stop) in enumerate(zip(order, end, strict=True)):
+        later = order[at + 1 : stop]
+        meets = later[((low[later] <= high[i]) & (high[later] >= low[i])).all(1)]
+        found.append(np.stack([np.minimum(meets, i), np.maximum(meets, i)], 1))
+    pairs = np.concatenate(found)
+    return [(int(i), int(j)) for i, j in pairs[np.lexsort((pairs[:, 1], pairs[:, 0]))]]
+
+
+def _sorted_overlaps(low: Float[np.ndarray, " n"], high: Float[np.ndarray, " n"]) -> tuple[np.ndarray, Int[np.ndarray, " n"]]:
+    """Return the intervals in the order of their lower ends, and for each the place in that order where overlaps end."""
+    order = np.argsort(low, kind="stable")
+    return order, np.searchsorted(low[order], high[order], side="right")

@@ -22,6 +22,32 @@ def distance_to_mesh(
     return np.sqrt(np.maximum(np.atleast_1d(squared), 0)), np.atleast_1d(face).astype(np.int64), np.atleast_2d(closest)
 
 
+class TriangleTree:
+    """A bounding box tree over triangles, built once for many questions: the same answers as `distance_to_mesh`."""
+
+    def __init__(self, triangles: Float[np.ndarray, "F 3 3"]) -> None:
+        import igl
+
+        self._vertices = np.ascontiguousarray(triangles.reshape(-1, 3), np.float64)
+        self._faces = np.arange(3 * len(triangles)).reshape(-1, 3)
+        self._tree = igl.AABB()
+        self._tree.init(self._vertices, self._faces)
+
+    def nearest(
+        self, points: Float[np.ndarray, "n 3"]
+    ) -> tuple[Float[np.ndarray, " n"], Int[np.ndarray, " n"], Float[np.ndarray, "n 3"]]:
+        """Distance to the closest triangle [units of the input], that triangle's index, and the closest point on it."""
+        if len(points) == 0:
+            return np.zeros(0), np.zeros(0, np.int64), np.zeros((0, 3))
+        probe = np.ascontiguousarray(points, np.float64)
+        squared, face, closest = self._tree.squared_distance(self._vertices, self._faces, probe)
+        return np.sqrt(np.maximum(np.atleast_1d(squared), 0)), np.atleast_1d(face).astype(np.int64), np.atleast_2d(closest)
+
+    def distance(self, points: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, " n"]:
+        """Distance of each point to the closest triangle."""
+        return self.nearest(points)[0]
+
+
 def distance_to_triangles(points: Float[np.ndarray, "n 3"], triangles: Float[np.ndarray, "F 3 3"]) -> Float[np.ndarray, " n"]:
     """Distance of each point to the closest of some triangles."""
     return distance_to_mesh(points, triangles.reshape(-1, 3), np.arange(3 * len(triangles)).reshape(-1, 3))[0]

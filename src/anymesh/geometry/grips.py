@@ -135,6 +135,7 @@ def region_sizes(whole: Surface, region: Int[np.ndarray, " F"]) -> Float[np.ndar
     """Diagonal of the axis-aligned box of every region [m]."""
     count = int(region.max()) + 1
     low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
-    np.minimum.at(low, region, whole.shape.triangles.min(1))
-    np.maximum.at(high, region, whole.shape.triangles.max(1))
+    for k in range(3):  # one axis at a time: numpy is ten times as fast on flat arrays
+        np.minimum.at(low[:, k], region, whole.shape.lowest[:, k])
+        np.maximum.at(high[:, k], region, whole.shape.highest[:, k])
     return np.linalg.norm(high - low, axis=1)

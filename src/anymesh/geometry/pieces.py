@@ -11,6 +11,7 @@ from scipy.spatial import KDTree
 
 from anymesh.config import PiecesConfig
 from anymesh.geometry.creases import convex_regions
+from anymesh.geometry.distance_ import TriangleTree
 from anymesh.geometry.fronts import divide_fronts
 from anymesh.geometry.grips import region_sizes
 from anymesh.geometry.shape import Shape, Surface, surface_of
@@ -18,6 +19,10 @@ from anymesh.geometry.simplify_ import simplify
 from anymesh.geometry.topology import label_connected
 from anymesh.types import Mesh
 from anymesh.types.triangles import normals_and_areas
+
+SMALL_SHARE = 3  # times the faces that are kept of a dense mesh, that many small pieces may add to them
+LEAST_FACES = 20  # that a piece of very many keeps
+SAME_SIZE = 0.05  # relative: diagonals of copies differ by less
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,10 +72,11 @@ def _simplified(
     triangles = np.where(flipped[:, None, None], shape.triangles[:, ::-1], shape.triangles)
     order = np.argsort(group, kind="stable")
     bounds = np.flatnonzero(np.r_[True, np.diff(group[order]) != 0, True])
+    least = int(np.clip(SMALL_SHARE * config.most_faces / (len(bounds) - 1), LEAST_FACES, config.least_faces))
     kept, source = [], []
     for a, b in pairwise(bounds):
         mine = order[a:b]
-        few = simplify(triangles[mine], max(config.least_faces, int(config.most_faces * len(mine) / count)))
+        few = simplify(triangles[mine], max(least, int(config.most_faces * len(mine) / count)))
         kept.append(few)
         source.append(mine if len(few) == len(mine) else np.full(len(few), mine[0]))
     found, where = np.concatenate(kept), np.concatenate(source)
@@ -163,20 +169,22 @@ def _fill_voids(whole: Surface, region: np.ndarray) -> np.ndarray:
 
 
 def _limit_count(whole: Surface, region: np.ndarray, most: int) -> np.ndarray:
-    """At most about `most` pieces: the smallest join their nearest larger one."""
+    """At most about `most` pieces: the smallest join their nearest larger one, all copies of one size alike."""
     count = int(region.max()) + 1
     if count <= most:
         return region
     size = region_sizes(whole, region)
-    keep = np.sort(np.argsort(-size, kind="stable")[:most])
+    order = np.argsort(-size, kind="stable")
+    larger = order[size[order] > (1 + SAME_SIZE) * size[order[most]]]
+    keep = np.sort(larger if len(larger) > 1 else order[:most])
     kept = np.isin(region, keep)
     centers = whole.shape.triangles.mean(1)
-    tree = KDTree(centers[kept])
     lost = np.setdiff1d(np.arange(count), keep)
     middle = np.zeros((count, 3))
     np.add.at(middle, region, centers)
     middle /= np.bincount(region, minlength=count)[:, None]
-    nearest = region[np.flatnonzero(kept)[tree.query(middle[lost], workers=-1)[1]]]
+    faces = np.flatnonzero(kept)
+    nearest = region[faces[TriangleTree(whole.shape.triangles[faces]).nearest(middle[lost])[1]]]
     target = np.arange(count)
     target[lost] = nearest
     return np.unique(target[region], return_inverse=True)[1].reshape(-1)

@@ -9,7 +9,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 
 from anymesh.geometry.boxes import Box, fit_box
-from anymesh.geometry.distance_ import winding_number
+from anymesh.geometry.distance_ import TriangleTree, winding_number
 from anymesh.geometry.sampling import SurfacePoints, sample_surface
 from anymesh.geometry.topology import Components, components
 from anymesh.rendering.raycast_ import RayScene
@@ -37,6 +37,23 @@ class Shape:
     def areas(self) -> Float[np.ndarray, " F"]:
         """Area of every face [m^2]."""
         return normals_and_areas(self.triangles)[1]
+
+    @cached_property
+    def lowest(self) -> Float[np.ndarray, "F 3"]:
+        """Lower corner of the axis-aligned box of every face [m]."""
+        a, b, c = self.triangles.transpose(1, 0, 2)
+        return np.minimum(np.minimum(a, b), c)
+
+    @cached_property
+    def highest(self) -> Float[np.ndarray, "F 3"]:
+        """Upper corner of the axis-aligned box of every face [m]."""
+        a, b, c = self.triangles.transpose(1, 0, 2)
+        return np.maximum(np.maximum(a, b), c)
+
+    @cached_property
+    def tree(self) -> TriangleTree:
+        """For exact distances to these triangles."""
+        return TriangleTree(self.triangles)
 
     @cached_property
     def scene(self) -> RayScene:
@@ -108,14 +125,19 @@ def surface_of(mesh: Mesh, seed: int = 0) -> Surface:
 def _voids(mesh: Mesh, parts: Components) -> Bool[np.ndarray, " c"]:
     """Inside-out components within a solid one: walls of its cavities, not things of their own."""
     void = np.zeros(parts.count, bool)
-    solid = np.flatnonzero(parts.solid & ~parts.flip)
-    t = mesh.triangles
-    for c in np.flatnonzero(parts.flip) if len(solid) else []:
-        points = t[parts.label == c][:1].mean(1)
-        for s in solid:
-            faces = mesh.faces[parts.label == s]
-            low, high = mesh.vertices[faces].min((0, 1)), mesh.vertices[faces].max((0, 1))
-            if (points > low).all() and (points < high).all() and winding_number(points, mesh.vertices, faces)[0] > 0.5:
+    solid, inverted = np.flatnonzero(parts.solid & ~parts.flip), np.flatnonzero(parts.flip)
+    if not (len(solid) and len(inverted)):
+        return void
+    order = np.argsort(parts.label, kind="stable")
+    start = np.searchsorted(parts.label[order], np.arange(parts.count + 1))
+    triangles = mesh.triangles[order]
+    low = np.minimum.reduceat(triangles.min(1), start[:-1])[solid]
+    high = np.maximum.reduceat(triangles.max(1), start[:-1])[solid]
+    points = triangles[start[inverted]].mean(1)  # one on each inverted component
+    for c, point in zip(inverted, points, strict=True):
+        for s in solid[((point > low) & (point < high)).all(1)]:
+            faces = mesh.faces[order[start[s] : start[s + 1]]]
+            if winding_number(point[None], mesh.vertices, faces)[0] > 0.5:
                 void[c] = True
                 break
     return void

@@ -21,24 +21,50 @@ def superpoints(
     length: Float[np.ndarray, " m"],
     strength: float,
 ) -> Int[np.ndarray, " n"]:
-    """A superpoint number a node: the partition x that lowers sum w |signal - x|^2 + strength * cut length.
+    """Return one superpoint index per node: the partition x that lowers sum w |signal - x|^2 + strength * cut length.
 
-    weight (area of a face) and length (of an edge) count in units of their means. Deterministic.
+    weight (area of a face) and length (of an edge) count in units of their means. Deterministic. A superpoint that a round
+    leaves whole is not split again: the result would be the same.
     """
     weight = weight / max(float(weight.mean()), 1e-300)
     cost = strength * length / max(float(length.mean()), 1e-300) if len(length) else length
     label = label_connected(len(signal), edges)
+    active = np.arange(len(signal))
     for _ in range(ROUNDS):
-        inner = label[edges[:, 0]] == label[edges[:, 1]]
-        upper = _split(signal, weight, label, edges[inner], cost[inner])
-        kept = inner.copy()
-        kept[inner] = upper[edges[inner, 0]] == upper[edges[inner, 1]]
+        upper = np.zeros(len(signal), bool)
+        upper[active] = _split_some(signal, weight, label, edges, cost, active)
+        kept = (label[edges[:, 0]] == label[edges[:, 1]]) & (upper[edges[:, 0]] == upper[edges[:, 1]])
         finer = label_connected(len(signal), edges[kept])
         finer = _merge(signal, weight, finer, edges, cost)
         if finer.max() == label.max() and (finer == label).all():
             break
+        active = _still_active(label, finer, upper, active)
         label = finer
     return label
+
+
+def _still_active(before: np.ndarray, after: np.ndarray, upper: np.ndarray, active: np.ndarray) -> Int[np.ndarray, " k"]:
+    """Return the nodes of the superpoints that changed, or that the last split divided before they were merged again."""
+    count = int(before.max()) + 1
+    high, size = np.bincount(before, upper, count), np.bincount(before, minlength=count)
+    divided = (high > 0) & (high < size)
+    first = np.unique(after, return_index=True)[1]
+    origin = before[first]  # of each superpoint, the one that its first node was in
+    same = (np.bincount(after) == size[origin]) & (np.bincount(after, before != origin[after]) == 0)
+    done = same & ~divided[origin]
+    return np.flatnonzero(~done[after])
+
+
+def _split_some(
+    signal: np.ndarray, weight: np.ndarray, label: np.ndarray, edges: np.ndarray, cost: np.ndarray, nodes: np.ndarray
+) -> np.ndarray:
+    """Return which of some nodes, all those of their superpoints, take the upper value when these are split."""
+    number = np.full(len(label), -1)
+    number[nodes] = np.arange(len(nodes))
+    ends = number[edges]
+    inner = (label[edges[:, 0]] == label[edges[:, 1]]) & (ends[:, 0] >= 0)
+    own = np.unique(label[nodes], return_inverse=True)[1].reshape(-1)
+    return _split(signal[nodes], weight[nodes], own, ends[inner], cost[inner])
 
 
 def _means(signal: np.ndarray, weight: np.ndarray, label: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
@@ -55,15 +81,26 @@ def _split(signal: np.ndarray, weight: np.ndarray, label: np.ndarray, edges: np.
     off = signal - mean[label]
     axis = _main_direction(off, weight, label, count)
     upper = np.einsum("ij,ij->i", off, axis[label]) > 0
+    open_labels = np.ones(count, bool)
     for _ in range(ALTERNATIONS):
         both, _ = _means(signal, weight, 2 * label + upper, 2 * count)
         far_low = weight * ((signal - both[2 * label]) ** 2).sum(1)
         far_high = weight * ((signal - both[2 * label + 1]) ** 2).sum(1)
-        cut = _minimum_cut(far_low - far_high, edges, cost)
-        if (cut == upper).all():
-            break
+        todo = open_labels[label]
+        cut = upper.copy()
+        cut[todo] = _minimum_cut_of(far_low - far_high, edges, cost, todo)
+        open_labels = np.bincount(label, cut != upper, count) > 0  # the others have settled
         upper = cut
+        if not open_labels.any():
+            break
     return upper
+
+
+def _minimum_cut_of(gain: np.ndarray, edges: np.ndarray, cost: np.ndarray, some: np.ndarray) -> np.ndarray:
+    """Return the minimum cut of the nodes in the mask `some`, which no edge joins to the others."""
+    number = np.cumsum(some) - 1
+    inside = some[edges[:, 0]]
+    return _minimum_cut(gain[some], number[edges[inside]], cost[inside])
 
 
 def _main_direction(off: np.ndarray, weight: np.ndarray, label: np.ndarray, count: int) -> np.ndarray:

@@ -10,8 +10,7 @@ import numpy as np
 from jaxtyping import Int
 
 from anymesh.config import SegmentationConfig
-from anymesh.geometry.boxes import alike
-from anymesh.geometry.distance_ import distance_to_triangles
+from anymesh.geometry.boxes import alike, box_pairs
 from anymesh.geometry.pieces import ObjectShape
 from anymesh.geometry.shape import Shape
 from anymesh.geometry.topology import label_connected
@@ -19,6 +18,8 @@ from anymesh.geometry.topology import label_connected
 FLAT = 0.6  # length of the mean normal of a sheet, with its handle; 1 where it is plane
 LEAF = 0.3  # width of a plate over its length; planks are narrower
 SAME_WAY = 0.95  # cosine
+WIDEST = 2.0  # times the nearest clearance of a body: what is further away is no neighbour
+ONE_SIDED = 1.3  # the same of what is small against its nearest piece
 PROBES = 160  # points of a piece that are measured against another
 
 
@@ -40,47 +41,76 @@ class Contacts:
 def find_contacts(whole: ObjectShape, config: SegmentationConfig) -> Contacts:
     """Measures all pairs of pieces whose boxes are near each other."""
     order = np.argsort(whole.piece, kind="stable")
-    bounds = np.searchsorted(whole.piece[order], np.arange(int(whole.piece.max()) + 2))
-    shapes = tuple(whole.of(order[a:b]) for a, b in itertools.pairwise(bounds))
+    start = np.searchsorted(whole.piece[order], np.arange(int(whole.piece.max()) + 2))
+    shapes = tuple(whole.of(order[a:b]) for a, b in itertools.pairwise(start))
     shared = {(int(a), int(b)) for a, b in whole.shared}
-    touch, near = sorted(shared), []
     tolerance, reach = config.touch * whole.diagonal, config.near * whole.diagonal
-    for i, j in _box_pairs(shapes, reach):
-        if (i, j) in shared:
-            continue
-        gap = min(_gap(shapes[i], shapes[j], reach), _gap(shapes[j], shapes[i], reach))
-        if gap < tolerance or (gap < reach and _crosses(shapes[i], shapes[j])):
-            touch.append((i, j))
-        elif gap < reach:
-            near.append((i, j, gap))
+    low, high = np.array([s.bounds for s in shapes]).transpose(1, 0, 2)
+    near = [pair for pair in box_pairs(low, high, reach) if pair not in shared]
+    i, j = np.array(near, np.int64).reshape(-1, 2).T
+    apart = np.maximum(np.maximum(low[i] - high[j], low[j] - high[i]), 0).max(1, initial=0)  # at least so far
+    close = [pair for pair, d in zip(near, apart, strict=True) if d <= tolerance]
+    beside = [(d, *pair) for pair, d in zip(near, apart, strict=True) if d > tolerance]
+    touch, measured = _measured(shapes, close, tolerance, reach)
+    touch = sorted(shared) + touch
     pairs = np.array(touch, np.int64).reshape(-1, 2)
     body = label_connected(len(shapes), pairs)
-    apart = _neighbours(near, body, shapes, tolerance)
+    free = _neighbours(measured, beside, body, shapes, tolerance, reach)
     area = {}
     for i, j in touch:
         if (i, j) in shared and _goes_on(shapes[i], shapes[j]):
             continue  # fronts side by side hold nothing of each other
         area[i, j], area[j, i] = (_touching(shapes[a], shapes[b], 2 * tolerance) for a, b in ((i, j), (j, i)))
-    return Contacts(shapes, pairs, apart, body, area)
+    return Contacts(shapes, pairs, free, body, area)
 
 
-def _neighbours(near: list[tuple[int, int, float]], body: np.ndarray, shapes: tuple[Shape, ...], slack: float) -> np.ndarray:
+def _measured(
+    shapes: tuple[Shape, ...], pairs: list[tuple[int, int]], tolerance: float, reach: float
+) -> tuple[list[tuple[int, int]], list[tuple[int, int, float]]]:
+    """Of pairs whose boxes meet, those that touch or cross, and the others within reach with the distance between them."""
+    touch, near = [], []
+    for i, j in pairs:
+        gap = _gap(shapes[i], shapes[j], reach)
+        gap = gap if gap < tolerance else min(gap, _gap(shapes[j], shapes[i], reach))
+        if gap < tolerance or (gap < reach and _crosses(shapes[i], shapes[j])):
+            touch.append((i, j))
+        elif gap < reach:
+            near.append((i, j, gap))
+    return touch, near
+
+
+def _neighbours(
+    near: list[tuple[int, int, float]], beside: list[tuple[float, int, int]], body: np.ndarray, shapes: tuple[Shape, ...],
+    slack: float, reach: float,
+) -> np.ndarray:  # fmt: skip
     """Of the pairs of bodies with a clearance, those that are among the nearest of the smaller body.
 
     A fit has clearances that differ by a factor of two; what is small against its nearest piece hangs on that alone.
+    near: with their distance; beside: pairs that are yet to be measured, each behind the least distance that it can have.
     """
     size = [float(np.linalg.norm(s.bounds[1] - s.bounds[0])) for s in shapes]
     extent = np.zeros(int(body.max()) + 1)
     np.maximum.at(extent, body, size)
-    pairs = []
-    for i, j, gap in near:
-        if body[i] != body[j]:
-            small, large = sorted((i, j), key=lambda p: (extent[body[p]], body[p]))
+
+    def ordered(i: int, j: int) -> tuple[int, int]:
+        first, second = sorted((i, j), key=lambda p: (extent[body[p]], body[p]))
+        return first, second
+
+    pairs = [(gap, *ordered(i, j)) for i, j, gap in near if body[i] != body[j]]
+    nearest = np.full(len(extent), np.inf)
+    np.minimum.at(nearest, body[[small for _, small, _ in pairs]], [gap for gap, *_ in pairs])
+    for least, i, j in sorted(beside):
+        small, large = ordered(i, j)
+        if body[i] == body[j] or least > WIDEST * nearest[body[small]] + slack:
+            continue
+        gap = min(_gap(shapes[i], shapes[j], reach), _gap(shapes[j], shapes[i], reach))
+        if gap < reach:
             pairs.append((gap, small, large))
+            nearest[body[small]] = min(nearest[body[small]], gap)
     most: dict[int, float] = {}
     kept = []
     for gap, small, large in sorted(pairs):
-        factor = 1.3 if extent[body[small]] < 0.5 * size[large] else 2.0
+        factor = ONE_SIDED if extent[body[small]] < 0.5 * size[large] else WIDEST
         if gap <= most.setdefault(int(body[small]), factor * gap) + slack:
             kept.append((min(small, large), max(small, large)))
     return np.array(sorted(kept), np.int64).reshape(-1, 2)
@@ -97,7 +127,7 @@ def _touching(a: Shape, b: Shape, tolerance: float) -> float:
     """Area of a within the tolerance of b [m^2]."""
     samples = a.samples.points[::3]
     near = ((samples >= b.bounds[0] - tolerance) & (samples <= b.bounds[1] + tolerance)).all(1)
-    gap = distance_to_triangles(samples[near], b.triangles)
+    gap = b.tree.distance(samples[near])
     return a.area * float((gap < tolerance).sum()) / max(len(samples), 1)
 
 
@@ -120,23 +150,13 @@ def coplanar(contacts: Contacts, whole: ObjectShape, tolerance: float) -> list[t
     return found
 
 
-def _box_pairs(shapes: tuple[Shape, ...], reach: float) -> list[tuple[int, int]]:
-    low = np.array([s.bounds[0] for s in shapes]) - reach / 2
-    high = np.array([s.bounds[1] for s in shapes]) + reach / 2
-    found = []
-    for i in range(len(shapes) - 1):
-        meets = ((low[i + 1 :] <= high[i]) & (high[i + 1 :] >= low[i])).all(1)
-        found += [(i, int(j) + i + 1) for j in np.flatnonzero(meets)]
-    return found
-
-
 def _gap(a: Shape, b: Shape, reach: float) -> float:
     """Smallest distance of a's corners and samples, as far as they lie in b's box, to b [m]."""
     low, high = b.bounds[0] - reach, b.bounds[1] + reach
     points = [p[((p >= low) & (p <= high)).all(1)] for p in (a.corners, a.samples.points)]
     points = [p[:: max(1, len(p) // PROBES)] for p in points]
     probe = np.concatenate(points)
-    return float(distance_to_triangles(probe, b.triangles).min()) if len(probe) else np.inf
+    return float(b.tree.distance(probe).min()) if len(probe) else np.inf
 
 
 def _crosses(a: Shape, b: Shape) -> bool:

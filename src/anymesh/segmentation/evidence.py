@@ -5,11 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from jaxtyping import Float
 
 from anymesh.config import SegmentationConfig
-from anymesh.geometry.distance_ import distance_to_mesh
 from anymesh.geometry.pieces import ObjectShape
-from anymesh.geometry.shape import Shape
 from anymesh.geometry.surroundings import Surroundings
 from anymesh.reasoning.questions import PartEvidence
 
@@ -25,7 +24,7 @@ class Context:
     config: SegmentationConfig
     name: str
     separate: bool
-    twins: tuple[Shape, ...]  # other pieces of the same size
+    twins: Float[np.ndarray, "n 3"]  # middles of other units of the same size [m]
     on_movable: bool
     copied: float | None  # the evidence for a part with the same sides that was found
 
@@ -75,16 +74,16 @@ def _axle(around: Surroundings) -> bool:
     return bool((around.rest.scene.first_hit(ends - rays, 2 * rays, 1.0).face >= 0).any())
 
 
-def _on_axis(around: Surroundings, twin: Shape) -> bool:
-    arm = twin.bounds.mean(0) - around.outline.center
+def _on_axis(around: Surroundings, middle: Float[np.ndarray, " 3"]) -> bool:
+    """Whether a point lies near the axis of the round outline."""
+    arm = middle - around.outline.center
     off = arm - (arm @ around.outline.axis) * around.outline.axis
     return bool(np.linalg.norm(off) < 0.3 * around.outline.radius)
 
 
 def _contact(around: Surroundings, tolerance: float) -> tuple[np.ndarray, np.ndarray]:
     """Which samples touch the rest, and the rest's normal at the closest point of each."""
-    t = around.rest.triangles.reshape(-1, 3)
-    gap, face, _ = distance_to_mesh(around.part.samples.points, t, np.arange(len(t)).reshape(-1, 3))
+    gap, face, _ = around.rest.tree.nearest(around.part.samples.points)
     while (gap < tolerance).sum() < min(8, len(gap)):  # as the connecting area grows in the paper
         tolerance *= 2
     return gap < tolerance, around.rest.normals[face]

@@ -7,7 +7,7 @@ no movable part.
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable
+from collections.abc import Callable, Container
 from dataclasses import replace
 
 import numpy as np
@@ -23,6 +23,7 @@ from anymesh.reasoning.weighing import CONTROL
 from anymesh.segmentation.contacts import Contacts, find_contacts
 from anymesh.segmentation.looking import Found, Look, look_at
 from anymesh.segmentation.naming import named_parts
+from anymesh.segmentation.repeats import bare_repeats, examine_repeats, repeats
 from anymesh.segmentation.units import Units, join_units, root_ranking, size_of, touches_outside, with_held
 from anymesh.types import JointType, Mesh, MotionKind, Segmentation
 
@@ -70,20 +71,19 @@ def _search(
     """Four rounds: what touches nothing, small before large, so that a knob is not taken for a panel's handle; what touches;
     again what touches nothing and is free once those parts are out of the way (a tray behind a door); and copies of parts
     that were found."""
-    size = _sizes(whole, units)
-    todo = _large_enough(units, size, config)
+    size, group = _sizes(whole, units), repeats(whole, units)
+    todo = _large_enough(units, size, config, bare_repeats(units, group))
     found: list[Found] = []
+
+    def examine(u: int, number: int, total: int) -> Found | None:
+        progress("segment", units.names[u] or f"piece {u}", number, total)
+        return _candidate(whole, units, u, found, answerer, moves, config)
+
     apart = [u for u in todo if not touches_outside(units, units.hanging[u])]
     for batch in (apart[::-1], [u for u in todo if u not in apart], apart[::-1], todo):
         taken = {f.unit for f in found}
         left = [u for u in batch if u not in taken and (batch is not todo or _is_copy(size, u, found))]
-        new = []
-        for k, u in enumerate(left):
-            progress("segment", units.names[u] or f"piece {u}", k, len(left))
-            hit = _candidate(whole, units, u, found, answerer, moves, config)
-            if hit is not None:
-                new.append(hit)
-        found += _outermost(units, new)
+        found += _outermost(units, examine_repeats(whole, units, group, left, found, examine))
     keys = [f for f in found if f.answer.label == KEY and not units.names[f.unit]]
     return _outermost(units, found if len(keys) <= MOST_KEYS else [f for f in found if f not in keys])
 
@@ -92,11 +92,11 @@ def _sizes(whole: ObjectShape, units: Units) -> dict[int, float]:
     return {u: size_of(units, [u]) / whole.diagonal for u in units.hanging}
 
 
-def _large_enough(units: Units, size: dict[int, float], config: Config) -> list[int]:
-    """The units that are looked at, largest first."""
-    area = np.bincount(units.unit, [s.area for s in units.contacts.shapes])
+def _large_enough(units: Units, size: dict[int, float], config: Config, bare: Container[int] = ()) -> list[int]:
+    """The units that are examined, largest first. bare: units that are left out."""
+    area = np.bincount(units.unit, units.piece_area)
     least = config.segmentation.smallest
-    todo = [u for u in sorted(units.hanging) if u != units.root and size[u] >= least and area[u] > 0]
+    todo = [u for u in sorted(units.hanging) if u != units.root and size[u] >= least and area[u] > 0 and u not in bare]
     return sorted(todo, key=lambda u: (-size[u], u))[: config.segmentation.most_candidates]
 
 

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
-from jaxtyping import Int
+from jaxtyping import Float, Int
 
 from anymesh.geometry.pieces import ObjectShape
 from anymesh.geometry.topology import label_connected
@@ -31,6 +32,40 @@ class Units:
     def faces(self, units: list[int]) -> np.ndarray:
         chosen = np.flatnonzero(np.isin(self.unit, units))
         return np.sort(np.concatenate([self.contacts.shapes[p].faces for p in chosen]))
+
+    @cached_property
+    def piece_bounds(self) -> Float[np.ndarray, "P 2 3"]:
+        """Axis-aligned bounds of every piece [m]."""
+        return np.array([s.bounds for s in self.contacts.shapes])
+
+    @cached_property
+    def piece_area(self) -> Float[np.ndarray, " P"]:
+        """Area of every piece [m^2]."""
+        return np.array([s.area for s in self.contacts.shapes])
+
+    @cached_property
+    def bounds(self) -> Float[np.ndarray, "u 2 3"]:
+        """Axis-aligned bounds of every unit with what hangs on it [m]."""
+        count = len(self.names)
+        low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
+        np.minimum.at(low, self.unit, self.piece_bounds[:, 0])
+        np.maximum.at(high, self.unit, self.piece_bounds[:, 1])
+        found = np.empty((count, 2, 3))
+        for u, members in self.hanging.items():
+            found[u] = low[members].min(0), high[members].max(0)
+        return found
+
+    @cached_property
+    def size(self) -> Float[np.ndarray, " u"]:
+        """Diagonal of the bounds of every unit with what hangs on it [m]."""
+        return np.linalg.norm(self.bounds[:, 1] - self.bounds[:, 0], axis=1)
+
+    @cached_property
+    def touching(self) -> tuple[Int[np.ndarray, "k 2"], Float[np.ndarray, " k"]]:
+        """Pairs of pieces of different units that touch, both ways, and the area of the first that does [m^2]."""
+        pairs = np.array(list(self.contacts.area), np.int64).reshape(-1, 2)
+        apart = self.unit[pairs[:, 0]] != self.unit[pairs[:, 1]]
+        return pairs[apart], np.array(list(self.contacts.area.values()), np.float64)[apart]
 
 
 def join_units(mesh: Mesh, whole: ObjectShape, contacts: Contacts, root_piece: int) -> Units:
@@ -80,10 +115,9 @@ def root_ranking(whole: ObjectShape, contacts: Contacts) -> list[int]:
 
 
 def size_of(units: Units, chosen: list[int]) -> float:
-    shapes = [units.contacts.shapes[p] for p in np.flatnonzero(np.isin(units.unit, chosen))]
-    low = np.min([s.bounds[0] for s in shapes], 0)
-    high = np.max([s.bounds[1] for s in shapes], 0)
-    return float(np.linalg.norm(high - low))
+    """Diagonal of the bounds of some units [m]."""
+    bounds = units.piece_bounds[np.isin(units.unit, chosen)]
+    return float(np.linalg.norm(bounds[:, 1].max(0) - bounds[:, 0].min(0)))
 
 
 def with_held(units: Units, u: int) -> list[int]:
@@ -97,16 +131,17 @@ def with_held(units: Units, u: int) -> list[int]:
 
 
 def _grown(units: Units, members: set[int]) -> set[int]:
-    area, unit = units.contacts.area, units.unit
-    own = sum(units.contacts.shapes[p].area for p in np.flatnonzero(np.isin(unit, list(members))))
+    (first, second), amount = units.touching[0].T, units.touching[1]
+    count = len(units.names)
+    area = np.bincount(units.unit, units.piece_area, count)
+    own = units.piece_area[np.isin(units.unit, list(members))].sum()
     for _ in range(4):
-        inside = np.isin(unit, list(members))
-        hold: dict[int, list[float]] = {}
-        for (i, j), a in area.items():
-            if not inside[i] and unit[i] != unit[j]:
-                hold.setdefault(int(unit[i]), [0.0, 0.0])[int(inside[j])] += a
-        new = [v for v, (other, here) in hold.items() if here > other and v != units.root]
-        new = [v for v in new if sum(units.contacts.shapes[p].area for p in np.flatnonzero(unit == v)) < own]
+        inside = np.isin(units.unit, list(members))
+        outer = ~inside[first]
+        beside, within = units.unit[first[outer]], inside[second[outer]]
+        here = np.bincount(beside[within], amount[outer][within], count)
+        elsewhere = np.bincount(beside[~within], amount[outer][~within], count)
+        new = [int(v) for v in np.flatnonzero((here > elsewhere) & (area < own)) if v != units.root]
         grown = members.union(*(units.hanging[v] for v in new)) - {units.root}
         if grown == members:
             break
@@ -116,9 +151,8 @@ def _grown(units: Units, members: set[int]) -> set[int]:
 
 def _of_one_surface(units: Units, u: int) -> list[int]:
     """The units that creases alone part from this one, if their common surface is neither the root's nor most of the object."""
-    shapes, surface = units.contacts.shapes, units.surface
+    surface, area = units.surface, units.piece_area
     own = np.isin(surface, surface[units.unit == u])
-    area = np.array([s.area for s in shapes])
     if own[units.unit == units.root].any() or area[own].sum() > MOST * area.sum():
         return []
     return [int(v) for v in np.unique(units.unit[own]) if v != u]
