@@ -39,7 +39,7 @@ def _pose(rng: Rng, scale: float) -> Float[np.ndarray, "4 4"]:
 
 def pile(rng: Rng) -> list[Part]:
     """Shapes at random places, turned at random."""
-    count = int(rng.integers(1, 12))
+    count = int(rng.integers(1, 8))
     return [Part(f"part_{k}", *placed(any_shape(rng), rng.uniform(0.05, 1, 3)), _pose(rng, 0.4)) for k in range(count)]
 
 
@@ -47,7 +47,7 @@ def tree(rng: Rng) -> list[Part]:
     """Boxes and other shapes, each on a side of an earlier one, with a gap, none, or some overlap."""
     boxes = [(np.zeros(3), rng.uniform(0.3, 1, 3))]
     found = [part("base", box(), boxes[0][1])]
-    for k in range(int(rng.integers(1, 14))):
+    for k in range(int(rng.integers(1, 8))):
         center, size = boxes[int(rng.integers(len(boxes)))]
         own = size * rng.uniform(0.1, 0.9, 3)
         axis, sign = int(rng.integers(3)), float(rng.choice([-1, 1]))
@@ -63,7 +63,7 @@ def cabinet(rng: Rng) -> list[Part]:
     """An open box with doors or drawers before it, each with a handle or none."""
     w, h, d = rng.uniform(0.3, 1.2, 3)
     found = [part("body", box((5,)), (w, h, d)), part("inner", box((5,)), (w - 0.04, h - 0.04, d - 0.04), (0, 0, 0.01))]
-    rows, columns = int(rng.integers(1, 4)), int(rng.integers(1, 4))
+    rows, columns = int(rng.integers(1, 3)), int(rng.integers(1, 4))
     gap = float(rng.choice([0.0, 0.002, 0.01]))
     for i in range(rows):
         for k in range(columns):
@@ -151,7 +151,7 @@ def tube_lamp(rng: Rng | None = None) -> list[Part]:
     joints = np.cumsum(np.r_[[[0, 0.02, 0]], rng.uniform((-0.1, 0.1, -0.05), (0.2, 0.3, 0.05), (4, 3))], axis=0)
     arms = [path_tube(joints[k : k + 2], 0.004, int(rng.integers(3, 9))) for k in range(4)]
     shade = placed(tube(16, top=0.4), (0.2, 0.2, 0.15), joints[-1])
-    wire = path_tube(joints + (0.006, 0, 0), 0.0008, 3)
+    wire = path_tube(joints + np.array([0.006, 0, 0]), 0.0008, 3)
     found = [Part(f"arm_{k}", *arm) for k, arm in enumerate(arms)]
     return [part("foot", tube(12, caps=True), (0.2, 0.2, 0.02)), *found, Part("shade", *shade), Part("wire", *wire)]
 
@@ -193,7 +193,7 @@ def lattice(rng: Rng) -> list[Part]:
 
 
 ARRANGEMENTS: dict[str, tuple[float, Callable[[Rng], list[Part]]]] = {  # how often, and how
-    "pile": (5, pile),
+    "pile": (7, pile),
     "tree": (5, tree),
     "cabinet": (5, cabinet),
     "wheel": (1, wheel),
@@ -202,7 +202,7 @@ ARRANGEMENTS: dict[str, tuple[float, Callable[[Rng], list[Part]]]] = {  # how of
     "sheets": (2, sheets),
     "sign": (2, sign_board),
     "many": (1, many),
-    "single": (4, single),
+    "single": (7, single),
     "bars": (1, bars_through_board),
     "lamp": (1, tube_lamp),
     "lattice": (1, lattice),

@@ -92,10 +92,8 @@ def _glb(scene: Scene, folder: Path) -> bytes:
             attributes["TEXCOORD_0"] = binary.add(_uv(part, scene.looks), "VEC2")
         if scene.looks == "colors":
             attributes["COLOR_0"] = binary.add(2 * np.abs(part.vertices).astype(np.float32), "VEC3")
-        primitive: dict[str, Any] = {
-            "attributes": attributes,
-            "indices": binary.add(part.faces.astype(np.uint32).ravel(), "SCALAR"),
-        }
+        index = binary.add(part.faces.astype(np.uint32).ravel(), "SCALAR")
+        primitive: dict[str, Any] = {"attributes": attributes, "indices": index}
         if scene.looks != "plain":
             primitive["material"] = 0
         nodes.append({"name": part.name, "mesh": len(meshes), "matrix": part.T.T.ravel().tolist()})
@@ -117,10 +115,8 @@ def _glb(scene: Scene, folder: Path) -> bytes:
     }
     text = json.dumps(tree).encode()
     text += b" " * (-len(text) % 4)
-    chunks = (
-        struct.pack("<I4s", len(text), b"JSON") + text + struct.pack("<I4s", len(binary.data), b"BIN\0") + bytes(binary.data)
-    )
-    return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
+    chunks = [struct.pack("<I4s", len(data), kind) + bytes(data) for data, kind in ((text, b"JSON"), (binary.data, b"BIN\0"))]
+    return struct.pack("<4sII", b"glTF", 2, 12 + sum(map(len, chunks))) + b"".join(chunks)
 
 
 def _obj(scene: Scene, folder: Path) -> bytes:

@@ -38,7 +38,7 @@ def scene_cases(first: int, count: int) -> Iterator[Case]:
 
 
 def mesh_cases(place: Path, work: Path, most: int | None) -> Iterator[Case]:
-    """Every mesh file of a folder or archive; `most`: that many of each of its folders, spread from the smallest to the largest."""
+    """Every mesh file of a folder or archive; at `most` that many of each subfolder, from the smallest to the largest."""
     folder = _unpacked(place, work) if place.is_file() else place
     found = sorted(p for p in folder.rglob("*") if p.is_file() and p.suffix.lower() in FORMATS)
     for number, path in enumerate(_spread(found, most)):
@@ -74,7 +74,7 @@ def set_cases(spec: str, work: Path) -> Iterator[Case]:
     for number, name in enumerate(source.objects()):
         folder = work / "sets" / source.name / name
         labels = folder / "labels.npy"
-        truth = source.load(name, folder)
+        truth = source.truth(name, folder)
         np.save(labels, truth.labels)
         for way in ("auto", str(labels)):
             told = "auto" if way == "auto" else "given"

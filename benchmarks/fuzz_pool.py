@@ -13,6 +13,7 @@ import sys
 import threading
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -36,8 +37,8 @@ class Worker:
         self._env = {**os.environ, "ANYMESH_CACHE": str(folder / "cache")}
         self._child: subprocess.Popen[bytes] | None = None
 
-    def run(self, case: Case, limit: float) -> Result:
-        """The result of a case, whatever becomes of the process."""
+    def run(self, case: Case, limit: float, stop: threading.Event) -> Result | None:
+        """The result of a case, whatever becomes of the process; None once `stop` is set."""
         child = self._child or self._start()
         assert child.stdin is not None
         assert child.stdout is not None
@@ -45,7 +46,7 @@ class Worker:
         child.stdin.write(json.dumps(case).encode() + b"\n")
         child.stdin.flush()
         found: Result | None = None
-        while found is None:
+        while found is None and not stop.is_set():
             seconds = time.monotonic() - begin
             if select.select([child.stdout], [], [], POLL)[0]:
                 line = child.stdout.readline()
@@ -54,6 +55,8 @@ class Worker:
                 found = self._stopped("over time limit", child, start)
             elif _resident(child.pid) > self._memory:
                 found = self._stopped("over memory limit", child, start)
+        if found is None:
+            return None
         found.setdefault("seconds", round(time.monotonic() - begin, 1))
         if self._child and _resident(child.pid) > RENEW:
             self.close()
@@ -111,23 +114,19 @@ def _resident(pid: int) -> int:
 
 
 def _kill(child: subprocess.Popen[bytes]) -> None:
-    try:
+    with suppress(ProcessLookupError):
         os.killpg(child.pid, signal.SIGKILL)
-    except ProcessLookupError:
-        pass
     child.wait()
     for stream in (child.stdin, child.stdout):
         if stream:
-            try:
+            with suppress(BrokenPipeError):
                 stream.close()
-            except BrokenPipeError:
-                pass
 
 
 def run_all(
     cases: list[Case], folder: Path, *, workers: int, limit: float, memory: int, done: Callable[[Case, Result], None]
 ) -> None:
-    """Runs cases in their order; `done` is called with each result, one at a time."""
+    """Runs cases in their order. limit: [s] for each; memory: [bytes]; `done` gets each result, one at a time."""
     waiting: queue.SimpleQueue[Case] = queue.SimpleQueue()
     for case in cases:
         waiting.put(case)
@@ -142,9 +141,10 @@ def run_all(
                     case = waiting.get_nowait()
                 except queue.Empty:
                     return
-                result = worker.run({**case, "work": str(place / "case")}, case.get("limit", limit))
-                with lock:
-                    done(case, result)
+                result = worker.run({**case, "work": str(place / "case")}, case.get("limit", limit), stop)
+                if result:
+                    with lock:
+                        done(case, result)
         finally:
             worker.close()
 

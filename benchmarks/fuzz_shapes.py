@@ -1,8 +1,9 @@
-"""Surfaces that hostile scenes are built from: closed, open, crossing, degenerate. Each is (vertices, faces), about unit size."""
+"""Surfaces that hostile scenes are built from: closed, open, crossing, degenerate; (vertices, faces) of about unit size."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from itertools import pairwise
 
 import numpy as np
 from jaxtyping import Float, Int
@@ -82,7 +83,7 @@ def ball(sections: int = 6, rings: int = 4) -> Surface:
 
 def path_tube(path: Float[np.ndarray, "n 3"], radius: float, sections: int = 6) -> Surface:
     """Open tubes along the legs of a path, one for each leg."""
-    return merged([_leg(a, b, radius, sections) for a, b in zip(path[:-1], path[1:], strict=True)])
+    return merged([_leg(a, b, radius, sections) for a, b in pairwise(path)])
 
 
 def _leg(a: np.ndarray, b: np.ndarray, radius: float, sections: int, *, caps: bool = False) -> Surface:
