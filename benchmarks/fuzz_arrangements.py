@@ -135,13 +135,14 @@ def single(rng: Rng) -> list[Part]:
 
 
 def bars_through_board(rng: Rng | None = None) -> list[Part]:
-    """Two-sided bars through a board: every face of a bar is there twice, once each way round."""
+    """Two-sided bars through a board: every face is there twice, once each way round. A thin one has no area."""
     rng = rng or np.random.default_rng(0)
     found = [part("board", box(), (1.0, 0.03, 0.5))]
     for k, x in enumerate(np.linspace(-0.4, 0.4, int(rng.integers(2, 7)))):
         vertices, faces = rod((x, -0.3, 0.05), (x, 0.3, 0.05), 0.012, 6)
         found.append(Part(f"bar_{k}", vertices, np.concatenate([faces, faces[:, ::-1]])))
     ends = [placed(tube(6, caps=True), (0.02, 0.02, 0.02), (x, -0.02, 0.2)) for x in (-0.45, 0.45)]
+    ends.append(rod((0, -0.02, 0.2), (0, 0.02, 0.2), 0.0, 6))
     return [*found, part("flap", box(), (0.9, 0.02, 0.3), (0, -0.03, 0.4)), Part("pins", *merged(ends))]
 
 
