@@ -1,7 +1,7 @@
 """Does every mesh end in an asset or in one of our errors? Generated scenes, fixtures and real files through all stages.
 
 python benchmarks/fuzz.py WORK --scenes 1000                   writes benchmarks/reports/fuzz.md; a stopped run is resumed
-python benchmarks/fuzz.py WORK --meshes FOLDER ... --most 4    mesh files of folders and archives, 4 of each subfolder
+python benchmarks/fuzz.py WORK --meshes FOLDER ... --most 99   mesh files of folders and archives, 99 of each
 python benchmarks/fuzz.py WORK --sets examples metaworld       objects of data sets as `anymesh eval` names them
 python benchmarks/fuzz.py WORK --only "scene 00012 auto"       one case again, with its result in full
 
@@ -30,7 +30,7 @@ def options() -> argparse.Namespace:
     parser.add_argument("--scenes", type=int, default=0, help="how many generated scenes, twice each: parts found and given")
     parser.add_argument("--first", type=int, default=0, help="seed of the first scene")
     parser.add_argument("--meshes", nargs="*", type=Path, default=[], help="folders or archives with mesh files")
-    parser.add_argument("--most", type=int, help="files of each folder, from the smallest to the largest; all by default")
+    parser.add_argument("--most", type=int, help="files of each place, spread from the smallest to the largest; all by default")
     parser.add_argument("--sets", nargs="*", default=[], help="data sets as `anymesh eval` names them")
     parser.add_argument("--only", nargs="*", default=[], help="cases by name, run again")
     parser.add_argument("--time-limit", type=float, default=120.0, help="[s] for one case")

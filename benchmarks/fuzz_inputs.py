@@ -31,14 +31,14 @@ def _cases(name: str, number: int, ways: Sequence[str], **source: object) -> Ite
 
 def scene_cases(first: int, count: int) -> Iterator[Case]:
     """Each scene with its parts found, and given as nodes or as face labels by turns; every fixture with nodes given, too."""
-    for name in FIXTURES if first == 0 else ():
+    for name in FIXTURES if count and first == 0 else ():
         yield from _cases(f"fixture: {name}", 2, ("auto", "nodes"), scene=name)
     for seed in range(first, first + count):
         yield from _cases(f"scene {seed:05d}", seed, ("auto", GIVEN[seed % 2]), scene=seed)
 
 
 def mesh_cases(place: Path, work: Path, most: int | None) -> Iterator[Case]:
-    """Every mesh file of a folder or archive; at `most` that many of each subfolder, from the smallest to the largest."""
+    """Every mesh file of a folder or archive; at most `most`, spread from the smallest to the largest."""
     folder = _unpacked(place, work) if place.is_file() else place
     found = sorted(p for p in folder.rglob("*") if p.is_file() and p.suffix.lower() in FORMATS)
     for number, path in enumerate(_spread(found, most)):
@@ -55,17 +55,10 @@ def _unpacked(archive: Path, work: Path) -> Path:
 
 
 def _spread(paths: list[Path], most: int | None) -> list[Path]:
-    if most is None:
+    if most is None or len(paths) <= most:
         return paths
-    folders: dict[Path, list[Path]] = {}
-    for path in paths:
-        folders.setdefault(path.parent, []).append(path)
-    found = []
-    for members in folders.values():
-        members.sort(key=lambda p: (p.stat().st_size, p.name))
-        places = np.unique(np.linspace(0, len(members) - 1, min(most, len(members))).round().astype(int))
-        found += [members[k] for k in places]
-    return found
+    order = sorted(paths, key=lambda p: (p.stat().st_size, p))
+    return [order[k] for k in np.linspace(0, len(order) - 1, most).round().astype(int)]
 
 
 def set_cases(spec: str, work: Path) -> Iterator[Case]:
