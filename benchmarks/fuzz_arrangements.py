@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
-from fuzz_shapes import Rng, Surface, any_shape, ball, box, fins, glyph, merged, path_tube, placed, rod, sheet, tube
+from fuzz_shapes import Rng, Surface, any_shape, ball, box, fins, glyph, merged, path_tube, placed, rod, sheet, tube, turned
 from jaxtyping import Float, Int
 
 
@@ -172,20 +172,16 @@ def chandelier(beads: int = 2000, sections: int = 6, rings: int = 5) -> list[Par
     return [Part("stem", *rod_), Part("arms", *merged(arms)), Part("beads", *merged(strings))]
 
 
-def carved_chair(segments: int = 40) -> list[Part]:
-    """An ordinary chair of 3,000 to 5,000 faces: turned legs, a lattice back, a seat with a soft rim; all of it one node."""
-    profile = 0.02 + 0.008 * np.sin(np.linspace(0, 6 * np.pi, segments + 1))
-    legs = []
-    for x, y in ((-0.2, -0.2), (0.2, -0.2), (-0.2, 0.2), (0.2, 0.2)):
-        vertices, faces = tube(12, rings=segments, caps=True)
-        level = np.rint((vertices[:, 2] + 0.5) * segments).astype(int)
-        vertices[:, :2] *= 2 * profile[level][:, None]
-        legs.append((vertices * (1, 1, 0.45) + (x, y, 0.225), faces))
-    seat = placed(ball(16, 10), (0.5, 0.5, 0.06), (0, 0, 0.47))
-    bars = [rod((x, 0.22, 0.45), (x, 0.24, 0.9), 0.008) for x in np.linspace(-0.2, 0.2, 9)]
-    rail = path_tube(np.array([[x, 0.24, 0.9 + 0.1 * np.cos(4 * x)] for x in np.linspace(-0.22, 0.22, 12)]), 0.012, 10)
-    vertices, faces = merged([*legs, seat, *bars, rail])
-    return [Part("chair", vertices[:, [0, 2, 1]] * (1, 1, -1), faces)]
+def _seat_on(legs: Surface) -> list[Part]:
+    """A stool: a seat on two legs [m, Y up]."""
+    seat = placed(ball(16, 8), (0.5, 0.06, 0.5), (0, 0.63, 0))
+    upright = [(legs[0][:, [0, 2, 1]] * (1, 1, -1) + (x, 0.3, 0), legs[1]) for x in (-0.15, 0.15)]
+    return [Part("stool", *merged([seat, *upright]))]
+
+
+def turned_legs() -> list[Part]:
+    """A stool of closed, ordinary parts on whose legs CoACD 1.0.14 crashes: fluted posts whose waists just cross themselves."""
+    return _seat_on(placed(turned(19, 53, waves=4, lobes=4, depth=0.06), (0.5, 0.4, 0.6)))
 
 
 def lattice(rng: Rng) -> list[Part]:
@@ -211,6 +207,6 @@ ARRANGEMENTS: dict[str, tuple[float, Callable[[Rng], list[Part]]]] = {  # how of
 FIXTURES: dict[str, Callable[[], list[Part]]] = {
     "bars through a board": bars_through_board,
     "chandelier": chandelier,
-    "carved chair": carved_chair,
+    "turned legs": turned_legs,
     "lamp of thin tubes": tube_lamp,
 }

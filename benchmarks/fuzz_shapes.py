@@ -81,6 +81,15 @@ def ball(sections: int = 6, rings: int = 4) -> Surface:
     return np.c_[vertices[:, :2] * radius, -0.5 * np.cos(angle)], faces
 
 
+def turned(sections: int, rings: int, *, waves: int, lobes: int, depth: float) -> Surface:
+    """A closed turned post along z: its radius swells `waves` times along it and `lobes` times round it, by `depth`."""
+    vertices, faces = tube(sections, caps=True, rings=rings)
+    level = np.rint((vertices[:, 2] + 0.5) * rings) / rings
+    radius = 0.15 + 0.1 * np.sin(2 * np.pi * waves * level)
+    radius += depth * np.sin(lobes * np.arctan2(vertices[:, 1], vertices[:, 0]))
+    return np.c_[vertices[:, :2] * 2 * radius[:, None], vertices[:, 2]], faces
+
+
 def path_tube(path: Float[np.ndarray, "n 3"], radius: float, sections: int = 6) -> Surface:
     """Open tubes along the legs of a path, one for each leg."""
     return merged([_leg(a, b, radius, sections) for a, b in pairwise(path)])

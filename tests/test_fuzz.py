@@ -17,7 +17,7 @@ from fuzz_arrangements import chandelier  # noqa: E402
 from fuzz_files import write_scene  # noqa: E402
 from fuzz_inputs import scene_cases  # noqa: E402
 from fuzz_report import report  # noqa: E402
-from fuzz_scenes import FIXTURES, Scene, fixture, scene  # noqa: E402
+from fuzz_scenes import Scene, fixture, scene  # noqa: E402
 
 from anymesh.errors import InputError  # noqa: E402
 from anymesh.geometry.topology import components  # noqa: E402
@@ -49,8 +49,8 @@ def worker(tmp_path_factory: pytest.TempPathFactory) -> Iterator[fuzz_pool.Worke
     made.close()
 
 
-def run(worker: fuzz_pool.Worker, folder: Path, **case: object) -> fuzz_pool.Result:
-    found = worker.run({"work": str(folder / "case"), **case}, LIMIT, threading.Event())
+def run(worker: fuzz_pool.Worker, folder: Path, limit: float = LIMIT, **case: object) -> fuzz_pool.Result:
+    found = worker.run({"work": str(folder / "case"), **case}, limit, threading.Event())
     assert found is not None
     return found
 
@@ -68,9 +68,13 @@ def test_scenes_of_fixed_seeds_end_in_an_asset_or_an_error_of_ours(worker: fuzz_
     assert tried
 
 
-@pytest.mark.parametrize("name", sorted(set(FIXTURES) - {"chandelier"}))
+NATIVE = pytest.mark.xfail(reason="CoACD crashes in the process that calls it", strict=True)
+SMALL = ["bars through a board", "lamp of thin tubes", pytest.param("turned legs", marks=NATIVE)]
+
+
+@pytest.mark.parametrize("name", SMALL)
 def test_a_known_class_of_failure_ends_in_an_asset(name: str, worker: fuzz_pool.Worker, tmp_path: Path) -> None:
-    found = run(worker, tmp_path, scene=name, parts="nodes", finish=False)
+    found = run(worker, tmp_path, scene=name, parts="nodes", finish=False, limit=60.0)
     assert found["outcome"] == "asset", found
 
 
@@ -83,8 +87,10 @@ def test_hundreds_of_small_components_end_in_an_asset(worker: fuzz_pool.Worker, 
 def test_fixtures_have_the_properties_that_they_are_named_for(tmp_path: Path) -> None:
     lamp = load_mesh(write_scene(fixture("lamp of thin tubes"), tmp_path)).mesh
     assert not components(lamp.vertices, lamp.faces).solid.all()
-    chair = load_mesh(write_scene(fixture("carved chair"), tmp_path)).mesh
-    assert 3000 < len(chair.faces) < 5000
+    stool = load_mesh(write_scene(fixture("turned legs"), tmp_path)).mesh
+    assert 3000 < len(stool.faces) < 5500
+    found = components(stool.vertices, stool.faces)
+    assert found.solid[found.label[-1]]  # of a leg: what is open is not CoACD's
     beads = load_mesh(write_scene(fixture("chandelier"), tmp_path)).mesh
     assert len(beads.faces) > 100_000
     assert components(beads.vertices, beads.faces).count >= 2000
