@@ -8,6 +8,7 @@ from rigid import apply, move, shape_of
 
 from anymesh.config import ArticulationConfig
 from anymesh.geometry.pieces import object_shape
+from anymesh.geometry.sampling import sample_surface
 from anymesh.geometry.surroundings import Surroundings, core_box, rods
 
 BASE, DOOR, DRAWER = CABINET["base"], CABINET["door"], CABINET["drawer"]
@@ -134,3 +135,19 @@ def test_a_face_that_bulges_has_no_grip_and_a_grip_on_it_is_found():
     found = surroundings([hull, grip], [body], np.eye(4)).handle
     assert found is not None
     assert max(abs(a) for a in found.across) > 0.5
+
+
+def test_a_bar_without_area_is_no_error():
+    board, block = box((-0.5, -0.5, -0.05), (0.5, 0.5, 0)), box((-0.1, -0.1, 0), (0.1, 0.1, 0.1))
+    line = box((0.2, 0.2, -0.04), (0.2, 0.2, 0.06))
+    mesh, number = mesh_of([board, block, line])
+    whole = object_shape(mesh)
+    part, parent = whole.of(np.flatnonzero(number[whole.source] > 0)), whole.of(np.flatnonzero(number[whole.source] == 0))
+    assert isinstance(rods(whole, part, parent), tuple)
+
+
+def test_samples_of_a_surface_without_area_lie_on_it():
+    points = sample_surface(np.array([[[0.0, 0, 0], [0, 0, 1], [0, 0, 2]]]), 50, 0).points
+    assert len(points) == 50
+    assert (points[:, :2] == 0).all()
+    assert len(sample_surface(np.zeros((0, 3, 3)), 50, 0)) == 0

@@ -79,3 +79,21 @@ def test_gltf_interleaved_and_sparse_positions(tmp_path) -> None:
     np.testing.assert_allclose(load_mesh(put(tmp_path, "sparse.glb", g.glb())).mesh.triangles, POINTS[FACES])
     del g.doc["accessors"][0]["sparse"]
     np.testing.assert_allclose(load_mesh(put(tmp_path, "strided.glb", g.glb())).mesh.triangles, (POINTS - LOW)[FACES])
+
+
+def test_a_primitive_without_triangles_is_left_out_with_a_warning(tmp_path) -> None:
+    g = Gltf()
+    g.node(mesh=g.mesh(g.solid(FACES)))
+    g.node(mesh=g.mesh({**g.solid(FACES[:0]), "mode": 4}))
+    loaded = load_mesh(put(tmp_path, "some.glb", g.glb()))
+    assert len(loaded.mesh.faces) == len(FACES)
+    assert any("without triangles" in w for w in loaded.warnings)
+
+
+def test_a_node_that_flattens_its_mesh(tmp_path) -> None:
+    g = Gltf()
+    g.node(mesh=g.mesh(g.solid(NORMAL=g.array(POINTS - 0.1))), scale=[1, 0, 1])
+    mesh = load_mesh(put(tmp_path, "flat.glb", g.glb())).mesh
+    assert mesh.extents[1] == 0
+    assert mesh.corner_normal is not None
+    assert np.abs(mesh.corner_normal[..., [0, 2]]).max() == 0

@@ -41,6 +41,7 @@ class ContactBench:
         for link, some in shapes.items():
             body = spec.worldbody.add_body(name=link)
             body.add_freejoint()  # MuJoCo does not look at pairs of bodies that cannot move
+            body.mass, body.inertia, body.explicitinertial = 1.0, np.ones(3), True  # of no effect here; shapes may be too small
             for number, shape in enumerate(some):
                 _add(mujoco, spec, body, f"{link} {number}", shape)
                 self._owner.append((link, number))

@@ -8,6 +8,7 @@ from typing import Any, assert_never
 
 import numpy as np
 
+from anymesh.collision.convex import volume
 from anymesh.errors import OutputError
 from anymesh.export.drives import Drive, drives
 from anymesh.export.meshes import material_names
@@ -20,6 +21,7 @@ from anymesh.mujoco_ import load_mujoco
 from anymesh.types import Box, Cylinder, Hull, Joint, JointType, Mesh, Shape
 
 VISUAL, COLLISION = "visual", "collision"
+LEAST_VOLUME = 1e-12  # [m^3] a mesh of less is refused unless its inertia, which no body takes, is that of a shell
 DRIVES = 1  # the actuators' group: `actuatorgroupdisable="1"` makes the asset passive
 
 
@@ -149,6 +151,8 @@ def _shape(mujoco: Any, spec: Any, geom: Any, shape: Shape, path: str | None) ->
             geom.type, geom.size = mujoco.mjtGeom.mjGEOM_CYLINDER, [shape.radius, shape.length / 2, 0]
         case Hull():
             mesh = spec.add_mesh(name=geom.name, file=path)
+            if volume(shape) < LEAST_VOLUME:
+                mesh.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL
             geom.type, geom.meshname = mujoco.mjtGeom.mjGEOM_MESH, mesh.name
         case _:
             assert_never(shape)

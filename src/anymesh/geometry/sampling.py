@@ -36,16 +36,14 @@ def spread_directions(count: int) -> Float[np.ndarray, "n 3"]:
 def sample_surface(triangles: Float[np.ndarray, "F 3 3"], count: int, seed: int, at_least: int = 0) -> SurfacePoints:
     """`count` points, as many on a face as its area asks for (systematic sampling: even, and stable for a seed).
 
-    `at_least` = 1 adds the centroid of every face that got none, so that small faces are seen too.
+    Where no face has an area, all count the same. `at_least` = 1 adds the centroid of every face that got none, so that
+    small faces are seen too.
     """
     normals, areas = normals_and_areas(triangles)
     rng = np.random.default_rng(seed)
-    total = areas.sum()
-    if total <= 0:
-        index = np.zeros(0, np.int64)
-    else:
-        ticks = (np.arange(count) + rng.random()) / count * total
-        index = np.minimum(np.searchsorted(np.cumsum(areas), ticks), len(areas) - 1)
+    weights = areas if (areas > 0).any() else np.ones(len(areas))
+    ticks = (np.arange(count if len(areas) else 0) + rng.random()) / count * weights.sum()
+    index = np.minimum(np.searchsorted(np.cumsum(weights), ticks), len(areas) - 1)
     r1, r2 = np.sqrt(rng.random(len(index))), rng.random(len(index))
     t = triangles[index]
     points = (1 - r1)[:, None] * t[:, 0] + (r1 * (1 - r2))[:, None] * t[:, 1] + (r1 * r2)[:, None] * t[:, 2]

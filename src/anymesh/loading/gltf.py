@@ -38,7 +38,7 @@ def read_gltf(data: bytes, folder: Folder) -> Mesh:
         if number is None:
             continue
         if number not in meshes:
-            meshes[number] = _mesh(f"{name}, mesh {labels[number]!r}", tree["meshes"][number], buffers, looks)
+            meshes[number] = _mesh(folder, f"mesh {labels[number]!r}", tree["meshes"][number], buffers, looks)
         mesh = meshes[number]
         if mesh is None:
             continue
@@ -95,9 +95,13 @@ def _local(node: dict[str, Any]) -> np.ndarray:
     return T
 
 
-def _mesh(where: str, mesh: dict[str, Any], buffers: Buffers, looks: list[Look]) -> Mesh | None:
+def _mesh(folder: Folder, label: str, mesh: dict[str, Any], buffers: Buffers, looks: list[Look]) -> Mesh | None:
     """The triangles of a mesh's primitives, one node; None without any."""
-    found = [_primitive(where, p, buffers, looks) for p in mesh["primitives"] if p.get("mode", TRIANGLES) not in LEFT_OUT]
+    where = f"{folder.path.name}, {label}"
+    primitives = [p for p in mesh["primitives"] if p.get("mode", TRIANGLES) not in LEFT_OUT]
+    found = [made for p in primitives if (made := _primitive(where, p, buffers, looks)) is not None]
+    if len(found) < len(primitives):
+        folder.warn(f"{label} has a primitive without triangles, which is left out")
     if not found:
         return None
     joined = join(found)
@@ -111,13 +115,16 @@ def _display(color: np.ndarray) -> np.ndarray:
     return np.c_[to_srgb(values[:, :3]), values[:, 3:]]
 
 
-def _primitive(where: str, p: dict[str, Any], buffers: Buffers, looks: list[Look]) -> Mesh:
+def _primitive(where: str, p: dict[str, Any], buffers: Buffers, looks: list[Look]) -> Mesh | None:
+    """The triangles of a primitive; None without any."""
     attributes = p["attributes"]
     if "POSITION" not in attributes:
         raise InputError(f"{where}: found a primitive without positions, which triangles need")
     vertices = buffers.array(attributes["POSITION"])
     index = buffers.array(p["indices"])[:, 0].astype(np.int64) if "indices" in p else np.arange(len(vertices))
     faces = _faces(where, p.get("mode", TRIANGLES), index)
+    if not len(faces):
+        return None
     look = looks[p["material"]] if "material" in p else None
 
     def corners(key: str) -> np.ndarray | None:

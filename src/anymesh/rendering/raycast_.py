@@ -76,9 +76,7 @@ class RayScene:
         self._scene = EmbreeScene(_device())
         inside = self.to_unit(vertices)
         self._mesh = TriangleMesh(self._scene, inside, np.ascontiguousarray(faces, np.int32))
-        self.first_hit_unit(
-            np.zeros((1, 3), np.float32), np.ones((1, 3), np.float32)
-        )  # builds the tree before threads cast rays
+        self.first_hit_unit(np.zeros((1, 3), np.float32), np.ones((1, 3), np.float32))
 
     def first_hit(
         self,

@@ -143,7 +143,7 @@ def coplanar(contacts: Contacts, whole: ObjectShape, tolerance: float) -> list[t
         if max(a.half[2] / max(a.half[1], 1e-12), b.half[2] / max(b.half[1], 1e-12)) > 0.5:
             continue
         level = abs(float((a.center - b.center) @ a.axes[2]))
-        if min(a.half[1] / max(a.half[0], 1e-12), b.half[1] / max(b.half[0], 1e-12)) > LEAF and alike(a, b):
+        if min(s.half[1] / max(s.half[0], 1e-12) for s in (a, b)) > LEAF and alike(a, b):
             continue  # two leaves of a window
         if abs(float(a.axes[2] @ b.axes[2])) > 0.9995 and level < tolerance and abs(a.half[2] - b.half[2]) < tolerance:
             found.append((int(i), int(j)))

@@ -57,6 +57,12 @@ def _check_range(name: str, numbers: np.ndarray, low: int, end: int) -> None:
         raise ValueError(f"{name} must lie in {low}..{end - 1}, found {least if least < low else most}")
 
 
+def _cofactors(linear: np.ndarray) -> np.ndarray:
+    """The matrix that normals turn by, up to a factor; a transform that flattens the mesh has one too."""
+    x, y, z = linear.T
+    return np.stack([np.cross(y, z), np.cross(z, x), np.cross(x, y)], 1)
+
+
 @dataclass(frozen=True, eq=False)
 class Mesh:
     """Triangles of the whole object in one frame, with the node and material of every face.
@@ -140,7 +146,7 @@ class Mesh:
 
         normal = corners(self.corner_normal)
         if normal is not None:
-            normal = normal.astype(np.float64) @ np.linalg.inv(linear)
+            normal = normal.astype(np.float64) @ _cofactors(linear).T * (-1.0 if mirrored else 1.0)
             length = np.linalg.norm(normal, axis=2, keepdims=True)
             normal = np.divide(normal, length, out=np.zeros_like(normal), where=length > 0).astype(np.float32)
         return replace(
