@@ -8,9 +8,8 @@ import numpy as np
 
 from anymesh.articulation.hold import kept, lever, support
 from anymesh.articulation.leaves import meeting_sides, outer_side, pair_side, passes
-from anymesh.geometry.distance_ import distance_to_triangles
 from anymesh.geometry.surroundings import CARVED, Surroundings
-from anymesh.geometry.sweep import free_amount, sweep
+from anymesh.geometry.sweep import free_amounts, sweep_all
 from anymesh.reasoning.questions import Candidate, PartFacts
 from anymesh.types import Motion, MotionKind, Sweep
 
@@ -89,7 +88,7 @@ def _marked(around: Surroundings) -> float:
     for turn in np.deg2rad(TURNS):
         T = Motion(MotionKind.TURN, outline.axis, outline.center, "").transform(turn)
         turned = points @ T[:3, :3].T + T[:3, 3]
-        off = max(off, float(np.percentile(distance_to_triangles(turned, around.part.triangles), 99)))
+        off = max(off, float(np.percentile(around.part.tree.distance(turned), 99)))
     return off / max(outline.radius, 1e-9)
 
 
@@ -113,32 +112,41 @@ def weigh_all(around: Surroundings, proposed: list[tuple[str, Motion]]) -> tuple
     Part and rest may be stuck in each other at rest, as artists leave them: hinges that are blocked are swept again with more
     penetration allowed, and at last as if the rest made room for the part.
     """
-    along = iter(support(around, [m for _, m in proposed if m.kind is MotionKind.TURN]))
-    meeting = meeting_sides(around)
-    found = []
-    for role, motion in proposed:
-        if motion.kind is MotionKind.TURN:
-            found.append(_loosened(around, _turn(around, role, motion, next(along), meeting)))
-        else:
-            found.append(_slide(around, role, motion))
+    motions, steps = [m for _, m in proposed], around.config.sweep_steps
+    turns = [m for m in motions if m.kind is MotionKind.TURN]
+    along, meeting = iter(support(around, turns)), meeting_sides(around)
+    inward = [m.kind is MotionKind.SLIDE and abs(float(m.axis @ around.outward)) <= OUTWARDS for m in motions]
+    swept: dict[int, Sweep] = {}
+    for obstacles, wanted in ((around.obstacles(), False), (around.held_by, True)):
+        chosen = [k for k, x in enumerate(inward) if x is wanted]
+        swept.update(zip(chosen, sweep_all(obstacles, [motions[k] for k in chosen], steps), strict=True))
+    held = iter(_held(around, [m for m in motions if m.kind is MotionKind.SLIDE]))
+    found = [
+        _turn(around, role, motion, swept[k], next(along), meeting)
+        if motion.kind is MotionKind.TURN
+        else _slide(around, role, motion, swept[k], next(held))
+        for k, (role, motion) in enumerate(proposed)
+    ]
+    found = _loosened(around, found)
     shares = kept(around, [c.motion for c in found], [c.opens for c in found])
     return tuple(replace(c, kept=float(share)) for c, share in zip(found, shares, strict=True))
 
 
-def _loosened(around: Surroundings, c: Candidate) -> Candidate:
-    """A hinge that would let the part out but for what holds it, with as little of the hold ignored as sets it free."""
-    if c.role not in RIMS or c.outward < OUTWARDS or c.opening > STUCK:
-        return c
+def _loosened(around: Surroundings, found: list[Candidate]) -> list[Candidate]:
+    """Hinges that would let the part out but for what holds it, with as little of the hold ignored as sets each free."""
+    found = list(found)
+    stuck = [k for k, c in enumerate(found) if c.role in RIMS and c.outward >= OUTWARDS and c.opening <= STUCK]
     for slack in SLACKS:
-        swept = sweep(around.obstacles(slack), c.motion, steps=around.config.sweep_steps)
-        opening, closing = (swept.forward, swept.backward)[:: c.opens]
-        if opening > STUCK:
-            return replace(c, sweep=swept, opening=opening, closing=closing, slack=slack)
-    return c
+        swept = sweep_all(around.obstacles(slack), [found[k].motion for k in stuck], around.config.sweep_steps) if stuck else []
+        for k, free in zip(list(stuck), swept, strict=True):
+            opening, closing = (free.forward, free.backward)[:: found[k].opens]
+            if opening > STUCK:
+                found[k] = replace(found[k], sweep=free, opening=opening, closing=closing, slack=slack)
+                stuck.remove(k)
+    return found
 
 
-def _turn(around: Surroundings, role: str, motion: Motion, near: np.ndarray, meeting: np.ndarray) -> Candidate:
-    swept = sweep(around.obstacles(), motion, steps=around.config.sweep_steps)
+def _turn(around: Surroundings, role: str, motion: Motion, swept: Sweep, near: np.ndarray, meeting: np.ndarray) -> Candidate:
     moves = np.cross(motion.axis, around.part.samples.points.mean(0) - motion.origin)
     outward = float(moves @ around.outward)
     across = float(np.linalg.norm(moves))
@@ -170,21 +178,27 @@ def _turn(around: Surroundings, role: str, motion: Motion, near: np.ndarray, mee
     )  # fmt: skip
 
 
-def _slide(around: Surroundings, role: str, motion: Motion) -> Candidate:
-    outward = abs(float(motion.axis @ around.outward)) > 0.5
-    swept = sweep(around.obstacles() if outward else around.held_by, motion, steps=around.config.sweep_steps)
+def _sides(around: Surroundings, motion: Motion) -> np.ndarray:
+    """(2, 3) Directions across a slide, along the part's box as far as they are square to it; unit."""
+    flat = sorted(around.core.axes, key=lambda a: abs(float(a @ motion.axis)))[:2]
+    side = np.array([a - (a @ motion.axis) * motion.axis for a in flat])
+    return side / np.linalg.norm(side, axis=1, keepdims=True)
+
+
+def _held(around: Surroundings, slides: list[Motion]) -> list[float]:
+    """The share of the four directions across each slide in which the part is stopped at once."""
+    sideways = [Motion(MotionKind.SLIDE, d, m.origin, "sideways") for m in slides for d in _sides(around, m)]
+    step = [HELD * around.scale] * (2 * len(sideways))
+    signs = [1] * len(sideways) + [-1] * len(sideways)
+    free = free_amounts(around.held_by, sideways + sideways, signs, step, 3) if slides else []
+    stopped = np.array([not clear for _, clear in free], bool).reshape(2, len(slides), 2)
+    return [float(share) for share in stopped.mean((0, 2))]
+
+
+def _slide(around: Surroundings, role: str, motion: Motion, swept: Sweep, held: float) -> Candidate:
     toward = float(motion.axis @ around.outward)
     opens = _opening_sign(toward, swept.forward, swept.backward, 0.0)
-    side = np.linalg.svd(motion.axis[None])[2][1:]
-    core = around.core.axes
-    flat = sorted(core, key=lambda a: abs(float(a @ motion.axis)))[:2]
-    side = np.array([a - (a @ motion.axis) * motion.axis for a in flat]) if len(flat) == 2 else side
-    side /= np.linalg.norm(side, axis=1, keepdims=True)
-    step = HELD * around.scale
-    held = 0
-    for direction in side:
-        sideways = Motion(MotionKind.SLIDE, direction, motion.origin, "sideways")
-        held += sum(not free_amount(around.held_by, sideways, sign, step, 3)[1] for sign in (1, -1))
+    side = _sides(around, motion)
     inner = around.inside_depth(motion.axis * opens)
     across = sorted(np.ptp(around.part.corners @ d) for d in side)[0]
     forward, backward = swept.forward / around.scale, swept.backward / around.scale
@@ -194,7 +208,7 @@ def _slide(around: Surroundings, role: str, motion: Motion) -> Candidate:
         support=0.0,
         sibling=0.0,
         handle_side=0.0,
-        guided=held / 4,
+        guided=held,
         depth=float(inner / max(across, 1e-9)),
         vertical=float(abs(motion.axis[2])),
         above=0.0,

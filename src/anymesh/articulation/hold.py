@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from anymesh.geometry.distance_ import distance_to_triangles
 from anymesh.geometry.surroundings import Surroundings
 from anymesh.types import Motion, MotionKind
 
@@ -30,7 +29,7 @@ def kept(around: Surroundings, motions: list[Motion], signs: list[int]) -> np.nd
         amount = TURN if motion.kind is MotionKind.TURN else TRAVEL * extent
         T = motion.transform(sign * amount)
         moved.append(contact @ T[:3, :3].T + T[:3, 3])
-    off = distance_to_triangles(np.concatenate(moved), around.parent.triangles)
+    off = around.parent.tree.distance(np.concatenate(moved))
     return (off.reshape(len(motions), -1) < NEAR * tolerance).mean(1)
 
 
@@ -48,10 +47,10 @@ def support(around: Surroundings, motions: list[Motion]) -> np.ndarray:
         lines += [line, line + 2 * (arm - (arm @ motion.axis) * motion.axis)]
     probe = np.concatenate(lines)
     reach = around.config.support * around.scale
-    parent = (distance_to_triangles(probe, around.parent.triangles) < reach).reshape(len(motions), 2, LINE_POINTS).mean(2)
+    parent = (around.parent.tree.distance(probe) < reach).reshape(len(motions), 2, LINE_POINTS).mean(2)
     other = np.zeros(len(motions))
     if around.others is not None:
-        near = distance_to_triangles(probe, around.others.triangles) < reach
+        near = around.others.tree.distance(probe) < reach
         other = near.reshape(len(motions), 2, LINE_POINTS).mean(2)[:, 0]
     return np.stack([parent[:, 0], other, parent[:, 1]], 1)
 

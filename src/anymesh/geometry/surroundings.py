@@ -13,7 +13,6 @@ from anymesh.config import ArticulationConfig
 from anymesh.geometry.boxes import Box, box_in_frame
 from anymesh.geometry.circles import Outline, roundest
 from anymesh.geometry.contact import connecting_area
-from anymesh.geometry.distance_ import distance_to_triangles
 from anymesh.geometry.pieces import ObjectShape
 from anymesh.geometry.shape import Shape
 from anymesh.geometry.sweep import Obstacles
@@ -143,7 +142,7 @@ class Surroundings:
     @cached_property
     def gap(self) -> Float[np.ndarray, " n"]:
         """Distance of each sample of the part to the parent [m]."""
-        return distance_to_triangles(self.part.samples.points, self.parent.triangles)
+        return self.parent.tree.distance(self.part.samples.points)
 
     @cached_property
     def contact(self) -> Float[np.ndarray, "n 3"]:
@@ -152,7 +151,7 @@ class Surroundings:
         Measured to the other's surface rather than to its samples: on a large parent these may all lie apart from a small part.
         """
         theirs = self.parent.samples.points
-        off = distance_to_triangles(theirs, self.part.triangles)
+        off = self.part.tree.distance(theirs)
         near, far, _ = connecting_area(self.gap, off, self.config.connecting * max(self.scale, 1e-3 * self.diagonal))
         return np.concatenate([self.part.samples.points[near], theirs[far]])
 
@@ -261,7 +260,7 @@ class Surroundings:
             float(size.max() / self.core.diagonal),
         )
 
-    @property
+    @cached_property
     def face_axes(self) -> list[int]:
         """The two core axes that span the part's outer face, in the order that Handle.across uses."""
         k = int(np.abs(self.core.axes @ self.outward).argmax())
@@ -284,6 +283,6 @@ def rods(whole: ObjectShape, part: Shape, parent: Shape) -> tuple[Shape, ...]:
             half = mine.box.half
             if 2 * half[0] > 1.1 * diagonal or half[1] > 0.05 * diagonal or half[2] < 0.7 * half[1] or half[0] < 1.5 * half[1]:
                 continue
-            if distance_to_triangles(mine.samples.points[::10], other.triangles).min() < reach:
+            if other.tree.distance(mine.samples.points[::10]).min() < reach:
                 found.append(mine)
     return tuple(found)

@@ -8,7 +8,9 @@ and cast as rays, so open shells, thin boards and bad winding count like solids;
 from __future__ import annotations
 
 import itertools
+import os
 from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -20,6 +22,7 @@ from anymesh.geometry.shape import Shape
 from anymesh.types import Motion, MotionKind, Sweep
 
 CHUNKS = (3, 6, 9, 18)  # steps cast at a time; the last size repeats. Most blocked motions are blocked early
+AT_ONCE = 8  # motions swept together; more do not fit into a core's cache
 LOOK_AHEAD = 2  # further steps that tell whether a point goes on behind what it struck
 SHARE_STOPPED = 0.006  # of the points; fewer may be stopped by flaws of the mesh
 ONWARD = np.float32(1e-4)  # share of a segment that the second pass begins behind the first hit
@@ -54,6 +57,26 @@ class Obstacles:
         points = np.concatenate(found) if found else np.zeros((0, 3))
         return points[~self.carved(points)]
 
+    def prepare(self) -> None:
+        """Compute what is kept, so that threads find it."""
+        _ = self.part_points, self.rest_points, self.part.scene
+        if len(self.rest.triangles):
+            _ = self.rest.scene
+
+    def passages(
+        self, motions: Sequence[Motion], signed: Float[np.ndarray, "T k"], amounts: Float[np.ndarray, "T k"]
+    ) -> list[_Passage]:
+        """The part's points past the rest, and the rest's points, moved the other way, past the part."""
+        there = np.array([m.transforms(a) for m, a in zip(motions, signed, strict=True)])
+        back = np.array([m.transforms(-a) for m, a in zip(motions, signed, strict=True)])
+        gone = None if self.hole is None else self.carved
+        ways = (self.part_points, there, self.rest, gone), (self.rest_points, back, self.part, None)
+        return [
+            _Passage.of(points, poses, amounts, target, self.tolerance, hole)
+            for points, poses, target, hole in ways
+            if len(points) and len(target.triangles)
+        ]
+
     def carved(self, points: Float[np.ndarray, "n 3"]) -> Bool[np.ndarray, " n"]:
         """Which points of the rest lie in the hole."""
         if self.hole is None:
@@ -74,14 +97,15 @@ def _spread(shape: Shape, count: int) -> np.ndarray:
 
 @dataclass(frozen=True, eq=False)
 class _Passage:
-    """Points that move past a target, in the unit frame of the target's ray scene.
+    """Points that move past a target along T motions, in the unit frame of the target's ray scene.
 
-    points: homogeneous; poses: rigid transforms of the points at every step; gone: tells where the target does not count,
-    in the asset frame.
+    points: homogeneous; poses: rigid transforms of the points at each of k steps; amounts: of the motions at these steps;
+    gone: tells where the target does not count, in the asset frame.
     """
 
     points: Float32[np.ndarray, "4 n"]
-    poses: Float32[np.ndarray, "3 k 4"]
+    poses: Float32[np.ndarray, "3 T k 4"]
+    amounts: Float[np.ndarray, "T k"]
     target: Shape
     tolerance: float
     gone: Callable[[np.ndarray], np.ndarray] | None
@@ -90,56 +114,65 @@ class _Passage:
     def of(
         cls,
         points: Float[np.ndarray, "n 3"],
-        poses: Float[np.ndarray, "k 4 4"],
+        poses: Float[np.ndarray, "T k 4 4"],
+        amounts: Float[np.ndarray, "T k"],
         target: Shape,
         tolerance: float,
         gone: Callable[[np.ndarray], np.ndarray] | None,
     ) -> _Passage:
         """From points and transforms in the asset frame [m]."""
         scene = target.scene
-        unit = poses[:, :3].copy()
-        unit[:, :, 3] = (poses[:, :3, :3] @ scene.center + poses[:, :3, 3] - scene.center) * scene.scale
+        unit = poses[:, :, :3].copy()
+        unit[..., 3] = (poses[:, :, :3, :3] @ scene.center + poses[:, :, :3, 3] - scene.center) * scene.scale
         homogeneous = np.concatenate([scene.to_unit(points).T, np.ones((1, len(points)), np.float32)])
-        return cls(homogeneous, unit.astype(np.float32).transpose(1, 0, 2), target, tolerance * scene.scale, gone)
+        placed = unit.astype(np.float32).transpose(2, 0, 1, 3)
+        return cls(homogeneous, placed, amounts, target, tolerance * scene.scale, gone)
 
     def stops(
-        self, index: Int[np.ndarray, " m"], begin: int, end: int, amounts: Float[np.ndarray, " k"]
-    ) -> Float[np.ndarray, " m"]:
-        """The amount at which each of some points is stopped between two steps, inf where it is not."""
-        poses = self.poses[:, begin : end + LOOK_AHEAD + 1]
-        n, steps = len(index), end - begin
-        path = (poses.reshape(-1, 4) @ self.points[:, index]).reshape(3, -1)  # column k * n + i: point i at step k
-        stop = np.full(steps * n, np.inf)
-        live = self._near(path, steps * n, n)
+        self, motions: Int[np.ndarray, " t"], passing: Bool[np.ndarray, "t n"], begin: int, end: int
+    ) -> Float[np.ndarray, "t n"]:
+        """The amount at which each point is stopped between two steps of some motions, inf where it is not. Points that are
+        not passing are left out."""
+        poses = np.ascontiguousarray(self.poses[:, motions, begin : end + LOOK_AHEAD + 1])
+        (count, known), n, steps = poses.shape[1:3], self.points.shape[1], end - begin
+        path = (poses.reshape(-1, 4) @ self.points).reshape(3, count, known, n)
+        t, k, i = self._near(path, passing, steps)
+        path = path.reshape(3, -1)  # column (t * known + k) * n + i: point i at step k of motion t
+        live = (t * known + k) * n + i
+        ends = (t * known + known - 1) * n + i  # the last step that is known
         start = _rows(path, live)
         span = _rows(path, live + n) - start
         done = np.zeros(len(live), np.float32)  # share of each segment that has been looked at
+        stop = np.full((count, n), np.inf)
         for _ in range(2):  # the second pass looks behind surfaces that were only left
             if len(live) == 0:
                 break
             hits = self.target.scene.first_hit_unit(start + span * done[:, None], span * (1 - done)[:, None])
             struck = np.flatnonzero(hits.face >= 0)
-            start, span, live, done = start[struck], span[struck], live[struck], done[struck]
+            start, span, live, ends, done = start[struck], span[struck], live[struck], ends[struck], done[struck]
             where = done + (1 - done) * hits.distance[struck]
-            last = path.shape[1] - n + live % n  # the point at the last step that is known
-            ahead = [_rows(path, np.minimum(live + a * n, last)) for a in range(1, LOOK_AHEAD + 2)]
+            ahead = [_rows(path, np.minimum(live + a * n, ends)) for a in range(1, LOOK_AHEAD + 2)]
             counts = self._counts(ahead, start, span, done, where, hits.face[struck])
-            k = begin + live[counts] // n
-            stop[live[counts]] = amounts[k] + where[counts] * (amounts[k + 1] - amounts[k])
-            start, span, live = start[~counts], span[~counts], live[~counts]
+            t, k, i = np.unravel_index(live[counts], (count, known, n))
+            amounts = self.amounts[motions[t], begin + k]
+            met = amounts + where[counts] * (self.amounts[motions[t], begin + k + 1] - amounts)
+            point, first = np.unique(t * n + i, return_index=True)  # steps ascend, so the first one is the earliest
+            stop.reshape(-1)[point] = np.minimum(stop.reshape(-1)[point], met[first])
+            start, span, live, ends = start[~counts], span[~counts], live[~counts], ends[~counts]
             done = np.minimum(where[~counts] + ONWARD, np.float32(1.0))
-        return stop.reshape(steps, n).min(0)
+        return stop
 
-    def _near(self, path: np.ndarray, count: int, n: int) -> np.ndarray:
-        """Which of the first `count` segments come within the target's bounds."""
-        kept = None
-        for along, half in zip(path, self.target.scene.unit_half + MARGIN, strict=True):
-            a = along[:count] if kept is None else along[kept]
-            b = along[n : count + n] if kept is None else along[kept + n]
-            near = np.flatnonzero(((a >= -half) | (b >= -half)) & ((a <= half) | (b <= half)))
-            kept = near if kept is None else kept[near]
-        assert kept is not None  # three axes
-        return kept
+    def _near(self, path: np.ndarray, passing: np.ndarray, steps: int) -> tuple[np.ndarray, ...]:
+        """Which segments come within the target's bounds: motion, step and point of each."""
+        half = self.target.scene.unit_half + MARGIN
+        above, below = path[0] >= -half[0], path[0] <= half[0]
+        near = (above[:, :steps] | above[:, 1 : steps + 1]) & (below[:, :steps] | below[:, 1 : steps + 1])
+        t, k, i = np.nonzero(near & passing[:, None])
+        for axis in (1, 2):
+            a, b = path[axis][t, k, i], path[axis][t, k + 1, i]
+            kept = np.flatnonzero((np.maximum(a, b) >= -half[axis]) & (np.minimum(a, b) <= half[axis]))
+            t, k, i = t[kept], k[kept], i[kept]
+        return t, k, i
 
     def _counts(
         self,
@@ -187,41 +220,67 @@ def _rows(path: Float32[np.ndarray, "3 k"], columns: Int[np.ndarray, " m"]) -> F
     return np.ascontiguousarray(path.take(columns, axis=1).T)
 
 
-def free_amount(obstacles: Obstacles, motion: Motion, sign: int, most: float, steps: int) -> tuple[float, bool]:
-    """How far (in 0..most) the part moves along sign * motion before it is stopped, and whether it never was."""
-    amounts = np.linspace(0, most, steps + 1)
-    there, back = motion.transforms(sign * amounts), motion.transforms(-sign * amounts)
-    gone = None if obstacles.hole is None else obstacles.carved
-    ways = [
-        _Passage.of(points, poses, target, obstacles.tolerance, hole)
-        for points, poses, target, hole in (
-            (obstacles.part_points, there, obstacles.rest, gone),
-            (obstacles.rest_points, back, obstacles.part, None),
-        )
-        if len(points) and len(target.triangles)
-    ]
+def free_amounts(
+    obstacles: Obstacles, motions: Sequence[Motion], signs: Sequence[int], most: Sequence[float], steps: int
+) -> list[tuple[float, bool]]:
+    """Compute how far the part moves along each sign * motion before it is stopped, and whether it never was.
+
+    most: the range tested per motion [rad or m]. The motions are independent of each other and are shared out over threads.
+    """
+    if not motions:
+        return []
+    obstacles.prepare()
+
+    def free(group: np.ndarray) -> list[tuple[float, bool]]:
+        return _free(obstacles, [motions[m] for m in group], [signs[m] for m in group], [most[m] for m in group], steps)
+
+    groups = np.array_split(np.arange(len(motions)), -(-len(motions) // AT_ONCE))
+    if len(groups) == 1:
+        return free(groups[0])
+    with ThreadPoolExecutor(os.cpu_count()) as threads:  # numpy and Embree work outside the interpreter's lock
+        return [found for some in threads.map(free, groups) for found in some]
+
+
+def _free(
+    obstacles: Obstacles, motions: Sequence[Motion], signs: Sequence[int], most: Sequence[float], steps: int
+) -> list[tuple[float, bool]]:
+    amounts = np.array([np.linspace(0, far, steps + 1) for far in most])
+    ways = obstacles.passages(motions, np.array(signs)[:, None] * amounts, amounts)
     quorum = max(2, int(SHARE_STOPPED * sum(way.points.shape[1] for way in ways)))
-    free = [np.arange(way.points.shape[1]) for way in ways]
-    found = np.zeros(0)
-    begin = 0
+    found: list[tuple[float, bool]] = [(far, True) for far in most]
+    stops = [np.full((len(motions), way.points.shape[1]), np.inf) for way in ways]
+    live, begin = np.arange(len(motions)), 0
     for size in itertools.chain(CHUNKS, itertools.repeat(CHUNKS[-1])):  # stops are met in the order of the steps
-        if begin == steps:
-            return most, True
         end = min(begin + size, steps)
-        for k, way in enumerate(ways):
-            stops = way.stops(free[k], begin, end, amounts)
-            stopped = np.isfinite(stops)
-            found, free[k] = np.concatenate([found, stops[stopped]]), free[k][~stopped]
-        if len(found) >= quorum:
-            return float(np.partition(found, quorum - 1)[quorum - 1]), False
-        begin = end
-    raise AssertionError  # the sizes never end
+        for way, stop in zip(ways, stops, strict=True):
+            stop[live] = np.minimum(stop[live], way.stops(live, np.isinf(stop[live]), begin, end))
+        met = np.concatenate([np.isfinite(stop[live]) for stop in stops], axis=1).sum(1) if stops else np.zeros(len(live))
+        for m in live[met >= quorum]:
+            every = np.concatenate([stop[m] for stop in stops])
+            found[m] = float(np.partition(every, quorum - 1)[quorum - 1]), False
+        live, begin = live[met < quorum], end
+        if begin == steps or len(live) == 0:
+            break
+    return found
+
+
+def free_amount(obstacles: Obstacles, motion: Motion, sign: int, most: float, steps: int) -> tuple[float, bool]:
+    """`free_amounts` for one motion."""
+    return free_amounts(obstacles, [motion], [sign], [most], steps)[0]
+
+
+def sweep_all(obstacles: Obstacles, motions: Sequence[Motion], steps: int = 36, most: float | None = None) -> list[Sweep]:
+    """Compute the free range both ways of each motion.
+
+    most: the range tested each way [rad or m]; default half a turn, or 2 diagonals of the part.
+    """
+    slide = 2 * obstacles.part.box.diagonal
+    reach = [(np.pi if m.kind is MotionKind.TURN else slide) if most is None else most for m in motions]
+    free = free_amounts(obstacles, [*motions, *motions], [1] * len(motions) + [-1] * len(motions), reach + reach, steps)
+    pairs = zip(free[: len(motions)], free[len(motions) :], strict=True)
+    return [Sweep(forward, backward, clear, clear_back) for (forward, clear), (backward, clear_back) in pairs]
 
 
 def sweep(obstacles: Obstacles, motion: Motion, most: float | None = None, steps: int = 36) -> Sweep:
-    """Free range both ways. most: the range tested each way [rad or m]; default half a turn, or 2 diagonals of the part."""
-    if most is None:
-        most = np.pi if motion.kind is MotionKind.TURN else 2 * obstacles.part.box.diagonal
-    forward, clear_forward = free_amount(obstacles, motion, 1, most, steps)
-    backward, clear_backward = free_amount(obstacles, motion, -1, most, steps)
-    return Sweep(forward, backward, clear_forward, clear_backward)
+    """`sweep_all` for one motion."""
+    return sweep_all(obstacles, [motion], steps, most)[0]
