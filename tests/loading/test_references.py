@@ -57,3 +57,12 @@ def test_a_missing_or_broken_picture_is_a_warning(tmp_path, name, broken) -> Non
     if not (broken and name == "library.obj"):  # there the name is one of materials, in which nothing is found
         (warning,) = loaded.warnings
         assert "gone.png" in warning
+
+
+def test_a_warning_about_a_broken_picture_is_the_same_each_time(tmp_path) -> None:
+    (tmp_path / "x.png").write_bytes(b"\x89PNG broken")
+    path = put(tmp_path, "picture.dae", naming("x.png")["picture.dae"])
+    warnings = [load_mesh(path).warnings for _ in range(3)]
+    assert warnings[0]
+    assert len(set(warnings)) == 1
+    assert "0x" not in " ".join(warnings[0])

@@ -53,7 +53,8 @@ def _shut(around: Surroundings) -> bool:
     local = around.core.local(around.part.samples.points) / np.maximum(around.core.half, 1e-9)
     sides = 0
     for axis in around.face_axes:
-        sides += sum(bool(near[sign * local[:, axis] > 0.8].mean() > 0.2) for sign in (1, -1))
+        for end in (local[:, axis] > 0.8, local[:, axis] < -0.8):
+            sides += bool(near[end].sum() > 0.2 * end.sum())
     return sides >= 3
 
 

@@ -8,6 +8,7 @@ from urllib.parse import unquote
 
 from anymesh.errors import InputError
 
+ADDRESS = re.compile(r" at 0x[0-9a-fA-F]+")
 URL = re.compile(r"^[a-zA-Z][a-zA-Z0-9+.-]+:")
 
 
@@ -56,7 +57,8 @@ class Folder:
         return found.read_bytes()
 
     def warn(self, text: str) -> None:
-        """Keeps a warning, once."""
+        """Keeps a warning, once. A library's message may name an object by its address, which differs between runs."""
+        text = ADDRESS.sub("", text)
         if text not in self.warnings:
             self.warnings.append(text)
 
