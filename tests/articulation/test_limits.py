@@ -1,30 +1,19 @@
 """Limits of a joint from what is near its part."""
 
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
 
-from anymesh.articulation.limits import _shut
+from anymesh.articulation.limits import ends_near
+
+ALONG = np.array([-1.0, -0.9, 0.0, 0.9, 1.0])
 
 
-def around(points, near) -> SimpleNamespace:
-    """A part of some samples in a core box of side 2, near its parent at some of them."""
-    points = np.asarray(points, float)
-    core = SimpleNamespace(half=np.ones(3), local=lambda p: p)
-    part = SimpleNamespace(samples=SimpleNamespace(points=points))
-    return SimpleNamespace(gap=np.where(near, 0.0, 1.0), scale=1.0, core=core, part=part, face_axes=[0, 1])
+@pytest.mark.parametrize(("near", "count"), [("11011", 2), ("00011", 1), ("01010", 2), ("00100", 0)])
+def test_ends_near_the_parent_are_counted(near: str, count: int) -> None:
+    assert ends_near(ALONG, np.array([c == "1" for c in near])) == count
 
 
-SIDES = [(0.9, 0, 0), (-0.9, 0, 0), (0, 0.9, 0), (0, -0.9, 0)]
-
-
-@pytest.mark.parametrize(("near", "shut"), [([1, 1, 1, 1], True), ([1, 1, 1, 0], True), ([1, 1, 0, 0], False)])
-def test_a_part_near_its_parent_on_three_sides_is_shut(near, shut) -> None:
-    assert _shut(around(SIDES, np.array(near, bool))) is shut
-
-
-def test_a_side_without_samples_is_not_near_and_gives_no_warning(recwarn) -> None:
-    assert _shut(around(SIDES[:3], np.ones(3, bool)))
-    assert not _shut(around(SIDES[:2], np.ones(2, bool)))
+def test_an_end_without_samples_is_not_near_and_gives_no_warning(recwarn) -> None:
+    assert ends_near(ALONG[2:], np.ones(3, bool)) == 1
+    assert ends_near(np.zeros(0), np.zeros(0, bool)) == 0
     assert not recwarn.list
