@@ -83,9 +83,11 @@ def main() -> None:
         told = "" if result["outcome"] == "asset" else f"{result['kind']} {result.get('where', '')} {result['message'][:100]}"
         print(f"{left:6d} {result['seconds']:7.1f} s  {case['key']}: {result['outcome']} {told}", flush=True)
 
-    run_all(cases, how.work, workers=how.workers, limit=how.time_limit, memory=int(how.memory * GIB), done=done)
-    command = " ".join(["python benchmarks/fuzz.py WORK", *(Path(a).name for a in sys.argv[2:])])
-    how.report.write_text(report(results, command, how.time_limit), encoding="utf-8")
+    try:
+        run_all(cases, how.work, workers=how.workers, limit=how.time_limit, memory=int(how.memory * GIB), done=done)
+    finally:
+        command = " ".join(["python benchmarks/fuzz.py WORK", *(Path(a).name for a in sys.argv[2:])])
+        how.report.write_text(report(results, command, how.time_limit), encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -66,6 +66,7 @@ def set_cases(spec: str, work: Path) -> Iterator[Case]:
     source = open_dataset(spec)
     for number, name in enumerate(source.objects()):
         folder = work / "sets" / source.name / name
+        folder.mkdir(parents=True, exist_ok=True)
         labels = folder / "labels.npy"
         truth = source.truth(name, folder)
         np.save(labels, truth.labels)

@@ -66,7 +66,11 @@ def test_small_faces_are_seen_when_asked():
     s = sample_surface(triangles, 50, 0, at_least=1)
     assert set(s.faces) == set(range(12)) - {1}
     np.testing.assert_allclose(s.points[s.faces == 4], [triangles[4].mean(0)])
-    assert len(sample_surface(triangles[1:2], 50, 0, at_least=1)) == 0
+
+
+def test_faces_without_area_are_sampled_alike_where_there_are_no_others():
+    degenerate = soup(5)[[1, 1]]
+    assert set(sample_surface(degenerate, 50, 0).faces) == {0, 1}
 
 
 @pytest.mark.parametrize("seed", range(3))

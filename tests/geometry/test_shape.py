@@ -68,13 +68,6 @@ def test_samples_lie_on_the_surface_with_outward_normals():
     np.testing.assert_allclose(np.einsum("ij,ij->i", s.normals, s.points), 1, atol=1e-12)
 
 
-def test_faces_without_an_area_are_sampled_at_their_middle():
-    line = np.array([[[0.0, 0, 0], [1, 0, 0], [2, 0, 0]], [[0, 0, 0], [0, 0, 0], [0, 3, 0]]])
-    shape = shape_of((line.reshape(-1, 3), np.arange(6).reshape(-1, 3)))
-    np.testing.assert_allclose(shape.samples.points, [[1, 0, 0], [0, 1, 0]])
-    assert shape.area == 0
-
-
 def test_a_dense_mesh_is_asked_about_in_fewer_faces_of_the_same_pieces():
     balls = [trimesh.creation.icosphere(subdivisions=4) for _ in range(2)]
     mesh, number = mesh_of(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from jaxtyping import Bool, Float
 
 from anymesh.geometry.surroundings import Surroundings
 from anymesh.geometry.sweep import free_amount
@@ -51,10 +52,12 @@ def _shut(around: Surroundings) -> bool:
     """Whether the part lies shut: near the parent at both ends of its face, so that inwards is where it came from."""
     near = around.gap < 0.02 * around.scale
     local = around.core.local(around.part.samples.points) / np.maximum(around.core.half, 1e-9)
-    sides = 0
-    for axis in around.face_axes:
-        sides += sum(bool(near[sign * local[:, axis] > 0.8].mean() > 0.2) for sign in (1, -1))
-    return sides >= 3
+    return sum(ends_near(local[:, axis], near) for axis in around.face_axes) >= 3
+
+
+def ends_near(along: Float[np.ndarray, " n"], near: Bool[np.ndarray, " n"]) -> int:
+    """Count the ends of a part, of two, that lie near its parent. along: place of each sample, -1 to 1 from end to end."""
+    return sum(bool(near[end].sum() > 0.2 * end.sum()) for end in (along > 0.8, along < -0.8))
 
 
 def _tiny(around: Surroundings) -> bool:

@@ -68,10 +68,8 @@ class Shape:
 
     @cached_property
     def samples(self) -> SurfacePoints:
-        """Points spread evenly by area, with outward normals; the middle of each face where no face has an area."""
+        """Points spread evenly by area, with outward normals."""
         s = sample_surface(self.triangles, SAMPLES, self.seed)
-        if not len(s):
-            return SurfacePoints(self.triangles.mean(1), self.normals, np.arange(len(self.triangles)))
         return SurfacePoints(s.points, self.normals[s.faces], s.faces)
 
     @cached_property
