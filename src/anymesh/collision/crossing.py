@@ -7,6 +7,7 @@ from itertools import product
 import numpy as np
 from jaxtyping import Float
 
+from anymesh.collision.split import outline
 from anymesh.rendering.raycast_ import RayScene
 from anymesh.types.triangles import normals_and_areas
 
@@ -19,13 +20,9 @@ class Surface:
     def __init__(self, triangles: Float[np.ndarray, "n 3 3"]) -> None:
         self.normals, _ = normals_and_areas(triangles)
         self.triangles = triangles
-        corners = triangles.reshape(-1, 3)
-        self.low, self.high = corners.min(0), corners.max(0)
-        points, index = np.unique(corners, axis=0, return_inverse=True)
-        index = index.reshape(-1, 3)
-        ends = np.sort(np.concatenate([index[:, [0, 1]], index[:, [1, 2]], index[:, [2, 0]]]), axis=1)
-        key = np.unique(ends[:, 0] * len(points) + ends[:, 1])
-        self.edges = points[np.stack([key // len(points), key % len(points)], 1)]
+        points, ends = outline(triangles)
+        self.low, self.high = points.min(0), points.max(0)
+        self.edges = points[ends]
         self._scene: RayScene | None = None
 
     def crossed_by(self, edges: Float[np.ndarray, "m 2 3"], depth: float) -> bool:

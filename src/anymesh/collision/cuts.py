@@ -6,6 +6,7 @@ are left to CoACD.
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -14,7 +15,7 @@ from jaxtyping import Float
 from scipy.spatial import ConvexHull, QhullError
 
 from anymesh.collision.convex import cut, hull_of
-from anymesh.collision.split import SAMPLES, below_and_above
+from anymesh.collision.split import SAMPLES, below_and_above, cutting_planes, outline
 from anymesh.geometry.distance_ import distance_to_mesh, winding_number
 from anymesh.geometry.sampling import sample_surface
 from anymesh.geometry.topology import edge_pairs, weld
@@ -23,6 +24,7 @@ from anymesh.types.triangles import normals_and_areas
 
 CONCAVE = 10.0  # [deg] of the fold at an edge from which it counts as concave
 MOST_PLANES = 32  # distinct planes at concave edges; a solid with more is not faceted
+MOST_PIECES = 16  # CoACD needs fewer for what takes more
 TRIED = 16  # planes per cut, those with the longest concave edges first
 FLAT = 1e-9  # volume of a side, as a share of both, below which a plane does not divide
 SAME_PLANE = (0.9999, 1e-4)  # cosine of the normals, and offset as a share of the diagonal
@@ -37,28 +39,30 @@ class _Block:
     gap: float
 
 
-def cut_solid(triangles: Float[np.ndarray, "n 3 3"], *, gap: float, most: int) -> list[Hull] | None:
-    """Return convex pieces that stand off a closed solid by at most `gap` [m], or None if that takes more than `most` pieces
-    or the solid is not faceted."""
+def cut_solid(triangles: Float[np.ndarray, "n 3 3"], *, gap: float, wall: float) -> list[Hull] | None:
+    """Return convex pieces that stand off a closed solid by at most `gap` [m], or None if that takes too many pieces
+    or the solid is not faceted. wall: least distance of other cutting planes [m]."""
     planes = _concave_planes(triangles)
-    if len(planes) > MOST_PLANES:
+    if not 0 < len(planes) <= MOST_PLANES:
         return None
     corners = triangles.reshape(-1, 3)
     _, first, faces = np.unique(weld(corners), return_index=True, return_inverse=True)
     solid = corners[first], faces.reshape(-1, 3)
     whole = _block(triangles, solid)
     done, waiting = [], [] if whole is None else [whole]
+    cuts = 0
     while waiting:
-        if len(done) + len(waiting) > most:
+        cuts += 1
+        if len(done) + len(waiting) > MOST_PIECES or cuts > 2 * MOST_PIECES:
             return None
         block = waiting.pop()
         if block.gap <= gap:
             done.append(block.hull)
             continue
-        halves = [_block(half, solid) for half in _halves(block.triangles, planes)]
-        if not halves or None in halves:
+        halves = _halves(block.triangles, planes, wall)
+        if not halves:
             return None
-        waiting += [half for half in halves if half is not None]
+        waiting += [half for side in halves if (half := _block(side, solid)) is not None]  # a sliver has no hull
     return done or None
 
 
@@ -74,19 +78,24 @@ def _block(triangles: np.ndarray, solid: tuple[np.ndarray, np.ndarray]) -> _Bloc
     return _Block(triangles, hull, float(off.max()))
 
 
-def _halves(triangles: np.ndarray, planes: Sequence[tuple[np.ndarray, float]]) -> list[np.ndarray]:
-    """The two sides of the plane that leaves the least volume in both hulls; none where no plane divides."""
-    best, tried = None, 0
-    for normal, offset in planes:
-        sides = [_volume(points) for points in below_and_above(triangles, normal, offset)]
-        if min(sides) <= FLAT * sum(sides):
-            continue
-        tried += 1
-        if best is None or sum(sides) < best[0] * (1 - 1e-9):
-            best = (sum(sides), normal, offset)
-        if tried == TRIED:
-            break
-    return [] if best is None else list(cut(triangles, best[1], best[2]))
+def _halves(triangles: np.ndarray, planes: Sequence[tuple[np.ndarray, float]], wall: float) -> list[np.ndarray]:
+    """The two sides of the plane that leaves the least volume in both hulls; none where no plane divides.
+
+    Where no concave edge is left, the block is curved: it is cut across the directions that it faces.
+    """
+    outlined = outline(triangles)
+    best = _best(outlined, planes, TRIED) or _best(outlined, list(cutting_planes(triangles, wall)))
+    return [] if best is None else list(cut(triangles, *best))
+
+
+def _best(
+    outlined: tuple[np.ndarray, np.ndarray], planes: Sequence[tuple[np.ndarray, float]], most: int | None = None
+) -> tuple[np.ndarray, float] | None:
+    """Of the first `most` planes that divide an outline, the one that leaves the least volume in both hulls."""
+    sides = ([_volume(side) for side in below_and_above(*outlined, *plane)] for plane in planes)
+    dividing = ((sum(pair), plane) for pair, plane in zip(sides, planes, strict=True) if min(pair) > FLAT * sum(pair))
+    found = min(enumerate(itertools.islice(dividing, most)), key=lambda item: (item[1][0], item[0]), default=None)
+    return None if found is None else found[1][1]
 
 
 def _concave_planes(triangles: np.ndarray) -> list[tuple[np.ndarray, float]]:

@@ -126,7 +126,7 @@ def _divided(triangles: np.ndarray, fineness: Fineness, method: Method) -> list[
     """The hulls of a solid's pieces; none where the method has none."""
     match method:
         case Method.CUTS:
-            return cut_solid(triangles, gap=fineness.gap, most=fineness.most) or _by_coacd(triangles, fineness)
+            return cut_solid(triangles, gap=fineness.gap, wall=fineness.wall) or _by_coacd(triangles, fineness)
         case Method.CLEANED:
             return _by_coacd(cleaned(triangles), fineness)
         case Method.SPLIT:

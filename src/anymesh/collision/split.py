@@ -10,9 +10,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, Int
+from scipy.spatial import ConvexHull, QhullError
 
-from anymesh.collision.convex import cut, hull_of, volume
+from anymesh.collision.convex import cut, hull_of
 from anymesh.geometry.boxes import dominant_normals
 from anymesh.geometry.distance_ import distance_to_triangles
 from anymesh.geometry.sampling import sample_surface
@@ -67,8 +68,9 @@ def split_surface(triangles: Float[np.ndarray, "n 3 3"], *, gap: float, wall: fl
 def _halves(patch: Patch, wall: float) -> list[Patch]:
     """The two pieces, by the plane that leaves the least volume in both hulls."""
     best = None
-    for normal, offset in _planes(patch, wall):
-        left = sum(_thick_volume(points, wall) for points in below_and_above(patch.triangles, normal, offset))
+    points, ends = outline(patch.triangles)
+    for normal, offset in cutting_planes(patch.triangles, wall):
+        left = sum(_thick_volume(side, wall) for side in below_and_above(points, ends, normal, offset))
         if best is None or left < best[0] * (1 - 1e-9):
             best = (left, normal, offset)
     if best is None:
@@ -77,10 +79,20 @@ def _halves(patch: Patch, wall: float) -> list[Patch]:
     return [piece for piece in pieces if piece is not None]
 
 
-def _planes(patch: Patch, wall: float) -> Iterator[tuple[np.ndarray, float]]:
-    """Cutting planes: across the directions that the patch faces and its principal ones, beside and between its corners."""
-    normals, areas = normals_and_areas(patch.triangles)
-    corners = patch.triangles.reshape(-1, 3)
+def outline(triangles: Float[np.ndarray, "n 3 3"]) -> tuple[Float[np.ndarray, "V 3"], Int[np.ndarray, "E 2"]]:
+    """Return the distinct corners of some triangles, and the distinct edges as pairs of them."""
+    points, index = np.unique(triangles.reshape(-1, 3), axis=0, return_inverse=True)
+    index = index.reshape(-1, 3)
+    ends = np.sort(np.concatenate([index[:, [0, 1]], index[:, [1, 2]], index[:, [2, 0]]]), axis=1)
+    key = np.unique(ends[:, 0] * len(points) + ends[:, 1])
+    return points, np.stack([key // len(points), key % len(points)], 1)
+
+
+def cutting_planes(triangles: Float[np.ndarray, "n 3 3"], wall: float) -> Iterator[tuple[np.ndarray, float]]:
+    """Yield planes (normal, offset) across the directions that a surface faces and its principal ones, beside and between its
+    corners, `wall` [m] apart at least."""
+    normals, areas = normals_and_areas(triangles)
+    corners = triangles.reshape(-1, 3)
     spread = corners - corners.mean(0)
     directions = [*dominant_normals(normals, areas, count=4), *np.linalg.svd(spread.T @ spread)[2]]
     kept: list[np.ndarray] = []
@@ -98,17 +110,25 @@ def _planes(patch: Patch, wall: float) -> Iterator[tuple[np.ndarray, float]]:
             yield direction, float(offset)
 
 
-def below_and_above(triangles: np.ndarray, normal: np.ndarray, offset: float) -> tuple[np.ndarray, np.ndarray]:
-    """Return the corner points of what a plane leaves on each side, without dividing the triangles."""
-    height = triangles @ normal - offset
-    nxt = [1, 2, 0]
-    crossing = height * height[:, nxt] < 0
-    a, b = triangles[crossing], triangles[:, nxt][crossing]
-    share = (height[crossing] / (height[crossing] - height[:, nxt][crossing]))[:, None]
-    met = a + (b - a) * share
-    return np.concatenate([triangles[height <= 0], met]), np.concatenate([triangles[height >= 0], met])
+def below_and_above(
+    points: Float[np.ndarray, "V 3"], ends: Int[np.ndarray, "E 2"], normal: Float[np.ndarray, " 3"], offset: float
+) -> tuple[Float[np.ndarray, "a 3"], Float[np.ndarray, "b 3"]]:
+    """Return the corner points of what a plane leaves on each side of an outline, without dividing the triangles."""
+    height = points @ normal - offset
+    a, b = ends[height[ends[:, 0]] * height[ends[:, 1]] < 0].T
+    share = (height[a] / (height[a] - height[b]))[:, None]
+    met = points[a] + (points[b] - points[a]) * share
+    return np.concatenate([points[height <= 0], met]), np.concatenate([points[height >= 0], met])
 
 
 def _thick_volume(points: np.ndarray, wall: float) -> float:
-    hull = hull_of(points, wall)
-    return 0.0 if hull is None else volume(hull)
+    """Volume of the hull of some points, at least that of a sheet `wall` [m] thick."""
+    if len(points) < 4:
+        return 0.0
+    for options in (None, "QJ"):  # joggled, flat points have a hull too
+        try:
+            hull = ConvexHull(points, qhull_options=options)
+        except QhullError:
+            continue
+        return max(float(hull.volume), wall * float(hull.area) / 2)
+    return 0.0
