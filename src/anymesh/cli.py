@@ -38,6 +38,7 @@ from anymesh.cli_options import (
     Root,
     Scale,
     Seed,
+    TimeLimit,
     Up,
     Verify,
     Zip,
@@ -46,6 +47,7 @@ from anymesh.cli_output import JOINT_COLUMNS, Shown, cache_of, joint_row, plain,
 from anymesh.cli_quiet import quiet_libraries
 from anymesh.cli_report import picture, report
 from anymesh.cli_view import view
+from anymesh.deadline import DEFAULT_SECONDS
 from anymesh.errors import DEFECT, AnymeshError
 
 EXIT_CODES = (
@@ -119,6 +121,7 @@ def articulate(
     formats: Formats = FORMATS,
     drives: Drives = "passive",
     force: Force = False,
+    time_limit: TimeLimit = DEFAULT_SECONDS,
     json_: Json = False,
     quiet: Quiet = False,
 ) -> None:
@@ -128,8 +131,8 @@ def articulate(
     with Shown(quiet or json_) as progress:
         asset = pipeline.articulate(
             mesh, out, parts=parts, up=up, scale=scale, root=root, base=base, formats=formats, drives=drives, force=force,
-            progress=progress, answerer=answerer, parts_list=_labels(parts_list), at_least=at_least, proposer=proposer,
-            verify=verify, category=category, seed=seed, max_calls=max_calls, max_cost=max_cost, **cache_of(cache),
+            progress=progress, time_limit=time_limit, answerer=answerer, parts_list=_labels(parts_list), at_least=at_least,
+            proposer=proposer, verify=verify, category=category, seed=seed, max_calls=max_calls, max_cost=max_cost, **cache_of(cache),
         )  # fmt: skip
     tell_asset(asset, out, json_, quiet)
 
@@ -152,6 +155,7 @@ def segment(
     scale: Scale = "auto",
     root: Root = None,
     force: Force = False,
+    time_limit: TimeLimit = DEFAULT_SECONDS,
     json_: Json = False,
     quiet: Quiet = False,
 ) -> None:
@@ -160,7 +164,7 @@ def segment(
 
     with Shown(quiet or json_) as progress:
         found = pipeline.segment(
-            mesh, out, parts=parts, up=up, scale=scale, root=root, force=force, progress=progress,
+            mesh, out, parts=parts, up=up, scale=scale, root=root, force=force, progress=progress, time_limit=time_limit,
             answerer=answerer, parts_list=_labels(parts_list), at_least=at_least, proposer=proposer, category=category,
             seed=seed, max_calls=max_calls, max_cost=max_cost, **cache_of(cache),
         )  # fmt: skip
@@ -181,6 +185,7 @@ def joints(
     max_cost: MaxCost = None,
     cache: Cache = "auto",
     seed: Seed = 0,
+    time_limit: TimeLimit = DEFAULT_SECONDS,
     json_: Json = False,
     quiet: Quiet = False,
 ) -> None:
@@ -189,7 +194,7 @@ def joints(
 
     with Shown(quiet or json_) as progress:
         found = pipeline.joints(
-            folder, progress=progress, answerer=answerer, verify=verify, category=category,
+            folder, progress=progress, time_limit=time_limit, answerer=answerer, verify=verify, category=category,
             seed=seed, max_calls=max_calls, max_cost=max_cost, **cache_of(cache),
         )  # fmt: skip
     rows = [joint_row(j) for j in found]
@@ -208,6 +213,7 @@ def export(
     drives: Drives = "passive",
     package: Package = None,
     zip_: Zip = None,
+    time_limit: TimeLimit = DEFAULT_SECONDS,
     json_: Json = False,
     quiet: Quiet = False,
 ) -> None:
@@ -216,7 +222,14 @@ def export(
 
     with Shown(quiet or json_) as progress:
         asset = pipeline.export(
-            folder, base=base, formats=formats, drives=drives, package=package, archive=zip_, progress=progress
+            folder,
+            base=base,
+            formats=formats,
+            drives=drives,
+            package=package,
+            archive=zip_,
+            time_limit=time_limit,
+            progress=progress,
         )
     tell_asset(asset, folder, json_, quiet)
 

@@ -45,6 +45,9 @@ Zip = Annotated[Path | None, typer.Option("--zip", metavar="FILE", help="Also th
 BaseName = Annotated[str, typer.Option("--base", help="fixed or free: whether the root link is fixed to the world.")]
 Formats = Annotated[str, typer.Option(help="Of urdf, mjcf, usd, sdf, glb, with commas between; usd needs its extra.")]
 Drives = Annotated[str, typer.Option(help="passive, or position: joints are led to a commanded position, 0 at first.")]
+TimeLimit = Annotated[
+    float, typer.Option("--time-limit", metavar="SECONDS", help="Past shares of it stages cut their work short and say so.")
+]
 Force = Annotated[bool, typer.Option("--force", help="Replace an existing output.")]
 Json = Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")]
 Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="No progress, no summary.")]

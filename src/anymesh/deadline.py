@@ -4,19 +4,29 @@ from __future__ import annotations
 
 import math
 import time
-from dataclasses import dataclass, field
+
+from anymesh.errors import OptionError
 
 DEFAULT_SECONDS = 600.0  # of `--time-limit` [s]
-SEGMENT, JOINTS, COLLISION = 0.4, 0.7, 0.9  # shares of the limit by which stage A, stage B and collision begin to cut short
+SEGMENT, JOINTS, COLLISION = (
+    0.4,
+    0.7,
+    0.9,
+)  # shares of the limit after which stage A, stage B and collision cut their work short
 
 
-@dataclass(eq=False)
 class Deadline:
-    """A time limit of a run [s], from its construction on, and what was left out to keep it."""
+    """A time limit of a run [s] that begins with its construction, and what was left out to keep it.
 
-    seconds: float = math.inf
-    left_out: list[str] = field(default_factory=list)
-    _begin: float = field(default_factory=time.monotonic)
+    Raises OptionError for a limit that is not positive.
+    """
+
+    def __init__(self, seconds: float = math.inf) -> None:
+        if not seconds > 0:
+            raise OptionError(f"--time-limit: found {seconds}; valid are seconds above 0")
+        self.seconds = seconds
+        self._begin = time.monotonic()
+        self._left_out: list[str] = []
 
     def late(self, share: float) -> bool:
         """Tell whether more than a share of the limit is spent."""
@@ -24,5 +34,10 @@ class Deadline:
 
     def leave_out(self, what: str) -> None:
         """Record in words what was left out."""
-        if what not in self.left_out:
-            self.left_out.append(what)
+        if what not in self._left_out:
+            self._left_out.append(what)
+
+    def warnings(self) -> tuple[str, ...]:
+        """Return what was left out since the last call, as warnings."""
+        found, self._left_out = self._left_out, []
+        return tuple(f"time limit of {self.seconds:g} s: {what}" for what in found)

@@ -10,11 +10,13 @@ from pathlib import Path
 from typing import TypeVar, Unpack
 
 from anymesh.answering import Answerer, Answering, choose_answerer
+from anymesh.deadline import DEFAULT_SECONDS, Deadline
 from anymesh.errors import OptionError, note_stage
 from anymesh.export import Base, Driven, Format, parse_formats, write_asset
 from anymesh.export.archive import write_zip
 from anymesh.export.formats import DEFAULT
 from anymesh.export.package import write_package
+from anymesh.isolation import shared_pool
 from anymesh.loading import load_mesh, place_mesh
 from anymesh.models.cache import cache_folder
 from anymesh.progress import Progress, silent
@@ -39,6 +41,7 @@ def articulate(
     base: str = Base.FIXED,
     formats: str = ",".join(DEFAULT),
     drives: str = Driven.PASSIVE,
+    time_limit: float = DEFAULT_SECONDS,
     progress: Progress = silent,
     **answering: Unpack[Answering],
 ) -> Asset:
@@ -47,16 +50,18 @@ def articulate(
     parts: "auto", "nodes" (the scene's nodes) or a file of face labels; up: auto, x, y, z; scale: auto, a factor (file units
     to metres) or METRES:AXIS; root: the folder within which files that the mesh refers to may be read (default: the mesh's
     own); base: fixed or free; formats: of urdf, mjcf, usd, sdf, glb, with commas between;
-    drives: passive, or position (joints are led to a commanded position). Raises
-    InputError, OptionError, OutputError, ModelError; then nothing is written.
+    drives: passive, or position (joints are led to a commanded position); time_limit: [s], past a share of which each stage
+    cuts its work short and says so in the warnings. Raises InputError, OptionError, OutputError, ModelError; then nothing is
+    written.
     """
-    how = Exported.parse(base, formats, drives)
+    how, deadline = Exported.parse(base, formats, drives), Deadline(time_limit)
     who = choose_answerer(answering)
+    shared_pool().warm("anymesh.collision.decomposer")
     with RunFolder.create(Path(out), source=Path(mesh_path), force=force) as run:
-        solver, recognized, key = _seen(run, Path(mesh_path), parts, Placement(up, scale, root), who, progress)
+        solver, recognized, key = _seen(run, Path(mesh_path), parts, Placement(up, scale, root), who, deadline, progress)
         segmented, key = _segment(run, solver, recognized, key, parts, who, progress)
         _join(run, solver, recognized, segmented, key, who, progress)
-        return _export(run, how, progress)
+        return _export(run, how, deadline, progress)
 
 
 def segment(
@@ -68,22 +73,29 @@ def segment(
     scale: str = "auto",
     root: str | Path | None = None,
     force: bool = False,
+    time_limit: float = DEFAULT_SECONDS,
     progress: Progress = silent,
     **answering: Unpack[Answering],
 ) -> Segmentation:
     """Stage A alone: the parts of a mesh, saved in `out` for `joints`. Options as for `articulate`."""
-    who = choose_answerer(answering)
+    who, deadline = choose_answerer(answering), Deadline(time_limit)
     with RunFolder.create(Path(out), source=Path(mesh_path), force=force) as run:
-        solver, recognized, key = _seen(run, Path(mesh_path), parts, Placement(up, scale, root), who, progress)
+        solver, recognized, key = _seen(run, Path(mesh_path), parts, Placement(up, scale, root), who, deadline, progress)
         return _segment(run, solver, recognized, key, parts, who, progress)[0].segmentation
 
 
-def joints(folder: str | Path, *, progress: Progress = silent, **answering: Unpack[Answering]) -> tuple[Joint, ...]:
+def joints(
+    folder: str | Path,
+    *,
+    time_limit: float = DEFAULT_SECONDS,
+    progress: Progress = silent,
+    **answering: Unpack[Answering],
+) -> tuple[Joint, ...]:
     """Stage B alone, on the parts that `segment` saved in `folder`. Options as for `articulate`."""
-    who = choose_answerer(answering)
+    who, deadline = choose_answerer(answering), Deadline(time_limit)
     with RunFolder.open(Path(folder)) as run:
         recognized, segmented = run.recognized(), run.need(SEGMENTATION)
-        solver = Solver(recognized.sized(run.need(MESH)).mesh, who.config, who.see)
+        solver = Solver(recognized.sized(run.need(MESH)).mesh, who.config, who.see, deadline)
         return _join(run, solver, recognized, segmented, run.key(SEGMENTATION), who, progress).joints
 
 
@@ -95,17 +107,18 @@ def export(
     drives: str = Driven.PASSIVE,
     package: str | Path | None = None,
     archive: str | Path | None = None,
+    time_limit: float = DEFAULT_SECONDS,
     progress: Progress = silent,
 ) -> Asset:
     """Writes the files of the asset that `segment` and `joints` saved in `folder`. Options as for `articulate`.
 
     package: a folder that gets a ROS 2 package of the URDF; archive: a zip file of the asset.
     """
-    how = Exported.parse(base, formats, drives)
+    how, deadline = Exported.parse(base, formats, drives), Deadline(time_limit)
     if package is not None and Format.URDF not in how.formats:
         raise OptionError(f"--package needs the format urdf, found {formats!r}")
     with RunFolder.open(Path(folder)) as run:
-        asset = _export(run, how, progress)
+        asset = _export(run, how, deadline, progress)
     if package is not None:
         write_package(Path(folder), Path(package), base=how.base)
     if archive is not None:
@@ -155,7 +168,7 @@ def finish(
                     config=ShapeConfig(watertight=watertight),
                 )
             run.save(COMPLETION, key, done)
-        return _export(run, how, progress)
+        return _export(run, how, Deadline(), progress)
 
 
 @dataclass(frozen=True)
@@ -168,16 +181,16 @@ class Placement:
 
 
 def _seen(
-    run: RunFolder, path: Path, parts: str, how: Placement, who: Answerer, progress: Progress
+    run: RunFolder, path: Path, parts: str, how: Placement, who: Answerer, deadline: Deadline, progress: Progress
 ) -> tuple[Solver, Recognized, str]:
     """The mesh placed, looked at, and in the size that was answered; ready for both stages."""
     placed, key = _place(run, path, how, who.config.category, progress)
-    solver = Solver(placed.mesh, who.config, who.see)
+    solver = Solver(placed.mesh, who.config, who.see, deadline)
     if parts != "auto":
         solver.parts(parts)  # what is wrong with them is better told before anything is asked
     recognized, key = _recognize(run, solver, key, who, how.scale == "auto")
     sized = recognized.sized(placed)
-    return (solver if sized is placed else Solver(sized.mesh, who.config, who.see)), recognized, key
+    return (solver if sized is placed else Solver(sized.mesh, who.config, who.see, deadline)), recognized, key
 
 
 def _place(run: RunFolder, path: Path, how: Placement, category: str | None, progress: Progress) -> tuple[Placed, str]:
@@ -215,7 +228,7 @@ def _recognize(run: RunFolder, solver: Solver, previous: str, who: Answerer, siz
 def _segment(
     run: RunFolder, solver: Solver, recognized: Recognized, previous: str, parts: str, who: Answerer, progress: Progress
 ) -> tuple[Segmented, str]:
-    settings = {**who.settings("verify"), "parts": parts, "labels": _bytes_of_labels(parts)}
+    settings = {**who.settings("verify"), "parts": parts, "labels": _bytes_of_labels(parts), "limit": solver.deadline.seconds}
     key = stage_key(SEGMENTATION, previous=previous, config=settings)
     found = _answered(run.load(SEGMENTATION, key))
     if found is None:
@@ -242,7 +255,7 @@ def _join(
     who: Answerer,
     progress: Progress,
 ) -> Jointed:
-    key = stage_key(JOINTS, previous=previous, config=who.settings())
+    key = stage_key(JOINTS, previous=previous, config={**who.settings(), "limit": solver.deadline.seconds})
     found = _answered(run.load(JOINTS, key))
     if found is None:
         with _timed(run, "joints"):
@@ -269,14 +282,17 @@ class Exported:
         return cls(Base(base), parse_formats(formats), Driven(drives))
 
 
-def _export(run: RunFolder, how: Exported, progress: Progress) -> Asset:
+def _export(run: RunFolder, how: Exported, deadline: Deadline, progress: Progress) -> Asset:
     progress("export", "files", 0, 2)
     asset = run.asset()
     with _timed(run, "export"):
-        write_asset(asset, run.folder, base=how.base, formats=how.formats, driven=how.driven, cache=cache_folder("shapes"))
+        model = write_asset(
+            asset, run.folder, base=how.base, formats=how.formats, driven=how.driven, cache=cache_folder("shapes"),
+            deadline=deadline,
+        )  # fmt: skip
         progress("export", "preview", 1, 2)
         write_preview(asset, run.folder / "preview.png")
-    return replace(asset, timing=run.timing())
+    return replace(asset, warnings=model.asset.warnings, timing=run.timing())
 
 
 @contextmanager

@@ -11,6 +11,7 @@ import numpy as np
 from anymesh.articulation.estimate import ask_motion, estimate_joints
 from anymesh.articulation.prompted import prompt_joints
 from anymesh.config import Config
+from anymesh.deadline import Deadline
 from anymesh.geometry.pieces import ObjectShape, object_shape
 from anymesh.models.sam import PromptedSegmenter
 from anymesh.models.sam_load import load_sam
@@ -35,10 +36,14 @@ GEOMETRY = GeometryAnswerer()
 
 
 class Solver:
-    """Stage A and Stage B for one placed mesh [m, Z up]. `see` makes the answerer; without it geometry answers."""
+    """Stage A and Stage B for one placed mesh [m, Z up]. `see` makes the answerer; without it geometry answers. What is left
+    out past the deadline is among the warnings of each stage."""
 
-    def __init__(self, mesh: Mesh, config: Config | None = None, see: Seeing | None = None) -> None:
+    def __init__(
+        self, mesh: Mesh, config: Config | None = None, see: Seeing | None = None, deadline: Deadline | None = None
+    ) -> None:
         self.mesh, self.config, self._see = mesh, config or Config(), see
+        self.deadline = deadline or Deadline()
         self._by_itself: Segmentation | None = None
 
     @cached_property
@@ -72,7 +77,7 @@ class Solver:
             given = parts_from_nodes(self.mesh) if parts == "nodes" else parts_from_file(self.mesh, Path(parts))
             return _segmented(given, GIVEN)
         if self._see is None or recognition is None:
-            return _segmented(self._geometric_parts(progress), GEOMETRY.name)
+            return _segmented(self._geometric_parts(progress), GEOMETRY.name, None, self.deadline.warnings())
         seer = self._see(Knowing(GEOMETRY.name, lambda: self._geometric_reference))
         found, warnings = ground_parts(
             self.mesh,
@@ -85,7 +90,7 @@ class Solver:
             self._geometric_parts,
             progress,
         )
-        return _segmented(found, seer.name, seer, warnings)
+        return _segmented(found, seer.name, seer, (*warnings, *self.deadline.warnings()))
 
     def joints(
         self, segmentation: Segmentation, recognition: Recognition | None = None, progress: Progress = silent
@@ -93,13 +98,14 @@ class Solver:
         """Stage B."""
         whole = self._ready_for(segmentation)
         if self._see is None:
-            return _jointed(estimate_joints(whole, segmentation, GEOMETRY, self.config, progress), GEOMETRY.name)
+            found = estimate_joints(whole, segmentation, GEOMETRY, self.config, progress, self.deadline)
+            return _jointed(found, GEOMETRY.name, None, self.deadline.warnings())
         seer = self._see(Knowing(GEOMETRY.name, lambda: self._reference(segmentation)))
         made = prompt_joints(
             self._studio, whole, segmentation, seer, self.config,
             recognition=recognition, verify=self.config.verify == "motion", progress=progress,
         )  # fmt: skip
-        return _jointed(made, seer.name, seer)
+        return _jointed(made, seer.name, seer, self.deadline.warnings())
 
     def _geometric_parts(self, progress: Progress = silent) -> Segmentation:
         """What geometry finds; once, however many questions it answers."""
@@ -108,7 +114,7 @@ class Solver:
             def moves(around, label):
                 return ask_motion(around, "candidate", label, GEOMETRY)
 
-            self._by_itself = segment_parts(self.mesh, self.whole, GEOMETRY, moves, self.config, progress)
+            self._by_itself = segment_parts(self.mesh, self.whole, GEOMETRY, moves, self.config, progress, self.deadline)
         return self._by_itself
 
     def _ready_for(self, segmentation: Segmentation) -> ObjectShape:
@@ -124,7 +130,8 @@ class Solver:
 
     def _reference(self, segmentation: Segmentation) -> Reference:
         """What geometry would answer, for questions that a model could not."""
-        joints = estimate_joints(self._ready_for(segmentation), segmentation, GEOMETRY, self.config)
+        ready = self._ready_for(segmentation)
+        joints = estimate_joints(ready, segmentation, GEOMETRY, self.config, deadline=self.deadline)
         return reference_of(self.mesh, segmentation, joints, self.config.category or "object")
 
 
@@ -162,11 +169,12 @@ def _segmented(
     return Segmented(segmentation, answerer, (*remarks, *warnings, *none), seer.exchanges if seer else ())
 
 
-def _jointed(joints: tuple[Joint, ...], answerer: str, seer: Seer | None = None) -> Jointed:
+def _jointed(joints: tuple[Joint, ...], answerer: str, seer: Seer | None = None, cut: tuple[str, ...] = ()) -> Jointed:
     unsure = tuple(
         f"joint {j.name}: low confidence ({j.confidence:.2f}), please check" for j in joints if j.confidence < UNSURE
     )
-    return Jointed(joints, answerer, ((*seer.remarks, *unsure) if seer else unsure), seer.exchanges if seer else ())
+    remarks = seer.remarks if seer else ()
+    return Jointed(joints, answerer, (*remarks, *cut, *unsure), seer.exchanges if seer else ())
 
 
 def solve(

@@ -14,6 +14,7 @@ from anymesh.articulation.limits import limits, opening_motion
 from anymesh.articulation.tree import descendants, parents
 from anymesh.articulation.twins import agree, in_a_row, same_size
 from anymesh.config import ArticulationConfig, Config
+from anymesh.deadline import JOINTS, Deadline
 from anymesh.geometry.pieces import ObjectShape
 from anymesh.geometry.shape import Shape
 from anymesh.geometry.surroundings import Surroundings, rods
@@ -27,6 +28,7 @@ PARALLEL = 0.999  # cosine of their axes
 WIDE = np.deg2rad(110)  # of an opening that a hinge needs no more than
 TIGHT = 0.2  # factor on the penetration that counts: neighbours are a few millimetres away
 MOST_TWINS = 8  # copies of a part that are asked with it
+LIKELIEST = ("bail", "round", "barrel", "edge_mid", "slide")  # motions that are swept when the time is over
 NOTICED = np.deg2rad(5)  # a line that lets the part open further by less is no better
 
 
@@ -36,17 +38,18 @@ def estimate_joints(
     answerer: Answerer,
     config: Config,
     progress: Progress = silent,
+    deadline: Deadline | None = None,
 ) -> tuple[Joint, ...]:
-    """One joint for every part but the root, in the order of the parts."""
+    """One joint for every part but the root, in the order of the parts. Past the deadline fewer motions are swept."""
     parts, joints = segmentation.parts, {}
-    for i, over, around, question in motion_questions(whole, segmentation, config):
+    for i, over, around, question in motion_questions(whole, segmentation, config, deadline):
         progress("joints", parts[i].name, len(joints), len(parts) - 1)
         joints[i] = estimate_joint(around, parts[i].name, parts[over].name, question, answerer)
     return tuple(joints[i] for i in sorted(joints))
 
 
 def motion_questions(
-    whole: ObjectShape, segmentation: Segmentation, config: Config
+    whole: ObjectShape, segmentation: Segmentation, config: Config, deadline: Deadline | None = None
 ) -> Iterator[tuple[int, int, Surroundings, MotionQuestion]]:
     """Of every part but the root, copies together: its number, its parent's, what is around it, and the question."""
     label, parts = segmentation.face_part[whole.source], segmentation.parts
@@ -54,7 +57,7 @@ def motion_questions(
     parent = parents(shapes, whole.diagonal)
     for numbers in same_size(shapes, parent):
         arounds = agree([surroundings(whole, label, shapes, parent, i, config.articulation) for i in numbers])
-        questions = [motion_question(a, parts[i].name, parts[i].label) for i, a in zip(numbers, arounds, strict=True)]
+        questions = [motion_question(a, parts[i].name, parts[i].label, deadline) for i, a in zip(numbers, arounds, strict=True)]
         for i, around, question in zip(numbers, arounds, questions, strict=True):
             row = (q for q, a in zip(questions, arounds, strict=True) if a is not around and in_a_row(around, a))
             yield i, parent[i], around, replace(question, twins=tuple(itertools.islice(row, MOST_TWINS)))
@@ -97,9 +100,12 @@ def _answered(around: Surroundings, question: MotionQuestion, answerer: Answerer
     return answer, _clear_of_others(around, question.candidates[answer.ranking[0]], question.candidates)
 
 
-def motion_question(around: Surroundings, name: str, label: str) -> MotionQuestion:
+def motion_question(around: Surroundings, name: str, label: str, deadline: Deadline | None = None) -> MotionQuestion:
     """How does a part move? The candidates are proposed and swept."""
     proposed = propose(around)
+    if deadline is not None and deadline.late(JOINTS):
+        deadline.leave_out("joints: only the likeliest motions were swept")
+        proposed = [(role, motion) for role, motion in proposed if role in LIKELIEST] or proposed
     return MotionQuestion(
         part_facts(around, name, label, any(role == "bail" for role, _ in proposed)), weigh_all(around, proposed)
     )

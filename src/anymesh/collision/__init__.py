@@ -89,7 +89,7 @@ def collision_shapes(
     warnings = tuple(
         f"link {link}: collision made by {f.used}, since {'; '.join(f.reasons)}" for link, f in sorted(fallbacks.items())
     )
-    return Collision(found, scene.overlapping, done.before, done.left, warnings)
+    return Collision(found, scene.overlapping, done.before, done.left, (*warnings, *deadline.warnings()))
 
 
 def _one_hull(component: Component, wall: float) -> tuple[Shape, ...]:

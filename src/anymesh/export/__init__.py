@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
+from anymesh.deadline import Deadline
 from anymesh.export.asset_json import TIMING_FILE, asset_record, json_text
 from anymesh.export.build import build_model
 from anymesh.export.formats import DEFAULT, Format, parse_formats, write_formats
@@ -28,13 +29,14 @@ def write_asset(
     driven: Driven = Driven.PASSIVE,
     config: ExportConfig = ExportConfig(),  # noqa: B008 - frozen
     cache: Path | None = None,
+    deadline: Deadline | None = None,
 ) -> Model:
     """Writes each format, meshes/, transcript/, timing.json and, last, asset.json into an existing folder.
 
     Names of the asset, its parts and joints are made legal where they are not (`anymesh.names.legal_names`). cache: a folder
     that keeps convex decompositions. The same asset gives the same bytes, but for timing.json.
     """
-    built = build_model(asset, base=base, driven=driven, config=config, cache=cache)
+    built = build_model(asset, base=base, driven=driven, config=config, cache=cache, deadline=deadline)
     model = built.model
     write_meshes(model, folder, config)
     write_formats(model, folder, formats, config)

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from anymesh.collision import Collision, collision_shapes
+from anymesh.deadline import Deadline
 from anymesh.export.densities import Substance, substance_of
 from anymesh.export.inertia import link_inertia
 from anymesh.export.links import Link, split_links, with_legal_names
@@ -25,13 +26,17 @@ class Built:
     collision: Collision
 
 
-def build_model(asset: Asset, *, base: Base, driven: Driven, config: ExportConfig, cache: Path | None) -> Built:
-    """The model of an asset, with legal names. cache: folder of decompositions, None for none."""
+def build_model(
+    asset: Asset, *, base: Base, driven: Driven, config: ExportConfig, cache: Path | None, deadline: Deadline | None = None
+) -> Built:
+    """The model of an asset, with legal names and the warnings of its collision shapes. cache: folder of decompositions, None
+    for none."""
     asset = with_legal_names(asset)
     links = split_links(asset)
     triangles = {link.name: link.triangles for link in links}
     origins = {link.name: link.origin for link in links}
-    collision = collision_shapes(asset, triangles, origins, config.collision, cache)
+    collision = collision_shapes(asset, triangles, origins, config.collision, cache, deadline=deadline)
+    asset = replace(asset, warnings=tuple(dict.fromkeys((*asset.warnings, *collision.warnings))))
     bodies = tuple(
         Body(link, link_inertia(triangles[link.name], config, _made_of(asset.mesh, link)), collision.shapes[link.name])
         for link in links

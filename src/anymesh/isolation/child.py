@@ -44,12 +44,17 @@ def call(module: str, function: str, arguments: dict[str, Any]) -> tuple[str, An
 
 
 def main() -> None:
-    """Serve calls until standard input ends. What native code prints goes nowhere."""
+    """Serve calls until standard input ends. What native code prints goes nowhere.
+
+    Arguments of the process: the memory limit [bytes], and a module to import at once ("" for none).
+    """
     requests, replies = sys.stdin.buffer, os.fdopen(os.dup(1), "wb")
     nowhere = os.open(os.devnull, os.O_WRONLY)
     os.dup2(nowhere, 1)
     os.dup2(nowhere, 2)
     limit_memory(int(sys.argv[1]))
+    if sys.argv[2]:
+        import_module(sys.argv[2])
     while head := requests.read(LENGTH):
         module, function, arguments, seconds = pickle.loads(requests.read(int.from_bytes(head, "little")))
         faulthandler.dump_traceback_later(seconds + GRACE, exit=True)

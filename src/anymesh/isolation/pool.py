@@ -83,16 +83,25 @@ class ChildPool:
             raise ChildError(Failure.MEMORY if kind == "memory" else Failure.ERROR, result)
         return result
 
+    def warm(self, module: str) -> None:
+        """Start the children that are missing and let them import a module; does not wait for that."""
+        waiting = [self._idle.get() for _ in range(self._idle.qsize())]
+        for child in waiting:
+            with contextlib.suppress(ChildError):  # the next call tries again, and tells
+                self._idle.put(child or self._started(module))
+                continue
+            self._idle.put(None)
+
     def close(self) -> None:
         """End all children, whatever they are at."""
         self._closed = True
         for child in list(self._live):
             self._end(child)
 
-    def _started(self) -> _Child:
+    def _started(self, module: str = "") -> _Child:
         if self._closed:
             raise ChildError(Failure.ERROR, "the pool is closed")
-        child = _Child(self.limits.memory)
+        child = _Child(self.limits.memory, module)
         self._live.add(child)
         return child
 
@@ -110,8 +119,8 @@ class ChildPool:
 class _Child:
     """One child process."""
 
-    def __init__(self, memory: int) -> None:
-        command = [sys.executable, "-c", "from anymesh.isolation.child import main; main()", str(memory)]
+    def __init__(self, memory: int, module: str) -> None:
+        command = [sys.executable, "-c", "from anymesh.isolation.child import main; main()", str(memory), module]
         environment = {**os.environ, **dict.fromkeys(ONE_THREAD, "1"), "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
         try:
             self._process = subprocess.Popen(

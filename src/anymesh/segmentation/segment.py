@@ -13,6 +13,7 @@ from dataclasses import replace
 import numpy as np
 
 from anymesh.config import Config
+from anymesh.deadline import SEGMENT, Deadline
 from anymesh.geometry.pieces import ObjectShape
 from anymesh.geometry.surroundings import Surroundings
 from anymesh.progress import Progress, silent
@@ -38,15 +39,16 @@ FRONT = 1.6  # what it counts that a layout of handles makes a piece one of the 
 
 
 def segment_parts(
-    mesh: Mesh, whole: ObjectShape, answerer: Answerer, moves: Moves, config: Config, progress: Progress = silent
-) -> Segmentation:
-    """The movable parts of a mesh and its base; the base is all that is left."""
+    mesh: Mesh, whole: ObjectShape, answerer: Answerer, moves: Moves, config: Config, progress: Progress = silent,
+    deadline: Deadline | None = None,
+) -> Segmentation:  # fmt: skip
+    """The movable parts of a mesh and its base; the base is all that is left. Past the deadline no candidate is examined."""
     settings = config.segmentation
     progress("segment", "contacts", 0, 2)
     contacts = find_contacts(whole, settings)
     units = _rooted(mesh, whole, contacts, answerer, moves, config)
     progress("segment", "evidence", 1, 2)
-    found = _search(whole, units, answerer, moves, config, progress)
+    found = _search(whole, units, answerer, moves, config, progress, deadline or Deadline())
     if len(found) < settings.at_least:
         found += _likeliest(whole, units, found, moves, config)[: settings.at_least - len(found)]
     return _assemble(mesh, whole, found)
@@ -66,7 +68,7 @@ def _rooted(mesh: Mesh, whole: ObjectShape, contacts: Contacts, answerer: Answer
 
 
 def _search(
-    whole: ObjectShape, units: Units, answerer: Answerer, moves: Moves, config: Config, progress: Progress
+    whole: ObjectShape, units: Units, answerer: Answerer, moves: Moves, config: Config, progress: Progress, deadline: Deadline
 ) -> list[Found]:
     """Four rounds: what touches nothing, small before large, so that a knob is not taken for a panel's handle; what touches;
     again what touches nothing and is free once those parts are out of the way (a tray behind a door); and copies of parts
@@ -76,6 +78,9 @@ def _search(
     found: list[Found] = []
 
     def examine(u: int, number: int, total: int) -> Found | None:
+        if deadline.late(SEGMENT):
+            deadline.leave_out("segmentation: some candidates for parts were not examined")
+            return None
         progress("segment", units.names[u] or f"piece {u}", number, total)
         return _candidate(whole, units, u, found, answerer, moves, config)
 
