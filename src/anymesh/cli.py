@@ -132,7 +132,8 @@ def articulate(
         asset = pipeline.articulate(
             mesh, out, parts=parts, up=up, scale=scale, root=root, base=base, formats=formats, drives=drives, force=force,
             progress=progress, time_limit=time_limit, answerer=answerer, parts_list=_labels(parts_list), at_least=at_least,
-            proposer=proposer, verify=verify, category=category, seed=seed, max_calls=max_calls, max_cost=max_cost, **cache_of(cache),
+            proposer=proposer, verify=verify, category=category, seed=seed, max_calls=max_calls, max_cost=max_cost,
+            **cache_of(cache),
         )  # fmt: skip
     tell_asset(asset, out, json_, quiet)
 
@@ -222,15 +223,9 @@ def export(
 
     with Shown(quiet or json_) as progress:
         asset = pipeline.export(
-            folder,
-            base=base,
-            formats=formats,
-            drives=drives,
-            package=package,
-            archive=zip_,
-            time_limit=time_limit,
-            progress=progress,
-        )
+            folder, base=base, formats=formats, drives=drives, package=package, archive=zip_,
+            time_limit=time_limit, progress=progress,
+        )  # fmt: skip
     tell_asset(asset, folder, json_, quiet)
 
 

@@ -12,7 +12,7 @@ SEGMENT, JOINTS, COLLISION = (
     0.4,
     0.7,
     0.9,
-)  # shares of the limit after which stage A, stage B and collision cut their work short
+)  # shares of the limit after which stage A, B and collision are cut short
 
 
 class Deadline:

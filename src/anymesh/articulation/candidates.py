@@ -6,7 +6,6 @@ from collections.abc import Callable
 
 import numpy as np
 from jaxtyping import Float
-from scipy.cluster.vq import kmeans2
 from scipy.spatial import KDTree
 
 from anymesh.config import GroundingConfig, PromptConfig
@@ -20,6 +19,8 @@ MOST_POINTS = 4000  # of a connecting area that are clustered
 
 def cluster_points(contact: Float[np.ndarray, "n 3"], project: Project, config: PromptConfig) -> Float[np.ndarray, "k 3"]:
     """Centres of the connecting area's clusters, on its points: as many as keep their numbers apart in the picture."""
+    from scipy.cluster.vq import kmeans2  # takes .1 s to import, and only a model's questions need it
+
     points = contact[:: max(1, len(contact) // MOST_POINTS)]
     order = _farthest(points, min(config.most_candidates, len(points)))
     best = points[order[:1]]

@@ -7,7 +7,6 @@ Ours: edges, middle lines and directions of the part's boxes, the axis of a roun
 from __future__ import annotations
 
 import numpy as np
-from scipy.cluster.vq import kmeans2
 
 from anymesh.geometry.boxes import Box
 from anymesh.geometry.circles import outline_about
@@ -88,7 +87,7 @@ def bail_line(around: Surroundings) -> Motion | None:
     spread = near - near.mean(0)
     first = np.linalg.svd(spread, full_matrices=False)[2][0]
     t = spread @ first
-    _, side = kmeans2(near, near[[t.argmin(), t.argmax()]], minit="matrix", iter=20)
+    side = _two_groups(near, near[[t.argmin(), t.argmax()]])
     if min((side == 0).sum(), (side == 1).sum()) < 2:
         return None
     a, b = ((near[side == s].min(0) + near[side == s].max(0)) / 2 for s in (0, 1))
@@ -97,6 +96,15 @@ def bail_line(around: Surroundings) -> Motion | None:
     if apart < 0.45 * around.part.box.diagonal * 0.8 or width > 0.35 * apart:
         return None
     return Motion(MotionKind.TURN, _unit(b - a), (a + b) / 2, "line through the two far contacts")
+
+
+def _two_groups(points: np.ndarray, centers: np.ndarray) -> np.ndarray:
+    """Return 0 or 1 per point: the nearer of two centers, which move to the middle of their points (k-means, 20 rounds)."""
+    side = np.zeros(len(points), np.int64)
+    for _ in range(20):
+        side = ((points[:, None] - centers) ** 2).sum(2).argmin(1)
+        centers = np.array([points[side == s].mean(0) if (side == s).any() else centers[s] for s in (0, 1)])
+    return side
 
 
 def barrels(around: Surroundings) -> list[tuple[str, Motion]]:
