@@ -68,8 +68,7 @@ def test_scenes_of_fixed_seeds_end_in_an_asset_or_an_error_of_ours(worker: fuzz_
     assert tried
 
 
-NATIVE = pytest.mark.xfail(reason="CoACD crashes in the process that calls it", strict=True)
-SMALL = ["bars through a board", "lamp of thin tubes", pytest.param("turned legs", marks=NATIVE)]
+SMALL = ["bars through a board", "lamp of thin tubes", "turned legs"]
 
 
 @pytest.mark.parametrize("name", SMALL)

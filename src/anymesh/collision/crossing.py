@@ -21,18 +21,26 @@ class Surface:
         self.normals, _ = normals_and_areas(triangles)
         self.triangles = triangles
         points, ends = outline(triangles)
-        self.low, self.high = points.min(0), points.max(0)
-        self.edges = points[ends]
+        self.bounds = np.stack([points.min(0), points.max(0)])
+        self._start, self._end = points[ends[:, 0]], points[ends[:, 1]]
+        self._low, self._high = np.minimum(self._start, self._end).T.copy(), np.maximum(self._start, self._end).T.copy()
         self._scene: RayScene | None = None
 
-    def crossed_by(self, edges: Float[np.ndarray, "m 2 3"], depth: float) -> bool:
+    def edges_near(self, bounds: Float[np.ndarray, "2 3"]) -> tuple[Float[np.ndarray, "m 3"], Float[np.ndarray, "m 3"]]:
+        """Both ends of the edges that come within some bounds."""
+        kept = np.arange(len(self._start))
+        for low, high, least, most in zip(self._low, self._high, *bounds, strict=True):
+            kept = kept[(high[kept] >= least) & (low[kept] <= most)]
+        return self._start[kept], self._end[kept]
+
+    def crossed_by(self, start: Float[np.ndarray, "m 3"], end: Float[np.ndarray, "m 3"], depth: float) -> bool:
         """Whether an edge, in this frame, goes through a triangle and ends more than `depth` [m] behind and before it."""
-        near = (edges.max(1) >= self.low).all(1) & (edges.min(1) <= self.high).all(1)
-        start, way = edges[near, 0], edges[near, 1] - edges[near, 0]
+        if len(start) == 0:
+            return False
         if self._scene is None:
             corners = self.triangles.reshape(-1, 3)
             self._scene = RayScene(corners, np.arange(len(corners)).reshape(-1, 3))
-        for origin, direction in ((start, way), (start + way, -way)):  # the first hit from either end
+        for origin, direction in ((start, end - start), (end, start - end)):  # the first hit from either end
             hits = self._scene.first_hit(origin, direction, 1.0)
             met = np.flatnonzero(hits.face >= 0)
             slope = np.abs(np.einsum("ij,ij->i", direction[met], self.normals[hits.face[met]]))
@@ -46,9 +54,9 @@ def cross(a: Surface, T_a: Float[np.ndarray, "4 4"], b: Surface, T_b: Float[np.n
     """Whether the surfaces of two links, placed by their transforms, go more than `depth` [m] through each other."""
     for one, T_one, other, T_other in ((a, T_a, b, T_b), (b, T_b, a, T_a)):
         T = np.linalg.inv(T_other) @ T_one
-        corners = np.array([one.low, one.high])[CORNERS, [0, 1, 2]] @ T[:3, :3].T + T[:3, 3]
-        if (corners.max(0) < other.low).any() or (corners.min(0) > other.high).any():
-            return False
-        if other.crossed_by(one.edges @ T[:3, :3].T + T[:3, 3], depth):
+        back = np.linalg.inv(T)
+        corners = np.take_along_axis(other.bounds, CORNERS, axis=0) @ back[:3, :3].T + back[:3, 3]
+        start, end = (p @ T[:3, :3].T + T[:3, 3] for p in one.edges_near(np.stack([corners.min(0), corners.max(0)])))
+        if other.crossed_by(start, end, depth):
             return True
     return False

@@ -1,0 +1,118 @@
+"""A component whose division fails costs that component its way of division, and the asset says so."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from assets import box
+
+from anymesh.collision.convex import volume
+from anymesh.collision.cuts import cut_solid
+from anymesh.collision.decompose import Component, Fineness, Method, cleaned, split_components
+from anymesh.collision.decomposer import Decomposer, divide_here
+from anymesh.collision.primitives import as_hull
+from anymesh.isolation import ChildError, ChildLimits, ChildPool, Failure
+
+FINE = Fineness(gap=0.01, wall=0.002, most=24)
+
+
+def triangles(*pieces) -> np.ndarray:
+    return np.concatenate([v[f] for v, f in pieces])
+
+
+def bracket() -> Component:
+    """An L of two blocks, 1 x 1 x .2 and 1 x .2 x 1, closed, cut from one outline."""
+    outline = np.array([[0, 0], [1, 0], [1, 0.2], [0.2, 0.2], [0.2, 1], [0, 1]], float)
+    n = len(outline)
+    low, high = (np.c_[np.full(n, x), outline] for x in (0.0, 1.0))
+    cap = np.array([[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 5]])
+    i, j = np.arange(n), (np.arange(n) + 1) % n
+    faces = np.concatenate([cap[:, ::-1], cap + n, np.stack([i, j, j + n], 1), np.stack([i, j + n, i + n], 1)])
+    return Component(np.concatenate([low, high])[faces], True)
+
+
+class FakePool(ChildPool):
+    """Fails for some methods as a child would, and divides here for the others."""
+
+    def __init__(self, *failing: Method, failure: Failure = Failure.CRASH) -> None:
+        super().__init__(2)
+        self.failing, self.failure, self.calls = failing, failure, []
+
+    def run(self, module, function, arguments, *, seconds):
+        self.calls.append((arguments["method"], len(arguments["batch"])))
+        if arguments["method"] in self.failing:
+            raise ChildError(self.failure, "signal 11")
+        return divide_here(**arguments)
+
+
+def test_a_faceted_solid_is_cut_into_its_blocks_exactly():
+    hulls = cut_solid(bracket().triangles, gap=0.01, wall=0.002)
+    assert len(hulls) == 2
+    assert sum(volume(h) for h in hulls) == pytest.approx(0.36, rel=1e-9)
+
+
+def test_children_divide_as_this_process_does_and_keep_the_order():
+    components = [bracket(), Component(triangles(box((0, 0, 0), (1, 2, 3))), True)]
+    with ChildPool(2, ChildLimits(60.0)) as pool:
+        found = Decomposer(pool, None, 30.0).divide(components, [FINE, FINE])
+    assert [len(d.shapes) for d in found] == [2, 1]
+    assert [d.fallback for d in found] == [None, None]
+
+
+@pytest.mark.parametrize(
+    ("failing", "used"),
+    [
+        ((Method.CUTS,), Method.CLEANED.value),
+        ((Method.CUTS, Method.CLEANED), Method.SPLIT.value),
+        (tuple(Method), "one convex hull"),
+    ],
+)
+def test_a_crash_costs_one_component_its_way_of_division(failing, used):
+    components = [bracket(), Component(triangles(box((0, 0, 0), (1, 2, 3))), True)]
+    found = Decomposer(FakePool(*failing), None, 30.0).divide(components, [FINE, FINE])
+    assert found[0].fallback.used == used
+    assert len(found[0].fallback.reasons) == len(failing)
+    assert "crash: signal 11" in found[0].fallback.reasons[0]
+    assert all(d.shapes for d in found)
+
+
+def test_a_fallback_gives_the_same_shapes_each_time():
+    def shapes():
+        (found,) = Decomposer(FakePool(Method.CUTS), None, 30.0).divide([bracket()], [FINE])
+        return [as_hull(s).vertices.tobytes() for s in found.shapes]
+
+    assert shapes() == shapes()
+
+
+def test_what_a_fallback_made_is_not_kept(tmp_path):
+    Decomposer(FakePool(Method.CUTS), tmp_path, 30.0).divide([bracket()], [FINE])
+    assert not list(tmp_path.glob("*.npz"))
+    pool = FakePool()
+    for _ in range(2):
+        (found,) = Decomposer(pool, tmp_path, 30.0).divide([bracket()], [FINE])
+        assert found.fallback is None
+    assert pool.calls == [(Method.CUTS, 1)]  # the second time it comes from the cache
+
+
+def test_copies_are_divided_once():
+    pool, shift = FakePool(), np.array([3.1, -0.7, 0.2])
+    moved = replace(bracket(), triangles=bracket().triangles + shift)
+    one, other = Decomposer(pool, None, 30.0).divide([bracket(), moved], [FINE, FINE])
+    assert pool.calls == [(Method.CUTS, 1)]
+    for a, b in zip(one.shapes, other.shapes, strict=True):
+        np.testing.assert_allclose(as_hull(a).vertices + shift, as_hull(b).vertices, atol=1e-8)
+
+
+def test_cleaning_removes_slivers_and_double_faces_alone():
+    whole = triangles(box((0, 0, 0), (1, 1, 1)))
+    sliver = np.array([[[0, 0, 0], [1, 0, 0], [0.5, 0, 0]]], float)
+    np.testing.assert_allclose(cleaned(np.concatenate([whole, whole[:2], sliver])), whole, atol=1e-5)
+
+
+def test_small_components_beyond_the_most_share_hulls():
+    beads = [box((x, y, 0), (x + 0.01, y + 0.01, 0.01)) for x in np.arange(20) for y in np.arange(20)]
+    found = split_components(triangles(*beads), 0.0, most=50)
+    assert 50 < len(found) <= 50 + 64
+    assert sum(len(c.triangles) for c in found) == 12 * 400

@@ -1,0 +1,42 @@
+"""Functions that children run in the tests: each does on purpose what native code may do."""
+
+from __future__ import annotations
+
+import os
+import signal
+import time
+
+import numpy as np
+
+
+def add(a: int, b: int) -> int:
+    return a + b
+
+
+def crash() -> None:
+    os.kill(os.getpid(), signal.SIGSEGV)
+
+
+def hang() -> None:
+    time.sleep(60)
+
+
+def eat(size: int) -> int:
+    return len(np.ones(size, np.uint8))
+
+
+def fail() -> None:
+    raise ValueError("three legs")
+
+
+def chatter() -> str:
+    os.write(1, b"native noise on standard output")
+    return "done"
+
+
+def process() -> int:
+    return os.getpid()
+
+
+def threads() -> str:
+    return os.environ["OMP_NUM_THREADS"]

@@ -1,0 +1,121 @@
+"""A child process that crashes, hangs or exhausts memory costs its call, and nothing else."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import textwrap
+import time
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import pytest
+
+from anymesh.isolation import ChildError, ChildLimits, ChildPool, Failure
+
+FAULTY = "faulty"
+HERE = Path(__file__).parent
+
+
+@pytest.fixture
+def pool(monkeypatch):
+    monkeypatch.syspath_prepend(HERE)
+    with ChildPool(1, ChildLimits(seconds=20.0, memory=3 << 30)) as made:
+        yield made
+
+
+def alive(pid: int) -> bool:
+    try:
+        os.kill(pid, 0)
+    except ProcessLookupError:
+        return False
+    return True
+
+
+def test_results_come_back_from_a_warm_child(pool):
+    first = pool.run(FAULTY, "process", {})
+    assert first != os.getpid()
+    assert pool.run(FAULTY, "process", {}) == first
+    assert pool.run(FAULTY, "add", {"a": 2, "b": 3}) == 5
+
+
+@pytest.mark.parametrize(
+    ("function", "arguments", "failure", "told"),
+    [
+        ("crash", {}, Failure.CRASH, f"signal {int(signal.SIGSEGV)}"),
+        ("eat", {"size": 8 << 30}, Failure.MEMORY, "allocate"),
+        ("fail", {}, Failure.ERROR, "ValueError: three legs"),
+    ],
+)
+def test_a_failure_is_told_and_the_next_call_works(pool, function, arguments, failure, told):
+    with pytest.raises(ChildError, match=told) as caught:
+        pool.run(FAULTY, function, arguments)
+    assert caught.value.failure is failure
+    assert pool.run(FAULTY, "add", {"a": 1, "b": 1}) == 2
+
+
+def test_a_call_that_hangs_is_ended_at_its_time_limit(pool):
+    hanging = pool.run(FAULTY, "process", {})
+    begin = time.monotonic()
+    with pytest.raises(ChildError) as caught:
+        pool.run(FAULTY, "hang", {}, seconds=0.5)
+    assert caught.value.failure is Failure.TIME
+    assert time.monotonic() - begin < 10
+    assert not alive(hanging)
+    assert pool.run(FAULTY, "process", {}) != hanging
+
+
+def test_what_native_code_prints_does_not_reach_the_answers_or_the_terminal(pool, capfd):
+    assert pool.run(FAULTY, "chatter", {}) == "done"
+    assert capfd.readouterr() == ("", "")
+
+
+def test_children_use_one_thread_so_that_results_do_not_depend_on_the_cores(pool):
+    assert pool.run(FAULTY, "threads", {}) == "1"
+
+
+def test_more_threads_than_children_wait_their_turn(pool):
+    with ThreadPoolExecutor(4) as threads:
+        sums = list(threads.map(lambda k: pool.run(FAULTY, "add", {"a": k, "b": 1}), range(8)))
+    assert sums == list(range(1, 9))
+
+
+def test_children_end_with_the_pool_even_at_work(monkeypatch):
+    monkeypatch.syspath_prepend(HERE)
+    pool = ChildPool(1)
+    child = pool.run(FAULTY, "process", {})
+    with ThreadPoolExecutor(1) as thread:
+        hanging = thread.submit(pool.run, FAULTY, "hang", {})
+        time.sleep(0.3)
+        pool.close()
+        with pytest.raises(ChildError):
+            hanging.result(timeout=10)
+    assert not alive(child)
+
+
+def test_warm_children_have_the_module_and_answer(monkeypatch):
+    monkeypatch.syspath_prepend(HERE)
+    with ChildPool(2) as pool:
+        pool.warm(FAULTY)
+        assert pool.run(FAULTY, "add", {"a": 1, "b": 2}) == 3
+
+
+def test_an_interrupt_ends_the_children_too(tmp_path):
+    script = textwrap.dedent(f"""
+        import sys, threading
+        sys.path.insert(0, {str(HERE)!r})
+        from anymesh.isolation import shared_pool
+        print(shared_pool().run("faulty", "process", {{}}), flush=True)
+        shared_pool().run("faulty", "hang", {{}})
+    """)
+    process = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+    child = int(process.stdout.readline())
+    time.sleep(0.5)
+    process.send_signal(signal.SIGINT)
+    process.wait(timeout=20)
+    deadline = time.monotonic() + 5
+    while alive(child) and time.monotonic() < deadline:
+        time.sleep(0.05)
+    assert not alive(child)
