@@ -48,7 +48,7 @@ class FakePool(ChildPool):
 
 
 def test_a_faceted_solid_is_cut_into_its_blocks_exactly():
-    hulls = cut_solid(bracket().triangles, gap=0.01, wall=0.002)
+    hulls = cut_solid(bracket().triangles, gap=0.01, wall=0.002, most=16)
     assert len(hulls) == 2
     assert sum(volume(h) for h in hulls) == pytest.approx(0.36, rel=1e-9)
 

@@ -24,7 +24,6 @@ from anymesh.types.triangles import normals_and_areas
 
 CONCAVE = 10.0  # [deg] of the fold at an edge from which it counts as concave
 MOST_PLANES = 32  # distinct planes at concave edges; a solid with more is not faceted
-MOST_PIECES = 16  # CoACD needs fewer for what takes more
 TRIED = 16  # planes per cut, those with the longest concave edges first
 FLAT = 1e-9  # volume of a side, as a share of both, below which a plane does not divide
 SAME_PLANE = (0.9999, 1e-4)  # cosine of the normals, and offset as a share of the diagonal
@@ -39,8 +38,8 @@ class _Block:
     gap: float
 
 
-def cut_solid(triangles: Float[np.ndarray, "n 3 3"], *, gap: float, wall: float) -> list[Hull] | None:
-    """Return convex pieces that stand off a closed solid by at most `gap` [m], or None if that takes too many pieces
+def cut_solid(triangles: Float[np.ndarray, "n 3 3"], *, gap: float, wall: float, most: int) -> list[Hull] | None:
+    """Return convex pieces that stand off a closed solid by at most `gap` [m], or None if that takes more than `most` pieces
     or the solid is not faceted. wall: least distance of other cutting planes [m]."""
     planes = _concave_planes(triangles)
     if not 0 < len(planes) <= MOST_PLANES:
@@ -53,7 +52,7 @@ def cut_solid(triangles: Float[np.ndarray, "n 3 3"], *, gap: float, wall: float)
     cuts = 0
     while waiting:
         cuts += 1
-        if len(done) + len(waiting) > MOST_PIECES or cuts > 2 * MOST_PIECES:
+        if len(done) + len(waiting) > most or cuts > 2 * most:
             return None
         block = waiting.pop()
         if block.gap <= gap:

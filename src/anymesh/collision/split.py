@@ -21,7 +21,7 @@ from anymesh.types import Hull
 from anymesh.types.triangles import normals_and_areas
 
 SAMPLES = 200  # of a hull, for its distance from the surface
-PLACES = 7  # of a cutting plane along each direction
+PLACES = 5  # of a cutting plane along each direction
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,7 +94,9 @@ def cutting_planes(triangles: Float[np.ndarray, "n 3 3"], wall: float) -> Iterat
     normals, areas = normals_and_areas(triangles)
     corners = triangles.reshape(-1, 3)
     spread = corners - corners.mean(0)
-    directions = [*dominant_normals(normals, areas, count=4), *np.linalg.svd(spread.T @ spread)[2]]
+    directions = list(dominant_normals(normals, areas, count=4))
+    if len(directions) < 3:
+        directions += list(np.linalg.svd(spread.T @ spread)[2])
     kept: list[np.ndarray] = []
     for direction in directions:
         if all(abs(float(direction @ other)) < 0.99 for other in kept):
