@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -21,7 +21,7 @@ from anymesh.geometry.simplify_ import simplify
 from anymesh.isolation import ChildPool, shared_pool
 from anymesh.types import Asset, Joint, JointType, Shape
 
-__all__ = ["Collision", "CollisionConfig", "collision_shapes", "joint_poses"]
+__all__ = ["Collision", "CollisionConfig", "collision_shapes", "joint_poses", "sampled_poses"]
 FACES = 50_000  # of a link, for the question whether surfaces cross
 SMALL = 0.3  # components smaller than this share of the first gap need no shape beside larger ones
 
@@ -79,7 +79,7 @@ def collision_shapes(
     pieces = [Piece(link, c, 0, shapes) for (link, c), shapes in zip(parts, first, strict=True)]
     scene = Scene(
         {link: Surface(simplify(t, FACES)) for link, t in triangles.items()},
-        list(_poses(asset, origins, config.poses)),
+        sampled_poses(asset, origins, config.poses),
         config.contact * size,
         config.crossing * size,
     )
@@ -106,15 +106,14 @@ def joint_poses(
     return [_placed(asset, origins, {joint.name: v}) for v in places]
 
 
-def _poses(
+def sampled_poses(
     asset: Asset, origins: Mapping[str, Float[np.ndarray, " 3"]], count: int
-) -> Iterator[dict[str, Float[np.ndarray, "4 4"]]]:
+) -> list[dict[str, Float[np.ndarray, "4 4"]]]:
     """Where link frames are at rest, with each joint alone over its range, and with all joints opened."""
     moving = [j for j in asset.joints if j.type is not JointType.FIXED]
-    yield _placed(asset, origins, {})
-    for joint in moving:
-        yield from joint_poses(asset, origins, joint, count)[1:]
-    yield _placed(asset, origins, {j.name: np.pi if j.limits is None else j.limits[1] for j in moving})
+    alone = [pose for joint in moving for pose in joint_poses(asset, origins, joint, count)[1:]]
+    opened = {j.name: np.pi if j.limits is None else j.limits[1] for j in moving}
+    return [_placed(asset, origins, {}), *alone, _placed(asset, origins, opened)]
 
 
 def _placed(

@@ -15,10 +15,10 @@ from jaxtyping import Float
 from scipy.spatial import ConvexHull, QhullError
 
 from anymesh.collision.convex import cut, hull_of
-from anymesh.collision.split import SAMPLES, below_and_above, cutting_planes, outline
+from anymesh.collision.split import SAMPLES, below_and_above, cutting_planes, outline, solid_mesh
 from anymesh.geometry.distance_ import distance_to_mesh, winding_number
 from anymesh.geometry.sampling import sample_surface
-from anymesh.geometry.topology import edge_pairs, weld
+from anymesh.geometry.topology import edge_pairs
 from anymesh.types import Hull
 from anymesh.types.triangles import normals_and_areas
 
@@ -44,9 +44,7 @@ def cut_solid(triangles: Float[np.ndarray, "n 3 3"], *, gap: float, wall: float,
     planes = _concave_planes(triangles)
     if not 0 < len(planes) <= MOST_PLANES:
         return None
-    corners = triangles.reshape(-1, 3)
-    _, first, faces = np.unique(weld(corners), return_index=True, return_inverse=True)
-    solid = corners[first], faces.reshape(-1, 3)
+    solid = solid_mesh(triangles)
     whole = _block(triangles, solid)
     done, waiting = [], [] if whole is None else [whole]
     cuts = 0

@@ -12,9 +12,9 @@ from anymesh.collision.coacd_ import decompose
 from anymesh.collision.convex import hull_of, planes
 from anymesh.collision.cuts import cut_solid
 from anymesh.collision.primitives import fitted
-from anymesh.collision.split import patch_of, split_surface
+from anymesh.collision.split import patch_of, solid_mesh, split_surface
 from anymesh.geometry.simplify_ import simplify
-from anymesh.geometry.topology import components, weld
+from anymesh.geometry.topology import components
 from anymesh.types import Hull, Shape
 from anymesh.types.triangles import normals_and_areas
 
@@ -139,8 +139,7 @@ def _divided(triangles: np.ndarray, fineness: Fineness, method: Method) -> list[
 def _by_coacd(triangles: np.ndarray, fineness: Fineness) -> list[Hull]:
     """The hulls of CoACD's pieces; none where the surface is not closed."""
     triangles = simplify(triangles, COACD_FACES)
-    _, first, faces = np.unique(weld(triangles.reshape(-1, 3)), return_index=True, return_inverse=True)
-    vertices, faces = triangles.reshape(-1, 3)[first], faces.reshape(-1, 3)
+    vertices, faces = solid_mesh(triangles)
     if len(faces) == 0 or not components(vertices, faces).solid.all():
         return []
     half = float(np.ptp(vertices, axis=0).max()) / 2

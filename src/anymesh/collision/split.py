@@ -17,6 +17,7 @@ from anymesh.collision.convex import cut, hull_of
 from anymesh.geometry.boxes import dominant_normals
 from anymesh.geometry.distance_ import distance_to_triangles
 from anymesh.geometry.sampling import sample_surface
+from anymesh.geometry.topology import weld
 from anymesh.types import Hull
 from anymesh.types.triangles import normals_and_areas
 
@@ -77,6 +78,13 @@ def _halves(patch: Patch, wall: float) -> list[Patch]:
         return []
     pieces = (patch_of(piece, wall) for piece in cut(patch.triangles, best[1], best[2]))
     return [piece for piece in pieces if piece is not None]
+
+
+def solid_mesh(triangles: Float[np.ndarray, "n 3 3"]) -> tuple[Float[np.ndarray, "V 3"], Int[np.ndarray, "n 3"]]:
+    """Return the welded vertices and faces of some triangles."""
+    corners = triangles.reshape(-1, 3)
+    _, first, faces = np.unique(weld(corners), return_index=True, return_inverse=True)
+    return corners[first], faces.reshape(-1, 3)
 
 
 def outline(triangles: Float[np.ndarray, "n 3 3"]) -> tuple[Float[np.ndarray, "V 3"], Int[np.ndarray, "E 2"]]:

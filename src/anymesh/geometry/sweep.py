@@ -135,7 +135,8 @@ class _Passage:
         not passing are left out."""
         poses = np.ascontiguousarray(self.poses[:, motions, begin : end + LOOK_AHEAD + 1])
         (count, known), n, steps = poses.shape[1:3], self.points.shape[1], end - begin
-        path = (poses.reshape(-1, 4) @ self.points).reshape(3, count, known, n)
+        # not by BLAS, whose own threads would fight with those of the sweeps
+        path = np.einsum("rk,kn->rn", poses.reshape(-1, 4), self.points).reshape(3, count, known, n)
         t, k, i = self._near(path, passing, steps)
         path = path.reshape(3, -1)  # column (t * known + k) * n + i: point i at step k of motion t
         live = (t * known + k) * n + i

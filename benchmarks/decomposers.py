@@ -1,0 +1,152 @@
+"""Ways to divide solids that are not convex: how often each fails, the time it takes, its pieces, its false contacts.
+
+python benchmarks/decomposers.py [--path NAME=FOLDER ...] [SET ...]     writes benchmarks/decomposers.md; a set as `anymesh
+                                                        eval` names it; --path: another coacd, unpacked in a folder
+
+True parts and joints are given. Each call runs in a child process with limits of 20 s and 4 GiB; what fails gets one hull.
+False contacts are pairs of shapes that touch at a sampled pose where the surfaces do not, before anything is done about
+them. The seconds are wall time in the children. V-HACD is the package vhacdx. manifold3d is not in the table: it joins and
+offsets solids but does not divide them into convex pieces.
+"""
+
+from __future__ import annotations
+
+import collections
+import datetime
+import platform
+import sys
+import tempfile
+import time
+from dataclasses import dataclass, field
+from importlib.metadata import version
+from pathlib import Path
+
+import numpy as np
+
+from anymesh.collision import SMALL, CollisionConfig, sampled_poses
+from anymesh.collision.clear import Piece, Scene
+from anymesh.collision.convex import hull_of
+from anymesh.collision.crossing import Surface
+from anymesh.collision.decompose import Component, Fineness, component_shapes, solid_mesh, split_components
+from anymesh.collision.primitives import fitted
+from anymesh.collision.split import patch_of, split_surface
+from anymesh.evaluation.datasets.named import open_dataset
+from anymesh.evaluation.protocols import prepared
+from anymesh.export.links import split_links
+from anymesh.geometry.simplify_ import simplify
+from anymesh.isolation import ChildError, ChildLimits, ChildPool
+
+PAGE = Path(__file__).with_suffix(".md")
+SETS = ("examples", "scene-synthesizer", "metaworld", "libero")
+SECONDS = 20.0
+
+
+def divide(way: str, component: Component, fineness: Fineness) -> tuple[list[np.ndarray], float]:
+    """The corners of the pieces of a component, and the seconds that took. The function that children run."""
+    name, _, folder = way.partition("=")
+    if folder:
+        sys.path.insert(0, folder)
+    begin = time.perf_counter()
+    triangles = simplify(component.triangles, 3000)
+    if name == "cuts by planes":
+        made = [h.vertices for h in split_surface(triangles, gap=fineness.gap, wall=fineness.wall, most=fineness.most)]
+    elif name.startswith("V-HACD"):
+        import vhacdx
+
+        vertices, faces = solid_mesh(triangles)
+        made = [p for p, _ in vhacdx.compute_vhacd(vertices, faces.astype(np.uint32), 32, 100_000, asyncACD=False)]
+    else:
+        import coacd
+
+        coacd.set_log_level("off")
+        vertices, faces = solid_mesh(triangles)
+        concavity = float(np.clip(fineness.gap / (np.ptp(vertices, axis=0).max() / 2), 0.01, 1.0))
+        how = {"mcts_iterations": 20, "mcts_nodes": 10, "resolution": 500, "seed": 0}
+        mode = "on" if "remesh" in name else "off"
+        made = [p for p, _ in coacd.run_coacd(coacd.Mesh(vertices, faces), threshold=concavity, preprocess_mode=mode, **how)]
+    return [np.asarray(p, float) for p in made], time.perf_counter() - begin
+
+
+def divide_ours(component: Component, fineness: Fineness) -> tuple[list, float]:
+    begin = time.perf_counter()
+    return list(component_shapes(component, fineness)), time.perf_counter() - begin
+
+
+@dataclass
+class Tally:
+    """What one way did over all links."""
+
+    links: int = 0
+    components: int = 0
+    failed: collections.Counter = field(default_factory=collections.Counter)
+    seconds: list[float] = field(default_factory=list)
+    pieces: list[int] = field(default_factory=list)
+    contacts: int = 0
+
+
+def shapes_of(pool: ChildPool, way: str, component: Component, fineness: Fineness, tally: Tally) -> tuple:
+    whole = patch_of(simplify(component.triangles, 3000), fineness.wall)
+    if whole is None or whole.gap <= fineness.gap or not component.solid:
+        return () if whole is None else (fitted(whole.hull),)
+    tally.components += 1
+    try:
+        if way == "ours":
+            found, seconds = pool.run("decomposers", "divide_ours", {"component": component, "fineness": fineness})
+        else:
+            corners, seconds = pool.run("decomposers", "divide", {"way": way, "component": component, "fineness": fineness})
+            found = [fitted(hull) for points in corners if (hull := hull_of(points, fineness.wall)) is not None]
+    except ChildError as error:
+        tally.failed[error.failure.value] += 1
+        return (fitted(whole.hull),)
+    tally.seconds.append(seconds)
+    tally.pieces.append(len(found))
+    return tuple(found)
+
+
+def measure(spec: str, pools: dict[str, ChildPool], tallies: dict[str, Tally]) -> None:
+    config, data = CollisionConfig(), open_dataset(spec)
+    for name in data.objects():
+        with tempfile.TemporaryDirectory() as folder:
+            asset = prepared(data.truth(name, Path(folder))).asset()
+        links, size = split_links(asset), asset.mesh.diagonal
+        fineness = Fineness(config.gaps[0] * size, min(config.wall * size, config.wall_most), config.pieces[0])
+        surfaces = {k.name: Surface(simplify(k.triangles, 50_000)) for k in links}
+        poses = sampled_poses(asset, {k.name: k.origin for k in links}, config.poses)
+        scene = Scene(surfaces, poses, config.contact * size, config.crossing * size)
+        for way, tally in tallies.items():
+            tally.links += len(links)
+            parts = [(k.name, c) for k in links for c in split_components(k.triangles, SMALL * config.gaps[0] * size)]
+            pieces = [Piece(n, c, 0, shapes_of(pools[way], way, c, fineness, tally)) for n, c in parts]
+            tally.contacts += len(scene.faults(pieces).found)
+
+
+def main() -> None:
+    words, folders = sys.argv[1:], []
+    while "--path" in words:
+        at = words.index("--path")
+        folders.append(words[at + 1])
+        del words[at : at + 2]
+    ways = ["ours", "CoACD", "CoACD with its remesh", "V-HACD", "cuts by planes", *folders]
+    tallies = {way: Tally() for way in ways}
+    pools = {way: ChildPool(1, ChildLimits(SECONDS, 4 << 30)) for way in ways}
+    for spec in words or SETS:
+        measure(spec, pools, tallies)
+        print(spec, tallies["ours"].links, flush=True)
+    head = (
+        "| way | solids | crash | time limit | error | seconds, median | 9 of 10 below | sum | pieces, mean | false contacts |"
+    )
+    rows = [head, "|---" * 10 + "|"]
+    for way, t in tallies.items():
+        failed = " | ".join(str(t.failed[kind]) for kind in ("crash", "time limit", "error"))
+        times = " | ".join(f"{v:.2f}" for v in (*np.percentile(t.seconds, [50, 90]), sum(t.seconds)))
+        label = "cuts along concave edges, else CoACD" if way == "ours" else way.partition("=")[0]
+        rows.append(f"| {label} | {t.components} | {failed} | {times} | {np.mean(t.pieces):.1f} | {t.contacts} |")
+    links = tallies["ours"].links
+    packages = ", ".join(f"{p} {version(p)}" for p in ("coacd", "mujoco", "numpy"))
+    told = f"{links} links. {datetime.date.today()}, Python {platform.python_version()}, {packages}."
+    title = "# Convex decomposition, way by way"
+    PAGE.write_text("\n\n".join([title, (__doc__ or "").strip(), "\n".join(rows), told]) + "\n", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
