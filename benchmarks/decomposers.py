@@ -3,7 +3,7 @@
 python benchmarks/decomposers.py [--path NAME=FOLDER ...] [SET ...]     writes benchmarks/decomposers.md; a set as `anymesh
                                                         eval` names it; --path: another coacd, unpacked in a folder
 
-True parts and joints are given. Each call runs in a child process with limits of 20 s and 4 GiB; what fails gets one hull.
+True parts and joints are given. Each call runs in a child process with limits of 10 s and 4 GiB; what fails gets one hull.
 False contacts are pairs of shapes that touch at a sampled pose where the surfaces do not, before anything is done about
 them. The seconds are wall time in the children. V-HACD is the package vhacdx. manifold3d is not in the table: it joins and
 offsets solids but does not divide them into convex pieces.
@@ -38,7 +38,7 @@ from anymesh.isolation import ChildError, ChildLimits, ChildPool
 
 PAGE = Path(__file__).with_suffix(".md")
 SETS = ("examples", "scene-synthesizer", "metaworld", "libero")
-SECONDS = 20.0
+SECONDS = 10.0
 
 
 def divide(way: str, component: Component, fineness: Fineness) -> tuple[list[np.ndarray], float]:
@@ -129,21 +129,26 @@ def main() -> None:
     ways = ["ours", "CoACD", "CoACD with its remesh", "V-HACD", "cuts by planes", *folders]
     tallies = {way: Tally() for way in ways}
     pools = {way: ChildPool(1, ChildLimits(SECONDS, 4 << 30)) for way in ways}
+    done = []
     for spec in words or SETS:
         measure(spec, pools, tallies)
+        done.append(spec.partition(":")[0])
+        write_page(tallies, done)
         print(spec, tallies["ours"].links, flush=True)
-    head = (
-        "| way | solids | crash | time limit | error | seconds, median | 9 of 10 below | sum | pieces, mean | false contacts |"
-    )
-    rows = [head, "|---" * 10 + "|"]
+
+
+def write_page(tallies: dict[str, Tally], sets: list[str]) -> None:
+    """Write what was measured so far."""
+    head = "way | solids | crash | time limit | error | seconds, median | 9 of 10 below | sum | pieces, mean | false contacts"
+    rows = [f"| {head} |", "|---" * 10 + "|"]
     for way, t in tallies.items():
         failed = " | ".join(str(t.failed[kind]) for kind in ("crash", "time limit", "error"))
-        times = " | ".join(f"{v:.2f}" for v in (*np.percentile(t.seconds, [50, 90]), sum(t.seconds)))
+        times = " | ".join(f"{v:.2f}" for v in (*np.percentile(t.seconds or [0.0], [50, 90]), sum(t.seconds)))
         label = "cuts along concave edges, else CoACD" if way == "ours" else way.partition("=")[0]
-        rows.append(f"| {label} | {t.components} | {failed} | {times} | {np.mean(t.pieces):.1f} | {t.contacts} |")
-    links = tallies["ours"].links
+        rows.append(f"| {label} | {t.components} | {failed} | {times} | {np.mean(t.pieces or [0]):.1f} | {t.contacts} |")
     packages = ", ".join(f"{p} {version(p)}" for p in ("coacd", "mujoco", "numpy"))
-    told = f"{links} links. {datetime.date.today()}, Python {platform.python_version()}, {packages}."
+    links = f"{tallies['ours'].links} links of {', '.join(sets)}."
+    told = f"{links} {datetime.date.today()}, Python {platform.python_version()}, {packages}."
     title = "# Convex decomposition, way by way"
     PAGE.write_text("\n\n".join([title, (__doc__ or "").strip(), "\n".join(rows), told]) + "\n", encoding="utf-8")
 

@@ -201,3 +201,8 @@ def test_where_strokes_meet_the_strongest_counts():
     np.testing.assert_array_equal(drawn[2], [0, 120, 120, 200, 200, 200, 0])
     np.testing.assert_array_equal(drawn[1], [0, 0, 120, 0, 200, 0, 0])
     assert not drawn[[0, 4]].any()
+
+
+def test_a_surface_that_no_ray_meets_leaves_the_ground_as_it_is():
+    speck = painted([box((50, 50, 50), (50.001, 50.001, 50.001))], 0.5)
+    np.testing.assert_array_equal(picture(speck), ground(SIZE, SIZE))

@@ -59,7 +59,7 @@ class Samples:
         picture = ground.reshape(-1, 3).copy()
         count = len(self.plain)
         picture[self.plain] = color[:count]
-        picture[self.split] = color[count:].reshape(len(self.split), -1) @ MEAN
+        picture[self.split] = color[count:].reshape(len(self.split), len(MEAN)) @ MEAN
         return picture.reshape(ground.shape)
 
 
