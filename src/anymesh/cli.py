@@ -49,6 +49,7 @@ from anymesh.cli_report import picture, report
 from anymesh.cli_view import view
 from anymesh.deadline import DEFAULT_SECONDS
 from anymesh.errors import DEFECT, AnymeshError
+from anymesh.isolation import DECOMPOSER, shared_pool
 
 EXIT_CODES = (
     "Exit codes: 0 done; 2 a wrong option; 3 the mesh cannot be used; 4 the output folder exists or "
@@ -126,6 +127,7 @@ def articulate(
     quiet: Quiet = False,
 ) -> None:
     """The whole job: MESH to an articulated asset in DIR."""
+    shared_pool().warm(DECOMPOSER)  # the children import while this process does
     from anymesh import pipeline
 
     with Shown(quiet or json_) as progress:

@@ -16,7 +16,7 @@ from anymesh.export import Base, Driven, Format, parse_formats, write_asset
 from anymesh.export.archive import write_zip
 from anymesh.export.formats import DEFAULT
 from anymesh.export.package import write_package
-from anymesh.isolation import shared_pool
+from anymesh.isolation import DECOMPOSER, shared_pool
 from anymesh.loading import load_mesh, place_mesh
 from anymesh.models.cache import cache_folder
 from anymesh.progress import Progress, silent
@@ -56,7 +56,7 @@ def articulate(
     """
     how, deadline = Exported.parse(base, formats, drives), Deadline(time_limit)
     who = choose_answerer(answering)
-    shared_pool().warm("anymesh.collision.decomposer")
+    shared_pool().warm(DECOMPOSER)
     with RunFolder.create(Path(out), source=Path(mesh_path), force=force) as run:
         solver, recognized, key = _seen(run, Path(mesh_path), parts, Placement(up, scale, root), who, deadline, progress)
         segmented, key = _segment(run, solver, recognized, key, parts, who, progress)

@@ -14,7 +14,7 @@ from anymesh.collision.convex import hull_of
 from anymesh.collision.decompose import Component, Fineness, Method, component_shapes
 from anymesh.collision.primitives import shifted
 from anymesh.collision.store import content_key, load_shapes, save_shapes
-from anymesh.isolation import ChildError, ChildPool
+from anymesh.isolation import DECOMPOSER, ChildError, ChildPool
 from anymesh.types import Shape
 
 DIGITS = 30  # binary, of the coordinates of a component, so that copies at different places become equal
@@ -95,7 +95,7 @@ class Decomposer:
 
     def _call(self, batch: list[tuple[Component, Fineness]], method: Method) -> list[tuple[Shape, ...]]:
         arguments = {"batch": batch, "method": method}
-        return self.pool.run("anymesh.collision.decomposer", "divide_here", arguments, seconds=self.seconds)
+        return self.pool.run(DECOMPOSER, "divide_here", arguments, seconds=self.seconds)
 
 
 def _at_origin(component: Component, corner: np.ndarray) -> Component:

@@ -2,4 +2,6 @@
 
 from anymesh.isolation.pool import ChildError, ChildLimits, ChildPool, Failure, shared_pool
 
-__all__ = ["ChildError", "ChildLimits", "ChildPool", "Failure", "shared_pool"]
+DECOMPOSER = "anymesh.collision.decomposer"  # the module that children are warmed with
+
+__all__ = ["DECOMPOSER", "ChildError", "ChildLimits", "ChildPool", "Failure", "shared_pool"]
