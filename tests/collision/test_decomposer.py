@@ -6,13 +6,16 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from assets import box
+from assets import box, cabinet
 
+from anymesh.collision import collision_shapes
 from anymesh.collision.convex import volume
 from anymesh.collision.cuts import cut_solid
 from anymesh.collision.decompose import Component, Fineness, Method, cleaned, split_components
 from anymesh.collision.decomposer import Decomposer, divide_here
 from anymesh.collision.primitives import as_hull
+from anymesh.deadline import Deadline
+from anymesh.export.links import split_links
 from anymesh.isolation import ChildError, ChildLimits, ChildPool, Failure
 
 FINE = Fineness(gap=0.01, wall=0.002, most=24)
@@ -116,3 +119,31 @@ def test_small_components_beyond_the_most_share_hulls():
     found = split_components(triangles(*beads), 0.0, most=50)
     assert 50 < len(found) <= 50 + 64
     assert sum(len(c.triangles) for c in found) == 12 * 400
+
+
+def test_the_asset_names_the_link_whose_collision_fell_back():
+    asset = cabinet()
+    links = split_links(asset)
+    where = {k.name: k.triangles for k in links}, {k.name: k.origin for k in links}
+    plain = collision_shapes(asset, *where, pool=FakePool())
+    fallen = [collision_shapes(asset, *where, pool=FakePool(Method.CUTS)) for _ in range(2)]
+    assert plain.warnings == ()
+    assert {w.split(":")[0] for w in fallen[0].warnings} == {f"link {name}" for name in plain.shapes}
+    assert all("CoACD on a cleaned surface, since" in w and "crash: signal 11" in w for w in fallen[0].warnings)
+    assert fallen[0].warnings == fallen[1].warnings
+    for link, shapes in fallen[0].shapes.items():
+        again = fallen[1].shapes[link]
+        assert [as_hull(s).vertices.tobytes() for s in shapes] == [as_hull(s).vertices.tobytes() for s in again]
+
+
+def test_past_the_deadline_components_get_one_hull_each():
+    asset = cabinet()
+    links = split_links(asset)
+    late = Deadline(1e-9)
+    pool = FakePool()
+    found = collision_shapes(
+        asset, {k.name: k.triangles for k in links}, {k.name: k.origin for k in links}, deadline=late, pool=pool
+    )
+    assert pool.calls == []
+    assert all(found.shapes.values())
+    assert any("one convex hull per component" in w for w in found.warnings)
