@@ -15,7 +15,7 @@ class PiecesConfig:
     crease: float = 25.0  # [deg] a concave edge sharper than this may bound a part on a fused surface
     fused_size: float = 0.35  # components smaller than this are not cut along their creases
     superpoint_strength: float = 0.05  # of l0 cut pursuit on normals (the paper's implementation)
-    superpoint_faces: int = 16_000  # a denser component is simplified before it is cut into superpoints
+    superpoint_faces: int = 40_000  # a denser component is simplified before it is cut into superpoints
     soft_faces: int = 3000  # components with fewer faces have sharp creases only
     reach: float = 0.01  # how far from a soft crease the surface tells its angle
     crumb: float = 0.03  # regions smaller than this, left by a cut, join their neighbour
