@@ -62,8 +62,7 @@ def divide(way: str, component: Component, fineness: Fineness) -> tuple[list[np.
         vertices, faces = solid_mesh(triangles)
         concavity = float(np.clip(fineness.gap / (np.ptp(vertices, axis=0).max() / 2), 0.01, 1.0))
         how = {"mcts_iterations": 20, "mcts_nodes": 10, "resolution": 500, "seed": 0}
-        mode = "on" if "remesh" in name else "off"
-        made = [p for p, _ in coacd.run_coacd(coacd.Mesh(vertices, faces), threshold=concavity, preprocess_mode=mode, **how)]
+        made = [p for p, _ in coacd.run_coacd(coacd.Mesh(vertices, faces), threshold=concavity, preprocess_mode="off", **how)]
     return [np.asarray(p, float) for p in made], time.perf_counter() - begin
 
 
@@ -126,7 +125,7 @@ def main() -> None:
         at = words.index("--path")
         folders.append(words[at + 1])
         del words[at : at + 2]
-    ways = ["ours", "CoACD", "CoACD with its remesh", "V-HACD", "cuts by planes", *folders]
+    ways = ["ours", "CoACD", "V-HACD", "cuts by planes", *folders]
     tallies = {way: Tally() for way in ways}
     pools = {way: ChildPool(1, ChildLimits(SECONDS, 4 << 30)) for way in ways}
     done = []

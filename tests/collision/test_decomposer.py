@@ -81,6 +81,13 @@ def test_a_crash_costs_one_component_its_way_of_division(failing, used):
     assert all(d.shapes for d in found)
 
 
+def test_what_takes_too_long_is_cut_by_planes_at_once():
+    pool = FakePool(Method.CUTS, failure=Failure.TIME)
+    (found,) = Decomposer(pool, None, 30.0).divide([bracket()], [FINE])
+    assert [method for method, _ in pool.calls] == [Method.CUTS, Method.SPLIT]
+    assert found.fallback.used == Method.SPLIT.value
+
+
 def test_a_fallback_gives_the_same_shapes_each_time():
     def shapes():
         (found,) = Decomposer(FakePool(Method.CUTS), None, 30.0).divide([bracket()], [FINE])

@@ -40,3 +40,8 @@ def process() -> int:
 
 def threads() -> str:
     return os.environ["OMP_NUM_THREADS"]
+
+
+def spin() -> None:
+    while True:
+        pass

@@ -67,6 +67,13 @@ def test_a_call_that_hangs_is_ended_at_its_time_limit(pool):
     assert pool.run(FAULTY, "process", {}) != hanging
 
 
+def test_a_call_may_use_so_much_processor_time_however_busy_the_machine_is(pool):
+    with pytest.raises(ChildError) as caught:
+        pool.run(FAULTY, "spin", {}, seconds=1.0)
+    assert caught.value.failure is Failure.TIME
+    assert pool.run(FAULTY, "add", {"a": 1, "b": 1}) == 2
+
+
 def test_what_native_code_prints_does_not_reach_the_answers_or_the_terminal(pool, capfd):
     assert pool.run(FAULTY, "chatter", {}) == "done"
     assert capfd.readouterr() == ("", "")

@@ -21,6 +21,7 @@ from anymesh.types.triangles import normals_and_areas
 FACES = 3000  # of a component, for questions of shape; more add seconds, not accuracy
 COACD_FACES = 1000  # of a solid that CoACD divides: a third less time than with 3000, as many pieces
 CUTS_SHARE = 2 / 3  # of the most pieces, that exact cuts may make; CoACD needs fewer for what takes more
+AROUND_FACES = 500  # of a hull that is asked what lies in it; more are smooth, and take much memory to ask
 CONCAVITY = (0.01, 1.0)  # lowest and highest threshold that CoACD takes
 CELLS = 4  # per side of a link's bounds: small components that lie in one cell share a hull
 SLIVER = 1e-9  # area of a face, as a share of the squared diagonal, below which cleaning removes it
@@ -72,7 +73,7 @@ def split_components(triangles: Float[np.ndarray, "n 3 3"], least: float, most: 
             continue
         kept.append(Component(pieces[k][:, ::-1] if found.flip[k] else pieces[k], bool(found.solid[k])))
         hull = hull_of(corners) if found.solid[k] else None
-        if hull is not None:
+        if hull is not None and len(hull.faces) <= AROUND_FACES:
             this = _Around(planes(hull), corners.min(0), corners.max(0))
             if bool((this.heights(corners) > -1e-6 * sizes[k]).all()):
                 around.append(this)

@@ -14,7 +14,7 @@ from anymesh.collision.convex import hull_of
 from anymesh.collision.decompose import Component, Fineness, Method, component_shapes
 from anymesh.collision.primitives import shifted
 from anymesh.collision.store import content_key, load_shapes, save_shapes
-from anymesh.isolation import DECOMPOSER, ChildError, ChildPool
+from anymesh.isolation import DECOMPOSER, ChildError, ChildPool, Failure
 from anymesh.types import Shape
 
 DIGITS = 30  # binary, of the coordinates of a component, so that copies at different places become equal
@@ -80,11 +80,13 @@ class Decomposer:
         except ChildError as error:
             if len(batch) > 1:
                 return [d for pair in batch for d in self._divide_batch([pair])]
-            return [self._fall_back(*batch[0], f"{self.methods[0].value}: {error}")]
+            slow = error.failure is Failure.TIME  # cleaning does not help what takes too long
+            methods = self.methods[-1:] if slow else self.methods[1:]
+            return [self._fall_back(*batch[0], methods, f"{self.methods[0].value}: {error}")]
 
-    def _fall_back(self, component: Component, fineness: Fineness, reason: str) -> Divided:
+    def _fall_back(self, component: Component, fineness: Fineness, methods: Sequence[Method], reason: str) -> Divided:
         reasons = [reason]
-        for method in self.methods[1:]:
+        for method in methods:
             try:
                 (shapes,) = self._call([(component, fineness)], method)
                 return Divided(shapes, Fallback(tuple(reasons), method.value))

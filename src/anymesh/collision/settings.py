@@ -17,5 +17,5 @@ class CollisionConfig:
     crossing: float = 0.003  # surfaces that go this deep through each other collide in truth: sweeps allow as much
     poses: int = 17  # of each joint over its range
     rounds: int = 10  # of planing and refining
-    seconds: float = 30.0  # [s] for one division of one component, in a child process; then the next method is tried
+    seconds: float = 5.0  # [s] of processor time for one division of one component; then the next method is tried
     most_components: int = 150  # per link with shapes of their own; smaller ones beyond them share hulls

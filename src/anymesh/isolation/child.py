@@ -6,6 +6,7 @@ A message is an 8-byte little-endian length and a pickle. Only the parent writes
 from __future__ import annotations
 
 import faulthandler
+import math
 import os
 import pickle
 import sys
@@ -13,7 +14,8 @@ from importlib import import_module
 from typing import IO, Any
 
 LENGTH = 8  # [bytes] of the length before each message
-GRACE = 2.0  # [s] after the time limit, at which a child whose parent is gone ends by itself
+PATIENCE = 6.0  # wall time per processor time: what takes longer hangs, however busy the machine is
+GRACE = 2.0  # [s] after that, at which a child whose parent is gone ends by itself
 
 
 def write_message(stream: IO[bytes], value: Any) -> None:
@@ -29,6 +31,17 @@ def limit_memory(size: int) -> None:
         import resource
 
         resource.setrlimit(resource.RLIMIT_AS, (size, size))
+    except (ImportError, ValueError, OSError):
+        return
+
+
+def limit_time(seconds: float) -> None:
+    """Let this process use so many more seconds of processor time, where the system can; it ends by SIGXCPU after that."""
+    try:
+        import resource
+
+        used = sum(resource.getrusage(resource.RUSAGE_SELF)[:2])
+        resource.setrlimit(resource.RLIMIT_CPU, (math.ceil(used + seconds), resource.getrlimit(resource.RLIMIT_CPU)[1]))
     except (ImportError, ValueError, OSError):
         return
 
@@ -57,7 +70,8 @@ def main() -> None:
         import_module(sys.argv[2])
     while head := requests.read(LENGTH):
         module, function, arguments, seconds = pickle.loads(requests.read(int.from_bytes(head, "little")))
-        faulthandler.dump_traceback_later(seconds + GRACE, exit=True)
+        faulthandler.dump_traceback_later(PATIENCE * seconds + GRACE, exit=True)
+        limit_time(seconds)
         answer = call(module, function, arguments)
         faulthandler.cancel_dump_traceback_later()
         write_message(replies, answer)

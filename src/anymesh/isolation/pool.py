@@ -7,6 +7,7 @@ import contextlib
 import os
 import pickle
 import queue
+import signal
 import subprocess
 import sys
 import threading
@@ -16,7 +17,7 @@ from enum import StrEnum
 from functools import cache
 from typing import Any
 
-from anymesh.isolation.child import LENGTH, write_message
+from anymesh.isolation.child import LENGTH, PATIENCE, write_message
 
 ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")  # results must not depend on the cores
 
@@ -40,7 +41,8 @@ class ChildError(Exception):
 
 @dataclass(frozen=True)
 class ChildLimits:
-    """Limits of one child process. seconds: for one call [s]; memory: address space [bytes]."""
+    """Limits of one child process. seconds: processor time of one call [s], and PATIENCE times as much wall time; memory:
+    address space [bytes]."""
 
     seconds: float = 60.0
     memory: int = 4 << 30
@@ -64,7 +66,7 @@ class ChildPool:
     def run(self, module: str, function: str, arguments: Mapping[str, Any], *, seconds: float | None = None) -> Any:
         """Call a function of a module in a child and return its result.
 
-        arguments: keyword arguments, which are pickled; seconds: time limit of this call [s], at most the pool's. Raises
+        arguments: keyword arguments, which are pickled; seconds: processor time for this call [s], at most the pool's. Raises
         ChildError, after which the next call gets a fresh child.
         """
         limit = min(self.limits.seconds, seconds) if seconds is not None else self.limits.seconds
@@ -132,7 +134,7 @@ class _Child:
     def call(self, request: tuple[Any, ...], seconds: float) -> tuple[str, Any]:
         """Send a request and wait for the answer. Raises ChildError when the process ends or the time is over."""
         late = threading.Event()
-        timer = threading.Timer(seconds, lambda: (late.set(), self._process.kill()))
+        timer = threading.Timer(PATIENCE * seconds, lambda: (late.set(), self._process.kill()))
         timer.daemon = True
         timer.start()
         try:
@@ -141,8 +143,8 @@ class _Child:
             return self._answer()
         except (OSError, EOFError):
             code = self._process.wait()
-            if late.is_set():
-                raise ChildError(Failure.TIME, f"{seconds:.0f} s") from None
+            if late.is_set() or -code == getattr(signal, "SIGXCPU", None):
+                raise ChildError(Failure.TIME, f"{seconds:g} s") from None
             raise ChildError(Failure.CRASH, f"signal {-code}" if code < 0 else f"exit code {code}") from None
         finally:
             timer.cancel()
