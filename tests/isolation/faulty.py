@@ -45,3 +45,10 @@ def threads() -> str:
 def spin() -> None:
     while True:
         pass
+
+
+def work(seconds: float) -> float:
+    end = time.process_time() + seconds
+    while time.process_time() < end:
+        pass
+    return seconds

@@ -74,6 +74,11 @@ def test_a_call_may_use_so_much_processor_time_however_busy_the_machine_is(pool)
     assert pool.run(FAULTY, "add", {"a": 1, "b": 1}) == 2
 
 
+def test_the_processor_time_of_earlier_calls_does_not_count(pool):
+    for _ in range(3):
+        assert pool.run(FAULTY, "work", {"seconds": 0.8}, seconds=1.0) == 0.8
+
+
 def test_what_native_code_prints_does_not_reach_the_answers_or_the_terminal(pool, capfd):
     assert pool.run(FAULTY, "chatter", {}) == "done"
     assert capfd.readouterr() == ("", "")

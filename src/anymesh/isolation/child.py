@@ -35,13 +35,16 @@ def limit_memory(size: int) -> None:
         return
 
 
-def limit_time(seconds: float) -> None:
-    """Let this process use so many more seconds of processor time, where the system can; it ends by SIGXCPU after that."""
+def limit_time(seconds: float | None) -> None:
+    """Let this process use so many more seconds of processor time, where the system can; it ends by SIGXCPU after that.
+
+    None lifts the limit.
+    """
     try:
         import resource
 
-        used = sum(resource.getrusage(resource.RUSAGE_SELF)[:2])
-        resource.setrlimit(resource.RLIMIT_CPU, (math.ceil(used + seconds), resource.getrlimit(resource.RLIMIT_CPU)[1]))
+        used, most = sum(resource.getrusage(resource.RUSAGE_SELF)[:2]), resource.getrlimit(resource.RLIMIT_CPU)[1]
+        resource.setrlimit(resource.RLIMIT_CPU, (most if seconds is None else math.ceil(used + seconds), most))
     except (ImportError, ValueError, OSError):
         return
 
@@ -74,6 +77,7 @@ def main() -> None:
         limit_time(seconds)
         answer = call(module, function, arguments)
         faulthandler.cancel_dump_traceback_later()
+        limit_time(None)
         write_message(replies, answer)
 
 
