@@ -80,6 +80,3 @@ def main() -> None:
         limit_time(None)
         write_message(replies, answer)
 
-
-if __name__ == "__main__":
-    main()

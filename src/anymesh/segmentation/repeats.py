@@ -14,7 +14,7 @@ from anymesh.segmentation.units import Units
 
 REPEATED = 16  # copies from which a sample of them is examined
 SAMPLED = 5  # copies that are examined; most of them decide
-MOST_BARE = 40  # more copies that carry nothing are beads, slats or books, which nobody wants as joints
+MOST_BARE = 40  # more copies that carry nothing are beads, slats or books, not movable parts
 STEP = 0.03  # relative: lengths of copies differ by less; a cell of the logarithmic grid that they are compared on
 
 
