@@ -79,4 +79,3 @@ def main() -> None:
         faulthandler.cancel_dump_traceback_later()
         limit_time(None)
         write_message(replies, answer)
-
