@@ -72,6 +72,16 @@ def test_no_close_up_where_all_can_be_marked() -> None:
     assert close_ups(whole, cloud, views, FEW) == ()
 
 
+def test_a_piece_without_area_is_no_region() -> None:
+    flat = np.tile([[0.5, -0.2, 0.5]], (4, 1)), np.array([[0, 1, 2], [1, 2, 3]])
+    mesh, piece = mesh_of([flat, BODY, FRONT, flat, KNOB])
+    whole, cloud, views = shown(mesh)
+    region = face_regions(whole, cloud)
+    assert all(len(np.unique(region[piece == k])) == 1 for k in (2, 4))
+    assert not np.isin(region[piece == 2], region[piece == 4]).any()
+    assert {n for p in propose_regions(whole, cloud, views, FEW) for n in p.numbers} >= {1, 2, 3}
+
+
 def test_a_large_piece_of_two_colours_is_two_regions() -> None:
     plain, _ = mesh_of([BODY, KNOB])
     materials = (Material("a", base_color=(1.0, 0.0, 0.0, 1.0)), Material("b", base_color=(0.0, 0.0, 1.0, 1.0)))

@@ -87,8 +87,8 @@ def face_regions(whole: ObjectShape, cloud: Cloud) -> Int[np.ndarray, " F"]:
     side = (share[piece_of] >= DOMINANT) & (weight >= LARGE * weight.sum())
     together = ~split[a] | (alike & ~side[a] & ~side[b])
     patch = label_connected(cloud.count, cloud.borders[together])
-    first = np.unique(piece_of, return_index=True)[1]
-    patch = np.where(split, patch, patch[first][piece_of])  # a small piece is one region, in one patch or not
+    _, first, rank = np.unique(piece_of, return_index=True, return_inverse=True)  # a piece without area has no point
+    patch = np.where(split, patch, patch[first][rank.reshape(-1)])  # a small piece is one region, in one patch or not
     return _by_majority(patch[cloud.superpoint], cloud.faces, len(whole.mesh_piece))
 
 
