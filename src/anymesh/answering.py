@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TypedDict
 
-from anymesh.config import Config, SegmentationConfig
+from anymesh.config import DEFAULT_VIEWS, Config, SegmentationConfig, ViewsConfig
 from anymesh.errors import OptionError
 from anymesh.models.cache import cache_folder
 from anymesh.reasoning.recognition import told_labels
@@ -20,8 +20,8 @@ class Answering(TypedDict, total=False):
     answerer: geometry, openai:MODEL, anthropic:MODEL, google:MODEL, openai-compatible:BASE_URL#MODEL or replay:FOLDER;
     category: what the object is; seed: from 0 up; parts_list: labels of the parts that move, which a model is then not asked
     for; at_least: parts that geometry takes however thin the evidence is; proposer: of masks for a model, exact, sam:..., or
-    exact+sam:...; verify: motion or off; max_calls, max_cost [USD]: no call is made that would pass them; cache: folder of
-    answers (None: no cache).
+    exact+sam:...; viewpoints: the cameras whose pictures a model is shown (see `ViewsConfig`); verify: motion or off;
+    max_calls, max_cost [USD]: no call is made that would pass them; cache: folder of answers (None: no cache).
     """
 
     answerer: str
@@ -30,6 +30,7 @@ class Answering(TypedDict, total=False):
     parts_list: Sequence[str] | str
     at_least: int
     proposer: str
+    viewpoints: str
     verify: str
     max_calls: int | None
     max_cost: float | None
@@ -62,6 +63,7 @@ def choose_answerer(options: Answering) -> Answerer:
         parts_list=labels,
         proposer=options.get("proposer", "exact"),
         verify=options.get("verify", "motion"),
+        views=ViewsConfig(around=options.get("viewpoints", DEFAULT_VIEWS)),
         segmentation=SegmentationConfig(at_least=options.get("at_least", 0)),
     )
     if name == GEOMETRY.name:

@@ -41,12 +41,14 @@ from anymesh.cli_options import (
     TimeLimit,
     Up,
     Verify,
+    Viewpoints,
     Zip,
 )
 from anymesh.cli_output import JOINT_COLUMNS, Shown, cache_of, joint_row, plain, tell, tell_asset
 from anymesh.cli_quiet import quiet_libraries
 from anymesh.cli_report import picture, report
 from anymesh.cli_view import view
+from anymesh.config import DEFAULT_VIEWS
 from anymesh.deadline import DEFAULT_SECONDS
 from anymesh.errors import DEFECT, AnymeshError
 from anymesh.isolation import DECOMPOSER, shared_pool
@@ -109,6 +111,7 @@ def articulate(
     parts_list: PartsList = "",
     at_least: AtLeast = 0,
     proposer: Proposer = "exact",
+    viewpoints: Viewpoints = DEFAULT_VIEWS,
     verify: Verify = "motion",
     category: Category = None,
     max_calls: MaxCalls = None,
@@ -134,8 +137,8 @@ def articulate(
         asset = pipeline.articulate(
             mesh, out, parts=parts, up=up, scale=scale, root=root, base=base, formats=formats, drives=drives, force=force,
             progress=progress, time_limit=time_limit, answerer=answerer, parts_list=_labels(parts_list), at_least=at_least,
-            proposer=proposer, verify=verify, category=category, seed=seed, max_calls=max_calls, max_cost=max_cost,
-            **cache_of(cache),
+            proposer=proposer, viewpoints=viewpoints, verify=verify, category=category, seed=seed, max_calls=max_calls,
+            max_cost=max_cost, **cache_of(cache),
         )  # fmt: skip
     tell_asset(asset, out, json_, quiet)
 
@@ -149,6 +152,7 @@ def segment(
     parts_list: PartsList = "",
     at_least: AtLeast = 0,
     proposer: Proposer = "exact",
+    viewpoints: Viewpoints = DEFAULT_VIEWS,
     category: Category = None,
     max_calls: MaxCalls = None,
     max_cost: MaxCost = None,
@@ -168,8 +172,8 @@ def segment(
     with Shown(quiet or json_) as progress:
         found = pipeline.segment(
             mesh, out, parts=parts, up=up, scale=scale, root=root, force=force, progress=progress, time_limit=time_limit,
-            answerer=answerer, parts_list=_labels(parts_list), at_least=at_least, proposer=proposer, category=category,
-            seed=seed, max_calls=max_calls, max_cost=max_cost, **cache_of(cache),
+            answerer=answerer, parts_list=_labels(parts_list), at_least=at_least, proposer=proposer,
+            viewpoints=viewpoints, category=category, seed=seed, max_calls=max_calls, max_cost=max_cost, **cache_of(cache),
         )  # fmt: skip
     rows = [
         {"name": p.name, "label": p.label, "faces": len(found.faces(k)), "confidence": p.confidence, "reason": p.reason}
@@ -182,6 +186,7 @@ def segment(
 def joints(
     folder: Folder,
     answerer: AnswererName = "geometry",
+    viewpoints: Viewpoints = DEFAULT_VIEWS,
     verify: Verify = "motion",
     category: Category = None,
     max_calls: MaxCalls = None,
@@ -197,8 +202,8 @@ def joints(
 
     with Shown(quiet or json_) as progress:
         found = pipeline.joints(
-            folder, progress=progress, time_limit=time_limit, answerer=answerer, verify=verify, category=category,
-            seed=seed, max_calls=max_calls, max_cost=max_cost, **cache_of(cache),
+            folder, progress=progress, time_limit=time_limit, answerer=answerer, viewpoints=viewpoints, verify=verify,
+            category=category, seed=seed, max_calls=max_calls, max_cost=max_cost, **cache_of(cache),
         )  # fmt: skip
     rows = [joint_row(j) for j in found]
     tell({"out": str(folder), "joints": rows}, rows, JOINT_COLUMNS, json_, quiet)

@@ -9,6 +9,7 @@ from typing import Annotated
 import typer
 
 from anymesh.cli_output import Shown, cache_of, tell
+from anymesh.config import DEFAULT_VIEWS
 
 DatasetName = Annotated[
     str,
@@ -44,6 +45,9 @@ def evaluate(
     only: Only = "",
     jobs: Jobs = None,
     proposer: Annotated[str, typer.Option(help="Of masks for a model: exact, sam:WEIGHTS or exact+sam:WEIGHTS.")] = "exact",
+    viewpoints: Annotated[
+        str, typer.Option(help="For a model: cameras as COUNT@ELEVATION[+AZIMUTH],... [deg].")
+    ] = DEFAULT_VIEWS,
     verify: Annotated[str, typer.Option(help="motion, or off: the paper's method as it is.")] = "motion",
     at_least: Annotated[
         int, typer.Option("--at-least", metavar="N", help="Parts that geometry takes however thin the evidence is.")
@@ -66,8 +70,8 @@ def evaluate(
     with Shown(quiet or json_) as progress:
         records = evaluating.evaluate(
             dataset, out, protocol=protocol, split=split, changes=chosen, views=views, only=_names(only), jobs=jobs,
-            force=force, progress=progress, answerer=answerer, proposer=proposer, verify=verify, seed=seed,
-            at_least=at_least, max_calls=max_calls, max_cost=max_cost,
+            force=force, progress=progress, answerer=answerer, proposer=proposer, viewpoints=viewpoints, verify=verify,
+            seed=seed, at_least=at_least, max_calls=max_calls, max_cost=max_cost,
             **cache_of(cache),
         )  # fmt: skip
     groups = grouped(records, lambda r: r.change)

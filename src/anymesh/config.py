@@ -54,19 +54,61 @@ class ArticulationConfig:
     slide_keep: float = 0.1  # share of a drawer's depth that stays in when it is out
 
 
+PAPER_VIEWS = "8@15"
+DEFAULT_VIEWS = f"{PAPER_VIEWS},2@50+30,1@-35+30"
+MOST_VIEWS = 32
+RING = re.compile(r"(?P<count>[1-9]\d?)@(?P<elevation>-?\d{1,2}(\.\d+)?)(\+(?P<azimuth>\d{1,3}(\.\d+)?))?")
+
+
 @dataclass(frozen=True)
 class ViewsConfig:
-    """The views that a model is shown (the paper's implementation). Lengths are shares of the object's diagonal."""
+    """The views that a model is shown. Lengths are shares of the object's diagonal.
 
-    count: int = 8
-    azimuth_step: float = 45.0  # [deg]
-    elevation: float = 15.0  # [deg]
-    distance: float = 1.0  # of the camera from the object's middle; 2 where the diagonal is 2
-    fov: float = 60.0  # [deg] vertical
+    The paper's implementation has `around` = PAPER_VIEWS with the fixed field of view. From 15 degrees up the eye is below
+    the top of anything taller than about half its diagonal, so more views look down, and one looks up; and each camera is
+    turned and zoomed until the object fills its picture.
+    """
+
+    around: str = DEFAULT_VIEWS  # rings of cameras: COUNT@ELEVATION or COUNT@ELEVATION+AZIMUTH [deg], with commas between
+    inside: str = "4@25+45,1@60+30"  # the same for what no view shows, drawn with the rest as a ghost
+    distance: float = 1.0  # of the camera from the object's middle; 2 where the diagonal is 2 (the paper's implementation)
+    fov: float = 60.0  # [deg] vertical, before the camera is zoomed (the paper's implementation)
+    air: float = 0.04  # round the object, a share of its box in the picture, on each side
     size: int = 640  # [px] both ways
     zoom_size: int = 4096  # [px] that a close-up is cut from
     zoom_below: int = 5000  # [px] a part that covers less of the best view is shown in a close-up
     zoom_margin: float = 0.3  # of the part's box in the picture, added on each side
+
+    def __post_init__(self) -> None:
+        for told in (self.around, self.inside):
+            rings = [RING.fullmatch(ring) for ring in told.split(",")]
+            count = sum(int(ring["count"]) for ring in rings if ring)
+            steep = any(abs(float(ring["elevation"])) > 90 for ring in rings if ring)
+            if not all(rings) or not 1 <= count <= MOST_VIEWS or steep:
+                raise OptionError(
+                    f"--viewpoints: found {told!r}; valid are COUNT@ELEVATION or COUNT@ELEVATION+AZIMUTH [deg] with commas "
+                    f"between, such as {DEFAULT_VIEWS} or {PAPER_VIEWS} (the paper's), 1 to {MOST_VIEWS} views in all"
+                )
+
+    @property
+    def directions(self) -> tuple[tuple[float, float], ...]:
+        """Azimuth and elevation of each camera [deg], ring by ring, evenly spread over each ring."""
+        return _directions(self.around)
+
+    @property
+    def inside_directions(self) -> tuple[tuple[float, float], ...]:
+        """The same of the cameras for what no view shows."""
+        return _directions(self.inside)
+
+
+def _directions(rings: str) -> tuple[tuple[float, float], ...]:
+    found: list[tuple[float, float]] = []
+    for text in rings.split(","):
+        ring = RING.fullmatch(text)
+        assert ring is not None  # see ViewsConfig
+        count, first = int(ring["count"]), float(ring["azimuth"] or 0)
+        found += [((first + 360 * k / count) % 360, float(ring["elevation"])) for k in range(count)]
+    return tuple(found)
 
 
 @dataclass(frozen=True)

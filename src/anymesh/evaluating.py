@@ -111,7 +111,7 @@ def _settings(dataset: str, split: str | None, only: Sequence[str], exam: Exam, 
         told["views"] = str(exam.views)
     if only:
         told["only"] = ", ".join(sorted(only))
-    told |= {k: str(answering[k]) for k in ("verify", "proposer") if k in answering}
+    told |= {k: str(answering[k]) for k in ("verify", "proposer", "viewpoints") if k in answering}
     if exam.protocol in (Protocol.END_TO_END, Protocol.EXECUTABILITY):
         told["at least"] = str(answering.get("at_least", 0))
     made = {"date": datetime.datetime.now(datetime.UTC).date().isoformat(), "python": platform.python_version()}

@@ -1,10 +1,15 @@
 """The views go round the object, count what is seen, and close-ups show the same points."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from assets import box, mesh_of
+from scipy import ndimage
 
-from anymesh.config import ViewsConfig
+from anymesh.config import PAPER_VIEWS, ViewsConfig
+from anymesh.errors import OptionError
+from anymesh.rendering.insides import inside_views
 from anymesh.rendering.raycast_ import RayScene
 from anymesh.rendering.render import render
 from anymesh.rendering.viewpoints import (
@@ -35,28 +40,42 @@ def plate_before_part():
     return mesh, number
 
 
-def test_the_cameras_stand_where_the_paper_puts_them():
+def test_the_cameras_stand_where_the_paper_puts_them_and_the_object_fills_each_picture():
     mesh, _ = plate_before_part()
-    found = cameras(mesh.bounds, CONFIG, 160)
+    found = cameras(mesh, replace(CONFIG, around=PAPER_VIEWS), 160)
     middle = mesh.bounds.mean(0)
     assert len(found) == 8
     for k, camera in enumerate(found):
         away = camera.T_world_camera[:3, 3] - middle
         assert np.linalg.norm(away) == pytest.approx(mesh.diagonal)
         assert np.arcsin(away[2] / np.linalg.norm(away)) == pytest.approx(np.deg2rad(15))
-        azimuth = np.deg2rad(45 * k)  # 0 looks along +y, at the front
+        azimuth = np.deg2rad(45 * k)  # 0 looks along +y
         np.testing.assert_allclose(away[:2] / np.linalg.norm(away[:2]), [np.sin(azimuth), -np.cos(azimuth)], atol=1e-9)
-        assert camera.fov == pytest.approx(np.deg2rad(60))
-        np.testing.assert_allclose(camera.project(middle[None])[0][0], [80, 80])
+        pixel = camera.project(mesh.vertices)[0]
+        assert pixel.min() >= 0
+        assert pixel.max() <= 160
+        assert np.ptp(pixel, axis=0).max() > 0.9 * 160
+
+
+def test_tops_and_undersides_are_seen():
+    mesh, number = mesh_of([box((0, 0, 0), (1, 1, 2)), box((0, 0, 2), (1, 1, 2.01)), box((0, 0, -0.01), (1, 1, 0))])
+    for part in (1, 2):
+        shares = [visible_pixels(v, number, part) / 160**2 for v in views(mesh, CONFIG)]
+        assert max(shares[8:]) > 0.05
+        assert max(shares[:8]) < 0.02  # from 15 degrees up the eye is below the top
 
 
 def test_captions_say_where_a_view_is_from():
-    told = [caption(k, CONFIG) for k in range(8)]
-    assert told[0] == "view 1: from the front, slightly above"
-    assert told[2] == "view 3: from the right, slightly above"
-    assert len({t.split(":")[1] for t in told}) == 8
-    assert caption(1, ViewsConfig(azimuth_step=90.0, elevation=0.0)) == "view 2: from the right"
-    assert caption(2, ViewsConfig(azimuth_step=90.0, elevation=-60.0)) == "view 3: from the back, below"
+    assert caption(0.0, 15.0) == "turned by 0 degrees, 15 degrees up"  # nobody has said where the front is
+    told = [caption(azimuth, elevation, 0.0) for azimuth, elevation in CONFIG.directions]
+    assert told[0] == "from the front, 15 degrees up"
+    assert told[2] == "from the right, 15 degrees up"
+    assert told[8] == "from the front right, from above (50 degrees up)"
+    assert told[10] == "from the front right, from below (35 degrees down)"
+    assert len(set(told)) == len(told) == 11
+    assert caption(90.0, 0.0, 0.0) == "from the right, level"
+    assert caption(90.0, 15.0, 90.0) == "from the front, 15 degrees up"
+    assert caption(0.0, 15.0, 90.0) == "from the left, 15 degrees up"
 
 
 def test_the_side_that_a_caption_names_is_the_one_that_shows():
@@ -68,7 +87,18 @@ def test_the_side_that_a_caption_names_is_the_one_that_shows():
     }.items():
         mesh, number = mesh_of([box((0, 0, 0), (1, 1, 1)), box(low, high)])
         best = best_view(views(mesh, CONFIG, size=80), number, 1)
-        assert caption(best, CONFIG) == f"view {best + 1}: from the {side}, slightly above"
+        assert caption(*CONFIG.directions[best], 0.0) == f"from the {side}, 15 degrees up"
+
+
+@pytest.mark.parametrize("told", ["", "8", "8@", "@15", "8@100", "0@15", "8@15;2@50", "99@0", "8@15, 2@50", "8@15+", "-1@0"])
+def test_viewpoints_that_are_not_valid_are_told(told):
+    with pytest.raises(OptionError, match="--viewpoints: found"):
+        ViewsConfig(around=told)
+
+
+def test_viewpoints_are_rings():
+    found = ViewsConfig(around="2@50+30,1@-35").directions
+    assert found == ((30.0, 50.0), (210.0, 50.0), (0.0, -35.0))
 
 
 def test_what_is_hidden_is_not_counted():
@@ -93,25 +123,41 @@ def test_ties_go_to_the_first_view():
     assert best_view(found, part, 7) == 0
 
 
-def test_smooth_colours_change_no_other_buffer_and_nothing_but_edges():
+def test_a_drawn_view_has_the_exact_buffers():
     mesh, _ = plate_before_part()
-    camera = cameras(mesh.bounds, CONFIG, 160)[1]
+    camera = cameras(mesh, CONFIG, 160)[1]
     scene = RayScene(mesh.vertices, mesh.faces)
-    plain, smooth = render(mesh, camera, scene=scene), shown(mesh, camera, scene)
-    for name in ("depth", "normal", "face"):
-        np.testing.assert_array_equal(getattr(plain, name), getattr(smooth, name))
-    changed = (plain.color != smooth.color).any(-1)
-    assert 0.001 < changed.mean() < 0.05
-    levels = (len(np.unique(v.color.reshape(-1, 3), axis=0)) for v in (plain, smooth))
-    assert next(levels) < next(levels)
+    plain, drawn = render(mesh, camera, scene=scene), shown(mesh, camera, scene)
+    same = plain.face == drawn.face
+    assert same.mean() > 0.999
+    seen = same & (plain.face >= 0)
+    np.testing.assert_allclose(drawn.depth[seen], plain.depth[seen], rtol=1e-4)
+    np.testing.assert_allclose(drawn.normal[seen], plain.normal[seen], atol=1e-4)
 
 
-def test_smooth_colours_are_those_of_a_finer_picture():
+def test_edges_are_lines_and_every_side_is_bright():
     mesh, _ = plate_before_part()
-    camera = cameras(mesh.bounds, CONFIG, 160)[1]
-    fine = render(mesh, cameras(mesh.bounds, CONFIG, 320)[1]).color.reshape(160, 2, 160, 2, 3).mean((1, 3))
-    smooth = shown(mesh, camera, RayScene(mesh.vertices, mesh.faces)).color
-    assert (np.abs(smooth - fine) > 1).any(-1).mean() < 0.005
+    for view in views(mesh, CONFIG):
+        gray = view.color.mean(-1)
+        bare = np.abs(np.diff(view.face, axis=1, append=-2)) + np.abs(np.diff(view.face, axis=0, append=-2)) == 0
+        inner = ndimage.binary_erosion(bare & (view.face >= 0), iterations=2)
+        assert gray[inner].min() > 80  # also from behind and from below
+        rim = (view.face >= 0) & ~ndimage.binary_erosion(view.face >= 0)
+        assert np.median(gray[rim]) < 0.8 * np.median(gray[inner])
+        assert (view.color[view.face < 0] == 255).mean() > 0.9
+
+
+def test_the_inside_is_drawn_alone_over_a_ghost():
+    mesh, part = mesh_of([box((0, 0, 0), (1, 1, 1)), box((0.3, 0.3, 0.3), (0.6, 0.6, 0.6))])
+    camera = cameras(mesh, CONFIG, 160)[1]
+    (view,) = inside_views(mesh, part == 1, [camera], RayScene(mesh.vertices, mesh.faces))
+    seen = view.face >= 0
+    assert set(part[view.face[seen]]) == {1}
+    pixel = camera.project(np.array([[0.45, 0.45, 0.45]]))[0][0].astype(int)
+    assert seen[pixel[1], pixel[0]]
+    ghost = view.color[~seen].mean(-1)
+    assert ghost.min() > 150
+    assert (ghost < 250).mean() > 0.2
 
 
 def test_normals_are_colours():
@@ -148,7 +194,7 @@ def test_a_close_up_shows_the_same_points_where_it_says(number):
 @pytest.mark.parametrize("margin", [0.0, 0.3])
 def test_a_close_up_holds_the_box_and_its_margin_and_little_else(margin):
     mesh, _ = plate_before_part()
-    camera = cameras(mesh.bounds, CONFIG, 160)[1]
+    camera = cameras(mesh, CONFIG, 160)[1]
     box = np.array([100.0, 40, 130, 60])
     near = zoom(camera, box, margin, 200)
     low, high = box[:2] - margin * np.array([30, 20]), box[2:] + margin * np.array([30, 20])

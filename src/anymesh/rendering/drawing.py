@@ -11,6 +11,7 @@ from anymesh.rendering.raycast_ import RayScene
 from anymesh.rendering.render import KEY_LIGHT
 from anymesh.rendering.samples import GRID, Samples, Subject
 from anymesh.types import Mesh
+from anymesh.types.camera import Camera
 
 GROUND = (222.0, 190.0)  # grey of the ground (0..255), at its top and at its bottom
 SHEEN = 30.0  # brightness (0..255) of a black surface in full light, so that its shape can be seen
@@ -20,6 +21,7 @@ OUTLINE, CREASE = 0.9, 0.6  # opacity of lines
 COLOR_BITS = 4  # of vertex colours that are dropped: smaller differences need no smoothing
 LINE_WIDTH = 1  # [px of the finer grid] of lines, beyond the two rays between which they lie
 AMBIENT, KEY, SKY = 0.48, 0.4, 0.18  # light from everywhere, from one side, from above; a surface that faces up gets 0.96
+HEAD_AMBIENT, HEAD, SHOULDER, HEAD_SKY = 0.36, 0.22, 0.30, 0.16  # the same for pictures whose light moves with the camera
 BRIGHTNESS = np.array([0.299, 0.587, 0.114], np.float32)  # weights of red, green, blue (ITU-R BT.601)
 
 
@@ -60,6 +62,17 @@ def light_on(samples: Samples) -> Float32[np.ndarray, " n"]:
     light *= KEY
     light += AMBIENT + SKY / 2 + SKY / 2 * samples.normal[:, 2]
     return light
+
+
+def headlight_on(samples: Samples, camera: Camera) -> Float32[np.ndarray, " n"]:
+    """How brightly each ray's surface is lit by a lamp at the camera, one above its left shoulder, and the sky: no visible
+    side is dark, and sides of different directions differ."""
+    right, down, ahead = camera.T_world_camera[:3, :3].T.astype(np.float32)
+    shoulder = -ahead - np.float32(0.9) * down - np.float32(0.7) * right
+    light = np.full(len(samples.normal), HEAD_AMBIENT + HEAD_SKY / 2, np.float32)
+    for lamp, strength in ((-ahead, HEAD), (shoulder / np.linalg.norm(shoulder), SHOULDER)):
+        light += strength * np.maximum(samples.normal @ lamp, 0)
+    return light + HEAD_SKY / 2 * samples.normal[:, 2]
 
 
 def draw(

@@ -35,12 +35,14 @@ class Window:
 class Samples:
     """What the rays of a window meet, and the lines between them.
 
-    plain: (p,) pixels (flat indices into the window) with one ray, that hits; split: (k,) pixels with GRID x GRID rays;
-    hits, normal (for shading): of all p + k * GRID**2 rays, the plain ones first; steps: between rays of split pixels;
-    place: (k * GRID**2,) where those rays are in a picture of the window that is GRID times finer (flat indices).
+    first: of one ray through the middle of every pixel; plain: (p,) pixels (flat indices into the window) with one ray, that
+    hits; split: (k,) pixels with GRID x GRID rays; hits, normal (for shading): of all p + k * GRID**2 rays, the plain ones
+    first; steps: between rays of split pixels; place: (k * GRID**2,) where those rays are in a picture of the window that is
+    GRID times finer (flat indices).
     """
 
     window: Window
+    first: SurfaceHits
     plain: Int[np.ndarray, " p"]
     split: Int[np.ndarray, " k"]
     hits: SurfaceHits
@@ -95,7 +97,7 @@ def sample(subject: Subject, camera: Camera, window: Window) -> Samples:
     face = np.full(rows.shape, -2, np.int32)
     face.reshape(-1)[place] = grids.face
     steps = find_steps(joined, np.concatenate([directions[plain], more]), normals, changes(face, rows), pixel)
-    return Samples(window, plain, split, joined, normals, steps, place)
+    return Samples(window, hits, plain, split, joined, normals, steps, place)
 
 
 def _terms(camera: Camera, window: Window, grid: int) -> tuple[np.ndarray, np.ndarray]:

@@ -7,18 +7,20 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from jaxtyping import Bool, Float, Int
+from jaxtyping import Bool, Float, Int, UInt8
 
 from anymesh.config import Config
 from anymesh.rendering.arrows import draw_arrows, most_distinct_view
 from anymesh.rendering.card import part_card, titled
 from anymesh.rendering.encode import encode
+from anymesh.rendering.insides import inside_views
 from anymesh.rendering.paint import highlight
 from anymesh.rendering.points import draw_points
 from anymesh.rendering.raycast_ import RayScene
 from anymesh.rendering.render import View, face_colors
+from anymesh.rendering.smooth import smoothed
 from anymesh.rendering.strips import motion_strip, silhouette
-from anymesh.rendering.viewpoints import best_view, caption, close_up, part_pixels, shown, views
+from anymesh.rendering.viewpoints import best_view, cameras, caption, close_up, part_pixels, shown, views
 from anymesh.types import Mesh, Motion, Picture
 from anymesh.types.camera import Camera
 
@@ -46,7 +48,7 @@ class Studio:
     """Draws one object, with its parts where they are known (face_part: (F,) the part of each face)."""
 
     def __init__(self, mesh: Mesh, config: Config) -> None:
-        self._mesh, self._config = mesh, config
+        self._mesh, self._config = smoothed(mesh), config
 
     @cached_property
     def scene(self) -> RayScene:
@@ -67,13 +69,28 @@ class Studio:
         """What one more camera sees."""
         return shown(self._mesh, camera, self.scene)
 
-    def pictures(self, seen: Sequence[View]) -> tuple[Picture, ...]:
-        """Views as pictures: those from all sides first, then close-ups."""
-        return tuple(encode(v.color, self.caption(k)) for k, v in enumerate(seen))
+    def insides(self, inside: Bool[np.ndarray, " F"]) -> list[View]:
+        """Some faces alone, the rest as a ghost, from `config.views.inside`."""
+        config = self._config.views
+        return inside_views(self._mesh, inside, cameras(self._mesh, config, config.size, config.inside_directions), self.scene)
 
-    def caption(self, number: int) -> str:
-        """A view in words; what follows those from all sides are close-ups."""
-        return caption(number, self._config.views) if number < len(self.views) else f"view {number + 1}: a close-up"
+    def inside_names(self, front: float | None = None) -> list[str]:
+        """What each of these shows, in words."""
+        ways = self._config.views.inside_directions
+        return [f"inside the object, {caption(*way, front)}; the rest is shown as a ghost" for way in ways]
+
+    def pictures(
+        self, images: Sequence[UInt8[np.ndarray, "H W 3"]], names: Sequence[str], note: str = ""
+    ) -> tuple[Picture, ...]:
+        """Images with captions that number them from 1, as answers do."""
+        return tuple(
+            encode(im, f"picture {k}: {name}{note}") for k, (im, name) in enumerate(zip(images, names, strict=True), 1)
+        )
+
+    def names(self, count: int, front: float | None = None) -> list[str]:
+        """What each view shows, in words: those from all sides, then close-ups, `count` in all. front: see `caption`."""
+        found = [caption(*way, front) for way in self._config.views.directions]
+        return (found + ["a close-up"] * (count - len(found)))[:count]
 
     def card(self, face_part: Int[np.ndarray, " F"], part: int, title: str) -> Picture:
         """The whole object with the part marked, and a close-up when it is small."""

@@ -1,4 +1,4 @@
-"""The views that a model is shown (paper, 3.2 and 3.3): eight cameras round the object, the best view of a part, close-ups."""
+"""The views that a model is shown (paper, 3.2 and 3.3): cameras round the object, the best view of a part, close-ups."""
 
 from __future__ import annotations
 
@@ -9,32 +9,43 @@ import numpy as np
 from jaxtyping import Bool, Float, Int, UInt8
 
 from anymesh.config import ViewsConfig
+from anymesh.rendering.drawing import draw, headlight_on, look_of_materials, subject_of
 from anymesh.rendering.raycast_ import RayScene
-from anymesh.rendering.render import BACKGROUND, View, render, shade
+from anymesh.rendering.render import BACKGROUND, View
+from anymesh.rendering.samples import Window, sample
 from anymesh.types import Mesh
 from anymesh.types.camera import Camera
 
 SIDES = ("front", "front right", "right", "back right", "back", "back left", "left", "front left")
-EDGE = 10  # difference of neighbouring pixels (0..255) from which they are drawn smoothly
+LEVEL, STEEP = 0.5, 30.0  # [deg] a view is level below the first, and one from above (or from below) from the second
 
 
 def views(mesh: Mesh, config: ViewsConfig, *, size: int | None = None, scene: RayScene | None = None) -> list[View]:
-    """The views round the object, the first from its front (the -y side), then counterclockwise seen from above.
+    """The views round the object, in the order of `config.directions`.
 
     size: [px] both ways, `config.size` if None; scene: of this very mesh, when it is cast at again.
     """
     scene = scene or RayScene(mesh.vertices, mesh.faces)
-    return [shown(mesh, camera, scene) for camera in cameras(mesh.bounds, config, size or config.size)]
+    return [shown(mesh, camera, scene) for camera in cameras(mesh, config, size or config.size)]
 
 
-def cameras(bounds: Float[np.ndarray, "2 3"], config: ViewsConfig, size: int) -> list[Camera]:
-    """The cameras of `views`, which look at the middle of the bounding box."""
-    center, diagonal = bounds.mean(0), float(np.linalg.norm(bounds[1] - bounds[0]))
-    high = np.deg2rad(config.elevation)
+def cameras(
+    mesh: Mesh, config: ViewsConfig, size: int, directions: Sequence[tuple[float, float]] | None = None
+) -> list[Camera]:
+    """The cameras of `views`: at the paper's distance, each turned and zoomed until the object fills its picture.
+
+    directions: azimuth and elevation of each [deg], `config.directions` if None.
+    """
+    center, distance = mesh.bounds.mean(0), config.distance * float(np.linalg.norm(np.ptp(mesh.bounds, axis=0)))
+    used = mesh.vertices[np.unique(mesh.faces)]
     found = []
-    for azimuth in np.deg2rad(config.azimuth_step) * np.arange(config.count):
-        eye = center + config.distance * diagonal * away(azimuth, high)
-        found.append(Camera.looking_at(eye, center, float(np.deg2rad(config.fov)), size, size))
+    for azimuth, elevation in config.directions if directions is None else directions:
+        eye = center + distance * away(np.deg2rad(azimuth), np.deg2rad(elevation))
+        camera = Camera.looking_at(eye, center, float(np.deg2rad(config.fov)), size, size)
+        for _ in range(2):  # a camera that is turned sees the object's outline a little otherwise
+            pixel = camera.project(used)[0]
+            camera = zoom(camera, np.concatenate([pixel.min(0), pixel.max(0)]), config.air, size)
+        found.append(camera)
     return found
 
 
@@ -51,33 +62,25 @@ def orbit_camera(bounds: Float[np.ndarray, "2 3"], azimuth: float, elevation: fl
     return Camera.looking_at(center + away(azimuth, elevation) * radius * 1.02 / np.sin(fov / 2), center, fov, size, size)
 
 
-def caption(number: int, config: ViewsConfig) -> str:
-    """A view in words; views are counted from 0 in code and from 1 in words."""
-    side = SIDES[round(number * config.azimuth_step / 45) % 8]
-    slightly = "slightly " if abs(config.elevation) < 35 else ""
-    height = "" if abs(config.elevation) < 5 else f", {slightly}{'above' if config.elevation > 0 else 'below'}"
-    return f"view {number + 1}: from the {side}{height}"
+def caption(azimuth: float, elevation: float, front: float | None = None) -> str:
+    """Say where a view is from. front: the azimuth from which the front is seen, None while nobody said; all in [deg]."""
+    side = f"turned by {azimuth:.0f} degrees" if front is None else f"from the {SIDES[round((azimuth - front) / 45) % 8]}"
+    if abs(elevation) < LEVEL:
+        return f"{side}, level"
+    way, name = ("up", "above") if elevation > 0 else ("down", "below")
+    height = f"{abs(elevation):.0f} degrees {way}"
+    return f"{side}, from {name} ({height})" if abs(elevation) >= STEEP else f"{side}, {height}"
 
 
 def shown(mesh: Mesh, camera: Camera, scene: RayScene) -> View:
-    """A view whose colours are smooth at edges: four rays a pixel there. The other buffers stay exact."""
-    view = render(mesh, camera, scene=scene)
-    color = view.color.astype(int)
-    edge = np.zeros(view.face.shape, bool)
-    for axis in (0, 1):
-        steps = np.abs(np.diff(color, axis=axis)).max(-1) > EDGE
-        before, after = ((slice(None),) * axis + (s,) for s in (slice(None, -1), slice(1, None)))
-        edge[before] |= steps
-        edge[after] |= steps
-    rows = np.flatnonzero(edge)
-    origins, directions = (a[rows] for a in camera.rays())
-    right, down = camera.T_world_camera[:3, 0], camera.T_world_camera[:3, 1]
-    mean = np.zeros((len(rows), 3))
-    for dx, dy in ((-0.25, -0.25), (0.25, -0.25), (-0.25, 0.25), (0.25, 0.25)):
-        turned = directions + (dx * right + dy * down) / camera.focal
-        mean += shade(mesh, scene.first_hit(origins, turned), turned)[0] / 4
-    color[edge] = np.round(mean)
-    return replace(view, color=color.astype(np.uint8))
+    """A view with outlines and creases, lit from the camera. Colours are smooth at edges; the other buffers are those of one
+    ray a pixel. Give the mesh corner normals (`smooth.smoothed`) and curved surfaces look curved."""
+    shape = (camera.height, camera.width)
+    samples = sample(subject_of(mesh, scene, np.zeros(len(mesh.faces), np.int64)), camera, Window(0, 0, *shape[::-1]))
+    white = np.full((*shape, 3), BACKGROUND, np.float32)
+    color = draw(samples, look_of_materials(mesh, samples), headlight_on(samples, camera), white)
+    hits = samples.first
+    return View(camera, color, hits.depth.reshape(shape), hits.normal.reshape(*shape, 3), hits.face.reshape(shape))
 
 
 def normal_picture(view: View) -> UInt8[np.ndarray, "H W 3"]:

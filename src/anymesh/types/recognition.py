@@ -28,8 +28,10 @@ class RecognizedLabel:
 
 @dataclass(frozen=True)
 class Recognition:
-    """The answer. size: longest side of the real thing [m], None when nobody said."""
+    """The answer. size: longest side of the real thing [m]; front: azimuth of the view that shows the front [deg]; None when
+    nobody said."""
 
     category: str
     size: float | None
     labels: tuple[RecognizedLabel, ...]
+    front: float | None = None
