@@ -188,7 +188,7 @@ def _seen(
     solver = Solver(placed.mesh, who.config, who.see, deadline)
     if parts != "auto":
         solver.parts(parts)  # what is wrong with them is better told before anything is asked
-    recognized, key = _recognize(run, solver, key, who, how.scale == "auto")
+    recognized, key = _recognize(run, solver, key, who, how.scale == "auto", placed.metric)
     sized = recognized.sized(placed)
     return (solver if sized is placed else Solver(sized.mesh, who.config, who.see, deadline)), recognized, key
 
@@ -203,7 +203,7 @@ def _place(run: RunFolder, path: Path, how: Placement, category: str | None, pro
         if found is None:
             p = place_mesh(loaded, up=how.up, scale=how.scale, category=category)
             source = Source(str(path), loaded.sha256, p.T_asset_source, p.up, p.notes)
-            found = Placed(p.mesh, source, (*loaded.warnings, *p.warnings))
+            found = Placed(p.mesh, source, (*loaded.warnings, *p.warnings), p.metric)
             run.save(MESH, key, found)
     return found, key
 
@@ -213,14 +213,18 @@ def _answered(found: Result | None) -> Result | None:
     return None if found is None or any(e.given_up for e in found.exchanges) else found
 
 
-def _recognize(run: RunFolder, solver: Solver, previous: str, who: Answerer, sized: bool) -> tuple[Recognized, str]:
+def _recognize(
+    run: RunFolder, solver: Solver, previous: str, who: Answerer, sized: bool, metric: bool
+) -> tuple[Recognized, str]:
     if who.see is None:
         return solver.recognize(), previous
-    key = stage_key(RECOGNITION, previous=previous, config={**who.settings("verify", "proposer"), "sized": sized})
+    key = stage_key(
+        RECOGNITION, previous=previous, config={**who.settings("verify", "proposer"), "sized": sized, "metric": metric}
+    )
     found = _answered(run.load(RECOGNITION, key))
     if found is None:
         with _timed(run, "recognize"):
-            found = solver.recognize(sized=sized)
+            found = solver.recognize(sized=sized, metric=metric)
         run.save(RECOGNITION, key, found)
     return found, key
 

@@ -8,11 +8,14 @@ from pathlib import Path
 
 import numpy as np
 
-from anymesh.articulation.estimate import ask_motion, estimate_joints
+from anymesh.articulation.estimate import ask_motion, estimate_joints, surroundings
+from anymesh.articulation.evidence import weigh_all
 from anymesh.articulation.prompted import prompt_joints
+from anymesh.articulation.tree import parents
 from anymesh.config import Config
 from anymesh.deadline import Deadline
 from anymesh.geometry.pieces import ObjectShape, object_shape
+from anymesh.geometry.surroundings import Surroundings
 from anymesh.models.sam import PromptedSegmenter
 from anymesh.models.sam_load import load_sam
 from anymesh.progress import Progress, silent
@@ -25,13 +28,16 @@ from anymesh.segmentation.given import GIVEN, parts_from_file, parts_from_nodes
 from anymesh.segmentation.grounded import EXACT, ground_parts
 from anymesh.segmentation.segment import segment_parts
 from anymesh.stage_results import Jointed, Recognized, Segmented
-from anymesh.types import Joint, Mesh, Segmentation
+from anymesh.types import Joint, Mesh, Picture, Segmentation
 from anymesh.types.recognition import Recognition
 
 Seeing = Callable[[Seer], Seer]  # an answerer that sees, given who answers in its place where it cannot
 UNSURE = 0.4  # joints below this confidence are named in the warnings
 ROUGH = 1.5  # an answered size is a guess: the mesh keeps its own when both agree within this factor
-FAR = 10.0  # an answered size that differs by more is worth a warning
+DOUBTFUL = 2.5  # an answered size that differs by more from that of a file with a unit is worth a warning
+FAR = 10.0  # and so is one that differs by more where the file has none
+FREE = 0.8  # a part that gains unseen patches opens this much as far as without them
+ENOUGH = float(np.deg2rad(60))  # [rad, or share of the diagonal] an opening beyond is not compared
 GEOMETRY = GeometryAnswerer()
 
 
@@ -60,16 +66,24 @@ class Solver:
     def _studio(self) -> Studio:
         return Studio(self.mesh, self.config)
 
-    def recognize(self, *, sized: bool = False) -> Recognized:
-        """What the object is and which parts move, from someone who sees. sized: the answered size sets the scale."""
+    def recognize(self, *, sized: bool = False, metric: bool = False) -> Recognized:
+        """What the object is and which parts move, from someone who sees.
+
+        sized: the answered size sets the scale, unless the file states its unit (metric): then a size that contradicts is a
+        warning.
+        """
         if self._see is None:
             return Recognized(None, GEOMETRY.name)
         _ = self._segmenter  # weights that cannot be used are better missed before anything is asked
         seer = self._see(Knowing(GEOMETRY.name, lambda: self._geometric_reference))
-        found = recognize(lambda: self._studio.pictures(self._studio.views), seer, self.config.category, self.config.parts_list)
-        scale, note = _scale(found, self.mesh) if sized else (1.0, "")
-        far = () if 1 / FAR <= scale <= FAR else (f"{note}; if that is wrong, give --scale",)
-        return Recognized(found, seer.name, scale, note, (*seer.remarks, *far), seer.exchanges)
+        azimuths = [azimuth for azimuth, _ in self.config.views.directions]
+        found = recognize(self._view_pictures, seer, self.config.category, self.config.parts_list, azimuths)
+        scale, note, doubt = _scale(found, self.mesh, metric) if sized else (1.0, "", ())
+        return Recognized(found, seer.name, scale, note, (*seer.remarks, *doubt), seer.exchanges)
+
+    def _view_pictures(self) -> tuple[Picture, ...]:
+        seen = self._studio.views
+        return self._studio.pictures([view.color for view in seen], self._studio.names(len(seen)))
 
     def parts(self, parts: str = "auto", recognition: Recognition | None = None, progress: Progress = silent) -> Segmented:
         """Stage A. parts: auto, nodes, or a file of face labels."""
@@ -88,6 +102,7 @@ class Solver:
             self._studio,
             self._segmenter,
             self._geometric_parts,
+            self._stays_free,
             progress,
         )
         return _segmented(found, seer.name, seer, (*warnings, *self.deadline.warnings()))
@@ -116,6 +131,19 @@ class Solver:
 
             self._by_itself = segment_parts(self.mesh, self.whole, GEOMETRY, moves, self.config, progress, self.deadline)
         return self._by_itself
+
+    def _stays_free(self, without: np.ndarray, joined: np.ndarray, part: int) -> bool:
+        """Whether a part opens as far with the unseen patches that it would gain. Both: the part of each face of `whole`."""
+        alone = self._around(without, part)
+        best = ask_motion(alone, "candidate", "part", GEOMETRY)[1]
+        with_all = weigh_all(self._around(joined, part), [(best.role, best.motion)])[0]
+        return max(with_all.opening, with_all.closing) >= FREE * min(max(best.opening, best.closing), ENOUGH)
+
+    def _around(self, label: np.ndarray, part: int) -> Surroundings:
+        shapes = [self.whole.of(np.flatnonzero(label == k)) for k in np.unique(label)]
+        rank = np.searchsorted(np.unique(label), label)
+        number = int(np.searchsorted(np.unique(label), part))
+        return surroundings(self.whole, rank, shapes, parents(shapes, self.whole.diagonal), number, self.config.articulation)
 
     def _ready_for(self, segmentation: Segmentation) -> ObjectShape:
         """The mesh made ready, in pieces that each belong to one of these parts."""
@@ -151,14 +179,20 @@ def reference_of(mesh: Mesh, segmentation: Segmentation, joints: tuple[Joint, ..
     )
 
 
-def _scale(found: Recognition, mesh: Mesh) -> tuple[float, str]:
-    size = float(mesh.extents.max())
+def _scale(found: Recognition, mesh: Mesh, metric: bool) -> tuple[float, str, tuple[str, ...]]:
+    """The factor that an answered size makes, with a note, and warnings."""
     if found.size is None:
-        return 1.0, ""
+        return 1.0, "", ()
+    size = float(mesh.extents.max())
     factor = found.size / size
+    told = f"answered: a {found.category} is about {found.size:g} m long; the mesh was {size:.3g} m"
     if 1 / ROUGH <= factor <= ROUGH:
-        return 1.0, ""
-    return factor, f"scale {factor:g} (answered: a {found.category} is about {found.size:g} m long; the mesh was {size:.3g} m)"
+        return 1.0, "", ()
+    if metric:
+        doubt = f"the file's unit was kept ({told}); if it is wrong, give --scale"
+        return 1.0, "", () if 1 / DOUBTFUL <= factor <= DOUBTFUL else (doubt,)
+    note = f"scale {factor:g} ({told})"
+    return factor, note, () if 1 / FAR <= factor <= FAR else (f"{note}; if that is wrong, give --scale",)
 
 
 def _segmented(

@@ -18,11 +18,15 @@ Record = dict[str, Any]
 
 @dataclass(frozen=True, eq=False)
 class Placed:
-    """The mesh in the asset frame, the file that it came from, and what a user should know."""
+    """The mesh in the asset frame, the file that it came from, and what a user should know.
+
+    metric: whether the scale is the unit that the file states.
+    """
 
     mesh: Mesh
     source: Source
     warnings: tuple[str, ...] = ()
+    metric: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,7 +48,7 @@ class Recognized:
         source = replace(
             placed.source, T_asset_source=S @ placed.source.T_asset_source, notes=(*placed.source.notes, self.note)
         )
-        return Placed(placed.mesh.transformed(S), source, placed.warnings)
+        return Placed(placed.mesh.transformed(S), source, placed.warnings, placed.metric)
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,6 +120,7 @@ def _pack_placed(result: Placed) -> tuple[Record, dict[str, np.ndarray]]:
             "notes": list(source.notes),
         },
         "warnings": list(result.warnings),
+        "metric": result.metric,
     }
     return record, arrays
 
@@ -139,7 +144,7 @@ def _pack_mesh(mesh: Mesh) -> tuple[Record, dict[str, np.ndarray]]:
 def _unpack_placed(record: Record, arrays: Arrays) -> Placed:
     s = record["source"]
     source = Source(s["path"], s["sha256"], np.array(s["T_asset_source"]), s["up"], tuple(s["notes"]))
-    return Placed(_unpack_mesh(record, arrays), source, tuple(record["warnings"]))
+    return Placed(_unpack_mesh(record, arrays), source, tuple(record["warnings"]), record.get("metric", False))
 
 
 def _unpack_mesh(record: Record, arrays: Arrays) -> Mesh:
@@ -197,7 +202,10 @@ def _unpack_recognition(record: Record, arrays: Arrays) -> Recognized:
         return RecognizedLabel(found["label"], moves, found["parent"], limits)
 
     r = record["recognition"]
-    recognition = None if r is None else Recognition(r["category"], r["size"], tuple(label(found) for found in r["labels"]))
+    recognition = None
+    if r is not None:
+        labels = tuple(label(found) for found in r["labels"])
+        recognition = Recognition(r["category"], r["size"], labels, r.get("front"))
     exchanges = _unpack_exchanges(record["exchanges"], arrays)
     return Recognized(recognition, record["answerer"], record["scale"], record["note"], tuple(record["warnings"]), exchanges)
 

@@ -34,7 +34,7 @@ FAULTS = {
     "a truth for a number": (False, NUMBER, ["must be a number", "False"]),
     "a number for a truth": (1, BOOLEAN, ["must be a boolean", "found 1"]),
     "a number in words": ("12", INTEGER, ["must be an integer", "'12'"]),
-    "no such word": ({"n": 1, "word": "Up"}, PAIR, ["the answer.word must be one of up, down", "'Up'"]),
+    "no such word": ({"n": 1, "word": "Ups"}, PAIR, ["the answer.word must be one of up, down", "'Ups'"]),
     "no list": ({}, a_list(INTEGER), ["must be an array"]),
     "the third of a list": ([1, 2, "3"], a_list(INTEGER), ["the answer[2] must be an integer"]),
     "deep inside": ({"a": [{"n": 1, "word": 0}]}, an_object(a=a_list(PAIR)), ["the answer.a[0].word must be a string"]),

@@ -28,13 +28,17 @@ UNITS = (("millimetres", 0.001), ("centimetres", 0.01), ("inches", 0.0254))
 
 @dataclass(frozen=True, eq=False)
 class PlacedMesh:
-    """A mesh in the asset frame [m, Z up]; T_asset_source: (4, 4), from file coordinates; notes: how it was found."""
+    """A mesh in the asset frame [m, Z up]; T_asset_source: (4, 4), from file coordinates; notes: how it was found.
+
+    metric: whether the scale is the unit that the file states.
+    """
 
     mesh: Mesh
     T_asset_source: Float[np.ndarray, "4 4"]
     up: str
     notes: tuple[str, ...]
     warnings: tuple[str, ...]
+    metric: bool = False
 
 
 def place_mesh(loaded: LoadedMesh, *, up: str = "auto", scale: str = "auto", category: str | None = None) -> PlacedMesh:
@@ -51,7 +55,7 @@ def place_mesh(loaded: LoadedMesh, *, up: str = "auto", scale: str = "auto", cat
     turned = loaded.mesh.bounds @ T[:3, :3].T
     low, high = turned.min(0), turned.max(0)
     T[:3, 3] = -np.array([(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, low[2]])
-    return PlacedMesh(loaded.mesh.transformed(T), T, axis, (up_note, scale_note), warnings)
+    return PlacedMesh(loaded.mesh.transformed(T), T, axis, (up_note, scale_note), warnings, factor == loaded.unit_in_metres)
 
 
 def _up(loaded: LoadedMesh, up: str) -> tuple[str, str]:

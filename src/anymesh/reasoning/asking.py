@@ -68,6 +68,19 @@ def an_object(**properties: dict[str, Any]) -> dict[str, Any]:
     return {"type": "object", "properties": properties, "required": list(properties), "additionalProperties": False}
 
 
+REASON = "reason"  # the property that comes before an answer, so that a model can think; it may be left out
+
+
+def an_answer(**properties: dict[str, Any]) -> dict[str, Any]:
+    """The schema of an answer: a short reason first, then these properties."""
+    return an_object(**{REASON: {"type": "string", "description": "one or two short sentences"}}, **properties)
+
+
+def with_category(category: str | None, text: str) -> str:
+    """The text of a question about an object whose category is known."""
+    return f"The object: {category}. {text}" if category else text
+
+
 def a_list(items: dict[str, Any]) -> dict[str, Any]:
     """The schema of a list."""
     return {"type": "array", "items": items}
@@ -86,7 +99,8 @@ _TYPES: dict[str, tuple[type, ...]] = {
 
 
 def check_schema(value: Any, schema: Mapping[str, Any], at: str = "the answer") -> None:
-    """Raises BadAnswerError where a value does not satisfy a schema made of the functions above."""
+    """Check a value by a schema made of the functions above; words of a list of words may come in any case, and take that of
+    the list in place. Raises BadAnswerError."""
     kind = schema["type"]
     numeric = kind in ("integer", "number")
     wrong = not isinstance(value, _TYPES[kind]) or (isinstance(value, bool) and numeric)
@@ -96,13 +110,28 @@ def check_schema(value: Any, schema: Mapping[str, Any], at: str = "the answer") 
         raise BadAnswerError(f"{at} must be one of {', '.join(schema['enum'])}; found {_short(value)}")
     if kind == "array":
         for k, item in enumerate(value):
-            check_schema(item, schema["items"], f"{at}[{k}]")
+            value[k] = _in_case(item, schema["items"])
+            check_schema(value[k], schema["items"], f"{at}[{k}]")
     if kind == "object":
-        missing, unknown = (sorted(a) for a in (set(schema["required"]) - set(value), set(value) - set(schema["properties"])))
-        if missing or unknown:
-            raise BadAnswerError(f"{at} must have exactly {schema['required']}; missing {missing}, unknown {_short(unknown)}")
+        _check_names(value, schema, at)
         for name, part in schema["properties"].items():
-            check_schema(value[name], part, f"{at}.{name}")
+            if name in value:
+                value[name] = _in_case(value[name], part)
+                check_schema(value[name], part, f"{at}.{name}")
+
+
+def _check_names(value: Mapping[str, Any], schema: Mapping[str, Any], at: str) -> None:
+    """Raise BadAnswerError unless an object has the properties of its schema and no others."""
+    needed = set(schema["required"]) - {REASON}
+    missing, unknown = (sorted(a) for a in (needed - set(value), set(value) - set(schema["properties"])))
+    if missing or unknown:
+        raise BadAnswerError(f"{at} must have exactly {schema['required']}; missing {missing}, unknown {_short(unknown)}")
+
+
+def _in_case(value: Any, schema: Mapping[str, Any]) -> Any:
+    """The word of the schema's list that differs from the value in case and spaces at most; else the value."""
+    words = {word.lower(): word for word in schema.get("enum", ())}
+    return words.get(" ".join(value.lower().split()), value) if words and isinstance(value, str) else value
 
 
 def _a(kind: str) -> str:

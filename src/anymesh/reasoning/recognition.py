@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from anymesh.errors import OptionError
-from anymesh.reasoning.asking import NUMBER, STRING, BadAnswerError, Seer, a_list, an_object, one_of
+from anymesh.reasoning.asking import INTEGER, NUMBER, STRING, BadAnswerError, Seer, a_list, an_answer, an_object, one_of
 from anymesh.types import Picture
 from anymesh.types.recognition import BASE, Moves, Recognition, RecognizedLabel
 
@@ -19,10 +19,14 @@ WORD = re.compile(r"(?=.{1,40}$)[a-z][a-z0-9]*([ _'-][a-z0-9]+){0,4}")
 
 @dataclass(frozen=True, eq=False)
 class Recognize:
-    """What is the object, how large is the real one, which parts move and how."""
+    """What is the object, how large is the real one, where is its front, which parts move and how.
+
+    azimuths: of the pictures [deg].
+    """
 
     pictures: tuple[Picture, ...]
     category: str | None = None  # where the user told it
+    azimuths: tuple[float, ...] = ()
     kind: str = "recognize"
 
     def text(self) -> str:
@@ -34,25 +38,33 @@ class Recognize:
             "buttons, wheels, levers, handles that turn (not handles fixed to a door), and so on. Give one entry a kind, not "
             "one a piece; leave out what does not move. label: one short English noun in lower case. moves: revolute (turns "
             "within limits), continuous (turns endlessly) or prismatic (slides). parent: the label of the part that it is "
-            f"mounted on, or {BASE!r}. lower, upper: how far it can move from the pose that is shown, opening positive: "
-            "degrees for revolute, centimetres for prismatic, 0 and 0 for continuous; lower <= 0 <= upper."
+            f"mounted on, its own label where such parts hang on each other in a chain, or {BASE!r}. lower, upper: how far it "
+            "can move from the pose that is shown, opening positive: degrees for revolute, centimetres for prismatic, 0 and 0 "
+            "for continuous; lower <= 0 <= upper. front: the number of the picture that looks most squarely at the object's "
+            "front, the side that a user faces; 0 if it has none."
         )
 
     def schema(self) -> dict[str, Any]:
         label = an_object(label=STRING, moves=one_of(tuple(Moves)), parent=STRING, lower=NUMBER, upper=NUMBER)
-        return an_object(category=STRING, longest_side_m=NUMBER, parts=a_list(label))
+        return an_answer(category=STRING, longest_side_m=NUMBER, front=INTEGER, parts=a_list(label))
 
     def parse(self, found: Mapping[str, Any]) -> Recognition:
         size = float(found["longest_side_m"])
         if not SIZES[0] <= size <= SIZES[1]:
             raise BadAnswerError(f"longest_side_m must lie in {SIZES[0]}..{SIZES[1]}, found {size:g}")
-        labels = check_labels([p["label"] for p in found["parts"]])
-        parts = tuple(self._label(p, labels) for p in found["parts"])
-        _check_tree({p["label"]: p["parent"] for p in found["parts"]})
+        if not 0 <= found["front"] <= len(self.azimuths):
+            raise BadAnswerError(
+                f"front must be the number of a picture, 1..{len(self.azimuths)}, or 0; found {found['front']}"
+            )
+        front = self.azimuths[found["front"] - 1] if found["front"] else None
+        named = [{**p, "label": _folded(p["label"]), "parent": _folded(p["parent"])} for p in found["parts"]]
+        labels = check_labels([p["label"] for p in named])
+        parts = tuple(self._label(p, labels) for p in named)
+        _check_tree({p["label"]: p["parent"] for p in named})
         category = " ".join(found["category"].split())[:60]
         if not category or not (category.isascii() and category.isprintable()):
             raise BadAnswerError(f"category must be one or a few English words, found {category!r}")
-        return Recognition(category, size, parts)
+        return Recognition(category, size, parts, front)
 
     def _label(self, part: Mapping[str, Any], labels: Sequence[str]) -> RecognizedLabel:
         if part["parent"] not in (*labels, BASE):
@@ -77,10 +89,16 @@ def check_labels(labels: Sequence[str]) -> tuple[str, ...]:
     return tuple(labels)
 
 
+def _folded(label: str) -> str:
+    """A label in lower case, with single spaces."""
+    return " ".join(label.lower().split())
+
+
 def _check_tree(parent: Mapping[str, str]) -> None:
+    """Raise BadAnswerError unless the parents lead to the base; a part may hang on another of its own label."""
     for label in parent:
-        seen, at = {label}, parent[label]
-        while at != BASE:
+        seen, at = set[str](), label
+        while at != BASE and parent[at] != at:  # a label on itself is a chain of such parts
             if at in seen:
                 raise BadAnswerError(f"parents must lead to {BASE!r}, but those of {label!r} go in a circle")
             seen.add(at)
@@ -90,15 +108,19 @@ def _check_tree(parent: Mapping[str, str]) -> None:
 def told_labels(labels: Sequence[str]) -> tuple[str, ...]:
     """The labels that a user gives. Raises OptionError."""
     try:
-        return check_labels([" ".join(label.lower().split()) for label in labels])
+        return check_labels([_folded(label) for label in labels])
     except BadAnswerError as error:
         raise OptionError(f"--parts-list: {error}") from None
 
 
 def recognize(
-    pictures: Callable[[], tuple[Picture, ...]], seer: Seer, category: str | None, told: Sequence[str]
+    pictures: Callable[[], tuple[Picture, ...]],
+    seer: Seer,
+    category: str | None,
+    told: Sequence[str],
+    azimuths: Sequence[float] = (),
 ) -> Recognition:
-    """Asks, unless the labels were told."""
+    """Asks, unless the labels were told. azimuths: of the pictures [deg]."""
     if told:
         return Recognition(category or "object", None, tuple(RecognizedLabel(label, None, None, None) for label in told))
-    return seer.ask(Recognize(() if seer.blind else pictures(), category))
+    return seer.ask(Recognize(() if seer.blind else pictures(), category, tuple(azimuths)))
