@@ -112,7 +112,10 @@ def noisy(wrong: float, seed: int = 0) -> Noisy:
 
 def items(answer: Any) -> list[Any]:
     """What can be right or wrong on its own, of an answer: the marks or picks of a part together."""
-    return [set(getattr(a, "marks", a)) if isinstance(getattr(a, "marks", a), tuple) else getattr(a, "kind", a) for a in answer]
+    return [
+        set(getattr(a, "marks", a)) if isinstance(getattr(a, "marks", a), tuple) else getattr(a, "kind", a)
+        for a in getattr(answer, "parts", answer)
+    ]
 
 
 @pytest.mark.parametrize("name", QUESTIONS)
@@ -139,7 +142,7 @@ def test_wrong_answers_are_of_those_that_could_be_given(name: str) -> None:
         match name:
             case "marks" | "marks of each view":
                 valid = np.unique(np.concatenate(VIEWS) if name == "marks" else VIEWS[0])
-                assert all(set(p.marks) <= set(valid.tolist()) and len(p.marks) > 0 for p in answer)
+                assert all(set(p.marks) <= set(valid.tolist()) and len(p.marks) > 0 for p in answer.parts)
             case "points":
                 assert [len(rows) for rows in answer] == [2, 1]
                 assert all(set(rows) <= set(range(5)) and len(set(rows)) == len(rows) for rows in answer)

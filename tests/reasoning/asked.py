@@ -10,7 +10,7 @@ from assets import checker
 from hypothesis import strategies as st
 
 from anymesh.reasoning.asking import Question
-from anymesh.reasoning.grounding import MarkedPart, WhichMarks, WhichViews
+from anymesh.reasoning.grounding import MarkedPart, MarksAnswer, WhichMarks, WhichViews
 from anymesh.reasoning.prompting import (
     ArrowTable,
     JointKind,
@@ -54,8 +54,10 @@ def parts(*rows: dict[str, Any]) -> dict[str, Any]:
     return {"parts": list(rows)}
 
 
-def marks(*rows: tuple[str, int, int, list[int]]) -> dict[str, Any]:
-    return parts(*(dict(zip(("label", "instance", "view", "marks"), row, strict=True)) for row in rows))
+def marks(*rows: tuple[str, int, int, list[int]], **more: list[int]) -> dict[str, Any]:
+    """label, instance, view (0 where marks are the same in all pictures) and marks of each part."""
+    named = [dict(zip(("label", "instance", "view", "marks"), row, strict=True)) for row in rows]
+    return {**parts(*({k: v for k, v in row.items() if (k, v) != ("view", 0)} for row in named)), "unsure": [], **more}
 
 
 def picks(name: str, *rows: Any) -> dict[str, Any]:
@@ -72,8 +74,8 @@ TRAY = {"label": "tray", "moves": "prismatic", "parent": "base", "lower": -5, "u
 
 ASKED = {
     "recognize": Asked(
-        Recognize((PICTURE,)),
-        {"category": "kitchen cabinet", "longest_side_m": 1.5, **parts(DOOR, KNOB, TRAY)},
+        Recognize((PICTURE,) * 3, None, (0.0, 45.0, 90.0)),
+        {"category": "kitchen cabinet", "longest_side_m": 1.5, "front": 2, **parts(DOOR, KNOB, TRAY)},
         Recognition(
             "kitchen cabinet",
             1.5,
@@ -82,6 +84,7 @@ ASKED = {
                 RecognizedLabel("knob", Moves.CONTINUOUS, "door", None),
                 RecognizedLabel("tray", Moves.PRISMATIC, "base", (-0.05, 0.305)),
             ),
+            45.0,
         ),
     ),
     "views": Asked(
@@ -90,14 +93,19 @@ ASKED = {
         {"door": (0, 1), "knob": ()},
     ),
     "marks": Asked(
-        WhichMarks((PICTURE,) * 2, ("door", "knob"), True, REGIONS, FACES),
-        marks(("door", 1, 0, [4, 1]), ("knob", 1, 0, [2])),
-        (MarkedPart("door", 1, None, (1, 4)), MarkedPart("knob", 1, None, (2,))),
+        WhichMarks((PICTURE,) * 2, ("door", "knob"), True, REGIONS, FACES, "cabinet"),
+        {"reason": "one of them is round", **marks(("door", 1, 0, [4, 1]), ("knob", 1, 0, [2]), unsure=[4])},
+        MarksAnswer((MarkedPart("door", 1, None, (1, 4)), MarkedPart("knob", 1, None, (2,))), unsure=(4,)),
+    ),
+    "marks that can be split": Asked(
+        WhichMarks((PICTURE,) * 2, ("door", "knob"), True, REGIONS, FACES, None, (MarkedPart("lid", 1, None, (9,)),), True),
+        marks(("door", 1, 0, [4, 1]), split=[1]),
+        MarksAnswer((MarkedPart("door", 1, None, (4,)),), split=(1,)),  # what is split belongs to nothing yet
     ),
     "marks of each view": Asked(
         WhichMarks((PICTURE,) * 2, ("door", "knob"), False, REGIONS, FACES),
         marks(("door", 1, 1, [2]), ("knob", 1, 2, [2])),
-        (MarkedPart("door", 1, 0, (2,)), MarkedPart("knob", 1, 1, (2,))),
+        MarksAnswer((MarkedPart("door", 1, 0, (2,)), MarkedPart("knob", 1, 1, (2,)))),
     ),
     "kinds": Asked(
         WhichKinds((PICTURE,) * 2, (part(), part("tray"))),

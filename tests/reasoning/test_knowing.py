@@ -10,7 +10,7 @@ from written import written
 
 from anymesh.models.double import Scripted
 from anymesh.reasoning.asking import Question, Seer
-from anymesh.reasoning.grounding import MarkedPart, WhichMarks, WhichViews
+from anymesh.reasoning.grounding import MarkedPart, MarksAnswer, WhichMarks, WhichViews
 from anymesh.reasoning.knowing import Knowing, KnownJoint, Reference
 from anymesh.reasoning.prompting import (
     ArrowTable,
@@ -112,7 +112,7 @@ FACE = pixels((DOOR, 100), (OTHER, 26), (BASE, 24), (DOOR, 25), (KNOB, 25), (DRA
 
 def marks(consistent: bool, labels=("door", "drawer")) -> tuple[MarkedPart, ...]:
     mirrored = np.where(REGION >= 0, 6 - REGION, -1)  # in a second view, where all see the same, marks are numbered backwards
-    return ask(WhichMarks((), labels, consistent, (REGION, REGION if consistent else mirrored), (FACE, FACE)))
+    return ask(WhichMarks((), labels, consistent, (REGION, REGION if consistent else mirrored), (FACE, FACE))).parts
 
 
 def test_a_mark_belongs_to_the_part_that_has_most_of_it() -> None:
@@ -121,6 +121,16 @@ def test_a_mark_belongs_to_the_part_that_has_most_of_it() -> None:
         MarkedPart("door", 2, None, (2,)),  # 26 of 50 pixels; mark 3 is half a door, and nobody's
         MarkedPart("drawer", 1, None, (4,)),  # knobs were not asked for
     )
+
+
+def test_a_mark_of_two_parts_is_to_be_split_where_it_can_be() -> None:
+    face = pixels((DOOR, 100), (DOOR, 10), (BASE, 140))
+    region = pixels((1, 100), (2, 150))
+    for splittable, split in ((False, ()), (True, ())):
+        question = WhichMarks((), ("door",), True, (region,), (face,), None, (), splittable)
+        assert ask(question) == MarksAnswer((MarkedPart("door", 1, None, (1,)),), split=split)  # ten pixels go unnoticed
+    question = WhichMarks((), ("door",), True, (region,), (pixels((DOOR, 160), (BASE, 90)),), None, (), True)
+    assert ask(question) == MarksAnswer((MarkedPart("door", 1, None, (1,)),), split=(2,))
 
 
 def test_marks_are_told_by_view_where_each_has_its_own() -> None:

@@ -5,12 +5,13 @@ from typing import Any
 
 import jsonschema
 import pytest
-from asked import ASKED, marks, parts, picks, satisfying, table
+from asked import ASKED, FACES, REGIONS, TRAY, marks, picks, satisfying, table
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from anymesh.errors import OptionError
 from anymesh.reasoning.asking import BadAnswerError, Seer, check_schema
+from anymesh.reasoning.grounding import MarkedPart, MarksAnswer, WhichMarks, WhichViews
 from anymesh.reasoning.prompting import JointKind, WhichPoints
 from anymesh.reasoning.recognition import recognize, told_labels
 from anymesh.types.recognition import RecognizedLabel
@@ -33,7 +34,7 @@ def test_schemas_keep_to_what_every_service_takes(name: str) -> None:
         if part["type"] == "object":
             assert part["required"] == list(part["properties"])
             assert part["additionalProperties"] is False
-        assert set(part) <= {"type", "properties", "required", "additionalProperties", "items", "enum"}
+        assert set(part) <= {"type", "properties", "required", "additionalProperties", "items", "enum", "description"}
 
 
 @pytest.mark.parametrize("name", ASKED)
@@ -64,14 +65,14 @@ def test_whatever_satisfies_the_schema_is_understood_or_told_in_short(name: str,
 
 
 def test_no_part_and_no_mark_are_answers_too() -> None:
-    assert ASKED["marks"].question.parse(parts()) == ()
-    assert ASKED["marks"].question.parse(marks(("door", 1, 0, []))) == ()
-    nothing = ASKED["recognize"].question.parse({"category": "rock", "longest_side_m": 1, "parts": []})
+    assert ASKED["marks"].question.parse(marks()) == MarksAnswer(())
+    assert ASKED["marks"].question.parse(marks(("door", 1, 0, []))) == MarksAnswer(())
+    nothing = ASKED["recognize"].question.parse({"category": "rock", "longest_side_m": 1, "front": 0, "parts": []})
     assert (nothing.category, nothing.labels) == ("rock", ())
 
 
 def test_a_part_that_is_given_in_two_pieces_is_one() -> None:
-    (found,) = ASKED["marks"].question.parse(marks(("door", 1, 0, [4, 1]), ("door", 1, 0, [2, 4])))
+    (found,) = ASKED["marks"].question.parse(marks(("door", 1, 0, [4, 1]), ("door", 1, 0, [2, 4]))).parts
     assert found.marks == (1, 2, 4)
 
 
@@ -99,3 +100,54 @@ def test_labels_that_a_user_told_are_not_asked_for() -> None:
 def test_labels_that_a_user_told_are_checked(labels: list[str]) -> None:
     with pytest.raises(OptionError, match="--parts-list: "):
         told_labels(labels)
+
+
+def test_a_reason_may_come_before_the_answer_of_stage_a() -> None:
+    for name in ("recognize", "views", "marks", "marks of each view"):
+        asked = ASKED[name]
+        schema = asked.question.schema()
+        assert next(iter(schema["properties"])) == "reason"
+        for found in ({"reason": "because", **asked.found}, {k: v for k, v in asked.found.items() if k != "reason"}):
+            check_schema(found, schema)
+            assert asked.question.parse(found) == asked.means
+
+
+def test_words_are_compared_without_case() -> None:
+    row = {"label": " Tray", "moves": "PRISMATIC", "parent": "Base", "lower": 0, "upper": 9}
+    found = {"category": "x", "longest_side_m": 1, "front": 0, "parts": [row]}
+    check_schema(found, ASKED["recognize"].question.schema())
+    (label,) = ASKED["recognize"].question.parse(found).labels
+    assert (label.label, label.parent) == ("tray", "base")
+    answer = marks(("Door", 1, 0, [1]))
+    check_schema(answer, ASKED["marks"].question.schema())
+    assert ASKED["marks"].question.parse(answer).parts[0].label == "door"
+
+
+def test_the_category_is_repeated_where_marks_are_asked_for() -> None:
+    for question in (
+        WhichMarks((), ("door",), True, REGIONS, FACES, "toaster oven"),
+        WhichViews((), ("door",), FACES, "toaster oven"),
+    ):
+        assert question.text().startswith("The object: toaster oven.")
+
+
+def test_handles_belong_to_what_they_sit_on_unless_they_are_asked_for() -> None:
+    def text(*labels: str) -> str:
+        return WhichMarks((), labels, True, REGIONS, FACES).text()
+
+    assert "its handle and trim included" in text("door")
+    assert "handle and trim" not in text("door", "door handle")
+
+
+def test_the_front_is_the_side_of_the_picture_that_was_named() -> None:
+    question = ASKED["recognize"].question
+    found = {"category": "x", "longest_side_m": 1, "parts": [TRAY]}
+    assert question.parse({**found, "front": 3}).front == 90.0
+    assert question.parse({**found, "front": 0}).front is None
+    with pytest.raises(BadAnswerError, match=r"front must be the number of a picture, 1\.\.3, or 0; found 4"):
+        question.parse({**found, "front": 4})
+
+
+def test_what_earlier_pictures_showed_is_told() -> None:
+    found = (MarkedPart("door", 2, None, (3, 5)),)
+    assert "door 2: marks 3, 5" in WhichMarks((), ("door",), True, REGIONS, FACES, None, found).text()

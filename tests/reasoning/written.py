@@ -22,7 +22,9 @@ def written(question: Question[Any], answer: Any) -> dict[str, Any]:
         case WhichViews():
             return parts(*({"label": label, "views": [v + 1 for v in views]} for label, views in answer.items()))
         case WhichMarks():
-            return marks(*((p.label, p.instance, 0 if p.view is None else p.view + 1, list(p.marks)) for p in answer))
+            rows = ((p.label, p.instance, 0 if p.view is None else p.view + 1, list(p.marks)) for p in answer.parts)
+            split = {"split": list(answer.split)} if question.splittable else {}
+            return marks(*rows, unsure=list(answer.unsure), **split)
         case WhichKinds():
             return parts(*({"part": k, "joint": a.kind, "endless": a.endless} for k, a in enumerate(answer, 1)))
         case WhichPoints():
@@ -35,7 +37,7 @@ def written(question: Question[Any], answer: Any) -> dict[str, Any]:
 
 
 def _recognition(found: Recognition) -> dict[str, Any]:
-    return {"category": found.category, "longest_side_m": found.size, **parts(*map(_label, found.labels))}
+    return {"category": found.category, "longest_side_m": found.size, "front": 0, **parts(*map(_label, found.labels))}
 
 
 def _label(found: RecognizedLabel) -> dict[str, Any]:

@@ -12,13 +12,14 @@ from anymesh.evaluation.matching import match_parts, part_ious
 from anymesh.evaluation.truth import Truth, example_truths
 from anymesh.geometry.pieces import object_shape
 from anymesh.loading import load_mesh, place_mesh
-from anymesh.rendering.render import render
-from anymesh.segmentation.cloud import sample_cloud
+from anymesh.rendering.render import View, render
+from anymesh.segmentation.cloud import Cloud, sample_cloud
 from anymesh.segmentation.em import refine_instances
-from anymesh.segmentation.faces import face_parts, point_parts
-from anymesh.segmentation.fuse import Mask, count_points, fuse_exact, fuse_masks
+from anymesh.segmentation.faces import face_parts, mark_parts, point_parts
+from anymesh.segmentation.fuse import Instances, Mask, count_points, fuse_masks
+from anymesh.segmentation.hidden import seen_points, unseen_patches
 from anymesh.segmentation.naming import named_parts
-from anymesh.segmentation.propose import propose_regions
+from anymesh.segmentation.regions import Marks, face_regions, number_regions
 from anymesh.types.camera import Camera
 
 FEW = GroundingConfig(points=20_000)
@@ -124,25 +125,31 @@ def grounded(truth: Truth, exact: bool) -> tuple[float, float]:
     middle, turns = mesh.bounds.mean(0), np.deg2rad(np.arange(0, 360, 45))
     eyes = [middle + mesh.diagonal * np.array([0.97 * np.cos(a), 0.97 * np.sin(a), 0.26]) for a in turns]
     views = [render(mesh, Camera.looking_at(e, middle, np.deg2rad(60.0), 320, 320)) for e in eyes]
-    counts = []
-    rng = np.random.default_rng(0)
-    for proposal, view in zip(propose_regions(whole, cloud, views), views, strict=True):
-        masks = []
-        own = np.where(view.face >= 0, truth.labels[np.maximum(view.face, 0)], 0)
-        for n in np.unique(proposal.labels[proposal.labels > 0]):
-            here = proposal.labels == n
-            part = int(np.bincount(own[here]).argmax())
-            if part and (own[here] == part).mean() > 0.5:
-                masks.append((part, here))
-        for part in sorted({p for p, _ in masks}):
-            pixels = np.any([m for p, m in masks if p == part], axis=0)
-            masks_instance = part if exact else int(rng.integers(1, 9))  # views need not number parts alike
-            counts_label = truth.parts[part].label or "part"
-            masks.append((-1, Mask(pixels, counts_label, masks_instance)))
-        counts.append(count_points(cloud, view, [m for p, m in masks if p == -1]))
-    found = fuse_exact(counts) if exact else refine_instances(cloud, counts, fuse_masks(cloud, counts), rng)
-    ious = part_ious(face_parts(mesh, whole, cloud, point_parts(cloud, found, counts)), truth.labels, mesh.face_areas)
+    marks = number_regions(face_regions(whole, cloud), views, whole.diagonal)
+    shown = seen_points(cloud, views)
+    if exact:
+        part = [np.bincount(truth.labels[marks.face_mark == n]).argmax() for n in range(1, int(marks.face_mark.max()) + 1)]
+        named = [[n for n, p in enumerate(part, 1) if p == k] for k in range(1, len(truth.parts))]
+        found = mark_parts(mesh, whole, marks.face_mark, named, unseen_patches(whole, cloud, shown))
+    else:
+        found = face_parts(mesh, whole, cloud, point_parts(cloud, by_masks(truth, marks, cloud, views), shown))
+    ious = part_ious(found, truth.labels, mesh.face_areas)
     return sum(iou for _, _, iou in match_parts(ious)) / (len(truth.parts) - 1), float(ious[0, 0])
+
+
+def by_masks(truth: Truth, marks: Marks, cloud: Cloud, views: list[View]) -> Instances:
+    """What PartSlip++ makes of the regions when views need not number parts alike."""
+    rng = np.random.default_rng(0)
+    counts = []
+    for view in views:
+        label, own = marks.in_view(view), np.where(view.face >= 0, truth.labels[np.maximum(view.face, 0)], 0)
+        part = {int(n): int(np.bincount(own[label == n]).argmax()) for n in np.unique(label[label > 0])}
+        masks = [
+            Mask(np.isin(label, [n for n, p in part.items() if p == k]), truth.parts[k].label, int(rng.integers(1, 9)))
+            for k in sorted(set(part.values()) - {0})
+        ]
+        counts.append(count_points(cloud, view, masks))
+    return refine_instances(cloud, counts, fuse_masks(cloud, counts), rng)
 
 
 @pytest.mark.parametrize("exact", [pytest.param(True, marks=pytest.mark.slow), False], ids=["exact", "em"])

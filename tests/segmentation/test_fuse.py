@@ -10,7 +10,7 @@ from anymesh.geometry.pieces import object_shape
 from anymesh.reasoning.grounding import MarkedPart
 from anymesh.rendering.render import render
 from anymesh.segmentation.cloud import sample_cloud
-from anymesh.segmentation.fuse import Instances, Mask, count_points, fuse_exact, fuse_masks, label_superpoints, marked_masks
+from anymesh.segmentation.fuse import Instances, Mask, count_points, fuse_masks, label_superpoints, marked_masks
 from anymesh.segmentation.propose import Proposal
 from anymesh.types.camera import Camera
 
@@ -54,10 +54,9 @@ def test_masks_of_nearly_all_the_object_and_empty_ones_are_ignored() -> None:
     assert c.top.shape[1] == 1
 
 
-@pytest.mark.parametrize("exact", [True, False])
-def test_two_doors(exact: bool) -> None:
+def test_two_doors() -> None:
     counts = [count_points(CLOUD, v, masks_of(v), FEW) for v in VIEWS]
-    found = fuse_exact(counts) if exact else fuse_masks(CLOUD, counts, FEW)
+    found = fuse_masks(CLOUD, counts, FEW)
     assert found.labels == ("door", "door")
     own = np.zeros(CLOUD.count, int)
     own[CLOUD.superpoint] = PIECE[CLOUD.faces]
@@ -114,7 +113,7 @@ def test_instances_out_of_range_are_refused() -> None:
 
 def test_marks_become_masks_of_their_views() -> None:
     labels = np.array([[1, 2], [3, -1]])
-    proposals = [Proposal(k, labels, (1, 2, 3), False) for k in (0, 1)]
-    first, second = marked_masks(proposals, [MarkedPart("door", 1, None, (1, 2, -1)), MarkedPart("lid", 2, 1, (3, 9))])
+    proposals = [Proposal(k, labels, (1, 2, 3)) for k in (0, 1)]
+    first, second = marked_masks(proposals, [MarkedPart("door", 1, 0, (1, 2, -1)), MarkedPart("lid", 2, 1, (3, 9))])
     assert [(m.label, m.instance, m.pixels.tolist()) for m in first] == [("door", 1, [[True, True], [False, False]])]
-    assert [(m.label, m.instance, m.pixels.tolist()) for m in second[1:]] == [("lid", 2, [[False, False], [True, False]])]
+    assert [(m.label, m.instance, m.pixels.tolist()) for m in second] == [("lid", 2, [[False, False], [True, False]])]

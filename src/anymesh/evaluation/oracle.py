@@ -58,10 +58,11 @@ class Noisy:
             case WhichMarks():
                 present = [np.unique(r[r >= 0]) for r in question.regions]
                 every = np.unique(np.concatenate(present))
-                answer = tuple(
+                wrong = tuple(
                     replace(p, marks=tuple(sorted(self._others(p.marks, every if p.view is None else present[p.view]))))
-                    for p in answer
+                    for p in answer.parts
                 )
+                answer = replace(answer, parts=wrong)
             case WhichKinds():
                 moving = [kind for kind in JointKind if kind is not JointKind.FIXED]
                 answer = tuple(KindAnswer(self._other(k.kind, moving), k.endless) for k in answer)

@@ -10,7 +10,7 @@ from anymesh.models.cache import Cached
 from anymesh.models.prices import cost_of, most_picture_tokens
 from anymesh.models.vision import Reply, Request
 from anymesh.reasoning.asking import Answer, Question, Seer
-from anymesh.reasoning.grounding import WhichMarks, WhichViews
+from anymesh.reasoning.grounding import MarkedPart, WhichMarks, WhichViews
 from anymesh.reasoning.prompting import WhichArrows, WhichKinds, WhichMotions, WhichPoints
 from anymesh.reasoning.recognition import Recognize
 from anymesh.reasoning.vlm import VlmAnswerer
@@ -54,16 +54,12 @@ def spoken(question: Question[Any], answer: Any) -> dict[str, Any]:
     match question:
         case Recognize():
             parts = [_label(r) for r in answer.labels]
-            return {"category": answer.category, "longest_side_m": answer.size, "parts": parts}
+            return {"category": answer.category, "longest_side_m": answer.size, "front": 0, "parts": parts}
         case WhichViews():
             return {"parts": [{"label": label, "views": [v + 1 for v in views]} for label, views in answer.items()]}
         case WhichMarks():
-            return {
-                "parts": [
-                    {"label": p.label, "instance": p.instance, "view": 0 if p.view is None else p.view + 1, "marks": [*p.marks]}
-                    for p in answer
-                ]
-            }
+            split = {"split": [*answer.split]} if question.splittable else {}
+            return {"parts": [_marked(p) for p in answer.parts], "unsure": [*answer.unsure], **split}
         case WhichKinds():
             return _parts({"joint": str(a.kind), "endless": a.endless} for a in answer)
         case WhichPoints():
@@ -78,6 +74,11 @@ def spoken(question: Question[Any], answer: Any) -> dict[str, Any]:
 
 def _parts(answers: Any) -> dict[str, Any]:
     return {"parts": [{"part": k, **answer} for k, answer in enumerate(answers, start=1)]}
+
+
+def _marked(p: MarkedPart) -> dict[str, Any]:
+    view = {} if p.view is None else {"view": p.view + 1}
+    return {"label": p.label, "instance": p.instance, **view, "marks": [*p.marks]}
 
 
 def _label(r: RecognizedLabel) -> dict[str, Any]:

@@ -16,7 +16,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from anymesh.reasoning.asking import Answer, Question
-from anymesh.reasoning.grounding import MarkedPart, WhichMarks, WhichViews
+from anymesh.reasoning.grounding import MarkedPart, MarksAnswer, WhichMarks, WhichViews
 from anymesh.reasoning.prompting import (
     JointKind,
     KindAnswer,
@@ -33,6 +33,7 @@ from anymesh.types.recognition import BASE, Moves, Recognition, RecognizedLabel
 
 LEAST_SEEN = 40  # [px] of a part that a viewer notices
 MOST = 0.5  # share of a mark's pixels that lie on the part it is given to
+MIXED = 0.02  # share of a mark's pixels from which another part on it is a reason to split it
 NEAR = 0.05  # of the part's size: a contact point this near the axis lies on it
 SPREAD = 0.25  # of the part's extent along the axis: near points further apart show a hinge
 INTO = np.cos(np.deg2rad(20.0))  # an axis this near the contact plane's normal sticks into the surface
@@ -146,24 +147,29 @@ class Knowing:
         most = {label: [max(n[p] * (kinds[p] == label) for p in range(len(kinds))) for n in seen] for label in question.labels}
         return {label: tuple(v for v, pixels in enumerate(found) if pixels >= LEAST_SEEN) for label, found in most.items()}
 
-    def _marks(self, question: WhichMarks) -> tuple[MarkedPart, ...]:
+    def _marks(self, question: WhichMarks) -> MarksAnswer:
         parts = [self._pixels(f) for f in question.faces]
         if question.consistent:
             views = [(None, np.concatenate([r.ravel() for r in question.regions]), np.concatenate([p.ravel() for p in parts]))]
         else:
             views = [(v, r.ravel(), p.ravel()) for v, (r, p) in enumerate(zip(question.regions, parts, strict=True))]
         found: dict[tuple[int, int | None], list[int]] = {}
+        split = []
         for view, region, part in views:
             on = (region >= 0) & (part >= 0)
             for mark in np.unique(region[on]):
                 counts = np.bincount(part[on & (region == mark)])
                 best = int(counts.argmax())
-                if best > 0 and counts[best] > MOST * counts.sum() and self._known.kinds[best] in question.labels:
+                second = int(np.sort(counts)[-2]) if len(counts) > 1 else 0
+                if question.splittable and second > max(MIXED * counts.sum(), LEAST_SEEN):
+                    split.append(int(mark))
+                elif best > 0 and counts[best] > MOST * counts.sum() and self._known.kinds[best] in question.labels:
                     found.setdefault((best, view), []).append(int(mark))
-        return tuple(
+        marked = tuple(
             MarkedPart(self._known.kinds[part], self._instance(part), view, tuple(marks))
             for (part, view), marks in sorted(found.items(), key=lambda item: (item[0][0], item[0][1] or 0))
         )
+        return MarksAnswer(marked, split=tuple(split))
 
     def _instance(self, part: int) -> int:
         return sum(kind == self._known.kinds[part] for kind in self._known.kinds[1 : part + 1])

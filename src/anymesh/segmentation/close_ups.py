@@ -1,4 +1,4 @@
-"""Cameras for what is too small to be marked in any view: a button on a machine is two pixels of a picture of all of it."""
+"""Cameras for what is small or thin in every view: a button on a machine is two pixels of a picture of all of it."""
 
 from __future__ import annotations
 
@@ -7,57 +7,75 @@ from collections.abc import Sequence
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
-from anymesh.config import GroundingConfig, ViewsConfig
-from anymesh.geometry.pieces import ObjectShape
+from anymesh.config import ViewsConfig
 from anymesh.rendering.render import View
 from anymesh.segmentation.cloud import Cloud, sight
-from anymesh.segmentation.propose import LEAST_EXACT, face_regions, least_pixels
 from anymesh.types.camera import Camera
 
-MOST = 4  # close-ups; each is one more picture in a question
-OPEN = 0.25  # share of a region's surface that views see; less is seen through a gap
+MOST = 8  # close-ups; each is one more picture in a question
+SMALL, THIN = 250.0, 4.0  # [px, px across] of a 640 px view: regions below cannot be judged there
+LEGIBLE, ACROSS = 1500.0, 12.0  # [px, px across] that a close-up is to show of them
+LEAST_ZOOM = 2.0
+OPEN = 0.1  # share of a region's surface that views see; less is seen through a gap
 WINDOW = 0.8  # of the close-up's side in which the regions' middles lie
 
 
 def close_ups(
-    whole: ObjectShape, cloud: Cloud, views: Sequence[View], grounding: GroundingConfig | None = None,
+    region: Int[np.ndarray, " F"],
+    cloud: Cloud,
+    views: Sequence[View],
     pictures: ViewsConfig | None = None,
-) -> tuple[Camera, ...]:  # fmt: skip
-    """At most MOST cameras, none where nothing is too small: each from the place of a view, on as many of the small regions
-    as a crop from a picture of `zoom_size` holds."""
-    grounding, pictures = grounding or GroundingConfig(), pictures or ViewsConfig()
-    region = face_regions(whole, cloud)
-    size, middle = _shown(region, views)
-    zoom = pictures.zoom_size / pictures.size
-    least = np.array([LEAST_EXACT * least_pixels(v, grounding) for v in views])[:, None]
-    open_to = ((size < least).all(0) & (size * zoom**2 >= least).any(0)) & _open(region, cloud, views)
-    found = []
+    small: float = SMALL,
+) -> tuple[Camera, ...]:
+    """At most MOST cameras, none where nothing is small: each from the place of a view, on as many of the small regions as
+    fit, the smallest first.
+
+    region: of each face, -1 none; small: the size below which a region is small [px of a 640 px view].
+    """
+    pictures = pictures or ViewsConfig()
+    size, across, middle = _shown(region, views)
+    scale = views[0].camera.height / 640
+    zoom = np.sqrt(LEGIBLE * scale**2 / np.maximum(size, 1))
+    zoom = np.maximum(zoom, np.where(across < THIN * scale, ACROSS * scale / np.maximum(across, 0.1), 0))
+    zoom = np.clip(zoom, LEAST_ZOOM, pictures.zoom_size / pictures.size)
+    little = (size < small * scale**2).all(0) | (across < THIN * scale).all(0)
+    open_to = little & (size > 0).any(0) & _open(region, cloud, views)
+    found: list[Camera] = []
     while open_to.any() and len(found) < MOST:
-        at, group = 0, np.zeros(0, np.int64)
-        for v, view in enumerate(views):
-            there = np.flatnonzero(open_to & (size[v] * zoom**2 >= least[v]))
-            reach = WINDOW * view.camera.height / zoom / 2
-            apart = middle[v, there][:, None] - middle[v, there][None]
-            held = (np.abs(apart) <= reach).all(2)
-            if len(there) and held.sum(1).max() > len(group):
-                at, group = v, there[held[held.sum(1).argmax()]]
-        found.append(_camera(views[at], middle[at, group].mean(0), zoom))
-        open_to[group] = False
+        most = size.max(0)
+        first = int(np.where(open_to, most, np.inf).argmin())
+        v = int(size[:, first].argmax())
+        wanted = float(zoom[v, first])
+        reach = WINDOW * views[v].camera.height / wanted / 2
+        near = open_to & (size[v] > 0) & (np.abs(middle[v] - middle[v, first]) <= reach).all(1)
+        near &= size[v] * wanted**2 >= 0.5 * size.max(0)  # not what another view shows better
+        low, high = middle[v, near].min(0), middle[v, near].max(0)
+        found.append(_camera(views[v], (low + high) / 2, wanted))
+        open_to[near] = False
     return tuple(found)
 
 
-def _shown(region: np.ndarray, views: Sequence[View]) -> tuple[Int[np.ndarray, "V R"], Float[np.ndarray, "V R 2"]]:
-    """Pixels of every region in every view, and the middle of these (column, row)."""
+def _shown(
+    region: np.ndarray, views: Sequence[View]
+) -> tuple[Int[np.ndarray, "V R"], Float[np.ndarray, "V R"], Float[np.ndarray, "V R 2"]]:
+    """Pixels of every region in every view, how wide it is across [px], and the middle of its pixels (column, row)."""
     count = int(region.max()) + 1
-    sizes, middles = [], []
+    sizes, widths, middles = [], [], []
     for view in views:
-        row, column = np.nonzero(view.face >= 0)
-        label = region[view.face[row, column]]
-        size = np.bincount(label, minlength=count)
-        at = [np.bincount(label, x + 0.5, count) / np.maximum(size, 1) for x in (column, row)]
+        label = np.where(view.face >= 0, region[np.maximum(view.face, 0)], -1)
+        row, column = np.nonzero(label >= 0)
+        own = label[row, column]
+        size = np.bincount(own, minlength=count)
+        rim = np.zeros(count)
+        for one, two in ((label[:, 1:], label[:, :-1]), (label[1:], label[:-1])):
+            for side, differs in ((one, one != two), (two, one != two)):
+                at = side[differs]
+                rim += np.bincount(at[at >= 0], minlength=count)
+        at = [np.bincount(own, x + 0.5, count) / np.maximum(size, 1) for x in (column, row)]
         sizes.append(size)
+        widths.append(2 * size / np.maximum(rim, 1))
         middles.append(np.stack(at, 1))
-    return np.stack(sizes), np.stack(middles)
+    return np.stack(sizes), np.stack(widths), np.stack(middles)
 
 
 def _open(region: np.ndarray, cloud: Cloud, views: Sequence[View]) -> Bool[np.ndarray, " R"]:
@@ -66,7 +84,10 @@ def _open(region: np.ndarray, cloud: Cloud, views: Sequence[View]) -> Bool[np.nd
     for view in views:
         seen[sight(cloud, view).points] = True
     own = region[cloud.faces]
-    return np.bincount(own[seen], minlength=int(region.max()) + 1) >= OPEN * np.maximum(np.bincount(own), 1)
+    count = int(region.max()) + 1
+    return np.bincount(own[seen & (own >= 0)], minlength=count) >= OPEN * np.maximum(
+        np.bincount(own[own >= 0], minlength=count), 1
+    )
 
 
 def _camera(view: View, pixel: np.ndarray, zoom: float) -> Camera:

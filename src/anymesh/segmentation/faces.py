@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 
 import numpy as np
 from jaxtyping import Bool, Int
@@ -10,25 +10,28 @@ from scipy.spatial import KDTree
 
 from anymesh.config import Config
 from anymesh.geometry.pieces import ObjectShape
-from anymesh.geometry.topology import label_connected
 from anymesh.segmentation.cloud import Cloud
-from anymesh.segmentation.contacts import Contacts, find_contacts, hanging_on
-from anymesh.segmentation.fuse import Counts, Instances
+from anymesh.segmentation.fuse import Instances
+from anymesh.segmentation.unseen import UNSEEN, StaysFree, join_unseen
 from anymesh.types import Mesh
 
-UNSEEN = -1
 ALONE = 0.5  # a component joins the part of so much of its visible surface (the paper's implementation)
 SLIVER = 0.02  # share of a piece's surface; of less, seen through a gap, no view tells what it is
 CUTTABLE = 0.85  # the same for a piece that may hold several parts, as it is large or was cut out of a fused surface
 
 
 def face_parts(
-    mesh: Mesh, whole: ObjectShape, cloud: Cloud, point_part: Int[np.ndarray, " n"], config: Config | None = None
+    mesh: Mesh,
+    whole: ObjectShape,
+    cloud: Cloud,
+    point_part: Int[np.ndarray, " n"],
+    config: Config | None = None,
+    stays_free: StaysFree | None = None,
 ) -> Int[np.ndarray, " F"]:
     """A part number a face, 0 = the rest. point_part: of every point of the cloud, 0 the rest, -1 where no view tells.
 
     A piece goes to one part as a whole; one of several parts is cut along the borders of its superpoints. A piece that no
-    view sees joins the part that holds it.
+    view sees joins the part that holds it, if that stays as free (see `join_unseen`).
     """
     config = config or Config()
     most = int(point_part.max(initial=0)) + 1
@@ -41,7 +44,7 @@ def face_parts(
     winner = np.where(told, votes.argmax(1), UNSEEN)
     share = votes.max(1) / np.maximum(total, 1)
     mixed = told & (share <= np.where(_cuttable(mesh, whole, config), CUTTABLE, ALONE))
-    winner = _unseen_joined(whole, winner, config)
+    winner = join_unseen(whole, winner, config, stays_free)
     found = winner[whole.mesh_piece]
     for p in np.flatnonzero(mixed):
         mine = np.flatnonzero(piece == p)
@@ -81,85 +84,46 @@ def _cut(cloud: Cloud, mine: np.ndarray, part: np.ndarray, most: int) -> tuple[n
     return faces, inside.argmax(1)
 
 
-def _unseen_joined(whole: ObjectShape, part: Int[np.ndarray, " P"], config: Config) -> Int[np.ndarray, " P"]:
-    """The part of every piece, those that no view sees included: that of all the seen pieces that it touches, directly or
-    through others; else the one that it hangs on or touches more than all else, or is near to and nothing else is."""
-    if (part >= 0).all() or part.max() <= 0:
-        return part
-    contacts = find_contacts(whole, config.segmentation)
-    reach = config.grounding.join_component * whole.diagonal
-    part = _of_one_body(contacts.body, part)
-    for together in (False, True):  # each on its own first; then unseen pieces that touch, a drawer's box, as one
-        part = np.where(_goes_on(whole, part), 0, _held(contacts, part, together, reach))
-    return part
+def mark_parts(
+    mesh: Mesh,
+    whole: ObjectShape,
+    face_mark: Int[np.ndarray, " F"],
+    parts: Sequence[Collection[int]],
+    little: Bool[np.ndarray, " P"],
+    config: Config | None = None,
+    stays_free: StaysFree | None = None,
+) -> Int[np.ndarray, " F"]:
+    """A part number a face from exact marks, 0 = the rest. parts: the marks of each; little: patches of which views show
+    too little to tell that they belong to the rest.
+
+    A face without a mark takes the part of the nearest one of its patch that has one; a patch without any joins the part
+    that holds it, if that stays as free.
+    """
+    config = config or Config()
+    part_of = np.zeros(int(face_mark.max(initial=0)) + 2, np.int64)
+    for k, marks in enumerate(parts, start=1):
+        part_of[[m for m in marks if m > 0]] = k
+    part_of[-1] = UNSEEN
+    found = part_of[face_mark]
+    piece = whole.mesh_piece
+    found[(found == 0) & little[piece]] = UNSEEN
+    count = int(piece.max()) + 1
+    weight = np.maximum(mesh.face_areas, 1e-300)
+    known = found >= 0
+    most = len(parts) + 1
+    votes = np.bincount(piece[known] * most + found[known], weight[known], count * most).reshape(count, most)
+    winner = np.where(votes.any(1), votes.argmax(1), UNSEEN)
+    joined = join_unseen(whole, winner, config, stays_free)
+    mixed = (votes > 0).sum(1) > 1
+    lost = np.flatnonzero(~known)
+    found[lost] = joined[piece[lost]]
+    centers = mesh.triangles.mean(1)
+    for p in np.unique(piece[lost][mixed[piece[lost]]]):
+        own, sure = lost[piece[lost] == p], np.flatnonzero(known & (piece == p))
+        found[own] = found[sure[KDTree(centers[sure]).query(centers[own])[1]]]
+    return np.maximum(found, 0)
 
 
-def _goes_on(whole: ObjectShape, part: np.ndarray) -> Bool[np.ndarray, " P"]:
-    """Unseen pieces from which a fused surface goes on into the rest: a strip of the floor behind a drawer's front."""
-    found = np.zeros(len(part), bool)
-    if len(whole.shared):
-        a, b = whole.shared.T
-        found[a[part[b] == 0]] = found[b[part[a] == 0]] = True
-    return found & (part < 0)
-
-
-def _of_one_body(body: np.ndarray, part: np.ndarray) -> Int[np.ndarray, " P"]:
-    """Unseen pieces of a body of which all that is seen is one part belong to it: nothing else touches it."""
-    least, most = np.full(int(body.max()) + 1, np.iinfo(np.int64).max), np.full(int(body.max()) + 1, UNSEEN)
-    np.minimum.at(least, body[part >= 0], part[part >= 0])
-    np.maximum.at(most, body, part)
-    one = (least == most) & (most >= 0)
-    return np.where((part < 0) & one[body], most[body], part)
-
-
-def _held(contacts: Contacts, part: np.ndarray, together: bool, reach: float) -> Int[np.ndarray, " P"]:
-    """Unseen pieces that hang on a part or touch it more than all else; `together`: those that touch each other as one."""
-    unseen = part < 0
-    if not unseen.any() or not (part == 0).any():
-        return part
-    count = len(part)
-    inner = contacts.touch[unseen[contacts.touch].all(1)] if together else np.zeros((0, 2), np.int64)
-    key = np.where(unseen, count + label_connected(count, inner), part)
-    _, unit = np.unique(key, return_inverse=True)
-    unit = unit.reshape(-1)
-    hanging = hanging_on(contacts, unit, int(unit[np.flatnonzero(part == 0)[0]]))
-    found = part.copy()
-    for k in np.unique(part[part > 0]):
-        own = np.flatnonzero(part == k)
-        for p in np.flatnonzero(np.isin(unit, hanging[int(unit[own[0]])]) & (found < 0)):
-            if _near(contacts, int(p), own, reach):
-                found[p] = k
-    return _touching_most(contacts, unit, found)
-
-
-def _touching_most(contacts: Contacts, unit: np.ndarray, part: np.ndarray) -> Int[np.ndarray, " P"]:
-    """Unseen units that touch one part more than all else belong to it: a drawer's box on a runner. Four rounds settle
-    chains. (As `with_held`, but what is unseen may be larger than the part: a box behind its front.)"""
-    found = part.copy()
-    for _ in range(4):
-        area = np.zeros((int(unit.max()) + 1, int(found.max()) + 2))  # the first column: of other unseen units
-        for (i, j), a in contacts.area.items():
-            if found[i] < 0 and unit[i] != unit[j]:
-                area[unit[i], found[j] + 1] += a
-        best = area.argmax(1)
-        joins = (best > 1) & (area.max(1) > area.sum(1) - area.max(1))
-        new = (found < 0) & joins[unit]
-        if not new.any():
-            break
-        found[new] = best[unit[new]] - 1
-    return found
-
-
-def _near(contacts: Contacts, piece: int, others: np.ndarray, reach: float) -> bool:
-    """Whether the piece's box is within `reach` of the box of one of the others [m]."""
-    low, high = contacts.shapes[piece].bounds
-    boxes = np.array([contacts.shapes[p].bounds for p in others])
-    return bool(((boxes[:, 0] <= high + reach) & (boxes[:, 1] >= low - reach)).all(1).any())
-
-
-def point_parts(cloud: Cloud, instances: Instances, counts: Sequence[Counts]) -> Int[np.ndarray, " n"]:
-    """The part number of every point that a view sees, as its superpoint's: 0 the rest; -1 of those that none sees."""
-    seen = np.zeros(len(cloud), bool)
-    for c in counts:
-        seen[c.points] = True
-    return np.where(seen, instances.number[cloud.superpoint], UNSEEN)
+def point_parts(cloud: Cloud, instances: Instances, shown: Bool[np.ndarray, " n"]) -> Int[np.ndarray, " n"]:
+    """The part number of every point that a view shows, as its superpoint's: 0 the rest; -1 of those that none shows."""
+    return np.where(shown, instances.number[cloud.superpoint], UNSEEN)

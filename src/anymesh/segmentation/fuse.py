@@ -17,7 +17,7 @@ from anymesh.segmentation.propose import Proposal
 
 @dataclass(frozen=True, eq=False)
 class Mask:
-    """What one view shows of one part. instance: tells parts of one label apart, in this view or in all (see `fuse_exact`)."""
+    """What one view shows of one part. instance: tells parts of one label apart, in this view."""
 
     pixels: Bool[np.ndarray, "H W"]
     label: str
@@ -57,10 +57,10 @@ class Instances:
 
 
 def marked_masks(proposals: Sequence[Proposal], parts: Sequence[MarkedPart]) -> tuple[tuple[Mask, ...], ...]:
-    """The masks of every proposal's view: the regions of a part's marks as one. A part without a view is in all."""
+    """The masks of every proposal's view: the regions of a part's marks as one."""
     found = []
     for proposal in proposals:
-        here = [p for p in parts if p.view is None or p.view == proposal.view]
+        here = [p for p in parts if p.view == proposal.view]
         masks = [Mask(np.isin(proposal.labels, [m for m in p.marks if m > 0]), p.label, p.instance) for p in here]
         found.append(tuple(m for m in masks if m.pixels.any()))
     return tuple(found)
@@ -98,18 +98,6 @@ def count_points(cloud: Cloud, view: View, masks: Sequence[Mask], config: Ground
 def _pixel_box(pixels: np.ndarray) -> tuple[float, float, float, float]:
     columns, rows = np.flatnonzero(pixels.any(0)), np.flatnonzero(pixels.any(1))
     return float(columns[0]), float(rows[0]), float(columns[-1]), float(rows[-1])
-
-
-def fuse_exact(counts: Sequence[Counts]) -> Instances:
-    """Superpoints take the (label, instance) that most of their visible points lie in; instances mean the same in all views."""
-    keys = sorted({key for c in counts for key in zip(c.labels, c.instances, strict=True)})
-    total = np.zeros((len(counts[0].seen), len(keys) + 1), np.int64)
-    for c in counts:
-        for k, key in enumerate(zip(c.labels, c.instances, strict=True)):
-            total[:, 1 + keys.index(key)] += c.top[:, k]
-        total[:, 0] += c.top[:, -1]
-    number = np.where(total.any(1), total.argmax(1), -1)
-    return _numbered(number, [label for label, _ in keys])
 
 
 def fuse_masks(cloud: Cloud, counts: Sequence[Counts], config: GroundingConfig | None = None) -> Instances:
@@ -187,12 +175,3 @@ def _box_ious(box: np.ndarray, others: np.ndarray) -> Float[np.ndarray, " n"]:
     both = np.prod(np.maximum(high - low, 0), axis=1)
     area = np.prod(others[:, 2:] - others[:, :2] + 1, axis=1) + np.prod(box[2:] - box[:2] + 1)
     return both / (area - both)
-
-
-def _numbered(number: np.ndarray, labels: Sequence[str]) -> Instances:
-    """Without the parts that no superpoint has."""
-    present = np.unique(number[number > 0])
-    renumber = np.zeros(len(labels) + 2, np.int64)
-    renumber[present] = np.arange(1, len(present) + 1)
-    renumber[-1] = -1
-    return Instances(renumber[number], tuple(labels[k - 1] for k in present))

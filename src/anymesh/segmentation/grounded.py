@@ -3,34 +3,50 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
+from jaxtyping import Bool, Int
 
 from anymesh.config import Config
 from anymesh.geometry.pieces import ObjectShape
 from anymesh.models.sam import PromptedSegmenter, automatic_masks
 from anymesh.progress import Progress, silent
 from anymesh.reasoning.asking import Seer
-from anymesh.reasoning.grounding import MarkedPart, WhichMarks, WhichViews
-from anymesh.rendering.encode import encode
-from anymesh.rendering.marks import draw_marks
 from anymesh.rendering.render import View
 from anymesh.rendering.studio import Studio
 from anymesh.rendering.viewpoints import normal_picture
+from anymesh.segmentation.ask_marks import Asked, Grounded, ask_exact, ask_masks
 from anymesh.segmentation.close_ups import close_ups
 from anymesh.segmentation.cloud import Cloud, sample_cloud
 from anymesh.segmentation.em import refine_instances
-from anymesh.segmentation.faces import face_parts, point_parts
-from anymesh.segmentation.fuse import Counts, Instances, count_points, fuse_exact, fuse_masks, marked_masks
-from anymesh.segmentation.hidden import unseen_faces, with_hidden
+from anymesh.segmentation.faces import face_parts, mark_parts, point_parts
+from anymesh.segmentation.fuse import count_points, fuse_masks, marked_masks
+from anymesh.segmentation.hidden import inner_faces, seen_points, unseen_patches, with_hidden
 from anymesh.segmentation.naming import named_parts
-from anymesh.segmentation.propose import Proposal, propose_masks, propose_regions
+from anymesh.segmentation.propose import Proposal, propose_masks
+from anymesh.segmentation.regions import face_regions, number_regions, split_marks
+from anymesh.segmentation.unseen import StaysFree
 from anymesh.types import Mesh, Segmentation
 from anymesh.types.recognition import Recognition
 
-MOST_PICTURES = 12  # in one call
-SURE = 0.9  # that a part which somebody pointed at is one
+SURE, UNSURE = 0.9, 0.6  # that a part which somebody pointed at is one; the same where they were not sure of its marks
 EXACT = "exact"
+EXACT_POINTS = 120_000  # exact regions need the cloud for superpoints alone, which are cut on fewer
+
+
+@dataclass(frozen=True, eq=False)
+class Found:
+    """Parts of the surface. face_part: (F,) 0 the rest; unseen: (F,) faces of patches that no view shows; an entry of the
+    rest a part."""
+
+    face_part: Int[np.ndarray, " F"]
+    unseen: Bool[np.ndarray, " F"]
+    labels: tuple[str, ...]
+    confidence: tuple[float, ...]
+    doubts: tuple[str, ...]
+    pointed: frozenset[str]  # labels that somebody pointed at
+    warnings: tuple[str, ...] = ()
 
 
 def ground_parts(
@@ -42,33 +58,29 @@ def ground_parts(
     studio: Studio,
     segmenter: PromptedSegmenter | None,
     by_geometry: Callable[[], Segmentation],
+    stays_free: StaysFree | None = None,
     progress: Progress = silent,
 ) -> tuple[Segmentation, tuple[str, ...]]:
     """The parts of the labels that recognition gave, and warnings.
 
-    segmenter: proposes masks where `config.proposer` names one; by_geometry: finds what no view shows.
+    segmenter: proposes masks where `config.proposer` names one; by_geometry: finds what no view shows; stays_free: see
+    `join_unseen`.
     """
     labels = tuple(r.label for r in recognition.labels)
-    progress("segment", "views", 0, 4)
-    cloud = sample_cloud(mesh, whole, config.grounding, config.seed)
-    small = close_ups(whole, cloud, studio.views, config.grounding, config.views)
-    seen = [*studio.views, *(studio.view(camera) for camera in small)]
-    progress("segment", "masks", 1, 4)
-    proposals = propose(whole, cloud, seen, segmenter, config)
-    progress("segment", "marks", 2, 4)
-    marked = _ask(seer, studio, seen, proposals, labels, config) if labels else ()
-    progress("segment", "fusion", 3, 4)
-    found, counts = fuse(cloud, seen, proposals, marked, config)
-    face_part = face_parts(mesh, whole, cloud, point_parts(cloud, found, counts), config)
-    count = len(found.labels)
-    parts = named_parts(face_part, found.labels, mesh.face_areas, [SURE] * count, [_pointed(seer)] * count)
-    unseen, inside = unseen_faces(whole, cloud, counts), ()
-    if labels and unseen.any():
-        parts, inside = with_hidden(parts, by_geometry(), unseen, mesh.face_areas)
+    asked = Asked(seer, studio, labels, recognition.category, config)
+    ground = _exactly if segmenter is None else _by_masks
+    found = ground(mesh, whole, asked, recognition.front, segmenter, stays_free, progress)
+    reason = _pointed(seer)
+    parts = named_parts(
+        found.face_part, found.labels, mesh.face_areas, found.confidence, [f"{reason}{doubt}" for doubt in found.doubts]
+    )
+    inside: tuple[str, ...] = ()
+    if labels and found.unseen.any():
+        parts, inside = with_hidden(parts, by_geometry(), found.unseen, mesh.face_areas)
     missing = [label for label in labels if label not in {p.label for p in parts.parts}]
-    pointed = {p.label for p in marked}
     told = {True: "what was pointed at is all of the object, or too little of it", False: f"though {seer.name} expects one"}
-    return parts, (*(f"no {label} was found, {told[label in pointed]}" for label in missing), *inside)
+    lost = tuple(f"no {label} was found, {told[label in found.pointed]}" for label in missing)
+    return parts, (*found.warnings, *lost, *inside)
 
 
 def _pointed(seer: Seer) -> str:
@@ -78,52 +90,103 @@ def _pointed(seer: Seer) -> str:
     return f"pointed at by {seer.name}"
 
 
-def propose(
-    whole: ObjectShape, cloud: Cloud, seen: Sequence[View], segmenter: PromptedSegmenter | None, config: Config
-) -> tuple[Proposal, ...]:
-    """The regions that get numbers: exact ones without a segmenter, else its masks, with `exact+sam:...` both."""
-    exact = propose_regions(whole, cloud, seen, config.grounding) if config.proposer.startswith(EXACT) else None
-    if segmenter is None:
-        return exact or ()
-    masks = []
-    for k, view in enumerate(seen):
-        some = [m.mask for image in (view.color, normal_picture(view)) for m in automatic_masks(segmenter, image)]
-        if exact is not None:
-            some += [exact[k].labels == n for n in exact[k].numbers]
-        masks.append(np.array(some, bool).reshape(len(some), *view.face.shape))
-    return propose_masks(masks, seen, config.grounding)
-
-
-def _ask(
-    seer: Seer, studio: Studio, seen: Sequence[View], proposals: Sequence[Proposal], labels: tuple[str, ...], config: Config
-) -> tuple[MarkedPart, ...]:
-    """Which labels show in which view, then which marks are which part, in the views that show most of the labels."""
-    pictures = () if seer.blind else studio.pictures(seen)
-    seen_in = seer.ask(WhichViews(pictures, labels, tuple(v.face for v in seen)))
-    score = np.array([sum(k in found for found in seen_in.values()) for k in range(len(seen))])
-    chosen = [int(k) for k in np.sort(np.argsort(-score, kind="stable")[:MOST_PICTURES]) if score[k] > 0]
-    if not chosen:
-        return ()
-    regions = {k: np.where(np.isin(proposals[k].labels, proposals[k].numbers), proposals[k].labels, -1) for k in chosen}
-    drawn = [] if seer.blind else [draw_marks(seen[k].color, r, alpha=config.grounding.alpha) for k, r in regions.items()]
-    question = WhichMarks(
-        tuple(encode(image, studio.caption(k)) for k, image in zip(regions, drawn, strict=False)),
-        tuple(label for label, found in seen_in.items() if found),
-        proposals[0].consistent,
-        tuple(regions.values()),
-        tuple(seen[k].face for k in chosen),
+def _exactly(
+    mesh: Mesh, whole: ObjectShape, asked: Asked, front: float | None, segmenter: PromptedSegmenter | None,
+    stays_free: StaysFree | None, progress: Progress,
+) -> Found:  # fmt: skip
+    """Parts from marks on exact regions of the surface."""
+    config = asked.config
+    progress("segment", "views", 0, 3)
+    few = replace(config.grounding, points=min(config.grounding.points, EXACT_POINTS))
+    cloud = sample_cloud(mesh, whole, few, config.seed)
+    region = face_regions(whole, cloud)
+    seen, names, hidden = _shown(mesh, whole, asked, cloud, region, front)
+    marks = number_regions(region, seen, whole.diagonal, config.grounding)
+    progress("segment", "marks", 1, 3)
+    answer = Grounded(marks, (), frozenset())
+    if asked.labels:
+        answer = ask_exact(
+            asked, marks, seen, names,
+            lambda some, chosen: split_marks(some, chosen, mesh, cloud, seen, config.grounding),
+        )  # fmt: skip
+    progress("segment", "parts", 2, 3)
+    parts = [p.marks for p in answer.parts]
+    named = np.isin(answer.marks.face_mark, [m for marks in parts for m in marks])
+    little = hidden
+    if named[hidden[whole.mesh_piece]].any():  # somebody told what is what inside, so what they left belongs to the rest
+        little = unseen_patches(whole, cloud, seen_points(cloud, seen))
+    face_part = mark_parts(mesh, whole, answer.marks.face_mark, parts, little, config, stays_free)
+    doubts = [sorted(answer.unsure & set(p.marks)) for p in answer.parts]
+    crowded = f"{marks.crowded} small regions have no mark of their own: the object has too many to be shown"
+    return Found(
+        face_part,
+        hidden[whole.mesh_piece],
+        tuple(p.label for p in answer.parts),
+        tuple(UNSURE if some else SURE for some in doubts),
+        tuple(
+            f", not sure of {len(some)} of {len(p.marks)} marks" if some else ""
+            for some, p in zip(doubts, answer.parts, strict=True)
+        ),
+        frozenset(p.label for p in answer.parts),
+        (crowded,) if marks.crowded else (),
     )
-    answer = seer.ask(question)
-    return tuple(MarkedPart(p.label, p.instance, None if p.view is None else chosen[p.view], p.marks) for p in answer)
 
 
-def fuse(
-    cloud: Cloud, seen: Sequence[View], proposals: Sequence[Proposal], marked: Sequence[MarkedPart], config: Config
-) -> tuple[Instances, list[Counts]]:
-    """Parts of superpoints from marks. Marks that are the same in all views need no vote; others are voted on by PartSlip++."""
+def _shown(
+    mesh: Mesh, whole: ObjectShape, asked: Asked, cloud: Cloud, region: Int[np.ndarray, " F"], front: float | None
+) -> tuple[list[View], list[str], Bool[np.ndarray, " P"]]:
+    """The views to choose pictures from with their names, and the patches that none from outside shows: all sides, close-ups,
+    and the inside where there is one."""
+    studio, config = asked.studio, asked.config
+    small = close_ups(region, cloud, studio.views, config.views) if asked.labels else ()
+    seen = [*studio.views, *(studio.view(camera) for camera in small)]
+    names = studio.names(len(seen), front)
+    shown = seen_points(cloud, seen)
+    inside = inner_faces(mesh, whole, cloud, shown)
+    if asked.labels and inside.any():
+        seen, names = [*seen, *studio.insides(inside)], [*names, *studio.inside_names(front)]
+    return seen, names, unseen_patches(whole, cloud, shown)
+
+
+def _by_masks(
+    mesh: Mesh, whole: ObjectShape, asked: Asked, front: float | None, segmenter: PromptedSegmenter | None,
+    stays_free: StaysFree | None, progress: Progress,
+) -> Found:  # fmt: skip
+    """Parts from a model's masks in every view, voted on by PartSlip++."""
+    config, studio = asked.config, asked.studio
+    assert segmenter is not None
+    progress("segment", "views", 0, 4)
+    cloud = sample_cloud(mesh, whole, config.grounding, config.seed)
+    region = face_regions(whole, cloud)
+    small = close_ups(region, cloud, studio.views, config.views, float(config.grounding.least_mask))
+    seen = [*studio.views, *(studio.view(camera) for camera in small)]
+    progress("segment", "masks", 1, 4)
+    proposals = propose(whole, region, seen, segmenter, config)
+    progress("segment", "marks", 2, 4)
+    marked = ask_masks(asked, proposals, seen, studio.names(len(seen), front)) if asked.labels else ()
+    progress("segment", "fusion", 3, 4)
     masks = marked_masks(proposals, marked)
     counts = [count_points(cloud, view, some, config.grounding) for view, some in zip(seen, masks, strict=True)]
-    if proposals[0].consistent:
-        return fuse_exact(counts), counts
     start = fuse_masks(cloud, counts, config.grounding)
-    return refine_instances(cloud, counts, start, np.random.default_rng(config.seed), config.grounding), counts
+    found = refine_instances(cloud, counts, start, np.random.default_rng(config.seed), config.grounding)
+    shown = seen_points(cloud, seen)
+    count = len(found.labels)
+    face_part = face_parts(mesh, whole, cloud, point_parts(cloud, found, shown), config, stays_free)
+    unseen = unseen_patches(whole, cloud, shown)[whole.mesh_piece]
+    pointed = frozenset(p.label for p in marked)
+    return Found(face_part, unseen, found.labels, (SURE,) * count, ("",) * count, pointed)
+
+
+def propose(
+    whole: ObjectShape, region: Int[np.ndarray, " F"], seen: Sequence[View], segmenter: PromptedSegmenter, config: Config
+) -> tuple[Proposal, ...]:
+    """Masks of the segmenter on the colour and the normal picture of each view; with `exact+sam:...` exact regions too."""
+    marks = number_regions(region, seen, whole.diagonal, config.grounding) if config.proposer.startswith(EXACT) else None
+    masks = []
+    for view in seen:
+        some = [m.mask for image in (view.color, normal_picture(view)) for m in automatic_masks(segmenter, image)]
+        if marks is not None:
+            label = marks.in_view(view)
+            some += [label == n for n in np.unique(label[label > 0])]
+        masks.append(np.array(some, bool).reshape(len(some), *view.face.shape))
+    return propose_masks(masks, seen, config.grounding)

@@ -9,21 +9,41 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from anymesh.geometry.pieces import ObjectShape
-from anymesh.segmentation.cloud import Cloud
+from anymesh.rendering.render import View
+from anymesh.segmentation.cloud import Cloud, sight
 from anymesh.segmentation.faces import SLIVER
-from anymesh.segmentation.fuse import Counts
 from anymesh.segmentation.naming import named_parts
-from anymesh.types import Segmentation
+from anymesh.types import Mesh, Segmentation
+
+MOSTLY = 0.25  # share of a patch's surface up to which it counts as mostly hidden
+LEAST_INSIDE = 0.05  # of the diagonal: hidden patches with a smaller diagonal are not shown
 
 
-def unseen_faces(whole: ObjectShape, cloud: Cloud, counts: Sequence[Counts]) -> Bool[np.ndarray, " F"]:
-    """Faces of pieces that no view shows, or so little of them that nobody could name them."""
+def seen_points(cloud: Cloud, views: Sequence[View]) -> Bool[np.ndarray, " n"]:
+    """Which points of the cloud some view shows."""
     shown = np.zeros(len(cloud), bool)
-    for c in counts:
-        shown[c.points] = True
+    for view in views:
+        shown[sight(cloud, view).points] = True
+    return shown
+
+
+def unseen_patches(
+    whole: ObjectShape, cloud: Cloud, shown: Bool[np.ndarray, " n"], share: float = SLIVER
+) -> Bool[np.ndarray, " P"]:
+    """Patches that no view shows, or so little of them (a share of the surface) that nobody could name them."""
     piece = whole.mesh_piece[cloud.faces]
     total = np.bincount(piece, minlength=int(whole.mesh_piece.max()) + 1)
-    return (np.bincount(piece, shown, len(total)) <= SLIVER * total)[whole.mesh_piece]
+    return np.bincount(piece, shown, len(total)) <= share * total
+
+
+def inner_faces(mesh: Mesh, whole: ObjectShape, cloud: Cloud, shown: Bool[np.ndarray, " n"]) -> Bool[np.ndarray, " F"]:
+    """Faces of patches that are mostly hidden and large enough to be shown alone and asked about."""
+    hidden = unseen_patches(whole, cloud, shown, MOSTLY)
+    low, high = np.full((len(hidden), 3), np.inf), np.full((len(hidden), 3), -np.inf)
+    np.minimum.at(low, whole.mesh_piece, mesh.triangles.min(1))
+    np.maximum.at(high, whole.mesh_piece, mesh.triangles.max(1))
+    large = np.linalg.norm(high - low, axis=1) >= LEAST_INSIDE * whole.diagonal
+    return (hidden & large)[whole.mesh_piece]
 
 
 def with_hidden(

@@ -1,0 +1,112 @@
+"""The questions about marks: which are which part, in as many calls as the pictures need, with one chance to split marks."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from anymesh.config import Config
+from anymesh.reasoning.asking import Seer
+from anymesh.reasoning.grounding import MarkedPart, MarksAnswer, WhichMarks, WhichViews
+from anymesh.rendering.marks import draw_marks
+from anymesh.rendering.render import View
+from anymesh.rendering.studio import Studio
+from anymesh.segmentation.mark_pictures import MarkPicture, choose_pictures
+from anymesh.segmentation.propose import Proposal
+from anymesh.segmentation.regions import Marks
+from anymesh.types import Picture
+
+INSIDE = "inside"  # how the names of pictures of the inside begin
+MOST_PICTURES = 12  # in one call
+
+
+@dataclass(frozen=True, eq=False)
+class Asked:
+    """Who is asked about which object, and in which words."""
+
+    seer: Seer
+    studio: Studio
+    labels: tuple[str, ...]
+    category: str | None
+    config: Config
+
+    def pictures(self, shown: Sequence[MarkPicture]) -> tuple[Picture, ...]:
+        """The pictures with their marks drawn; none for who needs none."""
+        if self.seer.blind:
+            return ()
+        images = [draw_marks(p.view.color, p.marks, alpha=self.config.grounding.alpha) for p in shown]
+        return self.studio.pictures(images, [p.name for p in shown])
+
+
+@dataclass(frozen=True, eq=False)
+class Grounded:
+    """Which marks are which part. marks: where they are, after splits; unsure: marks that may be wrong."""
+
+    marks: Marks
+    parts: tuple[MarkedPart, ...]
+    unsure: frozenset[int]
+
+
+def ask_exact(
+    asked: Asked, marks: Marks, seen: Sequence[View], names: Sequence[str], split: Callable[[Marks, Sequence[int]], Marks]
+) -> Grounded:
+    """Ask about marks that are the same in all views. split: divides some of them."""
+    numbers = np.unique(marks.face_mark[marks.face_mark > 0]).tolist()
+    first = _in_calls(asked, choose_pictures(marks, numbers, seen, names, asked.studio.view), (), True)
+    unsure = set(first.unsure)
+    parts = first.parts
+    if first.split:
+        marks = split(marks, first.split)
+        finer = sorted(set(np.unique(marks.face_mark[marks.face_mark > 0]).tolist()) - set(numbers))
+        second = _in_calls(asked, choose_pictures(marks, finer, seen, names, asked.studio.view), parts, False)
+        parts, unsure = _together(parts, second.parts), unsure | set(second.unsure)
+    return Grounded(marks, parts, frozenset(unsure))
+
+
+def _in_calls(asked: Asked, shown: Sequence[MarkPicture], found: tuple[MarkedPart, ...], splittable: bool) -> MarksAnswer:
+    """The answers about all pictures, MOST_PICTURES in a call; what earlier calls have asked about is not asked again."""
+    parts, unsure, split, done = found, set[int](), set[int](), set[int]()
+    for begin in range(0, len(shown), MOST_PICTURES):
+        some = [p for p in (p.without(done) for p in shown[begin : begin + MOST_PICTURES]) if p.drawn]
+        if not some:
+            continue
+        answer = asked.seer.ask(
+            WhichMarks(
+                asked.pictures(some), asked.labels, True, tuple(p.marks for p in some), tuple(p.view.face for p in some),
+                asked.category, parts, splittable, any(p.name.startswith(INSIDE) for p in some),
+            )
+        )  # fmt: skip
+        done |= set[int]().union(*(p.drawn for p in some))
+        parts = _together(parts, answer.parts)
+        unsure |= set(answer.unsure)
+        split |= set(answer.split)
+    return MarksAnswer(parts, tuple(sorted(unsure)), tuple(sorted(split)))
+
+
+def _together(first: Sequence[MarkedPart], second: Sequence[MarkedPart]) -> tuple[MarkedPart, ...]:
+    """The parts of two answers; those of one label and instance are one."""
+    found: dict[tuple[str, int], set[int]] = {}
+    for p in (*first, *second):
+        found.setdefault((p.label, p.instance), set()).update(p.marks)
+    return tuple(MarkedPart(label, instance, None, tuple(sorted(marks))) for (label, instance), marks in found.items())
+
+
+def ask_masks(
+    asked: Asked, proposals: Sequence[Proposal], seen: Sequence[View], names: Sequence[str]
+) -> tuple[MarkedPart, ...]:
+    """Ask about masks that are numbered in each view on its own: which labels show where, then which marks are which."""
+    plain = () if asked.seer.blind else asked.studio.pictures([v.color for v in seen], names)
+    seen_in = asked.seer.ask(WhichViews(plain, asked.labels, tuple(v.face for v in seen), asked.category))
+    score = np.array([sum(k in found for found in seen_in.values()) for k in range(len(seen))])
+    chosen = [int(k) for k in np.sort(np.argsort(-score, kind="stable")[:MOST_PICTURES]) if score[k] > 0]
+    if not chosen:
+        return ()
+    regions = [np.where(np.isin(proposals[k].labels, proposals[k].numbers), proposals[k].labels, -1) for k in chosen]
+    some = [MarkPicture(seen[k], region, names[k]) for k, region in zip(chosen, regions, strict=True)]
+    labels = tuple(label for label, found in seen_in.items() if found)
+    answer = asked.seer.ask(
+        WhichMarks(asked.pictures(some), labels, False, tuple(regions), tuple(p.view.face for p in some), asked.category)
+    )
+    return tuple(replace(p, view=chosen[p.view]) for p in answer.parts if p.view is not None)

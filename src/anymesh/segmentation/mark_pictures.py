@@ -1,0 +1,132 @@
+"""Which pictures show the marks: as few views as show every mark well, crowded ones in several close-ups."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Bool, Int
+
+from anymesh.rendering.render import View
+from anymesh.rendering.viewpoints import zoom
+from anymesh.segmentation.regions import Marks
+from anymesh.types.camera import Camera
+
+MOST_IN_PICTURE = 40  # marks that can be told apart in one picture
+WELL, HALF = 400.0, 0.5  # a view shows a mark well with so many pixels of a 640 px view, or with this share of the most
+LEAST = 30.0  # [px of a 640 px view] of a mark that is drawn
+ENOUGH = 5  # views up to which marks are shown a second time
+TILE_AIR = 0.15  # round the marks of a close-up, a share of their box on each side
+TILES = 4  # times that a crowded view is halved at most: 16 close-ups
+
+
+@dataclass(frozen=True, eq=False)
+class MarkPicture:
+    """A view, the mark that each of its pixels is given (-1 none), and what it shows in words."""
+
+    view: View
+    marks: Int[np.ndarray, "H W"]
+    name: str
+
+    @property
+    def drawn(self) -> set[int]:
+        """The marks in the picture."""
+        return set(np.unique(self.marks[self.marks > 0]).tolist())
+
+    def without(self, marks: Collection[int]) -> MarkPicture:
+        """The picture with some marks left out."""
+        return MarkPicture(self.view, np.where(np.isin(self.marks, list(marks)), -1, self.marks), self.name)
+
+
+def choose_pictures(
+    marks: Marks, wanted: Collection[int], views: Sequence[View], names: Sequence[str], render: Callable[[Camera], View]
+) -> list[MarkPicture]:
+    """Pictures in which each wanted mark is drawn where it shows well. render: makes the close-ups of crowded views."""
+    numbers = np.array(sorted(wanted), np.int64)
+    if len(numbers) == 0:
+        return []
+    labels = [marks.in_view(view) for view in views]
+    size = np.stack([_count(label, numbers) for label in labels])
+    scale = np.array([(view.camera.height / 640) ** 2 for view in views])[:, None]
+    well = size >= np.minimum(WELL * scale, np.maximum(HALF * size.max(0), 1))
+    found: list[MarkPicture] = []
+    for v, new in _cover(well, size):
+        found += _drawn(labels[v], numbers, size[v], new, views[v], names[v], render, marks)
+    return found
+
+
+def _count(label: np.ndarray, numbers: np.ndarray) -> Int[np.ndarray, " n"]:
+    count = np.bincount(label[label > 0], minlength=int(numbers.max()) + 1)
+    return count[numbers]
+
+
+def _cover(well: Bool[np.ndarray, "V n"], size: np.ndarray) -> list[tuple[int, np.ndarray]]:
+    """The views to take, in their order, each with the marks (a mask) that it is taken for: every mark is shown well once,
+    and as many as ENOUGH views allow twice."""
+    found: dict[int, np.ndarray] = {}
+    for most in (len(well), ENOUGH):
+        left = well.any(0)
+        if most == ENOUGH:
+            left &= (well & np.isin(np.arange(len(well)), list(found))[:, None]).sum(0) < 2
+        while left.any() and len(found) < most:
+            rest = (well & left).sum(1) + 1e-9 * (size * left).sum(1)
+            rest[list(found)] = 0
+            v = int(rest.argmax())
+            if rest[v] < 1:
+                break
+            found[v] = well[v] & left
+            left &= ~well[v]
+    return sorted(found.items())
+
+
+def _drawn(
+    label: np.ndarray,
+    numbers: np.ndarray,
+    size: np.ndarray,
+    new: np.ndarray,
+    view: View,
+    name: str,
+    render: Callable[[Camera], View],
+    marks: Marks,
+) -> list[MarkPicture]:
+    """One picture with all that it shows, where that is not too much; else with what is new; else close-ups of that."""
+    shown = numbers[size >= LEAST * (view.camera.height / 640) ** 2]
+    own = np.union1d(shown, numbers[new])
+    if len(own) <= MOST_IN_PICTURE:
+        return [MarkPicture(view, np.where(np.isin(label, own), label, -1), name)]
+    if new.sum() <= MOST_IN_PICTURE:
+        return [MarkPicture(view, np.where(np.isin(label, numbers[new]), label, -1), name)]
+    return _tiles(label, numbers[new], view, name, render, marks)
+
+
+def _tiles(
+    label: np.ndarray, own: np.ndarray, view: View, name: str, render: Callable[[Camera], View], marks: Marks
+) -> list[MarkPicture]:
+    """Close-ups of a crowded view, each with few enough of its marks."""
+    row, column = np.nonzero(np.isin(label, own))
+    where = np.searchsorted(own, label[row, column])
+    count = np.maximum(np.bincount(where, minlength=len(own)), 1)
+    middle = np.stack([np.bincount(where, x, len(own)) / count for x in (column, row)], 1)
+    groups = [np.arange(len(own))]
+    for _ in range(TILES):
+        if max(map(len, groups)) <= MOST_IN_PICTURE:
+            break
+        groups = [half for group in groups for half in _halves(middle, group)]
+    found = []
+    for group in groups:
+        at = np.isin(where, group)
+        box = np.array([column[at].min(), row[at].min(), column[at].max() + 1, row[at].max() + 1], float)
+        near = render(zoom(view.camera, box, TILE_AIR, view.camera.height))
+        seen = marks.in_view(near)
+        found.append(MarkPicture(near, np.where(np.isin(seen, own[group]), seen, -1), f"a close-up of the view {name}"))
+    return found
+
+
+def _halves(middle: np.ndarray, group: np.ndarray) -> list[np.ndarray]:
+    """A group of marks in two, across the longer side of where they are."""
+    if len(group) <= MOST_IN_PICTURE:
+        return [group]
+    axis = int(np.ptp(middle[group], axis=0).argmax())
+    order = group[np.argsort(middle[group, axis], kind="stable")]
+    return [np.sort(order[: len(order) // 2]), np.sort(order[len(order) // 2 :])]

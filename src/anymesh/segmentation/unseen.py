@@ -1,0 +1,111 @@
+"""Patches that no view shows: which part holds them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from jaxtyping import Bool, Int
+
+from anymesh.config import Config
+from anymesh.geometry.pieces import ObjectShape
+from anymesh.geometry.topology import label_connected
+from anymesh.segmentation.contacts import Contacts, find_contacts, hanging_on
+
+UNSEEN = -1
+StaysFree = Callable[[Int[np.ndarray, " R"], Int[np.ndarray, " R"], int], bool]
+"""From two part numbers a face of the object's shape, without and with unseen patches, and a part: does it open as far?"""
+
+
+def join_unseen(
+    whole: ObjectShape, part: Int[np.ndarray, " P"], config: Config, stays_free: StaysFree | None = None
+) -> Int[np.ndarray, " P"]:
+    """Give unseen patches (part -1) to the parts that hold them, the others to the base.
+
+    A part that would not stay free with what it gains (the walls of a cavity behind its door) does not gain it.
+    """
+    joined = np.maximum(_joined(whole, part, config), 0)
+    gaining = np.unique(joined[(part < 0) & (joined > 0)])
+    if stays_free is None:
+        return joined
+    for k in gaining:
+        without = np.where((part < 0) & (joined == k), 0, joined)
+        if not stays_free(without[whole.piece], joined[whole.piece], int(k)):
+            joined = without
+    return joined
+
+
+def _joined(whole: ObjectShape, part: Int[np.ndarray, " P"], config: Config) -> Int[np.ndarray, " P"]:
+    """The part of every piece, those that no view sees included: that of all the seen pieces that it touches, directly or
+    through others; else the one that it hangs on or touches more than all else, or is near to and nothing else is."""
+    if (part >= 0).all() or part.max() <= 0:
+        return part
+    contacts = find_contacts(whole, config.segmentation)
+    reach = config.grounding.join_component * whole.diagonal
+    part = _of_one_body(contacts.body, part)
+    for together in (False, True):  # each on its own first; then unseen pieces that touch, a drawer's box, as one
+        part = np.where(_goes_on(whole, part), 0, _held(contacts, part, together, reach))
+    return part
+
+
+def _goes_on(whole: ObjectShape, part: np.ndarray) -> Bool[np.ndarray, " P"]:
+    """Unseen pieces from which a fused surface goes on into the rest: a strip of the floor behind a drawer's front."""
+    found = np.zeros(len(part), bool)
+    if len(whole.shared):
+        a, b = whole.shared.T
+        found[a[part[b] == 0]] = found[b[part[a] == 0]] = True
+    return found & (part < 0)
+
+
+def _of_one_body(body: np.ndarray, part: np.ndarray) -> Int[np.ndarray, " P"]:
+    """Unseen pieces of a body of which all that is seen is one part belong to it: nothing else touches it."""
+    least, most = np.full(int(body.max()) + 1, np.iinfo(np.int64).max), np.full(int(body.max()) + 1, UNSEEN)
+    np.minimum.at(least, body[part >= 0], part[part >= 0])
+    np.maximum.at(most, body, part)
+    one = (least == most) & (most >= 0)
+    return np.where((part < 0) & one[body], most[body], part)
+
+
+def _held(contacts: Contacts, part: np.ndarray, together: bool, reach: float) -> Int[np.ndarray, " P"]:
+    """Unseen pieces that hang on a part or touch it more than all else; `together`: those that touch each other as one."""
+    unseen = part < 0
+    if not unseen.any() or not (part == 0).any():
+        return part
+    count = len(part)
+    inner = contacts.touch[unseen[contacts.touch].all(1)] if together else np.zeros((0, 2), np.int64)
+    key = np.where(unseen, count + label_connected(count, inner), part)
+    _, unit = np.unique(key, return_inverse=True)
+    unit = unit.reshape(-1)
+    hanging = hanging_on(contacts, unit, int(unit[np.flatnonzero(part == 0)[0]]))
+    found = part.copy()
+    for k in np.unique(part[part > 0]):
+        own = np.flatnonzero(part == k)
+        for p in np.flatnonzero(np.isin(unit, hanging[int(unit[own[0]])]) & (found < 0)):
+            if _near(contacts, int(p), own, reach):
+                found[p] = k
+    return _touching_most(contacts, unit, found)
+
+
+def _touching_most(contacts: Contacts, unit: np.ndarray, part: np.ndarray) -> Int[np.ndarray, " P"]:
+    """Unseen units that touch one part more than all else belong to it: a drawer's box on a runner. Four rounds settle
+    chains. (As `with_held`, but what is unseen may be larger than the part: a box behind its front.)"""
+    found = part.copy()
+    for _ in range(4):
+        area = np.zeros((int(unit.max()) + 1, int(found.max()) + 2))  # the first column: of other unseen units
+        for (i, j), a in contacts.area.items():
+            if found[i] < 0 and unit[i] != unit[j]:
+                area[unit[i], found[j] + 1] += a
+        best = area.argmax(1)
+        joins = (best > 1) & (area.max(1) > area.sum(1) - area.max(1))
+        new = (found < 0) & joins[unit]
+        if not new.any():
+            break
+        found[new] = best[unit[new]] - 1
+    return found
+
+
+def _near(contacts: Contacts, piece: int, others: np.ndarray, reach: float) -> bool:
+    """Whether the piece's box is within `reach` of the box of one of the others [m]."""
+    low, high = contacts.shapes[piece].bounds
+    boxes = np.array([contacts.shapes[p].bounds for p in others])
+    return bool(((boxes[:, 0] <= high + reach) & (boxes[:, 1] >= low - reach)).all(1).any())

@@ -1,0 +1,98 @@
+"""Few pictures show every mark well; crowded views become close-ups; calls go on where pictures are many."""
+
+import numpy as np
+import pytest
+from assets import box, mesh_of
+
+from anymesh.config import Config, GroundingConfig, ViewsConfig
+from anymesh.reasoning.grounding import MarkedPart, MarksAnswer, WhichMarks
+from anymesh.rendering.studio import Studio
+from anymesh.segmentation import ask_marks
+from anymesh.segmentation.ask_marks import Asked, ask_exact
+from anymesh.segmentation.mark_pictures import LEAST, MOST_IN_PICTURE, WELL, choose_pictures
+from anymesh.segmentation.regions import Marks
+from anymesh.types import Mesh
+
+VIEWS = ViewsConfig(size=320)
+BODY = box((0, 0, 0), (1, 1, 1))
+KEYS = [box((x, -0.2, z), (x + 0.08, 0, z + 0.08)) for x in np.arange(0, 1, 0.1) for z in np.arange(0, 1, 0.1)]
+
+
+def studio_of(mesh: Mesh) -> Studio:
+    return Studio(mesh, Config(views=VIEWS, grounding=GroundingConfig(points=20_000)))
+
+
+def drawn_in(regions: tuple[np.ndarray, ...]) -> set[int]:
+    return set().union(*(np.unique(r[r > 0]).tolist() for r in regions))
+
+
+def pictures(pieces: list) -> list:
+    mesh, piece = mesh_of(pieces)
+    studio = studio_of(mesh)
+    seen = studio.views
+    return choose_pictures(Marks(piece + 1), range(1, len(pieces) + 1), seen, studio.names(len(seen)), studio.view)
+
+
+def test_a_cube_with_a_knob_behind_and_one_on_top_needs_few_views() -> None:
+    found = pictures([BODY, box((0.4, 1, 0.4), (0.6, 1.1, 0.6)), box((0.4, 0.4, 1), (0.6, 0.6, 1.1))])
+    assert 2 <= len(found) <= 5
+    assert set().union(*(p.drawn for p in found)) == {1, 2, 3}
+    for mark in (2, 3):
+        assert max((p.marks == mark).sum() for p in found) > WELL / 4  # the pictures are half as large
+
+
+def test_a_keyboard_is_shown_in_close_ups_with_every_key() -> None:
+    found = pictures([BODY, *KEYS])
+    assert max(len(p.drawn) for p in found) <= MOST_IN_PICTURE
+    assert set().union(*(p.drawn for p in found)) == set(range(1, 102))
+    assert sum("close-up" in p.name for p in found) >= 3
+    for mark in range(2, 102):
+        assert max((p.marks == mark).sum() for p in found) > 2 * LEAST
+
+
+class Points:
+    """Answers that every mark but the first is a key of its own; asks to split what it is told to."""
+
+    name, blind, exchanges, remarks = "points", True, (), ()
+
+    def __init__(self, split: tuple[int, ...] = ()) -> None:
+        self.asked: list[WhichMarks] = []
+        self.split = split
+
+    def ask(self, question):
+        self.asked.append(question)
+        drawn = drawn_in(question.regions)
+        split = tuple(set(self.split) & drawn) if question.splittable else ()
+        parts = tuple(MarkedPart("key", n, None, (n,)) for n in sorted(drawn) if n not in (1, *split))
+        return MarksAnswer(parts, unsure=(2,) if 2 in drawn else (), split=split)
+
+
+def test_many_pictures_are_asked_about_in_several_calls_and_no_mark_twice(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(ask_marks, "MOST_PICTURES", 2)
+    mesh, piece = mesh_of([BODY, *KEYS])
+    studio, who = studio_of(mesh), Points()
+    asked = Asked(who, studio, ("key",), "keyboard", Config(views=VIEWS))
+    found = ask_exact(asked, Marks(piece + 1), studio.views, studio.names(11), lambda marks, some: marks)
+    assert {p.marks for p in found.parts} == {(n,) for n in range(2, 102)}
+    assert len(who.asked) > 1
+    drawn = [drawn_in(q.regions) for q in who.asked]
+    assert sum(map(len, drawn)) == len(set().union(*drawn))
+    assert who.asked[1].found == tuple(MarkedPart("key", n, None, (n,)) for n in sorted(drawn[0] - {1}))
+    assert found.unsure == {2}
+
+
+def test_a_split_is_asked_about_once_with_the_new_marks_alone() -> None:
+    mesh, piece = mesh_of([BODY, box((0.4, -0.1, 0.4), (0.6, 0, 0.6)), box((0.7, -0.1, 0.7), (0.9, 0, 0.9))])
+    studio, who = studio_of(mesh), Points(split=(2,))
+    right = mesh.triangles.mean(1)[:, 0] > 0.5
+
+    def split(marks: Marks, some) -> Marks:
+        assert tuple(some) == (2,)
+        return Marks(np.where(marks.face_mark == 2, 4 + right, marks.face_mark))
+
+    asked = Asked(who, studio, ("key",), None, Config(views=VIEWS))
+    found = ask_exact(asked, Marks(piece + 1), studio.views, studio.names(11), split)
+    first, second = who.asked
+    assert (first.splittable, second.splittable) == (True, False)
+    assert drawn_in(second.regions) == {4, 5}
+    assert sorted(p.marks for p in found.parts) == [(3,), (4,), (5,)]
