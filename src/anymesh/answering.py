@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TypedDict
 
-from anymesh.config import DEFAULT_VIEWS, Config, SegmentationConfig, ViewsConfig
+from anymesh.config import DEFAULT_VIEWS, Config, SegmentationConfig
 from anymesh.errors import OptionError
 from anymesh.models.cache import cache_folder
 from anymesh.reasoning.recognition import told_labels
@@ -63,9 +63,9 @@ def choose_answerer(options: Answering) -> Answerer:
         parts_list=labels,
         proposer=options.get("proposer", "exact"),
         verify=options.get("verify", "motion"),
-        views=ViewsConfig(around=options.get("viewpoints", DEFAULT_VIEWS)),
         segmentation=SegmentationConfig(at_least=options.get("at_least", 0)),
     )
+    config = replace(config, views=replace(config.views, around=options.get("viewpoints", DEFAULT_VIEWS)))
     if name == GEOMETRY.name:
         if labels:
             raise OptionError("--parts-list: geometry cannot find parts by their names; it needs an --answerer that sees")

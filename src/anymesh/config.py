@@ -120,7 +120,7 @@ class GroundingConfig:
     strength: float = 0.05  # of l0 cut pursuit on [normal, color_weight * colour]
     color_weight: float = 0.3
     least_points: int = 10  # smaller superpoints join a neighbour
-    least_mask: int = 1000  # [px] of a 640 px view; smaller masks are dropped
+    least_mask: int = 200  # [px] of a 640 px view; smaller masks are dropped (1000 in the paper: small parts are lost)
     alpha: float = 0.1  # of the mask colours over the picture
     whole: float = 0.95  # masks that cover more of the object are ignored
     covered: float = 0.5  # share of a superpoint's visible points in a mask that gives it the label

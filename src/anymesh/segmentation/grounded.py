@@ -153,28 +153,25 @@ def _by_masks(
     stays_free: StaysFree | None, progress: Progress,
 ) -> Found:  # fmt: skip
     """Parts from a model's masks in every view, voted on by PartSlip++."""
-    config, studio = asked.config, asked.studio
+    config = asked.config
     assert segmenter is not None
     progress("segment", "views", 0, 4)
     cloud = sample_cloud(mesh, whole, config.grounding, config.seed)
     region = face_regions(whole, cloud)
-    small = close_ups(region, cloud, studio.views, config.views, float(config.grounding.least_mask))
-    seen = [*studio.views, *(studio.view(camera) for camera in small)]
+    seen, names, hidden = _shown(mesh, whole, asked, cloud, region, front)
     progress("segment", "masks", 1, 4)
     proposals = propose(whole, region, seen, segmenter, config)
     progress("segment", "marks", 2, 4)
-    marked = ask_masks(asked, proposals, seen, studio.names(len(seen), front)) if asked.labels else ()
+    marked = ask_masks(asked, proposals, seen, names) if asked.labels else ()
     progress("segment", "fusion", 3, 4)
     masks = marked_masks(proposals, marked)
     counts = [count_points(cloud, view, some, config.grounding) for view, some in zip(seen, masks, strict=True)]
     start = fuse_masks(cloud, counts, config.grounding)
     found = refine_instances(cloud, counts, start, np.random.default_rng(config.seed), config.grounding)
-    shown = seen_points(cloud, seen)
     count = len(found.labels)
-    face_part = face_parts(mesh, whole, cloud, point_parts(cloud, found, shown), config, stays_free)
-    unseen = unseen_patches(whole, cloud, shown)[whole.mesh_piece]
+    face_part = face_parts(mesh, whole, cloud, point_parts(cloud, found, seen_points(cloud, seen)), config, stays_free)
     pointed = frozenset(p.label for p in marked)
-    return Found(face_part, unseen, found.labels, (SURE,) * count, ("",) * count, pointed)
+    return Found(face_part, hidden[whole.mesh_piece], found.labels, (SURE,) * count, ("",) * count, pointed)
 
 
 def propose(

@@ -17,7 +17,7 @@ from anymesh.types import Mesh
 
 MOST_MARKS = 400  # of one object, over all pictures; beyond, the smallest join their neighbours, with a warning
 MOST_OF_SPLIT = 24  # marks that one mark is split into
-LEAST_EXACT = 0.05  # of least_mask: a region drawn from the geometry is no noise however small, if its number can be placed
+LEAST_EXACT = 0.25  # of least_mask: a region drawn from the geometry is no noise however small, if its number can be placed
 COLOR_STEP = 0.12  # distance of mean colours (0..1 a channel) that parts two regions of one patch
 LARGE = 0.02  # share of the surface from which a patch may hide a part that only its colour tells
 DOMINANT = 0.8  # share of the surface from which a patch is the whole object, and its large sides are told apart too
