@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from anymesh.articulation.estimate import ask_motion, estimate_joints, surroundings
+from anymesh.articulation.estimate import ask_motion, estimate_joints, motion_question, surroundings
 from anymesh.articulation.evidence import weigh_all
 from anymesh.articulation.prompted import prompt_joints
 from anymesh.articulation.tree import parents
@@ -28,14 +28,15 @@ from anymesh.segmentation.given import GIVEN, parts_from_file, parts_from_nodes
 from anymesh.segmentation.grounded import EXACT, ground_parts
 from anymesh.segmentation.segment import segment_parts
 from anymesh.stage_results import Jointed, Recognized, Segmented
-from anymesh.types import Joint, Mesh, Picture, Segmentation
-from anymesh.types.recognition import Recognition
+from anymesh.types import Joint, Mesh, MotionKind, Picture, Segmentation
+from anymesh.types.recognition import Moves, Recognition
 
 Seeing = Callable[[Seer], Seer]  # an answerer that sees, given who answers in its place where it cannot
 UNSURE = 0.4  # joints below this confidence are named in the warnings
 ROUGH = 1.5  # an answered size is a guess: the mesh keeps its own when both agree within this factor
 DOUBTFUL = 2.5  # an answered size that differs by more from that of a file with a unit is worth a warning
 FAR = 10.0  # and so is one that differs by more where the file has none
+LIKELY = 4  # motions of each kind, likeliest first, of which one is to stay free with what the part gains
 FREE = 0.8  # a part that gains unseen patches opens this much as far as without them
 ENOUGH = float(np.deg2rad(60))  # [rad, or share of the diagonal] an opening beyond is not compared
 GEOMETRY = GeometryAnswerer()
@@ -102,7 +103,7 @@ class Solver:
             self._studio,
             self._segmenter,
             self._geometric_parts,
-            self._stays_free,
+            self.stays_free,
             progress,
         )
         return _segmented(found, seer.name, seer, (*warnings, *self.deadline.warnings()))
@@ -132,12 +133,19 @@ class Solver:
             self._by_itself = segment_parts(self.mesh, self.whole, GEOMETRY, moves, self.config, progress, self.deadline)
         return self._by_itself
 
-    def _stays_free(self, without: np.ndarray, joined: np.ndarray, part: int) -> bool:
-        """Whether a part opens as far with the unseen patches that it would gain. Both: the part of each face of `whole`."""
-        alone = self._around(without, part)
-        best = ask_motion(alone, "candidate", "part", GEOMETRY)[1]
-        with_all = weigh_all(self._around(joined, part), [(best.role, best.motion)])[0]
-        return max(with_all.opening, with_all.closing) >= FREE * min(max(best.opening, best.closing), ENOUGH)
+    def stays_free(self, without: np.ndarray, joined: np.ndarray, part: int, moves: Moves | None = None) -> bool:
+        """Tell whether a part opens as far with the unseen patches that it would gain.
+
+        without, joined: the part number of each face of `whole`; moves: how the part moves, where somebody said.
+        """
+        alone, gained = self._around(without, part), self._around(joined, part)
+        question = motion_question(alone, "candidate", "part")
+        ranked = [question.candidates[k] for k in GEOMETRY.which_motion(question).ranking]
+        kinds = list(MotionKind) if moves is None else [MotionKind.SLIDE if moves is Moves.PRISMATIC else MotionKind.TURN]
+        likely = [c for kind in kinds for c in [c for c in ranked if c.motion.kind is kind][:LIKELY]]
+        after = weigh_all(gained, [(c.role, c.motion) for c in likely])
+        far = [(max(c.opening, c.closing), max(a.opening, a.closing)) for c, a in zip(likely, after, strict=True)]
+        return any(now >= FREE * min(before, ENOUGH) for before, now in far)
 
     def _around(self, label: np.ndarray, part: int) -> Surroundings:
         shapes = [self.whole.of(np.flatnonzero(label == k)) for k in np.unique(label)]

@@ -28,11 +28,12 @@ from anymesh.segmentation.propose import Proposal, propose_masks
 from anymesh.segmentation.regions import face_regions, number_regions, split_marks
 from anymesh.segmentation.unseen import StaysFree
 from anymesh.types import Mesh, Segmentation
-from anymesh.types.recognition import Recognition
+from anymesh.types.recognition import Moves, Recognition
 
 SURE, UNSURE = 0.9, 0.6  # that a part which somebody pointed at is one; the same where they were not sure of its marks
 EXACT = "exact"
 EXACT_POINTS = 120_000  # exact regions need the cloud for superpoints alone, which are cut on fewer
+MovesFreely = Callable[[Int[np.ndarray, " R"], Int[np.ndarray, " R"], int, Moves | None], bool]  # see `Solver.stays_free`
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,18 +59,25 @@ def ground_parts(
     studio: Studio,
     segmenter: PromptedSegmenter | None,
     by_geometry: Callable[[], Segmentation],
-    stays_free: StaysFree | None = None,
+    stays_free: MovesFreely | None = None,
     progress: Progress = silent,
 ) -> tuple[Segmentation, tuple[str, ...]]:
     """The parts of the labels that recognition gave, and warnings.
 
-    segmenter: proposes masks where `config.proposer` names one; by_geometry: finds what no view shows; stays_free: see
-    `join_unseen`.
+    segmenter: proposes masks where `config.proposer` names one; by_geometry: finds what no view shows; stays_free:
+    whether a part opens as far with unseen patches.
     """
     labels = tuple(r.label for r in recognition.labels)
     asked = Asked(seer, studio, labels, recognition.category, config)
     ground = _exactly if segmenter is None else _by_masks
-    found = ground(mesh, whole, asked, recognition.front, segmenter, stays_free, progress)
+    moves = {r.label: r.moves for r in recognition.labels}
+
+    def free(of: Sequence[str]) -> StaysFree | None:
+        if stays_free is None:
+            return None
+        return lambda without, joined, part: stays_free(without, joined, part, moves[of[part - 1]])
+
+    found = ground(mesh, whole, asked, recognition.front, segmenter, free, progress)
     reason = _pointed(seer)
     parts = named_parts(
         found.face_part, found.labels, mesh.face_areas, found.confidence, [f"{reason}{doubt}" for doubt in found.doubts]
@@ -92,7 +100,7 @@ def _pointed(seer: Seer) -> str:
 
 def _exactly(
     mesh: Mesh, whole: ObjectShape, asked: Asked, front: float | None, segmenter: PromptedSegmenter | None,
-    stays_free: StaysFree | None, progress: Progress,
+    free: Callable[[Sequence[str]], StaysFree | None], progress: Progress,
 ) -> Found:  # fmt: skip
     """Parts from marks on exact regions of the surface."""
     config = asked.config
@@ -110,18 +118,18 @@ def _exactly(
             lambda some, chosen: split_marks(some, chosen, mesh, cloud, seen, config.grounding),
         )  # fmt: skip
     progress("segment", "parts", 2, 3)
-    parts = [p.marks for p in answer.parts]
+    parts, labels = [p.marks for p in answer.parts], tuple(p.label for p in answer.parts)
     named = np.isin(answer.marks.face_mark, [m for marks in parts for m in marks])
     little = hidden
     if named[hidden[whole.mesh_piece]].any():  # somebody told what is what inside, so what they left belongs to the rest
         little = unseen_patches(whole, cloud, seen_points(cloud, seen))
-    face_part = mark_parts(mesh, whole, answer.marks.face_mark, parts, little, config, stays_free)
+    face_part = mark_parts(mesh, whole, answer.marks.face_mark, parts, little, config, free(labels))
     doubts = [sorted(answer.unsure & set(p.marks)) for p in answer.parts]
     crowded = f"{marks.crowded} small regions have no mark of their own: the object has too many to be shown"
     return Found(
         face_part,
         hidden[whole.mesh_piece],
-        tuple(p.label for p in answer.parts),
+        labels,
         tuple(UNSURE if some else SURE for some in doubts),
         tuple(
             f", not sure of {len(some)} of {len(p.marks)} marks" if some else ""
@@ -150,7 +158,7 @@ def _shown(
 
 def _by_masks(
     mesh: Mesh, whole: ObjectShape, asked: Asked, front: float | None, segmenter: PromptedSegmenter | None,
-    stays_free: StaysFree | None, progress: Progress,
+    free: Callable[[Sequence[str]], StaysFree | None], progress: Progress,
 ) -> Found:  # fmt: skip
     """Parts from a model's masks in every view, voted on by PartSlip++."""
     config = asked.config
@@ -169,7 +177,7 @@ def _by_masks(
     start = fuse_masks(cloud, counts, config.grounding)
     found = refine_instances(cloud, counts, start, np.random.default_rng(config.seed), config.grounding)
     count = len(found.labels)
-    face_part = face_parts(mesh, whole, cloud, point_parts(cloud, found, seen_points(cloud, seen)), config, stays_free)
+    face_part = face_parts(mesh, whole, cloud, point_parts(cloud, found, seen_points(cloud, seen)), config, free(found.labels))
     pointed = frozenset(p.label for p in marked)
     return Found(face_part, hidden[whole.mesh_piece], found.labels, (SURE,) * count, ("",) * count, pointed)
 
