@@ -1,0 +1,54 @@
+"""Random valid answers: every question can be guessed, the same for a seed, and the visual method ends with a result."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from assets import box, mesh_of
+
+from anymesh.config import Config, GroundingConfig, ViewsConfig
+from anymesh.evaluation.guessing import Guesser
+from anymesh.reasoning.asking import Seer
+from anymesh.reasoning.grounding import WhichMarks, WhichViews
+from anymesh.reasoning.recognition import Recognize
+from anymesh.solving import solve
+
+ROOT = Path(__file__).parents[2]
+QUICK = Config(views=ViewsConfig(size=160, around="4@15,1@50+30"), grounding=GroundingConfig(points=10_000))
+REGION = (np.arange(24).reshape(4, 6), np.arange(20, 44).reshape(4, 6))
+
+
+@pytest.mark.parametrize("consistent", [True, False])
+def test_guesses_are_valid_and_the_same_for_a_seed(consistent: bool) -> None:
+    questions = [
+        Recognize((), None, (0.0, 90.0)),
+        WhichViews((), ("door", "lid"), REGION),
+        WhichMarks((), ("door", "lid"), consistent, REGION, REGION, splittable=consistent),
+    ]
+    assert isinstance(Guesser(0), Seer)
+    for seed in range(20):
+        first, second = Guesser(seed), Guesser(seed)
+        for question in questions:
+            assert first.ask(question) == second.ask(question)
+    assert len({repr(Guesser(seed).ask(questions[2])) for seed in range(20)}) > 10
+
+
+def test_whatever_is_answered_there_is_a_result() -> None:
+    flat = np.tile([[0.5, 0.2, 0.5]], (4, 1)), np.array([[0, 1, 2], [1, 2, 3]])  # a patch without area
+    mesh, _ = mesh_of(
+        [flat, box((0, 0, 0), (1, 1, 1)), box((0, -0.1, 0.5), (1, -0.01, 1)), box((0, -0.1, 0), (1, -0.01, 0.48)),
+         box((0.45, -0.15, 0.7), (0.55, -0.1, 0.8)), box((0.3, 0.3, 0.3), (0.6, 0.6, 0.6))]
+    )  # fmt: skip
+    segmentation, joints = solve(mesh, config=QUICK, see=lambda _: Guesser(0, pictured=True))
+    assert len(joints) == len(segmentation.parts) - 1
+    assert len(segmentation.face_part) == len(mesh.faces)
+
+
+@pytest.mark.slow
+def test_no_example_crashes_on_random_answers() -> None:
+    command = [sys.executable, str(ROOT / "benchmarks" / "guesses.py"), f"examples:{ROOT / 'examples'}", "--seeds", "2"]
+    done = subprocess.run(command, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout[-2000:] + done.stderr[-2000:]
+    assert "0 crashes in" in done.stdout
