@@ -70,7 +70,7 @@ class ViewsConfig:
     """
 
     around: str = DEFAULT_VIEWS  # rings of cameras: COUNT@ELEVATION or COUNT@ELEVATION+AZIMUTH [deg], with commas between
-    inside: str = "4@25+45,1@60+30"  # the same for what no view shows, drawn with the rest as a ghost
+    inside: str = "2@25+45,1@60+30"  # the same for what no view shows, drawn with the rest as a ghost
     distance: float = 1.0  # of the camera from the object's middle; 2 where the diagonal is 2 (the paper's implementation)
     fov: float = 60.0  # [deg] vertical, before the camera is zoomed (the paper's implementation)
     air: float = 0.04  # round the object, a share of its box in the picture, on each side

@@ -20,7 +20,7 @@ from anymesh.segmentation.ask_marks import Asked, Grounded, ask_exact, ask_masks
 from anymesh.segmentation.close_ups import close_ups
 from anymesh.segmentation.cloud import Cloud, sample_cloud
 from anymesh.segmentation.em import refine_instances
-from anymesh.segmentation.faces import face_parts, mark_parts, point_parts
+from anymesh.segmentation.faces import SLIVER, face_parts, mark_parts, point_parts
 from anymesh.segmentation.fuse import count_points, fuse_masks, marked_masks
 from anymesh.segmentation.hidden import inner_faces, seen_points, unseen_patches, with_hidden
 from anymesh.segmentation.naming import named_parts
@@ -83,7 +83,8 @@ def ground_parts(
         found.face_part, found.labels, mesh.face_areas, found.confidence, [f"{reason}{doubt}" for doubt in found.doubts]
     )
     inside: tuple[str, ...] = ()
-    if labels and found.unseen.any():
+    left = found.unseen & (found.face_part == 0)  # by whoever was shown the inside
+    if labels and mesh.face_areas[left].sum() > SLIVER * mesh.face_areas[found.unseen].sum():
         parts, inside = with_hidden(parts, by_geometry(), found.unseen, mesh.face_areas)
     missing = [label for label in labels if label not in {p.label for p in parts.parts}]
     told = {True: "what was pointed at is all of the object, or too little of it", False: f"though {seer.name} expects one"}
