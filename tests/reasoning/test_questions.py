@@ -102,14 +102,14 @@ def test_labels_that_a_user_told_are_checked(labels: list[str]) -> None:
         told_labels(labels)
 
 
-def test_a_reason_may_come_before_the_answer_of_stage_a() -> None:
-    for name in ("recognize", "views", "marks", "marks of each view"):
-        asked = ASKED[name]
-        schema = asked.question.schema()
-        assert next(iter(schema["properties"])) == "reason"
-        for found in ({"reason": "because", **asked.found}, {k: v for k, v in asked.found.items() if k != "reason"}):
-            check_schema(found, schema)
-            assert asked.question.parse(found) == asked.means
+@pytest.mark.parametrize("name", ASKED)
+def test_a_reason_may_come_before_the_answer(name: str) -> None:
+    asked = ASKED[name]
+    schema = asked.question.schema()
+    assert next(iter(schema["properties"])) == "reason"
+    for found in ({"reason": "because", **asked.found}, {k: v for k, v in asked.found.items() if k != "reason"}):
+        check_schema(found, schema)
+        assert asked.question.parse(found) == asked.means
 
 
 def test_words_are_compared_without_case() -> None:
@@ -128,7 +128,7 @@ def test_the_category_is_repeated_where_marks_are_asked_for() -> None:
         WhichMarks((), ("door",), True, REGIONS, FACES, "toaster oven"),
         WhichViews((), ("door",), FACES, "toaster oven"),
     ):
-        assert question.text().startswith("The object: toaster oven.")
+        assert question.text().startswith("The object is a toaster oven.")
 
 
 def test_handles_belong_to_what_they_sit_on_unless_they_are_asked_for() -> None:

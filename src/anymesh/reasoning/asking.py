@@ -78,7 +78,7 @@ def an_answer(**properties: dict[str, Any]) -> dict[str, Any]:
 
 def with_category(category: str | None, text: str) -> str:
     """The text of a question about an object whose category is known."""
-    return f"The object: {category}. {text}" if category else text
+    return f"The object is a {category}. {text}" if category else text
 
 
 def a_list(items: dict[str, Any]) -> dict[str, Any]:

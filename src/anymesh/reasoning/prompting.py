@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from jaxtyping import Float, Int
 
-from anymesh.reasoning.asking import BOOLEAN, INTEGER, BadAnswerError, a_list, an_object, one_each, one_of
+from anymesh.reasoning.asking import BOOLEAN, INTEGER, BadAnswerError, a_list, an_answer, an_object, one_each, one_of
 from anymesh.types import Motion, Picture
 
 
@@ -68,7 +68,7 @@ class WhichKinds:
         )
 
     def schema(self) -> dict[str, Any]:
-        return an_object(parts=a_list(an_object(part=INTEGER, joint=one_of(tuple(JointKind)), endless=BOOLEAN)))
+        return an_answer(parts=a_list(an_object(part=INTEGER, joint=one_of(tuple(JointKind)), endless=BOOLEAN)))
 
     def parse(self, found: Mapping[str, Any]) -> tuple[KindAnswer, ...]:
         """In the order of the parts."""
@@ -121,7 +121,7 @@ class WhichPoints:
         )
 
     def schema(self) -> dict[str, Any]:
-        return an_object(parts=a_list(an_object(part=INTEGER, points=a_list(INTEGER))))
+        return an_answer(parts=a_list(an_object(part=INTEGER, points=a_list(INTEGER))))
 
     def parse(self, found: Mapping[str, Any]) -> tuple[tuple[int, ...], ...]:
         """Rows of each table, in the order of the tables."""
@@ -160,7 +160,7 @@ class WhichArrows:
         )
 
     def schema(self) -> dict[str, Any]:
-        return an_object(parts=a_list(an_object(part=INTEGER, arrow=INTEGER)))
+        return an_answer(parts=a_list(an_object(part=INTEGER, arrow=INTEGER)))
 
     def parse(self, found: Mapping[str, Any]) -> tuple[int, ...]:
         """A row of each table, in the order of the tables."""
@@ -193,7 +193,7 @@ class WhichMotions:
         )
 
     def schema(self) -> dict[str, Any]:
-        return an_object(parts=a_list(an_object(part=INTEGER, motion=INTEGER)))
+        return an_answer(parts=a_list(an_object(part=INTEGER, motion=INTEGER)))
 
     def parse(self, found: Mapping[str, Any]) -> tuple[int | None, ...]:
         """A row of each table, None for none of them, in the order of the tables."""
