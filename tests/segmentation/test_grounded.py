@@ -56,7 +56,9 @@ def test_geometry_finds_what_is_inside_where_nobody_was_asked_for_it() -> None:
     assert any("no view shows the wheel" in w for w in found.warnings)
 
 
-@pytest.mark.parametrize("name", ["microwave_fused", "tilted_drawer"])
+@pytest.mark.parametrize(
+    "name", ["tilted_drawer", *(pytest.param(n, marks=pytest.mark.slow) for n in ("microwave_fused", "stove"))]
+)
 def test_masks_of_a_model_become_parts_by_partslip(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """A model that masks every part in every view, with numbers that mean nothing from view to view."""
     truth = TRUTHS[name]

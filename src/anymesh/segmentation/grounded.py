@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
@@ -13,6 +14,7 @@ from anymesh.geometry.pieces import ObjectShape
 from anymesh.models.sam import PromptedSegmenter, automatic_masks
 from anymesh.progress import Progress, silent
 from anymesh.reasoning.asking import Seer
+from anymesh.reasoning.grounding import MarkedPart
 from anymesh.rendering.render import View
 from anymesh.rendering.studio import Studio
 from anymesh.rendering.viewpoints import normal_picture
@@ -180,7 +182,23 @@ def _by_masks(
     count = len(found.labels)
     face_part = face_parts(mesh, whole, cloud, point_parts(cloud, found, seen_points(cloud, seen)), config, free(found.labels))
     pointed = frozenset(p.label for p in marked)
-    return Found(face_part, hidden[whole.mesh_piece], found.labels, (SURE,) * count, ("",) * count, pointed)
+    kept = [found.labels[k - 1] for k in np.unique(face_part[face_part > 0])]
+    return Found(
+        face_part, hidden[whole.mesh_piece], found.labels, (SURE,) * count, ("",) * count, pointed, _lost(marked, kept)
+    )  # fmt: skip
+
+
+def _lost(marked: Sequence[MarkedPart], kept: Sequence[str]) -> tuple[str, ...]:
+    """Warnings of labels of which fewer parts are left than somebody pointed at in one view."""
+    most: dict[str, int] = {}
+    for view in {p.view for p in marked}:
+        for label, count in Counter(label for label, _ in {(p.label, p.instance) for p in marked if p.view == view}).items():
+            most[label] = max(most.get(label, 0), count)
+    return tuple(
+        f"{count} parts {label!r} were pointed at in one view, {kept.count(label)} found"
+        for label, count in sorted(most.items())
+        if 0 < kept.count(label) < count
+    )
 
 
 def propose(
