@@ -172,6 +172,8 @@ def test_weights_that_cannot_be_had_are_missed_before_anything_is_asked(model: M
     assert articulate(model, "out", "--proposer", "sam:nowhere") == 2
     assert "--proposer sam: found 'nowhere'" in capfd.readouterr().err
     assert articulate(model, "out", "--proposer", "foo") == 2
+    assert articulate(model, "out", "--views", "8@100") == 2
+    assert "--viewpoints: found '8@100'" in capfd.readouterr().err
     assert model.asked == []
     assert not Path("out").exists()
 

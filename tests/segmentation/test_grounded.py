@@ -13,8 +13,7 @@ from anymesh.evaluation.oracle import oracle
 from anymesh.evaluation.protocols import prepared
 from anymesh.evaluation.truth import Truth, example_truths
 from anymesh.loading import load_mesh, place_mesh
-from anymesh.rendering.smooth import smoothed
-from anymesh.rendering.viewpoints import part_pixels, views
+from anymesh.rendering.viewpoints import part_pixels
 from anymesh.segmentation import grounded
 from anymesh.solving import Solver
 from anymesh.stage_results import Segmented
@@ -63,7 +62,11 @@ def test_masks_of_a_model_become_parts_by_partslip(name: str, monkeypatch: pytes
     """A model that masks every part in every view, with numbers that mean nothing from view to view."""
     truth = TRUTHS[name]
     mesh = place_mesh(load_mesh(truth.mesh)).mesh
-    shown = {v.color.tobytes(): v for v in views(smoothed(mesh), VIEWS)}
+    shown, proposed = {}, grounded.propose
+
+    def propose(whole, region, seen, *more):
+        shown.update({v.color.tobytes(): v for v in seen})
+        return proposed(whole, region, seen, *more)
 
     class Masker:
         name, frame = "masker", None
@@ -79,6 +82,7 @@ def test_masks_of_a_model_become_parts_by_partslip(name: str, monkeypatch: pytes
 
     monkeypatch.setattr(solving, "load_sam", lambda spec: Masker())
     monkeypatch.setattr(grounded, "automatic_masks", masks)
+    monkeypatch.setattr(grounded, "propose", propose)
     truth, mesh, found = found_in(name, "sam:some")
     got = ious(truth, mesh, found.segmentation)
     assert set(got) == {p.name for p in truth.parts[1:]}

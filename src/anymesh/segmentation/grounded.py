@@ -176,7 +176,8 @@ def _by_masks(
     marked = ask_masks(asked, proposals, seen, names) if asked.labels else ()
     progress("segment", "fusion", 3, 4)
     masks = marked_masks(proposals, marked)
-    counts = [count_points(cloud, view, some, config.grounding) for view, some in zip(seen, masks, strict=True)]
+    told = [k for k, p in enumerate(proposals) if p.numbers] or range(len(seen))  # a view without masks has no vote
+    counts = [count_points(cloud, seen[k], masks[k], config.grounding) for k in told]
     start = fuse_masks(cloud, counts, config.grounding)
     found = refine_instances(cloud, counts, start, np.random.default_rng(config.seed), config.grounding)
     count = len(found.labels)
