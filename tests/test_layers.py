@@ -20,9 +20,9 @@ FLOORS = [
     {"solving", "finishing"},
     {"answering"},
     {"pipeline", "evaluating", "checking", "correcting"},
-    {"applications", "viewer"},
+    {"applications", "viewer", "answers", "batch"},
     {"cli", "cli_output", "cli_eval", "cli_check", "cli_finish", "cli_view", "cli_report", "cli_options"}
-    | {"cli_quiet", "cli_defect"},
+    | {"cli_quiet", "cli_defect", "cli_articulate", "cli_stages", "cli_answer"},
 ]
 STAGES = {"segmentation", "articulation", "postprocessing"}
 OUTSIDE = set(

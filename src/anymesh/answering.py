@@ -2,26 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
+from threading import Event
 from typing import TypedDict
 
 from anymesh.config import Config, SegmentationConfig
+from anymesh.deadline import Deadline
 from anymesh.errors import OptionError
+from anymesh.models.budget import Spent
 from anymesh.models.cache import cache_folder
 from anymesh.reasoning.recognition import told_labels
 from anymesh.solving import GEOMETRY, Seeing
+from anymesh.types import Exchange
+
+FILES = "files:"
 
 
 class Answering(TypedDict, total=False):
     """Who answers the questions of both stages, and how. All have defaults.
 
-    answerer: geometry, openai:MODEL, anthropic:MODEL, google:MODEL, openai-compatible:BASE_URL#MODEL or replay:FOLDER;
+    answerer: geometry, openai:MODEL, anthropic:MODEL, google:MODEL, openai-compatible:BASE_URL#MODEL, replay:FOLDER or
+    files:FOLDER;
     category: what the object is; seed: from 0 up; parts_list: labels of the parts that move, which a model is then not asked
     for; at_least: parts that geometry takes however thin the evidence is; proposer: of masks for a model, exact, sam:..., or
     exact+sam:...; verify: motion or off; max_calls, max_cost [USD]: no call is made that would pass them; cache: folder of
-    answers (None: no cache).
+    answers (None: no cache); wait: wait for an answer in files that is not there yet; spent: what counts
+    towards max_calls and max_cost, shared by several runs.
     """
 
     answerer: str
@@ -34,23 +42,35 @@ class Answering(TypedDict, total=False):
     max_calls: int | None
     max_cost: float | None
     cache: Path | str | None
+    wait: bool
+    spent: Spent | None
 
 
 @dataclass(frozen=True, eq=False)
 class Answerer:
-    """The settings of a run, the name of who answers, and what makes the answerer (None: geometry)."""
+    """The settings of a run, the name of who answers, and what makes the answerer (None: geometry).
+
+    stands: whether a saved stage still has the answers that it was made with.
+    """
 
     config: Config
     name: str
     see: Seeing | None
+    stands: Callable[[Sequence[Exchange]], bool] = field(default=lambda exchanges: True)
 
     def settings(self, *without: str) -> dict[str, object]:
         """What the result of a stage hangs on, without what that stage does not use."""
         return {**{k: v for k, v in self.config.as_dict().items() if k not in without}, "answerer": self.name}
 
 
-def choose_answerer(options: Answering) -> Answerer:
-    """Raises OptionError for what is not valid, ModelError where a model cannot be asked at all (no key)."""
+def choose_answerer(
+    options: Answering, *, about: str | None = None, deadline: Deadline | None = None, stop: Event | None = None
+) -> Answerer:
+    """From the options to who answers. For answers in files, about: the object's name; deadline: paused while waiting for
+    one; stop: ends the waiting.
+
+    Raises OptionError for what is not valid, ModelError where a model cannot be asked at all (no key).
+    """
     unknown = sorted(set(options) - set(Answering.__annotations__))
     if unknown:
         raise OptionError(f"found the options {unknown}; valid are {', '.join(Answering.__annotations__)}")
@@ -68,10 +88,34 @@ def choose_answerer(options: Answering) -> Answerer:
         if labels:
             raise OptionError("--parts-list: geometry cannot find parts by their names; it needs an --answerer that sees")
         return Answerer(config, name, None)
+    if name.startswith(FILES):
+        return _from_files(config, name, about, options.get("wait", False), deadline or Deadline(), stop)
     from anymesh.models.connect import open_model  # only those who ask a model wait for its modules
     from anymesh.reasoning.vlm import VlmAnswerer
 
     cache = options["cache"] if "cache" in options else cache_folder()
     cache = None if cache is None else Path(cache)
-    model = open_model(name, cache=cache, max_calls=options.get("max_calls"), max_cost=options.get("max_cost"))
+    model = open_model(
+        name,
+        cache=cache,
+        max_calls=options.get("max_calls"),
+        max_cost=options.get("max_cost"),
+        spent=options.get("spent"),
+    )
     return Answerer(config, name, lambda instead: VlmAnswerer(model, instead))
+
+
+def _from_files(config: Config, name: str, about: str | None, wait: bool, deadline: Deadline, stop: Event | None) -> Answerer:
+    from anymesh.models.question_files import QuestionStore
+    from anymesh.reasoning.files import FileAnswerer, still_answered
+
+    folder = name.removeprefix(FILES)
+    if not folder.strip():
+        raise OptionError("answers from files need a folder: --answerer files:FOLDER")
+    store = QuestionStore(Path(folder), about)
+    return Answerer(
+        config,
+        name,
+        lambda fallback: FileAnswerer(store, fallback, wait=wait, paused=deadline.paused, stop=stop),
+        lambda exchanges: still_answered(store, exchanges),
+    )

@@ -8,6 +8,7 @@ from typing import Annotated
 
 import typer
 
+from anymesh.cli_options import Wait
 from anymesh.cli_output import Shown, cache_of, tell
 
 DatasetName = Annotated[
@@ -48,6 +49,7 @@ def evaluate(
     at_least: Annotated[
         int, typer.Option("--at-least", metavar="N", help="Parts that geometry takes however thin the evidence is.")
     ] = 0,
+    wait: Wait = False,
     max_calls: Annotated[int | None, typer.Option("--max-calls", help="No call of a model beyond so many.")] = None,
     max_cost: Annotated[float | None, typer.Option("--max-cost", metavar="USD", help="No call that could pass it.")] = None,
     cache: Annotated[str, typer.Option(metavar="DIR", help="Answers of models: auto, off, or a folder.")] = "auto",
@@ -67,7 +69,7 @@ def evaluate(
         records = evaluating.evaluate(
             dataset, out, protocol=protocol, split=split, changes=chosen, views=views, only=_names(only), jobs=jobs,
             force=force, progress=progress, answerer=answerer, proposer=proposer, verify=verify, seed=seed,
-            at_least=at_least, max_calls=max_calls, max_cost=max_cost,
+            at_least=at_least, max_calls=max_calls, max_cost=max_cost, wait=wait,
             **cache_of(cache),
         )  # fmt: skip
     groups = grouped(records, lambda r: r.change)

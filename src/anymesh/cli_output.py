@@ -88,6 +88,11 @@ def cache_of(told: str) -> dict[str, Any]:
     return {} if told == "auto" else {"cache": None if told == "off" else Path(told)}
 
 
+def split_labels(told: str) -> tuple[str, ...]:
+    """The labels of an option, with commas between."""
+    return tuple(label for label in told.split(",") if label.strip())
+
+
 def plain(text: str) -> str:
     """Without control characters: a name in a file must not steer the terminal."""
     return "".join(c if c.isprintable() else "?" for c in text)

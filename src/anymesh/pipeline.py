@@ -52,10 +52,10 @@ def articulate(
     own); base: fixed or free; formats: of urdf, mjcf, usd, sdf, glb, with commas between;
     drives: passive, or position (joints are led to a commanded position); time_limit: [s], past a share of which each stage
     cuts its work short and says so in the warnings. Raises InputError, OptionError, OutputError, ModelError; then nothing is
-    written.
+    written. OpenQuestionError and BudgetError: what is finished is kept for the next call.
     """
     how, deadline = Exported.parse(base, formats, drives), Deadline(time_limit)
-    who = choose_answerer(answering)
+    who = choose_answerer(answering, about=Path(mesh_path).name, deadline=deadline)
     shared_pool().warm(DECOMPOSER)
     with RunFolder.create(Path(out), source=Path(mesh_path), force=force) as run:
         solver, recognized, key = _seen(run, Path(mesh_path), parts, Placement(up, scale, root), who, deadline, progress)
@@ -78,7 +78,8 @@ def segment(
     **answering: Unpack[Answering],
 ) -> Segmentation:
     """Stage A alone: the parts of a mesh, saved in `out` for `joints`. Options as for `articulate`."""
-    who, deadline = choose_answerer(answering), Deadline(time_limit)
+    deadline = Deadline(time_limit)
+    who = choose_answerer(answering, about=Path(mesh_path).name, deadline=deadline)
     with RunFolder.create(Path(out), source=Path(mesh_path), force=force) as run:
         solver, recognized, key = _seen(run, Path(mesh_path), parts, Placement(up, scale, root), who, deadline, progress)
         return _segment(run, solver, recognized, key, parts, who, progress)[0].segmentation
@@ -92,7 +93,8 @@ def joints(
     **answering: Unpack[Answering],
 ) -> tuple[Joint, ...]:
     """Stage B alone, on the parts that `segment` saved in `folder`. Options as for `articulate`."""
-    who, deadline = choose_answerer(answering), Deadline(time_limit)
+    deadline = Deadline(time_limit)
+    who = choose_answerer(answering, deadline=deadline)
     with RunFolder.open(Path(folder)) as run:
         recognized, segmented = run.recognized(), run.need(SEGMENTATION)
         solver = Solver(recognized.sized(run.need(MESH)).mesh, who.config, who.see, deadline)
@@ -208,16 +210,18 @@ def _place(run: RunFolder, path: Path, how: Placement, category: str | None, pro
     return found, key
 
 
-def _answered(found: Result | None) -> Result | None:
-    """A saved stage, unless geometry stood in for a model there: the model is asked again."""
-    return None if found is None or any(e.given_up for e in found.exchanges) else found
+def _answered(found: Result | None, who: Answerer) -> Result | None:
+    """A saved stage, unless geometry stood in for a model there (the model is asked again), or its answers have changed."""
+    if found is None or any(e.given_up for e in found.exchanges) or not who.stands(found.exchanges):
+        return None
+    return found
 
 
 def _recognize(run: RunFolder, solver: Solver, previous: str, who: Answerer, sized: bool) -> tuple[Recognized, str]:
     if who.see is None:
         return solver.recognize(), previous
     key = stage_key(RECOGNITION, previous=previous, config={**who.settings("verify", "proposer"), "sized": sized})
-    found = _answered(run.load(RECOGNITION, key))
+    found = _answered(run.load(RECOGNITION, key), who)
     if found is None:
         with _timed(run, "recognize"):
             found = solver.recognize(sized=sized)
@@ -230,7 +234,7 @@ def _segment(
 ) -> tuple[Segmented, str]:
     settings = {**who.settings("verify"), "parts": parts, "labels": _bytes_of_labels(parts), "limit": solver.deadline.seconds}
     key = stage_key(SEGMENTATION, previous=previous, config=settings)
-    found = _answered(run.load(SEGMENTATION, key))
+    found = _answered(run.load(SEGMENTATION, key), who)
     if found is None:
         with _timed(run, "segment"):
             found = solver.parts(parts, recognized.recognition, progress)
@@ -256,7 +260,7 @@ def _join(
     progress: Progress,
 ) -> Jointed:
     key = stage_key(JOINTS, previous=previous, config={**who.settings(), "limit": solver.deadline.seconds})
-    found = _answered(run.load(JOINTS, key))
+    found = _answered(run.load(JOINTS, key), who)
     if found is None:
         with _timed(run, "joints"):
             found = solver.joints(segmented.segmentation, recognized.recognition, progress)

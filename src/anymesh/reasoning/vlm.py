@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import json
-from collections.abc import Mapping
 from dataclasses import replace
-from typing import Any
 
 from anymesh.models.cache import request_key
 from anymesh.models.vision import Reply, Request, VisionModel
-from anymesh.reasoning.asking import Answer, BadAnswerError, Question, Seer, check_schema
+from anymesh.reasoning.asking import Answer, BadAnswerError, Question, Seer
+from anymesh.reasoning.reply_text import reply_object
 from anymesh.types import Exchange
 from anymesh.types.exchange import INSTEAD
 
@@ -58,43 +56,16 @@ class VlmAnswerer:
     def _try(self, request: Request, question: Question[Answer]) -> Answer | BadAnswerError:
         reply = self._model.ask(request)
         try:
-            answer: Answer | BadAnswerError = question.parse(_object(reply.text, request.schema))
+            answer: Answer | BadAnswerError = question.parse(reply_object(reply.text, request.schema))
             verdict = "accepted"
         except BadAnswerError as error:
             answer, verdict = error, f"not valid: {error}; asked again"
-        self._exchanges.append(_exchange(self._model.name, request, reply, verdict))
+        self._exchanges.append(exchange_of(self._model.name, request, reply, verdict))
         return answer
 
 
-def _object(text: str, schema: Mapping[str, Any]) -> dict[str, Any]:
-    """The JSON object that an answer is, checked by its schema."""
-    if not text.strip():
-        raise BadAnswerError("it was empty, or a refusal")
-    try:
-        text.encode()  # half of a surrogate pair is no text
-        found = json.loads(text, parse_constant=_no_constant, object_pairs_hook=_once)
-        json.dumps(found, ensure_ascii=False).encode()
-    except (ValueError, RecursionError):
-        raise BadAnswerError(f"it was no JSON, or not JSON alone: {' '.join(text.split())[:60]!r}") from None
-    check_schema(found, schema)
-    return found
-
-
-def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    """The object of these; a name that comes twice is an answer that contradicts itself."""
-    found: dict[str, Any] = {}
-    for name, value in pairs:
-        if name in found:
-            raise BadAnswerError(f"an object must have each name once, found {name[:40]!r} twice")
-        found[name] = value
-    return found
-
-
-def _no_constant(name: str) -> float:
-    raise ValueError(name)
-
-
-def _exchange(model: str, request: Request, reply: Reply, verdict: str) -> Exchange:
+def exchange_of(model: str, request: Request, reply: Reply, verdict: str) -> Exchange:
+    """Record what was asked and answered; the key is that of the model `model`."""
     return Exchange(
         kind=request.kind,
         key=request_key(model, request),
