@@ -14,15 +14,15 @@ FLOORS = [
     {"types"},
     {"storage", "stage_results", "geometry", "rendering", "loading", "models"},
     {"collision"},
-    {"export", "run_folder"},
+    {"export", "export_options", "run_folder"},
     {"reasoning"},
     {"segmentation", "articulation", "postprocessing", "simulation", "evaluation"},
     {"solving", "finishing"},
     {"answering"},
-    {"pipeline", "evaluating", "checking", "correcting"},
+    {"pipeline", "stopped_run", "evaluating", "checking", "correcting"},
     {"applications", "viewer", "answers", "batch"},
     {"cli", "cli_output", "cli_eval", "cli_check", "cli_finish", "cli_view", "cli_report", "cli_options"}
-    | {"cli_quiet", "cli_defect", "cli_articulate", "cli_stages", "cli_answer"},
+    | {"cli_quiet", "cli_defect", "cli_articulate", "cli_stages", "cli_answer", "cli_models"},
 ]
 STAGES = {"segmentation", "articulation", "postprocessing"}
 OUTSIDE = set(

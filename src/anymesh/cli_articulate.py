@@ -29,12 +29,13 @@ from anymesh.cli_options import (
     Scale,
     Seed,
     TimeLimit,
+    Timeout,
     Up,
     Verify,
     Wait,
 )
-from anymesh.cli_output import Shown, cache_of, plain, split_labels, tell, tell_asset
-from anymesh.deadline import DEFAULT_SECONDS
+from anymesh.cli_output import Shown, cache_of, chosen_answerer, plain, split_labels, tell, tell_asset
+from anymesh.deadline import CALL_SECONDS, DEFAULT_SECONDS
 from anymesh.errors import OpenQuestionError, OptionError
 from anymesh.isolation import DECOMPOSER, shared_pool
 
@@ -56,6 +57,7 @@ def articulate(
     proposer: Proposer = "exact",
     verify: Verify = "motion",
     category: Category = None,
+    timeout: Timeout = CALL_SECONDS,
     wait: Wait = False,
     batch: Batch = False,
     max_calls: MaxCalls = None,
@@ -77,11 +79,12 @@ def articulate(
     shared_pool().warm(DECOMPOSER)  # the children import while this process does
     from anymesh import pipeline
 
+    answerer = chosen_answerer(answerer, quiet or json_)
     options: dict[str, Any] = {
         "parts": parts, "up": up, "scale": scale, "root": root, "base": base, "formats": formats, "drives": drives,
         "force": force, "time_limit": time_limit, "answerer": answerer, "parts_list": split_labels(parts_list),
         "at_least": at_least, "proposer": proposer, "verify": verify, "category": category, "seed": seed,
-        "max_calls": max_calls, "max_cost": max_cost, "wait": wait, **cache_of(cache),
+        "max_calls": max_calls, "max_cost": max_cost, "wait": wait, "timeout": timeout, **cache_of(cache),
     }  # fmt: skip
     if batch:
         _articulate_many(mesh, out, options, json_, quiet)

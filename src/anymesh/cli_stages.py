@@ -27,13 +27,14 @@ from anymesh.cli_options import (
     Scale,
     Seed,
     TimeLimit,
+    Timeout,
     Up,
     Verify,
     Wait,
     Zip,
 )
-from anymesh.cli_output import JOINT_COLUMNS, Shown, cache_of, joint_row, split_labels, tell, tell_asset
-from anymesh.deadline import DEFAULT_SECONDS
+from anymesh.cli_output import JOINT_COLUMNS, Shown, cache_of, chosen_answerer, joint_row, split_labels, tell, tell_asset
+from anymesh.deadline import CALL_SECONDS, DEFAULT_SECONDS
 
 
 def segment(
@@ -45,6 +46,7 @@ def segment(
     at_least: AtLeast = 0,
     proposer: Proposer = "exact",
     category: Category = None,
+    timeout: Timeout = CALL_SECONDS,
     wait: Wait = False,
     max_calls: MaxCalls = None,
     max_cost: MaxCost = None,
@@ -61,11 +63,12 @@ def segment(
     """Stage A alone: which parts move. `anymesh joints DIR` goes on from there."""
     from anymesh import pipeline
 
+    answerer = chosen_answerer(answerer, quiet or json_)
     with Shown(quiet or json_) as progress:
         found = pipeline.segment(
             mesh, out, parts=parts, up=up, scale=scale, root=root, force=force, progress=progress, time_limit=time_limit,
             answerer=answerer, parts_list=split_labels(parts_list), at_least=at_least, proposer=proposer, category=category,
-            seed=seed, max_calls=max_calls, max_cost=max_cost, wait=wait, **cache_of(cache),
+            seed=seed, max_calls=max_calls, max_cost=max_cost, wait=wait, timeout=timeout, **cache_of(cache),
         )  # fmt: skip
     rows = [
         {"name": p.name, "label": p.label, "faces": len(found.faces(k)), "confidence": p.confidence, "reason": p.reason}
@@ -79,6 +82,7 @@ def joints(
     answerer: AnswererName = "geometry",
     verify: Verify = "motion",
     category: Category = None,
+    timeout: Timeout = CALL_SECONDS,
     wait: Wait = False,
     max_calls: MaxCalls = None,
     max_cost: MaxCost = None,
@@ -91,10 +95,11 @@ def joints(
     """Stage B alone: the joints of the parts in DIR. `anymesh export DIR` goes on from there."""
     from anymesh import pipeline
 
+    answerer = chosen_answerer(answerer, quiet or json_)
     with Shown(quiet or json_) as progress:
         found = pipeline.joints(
             folder, progress=progress, time_limit=time_limit, answerer=answerer, verify=verify, category=category,
-            seed=seed, max_calls=max_calls, max_cost=max_cost, wait=wait, **cache_of(cache),
+            seed=seed, max_calls=max_calls, max_cost=max_cost, wait=wait, timeout=timeout, **cache_of(cache),
         )  # fmt: skip
     rows = [joint_row(j) for j in found]
     tell({"out": str(folder), "joints": rows}, rows, JOINT_COLUMNS, json_, quiet)

@@ -9,6 +9,7 @@ from contextlib import contextmanager
 
 from anymesh.errors import OptionError
 
+CALL_SECONDS = 120.0  # of `--timeout`: for one call of a model [s]
 DEFAULT_SECONDS = 600.0  # of `--time-limit` [s]
 SEGMENT, JOINTS, COLLISION = (
     0.4,

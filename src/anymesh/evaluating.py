@@ -155,8 +155,8 @@ def _see(answering: Answering, seed: int, stop: Event | None = None) -> See:
         _ = choose_answerer({**answering, "answerer": one})  # what is wrong with the options is told before anything is done
         return asked
     if name != ORACLE:
-        see = choose_answerer(answering).see
-        return lambda subject: see
+        who = choose_answerer(answering)
+        return lambda subject: who.see if who.renewed is None else who.renewed()
     try:
         wrong = float(share or 0)
     except ValueError:

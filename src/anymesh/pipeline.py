@@ -12,10 +12,11 @@ from typing import TypeVar, Unpack
 from anymesh.answering import Answerer, Answering, choose_answerer
 from anymesh.deadline import DEFAULT_SECONDS, Deadline
 from anymesh.errors import OptionError, note_stage
-from anymesh.export import Base, Driven, Format, parse_formats, write_asset
+from anymesh.export import Base, Driven, Format, write_asset
 from anymesh.export.archive import write_zip
 from anymesh.export.formats import DEFAULT
 from anymesh.export.package import write_package
+from anymesh.export_options import Exported
 from anymesh.isolation import DECOMPOSER, shared_pool
 from anymesh.loading import load_mesh, place_mesh
 from anymesh.models.cache import cache_folder
@@ -24,6 +25,7 @@ from anymesh.rendering.preview import write_preview
 from anymesh.run_folder import RunFolder, stage_key
 from anymesh.solving import Solver
 from anymesh.stage_results import COMPLETION, JOINTS, MESH, RECOGNITION, SEGMENTATION, Jointed, Placed, Recognized, Segmented
+from anymesh.stopped_run import kept_transcript
 from anymesh.types import Asset, Joint, Segmentation, Source
 
 Result = TypeVar("Result", Recognized, Segmented, Jointed)
@@ -57,7 +59,7 @@ def articulate(
     how, deadline = Exported.parse(base, formats, drives), Deadline(time_limit)
     who = choose_answerer(answering, about=Path(mesh_path).name, deadline=deadline)
     shared_pool().warm(DECOMPOSER)
-    with RunFolder.create(Path(out), source=Path(mesh_path), force=force) as run:
+    with RunFolder.create(Path(out), source=Path(mesh_path), force=force) as run, kept_transcript(run, who):
         solver, recognized, key = _seen(run, Path(mesh_path), parts, Placement(up, scale, root), who, deadline, progress)
         segmented, key = _segment(run, solver, recognized, key, parts, who, progress)
         _join(run, solver, recognized, segmented, key, who, progress)
@@ -80,7 +82,7 @@ def segment(
     """Stage A alone: the parts of a mesh, saved in `out` for `joints`. Options as for `articulate`."""
     deadline = Deadline(time_limit)
     who = choose_answerer(answering, about=Path(mesh_path).name, deadline=deadline)
-    with RunFolder.create(Path(out), source=Path(mesh_path), force=force) as run:
+    with RunFolder.create(Path(out), source=Path(mesh_path), force=force) as run, kept_transcript(run, who):
         solver, recognized, key = _seen(run, Path(mesh_path), parts, Placement(up, scale, root), who, deadline, progress)
         return _segment(run, solver, recognized, key, parts, who, progress)[0].segmentation
 
@@ -95,7 +97,7 @@ def joints(
     """Stage B alone, on the parts that `segment` saved in `folder`. Options as for `articulate`."""
     deadline = Deadline(time_limit)
     who = choose_answerer(answering, deadline=deadline)
-    with RunFolder.open(Path(folder)) as run:
+    with RunFolder.open(Path(folder)) as run, kept_transcript(run, who):
         recognized, segmented = run.recognized(), run.need(SEGMENTATION)
         solver = Solver(recognized.sized(run.need(MESH)).mesh, who.config, who.see, deadline)
         return _join(run, solver, recognized, segmented, run.key(SEGMENTATION), who, progress).joints
@@ -266,24 +268,6 @@ def _join(
             found = solver.joints(segmented.segmentation, recognized.recognition, progress)
         run.save(JOINTS, key, found)
     return found
-
-
-@dataclass(frozen=True)
-class Exported:
-    """How an asset is written."""
-
-    base: Base
-    formats: tuple[Format, ...]
-    driven: Driven
-
-    @classmethod
-    def parse(cls, base: str, formats: str, drives: str) -> Exported:
-        """From the words of an option; OptionError names what would have been valid."""
-        if base not in set(Base):
-            raise OptionError(f"--base: found {base!r}; valid are {', '.join(Base)}")
-        if drives not in set(Driven):
-            raise OptionError(f"--drives: found {drives!r}; valid are {', '.join(Driven)}")
-        return cls(Base(base), parse_formats(formats), Driven(drives))
 
 
 def _export(run: RunFolder, how: Exported, deadline: Deadline, progress: Progress) -> Asset:

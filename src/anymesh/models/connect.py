@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from anymesh.deadline import CALL_SECONDS
 from anymesh.errors import OptionError
 from anymesh.models.budget import Budgeted, Spent
 from anymesh.models.cache import Cached
@@ -20,7 +21,7 @@ def open_model(
     max_calls: int | None = None,
     max_cost: float | None = None,
     spent: Spent | None = None,
-    timeout: float = 120.0,
+    timeout: float = CALL_SECONDS,
 ) -> VisionModel:
     """The model of that name, or a recording of one (`replay:FOLDER`); cache: the folder, None for none.
 

@@ -17,6 +17,7 @@ from dataclasses import dataclass, field
 from threading import Thread
 from typing import TYPE_CHECKING, Any, TypeVar
 
+from anymesh.deadline import CALL_SECONDS
 from anymesh.errors import MissingExtraError, ModelError, OptionError
 from anymesh.models.address import KEYS, Address, parse_address
 from anymesh.models.hearsay import safe_words
@@ -35,13 +36,13 @@ T = TypeVar("T")
 TALKATIVE = ("openai", "anthropic", "google_genai", "httpx", "httpx2", "httpcore", "httpcore2", "pydantic_ai")
 
 
-def connect(name: str, *, timeout: float = 120.0) -> VisionModel:
+def connect(name: str, *, timeout: float = CALL_SECONDS) -> VisionModel:
     """The model of that name; `timeout` [s] holds for a whole call.
 
     Raises OptionError for a name that is not valid, MissingExtraError without the libraries, ModelError without a key.
     """
     if not timeout > 0:
-        raise OptionError(f"a time-out must be more than 0 s, found {timeout}")
+        raise OptionError(f"--timeout must be more than 0 s, found {timeout:g}")
     address = parse_address(name)
     try:
         importlib.import_module(f"pydantic_ai.models.{address.provider.partition('-')[0]}")
@@ -149,7 +150,7 @@ class Client:
     def _http_failure(self, error: ModelHTTPError, request: Request) -> _Failure:
         from pydantic_ai.exceptions import ModelQuotaExceededError
 
-        status, names = error.status_code, KEYS[self.address.provider]
+        status, names = error.status_code, self.address.keys
         message = f"{self.name}: HTTP {status}"
         if status in (401, 403):  # its words are about the key, and often hold parts of it
             message += f", the key in {' or '.join(names)} is missing or refused"
