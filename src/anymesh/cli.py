@@ -16,6 +16,7 @@ from anymesh.cli_articulate import articulate
 from anymesh.cli_check import check
 from anymesh.cli_eval import evaluate
 from anymesh.cli_finish import finish
+from anymesh.cli_mcp import mcp, skill
 from anymesh.cli_models import models
 from anymesh.cli_output import plain
 from anymesh.cli_quiet import quiet_libraries
@@ -79,6 +80,8 @@ _command()(joints)
 _command()(export)
 _command()(answer)
 _command()(models)
+_command()(mcp)
+_command()(skill)
 _command()(finish)
 _command()(report)
 _command()(picture)
