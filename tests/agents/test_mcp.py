@@ -235,6 +235,7 @@ def test_what_the_command_line_refuses(tmp_path: Path, capsys: pytest.CaptureFix
         assert command in told
 
 
+@pytest.mark.slow
 def test_stdio_carries_nothing_but_the_protocol(work: Path) -> None:
     opening = {
         "jsonrpc": "2.0",

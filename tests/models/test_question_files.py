@@ -14,11 +14,13 @@ from anymesh.answers import open_in, record_answer
 from anymesh.cli import run
 from anymesh.config import Config, GroundingConfig, ViewsConfig
 from anymesh.errors import OpenQuestionError, OptionError
+from anymesh.evaluating import evaluate
 from anymesh.evaluation.oracle import oracle
 from anymesh.evaluation.protocols import prepared
 from anymesh.evaluation.truth import example_truths
 from anymesh.evaluation.voice import spoken
 from anymesh.models.question_files import find_questions
+from anymesh.models.replay import Replay
 from anymesh.reasoning.saved_question import unpack_question
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -55,6 +57,7 @@ def waiting(capsys: pytest.CaptureFixture[str], *more: str) -> dict:
     return found
 
 
+@pytest.mark.slow
 def test_questions_are_answered_one_after_another_and_the_recording_replays(work: Path, known, capsys) -> None:
     kinds = []
     while "questions" in (found := waiting(capsys)):
@@ -126,6 +129,7 @@ def segment_until_done(known) -> list[str]:
             record_answer(folder, known(folder))
 
 
+@pytest.mark.slow
 def test_another_answer_to_a_finished_stage_makes_it_and_what_follows_anew(work: Path, known) -> None:
     asked = segment_until_done(known)
     assert segment_until_done(known) == []  # nothing has changed
@@ -149,15 +153,19 @@ def test_waiting_goes_on_when_the_answer_comes(work: Path, known) -> None:
             for question in find_questions(Path("q")):
                 if question.answer() is None:
                     question.write_answer(known(question.path))
-            if Path("out/stages/segmentation.json").exists():
+            if Path("out/asset.json").exists():
                 return
             time.sleep(0.05)
 
     helper = threading.Thread(target=answers)
     helper.start()
-    found = pipeline.segment("box.glb", "out", answerer="files:q", wait=True, time_limit=60.0)
+    asset = pipeline.articulate("box.glb", "out", answerer="files:q", wait=True, formats="urdf")
     helper.join()
-    assert [p.label for p in found.parts[1:]] == ["lid"]
+    assert [(j.child, j.type) for j in asset.joints] == [("lid", "revolute")]
+    keys = {json.loads(p.read_text())["key"] for p in Path("out/transcript").glob("*.json")}
+    assert keys == {q.key for q in find_questions(Path("q"))}
+    replayed = Replay(Path("q"))
+    assert replayed.name == "files"
 
 
 def test_a_batch_leaves_the_questions_of_all_open(work: Path, known, capsys) -> None:
@@ -190,3 +198,39 @@ def test_without_a_folder_or_with_a_file_there_is_one_clear_error(work: Path) ->
     with pytest.raises(OpenQuestionError):
         pipeline.articulate("box.glb", "out", answerer="files:a b")
     assert run(["answer", "a b", "--json"]) == 0
+
+
+def test_an_evaluation_asks_about_each_object_in_a_folder_of_its_name(
+    work: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.chdir(EXAMPLES.parent)
+    with pytest.raises(OpenQuestionError, match="2 of 2 objects wait") as stopped:
+        evaluate("examples", tmp_path / "eval", only=("storage_box", "bucket"), jobs=1, answerer=f"files:{tmp_path / 'q'}")
+    places = [(f.parent.name, f.name) for f in stopped.value.folders]
+    assert places == [("bucket", "01-kinds"), ("storage_box", "01-kinds")]
+
+
+@pytest.mark.slow
+def test_waiting_in_an_evaluation_ends_with_the_command(work: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.chdir(EXAMPLES.parent)
+
+    def interrupts(stage: str, item: str, done: int, total: int) -> None:
+        if item == "bucket":
+            raise KeyboardInterrupt
+
+    def answers() -> None:
+        for _ in range(600):
+            for question in find_questions(tmp_path / "q" / "bucket"):
+                if question.answer() is None:
+                    question.write_answer("geometry")
+            if over.wait(0.05):
+                return
+
+    over = threading.Event()
+    helper = threading.Thread(target=answers)
+    helper.start()
+    options = {"only": ("storage_box", "bucket"), "jobs": 2, "answerer": f"files:{tmp_path / 'q'}", "wait": True}
+    with pytest.raises(KeyboardInterrupt):  # after the first object, while the other one waits
+        evaluate("examples", tmp_path / "eval", progress=interrupts, **options)
+    over.set()
+    helper.join()
