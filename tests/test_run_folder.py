@@ -291,9 +291,14 @@ def test_what_follows_a_stage_that_was_made_anew_is_not_taken_over(tmp_path, sou
 
 def test_an_open_question_keeps_the_finished_stages(tmp_path, source):
     placed, _, _ = results(cabinet())
-    with pytest.raises(OpenQuestionError), RunFolder.create(tmp_path / "out", source=source) as run:
-        run.save(MESH, "m", placed)
-        raise OpenQuestionError("what is it?", [tmp_path / "q"])
+
+    def stops() -> None:
+        with RunFolder.create(tmp_path / "out", source=source) as run:
+            run.save(MESH, "m", placed)
+            raise OpenQuestionError("what is it?", [tmp_path / "q"])
+
+    with pytest.raises(OpenQuestionError):
+        stops()
     assert not (tmp_path / "out").exists()
     with RunFolder.create(tmp_path / "out", source=source) as run:
         assert run.load(MESH, "m") is not None

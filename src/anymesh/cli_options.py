@@ -15,8 +15,8 @@ AnswererName = Annotated[
     str,
     typer.Option(
         "--answerer",
-        help="geometry, openai:MODEL, anthropic:MODEL, google:MODEL, ollama:MODEL, lmstudio:MODEL, vllm:MODEL, "
-        "openai-compatible:BASE_URL#MODEL, files:FOLDER (answers in files), replay:FOLDER, "
+        help="geometry, openai:MODEL, openai-responses:MODEL, anthropic:MODEL, google:MODEL, ollama:MODEL, lmstudio:MODEL, "
+        "vllm:MODEL, openai-compatible:BASE_URL#MODEL, files:FOLDER (answers in files), replay:FOLDER, "
         "or auto (a local model, else geometry).",
     ),
 ]

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TypeVar, Unpack
 
-from anymesh.answering import Answerer, Answering, choose_answerer
+from anymesh.answering import Answerer, Answering, choose_answerer, object_name
 from anymesh.deadline import DEFAULT_SECONDS, Deadline
 from anymesh.errors import OptionError, note_stage
 from anymesh.export import Base, Driven, Format, write_asset
@@ -57,7 +57,7 @@ def articulate(
     written. OpenQuestionError and BudgetError: what is finished is kept for the next call.
     """
     how, deadline = Exported.parse(base, formats, drives), Deadline(time_limit)
-    who = choose_answerer(answering, about=Path(mesh_path).name, deadline=deadline)
+    who = choose_answerer(answering, about=object_name(mesh_path), deadline=deadline)
     shared_pool().warm(DECOMPOSER)
     with RunFolder.create(Path(out), source=Path(mesh_path), force=force) as run, kept_transcript(run, who):
         solver, recognized, key = _seen(run, Path(mesh_path), parts, Placement(up, scale, root), who, deadline, progress)
@@ -81,7 +81,7 @@ def segment(
 ) -> Segmentation:
     """Stage A alone: the parts of a mesh, saved in `out` for `joints`. Options as for `articulate`."""
     deadline = Deadline(time_limit)
-    who = choose_answerer(answering, about=Path(mesh_path).name, deadline=deadline)
+    who = choose_answerer(answering, about=object_name(mesh_path), deadline=deadline)
     with RunFolder.create(Path(out), source=Path(mesh_path), force=force) as run, kept_transcript(run, who):
         solver, recognized, key = _seen(run, Path(mesh_path), parts, Placement(up, scale, root), who, deadline, progress)
         return _segment(run, solver, recognized, key, parts, who, progress)[0].segmentation

@@ -11,17 +11,23 @@ from anymesh.errors import ModelError, OptionError
 from anymesh.models.servers import SERVERS
 
 VALID = (
-    "openai:MODEL, anthropic:MODEL, google:MODEL, ollama:MODEL, lmstudio:MODEL, vllm:MODEL, openai-compatible:BASE_URL#MODEL, "
-    "files:FOLDER, auto or replay:FOLDER"
+    "openai:MODEL, openai-responses:MODEL, anthropic:MODEL, google:MODEL, ollama:MODEL, lmstudio:MODEL, vllm:MODEL, "
+    "openai-compatible:BASE_URL#MODEL, files:FOLDER, auto or replay:FOLDER"
 )
 KEYS = {  # the environment variables that may hold the key; the first that is set counts
     "openai": ("OPENAI_API_KEY",),
+    "openai-responses": ("OPENAI_API_KEY",),  # the same models by the newer of OpenAI's two interfaces
     "anthropic": ("ANTHROPIC_API_KEY",),
     "google": ("GOOGLE_API_KEY", "GEMINI_API_KEY"),
     "openai-compatible": ("ANYMESH_API_KEY",),  # never OpenAI's: it must not reach a server of somebody else
     **{name: server.keys for name, server in SERVERS.items()},
 }
-BASES = {"openai": "OPENAI_BASE_URL", "anthropic": "ANTHROPIC_BASE_URL", "google": "GOOGLE_GEMINI_BASE_URL"}
+BASES = {
+    "openai": "OPENAI_BASE_URL",
+    "openai-responses": "OPENAI_BASE_URL",
+    "anthropic": "ANTHROPIC_BASE_URL",
+    "google": "GOOGLE_GEMINI_BASE_URL",
+}
 NO_KEY = "no-key"  # what a server that needs none is sent, since the client insists on one
 
 
