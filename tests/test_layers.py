@@ -20,7 +20,7 @@ FLOORS = [
     {"solving", "finishing"},
     {"answering"},
     {"pipeline", "stopped_run", "evaluating", "checking", "correcting"},
-    {"applications", "viewer", "answers", "batch"},
+    {"applications", "viewer", "answers", "batch", "batch_api"},
     {"agents"},
     {"cli", "cli_output", "cli_eval", "cli_check", "cli_finish", "cli_view", "cli_report", "cli_options"}
     | {"cli_quiet", "cli_defect", "cli_articulate", "cli_stages", "cli_answer", "cli_models", "cli_mcp"},

@@ -28,7 +28,7 @@ class Answering(TypedDict, total=False):
     """Who answers the questions of both stages, and how. All have defaults.
 
     answerer: geometry, openai:MODEL, openai-responses:MODEL, anthropic:MODEL, google:MODEL, ollama:MODEL, lmstudio:MODEL,
-    vllm:MODEL, openai-compatible:BASE_URL#MODEL, files:FOLDER, replay:FOLDER, or auto: a local model that answers, else geometry;
+    vllm:MODEL, openai-compatible:BASE_URL#MODEL, files:FOLDER, replay:FOLDER, or auto: a local model, else geometry;
     category: what the object is; seed: from 0 up; parts_list: labels of the parts that move, which a model is then not asked
     for; at_least: parts that geometry takes however thin the evidence is; proposer: of masks for a model, exact, sam:..., or
     exact+sam:...; verify: motion or off; max_calls, max_cost [USD]: no call is made that would pass them; cache: folder of

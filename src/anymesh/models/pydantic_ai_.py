@@ -24,7 +24,7 @@ from anymesh.models.hearsay import safe_words
 from anymesh.models.limits import fit
 from anymesh.models.pydantic_ai_wire_ import the_message, the_model, the_parameters, the_settings, the_text, unfenced
 from anymesh.models.retry import TransientError
-from anymesh.models.vision import Reply, Request, VisionModel
+from anymesh.models.vision import Reply, Request
 from anymesh.types.exchange import Picture
 
 if TYPE_CHECKING:
@@ -36,7 +36,7 @@ T = TypeVar("T")
 TALKATIVE = ("openai", "anthropic", "google_genai", "httpx", "httpx2", "httpcore", "httpcore2", "pydantic_ai")
 
 
-def connect(name: str, *, timeout: float = CALL_SECONDS) -> VisionModel:
+def connect(name: str, *, timeout: float = CALL_SECONDS) -> Client:
     """The model of that name; `timeout` [s] holds for a whole call.
 
     Raises OptionError for a name that is not valid, MissingExtraError without the libraries, ModelError without a key.
@@ -98,14 +98,14 @@ class Client:
             except Exception as error:
                 return self._failure(error, request)
 
-        found = _in_thread(attempt)
+        found = in_thread(attempt)
         if isinstance(found, _Failure):
             return found
         if found.finish_reason == "length":
             log.warning("%s: the answer to %r was cut off at %d tokens", self.name, request.kind, request.max_tokens)
         text, usage = the_text(found), found.usage
         return Reply(
-            text=_without_keys(unfenced(text) if self.address.provider == "openai-compatible" else text),
+            text=without_keys(unfenced(text) if self.address.provider == "openai-compatible" else text),
             model=self.name,
             input_tokens=usage.input_tokens,
             output_tokens=usage.output_tokens,
@@ -147,6 +147,14 @@ class Client:
             return _Failure(TransientError(f"{self.name}: the reply could not be read ({type(error).__name__})"))
         return _Failure(ModelError(f"{self.name}: cannot be asked ({type(error).__name__})"))
 
+    def failure_of(self, error: Exception) -> ModelError:
+        """An error of the libraries in words of our own, which quote nothing of what was sent."""
+        from pydantic_ai.exceptions import ModelHTTPError
+
+        if isinstance(error, ModelHTTPError):
+            return ModelError(f"{self.name}: HTTP {error.status_code}")
+        return self._failure(error, Request("", "", "", (), {})).error
+
     def _http_failure(self, error: ModelHTTPError, request: Request) -> _Failure:
         from pydantic_ai.exceptions import ModelQuotaExceededError
 
@@ -168,14 +176,14 @@ def _keys() -> list[str]:
     return [value for group in KEYS.values() for n in group if (value := os.environ.get(n, "").strip())]
 
 
-def _without_keys(text: str) -> str:
+def without_keys(text: str) -> str:
     """A server may say the key that it was sent; an answer is kept in files."""
     for key in (k for k in _keys() if len(k) >= 8):  # what is shorter is no key, and may be a word
         text = text.replace(key, "[removed]")
     return text
 
 
-def _in_thread(work: Callable[[], Coroutine[Any, Any, T]]) -> T:
+def in_thread(work: Callable[[], Coroutine[Any, Any, T]]) -> T:
     """Runs it in an event loop of its own: the caller may stand in a running one, as in a notebook.
 
     The thread is a daemon so that Ctrl-C ends the program rather than wait for the service.
