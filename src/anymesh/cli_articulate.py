@@ -36,7 +36,7 @@ from anymesh.cli_options import (
 )
 from anymesh.cli_output import Shown, cache_of, chosen_answerer, plain, split_labels, tell, tell_asset
 from anymesh.deadline import CALL_SECONDS, DEFAULT_SECONDS
-from anymesh.errors import OpenQuestionError, OptionError
+from anymesh.errors import AnymeshError, OpenQuestionError, OptionError
 from anymesh.isolation import DECOMPOSER, shared_pool
 
 Meshes = Annotated[
@@ -101,10 +101,7 @@ def _articulate_many(meshes: list[Path], out: Path, options: dict[str, Any], jso
 
     with Shown(quiet or json_) as progress:
         outcomes = articulate_many(meshes, out, progress=progress, **options)
-    rows = [
-        {"mesh": str(o.mesh), "out": str(o.out), "state": o.state, "note": "" if o.error is None else plain(str(o.error))}
-        for o in outcomes
-    ]
+    rows = [{"mesh": str(o.mesh), "out": str(o.out), "state": o.state, "note": plain(_note(o.error))} for o in outcomes]
     waiting = [o.error for o in outcomes if isinstance(o.error, OpenQuestionError)]
     questions = [str(folder) for error in waiting for folder in error.folders]
     tell({"out": str(out), "objects": rows, "questions": questions}, rows, ("mesh", "state", "note"), json_, quiet)
@@ -114,3 +111,10 @@ def _articulate_many(meshes: list[Path], out: Path, options: dict[str, Any], jso
     codes = [o.error.exit_code for o in outcomes if o.error is not None]
     if codes:
         raise typer.Exit(waiting[0].exit_code if waiting else codes[0])
+
+
+def _note(error: AnymeshError | None) -> str:
+    """What stopped an object: the folder of its question, or the message."""
+    if isinstance(error, OpenQuestionError):
+        return ", ".join(map(str, error.folders))
+    return "" if error is None else str(error)
