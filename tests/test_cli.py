@@ -231,3 +231,46 @@ def test_other_ends(raised, code: int, word: str, mesh, monkeypatch, capfd) -> N
         assert not Path("out").exists()
         with pytest.raises(type(raised)):
             run(["--debug", "articulate", str(mesh), "-o", "out"])
+
+
+def test_several_meshes_need_batch_and_a_batch_goes_on_past_what_fails(mesh, capfd) -> None:
+    Path("other").mkdir()
+    Path("other/cabinet.glb").write_bytes(mesh.read_bytes())
+    Path("broken.obj").write_text("v nothing")
+    code, _, err = called(capfd, "articulate", mesh, "broken.obj", "-o", "out", *PARTS)
+    assert (code, "several need --batch" in err) == (2, True)
+    code, _, err = called(capfd, "articulate", mesh, "other/cabinet.glb", "-o", "out", "--batch", *PARTS)
+    assert (code, "have the same" in err) == (2, True)
+    call = ("articulate", "broken.obj", mesh, "-o", "out", "--batch", "--formats", "urdf", *PARTS)
+    code, out, err = called(capfd, *call, "--json")
+    told = json.loads(out)
+    assert (code, [o["state"] for o in told["objects"]]) == (3, ["failed", "done"])
+    assert Path("out/cabinet/asset.json").is_file()
+    before = contents(Path("out/cabinet"))
+    assert called(capfd, *call, "--quiet")[0] == 3
+    assert contents(Path("out/cabinet")) == before  # what is there stays
+    other = trimesh.load(mesh)
+    other.apply_scale(1.1)
+    other.export(mesh)
+    code, out, _ = called(capfd, *call, "--json")
+    assert [o["state"] for o in json.loads(out)["objects"]] == ["failed", "failed"]
+    assert "another version of the mesh" in out
+
+
+def test_an_unsure_joint_says_what_would_help(mesh, capfd, monkeypatch) -> None:
+    monkeypatch.setattr(solving, "UNSURE", 1.1)
+    code, out, _ = called(capfd, "articulate", mesh, "-o", "out", "--formats", "urdf", *PARTS)
+    assert code == 0
+    (line,) = [line for line in out.splitlines() if "files:FOLDER" in line]
+    assert "unsure" in line
+    monkeypatch.setattr(solving, "UNSURE", 0.0)
+    code, out, _ = called(capfd, "articulate", mesh, "-o", "sure", "--formats", "urdf", *PARTS, "--json")
+    assert (code, json.loads(out)["hint"], json.loads(out)["answerer"]) == (0, "", "geometry")
+
+
+def test_auto_says_what_it_takes(mesh, capfd, monkeypatch) -> None:
+    for variable in ("OLLAMA_BASE_URL", "LM_STUDIO_BASE_URL", "VLLM_BASE_URL"):
+        monkeypatch.setenv(variable, "127.0.0.1:9")
+    code, out, _ = called(capfd, "segment", mesh, "-o", "out", "--answerer", "auto", *PARTS)
+    assert code == 0
+    assert "auto takes geometry: no local model" in out

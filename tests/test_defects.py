@@ -59,7 +59,7 @@ def test_the_report_tells_what_is_needed_and_nothing_private(folder, monkeypatch
     found = json.loads(text)
     assert (found["command"], found["stage"], found["error"]) == ("articulate", "joints", "ValueError")
     assert found["message"] == "key [removed] at 'my mesh.stl' and [address]"
-    assert (found["options"]["mesh"], found["options"]["out"], found["options"]["category"]) == ("my mesh.stl", "out", "box")
+    assert (found["options"]["mesh"], found["options"]["out"], found["options"]["category"]) == (["my mesh.stl"], "out", "box")
     assert found["versions"]["anymesh"] == __version__
     assert found["versions"]["python"] == platform.python_version()
     assert all(found["versions"][name] for name in ("numpy", "scipy", "embreex", "mujoco", "coacd"))

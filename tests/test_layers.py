@@ -14,21 +14,22 @@ FLOORS = [
     {"types"},
     {"storage", "stage_results", "geometry", "rendering", "loading", "models"},
     {"collision"},
-    {"export", "run_folder"},
+    {"export", "export_options", "run_folder"},
     {"reasoning"},
     {"segmentation", "articulation", "postprocessing", "simulation", "evaluation"},
     {"solving", "finishing"},
     {"answering"},
-    {"pipeline", "evaluating", "checking", "correcting"},
-    {"applications", "viewer"},
+    {"pipeline", "stopped_run", "evaluating", "checking", "correcting"},
+    {"applications", "viewer", "answers", "batch", "batch_api"},
+    {"agents"},
     {"cli", "cli_output", "cli_eval", "cli_check", "cli_finish", "cli_view", "cli_report", "cli_options"}
-    | {"cli_quiet", "cli_defect"},
+    | {"cli_quiet", "cli_defect", "cli_articulate", "cli_stages", "cli_answer", "cli_models", "cli_mcp"},
 ]
 STAGES = {"segmentation", "articulation", "postprocessing"}
 OUTSIDE = set(
     "trimesh embreex igl mujoco torch transformers onnxruntime huggingface_hub "
     "pydantic_ai openai anthropic google genai_prices httpx2 yourdfpy scene_synthesizer "
-    "coacd pxr manifold3d pybullet sapien pydrake genesis newton pinocchio warp jsonschema imageio_ffmpeg viser".split()
+    "coacd pxr manifold3d pybullet sapien pydrake genesis newton pinocchio warp jsonschema imageio_ffmpeg viser mcp".split()
 )
 FILES = sorted(SOURCE.rglob("*.py"))
 

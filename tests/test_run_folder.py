@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from assets import cabinet, slanted
 
-from anymesh.errors import OutputError
+from anymesh.errors import OpenQuestionError, OutputError
 from anymesh.export import write_asset
 from anymesh.run_folder import JOINTS, MESH, SEGMENTATION, Jointed, Placed, RunFolder, Segmented, stage_key
 
@@ -275,3 +275,30 @@ def test_adding_a_file_keeps_the_rest(tmp_path, source):
         k: v for k, v in before.items() if k != "stages/files.json"
     }
     write_all(tmp_path / "out", source, force=True)  # it is ours, so it may go
+
+
+def test_what_follows_a_stage_that_was_made_anew_is_not_taken_over(tmp_path, source):
+    write_all(tmp_path / "out", source)
+    placed, segmented, _ = results(cabinet())
+    with RunFolder.create(tmp_path / "out", source=source, force=True) as run:
+        assert run.load(MESH, "m") is not None
+        assert run.load(JOINTS, "j") is not None
+        run.save(SEGMENTATION, "s", segmented)  # under the same key, as when other answers made it
+        assert run.load(JOINTS, "j") is None
+        assert run.load(MESH, "m") is not None
+        assert placed.warnings == run.need(MESH).warnings
+
+
+def test_an_open_question_keeps_the_finished_stages(tmp_path, source):
+    placed, _, _ = results(cabinet())
+
+    def stops() -> None:
+        with RunFolder.create(tmp_path / "out", source=source) as run:
+            run.save(MESH, "m", placed)
+            raise OpenQuestionError("what is it?", [tmp_path / "q"])
+
+    with pytest.raises(OpenQuestionError):
+        stops()
+    assert not (tmp_path / "out").exists()
+    with RunFolder.create(tmp_path / "out", source=source) as run:
+        assert run.load(MESH, "m") is not None

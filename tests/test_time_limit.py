@@ -68,3 +68,14 @@ def test_the_command_line_refuses_a_limit_of_nothing(tmp_path, capsys):
     assert run(["articulate", str(CABINET), "-o", str(tmp_path / "out"), "--time-limit", "0"]) == 2
     assert "--time-limit" in capsys.readouterr().err
     assert not (tmp_path / "out").exists()
+
+
+def test_a_pause_does_not_count(monkeypatch):
+    now = [100.0]
+    monkeypatch.setattr(module.time, "monotonic", lambda: now[0])
+    deadline = Deadline(10.0)
+    with deadline.paused():
+        now[0] = 5000.0
+    assert not deadline.late(0.4)
+    now[0] = 5004.1
+    assert deadline.late(0.4)

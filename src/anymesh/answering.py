@@ -2,26 +2,38 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
+from importlib.util import find_spec
 from pathlib import Path
+from threading import Event
 from typing import TypedDict
 
 from anymesh.config import DEFAULT_VIEWS, Config, SegmentationConfig
+from anymesh.deadline import CALL_SECONDS, Deadline
 from anymesh.errors import OptionError
+from anymesh.models.budget import Spent
 from anymesh.models.cache import cache_folder
+from anymesh.models.patience import Patience
+from anymesh.models.servers import SERVERS, first_seeing, probe_servers
+from anymesh.reasoning.asking import Seer
 from anymesh.reasoning.recognition import told_labels
 from anymesh.solving import GEOMETRY, Seeing
+from anymesh.types import Exchange
+
+FILES, AUTO = "files:", "auto"
 
 
 class Answering(TypedDict, total=False):
     """Who answers the questions of both stages, and how. All have defaults.
 
-    answerer: geometry, openai:MODEL, anthropic:MODEL, google:MODEL, openai-compatible:BASE_URL#MODEL or replay:FOLDER;
+    answerer: geometry, openai:MODEL, openai-responses:MODEL, anthropic:MODEL, google:MODEL, ollama:MODEL, lmstudio:MODEL,
+    vllm:MODEL, openai-compatible:BASE_URL#MODEL, files:FOLDER, replay:FOLDER, or auto: a local model, else geometry;
     category: what the object is; seed: from 0 up; parts_list: labels of the parts that move, which a model is then not asked
     for; at_least: parts that geometry takes however thin the evidence is; proposer: of masks for a model, exact, sam:..., or
     exact+sam:...; viewpoints: the cameras whose pictures a model is shown (see `ViewsConfig`); verify: motion or off;
-    max_calls, max_cost [USD]: no call is made that would pass them; cache: folder of answers (None: no cache).
+    max_calls, max_cost [USD]: no call is made that would pass them; cache: folder of answers (None: no cache); timeout: of one
+    call [s]; wait: wait for an answer in files; spent: what counts towards max_calls and max_cost, shared by several runs.
     """
 
     answerer: str
@@ -35,28 +47,61 @@ class Answering(TypedDict, total=False):
     max_calls: int | None
     max_cost: float | None
     cache: Path | str | None
+    timeout: float
+    wait: bool
+    spent: Spent | None
+
+
+class Asked:
+    """Makes the answerers of one run: they share their patience, and what they asked is known after a fault too."""
+
+    def __init__(self, make: Callable[[Seer, Patience], Seer]) -> None:
+        self._make, self._patience, self._made = make, Patience(), list[Seer]()
+
+    def __call__(self, fallback: Seer) -> Seer:
+        made = self._make(fallback, self._patience)
+        self._made.append(made)
+        return made
+
+    def exchanges(self) -> tuple[Exchange, ...]:
+        """Every call so far."""
+        return tuple(e for seer in self._made for e in seer.exchanges)
 
 
 @dataclass(frozen=True, eq=False)
 class Answerer:
-    """The settings of a run, the name of who answers, and what makes the answerer (None: geometry)."""
+    """The settings of a run, the name of who answers, and what makes the answerer (None: geometry).
+
+    stands: whether a saved stage still has the answers that it was made with; asked: every call to a model in this run;
+    renewed: the same answerer for another run, with the same model and budget.
+    """
 
     config: Config
     name: str
     see: Seeing | None
+    stands: Callable[[Sequence[Exchange]], bool] = field(default=lambda exchanges: True)
+    asked: Callable[[], tuple[Exchange, ...]] = tuple
+    renewed: Callable[[], Seeing] | None = None
 
     def settings(self, *without: str) -> dict[str, object]:
         """What the result of a stage hangs on, without what that stage does not use."""
         return {**{k: v for k, v in self.config.as_dict().items() if k not in without}, "answerer": self.name}
 
 
-def choose_answerer(options: Answering) -> Answerer:
-    """Raises OptionError for what is not valid, ModelError where a model cannot be asked at all (no key)."""
+def choose_answerer(
+    options: Answering, *, about: str | None = None, deadline: Deadline | None = None, stop: Event | None = None
+) -> Answerer:
+    """From the options to who answers. For answers in files, about: the object's name; deadline: paused while waiting for
+    one; stop: ends the waiting.
+
+    Raises OptionError for what is not valid, ModelError where a model cannot be asked at all (no key).
+    """
     unknown = sorted(set(options) - set(Answering.__annotations__))
     if unknown:
         raise OptionError(f"found the options {unknown}; valid are {', '.join(Answering.__annotations__)}")
     told = options.get("parts_list", ())
-    name, labels = options.get("answerer", GEOMETRY.name), told_labels(told.split(",") if isinstance(told, str) else told)
+    name, _ = resolve_auto(options.get("answerer", GEOMETRY.name))
+    labels = told_labels(told.split(",") if isinstance(told, str) else told)
     config = Config(
         seed=options.get("seed", 0),
         category=options.get("category"),
@@ -70,10 +115,59 @@ def choose_answerer(options: Answering) -> Answerer:
         if labels:
             raise OptionError("--parts-list: geometry cannot find parts by their names; it needs an --answerer that sees")
         return Answerer(config, name, None)
+    if name.startswith(FILES):
+        return _from_files(config, name, about, options.get("wait", False), deadline or Deadline(), stop)
     from anymesh.models.connect import open_model  # only those who ask a model wait for its modules
     from anymesh.reasoning.vlm import VlmAnswerer
 
     cache = options["cache"] if "cache" in options else cache_folder()
     cache = None if cache is None else Path(cache)
-    model = open_model(name, cache=cache, max_calls=options.get("max_calls"), max_cost=options.get("max_cost"))
-    return Answerer(config, name, lambda instead: VlmAnswerer(model, instead))
+    model = open_model(
+        name,
+        cache=cache,
+        max_calls=options.get("max_calls"),
+        max_cost=None if name.partition(":")[0] in SERVERS else options.get("max_cost"),  # one's own servers cost nothing
+        timeout=options.get("timeout", CALL_SECONDS),
+        spent=options.get("spent"),
+    )
+
+    def renewed() -> Asked:
+        return Asked(lambda fallback, patience: VlmAnswerer(model, fallback, patience))
+
+    asked = renewed()
+    return Answerer(config, name, asked, asked=asked.exchanges, renewed=renewed)
+
+
+def object_name(mesh: str | Path) -> str:
+    """What a mesh is called among others: its folder's name and its own, since many data sets call every file alike."""
+    path = Path(mesh).absolute()
+    return f"{path.parent.name}/{path.name}"
+
+
+def resolve_auto(name: str) -> tuple[str, str]:
+    """From `auto` to the name of who answers, and why, in words; other names stay. Nothing that costs money is taken."""
+    if name != AUTO:
+        return name, ""
+    found = first_seeing(probe_servers())
+    if found is None:
+        return GEOMETRY.name, "auto takes geometry: no local model that takes pictures answers (`anymesh models`)"
+    if find_spec("pydantic_ai") is None:
+        told = f"auto takes geometry: {found.name} answers, but its client is missing: pip install 'articulate-anymesh[vlm]'"
+        return GEOMETRY.name, told
+    return found.name, f"auto takes {found.name}, which answers on this machine"
+
+
+def _from_files(config: Config, name: str, about: str | None, wait: bool, deadline: Deadline, stop: Event | None) -> Answerer:
+    from anymesh.models.question_files import QuestionStore
+    from anymesh.reasoning.files import FileAnswerer, still_answered
+
+    folder = name.removeprefix(FILES)
+    if not folder.strip():
+        raise OptionError("answers from files need a folder: --answerer files:FOLDER")
+    store = QuestionStore(Path(folder), about)
+    return Answerer(
+        config,
+        name,
+        lambda fallback: FileAnswerer(store, fallback, wait=wait, paused=deadline.paused, stop=stop),
+        lambda exchanges: still_answered(store, exchanges),
+    )

@@ -11,52 +11,24 @@ import typer
 from typer.core import TyperCommand
 
 from anymesh import __version__
+from anymesh.cli_answer import answer
+from anymesh.cli_articulate import articulate
 from anymesh.cli_check import check
 from anymesh.cli_eval import evaluate
 from anymesh.cli_finish import finish
-from anymesh.cli_options import (
-    FORMATS,
-    AnswererName,
-    AtLeast,
-    BaseName,
-    Cache,
-    Category,
-    Drives,
-    Folder,
-    Force,
-    Formats,
-    Json,
-    MaxCalls,
-    MaxCost,
-    MeshPath,
-    Out,
-    Package,
-    Parts,
-    PartsList,
-    Proposer,
-    Quiet,
-    Root,
-    Scale,
-    Seed,
-    TimeLimit,
-    Up,
-    Verify,
-    Viewpoints,
-    Zip,
-)
-from anymesh.cli_output import JOINT_COLUMNS, Shown, cache_of, joint_row, plain, tell, tell_asset
+from anymesh.cli_mcp import mcp, skill
+from anymesh.cli_models import models
+from anymesh.cli_output import plain
 from anymesh.cli_quiet import quiet_libraries
 from anymesh.cli_report import picture, report
+from anymesh.cli_stages import export, joints, segment
 from anymesh.cli_view import view
-from anymesh.config import DEFAULT_VIEWS
-from anymesh.deadline import DEFAULT_SECONDS
-from anymesh.errors import DEFECT, AnymeshError
-from anymesh.isolation import DECOMPOSER, shared_pool
+from anymesh.errors import DEFECT, AnymeshError, OpenQuestionError
 
 EXIT_CODES = (
     "Exit codes: 0 done; 2 a wrong option; 3 the mesh cannot be used; 4 the output folder exists or "
     "cannot be written; 5 an optional dependency is missing; 6 a model cannot be asked; 7 the budget is spent; "
-    "8 a check failed; 70 an internal defect, with a report to send; 130 interrupted."
+    "8 a check failed; 9 a question waits for its answer; 70 an internal defect, with a report to send; 130 interrupted."
 )
 
 
@@ -102,140 +74,14 @@ def _main(
 ) -> None: ...
 
 
-@_command()
-def articulate(
-    mesh: MeshPath,
-    out: Out,
-    parts: Parts = "auto",
-    answerer: AnswererName = "geometry",
-    parts_list: PartsList = "",
-    at_least: AtLeast = 0,
-    proposer: Proposer = "exact",
-    viewpoints: Viewpoints = DEFAULT_VIEWS,
-    verify: Verify = "motion",
-    category: Category = None,
-    max_calls: MaxCalls = None,
-    max_cost: MaxCost = None,
-    cache: Cache = "auto",
-    seed: Seed = 0,
-    up: Up = "auto",
-    scale: Scale = "auto",
-    root: Root = None,
-    base: BaseName = "fixed",
-    formats: Formats = FORMATS,
-    drives: Drives = "passive",
-    force: Force = False,
-    time_limit: TimeLimit = DEFAULT_SECONDS,
-    json_: Json = False,
-    quiet: Quiet = False,
-) -> None:
-    """The whole job: MESH to an articulated asset in DIR."""
-    shared_pool().warm(DECOMPOSER)  # the children import while this process does
-    from anymesh import pipeline
-
-    with Shown(quiet or json_) as progress:
-        asset = pipeline.articulate(
-            mesh, out, parts=parts, up=up, scale=scale, root=root, base=base, formats=formats, drives=drives, force=force,
-            progress=progress, time_limit=time_limit, answerer=answerer, parts_list=_labels(parts_list), at_least=at_least,
-            proposer=proposer, viewpoints=viewpoints, verify=verify, category=category, seed=seed, max_calls=max_calls,
-            max_cost=max_cost, **cache_of(cache),
-        )  # fmt: skip
-    tell_asset(asset, out, json_, quiet)
-
-
-@_command()
-def segment(
-    mesh: MeshPath,
-    out: Out,
-    parts: Parts = "auto",
-    answerer: AnswererName = "geometry",
-    parts_list: PartsList = "",
-    at_least: AtLeast = 0,
-    proposer: Proposer = "exact",
-    viewpoints: Viewpoints = DEFAULT_VIEWS,
-    category: Category = None,
-    max_calls: MaxCalls = None,
-    max_cost: MaxCost = None,
-    cache: Cache = "auto",
-    seed: Seed = 0,
-    up: Up = "auto",
-    scale: Scale = "auto",
-    root: Root = None,
-    force: Force = False,
-    time_limit: TimeLimit = DEFAULT_SECONDS,
-    json_: Json = False,
-    quiet: Quiet = False,
-) -> None:
-    """Stage A alone: which parts move. `anymesh joints DIR` goes on from there."""
-    from anymesh import pipeline
-
-    with Shown(quiet or json_) as progress:
-        found = pipeline.segment(
-            mesh, out, parts=parts, up=up, scale=scale, root=root, force=force, progress=progress, time_limit=time_limit,
-            answerer=answerer, parts_list=_labels(parts_list), at_least=at_least, proposer=proposer,
-            viewpoints=viewpoints, category=category, seed=seed, max_calls=max_calls, max_cost=max_cost, **cache_of(cache),
-        )  # fmt: skip
-    rows = [
-        {"name": p.name, "label": p.label, "faces": len(found.faces(k)), "confidence": p.confidence, "reason": p.reason}
-        for k, p in enumerate(found.parts)
-    ]
-    tell({"out": str(out), "parts": rows}, rows, ("name", "label", "faces", "confidence", "reason"), json_, quiet)
-
-
-@_command()
-def joints(
-    folder: Folder,
-    answerer: AnswererName = "geometry",
-    viewpoints: Viewpoints = DEFAULT_VIEWS,
-    verify: Verify = "motion",
-    category: Category = None,
-    max_calls: MaxCalls = None,
-    max_cost: MaxCost = None,
-    cache: Cache = "auto",
-    seed: Seed = 0,
-    time_limit: TimeLimit = DEFAULT_SECONDS,
-    json_: Json = False,
-    quiet: Quiet = False,
-) -> None:
-    """Stage B alone: the joints of the parts in DIR. `anymesh export DIR` goes on from there."""
-    from anymesh import pipeline
-
-    with Shown(quiet or json_) as progress:
-        found = pipeline.joints(
-            folder, progress=progress, time_limit=time_limit, answerer=answerer, viewpoints=viewpoints, verify=verify,
-            category=category, seed=seed, max_calls=max_calls, max_cost=max_cost, **cache_of(cache),
-        )  # fmt: skip
-    rows = [joint_row(j) for j in found]
-    tell({"out": str(folder), "joints": rows}, rows, JOINT_COLUMNS, json_, quiet)
-
-
-def _labels(told: str) -> tuple[str, ...]:
-    return tuple(label for label in told.split(",") if label.strip())
-
-
-@_command()
-def export(
-    folder: Folder,
-    base: BaseName = "fixed",
-    formats: Formats = FORMATS,
-    drives: Drives = "passive",
-    package: Package = None,
-    zip_: Zip = None,
-    time_limit: TimeLimit = DEFAULT_SECONDS,
-    json_: Json = False,
-    quiet: Quiet = False,
-) -> None:
-    """Writes the files of the asset whose stages are in DIR."""
-    from anymesh import pipeline
-
-    with Shown(quiet or json_) as progress:
-        asset = pipeline.export(
-            folder, base=base, formats=formats, drives=drives, package=package, archive=zip_,
-            time_limit=time_limit, progress=progress,
-        )  # fmt: skip
-    tell_asset(asset, folder, json_, quiet)
-
-
+_command()(articulate)
+_command()(segment)
+_command()(joints)
+_command()(export)
+_command()(answer)
+_command()(models)
+_command()(mcp)
+_command()(skill)
 _command()(finish)
 _command()(report)
 _command()(picture)
@@ -269,7 +115,8 @@ def _run(arguments: list[str]) -> int:
         return _defect(arguments, handed)
     except Exception as error:
         if isinstance(error, AnymeshError):
-            return _fail(arguments, error, str(error), error.exit_code)
+            waiting = [str(f) for f in error.folders] if isinstance(error, OpenQuestionError) else None
+            return _fail(arguments, error, str(error), error.exit_code, **({} if waiting is None else {"questions": waiting}))
         if hasattr(error, "format_message"):  # a usage error of the command line itself
             return _fail(arguments, error, str(error.format_message()), 2) if arguments else 2  # ty: ignore[not-callable]
         return _defect(arguments, _HandedError(error, "", {}))
@@ -295,7 +142,7 @@ def _interrupted(arguments: list[str]) -> int:
     return 130
 
 
-def _fail(arguments: list[str], error: BaseException, told: str, code: int, **more: str | None) -> int:
+def _fail(arguments: list[str], error: BaseException, told: str, code: int, **more: str | list[str] | None) -> int:
     told = plain(" ".join(told.split()))
     if "--json" in arguments:
         typer.echo(json.dumps({"error": told, "kind": type(error).__name__, "exit_code": code, **more}))

@@ -8,8 +8,10 @@ from typing import Annotated
 
 import typer
 
+from anymesh.cli_options import Timeout, Wait
 from anymesh.cli_output import Shown, cache_of, tell
 from anymesh.config import DEFAULT_VIEWS
+from anymesh.deadline import CALL_SECONDS
 
 DatasetName = Annotated[
     str,
@@ -52,6 +54,8 @@ def evaluate(
     at_least: Annotated[
         int, typer.Option("--at-least", metavar="N", help="Parts that geometry takes however thin the evidence is.")
     ] = 0,
+    timeout: Timeout = CALL_SECONDS,
+    wait: Wait = False,
     max_calls: Annotated[int | None, typer.Option("--max-calls", help="No call of a model beyond so many.")] = None,
     max_cost: Annotated[float | None, typer.Option("--max-cost", metavar="USD", help="No call that could pass it.")] = None,
     cache: Annotated[str, typer.Option(metavar="DIR", help="Answers of models: auto, off, or a folder.")] = "auto",
@@ -71,7 +75,7 @@ def evaluate(
         records = evaluating.evaluate(
             dataset, out, protocol=protocol, split=split, changes=chosen, views=views, only=_names(only), jobs=jobs,
             force=force, progress=progress, answerer=answerer, proposer=proposer, viewpoints=viewpoints, verify=verify,
-            seed=seed, at_least=at_least, max_calls=max_calls, max_cost=max_cost,
+            seed=seed, at_least=at_least, max_calls=max_calls, max_cost=max_cost, wait=wait, timeout=timeout,
             **cache_of(cache),
         )  # fmt: skip
     groups = grouped(records, lambda r: r.change)

@@ -15,7 +15,9 @@ AnswererName = Annotated[
     str,
     typer.Option(
         "--answerer",
-        help="geometry, openai:MODEL, anthropic:MODEL, google:MODEL, openai-compatible:BASE_URL#MODEL or replay:FOLDER.",
+        help="geometry, openai:MODEL, openai-responses:MODEL, anthropic:MODEL, google:MODEL, ollama:MODEL, lmstudio:MODEL, "
+        "vllm:MODEL, openai-compatible:BASE_URL#MODEL, files:FOLDER (answers in files), replay:FOLDER, "
+        "or auto (a local model, else geometry).",
     ),
 ]
 Category = Annotated[str | None, typer.Option(help="What the object is; a model is told, geometry does not use it.")]
@@ -38,6 +40,8 @@ MaxCost = Annotated[float | None, typer.Option("--max-cost", metavar="USD", help
 Cache = Annotated[
     str, typer.Option(metavar="DIR", help="Answers of models are kept here: auto (the user's cache folder), off, or a folder.")
 ]
+Timeout = Annotated[float, typer.Option("--timeout", metavar="SECONDS", help="Of one call of a model.")]
+Wait = Annotated[bool, typer.Option("--wait", help="With files:FOLDER, wait for an answer that is not there yet.")]
 Seed = Annotated[int, typer.Option(help="From 0 up; same input and seed, same bytes.")]
 Up = Annotated[str, typer.Option(help="The file's up axis: auto, x, y, z.")]
 Scale = Annotated[str, typer.Option(help="auto, a factor to metres, or METRES:AXIS such as 0.9:z.")]

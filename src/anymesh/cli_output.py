@@ -42,6 +42,8 @@ def tell_asset(asset: Asset, out: Path, json_: bool, quiet: bool) -> None:
     record = {
         "name": asset.name,
         "out": str(out),
+        "answerer": asset.answerer,
+        "hint": unsure_hint(asset),
         "parts": [p.name for p in asset.segmentation.parts],
         "joints": rows,
         "notes": list(asset.source.notes),
@@ -59,6 +61,34 @@ def tell_asset(asset: Asset, out: Path, json_: bool, quiet: bool) -> None:
             typer.echo(_spent(record["usage"], out))
         files = json.loads((out / "asset.json").read_bytes())["files"].values()
         typer.echo(f"wrote {', '.join(files)}, preview.png and asset.json to {out}")
+        if record["hint"]:
+            typer.echo(record["hint"])
+
+
+def unsure_hint(asset: Asset) -> str:
+    """What would help where geometry answered alone and is not sure of a joint; empty where nothing is to say."""
+    from anymesh.solving import GEOMETRY, UNSURE
+
+    count = sum(j.confidence < UNSURE for j in asset.joints)
+    if asset.answerer != GEOMETRY.name or not count:
+        return ""
+    joints = "1 joint is" if count == 1 else f"{count} joints are"
+    return (
+        f"{joints} unsure; eyes would help: --answerer files:FOLDER (you, or an agent, answer from pictures), "
+        "--answerer auto (a local model; `anymesh models`), or correct it in `anymesh view`"
+    )
+
+
+def chosen_answerer(name: str, hidden: bool) -> str:
+    """The name of who answers; of `auto`, whom it takes, which is shown."""
+    if name != "auto":
+        return name
+    from anymesh.answering import resolve_auto
+
+    name, told = resolve_auto(name)
+    if not hidden:
+        typer.echo(plain(told))
+    return name
 
 
 def _spent(usage: dict[str, Any], out: Path) -> str:
@@ -86,6 +116,11 @@ def tell(record: dict[str, Any], rows: list[dict[str, Any]], columns: tuple[str,
 def cache_of(told: str) -> dict[str, Any]:
     """The option `cache` of whoever answers; auto: as `Answering` has it."""
     return {} if told == "auto" else {"cache": None if told == "off" else Path(told)}
+
+
+def split_labels(told: str) -> tuple[str, ...]:
+    """The labels of an option, with commas between."""
+    return tuple(label for label in told.split(",") if label.strip())
 
 
 def plain(text: str) -> str:

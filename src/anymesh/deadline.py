@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import math
 import time
+from collections.abc import Generator
+from contextlib import contextmanager
 
 from anymesh.errors import OptionError
 
+CALL_SECONDS = 120.0  # of `--timeout`: for one call of a model [s]
 DEFAULT_SECONDS = 600.0  # of `--time-limit` [s]
 SEGMENT, JOINTS, COLLISION = (
     0.4,
@@ -31,6 +34,15 @@ class Deadline:
     def late(self, share: float) -> bool:
         """Tell whether more than a share of the limit is spent."""
         return time.monotonic() - self._begin > share * self.seconds
+
+    @contextmanager
+    def paused(self) -> Generator[None]:
+        """Do not count the time spent inside, such as waiting for a person."""
+        begin = time.monotonic()
+        try:
+            yield
+        finally:
+            self._begin += time.monotonic() - begin
 
     def leave_out(self, what: str) -> None:
         """Record in words what was left out."""

@@ -3,6 +3,14 @@
 A message says what was found and what would have been valid. `exit_code` is what the command line returns.
 """
 
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
 DEFECT = 70  # exit code of an internal defect: EX_SOFTWARE of sysexits.h
 STAGE = "in the stage "  # how the note begins that names the stage in which an error came up
 
@@ -47,6 +55,22 @@ class BudgetError(ModelError):
     """The next call would pass --max-calls or --max-cost. What was answered is kept; a rerun goes on from there."""
 
     exit_code = 7
+
+
+class OpenQuestionError(ModelError):
+    """A question waits for an answer that somebody else writes. Finished stages are kept; a rerun goes on from there.
+
+    folders: of the open questions.
+    """
+
+    exit_code = 9
+
+    def __init__(self, message: str, folders: Sequence[Path] = ()) -> None:
+        super().__init__(message)
+        self.folders = tuple(folders)
+
+    def __reduce__(self) -> tuple[type[OpenQuestionError], tuple[str, tuple[Path, ...]]]:
+        return type(self), (str(self), self.folders)  # evaluations hand it from process to process
 
 
 def note_stage(error: BaseException, stage: str) -> None:

@@ -11,14 +11,15 @@ from concurrent.futures.process import BrokenProcessPool
 from functools import partial
 from multiprocessing import get_context
 from pathlib import Path
+from threading import Event
 from typing import Unpack
 from zlib import crc32
 
 import numpy as np
 
 from anymesh import __version__
-from anymesh.answering import Answering, choose_answerer
-from anymesh.errors import OptionError
+from anymesh.answering import FILES, Answering, choose_answerer
+from anymesh.errors import OpenQuestionError, OptionError
 from anymesh.evaluation.changes import CHANGES
 from anymesh.evaluation.datasets.dataset import Dataset
 from anymesh.evaluation.datasets.named import open_dataset
@@ -29,11 +30,13 @@ from anymesh.evaluation.report import write_report
 from anymesh.evaluation.results import ResultsFolder
 from anymesh.evaluation.score import ObjectScore
 from anymesh.evaluation.truth import Subject
+from anymesh.names import legal_name
 from anymesh.progress import Progress, silent
 from anymesh.solving import GEOMETRY, Seeing, solve
 
 ORACLE = "oracle"
-Done = Iterator[tuple[str, list[Record]]]
+Examined = list[Record] | OpenQuestionError  # the records of an object, or the question that it waits for
+Done = Iterator[tuple[str, Examined]]
 
 
 def evaluate(
@@ -58,21 +61,38 @@ def evaluate(
     Raises OptionError, OutputError, MissingExtraError, ModelError; what was done until then is kept.
     """
     exam = _exam(protocol, changes, views, answering.get("seed", 0))
-    see, data = _see(answering, exam.seed), open_dataset(dataset)
+    stop = Event()
+    see, data = _see(answering, exam.seed, stop), open_dataset(dataset)
     names = _chosen(data, split, only)
     results = ResultsFolder.open(Path(out), _settings(dataset, split, only, exam, answering), force=force)
     left = [name for name in names if not results.has(name)]
     before, total = len(names) - len(left), len(names)
     progress("eval", f"{before} done before" if before else "begins", before, total)
     work = partial(_examined, dataset, exam, answering, results.folder)
-    shared = not results.settings["answerer"].startswith((GEOMETRY.name, ORACLE))
-    for done, (name, records) in enumerate(_all(left, work, see, shared, jobs or _cores()), start=before):
-        results.save(name, records)
+    alone = (GEOMETRY.name, ORACLE, *(() if answering.get("wait") else (FILES,)))
+    shared = not results.settings["answerer"].startswith(alone)
+    waiting: list[OpenQuestionError] = []
+    for done, (name, records) in enumerate(_all(left, work, see, shared, jobs or _cores(), stop), start=before):
         progress("eval", name, done, total)
+        if isinstance(records, OpenQuestionError):
+            waiting.append(records)
+        else:
+            results.save(name, records)
+    if waiting:
+        raise _waiting(waiting, total)
     every = [record for name in names for record in results.load(name)]
     title = f"{data.name}{f' {split}' if split else ''}, {exam.protocol}, {results.settings['answerer']}"
     write_report(every, results.folder, title=title, settings=results.settings)
     return every
+
+
+def _waiting(errors: Sequence[OpenQuestionError], total: int) -> OpenQuestionError:
+    folders = [folder for error in errors for folder in error.folders]
+    return OpenQuestionError(
+        f"{len(errors)} of {total} objects wait for an answer: {', '.join(str(f) for f in folders[:5])}"
+        f"{', ...' if len(folders) > 5 else ''}; `anymesh answer` shows and answers them; then run the same command again",
+        folders,
+    )
 
 
 def _exam(protocol: str, changes: Sequence[str], views: int, seed: int) -> Exam:
@@ -122,12 +142,21 @@ def _cores() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
-def _see(answering: Answering, seed: int) -> See:
-    """Who answers about a subject: geometry, its truth (with errors on purpose where wanted), or a model."""
+def _see(answering: Answering, seed: int, stop: Event | None = None) -> See:
+    """Who answers about a subject: geometry, its truth (with errors on purpose where wanted), files, or a model."""
     name, _, share = answering.get("answerer", GEOMETRY.name).partition(":")
+    if name == FILES.removesuffix(":"):
+
+        def asked(subject: Subject) -> Seeing | None:
+            place: Answering = {**answering, "answerer": f"{FILES}{Path(share) / legal_name(subject.truth.name)}"}
+            return choose_answerer(place, about=subject.truth.name, stop=stop).see
+
+        one = f"{FILES}{Path(share) / 'object'}" if share else FILES
+        _ = choose_answerer({**answering, "answerer": one})  # what is wrong with the options is told before anything is done
+        return asked
     if name != ORACLE:
-        see = choose_answerer(answering).see
-        return lambda subject: see
+        who = choose_answerer(answering)
+        return lambda subject: who.see if who.renewed is None else who.renewed()
     try:
         wrong = float(share or 0)
     except ValueError:
@@ -142,15 +171,19 @@ def _see(answering: Answering, seed: int) -> See:
     return known
 
 
-def _examined(dataset: str, exam: Exam, answering: Answering, folder: Path, name: str, see: See | None = None) -> list[Record]:
+def _examined(dataset: str, exam: Exam, answering: Answering, folder: Path, name: str, see: See | None = None) -> Examined:
     """One object's records; in a process of its own, which opens the data set anew."""
     options: Answering = {**answering, "answerer": GEOMETRY.name, "parts_list": ()}
     solver = partial(solve, config=choose_answerer(options).config)
-    return examine(exam, open_dataset(dataset), name, folder, solver, see or _see(answering, exam.seed))
+    try:
+        return examine(exam, open_dataset(dataset), name, folder, solver, see or _see(answering, exam.seed))
+    except OpenQuestionError as error:
+        return error
 
 
-def _all(names: Sequence[str], work: partial[list[Record]], see: See, shared: bool, jobs: int) -> Done:
-    """The records of each object as they come. shared: a model and its budget, so in threads; else in processes."""
+def _all(names: Sequence[str], work: partial[Examined], see: See, shared: bool, jobs: int, stop: Event) -> Done:
+    """The records of each object as they come. shared: a model and its budget, so in threads; else in processes. stop: set
+    at the end, for threads that wait for answers."""
     if jobs == 1 or len(names) < 2:
         yield from ((name, work(name, see)) for name in names)
         return
@@ -164,12 +197,13 @@ def _all(names: Sequence[str], work: partial[list[Record]], see: See, shared: bo
             except BrokenProcessPool:
                 lost.append(futures[future])
     finally:
+        stop.set()
         pool.shutdown(cancel_futures=True)
     for name in lost:  # one of them ended its process and with it the others
         yield name, _alone(name, work)
 
 
-def _alone(name: str, work: partial[list[Record]]) -> list[Record]:
+def _alone(name: str, work: partial[Examined]) -> Examined:
     with ProcessPoolExecutor(1, get_context("spawn")) as pool:
         try:
             return pool.submit(work, name).result()

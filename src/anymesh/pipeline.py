@@ -9,13 +9,14 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TypeVar, Unpack
 
-from anymesh.answering import Answerer, Answering, choose_answerer
+from anymesh.answering import Answerer, Answering, choose_answerer, object_name
 from anymesh.deadline import DEFAULT_SECONDS, Deadline
 from anymesh.errors import OptionError, note_stage
-from anymesh.export import Base, Driven, Format, parse_formats, write_asset
+from anymesh.export import Base, Driven, Format, write_asset
 from anymesh.export.archive import write_zip
 from anymesh.export.formats import DEFAULT
 from anymesh.export.package import write_package
+from anymesh.export_options import Exported
 from anymesh.isolation import DECOMPOSER, shared_pool
 from anymesh.loading import load_mesh, place_mesh
 from anymesh.models.cache import cache_folder
@@ -24,6 +25,7 @@ from anymesh.rendering.preview import write_preview
 from anymesh.run_folder import RunFolder, stage_key
 from anymesh.solving import Solver
 from anymesh.stage_results import COMPLETION, JOINTS, MESH, RECOGNITION, SEGMENTATION, Jointed, Placed, Recognized, Segmented
+from anymesh.stopped_run import kept_transcript
 from anymesh.types import Asset, Joint, Segmentation, Source
 
 Result = TypeVar("Result", Recognized, Segmented, Jointed)
@@ -52,12 +54,12 @@ def articulate(
     own); base: fixed or free; formats: of urdf, mjcf, usd, sdf, glb, with commas between;
     drives: passive, or position (joints are led to a commanded position); time_limit: [s], past a share of which each stage
     cuts its work short and says so in the warnings. Raises InputError, OptionError, OutputError, ModelError; then nothing is
-    written.
+    written. OpenQuestionError and BudgetError: what is finished is kept for the next call.
     """
     how, deadline = Exported.parse(base, formats, drives), Deadline(time_limit)
-    who = choose_answerer(answering)
+    who = choose_answerer(answering, about=object_name(mesh_path), deadline=deadline)
     shared_pool().warm(DECOMPOSER)
-    with RunFolder.create(Path(out), source=Path(mesh_path), force=force) as run:
+    with RunFolder.create(Path(out), source=Path(mesh_path), force=force) as run, kept_transcript(run, who):
         solver, recognized, key = _seen(run, Path(mesh_path), parts, Placement(up, scale, root), who, deadline, progress)
         segmented, key = _segment(run, solver, recognized, key, parts, who, progress)
         _join(run, solver, recognized, segmented, key, who, progress)
@@ -78,8 +80,9 @@ def segment(
     **answering: Unpack[Answering],
 ) -> Segmentation:
     """Stage A alone: the parts of a mesh, saved in `out` for `joints`. Options as for `articulate`."""
-    who, deadline = choose_answerer(answering), Deadline(time_limit)
-    with RunFolder.create(Path(out), source=Path(mesh_path), force=force) as run:
+    deadline = Deadline(time_limit)
+    who = choose_answerer(answering, about=object_name(mesh_path), deadline=deadline)
+    with RunFolder.create(Path(out), source=Path(mesh_path), force=force) as run, kept_transcript(run, who):
         solver, recognized, key = _seen(run, Path(mesh_path), parts, Placement(up, scale, root), who, deadline, progress)
         return _segment(run, solver, recognized, key, parts, who, progress)[0].segmentation
 
@@ -92,8 +95,9 @@ def joints(
     **answering: Unpack[Answering],
 ) -> tuple[Joint, ...]:
     """Stage B alone, on the parts that `segment` saved in `folder`. Options as for `articulate`."""
-    who, deadline = choose_answerer(answering), Deadline(time_limit)
-    with RunFolder.open(Path(folder)) as run:
+    deadline = Deadline(time_limit)
+    who = choose_answerer(answering, deadline=deadline)
+    with RunFolder.open(Path(folder)) as run, kept_transcript(run, who):
         recognized, segmented = run.recognized(), run.need(SEGMENTATION)
         solver = Solver(recognized.sized(run.need(MESH)).mesh, who.config, who.see, deadline)
         return _join(run, solver, recognized, segmented, run.key(SEGMENTATION), who, progress).joints
@@ -208,9 +212,11 @@ def _place(run: RunFolder, path: Path, how: Placement, category: str | None, pro
     return found, key
 
 
-def _answered(found: Result | None) -> Result | None:
-    """A saved stage, unless geometry stood in for a model there: the model is asked again."""
-    return None if found is None or any(e.given_up for e in found.exchanges) else found
+def _answered(found: Result | None, who: Answerer) -> Result | None:
+    """A saved stage, unless geometry stood in for a model there (the model is asked again), or its answers have changed."""
+    if found is None or any(e.given_up for e in found.exchanges) or not who.stands(found.exchanges):
+        return None
+    return found
 
 
 def _recognize(
@@ -221,7 +227,7 @@ def _recognize(
     key = stage_key(
         RECOGNITION, previous=previous, config={**who.settings("verify", "proposer"), "sized": sized, "metric": metric}
     )
-    found = _answered(run.load(RECOGNITION, key))
+    found = _answered(run.load(RECOGNITION, key), who)
     if found is None:
         with _timed(run, "recognize"):
             found = solver.recognize(sized=sized, metric=metric)
@@ -234,7 +240,7 @@ def _segment(
 ) -> tuple[Segmented, str]:
     settings = {**who.settings("verify"), "parts": parts, "labels": _bytes_of_labels(parts), "limit": solver.deadline.seconds}
     key = stage_key(SEGMENTATION, previous=previous, config=settings)
-    found = _answered(run.load(SEGMENTATION, key))
+    found = _answered(run.load(SEGMENTATION, key), who)
     if found is None:
         with _timed(run, "segment"):
             found = solver.parts(parts, recognized.recognition, progress)
@@ -260,30 +266,12 @@ def _join(
     progress: Progress,
 ) -> Jointed:
     key = stage_key(JOINTS, previous=previous, config={**who.settings(), "limit": solver.deadline.seconds})
-    found = _answered(run.load(JOINTS, key))
+    found = _answered(run.load(JOINTS, key), who)
     if found is None:
         with _timed(run, "joints"):
             found = solver.joints(segmented.segmentation, recognized.recognition, progress)
         run.save(JOINTS, key, found)
     return found
-
-
-@dataclass(frozen=True)
-class Exported:
-    """How an asset is written."""
-
-    base: Base
-    formats: tuple[Format, ...]
-    driven: Driven
-
-    @classmethod
-    def parse(cls, base: str, formats: str, drives: str) -> Exported:
-        """From the words of an option; OptionError names what would have been valid."""
-        if base not in set(Base):
-            raise OptionError(f"--base: found {base!r}; valid are {', '.join(Base)}")
-        if drives not in set(Driven):
-            raise OptionError(f"--drives: found {drives!r}; valid are {', '.join(Driven)}")
-        return cls(Base(base), parse_formats(formats), Driven(drives))
 
 
 def _export(run: RunFolder, how: Exported, deadline: Deadline, progress: Progress) -> Asset:

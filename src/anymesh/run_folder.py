@@ -15,7 +15,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any, TypeVar
 
-from anymesh.errors import AnymeshError, BudgetError, OutputError
+from anymesh.errors import AnymeshError, BudgetError, OpenQuestionError, OutputError
 from anymesh.stage_results import (
     COMPLETION,
     CORRECTION,
@@ -97,6 +97,7 @@ class RunFolder(Saved):
         self._resumable = False  # the next run looks for what this one leaves
         self._foreign: set[str] = set()  # files of others that go along
         self._stale: set[str] = set()  # stages whose results no longer follow from the ones before
+        self._redone: set[str] = set()  # stages after one that was made anew: those of runs before do not follow from it
 
     @classmethod
     def create(cls, target: Path, *, source: Path, force: bool = False) -> RunFolder:
@@ -163,11 +164,12 @@ class RunFolder(Saved):
 
     def load(self, stage: Stage[Result], key: str) -> Result | None:
         """The saved result of a stage if it was made under this key; else None. It becomes part of this output."""
-        for place in (*self._places(stage), *self._earlier):
+        earlier = () if stage.name in self._redone else self._earlier
+        for place in (*self._places(stage), *earlier):
             found = read_stage(place, stage, key)
             if found is None:
                 continue
-            if place in self._earlier:
+            if place in earlier:
                 (self.folder / "stages").mkdir(exist_ok=True)
                 for name in stage_files(stage):
                     if (place / name).exists():
@@ -182,6 +184,7 @@ class RunFolder(Saved):
         write_stage(self.folder, stage, key, result)
         later = STAGES[STAGES.index(stage) + 1 :]
         self._stale |= {s.name for s in (stage, *later)}
+        self._redone |= {s.name for s in later}
         for name in (name for s in later for name in stage_files(s)):
             (self.folder / name).unlink(missing_ok=True)
 
@@ -250,11 +253,12 @@ class RunFolder(Saved):
                 hidden.discard()
 
     def _resumed_later(self, error: BaseException | None) -> bool:
-        """Whether the finished stages are kept: a budget ended the run, or a defect after which a rerun may go further."""
+        """Whether the finished stages are kept: a budget or an open question ended the run, or a defect after which a rerun
+        may go further."""
         told = isinstance(error, AnymeshError) or (isinstance(error, OSError) and self._is_mine(error))
         defect = isinstance(error, Exception) and not told
         saved = any((self.folder / stage_files(stage)[0]).exists() for stage in STAGES)
-        return isinstance(error, BudgetError) or (defect and saved and self._resumable)
+        return isinstance(error, BudgetError | OpenQuestionError) or (defect and saved and self._resumable)
 
     def _is_mine(self, error: OSError) -> bool:
         full = error.errno in (errno.ENOSPC, errno.EROFS, getattr(errno, "EDQUOT", errno.ENOSPC))

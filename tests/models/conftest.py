@@ -39,9 +39,9 @@ def service(monkeypatch: pytest.MonkeyPatch, loopback_only: None) -> Iterator[Se
     ]:
         monkeypatch.delenv(name)
     for provider, dialect in DIALECTS.items():
-        monkeypatch.setenv(dialect.key, f"{SECRET}-{provider}")
+        monkeypatch.setenv(dialect.key, f"{SECRET}-{provider.removesuffix('-responses')}")
         if dialect.base:
-            monkeypatch.setenv(dialect.base, found.url + ("/v1" if provider == "openai" else ""))
+            monkeypatch.setenv(dialect.base, found.url + ("/v1" if dialect.base == "OPENAI_BASE_URL" else ""))
     yield found
     found.over.set()
     server.shutdown()

@@ -118,9 +118,13 @@ def test_a_second_run_asks_nothing_and_a_recording_needs_no_server(model: Model)
 def test_a_budget_stops_before_the_next_call_and_the_next_run_goes_on(model: Model, capfd) -> None:
     assert articulate(model, "out", "--max-calls", "2") == 7
     assert len(model.asked) == 2
-    assert "--max-calls" in capfd.readouterr().err
+    told = capfd.readouterr().err
+    assert "--max-calls" in told
+    assert "out.transcript/index.html" in told
+    assert [p.name for p in sorted(Path("out.transcript").glob("*.json"))] == ["001_recognize.json", "002_marks.json"]
     assert not Path("out").exists()
     assert articulate(model, "out") == 0
+    assert not Path("out.transcript").exists()
     assert len(model.asked) == len(model.said)
 
 
@@ -168,6 +172,20 @@ def test_what_geometry_answered_is_asked_again_when_the_model_has_recovered(mode
     assert [kind for kind, _ in model.asked][len(before) :] == ["kinds", "points", "motions"]  # stage A stands
 
 
+def test_a_model_that_answers_nonsense_is_given_up_for_the_rest_of_the_run(model: Model) -> None:
+    model.instead.update(dict.fromkeys(dict(model.said.values()), "la la la"))
+    assert articulate(model, "out", "--cache", "off") == 0
+    assert len(model.asked) == 3
+    found = record("out")
+    assert [w for w in found["warnings"] if "given up" in w and "3 answers in a row" in w] == [
+        w for w in found["warnings"] if "given up" in w
+    ]
+    assert sum("given up" in w for w in found["warnings"]) == 1
+    assert found["usage"]["calls"] == 3
+    assert len(list(Path("out/transcript").glob("*.json"))) == 3
+    assert "not asked" in Path("out/transcript/index.html").read_text()
+
+
 def test_weights_that_cannot_be_had_are_missed_before_anything_is_asked(model: Model, capfd) -> None:
     assert articulate(model, "out", "--proposer", "sam:nowhere") == 2
     assert "--proposer sam: found 'nowhere'" in capfd.readouterr().err
@@ -176,6 +194,27 @@ def test_weights_that_cannot_be_had_are_missed_before_anything_is_asked(model: M
     assert "--viewpoints: found '8@100'" in capfd.readouterr().err
     assert model.asked == []
     assert not Path("out").exists()
+
+
+def test_a_fault_leaves_what_was_asked_until_then(model: Model, capfd) -> None:
+    first, answer = model.service.turns[0], model.answer
+
+    def fails(handler) -> None:
+        if len(model.asked) == 1:
+            model.service.turns[:] = [(404, {}, b"{}")] * 9
+            handler.send_response(404)
+            handler.send_header("content-length", "0")
+            handler.end_headers()
+        else:
+            answer(handler)
+            model.service.turns[:] = [fails]
+
+    assert first == answer
+    model.service.turns[:] = [fails]
+    assert articulate(model, "out") == 6
+    told = capfd.readouterr().err
+    assert told.count("\n") == 2
+    assert [p.name for p in Path("out.transcript").glob("*.json")] == ["001_recognize.json"]
 
 
 def test_no_answer_at_all_ends_with_one_line_and_leaves_nothing(model: Model, capfd) -> None:

@@ -12,7 +12,7 @@ from anymesh.errors import ModelError, OptionError
 from anymesh.models.cache import Cached
 from anymesh.models.double import Scripted
 from anymesh.models.replay import Replay
-from anymesh.models.transcript import write_transcript
+from anymesh.models.transcript import remove_transcript, write_transcript
 from anymesh.models.vision import Reply, Request
 from anymesh.types import Exchange, Picture
 
@@ -152,3 +152,24 @@ def test_an_earlier_transcript_goes_and_other_files_stay(tmp_path: Path) -> None
 def test_an_empty_run_has_a_page(tmp_path: Path) -> None:
     write_transcript([], tmp_path / "new")
     assert "0, 0 accepted" in page(tmp_path / "new").words
+
+
+def test_a_click_shows_a_picture_at_full_size(tmp_path: Path) -> None:
+    write_transcript(asked(a_request(), answers=[ANSWER]), tmp_path)
+    found = page(tmp_path)
+    links = [link["href"] for link in found.all("a")]
+    assert links == [image["src"] for image in found.all("img")]
+    assert all((tmp_path / str(link)).read_bytes().startswith(b"\x89PNG") for link in links)
+
+
+def test_removing_a_transcript_leaves_files_of_others(tmp_path: Path) -> None:
+    folder = tmp_path / "t"
+    remove_transcript(folder)
+    write_transcript(asked(a_request(), answers=[ANSWER]), folder)
+    (folder / "notes.txt").write_text("mine")
+    remove_transcript(folder)
+    assert [p.name for p in folder.iterdir()] == ["notes.txt"]
+    (folder / "notes.txt").unlink()
+    write_transcript(asked(a_request(), answers=[ANSWER]), folder)
+    remove_transcript(folder)
+    assert not folder.exists()

@@ -153,6 +153,20 @@ def _openai(text: str, ended: str) -> dict[str, Any]:
     return {"id": "c1", "object": "chat.completion", "created": 1, "model": "m", "choices": [choice], "usage": usage}
 
 
+def _responses(text: str, ended: str) -> dict[str, Any]:
+    said = (
+        {"type": "refusal", "refusal": text} if ended == "refused" else {"type": "output_text", "text": text, "annotations": []}
+    )
+    message = {"type": "message", "id": "m1", "role": "assistant", "status": "completed", "content": [said]}
+    details = {"input_tokens_details": {"cached_tokens": 0}, "output_tokens_details": {"reasoning_tokens": 0}}
+    return {
+        "id": "r1", "object": "response", "created_at": 1, "model": "m", "output": [message], "parallel_tool_calls": True,
+        "status": "incomplete" if ended == "length" else "completed", "tool_choice": "auto", "tools": [],
+        "incomplete_details": {"reason": "max_output_tokens"} if ended == "length" else None,
+        "usage": {"input_tokens": 700, "output_tokens": 30, "total_tokens": 730, **details},
+    }  # fmt: skip
+
+
 def _anthropic(text: str, ended: str) -> dict[str, Any]:
     stop = {"stop": "end_turn", "length": "max_tokens", "refused": "refusal"}[ended]
     content = [{"type": "text", "text": text}] if text else []
@@ -174,6 +188,11 @@ def _google(text: str, ended: str) -> dict[str, Any]:
 def _openai_content(seen: Seen) -> list[str | bytes]:
     [user] = [message for message in seen.body["messages"] if message["role"] == "user"]
     return [p["text"] if p["type"] == "text" else _data(p["image_url"]["url"]) for p in user["content"]]
+
+
+def _responses_content(seen: Seen) -> list[str | bytes]:
+    [user] = [item for item in seen.body["input"] if item["role"] == "user"]
+    return [p["text"] if p["type"] == "input_text" else _data(p["image_url"]) for p in user["content"]]
 
 
 def _data(url: str) -> bytes:
@@ -209,6 +228,19 @@ def _openai_like(name: str, key: str, base: str | None, most: str) -> Dialect:
 
 
 OPENAI = _openai_like("openai:gpt-4o", "OPENAI_API_KEY", "OPENAI_BASE_URL", "max_completion_tokens")
+RESPONSES = Dialect(
+    "openai-responses:gpt-4o",
+    "OPENAI_API_KEY",
+    "OPENAI_BASE_URL",
+    "/v1/responses",
+    _responses,
+    lambda seen: seen.body["model"],
+    lambda seen: seen.body["instructions"],
+    _responses_content,
+    lambda seen: seen.body["text"]["format"]["schema"],
+    lambda seen: seen.body["max_output_tokens"],
+    lambda seen: seen.body.get("temperature"),
+)
 COMPATIBLE = _openai_like("openai-compatible:URL/v1#qwen2.5-vl", "ANYMESH_API_KEY", None, "max_tokens")
 ANTHROPIC = Dialect(
     "anthropic:claude-sonnet-4-5",
@@ -236,4 +268,10 @@ GOOGLE = Dialect(
     lambda seen: seen.body["generationConfig"]["maxOutputTokens"],
     lambda seen: seen.body["generationConfig"].get("temperature"),
 )
-DIALECTS = {"openai": OPENAI, "anthropic": ANTHROPIC, "google": GOOGLE, "openai-compatible": COMPATIBLE}
+DIALECTS = {
+    "openai": OPENAI,
+    "openai-responses": RESPONSES,
+    "anthropic": ANTHROPIC,
+    "google": GOOGLE,
+    "openai-compatible": COMPATIBLE,
+}

@@ -11,6 +11,7 @@ from anymesh.errors import BudgetError, ModelError
 from anymesh.models.budget import Budgeted
 from anymesh.models.cache import Cached, request_key
 from anymesh.models.double import Scripted
+from anymesh.models.patience import Patience
 from anymesh.reasoning.asking import Seer
 from anymesh.reasoning.vlm import SYSTEM, VlmAnswerer
 
@@ -138,3 +139,17 @@ def test_a_spent_budget_is_no_bad_answer() -> None:
     with pytest.raises(BudgetError, match="--max-calls 1"):
         VlmAnswerer(Budgeted(Scripted(["", GOOD]), max_calls=1), other).ask(ARROWS)
     assert other.asked == []
+
+
+def test_a_model_is_given_up_after_three_bad_answers_in_a_row_and_that_is_said_once() -> None:
+    patience, other = Patience(), Other()
+    model = Scripted(["no", json.dumps(GOOD), "no", "no", "no", json.dumps(GOOD)], name="openai:gpt-4o")
+    first, second = (VlmAnswerer(model, other, patience) for _ in range(2))  # of two stages of one run
+    assert first.ask(ARROWS) == (3,)
+    assert first.ask(ARROWS) == (2,)  # two bad answers
+    assert not patience.lost
+    assert [second.ask(ARROWS) for _ in range(3)] == [(2,)] * 3
+    assert len(model.requests) == 5  # the good answer that is left is never asked for
+    assert sum("given up" in told for told in (*first.remarks, *second.remarks)) == 1
+    assert [e.skipped for e in second.exchanges] == [False, True, True]
+    assert all(e.given_up for e in second.exchanges)

@@ -49,6 +49,7 @@ def asset_record(model: Model, formats: Sequence[Format]) -> dict[str, Any]:
 
 def usage(exchanges: Sequence[Exchange]) -> dict[str, Any]:
     """What the answers of a model took: calls (of which from a cache or a recording), tokens, and dollars paid."""
+    exchanges = [e for e in exchanges if not e.skipped]
     costs = [e.cost for e in exchanges if not e.cached]
     return {
         "calls": len(exchanges),

@@ -8,29 +8,46 @@ from dataclasses import dataclass
 from urllib.parse import urlsplit
 
 from anymesh.errors import ModelError, OptionError
+from anymesh.models.servers import SERVERS
 
-VALID = "openai:MODEL, anthropic:MODEL, google:MODEL, openai-compatible:BASE_URL#MODEL or replay:FOLDER"
+VALID = (
+    "openai:MODEL, openai-responses:MODEL, anthropic:MODEL, google:MODEL, ollama:MODEL, lmstudio:MODEL, vllm:MODEL, "
+    "openai-compatible:BASE_URL#MODEL, files:FOLDER, auto or replay:FOLDER"
+)
 KEYS = {  # the environment variables that may hold the key; the first that is set counts
     "openai": ("OPENAI_API_KEY",),
+    "openai-responses": ("OPENAI_API_KEY",),  # the same models by the newer of OpenAI's two interfaces
     "anthropic": ("ANTHROPIC_API_KEY",),
     "google": ("GOOGLE_API_KEY", "GEMINI_API_KEY"),
     "openai-compatible": ("ANYMESH_API_KEY",),  # never OpenAI's: it must not reach a server of somebody else
+    **{name: server.keys for name, server in SERVERS.items()},
 }
-BASES = {"openai": "OPENAI_BASE_URL", "anthropic": "ANTHROPIC_BASE_URL", "google": "GOOGLE_GEMINI_BASE_URL"}
+BASES = {
+    "openai": "OPENAI_BASE_URL",
+    "openai-responses": "OPENAI_BASE_URL",
+    "anthropic": "ANTHROPIC_BASE_URL",
+    "google": "GOOGLE_GEMINI_BASE_URL",
+}
 NO_KEY = "no-key"  # what a server that needs none is sent, since the client insists on one
 
 
 @dataclass(frozen=True)
 class Address:
-    """provider: one of KEYS. base_url: None for the provider's own."""
+    """provider: whose client is used. base_url: None for the provider's own. service: whose key is sent, a name of KEYS."""
 
     provider: str
     model: str
     base_url: str | None = None
+    service: str | None = None
+
+    @property
+    def keys(self) -> tuple[str, ...]:
+        """The environment variables that may hold the key."""
+        return KEYS[self.service or self.provider]
 
     def key(self) -> str:
         """From the environment, at each call. Raises ModelError when there is none."""
-        names = KEYS[self.provider]
+        names = self.keys
         found = next((value for name in names if (value := os.environ.get(name, "").strip())), "")
         if not found and self.provider != "openai-compatible":
             raise ModelError(f"no key for {self.provider}: set the environment variable {' or '.join(names)}")
@@ -46,6 +63,10 @@ def parse_address(name: str) -> Address:
     provider, _, rest = name.partition(":")
     if provider not in KEYS:
         raise OptionError(f"--answerer: found {name!r}; valid are geometry, {VALID}")
+    if provider in SERVERS:
+        if not rest.strip():
+            raise OptionError(f"{name!r} names no model; `anymesh models` lists those that answer")
+        return Address("openai-compatible", rest.strip(), SERVERS[provider].base_url(), provider)
     if provider != "openai-compatible":
         if not re.fullmatch(r"[\w.:/@-]+", rest):
             raise OptionError(f"{name!r} names no model; valid are {VALID}")

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from anymesh.deadline import CALL_SECONDS
 from anymesh.errors import OptionError
-from anymesh.models.budget import Budgeted
+from anymesh.models.budget import Budgeted, Spent
 from anymesh.models.cache import Cached
 from anymesh.models.pydantic_ai_ import connect
 from anymesh.models.replay import Replay
@@ -19,7 +20,8 @@ def open_model(
     cache: Path | None = None,
     max_calls: int | None = None,
     max_cost: float | None = None,
-    timeout: float = 120.0,
+    spent: Spent | None = None,
+    timeout: float = CALL_SECONDS,
 ) -> VisionModel:
     """The model of that name, or a recording of one (`replay:FOLDER`); cache: the folder, None for none.
 
@@ -32,5 +34,6 @@ def open_model(
         if not folder:
             raise OptionError("a recording is named replay:FOLDER")
         return Replay(Path(folder))
-    model: VisionModel = Budgeted(Retrying(connect(name, timeout=timeout)), max_calls=max_calls, max_cost=max_cost)
+    model: VisionModel = Retrying(connect(name, timeout=timeout))
+    model = Budgeted(model, max_calls=max_calls, max_cost=max_cost, spent=spent)
     return model if cache is None else Cached(model, cache)

@@ -33,6 +33,7 @@ class Limits:
 
 LIMITS = {
     "openai": Limits(20 * MEGABYTE, 2048, 500, 50 * MEGABYTE),
+    "openai-responses": Limits(20 * MEGABYTE, 2048, 500, 50 * MEGABYTE),
     "anthropic": Limits(5 * MEGABYTE, 2000, 100, 32 * MEGABYTE),  # 8000 px, but 2000 px from 21 pictures on
     "google": Limits(7 * MEGABYTE, 3072, 900, 20 * MEGABYTE),
     "openai-compatible": Limits(20 * MEGABYTE, 2048, 100, 50 * MEGABYTE),  # a guess: every server has its own

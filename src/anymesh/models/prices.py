@@ -89,6 +89,7 @@ SNAPSHOT = re.compile(r"-(\d{4}-\d\d-\d\d|\d{8}|\d{3}|latest)$")  # of the same 
 
 def cost_of(model_name: str, input_tokens: int, output_tokens: int) -> float | None:
     """[USD]; None when the price is not known, as for every server of one's own."""
+    model_name = model_name.replace("openai-responses:", "openai:", 1)  # both interfaces bill alike
     row = model_name if model_name in PRICES else SNAPSHOT.sub("", model_name)
     if row not in PRICES:
         return None
@@ -101,7 +102,7 @@ def most_input_tokens(model_name: str, request: Request) -> int:
     """More tokens than the request takes: two bytes of text a token, where English takes about four."""
     texts = [request.system, request.text, json.dumps(request.schema), *(p.caption for p in request.pictures)]
     words = sum(len(text.encode()) for text in texts)
-    provider, _, model = model_name.partition(":")
+    provider, _, model = model_name.replace("openai-responses:", "openai:", 1).partition(":")
     # 1000 for what the service adds around it: the tool's wrapping, the schema in words.
     return 1000 + words // 2 + sum(most_picture_tokens(provider, model, *picture.size) for picture in request.pictures)
 

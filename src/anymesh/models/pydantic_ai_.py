@@ -17,13 +17,14 @@ from dataclasses import dataclass, field
 from threading import Thread
 from typing import TYPE_CHECKING, Any, TypeVar
 
+from anymesh.deadline import CALL_SECONDS
 from anymesh.errors import MissingExtraError, ModelError, OptionError
 from anymesh.models.address import KEYS, Address, parse_address
 from anymesh.models.hearsay import safe_words
 from anymesh.models.limits import fit
 from anymesh.models.pydantic_ai_wire_ import the_message, the_model, the_parameters, the_settings, the_text, unfenced
 from anymesh.models.retry import TransientError
-from anymesh.models.vision import Reply, Request, VisionModel
+from anymesh.models.vision import Reply, Request
 from anymesh.types.exchange import Picture
 
 if TYPE_CHECKING:
@@ -35,13 +36,13 @@ T = TypeVar("T")
 TALKATIVE = ("openai", "anthropic", "google_genai", "httpx", "httpx2", "httpcore", "httpcore2", "pydantic_ai")
 
 
-def connect(name: str, *, timeout: float = 120.0) -> VisionModel:
+def connect(name: str, *, timeout: float = CALL_SECONDS) -> Client:
     """The model of that name; `timeout` [s] holds for a whole call.
 
     Raises OptionError for a name that is not valid, MissingExtraError without the libraries, ModelError without a key.
     """
     if not timeout > 0:
-        raise OptionError(f"a time-out must be more than 0 s, found {timeout}")
+        raise OptionError(f"--timeout must be more than 0 s, found {timeout:g}")
     address = parse_address(name)
     try:
         importlib.import_module(f"pydantic_ai.models.{address.provider.partition('-')[0]}")
@@ -97,14 +98,14 @@ class Client:
             except Exception as error:
                 return self._failure(error, request)
 
-        found = _in_thread(attempt)
+        found = in_thread(attempt)
         if isinstance(found, _Failure):
             return found
         if found.finish_reason == "length":
             log.warning("%s: the answer to %r was cut off at %d tokens", self.name, request.kind, request.max_tokens)
         text, usage = the_text(found), found.usage
         return Reply(
-            text=_without_keys(unfenced(text) if self.address.provider == "openai-compatible" else text),
+            text=without_keys(unfenced(text) if self.address.provider == "openai-compatible" else text),
             model=self.name,
             input_tokens=usage.input_tokens,
             output_tokens=usage.output_tokens,
@@ -146,10 +147,18 @@ class Client:
             return _Failure(TransientError(f"{self.name}: the reply could not be read ({type(error).__name__})"))
         return _Failure(ModelError(f"{self.name}: cannot be asked ({type(error).__name__})"))
 
+    def failure_of(self, error: Exception) -> ModelError:
+        """An error of the libraries in words of our own, which quote nothing of what was sent."""
+        from pydantic_ai.exceptions import ModelHTTPError
+
+        if isinstance(error, ModelHTTPError):
+            return ModelError(f"{self.name}: HTTP {error.status_code}")
+        return self._failure(error, Request("", "", "", (), {})).error
+
     def _http_failure(self, error: ModelHTTPError, request: Request) -> _Failure:
         from pydantic_ai.exceptions import ModelQuotaExceededError
 
-        status, names = error.status_code, KEYS[self.address.provider]
+        status, names = error.status_code, self.address.keys
         message = f"{self.name}: HTTP {status}"
         if status in (401, 403):  # its words are about the key, and often hold parts of it
             message += f", the key in {' or '.join(names)} is missing or refused"
@@ -167,14 +176,14 @@ def _keys() -> list[str]:
     return [value for group in KEYS.values() for n in group if (value := os.environ.get(n, "").strip())]
 
 
-def _without_keys(text: str) -> str:
+def without_keys(text: str) -> str:
     """A server may say the key that it was sent; an answer is kept in files."""
     for key in (k for k in _keys() if len(k) >= 8):  # what is shorter is no key, and may be a word
         text = text.replace(key, "[removed]")
     return text
 
 
-def _in_thread(work: Callable[[], Coroutine[Any, Any, T]]) -> T:
+def in_thread(work: Callable[[], Coroutine[Any, Any, T]]) -> T:
     """Runs it in an event loop of its own: the caller may stand in a running one, as in a notebook.
 
     The thread is a daemon so that Ctrl-C ends the program rather than wait for the service.

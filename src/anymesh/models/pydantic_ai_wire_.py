@@ -23,6 +23,11 @@ IN_WORDS = "{system}\n\nAnswer with one JSON object alone, no other words, that 
 def the_model(address: Address, http: AsyncClient) -> Model:
     base, key = address.url(), address.key()
     match address.provider:
+        case "openai-responses":
+            from pydantic_ai.models.openai import OpenAIResponsesModel
+            from pydantic_ai.providers.openai import OpenAIProvider
+
+            return OpenAIResponsesModel(address.model, provider=OpenAIProvider(base_url=base, api_key=key, http_client=http))
         case "openai":
             from pydantic_ai.models.openai import OpenAIChatModel
             from pydantic_ai.providers.openai import OpenAIProvider

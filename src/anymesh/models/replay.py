@@ -1,12 +1,14 @@
-"""Answers from a recording: a transcript's folder, or a cache's."""
+"""Answers from a recording: a transcript's folder, a cache's, or questions answered in files."""
 
 from __future__ import annotations
 
 from collections import Counter
 from pathlib import Path
+from typing import Any
 
 from anymesh.errors import ModelError, OptionError
 from anymesh.models.cache import kept_reply, read_answer, request_key
+from anymesh.models.question_files import NAME, QuestionFolder, find_questions
 from anymesh.models.vision import Reply, Request
 
 
@@ -21,8 +23,11 @@ class Replay:
         if not folder.is_dir():
             raise OptionError(f"no recording to replay: {folder} is no folder")
         found = [record for path in sorted(folder.glob("*.json")) if (record := read_answer(path)) is not None]
+        found += [_answered(question, text) for question in find_questions(folder) if (text := question.answer()) is not None]
         if not found:
-            raise OptionError(f"no recording to replay: {folder} holds no recorded answer (NNN_KIND.json or KEY.json)")
+            raise OptionError(
+                f"no recording to replay: {folder} holds no recorded answer (NNN_KIND.json, KEY.json, or answered questions)"
+            )
         self._folder = folder
         self._records = {record["key"]: record for record in reversed(found)}
         self._names = [name for name, _ in Counter(record["model"] for record in found).most_common()]
@@ -37,3 +42,9 @@ class Replay:
             f"the recording {self._folder} has no answer to this {request.kind!r} question: the input, the options or the "
             "version differ from those of the recording; record again"
         )
+
+
+def _answered(question: QuestionFolder, answer: str) -> dict[str, Any]:
+    """Make the record of a transcript from a question's folder."""
+    record = {"kind": question.kind, "key": question.key, "model": NAME, "answer": answer}
+    return {**record, "input_tokens": 0, "output_tokens": 0}

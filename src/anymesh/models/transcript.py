@@ -28,20 +28,32 @@ table { border-collapse: collapse } td, th { padding: .1rem .8rem .1rem 0; text-
 
 
 def write_transcript(exchanges: Sequence[Exchange], folder: Path) -> None:
-    """Writes `index.html`, each picture once as `SHA256.png`, and `NNN_KIND.json` for each exchange, which Replay reads.
+    """Writes `index.html`, each picture once as `SHA256.png`, and `NNN_KIND.json` for each call, which Replay reads.
 
     What an earlier transcript left in the folder is removed, nothing else. The pictures must be there for the page.
     """
     folder.mkdir(parents=True, exist_ok=True)
-    for path in folder.iterdir():
-        if OWN.fullmatch(path.name):
-            path.unlink()
+    _clear(folder)
     for picture in {p.png: p for e in exchanges for p in e.pictures}.values():
         write_whole(folder / _file(picture), picture.png)
-    for number, exchange in enumerate(exchanges, start=1):
+    for number, exchange in ((k, e) for k, e in enumerate(exchanges, start=1) if not e.skipped):
         kind = re.sub(r"[^a-z0-9]+", "-", exchange.kind.lower()).strip("-") or "question"
         write_whole(folder / f"{number:03d}_{kind}.json", json.dumps(_record(exchange), indent=1).encode())
     write_whole(folder / "index.html", _page(exchanges).encode(errors="backslashreplace"))
+
+
+def remove_transcript(folder: Path) -> None:
+    """Remove a transcript, and its folder where that holds nothing else. Raises OSError."""
+    if (folder / "index.html").is_file():
+        _clear(folder)
+        if not any(folder.iterdir()):
+            folder.rmdir()
+
+
+def _clear(folder: Path) -> None:
+    for path in folder.iterdir():
+        if OWN.fullmatch(path.name):
+            path.unlink()
 
 
 def _file(picture: Picture) -> str:
@@ -99,6 +111,7 @@ def _figure(picture: Picture) -> str:
     width, height = picture.size
     caption = escape(picture.caption)
     image = f'<img src="{_file(picture)}" width="{width}" height="{height}" loading="lazy" alt="{caption}">'
+    image = f'<a href="{_file(picture)}" target="_blank" rel="noopener" title="full size">{image}</a>'
     return f"<figure>{image}<figcaption>{caption}</figcaption></figure>"
 
 

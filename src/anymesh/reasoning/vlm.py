@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import json
-from collections.abc import Mapping
 from dataclasses import replace
-from typing import Any
 
 from anymesh.models.cache import request_key
+from anymesh.models.patience import MOST, Patience
 from anymesh.models.vision import Reply, Request, VisionModel
-from anymesh.reasoning.asking import Answer, BadAnswerError, Question, Seer, check_schema
+from anymesh.reasoning.asking import Answer, BadAnswerError, Question, Seer
+from anymesh.reasoning.reply_text import reply_object
 from anymesh.types import Exchange
-from anymesh.types.exchange import INSTEAD
+from anymesh.types.exchange import INSTEAD, NOT_ASKED
 
 SYSTEM = (
     "You help to turn rigid 3D models into articulated ones for robot simulators. You are shown rendered pictures and asked "
@@ -21,13 +20,16 @@ SYSTEM = (
 
 
 class VlmAnswerer:
-    """Asks a model; what it cannot answer properly, `instead` answers, and the remarks say so."""
+    """Asks a model; what it cannot answer properly, `fallback` answers, and the remarks say so.
+
+    patience: shared by the answerers of one run; once it is lost the model is not asked any more.
+    """
 
     blind = False
 
-    def __init__(self, model: VisionModel, instead: Seer) -> None:
+    def __init__(self, model: VisionModel, fallback: Seer, patience: Patience | None = None) -> None:
         self.name = model.name
-        self._model, self._instead = model, instead
+        self._model, self._fallback, self._patience = model, fallback, patience or Patience()
         self._exchanges: list[Exchange] = []
         self._remarks: list[str] = []
 
@@ -42,59 +44,44 @@ class VlmAnswerer:
     def ask(self, question: Question[Answer]) -> Answer:
         """Raises ModelError when no reply can be had at all, BudgetError before a call that would pass the budget."""
         request = Request(question.kind, SYSTEM, question.text(), question.pictures, question.schema())
-        first = self._try(request, question)
-        if not isinstance(first, BadAnswerError):
-            return first
-        again = f"{request.text}\n\nYour answer to this was not valid: {first}. Answer again."
-        second = self._try(replace(request, text=again), question)
-        if not isinstance(second, BadAnswerError):
-            return second
-        self._remarks.append(
-            f"{self.name} gave no valid answer to {question.kind!r} ({second}); {self._instead.name} answered it"
-        )
-        self._exchanges[-1] = replace(self._exchanges[-1], verdict=f"not valid: {second}; {self._instead.name} {INSTEAD}")
-        return self._instead.ask(question)
+        if self._patience.lost:
+            verdict = f"{NOT_ASKED}, {self.name} was given up; {self._fallback.name} {INSTEAD}"
+            nothing = Reply("", self._model.name, 0, 0, cost=0.0)
+            self._exchanges.append(exchange_of(self._model.name, request, nothing, verdict))
+            return self._fallback.ask(question)
+        found = self._try(request, question)
+        if isinstance(found, BadAnswerError) and not self._patience.lost:
+            again = f"{request.text}\n\nYour answer to this was not valid: {found}. Answer again."
+            found = self._try(replace(request, text=again), question)
+        if not isinstance(found, BadAnswerError):
+            return found
+        self._give_way(question.kind, found)
+        return self._fallback.ask(question)
+
+    def _give_way(self, kind: str, why: BadAnswerError) -> None:
+        """Note that somebody else answers."""
+        other = self._fallback.name
+        self._remarks.append(f"{self.name} gave no valid answer to {kind!r} ({why}); {other} answered it")
+        if self._patience.first_time():
+            self._remarks.append(f"{self.name} was given up after {MOST} answers in a row that were not valid; {other} "
+                                 "answered the rest")  # fmt: skip
+        self._exchanges[-1] = replace(self._exchanges[-1], verdict=f"not valid: {why}; {other} {INSTEAD}")
 
     def _try(self, request: Request, question: Question[Answer]) -> Answer | BadAnswerError:
         reply = self._model.ask(request)
         try:
-            answer: Answer | BadAnswerError = question.parse(_object(reply.text, request.schema))
+            answer: Answer | BadAnswerError = question.parse(reply_object(reply.text, request.schema))
             verdict = "accepted"
+            self._patience.note(valid=True)
         except BadAnswerError as error:
+            self._patience.note(valid=False)
             answer, verdict = error, f"not valid: {error}; asked again"
-        self._exchanges.append(_exchange(self._model.name, request, reply, verdict))
+        self._exchanges.append(exchange_of(self._model.name, request, reply, verdict))
         return answer
 
 
-def _object(text: str, schema: Mapping[str, Any]) -> dict[str, Any]:
-    """The JSON object that an answer is, checked by its schema."""
-    if not text.strip():
-        raise BadAnswerError("it was empty, or a refusal")
-    try:
-        text.encode()  # half of a surrogate pair is no text
-        found = json.loads(text, parse_constant=_no_constant, object_pairs_hook=_once)
-        json.dumps(found, ensure_ascii=False).encode()
-    except (ValueError, RecursionError):
-        raise BadAnswerError(f"it was no JSON, or not JSON alone: {' '.join(text.split())[:60]!r}") from None
-    check_schema(found, schema)
-    return found
-
-
-def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    """The object of these; a name that comes twice is an answer that contradicts itself."""
-    found: dict[str, Any] = {}
-    for name, value in pairs:
-        if name in found:
-            raise BadAnswerError(f"an object must have each name once, found {name[:40]!r} twice")
-        found[name] = value
-    return found
-
-
-def _no_constant(name: str) -> float:
-    raise ValueError(name)
-
-
-def _exchange(model: str, request: Request, reply: Reply, verdict: str) -> Exchange:
+def exchange_of(model: str, request: Request, reply: Reply, verdict: str) -> Exchange:
+    """Record what was asked and answered; the key is that of the model `model`."""
     return Exchange(
         kind=request.kind,
         key=request_key(model, request),

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 INSTEAD = "answered instead"  # how the verdict ends where a model gave no valid answer
+NOT_ASKED = "not asked"  # how the verdict begins where a model had been given up before
 PNG = b"\x89PNG\r\n\x1a\n"
 
 
@@ -46,3 +47,8 @@ class Exchange:
     def given_up(self) -> bool:
         """Whether somebody else answered in the model's place."""
         return self.verdict.endswith(INSTEAD)
+
+    @property
+    def skipped(self) -> bool:
+        """Whether no call was made: the model had been given up."""
+        return self.verdict.startswith(NOT_ASKED)

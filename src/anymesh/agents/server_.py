@@ -1,0 +1,171 @@
+"""The tools as a server of the Model Context Protocol, over stdio or streamable HTTP."""
+
+from __future__ import annotations
+
+import json
+import threading
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import Annotated, Any, Literal
+
+import anyio
+from anyio import from_thread, to_thread
+from mcp.server.mcpserver import Context, Image, MCPServer
+from mcp.server.mcpserver.exceptions import ToolError
+from mcp.server.mcpserver.tools import Tool
+from pydantic import ConfigDict, Field
+
+from anymesh import __version__
+from anymesh.agents.places import Places
+from anymesh.agents.tools import Shown, Tools, skill_text
+from anymesh.errors import AnymeshError
+
+Content = list[str | Image]
+MeshPath = Annotated[str, Field(description="Mesh file: GLB, glTF, OBJ, PLY, STL, OFF or DAE.")]
+AssetPath = Annotated[str, Field(description="Folder of an asset that articulate wrote.")]
+OutPath = Annotated[str, Field(description="Folder to write the asset to; open questions lie in OUT.questions beside it.")]
+Formats = Annotated[str, Field(description="Of urdf, mjcf, usd, sdf, glb, with commas between.")]
+CORRECTIONS = (
+    "Each is an object with `correction` and its fields; lengths in metres, angles in radians, in the asset frame: "
+    "{change_type, part, type}, {set_axis, part, axis, origin}, {flip_sign, part}, {set_limits, part, lower, upper}, "
+    "{change_parent, part, parent}, {merge_parts, part, into}, {split_components, part}, {relabel, part, label}, "
+    "{rename, part, name}, or a motion as `inspect` lists it with motions_of ({choose_motion, ...})."
+)
+
+
+class Work:
+    """Runs the tools in threads, one at a time, with progress."""
+
+    def __init__(self, tools: Tools) -> None:
+        self.tools, self._lock = tools, threading.Lock()
+
+    async def run(
+        self, ctx: Context, tool: Callable[..., Shown], *arguments: Any, long: bool = False, **options: Any
+    ) -> Content:
+        """Raises ToolError for every error of this package."""
+        count = 0
+
+        def tell(stage: str, item: str, done: int, total: int) -> None:
+            nonlocal count
+            count += 1
+            from_thread.run(partial(ctx.report_progress, count, None, f"{stage} {item} ({done + 1}/{total})"))
+
+        def work() -> Shown:
+            with self._lock:
+                return tool(*arguments, **options, **({"progress": tell} if long else {}))
+
+        try:
+            shown = await to_thread.run_sync(work)
+        except AnymeshError as error:
+            raise ToolError(str(error)) from None
+        content: Content = [json.dumps(shown.record, indent=1)]
+        for caption, png in shown.pictures:
+            content += [caption, Image(data=png, format="png")]
+        return content
+
+
+def make_server(folders: Sequence[str]) -> MCPServer[Any]:
+    """Make the server. Raises InputError for a folder that does not exist."""
+    work = Work(Tools(Places(folders)))
+    tools = [Tool.from_function(tool, structured_output=False) for tool in (*_making(work), *_looking(work))]
+    for tool in tools:  # an argument that a tool does not have is an error, not silence
+        model = tool.fn_metadata.arg_model
+        model.model_config = ConfigDict(**{**model.model_config, "extra": "forbid"})
+        model.model_rebuild(force=True)
+        tool.parameters["additionalProperties"] = False
+    return MCPServer("anymesh", version=__version__, instructions=skill_text(), log_level="WARNING", tools=tools)
+
+
+def _making(work: Work) -> tuple[Callable[..., Any], ...]:
+    async def articulate(
+        ctx: Context,
+        mesh: MeshPath,
+        out: OutPath,
+        answerer: Annotated[
+            Literal["files", "geometry", "auto"],
+            Field(description="files: you answer from pictures; geometry: no questions; auto: a local model, else geometry."),
+        ] = "files",
+        parts: Annotated[str, Field(description="auto, nodes (the scene's), or a file of face labels.")] = "auto",
+        category: Annotated[str | None, Field(description="What the object is, where that is known.")] = None,
+        up: Annotated[str, Field(description="The file's up axis: auto, x, y, z.")] = "auto",
+        scale: Annotated[str, Field(description="auto, a factor to metres, or METRES:AXIS such as 0.9:z.")] = "auto",
+        formats: Formats = "urdf,mjcf,sdf,glb",
+        force: Annotated[bool, Field(description="Replace an existing output.")] = False,
+        time_limit: Annotated[float, Field(description="Seconds.", gt=0)] = 600.0,
+    ) -> Content:
+        """Turn a rigid mesh into an articulated asset. Stops at each open question: answer it, then call again as before."""
+        return await work.run(
+            ctx, work.tools.articulate, mesh, out, answerer=answerer, parts=parts, category=category, up=up, scale=scale,
+            formats=formats, force=force, time_limit=time_limit, long=True,
+        )  # fmt: skip
+
+    async def answer(
+        ctx: Context,
+        question: Annotated[str, Field(description="The question's folder, as articulate or open_questions gave it.")],
+        answer: Annotated[
+            dict[str, Any] | str, Field(description="An object by the schema, or 'geometry' to leave it to geometry.")
+        ],
+    ) -> Content:
+        """Answer an open question; an answer that is not valid is refused with the reason."""
+        return await work.run(ctx, work.tools.answer, question, answer)
+
+    async def correct(
+        ctx: Context, asset: AssetPath, corrections: Annotated[list[dict[str, Any]], Field(description=CORRECTIONS)]
+    ) -> Content:
+        """Correct parts and joints of an asset, all or none, and write it again."""
+        return await work.run(ctx, work.tools.correct, asset, corrections)
+
+    async def export(
+        ctx: Context,
+        asset: AssetPath,
+        formats: Formats = "urdf,mjcf,sdf,glb",
+        base: Annotated[Literal["fixed", "free"], Field(description="The root link: fixed to the world, or free.")] = "fixed",
+        drives: Annotated[Literal["passive", "position"], Field(description="Whether drives lead the joints.")] = "passive",
+        package: Annotated[str | None, Field(description="Folder for a ROS 2 package of the URDF.")] = None,
+        archive: Annotated[str | None, Field(description="Zip file of the asset.")] = None,
+    ) -> Content:
+        """Write the files of an asset in other formats, as a package or as a zip."""
+        return await work.run(
+            ctx, work.tools.export, asset, formats=formats, base=base, drives=drives, package=package, archive=archive,
+            long=True,
+        )  # fmt: skip
+
+    return articulate, answer, correct, export
+
+
+def _looking(work: Work) -> tuple[Callable[..., Any], ...]:
+    async def open_questions(
+        ctx: Context,
+        folder: Annotated[str | None, Field(description="Where to look; everywhere when not given.")] = None,
+        pictures: Annotated[Literal["auto", "all", "none"], Field(description="all: each at full size.")] = "auto",
+    ) -> Content:
+        """List the open questions; the first comes with its text, schema and pictures."""
+        return await work.run(ctx, work.tools.open_questions, folder, pictures=pictures)
+
+    async def inspect(
+        ctx: Context,
+        asset: AssetPath,
+        motions_of: Annotated[str | None, Field(description="A part whose free motions are listed, likeliest first.")] = None,
+    ) -> Content:
+        """Show parts, joints, confidence and warnings of an asset, and its preview picture."""
+        return await work.run(ctx, work.tools.inspect, asset, motions_of=motions_of)
+
+    async def check(
+        ctx: Context,
+        asset: AssetPath,
+        engines: Annotated[list[str] | None, Field(description="Where each joint is driven; mujoco when not given.")] = None,
+    ) -> Content:
+        """Check that an asset holds what a simulator needs, and drive every joint."""
+        return await work.run(ctx, work.tools.check, asset, engines or ["mujoco"])
+
+    return open_questions, inspect, check
+
+
+def serve_stdio(folders: Sequence[str]) -> None:
+    """Serve until the client closes the connection."""
+    anyio.run(make_server(folders).run_stdio_async)
+
+
+def serve_http(folders: Sequence[str], host: str, port: int) -> None:
+    """Serve `http://HOST:PORT/mcp` until interrupted; the Host and Origin of requests must be this machine's."""
+    anyio.run(partial(make_server(folders).run_streamable_http_async, host=host, port=port))

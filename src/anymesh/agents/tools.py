@@ -1,0 +1,195 @@
+"""What an agent can do, as plain functions: each takes and gives JSON values, and pictures beside them."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+from anymesh import pipeline
+from anymesh.agents.places import Places
+from anymesh.answering import FILES
+from anymesh.answers import open_in, record_answer
+from anymesh.checking import check_asset
+from anymesh.correcting import CorrectionError, open_asset, ranked_motions, save_asset
+from anymesh.correcting.log import pack_entry, unpack_log
+from anymesh.deadline import DEFAULT_SECONDS
+from anymesh.errors import OpenQuestionError, OptionError, OutputError
+from anymesh.export.formats import DEFAULT
+from anymesh.models.question_files import QuestionFolder, find_questions
+from anymesh.progress import Progress, silent
+from anymesh.storage.stage_files import read_json
+
+AUTHOR = "agent"  # in the log of corrections
+QUESTIONS = ".questions"  # how the folder of an output's questions ends, which lies beside it
+ANSWERERS = ("files", "geometry", "auto")  # nothing that costs money
+SHEET_FROM = 5  # so many pictures are shown as one sheet unless all are asked for
+
+
+@dataclass(frozen=True)
+class Shown:
+    """What a tool gives back: JSON values, and PNG pictures with captions."""
+
+    record: dict[str, Any]
+    pictures: tuple[tuple[str, bytes], ...] = ()
+
+
+class Tools:
+    """The tools over some folders. Every path that comes in is checked, every path that goes out can come in again."""
+
+    def __init__(self, places: Places) -> None:
+        self._places = places
+
+    def articulate(
+        self,
+        mesh: str,
+        out: str,
+        *,
+        answerer: str = ANSWERERS[0],
+        parts: str = "auto",
+        category: str | None = None,
+        up: str = "auto",
+        scale: str = "auto",
+        formats: str = ",".join(DEFAULT),
+        force: bool = False,
+        time_limit: float = DEFAULT_SECONDS,
+        progress: Progress = silent,
+    ) -> Shown:
+        """Work on a mesh until its asset is written or a question is open."""
+        source, target = self._places.inside(mesh), self._places.inside(out, below=True)
+        if answerer not in ANSWERERS:
+            raise OptionError(f"answerer must be one of {', '.join(ANSWERERS)}, found {answerer!r}")
+        if parts not in ("auto", "nodes"):
+            parts = str(self._places.inside(parts))
+        questions = target.parent / f"{target.name}{QUESTIONS}"
+        who = f"{FILES}{questions}" if answerer == ANSWERERS[0] else answerer
+        try:
+            asset = pipeline.articulate(
+                source, target, answerer=who, parts=parts, category=category, up=up, scale=scale, formats=formats, force=force,
+                time_limit=time_limit, progress=progress,
+            )  # fmt: skip
+        except OpenQuestionError as error:
+            (path,) = error.folders
+            shown = self._question(next(q for q in find_questions(path) if q.path == path))
+            told = "answer the question with the tool `answer`, then call `articulate` again with the same arguments"
+            return Shown({"state": "open", "next": told, **shown.record}, shown.pictures)
+        shown = self.inspect(out)
+        return Shown({"state": "done", "answerer": asset.answerer, **shown.record}, shown.pictures)
+
+    def open_questions(self, folder: str | None = None, *, pictures: str = "auto") -> Shown:
+        """List open questions; the first one with its pictures. pictures: auto, all (each at full size) or none."""
+        if pictures not in ("auto", "all", "none"):
+            raise OptionError(f"pictures must be auto, all or none, found {pictures!r}")
+        roots = self._places.folders if folder is None else (self._places.inside(folder),)
+        found = [q for root in roots for q in (open_in(root) if find_questions(root) else [])]
+        if not found:
+            return Shown({"open": 0})
+        first = self._question(found[0], pictures)
+        others = [self._places.shown(q.path) for q in found[1:]]
+        return Shown({"open": len(found), **first.record, "also_open": others}, first.pictures)
+
+    def answer(self, question: str, answer: Mapping[str, Any] | str) -> Shown:
+        """Check and write an answer to an open question."""
+        folder = self._places.inside(question)
+        if not (folder / "question.json").is_file():
+            raise OptionError(f"{question!r} is no question; `open_questions` lists them")
+        told = record_answer(folder, answer if isinstance(answer, str) else json.dumps(answer))
+        return Shown({"answered": self._places.shown(folder), "checked_whole": told.whole, "next": "call `articulate` again"})
+
+    def inspect(self, asset: str, *, motions_of: str | None = None) -> Shown:
+        """Tell the parts, joints, confidence and warnings of an asset, with its preview; of one part, its free motions too."""
+        folder = self._places.inside(asset)
+        record = read_json(folder / "asset.json")
+        if record is None:
+            raise OutputError(f"{asset!r} holds no asset; `articulate` makes one")
+        joints = ("name", "type", "parent", "child", "origin", "axis", "limits", "confidence", "reason")
+        parts = ("name", "label", "parent", "confidence", "reason")
+        told: dict[str, Any] = {
+            "asset": self._places.shown(folder),
+            "parts": [{name: part.get(name) for name in parts} for part in record["parts"]],
+            "joints": [{name: joint.get(name) for name in joints} for joint in record["joints"]],
+            "warnings": record["warnings"],
+            "files": record["files"],
+            "corrections": len(open_asset(folder).history.done),
+        }
+        if motions_of is not None:
+            told["motions"] = [_packed(motion) for motion in ranked_motions(open_asset(folder).history.asset, motions_of)]
+        preview = folder / "preview.png"
+        pictures = (
+            ((f"preview of {asset}: at rest, parts coloured, opened", preview.read_bytes()),) if preview.is_file() else ()
+        )
+        return Shown(told, pictures)
+
+    def correct(self, asset: str, corrections: Sequence[Mapping[str, Any]]) -> Shown:
+        """Apply corrections, all or none, and write the asset again."""
+        folder = self._places.inside(asset, below=True)
+        opened = open_asset(folder)
+        now = datetime.now(UTC).isoformat(timespec="seconds")
+        if not corrections:
+            raise CorrectionError("found no correction; each is an object such as {'correction': 'flip_sign', 'part': 'door'}")
+        if strange := [c for c in corrections if not isinstance(c, Mapping)]:
+            raise CorrectionError(f"a correction is an object, found {str(strange[0])[:60]!r}")
+        history = opened.history
+        for entry in unpack_log([{"how": "by numbers", **c, "time": now, "author": AUTHOR} for c in corrections]):
+            history = history.do(entry)
+        save_asset(dataclasses.replace(opened, history=history))
+        return self.inspect(asset)
+
+    def check(self, asset: str, engines: Sequence[str] = ("mujoco",)) -> Shown:
+        """Check what a simulator needs of an asset, and drive every joint."""
+        report = check_asset(self._places.inside(asset), engines=engines)
+        return Shown(report.as_json() | {"path": self._places.shown(self._places.inside(asset))})
+
+    def export(
+        self,
+        asset: str,
+        *,
+        formats: str = ",".join(DEFAULT),
+        base: str = "fixed",
+        drives: str = "passive",
+        package: str | None = None,
+        archive: str | None = None,
+        progress: Progress = silent,
+    ) -> Shown:
+        """Write the files of an asset anew in other formats; package: folder for a ROS 2 package; archive: a zip file."""
+        folder = self._places.inside(asset, below=True)
+        places = [None if path is None else self._places.inside(path) for path in (package, archive)]
+        pipeline.export(
+            folder, formats=formats, base=base, drives=drives, package=places[0], archive=places[1], progress=progress
+        )
+        made = [self._places.shown(path) for path in places if path is not None]
+        return Shown(
+            {"asset": self._places.shown(folder), "files": (read_json(folder / "asset.json") or {})["files"], "made": made}
+        )
+
+    def _question(self, question: QuestionFolder, pictures: str = "auto") -> Shown:
+        record = {
+            "question": self._places.shown(question.path),
+            "kind": question.kind,
+            "text": question.record["text"],
+            "schema": question.schema,
+            "refused": question.refusal(),
+        }
+        single = question.pictures()
+        if pictures == "none" or not single:
+            return Shown(record)
+        if pictures == "auto" and len(single) >= SHEET_FROM:
+            told = f"all {len(single)} pictures; `open_questions` with pictures='all' gives each at full size"
+            return Shown(record, ((told, (question.path / "sheet.png").read_bytes()),))
+        return Shown(record, tuple((f"{k}. {p.caption}".strip(), p.png) for k, p in enumerate(single, 1)))
+
+
+def _packed(motion: Any) -> dict[str, Any]:
+    from anymesh.correcting import Entry
+
+    found = pack_entry(Entry(motion, "", ""))
+    return {name: value for name, value in found.items() if name not in ("time", "author")}
+
+
+def skill_text() -> str:
+    """Read the skill file that is shipped."""
+    return (Path(__file__).parent / "SKILL.md").read_text(encoding="utf-8")

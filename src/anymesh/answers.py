@@ -1,0 +1,61 @@
+"""Open questions in folders, found, shown and answered: what `anymesh answer` and an agent's tools stand on."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from anymesh.errors import OptionError
+from anymesh.models.question_files import QuestionFolder, find_questions
+from anymesh.reasoning.asking import BadAnswerError
+from anymesh.reasoning.files import check_answer, leaves, open_questions
+from anymesh.reasoning.shorthand import answer_text
+
+
+@dataclass(frozen=True)
+class Recorded:
+    """An answer that was written. whole: checked by the question itself, not by its schema alone; left: still open."""
+
+    question: QuestionFolder
+    whole: bool
+    left: int
+
+    def words(self) -> str:
+        """What a user is told."""
+        rest = "" if self.whole else " (by its schema; the run checks the rest)"
+        more = f"; {self.left} more open" if self.left else "; run the command that asked again, it goes on from here"
+        return f"{self.question.path.name}: the answer is valid{rest}{more}"
+
+
+def open_in(folder: Path) -> list[QuestionFolder]:
+    """Find the open questions in a folder: one question's, one object's, or one with those of many objects.
+
+    Raises OptionError when there is no question at all, open or answered.
+    """
+    found = find_questions(folder)
+    if not found:
+        raise OptionError(f"{folder} holds no questions; `anymesh articulate MESH -o DIR --answerer files:{folder}` asks some")
+    return open_questions(found)
+
+
+def record_answer(folder: Path, told: str) -> Recorded:
+    """Check an answer (JSON, the short form, or the word geometry) to the open question in a folder, and write it.
+
+    A folder of one question that is answered gets another answer. Raises OptionError for an answer that is not valid, which
+    is not written, when no question is open, or when several are.
+    """
+    found = open_in(folder)
+    here = [q for q in find_questions(folder) if q.path == folder]
+    if len(found) > 1:
+        listed = ", ".join(str(q.path) for q in found[:8])
+        raise OptionError(f"{len(found)} questions are open in {folder}; name the one to answer: {listed}")
+    if not (found or here):
+        raise OptionError(f"no question is open in {folder}; name the folder of a question to answer it again")
+    question = (found or here)[0]
+    text = told.strip() if leaves(told) else answer_text(told, question.schema)
+    try:
+        whole = check_answer(question, text)
+    except BadAnswerError as error:
+        raise OptionError(f"{question.path.name}: this is not a valid answer: {error}") from None
+    question.write_answer(text)
+    return Recorded(question, whole, len(open_questions(find_questions(folder))))

@@ -1,0 +1,247 @@
+"""Questions as folders of files, which anyone may answer: a person, a coding agent, a script.
+
+FOLDER/NN-kind/ holds question.md, sheet.png (all pictures), 01.png and so on, schema.json and question.json; whoever answers
+writes answer.json beside them. What is wrong with an answer is written to refused.md. A question is found again by its key,
+which hangs on its words and the bytes of its pictures, not by its number.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import shutil
+import tempfile
+from collections.abc import Generator, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from threading import Event
+from typing import Any
+
+from anymesh.errors import OptionError, OutputError
+from anymesh.models.cache import request_key, write_whole
+from anymesh.models.vision import Request
+from anymesh.types.exchange import Picture
+
+NAME = "files"  # of whoever answers, in keys and transcripts: the same in every folder
+FORMAT = "anymesh-question-1"
+QUESTION, ANSWER, REFUSED, SCHEMA, WORDS = "question.json", "answer.json", "refused.md", "schema.json", "question.md"
+SHEET, CHECK, OWNER = "sheet.png", "check.npz", "object.json"
+LEAVE = "geometry"  # an answer.json with this word leaves the question to geometry
+LARGEST_ANSWER = 1_000_000  # [bytes]
+
+
+@dataclass(frozen=True)
+class QuestionFolder:
+    """One question as files. `record` is its question.json."""
+
+    path: Path
+    record: Mapping[str, Any]
+
+    @property
+    def key(self) -> str:
+        return str(self.record["key"])
+
+    @property
+    def kind(self) -> str:
+        return str(self.record["kind"])
+
+    @property
+    def outdated(self) -> bool:
+        """Whether a later run asked something else in its place."""
+        return bool(self.record.get("outdated"))
+
+    @property
+    def schema(self) -> dict[str, Any]:
+        return dict(self.record["schema"])
+
+    def pictures(self) -> tuple[Picture, ...]:
+        """Read the single pictures. Raises OutputError when one is missing."""
+        try:
+            return tuple(Picture((self.path / p["file"]).read_bytes(), p["caption"]) for p in self.record["pictures"])
+        except (OSError, ValueError) as error:
+            raise OutputError(f"{self.path} lacks pictures of its question; run the command that asked it again") from error
+
+    def answer(self) -> str | None:
+        """Read answer.json as it stands; None when there is none, or it is not yet whole (empty)."""
+        path = self.path / ANSWER
+        try:
+            if path.stat().st_size > LARGEST_ANSWER:
+                return f"({path.stat().st_size} bytes, more than an answer may have)"
+            return path.read_text(encoding="utf-8-sig", errors="replace").strip() or None
+        except OSError:
+            return None
+
+    def write_answer(self, text: str) -> None:
+        """Write answer.json; a refusal of an earlier one goes."""
+        with _writing(self.path):
+            write_whole(self.path / ANSWER, (text + "\n").encode())
+        self.accept()
+
+    def refuse(self, reason: str) -> None:
+        """Write beside the answer why it is not valid."""
+        text = (
+            f"# Refused\n\n{ANSWER} is not a valid answer: {reason}\n\nThe question stays open: correct {ANSWER}; "
+            f"{WORDS} says what is asked, {SCHEMA} what it must satisfy.\n"
+        )
+        if self.refusal() != text:
+            with _writing(self.path):
+                write_whole(self.path / REFUSED, text.encode(errors="backslashreplace"))
+
+    def refusal(self) -> str | None:
+        """Read why the answer was refused; None when it was not."""
+        try:
+            return (self.path / REFUSED).read_text(encoding="utf-8")
+        except OSError:
+            return None
+
+    def accept(self) -> None:
+        """Remove an earlier refusal."""
+        (self.path / REFUSED).unlink(missing_ok=True)
+
+    def mark(self, *, outdated: bool) -> QuestionFolder:
+        """Note whether this is still asked."""
+        if self.outdated == outdated:
+            return self
+        record = {**self.record, "outdated": outdated}
+        with _writing(self.path):
+            write_whole(self.path / QUESTION, json.dumps(record, indent=1).encode())
+        return QuestionFolder(self.path, record)
+
+
+def read_question(path: Path) -> QuestionFolder | None:
+    """Read the folder of one question; None when it is none."""
+    try:
+        record = json.loads((path / QUESTION).read_bytes())
+    except (OSError, ValueError, RecursionError):
+        return None
+    wanted = {"key": str, "kind": str, "text": str, "system": str, "schema": dict, "pictures": list}
+    if not isinstance(record, dict) or record.get("format") != FORMAT:
+        return None
+    return QuestionFolder(path, record) if all(isinstance(record.get(n), k) for n, k in wanted.items()) else None
+
+
+def find_questions(folder: Path) -> list[QuestionFolder]:
+    """Find all questions in a folder: it may be a question's own, an object's, or one that holds those of many objects."""
+    found = (read_question(path.parent) for path in sorted(folder.rglob(QUESTION)))
+    return [q for q in found if q is not None and not q.path.name.startswith(".")]
+
+
+class QuestionStore:
+    """The questions about one object, in a folder of their own. Nothing is written before the first question.
+
+    about: the object's name; a folder that holds another object's questions is an OptionError. None: not checked.
+    """
+
+    def __init__(self, folder: Path, about: str | None = None) -> None:
+        self.folder = Path(folder)
+        if self.folder.exists() and not self.folder.is_dir():
+            raise OptionError(f"files:{folder}: this is a file; questions need a folder")
+        self._about = about
+        owner = self.owner()
+        if None not in (about, owner) and about != owner:
+            raise OptionError(
+                f"files:{folder} holds the questions about {owner!r}, and this run is about {about!r}; give each object a "
+                "folder of its own, or take several meshes with --batch"
+            )
+        if owner is None and any(q.path.parent != self.folder for q in find_questions(self.folder)):
+            raise OptionError(f"files:{folder} holds the questions of several objects (--batch); name another folder")
+
+    def owner(self) -> str | None:
+        """The object that the questions are about; None when that is not noted."""
+        try:
+            found = json.loads((self.folder / OWNER).read_bytes())["object"]
+        except (OSError, ValueError, KeyError, TypeError):
+            return None
+        return found if isinstance(found, str) else None
+
+    def questions(self) -> Iterator[QuestionFolder]:
+        """Each question in the order of their numbers."""
+        paths = sorted(self.folder.iterdir()) if self.folder.is_dir() else []
+        return (q for p in paths if not p.name.startswith(".") and (q := read_question(p)) is not None)
+
+    def find(self, key: str) -> QuestionFolder | None:
+        """Find the question with this key."""
+        return next((q for q in self.questions() if q.key == key), None)
+
+    def put(self, request: Request, files: Mapping[str, bytes]) -> QuestionFolder:
+        """Find the folder of a question, or write it; others without an answer are no longer asked and marked so.
+
+        files: further files of the folder, by name. Raises OutputError when the folder cannot be written.
+        """
+        key = request_key(NAME, request)
+        found = self.find(key)
+        with _writing(self.folder):
+            if found is None:
+                found = self._write(key, request, files)
+        for other in list(self.questions()):
+            if other.key != key and (other.answer() is None or other.refusal() is not None):
+                other.mark(outdated=True)
+        return found.mark(outdated=False)
+
+    def _write(self, key: str, request: Request, files: Mapping[str, bytes]) -> QuestionFolder:
+        self.folder.mkdir(parents=True, exist_ok=True)
+        if self._about is not None and self.owner() is None:
+            write_whole(self.folder / OWNER, json.dumps({"object": self._about}).encode())
+        record = {
+            "format": FORMAT,
+            "key": key,
+            "kind": request.kind,
+            "system": request.system,
+            "text": request.text,
+            "pictures": [{"file": f"{k:02d}.png", "caption": p.caption} for k, p in enumerate(request.pictures, 1)],
+            "schema": dict(request.schema),
+        }
+        hidden = Path(tempfile.mkdtemp(dir=self.folder, prefix=".question-"))
+        try:
+            hidden.chmod(0o777 & ~_umask())
+            for name, picture in zip((p["file"] for p in record["pictures"]), request.pictures, strict=True):
+                (hidden / name).write_bytes(picture.png)
+            (hidden / SCHEMA).write_text(json.dumps(record["schema"], indent=2) + "\n")
+            (hidden / QUESTION).write_text(json.dumps(record, indent=1))
+            for name, content in files.items():
+                (hidden / name).write_bytes(content)
+            kind = re.sub(r"[^a-z0-9]+", "-", request.kind.lower()).strip("-") or "question"
+            path = _move(hidden, self.folder, kind)
+        except BaseException:
+            shutil.rmtree(hidden, ignore_errors=True)
+            raise
+        return QuestionFolder(path, record)
+
+
+def _move(hidden: Path, folder: Path, kind: str) -> Path:
+    """Rename a finished folder to the next number that is free."""
+    while True:
+        taken = [int(m[0]) for p in folder.iterdir() if (m := re.match(r"\d+(?=-)", p.name))]
+        path = folder / f"{max(taken, default=0) + 1:02d}-{kind}"
+        try:
+            return hidden.rename(path)
+        except OSError:
+            if not path.exists():
+                raise
+
+
+def _umask() -> int:
+    found = os.umask(0o022)
+    os.umask(found)
+    return found
+
+
+@contextmanager
+def _writing(folder: Path) -> Generator[None]:
+    """Turn what goes wrong with files into an OutputError."""
+    try:
+        yield
+    except OSError as error:
+        raise OutputError(f"cannot write the question to {folder}: {error.strerror or error}") from error
+
+
+def wait_for_answer(question: QuestionFolder, seen: str | None, every: float, stop: Event | None = None) -> str | None:
+    """Wait for an answer.json that differs from what was seen, looking each `every` [s]; None once `stop` is set."""
+    pause = stop or Event()
+    while not pause.wait(every):
+        found = question.answer()
+        if found is not None and found != seen:
+            return found
+    return None

@@ -1,0 +1,160 @@
+"""Answers from files: each question is a folder, and whoever likes writes the answer beside it."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+from contextlib import AbstractContextManager, nullcontext, suppress
+from pathlib import Path
+from threading import Event
+
+from anymesh.errors import InputError, OpenQuestionError
+from anymesh.models.question_files import (
+    ANSWER,
+    CHECK,
+    LEAVE,
+    NAME,
+    REFUSED,
+    SHEET,
+    WORDS,
+    QuestionFolder,
+    QuestionStore,
+    wait_for_answer,
+)
+from anymesh.models.vision import Reply, Request
+from anymesh.reasoning.asking import Answer, BadAnswerError, Question, Seer
+from anymesh.reasoning.question_words import question_page
+from anymesh.reasoning.reply_text import reply_object
+from anymesh.reasoning.saved_question import pack_question, unpack_question
+from anymesh.reasoning.vlm import SYSTEM, exchange_of
+from anymesh.rendering.sheet import question_sheet
+from anymesh.types import Exchange
+
+LEFT = f"left to {LEAVE}"  # the verdict on a question that was left
+POLL = 1.0  # [s] between two looks for an answer that is waited for
+
+
+class FileAnswerer:
+    """Takes answers from folders of files.
+
+    wait: wait for an answer that is not there, instead of raising OpenQuestionError; paused: entered while waiting, so that
+    a time limit does not count it; stop: ends all waiting; poll: time between two looks [s].
+    """
+
+    blind = False
+    remarks: tuple[str, ...] = ()
+
+    def __init__(
+        self,
+        store: QuestionStore,
+        fallback: Seer,
+        *,
+        wait: bool = False,
+        paused: Callable[[], AbstractContextManager[None]] = nullcontext,
+        stop: Event | None = None,
+        poll: float = POLL,
+    ) -> None:
+        self.name = NAME
+        self._store, self._fallback, self._wait, self._paused, self._poll = store, fallback, wait, paused, poll
+        self._stop = stop or Event()
+        self._exchanges: list[Exchange] = []
+
+    @property
+    def exchanges(self) -> tuple[Exchange, ...]:
+        return tuple(self._exchanges)
+
+    def ask(self, question: Question[Answer]) -> Answer:
+        """Raises OpenQuestionError when there is no valid answer yet, OutputError when the folder cannot be written."""
+        request = Request(question.kind, SYSTEM, question.text(), question.pictures, question.schema())
+        folder = self._store.put(request, _files(request, question))
+        begin, text = time.monotonic(), folder.answer()
+        while True:
+            if text is not None:
+                try:
+                    return self._accept(question, request, folder, text, time.monotonic() - begin)
+                except BadAnswerError as error:
+                    folder.refuse(str(error))
+            if not self._wait or self._stop.is_set():
+                raise _open(folder)
+            with self._paused():
+                text = wait_for_answer(folder, text, self._poll, self._stop)
+
+    def _accept(
+        self, question: Question[Answer], request: Request, folder: QuestionFolder, text: str, seconds: float
+    ) -> Answer:
+        left = leaves(text)
+        answer = self._fallback.ask(question) if left else question.parse(reply_object(text, request.schema))
+        folder.accept()
+        reply = Reply(text, NAME, 0, 0, cost=0.0, seconds=seconds)
+        self._exchanges.append(exchange_of(NAME, request, reply, LEFT if left else "accepted"))
+        return answer
+
+
+def leaves(text: str) -> bool:
+    """Tell whether an answer leaves its question to geometry."""
+    return text.strip().strip('"') == LEAVE
+
+
+def check_answer(folder: QuestionFolder, text: str) -> bool:
+    """Check an answer by the schema and, where the question was saved whole, by the question itself.
+
+    Returns whether it was. Raises BadAnswerError.
+    """
+    if leaves(text):
+        return True
+    found = reply_object(text, folder.schema)
+    try:
+        question = unpack_question((folder.path / CHECK).read_bytes(), folder.pictures())
+    except (OSError, InputError):
+        return False  # of another version: the run that goes on checks the rest
+    question.parse(found)
+    return True
+
+
+def open_questions(questions: Sequence[QuestionFolder]) -> list[QuestionFolder]:
+    """Those without a valid answer; a refusal is written beside an answer that is not valid."""
+    return [q for q in questions if not q.outdated and not _answered(q)]
+
+
+def _answered(folder: QuestionFolder) -> bool:
+    text = folder.answer()
+    if text is None:
+        return False
+    try:
+        check_answer(folder, text)
+    except BadAnswerError as error:
+        folder.refuse(str(error))
+        return False
+    folder.accept()
+    return True
+
+
+def still_answered(store: QuestionStore, exchanges: Sequence[Exchange]) -> bool:
+    """Tell whether the files still hold the answers that a saved stage was made with."""
+    asked = {q.key: q for q in store.questions()}
+    return all(e.key in asked and asked[e.key].answer() == e.answer for e in exchanges)
+
+
+def _files(request: Request, question: Question[Answer]) -> dict[str, bytes]:
+    """The files beside question.json; without CHECK, `check_answer` goes by the schema alone."""
+    files = {WORDS: question_page(request).encode()}
+    with suppress(TypeError):  # a question of somebody else's may hold anything
+        files[CHECK] = pack_question(question)
+    if request.pictures:
+        files[SHEET] = question_sheet(request.pictures).png
+    return files
+
+
+def _open(folder: QuestionFolder) -> OpenQuestionError:
+    place = folder.path.parent
+    refused = f"the answer to {folder.kind!r} was refused ({folder.path / REFUSED} says why)"
+    why = f"the question {folder.kind!r} is open" if folder.refusal() is None else refused
+    return OpenQuestionError(
+        f"{why}: {folder.path / WORDS} asks it, {ANSWER} beside it or `anymesh answer {_quoted(place)} VALUE` answers it; "
+        "then run the same command again, it goes on from here",
+        [folder.path],
+    )
+
+
+def _quoted(path: Path) -> str:
+    return f"'{path}'" if " " in str(path) else str(path)

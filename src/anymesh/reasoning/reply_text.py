@@ -1,0 +1,37 @@
+"""The text of a reply as the JSON object that it should be."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from typing import Any
+
+from anymesh.reasoning.asking import BadAnswerError, check_schema
+
+
+def reply_object(text: str, schema: Mapping[str, Any]) -> dict[str, Any]:
+    """Read an answer as one JSON object that satisfies its schema. Raises BadAnswerError."""
+    if not text.strip():
+        raise BadAnswerError("it was empty, or a refusal")
+    try:
+        text.encode()  # half of a surrogate pair is no text
+        found = json.loads(text, parse_constant=_no_constant, object_pairs_hook=_unique)
+        json.dumps(found, ensure_ascii=False).encode()
+    except (ValueError, RecursionError):
+        raise BadAnswerError(f"it was no JSON, or not JSON alone: {' '.join(text.split())[:60]!r}") from None
+    check_schema(found, schema)
+    return found
+
+
+def _unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """Make an object of these; a name that comes twice is an answer that contradicts itself."""
+    found: dict[str, Any] = {}
+    for name, value in pairs:
+        if name in found:
+            raise BadAnswerError(f"an object must have each name once, found {name[:40]!r} twice")
+        found[name] = value
+    return found
+
+
+def _no_constant(name: str) -> float:
+    raise ValueError(name)

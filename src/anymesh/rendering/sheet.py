@@ -1,0 +1,80 @@
+"""A contact sheet of the pictures of a question, each under its caption, for whoever looks at one file only."""
+
+from __future__ import annotations
+
+import io
+import math
+from collections.abc import Sequence
+
+from PIL import Image, ImageDraw
+
+from anymesh.rendering.labels import font
+from anymesh.types.exchange import Picture
+
+SIDE = 2000  # [px] the longest side of a sheet: what vision models take without shrinking it
+LARGEST_CELL, LEAST_CELL = 900, 240  # [px] of the longer side of one picture; a sheet grows rather than go below
+TEXT, LINE, GAP = 16, 21, 8  # [px] font, height of a line, room between cells
+MOST_LINES = 3  # of one caption
+
+
+def question_sheet(pictures: Sequence[Picture]) -> Picture:
+    """Lay out pictures in rows, numbered 1.. with their captions. Raises ValueError without pictures."""
+    if not pictures:
+        raise ValueError("a contact sheet needs at least one picture")
+    columns, width = _layout([p.size for p in pictures])
+    titles = [_lines(_title(k, p), width) for k, p in enumerate(pictures, 1)]
+    images = [_shrunk(picture, width) for picture in pictures]
+    bar = LINE * max(map(len, titles)) + 4
+    heights = [max(i.height for i in images[k : k + columns]) + bar for k in range(0, len(images), columns)]
+    size = columns * (width + GAP) + GAP, sum(heights) + (len(heights) + 1) * GAP
+    sheet = Image.new("RGB", size, (200, 200, 200))
+    draw = ImageDraw.Draw(sheet)
+    for k, (image, lines) in enumerate(zip(images, titles, strict=True)):
+        row, column = divmod(k, columns)
+        x, y = GAP + column * (width + GAP), GAP + sum(heights[:row]) + row * GAP
+        draw.rectangle([x, y, x + width - 1, y + heights[row] - 1], fill=(255, 255, 255))
+        for n, line in enumerate(lines):
+            draw.text((x + 4, y + 2 + n * LINE), line, fill=(20, 20, 20), font=font(TEXT))
+        sheet.paste(image, (x + (width - image.width) // 2, y + bar))
+    buffer = io.BytesIO()
+    sheet.save(buffer, "PNG")
+    return Picture(buffer.getvalue(), "contact sheet")
+
+
+def _title(number: int, picture: Picture) -> str:
+    plain = "".join(c if " " <= c <= "~" else "?" for c in picture.caption)
+    return f"{number}. {plain}" if plain else f"{number}."
+
+
+def _shrunk(picture: Picture, width: int) -> Image.Image:
+    with Image.open(io.BytesIO(picture.png)) as image:
+        small = image.convert("RGB")
+    small.thumbnail((width, 4 * width), Image.Resampling.LANCZOS)
+    return small
+
+
+def _layout(sizes: Sequence[tuple[int, int]]) -> tuple[int, int]:
+    """Choose the number of columns that shows the pictures largest, and the width of a cell [px]."""
+    wide, high = max(w for w, _ in sizes), max(h for _, h in sizes)
+    least = min(1.0, LEAST_CELL / max(wide, high))
+    options = []
+    for columns in range(1, len(sizes) + 1):
+        rows = math.ceil(len(sizes) / columns)
+        across, down = (SIDE / columns - GAP) / wide, (SIDE / rows - MOST_LINES * LINE - GAP) / high
+        options.append((max(least, min(across, down, LARGEST_CELL / max(wide, high), 1.0)), -max(rows, columns), columns))
+    scale, _, columns = max(options)
+    return columns, max(1, int(wide * scale))
+
+
+def _lines(text: str, width: int) -> list[str]:
+    """Break a caption into lines that fit [px]; what does not fit MOST_LINES ends in an ellipsis."""
+    lines, letters = [""], font(TEXT)
+    for word in text.split():
+        longer = f"{lines[-1]} {word}".strip()
+        if letters.getlength(longer) <= width - 8 or not lines[-1]:
+            lines[-1] = longer
+        else:
+            lines.append(word)
+    if len(lines) > MOST_LINES:
+        lines = [*lines[: MOST_LINES - 1], f"{lines[MOST_LINES - 1]} ..."]
+    return lines

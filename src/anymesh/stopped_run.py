@@ -1,0 +1,49 @@
+"""What is left to read of a run that a budget or a fault ended: its questions and answers until then."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Generator, Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+from anymesh.answering import Answerer
+from anymesh.errors import OpenQuestionError, OutputError
+from anymesh.models.transcript import remove_transcript, write_transcript
+from anymesh.run_folder import RunFolder
+from anymesh.stage_results import JOINTS, RECOGNITION, SEGMENTATION
+from anymesh.types import Exchange
+
+log = logging.getLogger("anymesh")
+
+
+@contextmanager
+def kept_transcript(run: RunFolder, who: Answerer) -> Generator[None]:
+    """Write OUT.transcript beside the output when the run ends early, and remove that of an earlier run when it does not."""
+    folder = run.target.parent / f"{run.target.name}.transcript"
+    try:
+        yield
+    except OpenQuestionError:
+        raise  # the folders of its questions are there to read
+    except BaseException:
+        _write(run, who, folder)
+        raise
+    with suppress(OSError):
+        remove_transcript(folder)
+
+
+def _write(run: RunFolder, who: Answerer, folder: Path) -> None:
+    saved = list(_saved(run))
+    exchanges = [*saved, *(e for e in who.asked() if e not in saved)]
+    if exchanges:
+        try:
+            write_transcript(exchanges, folder)
+            log.warning("what was asked and answered until then: %s", folder / "index.html")
+        except OSError as error:  # what ended the run is what matters
+            log.warning("the transcript cannot be written to %s: %s", folder, error.strerror or error)
+
+
+def _saved(run: RunFolder) -> Iterator[Exchange]:
+    for stage in (RECOGNITION, SEGMENTATION, JOINTS):
+        with suppress(OutputError):
+            yield from run.need(stage).exchanges
