@@ -72,7 +72,6 @@ BAD += [
     ("recognize", whole(parent="lid"), "parent must be 'base' or one of ['door', 'knob'], found 'lid'"),
     ("recognize", whole(parent=""), "found ''"),
     ("recognize", whole(parent="knob"), "those of 'door' go in a circle"),
-    ("recognize", whole(parent="door"), "those of 'door' go in a circle"),
     ("recognize", whole(lower=90, upper=0), "door: valid is lower <= 0 <= upper, not both 0; found 90, 0"),
     ("recognize", whole(lower=10), "found 10, 90"),
     ("recognize", whole(upper=0), "found 0, 0"),
@@ -115,3 +114,8 @@ def test_marks_that_are_nowhere_are_told() -> None:
     question = WhichMarks((), ("door",), True, (nothing,), (nothing,))
     with pytest.raises(BadAnswerError, match="must be of none, found"):
         question.parse(marks(("door", 1, 0, [1])))
+
+
+def test_a_label_may_hang_on_itself() -> None:
+    found = ASKED["recognize"].question.parse(whole(parent="door"))
+    assert [(r.label, r.parent) for r in found.labels] == [("door", "door"), ("knob", "door")]

@@ -199,3 +199,10 @@ def test_the_motion_is_the_one_that_takes_the_part_where_it_belongs(case: str) -
 def test_what_turns_endlessly_turns_both_ways() -> None:
     back = turn(-Y, (0.2, 0, 0.2))
     assert ask(WhichMotions((), (MotionTable(shown(KNOB), (back,), (1.0,)),))) == (0,)
+
+
+def test_a_label_whose_parts_hang_on_each_other_is_its_own_parent() -> None:
+    lamp = replace(KNOWN, labels=("base", "arm", "arm", "drawer", "knob", "panel"), parents=(0, 0, 1, 0, 2, 0))
+    assert [(r.label, r.parent) for r in ask(Recognize(()), lamp).labels] == [
+        ("arm", "arm"), ("drawer", "base"), ("knob", "arm"),
+    ]  # fmt: skip

@@ -14,6 +14,7 @@ from anymesh.articulation.cases import Case, ask_each, make_cases
 from anymesh.articulation.decode import hinge, slide, surface_directions
 from anymesh.articulation.estimate import joint_of
 from anymesh.articulation.evidence import weigh_all
+from anymesh.articulation.limits import answered_range
 from anymesh.articulation.verify import Choice, choose, is_free, words
 from anymesh.config import Config
 from anymesh.geometry.pieces import ObjectShape
@@ -127,4 +128,5 @@ def _joint(case: Case, choice: Choice, verify: bool) -> Joint:
         turns = choice.best.motion.kind is MotionKind.TURN
         endless = case.answer.endless and (turns_freely(choice.best) or not verify)
         kind = JointType.PRISMATIC if not turns else JointType.CONTINUOUS if endless else JointType.REVOLUTE
-    return joint_of(case.around, case.name, case.parent, choice.best, kind, choice.confidence, choice.reason)
+    answered = answered_range(case.recognized, kind)
+    return joint_of(case.around, case.name, case.parent, choice.best, kind, choice.confidence, choice.reason, answered)

@@ -124,13 +124,18 @@ class Knowing:
     def _recognition(self) -> Recognition:
         known, found = self._known, {}
         for part, (label, joint) in enumerate(zip(known.kinds, known.joints, strict=True)):
-            if joint is not None and self._moves(part) and label not in found:
-                over = known.parents[part]
-                while over and not self._moves(over):
-                    over = known.parents[over]
-                parent = BASE if over == 0 or known.kinds[over] == label else known.kinds[over]
-                found[label] = RecognizedLabel(label, Moves(joint.type.value), parent, joint.range)
+            if joint is not None and self._moves(part):
+                parent = self._parent(part)
+                if label not in found or parent == label:  # a part on another of its own label makes it a chain
+                    found[label] = RecognizedLabel(label, Moves(joint.type.value), parent, joint.range)
         return Recognition(known.category, known.size, tuple(found.values()))
+
+    def _parent(self, part: int) -> str:
+        """The label of the movable part that a part is mounted on."""
+        over = self._known.parents[part]
+        while over and not self._moves(over):
+            over = self._known.parents[over]
+        return self._known.kinds[over] if over else BASE
 
     def _moves(self, part: int) -> bool:
         joint = self._known.joints[part]

@@ -34,7 +34,8 @@ class Recognize:
             "buttons, wheels, levers, handles that turn (not handles fixed to a door), and so on. Give one entry a kind, not "
             "one a piece; leave out what does not move. label: one short English noun in lower case. moves: revolute (turns "
             "within limits), continuous (turns endlessly) or prismatic (slides). parent: the label of the part that it is "
-            f"mounted on, or {BASE!r}. lower, upper: how far it can move from the pose that is shown, opening positive: "
+            f"mounted on, its own label where such parts hang on each other in a chain, or {BASE!r}. "
+            "lower, upper: how far it can move from the pose that is shown, opening positive: "
             "degrees for revolute, centimetres for prismatic, 0 and 0 for continuous; lower <= 0 <= upper."
         )
 
@@ -79,8 +80,8 @@ def check_labels(labels: Sequence[str]) -> tuple[str, ...]:
 
 def _check_tree(parent: Mapping[str, str]) -> None:
     for label in parent:
-        seen, at = {label}, parent[label]
-        while at != BASE:
+        seen, at = set[str](), label
+        while at != BASE and parent[at] != at:  # a label on itself is a chain of such parts
             if at in seen:
                 raise BadAnswerError(f"parents must lead to {BASE!r}, but those of {label!r} go in a circle")
             seen.add(at)
