@@ -20,8 +20,8 @@ class Answering(TypedDict, total=False):
     answerer: geometry, openai:MODEL, anthropic:MODEL, google:MODEL, openai-compatible:BASE_URL#MODEL or replay:FOLDER;
     category: what the object is; seed: from 0 up; parts_list: labels of the parts that move, which a model is then not asked
     for; at_least: parts that geometry takes however thin the evidence is; proposer: of masks for a model, exact, sam:..., or
-    exact+sam:...; verify: motion or off; max_calls, max_cost [USD]: no call is made that would pass them; cache: folder of
-    answers (None: no cache).
+    exact+sam:...; verify: motion, free or off; max_calls, max_cost [USD]: no call is made that would pass them; cache: folder
+    of answers (None: no cache).
     """
 
     answerer: str

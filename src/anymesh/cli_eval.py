@@ -44,7 +44,7 @@ def evaluate(
     only: Only = "",
     jobs: Jobs = None,
     proposer: Annotated[str, typer.Option(help="Of masks for a model: exact, sam:WEIGHTS or exact+sam:WEIGHTS.")] = "exact",
-    verify: Annotated[str, typer.Option(help="motion, or off: the paper's method as it is.")] = "motion",
+    verify: Annotated[str, typer.Option(help="motion, free, or off: the paper's method as it is.")] = "motion",
     at_least: Annotated[
         int, typer.Option("--at-least", metavar="N", help="Parts that geometry takes however thin the evidence is.")
     ] = 0,

@@ -26,7 +26,10 @@ AtLeast = Annotated[
     int, typer.Option("--at-least", metavar="N", help="Parts taken however thin the evidence is; 1 for what is known to move.")
 ]
 Proposer = Annotated[str, typer.Option(help="Of masks for a model: exact, sam:WEIGHTS or exact+sam:WEIGHTS.")]
-Verify = Annotated[str, typer.Option(help="motion: a model chooses among free motions; off: the paper's method as it is.")]
+VERIFY_HELP = (
+    "motion: a model chooses among motions; free: its picks are taken, replaced where blocked; off: the paper's method."
+)
+Verify = Annotated[str, typer.Option(help=VERIFY_HELP)]
 MaxCalls = Annotated[int | None, typer.Option("--max-calls", help="No call of a model beyond so many.")]
 MaxCost = Annotated[float | None, typer.Option("--max-cost", metavar="USD", help="No call that could pass this cost.")]
 Cache = Annotated[

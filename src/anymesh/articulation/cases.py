@@ -9,6 +9,7 @@ import numpy as np
 
 from anymesh.articulation.decode import plane_normal
 from anymesh.articulation.estimate import surroundings
+from anymesh.articulation.own_axes import round_pieces
 from anymesh.articulation.tree import descendants, parents
 from anymesh.articulation.twins import agree, same_size
 from anymesh.config import Config
@@ -26,8 +27,8 @@ MOST_PICTURES = 8  # in one call
 class Case:
     """A part on its way to a joint.
 
-    number: in the segmentation; carried: parts that hang on it; recognized: what recognition says of its label; asked: the
-    motion answered.
+    number: in the segmentation; carried: parts that hang on it; circles: axes of round pieces; recognized: what recognition
+    says of its label; asked: the motion answered.
     """
 
     number: int
@@ -36,6 +37,7 @@ class Case:
     carried: tuple[int, ...]
     around: Surroundings
     shown: PartShown
+    circles: tuple[Motion, ...] = ()
     recognized: RecognizedLabel | None = None
     answer: KindAnswer = KindAnswer(JointKind.FIXED)  # noqa: RUF009 - frozen
     asked: Motion | None = None
@@ -72,7 +74,10 @@ def make_cases(whole: ObjectShape, segmentation: Segmentation, recognition: Reco
             contact=contact,
         )
         carried = tuple(descendants(parent, i))
-        found.append(Case(i, part.name, segmentation.parts[parent[i]].name, carried, around, shown, told.get(part.label)))
+        circles = round_pieces(whole, shapes[i], shapes[parent[i]])
+        found.append(
+            Case(i, part.name, segmentation.parts[parent[i]].name, carried, around, shown, circles, told.get(part.label))
+        )
     return found
 
 

@@ -142,6 +142,17 @@ def ends_near(along: Float[np.ndarray, " n"], near: Bool[np.ndarray, " n"]) -> i
     return sum(bool(near[end].sum() > 0.2 * end.sum()) for end in (along > 0.8, along < -0.8))
 
 
+def pressed(around: Surroundings, c: Candidate, answered: Range | None = None) -> bool:
+    """Return whether a slide goes into its parent from where it is, as buttons do. answered: its range, if there is one."""
+    small = around.part.box.diagonal < CONTROL * around.diagonal or around.outline.roundness > ROUND
+    if c.motion.kind is not MotionKind.SLIDE or c.outward <= 0.7 or not (small or answered):
+        return False
+    if answered is not None:
+        return -answered[0] > answered[1]
+    lower, upper = _slide(around, c)
+    return -lower > upper
+
+
 def _tiny(around: Surroundings) -> bool:
     return around.part.box.diagonal < BUTTON * around.diagonal
 
