@@ -7,16 +7,18 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from jaxtyping import Bool, Float, UInt8
+from jaxtyping import Bool, Float, Int, UInt8
 
 from anymesh.rendering.paint import HIGHLIGHT, lighten
 from anymesh.rendering.raycast_ import Hits, RayScene
-from anymesh.rendering.render import BACKGROUND, lit, shade
+from anymesh.rendering.render import lit, shade
 from anymesh.types import Mesh
 from anymesh.types.camera import Camera
 
 LIGHTEN = 0.5  # of what stands still
 MARGIN = 2.0  # [px] round the part's box in a picture, in which rays are cast at it
+ONWARD = 1e-5  # share of the diagonal by which a ray goes on behind a face that moves
+MOST_LAYERS = 24  # faces that move, which a ray passes before it counts as lost
 
 Rays = tuple[np.ndarray, np.ndarray]  # origins and directions, as of `Camera.rays`
 Pose = Float[np.ndarray, "4 4"]
@@ -24,32 +26,30 @@ Pose = Float[np.ndarray, "4 4"]
 
 @dataclass(frozen=True, eq=False)
 class PartPixels:
-    """What a part alone would show in a picture: distance [m] (inf: nothing) and normal, towards the camera, of each pixel."""
+    """The pixels that a part alone would cover: their numbers, row by row, the distance of each in lengths of its ray, and its
+    normal, towards the camera."""
 
+    pixel: Int[np.ndarray, " k"]
+    distance: Float[np.ndarray, " k"]
+    normal: Float[np.ndarray, "k 3"]
+
+
+@dataclass(frozen=True, eq=False)
+class Still:
+    """What stands still in a picture: lit and lightened colour, distance (inf: nothing) and normal of each pixel."""
+
+    color: UInt8[np.ndarray, "n 3"]
     distance: Float[np.ndarray, " n"]
     normal: Float[np.ndarray, "n 3"]
-
-    @property
-    def mask(self) -> Bool[np.ndarray, " n"]:
-        """Pixels that it covers."""
-        return np.isfinite(self.distance)
 
 
 @dataclass(frozen=True, eq=False)
 class Posed:
-    """The object as modelled and the faces that move. Poses are rigid transforms of these faces from where they are."""
+    """The object as modelled, its rays, and the faces that move. Poses are rigid transforms of these from where they are."""
 
     mesh: Mesh
     moving: Bool[np.ndarray, " F"]
-
-    @cached_property
-    def still(self) -> Mesh:
-        """The faces that stand still."""
-        return self.mesh.subset(~self.moving)
-
-    @cached_property
-    def _still_scene(self) -> RayScene | None:
-        return RayScene(self.still.vertices, self.still.faces) if len(self.still.faces) else None
+    scene: RayScene
 
     @cached_property
     def part(self) -> Mesh:
@@ -66,50 +66,53 @@ class Posed:
         return self.part.vertices
 
     @cached_property
-    def bounds(self) -> Float[np.ndarray, "2 3"]:
-        """Of what stands still; of the part where nothing does."""
-        points = self.still.vertices if len(self.still.vertices) else self.corners
-        return np.stack([points.min(0), points.max(0)])
+    def _box(self) -> Float[np.ndarray, "8 3"]:
+        """The corners of the box round the faces that move, at rest."""
+        return np.stack(np.meshgrid(*bounds_of([self.corners]).T, indexing="ij"), -1).reshape(-1, 3)
 
     def still_hits(self, rays: Rays) -> Hits:
-        """The first hits of what stands still."""
-        if self._still_scene is not None:
-            return self._still_scene.first_hit(*rays)
-        nothing = np.zeros(len(rays[0]))
-        return Hits(np.full(len(rays[0]), -1), nothing + np.inf, nothing, nothing)
+        """The first hits of what stands still: rays go on behind faces that move."""
+        hits = self.scene.first_hit(*rays)
+        face, distance, u, v = (a.copy() for a in (hits.face, hits.distance, hits.u, hits.v))
+        step = ONWARD * self.mesh.diagonal / np.linalg.norm(rays[1], axis=1)
+        for _ in range(MOST_LAYERS):
+            rows = np.flatnonzero(face >= 0)
+            rows = rows[self.moving[face[rows]]]
+            if len(rows) == 0:
+                break
+            done = distance[rows] + step[rows]
+            onward = self.scene.first_hit(rays[0][rows] + done[:, None] * rays[1][rows], rays[1][rows])
+            face[rows], distance[rows], u[rows], v[rows] = onward.face, onward.distance + done, onward.u, onward.v
+        lost = (face >= 0) & self.moving[face]
+        face[lost], distance[lost] = -1, np.inf
+        return Hits(face, distance, u, v)
 
-    def still_picture(self, rays: Rays) -> tuple[UInt8[np.ndarray, "n 3"], Hits, Float[np.ndarray, "n 3"]]:
-        """The lit and lightened colours of what stands still, its hits and its normals."""
+    def still_picture(self, rays: Rays) -> Still:
+        """What a picture shows of what stands still."""
         hits = self.still_hits(rays)
-        if self._still_scene is None:
-            return np.full((len(rays[0]), 3), BACKGROUND, np.uint8), hits, np.zeros((len(rays[0]), 3))
-        color, normal = shade(self.still, hits, rays[1])
-        return lighten(color, LIGHTEN), hits, normal
+        color, normal = shade(self.mesh, hits, rays[1])
+        return Still(lighten(color, LIGHTEN), hits.distance, normal)
 
-    def part_pixels(self, T: Pose, camera: Camera, rays: Rays) -> PartPixels:
-        """What the part alone would show in a pose. rays: of this camera."""
-        rows = self._rows(T, camera)
+    def part_pixels(self, T: Pose, camera: Camera) -> PartPixels:
+        """The pixels that the part alone would cover in a pose: rays are cast at it from where it sees the camera."""
+        columns, rows = self._box_pixels(T, camera)
         R, t = T[:3, :3], T[:3, 3]
-        hits = self._part_scene.first_hit((rays[0][rows] - t) @ R, rays[1][rows] @ R)
-        seen = hits.face >= 0
-        distance = np.full(len(rays[0]), np.inf)
-        normal = np.zeros((len(rays[0]), 3))
-        distance[rows[seen]] = hits.distance[seen]
-        own = self.part.face_normals[hits.face[seen]] @ R.T
-        toward = np.einsum("ij,ij->i", own, rays[1][rows[seen]]) > 0
-        normal[rows[seen]] = np.where(toward[:, None], -own, own)
-        return PartPixels(distance, normal)
+        across, along = (terms @ R.astype(np.float32) for terms in camera.ray_grid(columns + 0.5, rows + 0.5))
+        directions = (along[:, None] + across).reshape(-1, 3)
+        hits = self._part_scene.surface_hits((camera.T_world_camera[:3, 3] - t) @ R, directions)
+        seen = np.flatnonzero(hits.face >= 0)
+        pixel = (rows[:, None] * camera.width + columns).reshape(-1)[seen]
+        return PartPixels(pixel, hits.depth[seen].astype(float), (hits.normal[seen] @ R.T.astype(np.float32)).astype(float))
 
-    def _rows(self, T: Pose, camera: Camera) -> np.ndarray:
-        """The pixels in the box of the part's pose."""
-        pixel, depth = camera.project(self.corners @ T[:3, :3].T + T[:3, 3])
+    def _box_pixels(self, T: Pose, camera: Camera) -> tuple[Int[np.ndarray, " w"], Int[np.ndarray, " h"]]:
+        """The columns and rows of the box of the part's pose."""
+        pixel, depth = camera.project(self._box @ T[:3, :3].T + T[:3, 3])
         if (depth <= 0).any():
-            return np.arange(camera.width * camera.height)
+            return np.arange(camera.width), np.arange(camera.height)
         limit = np.array([camera.width, camera.height])
         low = np.clip(np.floor(pixel.min(0) - MARGIN), 0, limit).astype(int)
         high = np.clip(np.ceil(pixel.max(0) + MARGIN), 0, limit).astype(int)
-        grid = np.arange(camera.width * camera.height).reshape(camera.height, camera.width)
-        return grid[low[1] : high[1], low[0] : high[0]].reshape(-1)
+        return np.arange(low[0], high[0]), np.arange(low[1], high[1])
 
 
 def part_color(normal: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 3"]:

@@ -12,8 +12,8 @@ from PIL import Image, ImageDraw
 from anymesh.rendering.axes import axis_line, draw_arrow, draw_ring, ring
 from anymesh.rendering.labels import PAD, Plate, draw_plate, plate_size
 from anymesh.rendering.paint import HIGHLIGHT, blend, rim
-from anymesh.rendering.posed import PartPixels, Posed, Rays, bounds_of, part_color
-from anymesh.rendering.raycast_ import Hits, RayScene
+from anymesh.rendering.posed import PartPixels, Posed, Rays, Still, bounds_of, part_color
+from anymesh.rendering.raycast_ import RayScene
 from anymesh.rendering.viewpoints import box_of, orbit_camera, zoom
 from anymesh.types import Mesh, Motion, MotionKind
 from anymesh.types.camera import Camera
@@ -28,7 +28,7 @@ TITLE, WORD = 24, 18  # [px] font of a panel's number, and of what it says of th
 WHITE, BLOCKED = (255, 255, 255), (250, 200, 120)  # ground of what a panel says, also of a blocked motion
 STILL_LINE, PART_LINE, LINE = (120, 120, 120), (8, 30, 90), 0.55  # colours of lines along creases, and their opacity
 CREASE = 0.82  # cosine (35 degrees) below which a surface bends sharply
-SKETCH = 80  # [px] of the pictures that the camera is chosen with
+SKETCH = 64  # [px] of the pictures that the camera is chosen with
 DEPTH = 0.02  # share of the diagonal from which a difference in depth counts
 TURNS = {24: 1.0, 55: 0.75, -24: 0.4}  # elevations [deg]; how welcome they are: people know things from a little above
 SIDES = {35: 1.0, -35: 1.0, 0: 0.65, 75: 0.9, -75: 0.9, 145: 0.8, -145: 0.8}  # azimuths [deg]; obliquely, all three sizes show
@@ -50,25 +50,29 @@ def motion_strip(
     numbers: Sequence[int] | None = None,
     blocked: Sequence[bool] = (),
     camera: Camera | None = None,
+    scene: RayScene | None = None,
 ) -> UInt8[np.ndarray, "H W 3"]:
     """Draw panels in rows: the rest pose, then the part moved by each motion, with its axis and the outline of its rest pose.
 
     moving: the part's faces, and those of whatever it carries; motions: each with the amount [rad or m] that is shown;
-    numbers: the panels' titles, 1, 2, ... if None; blocked: motions whose titles say so; camera: `strip_camera` if None.
-    Raises ValueError when nothing moves.
+    numbers: the panels' titles, 1, 2, ... if None; blocked: motions whose titles say so; camera: `strip_camera` if None;
+    scene: the mesh's rays, if they are at hand. Raises ValueError when nothing moves.
     """
-    posed, poses = _poses(mesh, moving, motions)
+    posed, poses = _poses(mesh, moving, motions, scene)
     camera = camera or _best_camera(posed, poses, motions, PANEL)
     fine = replace(camera, width=2 * camera.width, height=2 * camera.height)
     rays = fine.rays()
     still = posed.still_picture(rays)
     shape = (fine.height, fine.width)
-    rest = posed.part_pixels(poses[0], fine, rays)
-    panels = [_titled(_half(_painted(still, rest, shape)), "rest")]
-    outline = rim(rest.mask.reshape(shape), 2)
+    lines = _lines(still.distance.reshape(shape), still.normal.reshape(*shape, 3), np.zeros(shape, bool))
+    rest = posed.part_pixels(poses[0], fine)
+    panels = [_titled(_half(_painted(still, lines, rest)), "rest")]
+    covered = np.zeros(shape, bool)
+    covered.reshape(-1)[rest.pixel] = True
+    outline = rim(covered, 2)
     names = numbers or range(1, len(motions) + 1)
     for k, (number, (motion, amount)) in enumerate(zip(names, motions, strict=True)):
-        picture = _painted(still, posed.part_pixels(poses[k + 1], fine, rays), shape)
+        picture = _painted(still, lines, posed.part_pixels(poses[k + 1], fine))
         picture = blend(picture, outline, (90, 90, 90), 0.7)
         drawn = _with_axis(picture, *_axis(posed.corners, motion, amount, fine), fine)
         word = "slides" if motion.kind is MotionKind.SLIDE else "turns"
@@ -85,27 +89,37 @@ def strip_camera(
 
 
 def _poses(
-    mesh: Mesh, moving: Bool[np.ndarray, " F"], motions: Sequence[tuple[Motion, float]]
+    mesh: Mesh, moving: Bool[np.ndarray, " F"], motions: Sequence[tuple[Motion, float]], scene: RayScene | None = None
 ) -> tuple[Posed, list[np.ndarray]]:
     """The object, and the transforms of its part: at rest and moved."""
     if not moving.any():
         raise ValueError("a motion needs faces that move, found none")
-    return Posed(mesh, moving), [np.eye(4), *(m.transform(amount) for m, amount in motions)]
+    posed = Posed(mesh, moving, scene or RayScene(mesh.vertices, mesh.faces))
+    return posed, [np.eye(4), *(m.transform(amount) for m, amount in motions)]
 
 
-def _painted(
-    still: tuple[UInt8[np.ndarray, "n 3"], Hits, Float[np.ndarray, "n 3"]], part: PartPixels, shape: tuple[int, int]
-) -> UInt8[np.ndarray, "H W 3"]:
-    """The picture of a pose, with lines along creases and borders. Where something hides the part, it shines through."""
-    color, hits, normal = still
-    seen = part.mask & (part.distance < hits.distance)
-    color = color.copy()
-    color[seen] = part_color(part.normal[seen])
-    depth, facing = np.where(seen, part.distance, hits.distance), np.where(seen[:, None], part.normal, normal)
-    lines = _lines(depth.reshape(shape), facing.reshape(*shape, 3), seen.reshape(shape))
-    picture = blend(color.reshape(*shape, 3), lines & ~seen.reshape(shape), STILL_LINE, LINE)
-    picture = blend(picture, lines & seen.reshape(shape), PART_LINE, LINE)
-    return blend(picture, (part.mask & ~seen).reshape(shape), HIGHLIGHT, GHOST)
+def _painted(still: Still, lines: Bool[np.ndarray, "H W"], part: PartPixels) -> UInt8[np.ndarray, "H W 3"]:
+    """The picture of a pose, with lines along creases and borders. Where something hides the part, it shines through.
+
+    lines: of what stands still.
+    """
+    shape = lines.shape
+    before = part.distance < still.distance[part.pixel]
+    seen = np.zeros(len(still.distance), bool)
+    seen[part.pixel[before]] = True
+    color, depth, facing = still.color.copy(), still.distance.copy(), still.normal.copy()
+    color[seen] = part_color(part.normal[before])
+    depth[seen], facing[seen] = part.distance[before], part.normal[before]
+    drawn, visible = lines.copy(), seen.reshape(shape)
+    if len(part.pixel):
+        rows, columns = np.divmod(part.pixel, shape[1])
+        box = (slice(max(rows.min() - 1, 0), rows.max() + 2), slice(max(columns.min() - 1, 0), columns.max() + 2))
+        drawn[box] = _lines(depth.reshape(shape)[box], facing.reshape(*shape, 3)[box], visible[box])
+    picture = blend(color.reshape(*shape, 3), drawn & ~visible, STILL_LINE, LINE)
+    picture = blend(picture, drawn & visible, PART_LINE, LINE)
+    hidden = np.zeros(len(seen), bool)
+    hidden[part.pixel[~before]] = True
+    return blend(picture, hidden.reshape(shape), HIGHLIGHT, GHOST)
 
 
 def _lines(
@@ -156,7 +170,7 @@ def _with_axis(
 def _best_camera(posed: Posed, poses: Sequence[np.ndarray], motions: Sequence[tuple[Motion, float]], size: int) -> Camera:
     places = [posed.corners @ T[:3, :3].T + T[:3, 3] for T in poses]
     focus = bounds_of(places)
-    total = bounds_of([posed.bounds, focus])
+    total = bounds_of([posed.mesh.bounds, focus])
     margin = MARGIN * float(np.linalg.norm(focus[1] - focus[0]))
     focus = np.stack([np.maximum(focus[0] - margin, total[0]), np.minimum(focus[1] + margin, total[1])])
     step = DEPTH * posed.mesh.diagonal
@@ -197,10 +211,15 @@ def _framed(camera: Camera, points: Float[np.ndarray, "n 3"]) -> Camera:
 
 
 def _depths(posed: Posed, poses: Sequence[np.ndarray], camera: Camera, rays: Rays) -> list[Float[np.ndarray, " n"]]:
-    """Depth [m] where a picture of each pose shows what moves; inf elsewhere."""
+    """Depth where a picture of each pose shows what moves, in lengths of the rays; inf elsewhere."""
     before = posed.still_hits(rays).distance
-    depths = (posed.part_pixels(T, camera, rays).distance for T in poses)
-    return [np.where(depth < before, depth, np.inf) for depth in depths]
+    found = []
+    for T in poses:
+        part = posed.part_pixels(T, camera)
+        depth = np.full(len(before), np.inf)
+        depth[part.pixel] = np.where(part.distance < before[part.pixel], part.distance, np.inf)
+        found.append(depth)
+    return found
 
 
 def _difference(depths: Sequence[Float[np.ndarray, " n"]], least: float) -> float:

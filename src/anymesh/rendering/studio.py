@@ -131,7 +131,7 @@ class Studio:
     ) -> Picture:
         """A part, with what it carries, at rest and moved by the amount of each motion [rad or m]. blocked: marked so."""
         shown = list(zip(motions, amounts, strict=True))
-        return encode(titled(motion_strip(self._mesh, moving, shown, blocked=blocked), title))
+        return encode(titled(motion_strip(self._mesh, moving, shown, blocked=blocked, scene=self.scene), title))
 
     def _near(self, view: View, face_part: np.ndarray, part: int) -> View:
         """A close-up where the part is small in the view."""
