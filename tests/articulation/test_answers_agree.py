@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from assets import box
 from known import KNOWN, QUICK, Watched, knowing, prompted, ready
-from scenes import Scene, wheel
+from scenes import Scene, prism, wheel
 
 from anymesh.articulation.cases import make_cases
 from anymesh.articulation.confidence import Agreement, confidences
@@ -15,6 +15,7 @@ from anymesh.articulation.relabel import labels_by_name
 from anymesh.articulation.taken import normal_outwards, way_out
 from anymesh.reasoning.prompting import JointKind, KindAnswer, MotionPick, PartFit
 from anymesh.rendering.studio import Studio
+from anymesh.solving import Solver
 from anymesh.types import JointType, Part, Segmentation
 from anymesh.types.recognition import Moves, Recognition, RecognizedLabel
 
@@ -155,3 +156,30 @@ def test_only_points_that_are_drawn_are_listed_and_hidden_ones_are_told() -> Non
     assert table.hidden[1:].any()  # clusters between the knob and the block
     assert f"points 1..{len(table.points)}" in seer.asked[1].text()
     assert "hidden" in seer.asked[1].text()
+
+
+def test_labels_that_were_answered_are_part_of_the_stages_result() -> None:
+    mesh, _, segmentation = ready(LEFT.scene)
+    given = replace(segmentation, parts=(segmentation.parts[0], Part("cabinet_door", "part")))
+    solver = Solver(mesh, QUICK, lambda _: knowing(mesh, segmentation, (LEFT.joint,)))
+    named = solver.joints(given, recognition(DOOR))
+    assert named.segmentation is not None
+    assert [p.label for p in named.segmentation.parts] == ["part", "door"]
+    assert named.joints[0].limits == (0, pytest.approx(1.2, abs=0.02))
+    assert solver.joints(given).segmentation is None  # nothing was recognized
+
+
+def test_each_axis_goes_with_the_point_where_it_comes_out() -> None:
+    """A blade with two round pins on it: whichever point is picked, the hinge runs through that pin."""
+    pins = [prism(0.02, (-0.03, -0.001), x, 0.3) for x in (0.1, 0.5)]
+    scene = {"base": [box((0, 0, 0), (0.6, 0.4, 0.6))], "blade": [box((0.05, -0.02, 0.25), (0.55, -0.001, 0.35)), *pins]}
+    into = {"kinds": lambda q: (KindAnswer(JointKind.HINGE_INTO),)}
+    for pick in range(3):
+        (found,), seer = prompted(scene, (LEFT.joint,), verify="free", changed={**into, "points": lambda q, k=pick: ((k,),)})
+        (table,) = seer.asked[1].tables
+        assert table.axes is not None
+        assert not np.isnan(table.axes[pick]).any()
+        assert np.linalg.norm(np.cross(found.origin - table.points[pick], found.axis)) < 1e-6
+        assert abs(found.axis @ table.axes[pick]) == pytest.approx(1)
+        outer = table.points[pick] @ Y
+        assert outer == pytest.approx(-0.03, abs=2e-3)  # where the axis leaves the pins

@@ -77,7 +77,15 @@ def with_more(
 ) -> Float[np.ndarray, "m 3"]:
     """Return the first points, half of the places at most, and as many of the others, in their order, as keep their numbers
     apart."""
-    chosen = list(first[_farthest(first, min(len(first), config.most_candidates // 2))]) if len(first) else []
+    few = first[_farthest(first, min(len(first), config.most_candidates // 2))] if len(first) else first
+    return followed(few, more, project, config)
+
+
+def followed(
+    first: Float[np.ndarray, "k 3"], more: Float[np.ndarray, "s 3"], project: Project, config: PromptConfig
+) -> Float[np.ndarray, "m 3"]:
+    """Return the first points, as they are, and as many of the others, in their order, as keep their numbers apart."""
+    chosen = list(first)
     for point in more:
         if len(chosen) < config.most_candidates and labels_apart(project(np.array([*chosen, point])), config.label_apart):
             chosen.append(point)

@@ -29,7 +29,7 @@ BEHIND = 8.0  # a motion that is less plausible than the best one by more is sho
 FEW = 3  # free motions that are in the first picture however implausible
 OWN = 3  # axes of the part's own shape that are always in the first picture
 ROUGH = 2.0  # a line through picked points is rougher than one of the part's own that looks like it
-ANSWERED = 1.0  # what it is worth, in units of clear evidence, that a motion is of the kind that was answered
+ANSWERED = 2.0  # what it is worth, in units of clear evidence, that a motion is of the kind that was answered
 REVERSED = 3.0  # what it costs that a motion goes against the opening direction that its geometry suggests
 ENOUGH_POINTS = 200  # of the part, whose places are compared
 

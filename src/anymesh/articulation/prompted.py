@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from anymesh.articulation.candidates import axis_points, cluster_points, superpoint_centres, with_more
+from anymesh.articulation.candidates import axis_points, cluster_points, followed, superpoint_centres, with_more
 from anymesh.articulation.cases import Case, ask_each, make_cases
 from anymesh.articulation.confidence import Agreement, confidences
 from anymesh.articulation.contradictions import contradictions
@@ -31,6 +31,7 @@ from anymesh.rendering.studio import Shot, Studio
 from anymesh.types import Joint, JointType, Motion, MotionKind, Segmentation
 from anymesh.types.recognition import Recognition
 
+INTO_POINTS = 8  # candidates for an axis into the surface; half of them stand for axes
 ShapeOf = Callable[[Segmentation], ObjectShape]
 Reground = Callable[[Mapping[str, PartFit]], Segmentation | None]  # parts by name that are too much or too little
 
@@ -146,16 +147,19 @@ def _points(questions: Questions, case: Case, shot: Shot, whole: ObjectShape) ->
     """The candidate points of a part that turns; with the paper's method clusters and superpoints alone."""
     config, studio = questions.config, questions.studio
     project, prompts = shot.project, config.prompts
+    shaped = case.kind is JointKind.HINGE_INTO and config.verify != "off"
+    if shaped:
+        prompts = replace(prompts, most_candidates=min(INTO_POINTS, prompts.most_candidates))
     points = shot.inside(cluster_points(case.shown.contact, project, prompts))
     axes = np.zeros((0, 3))
-    if case.kind is JointKind.HINGE_INTO and config.verify != "off":
+    if shaped:
         motions = [m for _, m in pivots(case.around, case.shown.normal)]
         outline = case.around.outline
         if outline.roundness > 0.5:
             motions.insert(0, Motion(MotionKind.TURN, outline.axis, outline.center, "axis of its round outline"))
         first, axes = axis_points(case.around, [*case.circles, *motions], project, prompts)
         axes = axes[shot.is_inside(first)]
-        points = with_more(shot.inside(first), points, project, prompts)
+        points = followed(first[shot.is_inside(first)], points, project, prompts)
     if case.kind is JointKind.HINGE_HIDDEN:
         samples = case.around.part.samples
         colors = studio.face_colors[whole.source[samples.faces]]

@@ -66,7 +66,7 @@ class WhichKinds:
     def text(self) -> str:
         labels = f" label: which of these it is: {', '.join(self.labels)}; else {OTHER!r}." if self.labels else ""
         return (
-            f"The object is a {self.category}. {_listed(self.parts)} How is each attached to the object that it belongs to? "
+            f"Object: {self.category}. {_listed(self.parts)} How is each attached to the object that it belongs to? "
             "hinge_along_edge: it turns about a line that runs along an edge where it meets the rest, as doors, lids and flaps "
             "do; hinge_into_surface: it turns about a line that sticks into the surface it sits on, as knobs and wheels do; "
             "hinge_hidden: it turns, but the hinge is under the surface; slide_in_or_out: it moves out of the object or into "
@@ -124,8 +124,10 @@ class PointTable:
     @property
     def listed(self) -> str:
         """The numbers that are drawn, in words."""
-        hidden = [] if self.hidden is None else [str(k) for k, h in enumerate(self.hidden, 1) if h]
-        under = f" ({', '.join(hidden)} hidden)" if hidden else ""
+        hidden = np.zeros(len(self.points), bool) if self.hidden is None else self.hidden
+        few = np.flatnonzero(hidden if hidden.mean() <= 0.5 else ~hidden) + 1
+        told = f"{'' if hidden.mean() <= 0.5 else 'all but '}{', '.join(map(str, few))}" if len(few) else "all"
+        under = f" (hidden: {told})" if hidden.any() else ""
         return f"{'point 1' if len(self.points) == 1 else f'points 1..{len(self.points)}'}{under}"
 
 
@@ -141,7 +143,7 @@ class WhichPoints:
     def text(self) -> str:
         each = [f"part {k}, a {t.part.label}, {t.listed}: {t.wanted}" for k, t in enumerate(self.tables, 1)]
         return (
-            f"The object is a {self.category}. Each picture shows one part (coloured) that turns about an axis, with "
+            f"Object: {self.category}. Each picture shows one part (coloured) that turns about an axis, with "
             "numbered points on it and round it; hollow dots are hidden under a surface. Think how such a part is mounted and "
             f"which side its handle is on; the hinge of a door lies opposite its handle. Give for {'; for '.join(each)}."
         )
@@ -182,7 +184,7 @@ class WhichArrows:
     def text(self) -> str:
         each = "; ".join(f"part {k}, a {t.part.label}, arrows 1..{len(t.directions)}" for k, t in enumerate(self.tables, 1))
         return (
-            f"The object is a {self.category}. "
+            f"Object: {self.category}. "
             "Each picture shows one part (coloured) that slides along the surface of the object, and numbered arrows. Which "
             f"arrow shows the way it slides when it is opened or used? {each}."
         )
@@ -253,7 +255,7 @@ class WhichMotions:
             f"of it stays behind, else {PartFit.RIGHT}."
         )
         return (
-            f"The object is a {self.category}. Each picture shows one part (coloured) at rest and then moved in several "
+            f"Object: {self.category}. Each picture shows one part (coloured) at rest and then moved in several "
             "numbered ways, in no particular order; grey outlines show where it was. Which is the way that it moves in the "
             "real object, 0 if none of them is? Look at where its hinge would be, which side its handle is on, and what it "
             "would hit. Blocked ways run into something; choose one all the same where only the model is in the way. "
