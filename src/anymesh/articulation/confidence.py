@@ -10,20 +10,20 @@ from dataclasses import dataclass
 
 import numpy as np
 
-LOWEST, HIGHEST = 0.02, 0.98
+LOWEST, HIGHEST = 0.01, 0.999
 WEIGHTS = {
-    "constant": -1.5,
-    "kind": 1.0,  # the motion is of the kind of joint that was answered
-    "moves": 0.5,  # and turns or slides as recognition said
-    "moves against": -0.5,
-    "answered": 1.0,  # it is, or looks like, the line or the direction that was answered before
-    "likely": 2.0,  # its share among the motions by geometry alone
-    "doubted": -0.5,  # it was chosen against the answers before, and asked twice
-    "later": -0.5,  # it was chosen in the second picture
-    "none": -4.0,  # no motion was recognized
-    "only": 0.5,  # there was no other motion
-    "blocked": -0.5,  # the sweep calls it blocked
-    "others": 1.5,  # share of the answers about the other parts that agree
+    "constant": -2.1,
+    "kind": 0.5,  # the motion is of the kind of joint that was answered
+    "moves": 0.05,  # and turns or slides as recognition said
+    "moves against": -0.65,
+    "answered": 0.65,  # it is, or looks like, the line or the direction that was answered before
+    "likely": 4.5,  # its share among the motions by geometry alone
+    "doubted": 0.0,  # it was chosen against the answers before, and asked twice
+    "later": 0.0,  # it was chosen in the second picture
+    "none": -6.0,  # no motion was recognized; lower than fitted, so that such joints are named in the warnings
+    "only": -1.4,  # there was no other motion
+    "blocked": -1.2,  # the sweep calls it blocked
+    "others": 1.3,  # share of the answers about the other parts that agree
 }
 
 
