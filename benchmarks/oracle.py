@@ -35,9 +35,9 @@ the geometry.
 Position: the diagonal is 2; mIoU over the movable parts, a part that is not found counts as 0.
 """
 EXAMPLES = Path(__file__).parents[1] / "examples"
-VERIFY = ("motion", "off")
+VERIFY = ("motion", "free", "off")
 WRONG = (0.0, 0.1, 0.2, 0.35, 0.5)
-COLORS = {"motion": "#0a6", "off": "#c33"}
+COLORS = {"motion": "#0a6", "free": "#26c", "off": "#c33"}
 
 
 def run(truths: Sequence[Truth], verify: str, *, given: bool, wrong: float = 0.0) -> list[ObjectScore]:
@@ -112,7 +112,12 @@ def main() -> None:
     examples = example_truths(EXAMPLES)
     with tempfile.TemporaryDirectory() as folder:
         sets = {"Examples": examples, "scene-synthesizer": [synthesize(c, Path(folder)) for c in CLASSES]}
-        done = [report(t, some, v, given) for given in (True, False) for t, some in sets.items() for v in VERIFY[: 1 + given]]
+        done = [
+            report(t, some, v, given)
+            for given in (True, False)
+            for t, some in sets.items()
+            for v in (VERIFY if given else VERIFY[:1])
+        ]
     if options.noise:
         told, shares = noise(examples)
         done.append(told)

@@ -31,7 +31,7 @@ class Answering(TypedDict, total=False):
     vllm:MODEL, openai-compatible:BASE_URL#MODEL, files:FOLDER, replay:FOLDER, or auto: a local model, else geometry;
     category: what the object is; seed: from 0 up; parts_list: labels of the parts that move, which a model is then not asked
     for; at_least: parts that geometry takes however thin the evidence is; proposer: of masks for a model, exact, sam:..., or
-    exact+sam:...; viewpoints: the cameras whose pictures a model is shown (see `ViewsConfig`); verify: motion or off;
+    exact+sam:...; viewpoints: the cameras whose pictures a model is shown (see `ViewsConfig`); verify: motion, free or off;
     max_calls, max_cost [USD]: no call is made that would pass them; cache: folder of answers (None: no cache); timeout: of one
     call [s]; wait: wait for an answer in files; spent: what counts towards max_calls and max_cost, shared by several runs.
     """

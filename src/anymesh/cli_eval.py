@@ -50,7 +50,7 @@ def evaluate(
     viewpoints: Annotated[
         str, typer.Option(help="For a model: cameras as COUNT@ELEVATION[+AZIMUTH],... [deg].")
     ] = DEFAULT_VIEWS,
-    verify: Annotated[str, typer.Option(help="motion, or off: the paper's method as it is.")] = "motion",
+    verify: Annotated[str, typer.Option(help="motion, free, or off: the paper's method as it is.")] = "motion",
     at_least: Annotated[
         int, typer.Option("--at-least", metavar="N", help="Parts that geometry takes however thin the evidence is.")
     ] = 0,

@@ -34,7 +34,10 @@ Viewpoints = Annotated[
         "--views", "--viewpoints", help="For a model: cameras as COUNT@ELEVATION[+AZIMUTH],... in degrees; 8@15 is the paper's."
     ),
 ]
-Verify = Annotated[str, typer.Option(help="motion: a model chooses among free motions; off: the paper's method as it is.")]
+VERIFY_HELP = (
+    "motion: a model chooses among motions; free: its picks are taken, replaced where blocked; off: the paper's method."
+)
+Verify = Annotated[str, typer.Option(help=VERIFY_HELP)]
 MaxCalls = Annotated[int | None, typer.Option("--max-calls", help="No call of a model beyond so many.")]
 MaxCost = Annotated[float | None, typer.Option("--max-cost", metavar="USD", help="No call that could pass this cost.")]
 Cache = Annotated[

@@ -142,10 +142,10 @@ class PromptConfig:
     label_apart: float = 35.0  # [px] between the numbers of candidate points
     most_candidates: int = 20  # of k-means
     plane: float = 0.001  # of the connecting area's plane, a share of the diagonal; .002 where the diagonal is 2
-    motions: int = 6  # shown to choose from when motion is verified
+    motions: int = 7  # shown in a picture when motion is verified: two rows of four with the pose at rest
 
 
-VERIFY = ("motion", "off")
+VERIFY = ("motion", "free", "off")
 PROPOSERS = r"exact|(exact\+)?sam:.+"
 
 
@@ -157,7 +157,7 @@ class Config:
     category: str | None = None  # what the object is, in a user's words
     parts_list: tuple[str, ...] = ()  # labels of what moves, in a user's words; a model is not asked for them then
     proposer: str = "exact"  # of masks, see `segmentation.propose`
-    verify: str = "motion"  # or "off": the paper's method as it is
+    verify: str = "motion"  # "free": answers are taken, but what cannot slide; "off": the paper's method as it is
     pieces: PiecesConfig = field(default_factory=PiecesConfig)
     segmentation: SegmentationConfig = field(default_factory=SegmentationConfig)
     articulation: ArticulationConfig = field(default_factory=ArticulationConfig)

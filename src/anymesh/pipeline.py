@@ -270,6 +270,8 @@ def _join(
     if found is None:
         with _timed(run, "joints"):
             found = solver.joints(segmented.segmentation, recognized.recognition, progress)
+        if found.segmentation is not None:
+            run.save(SEGMENTATION, previous, replace(segmented, segmentation=found.segmentation))
         run.save(JOINTS, key, found)
     return found
 

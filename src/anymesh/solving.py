@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
 
@@ -10,7 +11,7 @@ import numpy as np
 
 from anymesh.articulation.estimate import ask_motion, estimate_joints, motion_question, surroundings
 from anymesh.articulation.evidence import weigh_all
-from anymesh.articulation.prompted import prompt_joints
+from anymesh.articulation.prompted import Questions, Reground, prompt_joints
 from anymesh.articulation.tree import parents
 from anymesh.config import Config
 from anymesh.deadline import Deadline
@@ -109,19 +110,21 @@ class Solver:
         return _segmented(found, seer.name, seer, (*warnings, *self.deadline.warnings()))
 
     def joints(
-        self, segmentation: Segmentation, recognition: Recognition | None = None, progress: Progress = silent
+        self,
+        segmentation: Segmentation,
+        recognition: Recognition | None = None,
+        progress: Progress = silent,
+        reground: Reground | None = None,
     ) -> Jointed:
-        """Stage B."""
-        whole = self._ready_for(segmentation)
+        """Stage B. reground: grounds parts again that answers call too much or too little, once; None: that is not asked."""
         if self._see is None:
-            found = estimate_joints(whole, segmentation, GEOMETRY, self.config, progress, self.deadline)
+            found = estimate_joints(self._ready_for(segmentation), segmentation, GEOMETRY, self.config, progress, self.deadline)
             return _jointed(found, GEOMETRY.name, None, self.deadline.warnings())
         seer = self._see(Knowing(GEOMETRY.name, lambda: self._reference(segmentation)))
-        made = prompt_joints(
-            self._studio, whole, segmentation, seer, self.config,
-            recognition=recognition, verify=self.config.verify == "motion", progress=progress,
-        )  # fmt: skip
-        return _jointed(made, seer.name, seer, self.deadline.warnings())
+        questions = Questions(self._studio, seer, self.config, recognition, progress)
+        made = prompt_joints(questions, self._ready_for, segmentation, reground)
+        found = _jointed(made.joints, seer.name, seer, (*made.warnings, *self.deadline.warnings()))
+        return replace(found, segmentation=made.segmentation if made.segmentation is not segmentation else None)
 
     def _geometric_parts(self, progress: Progress = silent) -> Segmentation:
         """What geometry finds; once, however many questions it answers."""

@@ -63,12 +63,16 @@ class Segmented:
 
 @dataclass(frozen=True, eq=False)
 class Jointed:
-    """Stage B: the joints, who answered, and what a user should know."""
+    """Stage B: the joints, who answered, and what a user should know.
+
+    segmentation: the parts with the labels that were answered, where these changed; it is saved as the result of stage A.
+    """
 
     joints: tuple[Joint, ...]
     answerer: str
     warnings: tuple[str, ...] = ()
     exchanges: tuple[Exchange, ...] = ()
+    segmentation: Segmentation | None = None
 
 
 @dataclass(frozen=True, eq=False)

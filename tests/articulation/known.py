@@ -11,7 +11,7 @@ from assets import box
 from scenes import Scene, built, case, door, drawer, lid, slider, wheel
 
 from anymesh.articulation.cases import Case, make_cases
-from anymesh.articulation.prompted import prompt_joints
+from anymesh.articulation.prompted import Questions, prompt_joints
 from anymesh.config import Config, PromptConfig, ViewsConfig
 from anymesh.geometry.pieces import ObjectShape, object_shape
 from anymesh.reasoning.asking import Seer
@@ -110,8 +110,10 @@ class Watched:
 
 
 def prompted(scene: Scene, joints: tuple[KnownJoint, ...], **options: Any) -> tuple[tuple[Joint, ...], Watched]:
-    """The joints of a scene, asked of someone who knows them; options: of Watched, or verify."""
+    """The joints of a scene, asked of someone who knows them; options: of Watched, verify, or recognition."""
     mesh, whole, segmentation = ready(scene)
-    verify = options.pop("verify", True)
+    config = replace(QUICK, verify=options.pop("verify", "motion"))
+    recognition = options.pop("recognition", None)
     watched = Watched(knowing(mesh, segmentation, joints), **options)
-    return prompt_joints(Studio(mesh, QUICK), whole, segmentation, watched, QUICK, verify=verify), watched
+    questions = Questions(Studio(mesh, config), watched, config, recognition)
+    return prompt_joints(questions, lambda _: whole, segmentation).joints, watched

@@ -7,14 +7,17 @@ import pytest
 from assets import box
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from known import KNOWN, the_case
 from scipy.spatial import KDTree
 from scipy.spatial.distance import pdist
 
-from anymesh.articulation.candidates import cluster_points, superpoint_centres, with_more
+from anymesh.articulation.candidates import axis_points, cluster_points, superpoint_centres, with_more
 from anymesh.config import GroundingConfig, PromptConfig
 from anymesh.geometry.sampling import sample_surface
+from anymesh.types import Motion, MotionKind
 from anymesh.types.camera import Camera
 
+Y = np.array([0.0, 1, 0])
 CONFIG = PromptConfig()
 GROUNDING = GroundingConfig()
 
@@ -40,13 +43,15 @@ def cloud(seed: int, count: int) -> np.ndarray:
 
 @settings(max_examples=25, deadline=None)
 @given(st.integers(0, 10**6), st.integers(1, 300))
-def test_numbers_keep_apart_and_points_lie_on_the_contact(seed: int, count: int) -> None:
+def test_numbers_keep_apart_and_points_are_middles_of_the_contact(seed: int, count: int) -> None:
     contact, project = cloud(seed, count), camera(seed)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         found = cluster_points(contact, project, CONFIG)
     assert 1 <= len(found) <= CONFIG.most_candidates
-    assert KDTree(contact).query(found)[0].max() == 0
+    nearest = KDTree(found).query(contact)[1]
+    for k, point in enumerate(found):
+        assert point == pytest.approx(contact[nearest == k].mean(0), abs=0.1 * np.ptp(contact))
     assert pdist(project(found)).min(initial=np.inf) >= CONFIG.label_apart * (1 - 1e-6)
     assert np.array_equal(found, cluster_points(contact, project, CONFIG))
 
@@ -129,3 +134,19 @@ def test_the_first_points_take_half_of_the_places_at_most(seed: int) -> None:
     assert len(found) <= CONFIG.most_candidates
     ours = KDTree(first).query(found)[0] == 0
     assert ours.sum() == CONFIG.most_candidates // 2
+
+
+def test_a_ring_of_contact_has_its_middle_as_a_candidate_and_not_a_point_of_the_ring() -> None:
+    turn = np.linspace(0, 2 * np.pi, 60, endpoint=False)
+    ring = np.c_[np.cos(turn), 0 * turn, np.sin(turn)]
+    assert cluster_points(ring, across(20), CONFIG) == pytest.approx(np.zeros((1, 3)), abs=1e-9)
+
+
+def test_axes_into_the_surface_are_points_where_they_come_out() -> None:
+    around = the_case(KNOWN["wheel"].scene).around
+    hub, off = (Motion(MotionKind.TURN, Y, np.array([x, 0.3, 0.2]), "hub") for x in (0.0, 0.05))
+    along = Motion(MotionKind.TURN, np.array([1.0, 0, 0]), np.zeros(3), "along")
+    points, axes = axis_points(around, [hub, along, off, hub], across(2000), CONFIG)
+    assert points[:, [0, 2]] == pytest.approx(np.array([[0, 0.2], [0.05, 0.2]]))  # neither along the surface, nor one twice
+    assert points[:, 1] == pytest.approx(around.part.bounds[0 if around.outward @ Y < 0 else 1, 1])
+    assert np.abs(axes @ Y) == pytest.approx(1)

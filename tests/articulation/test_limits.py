@@ -1,11 +1,24 @@
-"""Limits of a joint from what is near its part."""
+"""Limits of a joint, from what is near its part and from the answered range."""
+
+from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
+from assets import box
+from known import the_case
+from scenes import Scene, door, drawer
 
-from anymesh.articulation.limits import ends_near
+from anymesh.articulation.evidence import weigh_all
+from anymesh.articulation.limits import answered_range, ends_near, limits, opening_as_answered, opening_motion
+from anymesh.geometry.surroundings import Surroundings
+from anymesh.reasoning.questions import Candidate
+from anymesh.types import JointType, Motion, MotionKind
+from anymesh.types.recognition import Moves, RecognizedLabel
 
 ALONG = np.array([-1.0, -0.9, 0.0, 0.9, 1.0])
+X, Y, Z = np.eye(3)
+DEG = np.pi / 180
 
 
 @pytest.mark.parametrize(("near", "count"), [("11011", 2), ("00011", 1), ("01010", 2), ("00100", 0)])
@@ -17,3 +30,80 @@ def test_an_end_without_samples_is_not_near_and_gives_no_warning(recwarn) -> Non
     assert ends_near(ALONG[2:], np.ones(3, bool)) == 1
     assert ends_near(np.zeros(0), np.zeros(0, bool)) == 0
     assert not recwarn.list
+
+
+def open_lid() -> Scene:
+    """A lid that stands upright behind an open box: it closes by 90 degrees or more, and opens a little further."""
+    walls = [box((0, 0, 0), (0.6, 0.4, 0.02)), box((0, 0, 0.02), (0.6, 0.02, 0.3)), box((0, 0.38, 0.02), (0.6, 0.4, 0.3))]
+    sides = [box((0, 0.02, 0.02), (0.02, 0.38, 0.3)), box((0.58, 0.02, 0.02), (0.6, 0.38, 0.3))]
+    return {"base": [*walls, *sides], "lid": [box((0, 0.4, 0.302), (0.6, 0.42, 0.7))]}
+
+
+def button() -> Scene:
+    return {"base": [box((0, 0, 0), (0.6, 0.4, 0.3))], "key": [box((0.29, -0.006, 0.14), (0.31, 0.001, 0.16))]}
+
+
+LID = Motion(MotionKind.TURN, X, np.array([0.3, 0.4, 0.302]), "back edge")
+HINGE = Motion(MotionKind.TURN, Z, np.array([0.598, -0.002, 0]), "right edge")
+OUT = Motion(MotionKind.SLIDE, -Y, np.zeros(3), "out")
+
+
+def swept(scene: Callable[[], Scene], motion: Motion) -> tuple[Surroundings, Candidate]:
+    around = the_case(scene()).around
+    return around, weigh_all(around, [("asked", motion)])[0]
+
+
+def answered(scene: Callable[[], Scene], motion: Motion, kind: JointType, told: tuple[float, float]) -> tuple[np.ndarray, ...]:
+    """The limits about the opening axis, and that axis."""
+    around, c = swept(scene, motion)
+    c = opening_as_answered(c, told)
+    found = limits(around, c, kind, told)
+    assert found is not None
+    return np.array(found), opening_motion(c).axis
+
+
+def test_both_answered_limits_of_a_hinge_are_read() -> None:
+    for told in ((0.0, 110 * DEG), (0.0, 70 * DEG)):
+        found, axis = answered(lambda: door("left"), HINGE, JointType.REVOLUTE, told)
+        assert found == pytest.approx(told, abs=DEG)
+        assert np.cross(axis, [-1, 0, 0])[1] < 0  # the leaf comes to the front
+
+
+def test_a_lid_that_is_shown_open_closes_further_than_it_opens() -> None:
+    found, axis = answered(open_lid, LID, JointType.REVOLUTE, (-85 * DEG, 20 * DEG))
+    assert found == pytest.approx((-85 * DEG, 20 * DEG), abs=2 * DEG)
+    assert axis == pytest.approx(-X)  # opening swings the top edge backwards
+
+
+def test_the_opening_direction_follows_the_answer_where_only_that_leaves_the_range_free() -> None:
+    _, c = swept(open_lid, LID)
+    wrong = replace(c, opens=-c.opens, opening=c.closing, closing=c.opening)
+    blocked = replace(wrong, closing=30 * DEG)  # as if the lid could close by 30 degrees only
+    assert opening_as_answered(blocked, (-85 * DEG, 20 * DEG)).opens == c.opens
+    assert opening_as_answered(blocked, (-20 * DEG, 85 * DEG)) is blocked  # it opens further than it closes
+    assert opening_as_answered(blocked, None) is blocked
+
+
+def test_the_sweep_shortens_an_answered_range() -> None:
+    found, _ = answered(open_lid, LID, JointType.REVOLUTE, (-150 * DEG, 20 * DEG))
+    assert -115 * DEG < found[0] < -85 * DEG  # it lies on the walls then
+
+
+def test_an_answered_stroke_of_a_button_goes_in_and_not_out() -> None:
+    found, axis = answered(button, OUT, JointType.PRISMATIC, (-0.005, 0.0))
+    assert found == pytest.approx((-0.005, 0.0))
+    assert axis == pytest.approx(-Y)
+
+
+def test_an_answered_travel_of_a_drawer_ends_where_the_parent_no_longer_holds_it() -> None:
+    assert answered(drawer, OUT, JointType.PRISMATIC, (0.0, 0.2))[0] == pytest.approx((0, 0.2), abs=0.01)
+    assert answered(drawer, OUT, JointType.PRISMATIC, (0.0, 0.6))[0] == pytest.approx((0, 0.35), abs=0.01)
+
+
+def test_a_range_of_another_kind_of_joint_is_not_read() -> None:
+    told = RecognizedLabel("door", Moves.REVOLUTE, None, (0.0, 1.5))
+    assert answered_range(told, JointType.REVOLUTE) == (0.0, 1.5)
+    assert answered_range(told, JointType.PRISMATIC) is None
+    assert answered_range(replace(told, limits=(0.0, 0.01)), JointType.REVOLUTE) is None  # a degree, or none
+    assert answered_range(replace(told, limits=None), JointType.REVOLUTE) is None
+    assert answered_range(None, JointType.REVOLUTE) is None

@@ -15,6 +15,7 @@ from anymesh.reasoning.prompting import (
     ArrowTable,
     JointKind,
     KindAnswer,
+    MotionPick,
     MotionTable,
     PartShown,
     PointTable,
@@ -126,7 +127,7 @@ ASKED = {
     "motions": Asked(
         WhichMotions((PICTURE,) * 2, (MotionTable(part(), TURNS, (1.0, 1.0)),) * 2),
         parts({"part": 1, "motion": 0}, {"part": 2, "motion": 2}),
-        (None, 1),
+        (MotionPick(None), MotionPick(1)),
     ),
 }  # fmt: skip
 

@@ -114,3 +114,8 @@ def test_marks_that_are_nowhere_are_told() -> None:
     question = WhichMarks((), ("door",), True, (nothing,), (nothing,))
     with pytest.raises(BadAnswerError, match="must be of none, found"):
         question.parse(marks(("door", 1, 0, [1])))
+
+
+def test_a_label_may_hang_on_itself() -> None:
+    found = ASKED["recognize"].question.parse(whole(parent="door"))
+    assert [(r.label, r.parent) for r in found.labels] == [("door", "door"), ("knob", "door")]

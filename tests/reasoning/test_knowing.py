@@ -16,6 +16,7 @@ from anymesh.reasoning.prompting import (
     ArrowTable,
     JointKind,
     KindAnswer,
+    MotionPick,
     MotionTable,
     PartShown,
     PointTable,
@@ -183,7 +184,7 @@ def test_the_arrow_is_the_way_that_opens() -> None:
 def test_what_is_fixed_is_answered_as_well_as_can_be() -> None:
     assert ask(WhichArrows((), (ArrowTable(shown(PANEL), np.stack([X, -X])),))) == (0,)
     assert ask(WhichPoints((), (PointTable(shown(PANEL), CORNERS, JointKind.HINGE_ALONG),))) == ((0, 1),)
-    assert ask(WhichMotions((), (MotionTable(shown(PANEL), (HINGE.motion,), (1.0,)),))) == (None,)
+    assert ask(WhichMotions((), (MotionTable(shown(PANEL), (HINGE.motion,), (1.0,)),))) == (MotionPick(None),)
 
 
 def turn(axis: np.ndarray, origin=(0.0, 0, 0)) -> Motion:
@@ -203,9 +204,16 @@ MOTIONS = {
 @pytest.mark.parametrize("case", MOTIONS)
 def test_the_motion_is_the_one_that_takes_the_part_where_it_belongs(case: str) -> None:
     motions, expected = MOTIONS[case]
-    assert ask(WhichMotions((), (MotionTable(shown(DOOR), motions, (1.0,) * len(motions)),))) == (expected,)
+    assert ask(WhichMotions((), (MotionTable(shown(DOOR), motions, (1.0,) * len(motions)),))) == (MotionPick(expected),)
 
 
 def test_what_turns_endlessly_turns_both_ways() -> None:
     back = turn(-Y, (0.2, 0, 0.2))
-    assert ask(WhichMotions((), (MotionTable(shown(KNOB), (back,), (1.0,)),))) == (0,)
+    assert ask(WhichMotions((), (MotionTable(shown(KNOB), (back,), (1.0,)),))) == (MotionPick(0),)
+
+
+def test_a_label_whose_parts_hang_on_each_other_is_its_own_parent() -> None:
+    lamp = replace(KNOWN, labels=("base", "arm", "arm", "drawer", "knob", "panel"), parents=(0, 0, 1, 0, 2, 0))
+    assert [(r.label, r.parent) for r in ask(Recognize(()), lamp).labels] == [
+        ("arm", "arm"), ("drawer", "base"), ("knob", "arm"),
+    ]  # fmt: skip

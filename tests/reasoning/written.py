@@ -32,7 +32,7 @@ def written(question: Question[Any], answer: Any) -> dict[str, Any]:
         case WhichArrows():
             return picks("arrow", *(row + 1 for row in answer))
         case WhichMotions():
-            return picks("motion", *(0 if row is None else row + 1 for row in answer))
+            return picks("motion", *(0 if a.motion is None else a.motion + 1 for a in answer))
     raise TypeError(type(question).__name__)
 
 

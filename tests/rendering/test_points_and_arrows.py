@@ -8,7 +8,8 @@ from anymesh.config import ViewsConfig
 from anymesh.rendering.arrows import distinctness, draw_arrows, most_distinct_view
 from anymesh.rendering.paint import mark_color
 from anymesh.rendering.points import DOT, draw_points, labels_apart
-from anymesh.rendering.viewpoints import views
+from anymesh.rendering.raycast_ import RayScene
+from anymesh.rendering.viewpoints import hidden_points, views
 from anymesh.types.camera import Camera
 
 GRAY = np.full((640, 640, 3), 128, np.uint8)
@@ -102,3 +103,19 @@ def test_an_arrow_that_leaves_the_picture_keeps_its_number():
     drawn = draw_arrows(GRAY, camera, np.zeros(3), np.eye(3)[[0, 1]], [1, 2], 9.0)
     assert (drawn[300:340, 600:] == np.array(mark_color(1))).all(-1).any()
     assert (drawn == np.array(mark_color(2))).all(-1).any()
+
+
+def test_hidden_points_are_hollow():
+    pixels = np.array([[100.0, 100], [300, 120]])
+    drawn = draw_points(GRAY, pixels, [1, 2], np.array([False, True]))
+    np.testing.assert_array_equal(drawn[100, 100], mark_color(1))
+    np.testing.assert_array_equal(drawn[120, 300], (255, 255, 255))
+    assert (drawn[118:123, 294:300] == np.array(mark_color(2))).all(-1).any()  # its rim
+
+
+def test_points_under_a_surface_are_found():
+    mesh, _ = mesh_of([box((-0.5, -0.5, -0.5), (0.5, 0.5, 0.5))])
+    camera = Camera.looking_at(np.array([0, -5.0, 0]), np.zeros(3), 0.6, 100, 100)
+    points = np.array([[0, -0.6, 0], [0, -0.5, 0], [0, -0.49, 0], [0, 0, 0], [0.9, 0, 0]])
+    found = hidden_points(RayScene(mesh.vertices, mesh.faces), camera, points, 0.005)
+    assert found.tolist() == [False, False, True, True, False]

@@ -7,6 +7,7 @@ from assets import box, mesh_of
 from anymesh.config import ViewsConfig
 from anymesh.rendering.card import BAR, part_card, titled
 from anymesh.rendering.paint import HIGHLIGHT
+from anymesh.rendering.posed import Posed
 from anymesh.rendering.raycast_ import RayScene
 from anymesh.rendering.render import render
 from anymesh.rendering.strips import COLUMNS, PANEL, grid, motion_strip, moved, silhouette, strip_camera
@@ -156,3 +157,27 @@ def test_cards_have_a_close_up_only_for_small_parts():
         assert (picture[BAR:] == np.array(HIGHLIGHT)).all(-1).sum() > 50
     assert (hidden[:BAR] < 100).sum() > (large[:BAR] < 100).sum()  # its title says more
     assert titled(large, "ä").shape[0] == 320 + 2 * BAR
+
+
+def test_poses_are_cast_at_as_if_the_part_had_been_moved():
+    mesh, moving, (motion, amount), _ = door()
+    posed = Posed(mesh, moving, RayScene(mesh.vertices, mesh.faces))
+    T = motion.transform(amount)
+    camera = strip_camera(mesh, moving, [(motion, amount)], 90)
+    part = posed.part_pixels(T, camera)
+    view = render(moved(mesh, moving, T).subset(moving), camera)
+    np.testing.assert_array_equal(np.sort(part.pixel), np.flatnonzero(view.face.reshape(-1) >= 0))
+    np.testing.assert_allclose(part.distance, view.depth.reshape(-1)[part.pixel], rtol=1e-4)
+    np.testing.assert_allclose(part.normal, view.normal.reshape(-1, 3)[part.pixel], atol=1e-4)
+    still = posed.still_picture(camera.rays())
+    alone = render(mesh.subset(~moving), camera)
+    np.testing.assert_allclose(still.distance, alone.depth.reshape(-1), rtol=1e-4)
+
+
+def test_a_blocked_motion_is_marked_in_its_panel():
+    mesh, moving, *motions = door()
+    camera = strip_camera(mesh, moving, motions, 160)
+    plain, marked = (motion_strip(mesh, moving, motions, camera=camera, blocked=b) for b in ((False, False), (False, True)))
+    changed = np.argwhere((plain != marked).any(-1))
+    assert changed[:, 1].min() > 2 * 160  # the third panel, at its top
+    assert changed[:, 0].max() < 40

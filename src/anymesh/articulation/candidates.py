@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 from jaxtyping import Float
@@ -11,25 +11,46 @@ from scipy.spatial import KDTree
 from anymesh.config import GroundingConfig, PromptConfig
 from anymesh.geometry.sampling import SurfacePoints
 from anymesh.geometry.superpoints import superpoints
+from anymesh.geometry.surroundings import Surroundings
 from anymesh.rendering.points import labels_apart
+from anymesh.types import Motion
 
 Project = Callable[[Float[np.ndarray, "n 3"]], Float[np.ndarray, "n 2"]]  # points [m] to pixels of the picture that is shown
 MOST_POINTS = 4000  # of a connecting area that are clustered
+INTO = 0.7  # cosine with the opening direction from which an axis sticks into the surface
 
 
 def cluster_points(contact: Float[np.ndarray, "n 3"], project: Project, config: PromptConfig) -> Float[np.ndarray, "k 3"]:
-    """Centres of the connecting area's clusters, on its points: as many as keep their numbers apart in the picture."""
+    """Return the centres of the connecting area's clusters: as many as keep their numbers apart in the picture."""
     from scipy.cluster.vq import kmeans2  # takes .1 s to import, and only a model's questions need it
 
     points = contact[:: max(1, len(contact) // MOST_POINTS)]
     order = _farthest(points, min(config.most_candidates, len(points)))
-    best = points[order[:1]]
+    best = points.mean(0)[None]
     for k in range(2, len(order) + 1):
-        centres, _ = kmeans2(points, points[order[:k]], iter=20, minit="matrix", missing="warn")
-        snapped = points[np.unique(KDTree(points).query(centres)[1])]
-        if len(snapped) == k and labels_apart(project(snapped), config.label_apart):
-            best = snapped
+        centres, label = kmeans2(points, points[order[:k]], iter=20, minit="matrix", missing="warn")
+        if len(np.unique(label)) == k and labels_apart(project(centres), config.label_apart):
+            best = centres
     return best
+
+
+def axis_points(
+    around: Surroundings, axes: Sequence[Motion], project: Project, config: PromptConfig
+) -> tuple[Float[np.ndarray, "k 3"], Float[np.ndarray, "k 3"]]:
+    """Return the points where some axes leave the part on its outer side, and the directions of these axes.
+
+    Axes that stick into the surface only; of two whose numbers would cover one another the first stays.
+    """
+    points, directions = np.zeros((0, 3)), np.zeros((0, 3))
+    for motion in axes:
+        sign = 1.0 if motion.axis @ around.outward >= 0 else -1.0
+        if abs(float(motion.axis @ around.outward)) < INTO or len(points) >= config.most_candidates // 2:
+            continue
+        reach = float(((around.part.corners - motion.origin) @ (sign * motion.axis)).max())
+        more = np.concatenate([points, (motion.origin + reach * sign * motion.axis)[None]])
+        if labels_apart(project(more), config.label_apart / 2):
+            points, directions = more, np.concatenate([directions, motion.axis[None]])
+    return points, directions
 
 
 def superpoint_centres(
@@ -54,8 +75,17 @@ def superpoint_centres(
 def with_more(
     first: Float[np.ndarray, "k 3"], more: Float[np.ndarray, "s 3"], project: Project, config: PromptConfig
 ) -> Float[np.ndarray, "m 3"]:
-    """The first points, half of the places at most, and as many of the others, in their order, as keep their numbers apart."""
-    chosen = list(first[_farthest(first, min(len(first), config.most_candidates // 2))])
+    """Return the first points, half of the places at most, and as many of the others, in their order, as keep their numbers
+    apart."""
+    few = first[_farthest(first, min(len(first), config.most_candidates // 2))] if len(first) else first
+    return followed(few, more, project, config)
+
+
+def followed(
+    first: Float[np.ndarray, "k 3"], more: Float[np.ndarray, "s 3"], project: Project, config: PromptConfig
+) -> Float[np.ndarray, "m 3"]:
+    """Return the first points, as they are, and as many of the others, in their order, as keep their numbers apart."""
+    chosen = list(first)
     for point in more:
         if len(chosen) < config.most_candidates and labels_apart(project(np.array([*chosen, point])), config.label_apart):
             chosen.append(point)

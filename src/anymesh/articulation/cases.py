@@ -3,29 +3,33 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from anymesh.articulation.decode import plane_normal
 from anymesh.articulation.estimate import surroundings
+from anymesh.articulation.own_axes import round_pieces
 from anymesh.articulation.tree import descendants, parents
 from anymesh.articulation.twins import agree, same_size
-from anymesh.config import ArticulationConfig, Config
+from anymesh.config import Config
 from anymesh.geometry.pieces import ObjectShape
 from anymesh.geometry.surroundings import Surroundings
 from anymesh.reasoning.asking import Answer, Question, Seer
 from anymesh.reasoning.prompting import JointKind, KindAnswer, PartShown
 from anymesh.types import Motion, Picture, Segmentation
-from anymesh.types.recognition import BASE, Moves, Recognition, RecognizedLabel
+from anymesh.types.recognition import BASE, Recognition, RecognizedLabel
 
 MOST_PICTURES = 8  # in one call
-LEAST_RANGE = np.deg2rad(5.0)  # an answered range of a hinge that is less is no help
 
 
 @dataclass(frozen=True, eq=False)
 class Case:
-    """A part on its way to a joint. number: in the segmentation; carried: parts that hang on it; asked: the motion answered."""
+    """A part on its way to a joint.
+
+    number: in the segmentation; carried: parts that hang on it; circles: axes of round pieces; recognized: what recognition
+    says of its label; asked: the motion answered.
+    """
 
     number: int
     name: str
@@ -33,6 +37,8 @@ class Case:
     carried: tuple[int, ...]
     around: Surroundings
     shown: PartShown
+    circles: tuple[Motion, ...] = ()
+    recognized: RecognizedLabel | None = None
     answer: KindAnswer = KindAnswer(JointKind.FIXED)  # noqa: RUF009 - frozen
     asked: Motion | None = None
 
@@ -50,11 +56,10 @@ def make_cases(whole: ObjectShape, segmentation: Segmentation, recognition: Reco
     label = segmentation.face_part[whole.source]
     shapes = [whole.of(np.flatnonzero(label == i)) for i in range(len(segmentation.parts))]
     told = {r.label: r for r in recognition.labels} if recognition else {}
-    parent = parents(shapes, whole.diagonal, _told_parents(segmentation, told))
+    parent = parents(shapes, whole.diagonal, _answered_parents(segmentation, told))
     arounds = {}
     for numbers in same_size(shapes, parent):
-        limits = [_limited(config.articulation, told.get(segmentation.parts[i].label)) for i in numbers]
-        some = [surroundings(whole, label, shapes, parent, i, limited) for i, limited in zip(numbers, limits, strict=True)]
+        some = [surroundings(whole, label, shapes, parent, i, config.articulation) for i in numbers]
         arounds |= zip(numbers, agree(some), strict=True)
     found = []
     for i, part in enumerate(segmentation.parts[1:], start=1):
@@ -69,25 +74,28 @@ def make_cases(whole: ObjectShape, segmentation: Segmentation, recognition: Reco
             contact=contact,
         )
         carried = tuple(descendants(parent, i))
-        found.append(Case(i, part.name, segmentation.parts[parent[i]].name, carried, around, shown))
+        circles = round_pieces(whole, shapes[i], shapes[parent[i]])
+        found.append(
+            Case(i, part.name, segmentation.parts[parent[i]].name, carried, around, shown, circles, told.get(part.label))
+        )
     return found
 
 
-def _limited(config: ArticulationConfig, told: RecognizedLabel | None) -> ArticulationConfig:
-    """With the range that was answered for a hinge which nothing stops; what the sweep stops needs no answer."""
-    if told is None or told.limits is None or told.moves is not Moves.REVOLUTE or told.limits[1] < LEAST_RANGE:
-        return config
-    most = float(np.degrees(told.limits[1]))
-    return replace(config, door_most=most, flap_most=most)
+def _answered_parents(segmentation: Segmentation, told: Mapping[str, RecognizedLabel]) -> list[set[int]]:
+    """For each part the numbers of parts that it may hang on by the answers; empty when nobody said.
 
-
-def _told_parents(segmentation: Segmentation, told: Mapping[str, RecognizedLabel]) -> list[set[int]]:
-    """For each part the numbers of parts that recognition says it may hang on; empty when nobody said."""
-    found = []
-    for part in segmentation.parts:
+    A label that hangs on itself is that of a chain: such parts hang on each other, the first of them on any other part.
+    """
+    numbers = range(len(segmentation.parts))
+    found: list[set[int]] = []
+    for i, part in enumerate(segmentation.parts):
         over = told[part.label].parent if part.label in told else None
-        numbers = {j for j, other in enumerate(segmentation.parts) if other.label == over and j > 0}
-        found.append({0} if over == BASE else numbers)
+        if over == BASE:
+            found.append({0})
+        elif over == part.label:
+            found.append(set(numbers) - {i})
+        else:
+            found.append({j for j in numbers if j > 0 and segmentation.parts[j].label == over})
     return found
 
 

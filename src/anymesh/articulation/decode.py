@@ -29,10 +29,17 @@ def plane_normal(points: Float[np.ndarray, "n 3"], tolerance: float, seed: int) 
     return normal / np.linalg.norm(normal)
 
 
-def hinge(picked: Float[np.ndarray, "k 3"], normal: Float[np.ndarray, " 3"]) -> Motion:
-    """Two or more points: their line. One point: the normal of the connecting area's plane through it."""
+def hinge(
+    picked: Float[np.ndarray, "k 3"], normal: Float[np.ndarray, " 3"], axis: Float[np.ndarray, " 3"] | None = None
+) -> Motion:
+    """Return the line through two or more points, or through one along the axis that it stands for.
+
+    axis: None or NaN for a point that stands for none; the normal of the connecting area's plane is taken then.
+    """
     if len(picked) == 1:
-        return Motion(MotionKind.TURN, normal / np.linalg.norm(normal), picked[0], "normal at the point picked")
+        own = axis is not None and not np.isnan(axis).any()
+        along, source = (axis, "axis at the point picked") if own else (normal, "normal at the point picked")
+        return Motion(MotionKind.TURN, along / np.linalg.norm(along), picked[0], source)
     middle = picked.mean(0)
     axis = np.linalg.svd(picked - middle, full_matrices=False)[2][0]
     return Motion(MotionKind.TURN, axis / np.linalg.norm(axis), middle, f"line through the {len(picked)} points picked")

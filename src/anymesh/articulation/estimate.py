@@ -10,7 +10,7 @@ import numpy as np
 
 from anymesh.articulation.evidence import part_facts, weigh_all
 from anymesh.articulation.hypotheses import propose
-from anymesh.articulation.limits import limits, opening_motion
+from anymesh.articulation.limits import limits, opening_as_answered, opening_motion
 from anymesh.articulation.tree import descendants, parents
 from anymesh.articulation.twins import agree, in_a_row, same_size
 from anymesh.config import ArticulationConfig, Config
@@ -146,9 +146,17 @@ def estimate_joint(around: Surroundings, name: str, parent: str, question: Motio
 
 
 def joint_of(
-    around: Surroundings, name: str, parent: str, best: Candidate, kind: JointType, confidence: float, reason: str
+    around: Surroundings,
+    name: str,
+    parent: str,
+    best: Candidate,
+    kind: JointType,
+    confidence: float,
+    reason: str,
+    answered: tuple[float, float] | None = None,
 ) -> Joint:
-    """The joint that a candidate motion makes: positive opens, limits by the sweep."""
+    """Build the joint of a candidate motion: positive opens, limits by the sweep, within the answered range if there is one."""
+    best = opening_as_answered(best, answered)
     motion = opening_motion(best)
     return Joint(
         name=f"{name}_joint",
@@ -157,7 +165,7 @@ def joint_of(
         child=name,
         origin=_on_part(motion, around),
         axis=motion.axis / np.linalg.norm(motion.axis),
-        limits=limits(around, best, kind),
+        limits=limits(around, best, kind, answered),
         confidence=confidence,
         reason=reason,
     )

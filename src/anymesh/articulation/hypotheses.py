@@ -133,10 +133,11 @@ def propose(around: Surroundings) -> list[tuple[str, Motion]]:
         found += _edges(box, "the part's outer box")
     found += _slides(Box(box.center, np.eye(3), box.half), "the object")
     found += _from_contact(around)
-    return _distinct(found, around.scale)
+    return distinct(found, around.scale)
 
 
-def _distinct(found: list[tuple[str, Motion]], diagonal: float) -> list[tuple[str, Motion]]:
+def distinct(found: list[tuple[str, Motion]], diagonal: float) -> list[tuple[str, Motion]]:
+    """Return the motions without near copies of earlier ones. diagonal: the length that tolerances are shares of [m]."""
     kept: list[tuple[str, Motion]] = []
     for role, motion in found:
         if not any(_same(motion, other, diagonal) for _, other in kept):

@@ -2,26 +2,44 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from jaxtyping import Bool, Float
 
 from anymesh.geometry.surroundings import Surroundings
 from anymesh.geometry.sweep import free_amount
 from anymesh.reasoning.questions import Candidate
-from anymesh.types import JointType, Motion
+from anymesh.reasoning.weighing import BLOCKED
+from anymesh.types import JointType, Motion, MotionKind
+from anymesh.types.recognition import Moves, RecognizedLabel
 
 FRONT = 0.35  # a slide less deep than this share of its parent is only a front
 ROUND = 0.8  # a part this round that slides outwards without a grip is a button
 STROKE = 0.5  # of its height: how far a button goes in at least
 BUTTON = 0.06  # a part with less of the object's diagonal that slides outwards is a button, whatever is behind it
 CONTROL = 0.25  # a part with less of the object's diagonal may be a button or a trigger
+MIN_TURN = np.deg2rad(2.0)  # a shorter range of a hinge is an error
+MIN_TRAVEL = 0.001  # share of the scale; a shorter range of a slide is an error
+MOSTLY_BLOCKED, MOSTLY_FREE = 0.5, 0.8  # shares of an answered range that are free before and after the axis is reversed
+HELD_DEPTH = 0.3  # share of an answered travel: a part inside its parent by less is only a front
 
 
-def limits(around: Surroundings, c: Candidate, kind: JointType) -> tuple[float, float] | None:
-    """(lower, upper) about the opening axis [rad or m]; None for continuous and fixed joints."""
+Range = tuple[float, float]  # lower, upper [rad or m], lower <= 0 <= upper
+
+
+def limits(around: Surroundings, c: Candidate, kind: JointType, answered: Range | None = None) -> Range | None:
+    """Compute (lower, upper) about the opening axis [rad or m]; None for continuous and fixed joints.
+
+    answered: the range about the opening axis that an answerer gave; the sweep only shortens it.
+    """
     match kind:
         case JointType.CONTINUOUS | JointType.FIXED:
             return None
+        case JointType.REVOLUTE if answered is not None:
+            return _answered_turn(around, c, answered)
+        case JointType.PRISMATIC if answered is not None:
+            return _answered_slide(around, c, answered)
         case JointType.REVOLUTE:
             return _turn(around, c)
         case JointType.PRISMATIC:
@@ -31,6 +49,70 @@ def limits(around: Surroundings, c: Candidate, kind: JointType) -> tuple[float, 
 def opening_motion(c: Candidate) -> Motion:
     """The candidate's motion with the axis turned so that positive opens."""
     return Motion(c.motion.kind, c.motion.axis * c.opens, c.motion.origin, c.motion.source)
+
+
+def answered_range(told: RecognizedLabel | None, kind: JointType) -> Range | None:
+    """Return the range [rad or m] that was answered for a joint of this type, None when there is none that helps."""
+    if told is None or told.limits is None:
+        return None
+    lower, upper = told.limits
+    if kind is JointType.REVOLUTE and told.moves is Moves.REVOLUTE:
+        return told.limits if upper - lower >= MIN_TURN else None
+    if kind is JointType.PRISMATIC and told.moves is Moves.PRISMATIC:
+        return told.limits if upper > lower else None
+    return None
+
+
+def opening_as_answered(c: Candidate, answered: Range | None) -> Candidate:
+    """Return the candidate with the opening direction that fits an answered range [rad].
+
+    A lid that is shown open closes further than it opens (-105..20 deg). Only then, and only where the sweep leaves more of
+    the range free with the axis reversed, the opening direction that the geometry suggests is reversed.
+    """
+    if answered is None or -answered[0] <= answered[1] or c.motion.kind is MotionKind.SLIDE:
+        return c
+    lower, upper = -answered[0], answered[1]
+    kept, reversed_ = min(upper, c.opening) + min(lower, c.closing), min(upper, c.closing) + min(lower, c.opening)
+    if kept > MOSTLY_BLOCKED * (lower + upper) or reversed_ < MOSTLY_FREE * (lower + upper):
+        return c
+    return replace(c, opens=-c.opens, opening=c.closing, closing=c.opening, outward=-c.outward)
+
+
+def _answered_turn(around: Surroundings, c: Candidate, answered: Range) -> Range:
+    """Shorten an answered range to what the sweep leaves free; a hinge that the sweep calls blocked keeps all of it."""
+    lower, upper = -answered[0], answered[1]
+    if max(c.opening, c.closing) < BLOCKED:
+        return (0.0 - lower, upper)
+    ahead, back = _free_within(around, c, lower, upper, 3 * around.config.fine_steps)
+    if ahead + back < MIN_TURN:
+        return (0.0 - lower, upper)
+    return (0.0 - back, ahead)
+
+
+def _answered_slide(around: Surroundings, c: Candidate, answered: Range) -> Range:
+    """Shorten an answered range to what the sweep leaves free and, outwards, to the depth at which the part is held.
+
+    What is pressed in keeps its stroke, up to its own height: its mesh may fill the hole that it moves in.
+    """
+    motion, (lower, upper) = opening_motion(c), (-answered[0], answered[1])
+    extent = float(np.ptp(around.part.corners @ motion.axis))
+    depth = around.inside_depth(motion.axis)
+    if c.outward > 0.7 and depth > HELD_DEPTH * upper:
+        upper = min(upper, depth)
+    ahead, back = _free_within(around, c, lower, upper, 2 * around.config.fine_steps)
+    if upper < lower and c.outward > 0.7:
+        back = min(lower, extent)
+    if ahead + back < MIN_TRAVEL * around.scale:
+        return (0.0 - lower, upper)
+    return (0.0 - back, ahead)
+
+
+def _free_within(around: Surroundings, c: Candidate, lower: float, upper: float, steps: int) -> tuple[float, float]:
+    """Return how far the part is free ahead, up to `upper`, and back, up to `lower` [rad or m]."""
+    obstacles, motion = around.obstacles(c.slack), opening_motion(c)
+    ahead = free_amount(obstacles, motion, 1, upper, steps)[0] if upper > 0 else 0.0
+    back = free_amount(obstacles, motion, -1, lower, steps)[0] if lower > 0 else 0.0
+    return ahead, back
 
 
 def _turn(around: Surroundings, c: Candidate) -> tuple[float, float]:
@@ -58,6 +140,17 @@ def _shut(around: Surroundings) -> bool:
 def ends_near(along: Float[np.ndarray, " n"], near: Bool[np.ndarray, " n"]) -> int:
     """Count the ends of a part, of two, that lie near its parent. along: place of each sample, -1 to 1 from end to end."""
     return sum(bool(near[end].sum() > 0.2 * end.sum()) for end in (along > 0.8, along < -0.8))
+
+
+def pressed(around: Surroundings, c: Candidate, answered: Range | None = None) -> bool:
+    """Return whether a slide goes into its parent from where it is, as buttons do. answered: its range, if there is one."""
+    small = around.part.box.diagonal < CONTROL * around.diagonal or around.outline.roundness > ROUND
+    if c.motion.kind is not MotionKind.SLIDE or c.outward <= 0.7 or not (small or answered):
+        return False
+    if answered is not None:
+        return -answered[0] > answered[1]
+    lower, upper = _slide(around, c)
+    return -lower > upper
 
 
 def _tiny(around: Surroundings) -> bool:

@@ -5,126 +5,189 @@ All parts are asked about together, so that an object takes one call a kind of q
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from anymesh.articulation.candidates import cluster_points, superpoint_centres, with_more
+from anymesh.articulation.candidates import axis_points, cluster_points, followed, superpoint_centres, with_more
 from anymesh.articulation.cases import Case, ask_each, make_cases
+from anymesh.articulation.confidence import Agreement, confidences
+from anymesh.articulation.contradictions import contradictions
 from anymesh.articulation.decode import hinge, slide, surface_directions
 from anymesh.articulation.estimate import joint_of
-from anymesh.articulation.evidence import weigh_all
-from anymesh.articulation.verify import Choice, choose, is_free, words
+from anymesh.articulation.limits import answered_range
+from anymesh.articulation.own_axes import pivots
+from anymesh.articulation.relabel import labels_by_name, relabelled, unlabelled
+from anymesh.articulation.taken import as_answered, normal_outwards, way_out
+from anymesh.articulation.verify import Asking, Choice, choose
 from anymesh.config import Config
 from anymesh.geometry.pieces import ObjectShape
 from anymesh.progress import Progress, silent
 from anymesh.reasoning.asking import Seer
 from anymesh.reasoning.geometry import turns_freely
-from anymesh.reasoning.prompting import ArrowTable, JointKind, PointTable, WhichArrows, WhichKinds, WhichPoints
-from anymesh.rendering.studio import Studio
+from anymesh.reasoning.prompting import ArrowTable, JointKind, PartFit, PointTable, WhichArrows, WhichKinds, WhichPoints
+from anymesh.rendering.studio import Shot, Studio
 from anymesh.types import Joint, JointType, Motion, MotionKind, Segmentation
 from anymesh.types.recognition import Recognition
 
-GUIDED = 0.4  # share of the ways sideways in which what slides out is held
+INTO_POINTS = 8  # candidates for an axis into the surface; half of them stand for axes
+ShapeOf = Callable[[Segmentation], ObjectShape]
+Reground = Callable[[Mapping[str, PartFit]], Segmentation | None]  # parts by name that are too much or too little
+
+
+@dataclass(frozen=True, eq=False)
+class Prompted:
+    """One joint for every part but the root, in the order of the parts. segmentation: with the labels that were answered, and
+    the parts as they were grounded again; warnings: contradictions between answers; agreements: what speaks for each joint."""
+
+    joints: tuple[Joint, ...]
+    segmentation: Segmentation
+    warnings: tuple[str, ...] = ()
+    agreements: tuple[Agreement, ...] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class Questions:
+    """Who is asked about the joints of one object, with what pictures. recognition: of the object, None without one."""
+
+    studio: Studio
+    seer: Seer
+    config: Config
+    recognition: Recognition | None = None
+    progress: Progress = silent
+
+    @property
+    def category(self) -> str:
+        """What the object is."""
+        return self.recognition.category if self.recognition else self.config.category or "object"
+
+    @property
+    def labels(self) -> tuple[str, ...]:
+        """The recognized kinds of part."""
+        return tuple(r.label for r in self.recognition.labels) if self.recognition else ()
 
 
 def prompt_joints(
-    studio: Studio,
-    whole: ObjectShape,
-    segmentation: Segmentation,
-    seer: Seer,
-    config: Config,
-    *,
-    recognition: Recognition | None = None,
-    verify: bool = True,
-    progress: Progress = silent,
-) -> tuple[Joint, ...]:
-    """One joint for every part but the root, in the order of the parts. verify: choose among free motions at the end."""
-    cases = make_cases(whole, segmentation, recognition, config)
-    labels = segmentation.face_part
+    questions: Questions, shape_of: ShapeOf, segmentation: Segmentation, reground: Reground | None = None
+) -> Prompted:
+    """Ask how each part moves and build its joint, as `config.verify` says: off, the paper's method; free, which also replaces
+    what cannot move; or motion, which shows motions to choose from.
+
+    shape_of: makes the object ready for these parts; reground: grounds parts again that the answers call too much or too
+    little, once; None keeps the parts.
+    """
+    whole = shape_of(segmentation)
+    config, progress, seer = questions.config, questions.progress, questions.seer
+    segmentation = labels_by_name(segmentation, questions.labels)
+    cases = make_cases(whole, segmentation, questions.recognition, config)
     progress("joints", "kinds", 0, 4)
-    kinds = ask_each(
-        seer,
-        cases,
-        lambda c, title: studio.card(labels, c.number, title),
-        lambda p, some: WhichKinds(p, tuple(c.shown for c in some)),
-    )
-    cases = [replace(c, answer=kinds[c.number]) for c in cases]
+    cases, segmentation = _with_kinds(questions, cases, whole, segmentation)
     progress("joints", "points and arrows", 1, 4)
-    asked = {**_hinges(cases, whole, studio, labels, seer, config), **_surface_slides(cases, studio, labels, seer)}
-    asked |= {c.number: way_out(c) for c in cases if c.kind is JointKind.SLIDE_OUT}
+    asked = {**_hinges(questions, cases, whole, segmentation), **_surface_slides(questions, cases, segmentation)}
+    out = normal_outwards if config.verify == "off" else way_out
+    asked |= {c.number: out(c) for c in cases if c.kind is JointKind.SLIDE_OUT}
     cases = [replace(c, asked=asked.get(c.number)) for c in cases]
     progress("joints", "motions", 2, 4)
-    chosen = choose(cases, studio, labels, seer, config.prompts.motions) if verify else {c.number: _taken(c) for c in cases}
+    if config.verify == "motion":
+        asking = Asking(questions.studio, segmentation.face_part, seer, questions.category, reground is not None)
+        chosen = choose(cases, asking, config.prompts.motions, config.seed)
+    else:
+        chosen = {c.number: as_answered(c) for c in cases}
+    wrong = {c.name: chosen[c.number].fit for c in cases if chosen[c.number].fit is not PartFit.RIGHT}
+    again = reground(wrong) if reground is not None and wrong else None
+    if again is not None:
+        return prompt_joints(questions, shape_of, again)
     progress("joints", "limits", 3, 4)
-    return tuple(_joint(c, chosen[c.number], verify) for c in cases)
+    sure = confidences({n: choice.agreement for n, choice in chosen.items()})
+    joints = tuple(_joint(c, chosen[c.number], sure[c.number], config.verify) for c in cases)
+    return Prompted(joints, segmentation, contradictions(cases, joints), tuple(chosen[c.number].agreement for c in cases))
 
 
-def _hinges(
-    cases: list[Case], whole: ObjectShape, studio: Studio, labels: np.ndarray, seer: Seer, config: Config
-) -> dict[int, Motion]:
-    """Hinges, by part number: points are clustered, shown, picked, and their line taken."""
+def _with_kinds(
+    questions: Questions, cases: list[Case], whole: ObjectShape, segmentation: Segmentation
+) -> tuple[list[Case], Segmentation]:
+    """Ask what kind of joint each part has and, where its label is none of those recognized, which of these it is."""
+    studio, labels = questions.studio, segmentation.face_part
+    choices = questions.labels if unlabelled(segmentation, questions.labels) else ()
+    kinds = ask_each(
+        questions.seer,
+        cases,
+        lambda c, title: studio.card(labels, c.number, title, c.shown.contact),
+        lambda p, some: WhichKinds(p, tuple(c.shown for c in some), choices, questions.category),
+    )
+    answered = {n: a.label for n, a in kinds.items() if a.label is not None}
+    if answered:
+        segmentation = relabelled(segmentation, answered, questions.labels)
+        cases = make_cases(whole, segmentation, questions.recognition, questions.config)
+    return [replace(c, answer=kinds[c.number]) for c in cases], segmentation
+
+
+def _hinges(questions: Questions, cases: list[Case], whole: ObjectShape, segmentation: Segmentation) -> dict[int, Motion]:
+    """Return the hinges by part number: points are shown, picked, and their line taken."""
+    labels, studio = segmentation.face_part, questions.studio
     turning = [c for c in cases if c.kind.turns]
     shots = {c.number: studio.shot(labels, c.number) for c in turning}
-    tables = {}
-    for case in turning:
-        project = shots[case.number].project
-        points = cluster_points(case.shown.contact, project, config.prompts)
-        if case.kind is JointKind.HINGE_HIDDEN:
-            samples = case.around.part.samples
-            colors = studio.face_colors[whole.source[samples.faces]]
-            points = with_more(points, superpoint_centres(samples, colors, config.grounding), project, config.prompts)
-        tables[case.number] = PointTable(case.shown, points, case.kind)
+    tables = {c.number: _points(questions, c, shots[c.number], whole) for c in turning}
     picks = ask_each(
-        seer,
+        questions.seer,
         turning,
-        lambda c, title: shots[c.number].with_points(tables[c.number].points, title),
-        lambda p, some: WhichPoints(p, tuple(tables[c.number] for c in some)),
+        lambda c, title: shots[c.number].with_points(tables[c.number].points, title, tables[c.number].hidden),
+        lambda p, some: WhichPoints(p, tuple(tables[c.number] for c in some), questions.category),
     )
-    return {c.number: hinge(tables[c.number].points[list(picks[c.number])], c.shown.normal) for c in turning}
+    found = {}
+    for case in turning:
+        table, rows = tables[case.number], list(picks[case.number])
+        axis = None if table.axes is None else table.axes[rows[0]]
+        found[case.number] = hinge(table.points[rows], case.shown.normal, axis)
+    return found
 
 
-def _surface_slides(cases: list[Case], studio: Studio, labels: np.ndarray, seer: Seer) -> dict[int, Motion]:
-    """Slides along the surface, by part number: arrows in its plane are shown, and one is picked."""
+def _points(questions: Questions, case: Case, shot: Shot, whole: ObjectShape) -> PointTable:
+    """The candidate points of a part that turns; with the paper's method clusters and superpoints alone."""
+    config, studio = questions.config, questions.studio
+    project, prompts = shot.project, config.prompts
+    shaped = case.kind is JointKind.HINGE_INTO and config.verify != "off"
+    if shaped:
+        prompts = replace(prompts, most_candidates=min(INTO_POINTS, prompts.most_candidates))
+    points = shot.inside(cluster_points(case.shown.contact, project, prompts))
+    axes = np.zeros((0, 3))
+    if shaped:
+        motions = [m for _, m in pivots(case.around, case.shown.normal)]
+        outline = case.around.outline
+        if outline.roundness > 0.5:
+            motions.insert(0, Motion(MotionKind.TURN, outline.axis, outline.center, "axis of its round outline"))
+        first, axes = axis_points(case.around, [*case.circles, *motions], project, prompts)
+        axes = axes[shot.is_inside(first)]
+        points = followed(first[shot.is_inside(first)], points, project, prompts)
+    if case.kind is JointKind.HINGE_HIDDEN:
+        samples = case.around.part.samples
+        colors = studio.face_colors[whole.source[samples.faces]]
+        points = with_more(points, shot.inside(superpoint_centres(samples, colors, config.grounding)), project, prompts)
+    if len(axes):
+        axes = np.concatenate([axes, np.full((len(points) - len(axes), 3), np.nan)])
+    return PointTable(case.shown, points, case.kind, axes if len(axes) else None, studio.hidden(shot, points))
+
+
+def _surface_slides(questions: Questions, cases: list[Case], segmentation: Segmentation) -> dict[int, Motion]:
+    """Return the slides along the surface by part number: arrows in its plane are shown, and one is picked."""
+    studio, labels = questions.studio, segmentation.face_part
     sliding = [c for c in cases if c.kind is JointKind.SLIDE_ALONG]
     tables = {c.number: ArrowTable(c.shown, surface_directions(c.around)) for c in sliding}
     rows = ask_each(
-        seer,
+        questions.seer,
         sliding,
         lambda c, title: studio.arrows(labels, c.number, title, c.around.part.box.center, tables[c.number].directions),
-        lambda p, some: WhichArrows(p, tuple(tables[c.number] for c in some)),
+        lambda p, some: WhichArrows(p, tuple(tables[c.number] for c in some), questions.category),
     )
     return {c.number: slide(tables[c.number].directions[rows[c.number]], c.around, "arrow picked") for c in sliding}
 
 
-def way_out(case: Case) -> Motion:
-    """In and outward: the plane's normal where the part is free and held along it, else the way out that is held best.
-
-    On real drawers the connecting area is rim and sides, and its plane's normal alone may be off by 80 degrees and more.
-    """
-    around, normal = case.around, case.shown.normal
-    outward = around.outward
-    normal = normal if normal @ outward >= 0 else -normal
-    directions = [s * a for a in around.core.axes for s in (1.0, -1.0) if s * a @ outward > 0.5] + [outward]
-    ways = [slide(normal, around, "normal of the connecting area's plane")]
-    ways += [slide(d, around, "free way out") for d in directions]
-    found = weigh_all(around, [("asked", way) for way in ways])
-    if is_free(found[0]) and found[0].outward > 0.7 and found[0].guided > GUIDED:
-        return ways[0]
-    return ways[max(range(1, len(ways)), key=lambda k: (found[k].guided, found[k].opening, -k))]
-
-
-def _taken(case: Case) -> Choice:
-    """The paper's method, pure: the answer as it is."""
-    motion = case.asked or slide(case.around.outward, case.around, "nothing moves")
-    best = weigh_all(case.around, [("asked", motion)])[0]
-    return Choice(best, f"answered: {words(case.kind)}; {motion.source}", 0.7 if is_free(best) else 0.3)
-
-
-def _joint(case: Case, choice: Choice, verify: bool) -> Joint:
+def _joint(case: Case, choice: Choice, confidence: float, verify: str) -> Joint:
     kind = JointType.FIXED
-    if case.kind is not JointKind.FIXED:
+    if choice.moves:
         turns = choice.best.motion.kind is MotionKind.TURN
-        endless = case.answer.endless and (turns_freely(choice.best) or not verify)
+        endless = case.answer.endless and (verify != "motion" or turns_freely(choice.best))
         kind = JointType.PRISMATIC if not turns else JointType.CONTINUOUS if endless else JointType.REVOLUTE
-    return joint_of(case.around, case.name, case.parent, choice.best, kind, choice.confidence, choice.reason)
+    answered = answered_range(case.recognized, kind)
+    return joint_of(case.around, case.name, case.parent, choice.best, kind, confidence, choice.reason, answered)

@@ -11,34 +11,56 @@ from anymesh.geometry.shape import Shape
 CLEARLY = 3.0  # a part hangs on another part rather than on the root when it is this much nearer, or touches this much more
 
 
-def parents(shapes: list[Shape], diagonal: float, told: Sequence[set[int]] | None = None) -> list[int]:
-    """The parent's index of every part (the root, 0, has -1): the root, unless the part clearly hangs on a larger part.
+def parents(shapes: list[Shape], diagonal: float, answered: Sequence[set[int]] | None = None) -> list[int]:
+    """Return the parent's index of every part (the root, 0, has -1): the root, unless the part clearly hangs on a larger part.
 
-    told: for each part the indices that somebody named, empty where nobody did; the nearest of them that touches is taken.
+    answered: for each part the indices that somebody named, empty where nobody did; the nearest of them that touches is taken.
     """
     size = [float(np.linalg.norm(s.bounds[1] - s.bounds[0])) for s in shapes]
-    found = [-1]
-    for i in range(1, len(shapes)):
-        points = shapes[i].samples.points[::6]
-        best, best_score = 0, 0.0
-        base = shapes[0].tree.distance(points)
-        tolerance = 0.01 * min(diagonal, 5 * size[i])
-        named = _nearest(points, shapes, told[i] - {i}, tolerance) if told else None
-        if named is not None:
-            found.append(named)
+    reach = [0.01 * min(diagonal, 5 * s) for s in size]
+    named = _answered_parents(shapes, answered, reach) if answered else {}
+    rest = (named[i] if i in named else _touching(shapes, i, size, reach[i]) for i in range(1, len(shapes)))
+    return _without_circles([-1, *rest])
+
+
+def _touching(shapes: list[Shape], i: int, size: Sequence[float], tolerance: float) -> int:
+    """Return the larger part that part i clearly hangs on, the root when there is none. tolerance: of touching [m]."""
+    points = shapes[i].samples.points[::6]
+    best, best_score = 0, 0.0
+    base = shapes[0].tree.distance(points)
+    touch_base = float((base < tolerance).mean())
+    for j in range(1, len(shapes)):
+        if j == i or size[j] < 1.15 * size[i] or not _boxes_near(shapes[i], shapes[j], tolerance):
             continue
-        touch_base = float((base < tolerance).mean())
-        for j in range(1, len(shapes)):
-            if j == i or size[j] < 1.15 * size[i] or not _boxes_near(shapes[i], shapes[j], tolerance):
-                continue
-            to = shapes[j].tree.distance(points)
-            touch = float((to < tolerance).mean())
-            nearer = base.min() > max(CLEARLY * to.min(), 0.4 * tolerance) and to.min() < tolerance
-            more = touch > CLEARLY * touch_base + 0.01
-            if (nearer or more) and touch > best_score:
-                best, best_score = j, touch
-        found.append(best)
-    return _without_circles(found)
+        to = shapes[j].tree.distance(points)
+        touch = float((to < tolerance).mean())
+        nearer = base.min() > max(CLEARLY * to.min(), 0.4 * tolerance) and to.min() < tolerance
+        more = touch > CLEARLY * touch_base + 0.01
+        if (nearer or more) and touch > best_score:
+            best, best_score = j, touch
+    return best
+
+
+def _answered_parents(shapes: list[Shape], answered: Sequence[set[int]], reach: Sequence[float]) -> dict[int, int]:
+    """Return the parents that were named and touch, by part.
+
+    Parts that name each other, as the arms of a lamp do, form a chain: those that touch a part outside of it come first, then
+    those that touch them. All others take the nearest part that they name.
+    """
+    found: dict[int, int] = {}
+    placed = {j for j in range(len(shapes)) if j == 0 or not answered[j]}
+    while True:
+        ready = {}
+        for i in sorted(set(range(len(shapes))) - placed):
+            chain = {j for j in answered[i] if i in answered[j]}
+            if chain or answered[i] <= placed:
+                nearest = _nearest(shapes[i].samples.points[::6], shapes, (answered[i] - {i}) & placed, reach[i])
+                if nearest is not None or not chain:
+                    ready[i] = nearest
+        if not ready:
+            return found
+        found |= {i: j for i, j in ready.items() if j is not None}
+        placed |= ready.keys()
 
 
 def _boxes_near(a: Shape, b: Shape, reach: float) -> bool:

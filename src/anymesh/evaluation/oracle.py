@@ -12,7 +12,17 @@ from anymesh.evaluation.truth import Subject
 from anymesh.reasoning.asking import Answer, Question, Seer
 from anymesh.reasoning.grounding import WhichMarks
 from anymesh.reasoning.knowing import Knowing, KnownJoint, Reference
-from anymesh.reasoning.prompting import JointKind, KindAnswer, WhichArrows, WhichKinds, WhichMotions, WhichPoints
+from anymesh.reasoning.prompting import (
+    JointKind,
+    KindAnswer,
+    MotionPick,
+    PartShown,
+    PointTable,
+    WhichArrows,
+    WhichKinds,
+    WhichMotions,
+    WhichPoints,
+)
 from anymesh.reasoning.vocabulary import recognize
 from anymesh.types import Exchange
 
@@ -65,7 +75,7 @@ class Noisy:
                 answer = replace(answer, parts=wrong)
             case WhichKinds():
                 moving = [kind for kind in JointKind if kind is not JointKind.FIXED]
-                answer = tuple(KindAnswer(self._other(k.kind, moving), k.endless) for k in answer)
+                answer = tuple(replace(k, kind=self._other(k.kind, moving)) for k in answer)
             case WhichPoints():
                 answer = tuple(
                     self._others(rows, range(len(t.points))) for rows, t in zip(answer, question.tables, strict=True)
@@ -73,7 +83,10 @@ class Noisy:
             case WhichArrows():
                 answer = tuple(self._other(n, range(len(t.directions))) for n, t in zip(answer, question.tables, strict=True))
             case WhichMotions():
-                answer = tuple(self._other(n, range(len(t.motions))) for n, t in zip(answer, question.tables, strict=True))
+                answer = tuple(
+                    replace(a, motion=self._other(a.motion, range(len(t.motions))))
+                    for a, t in zip(answer, question.tables, strict=True)
+                )
             case _:
                 pass
         return cast(Answer, answer)
@@ -89,3 +102,40 @@ class Noisy:
         return tuple(
             spare.pop(int(self._rng.integers(len(spare)))) if spare and self._rng.random() < self._wrong else n for n in right
         )
+
+
+class Random:
+    """Answers the questions about joints at random, with valid answers; another answerer answers the rest."""
+
+    exchanges: tuple[Exchange, ...] = ()
+    remarks: tuple[str, ...] = ()
+    blind = True
+
+    def __init__(self, seer: Seer, rng: np.random.Generator) -> None:
+        self.name, self._seer, self._rng = "random", seer, rng
+
+    def ask(self, question: Question[Answer]) -> Answer:
+        answer: Any
+        match question:
+            case WhichKinds():
+                answer = tuple(KindAnswer(kind, self._coin() and kind.turns) for kind in map(self._kind, question.parts))
+            case WhichPoints():
+                answer = tuple(self._points(t) for t in question.tables)
+            case WhichArrows():
+                answer = tuple(int(self._rng.integers(len(t.directions))) for t in question.tables)
+            case WhichMotions():
+                rows = [int(self._rng.integers(-1, len(t.motions))) for t in question.tables]
+                answer = tuple(MotionPick(None if row < 0 else row) for row in rows)
+            case _:
+                answer = self._seer.ask(question)
+        return cast(Answer, answer)
+
+    def _coin(self) -> bool:
+        return bool(self._rng.random() < 0.5)
+
+    def _kind(self, _: PartShown) -> JointKind:
+        return list(JointKind)[int(self._rng.integers(len(JointKind)))]
+
+    def _points(self, table: PointTable) -> tuple[int, ...]:
+        count = int(self._rng.integers(table.least, table.most + 1))
+        return tuple(int(k) for k in self._rng.permutation(len(table.points))[:count])

@@ -11,7 +11,7 @@ from anymesh.models.prices import cost_of, most_picture_tokens
 from anymesh.models.vision import Reply, Request
 from anymesh.reasoning.asking import Answer, Question, Seer
 from anymesh.reasoning.grounding import MarkedPart, WhichMarks, WhichViews
-from anymesh.reasoning.prompting import WhichArrows, WhichKinds, WhichMotions, WhichPoints
+from anymesh.reasoning.prompting import OTHER, WhichArrows, WhichKinds, WhichMotions, WhichPoints
 from anymesh.reasoning.recognition import Recognize
 from anymesh.reasoning.vlm import VlmAnswerer
 from anymesh.types.recognition import Moves, RecognizedLabel
@@ -61,13 +61,17 @@ def spoken(question: Question[Any], answer: Any) -> dict[str, Any]:
             split = {"split": [*answer.split]} if question.splittable else {}
             return {"parts": [_marked(p) for p in answer.parts], "unsure": [*answer.unsure], **split}
         case WhichKinds():
-            return _parts({"joint": str(a.kind), "endless": a.endless} for a in answer)
+            label = [{"label": a.label or OTHER} if question.labels else {} for a in answer]
+            return _parts({"joint": str(a.kind), "endless": a.endless, **told} for a, told in zip(answer, label, strict=True))
         case WhichPoints():
             return _parts({"points": [n + 1 for n in rows]} for rows in answer)
         case WhichArrows():
             return _parts({"arrow": n + 1} for n in answer)
         case WhichMotions():
-            return _parts({"motion": 0 if n is None else n + 1} for n in answer)
+            return _parts(
+                {"motion": 0 if a.motion is None else a.motion + 1, **({"part_is": str(a.part)} if question.ask_fit else {})}
+                for a in answer
+            )
         case _:
             raise TypeError(f"nothing is known of {type(question).__name__}")
 

@@ -20,6 +20,7 @@ from anymesh.reasoning.grounding import MarkedPart, MarksAnswer, WhichMarks, Whi
 from anymesh.reasoning.prompting import (
     JointKind,
     KindAnswer,
+    MotionPick,
     PartShown,
     PointTable,
     WhichArrows,
@@ -111,13 +112,13 @@ class Knowing:
             case WhichMarks():
                 answer = self._marks(question)
             case WhichKinds():
-                answer = tuple(self._kind(p) for p in question.parts)
+                answer = tuple(self._kind(p, question.labels) for p in question.parts)
             case WhichPoints():
                 answer = tuple(self._points(t) for t in question.tables)
             case WhichArrows():
                 answer = tuple(self._arrow(t.part, t.directions) for t in question.tables)
             case WhichMotions():
-                answer = tuple(self._motion(t.part, t.motions, t.amounts) for t in question.tables)
+                answer = tuple(MotionPick(self._motion(t.part, t.motions, t.amounts)) for t in question.tables)
             case _:
                 raise TypeError(f"no answer is known to {type(question).__name__}")
         return cast(Answer, answer)
@@ -125,13 +126,18 @@ class Knowing:
     def _recognition(self) -> Recognition:
         known, found = self._known, {}
         for part, (label, joint) in enumerate(zip(known.kinds, known.joints, strict=True)):
-            if joint is not None and self._moves(part) and label not in found:
-                over = known.parents[part]
-                while over and not self._moves(over):
-                    over = known.parents[over]
-                parent = BASE if over == 0 or known.kinds[over] == label else known.kinds[over]
-                found[label] = RecognizedLabel(label, Moves(joint.type.value), parent, joint.range)
+            if joint is not None and self._moves(part):
+                parent = self._parent(part)
+                if label not in found or parent == label:  # a part on another of its own label makes it a chain
+                    found[label] = RecognizedLabel(label, Moves(joint.type.value), parent, joint.range)
         return Recognition(known.category, known.size, tuple(found.values()))
+
+    def _parent(self, part: int) -> str:
+        """The label of the movable part that a part is mounted on."""
+        over = self._known.parents[part]
+        while over and not self._moves(over):
+            over = self._known.parents[over]
+        return self._known.kinds[over] if over else BASE
 
     def _moves(self, part: int) -> bool:
         joint = self._known.joints[part]
@@ -174,48 +180,57 @@ class Knowing:
     def _instance(self, part: int) -> int:
         return sum(kind == self._known.kinds[part] for kind in self._known.kinds[1 : part + 1])
 
-    def _joint(self, part: PartShown) -> KnownJoint | None:
-        """Of the known part that this one covers most, None where that is fixed."""
+    def _number(self, part: PartShown) -> int:
+        """The known part that this one covers most, 0 where that is fixed."""
         known = self._known
         area = np.bincount(known.face_part[part.faces], known.face_area[part.faces], len(known.labels))
         moving = int(area[1:].argmax()) + 1 if len(area) > 1 and area[1:].max() > 0 else 0
-        return known.joints[moving] if moving and self._moves(moving) else None
+        return moving if moving and self._moves(moving) else 0
 
-    def _kind(self, part: PartShown) -> KindAnswer:
+    def _joint(self, part: PartShown) -> KnownJoint | None:
+        return self._known.joints[self._number(part)]
+
+    def _kind(self, part: PartShown, labels: tuple[str, ...]) -> KindAnswer:
         joint = self._joint(part)
+        label = self._known.kinds[self._number(part)]
+        told = label if label in labels else None
         if joint is None:
-            return KindAnswer(JointKind.FIXED)
+            return KindAnswer(JointKind.FIXED, label=told)
+        endless = joint.type is JointType.CONTINUOUS
+        return KindAnswer(self._kind_of(part, joint), endless, told)
+
+    def _kind_of(self, part: PartShown, joint: KnownJoint) -> JointKind:
         axis = joint.motion.axis
         if joint.type is JointType.PRISMATIC:
-            return KindAnswer(JointKind.SLIDE_OUT if abs(float(axis @ part.outward)) > OUT else JointKind.SLIDE_ALONG)
-        endless = joint.type is JointType.CONTINUOUS
+            return JointKind.SLIDE_OUT if abs(float(axis @ part.outward)) > OUT else JointKind.SLIDE_ALONG
         on = part.contact[_to_line(part.contact, joint) < NEAR * _size(part)]
         along = np.ptp(on @ axis) if len(on) > 1 else 0.0
         if along > SPREAD * np.ptp(part.points @ axis):
-            return KindAnswer(JointKind.HINGE_ALONG, endless)
-        return KindAnswer(JointKind.HINGE_INTO if abs(float(axis @ part.normal)) > INTO else JointKind.HINGE_HIDDEN, endless)
+            return JointKind.HINGE_ALONG
+        return JointKind.HINGE_INTO if abs(float(axis @ part.normal)) > INTO else JointKind.HINGE_HIDDEN
 
     def _points(self, table: PointTable) -> tuple[int, ...]:
-        """The point nearest to the axis, or the two whose line takes the part nearest to where the joint takes it."""
+        """The point whose axis is nearest, or the two whose line takes the part nearest to where the joint takes it."""
         joint = self._joint(table.part)
         if joint is None:
             return tuple(range(table.least))
+        size = _size(table.part)
+        normals = np.broadcast_to(table.part.normal, table.points.shape)
+        if table.axes is not None:
+            normals = np.where(np.isnan(table.axes), normals, table.axes)
         off = _to_line(table.points, joint)
-        nearest = int(off.argmin())
-        if table.most == 1:
-            return (nearest,)
-        best, least = (0, 1), np.inf
-        if table.least == 1:
-            best, least = (nearest,), _turned_by(table.part.normal, joint) * _size(table.part) + float(off[nearest])
-        for a, b in combinations(range(len(table.points)), 2):
+        single = np.array([_turned_by(n, joint) for n in normals]) * size + off
+        best = (int(single.argmin() if table.axes is not None else off.argmin()),)
+        least = float(single[best[0]]) if table.least == 1 else np.inf
+        for a, b in combinations(range(len(table.points)), 2) if table.most > 1 else ():
             apart = table.points[b] - table.points[a]
             length = float(np.linalg.norm(apart))
             if length < 1e-9:
                 continue
-            error = _turned_by(apart / length, joint) * _size(table.part) + float(off[[a, b]].mean())
+            error = _turned_by(apart / length, joint) * size + float(off[[a, b]].mean())
             if error < least:
                 best, least = (a, b), error
-        return best
+        return best if len(best) >= table.least else (0, 1)
 
     def _arrow(self, part: PartShown, directions: np.ndarray) -> int:
         joint = self._joint(part)

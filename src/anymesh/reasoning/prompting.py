@@ -8,10 +8,12 @@ from enum import StrEnum
 from typing import Any
 
 import numpy as np
-from jaxtyping import Float, Int
+from jaxtyping import Bool, Float, Int
 
 from anymesh.reasoning.asking import BOOLEAN, INTEGER, BadAnswerError, a_list, an_answer, an_object, one_each, one_of
-from anymesh.types import Motion, Picture
+from anymesh.types import Motion, MotionKind, Picture
+
+OTHER = "other"  # the label of a part that is none of the recognized kinds
 
 
 class JointKind(StrEnum):
@@ -43,48 +45,64 @@ class PartShown:
 
 @dataclass(frozen=True)
 class KindAnswer:
-    """endless: turns without limits."""
+    """endless: turns without limits; label: which of the recognized kinds of part it is, None when that was not asked."""
 
     kind: JointKind
     endless: bool = False
+    label: str | None = None
 
 
 @dataclass(frozen=True, eq=False)
 class WhichKinds:
-    """What kind of joint has each part? One picture a part."""
+    """What kind of joint has each part? One picture a part. labels: recognized kinds of part to choose from, where parts are
+    given without such a label; category: what the object is."""
 
     pictures: tuple[Picture, ...]
     parts: tuple[PartShown, ...]
+    labels: tuple[str, ...] = ()
+    category: str = "object"
     kind: str = "kinds"
 
     def text(self) -> str:
+        labels = f" label: which of these it is: {', '.join(self.labels)}; else {OTHER!r}." if self.labels else ""
         return (
-            f"{_listed(self.parts)} How is each attached to the object that it belongs to? "
+            f"Object: {self.category}. {_listed(self.parts)} How is each attached to the object that it belongs to? "
             "hinge_along_edge: it turns about a line that runs along an edge where it meets the rest, as doors, lids and flaps "
             "do; hinge_into_surface: it turns about a line that sticks into the surface it sits on, as knobs and wheels do; "
             "hinge_hidden: it turns, but the hinge is under the surface; slide_in_or_out: it moves out of the object or into "
             "it, as drawers and push buttons do; slide_along_surface: it slides along the surface, as sliding windows "
             "and toaster levers do; fixed: it does not move. endless: it can turn round and round. The part is coloured."
+            f"{labels}"
         )
 
     def schema(self) -> dict[str, Any]:
-        return an_answer(parts=a_list(an_object(part=INTEGER, joint=one_of(tuple(JointKind)), endless=BOOLEAN)))
+        label = {"label": one_of((*self.labels, OTHER))} if self.labels else {}
+        return an_answer(parts=a_list(an_object(part=INTEGER, joint=one_of(tuple(JointKind)), endless=BOOLEAN, **label)))
 
     def parse(self, found: Mapping[str, Any]) -> tuple[KindAnswer, ...]:
         """In the order of the parts."""
         one_each([p["part"] for p in found["parts"]], len(self.parts), "part")
         by_part = {p["part"]: p for p in found["parts"]}
-        kinds = [(JointKind(p["joint"]), p["endless"]) for _, p in sorted(by_part.items())]
-        return tuple(KindAnswer(kind, endless and kind.turns) for kind, endless in kinds)
+        return tuple(self._answer(p) for _, p in sorted(by_part.items()))
+
+    def _answer(self, found: Mapping[str, Any]) -> KindAnswer:
+        kind, label = JointKind(found["joint"]), found.get("label")
+        return KindAnswer(kind, found["endless"] and kind.turns, None if label == OTHER else label)
 
 
 @dataclass(frozen=True, eq=False)
 class PointTable:
-    """Numbered candidate points of one part, as drawn: number k is row k - 1; how many are asked for depends on the kind."""
+    """Numbered candidate points of one part, as drawn: number k is row k - 1; how many are asked for depends on the kind.
+
+    axes: for each point the direction (unit) of the axis that it stands for, NaN where it is a place alone; hidden: points
+    that lie under a surface.
+    """
 
     part: PartShown
     points: Float[np.ndarray, "k 3"]
     kind: JointKind
+    axes: Float[np.ndarray, "k 3"] | None = None
+    hidden: Bool[np.ndarray, " k"] | None = None
 
     @property
     def least(self) -> int:
@@ -92,14 +110,25 @@ class PointTable:
 
     @property
     def most(self) -> int:
-        return 1 if self.kind is JointKind.HINGE_INTO else len(self.points)
+        into = self.kind is JointKind.HINGE_INTO
+        return min(len(self.points), (1 if self.axes is None else 2) if into else len(self.points))
 
     @property
     def wanted(self) -> str:
-        if self.most == 1:
-            return "the one point nearest to its axis"
+        if self.kind is JointKind.HINGE_INTO:
+            one = "the one point nearest to its axis"
+            return one if self.most == 1 else f"{one} where that comes out of the surface, or two points on its axis"
         far = "two or more points on its hinge line, far apart"
         return far if self.least > 1 else f"{far}, or a single point if the axis sticks out of the surface there"
+
+    @property
+    def listed(self) -> str:
+        """The numbers that are drawn, in words."""
+        hidden = np.zeros(len(self.points), bool) if self.hidden is None else self.hidden
+        few = np.flatnonzero(hidden if hidden.mean() <= 0.5 else ~hidden) + 1
+        told = f"{'' if hidden.mean() <= 0.5 else 'all but '}{', '.join(map(str, few))}" if len(few) else "all"
+        under = f" (hidden: {told})" if hidden.any() else ""
+        return f"{'point 1' if len(self.points) == 1 else f'points 1..{len(self.points)}'}{under}"
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,16 +137,15 @@ class WhichPoints:
 
     pictures: tuple[Picture, ...]
     tables: tuple[PointTable, ...]
+    category: str = "object"
     kind: str = "points"
 
     def text(self) -> str:
-        each = []
-        for k, t in enumerate(self.tables, 1):
-            each.append(f"part {k}, a {t.part.label}, points 1..{len(t.points)}: {t.wanted}")
+        each = [f"part {k}, a {t.part.label}, {t.listed}: {t.wanted}" for k, t in enumerate(self.tables, 1)]
         return (
-            "Each picture shows one part (coloured) that turns about an axis, with numbered points on it and round it. Think "
-            "of how such a part is mounted and which side its handle is on; the hinge of a door lies opposite its handle. Give "
-            f"for {'; for '.join(each)}."
+            f"Object: {self.category}. Each picture shows one part (coloured) that turns about an axis, with "
+            "numbered points on it and round it; hollow dots are hidden under a surface. Think how such a part is mounted and "
+            f"which side its handle is on; the hinge of a door lies opposite its handle. Give for {'; for '.join(each)}."
         )
 
     def schema(self) -> dict[str, Any]:
@@ -150,11 +178,13 @@ class WhichArrows:
 
     pictures: tuple[Picture, ...]
     tables: tuple[ArrowTable, ...]
+    category: str = "object"
     kind: str = "arrows"
 
     def text(self) -> str:
         each = "; ".join(f"part {k}, a {t.part.label}, arrows 1..{len(t.directions)}" for k, t in enumerate(self.tables, 1))
         return (
+            f"Object: {self.category}. "
             "Each picture shows one part (coloured) that slides along the surface of the object, and numbered arrows. Which "
             f"arrow shows the way it slides when it is opened or used? {each}."
         )
@@ -169,36 +199,78 @@ class WhichArrows:
 
 @dataclass(frozen=True, eq=False)
 class MotionTable:
-    """Numbered motions of one part, as drawn, and how far each was moved [rad or m]: number k is row k - 1."""
+    """Numbered motions of one part, as drawn, and how far each was moved [rad or m]: number k is row k - 1.
+
+    blocked: motions during which the part would run into something as modelled.
+    """
 
     part: PartShown
     motions: tuple[Motion, ...]
     amounts: tuple[float, ...]
+    blocked: tuple[bool, ...] = ()
+
+    @property
+    def listed(self) -> str:
+        """The motions in words."""
+        words = []
+        for k, motion in enumerate(self.motions):
+            blocked = ", blocked" if k < len(self.blocked) and self.blocked[k] else ""
+            words.append(f"{k + 1} ({'slides' if motion.kind is MotionKind.SLIDE else 'turns'}{blocked})")
+        return ", ".join(words)
+
+
+class PartFit(StrEnum):
+    """Whether the coloured region is the part that moves."""
+
+    RIGHT = "right"
+    TOO_MUCH = "too_much"
+    TOO_LITTLE = "too_little"
+
+
+@dataclass(frozen=True)
+class MotionPick:
+    """motion: a row of the table, None for none of them; part: whether the region shown is right."""
+
+    motion: int | None
+    part: PartFit = PartFit.RIGHT
 
 
 @dataclass(frozen=True, eq=False)
 class WhichMotions:
-    """Which of the motions shown is the right one? One strip of pictures a part: at rest, then moved by each motion."""
+    """Which of the motions shown is the right one? One strip of pictures a part: at rest, then moved by each motion.
+
+    ask_fit: the answer also says whether the coloured region is the whole part and nothing else.
+    """
 
     pictures: tuple[Picture, ...]
     tables: tuple[MotionTable, ...]
+    category: str = "object"
+    ask_fit: bool = False
     kind: str = "motions"
 
     def text(self) -> str:
-        each = "; ".join(f"part {k}, a {t.part.label}, motions 1..{len(t.motions)}" for k, t in enumerate(self.tables, 1))
+        each = "; ".join(f"part {k}, a {t.part.label}, motions {t.listed}" for k, t in enumerate(self.tables, 1))
+        fit = (
+            f" part_is: {PartFit.TOO_MUCH} where things are coloured that do not move with it, {PartFit.TOO_LITTLE} where some "
+            f"of it stays behind, else {PartFit.RIGHT}."
+        )
         return (
-            "Each picture shows one part (coloured) at rest and then moved in several numbered ways, all of which are "
-            "physically free. Which is the way that it moves in the real object, 0 if none of them is? Look at where its "
-            f"hinge would be, which side its handle is on, and what it would hit. {each}."
+            f"Object: {self.category}. Each picture shows one part (coloured) at rest and then moved in several "
+            "numbered ways, in no particular order; grey outlines show where it was. Which is the way that it moves in the "
+            "real object, 0 if none of them is? Look at where its hinge would be, which side its handle is on, and what it "
+            "would hit. Blocked ways run into something; choose one all the same where only the model is in the way. "
+            f"{each}.{fit if self.ask_fit else ''}"
         )
 
     def schema(self) -> dict[str, Any]:
-        return an_answer(parts=a_list(an_object(part=INTEGER, motion=INTEGER)))
+        fit = {"part_is": one_of(tuple(PartFit))} if self.ask_fit else {}
+        return an_answer(parts=a_list(an_object(part=INTEGER, motion=INTEGER, **fit)))
 
-    def parse(self, found: Mapping[str, Any]) -> tuple[int | None, ...]:
-        """A row of each table, None for none of them, in the order of the tables."""
+    def parse(self, found: Mapping[str, Any]) -> tuple[MotionPick, ...]:
+        """A pick for each table, in the order of the tables."""
         rows = _rows(found["parts"], "motion", [len(t.motions) for t in self.tables], 0)
-        return tuple(None if row < 0 else row for row in rows)
+        fits = {p["part"]: PartFit(p.get("part_is", PartFit.RIGHT)) for p in found["parts"]}
+        return tuple(MotionPick(None if row < 0 else row, fits[k]) for k, row in enumerate(rows, 1))
 
 
 def _rows(parts: list[Mapping[str, Any]], name: str, counts: Sequence[int], least: int) -> tuple[int, ...]:

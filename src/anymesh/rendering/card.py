@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from jaxtyping import Int, UInt8
+from jaxtyping import Float, Int, UInt8
 from PIL import Image, ImageDraw
 
 from anymesh.config import ViewsConfig
@@ -14,11 +14,14 @@ from anymesh.rendering.paint import HIGHLIGHT, highlight
 from anymesh.rendering.raycast_ import RayScene
 from anymesh.rendering.render import View
 from anymesh.rendering.strips import silhouette
-from anymesh.rendering.viewpoints import best_view, close_up, part_pixels
+from anymesh.rendering.viewpoints import best_view, close_up, hidden_points, part_pixels, visible_pixels
 from anymesh.types import Mesh
 
 TITLE = 22  # [px] font in a picture of 640 px
 BAR = 34  # [px] height of the title
+WELL = 0.5  # share of the pixels that a part has in its best view: with as many it is shown well
+CONTACT_POINTS = 300  # of the contact, that are looked at in each view
+UNDER = 0.02  # share of the contact's extent: points that lie deeper under a surface are not seen
 
 
 def part_card(
@@ -29,12 +32,14 @@ def part_card(
     title: str,
     config: ViewsConfig,
     scene: RayScene,
+    contact: Float[np.ndarray, "c 3"] | None = None,
 ) -> UInt8[np.ndarray, "H W 3"]:
     """The part in the view that shows most of it; beside that the close-up, if any; above them the title.
 
-    views: of this mesh; scene: its rays. A part that is hidden in every view shines through, and the title says so.
+    views: of this mesh; scene: its rays; contact: points where the part meets the rest [m]; of the views that show the part
+    well, the one that shows most of these is taken. A part that is hidden in every view shines through, and the title says so.
     """
-    view = views[best_view(views, face_part, part)]
+    view = views[_card_view(views, face_part, part, scene, contact)]
     mask = part_pixels(view, face_part, part)
     if not mask.any():
         mask = silhouette(mesh.triangles[face_part == part], view.camera)
@@ -45,6 +50,23 @@ def part_card(
         return titled(whole, title)
     close = highlight(near.color, part_pixels(near, face_part, part), alpha=0.2)
     return titled(np.concatenate([_framed(whole, view, near), _edged(close)], 1), title)
+
+
+def _card_view(
+    views: Sequence[View],
+    face_part: Int[np.ndarray, " F"],
+    part: int,
+    scene: RayScene,
+    contact: Float[np.ndarray, "c 3"] | None,
+) -> int:
+    """The number of the view that shows most of the contact, of those that show the part well."""
+    if contact is None or len(contact) == 0:
+        return best_view(views, face_part, part)
+    few = contact[:: max(1, len(contact) // CONTACT_POINTS)]
+    pixels = np.array([visible_pixels(v, face_part, part) for v in views])
+    depth = UNDER * float(np.linalg.norm(np.ptp(contact, axis=0)))
+    seen = np.array([(~hidden_points(scene, v.camera, few, depth)).mean() for v in views])
+    return int(np.where(pixels >= WELL * pixels.max(), pixels / max(pixels.max(), 1) + seen, -1.0).argmax())
 
 
 def _framed(image: UInt8[np.ndarray, "H W 3"], view: View, near: View) -> UInt8[np.ndarray, "H W 3"]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from jaxtyping import Float, UInt8
+from jaxtyping import Bool, Float, UInt8
 from PIL import Image, ImageDraw
 
 from anymesh.rendering.labels import beside, draw_leader, draw_plate, take
@@ -21,12 +21,16 @@ def labels_apart(pixels: Float[np.ndarray, "k 2"], least: float) -> bool:
 
 
 def draw_points(
-    image: UInt8[np.ndarray, "H W 3"], pixels: Float[np.ndarray, "k 2"], numbers: Sequence[int]
+    image: UInt8[np.ndarray, "H W 3"],
+    pixels: Float[np.ndarray, "k 2"],
+    numbers: Sequence[int],
+    hidden: Bool[np.ndarray, " k"] | None = None,
 ) -> UInt8[np.ndarray, "H W 3"]:
-    """The picture with a dot at each pixel and its number beside it; no plate covers a dot or another plate.
+    """Draw a dot at each pixel and its number beside it; no plate covers a dot or another plate.
 
-    Points outside the picture are not drawn.
+    hidden: points that are drawn as hollow dots. Points outside the picture are not drawn.
     """
+    hollow = {n for n, h in zip(numbers, hidden, strict=True) if h} if hidden is not None else set()
     height, width = image.shape[:2]
     scale = max(1.0, height / 640)
     dot, font = round(DOT * scale), round(FONT * scale)
@@ -45,7 +49,10 @@ def draw_points(
         draw_leader(draw, plate, mark_color(number))
     for x, y, number in spots:
         draw.ellipse([x - dot - 1, y - dot - 1, x + dot + 1, y + dot + 1], fill=(255, 255, 255))
-        draw.ellipse([x - dot, y - dot, x + dot, y + dot], fill=mark_color(number), outline=(0, 0, 0))
+        if number in hollow:
+            draw.ellipse([x - dot, y - dot, x + dot, y + dot], outline=mark_color(number), width=max(2, dot // 2))
+        else:
+            draw.ellipse([x - dot, y - dot, x + dot, y + dot], fill=mark_color(number), outline=(0, 0, 0))
     for number, plate in plates.items():
         draw_plate(draw, plate, mark_color(number))
     return np.asarray(drawn)

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from functools import cached_property
+from dataclasses import replace
 
 import numpy as np
 from jaxtyping import Bool, Float, UInt8
@@ -12,9 +11,9 @@ from PIL import Image, ImageDraw
 
 from anymesh.rendering.axes import axis_line, draw_arrow, draw_ring, ring
 from anymesh.rendering.labels import PAD, Plate, draw_plate, plate_size
-from anymesh.rendering.paint import HIGHLIGHT, blend, lighten, rim
+from anymesh.rendering.paint import HIGHLIGHT, blend, rim
+from anymesh.rendering.posed import PartPixels, Posed, Rays, Still, bounds_of, part_color
 from anymesh.rendering.raycast_ import RayScene
-from anymesh.rendering.render import lit, shade
 from anymesh.rendering.viewpoints import box_of, orbit_camera, zoom
 from anymesh.types import Mesh, Motion, MotionKind
 from anymesh.types.camera import Camera
@@ -22,17 +21,17 @@ from anymesh.types.camera import Camera
 PANEL, COLUMNS = 400, 4  # [px] of a panel; panels side by side: 1600 px at most
 MARGIN = 0.35  # round what moves, a share of its diagonal: what it moves against is seen too
 AIR = 0.04  # round that, a share of the picture on each side
-LIGHTEN = 0.5  # of what stands still
 GHOST = 0.3  # strength of the part where something hides it
 AXIS_LEAST, RING = 3.0, 0.1  # what `axis_line` takes for a diagonal; radius of the ring: shares of the part's diagonal
 LEGIBLE = 0.5  # of the picture's side: the axis of a smaller part is drawn as if it were so large
-TITLE = 24  # [px] font
-SKETCH = 80  # [px] of the pictures that the camera is chosen with
+TITLE, WORD = 24, 18  # [px] font of a panel's number, and of what it says of the motion
+WHITE, BLOCKED = (255, 255, 255), (250, 200, 120)  # ground of what a panel says, also of a blocked motion
+STILL_LINE, PART_LINE, LINE = (120, 120, 120), (8, 30, 90), 0.55  # colours of lines along creases, and their opacity
+CREASE = 0.82  # cosine (35 degrees) below which a surface bends sharply
+SKETCH = 64  # [px] of the pictures that the camera is chosen with
 DEPTH = 0.02  # share of the diagonal from which a difference in depth counts
 TURNS = {24: 1.0, 55: 0.75, -24: 0.4}  # elevations [deg]; how welcome they are: people know things from a little above
 SIDES = {35: 1.0, -35: 1.0, 0: 0.65, 75: 0.9, -75: 0.9, 145: 0.8, -145: 0.8}  # azimuths [deg]; obliquely, all three sizes show
-
-Rays = tuple[np.ndarray, np.ndarray]  # origins and directions, as of `Camera.rays`
 
 
 def moved(mesh: Mesh, moving: Bool[np.ndarray, " F"], T: Float[np.ndarray, "4 4"]) -> Mesh:
@@ -43,71 +42,98 @@ def moved(mesh: Mesh, moving: Bool[np.ndarray, " F"], T: Float[np.ndarray, "4 4"
     return replace(mesh, vertices=triangles.reshape(-1, 3), faces=faces, corner_normal=None)
 
 
-@dataclass(frozen=True, eq=False)
-class _Pose:
-    """The object with a part somewhere, to cast rays at; corners: of the faces that move."""
-
-    mesh: Mesh
-    moving: Bool[np.ndarray, " F"]
-
-    @cached_property
-    def scene(self) -> RayScene:
-        return RayScene(self.mesh.vertices, self.mesh.faces)
-
-    @cached_property
-    def corners(self) -> Float[np.ndarray, "n 3"]:
-        return self.mesh.triangles[self.moving].reshape(-1, 3)
-
-
 def motion_strip(
     mesh: Mesh,
     moving: Bool[np.ndarray, " F"],
     motions: Sequence[tuple[Motion, float]],
     *,
     numbers: Sequence[int] | None = None,
+    blocked: Sequence[bool] = (),
     camera: Camera | None = None,
+    scene: RayScene | None = None,
 ) -> UInt8[np.ndarray, "H W 3"]:
-    """Panels in rows: the rest pose, then the part moved by each motion, with its axis and the outline of its rest pose.
+    """Draw panels in rows: the rest pose, then the part moved by each motion, with its axis and the outline of its rest pose.
 
     moving: the part's faces, and those of whatever it carries; motions: each with the amount [rad or m] that is shown;
-    numbers: the panels' titles, 1, 2, ... if None; camera: `strip_camera` if None. Raises ValueError when nothing moves.
+    numbers: the panels' titles, 1, 2, ... if None; blocked: motions whose titles say so; camera: `strip_camera` if None;
+    scene: the mesh's rays, if they are at hand. Raises ValueError when nothing moves.
     """
-    poses = _poses(mesh, moving, motions)
-    camera = camera or _best_camera(poses, motions, PANEL)
+    posed, poses = _poses(mesh, moving, motions, scene)
+    camera = camera or _best_camera(posed, poses, motions, PANEL)
     fine = replace(camera, width=2 * camera.width, height=2 * camera.height)
     rays = fine.rays()
-    shape = silhouette(mesh.triangles[moving], fine, rays)
-    panels = [_titled(_half(_painted(poses[0], rays, shape)), "rest")]
-    for number, pose, (motion, amount) in zip(numbers or range(1, len(motions) + 1), poses[1:], motions, strict=True):
-        picture = _painted(pose, rays, silhouette(pose.mesh.triangles[moving], fine, rays))
-        picture = blend(picture, rim(shape, 2), (90, 90, 90), 0.7)
-        panels.append(_titled(_half(_with_axis(picture, *_axis(poses[0].corners, motion, amount, fine), fine)), str(number)))
+    still = posed.still_picture(rays)
+    shape = (fine.height, fine.width)
+    lines = _lines(still.distance.reshape(shape), still.normal.reshape(*shape, 3), np.zeros(shape, bool))
+    rest = posed.part_pixels(poses[0], fine)
+    panels = [_titled(_half(_painted(still, lines, rest)), "rest")]
+    covered = np.zeros(shape, bool)
+    covered.reshape(-1)[rest.pixel] = True
+    outline = rim(covered, 2)
+    names = numbers or range(1, len(motions) + 1)
+    for k, (number, (motion, amount)) in enumerate(zip(names, motions, strict=True)):
+        picture = _painted(still, lines, posed.part_pixels(poses[k + 1], fine))
+        picture = blend(picture, outline, (90, 90, 90), 0.7)
+        drawn = _with_axis(picture, *_axis(posed.corners, motion, amount, fine), fine)
+        word = "slides" if motion.kind is MotionKind.SLIDE else "turns"
+        panels.append(_titled(_half(drawn), str(number), f"{word}, blocked" if k < len(blocked) and blocked[k] else word))
     return grid(panels)
 
 
 def strip_camera(
     mesh: Mesh, moving: Bool[np.ndarray, " F"], motions: Sequence[tuple[Motion, float]], size: int = PANEL
 ) -> Camera:
-    """The camera in which the least different two of the poses differ most; it frames what moves, in every pose."""
-    return _best_camera(_poses(mesh, moving, motions), motions, size)
+    """Return the camera in which the least different two of the poses differ most; it frames what moves, in every pose."""
+    posed, poses = _poses(mesh, moving, motions)
+    return _best_camera(posed, poses, motions, size)
 
 
-def _poses(mesh: Mesh, moving: Bool[np.ndarray, " F"], motions: Sequence[tuple[Motion, float]]) -> list[_Pose]:
-    """The rest pose and the moved ones."""
+def _poses(
+    mesh: Mesh, moving: Bool[np.ndarray, " F"], motions: Sequence[tuple[Motion, float]], scene: RayScene | None = None
+) -> tuple[Posed, list[np.ndarray]]:
+    """The object, and the transforms of its part: at rest and moved."""
     if not moving.any():
         raise ValueError("a motion needs faces that move, found none")
-    return [_Pose(mesh, moving), *(_Pose(moved(mesh, moving, m.transform(amount)), moving) for m, amount in motions)]
+    posed = Posed(mesh, moving, scene or RayScene(mesh.vertices, mesh.faces))
+    return posed, [np.eye(4), *(m.transform(amount) for m, amount in motions)]
 
 
-def _painted(pose: _Pose, rays: Rays, shape: Bool[np.ndarray, "H W"]) -> UInt8[np.ndarray, "H W 3"]:
-    """The picture of a pose. shape: the silhouette of what moves; where that is hidden, it shines through."""
-    hits = pose.scene.first_hit(*rays)
-    color, normal = shade(pose.mesh, hits, rays[1])
-    seen = (hits.face >= 0) & pose.moving[hits.face]
-    color = lighten(color, LIGHTEN)
-    blue = np.tile(np.array(HIGHLIGHT, float), (int(seen.sum()), 1))
-    color[seen] = lit(blue, normal[seen])
-    return blend(color.reshape(*shape.shape, 3), shape & ~seen.reshape(shape.shape), HIGHLIGHT, GHOST)
+def _painted(still: Still, lines: Bool[np.ndarray, "H W"], part: PartPixels) -> UInt8[np.ndarray, "H W 3"]:
+    """The picture of a pose, with lines along creases and borders. Where something hides the part, it shines through.
+
+    lines: of what stands still.
+    """
+    shape = lines.shape
+    before = part.distance < still.distance[part.pixel]
+    seen = np.zeros(len(still.distance), bool)
+    seen[part.pixel[before]] = True
+    color, depth, facing = still.color.copy(), still.distance.copy(), still.normal.copy()
+    color[seen] = part_color(part.normal[before])
+    depth[seen], facing[seen] = part.distance[before], part.normal[before]
+    drawn, visible = lines.copy(), seen.reshape(shape)
+    if len(part.pixel):
+        rows, columns = np.divmod(part.pixel, shape[1])
+        box = (slice(max(rows.min() - 1, 0), rows.max() + 2), slice(max(columns.min() - 1, 0), columns.max() + 2))
+        drawn[box] = _lines(depth.reshape(shape)[box], facing.reshape(*shape, 3)[box], visible[box])
+    picture = blend(color.reshape(*shape, 3), drawn & ~visible, STILL_LINE, LINE)
+    picture = blend(picture, drawn & visible, PART_LINE, LINE)
+    hidden = np.zeros(len(seen), bool)
+    hidden[part.pixel[~before]] = True
+    return blend(picture, hidden.reshape(shape), HIGHLIGHT, GHOST)
+
+
+def _lines(
+    depth: Float[np.ndarray, "H W"], normal: Float[np.ndarray, "H W 3"], seen: Bool[np.ndarray, "H W"]
+) -> Bool[np.ndarray, "H W"]:
+    """Pixels before whose right or lower neighbour the surface ends, bends sharply, or becomes another."""
+    found = np.zeros(depth.shape, bool)
+    for axis in (0, 1):
+        before, after = ((slice(None),) * axis + (s,) for s in (slice(None, -1), slice(1, None)))
+        bends = np.einsum("hwc,hwc->hw", normal[before], normal[after]) < CREASE
+        ends = np.isfinite(depth[before]) != np.isfinite(depth[after])
+        both = np.isfinite(depth[before]) & np.isfinite(depth[after])
+        found[before] |= (bends & both) | ends | (seen[before] != seen[after])
+    return found
 
 
 def silhouette(triangles: Float[np.ndarray, "n 3 3"], camera: Camera, rays: Rays | None = None) -> Bool[np.ndarray, "H W"]:
@@ -141,37 +167,37 @@ def _with_axis(
     return np.asarray(drawn)
 
 
-def _best_camera(poses: Sequence[_Pose], motions: Sequence[tuple[Motion, float]], size: int) -> Camera:
-    total = _bounds([p.mesh.bounds for p in poses])
-    focus = _bounds([np.stack([p.corners.min(0), p.corners.max(0)]) for p in poses])
+def _best_camera(posed: Posed, poses: Sequence[np.ndarray], motions: Sequence[tuple[Motion, float]], size: int) -> Camera:
+    places = [posed.corners @ T[:3, :3].T + T[:3, 3] for T in poses]
+    focus = bounds_of(places)
+    total = bounds_of([posed.mesh.bounds, focus])
     margin = MARGIN * float(np.linalg.norm(focus[1] - focus[0]))
     focus = np.stack([np.maximum(focus[0] - margin, total[0]), np.minimum(focus[1] + margin, total[1])])
+    step = DEPTH * posed.mesh.diagonal
     best, most = None, -1.0
     for azimuth, elevation in ((a, e) for e in TURNS for a in SIDES):
         far = orbit_camera(total, np.deg2rad(azimuth), np.deg2rad(elevation), SKETCH)
         near = _framed(far, _corners(focus))
         rays = near.rays()
-        found = _difference([_depths(p, rays) for p in poses], DEPTH * poses[0].mesh.diagonal)
-        found *= TURNS[elevation] * SIDES[azimuth]
+        found = _difference(_depths(posed, poses, near, rays), step) * TURNS[elevation] * SIDES[azimuth]
         if best is None or found > most:
             best, most = near, found
     assert best is not None
-    ends = [_axis(poses[0].corners, *m, best)[0] for m in motions]
-    return _tightened(best, poses, np.concatenate([np.zeros((0, 3)), *ends]), size)
+    ends = [_axis(posed.corners, *m, best)[0] for m in motions]
+    return _tightened(best, posed, places, np.concatenate([np.zeros((0, 3)), *ends]), size)
 
 
-def _tightened(camera: Camera, poses: Sequence[_Pose], points: Float[np.ndarray, "n 3"], size: int) -> Camera:
-    """Turned at what is in the picture in any pose, and at these points."""
-    rays = camera.rays()
-    seen = np.any([p.scene.first_hit(*rays).face >= 0 for p in poses], axis=0).reshape(camera.height, camera.width)
-    box = box_of(seen) if seen.any() else np.array([0.0, 0, camera.width, camera.height])
-    ends = camera.project(points)[0]
-    low, high = np.minimum(box[:2], ends.min(0, initial=np.inf)), np.maximum(box[2:], ends.max(0, initial=-np.inf))
+def _tightened(
+    camera: Camera, posed: Posed, places: Sequence[Float[np.ndarray, "k 3"]], points: Float[np.ndarray, "n 3"], size: int
+) -> Camera:
+    """Turned at the part in every pose, at these points, and at as much round them as MARGIN says, where something is."""
+    still = np.isfinite(posed.still_hits(camera.rays()).distance).reshape(camera.height, camera.width)
+    moving = camera.project(np.concatenate([*places, points]))[0]
+    low, high = moving.min(0), moving.max(0)
+    air = MARGIN * float((high - low).max()) * np.ones(2)
+    box = box_of(still) if still.any() else np.concatenate([low, high])
+    low, high = np.minimum(low, np.maximum(low - air, box[:2])), np.maximum(high, np.minimum(high + air, box[2:]))
     return zoom(camera, np.concatenate([low, high]), AIR, size)
-
-
-def _bounds(boxes: Sequence[np.ndarray]) -> Float[np.ndarray, "2 3"]:
-    return np.stack([np.min([b[0] for b in boxes], axis=0), np.max([b[1] for b in boxes], axis=0)])
 
 
 def _corners(bounds: Float[np.ndarray, "2 3"]) -> Float[np.ndarray, "8 3"]:
@@ -184,10 +210,16 @@ def _framed(camera: Camera, points: Float[np.ndarray, "n 3"]) -> Camera:
     return zoom(camera, np.concatenate([pixel.min(0), pixel.max(0)]), AIR, camera.height)
 
 
-def _depths(pose: _Pose, rays: Rays) -> Float[np.ndarray, " n"]:
-    """Depth [m] where a picture shows what moves; inf elsewhere."""
-    hits = pose.scene.first_hit(*rays)
-    return np.where((hits.face >= 0) & pose.moving[hits.face], hits.distance, np.inf)
+def _depths(posed: Posed, poses: Sequence[np.ndarray], camera: Camera, rays: Rays) -> list[Float[np.ndarray, " n"]]:
+    """Depth where a picture of each pose shows what moves, in lengths of the rays; inf elsewhere."""
+    before = posed.still_hits(rays).distance
+    found = []
+    for T in poses:
+        part = posed.part_pixels(T, camera)
+        depth = np.full(len(before), np.inf)
+        depth[part.pixel] = np.where(part.distance < before[part.pixel], part.distance, np.inf)
+        found.append(depth)
+    return found
 
 
 def _difference(depths: Sequence[Float[np.ndarray, " n"]], least: float) -> float:
@@ -206,13 +238,18 @@ def _half(picture: UInt8[np.ndarray, "H W 3"]) -> UInt8[np.ndarray, "h w 3"]:
     return np.asarray(Image.fromarray(picture).resize((width // 2, height // 2), Image.Resampling.BOX))
 
 
-def _titled(panel: UInt8[np.ndarray, "H W 3"], title: str) -> UInt8[np.ndarray, "H W 3"]:
-    """The panel with its number in a corner, and a frame."""
+def _titled(panel: UInt8[np.ndarray, "H W 3"], title: str, word: str = "") -> UInt8[np.ndarray, "H W 3"]:
+    """The panel with its number in a corner, how the part moves beside it, and a frame."""
     drawn = Image.fromarray(panel)
     draw = ImageDraw.Draw(drawn)
     draw.rectangle([0, 0, panel.shape[1] - 1, panel.shape[0] - 1], outline=(150, 150, 150))
     width, height = plate_size(title, TITLE)
     draw_plate(draw, Plate(title, (4, 4, 4 + width + 2 * PAD, 4 + height), (4 + PAD, 4 + PAD), TITLE), (20, 20, 20))
+    if word:
+        wide, high = plate_size(word, WORD)
+        left = 12 + width + 2 * PAD
+        plate = Plate(word, (left, 4, left + wide + 2 * PAD, 4 + high), (left + PAD, 4 + PAD), WORD)
+        draw_plate(draw, plate, BLOCKED if "blocked" in word else WHITE)
     return np.asarray(drawn)
 
 

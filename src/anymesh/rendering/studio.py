@@ -20,11 +20,12 @@ from anymesh.rendering.raycast_ import RayScene
 from anymesh.rendering.render import View, face_colors
 from anymesh.rendering.smooth import smoothed
 from anymesh.rendering.strips import motion_strip, silhouette
-from anymesh.rendering.viewpoints import best_view, cameras, caption, close_up, part_pixels, shown, views
+from anymesh.rendering.viewpoints import best_view, cameras, caption, close_up, hidden_points, part_pixels, shown, views
 from anymesh.types import Mesh, Motion, Picture
 from anymesh.types.camera import Camera
 
 ARROW = 0.35  # length of an arrow, as a share of the part's size
+UNDER = 0.003  # share of the diagonal: a point that lies deeper under a surface is hidden
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,9 +39,23 @@ class Shot:
         """Pixels of points [m] in the picture, before its title is put above it."""
         return self.view.camera.project(points)[0]
 
-    def with_points(self, points: Float[np.ndarray, "k 3"], title: str) -> Picture:
-        """The picture with numbered points, 1, 2, ..."""
-        image = draw_points(highlight(self.view.color, self.mask), self.project(points), range(1, len(points) + 1))
+    def is_inside(self, points: Float[np.ndarray, "n 3"]) -> Bool[np.ndarray, " n"]:
+        """Which points [m] lie inside the picture, so that they can be drawn."""
+        pixels, camera = self.project(points), self.view.camera
+        return np.all((pixels >= 0) & (pixels < [camera.width, camera.height]), axis=1)
+
+    def inside(self, points: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "k 3"]:
+        """The points [m] inside the picture; where there is none, the one nearest to its middle."""
+        if len(points) == 0 or (kept := self.is_inside(points)).any():
+            return points[kept] if len(points) else points
+        middle = np.array([self.view.camera.width, self.view.camera.height]) / 2
+        return points[np.linalg.norm(self.project(points) - middle, axis=1).argmin()][None]
+
+    def with_points(
+        self, points: Float[np.ndarray, "k 3"], title: str, hidden: Bool[np.ndarray, " k"] | None = None
+    ) -> Picture:
+        """The picture with numbered points, 1, 2, ...; hidden: those that are drawn hollow."""
+        image = draw_points(highlight(self.view.color, self.mask), self.project(points), range(1, len(points) + 1), hidden)
         return encode(titled(image, title))
 
 
@@ -92,14 +107,20 @@ class Studio:
         found = [caption(*way, front) for way in self._config.views.directions]
         return (found + ["a close-up"] * (count - len(found)))[:count]
 
-    def card(self, face_part: Int[np.ndarray, " F"], part: int, title: str) -> Picture:
-        """The whole object with the part marked, and a close-up when it is small."""
-        return encode(part_card(self._mesh, self.views, face_part, part, title, self._config.views, self.scene))
+    def card(
+        self, face_part: Int[np.ndarray, " F"], part: int, title: str, contact: Float[np.ndarray, "c 3"] | None = None
+    ) -> Picture:
+        """The whole object with the part marked, and a close-up when it is small; contact: points that should be seen [m]."""
+        return encode(part_card(self._mesh, self.views, face_part, part, title, self._config.views, self.scene, contact))
 
     def shot(self, face_part: Int[np.ndarray, " F"], part: int) -> Shot:
         """The part in its best view."""
         view = self._near(self.views[best_view(self.views, face_part, part)], face_part, part)
         return Shot(view, self._mask(view, face_part, part))
+
+    def hidden(self, shot: Shot, points: Float[np.ndarray, "k 3"]) -> Bool[np.ndarray, " k"]:
+        """Which points [m] lie under a surface, as the shot's camera sees them."""
+        return hidden_points(self.scene, shot.view.camera, points, UNDER * self._mesh.diagonal)
 
     def arrows(
         self,
@@ -117,9 +138,17 @@ class Studio:
         drawn = draw_arrows(image, view.camera, center, directions, range(1, len(directions) + 1), length)
         return encode(titled(drawn, title))
 
-    def strip(self, moving: Bool[np.ndarray, " F"], title: str, motions: Sequence[Motion], amounts: Sequence[float]) -> Picture:
-        """A part, with what it carries, at rest and moved by the amount of each motion [rad or m]."""
-        return encode(titled(motion_strip(self._mesh, moving, list(zip(motions, amounts, strict=True))), title))
+    def strip(
+        self,
+        moving: Bool[np.ndarray, " F"],
+        title: str,
+        motions: Sequence[Motion],
+        amounts: Sequence[float],
+        blocked: Sequence[bool] = (),
+    ) -> Picture:
+        """A part, with what it carries, at rest and moved by the amount of each motion [rad or m]. blocked: marked so."""
+        shown = list(zip(motions, amounts, strict=True))
+        return encode(titled(motion_strip(self._mesh, moving, shown, blocked=blocked, scene=self.scene), title))
 
     def _near(self, view: View, face_part: np.ndarray, part: int) -> View:
         """A close-up where the part is small in the view."""

@@ -105,6 +105,14 @@ def best_view(views: Sequence[View], face_part: Int[np.ndarray, " F"], part: int
     return int(np.argmax([visible_pixels(v, face_part, part) for v in views]))
 
 
+def hidden_points(scene: RayScene, camera: Camera, points: Float[np.ndarray, "k 3"], depth: float) -> Bool[np.ndarray, " k"]:
+    """Which points lie behind a surface by more than `depth` [m], as the camera sees them."""
+    eye = camera.T_world_camera[:3, 3]
+    rays = points - eye
+    hits = scene.first_hit(np.broadcast_to(eye, rays.shape).copy(), rays, 1.0)
+    return (hits.face >= 0) & ((1 - hits.distance) * np.linalg.norm(rays, axis=1) > depth)
+
+
 def box_of(mask: Bool[np.ndarray, "H W"]) -> Float[np.ndarray, " 4"]:
     """The pixels' bounding box x0, y0, x1, y1, pixel (0, 0) being 0..1. Raises ValueError when there is none."""
     if not mask.any():

@@ -1,0 +1,184 @@
+"""Which motions of a part are shown to choose from: what was answered before, the part's own axes, and the likeliest others,
+of those that would look different."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from anymesh.articulation.cases import Case
+from anymesh.articulation.evidence import part_facts, weigh_all
+from anymesh.articulation.hypotheses import distinct, propose
+from anymesh.articulation.limits import answered_range, opening_motion, pressed
+from anymesh.articulation.own_axes import CENTRAL, pivots
+from anymesh.reasoning.geometry import turns_freely
+from anymesh.reasoning.prompting import JointKind, MotionTable
+from anymesh.reasoning.questions import Candidate, PartFacts
+from anymesh.reasoning.vocabulary import habit_of
+from anymesh.reasoning.weighing import BLOCKED, LITTLE, score
+from anymesh.types import JointType, MotionKind
+from anymesh.types.recognition import Moves
+
+SHOWN_TURN = np.deg2rad(60.0)  # most of a turn in a picture
+SHOWN_SLIDE = 0.6  # most of a slide in a picture, as a share of the part's size
+SHOWN_BLOCKED = 0.6  # share of these that is shown of a motion that is blocked
+ALIKE = 0.15  # motions that take the part's points to places this near, as a share of the way, look alike
+PIXELS = 0.01  # and so do those this near, as a share of the part's diagonal: two or three pixels
+BEHIND = 8.0  # a motion that is less plausible than the best one by more is shown in the second picture, unless few are left
+FEW = 3  # free motions that are in the first picture however implausible
+OWN = 3  # axes of the part's own shape that are always in the first picture
+ROUGH = 2.0  # a line through picked points is rougher than one of the part's own that looks like it
+ANSWERED = 2.0  # what it is worth, in units of clear evidence, that a motion is of the kind that was answered
+REVERSED = 3.0  # what it costs that a motion goes against the opening direction that its geometry suggests
+ENOUGH_POINTS = 200  # of the part, whose places are compared
+
+
+@dataclass(frozen=True, eq=False)
+class Offers:
+    """The motions of a part that look different, likeliest first.
+
+    shares: (k,) how likely each is by geometry alone; amounts: how far each is moved in a picture [rad or m]; first, second:
+    numbers of those that the first and the second picture show, in the order in which they are drawn; answered: the one that
+    is, or looks like, what was answered before.
+    """
+
+    case: Case
+    facts: PartFacts
+    motions: tuple[Candidate, ...]
+    shares: tuple[float, ...]
+    amounts: tuple[float, ...]
+    first: tuple[int, ...]
+    second: tuple[int, ...]
+    answered: int | None
+
+    def table(self, shown: tuple[int, ...]) -> MotionTable:
+        """The motions with these numbers, in this order."""
+        some = [self.motions[k] for k in shown]
+        return MotionTable(
+            self.case.shown,
+            tuple(opening_motion(c) for c in some),
+            tuple(self.amounts[k] for k in shown),
+            tuple(not is_free(c) for c in some),
+        )
+
+
+def make_offers(case: Case, most: int, seed: int) -> Offers:
+    """Propose, sweep, score and select the motions of a part. most: in a picture; seed: of their order in it."""
+    facts, candidates = weighed(case)
+    habit = habit_of(facts.label)
+    plain = [score(facts, c, habit) for c in candidates]
+    for c, value in list(zip(candidates, plain, strict=True)):
+        if _goes_back(c):
+            candidates.append(replace(c, opens=-c.opens, opening=c.closing, closing=c.opening, outward=-c.outward))
+            plain.append(value - REVERSED)
+    worth = [v + _agrees(c, case) - ROUGH * (c.role == "asked") for v, c in zip(plain, candidates, strict=True)]
+    order = sorted(range(len(candidates)), key=lambda k: (not is_free(candidates[k]), -worth[k], k))
+    kept, amounts, answered = _unlike(case, candidates, [k for k in order if _shown(candidates[k])])
+    motions = [candidates[k] for k in kept]
+    best = max((worth[k] for k in kept), default=0.0)
+    likely = [
+        is_free(c) and (worth[k] > best - BEHIND or rank < FEW) for rank, (k, c) in enumerate(zip(kept, motions, strict=True))
+    ]
+    first, second = _pages(motions, case.kind, likely, answered, most)
+    rng = np.random.default_rng([seed, case.number])
+    shares = np.exp(np.array([plain[k] for k in kept]) - max((plain[k] for k in kept), default=0.0))
+    return Offers(
+        case, facts, tuple(motions), tuple((shares / max(shares.sum(), 1e-12)).tolist()), tuple(amounts),
+        tuple(rng.permutation(first).tolist()), tuple(rng.permutation(second).tolist()), answered,
+    )  # fmt: skip
+
+
+def weighed(case: Case) -> tuple[PartFacts, list[Candidate]]:
+    """Return all candidate motions of a part with their evidence; the one that was answered comes first, even if it repeats
+    one."""
+    around = case.around
+    proposed = propose(around)
+    facts = part_facts(around, case.label, case.label, any(role == "bail" for role, _ in proposed))
+    circles = [("circle", motion) for motion in case.circles]
+    proposed = distinct([*proposed, *circles, *pivots(around, case.shown.normal)], around.scale)
+    first = [("asked", case.asked)] if case.asked is not None else []
+    return facts, list(weigh_all(around, first + proposed))
+
+
+def is_free(c: Candidate) -> bool:
+    """Return whether the sweep lets a motion open at all."""
+    return bool(c.opening >= (BLOCKED if c.motion.kind is MotionKind.TURN else LITTLE))
+
+
+def fits(c: Candidate, kind: JointKind) -> bool:
+    """Return whether a motion is of the kind that was answered."""
+    if kind.turns or c.motion.kind is MotionKind.TURN:
+        return kind.turns and c.motion.kind is MotionKind.TURN
+    return (abs(c.outward) > 0.7) == (kind is JointKind.SLIDE_OUT)
+
+
+def moves_as(c: Candidate, moves: Moves) -> bool:
+    """Return whether a motion is a turn or a slide as recognition said."""
+    return (moves is Moves.PRISMATIC) == (c.motion.kind is MotionKind.SLIDE)
+
+
+def shown_amount(c: Candidate, case: Case) -> float:
+    """Return how far a motion goes in a picture [rad or m]: opening, or into the parent for what is pressed (negative)."""
+    around = case.around
+    if c.motion.kind is MotionKind.TURN:
+        return float(min(c.opening, SHOWN_TURN) if is_free(c) else SHOWN_BLOCKED * SHOWN_TURN)
+    size = SHOWN_SLIDE * around.part.box.diagonal
+    if pressed(around, c, answered_range(case.recognized, JointType.PRISMATIC)):
+        return -0.5 * min(float(np.ptp(around.part.corners @ c.motion.axis)), size)
+    return float(min(c.opening * around.scale, size) if is_free(c) else SHOWN_BLOCKED * size)
+
+
+def _agrees(c: Candidate, case: Case) -> float:
+    """What it is worth that a motion agrees with the answers about the part and its label."""
+    recognized = case.recognized.moves if case.recognized else None
+    return ANSWERED * fits(c, case.kind) + ANSWERED * (recognized is not None and moves_as(c, recognized))
+
+
+def _goes_back(c: Candidate) -> bool:
+    """Whether a motion may as well go the other way."""
+    if c.motion.kind is MotionKind.TURN:
+        return c.closing >= BLOCKED and not turns_freely(c) and c.role != "asked"
+    return c.closing >= LITTLE and abs(c.outward) <= 0.7
+
+
+def _shown(c: Candidate) -> bool:
+    """Whether a motion may be shown: what is blocked only where it was answered or is an axis of the part's own."""
+    return is_free(c) or c.role == "asked" or c.role in CENTRAL
+
+
+def _unlike(case: Case, candidates: list[Candidate], order: list[int]) -> tuple[list[int], list[float], int | None]:
+    """Return those that look different, the likeliest of each group, how far they are moved, and which of them stands for
+    what was answered."""
+    samples = case.around.part.samples.points
+    points = samples[:: max(1, len(samples) // ENOUGH_POINTS)]
+    kept: list[int] = []
+    ends: list[np.ndarray] = []
+    amounts: list[float] = []
+    answered = None
+    for k in order:
+        c = candidates[k]
+        amount = shown_amount(c, case)
+        T = opening_motion(c).transform(amount)
+        end = points @ T[:3, :3].T + T[:3, 3]
+        least = max(ALIKE * float(np.linalg.norm(end - points, axis=1).mean()), PIXELS * case.around.part.box.diagonal)
+        alike = (n for n, other in enumerate(ends) if np.linalg.norm(end - other, axis=1).mean() <= least)
+        twin = next(alike, len(kept))
+        if twin == len(kept):
+            kept.append(k)
+            ends.append(end)
+            amounts.append(amount)
+        if c.role == "asked":
+            answered = twin
+    return kept, amounts, answered
+
+
+def _pages(
+    motions: list[Candidate], kind: JointKind, likely: list[bool], answered: int | None, most: int
+) -> tuple[list[int], list[int]]:
+    """Numbers of the motions in the first picture and in the second."""
+    own = [k for k, c in enumerate(motions) if c.role in CENTRAL and fits(c, kind)][:OWN]
+    must = ([] if answered is None else [answered]) + [k for k in own if k != answered]
+    first = must[:most]
+    first += [k for k, good in enumerate(likely) if good and k not in first][: most - len(first)]
+    return first, [k for k in range(len(motions)) if k not in first][:most]

@@ -1,0 +1,70 @@
+"""Axes that a part's own shape suggests to the eye: circles on it or beside it, the ring where it is held, its pivot.
+
+They come on top of `hypotheses.propose`; only those who see the part are asked about them.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from jaxtyping import Float
+
+from anymesh.geometry.circles import outline_about
+from anymesh.geometry.pieces import ObjectShape
+from anymesh.geometry.shape import Shape
+from anymesh.geometry.surroundings import Surroundings
+from anymesh.types import Motion, MotionKind
+
+ROUND = 0.8  # roundness of a circle that stands for an axis
+MOST_CIRCLES = 4  # round pieces of a part, the largest first
+MOST_PIECES = 40  # looked at, the largest first
+CENTRAL = ("round", "center", "hub", "circle", "pivot", "pin", "bail", "barrel")  # roles of axes that a part's shape gives
+SAME_DIRECTION = 0.98  # cosine
+LEAST_POINTS = 24  # of a contact that may be a ring
+
+
+def round_pieces(whole: ObjectShape, part: Shape, parent: Shape) -> tuple[Motion, ...]:
+    """Return the axes of round pieces of a part, and of round pieces of its parent that it encloses or sits on (pins)."""
+    found: list[tuple[float, Motion]] = []
+    low, high = part.bounds
+    for own, shape in ((True, part), (False, parent)):
+        numbers, count = np.unique(whole.piece[shape.faces], return_counts=True)
+        if own and len(numbers) < 2:
+            continue
+        for number in numbers[np.argsort(-count, kind="stable")][:MOST_PIECES]:
+            corners = shape.triangles[whole.piece[shape.faces] == number].reshape(-1, 3)
+            meets = (corners.max(0) >= low).all() and (corners.min(0) <= high).all()
+            if len(corners) < LEAST_POINTS or not (own or meets):
+                continue
+            piece = shape.take(np.flatnonzero(whole.piece[shape.faces] == number))
+            if own or piece.box.diagonal < part.box.diagonal:
+                points = np.concatenate([corners, piece.samples.points])
+                outlines = [outline_about(points, axis) for axis in piece.box.axes]
+                best = max(outlines, key=lambda o: o.roundness)
+                if best.roundness > ROUND:
+                    found.append((best.radius, _turn(best.axis, best.center, "axis of a round piece")))
+    found.sort(key=lambda item: -item[0])
+    return tuple(motion for _, motion in found[:MOST_CIRCLES])
+
+
+def pivots(around: Surroundings, normal: Float[np.ndarray, " 3"]) -> list[tuple[str, Motion]]:
+    """Return lines through the middle of the contact, and the axis of its ring. normal: of the contact's plane, unit."""
+    contact = around.contact
+    middle = (contact.min(0) + contact.max(0)) / 2
+    directions: list[np.ndarray] = []
+    for d in (normal, around.outward, *around.core.axes):
+        if all(abs(float(d @ other)) < SAME_DIRECTION for other in directions):
+            directions.append(d)
+    found = []
+    if len(contact) >= LEAST_POINTS:
+        rings = [outline_about(contact, d) for d in directions]
+        best = max(rings, key=lambda o: o.roundness)
+        if best.roundness > ROUND:
+            found.append(("hub", _turn(best.axis, best.center, "axis of the ring where it is held")))
+    found += [("pivot", _turn(d, middle, "line through the middle of the contact")) for d in directions]
+    found.append(("pivot", _turn(normal, around.core.center, "middle line along the contact's normal")))
+    return found
+
+
+def _turn(axis: Float[np.ndarray, " 3"], origin: Float[np.ndarray, " 3"], source: str) -> Motion:
+    axis = axis / np.linalg.norm(axis)
+    return Motion(MotionKind.TURN, -axis if axis[np.abs(axis).argmax()] < 0 else axis, origin, source)

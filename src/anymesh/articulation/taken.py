@@ -1,0 +1,53 @@
+"""Answers that are taken as they are: the paper's method, and the same where what cannot move is replaced."""
+
+from __future__ import annotations
+
+from anymesh.articulation.cases import Case
+from anymesh.articulation.confidence import Agreement
+from anymesh.articulation.decode import slide
+from anymesh.articulation.evidence import weigh_all
+from anymesh.articulation.offers import is_free, moves_as
+from anymesh.articulation.verify import Choice, words
+from anymesh.reasoning.prompting import JointKind
+from anymesh.types import Motion
+
+GUIDED = 0.4  # share of the ways sideways in which what slides out is held
+
+
+def normal_outwards(case: Case) -> Motion:
+    """Return the slide along the normal of the connecting area's plane, outwards (paper, 3.3)."""
+    normal = case.shown.normal
+    outward = normal if normal @ case.around.outward >= 0 else -normal
+    return slide(outward, case.around, "normal of the connecting area's plane")
+
+
+def way_out(case: Case) -> Motion:
+    """Return the plane's normal where the part is free and held along it, else the free way out that is held best.
+
+    On real drawers the connecting area is rim and sides, and its plane's normal alone may be off by 80 degrees and more.
+    """
+    around = case.around
+    outward = around.outward
+    directions = [s * a for a in around.core.axes for s in (1.0, -1.0) if s * a @ outward > 0.5] + [outward]
+    ways = [normal_outwards(case)] + [slide(d, around, "free way out") for d in directions]
+    found = weigh_all(around, [("asked", way) for way in ways])
+    if is_free(found[0]) and found[0].outward > 0.7 and found[0].guided > GUIDED:
+        return ways[0]
+    return ways[max(range(1, len(ways)), key=lambda k: (found[k].guided, found[k].opening, -k))]
+
+
+def as_answered(case: Case) -> Choice:
+    """Return the motion that was answered, as it is."""
+    motion = case.asked or slide(case.around.outward, case.around, "nothing moves")
+    best = weigh_all(case.around, [("asked", motion)])[0]
+    moves = case.recognized.moves if case.recognized else None
+    told = moves is not None and moves_as(best, moves)
+    features = {
+        "kind": 1.0,
+        "moves": float(told),
+        "moves against": float(moves is not None and not told),
+        "answered": 1.0,
+        "blocked": float(not is_free(best)),
+    }
+    reason = f"answered: {words(case.kind)}; {motion.source}"
+    return Choice(best, reason, Agreement(features), moves=case.kind is not JointKind.FIXED)

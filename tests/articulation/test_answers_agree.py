@@ -1,0 +1,185 @@
+"""Labels reach parts that are given, contradictions are warnings, and confidence follows how far answers agree."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from assets import box
+from known import KNOWN, QUICK, Watched, knowing, prompted, ready
+from scenes import Scene, prism, wheel
+
+from anymesh.articulation.cases import make_cases
+from anymesh.articulation.confidence import Agreement, confidences
+from anymesh.articulation.prompted import Prompted, Questions, prompt_joints
+from anymesh.articulation.relabel import labels_by_name
+from anymesh.articulation.taken import normal_outwards, way_out
+from anymesh.reasoning.prompting import JointKind, KindAnswer, MotionPick, PartFit
+from anymesh.rendering.studio import Studio
+from anymesh.solving import Solver
+from anymesh.types import JointType, Part, Segmentation
+from anymesh.types.recognition import Moves, Recognition, RecognizedLabel
+
+LEFT = KNOWN["left"]
+X, Y, Z = np.eye(3)
+
+
+def recognition(*labels: RecognizedLabel) -> Recognition:
+    return Recognition("cabinet", None, labels)
+
+
+DOOR = RecognizedLabel("door", Moves.REVOLUTE, "base", (0.0, 1.2))
+TRAY = RecognizedLabel("tray", Moves.PRISMATIC, "base", (0.0, 0.3))
+
+
+def asked(scene: Scene, told: Recognition, name: str = "leaf", verify: str = "motion", **changed) -> tuple[Prompted, Watched]:
+    mesh, whole, segmentation = ready(scene)
+    segmentation = replace(segmentation, parts=(segmentation.parts[0], Part(name, "part")))
+    config = replace(QUICK, verify=verify)
+    watched = Watched(knowing(mesh, segmentation, (LEFT.joint,)), changed=changed)
+    return prompt_joints(Questions(Studio(mesh, config), watched, config, told), lambda _: whole, segmentation), watched
+
+
+@pytest.mark.parametrize(
+    ("name", "label"),
+    [("rudder_left", "rudder"), ("LeftRudders02", "rudder"), ("front door", "door"), ("door handle", "handle"), ("x", "part")],
+)
+def test_recognized_labels_reach_given_parts_by_their_names(name: str, label: str) -> None:
+    given = Segmentation(np.array([0, 1]), (Part("body", "base"), Part(name, "part")))
+    assert labels_by_name(given, ("rudder", "door", "handle")).parts[1] == Part(name, label)
+
+
+def test_a_label_that_was_recognized_already_is_kept() -> None:
+    given = Segmentation(np.array([0, 1]), (Part("body", "base"), Part("rudder", "door")))
+    assert labels_by_name(given, ("rudder", "door")).parts[1].label == "door"
+
+
+def test_a_name_brings_the_recognized_limits_and_nothing_more_is_asked() -> None:
+    found, seer = asked(LEFT.scene, recognition(DOOR, TRAY), "cabinet_door_3")
+    assert found.joints[0].limits == (0, pytest.approx(1.2, abs=0.02))
+    assert found.segmentation.parts[1].label == "door"
+    assert "label" not in seer.asked[0].schema()["properties"]["parts"]["items"]["properties"]
+
+
+def test_a_part_without_a_telling_name_is_asked_for_its_label() -> None:
+    def kinds(question) -> tuple[KindAnswer, ...]:
+        assert question.labels == ("door", "tray")
+        return question.parse({"parts": [{"part": 1, "joint": "hinge_along_edge", "endless": False, "label": "door"}]})
+
+    found, _ = asked(LEFT.scene, recognition(DOOR, TRAY), "mesh_17", kinds=kinds)
+    assert found.joints[0].limits == (0, pytest.approx(1.2, abs=0.02))
+    assert found.segmentation.parts[1].label == "door"
+
+
+def test_answers_that_contradict_each_other_are_a_warning_and_lower_the_confidence() -> None:
+    right, _ = asked(LEFT.scene, recognition(DOOR), "door")
+    wrong, _ = asked(LEFT.scene, recognition(replace(DOOR, moves=Moves.PRISMATIC)), "door")
+    assert right.warnings == ()
+    (warning,) = wrong.warnings
+    assert "recognized as prismatic, then hinge along edge" in warning
+    assert wrong.joints[0].confidence < right.joints[0].confidence
+
+
+def test_what_is_recognized_as_moving_is_not_fixed_by_one_answer() -> None:
+    fixed = {"kinds": lambda q: (KindAnswer(JointKind.FIXED),)}
+    found, seer = asked(LEFT.scene, recognition(DOOR), "door", **fixed)
+    assert [q.kind for q in seer.asked] == ["kinds", "motions"]
+    assert found.joints[0].type is JointType.REVOLUTE
+    assert "then fixed" in found.warnings[0]
+    right, _ = asked(LEFT.scene, recognition(DOOR), "door")
+    none, _ = asked(LEFT.scene, recognition(DOOR), "door", **fixed, motions=lambda q: (MotionPick(None),))
+    assert none.joints[0].type is JointType.FIXED
+    assert none.joints[0].confidence < right.joints[0].confidence
+
+
+def test_confidence_follows_the_agreement_of_a_part_and_of_the_others() -> None:
+    good = Agreement({"kind": 1.0, "answered": 1.0, "likely": 0.9})
+    bad = Agreement({"kind": 0.0, "answered": 0.0, "likely": 0.02, "doubted": 1.0})
+    none = Agreement({"kind": 1.0, "likely": 0.1, "none": 1.0})
+    alone = {name: confidences({1: a})[1] for name, a in (("good", good), ("bad", bad), ("none", none))}
+    assert alone["good"] > 0.8
+    assert max(alone["bad"], alone["none"]) < 0.4
+    assert confidences({1: good, 2: good, 3: good})[1] > confidences({1: good, 2: bad, 3: bad})[1]
+
+
+def test_a_part_that_is_too_much_is_grounded_again_once() -> None:
+    calls = []
+
+    def reground(wrong) -> Segmentation:
+        calls.append(dict(wrong))
+        return segmentation
+
+    mesh, whole, segmentation = ready(LEFT.scene)
+    seer = Watched(knowing(mesh, segmentation, (LEFT.joint,)))
+    seer.changed = {"motions": lambda q: tuple(replace(a, part=PartFit.TOO_MUCH) for a in seer.seer.ask(q))}
+    questions = Questions(Studio(mesh, QUICK), seer, QUICK)
+    found = prompt_joints(questions, lambda _: whole, segmentation, reground)
+    assert calls == [{"leaf": PartFit.TOO_MUCH}]
+    first, second = (q for q in seer.asked if q.kind == "motions")
+    assert "part_is" in first.schema()["properties"]["parts"]["items"]["properties"]
+    assert "part_is" not in second.schema()["properties"]["parts"]["items"]["properties"]  # once
+    assert found.joints[0].type is JointType.REVOLUTE
+    kept = prompt_joints(questions, lambda _: whole, segmentation, lambda wrong: None)
+    assert [j.type for j in kept.joints] == [JointType.REVOLUTE]
+
+
+def test_the_papers_method_takes_the_planes_normal_and_the_free_one_what_is_held() -> None:
+    """On an open drawer the connecting area is its sides: the normal of its plane is no way out."""
+    _, whole, segmentation = ready(KNOWN["open drawer"].scene)
+    (case,) = make_cases(whole, segmentation, None, QUICK)
+    assert abs(normal_outwards(case).axis @ case.shown.normal) == pytest.approx(1)
+    assert abs(way_out(case).axis @ Y) > 0.999
+    for verify, axis in (("off", normal_outwards(case).axis), ("free", way_out(case).axis)):
+        (found,), seer = prompted(KNOWN["open drawer"].scene, (KNOWN["open drawer"].joint,), verify=verify)
+        assert abs(found.axis @ axis) > 0.999
+        assert [q.kind for q in seer.asked] == ["kinds"]
+
+
+def test_the_papers_method_offers_clusters_alone_for_an_axis_into_the_surface() -> None:
+    into = {"kinds": lambda q: (KindAnswer(JointKind.HINGE_INTO),)}
+    tables = {}
+    for verify in ("off", "free"):
+        _, seer = prompted(wheel(), (KNOWN["wheel"].joint,), verify=verify, changed=into)
+        tables[verify] = seer.asked[1].tables[0]
+    assert tables["off"].axes is None
+    assert (tables["off"].most, tables["free"].most) == (1, min(2, len(tables["free"].points)))
+    assert np.abs(tables["free"].axes[0] @ Y) == pytest.approx(1)
+
+
+def test_only_points_that_are_drawn_are_listed_and_hidden_ones_are_told() -> None:
+    knob = box((0.2, -0.05, 0.2), (0.4, -0.001, 0.4))
+    scene = {"base": [box((0, 0, 0), (0.6, 0.4, 0.6))], "knob": [knob]}
+    _, seer = prompted(scene, (KNOWN["left"].joint,), changed={"kinds": lambda q: (KindAnswer(JointKind.HINGE_INTO),)})
+    (table,) = seer.asked[1].tables
+    assert table.hidden is not None
+    assert len(table.hidden) == len(table.points)
+    assert not table.hidden[0]  # where the axis comes out of the knob's face
+    assert table.hidden[1:].any()  # clusters between the knob and the block
+    assert f"points 1..{len(table.points)}" in seer.asked[1].text()
+    assert "hidden" in seer.asked[1].text()
+
+
+def test_labels_that_were_answered_are_part_of_the_stages_result() -> None:
+    mesh, _, segmentation = ready(LEFT.scene)
+    given = replace(segmentation, parts=(segmentation.parts[0], Part("cabinet_door", "part")))
+    solver = Solver(mesh, QUICK, lambda _: knowing(mesh, segmentation, (LEFT.joint,)))
+    named = solver.joints(given, recognition(DOOR))
+    assert named.segmentation is not None
+    assert [p.label for p in named.segmentation.parts] == ["part", "door"]
+    assert named.joints[0].limits == (0, pytest.approx(1.2, abs=0.02))
+    assert solver.joints(given).segmentation is None  # nothing was recognized
+
+
+def test_each_axis_goes_with_the_point_where_it_comes_out() -> None:
+    """A blade with two round pins on it: whichever point is picked, the hinge runs through that pin."""
+    pins = [prism(0.02, (-0.03, -0.001), x, 0.3) for x in (0.1, 0.5)]
+    scene = {"base": [box((0, 0, 0), (0.6, 0.4, 0.6))], "blade": [box((0.05, -0.02, 0.25), (0.55, -0.001, 0.35)), *pins]}
+    into = {"kinds": lambda q: (KindAnswer(JointKind.HINGE_INTO),)}
+    for pick in range(3):
+        (found,), seer = prompted(scene, (LEFT.joint,), verify="free", changed={**into, "points": lambda q, k=pick: ((k,),)})
+        (table,) = seer.asked[1].tables
+        assert table.axes is not None
+        assert not np.isnan(table.axes[pick]).any()
+        assert np.linalg.norm(np.cross(found.origin - table.points[pick], found.axis)) < 1e-6
+        assert abs(found.axis @ table.axes[pick]) == pytest.approx(1)
+        outer = table.points[pick] @ Y
+        assert outer == pytest.approx(-0.03, abs=2e-3)  # where the axis leaves the pins
