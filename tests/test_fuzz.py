@@ -77,6 +77,20 @@ def test_a_known_class_of_failure_ends_in_an_asset(name: str, worker: fuzz_pool.
     assert found["outcome"] == "asset", found
 
 
+FOUND = {  # seeds and what failed there once
+    341: "labels",  # a part that is a point
+    343: "labels",  # a part of needles whose area is lost in float32
+    430: "nodes",  # a box that is 6e-8 m thick
+}
+
+
+@pytest.mark.parametrize("seed", FOUND)
+def test_a_scene_that_failed_once_ends_in_an_asset(seed: int, worker: fuzz_pool.Worker, tmp_path: Path) -> None:
+    case = next(c for c in scene_cases(first=seed, count=1) if c["parts"] == FOUND[seed])
+    found = run(worker, tmp_path, **case)
+    assert found["outcome"] == "asset", found
+
+
 def test_hundreds_of_small_components_end_in_an_asset(worker: fuzz_pool.Worker, tmp_path: Path) -> None:
     small = Scene("beads", "glb", tuple(chandelier(BEADS)))
     found = run(worker, tmp_path, mesh=str(write_scene(small, tmp_path)), parts="nodes", finish=False)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 from jaxtyping import Float
@@ -49,22 +50,27 @@ def _cylinder(hull: Hull, directions: np.ndarray, exact: float, fit: float) -> C
 
 
 def as_hull(shape: Shape) -> Hull:
-    """A shape as a convex polyhedron; a cylinder as the prism of 32 sides that lies in it."""
+    """Return a shape as a convex polyhedron; a cylinder as the prism of 32 sides that lies in it."""
     match shape:
         case Hull():
             return shape
         case Box():
-            signs = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]) / 2
-            points = (signs * shape.size) @ shape.rotation.T + shape.center
+            unit, size = _unit_hulls()[0], shape.size
         case Cylinder():
-            angle = np.arange(32) / 32 * 2 * np.pi
-            ring = np.c_[np.cos(angle), np.sin(angle)] * shape.radius
-            ends = [np.c_[ring, np.full(32, z)] for z in (-shape.length / 2, shape.length / 2)]
-            points = np.concatenate(ends) @ shape.rotation.T + shape.center
-    found = hull_of(points)
-    if found is None:
-        raise ValueError(f"a shape needs a volume, found {shape}")
-    return found
+            unit, size = _unit_hulls()[1], np.array([shape.radius, shape.radius, shape.length])
+    return Hull((unit.vertices * size) @ shape.rotation.T + shape.center, unit.faces)
+
+
+@cache
+def _unit_hulls() -> tuple[Hull, Hull]:
+    """A cube of side 1 and a prism of radius and length 1, whose faces do not depend on how thin a shape is."""
+    cube = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]) / 2
+    angle = np.arange(32) / 32 * 2 * np.pi
+    ring = np.c_[np.cos(angle), np.sin(angle)]
+    box, prism = hull_of(cube), hull_of(np.concatenate([np.c_[ring, np.full(32, z)] for z in (-0.5, 0.5)]))
+    assert box is not None
+    assert prism is not None
+    return box, prism
 
 
 def shifted(shape: Shape, by: Float[np.ndarray, " 3"]) -> Shape:

@@ -18,6 +18,8 @@ from anymesh.types import Hull, Material
 from anymesh.types.color import to_srgb
 from anymesh.types.triangles import face_cross
 
+LEAST_AREA = 1e-12  # [m^2] of a visible primitive; MuJoCo refuses meshes of less
+LEAST_AREA_SHARE = 1e-9  # of the squared diagonal: the area of thinner needles is lost in float32
 SHEET = 1e-5  # share of the diagonal; a visual thinner than this gets a back sheet, since MuJoCo refuses flat meshes
 MTL_MAPS = {"base_color": "map_Kd", "emissive": "map_Ke", "normal": "norm"}  # the ones whose channels MTL can name
 
@@ -77,18 +79,23 @@ def _mtl(name: str, material: Material, textures: Mapping[bytes, str]) -> str:
 
 
 def visible(link: Link, config: ExportConfig) -> tuple[Primitive, ...]:
-    """The link's primitives, given a little volume when they have none."""
+    """Return the link's primitives that have an area, with a back sheet where they are flat; a small box if none has."""
     triangles = link.triangles
     size = float(np.linalg.norm(np.ptp(triangles.reshape(-1, 3), axis=0)))
-    cross = face_cross(triangles)
-    if not cross.any():
+    least = max(LEAST_AREA, LEAST_AREA_SHARE * size**2)
+    primitives = tuple(p for p in link.primitives if _area(p) > least)
+    if not primitives:
         vertices, faces = small_box(triangles, config)
         return (Primitive(link.primitives[0].material, vertices, faces, None, None, None),)
     normal = flat_normal(triangles.reshape(-1, 3), share=SHEET)
     if normal is None:
-        return link.primitives
+        return primitives
     shift = normal * max(SHEET * size, 1e-6)
-    return tuple(_with_back(p, shift) for p in link.primitives)
+    return tuple(_with_back(p, shift) for p in primitives)
+
+
+def _area(primitive: Primitive) -> float:
+    return float(np.linalg.norm(face_cross(primitive.positions[primitive.triangles]), axis=1).sum() / 2)
 
 
 def _with_back(primitive: Primitive, shift: np.ndarray) -> Primitive:

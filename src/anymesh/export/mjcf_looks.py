@@ -7,20 +7,15 @@ from collections.abc import Collection
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-import numpy as np
 from PIL import Image
 
-from anymesh.export.links import Primitive
 from anymesh.export.looks import display_color, painted, texture_files
 from anymesh.export.meshes import material_names, visible, write_obj
 from anymesh.export.model import FOLDER, Body
 from anymesh.export.settings import ExportConfig
 from anymesh.types import Mesh
-from anymesh.types.triangles import face_cross
 
 PIECES = f"{FOLDER}/mjcf"  # a folder of its own: `door_2.obj` in it is the second material of door, not a link door_2
-
-SPECK = 1e-12  # [m^2] what has less area shows nothing, and MuJoCo refuses a mesh of it
 
 
 @dataclass(frozen=True)
@@ -35,7 +30,7 @@ class GeomLook:
 
 def geom_looks(mesh: Mesh, body: Body, folder: Path, config: ExportConfig) -> list[GeomLook]:
     """The visual geoms of a body: its visual OBJ, or where it has several materials, an OBJ each, written here."""
-    primitives = [p for p in visible(body.link, config) if _area(p) > SPECK]
+    primitives = visible(body.link, config)
     names = material_names(mesh.materials)
     found = []
     for number, p in enumerate(primitives):
@@ -47,10 +42,6 @@ def geom_looks(mesh: Mesh, body: Body, folder: Path, config: ExportConfig) -> li
         material = None if p.material < 0 or painted(mesh, p) else p.material
         found.append(GeomLook(f"{body.name}_visual_{number}", path, material, display_color(mesh, p)))
     return found
-
-
-def _area(p: Primitive) -> float:
-    return float(np.linalg.norm(face_cross(p.positions[p.triangles]), axis=1).sum()) / 2
 
 
 def png_textures(mesh: Mesh, folder: Path, used: Collection[int], slots: Collection[str]) -> dict[tuple[int, str], str]:

@@ -28,6 +28,7 @@ FREE = 0.01  # of the scale: what is nearer to the parent is no tab, but a hinge
 BULGE = 0.25  # of a grip's height: around a grip the face is lower, around the top of a face that bulges it is not
 TOUCHES = 0.002  # of the scale: what is nearer to the parent is no grip, but what holds the part
 GRIP = 0.3  # a grip stands out by this share of its smaller width at least
+LEAST_SCALE = 1e-9  # of the diagonal: a part that is a point has tolerances too
 STAND_OUT = 0.012  # a handle stands out by this share of the part's diagonal at least
 
 
@@ -96,7 +97,7 @@ class Surroundings:
     @cached_property
     def scale(self) -> float:
         """The length that tolerances are shares of [m]: the object's diagonal, less for a part that is small in it."""
-        return min(self.diagonal, 5 * self.part.box.diagonal)
+        return max(min(self.diagonal, 5 * self.part.box.diagonal), LEAST_SCALE * self.diagonal)
 
     @cached_property
     def buried(self) -> float:
