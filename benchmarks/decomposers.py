@@ -25,6 +25,7 @@ import numpy as np
 
 from anymesh.collision import SMALL, CollisionConfig, sampled_poses
 from anymesh.collision.clear import Piece, Scene
+from anymesh.collision.coacd_ import SEARCH
 from anymesh.collision.convex import hull_of
 from anymesh.collision.crossing import Surface
 from anymesh.collision.decompose import Component, Fineness, component_shapes, solid_mesh, split_components
@@ -61,8 +62,8 @@ def divide(way: str, component: Component, fineness: Fineness) -> tuple[list[np.
         coacd.set_log_level("off")
         vertices, faces = solid_mesh(triangles)
         concavity = float(np.clip(fineness.gap / (np.ptp(vertices, axis=0).max() / 2), 0.01, 1.0))
-        how = {"mcts_iterations": 20, "mcts_nodes": 10, "resolution": 500, "seed": 0}
-        made = [p for p, _ in coacd.run_coacd(coacd.Mesh(vertices, faces), threshold=concavity, preprocess_mode="off", **how)]
+        how = {"preprocess_mode": "off", "seed": 0, **SEARCH}
+        made = [p for p, _ in coacd.run_coacd(coacd.Mesh(vertices, faces), threshold=concavity, **how)]
     return [np.asarray(p, float) for p in made], time.perf_counter() - begin
 
 

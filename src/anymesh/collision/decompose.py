@@ -139,9 +139,11 @@ def _divided(triangles: np.ndarray, fineness: Fineness, method: Method) -> list[
 
 def _by_coacd(triangles: np.ndarray, fineness: Fineness) -> list[Hull]:
     """The hulls of CoACD's pieces; none where the surface is not closed."""
-    triangles = simplify(triangles, COACD_FACES)
-    vertices, faces = solid_mesh(triangles)
-    if len(faces) == 0 or not components(vertices, faces).solid.all():
+    for few in (simplify(triangles, COACD_FACES), triangles):  # simplification may open a surface
+        vertices, faces = solid_mesh(few)
+        if len(faces) and components(vertices, faces).solid.all():
+            break
+    else:
         return []
     half = float(np.ptp(vertices, axis=0).max()) / 2
     corners = decompose(vertices, faces, concavity=float(np.clip(fineness.gap / half, *CONCAVITY)))

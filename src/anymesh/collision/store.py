@@ -10,7 +10,7 @@ import numpy as np
 
 from anymesh.types import Box, Cylinder, Hull, Shape
 
-VERSION = b"5"  # another one where the same surface would give other shapes
+VERSION = b"6"  # another one where the same surface would give other shapes
 
 
 def content_key(*values: np.ndarray | float | int) -> str:

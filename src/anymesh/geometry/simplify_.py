@@ -13,34 +13,50 @@ OFF = 0.1  # a triangle whose middle is further off the surface, as a share of i
 DENSE = 6  # times the faces that are wanted, from which vertices are clustered first
 FEWEST = 50_000  # faces; quadrics alone are fast enough on fewer
 CLUSTERED = 3  # times the faces that are wanted, that clustering aims at
+STALLED = 1.25  # times the faces that are wanted, above which quadrics are taken to have stalled
 
 
 def simplify(triangles: Float[np.ndarray, "F 3 3"], most: int) -> Float[np.ndarray, "R 3 3"]:
     """Return the surface in about `most` triangles, wound as before; the input when it has no more, or would collapse.
 
-    A very dense surface is clustered first: quadrics on millions of faces take minutes where many are slivers.
+    A very dense surface is clustered first: quadrics on millions of faces take minutes where many are slivers. So is one on
+    which quadrics stall short of `most`: on a fine, regular grid they fold what they leave.
     """
     if len(triangles) <= most:
         return triangles
-    from fast_simplification import simplify as quadric
-
     corners = triangles.reshape(-1, 3)
     number = weld(corners)  # without gaps, in the order of the first corners
     first = np.empty(int(number.max()) + 1, np.int64)
     first[number[::-1]] = np.arange(len(number))[::-1]
     center = corners.mean(0)  # float32 inside: near the origin it keeps its digits
     before, corner = corners[first] - center, number.reshape(-1, 3)
-    points, faces = before, corner
-    if len(faces) > max(DENSE * most, FEWEST):
-        points, faces = _clustered(points, faces, CLUSTERED * most)
-    if len(faces) > most:
-        points, faces = quadric(
-            np.ascontiguousarray(points, np.float32), np.ascontiguousarray(faces, np.int32), target_count=most
-        )
+    if len(corner) > max(DENSE * most, FEWEST):
+        points, faces = _by_quadrics(*_clustered(before, corner, CLUSTERED * most), most)
+    else:
+        points, faces = _by_quadrics(before, corner, most)
+        if len(faces) > STALLED * most:
+            again = _by_quadrics(*_clustered(before, corner, CLUSTERED * most), most)
+            area = _area(before, corner)
+            points, faces = min((points, faces), again, key=lambda mesh: abs(_area(*mesh) - area))
     found = points.astype(np.float64)[faces]
     if len(faces) and _has_border(corner):
         found = found[_on_surface(found, before, corner)]
     return found + center if len(found) else triangles
+
+
+def _by_quadrics(
+    points: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"], most: int
+) -> tuple[Float[np.ndarray, "v 3"], Int[np.ndarray, "f 3"]]:
+    """Collapse edges by quadric error, to about `most` faces; the input when it has no more."""
+    if len(faces) <= most:
+        return points, faces
+    from fast_simplification import simplify as quadric
+
+    return quadric(np.ascontiguousarray(points, np.float32), np.ascontiguousarray(faces, np.int32), target_count=most)
+
+
+def _area(points: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"]) -> float:
+    return float(np.linalg.norm(face_cross(points[faces]), axis=1).sum()) / 2
 
 
 def _clustered(
