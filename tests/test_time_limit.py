@@ -57,6 +57,7 @@ def test_given_parts_get_joints_from_the_likeliest_motions(tmp_path):
     assert any("only the likeliest motions were swept" in w for w in asset.warnings)
 
 
+@pytest.mark.slow
 def test_another_limit_computes_the_stages_anew(tmp_path):
     anymesh.articulate(CABINET, tmp_path / "out", time_limit=0.001)
     asset = anymesh.articulate(CABINET, tmp_path / "out", force=True)

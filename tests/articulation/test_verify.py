@@ -146,6 +146,7 @@ def test_the_axis_of_a_pin_on_a_part_that_is_not_round_is_offered() -> None:
     assert any(abs(c.motion.axis @ Y) > 0.999 and abs(c.motion.origin[0] - 0.1) < 0.002 for c in motions)
 
 
+@pytest.mark.slow
 def test_the_order_in_the_picture_follows_the_seed_and_not_the_likelihood() -> None:
     case = replace(case_of("left"), answer=KindAnswer(JointKind.HINGE_ALONG))
     orders = [make_offers(case, MOST, seed).first for seed in range(8)]

@@ -101,6 +101,7 @@ def test_a_refused_answer_says_why_and_stays_open(work: Path, known, capsys) -> 
     assert waiting(capsys)["questions"] != [str(folder)]
 
 
+@pytest.mark.slow
 def test_a_changed_mesh_asks_anew_and_an_other_object_is_refused(work: Path, known, capsys) -> None:
     (folder,) = map(Path, waiting(capsys)["questions"])
     record_answer(folder, known(folder))
@@ -141,6 +142,7 @@ def test_another_answer_to_a_finished_stage_makes_it_and_what_follows_anew(work:
     assert "hatch" in (stopped.value.folders[0] / "question.md").read_text()
 
 
+@pytest.mark.slow
 def test_a_question_is_left_to_geometry(work: Path, capsys) -> None:
     (folder,) = map(Path, waiting(capsys)["questions"])
     assert run(["answer", str(folder), "geometry", "-q"]) == 0

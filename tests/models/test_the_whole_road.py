@@ -102,6 +102,7 @@ def test_a_model_makes_the_asset_in_few_calls_that_are_counted_and_kept(model: M
     assert Path("out/transcript/index.html").stat().st_size > 2000
 
 
+@pytest.mark.slow
 def test_a_second_run_asks_nothing_and_a_recording_needs_no_server(model: Model) -> None:
     assert articulate(model, "out") == 0
     first, calls = record("out"), len(model.asked)
@@ -144,7 +145,7 @@ def test_stages_one_by_one_ask_what_the_whole_job_asks(model: Model) -> None:
     ("kind", "bad"),
     [
         pytest.param("recognize", "I cannot help with that.", marks=pytest.mark.slow),
-        ("marks", '{"parts": [{"label": "lid", "instance": 1, "view": 0, "marks": [9999]}]}'),  # as a texture told it to
+        ("marks", '{"parts": [{"label": "lid", "instance": 1, "marks": [9999]}]}'),  # as a texture told it to
         pytest.param("motions", 'Here it is: {"parts": []}', marks=pytest.mark.slow),
     ],
 )
@@ -160,6 +161,7 @@ def test_what_a_model_cannot_answer_geometry_answers_and_the_asset_says_so(model
     assert [j["type"] for j in found["joints"]] == ["revolute"]
 
 
+@pytest.mark.slow
 def test_what_geometry_answered_is_asked_again_when_the_model_has_recovered(model: Model) -> None:
     right = dict(model.said.values())
     model.instead["kinds"] = "no"
@@ -172,6 +174,7 @@ def test_what_geometry_answered_is_asked_again_when_the_model_has_recovered(mode
     assert [kind for kind, _ in model.asked][len(before) :] == ["kinds", "points", "motions"]  # stage A stands
 
 
+@pytest.mark.slow
 def test_a_model_that_answers_nonsense_is_given_up_for_the_rest_of_the_run(model: Model) -> None:
     model.instead.update(dict.fromkeys(dict(model.said.values()), "la la la"))
     assert articulate(model, "out", "--cache", "off") == 0

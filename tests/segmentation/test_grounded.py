@@ -44,6 +44,7 @@ def test_marks_become_parts_those_inside_too() -> None:
     assert {p.reason for p in found.segmentation.parts[1:]} == {"pointed at by oracle"}
 
 
+@pytest.mark.slow
 def test_geometry_finds_what_is_inside_where_nobody_was_asked_for_it() -> None:
     truth = TRUTHS["microwave"]
     placed = place_mesh(load_mesh(truth.mesh))
