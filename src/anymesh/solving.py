@@ -139,7 +139,7 @@ class Solver:
     def stays_free(self, without: np.ndarray, joined: np.ndarray, part: int, moves: Moves | None = None) -> bool:
         """Tell whether a part opens as far with the unseen patches that it would gain.
 
-        without, joined: the part number of each face of `whole`; moves: how the part moves, where somebody said.
+        without, joined: the part number of each face of `whole`; moves: the recognized motion of the part, if known.
         """
         alone, gained = self._around(without, part), self._around(joined, part)
         question = motion_question(alone, "candidate", "part")

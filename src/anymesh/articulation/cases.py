@@ -82,7 +82,7 @@ def make_cases(whole: ObjectShape, segmentation: Segmentation, recognition: Reco
 
 
 def _answered_parents(segmentation: Segmentation, told: Mapping[str, RecognizedLabel]) -> list[set[int]]:
-    """For each part the numbers of parts that it may hang on by the answers; empty when nobody said.
+    """For each part, the indices of its possible parents according to the answers; empty without an answer.
 
     A label that hangs on itself is that of a chain: such parts hang on each other, the first of them on any other part.
     """

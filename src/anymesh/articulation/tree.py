@@ -14,7 +14,7 @@ CLEARLY = 3.0  # a part hangs on another part rather than on the root when it is
 def parents(shapes: list[Shape], diagonal: float, answered: Sequence[set[int]] | None = None) -> list[int]:
     """Return the parent's index of every part (the root, 0, has -1): the root, unless the part clearly hangs on a larger part.
 
-    answered: for each part the indices that somebody named, empty where nobody did; the nearest of them that touches is taken.
+    answered: for each part, the indices of possible parents, may be empty; the nearest of them that touches is taken.
     """
     size = [float(np.linalg.norm(s.bounds[1] - s.bounds[0])) for s in shapes]
     reach = [0.01 * min(diagonal, 5 * s) for s in size]

@@ -60,7 +60,7 @@ SERVERS = {
 
 @dataclass(frozen=True)
 class LocalModel:
-    """A model that a server has. name: as for --answerer; sees: whether it takes pictures, None where nobody says."""
+    """A model that a server has. name: as for --answerer; sees: whether it accepts pictures, None if unknown."""
 
     name: str
     sees: bool | None
@@ -113,7 +113,7 @@ def _seeing(server: Server, root: str, names: list[str], timeout: float) -> dict
             listed = _fetch(server, root + server.details, timeout)["data"]
             return {str(m["id"]): m.get("type") == "vlm" for m in listed}
     except (OSError, http.client.HTTPException, ValueError, LookupError, TypeError, AttributeError):
-        pass  # an older server: nobody says
+        pass  # an older server does not state it
     return {}
 
 

@@ -1,4 +1,4 @@
-"""Answers from files: each question is a folder, and whoever likes writes the answer beside it."""
+"""Answers from files: each question is a folder, and the answer is a file in it."""
 
 from __future__ import annotations
 
