@@ -31,7 +31,7 @@ class SegmentationConfig:
     touch: float = 0.0004  # pieces nearer than this touch; clearances of real fits are wider
     near: float = 0.02  # bodies nearer than this, but not touching, have a clearance between them
     smallest: float = 0.004  # pieces with a smaller diagonal never move on their own
-    most_candidates: int = 120  # largest units looked at
+    most_candidates: int = 150  # largest groups of patches that are examined as parts
     at_least: int = 0  # parts that are taken however thin the evidence is: for objects that are known to move
 
     def __post_init__(self) -> None:

@@ -9,8 +9,17 @@ from pathlib import Path
 
 import numpy as np
 
-from anymesh.articulation.estimate import ask_motion, estimate_joints, motion_question, surroundings
+from anymesh.articulation.estimate import (
+    PartMotions,
+    choose_motion,
+    estimate_joints,
+    motion_question,
+    motion_questions,
+    relabelled,
+    surroundings,
+)
 from anymesh.articulation.evidence import weigh_all
+from anymesh.articulation.part_labels import label_of
 from anymesh.articulation.prompted import Questions, Reground, prompt_joints
 from anymesh.articulation.tree import parents
 from anymesh.config import Config
@@ -29,7 +38,7 @@ from anymesh.segmentation.given import GIVEN, parts_from_file, parts_from_nodes
 from anymesh.segmentation.grounded import EXACT, ground_parts
 from anymesh.segmentation.segment import segment_parts
 from anymesh.stage_results import Jointed, Recognized, Segmented
-from anymesh.types import Joint, Mesh, MotionKind, Picture, Segmentation
+from anymesh.types import Joint, JointType, Mesh, MotionKind, Picture, Segmentation
 from anymesh.types.recognition import Moves, Recognition
 
 Seeing = Callable[[Seer], Seer]  # an answerer that sees, given who answers in its place where it cannot
@@ -53,6 +62,7 @@ class Solver:
         self.mesh, self.config, self._see = mesh, config or Config(), see
         self.deadline = deadline or Deadline()
         self._by_itself: Segmentation | None = None
+        self._swept: tuple[bytes, list[PartMotions]] | None = None  # faces of parts, and their motions
 
     @cached_property
     def whole(self) -> ObjectShape:
@@ -118,7 +128,7 @@ class Solver:
     ) -> Jointed:
         """Stage B. reground: grounds parts again that answers call too much or too little, once; None: that is not asked."""
         if self._see is None:
-            found = estimate_joints(self._ready_for(segmentation), segmentation, GEOMETRY, self.config, progress, self.deadline)
+            found = estimate_joints(segmentation, self._motions(segmentation, progress), GEOMETRY)
             return _jointed(found, GEOMETRY.name, None, self.deadline.warnings())
         seer = self._see(Knowing(GEOMETRY.name, lambda: self._reference(segmentation)))
         questions = Questions(self._studio, seer, self.config, recognition, progress)
@@ -129,12 +139,27 @@ class Solver:
     def _geometric_parts(self, progress: Progress = silent) -> Segmentation:
         """What geometry finds; once, however many questions it answers."""
         if self._by_itself is None:
-
-            def moves(around, label):
-                return ask_motion(around, "candidate", label, GEOMETRY)
-
-            self._by_itself = segment_parts(self.mesh, self.whole, GEOMETRY, moves, self.config, progress, self.deadline)
+            self._by_itself = segment_parts(self.mesh, self.whole, self._labels, self.config, progress, self.deadline)
         return self._by_itself
+
+    def _labels(self, segmentation: Segmentation) -> list[str]:
+        """Return a label of each part but the base by how geometry moves it; "" for one that cannot move."""
+        found = {}
+        for i, _, around, question in self._motions(segmentation):
+            answer, best = choose_motion(around, question, GEOMETRY)
+            found[i] = "" if answer.type is JointType.FIXED else label_of(around, best)
+        return [found[i] for i in sorted(found)]
+
+    def _motions(self, segmentation: Segmentation, progress: Progress = silent) -> list[PartMotions]:
+        """Sweep the motions of all parts; those of the parts that were swept last are kept."""
+        faces, parts = segmentation.face_part.tobytes(), segmentation.parts
+        if self._swept is None or self._swept[0] != faces:
+            found: list[PartMotions] = []
+            for motions in motion_questions(self._ready_for(segmentation), segmentation, self.config, self.deadline):
+                progress("joints", parts[motions[0]].name, len(found), len(parts) - 1)
+                found.append(motions)
+            self._swept = faces, found
+        return relabelled(self._swept[1], segmentation)
 
     def stays_free(self, without: np.ndarray, joined: np.ndarray, part: int, moves: Moves | None = None) -> bool:
         """Tell whether a part opens as far with the unseen patches that it would gain.
@@ -169,8 +194,7 @@ class Solver:
 
     def _reference(self, segmentation: Segmentation) -> Reference:
         """What geometry would answer, for questions that a model could not."""
-        ready = self._ready_for(segmentation)
-        joints = estimate_joints(ready, segmentation, GEOMETRY, self.config, deadline=self.deadline)
+        joints = estimate_joints(segmentation, self._motions(segmentation), GEOMETRY)
         return reference_of(self.mesh, segmentation, joints, self.config.category or "object")
 
 

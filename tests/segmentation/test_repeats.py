@@ -2,14 +2,14 @@
 
 import numpy as np
 import pytest
+from anymesh.segmentation.looking import Found
+from anymesh.segmentation.repeats import MOST_BARE, REPEATED, SAMPLED, bare_repeats, examine_repeats, repeats
 from assets import box, mesh_of
 
 from anymesh.config import SegmentationConfig
 from anymesh.geometry.pieces import ObjectShape, object_shape
 from anymesh.reasoning.questions import PartAnswer
 from anymesh.segmentation.contacts import find_contacts
-from anymesh.segmentation.looking import Found
-from anymesh.segmentation.repeats import MOST_BARE, REPEATED, SAMPLED, bare_repeats, examine_repeats, repeats
 from anymesh.segmentation.units import Units, join_units
 
 

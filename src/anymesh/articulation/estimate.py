@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -19,7 +19,6 @@ from anymesh.geometry.pieces import ObjectShape
 from anymesh.geometry.shape import Shape
 from anymesh.geometry.surroundings import Surroundings, rods
 from anymesh.geometry.sweep import free_amount
-from anymesh.progress import Progress, silent
 from anymesh.reasoning.questions import Answerer, Candidate, MotionAnswer, MotionQuestion
 from anymesh.types import Joint, JointType, Motion, MotionKind, Segmentation
 
@@ -29,28 +28,22 @@ WIDE = np.deg2rad(110)  # of an opening that a hinge needs no more than
 TIGHT = 0.2  # factor on the penetration that counts: neighbours are a few millimetres away
 MOST_TWINS = 8  # copies of a part that are asked with it
 LIKELIEST = ("bail", "round", "barrel", "edge_mid", "slide")  # motions that are swept when the time is over
+PartMotions = tuple[int, int, Surroundings, MotionQuestion]  # number of a part, of its parent, what is around it, its motions
 NOTICED = np.deg2rad(5)  # a line that lets the part open further by less is no better
 
 
-def estimate_joints(
-    whole: ObjectShape,
-    segmentation: Segmentation,
-    answerer: Answerer,
-    config: Config,
-    progress: Progress = silent,
-    deadline: Deadline | None = None,
-) -> tuple[Joint, ...]:
-    """One joint for every part but the root, in the order of the parts. Past the deadline fewer motions are swept."""
-    parts, joints = segmentation.parts, {}
-    for i, over, around, question in motion_questions(whole, segmentation, config, deadline):
-        progress("joints", parts[i].name, len(joints), len(parts) - 1)
-        joints[i] = estimate_joint(around, parts[i].name, parts[over].name, question, answerer)
+def estimate_joints(segmentation: Segmentation, motions: Iterable[PartMotions], answerer: Answerer) -> tuple[Joint, ...]:
+    """Return one joint for every part but the root, in the order of the parts. motions: as from `motion_questions`."""
+    parts = segmentation.parts
+    joints = {
+        i: estimate_joint(around, parts[i].name, parts[over].name, question, answerer) for i, over, around, question in motions
+    }
     return tuple(joints[i] for i in sorted(joints))
 
 
 def motion_questions(
     whole: ObjectShape, segmentation: Segmentation, config: Config, deadline: Deadline | None = None
-) -> Iterator[tuple[int, int, Surroundings, MotionQuestion]]:
+) -> Iterator[PartMotions]:
     """Of every part but the root, copies together: its number, its parent's, what is around it, and the question."""
     label, parts = segmentation.face_part[whole.source], segmentation.parts
     shapes = [whole.of(np.flatnonzero(label == i)) for i in range(len(parts))]
@@ -61,6 +54,21 @@ def motion_questions(
         for i, around, question in zip(numbers, arounds, questions, strict=True):
             row = (q for q, a in zip(questions, arounds, strict=True) if a is not around and in_a_row(around, a))
             yield i, parent[i], around, replace(question, twins=tuple(itertools.islice(row, MOST_TWINS)))
+
+
+def relabelled(swept: Iterable[PartMotions], segmentation: Segmentation) -> list[PartMotions]:
+    """Return the questions about parts with the same faces, with the names and labels of this segmentation."""
+    parts = segmentation.parts
+
+    def named(question: MotionQuestion, i: int) -> MotionQuestion:
+        return replace(question, part=replace(question.part, name=parts[i].name, label=parts[i].label))
+
+    found = list(swept)
+    number = {id(q.part): i for i, _, _, q in found}
+    return [
+        (i, over, around, replace(named(q, i), twins=tuple(named(t, number[id(t.part)]) for t in q.twins)))
+        for i, over, around, q in found
+    ]
 
 
 def surroundings(
@@ -90,12 +98,8 @@ def surroundings(
     )
 
 
-def ask_motion(around: Surroundings, name: str, label: str, answerer: Answerer) -> tuple[MotionAnswer, Candidate]:
-    """How a part by itself moves: the answer with the candidate chosen."""
-    return _answered(around, motion_question(around, name, label), answerer)
-
-
-def _answered(around: Surroundings, question: MotionQuestion, answerer: Answerer) -> tuple[MotionAnswer, Candidate]:
+def choose_motion(around: Surroundings, question: MotionQuestion, answerer: Answerer) -> tuple[MotionAnswer, Candidate]:
+    """Return how a part moves: the answer with the candidate chosen."""
     answer = answerer.which_motion(question)
     return answer, _clear_of_others(around, question.candidates[answer.ranking[0]], question.candidates)
 
@@ -138,7 +142,7 @@ def _at_one_rim(a: Candidate, b: Candidate, thickness: float) -> bool:
 
 def estimate_joint(around: Surroundings, name: str, parent: str, question: MotionQuestion, answerer: Answerer) -> Joint:
     """The joint of one part."""
-    answer, best = _answered(around, question, answerer)
+    answer, best = choose_motion(around, question, answerer)
     if answer.type is not JointType.FIXED:
         return joint_of(around, name, parent, best, answer.type, answer.confidence, answer.reason)
     kind = JointType.PRISMATIC if best.motion.kind is MotionKind.SLIDE else JointType.REVOLUTE  # somebody said that it moves
@@ -176,4 +180,4 @@ def _on_part(motion: Motion, around: Surroundings) -> np.ndarray:
     return motion.origin + ((around.part.box.center - motion.origin) @ motion.axis) * motion.axis
 
 
-__all__ = ["ask_motion", "estimate_joints", "joint_of", "motion_questions", "surroundings"]
+__all__ = ["choose_motion", "estimate_joints", "joint_of", "motion_questions", "relabelled", "surroundings"]

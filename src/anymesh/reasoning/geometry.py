@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.reasoning.movable import judge
-from anymesh.reasoning.questions import Candidate, MotionAnswer, MotionQuestion, PartAnswer, PartEvidence, PartFacts
+from anymesh.reasoning.questions import Candidate, MotionAnswer, MotionQuestion, PartFacts
 from anymesh.reasoning.vocabulary import habit_of
 from anymesh.reasoning.weighing import BLOCKED, LITTLE, score
 from anymesh.types import JointType, MotionKind
@@ -21,10 +20,6 @@ class GeometryAnswerer:
     """Answers from the facts alone; no key, no weights, no network."""
 
     name = "geometry"
-
-    def is_part(self, evidence: PartEvidence) -> PartAnswer:
-        """Weighs the evidence for a candidate part."""
-        return judge(evidence)
 
     def which_motion(self, question: MotionQuestion) -> MotionAnswer:
         """Scores every candidate; the best one wins, its lead over other motions is the confidence."""

@@ -99,54 +99,10 @@ class MotionAnswer:
             raise ValueError(f"an answer needs a confidence in 0..1 and a reason, found {self.confidence}, {self.reason!r}")
 
 
-@dataclass(frozen=True, eq=False)
-class PartEvidence:
-    """What speaks for and against a piece (with what hangs on it) being a movable part. Shares are 0..1."""
-
-    name: str  # free name from the file, "" when it says nothing
-    thinness: float  # shortest side / middle side of its core box
-    face_share: float  # its face against the largest side of the object's box
-    size: float  # its diagonal over the object's
-    outside: float  # share of it that sees the outside
-    gap_sides: int  # of the four rims of its face, how many keep a clearance to what faces them
-    flush: float  # share of the rim that touches what it faces
-    cover: float  # share of its back that has an opening behind it
-    separate: bool  # touches nothing
-    touching: float  # share of its surface that touches the rest
-    one_edge: bool  # it touches the rest along one edge only
-    enclosed: float  # share of it with the rest on three sides across the way out
-    roundness: float
-    flatness: float  # height along the round outline's axis over its radius
-    axle: bool  # the rest has something on that axis, close by
-    axle_level: bool  # the round outline's axis lies level
-    at_bottom: bool  # reaches down to the lowest part of the object
-    faces_down: bool  # its way out is down
-    twins: int  # pieces of the same size
-    opposite: bool  # one of them lies on the round outline's axis
-    handle: Handle | None
-    pivots: bool  # held at two far ends, from the sides (a bail)
-    slender: bool  # much less surface than its box
-    captured: bool  # it slides between two stops, held sideways
-    on_movable: bool  # it sits on a part that moves already
-    copied: float | None = None  # the score of a part with the same sides that was found
-
-
-@dataclass(frozen=True)
-class PartAnswer:
-    """Whether a candidate is a part of its own; score is in units of one clear piece of evidence."""
-
-    moves: bool
-    label: str
-    score: float
-    reason: str
-
-
 @runtime_checkable
 class Answerer(Protocol):
     """Whoever answers: geometry alone, a vision-language model, or ground truth."""
 
     name: str
-
-    def is_part(self, evidence: PartEvidence) -> PartAnswer: ...
 
     def which_motion(self, question: MotionQuestion) -> MotionAnswer: ...

@@ -1,72 +1,17 @@
-"""What geometry shows of a candidate part: plate, clearance round its rim, handle, opening behind it, roundness, hold."""
+"""How a candidate part fits into what surrounds it: clearance round its rim, an opening behind it, walls beside it, pivots."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
-from jaxtyping import Float
 
 from anymesh.config import SegmentationConfig
-from anymesh.geometry.pieces import ObjectShape
 from anymesh.geometry.surroundings import Surroundings
-from anymesh.reasoning.questions import PartEvidence
 
 FACING = 0.5  # cosine between a rim's normal and what faces it across a clearance
 RIM = 0.75  # samples beyond this share of the half side belong to a rim
 
 
-@dataclass(frozen=True, eq=False)
-class Context:
-    """What a candidate's evidence needs besides its surroundings."""
-
-    whole: ObjectShape
-    config: SegmentationConfig
-    name: str
-    separate: bool
-    twins: Float[np.ndarray, "n 3"]  # middles of other units of the same size [m]
-    on_movable: bool
-    copied: float | None  # the evidence for a part with the same sides that was found
-
-
-def gather(around: Surroundings, context: Context) -> PartEvidence:
-    """All evidence for one candidate."""
-    core, outline = around.core, around.outline
-    extents = np.sort(context.whole.shape.bounds[1] - context.whole.shape.bounds[0])
-    near, normals = _contact(around, context.config.touch * around.diagonal * 2)
-    sides, flush = _rim(around, context.config)
-    low, high = context.whole.shape.bounds[:, 2]
-    return PartEvidence(
-        name=context.name,
-        thinness=float(core.half[2] / max(core.half[1], 1e-12)),
-        face_share=float(4 * core.half[0] * core.half[1] / max(extents[1] * extents[2], 1e-12)),
-        size=around.part.box.diagonal / around.diagonal,
-        outside=around.openness,
-        gap_sides=sides,
-        flush=flush,
-        cover=_cover(around),
-        separate=context.separate,
-        touching=float(near.mean()),
-        one_edge=_one_edge(around, near),
-        enclosed=_enclosed(around),
-        roundness=outline.roundness,
-        flatness=outline.height / max(outline.radius, 1e-9),
-        axle=_axle(around),
-        axle_level=bool(abs(outline.axis[2]) < 0.5),
-        at_bottom=bool(around.part.bounds[0, 2] < low + 0.06 * (high - low)),
-        faces_down=bool(around.outward[2] < -0.7),
-        twins=len(context.twins),
-        opposite=any(_on_axis(around, twin) for twin in context.twins),
-        handle=around.handle,
-        pivots=_pivots(around, near, normals),
-        slender=around.part.slender,
-        captured=False,
-        on_movable=context.on_movable,
-        copied=context.copied,
-    )
-
-
-def _axle(around: Surroundings) -> bool:
+def on_axis(around: Surroundings) -> bool:
     """Whether the rest has something on the axis of the round outline within 5 % of the diagonal of the part."""
     outline = around.outline
     ends = outline.center + np.array([[-0.5], [0.5]]) * outline.height * outline.axis
@@ -74,14 +19,7 @@ def _axle(around: Surroundings) -> bool:
     return bool((around.rest.scene.first_hit(ends - rays, 2 * rays, 1.0).face >= 0).any())
 
 
-def _on_axis(around: Surroundings, middle: Float[np.ndarray, " 3"]) -> bool:
-    """Whether a point lies near the axis of the round outline."""
-    arm = middle - around.outline.center
-    off = arm - (arm @ around.outline.axis) * around.outline.axis
-    return bool(np.linalg.norm(off) < 0.3 * around.outline.radius)
-
-
-def _contact(around: Surroundings, tolerance: float) -> tuple[np.ndarray, np.ndarray]:
+def touching(around: Surroundings, tolerance: float) -> tuple[np.ndarray, np.ndarray]:
     """Which samples touch the rest, and the rest's normal at the closest point of each."""
     gap, face, _ = around.rest.tree.nearest(around.part.samples.points)
     while (gap < tolerance).sum() < min(8, len(gap)):  # as the connecting area grows in the paper
@@ -89,7 +27,7 @@ def _contact(around: Surroundings, tolerance: float) -> tuple[np.ndarray, np.nda
     return gap < tolerance, around.rest.normals[face]
 
 
-def _rim(around: Surroundings, config: SegmentationConfig) -> tuple[int, float]:
+def fit_of_rim(around: Surroundings, config: SegmentationConfig) -> tuple[int, float]:
     """How many of the four rims keep a clearance to what faces them, and the share of the rim that touches it."""
     core = around.core
     samples = around.part.samples
@@ -116,7 +54,7 @@ def _rim(around: Surroundings, config: SegmentationConfig) -> tuple[int, float]:
     return sides, touched / max(count, 1)
 
 
-def _cover(around: Surroundings) -> float:
+def open_behind(around: Surroundings) -> float:
     """Share of the candidate's back with an opening behind it: free for three thicknesses and 3 % of the diagonal."""
     core = around.core
     k = int(np.abs(core.axes @ around.outward).argmax())
@@ -135,7 +73,7 @@ def _cover(around: Surroundings) -> float:
     return float((~buried & (hits.distance > free)).mean())
 
 
-def _enclosed(around: Surroundings) -> float:
+def enclosed_share(around: Surroundings) -> float:
     """Share of the candidate that has the rest on at least three of the four sides across the way out."""
     points = around.part.samples.points[::20]
     hit = np.zeros(len(points), int)
@@ -146,15 +84,7 @@ def _enclosed(around: Surroundings) -> float:
     return float((hit >= 3).mean())
 
 
-def _one_edge(around: Surroundings, near: np.ndarray) -> bool:
-    """Whether all that touches lies in the outermost quarter along one side."""
-    if near.sum() < 2:
-        return False
-    local = around.core.local(around.part.samples.points[near]) / np.maximum(around.core.half, 1e-12)
-    return any(bool((sign * local[:, axis] > 0.5).mean() > 0.95) for axis in around.face_axes for sign in (1, -1))
-
-
-def _pivots(around: Surroundings, near: np.ndarray, normals: np.ndarray) -> bool:
+def held_at_two_ends(around: Surroundings, near: np.ndarray, normals: np.ndarray) -> bool:
     """Held at two far ends by surfaces that face along the line between them: pivots, not the feet of a fixed grip."""
     points = around.part.samples.points
     if near.sum() < 4:

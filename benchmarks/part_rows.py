@@ -1,0 +1,165 @@
+"""The candidates for parts of objects with known parts, with their features, kept in a folder: one file per object.
+
+python benchmarks/part_rows.py FOLDER SPEC ... [--change fused] [--most N] [--workers 2]
+
+SPEC: a data set as for `anymesh eval`, with @NAME to name the source otherwise. Names of nodes and materials are removed.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import tempfile
+from collections.abc import Sequence
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass, replace
+from multiprocessing import get_context
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from jaxtyping import Bool, Float, Float32
+
+from anymesh.config import Config
+from anymesh.evaluation.changes import changed
+from anymesh.evaluation.datasets.named import open_dataset
+from anymesh.evaluation.protocols import prepared
+from anymesh.evaluation.truth import Subject
+from anymesh.geometry.pieces import object_shape
+from anymesh.segmentation.contacts import find_contacts
+from anymesh.segmentation.part_features import FeatureScene, part_features, surroundings_of
+from anymesh.segmentation.part_tree import part_tree
+
+
+@dataclass(frozen=True, eq=False)
+class PartRows:
+    """The candidates of one object.
+
+    features: (n, k) with `names`; members: (n, P) which patches each candidate has; area: (P, T) of each patch in each true
+    part [m^2]; moving: true parts that have a joint; carried: of each of these, it and what hangs on it; form: the change.
+    """
+
+    source: str
+    kind: str
+    name: str
+    form: str
+    names: tuple[str, ...]
+    features: Float32[np.ndarray, "n k"]
+    members: Bool[np.ndarray, "n P"]
+    area: Float[np.ndarray, "P T"]
+    moving: tuple[int, ...]
+    carried: tuple[tuple[int, ...], ...]
+
+    def iou(self) -> Float[np.ndarray, " n"]:
+        """Return the largest IoU of each candidate with a true part, alone or with what it carries."""
+        inside = self.members @ self.area
+        total, best = inside.sum(1), np.zeros(len(inside))
+        for k, group in zip(self.moving, self.carried, strict=True):
+            for true in ([k], list(group)):
+                both = inside[:, true].sum(1)
+                best = np.maximum(best, both / (total + self.area[:, true].sum() - both))
+        return best
+
+    def save(self, path: Path) -> None:
+        """Write an .npz file."""
+        told = {key: getattr(self, key) for key in ("source", "kind", "name", "form", "names", "moving", "carried")}
+        arrays = {"features": self.features, "members": self.members, "area": self.area}
+        np.savez_compressed(path, told=np.frombuffer(json.dumps(told).encode(), np.uint8), **arrays)
+
+
+def read_rows(folder: Path) -> list[PartRows]:
+    """Read all objects of a folder that have candidates, in the order of their file names."""
+    found = []
+    for path in sorted(folder.glob("*.npz")):
+        with np.load(path) as file:
+            told: dict[str, Any] = json.loads(bytes(file["told"]).decode())
+            arrays = {key: file[key] for key in ("features", "members", "area")}
+        told["names"], told["moving"] = tuple(told["names"]), tuple(told["moving"])
+        told["carried"] = tuple(tuple(group) for group in told["carried"])
+        if len(arrays["features"]):
+            found.append(PartRows(**told, **arrays))
+    return found
+
+
+def rows_of(subject: Subject, source: str, form: str = "") -> PartRows:
+    """Find and measure the candidates of an object."""
+    mesh, truth, config = subject.mesh, subject.truth, Config()
+    whole = object_shape(mesh, config.seed, config.pieces)
+    contacts = find_contacts(whole, config.segmentation)
+    tree = part_tree(mesh, whole, contacts, config.segmentation.smallest, config.segmentation.most_candidates)
+    scene, kept, rows = FeatureScene.of(mesh, tree, config), [], []
+    for k in range(len(tree.members)):
+        around = surroundings_of(scene, k)
+        if around is not None:
+            kept.append(k)
+            rows.append(part_features(scene, k, around))
+    names = tuple(rows[0]) if rows else ()
+    shape = len(contacts.shapes), len(truth.parts)
+    area = np.bincount(whole.mesh_piece * shape[1] + subject.labels, mesh.face_areas, shape[0] * shape[1]).reshape(shape)
+    number = {part.name: k for k, part in enumerate(truth.parts)}
+    parent = {number[j.child]: number.get(j.parent, 0) for j in truth.joints}
+    return PartRows(
+        source, kind_of(truth.name, truth.category), truth.name, form, names,
+        np.array([[row[n] for n in names] for row in rows], np.float32), tree.members[kept], area,
+        tuple(parent), tuple(tuple(k for k in parent if top in _line(k, parent)) for top in parent),
+    )  # fmt: skip
+
+
+def kind_of(name: str, category: str) -> str:
+    """The kind of an object: its category where the set tells it, else the first word of its name."""
+    return category if category != "object" else name.split("-")[0].split("_")[0]
+
+
+def _line(k: int, parent: dict[int, int]) -> list[int]:
+    """The part and what it hangs on."""
+    line: list[int] = []
+    while k in parent and k not in line:
+        line.append(k)
+        k = parent[k]
+    return line
+
+
+def nameless(subject: Subject) -> Subject:
+    """The object without names of nodes and materials."""
+    mesh = subject.mesh
+    nodes = tuple(replace(n, name=f"node{k}") for k, n in enumerate(mesh.nodes))
+    materials = tuple(replace(m, name=f"material{k}") for k, m in enumerate(mesh.materials))
+    return replace(subject, mesh=replace(mesh, nodes=nodes, materials=materials))
+
+
+def collect(spec: str, source: str, name: str, change: str, folder: str) -> str:
+    """Write the rows of one object unless they are there; return a line that says so."""
+    path = Path(folder) / f"{source}{'+' + change if change else ''}--{name}.npz"
+    if path.exists():
+        return ""
+    with tempfile.TemporaryDirectory() as place:
+        subject = nameless(prepared(open_dataset(spec).truth(name, Path(place))))
+        rows_of(changed(change, subject) if change else subject, source, change).save(path)
+    return f"{source} {name} {change}"
+
+
+def main(argv: Sequence[str] | None = None) -> None:
+    parser = argparse.ArgumentParser(description="Candidates for parts, with their features.")
+    parser.add_argument("folder", type=Path)
+    parser.add_argument("specs", nargs="+", metavar="SPEC")
+    parser.add_argument("--change", default="", help="as for anymesh eval --changes")
+    parser.add_argument("--most", type=int, default=10**6, help="objects of each set, evenly spread over it")
+    parser.add_argument("--workers", type=int, default=2)
+    options = parser.parse_args(argv)
+    options.folder.mkdir(parents=True, exist_ok=True)
+    with ProcessPoolExecutor(options.workers, get_context("spawn")) as workers:
+        jobs = []
+        for told in options.specs:
+            spec, _, source = told.partition("@")
+            names = list(open_dataset(spec).objects())
+            if len(names) > options.most:
+                names = [names[k] for k in np.linspace(0, len(names) - 1, options.most).astype(int)]
+            called = source or spec.split(":")[0]
+            jobs += [workers.submit(collect, spec, called, n, options.change, str(options.folder)) for n in names]
+        for job in jobs:
+            if line := job.result():
+                print(line, flush=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,26 @@
+"""The field's word for a part that moves in a certain way."""
+
+from __future__ import annotations
+
+from anymesh.geometry.surroundings import Surroundings
+from anymesh.reasoning.questions import Candidate
+from anymesh.types import MotionKind
+
+ALONG = 0.5  # cosine with the way out below which a slide runs along the surface
+DRAWER = 0.15  # of the object's diagonal: what slides out and is smaller is a button
+WHEEL = 0.16  # of the object's diagonal: what spins and is smaller is a knob
+UP = 0.8  # cosine of the way out with the vertical from which a hinged part is a lid
+
+
+def label_of(around: Surroundings, best: Candidate) -> str:
+    """Return drawer, button, slider, knob, wheel, handle, lid or door. best: the motion of the part."""
+    size = around.part.box.diagonal / around.diagonal
+    if best.motion.kind is MotionKind.SLIDE:
+        if abs(best.outward) < ALONG:
+            return "slider"
+        return "drawer" if size > DRAWER else "button"
+    if best.role == "round":
+        return "knob" if size < WHEEL else "wheel"
+    if best.role == "bail":
+        return "handle" if around.part.slender else "lid"  # a plate on two pivots is a laptop's lid
+    return "lid" if around.outward[2] > UP else "door"

@@ -1,0 +1,61 @@
+"""Evaluate gradient-boosted decision trees that are stored as arrays; no training library is needed."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float, Float32, Int16, Int32
+
+LEAF = -1  # in `feature`
+
+
+@dataclass(frozen=True, eq=False)
+class BoostedTrees:
+    """Trees with numeric splits. Nodes of all trees stand one after the other; root: first node of each tree.
+
+    feature: (N,) column that a node splits on, LEAF for a leaf; threshold: (N,) up to and including it a row goes left, NaN
+    goes left too; left, right: (N,) next node; value: (N,) what a leaf adds to the score, of an inner node the mean of its leaves.
+    """
+
+    feature: Int16[np.ndarray, " N"]
+    threshold: Float32[np.ndarray, " N"]
+    left: Int32[np.ndarray, " N"]
+    right: Int32[np.ndarray, " N"]
+    value: Float32[np.ndarray, " N"]
+    root: Int32[np.ndarray, " T"]
+
+    def score(self, rows: Float[np.ndarray, "n k"]) -> Float[np.ndarray, " n"]:
+        """Sum the leaf values that each row reaches: the log-odds of the positive class."""
+        rows = np.asarray(rows, np.float32)
+        node = np.repeat(self.root[None], len(rows), 0)
+        at = np.arange(len(rows))[:, None]
+        while (inner := self.feature[node] != LEAF).any():
+            column = np.maximum(self.feature[node], 0)
+            above = rows[at, column] > self.threshold[node]
+            node = np.where(inner, np.where(above, self.right[node], self.left[node]), node)
+        return self.value[node].astype(np.float64).sum(1)
+
+    def contributions(self, rows: Float[np.ndarray, "n k"]) -> Float[np.ndarray, "n k"]:
+        """Return what each feature adds to the score of each row: the changes of value at the splits on it (Saabas, 2014)."""
+        rows = np.asarray(rows, np.float32)
+        found = np.zeros(rows.shape)
+        node = np.repeat(self.root[None], len(rows), 0)
+        at = np.arange(len(rows))[:, None].repeat(len(self.root), 1)
+        while (inner := self.feature[node] != LEAF).any():
+            column = np.maximum(self.feature[node], 0)
+            new = np.where(inner, np.where(rows[at, column] > self.threshold[node], self.right[node], self.left[node]), node)
+            np.add.at(found, (at, column), np.where(inner, self.value[new] - self.value[node], 0.0))
+            node = new
+        return found
+
+    def arrays(self, name: str) -> dict[str, np.ndarray]:
+        """Return the arrays by the names under which `from_arrays` finds them."""
+        return {f"{name}.{key}": value for key, value in vars(self).items()}
+
+    @classmethod
+    def from_arrays(cls, name: str, arrays: Mapping[str, np.ndarray]) -> BoostedTrees:
+        """Read what `arrays` returned, for instance from an .npz file."""
+        fields = ("feature", "threshold", "left", "right", "value", "root")
+        return cls(*(arrays[f"{name}.{key}"] for key in fields))

@@ -1,0 +1,217 @@
+"""What geometry shows of a candidate part, as named numbers. Lengths are shares of the object's diagonal, shares are 0..1."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Int
+
+from anymesh.config import Config
+from anymesh.geometry.surroundings import Surroundings
+from anymesh.segmentation.part_fit import enclosed_share, fit_of_rim, held_at_two_ends, on_axis, open_behind, touching
+from anymesh.segmentation.part_tree import PartTree
+from anymesh.types import Mesh
+
+AT_BORDER = 0.02  # of the diagonal: a side of the object's bounds is reached within this
+SAME_SIZE = 0.02  # relative: diagonals of copies differ by less
+IN_LINE = 0.02  # of the diagonal: middles of copies in one row are as level as this
+MOST_RATIO = 8.0  # lengths over lengths are cut here
+
+
+@dataclass(frozen=True, eq=False)
+class FeatureScene:
+    """What the features of all candidates of an object share. material: (R,) of each face of `tree.whole`."""
+
+    tree: PartTree
+    config: Config
+    material: Int[np.ndarray, " R"]
+
+    @classmethod
+    def of(cls, mesh: Mesh, tree: PartTree, config: Config) -> FeatureScene:
+        """Of a mesh and the candidates found in it."""
+        return cls(tree, config, mesh.face_material[tree.whole.source])
+
+
+def surroundings_of(scene: FeatureScene, group: int) -> Surroundings | None:
+    """Return a group among all else; None where it has no face, or nothing is left."""
+    tree = scene.tree
+    moving = tree.members[group][tree.whole.piece]
+    if not moving.any() or moving.all():
+        return None
+    rest = tree.whole.of(np.flatnonzero(~moving))
+    return Surroundings(
+        part=tree.whole.of(np.flatnonzero(moving)), parent=rest, rest=rest, others=None, everything=rest, slim=(),
+        diagonal=tree.whole.diagonal, center=tree.whole.shape.bounds.mean(0), config=scene.config.articulation,
+    )  # fmt: skip
+
+
+def part_features(scene: FeatureScene, group: int, around: Surroundings) -> dict[str, float]:
+    """Return all features of a candidate; the keys are the same for all."""
+    return {
+        **_shape(scene, group, around),
+        **_place(around),
+        **_fit(scene, around),
+        **_neighbours(scene, group),
+        **_copies(scene, group, around),
+        **_material(scene, group, around),
+        **_handle(around),
+    }
+
+
+def _ratio(a: float, b: float) -> float:
+    return float(np.clip(a / max(b, 1e-12), 0, MOST_RATIO))
+
+
+def _shape(scene: FeatureScene, group: int, around: Surroundings) -> dict[str, float]:
+    core, outline, tree = around.core, around.outline, scene.tree
+    extents = np.sort(np.ptp(tree.whole.shape.bounds, axis=0))
+    box_area = 8 * float(core.half[0] * core.half[1] + core.half[1] * core.half[2] + core.half[0] * core.half[2])
+    patches = tree.members[group]
+    return {
+        "thinness": _ratio(core.half[2], core.half[1]),
+        "width over length": _ratio(core.half[1], core.half[0]),
+        "size": around.part.box.diagonal / around.diagonal,
+        "thickness": float(2 * core.half[2] / around.diagonal),
+        "area share": float(tree.area[group] / tree.patch_area.sum()),
+        "face share": _ratio(4 * core.half[0] * core.half[1], extents[1] * extents[2]),
+        "area over box": _ratio(around.part.area, box_area),
+        "closed": float(around.part.solid @ around.part.areas / max(around.part.area, 1e-300)),
+        "roundness": outline.roundness,
+        "height over radius": _ratio(outline.height, outline.radius),
+        "patches": float(np.log1p(patches.sum())),
+        "largest patch": float(tree.patch_area[patches].max() / max(tree.area[group], 1e-300)),
+        "patches of the object": float(np.log1p(len(patches))),
+    }
+
+
+def _place(around: Surroundings) -> dict[str, float]:
+    low, high = around.bounds
+    extent = np.maximum(high - low, 1e-12)
+    mine = around.part.bounds
+    center = (mine.mean(0) - low) / extent
+    reached = np.abs(np.array([mine[0] - low, high - mine[1]])) < AT_BORDER * around.diagonal
+    aside = np.linalg.norm(2 * center[:2] - 1)
+    return {
+        "height": float(center[2]),
+        "bottom": float((mine[0, 2] - low[2]) / extent[2]),
+        "top": float((high[2] - mine[1, 2]) / extent[2]),
+        "aside": float(aside),
+        "sides reached": float(reached[:, :2].sum()),
+        "width share": float(((mine[1] - mine[0]) / extent)[:2].max()),
+        "height share": float((mine[1, 2] - mine[0, 2]) / extent[2]),
+        "faces up": float(around.outward[2]),
+        "seen": around.openness,
+        "thin way out": float(np.abs(around.core.axes[2] @ around.outward)),
+        "out from the middle": float((mine.mean(0) - around.center) @ around.outward / around.diagonal),
+        "proportion": _ratio(extent[2], float(extent[:2].max())),
+    }
+
+
+def _fit(scene: FeatureScene, around: Surroundings) -> dict[str, float]:
+    settings = scene.config.segmentation
+    near, normals = touching(around, 2 * settings.touch * around.diagonal)
+    sides, flush = fit_of_rim(around, settings)
+    gaps = np.quantile(around.gap, [0.05, 0.5]) / around.diagonal
+    depth = around.inside_depth(around.outward)
+    outer = around.part.samples.normals @ around.outward
+    back = outer < -0.5
+    return {
+        "rims with clearance": float(sides),
+        "flush rim": flush,
+        "open behind": open_behind(around),
+        "touching": float(near.mean()),
+        "back touches": float(near[back].mean()) if back.sum() > 3 else 0.0,
+        "near gap": float(np.log10(gaps[0] + 1e-5)),
+        "middle gap": float(np.log10(gaps[1] + 1e-5)),
+        "enclosed": enclosed_share(around),
+        "depth": _ratio(depth, 2 * float(around.core.half[1])),
+        "two pivots": float(held_at_two_ends(around, near, normals)),
+        "on axis": float(on_axis(around)),
+        "axle level": float(abs(around.outline.axis[2]) < 0.5),
+        **_contact_layout(around, near),
+    }
+
+
+def _contact_layout(around: Surroundings, near: np.ndarray) -> dict[str, float]:
+    """Where the contact lies on the part's face: spread over it, or gathered at one side."""
+    if near.sum() < 2:
+        return {"contact spread": 0.0, "contact off the middle": 0.0, "contact upright": 0.0}
+    local = around.core.local(around.part.samples.points[near]) / np.maximum(around.core.half, 1e-12)
+    face = local[:, around.face_axes]
+    middle, spread = face.mean(0), face.std(0)
+    k = int(np.abs(middle).argmax())
+    axis = around.core.axes[around.face_axes[1 - k]]
+    return {
+        "contact spread": float(spread.min()),
+        "contact off the middle": float(np.abs(middle).max()),
+        "contact upright": float(abs(axis[2])),
+    }
+
+
+def _neighbours(scene: FeatureScene, group: int) -> dict[str, float]:
+    tree = scene.tree
+    inside, contacts = tree.members[group], tree.contacts
+    pairs = np.array(list(contacts.area), np.int64).reshape(-1, 2)
+    amount = np.array(list(contacts.area.values()), float)
+    out = inside[pairs[:, 0]] & ~inside[pairs[:, 1]]
+    within = inside[pairs[:, 0]] & inside[pairs[:, 1]]
+    beside = np.bincount(pairs[out, 1], amount[out], len(inside))
+    near = contacts.near[inside[contacts.near[:, 0]] != inside[contacts.near[:, 1]]]
+    shared = tree.whole.shared
+    creased = inside[shared[:, 0]] != inside[shared[:, 1]] if len(shared) else np.zeros(0, bool)
+    outside, total = float(beside.sum()), max(float(tree.area[group]), 1e-300)
+    return {
+        "touching patches": float(np.log1p((beside > 0).sum())),
+        "contact with the first": float(beside.max(initial=0) / max(outside, 1e-300)) if outside > 0 else 0.0,
+        "contact area": min(outside / total, 1.0),
+        "contact within": min(float(amount[within].sum()) / total, 2.0),
+        "patches with clearance": float(np.log1p(len(near))),
+        "parted by creases": float(creased.any()),
+        "separate": float(not out.any() and not creased.any()),
+    }
+
+
+def _copies(scene: FeatureScene, group: int, around: Surroundings) -> dict[str, float]:
+    """Other groups of the same size that share no patch with this one."""
+    tree = scene.tree
+    alike = np.abs(tree.size - tree.size[group]) < SAME_SIZE * tree.size[group]
+    alike &= np.abs(tree.area / max(tree.area[group], 1e-300) - 1) < 2 * SAME_SIZE
+    alike &= tree.shared_area[group] == 0
+    middles = tree.bounds[alike].mean(1)
+    mine = tree.bounds[group].mean(0)
+    off = np.abs(middles - mine) / around.diagonal
+    outline = around.outline
+    arm = middles - outline.center
+    across = np.linalg.norm(arm - (arm @ outline.axis)[:, None] * outline.axis, axis=1)
+    return {
+        "copies": float(np.log1p(alike.sum())),
+        "copies in a row": float(np.log1p(((off < IN_LINE).sum(1) >= 2).sum())),
+        "copy on the axis": float((across < 0.3 * outline.radius).any()),
+    }
+
+
+def _material(scene: FeatureScene, group: int, around: Surroundings) -> dict[str, float]:
+    """How far the part's commonest material sets it apart from the rest."""
+    whole, count = scene.tree.whole, int(scene.material.max()) + 2
+    moving = scene.tree.members[group][whole.piece]
+    mine = np.bincount(scene.material[moving] + 1, whole.shape.areas[moving], count)
+    rest = np.bincount(scene.material[~moving] + 1, whole.shape.areas[~moving], count)
+    k = int(mine.argmax())
+    return {
+        "materials": float(np.log1p(((mine + rest) > 0).sum())),
+        "material of its own": float(mine[k] / max(mine[k] + rest[k], 1e-300)),
+        "one material": float(mine[k] / max(mine.sum(), 1e-300)),
+    }
+
+
+def _handle(around: Surroundings) -> dict[str, float]:
+    handle = around.handle
+    if handle is None:
+        return {"handle": 0.0, "handle size": 0.0, "handle off the middle": 0.0, "bar handle": 0.0}
+    return {
+        "handle": 1.0,
+        "handle size": handle.size,
+        "handle off the middle": max(abs(a) for a in handle.across),
+        "bar handle": float(handle.along is not None),
+    }

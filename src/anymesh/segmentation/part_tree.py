@@ -1,0 +1,162 @@
+"""Candidates for parts: groups of patches that may move as one.
+
+Each patch, what hangs on it, and what it holds, seen from each of the likeliest bases; and the groups of a tree that merges
+what touches most. The groups overlap: which of them are parts is decided for all at once (`part_assignment.py`).
+"""
+
+from __future__ import annotations
+
+import heapq
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from jaxtyping import Bool, Float, Int
+
+from anymesh.geometry.pieces import ObjectShape
+from anymesh.segmentation.contacts import Contacts
+from anymesh.segmentation.units import Units, join_units, root_ranking, with_held
+from anymesh.types import Mesh
+
+BASES = 3  # likeliest bases from which hanging is measured
+LEAST_AREA = 1e-12  # share of the surface that counts as area where patches have none
+
+
+@dataclass(frozen=True, eq=False)
+class PartTree:
+    """Groups of patches, largest first. members: (n, P) which patches each group has; size: (n,) diagonal over the object's."""
+
+    whole: ObjectShape
+    contacts: Contacts
+    members: Bool[np.ndarray, "n P"]
+    size: Float[np.ndarray, " n"]
+    names: tuple[str, ...]  # (P,) the telling name of each patch's node or material, or ""
+
+    @cached_property
+    def patch_area(self) -> Float[np.ndarray, " P"]:
+        """Area of every patch [m^2]."""
+        return np.array([s.area for s in self.contacts.shapes])
+
+    @cached_property
+    def patch_bounds(self) -> Float[np.ndarray, "P 2 3"]:
+        """Axis-aligned bounds of every patch [m]."""
+        return np.array([s.bounds for s in self.contacts.shapes])
+
+    @cached_property
+    def area(self) -> Float[np.ndarray, " n"]:
+        """Area of every group [m^2]."""
+        return self.members @ self.patch_area
+
+    @cached_property
+    def bounds(self) -> Float[np.ndarray, "n 2 3"]:
+        """Axis-aligned bounds of every group [m]."""
+        return np.array([_bounds(self.patch_bounds, m) for m in self.members]).reshape(-1, 2, 3)
+
+    @cached_property
+    def shared_area(self) -> Float[np.ndarray, "n n"]:
+        """Area that two groups have in common [m^2]."""
+        return (self.members * self.patch_area) @ self.members.T.astype(float)
+
+    def faces(self, group: int) -> Int[np.ndarray, " m"]:
+        """Return the faces of a group, ascending, as indices of `whole`."""
+        return np.flatnonzero(self.members[group][self.whole.piece])
+
+
+def part_tree(mesh: Mesh, whole: ObjectShape, contacts: Contacts, smallest: float, most: int) -> PartTree:
+    """Return the groups of a mesh that may be parts, without repetition.
+
+    smallest: least diagonal of a group, as a share of the object's; most: number of groups, the largest are taken.
+    """
+    count = len(contacts.shapes)
+    found: dict[bytes, Bool[np.ndarray, " P"]] = {}
+    names = [""] * count
+
+    def add(mask: Bool[np.ndarray, " P"]) -> None:
+        if not mask.all():
+            found.setdefault(np.packbits(mask).tobytes(), mask)
+
+    ranking = root_ranking(whole, contacts)
+    for base in ranking[:BASES]:
+        units = join_units(mesh, whole, contacts, base)
+        names = [units.names[u] for u in units.unit]
+        for u in sorted(units.hanging):
+            if u != units.root:
+                for chosen in ([u], units.hanging[u], with_held(units, u)):
+                    add(np.isin(units.unit, chosen))
+    first = join_units(mesh, whole, contacts, ranking[0])
+    for merged in _merges(first):
+        add(np.isin(first.unit, merged))
+    members, size = _largest(whole, contacts, list(found.values()), smallest, most)
+    return PartTree(whole, contacts, members, size, tuple(names))
+
+
+def _largest(
+    whole: ObjectShape, contacts: Contacts, masks: list[np.ndarray], smallest: float, most: int
+) -> tuple[Bool[np.ndarray, "n P"], Float[np.ndarray, " n"]]:
+    """Return the largest groups and their diagonals over the object's."""
+    bounds = np.array([s.bounds for s in contacts.shapes])
+    size = np.array([float(np.linalg.norm(np.ptp(_bounds(bounds, m), axis=0))) for m in masks]) / whole.diagonal
+    area = np.array([s.area for s in contacts.shapes])
+    order = [int(k) for k in np.lexsort((np.arange(len(masks)), -size)) if size[k] >= smallest and area[masks[k]].sum() > 0]
+    order = order[:most]
+    members = np.array([masks[k] for k in order], bool).reshape(len(order), len(bounds))
+    return members, size[order]
+
+
+def _bounds(patches: Float[np.ndarray, "P 2 3"], members: Bool[np.ndarray, " P"]) -> Float[np.ndarray, "2 3"]:
+    mine = patches[members]
+    return np.array([mine[:, 0].min(0), mine[:, 1].max(0)])
+
+
+def _merges(units: Units) -> list[list[int]]:
+    """Merge neighbours until all are one; return the groups on the way.
+
+    Those merge first of which the smaller shares most of its contact with the other, small ones before large ones.
+    """
+    count = len(units.names)
+    area = np.maximum(np.bincount(units.unit, units.piece_area, count), LEAST_AREA * units.piece_area.sum())
+    area = dict(enumerate(area / area.sum()))
+    contact: dict[int, dict[int, float]] = {}
+    for (i, j), amount in sorted(units.contacts.area.items()):
+        a, b = int(units.unit[i]), int(units.unit[j])
+        if a != b:
+            for x, y in ((a, b), (b, a)):
+                row = contact.setdefault(x, {})
+                row[y] = row.get(y, 0.0) + max(amount, LEAST_AREA)
+    members = {k: [k] for k in range(count)}
+
+    def strength(i: int, j: int) -> float:
+        small = min((area[i], i), (area[j], j))[1]
+        return contact[i][j] / sum(contact[small].values()) / float(np.sqrt(area[small]))
+
+    queue = [(-strength(i, j), i, j) for i in sorted(contact) for j in sorted(contact[i]) if i < j]
+    heapq.heapify(queue)
+    found, alive = [], set(range(count))
+    while queue:
+        value, i, j = heapq.heappop(queue)
+        if i not in alive or j not in alive:
+            continue
+        if (now := -strength(i, j)) > value + 1e-12:
+            heapq.heappush(queue, (now, i, j))
+            continue
+        new = len(members)
+        members[new], area[new] = members[i] + members[j], area[i] + area[j]
+        alive = alive - {i, j} | {new}
+        found.append(members[new])
+        contact[new] = _joined(contact, i, j)
+        for other, amount in contact[new].items():
+            contact[other].pop(i, None)
+            contact[other].pop(j, None)
+            contact[other][new] = amount
+        for other in sorted(contact[new]):
+            heapq.heappush(queue, (-strength(other, new), other, new))
+    return found
+
+
+def _joined(contact: dict[int, dict[int, float]], i: int, j: int) -> dict[int, float]:
+    row: dict[int, float] = {}
+    for one in (i, j):
+        for other, amount in contact[one].items():
+            if other not in (i, j):
+                row[other] = row.get(other, 0.0) + amount
+    return row
