@@ -6,6 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
+from jaxtyping import Float
 
 from anymesh.articulation.cases import Case
 from anymesh.articulation.evidence import part_facts, weigh_all
@@ -25,6 +26,9 @@ SHOWN_SLIDE = 0.6  # most of a slide in a picture, as a share of the part's size
 SHOWN_BLOCKED = 0.6  # share of these that is shown of a motion that is blocked
 ALIKE = 0.15  # motions that take the part's points to places this near, as a share of the way, look alike
 PIXELS = 0.01  # and so do those this near, as a share of the part's diagonal: two or three pixels
+TWINS = 0.015  # share of the object's diagonal: motions that keep the part's points this near to each other are near-twins,
+TWIN_WAY = 0.3  # but for a small part no more than this share of the way
+OFF_PART = 0.02  # share of the object's diagonal: a hinge line further from the part's surface is not in the first picture
 BEHIND = 8.0  # a motion that is less plausible than the best one by more is shown in the second picture, unless few are left
 FEW = 3  # free motions that are in the first picture however implausible
 OWN = 3  # axes of the part's own shape that are always in the first picture
@@ -78,7 +82,8 @@ def make_offers(case: Case, most: int, seed: int) -> Offers:
     motions = [candidates[k] for k in kept]
     best = max((worth[k] for k in kept), default=0.0)
     likely = [
-        is_free(c) and (worth[k] > best - BEHIND or rank < FEW) for rank, (k, c) in enumerate(zip(kept, motions, strict=True))
+        is_free(c) and not _off_part(case, c) and (worth[k] > best - BEHIND or rank < FEW)
+        for rank, (k, c) in enumerate(zip(kept, motions, strict=True))
     ]
     first, second = _pages(motions, case.kind, likely, answered, most)
     rng = np.random.default_rng([seed, case.number])
@@ -153,24 +158,40 @@ def _unlike(case: Case, candidates: list[Candidate], order: list[int]) -> tuple[
     samples = case.around.part.samples.points
     points = samples[:: max(1, len(samples) // ENOUGH_POINTS)]
     kept: list[int] = []
-    ends: list[np.ndarray] = []
     amounts: list[float] = []
     answered = None
     for k in order:
-        c = candidates[k]
-        amount = shown_amount(c, case)
-        T = opening_motion(c).transform(amount)
-        end = points @ T[:3, :3].T + T[:3, 3]
-        least = max(ALIKE * float(np.linalg.norm(end - points, axis=1).mean()), PIXELS * case.around.part.box.diagonal)
-        alike = (n for n, other in enumerate(ends) if np.linalg.norm(end - other, axis=1).mean() <= least)
-        twin = next(alike, len(kept))
+        amount = shown_amount(candidates[k], case)
+        others = ((n, candidates[other], max(amount, amounts[n], key=abs)) for n, other in enumerate(kept))
+        twin = next((n for n, other, most in others if _alike(case, points, candidates[k], other, most)), len(kept))
         if twin == len(kept):
             kept.append(k)
-            ends.append(end)
             amounts.append(amount)
-        if c.role == "asked":
+        if candidates[k].role == "asked":
             answered = twin
     return kept, amounts, answered
+
+
+def _alike(case: Case, points: Float[np.ndarray, "n 3"], a: Candidate, b: Candidate, amount: float) -> bool:
+    """Whether two motions, both by `amount` [rad or m], take the part's points to nearly the same places all along it: no one
+    can choose between them. How far each is free makes no difference."""
+    if a.motion.kind is not b.motion.kind:
+        return False
+    apart, way = 0.0, 0.0
+    for share in (0.5, 1.0):
+        ends = [points @ T[:3, :3].T + T[:3, 3] for T in (opening_motion(c).transform(share * amount) for c in (a, b))]
+        apart = max(apart, float(np.linalg.norm(ends[0] - ends[1], axis=1).mean()))
+        way = float(np.linalg.norm(ends[0] - points, axis=1).mean())
+    twins = min(TWINS * case.around.scale, TWIN_WAY * way)
+    return apart <= max(ALIKE * way, PIXELS * case.around.part.box.diagonal, twins)
+
+
+def _off_part(case: Case, c: Candidate) -> bool:
+    """Whether a hinge line passes the part at a distance, as an edge of a box does that a handle stretches."""
+    if c.motion.kind is not MotionKind.TURN or c.role not in ("edge", "edge_mid"):
+        return False
+    off = np.linalg.norm(np.cross(case.around.part.samples.points - c.motion.origin, c.motion.axis), axis=1)
+    return bool(off.min() > OFF_PART * case.around.scale)
 
 
 def _pages(
