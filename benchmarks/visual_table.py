@@ -17,8 +17,8 @@ Each question was answered once, from its text and pictures alone, through `--an
 none of them, and objects have numbers for names.
 
 Recall: true movable parts found with an IoU of .5 or more. mIoU: over the true parts, 0 for one that was not found. Type, angle
-and position at the part: of the joints that were found; the diagonal is 2. Calls: questions answered, mean over objects. Seconds:
-of the tool, without the answerer, cold, median over objects.
+and position at the part: of the joints that were found; the diagonal is 2. Calls: questions answered, mean over objects.
+Seconds: of the tool, without the answerer, cold, median over objects.
 """
 COLUMNS = ("objects", "joints", "recall", "mIoU", "type", "angle [deg]", "at the part", "calls", "s")
 
