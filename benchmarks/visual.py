@@ -31,6 +31,7 @@ from anymesh.evaluation.datasets.named import open_dataset
 from anymesh.evaluation.examine import Exam, Protocol, examine
 from anymesh.evaluation.record import record_of, record_text
 from anymesh.models.question_files import ANSWER, OWNER, QUESTION, find_questions
+from anymesh.reasoning.files import open_questions
 from anymesh.solving import solve
 
 HERE = Path(__file__).parent
@@ -81,6 +82,9 @@ def ask(item: Item, protocol: Protocol, folder: Path, wait: bool, after: Protoco
         return f"{title}: done before"
     if after is not None and not (results.parent / after / RECORD).exists():
         return f"{title}: comes after {after}"
+    waiting = [] if wait else open_questions(find_questions(place))
+    if waiting:
+        return f"{title}: open {', '.join(str(q.path) for q in waiting)}"
     results.mkdir(parents=True, exist_ok=True)
     exam = Exam(protocol, (item.change,))
 

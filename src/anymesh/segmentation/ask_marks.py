@@ -19,7 +19,7 @@ from anymesh.segmentation.regions import Marks
 from anymesh.types import Picture
 
 INSIDE = "inside"  # how the names of pictures of the inside begin
-MOST_PICTURES = 12  # in one call
+MOST_PICTURES = 16  # in one call
 
 
 @dataclass(frozen=True, eq=False)

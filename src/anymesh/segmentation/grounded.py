@@ -24,7 +24,7 @@ from anymesh.segmentation.cloud import Cloud, sample_cloud
 from anymesh.segmentation.em import refine_instances
 from anymesh.segmentation.faces import SLIVER, face_parts, mark_parts, point_parts
 from anymesh.segmentation.fuse import count_points, fuse_masks, marked_masks
-from anymesh.segmentation.hidden import inner_faces, seen_points, unseen_patches, with_hidden
+from anymesh.segmentation.hidden import LEAST_INSIDE, inner_faces, patch_sizes, seen_points, unseen_patches, with_hidden
 from anymesh.segmentation.naming import named_parts
 from anymesh.segmentation.propose import Proposal, propose_masks
 from anymesh.segmentation.regions import face_regions, number_regions, split_marks
@@ -89,6 +89,7 @@ def ground_parts(
     )
     inside: tuple[str, ...] = ()
     left = found.unseen & (found.face_part == 0)  # by whoever was shown the inside
+    left &= (patch_sizes(mesh, whole) >= LEAST_INSIDE)[whole.mesh_piece]  # smaller ones are gaps and creases, no parts
     if labels and mesh.face_areas[left].sum() > SLIVER * mesh.face_areas[found.unseen].sum():
         parts, inside = with_hidden(parts, by_geometry(), found.unseen, mesh.face_areas)
     missing = [label for label in labels if label not in {p.label for p in parts.parts}]

@@ -42,14 +42,19 @@ def inner_faces(
 ) -> Bool[np.ndarray, " F"]:
     """Faces of patches that are mostly hidden and large enough to be shown alone and asked about; none where all of them have a
     diagonal below `least`, a share of the object's."""
-    hidden = unseen_patches(whole, cloud, shown, MOSTLY)
-    low, high = np.full((len(hidden), 3), np.inf), np.full((len(hidden), 3), -np.inf)
-    np.minimum.at(low, whole.mesh_piece, mesh.triangles.min(1))
-    np.maximum.at(high, whole.mesh_piece, mesh.triangles.max(1))
-    size = np.linalg.norm(high - low, axis=1) / whole.diagonal
+    hidden, size = unseen_patches(whole, cloud, shown, MOSTLY), patch_sizes(mesh, whole)
     if not (hidden & (size >= least)).any():
         return np.zeros(len(whole.mesh_piece), bool)
     return (hidden & (size >= LEAST_INSIDE))[whole.mesh_piece]
+
+
+def patch_sizes(mesh: Mesh, whole: ObjectShape) -> Float[np.ndarray, " P"]:
+    """The diagonal of each patch, as a share of the object's."""
+    count = int(whole.mesh_piece.max()) + 1
+    low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
+    np.minimum.at(low, whole.mesh_piece, mesh.triangles.min(1))
+    np.maximum.at(high, whole.mesh_piece, mesh.triangles.max(1))
+    return np.linalg.norm(high - low, axis=1) / whole.diagonal
 
 
 def with_hidden(
