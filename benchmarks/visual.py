@@ -107,11 +107,13 @@ def keep(folder: Path) -> None:
         asked = folder / done.parent.relative_to(results_of(folder))
         place = RECORDINGS / asked.relative_to(folder)
         shutil.rmtree(place, ignore_errors=True)
-        for question in find_questions(asked):
-            if not question.outdated and question.answer() is not None:
-                (place / question.path.name).mkdir(parents=True)
-                for name in (QUESTION, ANSWER):
-                    shutil.copyfile(question.path / name, place / question.path.name / name)
+        answered = [q for q in find_questions(asked) if not q.outdated and q.answer() is not None]
+        if not answered:
+            continue  # nothing moves, so nothing was asked
+        for question in answered:
+            (place / question.path.name).mkdir(parents=True)
+            for name in (QUESTION, ANSWER):
+                shutil.copyfile(question.path / name, place / question.path.name / name)
         shutil.copyfile(asked / OWNER, place / OWNER)
         print(f"kept {place.relative_to(RECORDINGS)}: {record_of(done.read_text(encoding='utf-8')).score.name}")
 
