@@ -90,7 +90,8 @@ def ground_parts(
     inside: tuple[str, ...] = ()
     left = found.unseen & (found.face_part == 0)  # by whoever was shown the inside
     left &= (patch_sizes(mesh, whole) >= LEAST_INSIDE)[whole.mesh_piece]  # smaller ones are gaps and creases, no parts
-    if labels and mesh.face_areas[left].sum() > SLIVER * mesh.face_areas[found.unseen].sum():
+    by_user = recognition.size is None  # told the labels; else somebody was shown the inside and asked what moves in there
+    if labels and by_user and mesh.face_areas[left].sum() > SLIVER * mesh.face_areas[found.unseen].sum():
         parts, inside = with_hidden(parts, by_geometry(), found.unseen, mesh.face_areas)
     missing = [label for label in labels if label not in {p.label for p in parts.parts}]
     told = {True: "what was pointed at is all of the object, or too little of it", False: f"though {seer.name} expects one"}
