@@ -17,7 +17,8 @@ DatasetName = Annotated[
     str,
     typer.Argument(
         metavar="DATASET",
-        help="examples, scene-synthesizer, sweethome3d, metaworld, libero, partnet-mobility:DIR, urdf:DIR or mjcf:DIR.",
+        help="examples, scene-synthesizer, sweethome3d, metaworld, libero, or one of partnet-mobility, urdf, mjcf and labelled "
+        "with its folder: urdf:DIR.",
     ),
 ]
 ReportOut = Annotated[Path, typer.Option("--out", "-o", metavar="DIR", help="Folder of the report; a stopped one goes on.")]

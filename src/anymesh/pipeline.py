@@ -23,6 +23,7 @@ from anymesh.models.cache import cache_folder
 from anymesh.progress import Progress, silent
 from anymesh.rendering.preview import write_preview
 from anymesh.run_folder import RunFolder, stage_key
+from anymesh.segmentation.given import GIVEN
 from anymesh.solving import Solver
 from anymesh.stage_results import COMPLETION, JOINTS, MESH, RECOGNITION, SEGMENTATION, Jointed, Placed, Recognized, Segmented
 from anymesh.stopped_run import kept_transcript
@@ -269,7 +270,8 @@ def _join(
     found = _answered(run.load(JOINTS, key), who)
     if found is None:
         with _timed(run, "joints"):
-            found = solver.joints(segmented.segmentation, recognized.recognition, progress)
+            grounded = segmented.answerer != GIVEN
+            found = solver.joints(segmented.segmentation, recognized.recognition, progress, grounded)
         if found.segmentation is not None:
             run.save(SEGMENTATION, previous, replace(segmented, segmentation=found.segmentation))
         run.save(JOINTS, key, found)

@@ -32,20 +32,22 @@ from anymesh.progress import Progress, silent
 from anymesh.reasoning.asking import Seer
 from anymesh.reasoning.geometry import GeometryAnswerer
 from anymesh.reasoning.knowing import Knowing, KnownJoint, Reference
-from anymesh.reasoning.recognition import recognize
+from anymesh.reasoning.recognition import answered_scale, recognize
 from anymesh.rendering.studio import Studio
+from anymesh.segmentation.ask_marks import Asked
+from anymesh.segmentation.cloud import Cloud
 from anymesh.segmentation.given import GIVEN, parts_from_file, parts_from_nodes
-from anymesh.segmentation.grounded import EXACT, ground_parts
+from anymesh.segmentation.grounded import EXACT, ground_parts, object_cloud
+from anymesh.segmentation.hidden import LEAST_TOLD, inner_faces, seen_points
+from anymesh.segmentation.regrounding import ground_again
 from anymesh.segmentation.segment import segment_parts
 from anymesh.stage_results import Jointed, Recognized, Segmented
 from anymesh.types import Joint, JointType, Mesh, MotionKind, Picture, Segmentation
 from anymesh.types.recognition import Moves, Recognition
 
 Seeing = Callable[[Seer], Seer]  # an answerer that sees, given who answers in its place where it cannot
+MOST_INSIDE = 2  # pictures of the inside in the question of what the object is
 UNSURE = 0.4  # joints below this confidence are named in the warnings
-ROUGH = 1.5  # an answered size is a guess: the mesh keeps its own when both agree within this factor
-DOUBTFUL = 2.5  # an answered size that differs by more from that of a file with a unit is worth a warning
-FAR = 10.0  # and so is one that differs by more where the file has none
 LIKELY = 4  # motions of each kind, likeliest first, of which one is to stay free with what the part gains
 FREE = 0.8  # a part that gains unseen patches opens this much as far as without them
 ENOUGH = float(np.deg2rad(60))  # [rad, or share of the diagonal] an opening beyond is not compared
@@ -75,6 +77,10 @@ class Solver:
         return None if spec == EXACT else load_sam(spec)
 
     @cached_property
+    def _cloud(self) -> Cloud:
+        return object_cloud(self.mesh, self.whole, self.config)
+
+    @cached_property
     def _studio(self) -> Studio:
         return Studio(self.mesh, self.config)
 
@@ -90,12 +96,18 @@ class Solver:
         seer = self._see(Knowing(GEOMETRY.name, lambda: self._geometric_reference))
         azimuths = [azimuth for azimuth, _ in self.config.views.directions]
         found = recognize(self._view_pictures, seer, self.config.category, self.config.parts_list, azimuths)
-        scale, note, doubt = _scale(found, self.mesh, metric) if sized else (1.0, "", ())
+        scale, note, doubt = answered_scale(found, float(self.mesh.extents.max()), metric=metric) if sized else (1.0, "", ())
         return Recognized(found, seer.name, scale, note, (*seer.remarks, *doubt), seer.exchanges)
 
     def _view_pictures(self) -> tuple[Picture, ...]:
-        seen = self._studio.views
-        return self._studio.pictures([view.color for view in seen], self._studio.names(len(seen)))
+        seen, studio = self._studio.views, self._studio
+        names = studio.names(len(seen))
+        inside = inner_faces(self.mesh, self.whole, self._cloud, seen_points(self._cloud, seen), LEAST_TOLD)
+        if inside.any():
+            chosen = studio.most_of_inside(inside, MOST_INSIDE)
+            seen = [*seen, *(studio.insides(inside)[k] for k in chosen)]
+            names += [studio.inside_names()[k] for k in chosen]
+        return studio.pictures([view.color for view in seen], names)
 
     def parts(self, parts: str = "auto", recognition: Recognition | None = None, progress: Progress = silent) -> Segmented:
         """Stage A. parts: auto, nodes, or a file of face labels."""
@@ -116,6 +128,7 @@ class Solver:
             self._geometric_parts,
             self.stays_free,
             progress,
+            self._cloud,
         )
         return _segmented(found, seer.name, seer, (*warnings, *self.deadline.warnings()))
 
@@ -124,17 +137,25 @@ class Solver:
         segmentation: Segmentation,
         recognition: Recognition | None = None,
         progress: Progress = silent,
-        reground: Reground | None = None,
+        grounded: bool = False,
     ) -> Jointed:
-        """Stage B. reground: grounds parts again that answers call too much or too little, once; None: that is not asked."""
+        """Stage B. grounded: the parts were found by `parts`, so answers may call them too much or too little, once."""
         if self._see is None:
             found = estimate_joints(segmentation, self._motions(segmentation, progress), GEOMETRY)
             return _jointed(found, GEOMETRY.name, None, self.deadline.warnings())
         seer = self._see(Knowing(GEOMETRY.name, lambda: self._reference(segmentation)))
         questions = Questions(self._studio, seer, self.config, recognition, progress)
+        reground = self._regrounding(questions, segmentation) if grounded and recognition is not None else None
         made = prompt_joints(questions, self._ready_for, segmentation, reground)
         found = _jointed(made.joints, seer.name, seer, (*made.warnings, *self.deadline.warnings()))
         return replace(found, segmentation=made.segmentation if made.segmentation is not segmentation else None)
+
+    def _regrounding(self, questions: Questions, segmentation: Segmentation) -> Reground:
+        """What goes back to the marks of parts that are wrong."""
+        recognition = questions.recognition
+        asked = Asked(questions.seer, self._studio, questions.labels, questions.category, self.config)
+        front = recognition.front if recognition else None
+        return lambda wrong: ground_again(self.mesh, self.whole, self._cloud, asked, segmentation, wrong, front)
 
     def _geometric_parts(self, progress: Progress = silent) -> Segmentation:
         """What geometry finds; once, however many questions it answers."""
@@ -214,22 +235,6 @@ def reference_of(mesh: Mesh, segmentation: Segmentation, joints: tuple[Joint, ..
     )
 
 
-def _scale(found: Recognition, mesh: Mesh, metric: bool) -> tuple[float, str, tuple[str, ...]]:
-    """The factor that an answered size makes, with a note, and warnings."""
-    if found.size is None:
-        return 1.0, "", ()
-    size = float(mesh.extents.max())
-    factor = found.size / size
-    told = f"answered: a {found.category} is about {found.size:g} m long; the mesh was {size:.3g} m"
-    if 1 / ROUGH <= factor <= ROUGH:
-        return 1.0, "", ()
-    if metric:
-        doubt = f"the file's unit was kept ({told}); if it is wrong, give --scale"
-        return 1.0, "", () if 1 / DOUBTFUL <= factor <= DOUBTFUL else (doubt,)
-    note = f"scale {factor:g} ({told})"
-    return factor, note, () if 1 / FAR <= factor <= FAR else (f"{note}; if that is wrong, give --scale",)
-
-
 def _segmented(
     segmentation: Segmentation, answerer: str, seer: Seer | None = None, warnings: tuple[str, ...] = ()
 ) -> Segmented:
@@ -255,4 +260,5 @@ def solve(
         return given, solver.joints(given).joints
     recognition = solver.recognize().recognition
     segmentation = solver.parts("auto", recognition).segmentation
-    return segmentation, solver.joints(segmentation, recognition).joints
+    jointed = solver.joints(segmentation, recognition, grounded=True)
+    return jointed.segmentation or segmentation, jointed.joints

@@ -12,9 +12,11 @@ from scenes import Scene, door, prism
 from anymesh.articulation.cases import Case
 from anymesh.articulation.limits import opening_motion
 from anymesh.articulation.offers import (
-    ALIKE,
+    MOST_KIN,
     SHOWN_BLOCKED,
     SHOWN_TURN,
+    TWIN_WAY,
+    TWINS,
     Offers,
     fits,
     is_free,
@@ -56,17 +58,21 @@ def shown(name: str, asked: Motion | None, kind: JointKind, most: int = MOST) ->
     return [found.motions[k] for k in sorted(found.first)]
 
 
-def moved(c: Candidate, case: Case) -> np.ndarray:
-    T = opening_motion(c).transform(abs(shown_amount(c, case)))
+def moved(c: Candidate, case: Case, amount: float) -> np.ndarray:
+    T = opening_motion(c).transform(amount)
     points = case.around.part.samples.points[::20]
     return points @ T[:3, :3].T + T[:3, 3] - points
 
 
 def apart(a: Candidate, b: Candidate, case: Case) -> float:
-    """How differently two motions move a part, as a share of the smaller way."""
-    ways = moved(a, case), moved(b, case)
-    least = min(float(np.linalg.norm(way, axis=1).mean()) for way in ways)
-    return float(np.linalg.norm(ways[0] - ways[1], axis=1).mean()) / least
+    """How far apart two motions take a part, both as far as the one that is shown further; in units of what is too near."""
+    if a.motion.kind is not b.motion.kind:
+        return np.inf
+    amount = max(shown_amount(a, case), shown_amount(b, case), key=abs)
+    ways = moved(a, case, amount), moved(b, case, amount)
+    way = min(float(np.linalg.norm(way, axis=1).mean()) for way in ways)
+    off = float(np.linalg.norm(ways[0] - ways[1], axis=1).mean())
+    return off / min(TWINS * case.around.scale, TWIN_WAY * way)
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -76,7 +82,7 @@ def test_the_motions_shown_are_few_and_look_different(name: str) -> None:
     assert len(found.second) <= MOST
     assert not set(found.first) & set(found.second)
     for k, c in enumerate(found.motions):
-        assert all(apart(c, other, case_of(name)) > 0.9 * ALIKE for other in found.motions[:k])
+        assert all(apart(c, other, case_of(name)) > 0.8 for other in found.motions[:k])
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -94,6 +100,18 @@ def test_what_is_blocked_is_shown_only_where_it_was_answered_or_is_an_axis_of_th
 def test_the_true_motion_is_among_them_whatever_was_answered(name: str, kind: JointKind) -> None:
     true = KNOWN[name].joint.motion
     assert any(c.motion.kind is true.kind and abs(c.motion.axis @ true.axis) > 0.999 for c in shown(name, None, kind))
+
+
+@pytest.mark.parametrize("off", [(0, 0.012), (0.01, 0.0), (0.008, -0.008)])
+def test_lines_that_nobody_can_tell_apart_are_one_however_far_each_is_free(off: tuple[float, float]) -> None:
+    """Hinges about a centimetre beside the door's own, one of them inside the case and soon blocked."""
+    asked = turn(Z, (0.002 + off[0], -0.012 + off[1], 0))
+    found = offers("left", asked)
+    along = [c for c in shown("left", asked, JointKind.HINGE_ALONG) if abs(c.motion.axis @ Z) > 0.99 and is_free(c)]
+    at_left = [c for c in along if c.motion.origin[0] < 0.1]
+    assert 1 <= len(at_left) <= MOST_KIN
+    assert found.answered is not None
+    assert found.motions[found.answered].role != "asked"  # the door's own edge stands for it
 
 
 def blocked_door() -> Scene:
@@ -183,7 +201,7 @@ def test_a_free_answer_or_one_that_looks_like_it_stays_among_them(asked: Motion,
     found = shown("left", asked, JointKind.SLIDE_OUT, most)  # as if the answer went against its own kind
     assert is_free(first)
     assert len(found) <= most
-    assert any(apart(first, c, case_of("left")) <= 1.3 * ALIKE for c in found)
+    assert any(apart(first, c, case_of("left")) <= 1.3 for c in found)
 
 
 def test_an_answer_that_repeats_a_line_of_the_part_takes_its_place_from_no_other() -> None:

@@ -6,6 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
+from jaxtyping import Float
 
 from anymesh.articulation.cases import Case
 from anymesh.articulation.evidence import part_facts, weigh_all
@@ -23,8 +24,12 @@ from anymesh.types.recognition import Moves
 SHOWN_TURN = np.deg2rad(60.0)  # most of a turn in a picture
 SHOWN_SLIDE = 0.6  # most of a slide in a picture, as a share of the part's size
 SHOWN_BLOCKED = 0.6  # share of these that is shown of a motion that is blocked
-ALIKE = 0.15  # motions that take the part's points to places this near, as a share of the way, look alike
-PIXELS = 0.01  # and so do those this near, as a share of the part's diagonal: two or three pixels
+ALIKE = 0.2  # motions that take the part's points to places this near, as a share of the way, are kin:
+MOST_KIN, KIN_BEHIND = 2, 1.0  # so many are in the first picture, and none that is less plausible than another by more
+PIXELS = 0.01  # near-twins are also those this near, as a share of the part's diagonal: two or three pixels
+TWINS = 0.02  # share of the object's diagonal: motions that keep the part's points this near to each other are near-twins,
+TWIN_WAY = 0.15  # but for a small part no more than this share of the way
+OFF_PART = 0.02  # share of the object's diagonal: a hinge line further from the part's surface is not in the first picture
 BEHIND = 8.0  # a motion that is less plausible than the best one by more is shown in the second picture, unless few are left
 FEW = 3  # free motions that are in the first picture however implausible
 OWN = 3  # axes of the part's own shape that are always in the first picture
@@ -74,11 +79,13 @@ def make_offers(case: Case, most: int, seed: int) -> Offers:
             plain.append(value - REVERSED)
     worth = [v + _agrees(c, case) - ROUGH * (c.role == "asked") for v, c in zip(plain, candidates, strict=True)]
     order = sorted(range(len(candidates)), key=lambda k: (not is_free(candidates[k]), -worth[k], k))
-    kept, amounts, answered = _unlike(case, candidates, [k for k in order if _shown(candidates[k])])
+    kept, amounts, answered, kin = _unlike(case, candidates, [k for k in order if _shown(candidates[k])])
     motions = [candidates[k] for k in kept]
     best = max((worth[k] for k in kept), default=0.0)
+    crowding = _crowding(kin, [plain[k] for k in kept])
     likely = [
-        is_free(c) and (worth[k] > best - BEHIND or rank < FEW) for rank, (k, c) in enumerate(zip(kept, motions, strict=True))
+        is_free(c) and not (crowding[rank] or _off_part(case, c)) and (worth[k] > best - BEHIND or rank < FEW)
+        for rank, (k, c) in enumerate(zip(kept, motions, strict=True))
     ]
     first, second = _pages(motions, case.kind, likely, answered, most)
     rng = np.random.default_rng([seed, case.number])
@@ -147,30 +154,64 @@ def _shown(c: Candidate) -> bool:
     return is_free(c) or c.role == "asked" or c.role in CENTRAL
 
 
-def _unlike(case: Case, candidates: list[Candidate], order: list[int]) -> tuple[list[int], list[float], int | None]:
-    """Return those that look different, the likeliest of each group, how far they are moved, and which of them stands for
-    what was answered."""
+def _unlike(case: Case, candidates: list[Candidate], order: list[int]) -> tuple[list[int], list[float], int | None, list[int]]:
+    """Return those that look different, the likeliest of each group of near-twins, how far they are moved, which of them stands
+    for what was answered, and for each the first that it is like."""
     samples = case.around.part.samples.points
     points = samples[:: max(1, len(samples) // ENOUGH_POINTS)]
+    least, twins = PIXELS * case.around.part.box.diagonal, TWINS * case.around.scale
     kept: list[int] = []
-    ends: list[np.ndarray] = []
     amounts: list[float] = []
+    first: list[int] = []
     answered = None
     for k in order:
-        c = candidates[k]
-        amount = shown_amount(c, case)
-        T = opening_motion(c).transform(amount)
-        end = points @ T[:3, :3].T + T[:3, 3]
-        least = max(ALIKE * float(np.linalg.norm(end - points, axis=1).mean()), PIXELS * case.around.part.box.diagonal)
-        alike = (n for n, other in enumerate(ends) if np.linalg.norm(end - other, axis=1).mean() <= least)
-        twin = next(alike, len(kept))
-        if twin == len(kept):
+        amount, own, head = shown_amount(candidates[k], case), len(kept), len(kept)
+        for n, other in enumerate(kept):
+            apart, way = _apart(points, candidates[k], candidates[other], max(amount, amounts[n], key=abs))
+            if apart <= max(least, min(twins, TWIN_WAY * way)):
+                own = n
+                break
+            if apart <= ALIKE * way:
+                head = min(head, first[n])
+        if own == len(kept):
             kept.append(k)
-            ends.append(end)
             amounts.append(amount)
-        if c.role == "asked":
-            answered = twin
-    return kept, amounts, answered
+            first.append(head)
+        if candidates[k].role == "asked":
+            answered = own
+    return kept, amounts, answered, first
+
+
+def _apart(points: Float[np.ndarray, "n 3"], a: Candidate, b: Candidate, amount: float) -> tuple[float, float]:
+    """How far apart two motions, both by up to `amount` [rad or m], take the part's points, and how far they take them [m],
+    means over the points. How far each is free makes no difference."""
+    if a.motion.kind is not b.motion.kind:
+        return np.inf, 0.0
+    apart, way = 0.0, 0.0
+    for share in (0.5, 1.0):
+        ends = [points @ T[:3, :3].T + T[:3, 3] for T in (opening_motion(c).transform(share * amount) for c in (a, b))]
+        apart = max(apart, float(np.linalg.norm(ends[0] - ends[1], axis=1).mean()))
+        way = float(np.linalg.norm(ends[0] - points, axis=1).mean())
+    return apart, way
+
+
+def _crowding(first: list[int], values: list[float]) -> list[bool]:
+    """Which motions are too like others for the first picture: clearly less plausible than the best of their kin, or the third
+    and later of them. first: for each the first that it is like; values: how plausible each is."""
+    found = []
+    for k, head in enumerate(first):
+        kin = [n for n in range(k) if first[n] == head and not found[n]]
+        best = max((values[n] for n in kin), default=-np.inf)
+        found.append(bool(kin) and (len(kin) >= MOST_KIN or values[k] < best - KIN_BEHIND))
+    return found
+
+
+def _off_part(case: Case, c: Candidate) -> bool:
+    """Whether a hinge line passes the part at a distance, as an edge of a box does that a handle stretches."""
+    if c.motion.kind is not MotionKind.TURN or c.role not in ("edge", "edge_mid"):
+        return False
+    off = np.linalg.norm(np.cross(case.around.part.samples.points - c.motion.origin, c.motion.axis), axis=1)
+    return bool(off.min() > OFF_PART * case.around.scale)
 
 
 def _pages(

@@ -5,7 +5,7 @@ All parts are asked about together, so that an object takes one call a kind of q
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -68,6 +68,25 @@ class Questions:
         return tuple(r.label for r in self.recognition.labels) if self.recognition else ()
 
 
+@dataclass(frozen=True, eq=False)
+class _Asked:
+    """Parts that were asked about, with the motion chosen for each by number."""
+
+    cases: list[Case]
+    chosen: dict[int, Choice]
+    segmentation: Segmentation
+
+    def wrong(self) -> dict[str, PartFit]:
+        """Parts by name that answers call too much or too little."""
+        fits = {c.name: self.chosen[c.number].fit for c in self.cases}
+        return {name: fit for name, fit in fits.items() if fit is not PartFit.RIGHT}
+
+    def with_changed(self, later: _Asked) -> _Asked:
+        """The same with what was asked again later, of the same parts by number."""
+        cases = {c.number: c for c in (*self.cases, *later.cases)}
+        return _Asked([cases[c.number] for c in self.cases], {**self.chosen, **later.chosen}, later.segmentation)
+
+
 def prompt_joints(
     questions: Questions, shape_of: ShapeOf, segmentation: Segmentation, reground: Reground | None = None
 ) -> Prompted:
@@ -75,12 +94,27 @@ def prompt_joints(
     what cannot move; or motion, which shows motions to choose from.
 
     shape_of: makes the object ready for these parts; reground: grounds parts again that the answers call too much or too
-    little, once; None keeps the parts.
+    little, once, under the same names in the same order, and these alone are asked about again; None keeps the parts.
     """
-    whole = shape_of(segmentation)
-    config, progress, seer = questions.config, questions.progress, questions.seer
-    segmentation = labels_by_name(segmentation, questions.labels)
-    cases = make_cases(whole, segmentation, questions.recognition, config)
+    found = _ask(questions, shape_of, labels_by_name(segmentation, questions.labels), fits=reground is not None)
+    wrong = found.wrong()
+    again = reground(wrong) if reground is not None and wrong else None
+    if again is not None:
+        found = found.with_changed(_ask(questions, shape_of, again, fits=False, only=set(wrong)))
+    questions.progress("joints", "limits", 3, 4)
+    sure = confidences({n: choice.agreement for n, choice in found.chosen.items()})
+    verify = questions.config.verify
+    joints = tuple(_joint(c, found.chosen[c.number], sure[c.number], verify) for c in found.cases)
+    agreements = tuple(found.chosen[c.number].agreement for c in found.cases)
+    return Prompted(joints, found.segmentation, contradictions(found.cases, joints), agreements)
+
+
+def _ask(
+    questions: Questions, shape_of: ShapeOf, segmentation: Segmentation, *, fits: bool, only: Collection[str] | None = None
+) -> _Asked:
+    """Ask about the parts. fits: also whether the region shown is the part; only: names of parts, None for all."""
+    whole, config, progress = shape_of(segmentation), questions.config, questions.progress
+    cases = [c for c in make_cases(whole, segmentation, questions.recognition, config) if only is None or c.name in only]
     progress("joints", "kinds", 0, 4)
     cases, segmentation = _with_kinds(questions, cases, whole, segmentation)
     progress("joints", "points and arrows", 1, 4)
@@ -89,19 +123,10 @@ def prompt_joints(
     asked |= {c.number: out(c) for c in cases if c.kind is JointKind.SLIDE_OUT}
     cases = [replace(c, asked=asked.get(c.number)) for c in cases]
     progress("joints", "motions", 2, 4)
-    if config.verify == "motion":
-        asking = Asking(questions.studio, segmentation.face_part, seer, questions.category, reground is not None)
-        chosen = choose(cases, asking, config.prompts.motions, config.seed)
-    else:
-        chosen = {c.number: as_answered(c) for c in cases}
-    wrong = {c.name: chosen[c.number].fit for c in cases if chosen[c.number].fit is not PartFit.RIGHT}
-    again = reground(wrong) if reground is not None and wrong else None
-    if again is not None:
-        return prompt_joints(questions, shape_of, again)
-    progress("joints", "limits", 3, 4)
-    sure = confidences({n: choice.agreement for n, choice in chosen.items()})
-    joints = tuple(_joint(c, chosen[c.number], sure[c.number], config.verify) for c in cases)
-    return Prompted(joints, segmentation, contradictions(cases, joints), tuple(chosen[c.number].agreement for c in cases))
+    if config.verify != "motion":
+        return _Asked(cases, {c.number: as_answered(c) for c in cases}, segmentation)
+    asking = Asking(questions.studio, segmentation.face_part, questions.seer, questions.category, fits)
+    return _Asked(cases, choose(cases, asking, config.prompts.motions, config.seed), segmentation)
 
 
 def _with_kinds(
@@ -119,7 +144,8 @@ def _with_kinds(
     answered = {n: a.label for n, a in kinds.items() if a.label is not None}
     if answered:
         segmentation = relabelled(segmentation, answered, questions.labels)
-        cases = make_cases(whole, segmentation, questions.recognition, questions.config)
+        numbers = {c.number for c in cases}
+        cases = [c for c in make_cases(whole, segmentation, questions.recognition, questions.config) if c.number in numbers]
     return [replace(c, answer=kinds[c.number]) for c in cases], segmentation
 
 

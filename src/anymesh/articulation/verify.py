@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Int
@@ -68,6 +68,7 @@ def choose(cases: list[Case], asking: Asking, most: int, seed: int) -> dict[int,
     shown = {n: o.first for n, o in offers.items() if n not in found}
     picks = asking.picks(offers, shown)
     fit = {n: pick.part for n, pick in picks.items()}
+    asking = replace(asking, ask_fit=False)  # once
     later = {n: offers[n].second for n, pick in picks.items() if pick.motion is None and offers[n].second}
     picks |= asking.picks(offers, later)
     doubted = {n: shown[n][::-1] for n, pick in picks.items() if n not in later and _against_all(offers[n], pick.motion)}

@@ -14,6 +14,9 @@ from anymesh.types.recognition import BASE, Moves, Recognition, RecognizedLabel
 
 MOST_LABELS = 24
 SIZES = (0.002, 200.0)  # [m] of things that this program is for
+ROUGH = 1.5  # an answered size is a guess: the mesh keeps its own when both agree within this factor
+DOUBTFUL = 2.5  # an answered size that differs by more from that of a file with a unit is worth a warning
+FAR = 10.0  # and so is one that differs by more where the file has none
 WORD = re.compile(r"(?=.{1,40}$)[a-z][a-z0-9]*([ _'-][a-z0-9]+){0,4}")
 
 
@@ -42,6 +45,18 @@ class Recognize:
             "can move from the pose that is shown, opening positive: degrees for revolute, centimetres for prismatic, 0 and 0 "
             "for continuous; lower <= 0 <= upper. front: the number of the picture that looks most squarely at the object's "
             "front, the side that a user faces; 0 if it has none."
+            f"{self._inside}"
+        )
+
+    @property
+    def _inside(self) -> str:
+        """What is said of pictures of the inside, which come last."""
+        outside = len(self.azimuths)
+        if not 0 < outside < len(self.pictures):
+            return ""
+        return (
+            f" Pictures 1..{outside} show it from outside; those after them show what is hidden inside, the rest as a ghost: "
+            "list what moves in there too (drawers, trays, shelves that slide, turntables), but leave out what is fixed."
         )
 
     def schema(self) -> dict[str, Any]:
@@ -124,3 +139,19 @@ def recognize(
     if told:
         return Recognition(category or "object", None, tuple(RecognizedLabel(label, None, None, None) for label in told))
     return seer.ask(Recognize(() if seer.blind else pictures(), category, tuple(azimuths)))
+
+
+def answered_scale(found: Recognition, size: float, *, metric: bool) -> tuple[float, str, tuple[str, ...]]:
+    """The factor that an answered size makes, with a note, and warnings. size: longest side of the mesh [m]; metric: its
+    file states a unit, which is kept."""
+    if found.size is None:
+        return 1.0, "", ()
+    factor = found.size / size
+    told = f"answered: a {found.category} is about {found.size:g} m long; the mesh was {size:.3g} m"
+    if 1 / ROUGH <= factor <= ROUGH:
+        return 1.0, "", ()
+    if metric:
+        doubt = f"the file's unit was kept ({told}); if it is wrong, give --scale"
+        return 1.0, "", () if 1 / DOUBTFUL <= factor <= DOUBTFUL else (doubt,)
+    note = f"scale {factor:g} ({told})"
+    return factor, note, () if 1 / FAR <= factor <= FAR else (f"{note}; if that is wrong, give --scale",)

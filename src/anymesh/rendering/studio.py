@@ -64,6 +64,7 @@ class Studio:
 
     def __init__(self, mesh: Mesh, config: Config) -> None:
         self._mesh, self._config = smoothed(mesh), config
+        self._inside: tuple[bytes, list[View]] | None = None  # the last faces that were shown alone, and their views
 
     @cached_property
     def scene(self) -> RayScene:
@@ -86,8 +87,16 @@ class Studio:
 
     def insides(self, inside: Bool[np.ndarray, " F"]) -> list[View]:
         """Some faces alone, the rest as a ghost, from `config.views.inside`."""
-        config = self._config.views
-        return inside_views(self._mesh, inside, cameras(self._mesh, config, config.size, config.inside_directions), self.scene)
+        config, key = self._config.views, inside.tobytes()
+        if self._inside is None or self._inside[0] != key:
+            eyes = cameras(self._mesh, config, config.size, config.inside_directions)
+            self._inside = key, inside_views(self._mesh, inside, eyes, self.scene)
+        return self._inside[1]
+
+    def most_of_inside(self, inside: Bool[np.ndarray, " F"], most: int) -> list[int]:
+        """Numbers of the views of `insides` that show most of the faces, `most` of them at most, in their order."""
+        pixels = [int((view.face >= 0).sum()) for view in self.insides(inside)]
+        return sorted(sorted(range(len(pixels)), key=lambda k: -pixels[k])[:most])
 
     def inside_names(self, front: float | None = None) -> list[str]:
         """What each of these shows, in words."""

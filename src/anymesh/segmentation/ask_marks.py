@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -19,7 +19,7 @@ from anymesh.segmentation.regions import Marks
 from anymesh.types import Picture
 
 INSIDE = "inside"  # how the names of pictures of the inside begin
-MOST_PICTURES = 12  # in one call
+MOST_PICTURES = 16  # in one call
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,22 +50,32 @@ class Grounded:
 
 
 def ask_exact(
-    asked: Asked, marks: Marks, seen: Sequence[View], names: Sequence[str], split: Callable[[Marks, Sequence[int]], Marks]
+    asked: Asked,
+    marks: Marks,
+    seen: Sequence[View],
+    names: Sequence[str],
+    split: Callable[[Marks, Sequence[int]], Marks],
+    wanted: Collection[int] | None = None,
+    again: tuple[str, ...] = (),
 ) -> Grounded:
-    """Ask about marks that are the same in all views. split: divides some of them."""
+    """Ask about marks that are the same in all views. split: divides some of them; wanted: those asked about, None for all;
+    again: what was wrong with an earlier answer."""
     numbers = np.unique(marks.face_mark[marks.face_mark > 0]).tolist()
-    first = _in_calls(asked, choose_pictures(marks, numbers, seen, names, asked.studio.view), (), True)
+    some = numbers if wanted is None else sorted(wanted)
+    first = _in_calls(asked, choose_pictures(marks, some, seen, names, asked.studio.view), (), True, again)
     unsure = set(first.unsure)
     parts = first.parts
     if first.split:
         marks = split(marks, first.split)
         finer = sorted(set(np.unique(marks.face_mark[marks.face_mark > 0]).tolist()) - set(numbers))
-        second = _in_calls(asked, choose_pictures(marks, finer, seen, names, asked.studio.view), parts, False)
+        second = _in_calls(asked, choose_pictures(marks, finer, seen, names, asked.studio.view), parts, False, again)
         parts, unsure = _together(parts, second.parts), unsure | set(second.unsure)
     return Grounded(marks, parts, frozenset(unsure))
 
 
-def _in_calls(asked: Asked, shown: Sequence[MarkPicture], found: tuple[MarkedPart, ...], splittable: bool) -> MarksAnswer:
+def _in_calls(
+    asked: Asked, shown: Sequence[MarkPicture], found: tuple[MarkedPart, ...], splittable: bool, again: tuple[str, ...]
+) -> MarksAnswer:
     """The answers about all pictures, MOST_PICTURES in a call; what earlier calls have asked about is not asked again."""
     parts, unsure, split, done = found, set[int](), set[int](), set[int]()
     for begin in range(0, len(shown), MOST_PICTURES):
@@ -75,7 +85,7 @@ def _in_calls(asked: Asked, shown: Sequence[MarkPicture], found: tuple[MarkedPar
         answer = asked.seer.ask(
             WhichMarks(
                 asked.pictures(some), asked.labels, True, tuple(p.marks for p in some), tuple(p.view.face for p in some),
-                asked.category, parts, splittable, any(p.name.startswith(INSIDE) for p in some),
+                asked.category, parts, splittable, any(p.name.startswith(INSIDE) for p in some), again,
             )
         )  # fmt: skip
         done |= set[int]().union(*(p.drawn for p in some))

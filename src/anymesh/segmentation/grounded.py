@@ -24,7 +24,7 @@ from anymesh.segmentation.cloud import Cloud, sample_cloud
 from anymesh.segmentation.em import refine_instances
 from anymesh.segmentation.faces import SLIVER, face_parts, mark_parts, point_parts
 from anymesh.segmentation.fuse import count_points, fuse_masks, marked_masks
-from anymesh.segmentation.hidden import inner_faces, seen_points, unseen_patches, with_hidden
+from anymesh.segmentation.hidden import LEAST_INSIDE, inner_faces, patch_sizes, seen_points, unseen_patches, with_hidden
 from anymesh.segmentation.naming import named_parts
 from anymesh.segmentation.propose import Proposal, propose_masks
 from anymesh.segmentation.regions import face_regions, number_regions, split_marks
@@ -63,11 +63,12 @@ def ground_parts(
     by_geometry: Callable[[], Segmentation],
     stays_free: MovesFreely | None = None,
     progress: Progress = silent,
+    cloud: Cloud | None = None,
 ) -> tuple[Segmentation, tuple[str, ...]]:
     """The parts of the labels that recognition gave, and warnings.
 
     segmenter: proposes masks where `config.proposer` names one; by_geometry: finds what no view shows; stays_free:
-    whether a part opens as far with unseen patches.
+    whether a part opens as far with unseen patches; cloud: of `object_cloud`, where it is at hand.
     """
     labels = tuple(r.label for r in recognition.labels)
     asked = Asked(seer, studio, labels, recognition.category, config)
@@ -79,14 +80,18 @@ def ground_parts(
             return None
         return lambda without, joined, part: stays_free(without, joined, part, moves[of[part - 1]])
 
-    found = ground(mesh, whole, asked, recognition.front, segmenter, free, progress)
+    progress("segment", "views", 0, 3 + (segmenter is not None))
+    cloud = cloud or object_cloud(mesh, whole, config)
+    found = ground(mesh, whole, asked, cloud, recognition.front, segmenter, free, progress)
     reason = _pointed(seer)
     parts = named_parts(
         found.face_part, found.labels, mesh.face_areas, found.confidence, [f"{reason}{doubt}" for doubt in found.doubts]
     )
     inside: tuple[str, ...] = ()
     left = found.unseen & (found.face_part == 0)  # by whoever was shown the inside
-    if labels and mesh.face_areas[left].sum() > SLIVER * mesh.face_areas[found.unseen].sum():
+    left &= (patch_sizes(mesh, whole) >= LEAST_INSIDE)[whole.mesh_piece]  # smaller ones are gaps and creases, no parts
+    by_user = recognition.size is None  # told the labels; else somebody was shown the inside and asked what moves in there
+    if labels and by_user and mesh.face_areas[left].sum() > SLIVER * mesh.face_areas[found.unseen].sum():
         parts, inside = with_hidden(parts, by_geometry(), found.unseen, mesh.face_areas)
     missing = [label for label in labels if label not in {p.label for p in parts.parts}]
     told = {True: "what was pointed at is all of the object, or too little of it", False: f"though {seer.name} expects one"}
@@ -101,17 +106,20 @@ def _pointed(seer: Seer) -> str:
     return f"pointed at by {seer.name}"
 
 
+def object_cloud(mesh: Mesh, whole: ObjectShape, config: Config) -> Cloud:
+    """The points that parts are found with: exact regions need fewer of them than masks."""
+    few = min(config.grounding.points, EXACT_POINTS) if config.proposer == EXACT else config.grounding.points
+    return sample_cloud(mesh, whole, replace(config.grounding, points=few), config.seed)
+
+
 def _exactly(
-    mesh: Mesh, whole: ObjectShape, asked: Asked, front: float | None, segmenter: PromptedSegmenter | None,
+    mesh: Mesh, whole: ObjectShape, asked: Asked, cloud: Cloud, front: float | None, segmenter: PromptedSegmenter | None,
     free: Callable[[Sequence[str]], StaysFree | None], progress: Progress,
 ) -> Found:  # fmt: skip
     """Parts from marks on exact regions of the surface."""
     config = asked.config
-    progress("segment", "views", 0, 3)
-    few = replace(config.grounding, points=min(config.grounding.points, EXACT_POINTS))
-    cloud = sample_cloud(mesh, whole, few, config.seed)
     region = face_regions(whole, cloud)
-    seen, names, hidden = _shown(mesh, whole, asked, cloud, region, front)
+    seen, names, hidden = shown_views(mesh, whole, asked, cloud, region, front)
     marks = number_regions(region, seen, whole.diagonal, config.grounding)
     progress("segment", "marks", 1, 3)
     answer = Grounded(marks, (), frozenset())
@@ -143,7 +151,7 @@ def _exactly(
     )
 
 
-def _shown(
+def shown_views(
     mesh: Mesh, whole: ObjectShape, asked: Asked, cloud: Cloud, region: Int[np.ndarray, " F"], front: float | None
 ) -> tuple[list[View], list[str], Bool[np.ndarray, " P"]]:
     """The views to choose pictures from with their names, and the patches that none from outside shows: all sides, close-ups,
@@ -160,16 +168,14 @@ def _shown(
 
 
 def _by_masks(
-    mesh: Mesh, whole: ObjectShape, asked: Asked, front: float | None, segmenter: PromptedSegmenter | None,
+    mesh: Mesh, whole: ObjectShape, asked: Asked, cloud: Cloud, front: float | None, segmenter: PromptedSegmenter | None,
     free: Callable[[Sequence[str]], StaysFree | None], progress: Progress,
 ) -> Found:  # fmt: skip
     """Parts from a model's masks in every view, voted on by PartSlip++."""
     config = asked.config
     assert segmenter is not None
-    progress("segment", "views", 0, 4)
-    cloud = sample_cloud(mesh, whole, config.grounding, config.seed)
     region = face_regions(whole, cloud)
-    seen, names, hidden = _shown(mesh, whole, asked, cloud, region, front)
+    seen, names, hidden = shown_views(mesh, whole, asked, cloud, region, front)
     progress("segment", "masks", 1, 4)
     proposals = propose(whole, region, seen, segmenter, config)
     progress("segment", "marks", 2, 4)

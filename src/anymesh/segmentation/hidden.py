@@ -17,6 +17,7 @@ from anymesh.types import Mesh, Segmentation
 
 MOSTLY = 0.25  # share of a patch's surface up to which it counts as mostly hidden
 LEAST_INSIDE = 0.05  # of the diagonal: hidden patches with a smaller diagonal are not shown
+LEAST_TOLD = 0.1  # of the diagonal: with smaller ones alone, nobody is shown the inside to tell what the object is
 
 
 def seen_points(cloud: Cloud, views: Sequence[View]) -> Bool[np.ndarray, " n"]:
@@ -36,14 +37,24 @@ def unseen_patches(
     return np.bincount(piece, shown, len(total)) <= share * total
 
 
-def inner_faces(mesh: Mesh, whole: ObjectShape, cloud: Cloud, shown: Bool[np.ndarray, " n"]) -> Bool[np.ndarray, " F"]:
-    """Faces of patches that are mostly hidden and large enough to be shown alone and asked about."""
-    hidden = unseen_patches(whole, cloud, shown, MOSTLY)
-    low, high = np.full((len(hidden), 3), np.inf), np.full((len(hidden), 3), -np.inf)
+def inner_faces(
+    mesh: Mesh, whole: ObjectShape, cloud: Cloud, shown: Bool[np.ndarray, " n"], least: float = LEAST_INSIDE
+) -> Bool[np.ndarray, " F"]:
+    """Faces of patches that are mostly hidden and large enough to be shown alone and asked about; none where all of them have a
+    diagonal below `least`, a share of the object's."""
+    hidden, size = unseen_patches(whole, cloud, shown, MOSTLY), patch_sizes(mesh, whole)
+    if not (hidden & (size >= least)).any():
+        return np.zeros(len(whole.mesh_piece), bool)
+    return (hidden & (size >= LEAST_INSIDE))[whole.mesh_piece]
+
+
+def patch_sizes(mesh: Mesh, whole: ObjectShape) -> Float[np.ndarray, " P"]:
+    """The diagonal of each patch, as a share of the object's."""
+    count = int(whole.mesh_piece.max()) + 1
+    low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
     np.minimum.at(low, whole.mesh_piece, mesh.triangles.min(1))
     np.maximum.at(high, whole.mesh_piece, mesh.triangles.max(1))
-    large = np.linalg.norm(high - low, axis=1) >= LEAST_INSIDE * whole.diagonal
-    return (hidden & large)[whole.mesh_piece]
+    return np.linalg.norm(high - low, axis=1) / whole.diagonal
 
 
 def with_hidden(

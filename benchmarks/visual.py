@@ -1,0 +1,202 @@
+"""The visual method with an answerer that sees, over many objects: asks, keeps the answers, and replays them for the tables.
+
+python benchmarks/visual.py ask FOLDER --place infinigen=DIR --wait --jobs 4    asks, in FOLDER/NNN/PROTOCOL/, to the end
+python benchmarks/visual.py keep FOLDER                                         answers to benchmarks/recordings/, no pictures
+python benchmarks/visual.py table --place infinigen=DIR [--ablation]            benchmarks/visual.md, from the recordings alone
+python benchmarks/visual.py pictures FOLDER --only 001                          recorded questions with their pictures
+
+Objects have numbers in the folders of questions, as their names would tell what they are (`recordings/objects.json`), and what
+is known of the truth lies beside, in FOLDER.results/. The parts are given only once the object was answered without them.
+Without --wait, `ask` goes as far as it can, ends with exit code 9 while questions are open, and goes on when called again.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import shutil
+import sys
+from collections.abc import Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass
+from multiprocessing import get_context
+from pathlib import Path
+
+from visual_replay import VARIANTS, Row, replayed
+from visual_table import page
+
+from anymesh.answering import choose_answerer
+from anymesh.errors import AnymeshError, OpenQuestionError
+from anymesh.evaluation.datasets.named import open_dataset
+from anymesh.evaluation.examine import Exam, Protocol, examine
+from anymesh.evaluation.record import record_of, record_text
+from anymesh.models.question_files import ANSWER, OWNER, QUESTION, find_questions
+from anymesh.reasoning.files import open_questions
+from anymesh.solving import solve
+
+HERE = Path(__file__).parent
+RECORDINGS = HERE / "recordings"
+PROTOCOLS = (Protocol.END_TO_END, Protocol.PARTS)
+FORMS = {"as it is": "none", "fused": "fused"}
+RECORD = "record.json"
+
+
+@dataclass(frozen=True)
+class Item:
+    """One object of the list. number: its folder; spec: of its data set, as for `anymesh eval`; change: of its mesh."""
+
+    number: str
+    set: str
+    spec: str
+    object: str
+    change: str
+
+
+def items(places: dict[str, str], only: Sequence[str]) -> list[Item]:
+    """The objects of the list whose data sets have a place, where they need one; the others are named on standard error."""
+    listed = json.loads((RECORDINGS / "objects.json").read_text(encoding="utf-8"))
+    found, lacking = [], set()
+    for entry in listed["objects"]:
+        name, needs = entry["set"], listed["sets"][entry["set"]]
+        if needs["place"] and name not in places:
+            lacking.add(name)
+            continue
+        spec = f"{needs['dataset']}:{places[name]}" if name in places else needs["dataset"]
+        if not only or entry["number"] in only:
+            found.append(Item(entry["number"], name, spec, entry["object"], FORMS[entry["form"]]))
+    if lacking:
+        print(f"left out, as no --place SET=DIR names them: {', '.join(sorted(lacking))}", file=sys.stderr)
+    return found
+
+
+def results_of(folder: Path) -> Path:
+    """Where the scores of a folder of questions lie."""
+    return folder.with_name(f"{folder.name}.results")
+
+
+def ask(item: Item, protocol: Protocol, folder: Path, wait: bool, after: Protocol | None = None) -> str:
+    """Goes as far as the answers go; returns what a user is told."""
+    place, results = folder / item.number / protocol, results_of(folder) / item.number / protocol
+    title = f"{item.number} {protocol}"
+    if (results / RECORD).exists():
+        return f"{title}: done before"
+    if after is not None and not (results.parent / after / RECORD).exists():
+        return f"{title}: comes after {after}"
+    waiting = [] if wait else open_questions(find_questions(place))
+    if waiting:
+        return f"{title}: open {', '.join(str(q.path) for q in waiting)}"
+    results.mkdir(parents=True, exist_ok=True)
+    exam = Exam(protocol, (item.change,))
+
+    def see(_):
+        return choose_answerer({"answerer": f"files:{place}", "wait": wait}, about=item.number).see
+
+    try:
+        (record,) = examine(exam, open_dataset(item.spec), item.object, results, solve, see)
+    except OpenQuestionError as error:
+        return f"{title}: open {', '.join(str(f) for f in error.folders)}"
+    if record.error:
+        return f"{title}: failed, {record.error}"
+    (results / RECORD).write_text(record_text(record), encoding="utf-8")
+    return f"{title}: done"
+
+
+def keep(folder: Path) -> None:
+    """Copies what was asked and answered, without pictures, where an object is done."""
+    for done in sorted(results_of(folder).glob(f"*/*/{RECORD}")):
+        asked = folder / done.parent.relative_to(results_of(folder))
+        place = RECORDINGS / asked.relative_to(folder)
+        shutil.rmtree(place, ignore_errors=True)
+        answered = [q for q in find_questions(asked) if not q.outdated and q.answer() is not None]
+        if not answered:
+            continue  # nothing moves, so nothing was asked
+        for question in answered:
+            (place / question.path.name).mkdir(parents=True)
+            for name in (QUESTION, ANSWER):
+                shutil.copyfile(question.path / name, place / question.path.name / name)
+        shutil.copyfile(asked / OWNER, place / OWNER)
+        print(f"kept {place.relative_to(RECORDINGS)}: {record_of(done.read_text(encoding='utf-8')).score.name}")
+
+
+def recorded(found: Sequence[Item]) -> list[tuple[Item, Protocol]]:
+    """What there is a recording of."""
+    return [(i, p) for i in found for p in PROTOCOLS if (RECORDINGS / i.number / p).is_dir()]
+
+
+def row(item: Item, protocol: Protocol, variant: str) -> Row:
+    """One object, answered from its recording."""
+    return replayed(RECORDINGS / item.number / protocol, item.set, open_dataset(item.spec), item.object, item.change, protocol,
+                    variant)  # fmt: skip
+
+
+def table(found: Sequence[Item], ablation: bool, jobs: int, out: Path) -> None:
+    variants = VARIANTS if ablation else VARIANTS[:1]
+    tasks = [(i, p, v) for v in variants for i, p in recorded(found)]
+    rows: list[Row] = []
+    for done in _each(row, tasks, jobs):
+        rows.append(done)
+        print(done.told(), flush=True)
+    out.write_text(page(rows), encoding="utf-8")
+    print(f"wrote {out}")
+
+
+def pictures(item: Item, protocol: Protocol, folder: Path) -> str:
+    """Asks again what was recorded, so that the pictures are drawn; the recorded answers stand beside them."""
+    place = folder / item.number / protocol
+    answers = {q.key: str(q.answer()) for q in find_questions(RECORDINGS / item.number / protocol)}
+    for _ in range(len(answers) + 1):
+        if not ask(item, protocol, folder, False).partition(": ")[2].startswith("open"):
+            break
+        for question in find_questions(place):
+            if question.answer() is None and question.key in answers:
+                question.write_answer(answers[question.key])
+    return f"{item.number} {protocol}: {sum(q.answer() is not None for q in find_questions(place))} of {len(answers)} questions"
+
+
+def _each(work, tasks: Sequence[tuple], jobs: int) -> Iterator:
+    """Results in the order of the tasks; an object's fault is told in its place and does not stop the others."""
+    if jobs == 1:
+        yield from (work(*task) for task in tasks)
+        return
+    with ProcessPoolExecutor(jobs, get_context("spawn")) as pool:
+        yield from pool.map(work, *zip(*tasks, strict=True)) if tasks else ()
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("what", choices=("ask", "keep", "table", "pictures"))
+    parser.add_argument("folder", nargs="?", type=Path, help="of questions; not for table")
+    parser.add_argument("--place", action="append", default=[], metavar="SET=PLACE", help="where a data set lies; may repeat")
+    parser.add_argument("--only", default="", metavar="NUMBERS", help="of objects, with commas between")
+    parser.add_argument("--protocol", choices=[str(p) for p in PROTOCOLS], help="one alone")
+    parser.add_argument("--wait", action="store_true", help="wait for answers")
+    parser.add_argument("--jobs", type=int, default=1, help="objects at a time")
+    parser.add_argument("--ablation", action="store_true", help="also --verify off, one view, geometry alone")
+    parser.add_argument("--markdown", type=Path, default=HERE / "visual.md")
+    options = parser.parse_args()
+    if options.folder is None and options.what != "table":
+        parser.error("name the folder of questions")
+    found = items(dict(p.partition("=")[::2] for p in options.place), [n for n in options.only.split(",") if n])
+    protocols = [p for p in PROTOCOLS if options.protocol in (None, p)]
+    if options.what == "keep":
+        keep(options.folder)
+    elif options.what == "table":
+        table(found, options.ablation, options.jobs, options.markdown)
+    elif options.what == "pictures":
+        for told in _each(pictures, [(i, p, options.folder) for i, p in recorded(found)], options.jobs):
+            print(told, flush=True)
+    else:
+        after = {Protocol.PARTS: Protocol.END_TO_END} if len(protocols) > 1 else {}
+        tasks = [(i, p, options.folder, options.wait, after.get(p)) for p in protocols for i in found]
+        told = []
+        for line in _each(ask, tasks, options.jobs):
+            told.append(line)
+            print(line, flush=True)
+        raise SystemExit(9 if any(": open " in line or ": comes after " in line for line in told) else 0)
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except AnymeshError as error:
+        raise SystemExit(f"{error}") from None

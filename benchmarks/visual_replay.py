@@ -1,0 +1,114 @@
+"""One recorded object answered again, and the same answers carried over to other settings."""
+
+from __future__ import annotations
+
+import tempfile
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from anymesh.config import Config
+from anymesh.errors import ModelError
+from anymesh.evaluation.datasets.dataset import Dataset
+from anymesh.evaluation.examine import Exam, Protocol, examine
+from anymesh.evaluation.record import Record
+from anymesh.evaluation.score import ObjectScore
+from anymesh.models.replay import Replay
+from anymesh.models.vision import Request
+from anymesh.reasoning.asking import Answer, Question, Seer
+from anymesh.reasoning.knowing import Knowing
+from anymesh.reasoning.reply_text import reply_object
+from anymesh.reasoning.vlm import SYSTEM, VlmAnswerer
+from anymesh.solving import reference_of, solve
+from anymesh.types import Exchange, Joint, Mesh, Segmentation
+
+VARIANTS = ("as recorded", "--verify off", "one view", "geometry alone")
+ONE_VIEW = "1@15+30"
+
+
+@dataclass(frozen=True)
+class Row:
+    """One object under one variant. calls: questions that were answered; carried: those of them that had no recorded answer."""
+
+    variant: str
+    number: str
+    set: str
+    protocol: Protocol
+    record: Record
+    calls: int
+    carried: int = 0
+
+    def told(self) -> str:
+        """A line for whoever waits."""
+        score, error = self.record.score, self.record.error
+        what = error or f"{score.matched} of {score.true} parts, {self.calls} calls, {self.record.seconds:.0f} s"
+        return f"{self.variant} | {self.number} {score.name} {self.protocol}: {what}"
+
+
+class Carried:
+    """Answers as recorded; to a question that was not, as somebody would who holds the recorded result for the truth."""
+
+    blind = False
+    remarks: tuple[str, ...] = ()
+    exchanges: tuple[Exchange, ...] = ()
+
+    def __init__(self, replay: Replay, known: Knowing) -> None:
+        self.name, self._replay, self._known = replay.name, replay, known
+        self.calls = self.carried = 0
+
+    def ask(self, question: Question[Answer]) -> Answer:
+        request = Request(question.kind, SYSTEM, question.text(), question.pictures, question.schema())
+        self.calls += 1
+        try:
+            return question.parse(reply_object(self._replay.ask(request).text, request.schema))
+        except ModelError:
+            self.carried += 1
+            return self._known.ask(question)
+
+
+class Keeping:
+    """The solver, which keeps its last result."""
+
+    def __init__(self, config: Config) -> None:
+        self._config = config
+        self.result: tuple[Mesh, Segmentation, tuple[Joint, ...]] | None = None
+
+    def __call__(self, mesh: Mesh, given: Segmentation | None, *, see=None) -> tuple[Segmentation, tuple[Joint, ...]]:
+        found = solve(mesh, given, config=self._config, see=see)
+        self.result = (mesh, *found)
+        return found
+
+
+def replayed(
+    folder: Path, set_: str, dataset: Dataset, name: str, change: str, protocol: Protocol, variant: str
+) -> Row:  # fmt: skip
+    """The object answered from the recording in `folder`. Where nothing was recorded for a question, the record has an error;
+    so with the variants other than the first the recorded result answers (see `Carried`)."""
+    exam, made = Exam(protocol, (change,)), list[Seer]()
+    replay = Replay(folder)
+    base = Config()
+
+    def run(solver: Keeping, see) -> Record:
+        with tempfile.TemporaryDirectory() as report:
+            try:
+                (record,) = examine(exam, dataset, name, Path(report), solver, lambda _: see)
+            except ModelError as error:
+                return Record(ObjectScore(name, (), 0, 0, 0), error=str(error))
+        return record
+
+    def recorded(fallback: Seer) -> Seer:
+        made.append(VlmAnswerer(replay, fallback))
+        return made[-1]
+
+    row = Row(variant, folder.parent.name, set_, protocol, Record(ObjectScore(name, (), 0, 0, 0)), 0)
+    if variant == VARIANTS[3]:
+        return replace(row, record=run(Keeping(base), None))
+    first = Keeping(base)
+    record = run(first, recorded)
+    calls = sum(len(seer.exchanges) for seer in made)
+    if variant == VARIANTS[0] or record.error or first.result is None:
+        return replace(row, record=record, calls=calls)
+    mesh, segmentation, joints = first.result
+    carried = Carried(replay, Knowing("recording", lambda: reference_of(mesh, segmentation, joints, "object")))
+    config = Config(verify="off") if variant == VARIANTS[1] else replace(base, views=replace(base.views, around=ONE_VIEW))
+    record = run(Keeping(config), lambda _: carried)
+    return replace(row, record=record, calls=carried.calls, carried=carried.carried)

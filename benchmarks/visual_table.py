@@ -1,0 +1,91 @@
+"""The page that tells what came of recorded answers: by protocol and set, by object, by setting."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from itertools import groupby
+from statistics import fmean, median
+
+from visual_replay import VARIANTS, Row
+
+from anymesh.evaluation.score import JointScore
+
+HEAD = """# The visual method, with recorded answers
+
+`python benchmarks/visual.py table --ablation --place SET=PLACE ...` replays `benchmarks/recordings/`: no model, no network.
+Each question was answered once, from its text and pictures alone, through `--answerer files:FOLDER`; names and the truth are in
+none of them, and objects have numbers for names.
+
+Recall: true movable parts found with an IoU of .5 or more. mIoU: over the true parts, 0 for one that was not found. Type, angle
+and position at the part: of the joints that were found; the diagonal is 2. Calls: questions answered, mean over objects.
+Seconds: of the tool, without the answerer, cold, median over objects.
+"""
+COLUMNS = ("objects", "joints", "recall", "mIoU", "type", "angle [deg]", "at the part", "calls", "s")
+
+
+def page(rows: Sequence[Row]) -> str:
+    """The whole page, as Markdown."""
+    lines = [HEAD]
+    for protocol in dict.fromkeys(r.protocol for r in rows):
+        own = [r for r in rows if r.protocol == protocol]
+        first = [r for r in own if r.variant == VARIANTS[0]]
+        sets = _grouped(first, lambda r: r.set)
+        lines += [f"## {protocol}", "", *_table("set", [*sets, ("all", first)])]
+        variants = _grouped(own, lambda r: r.variant)
+        if len(variants) > 1:
+            lines += [f"### {protocol}: the same answers with other settings", "", ABLATION, "", *_table("setting", variants)]
+    for protocol in dict.fromkeys(r.protocol for r in rows):
+        own = [r for r in rows if r.protocol == protocol and r.variant == VARIANTS[0]]
+        lines += [f"## Objects, {protocol}", "", *_table("object", [(f"{r.number} {r.set} {_name(r)}", [r]) for r in own])]
+    failed = [r for r in rows if r.record.error]
+    if failed:
+        lines += ["## Not done", "", *(f"- {r.variant}, {r.number} {r.protocol}: {r.record.error}" for r in failed), ""]
+    return "\n".join(lines)
+
+
+ABLATION = (
+    "A question that these settings ask in another form has no recorded answer; there the result of the recording answers, "
+    "through the marks, points and motions that are shown. So the rows tell what the settings lose, not what an answerer would."
+)
+
+
+def _name(row: Row) -> str:
+    change = row.record.change
+    return row.record.score.name + ("" if change == "none" else f" ({change})")
+
+
+def _grouped(rows: Sequence[Row], key: Callable[[Row], str]) -> list[tuple[str, list[Row]]]:
+    order = list(dict.fromkeys(map(key, rows)))
+    return [(name, list(some)) for name, some in groupby(sorted(rows, key=lambda r: order.index(key(r))), key)]
+
+
+def _table(first: str, groups: Sequence[tuple[str, Sequence[Row]]]) -> list[str]:
+    head = [f"| {' | '.join((first, *COLUMNS))} |", f"|{'---|' * (len(COLUMNS) + 1)}"]
+    return [*head, *(f"| {' | '.join((name, *_figures(rows)))} |" for name, rows in groups if rows), ""]
+
+
+def _figures(rows: Sequence[Row]) -> list[str]:
+    scores = [r.record.score for r in rows]
+    joints = [j for s in scores for j in s.joints]
+    found = [j for j in joints if j.type_found is not None]
+    turning = [j.at_part for j in found if j.at_part is not None]
+    parts = sum(s.true for s in scores)
+    return [
+        str(len(rows)),
+        str(len(joints)),
+        _share(sum(s.matched for s in scores), parts),
+        _share(sum(s.part_miou * s.true for s in scores), parts),
+        _share(sum(_typed(j) for j in found), len(found)),
+        f"{fmean(j.angle or 0.0 for j in found):.2f}" if found else "",
+        f"{fmean(turning):.4f}" if turning else "",
+        f"{fmean(r.calls for r in rows):.1f}",
+        f"{median(r.record.seconds for r in rows):.0f}",
+    ]
+
+
+def _typed(joint: JointScore) -> bool:
+    return joint.type_found == joint.type_true
+
+
+def _share(part: float, whole: int) -> str:
+    return f"{part / whole:.3f}" if whole else ""

@@ -1,0 +1,80 @@
+"""Objects at rest: a mesh with a part number a face, and a record of the joints, as made from Infinigen-Sim's generators.
+
+FOLDER/NAME/ holds `rigid.ply` (coordinates as `up` says), `labels.npy` (a part number a face, 0 the base) and `gt.json`:
+category, up, and for each joint part, parent_part, type, axis, origin and limits in the mesh's coordinates (null: endless).
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from anymesh.errors import InputError
+from anymesh.evaluation.datasets.bodies import Y_UP, Body, Motion, assemble, moved
+from anymesh.evaluation.datasets.splits import check_split, chosen, listed
+from anymesh.evaluation.datasets.visuals import read_visual
+from anymesh.evaluation.truth import Truth
+from anymesh.types import JointType, Mesh
+
+RECORD, MESH, LABELS = "gt.json", "rigid.ply", "labels.npy"
+UPRIGHT = {(0, 0, 1): Y_UP, (0, 1, 0): np.eye(4)}  # to the file that is written, which is Y-up
+
+
+@dataclass(frozen=True)
+class LabelledFolder:
+    """Every folder below one that holds such an object. Files split_NAME.txt in it list subsets, a name a line."""
+
+    folder: Path
+    name: str = "labelled"
+
+    @property
+    def splits(self) -> tuple[str, ...]:
+        return tuple(listed(self.folder))
+
+    def objects(self, split: str | None = None) -> list[str]:
+        """Names of the folders. InputError where there is none."""
+        check_split(self.name, split, self.splits)
+        names = sorted(path.parent.name for path in self.folder.glob(f"*/{RECORD}"))
+        if not names:
+            raise InputError(f"{self.folder}: found no */{RECORD}; at least one is needed, with {MESH} and {LABELS} beside it")
+        return names if split is None else chosen(self.folder, split, names)
+
+    def truth(self, name: str, folder: Path) -> Truth:
+        """Writes the parts to `folder`/NAME.glb without names. InputError for a record that cannot be read."""
+        place = self.folder / name
+        try:
+            record = json.loads((place / RECORD).read_bytes())
+            labels = np.load(place / LABELS, allow_pickle=False)
+            mesh = read_visual(place / MESH, place)
+            bodies = _bodies(record, mesh, labels)
+        except (OSError, ValueError, KeyError, TypeError) as error:
+            raise InputError(
+                f"{place}: {RECORD}, {LABELS} or {MESH} cannot be used ({type(error).__name__}: {error})"
+            ) from None
+        return assemble(name, bodies, folder / f"{name}.glb", str(record.get("category", "object")))
+
+
+def _bodies(record: dict[str, Any], mesh: Mesh, labels: np.ndarray) -> list[Body]:
+    """A body a part, Y up. Raises ValueError, KeyError or TypeError for what is not as it should be."""
+    if labels.shape != (len(mesh.faces),):
+        raise ValueError(f"found {labels.shape} labels for {len(mesh.faces)} faces; valid is one a face")
+    T = UPRIGHT[tuple(record["up"])]
+    joints = {int(j["part"]): j for j in record["joints"]}
+    found = []
+    for part in np.unique(labels).tolist():
+        joint = joints.get(part)
+        motion = None if joint is None else _motion(joint)
+        parent = None if part == 0 else f"part_{joint['parent_part'] if joint else 0}"
+        found.append(moved(Body(f"part_{part}", parent, motion, (mesh.subset(labels == part),)), T))
+    return found
+
+
+def _motion(joint: dict[str, Any]) -> Motion:
+    kind = JointType(joint["type"])
+    limits = joint["limits"] if kind is not JointType.CONTINUOUS else None
+    origin, axis = np.array(joint["origin"], float), np.array(joint["axis"], float)
+    return Motion(kind, origin, axis, None if limits is None else (float(limits[0]), float(limits[1])))

@@ -1,0 +1,114 @@
+"""Back to the marks, once: parts that, seen moving, turn out to be too much or too little of the surface."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+from jaxtyping import Int
+
+from anymesh.geometry.pieces import ObjectShape
+from anymesh.reasoning.grounding import MarkedPart
+from anymesh.reasoning.prompting import PartFit
+from anymesh.segmentation.ask_marks import Asked, ask_exact
+from anymesh.segmentation.cloud import Cloud
+from anymesh.segmentation.grounded import shown_views
+from anymesh.segmentation.regions import Marks, face_regions, number_regions, split_marks
+from anymesh.types import Mesh, Segmentation
+
+WORDS = {
+    PartFit.TOO_MUCH: "too much: some of these marks do not move with it",
+    PartFit.TOO_LITTLE: "too little: other marks move with it too",
+}
+
+
+def ground_again(
+    mesh: Mesh,
+    whole: ObjectShape,
+    cloud: Cloud,
+    asked: Asked,
+    segmentation: Segmentation,
+    wrong: Mapping[str, PartFit],
+    front: float | None,
+) -> Segmentation | None:
+    """Ask about the marks of some parts again, and return the parts as answered: the same names in the same order.
+
+    wrong: what is wrong with which part, by its name; front: the azimuth from which the front is seen [deg], if known. The
+    marks of what is too much are divided first. A part that the answer leaves out, or leaves without a face, stays as it is;
+    None when all do.
+    """
+    labels = [p.label for p in segmentation.parts]
+    numbers = {p.name: k for k, p in enumerate(segmentation.parts)}
+    instance = {k: labels[1 : k + 1].count(labels[k]) for k in numbers.values()}
+    parts = {(labels[numbers[name]], instance[numbers[name]]): numbers[name] for name in wrong}
+    asked = replace(asked, labels=tuple(dict.fromkeys(label for label, _ in parts)))
+    seen, names, _ = shown_views(mesh, whole, asked, cloud, face_regions(whole, cloud), front)
+    config = asked.config.grounding
+    marks = number_regions(face_regions(whole, cloud), seen, whole.diagonal, config)
+    areas = mesh.face_areas
+    owner = _owners(marks, segmentation, areas)
+    much = [m for m, part in owner.items() if part and wrong.get(segmentation.parts[part].name) is PartFit.TOO_MUCH]
+    if much:
+        marks = split_marks(marks, much, mesh, cloud, seen, config)
+        owner = _owners(marks, segmentation, areas)
+    if all(fit is PartFit.TOO_MUCH for fit in wrong.values()):  # nothing else need be asked about
+        owner = {m: part for m, part in owner.items() if part in parts.values()}
+    told = tuple(_told(MarkedPart(label, n, None, _of(owner, k)), wrong, segmentation, k) for (label, n), k in parts.items())
+    answer = ask_exact(
+        asked, marks, seen, names, lambda some, chosen: split_marks(some, chosen, mesh, cloud, seen, config),
+        wanted=owner, again=told,
+    )  # fmt: skip
+    given = {parts[p.label, p.instance]: p.marks for p in answer.parts if (p.label, p.instance) in parts}
+    return _redrawn(whole, answer.marks, segmentation, given, asked_about=marks.face_mark, wanted=set(owner))
+
+
+def _owners(marks: Marks, segmentation: Segmentation, areas: np.ndarray) -> dict[int, int]:
+    """The part that most of each mark's surface belongs to."""
+    on = marks.face_mark > 0
+    count = len(segmentation.parts)
+    key = marks.face_mark[on] * count + segmentation.face_part[on]
+    area = np.bincount(key, areas[on], (int(marks.face_mark.max(initial=0)) + 1) * count).reshape(-1, count)
+    return {int(m): int(area[m].argmax()) for m in np.unique(marks.face_mark[on])}
+
+
+def _of(owner: Mapping[int, int], part: int) -> tuple[int, ...]:
+    return tuple(sorted(m for m, k in owner.items() if k == part))
+
+
+def _told(part: MarkedPart, wrong: Mapping[str, PartFit], segmentation: Segmentation, number: int) -> str:
+    """What the question says of a part that is wrong."""
+    marks = ", ".join(map(str, part.marks)) or "none"
+    return f"{part.label} {part.instance} (marks {marks}) is {WORDS[wrong[segmentation.parts[number].name]]}"
+
+
+def _redrawn(
+    whole: ObjectShape,
+    marks: Marks,
+    segmentation: Segmentation,
+    given: Mapping[int, tuple[int, ...]],
+    asked_about: Int[np.ndarray, " F"],
+    wanted: set[int],
+) -> Segmentation | None:
+    """The parts with these marks. What was asked about and is given to none of them any more joins the base, and with it
+    faces without a mark of patches of which no mark is left to the part."""
+    found, piece = segmentation.face_part.copy(), whole.mesh_piece
+    open_ = np.isin(asked_about, list(wanted))
+    for part, chosen in given.items():
+        now = np.isin(marks.face_mark, chosen)
+        if not now.any():
+            continue
+        marked = np.isin(piece, piece[open_ & (segmentation.face_part == part)])
+        lost = (segmentation.face_part == part) & (open_ | (marked & (marks.face_mark < 0))) & (found == part)
+        found[lost & ~np.isin(piece, piece[now])] = 0
+        found[lost & open_ & ~now] = 0
+        found[now] = part
+        found[(marks.face_mark < 0) & np.isin(piece, piece[now]) & ~_shared(piece, now, marks.face_mark)] = part
+    same = (found == segmentation.face_part).all()
+    lacking = len(np.unique(found)) < len(np.unique(segmentation.face_part))
+    return None if same or lacking else Segmentation(found, segmentation.parts)
+
+
+def _shared(piece: np.ndarray, now: np.ndarray, face_mark: np.ndarray) -> np.ndarray:
+    """Faces of patches with marks that are, and marks that are not, of the part."""
+    return np.isin(piece, piece[(face_mark > 0) & ~now])

@@ -1,0 +1,66 @@
+"""Folders of a mesh with labels and a record of joints."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from assets import box, mesh_of
+
+from anymesh.errors import InputError
+from anymesh.evaluation.datasets.named import open_dataset
+from anymesh.evaluation.protocols import prepared
+from anymesh.types import JointType
+
+
+def written(folder: Path, **changes) -> Path:
+    """A case with a door in front, hinged at its left, and a drawer; Z up."""
+    mesh, piece = mesh_of(
+        [box((0, 0, 0), (0.6, 0.4, 0.5)), box((0, -0.02, 0), (0.6, 0, 0.3)), box((0, -0.02, 0.3), (0.6, 0, 0.5))]
+    )
+    rows = "\n".join(" ".join(f"{x:.9g}" for x in v) for v in mesh.vertices)
+    faces = "\n".join(f"3 {a} {b} {c}" for a, b, c in mesh.faces)
+    head = (
+        f"ply\nformat ascii 1.0\nelement vertex {len(mesh.vertices)}\nproperty float x\nproperty float y\nproperty float z\n"
+        f"element face {len(mesh.faces)}\nproperty list uchar int vertex_indices\nend_header\n"
+    )
+    place = folder / "some_1"
+    place.mkdir()
+    (place / "rigid.ply").write_text(f"{head}{rows}\n{faces}\n")
+    np.save(place / "labels.npy", piece.astype(np.int16))
+    door = {"part": 1, "parent_part": 0, "type": "revolute", "axis": [0, 0, -1], "origin": [0, -0.01, 0], "limits": [0, 1.5]}
+    drawer = {"part": 2, "parent_part": 0, "type": "prismatic", "axis": [0, 1, 0], "origin": [0, 0, 0], "limits": [-0.3, 0]}
+    record = {"category": "case", "up": [0, 0, 1], "joints": [door, drawer], **changes}
+    (place / "gt.json").write_text(json.dumps(record))
+    return place
+
+
+def test_parts_and_joints_are_where_they_were(tmp_path: Path) -> None:
+    written(tmp_path)
+    data = open_dataset(f"labelled:{tmp_path}")
+    assert list(data.objects()) == ["some_1"]
+    out = tmp_path / "out"
+    truth = data.truth("some_1", out)
+    subject = prepared(truth)
+    assert truth.category == "case"
+    assert "part_1" not in (out / "some_1.glb").read_bytes().decode("latin-1")  # the file gives nothing away
+    door, drawer = (subject.joint(j) for j in truth.joints)
+    assert (door.type, drawer.type) == (JointType.REVOLUTE, JointType.PRISMATIC)
+    assert np.allclose(door.axis, (0, 0, -1), atol=1e-6)
+    assert np.allclose(drawer.axis, (0, -1, 0), atol=1e-6)
+    assert drawer.limits == pytest.approx((0, 0.3))
+    corners = subject.mesh.triangles[subject.labels == 1].reshape(-1, 3)
+    assert door.origin[0] == pytest.approx(corners[:, 0].min())
+
+
+def test_what_cannot_be_used_is_told(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=r"gt\.json"):
+        open_dataset(f"labelled:{tmp_path}").objects()
+    place = written(tmp_path, up=[1, 0, 0])
+    with pytest.raises(InputError, match="some_1"):
+        open_dataset(f"labelled:{tmp_path}").truth("some_1", tmp_path / "out")
+    np.save(place / "labels.npy", np.zeros(3, np.int16))
+    with pytest.raises(InputError, match="cannot be used"):
+        open_dataset(f"labelled:{tmp_path}").truth("some_1", tmp_path / "out")

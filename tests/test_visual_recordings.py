@@ -1,0 +1,93 @@
+"""Recorded answers: kept without pictures, found again by a replay, told in tables; the list of objects is whole."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections import Counter
+from pathlib import Path
+
+import pytest
+from PIL import Image
+
+from anymesh.errors import ModelError
+from anymesh.evaluation.record import Record, record_text
+from anymesh.evaluation.score import JointScore, ObjectScore
+from anymesh.models.question_files import find_questions
+from anymesh.models.replay import Replay
+from anymesh.models.vision import Request
+from anymesh.reasoning.files import FileAnswerer, QuestionStore
+from anymesh.reasoning.knowing import Knowing
+from anymesh.reasoning.recognition import Recognize
+from anymesh.reasoning.vlm import SYSTEM
+from anymesh.rendering.encode import encode
+from anymesh.types import JointType
+
+BENCHMARKS = Path(__file__).parents[1] / "benchmarks"
+
+
+@pytest.fixture
+def visual(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.syspath_prepend(str(BENCHMARKS))
+    for name in ("visual", "visual_replay", "visual_table"):
+        sys.modules.pop(name, None)
+    import visual
+
+    return visual
+
+
+def question() -> Recognize:
+    import numpy as np
+
+    return Recognize((encode(np.asarray(Image.new("RGB", (40, 30), (200, 30, 30))), "picture 1"),), None, (0.0,))
+
+
+ANSWER = {"reason": "", "category": "box", "longest_side_m": 0.5, "front": 1, "parts": []}
+
+
+def test_answers_are_kept_without_pictures_and_found_again(visual, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    folder = tmp_path / "asked"
+    place = folder / "001" / "parts"
+    store, asked = QuestionStore(place, "001"), question()
+    with pytest.raises(ModelError):
+        FileAnswerer(store, Knowing("nobody", lambda: pytest.fail("asked"))).ask(asked)
+    (open_,) = find_questions(folder)
+    open_.write_answer(json.dumps(ANSWER))
+    done = visual.results_of(folder) / "001" / "parts"
+    done.mkdir(parents=True)
+    (done / visual.RECORD).write_text(record_text(Record(ObjectScore("box", (), 0, 0, 0))))
+    monkeypatch.setattr(visual, "RECORDINGS", tmp_path / "kept")
+    visual.keep(folder)
+    kept = tmp_path / "kept" / "001" / "parts"
+    names = {path.name for path in kept.rglob("*") if path.is_file()}
+    assert names == {"question.json", "answer.json", "object.json"}
+    reply = Replay(kept).ask(Request(asked.kind, SYSTEM, asked.text(), asked.pictures, asked.schema()))
+    assert json.loads(reply.text) == ANSWER
+    assert not any(word in path.read_text() for path in folder.rglob("*.json") for word in ("truth", "results"))
+
+
+def test_objects_have_numbers_for_names_and_are_enough(visual) -> None:
+    listed = json.loads((visual.RECORDINGS / "objects.json").read_text())
+    objects = listed["objects"]
+    assert len({o["number"] for o in objects}) == len(objects) >= 60
+    assert Counter(o["form"] for o in objects)["fused"] >= 10
+    assert {o["set"] for o in objects} == set(listed["sets"])
+    kinds = {o["object"].rpartition("_")[0] for o in objects if o["set"] == "infinigen"}
+    assert len(kinds) >= 7
+    alone = visual.items({}, ["001", *(o["number"] for o in objects if o["set"] == "examples")])
+    assert all(item.spec in ("examples", "scene-synthesizer") for item in alone)
+
+
+def test_the_tables_count_what_is_missing_and_what_was_found(visual) -> None:
+    from visual_replay import Row
+    from visual_table import page
+
+    found = JointScore("a", 0.9, JointType.REVOLUTE, JointType.REVOLUTE, 2.0, 0.01, 0.02)
+    other = JointScore("b", 0.0, JointType.PRISMATIC)
+    record = Record(ObjectScore("box", (found, other), 1, 2, 1, part_miou=0.45), seconds=12.0)
+    told = page([Row("as recorded", "001", "some", visual.Protocol.PARTS, record, 4)])
+    assert "| some | 1 | 2 | 0.500 | 0.450 | 1.000 | 2.00 | 0.0200 | 4.0 | 12 |" in told
+    failed = Row(
+        "as recorded", "002", "some", visual.Protocol.PARTS, Record(ObjectScore("x", (), 0, 0, 0), error="no answer"), 0
+    )
+    assert "- as recorded, 002 parts: no answer" in page([failed])
