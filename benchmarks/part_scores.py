@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from types import SimpleNamespace
-from typing import cast
 
 import numpy as np
 from part_rows import PartRows
 from scipy.optimize import linear_sum_assignment
 
-from anymesh.segmentation.part_tree import PartTree
+from anymesh.segmentation.part_tree import Overlap
 
 RIGHT = 0.5  # IoU from which a part is found
 
@@ -39,12 +37,10 @@ class Counts:
         return 2 * self.right / max(self.true + self.found, 1)
 
 
-def part_tree_of(rows: PartRows) -> PartTree:
-    """Return the candidates of an object, as far as scores and assignment need them."""
-    patch = rows.area.sum(1)
-    shared = (rows.members * patch) @ rows.members.T.astype(float)
-    size = rows.features[:, rows.names.index("size")].astype(float)
-    return cast(PartTree, SimpleNamespace(members=rows.members, size=size, area=np.diag(shared), shared_area=shared))
+def overlap_of(rows: PartRows) -> Overlap:
+    """Return what the candidates of an object have in common."""
+    shared = (rows.members * rows.area.sum(1)) @ rows.members.T.astype(float)
+    return Overlap(rows.features[:, rows.names.index("size")].astype(float), shared)
 
 
 def scored(rows: PartRows, chosen: list[int]) -> Counts:

@@ -1,7 +1,7 @@
 """Train the classifier of parts (`anymesh.segmentation.part_classifier`) and measure it on what it was not trained on.
 
-python benchmarks/train_parts.py FOLDER             held-out scores: leave one source out, leave kinds out -> benchmarks/parts.md
-python benchmarks/train_parts.py FOLDER --write     trains on all and writes part_classifier.npz with its manifest
+python benchmarks/train_parts.py FOLDER            benchmarks/parts.md: leave one source out, leave kinds out
+python benchmarks/train_parts.py FOLDER --write    trains on all and writes part_classifier.npz with its manifest
 
 FOLDER: rows as `benchmarks/part_rows.py` writes them. Needs lightgbm and scikit-learn, which nothing else here does.
 """
@@ -18,7 +18,7 @@ import lightgbm
 import numpy as np
 from jaxtyping import Bool, Float
 from part_rows import PartRows, read_rows
-from part_scores import Counts, part_tree_of, scored
+from part_scores import Counts, overlap_of, scored
 
 from anymesh.reasoning.boosted_trees import LEAF, BoostedTrees
 from anymesh.segmentation.part_assignment import assign_parts
@@ -26,7 +26,8 @@ from anymesh.segmentation.part_context import context_features
 
 SETTINGS = {
     "objective": "binary", "learning_rate": 0.1, "num_leaves": 15, "min_data_in_leaf": 25, "feature_fraction": 0.5,
-    "bagging_fraction": 0.7, "bagging_freq": 1, "lambda_l2": 5.0, "verbose": -1, "num_threads": 1, "seed": 0, "deterministic": True,
+    "bagging_fraction": 0.7, "bagging_freq": 1, "lambda_l2": 5.0, "verbose": -1, "num_threads": 1, "seed": 0,
+    "deterministic": True,
 }  # fmt: skip
 ROUNDS = (150, 100)  # trees of the first and of the second step
 RIGHT, WRONG = 0.6, 0.35  # IoU from which a candidate is a part, and below which it is none; between, it is not trained on
@@ -78,7 +79,7 @@ class Classifier:
 
 def joined(rows: PartRows, first: Float[np.ndarray, " n"]) -> Float[np.ndarray, "n k"]:
     """Return the features with those of the context."""
-    return np.concatenate([rows.features, np.stack(list(context_features(part_tree_of(rows), first).values()), 1)], 1)
+    return np.concatenate([rows.features, np.stack(list(context_features(overlap_of(rows), first).values()), 1)], 1)
 
 
 def trees_of(model: lightgbm.Booster) -> BoostedTrees:
@@ -115,7 +116,7 @@ def held_out(rows: Sequence[PartRows], left: Sequence[Bool[np.ndarray, " r"]]) -
 
 def counts(rows: Sequence[PartRows], scores: Sequence[np.ndarray]) -> Counts:
     """Count parts that are true, found and right (IoU .5)."""
-    return sum((scored(r, assign_parts(part_tree_of(r), s)) for r, s in zip(rows, scores, strict=True)), Counts())
+    return sum((scored(r, assign_parts(overlap_of(r), s)) for r, s in zip(rows, scores, strict=True)), Counts())
 
 
 def table(rows: Sequence[PartRows], scores: Sequence[np.ndarray], of: Callable[[PartRows], str]) -> list[str]:
@@ -133,6 +134,11 @@ def table(rows: Sequence[PartRows], scores: Sequence[np.ndarray], of: Callable[[
     return lines
 
 
+def called(rows: PartRows) -> str:
+    """Return the source and the form of an object, as in tables."""
+    return f"{rows.source}, {rows.form}" if rows.form else rows.source
+
+
 def main(argv: Sequence[str] | None = None) -> None:
     parser = argparse.ArgumentParser(description="Train the classifier of parts.")
     parser.add_argument("folder", type=Path)
@@ -148,10 +154,10 @@ def main(argv: Sequence[str] | None = None) -> None:
     by_kind = held_out(rows, [fold == k for k in range(FOLDS)])
     text = [
         "# Parts found by the classifier, on objects that it was not trained on", "",
-        "`python benchmarks/train_parts.py ROWS`; stage A alone, parts at IoU .5, names of nodes and materials removed.", "",
-        "## Trained on all other sources", "", *table(rows, by_source, lambda r: r.source + (f", {r.form}" if r.form else "")), "",
+        "`python benchmarks/train_parts.py ROWS`; stage A alone, parts at IoU .5, no names of nodes and materials.", "",
+        "## Trained on all other sources", "", *table(rows, by_source, called), "",
         f"## Trained on other kinds ({FOLDS} folds, a kind in one fold)", "",
-        *table(rows, by_kind, lambda r: r.source + (f", {r.form}" if r.form else "")), "",
+        *table(rows, by_kind, called), "",
     ]  # fmt: skip
     (HERE / "parts.md").write_text("\n".join(text), encoding="utf-8")
     print("\n".join(text))

@@ -1,12 +1,12 @@
 """The embedded answerer: what each piece of evidence does to its answer, and that answers are checked."""
 
-from dataclasses import fields, replace
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from anymesh.reasoning.geometry import GeometryAnswerer
-from anymesh.reasoning.questions import Candidate, MotionAnswer, MotionQuestion, PartEvidence, PartFacts
+from anymesh.reasoning.questions import Candidate, MotionAnswer, MotionQuestion, PartFacts
 from anymesh.types import Handle, JointType, Motion, MotionKind, Sweep
 
 WHO = GeometryAnswerer()
@@ -93,55 +93,6 @@ def test_a_known_word_decides_where_geometry_does_not(label: str, kind: JointTyp
 def test_an_answer_is_checked(confidence: float, reason: str) -> None:
     with pytest.raises(ValueError, match=r"confidence in 0\.\.1 and a reason"):
         MotionAnswer((0,), JointType.FIXED, confidence, reason)
-
-
-def evidence(**changes) -> PartEvidence:
-    """Of a lump that nothing speaks for."""
-    plain = {"str": "", "float": 0.0, "int": 0, "bool": False, "Handle | None": None, "float | None": None}
-    made = PartEvidence(**{f.name: plain[str(f.type)] for f in fields(PartEvidence)})
-    return replace(made, **{"thinness": 1.0, "size": 0.3, "touching": 0.3, **changes})
-
-
-DOOR = {"thinness": 0.05, "face_share": 0.5, "outside": 0.5}
-
-
-def test_evidence_adds_up_to_a_part() -> None:
-    plain = WHO.is_part(evidence(**DOOR))
-    gripped = WHO.is_part(evidence(**DOOR, handle=Handle((0.8, 0.0), 1, 0.3)))
-    free = WHO.is_part(evidence(**DOOR, handle=Handle((0.8, 0.0), 1, 0.3), gap_sides=4))
-    assert plain.score < gripped.score < free.score
-    assert not plain.moves
-    assert (free.moves, free.label) == (True, "door")
-    assert not WHO.is_part(evidence()).moves
-
-
-def test_a_name_outweighs_shape_both_ways() -> None:
-    door = {**DOOR, "handle": Handle((0.8, 0.0), 1, 0.3)}
-    assert WHO.is_part(evidence(**door)).moves
-    assert not WHO.is_part(evidence(**door, name="back_panel")).moves
-    assert WHO.is_part(evidence(**DOOR, name="Drawer_1")).label == "drawer"
-    assert WHO.is_part(evidence(**DOOR, name="Drawer_1")).moves
-    assert WHO.is_part(evidence(**door, name="Mesh_042")) == WHO.is_part(evidence(**door))
-
-
-def test_copies_are_judged_together() -> None:
-    weak = WHO.is_part(evidence(**DOOR, gap_sides=2))
-    assert not weak.moves
-    assert WHO.is_part(evidence(**DOOR, gap_sides=2, copied=2.8)).score == pytest.approx((weak.score + 2.8) / 2)
-    assert WHO.is_part(evidence(**DOOR, gap_sides=2, copied=2.8)).moves
-    assert WHO.is_part(evidence(**DOOR, gap_sides=2, copied=weak.score - 1)) == weak  # a worse one takes nothing away
-    assert not WHO.is_part(evidence(**DOOR, gap_sides=2, copied=2.8, on_movable=True)).moves
-    held = WHO.is_part(evidence(**DOOR, flush=1.0))
-    assert held.score < 0
-    assert WHO.is_part(evidence(**DOOR, flush=1.0, copied=2.8)) == held  # the fixed pane beside a sash
-
-
-def test_keys_come_in_numbers() -> None:
-    key = {"size": 0.02, "outside": 1.0, "gap_sides": 3}
-    assert WHO.is_part(evidence(**key, twins=8)).label == "button"
-    assert WHO.is_part(evidence(**key, twins=8)).moves
-    assert not WHO.is_part(evidence(**key, twins=1)).moves
-    assert not WHO.is_part(evidence(**{**key, "gap_sides": 0}, twins=8)).moves  # rivets
 
 
 def test_copies_move_in_one_manner() -> None:

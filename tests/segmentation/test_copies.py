@@ -1,4 +1,4 @@
-"""Units: leaves stay apart, a surface that creases part moves as one; keys; and what is taken because something must move."""
+"""Units: leaves stay apart, a surface that creases part moves as one; and what is taken because something must move."""
 
 import numpy as np
 import pytest
@@ -38,16 +38,6 @@ def test_a_surface_that_creases_part_moves_as_one_but_not_with_the_root() -> Non
     assert 0 not in with_held(units([0, 0, 2, 3]), 1)
 
 
-def keys(count: int, z: float) -> list:
-    return [box((0.3 + 0.05 * k, -0.004, z), (0.34 + 0.05 * k, 0.02, z + 0.04)) for k in range(count)]
-
-
-def test_keys_on_a_panel_are_buttons_and_a_keyboard_is_none() -> None:
-    few, many = parts([BODY, *keys(6, 0.6)]), parts([BODY, *keys(12, 0.6), *keys(12, 0.65)])
-    assert [p.label for p in few.parts[1:]] == ["button"] * 6
-    assert len(many.parts) == 1
-
-
 def test_something_is_taken_where_something_must_move() -> None:
     nailed = [BODY, box((0.48, -0.2, 0.48), (0.52, 0.02, 0.52))]
     assert len(parts(nailed).parts) == 1
@@ -59,18 +49,3 @@ def test_something_is_taken_where_something_must_move() -> None:
     assert len(parts([BODY], at_least=1).parts) == 1  # nothing can
     with pytest.raises(OptionError, match="--at-least: found -1"):
         SegmentationConfig(at_least=-1)
-
-
-def chest(stop: bool) -> list:
-    """A case with one drawer and its grip; a bar before it where it is to be stopped."""
-    walls = [box((0, 0, 0), (0.6, 0.4, 0.02)), box((0, 0, 0.28), (0.6, 0.4, 0.3)), box((0.02, 0.38, 0.02), (0.58, 0.4, 0.28))]
-    walls += [box((x, 0, 0.02), (x + 0.02, 0.4, 0.28)) for x in (0, 0.58)]
-    front = [box((0.025, 0, 0.025), (0.575, 0.02, 0.275)), box((0.2, -0.03, 0.14), (0.4, 0, 0.15))]
-    tray = [box((0.03, 0.02, 0.03), (0.57, 0.35, 0.04)), box((0.03, 0.34, 0.04), (0.57, 0.35, 0.2))]
-    bar = [box((0, -0.005, 0.2), (0.6, -0.004, 0.3)), box((0, -0.004, 0.285), (0.6, 0, 0.295))]
-    return [*walls, *front, *tray, *(bar if stop else [])]
-
-
-def test_a_drawer_that_comes_out_by_next_to_nothing_is_none() -> None:
-    assert [p.label for p in parts(chest(stop=False)).parts[1:]] == ["drawer"]
-    assert "drawer" not in [p.label for p in parts(chest(stop=True)).parts]

@@ -1,4 +1,4 @@
-"""The field's word for a part that moves in a certain way."""
+"""The field's word for a part that moves in a certain way, if it moves at all."""
 
 from __future__ import annotations
 
@@ -9,16 +9,22 @@ from anymesh.types import MotionKind
 ALONG = 0.5  # cosine with the way out below which a slide runs along the surface
 DRAWER = 0.15  # of the object's diagonal: what slides out and is smaller is a button
 WHEEL = 0.16  # of the object's diagonal: what spins and is smaller is a knob
+MIN_TRAVEL = 0.1  # of its size: what is no button and comes out by less does not move
 UP = 0.8  # cosine of the way out with the vertical from which a hinged part is a lid
 
 
 def label_of(around: Surroundings, best: Candidate) -> str:
-    """Return drawer, button, slider, knob, wheel, handle, lid or door. best: the motion of the part."""
+    """Return drawer, button, slider, knob, wheel, handle, lid or door, or "" for what is as good as fixed.
+
+    best: the motion of the part.
+    """
     size = around.part.box.diagonal / around.diagonal
     if best.motion.kind is MotionKind.SLIDE:
         if abs(best.outward) < ALONG:
             return "slider"
-        return "drawer" if size > DRAWER else "button"
+        if size <= DRAWER:
+            return "button"
+        return "drawer" if best.opening * around.scale >= MIN_TRAVEL * around.part.box.diagonal else ""
     if best.role == "round":
         return "knob" if size < WHEEL else "wheel"
     if best.role == "bail":

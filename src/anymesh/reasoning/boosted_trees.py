@@ -16,7 +16,7 @@ class BoostedTrees:
     """Trees with numeric splits. Nodes of all trees stand one after the other; root: first node of each tree.
 
     feature: (N,) column that a node splits on, LEAF for a leaf; threshold: (N,) up to and including it a row goes left, NaN
-    goes left too; left, right: (N,) next node; value: (N,) what a leaf adds to the score, of an inner node the mean of its leaves.
+    goes left too; left, right: (N,) next node; value: (N,) what a leaf adds to the score, of an inner node their mean.
     """
 
     feature: Int16[np.ndarray, " N"]

@@ -7,35 +7,35 @@ from jaxtyping import Bool, Float
 from scipy.optimize import Bounds, LinearConstraint, milp
 from scipy.sparse import csr_array
 
-from anymesh.segmentation.part_tree import PartTree
+from anymesh.segmentation.part_tree import Overlap
 
 WITHIN = 0.98  # share of the smaller candidate from which it lies within the larger one
 APART = 1e-3  # share of the smaller candidate below which two do not overlap
 ALIKE = 0.3  # IoU from which a candidate within another one is the same part
 
 
-def conflicts(tree: PartTree) -> Bool[np.ndarray, "n n"]:
+def conflicts(overlap: Overlap) -> Bool[np.ndarray, "n n"]:
     """Return which pairs of candidates cannot both be parts: they cross, or are nearly the same.
 
     A part may carry a smaller one (a knob on a door): it keeps the faces that the smaller one does not have.
     """
-    shared, area = tree.shared_area, tree.area
+    shared, area = overlap.shared, overlap.area
     smaller = np.minimum(area[:, None], area[None])
     iou = shared / np.maximum(area[:, None] + area[None] - shared, 1e-300)
-    overlap = shared > APART * smaller
-    crossing = overlap & (shared < WITHIN * smaller)
-    pairs = crossing | (overlap & (iou > ALIKE))
+    meet = shared > APART * smaller
+    crossing = meet & (shared < WITHIN * smaller)
+    pairs = crossing | (meet & (iou > ALIKE))
     np.fill_diagonal(pairs, False)
     return pairs
 
 
-def assign_parts(tree: PartTree, score: Float[np.ndarray, " n"]) -> list[int]:
+def assign_parts(overlap: Overlap, score: Float[np.ndarray, " n"]) -> list[int]:
     """Return the candidates that are parts, ascending: no two in conflict, the sum of their scores highest.
 
     score: log-odds that a candidate is a part; those of 0 and less are none. Exact, by mixed-integer programming.
     """
     likely = np.flatnonzero(score > 0)
-    first, second = np.nonzero(np.triu(conflicts(tree)[np.ix_(likely, likely)]))
+    first, second = np.nonzero(np.triu(conflicts(overlap)[np.ix_(likely, likely)]))
     if len(first) == 0:
         return [int(k) for k in likely]
     row = np.arange(len(first)).repeat(2)

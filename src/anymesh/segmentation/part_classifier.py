@@ -13,7 +13,7 @@ from jaxtyping import Float
 
 from anymesh.reasoning.boosted_trees import BoostedTrees
 from anymesh.segmentation.part_context import context_features
-from anymesh.segmentation.part_tree import PartTree
+from anymesh.segmentation.part_tree import Overlap
 
 WEIGHTS = "part_classifier.npz"
 
@@ -30,12 +30,12 @@ class PartClassifier:
     names: tuple[str, ...]
     manifest: dict[str, Any]
 
-    def score(self, tree: PartTree, features: list[dict[str, float]]) -> tuple[Float[np.ndarray, " n"], list[str]]:
+    def score(self, overlap: Overlap, features: list[dict[str, float]]) -> tuple[Float[np.ndarray, " n"], list[str]]:
         """Return the log-odds that each candidate is a part, and the features that raised each the most, in words."""
         if not features:
             return np.zeros(0), []
         own = np.array([[row[name] for name in self.names] for row in features])
-        context = context_features(tree, self.first.score(own))
+        context = context_features(overlap, self.first.score(own))
         table = np.concatenate([own, np.stack(list(context.values()), 1)], 1)
         gain = self.second.contributions(table)[:, : len(self.names)]
         return self.second.score(table), [self._reason(row, g) for row, g in zip(own, gain, strict=True)]

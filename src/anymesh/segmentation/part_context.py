@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from jaxtyping import Bool, Float
 
-from anymesh.segmentation.part_tree import PartTree
+from anymesh.segmentation.part_tree import Overlap
 
 NONE = -6.0  # log-odds where there is no such candidate
 WITHIN = 0.98  # share of the smaller candidate from which it lies within the larger one
@@ -15,16 +15,16 @@ SAME_AREA, SAME_SIZE = 0.05, 0.02  # relative: areas and diagonals of copies dif
 LIKELY = 0.5  # probability from which a candidate counts as a part
 
 
-def context_features(tree: PartTree, score: Float[np.ndarray, " n"]) -> dict[str, Float[np.ndarray, " n"]]:
+def context_features(overlap: Overlap, score: Float[np.ndarray, " n"]) -> dict[str, Float[np.ndarray, " n"]]:
     """Return features of all candidates. score: log-odds of each, from its own features alone."""
-    shared, area, size = tree.shared_area, np.maximum(tree.area, 1e-300), tree.size
+    shared, area, size = overlap.shared, np.maximum(overlap.area, 1e-300), overlap.size
     smaller = np.minimum(area[:, None], area[None])
     other = ~np.eye(len(score), dtype=bool)
-    overlap = (shared > APART * smaller) & other
-    nested = overlap & (shared > WITHIN * smaller)
+    meet = (shared > APART * smaller) & other
+    nested = meet & (shared > WITHIN * smaller)
     alike = shared / (area[:, None] + area[None] - shared) > ALIKE
     outer, inner = nested & (area[None] > area[:, None]), nested & (area[None] <= area[:, None])
-    copy = ~overlap & other & (np.abs(np.log(area[:, None] / area[None])) < SAME_AREA)
+    copy = ~meet & other & (np.abs(np.log(area[:, None] / area[None])) < SAME_AREA)
     copy &= np.abs(size[:, None] - size[None]) < SAME_SIZE * size[:, None]
     probability = 1 / (1 + np.exp(-score))
     count = copy.sum(1)
@@ -36,12 +36,12 @@ def context_features(tree: PartTree, score: Float[np.ndarray, " n"]) -> dict[str
         "best candidate within": _best(inner, score),
         "best candidate around, nearly the same": _best(outer & alike, score),
         "best candidate within, nearly the same": _best(inner & alike, score),
-        "best crossing candidate": _best(overlap & ~nested, score),
-        "lead over what it overlaps": score - _best(overlap, score),
+        "best crossing candidate": _best(meet & ~nested, score),
+        "lead over what it overlaps": score - _best(meet, score),
         "rank": np.argsort(np.argsort(-score, kind="stable"), kind="stable").astype(float),
         "likely parts of the object": np.full(len(score), float(probability[probability > LIKELY].sum())),
         "best score of the object": np.full(len(score), float(score.max(initial=NONE))),
-        "likely parts beside it": (~overlap & other & (probability[None] > LIKELY)).sum(1).astype(float),
+        "likely parts beside it": (~meet & other & (probability[None] > LIKELY)).sum(1).astype(float),
         "parts within": inner @ probability,
         "parts around": outer @ probability,
     }

@@ -177,7 +177,7 @@ def _copies(scene: FeatureScene, group: int, around: Surroundings) -> dict[str, 
     tree = scene.tree
     alike = np.abs(tree.size - tree.size[group]) < SAME_SIZE * tree.size[group]
     alike &= np.abs(tree.area / max(tree.area[group], 1e-300) - 1) < 2 * SAME_SIZE
-    alike &= tree.shared_area[group] == 0
+    alike &= tree.overlap.shared[group] == 0
     middles = tree.bounds[alike].mean(1)
     mine = tree.bounds[group].mean(0)
     off = np.abs(middles - mine) / around.diagonal

@@ -23,6 +23,20 @@ LEAST_AREA = 1e-12  # share of the surface that counts as area where patches hav
 
 
 @dataclass(frozen=True, eq=False)
+class Overlap:
+    """Sizes of candidates and what they have in common. size: (n,) any unit; shared: (n, n) area in both, of each on the
+    diagonal."""
+
+    size: Float[np.ndarray, " n"]
+    shared: Float[np.ndarray, "n n"]
+
+    @property
+    def area(self) -> Float[np.ndarray, " n"]:
+        """Area of every candidate."""
+        return np.diag(self.shared)
+
+
+@dataclass(frozen=True, eq=False)
 class PartTree:
     """Groups of patches, largest first. members: (n, P) which patches each group has; size: (n,) diagonal over the object's."""
 
@@ -42,10 +56,10 @@ class PartTree:
         """Axis-aligned bounds of every patch [m]."""
         return np.array([s.bounds for s in self.contacts.shapes])
 
-    @cached_property
+    @property
     def area(self) -> Float[np.ndarray, " n"]:
         """Area of every group [m^2]."""
-        return self.members @ self.patch_area
+        return self.overlap.area
 
     @cached_property
     def bounds(self) -> Float[np.ndarray, "n 2 3"]:
@@ -53,9 +67,9 @@ class PartTree:
         return np.array([_bounds(self.patch_bounds, m) for m in self.members]).reshape(-1, 2, 3)
 
     @cached_property
-    def shared_area(self) -> Float[np.ndarray, "n n"]:
-        """Area that two groups have in common [m^2]."""
-        return (self.members * self.patch_area) @ self.members.T.astype(float)
+    def overlap(self) -> Overlap:
+        """What the groups have in common [m^2]."""
+        return Overlap(self.size, (self.members * self.patch_area) @ self.members.T.astype(float))
 
     def faces(self, group: int) -> Int[np.ndarray, " m"]:
         """Return the faces of a group, ascending, as indices of `whole`."""

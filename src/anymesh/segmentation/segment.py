@@ -28,7 +28,7 @@ from anymesh.types import Mesh, Segmentation
 LabelParts = Callable[
     [Segmentation], Sequence[str]
 ]  # a label of each part but the base by how it moves; "" for one that cannot
-NAMED, NAMED_FIXED, NAMED_HANDLE = 2.5, -2.5, 0.3  # log-odds that the name of a node or material adds
+NAMED, NAMED_FIXED, NAMED_HANDLE = 4.0, -4.0, 0.3  # log-odds that the name of a node or material adds
 
 
 def segment_parts(
@@ -45,14 +45,14 @@ def segment_parts(
     tree = part_tree(mesh, whole, contacts, settings.smallest, settings.most_candidates)
     progress("segment", "candidates", 1, 2)
     examined, features = _examined(mesh, tree, config, progress, deadline or Deadline())
-    score, reasons = shipped_classifier().score(examined, features)
+    score, reasons = shipped_classifier().score(examined.overlap, features)
     words = [_name(examined, k) for k in range(len(score))]
     score = score + np.array([_name_score(word) for word in words])
-    chosen = _at_least(examined, score, assign_parts(examined, score), settings.at_least)
+    chosen = _at_least(examined, score, assign_parts(examined.overlap, score), settings.at_least)
     face_part, order = _face_part(mesh, examined, chosen)
     told = [word.label if (word := recognize(words[k])) else "" for k in order]
     confidence = [float(np.clip(1 / (1 + np.exp(-score[k])), 0.05, 0.99)) for k in order]
-    why = [_reason(reasons[k], words[k]) for k in order]
+    why = [_reason(reasons[k], words[k], score[k]) for k in order]
 
     def parts_of(numbers: np.ndarray, labels: Sequence[str]) -> Segmentation:
         return named_parts(numbers, labels, mesh.face_areas, confidence, why)
@@ -86,8 +86,10 @@ def _name(tree: PartTree, group: int) -> str:
     return names.pop() if len(names) == 1 else ""
 
 
-def _reason(learned: str, name: str) -> str:
-    return f'named "{name}"; {learned}' if _name_score(name) else learned
+def _reason(learned: str, name: str, score: float) -> str:
+    told = [f'named "{name}"'] if _name_score(name) else []
+    told += ["stands out most, where parts were asked for"] if score <= 0 else []
+    return "; ".join([*told, learned])
 
 
 def _name_score(name: str) -> float:
@@ -101,7 +103,7 @@ def _at_least(tree: PartTree, score: Float[np.ndarray, " n"], chosen: list[int],
     """Add the best of the other candidates until there are as many as asked for."""
     if len(chosen) >= count:
         return chosen
-    apart = ~conflicts(tree)
+    apart = ~conflicts(tree.overlap)
     for k in np.argsort(-score, kind="stable"):
         if len(chosen) < count and int(k) not in chosen and apart[k, chosen].all():
             chosen = sorted([*chosen, int(k)])

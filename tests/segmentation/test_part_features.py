@@ -1,0 +1,71 @@
+"""Features of candidate parts: right on a scene that one can work out, the same at any scale, place and yaw."""
+
+import numpy as np
+import pytest
+from assets import box, mesh_of
+
+from anymesh.config import Config
+from anymesh.geometry.pieces import object_shape
+from anymesh.segmentation.contacts import find_contacts
+from anymesh.segmentation.part_features import FeatureScene, part_features, surroundings_of
+from anymesh.segmentation.part_tree import part_tree
+from anymesh.types import Mesh
+
+WALLS = [
+    box((0, 0, 0), (1, 0.5, 0.05)), box((0, 0, 0.95), (1, 0.5, 1)), box((0, 0, 0.05), (0.05, 0.5, 0.95)),
+    box((0.95, 0, 0.05), (1, 0.5, 0.95)), box((0.05, 0.45, 0.05), (0.95, 0.5, 0.95)),
+]  # fmt: skip
+DOOR = box((0.055, 0.01, 0.055), (0.945, 0.04, 0.945))  # inset, 5 mm of clearance
+KNOB = box((0.85, -0.03, 0.47), (0.89, 0.01, 0.51))
+
+
+def features(mesh: Mesh, solids: set[int]) -> dict[str, float]:
+    config = Config()
+    whole = object_shape(mesh)
+    contacts = find_contacts(whole, config.segmentation)
+    tree = part_tree(mesh, whole, contacts, 0.004, 150)
+    group = next(k for k, m in enumerate(tree.members) if set(np.flatnonzero(m).tolist()) == solids)
+    scene = FeatureScene.of(mesh, tree, config)
+    around = surroundings_of(scene, group)
+    assert around is not None
+    return part_features(scene, group, around)
+
+
+MESH = mesh_of([*WALLS, DOOR, KNOB])[0]
+
+
+def test_an_inset_door_with_a_knob() -> None:
+    f = features(MESH, {5, 6})
+    assert f["rims with clearance"] == 4
+    assert f["separate"] == 1
+    assert f["contact area"] == 0
+    assert f["near gap"] == pytest.approx(np.log10(0.005 / 1.5), abs=0.05)
+    assert f["open behind"] > 0.9
+    assert f["handle"] == 1
+    assert f["handle off the middle"] == pytest.approx(0.83, abs=0.1)
+    assert f["copies"] == 0
+    assert f["bottom"] == pytest.approx(0.055, abs=1e-6)
+    assert f["height"] == pytest.approx(0.5, abs=1e-6)
+    assert f["patches"] == pytest.approx(np.log(3))
+    assert abs(f["faces up"]) < 1e-6
+
+
+def test_a_wall_is_held_and_not_free() -> None:
+    f = features(MESH, {4})
+    assert f["separate"] == 0
+    assert f["touching patches"] > 0
+    assert f["handle"] == 0
+
+
+@pytest.mark.parametrize("scale", [1e-3, 1.0, 1e3])
+@pytest.mark.parametrize("yaw", [0.0, 90.0])
+def test_scale_place_and_yaw_do_not_matter(scale: float, yaw: float) -> None:
+    angle = np.deg2rad(yaw)
+    T = np.eye(4)
+    T[:2, :2] = [[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]]
+    T[:3, :3] *= scale
+    T[:3, 3] = scale * np.array([3.0, -2.0, 1.0])
+    before, after = features(MESH, {5, 6}), features(MESH.transformed(T), {5, 6})
+    assert after.keys() == before.keys()
+    off = {k: (before[k], after[k]) for k in before if abs(after[k] - before[k]) > 0.05 + 0.05 * abs(before[k])}
+    assert not off
