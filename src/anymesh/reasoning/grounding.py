@@ -69,7 +69,8 @@ class WhichMarks:
     """Which marks make up which part? regions: the mark a pixel of each picture, -1 none; faces: the face number a pixel.
 
     consistent: a region of the surface has one number in all pictures; found: parts of earlier pictures; splittable: the
-    answer may ask for marks to be split; inside: some pictures show the inside.
+    answer may ask for marks to be split; inside: some pictures show the inside; face_mark: (F,) the mark of each face of the
+    mesh, 0 none, where marks are the same in all views, for those who point at the surface itself.
     """
 
     pictures: tuple[Picture, ...]
@@ -81,6 +82,7 @@ class WhichMarks:
     found: tuple[MarkedPart, ...] = ()
     splittable: bool = False
     inside: bool = False
+    face_mark: Int[np.ndarray, " F"] | None = None
     kind: str = "marks"
 
     def text(self) -> str:

@@ -54,18 +54,20 @@ def ask_exact(
 ) -> Grounded:
     """Ask about marks that are the same in all views. split: divides some of them."""
     numbers = np.unique(marks.face_mark[marks.face_mark > 0]).tolist()
-    first = _in_calls(asked, choose_pictures(marks, numbers, seen, names, asked.studio.view), (), True)
+    first = _in_calls(asked, choose_pictures(marks, numbers, seen, names, asked.studio.view), marks, (), True)
     unsure = set(first.unsure)
     parts = first.parts
     if first.split:
         marks = split(marks, first.split)
         finer = sorted(set(np.unique(marks.face_mark[marks.face_mark > 0]).tolist()) - set(numbers))
-        second = _in_calls(asked, choose_pictures(marks, finer, seen, names, asked.studio.view), parts, False)
+        second = _in_calls(asked, choose_pictures(marks, finer, seen, names, asked.studio.view), marks, parts, False)
         parts, unsure = _together(parts, second.parts), unsure | set(second.unsure)
     return Grounded(marks, parts, frozenset(unsure))
 
 
-def _in_calls(asked: Asked, shown: Sequence[MarkPicture], found: tuple[MarkedPart, ...], splittable: bool) -> MarksAnswer:
+def _in_calls(
+    asked: Asked, shown: Sequence[MarkPicture], marks: Marks, found: tuple[MarkedPart, ...], splittable: bool
+) -> MarksAnswer:
     """The answers about all pictures, MOST_PICTURES in a call; what earlier calls have asked about is not asked again."""
     parts, unsure, split, done = found, set[int](), set[int](), set[int]()
     for begin in range(0, len(shown), MOST_PICTURES):
@@ -75,7 +77,7 @@ def _in_calls(asked: Asked, shown: Sequence[MarkPicture], found: tuple[MarkedPar
         answer = asked.seer.ask(
             WhichMarks(
                 asked.pictures(some), asked.labels, True, tuple(p.marks for p in some), tuple(p.view.face for p in some),
-                asked.category, parts, splittable, any(p.name.startswith(INSIDE) for p in some),
+                asked.category, parts, splittable, any(p.name.startswith(INSIDE) for p in some), marks.face_mark,
             )
         )  # fmt: skip
         done |= set[int]().union(*(p.drawn for p in some))
