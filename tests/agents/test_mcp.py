@@ -32,8 +32,8 @@ from anymesh.errors import InputError
 from anymesh.evaluation.oracle import oracle
 from anymesh.evaluation.protocols import prepared
 from anymesh.evaluation.truth import example_truths
-from anymesh.reasoning.answer_json import answer_object
 from anymesh.models.question_files import find_questions
+from anymesh.reasoning.answer_json import answer_object
 from anymesh.reasoning.saved_question import unpack_question
 
 EXAMPLES = Path(__file__).parents[2] / "examples"

@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 from asked import X, Y, Z, part
 
-
 from anymesh.models.double import Scripted
 from anymesh.reasoning.answer_json import answer_object
 from anymesh.reasoning.asking import Question, Seer
