@@ -1,0 +1,74 @@
+"""The panel in which a person answers one question: what to do, fields, answer or leave to geometry."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from html import escape
+from typing import Any
+
+from anymesh.viewer.ask_fields_ import Choices, Fields
+from anymesh.viewer.ask_forms import Form, PartsForm
+from anymesh.viewer.ask_words import guide, place, title
+from anymesh.viewer.panels import SMALL
+
+REFUSED, NOTE = "#c92a2a", "#1864ab"
+LEAVE, LEAVE_REST = "Leave this one", "Leave all"
+
+
+class AskPanel:
+    """Shows one form at a time in a container of the page."""
+
+    def __init__(self, gui: Any, act: Callable[[Callable[[], None]], None]) -> None:
+        self._gui, self._act = gui, act
+        self._outer = gui.add_folder(None)
+        self._inner: Any = None
+        self._told: Any = None
+        self._fields: Fields | None = None
+
+    def close(self) -> None:
+        """Take the question off the page."""
+        if self._inner is not None:
+            self._inner.remove()
+        self._inner = self._fields = None
+
+    def show(self, form: Form, number: int, choices: Choices) -> None:
+        """Show a form as it is now."""
+        self.close()
+        gui = self._gui
+        with self._outer:
+            self._inner = gui.add_folder(f"Question {number}: {title(form)}")
+        with self._inner:
+            gui.add_html(f"<div {SMALL}>{escape(guide(form))}</div>")
+            self._told = gui.add_html("")
+            if isinstance(form, PartsForm):
+                self._add_steps(form, choices)
+            self._fields = Fields(gui, self._act, form, choices)
+            answer = gui.add_button("Answer", color="green")
+            leave = gui.add_button_group("To geometry", (LEAVE, LEAVE_REST))
+        answer.on_click(lambda _: self._act(choices.answer))
+        ways = {LEAVE: choices.leave, LEAVE_REST: choices.leave_rest}
+        leave.on_click(lambda event: self._act(ways[event.target.value]))
+
+    def follow(self) -> None:
+        """Follow what clicks in the scene changed."""
+        if self._fields is not None:
+            self._fields.follow()
+
+    def tell(self, text: str, *, bad: bool = False) -> None:
+        """Say something about the question: why an answer is refused, or what is filled in."""
+        if self._told is not None:
+            style = f"border-left:3px solid {REFUSED if bad else NOTE};padding-left:0.5em"
+            self._told.content = f'<div {SMALL}><div role="status" style="{style}">{escape(text)}</div></div>' if text else ""
+
+    def _add_steps(self, form: PartsForm, choices: Choices) -> None:
+        """Which part is asked about, and the way to the others."""
+        self._gui.add_html(f"<div {SMALL}><b>{escape(place(form))}</b></div>")
+        if len(form.parts) < 2:
+            return
+        steps = self._gui.add_button_group("Go to", ("← Part before", "Next part →"))
+
+        def go(way: str) -> None:
+            form.go(1 if way.startswith("Next") else -1)
+            choices.again()
+
+        steps.on_click(lambda event: self._act(lambda: go(event.target.value)))

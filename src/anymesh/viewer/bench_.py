@@ -1,0 +1,163 @@
+"""The workbench of the live page: a mesh is handed over, worked on in the background, and becomes the asset that is shown."""
+
+from __future__ import annotations
+
+import itertools
+import threading
+import time
+from dataclasses import dataclass
+from html import escape
+from pathlib import Path
+from typing import Any
+
+from anymesh.answering import FILES
+from anymesh.correcting import CorrectionError
+from anymesh.errors import AnymeshError
+from anymesh.viewer.ask_desk_ import AskDesk
+from anymesh.viewer.drop_zone import drop_zone
+from anymesh.viewer.panels import SMALL
+from anymesh.viewer.panels_page import Page
+from anymesh.viewer.uploads import plain_name, receive
+from anymesh.viewer.work import Work
+
+TICK, LOOK = 0.05, 0.25  # [s] between poses, and between looks at the work
+ALONE, MYSELF = "are left to geometry", "are put to me"
+UPS = ("auto", "x", "y", "z")
+BUSY = "one mesh at a time; cancel the work on this one first"
+
+
+@dataclass(frozen=True)
+class Bench:
+    """Where a workbench keeps things. folder: temporary; out: where assets and answers are kept, None for the temporary
+    folder; ask: put the questions to the person from the start."""
+
+    folder: Path
+    out: Path | None = None
+    ask: bool = False
+
+
+class Workbench:
+    """Takes one mesh at a time. Callbacks hold the page's lock; a thread of its own follows the work."""
+
+    def __init__(self, page: Page, bench: Bench) -> None:
+        self._page, self._bench, gui = page, bench, page.gui
+        self._numbers = itertools.count(1)
+        self._work: Work | None = None
+        self._name = ""
+        self._told = ("", False)
+        with gui.add_folder(None):
+            self._drop = gui.add_html("")
+            self._upload = gui.add_upload_button("Choose a mesh or a zip", mime_type="*/*")
+            self._who = gui.add_dropdown("Questions", (ALONE, MYSELF), initial_value=MYSELF if bench.ask else ALONE)
+            self._up = gui.add_dropdown("Up axis", UPS, hint="Of the file; auto goes by its format and shape")
+            self._words = gui.add_html("")
+            self._bar = gui.add_progress_bar(0.0, visible=False, animated=True)
+        self._desk = AskDesk(page)
+        self._cancel = gui.add_button("Cancel", color="red", visible=False)
+        self._upload.on_upload(lambda _: page.act(self._uploaded))
+        self._cancel.on_click(lambda _: page.act(self.cancel))
+        self.refresh()
+        self._ended = threading.Event()
+        self._follower = threading.Thread(target=self._run, daemon=True)
+        self._follower.start()
+
+    def start(self, mesh: Path, root: str | Path | None) -> None:
+        """Begin to work on a mesh. CorrectionError while another is worked on, or when corrections would be lost."""
+        if self._work is not None:
+            raise CorrectionError(BUSY)
+        if self._page.session is not None and self._page.session.unsaved:
+            raise CorrectionError("save the corrections of this one first (Ctrl-S), or undo them (Ctrl-Z)")
+        out = self._place(plain_name(mesh.stem))
+        questions = out.with_name(f"{out.name}.questions")
+        options: dict[str, Any] = {"root": root, "up": self._up.value}
+        if self._who.value == MYSELF:
+            options |= {"answerer": f"{FILES}{questions}", "wait": True, "suggest": True}
+        self._name, self._told = mesh.name, ("", False)
+        self._page.shut()
+        self._desk.begin(questions)
+        self._work = Work(mesh, out, **options)
+        self.refresh()
+
+    def cancel(self) -> None:
+        """End the work on a mesh; the page is ready for the next."""
+        if self._work is not None:
+            self._work.cancel()
+            self._finish(f"The work on {self._name} was cancelled.")
+
+    def close(self) -> None:
+        """End the work and the thread."""
+        self._ended.set()
+        self._follower.join()
+        if self._work is not None:
+            self._work.cancel()
+
+    def refresh(self) -> None:
+        """Show either what takes a mesh, or how far the work is."""
+        work = self._work
+        for control in (self._upload, self._who, self._up):
+            control.visible = work is None
+        self._bar.visible = work is not None and not self._desk.busy
+        self._cancel.visible = work is not None
+        _put(self._drop, "" if work is not None else drop_zone(small=self._page.session is not None))
+        text, bad = self._told
+        if work is not None:
+            told = "your answer is needed" if self._desk.busy else work.words
+            text, self._bar.value = f"{self._name}: {told}", round(100 * work.share, 1)
+        line = f'<div role="status" style="color:{"#c92a2a" if bad else "inherit"}">{escape(text)}</div>'
+        _put(self._words, f"<div {SMALL}>{line}</div>" if text else "")
+
+    def _place(self, name: str) -> Path:
+        """A folder for an asset that is not there yet."""
+        if self._bench.out is None:
+            return self._bench.folder / f"asset-{next(self._numbers)}" / name
+        names = itertools.chain([name], (f"{name}-{k}" for k in itertools.count(2)))
+        return next(path for path in (self._bench.out / n for n in names) if not path.exists())
+
+    def _uploaded(self) -> None:
+        if self._work is not None:
+            raise CorrectionError(BUSY)
+        file = self._upload.value
+        try:
+            got = receive(file.name, file.content, self._bench.folder / f"upload-{next(self._numbers)}" / "upload")
+        except AnymeshError as error:
+            self._told = (str(error), True)
+            self.refresh()
+            return
+        self.start(got.mesh, got.root)
+
+    def _run(self) -> None:
+        looked = 0.0
+        while not self._ended.wait(TICK):
+            if self._desk.busy:
+                self._page.act(self._desk.tick)
+            if self._work is not None and time.monotonic() - looked > LOOK:
+                self._page.act(self._look)
+                looked = time.monotonic()
+
+    def _look(self) -> None:
+        """Follow the work: its stage, its mesh, its questions, its end."""
+        work = self._work
+        if work is None:
+            return
+        if work.done:
+            self._finish("")
+            self._page.open(work.out)
+        elif work.over:
+            self._finish(f"{self._name} was not articulated: {work.error}", bad=True)
+        elif work.mesh is not None:
+            if self._desk.show_mesh(work.mesh):
+                self._page.view.look_at(work.mesh)
+            self._desk.look()
+        self.refresh()
+
+    def _finish(self, text: str, *, bad: bool = False) -> None:
+        """Leave the work behind: its question and its drawing go."""
+        self._work, self._told = None, (text, bad)
+        self._desk.end()
+        self.refresh()
+
+
+def _put(html: Any, content: str) -> None:
+    """Set the content of an element, sent only when it changes."""
+    if html.content != content:
+        html.content = content
