@@ -86,9 +86,8 @@ class AskDesk:
                 self._show,
                 lambda event: azimuth_of(event.client.camera),
             )
-            self._panel.show(self._asked.form, self._count, choices)
-            self._panel.tell(self._asked.note)
             self._follow_form()
+            self._panel.show(self._asked.form, self._count, self._asked.note, choices)
 
     def _follow_form(self) -> None:
         """Draw what the form asks about, as it is now."""
@@ -105,7 +104,7 @@ class AskDesk:
         if self._asked is not None:
             refused = self._asked.submit()
             if refused:
-                self._panel.tell(f"Not yet: {refused}", bad=True)
+                self._panel.refuse(refused)
             else:
                 self._done()
 

@@ -10,9 +10,19 @@ from typing import Any
 import numpy as np
 
 from anymesh.types.recognition import BASE
-from anymesh.viewer.ask_forms import ArrowsForm, Form, KindsForm, LabelRow, MotionsForm, PointsForm, RecognizeForm
+from anymesh.viewer.ask_forms import ArrowsForm, Form, KindsForm, LabelRow, MotionsForm, PartsForm, PointsForm, RecognizeForm
 from anymesh.viewer.ask_marks import MarksForm
-from anymesh.viewer.ask_words import FITS, KINDS, MOVES, NONE_OF_THESE, chosen_points, group_name, marks_table, motion_words
+from anymesh.viewer.ask_words import (
+    FITS,
+    KINDS,
+    MOVES,
+    NONE_OF_THESE,
+    chosen_points,
+    group_name,
+    label_words,
+    marks_table,
+    motion_words,
+)
 from anymesh.viewer.panels import SMALL
 
 NO_FRONT = "none"
@@ -51,6 +61,17 @@ class Fields:
                 self._numbers(form, "Arrow", [str(k + 1) for k in range(count)], lambda: f"Arrow {form.chosen[form.step]}.")
             case MotionsForm():
                 self._motions(form)
+        if isinstance(form, PartsForm):
+            self._see_through(form)
+
+    def _see_through(self, form: PartsForm) -> None:
+        box = self._gui.add_checkbox("See through", form.see_through.get(form.step, False), hint="The rest of the object")
+
+        def put(value: bool) -> None:
+            form.see_through[form.step] = value
+            self._choices.changed()
+
+        box.on_update(lambda event: self._act(lambda: put(box.value)) if event.client is not None else None)
 
     def _bound(self, form: Form, handle: Any, store: Callable[[Any], None]) -> Any:
         """Store what a person puts into a field."""
@@ -87,14 +108,14 @@ class Fields:
 
         def add() -> None:
             form.rows.append(LabelRow())
-            form.touched = True
+            form.touched, form.open_row = True, len(form.rows) - 1
             self._choices.again()
 
         more.on_click(lambda _: self._act(add))
 
     def _label_row(self, form: RecognizeForm, row: LabelRow) -> None:
         gui, words = self._gui, {v.value: k for k, v in MOVES.items()}
-        with gui.add_folder(row.label):
+        with gui.add_folder(label_words(row), expand_by_default=form.rows.index(row) == form.open_row):
             self._bound(form, gui.add_text("Kind of part", row.label), lambda v: setattr(row, "label", v))
             moves = gui.add_dropdown("Moves", tuple(MOVES), initial_value=words[row.moves])
             self._bound(form, moves, lambda v: setattr(row, "moves", MOVES[v].value))
@@ -111,7 +132,7 @@ class Fields:
 
         def remove() -> None:
             form.rows.remove(row)
-            form.touched = True
+            form.touched, form.open_row = True, -1
             self._choices.again()
 
         gone.on_click(lambda _: self._act(remove))
@@ -122,8 +143,8 @@ class Fields:
         more = gui.add_button_group("One more", tuple(form.question.labels))
         table = gui.add_html(marks_table(form))
         typed = gui.add_text("Regions", "", hint="The numbers of this part's regions, as in the pictures of a model")
-        unsure = gui.add_checkbox("I am not sure of this part", form.current in form.unsure)
-        hide = gui.add_checkbox("Hide the other parts", form.hide_given, hint="To reach what lies behind them")
+        unsure = gui.add_checkbox("Not sure", form.current in form.unsure, hint="Of the regions of this part")
+        hide = gui.add_checkbox("Hide others", form.hide_given, hint="Parts that are done, to reach what lies behind them")
 
         def follow() -> None:
             table.content = marks_table(form)
@@ -165,9 +186,9 @@ class Fields:
         def put(place: int, value: Any) -> None:
             row[place] = value
 
-        joint = gui.add_dropdown("It", tuple(KINDS), initial_value=words[row[0]])
+        joint = gui.add_dropdown("Joint", tuple(KINDS), initial_value=words[row[0]])
         self._bound(form, joint, lambda v: put(0, KINDS[v].value))
-        self._bound(form, gui.add_checkbox("It can turn round and round", bool(row[1])), lambda v: put(1, bool(v)))
+        self._bound(form, gui.add_checkbox("Turns endlessly", bool(row[1])), lambda v: put(1, bool(v)))
         if form.labels:
             label = gui.add_dropdown("It is a", form.labels, initial_value=row[2])
             self._bound(form, label, lambda v: put(2, v))

@@ -55,13 +55,15 @@ class LabelRow:
 
 @dataclass
 class RecognizeForm:
-    """What the object is and which kinds of part move. front: number of a picture, 0 for none."""
+    """What the object is and which kinds of part move. front: number of a picture, 0 for none; open_row: the entry that is
+    worked on, -1 for none."""
 
     question: Recognize
     category: str = ""
     longest: float = 1.0
     front: int = 0
     rows: list[LabelRow] = field(default_factory=list)
+    open_row: int = -1
     touched: bool = False
 
     def fill(self, found: Mapping[str, Any]) -> None:
@@ -82,11 +84,13 @@ class RecognizeForm:
 
 @dataclass
 class PartsForm:
-    """Base of the forms that ask the same of several parts, one after the other."""
+    """Base of the forms that ask the same of several parts, one after the other. see_through: parts for which the rest of the
+    object is drawn so."""
 
     parts: tuple[PartShown, ...]
     step: int = 0
     touched: bool = False
+    see_through: dict[int, bool] = field(default_factory=dict)
 
     @property
     def part(self) -> PartShown:

@@ -31,19 +31,20 @@ class AskPanel:
             self._inner.remove()
         self._inner = self._fields = None
 
-    def show(self, form: Form, number: int, choices: Choices) -> None:
-        """Show a form as it is now."""
+    def show(self, form: Form, number: int, note: str, choices: Choices) -> None:
+        """Show a form as it is now. number: of the question; note: what to know about it."""
         self.close()
         gui = self._gui
         with self._outer:
             self._inner = gui.add_folder(f"Question {number}: {title(form)}")
         with self._inner:
             gui.add_html(f"<div {SMALL}>{escape(guide(form))}</div>")
-            self._told = gui.add_html("")
+            self._told = gui.add_html(_line(note, NOTE))
             if isinstance(form, PartsForm):
                 self._add_steps(form, choices)
             self._fields = Fields(gui, self._act, form, choices)
-            answer = gui.add_button("Answer", color="green")
+            count = len(form.parts) if isinstance(form, PartsForm) else 1
+            answer = gui.add_button("Answer" if count < 2 else f"Answer for all {count} parts", color="green")
             leave = gui.add_button_group("To geometry", (LEAVE, LEAVE_REST))
         answer.on_click(lambda _: self._act(choices.answer))
         ways = {LEAVE: choices.leave, LEAVE_REST: choices.leave_rest}
@@ -54,11 +55,10 @@ class AskPanel:
         if self._fields is not None:
             self._fields.follow()
 
-    def tell(self, text: str, *, bad: bool = False) -> None:
-        """Say something about the question: why an answer is refused, or what is filled in."""
+    def refuse(self, why: str) -> None:
+        """Say why an answer is not taken."""
         if self._told is not None:
-            style = f"border-left:3px solid {REFUSED if bad else NOTE};padding-left:0.5em"
-            self._told.content = f'<div {SMALL}><div role="status" style="{style}">{escape(text)}</div></div>' if text else ""
+            self._told.content = _line(f"Not yet: {why}", REFUSED)
 
     def _add_steps(self, form: PartsForm, choices: Choices) -> None:
         """Which part is asked about, and the way to the others."""
@@ -72,3 +72,10 @@ class AskPanel:
             choices.again()
 
         steps.on_click(lambda event: self._act(lambda: go(event.target.value)))
+
+
+def _line(text: str, color: str) -> str:
+    if not text:
+        return ""
+    style = f"border-left:3px solid {color};padding-left:0.5em"
+    return f'<div {SMALL}><div role="status" style="{style}">{escape(text)}</div></div>'

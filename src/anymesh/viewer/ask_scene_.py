@@ -17,6 +17,7 @@ from anymesh.viewer.ask_shapes import (
     arrow_ends,
     asked_faces,
     hidden_points,
+    is_enclosed,
     mark_color,
     marker_radius,
     motion_axis,
@@ -30,7 +31,7 @@ from anymesh.viewer.scene import Color, color_of
 
 REST, PART, AXIS = (205, 205, 210), color_of(1), (190, 20, 40)
 POINT, HIDDEN_POINT, CHOSEN = (40, 90, 200), (150, 180, 235), (230, 0, 200)
-GHOST, SEE_INTO = 0.22, 0.45  # opacity of the rest and of the part while points on it are chosen
+GHOST, SEE_INTO = 0.15, 0.3  # opacity of the rest and of the part while points on it are chosen
 SECONDS = 2.5  # of a motion's play, there and back
 
 
@@ -116,10 +117,8 @@ class QuestionScene:
 
     def _mark_at(self, form: MarksForm, mesh: Mesh, origin: np.ndarray, direction: np.ndarray) -> int | None:
         """The mark of the first face on a ray; what is hidden does not stop it."""
-        if self._rays is None:
-            self._rays = RayScene(mesh.vertices, mesh.faces)
         hidden = form.hidden()
-        rays, numbers = self._rays, np.arange(len(mesh.faces))
+        rays, numbers = self._ray_scene(mesh), np.arange(len(mesh.faces))
         if hidden:
             numbers = np.flatnonzero(~np.isin(form.face_mark, list(hidden)))
             piece = mesh.subset(numbers)
@@ -127,6 +126,11 @@ class QuestionScene:
         face = int(rays.first_hit(origin[None], direction[None]).face[0])
         mark = int(form.face_mark[numbers[face]]) if face >= 0 else 0
         return mark if mark > 0 else None
+
+    def _ray_scene(self, mesh: Mesh) -> RayScene:
+        if self._rays is None:
+            self._rays = RayScene(mesh.vertices, mesh.faces)
+        return self._rays
 
     def _show_marks(self, form: MarksForm, mesh: Mesh) -> None:
         self.clear()
@@ -137,16 +141,24 @@ class QuestionScene:
         self._marks = {mark: self._add(mesh, some, mark_color(form, mark)) for mark, some in faces.items()}
         self._recolor(form)
 
-    def _show_part(self, form: PartsForm, mesh: Mesh, rest: float | None = None, part: float | None = None) -> None:
+    def _rest_opacity(self, form: PartsForm, mesh: Mesh) -> float | None:
+        """See-through where the person wants it, at first where the part is hidden in the object."""
+        if form.step not in form.see_through:
+            form.see_through[form.step] = is_enclosed(form.part, mesh, self._ray_scene(mesh))
+        return GHOST if form.see_through[form.step] else None
+
+    def _show_part(self, form: PartsForm, mesh: Mesh, part: float | None = None) -> None:
         """The part that is asked about, coloured, in the rest."""
         self.clear()
+        rest = self._rest_opacity(form, mesh)
         other = np.setdiff1d(np.arange(len(mesh.faces)), form.part.faces)
         if len(other):
             self._add(mesh, other, REST, rest)
         self._add(mesh, form.part.faces, PART, part)
 
     def _show_points(self, form: PointsForm, mesh: Mesh) -> None:
-        self._show_part(form, mesh, GHOST, SEE_INTO)
+        form.see_through.setdefault(form.step, True)
+        self._show_part(form, mesh, SEE_INTO)
         places = point_places(form.table, mesh)
         radius, hidden = marker_radius(places, mesh), hidden_points(form.table)
         for k, place in enumerate(places):
@@ -170,7 +182,7 @@ class QuestionScene:
         moving = moving_faces(form.table)
         rest = np.setdiff1d(np.arange(len(mesh.faces)), moving)
         if len(rest):
-            self._add(mesh, rest, REST)
+            self._add(mesh, rest, REST, self._rest_opacity(form, mesh))
         self._moving = self._keep(self._scene.add_frame(self._name(), show_axes=False))
         self._add(mesh, form.part.faces, PART, below=self._moving.name)
         carried = np.setdiff1d(moving, form.part.faces)

@@ -10,6 +10,8 @@ from jaxtyping import Bool, Float, Int
 from anymesh.geometry.simplify_ import simplify
 from anymesh.reasoning.prompting import ArrowTable, MotionTable, PartShown, PointTable
 from anymesh.rendering.axes import axis_line
+from anymesh.rendering.raycast_ import RayScene
+from anymesh.rendering.viewpoints import away
 from anymesh.types import Mesh, MotionKind
 from anymesh.viewer.ask_marks import SPLIT, MarksForm
 from anymesh.viewer.scene import LEAST, MOST, Color, Surface, color_of
@@ -18,7 +20,8 @@ SAME_SIZE = 0.05  # a part of the mesh's own scale within this has it exactly
 REACH = 0.03  # a click chooses a point whose distance from its ray is below this share of the distance to the eye
 MARKER, CROWDED = 0.012, 0.35  # radius of a point's marker: share of the diagonal, and of the gap to the next point at most
 ARROW = 0.6  # length of an arrow, as a share of the part's size
-TINT, GOLDEN = (0.16, 0.9), 0.618034  # saturation and value of marks that are not given, step between their hues
+SAMPLES, LIFT, IN_SIGHT = 200, 1e-4, 0.1  # points of a part, [share of the diagonal] off its surface, share that is in sight
+TINT, GOLDEN = (0.24, 0.92), 0.618034  # saturation and value of marks that are not given, step between their hues
 NOT_ASKED, DIVIDED = (150, 150, 150), (134, 46, 156)
 
 
@@ -37,6 +40,15 @@ def scale_of(part: PartShown, mesh: Mesh) -> float:
         return 1.0
     scale = part.diagonal / mesh.diagonal
     return 1.0 if abs(scale - 1) < SAME_SIZE else scale
+
+
+def is_enclosed(part: PartShown, mesh: Mesh, rays: RayScene) -> bool:
+    """Return whether a part can hardly be seen from outside: from no side are many of its points in sight."""
+    points = part.points[:: max(1, len(part.points) // SAMPLES)] / scale_of(part, mesh)
+    ways = np.array([away(np.deg2rad(a), np.deg2rad(e)) for e in (20, 60) for a in range(0, 360, 45)])
+    origins, directions = np.repeat(points, len(ways), 0), np.tile(ways, (len(points), 1))
+    free = rays.first_hit(origins + LIFT * mesh.diagonal * directions, directions).face < 0
+    return float(free.reshape(len(points), len(ways)).mean(0).max()) < IN_SIGHT
 
 
 def asked_faces(form: MarksForm) -> dict[int, Int[np.ndarray, " f"]]:

@@ -7,7 +7,7 @@ from html import escape
 from anymesh.reasoning.prompting import JointKind, MotionTable, PartFit
 from anymesh.types import MotionKind
 from anymesh.types.recognition import Moves
-from anymesh.viewer.ask_forms import ArrowsForm, Form, KindsForm, MotionsForm, PartsForm, PointsForm, RecognizeForm
+from anymesh.viewer.ask_forms import ArrowsForm, Form, KindsForm, LabelRow, MotionsForm, PartsForm, PointsForm, RecognizeForm
 from anymesh.viewer.ask_marks import SPLIT, Group, MarksForm
 from anymesh.viewer.ask_shapes import group_color
 from anymesh.viewer.panels import SMALL
@@ -51,7 +51,7 @@ def guide(form: Form) -> str:
     """Return what to do."""
     match form:
         case RecognizeForm():
-            return "Name the object and give one entry for each kind of part that moves."
+            return "Name the object and give one entry for each kind of part that moves; click an entry to change it."
         case MarksForm():
             return (
                 "Choose a part below, then click its regions on the object; click again to take one back. "
@@ -73,6 +73,15 @@ def place(form: Form) -> str:
     if not isinstance(form, PartsForm):
         return ""
     return f"Part {form.step + 1} of {len(form.parts)}: {form.part.label}"
+
+
+def label_words(row: LabelRow) -> str:
+    """Return a kind of part in a line."""
+    moves = Moves(row.moves)
+    words = next(k for k, v in MOVES.items() if v is moves)
+    unit = "cm" if moves is Moves.PRISMATIC else "°"
+    limits = "" if moves is Moves.CONTINUOUS else f", {row.lower:g} to {row.upper:g} {unit}"
+    return f"{row.label}: {words}{limits}"
 
 
 def group_name(group: Group) -> str:

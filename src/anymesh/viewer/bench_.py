@@ -45,16 +45,14 @@ class Workbench:
         self._work: Work | None = None
         self._name = ""
         self._told = ("", False)
-        with gui.add_folder(None):
-            self._drop = gui.add_html("")
-            self._upload = gui.add_upload_button("Choose a mesh or a zip", mime_type="*/*")
-            self._who = gui.add_dropdown("Questions", (ALONE, MYSELF), initial_value=MYSELF if bench.ask else ALONE)
-            self._up = gui.add_dropdown("Up axis", UPS, hint="Of the file; auto goes by its format and shape")
-            self._words = gui.add_html("")
-            self._bar = gui.add_progress_bar(0.0, visible=False, animated=True)
+        self._shows: bool | None = None
+        self._words = gui.add_html("")
+        self._bar = gui.add_progress_bar(0.0, visible=False, animated=True)
+        self._outer = gui.add_folder(None)
+        self._inner: Any = None
+        self._who, self._up = MYSELF if bench.ask else ALONE, UPS[0]
         self._desk = AskDesk(page)
         self._cancel = gui.add_button("Cancel", color="red", visible=False)
-        self._upload.on_upload(lambda _: page.act(self._uploaded))
         self._cancel.on_click(lambda _: page.act(self.cancel))
         self.refresh()
         self._ended = threading.Event()
@@ -69,8 +67,8 @@ class Workbench:
             raise CorrectionError("save the corrections of this one first (Ctrl-S), or undo them (Ctrl-Z)")
         out = self._place(plain_name(mesh.stem))
         questions = out.with_name(f"{out.name}.questions")
-        options: dict[str, Any] = {"root": root, "up": self._up.value}
-        if self._who.value == MYSELF:
+        options: dict[str, Any] = {"root": root, "up": self._up}
+        if self._who == MYSELF:
             options |= {"answerer": f"{FILES}{questions}", "wait": True, "suggest": True}
         self._name, self._told = mesh.name, ("", False)
         self._page.shut()
@@ -94,17 +92,40 @@ class Workbench:
     def refresh(self) -> None:
         """Show either what takes a mesh, or how far the work is."""
         work = self._work
-        for control in (self._upload, self._who, self._up):
-            control.visible = work is None
+        self._show_intake(None if work is not None else self._page.session is not None)
         self._bar.visible = work is not None and not self._desk.busy
         self._cancel.visible = work is not None
-        _put(self._drop, "" if work is not None else drop_zone(small=self._page.session is not None))
         text, bad = self._told
         if work is not None:
             told = "your answer is needed" if self._desk.busy else work.words
             text, self._bar.value = f"{self._name}: {told}", round(100 * work.share, 1)
         line = f'<div role="status" style="color:{"#c92a2a" if bad else "inherit"}">{escape(text)}</div>'
         _put(self._words, f"<div {SMALL}>{line}</div>" if text else "")
+
+    def _show_intake(self, again: bool | None) -> None:
+        """Show what takes a mesh; again: folded up, above the asset that is shown; None: not at all."""
+        if self._shows == again and (self._inner is not None) == (again is not None):
+            return
+        if self._inner is not None:
+            self._inner.remove()
+            self._inner = None
+        self._shows, gui = again, self._page.gui
+        if again is None:
+            return
+        with self._outer:
+            self._inner = gui.add_folder("Another mesh" if again else "Mesh", expand_by_default=not again)
+        with self._inner:
+            gui.add_html(drop_zone(small=again))
+            upload = gui.add_upload_button("Choose a mesh or a zip", mime_type="*/*")
+            who = gui.add_dropdown("Questions", (ALONE, MYSELF), initial_value=self._who)
+            up = gui.add_dropdown("Up axis", UPS, initial_value=self._up, hint="Of the file; auto goes by its format and shape")
+
+        def set_options() -> None:
+            self._who, self._up = who.value, up.value
+
+        upload.on_upload(lambda event: self._page.act(lambda: self._uploaded(event.target.value)))
+        who.on_update(lambda _: self._page.act(set_options))
+        up.on_update(lambda _: self._page.act(set_options))
 
     def _place(self, name: str) -> Path:
         """A folder for an asset that is not there yet."""
@@ -113,10 +134,9 @@ class Workbench:
         names = itertools.chain([name], (f"{name}-{k}" for k in itertools.count(2)))
         return next(path for path in (self._bench.out / n for n in names) if not path.exists())
 
-    def _uploaded(self) -> None:
+    def _uploaded(self, file: Any) -> None:
         if self._work is not None:
             raise CorrectionError(BUSY)
-        file = self._upload.value
         try:
             got = receive(file.name, file.content, self._bench.folder / f"upload-{next(self._numbers)}" / "upload")
         except AnymeshError as error:
