@@ -142,7 +142,8 @@ class Fields:
         current = gui.add_dropdown("Clicks are for", tuple(names), initial_value=group_name(form.current))
         more = gui.add_button_group("One more", tuple(form.question.labels))
         table = gui.add_html(marks_table(form))
-        typed = gui.add_text("Regions", "", hint="The numbers of this part's regions, as in the pictures of a model")
+        now = ", ".join(map(str, sorted(form.groups[form.current])))
+        typed = gui.add_text("Regions", now, hint="The numbers of this part's regions, as in the pictures of a model")
         unsure = gui.add_checkbox("Not sure", form.current in form.unsure, hint="Of the regions of this part")
         hide = gui.add_checkbox("Hide others", form.hide_given, hint="Parts that are done, to reach what lies behind them")
 
@@ -173,7 +174,6 @@ class Fields:
             (form.unsure.add if value else form.unsure.discard)(form.current)
 
         self.follow = follow
-        typed.value = ", ".join(map(str, sorted(form.groups[form.current])))
         current.on_update(lambda event: self._act(lambda: take(current.value)) if event.client is not None else None)
         self._bound(form, typed, type_in)
         self._bound(form, unsure, doubt)
@@ -182,16 +182,12 @@ class Fields:
 
     def _kinds(self, form: KindsForm) -> None:
         gui, row, words = self._gui, form.rows[form.step], {v.value: k for k, v in KINDS.items()}
-
-        def put(place: int, value: Any) -> None:
-            row[place] = value
-
-        joint = gui.add_dropdown("Joint", tuple(KINDS), initial_value=words[row[0]])
-        self._bound(form, joint, lambda v: put(0, KINDS[v].value))
-        self._bound(form, gui.add_checkbox("Turns endlessly", bool(row[1])), lambda v: put(1, bool(v)))
+        joint = gui.add_dropdown("Joint", tuple(KINDS), initial_value=words[row.joint])
+        self._bound(form, joint, lambda v: setattr(row, "joint", KINDS[v].value))
+        self._bound(form, gui.add_checkbox("Turns endlessly", row.endless), lambda v: setattr(row, "endless", bool(v)))
         if form.labels:
-            label = gui.add_dropdown("It is a", form.labels, initial_value=row[2])
-            self._bound(form, label, lambda v: put(2, v))
+            label = gui.add_dropdown("It is a", form.labels, initial_value=row.label)
+            self._bound(form, label, lambda v: setattr(row, "label", v))
 
     def _points(self, form: PointsForm) -> None:
         shown = self._gui.add_text("Points chosen", chosen_points(form) or "none", disabled=True)
@@ -213,17 +209,17 @@ class Fields:
     def _numbers(self, form: ArrowsForm | MotionsForm, name: str, names: list[str], told: Callable[[], str]) -> None:
         """Buttons with numbers, of which one is chosen."""
         buttons = self._gui.add_button_group(name, names)
-        words = self._gui.add_html("")
 
-        def follow() -> None:
-            words.content = f"<div {SMALL}>{escape(told())}</div>"
+        def line() -> str:
+            return f"<div {SMALL}><b>{escape(told())}</b></div>"
+
+        words = self._gui.add_html(line())
 
         def choose(value: str) -> None:
             form.choose(0 if value == NONE_OF_THESE else int(value))
-            follow()
+            words.content = line()
             self._choices.changed()
 
-        follow()
         buttons.on_click(lambda event: self._act(lambda: choose(event.target.value)))
 
 

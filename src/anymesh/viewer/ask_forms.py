@@ -102,23 +102,32 @@ class PartsForm:
         self.step = min(max(self.step + by, 0), len(self.parts) - 1)
 
 
+@dataclass
+class KindRow:
+    """How one part is attached."""
+
+    joint: str = JointKind.HINGE_ALONG.value
+    endless: bool = False
+    label: str = OTHER
+
+
 class KindsForm(PartsForm):
-    """How each part is attached."""
+    """How each part is attached. labels: to choose from, empty where that is not asked."""
 
     def __init__(self, question: WhichKinds) -> None:
         super().__init__(question.parts)
-        self.labels = (*question.labels, OTHER) if question.labels else ()
-        self.rows = [[JointKind.HINGE_ALONG.value, False, OTHER] for _ in question.parts]
+        self.labels: tuple[str, ...] = (*question.labels, OTHER) if question.labels else ()
+        self.rows = [KindRow() for _ in question.parts]
 
     def fill(self, found: Mapping[str, Any]) -> None:
         for p in found["parts"]:
-            self.rows[p["part"] - 1] = [p["joint"], p["endless"], p.get("label", OTHER)]
+            self.rows[p["part"] - 1] = KindRow(p["joint"], p["endless"], p.get("label", OTHER))
 
     def answer(self) -> dict[str, Any]:
         return {
             "parts": [
-                {"part": k, "joint": joint, "endless": endless, **({"label": label} if self.labels else {})}
-                for k, (joint, endless, label) in enumerate(self.rows, 1)
+                {"part": k, "joint": row.joint, "endless": row.endless, **({"label": row.label} if self.labels else {})}
+                for k, row in enumerate(self.rows, 1)
             ]
         }
 

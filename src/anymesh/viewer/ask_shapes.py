@@ -18,7 +18,7 @@ from anymesh.viewer.scene import LEAST, MOST, Color, Surface, color_of
 
 SAME_SIZE = 0.05  # a part of the mesh's own scale within this has it exactly
 REACH = 0.03  # a click chooses a point whose distance from its ray is below this share of the distance to the eye
-MARKER, CROWDED = 0.012, 0.35  # radius of a point's marker: share of the diagonal, and of the gap to the next point at most
+MARKER, CROWDED = 0.014, 0.4  # radius of a point's marker: share of the diagonal, and of the gap to the next point at most
 ARROW = 0.6  # length of an arrow, as a share of the part's size
 SAMPLES, LIFT, IN_SIGHT = 200, 1e-4, 0.1  # points of a part, [share of the diagonal] off its surface, share that is in sight
 TINT, GOLDEN = (0.24, 0.92), 0.618034  # saturation and value of marks that are not given, step between their hues

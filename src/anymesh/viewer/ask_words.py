@@ -68,10 +68,8 @@ def guide(form: Form) -> str:
     raise TypeError(type(form).__name__)
 
 
-def place(form: Form) -> str:
-    """Return which of several parts is asked about, empty where it is one question for all."""
-    if not isinstance(form, PartsForm):
-        return ""
+def place(form: PartsForm) -> str:
+    """Return which of several parts is asked about."""
     return f"Part {form.step + 1} of {len(form.parts)}: {form.part.label}"
 
 

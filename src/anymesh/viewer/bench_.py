@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import itertools
 import threading
 import time
@@ -10,7 +11,7 @@ from html import escape
 from pathlib import Path
 from typing import Any
 
-from anymesh.answering import FILES
+from anymesh.answering import FILES, object_name
 from anymesh.correcting import CorrectionError
 from anymesh.errors import AnymeshError
 from anymesh.viewer.ask_desk_ import AskDesk
@@ -66,7 +67,7 @@ class Workbench:
         if self._page.session is not None and self._page.session.unsaved:
             raise CorrectionError("save the corrections of this one first (Ctrl-S), or undo them (Ctrl-Z)")
         out = self._place(plain_name(mesh.stem))
-        questions = out.with_name(f"{out.name}.questions")
+        questions = self._questions(mesh, out)
         options: dict[str, Any] = {"root": root, "up": self._up}
         if self._who == MYSELF:
             options |= {"answerer": f"{FILES}{questions}", "wait": True, "suggest": True}
@@ -133,6 +134,14 @@ class Workbench:
             return self._bench.folder / f"asset-{next(self._numbers)}" / name
         names = itertools.chain([name], (f"{name}-{k}" for k in itertools.count(2)))
         return next(path for path in (self._bench.out / n for n in names) if not path.exists())
+
+    def _questions(self, mesh: Path, out: Path) -> Path:
+        """The folder of the questions about a mesh; where they are kept, it is the same for the same mesh in a later run."""
+        if self._bench.out is None:
+            return out.with_name("questions")
+        content = mesh.read_bytes() if mesh.is_file() else b""
+        digest = hashlib.sha256(object_name(mesh).encode() + content).hexdigest()[:8]
+        return self._bench.out / "questions" / f"{plain_name(mesh.stem)}-{digest}"
 
     def _uploaded(self, file: Any) -> None:
         if self._work is not None:

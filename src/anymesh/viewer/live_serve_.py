@@ -48,34 +48,33 @@ def serve(
     takes meshes keeps assets, and answers for a later run. A port that is taken moves on to the next. root: as for
     `articulate`. Raises InputError, OptionError, OutputError, MissingExtraError.
     """
-    taking = target is None or ask
-    target = None if target is None else Path(target)
-    if out is not None and not taking:
+    place = None if target is None else Path(target)
+    if ask and (place is None or not place.is_file()):
+        raise OptionError(f"--ask needs a mesh file; found {'none' if place is None else place}")
+    if out is not None and place is not None and not ask:
         raise OptionError("--out is for a page that takes meshes: without a target, or with --ask")
-    if ask and (target is None or not target.is_file()):
-        raise OptionError(f"--ask needs a mesh file; found {'none' if target is None else target}")
     with contextlib.ExitStack() as stack:
         told: tuple[str, ...] = ()
         folder = bench = None
-        if taking:
+        if place is None or ask:
             bench, told = stack.enter_context(_bench(out, ask))
-        elif not target.is_dir():
-            folder, told = stack.enter_context(_articulated(target, root, progress))
+        elif place.is_dir():
+            folder = place.resolve()
         else:
-            folder = target.resolve()
+            folder, told = stack.enter_context(_articulated(place, root, progress))
         one = folder is not None and written_files(folder) is not None
         with contextlib.redirect_stdout(io.StringIO()):  # of the library's own banner
-            server = start_server(host, port, f"anymesh: {target.name}" if target else "anymesh")
+            server = start_server(host, port, "anymesh" if place is None else f"anymesh: {place.name}")
         try:
             page = LivePage(server, author=author, clock=clock, review=None if one else folder, bench=bench)
         except BaseException:
             server.stop()
             raise
         stack.callback(page.close)
-        if one:
+        if folder is not None and one:
             page.open(folder)
-        elif page.bench is not None and target is not None:
-            page.bench.start(target, root)
+        if page.bench is not None and place is not None:
+            page.bench.start(place, root)
         yield Serving(page, f"http://{server.get_host()}:{server.get_port()}", told)
 
 
