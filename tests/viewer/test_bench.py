@@ -170,21 +170,21 @@ def test_clicks_reach_the_form_and_a_bad_answer_stays_open(page):
     folder = asking(page)
     found, _ = put(folder, "points")
     until(lambda: page.bench._desk.busy)
-    desk, eye = page.bench._desk, np.array([0.6, -3.0, 0.3])
+    desk, eye = page.bench._desk, (0.6, -3.0, 0.3)
     asked = desk._asked
     asked.form.chosen = [[]]
     page.act(desk._answer)
     assert found.answer() is None
     assert "two or more points" in desk._panel._told.content
     for place in ((0.6, 0, 0.05), (0.6, 0, 0.55)):
-        page.act(lambda p=place: desk._clicked(SimpleNamespace(ray_origin=eye, ray_direction=np.array(p) - eye)))
+        page.act(lambda p=place: desk._clicked(SimpleNamespace(ray_origin=eye, ray_direction=tuple(np.subtract(p, eye)))))
     page.act(desk._answer)
     assert json.loads(found.answer())["parts"] == [{"part": 1, "points": [1, 3]}]
     found, _ = put(folder, "marks")
     until(lambda: desk.busy)
     desk._asked.form.set_marks("")
-    front = np.array([0.45, -3.0, 0.3])  # looks at the door
-    page.act(lambda: desk._clicked(SimpleNamespace(ray_origin=front, ray_direction=np.array([0, 1.0, 0]))))
+    front = (0.45, -3.0, 0.3)  # looks at the door
+    page.act(lambda: desk._clicked(SimpleNamespace(ray_origin=front, ray_direction=(0.0, 1.0, 0.0))))
     page.act(desk._answer)
     assert json.loads(found.answer())["parts"][0] == {"label": "door", "instance": 1, "marks": [1]}
 
@@ -203,9 +203,8 @@ def test_one_question_or_all_that_follow_are_left_to_geometry(page):
 def test_a_motion_plays_while_it_is_chosen(page):
     folder = asking(page)
     put(folder, "motions")
-    until(lambda: page.bench._desk.busy)
-    moving = page.bench._desk._scene._moving
-    turns = []
+    until(lambda: page.bench._desk._scene._moving is not None)
+    moving, turns = page.bench._desk._scene._moving, []
     until(lambda: turns.append(moving.wxyz[0]) or np.ptp(turns) > 0.01)
 
 

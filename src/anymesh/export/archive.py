@@ -5,7 +5,6 @@ from __future__ import annotations
 import io
 import zipfile
 from pathlib import Path
-from typing import IO
 
 EPOCH = (1980, 1, 1, 0, 0, 0)  # the first date that a zip can hold
 PLAIN_FILE = 0o100644 << 16  # a file that all may read, its owner write
@@ -29,7 +28,7 @@ def zip_bytes(folder: Path) -> bytes:
     return sink.getvalue()
 
 
-def _zip(folder: Path, sink: IO[bytes], without: Path | None = None) -> None:
+def _zip(folder: Path, sink: io.BufferedIOBase, without: Path | None = None) -> None:
     with zipfile.ZipFile(sink, "w", zipfile.ZIP_DEFLATED, compresslevel=6) as archive:
         for file in sorted(p for p in folder.rglob("*") if p.is_file()):
             inside = file.relative_to(folder)

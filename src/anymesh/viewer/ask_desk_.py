@@ -6,6 +6,8 @@ import time
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from anymesh.models.question_files import LEAVE
 from anymesh.types import Mesh
 from anymesh.viewer.ask_fields_ import Choices, azimuth_of
@@ -96,7 +98,10 @@ class AskDesk:
             self._scene.show(self._asked.form, self._mesh)
 
     def _clicked(self, event: Any) -> None:
-        if self._asked is not None and self._scene.clicked(self._asked.form, event.ray_origin, event.ray_direction):
+        if self._asked is None:
+            return
+        origin, direction = np.array(event.ray_origin, float), np.array(event.ray_direction, float)
+        if self._scene.clicked(self._asked.form, origin, direction):
             self._panel.follow()
             self._follow_form()
 
