@@ -200,6 +200,16 @@ def test_one_question_or_all_that_follow_are_left_to_geometry(page):
     assert not page.bench._desk.busy
 
 
+def test_a_defect_is_told_and_the_page_goes_on(page, monkeypatch):
+    folder = asking(page)
+    monkeypatch.setattr(page.bench._desk._scene, "show", lambda form, mesh: 1 / 0)
+    put(folder, "motions")
+    until(lambda: "internal defect, ZeroDivisionError" in said(page))
+    assert FakeWork.made[-1].cancelled
+    upload(page)
+    assert len(FakeWork.made) == 2
+
+
 def test_a_motion_plays_while_it_is_chosen(page):
     folder = asking(page)
     put(folder, "motions")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import itertools
+import logging
 import threading
 import time
 from dataclasses import dataclass
@@ -21,6 +22,7 @@ from anymesh.viewer.panels_page import Page
 from anymesh.viewer.uploads import plain_name, receive
 from anymesh.viewer.work import Work
 
+log = logging.getLogger("anymesh")
 TICK, LOOK = 0.05, 0.25  # [s] between poses, and between looks at the work
 ALONE, MYSELF = "are left to geometry", "are put to me"
 UPS = ("auto", "x", "y", "z")
@@ -157,11 +159,16 @@ class Workbench:
     def _run(self) -> None:
         looked = 0.0
         while not self._ended.wait(TICK):
-            if self._desk.busy:
-                self._page.act(self._desk.tick)
-            if self._work is not None and time.monotonic() - looked > LOOK:
-                self._page.act(self._look)
-                looked = time.monotonic()
+            try:
+                if self._desk.busy:
+                    self._page.act(self._desk.tick)
+                if self._work is not None and time.monotonic() - looked > LOOK:
+                    self._page.act(self._look)
+                    looked = time.monotonic()
+            except Exception as error:  # a defect must not leave a page that stands still
+                log.exception("the work on %s could not be followed", self._name)
+                told = f"The work on {self._name} was ended by an internal defect, {type(error).__name__}: {error}"
+                self._page.act(lambda told=told: self._give_up(told))
 
     def _look(self) -> None:
         """Follow the work: its stage, its mesh, its questions, its end."""
@@ -178,6 +185,11 @@ class Workbench:
                 self._page.view.look_at(work.mesh)
             self._desk.look()
         self.refresh()
+
+    def _give_up(self, text: str) -> None:
+        if self._work is not None:
+            self._work.cancel()
+        self._finish(text, bad=True)
 
     def _finish(self, text: str, *, bad: bool = False) -> None:
         """Leave the work behind: its question and its drawing go."""
