@@ -27,7 +27,7 @@ from anymesh.viewer.ask_shapes import (
     surface,
 )
 from anymesh.viewer.ask_words import guide, label_words, marks_table, motion_words, title
-from anymesh.viewer.asked import SUGGESTED, WAITING, Asked, open_question
+from anymesh.viewer.open_question import SUGGESTED, WAITING, OpenQuestion, find_open_question
 from anymesh.viewer.scene import color_of
 
 KINDS = list(questions())
@@ -191,9 +191,9 @@ def put(folder, kind: str):
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_an_open_question_is_found_suggested_refused_and_recorded(tmp_path, kind: str) -> None:
-    assert open_question(tmp_path / "none") is None
+    assert find_open_question(tmp_path / "none") is None
     folder, answer = put(tmp_path, kind)
-    asked = Asked.of(open_question(tmp_path))
+    asked = OpenQuestion.of(find_open_question(tmp_path))
     assert asked.note == WAITING
     assert not asked.take_suggestion()
     folder.write_suggestion(json.dumps(answer))
@@ -203,16 +203,16 @@ def test_an_open_question_is_found_suggested_refused_and_recorded(tmp_path, kind
     if kind != "marks":  # where no mark at all is an answer
         full, asked.form.answer = asked.form.answer, lambda: {"parts": []}
         assert asked.submit()
-        assert open_question(tmp_path) is not None
+        assert find_open_question(tmp_path) is not None
         asked.form.answer = full
     assert asked.submit() == ""
     assert json.loads(folder.answer()) == answer
-    assert open_question(tmp_path) is None
+    assert find_open_question(tmp_path) is None
 
 
 def test_a_suggestion_never_replaces_what_a_person_did(tmp_path) -> None:
     folder, answer = put(tmp_path, "points")
-    asked = Asked.of(folder)
+    asked = OpenQuestion.of(folder)
     asked.form.toggle(4)
     folder.write_suggestion(json.dumps(answer))
     assert asked.take_suggestion()
@@ -221,8 +221,8 @@ def test_a_suggestion_never_replaces_what_a_person_did(tmp_path) -> None:
 
 def test_a_question_is_left_to_geometry_and_one_refused_later_is_open_again(tmp_path) -> None:
     folder, _ = put(tmp_path, "motions")
-    Asked.of(folder).leave()
+    OpenQuestion.of(folder).leave()
     assert folder.answer() == "geometry"
-    assert open_question(tmp_path) is None
+    assert find_open_question(tmp_path) is None
     folder.refuse("it contradicts itself")
-    assert "it contradicts itself" in Asked.of(open_question(tmp_path)).note
+    assert "it contradicts itself" in OpenQuestion.of(find_open_question(tmp_path)).note

@@ -175,7 +175,7 @@ def test_clicks_reach_the_form_and_a_bad_answer_stays_open(page):
     asked.form.chosen = [[]]
     page.act(desk._answer)
     assert found.answer() is None
-    assert "two or more points" in desk._panel._told.content
+    assert "two or more points" in desk._panel._note.content
     for place in ((0.6, 0, 0.05), (0.6, 0, 0.55)):
         page.act(lambda p=place: desk._clicked(SimpleNamespace(ray_origin=eye, ray_direction=tuple(np.subtract(p, eye)))))
     page.act(desk._answer)

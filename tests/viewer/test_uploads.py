@@ -73,7 +73,7 @@ def test_links_are_refused(tmp_path) -> None:
 
 
 def test_a_bomb_is_stopped_while_it_unpacks(tmp_path, monkeypatch) -> None:
-    monkeypatch.setattr(uploads, "MOST_UNPACKED", 3 << 20)
+    monkeypatch.setattr(uploads, "MAX_UNPACKED_BYTES", 3 << 20)
     bomb = zipped({"box.obj": OBJ, "a.bin": bytes(2 << 20), "b.bin": bytes(2 << 20)})
     assert len(bomb) < 10_000
     with pytest.raises(InputError, match="more than 3 MB once unpacked"):
@@ -82,7 +82,7 @@ def test_a_bomb_is_stopped_while_it_unpacks(tmp_path, monkeypatch) -> None:
 
 
 def test_a_header_that_lies_about_its_size_gains_nothing(tmp_path, monkeypatch) -> None:
-    monkeypatch.setattr(uploads, "MOST_UNPACKED", 1 << 20)
+    monkeypatch.setattr(uploads, "MAX_UNPACKED_BYTES", 1 << 20)
     content = bytearray(zipped({"box.obj": bytes(2 << 20)}))
     at = content.rindex(b"PK\x01\x02") + 24  # the uncompressed size in the central directory
     content[at : at + 4] = (100).to_bytes(4, "little")
@@ -92,8 +92,8 @@ def test_a_header_that_lies_about_its_size_gains_nothing(tmp_path, monkeypatch) 
 
 
 def test_too_much_too_many_and_nothing(tmp_path, monkeypatch) -> None:
-    monkeypatch.setattr(uploads, "MOST_UPLOAD", 1 << 20)
-    monkeypatch.setattr(uploads, "MOST_FILES", 5)
+    monkeypatch.setattr(uploads, "MAX_UPLOAD_BYTES", 1 << 20)
+    monkeypatch.setattr(uploads, "MAX_FILES", 5)
     for k, (name, content, told) in enumerate(
         [
             ("x.glb", bytes(3 << 20), "3 MB; at most 1 MB"),

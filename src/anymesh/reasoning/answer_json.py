@@ -54,14 +54,14 @@ def _kind(number: int, answer: KindAnswer, labelled: bool) -> dict[str, Any]:
     return {"part": number, "joint": answer.kind.value, "endless": answer.endless, **label}
 
 
-def _recognition(question: Recognize, found: Recognition) -> dict[str, Any]:
-    front = question.azimuths.index(found.front) + 1 if found.front in question.azimuths else 0
-    labels = [_label(label) for label in found.labels]
-    return {"category": found.category, "longest_side_m": found.size, "front": front, **_parts(labels)}
+def _recognition(question: Recognize, answer: Recognition) -> dict[str, Any]:
+    front = question.azimuths.index(answer.front) + 1 if answer.front in question.azimuths else 0
+    labels = [_label(label) for label in answer.labels]
+    return {"category": answer.category, "longest_side_m": answer.size, "front": front, **_parts(labels)}
 
 
-def _label(found: RecognizedLabel) -> dict[str, Any]:
-    unit = np.pi / 180 if found.moves is Moves.REVOLUTE else 0.01
-    lower, upper = (0.0, 0.0) if found.limits is None else (end / unit for end in found.limits)
-    moves = None if found.moves is None else found.moves.value
-    return {"label": found.label, "moves": moves, "parent": found.parent, "lower": lower, "upper": upper}
+def _label(label: RecognizedLabel) -> dict[str, Any]:
+    unit = np.pi / 180 if label.moves is Moves.REVOLUTE else 0.01
+    lower, upper = (0.0, 0.0) if label.limits is None else (end / unit for end in label.limits)
+    moves = None if label.moves is None else label.moves.value
+    return {"label": label.label, "moves": moves, "parent": label.parent, "lower": lower, "upper": upper}

@@ -13,7 +13,7 @@ from anymesh.types import Mesh
 from anymesh.viewer.ask_fields_ import Choices, azimuth_of
 from anymesh.viewer.ask_panel_ import AskPanel
 from anymesh.viewer.ask_scene_ import QuestionScene
-from anymesh.viewer.asked import Asked, open_question
+from anymesh.viewer.open_question import OpenQuestion, find_open_question
 from anymesh.viewer.panels_page import Page
 
 
@@ -23,7 +23,7 @@ class AskDesk:
     def __init__(self, page: Page) -> None:
         self._scene, self._panel = QuestionScene(page.server), AskPanel(page.gui, page.act)
         self._folder, self._mesh = Path(), None
-        self._asked: Asked | None = None
+        self._asked: OpenQuestion | None = None
         self._count, self._leave_rest, self._began = 0, False, 0.0
         page.server.scene.on_click()(lambda event: page.act(lambda: self._clicked(event)))
 
@@ -66,12 +66,15 @@ class AskDesk:
             self._scene.tick(self._asked.form, time.monotonic() - self._began)
 
     def _take_up(self) -> None:
-        """What cannot be asked on the object, and all once the rest is left, geometry answers."""
-        folder = open_question(self._folder)
+        """Show the question that the run waits for.
+
+        Geometry gets those that cannot be asked on the object, and all of them after "Leave all".
+        """
+        folder = find_open_question(self._folder)
         if folder is None:
             return
         self._count += 1
-        asked = Asked.of(folder)
+        asked = OpenQuestion.of(folder)
         if asked is None or self._leave_rest:
             folder.write_answer(LEAVE)
             return

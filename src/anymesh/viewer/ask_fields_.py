@@ -206,12 +206,12 @@ class Fields:
             fit = self._gui.add_dropdown("The coloured part", tuple(FITS), initial_value=words[form.fits[form.step]])
             self._bound(form, fit, lambda v: form.fits.__setitem__(form.step, FITS[v].value))
 
-    def _numbers(self, form: ArrowsForm | MotionsForm, name: str, names: list[str], told: Callable[[], str]) -> None:
-        """Buttons with numbers, of which one is chosen."""
+    def _numbers(self, form: ArrowsForm | MotionsForm, name: str, names: list[str], describe: Callable[[], str]) -> None:
+        """Add buttons with numbers, of which one is chosen."""
         buttons = self._gui.add_button_group(name, names)
 
         def line() -> str:
-            return f"<div {SMALL}><b>{escape(told())}</b></div>"
+            return f"<div {SMALL}><b>{escape(describe())}</b></div>"
 
         words = self._gui.add_html(line())
 

@@ -33,7 +33,7 @@ class Form(Protocol):
 
     touched: bool
 
-    def fill(self, found: Mapping[str, Any]) -> None:
+    def fill(self, answer: Mapping[str, Any]) -> None:
         """Take over an answer, such as the one that geometry suggests."""
         ...
 
@@ -66,10 +66,10 @@ class RecognizeForm:
     open_row: int = -1
     touched: bool = False
 
-    def fill(self, found: Mapping[str, Any]) -> None:
-        self.category, self.longest, self.front = found["category"], float(found["longest_side_m"]), int(found["front"])
+    def fill(self, answer: Mapping[str, Any]) -> None:
+        self.category, self.longest, self.front = answer["category"], float(answer["longest_side_m"]), int(answer["front"])
         self.rows = [
-            LabelRow(p["label"], p["moves"], p["parent"], round(p["lower"], 1), round(p["upper"], 1)) for p in found["parts"]
+            LabelRow(p["label"], p["moves"], p["parent"], round(p["lower"], 1), round(p["upper"], 1)) for p in answer["parts"]
         ]
 
     def answer(self) -> dict[str, Any]:
@@ -119,8 +119,8 @@ class KindsForm(PartsForm):
         self.labels: tuple[str, ...] = (*question.labels, OTHER) if question.labels else ()
         self.rows = [KindRow() for _ in question.parts]
 
-    def fill(self, found: Mapping[str, Any]) -> None:
-        for p in found["parts"]:
+    def fill(self, answer: Mapping[str, Any]) -> None:
+        for p in answer["parts"]:
             self.rows[p["part"] - 1] = KindRow(p["joint"], p["endless"], p.get("label", OTHER))
 
     def answer(self) -> dict[str, Any]:
@@ -151,8 +151,8 @@ class PointsForm(PartsForm):
         now = [n for n in now if n != number] if number in now else [*now, number]
         self.chosen[self.step], self.touched = now[-self.table.most :], True
 
-    def fill(self, found: Mapping[str, Any]) -> None:
-        for p in found["parts"]:
+    def fill(self, answer: Mapping[str, Any]) -> None:
+        for p in answer["parts"]:
             self.chosen[p["part"] - 1] = list(p["points"])
 
     def answer(self) -> dict[str, Any]:
@@ -171,8 +171,8 @@ class ArrowsForm(PartsForm):
         """Take an arrow for the part that is shown."""
         self.chosen[self.step], self.touched = number, True
 
-    def fill(self, found: Mapping[str, Any]) -> None:
-        for p in found["parts"]:
+    def fill(self, answer: Mapping[str, Any]) -> None:
+        for p in answer["parts"]:
             self.chosen[p["part"] - 1] = p["arrow"]
 
     def answer(self) -> dict[str, Any]:
@@ -197,8 +197,8 @@ class MotionsForm(PartsForm):
         """Take a motion for the part that is shown."""
         self.chosen[self.step], self.touched = number, True
 
-    def fill(self, found: Mapping[str, Any]) -> None:
-        for p in found["parts"]:
+    def fill(self, answer: Mapping[str, Any]) -> None:
+        for p in answer["parts"]:
             self.chosen[p["part"] - 1] = p["motion"]
 
     def answer(self) -> dict[str, Any]:

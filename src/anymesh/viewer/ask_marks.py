@@ -76,13 +76,13 @@ class MarksForm:
         """The group that a mark is given to."""
         return next((group for group, marks in self.groups.items() if mark in marks), None)
 
-    def fill(self, found: Mapping[str, Any]) -> None:
+    def fill(self, answer: Mapping[str, Any]) -> None:
         for marks in self.groups.values():
             marks.clear()
-        for p in found["parts"]:
+        for p in answer["parts"]:
             self.groups.setdefault((p["label"], p["instance"]), set()).update(set(p["marks"]) & self.asked)
         if self.question.splittable:
-            self.groups.setdefault(SPLIT, set()).update(set(found.get("split", ())) & self.asked)
+            self.groups.setdefault(SPLIT, set()).update(set(answer.get("split", ())) & self.asked)
         self._add_missing()
         self.current = next(iter(self.groups))
 

@@ -22,7 +22,7 @@ class AskPanel:
         self._gui, self._act = gui, act
         self._outer = gui.add_folder(None)
         self._inner: Any = None
-        self._told: Any = None
+        self._note: Any = None
         self._fields: Fields | None = None
 
     def close(self) -> None:
@@ -39,7 +39,7 @@ class AskPanel:
             self._inner = gui.add_folder(f"Question {number}: {title(form)}")
         with self._inner:
             gui.add_html(f"<div {SMALL}>{escape(guide(form))}</div>")
-            self._told = gui.add_html(_line(note, NOTE))
+            self._note = gui.add_html(_line(note, NOTE))
             if isinstance(form, PartsForm):
                 self._add_steps(form, choices)
             self._fields = Fields(gui, self._act, form, choices)
@@ -57,8 +57,8 @@ class AskPanel:
 
     def refuse(self, why: str) -> None:
         """Say why an answer is not taken."""
-        if self._told is not None:
-            self._told.content = _line(f"Not yet: {why}", REFUSED)
+        if self._note is not None:
+            self._note.content = _line(f"Not yet: {why}", REFUSED)
 
     def _add_steps(self, form: PartsForm, choices: Choices) -> None:
         """Which part is asked about, and the way to the others."""

@@ -116,7 +116,7 @@ class QuestionScene:
             self._moving.wxyz, self._moving.position = quaternion(T[:3, :3]), T[:3, 3]
 
     def _mark_at(self, form: MarksForm, mesh: Mesh, origin: np.ndarray, direction: np.ndarray) -> int | None:
-        """The mark of the first face on a ray; what is hidden does not stop it."""
+        """Return the mark of the first face on a ray, None for none; hidden marks do not stop it."""
         hidden = form.hidden()
         rays, numbers = self._ray_scene(mesh), np.arange(len(mesh.faces))
         if hidden:
@@ -142,13 +142,13 @@ class QuestionScene:
         self._recolor(form)
 
     def _rest_opacity(self, form: PartsForm, mesh: Mesh) -> float | None:
-        """See-through where the person wants it, at first where the part is hidden in the object."""
+        """Return the opacity of the rest of the object: by default it is transparent if the part is enclosed."""
         if form.step not in form.see_through:
             form.see_through[form.step] = is_enclosed(form.part, mesh, self._ray_scene(mesh))
         return GHOST if form.see_through[form.step] else None
 
     def _show_part(self, form: PartsForm, mesh: Mesh, part: float | None = None) -> None:
-        """The part that is asked about, coloured, in the rest."""
+        """Draw the part that is asked about, coloured, and the rest."""
         self.clear()
         rest = self._rest_opacity(form, mesh)
         other = np.setdiff1d(np.arange(len(mesh.faces)), form.part.faces)

@@ -95,9 +95,9 @@ def marks_table(form: MarksForm) -> str:
         dot = (
             f'<span style="display:inline-block;width:0.8em;height:0.8em;border-radius:2px;background:rgb({r},{g},{b})"></span>'
         )
-        told = ", ".join(map(str, sorted(marks))) or "nothing yet"
+        numbers = ", ".join(map(str, sorted(marks))) or "nothing yet"
         name = escape(group_name(group))
-        rows.append(f"<div>{dot} {f'<b>{name}</b>' if group == form.current else name}: {told}</div>")
+        rows.append(f"<div>{dot} {f'<b>{name}</b>' if group == form.current else name}: {numbers}</div>")
     left = len(form.asked) - sum(len(marks & form.asked) for marks in form.groups.values())
     return f"<div {SMALL}>{''.join(rows)}<div>{left} regions belong to no part.</div></div>"
 

@@ -47,7 +47,7 @@ class Workbench:
         self._numbers = itertools.count(1)
         self._work: Work | None = None
         self._name = ""
-        self._told = ("", False)
+        self._message = ("", False)
         self._shows: bool | None = None
         self._words = gui.add_html("")
         self._bar = gui.add_progress_bar(0.0, visible=False, animated=True)
@@ -73,7 +73,7 @@ class Workbench:
         options: dict[str, Any] = {"root": root, "up": self._up}
         if self._who == MYSELF:
             options |= {"answerer": f"{FILES}{questions}", "wait": True, "suggest": True}
-        self._name, self._told = mesh.name, ("", False)
+        self._name, self._message = mesh.name, ("", False)
         self._page.shut()
         self._desk.begin(questions)
         self._work = Work(mesh, out, **options)
@@ -93,20 +93,20 @@ class Workbench:
             self._work.cancel()
 
     def refresh(self) -> None:
-        """Show either what takes a mesh, or how far the work is."""
+        """Show the upload controls, or the progress of the work."""
         work = self._work
         self._show_intake(None if work is not None else self._page.session is not None)
         self._bar.visible = work is not None and not self._desk.busy
         self._cancel.visible = work is not None
-        text, bad = self._told
+        text, bad = self._message
         if work is not None:
-            told = "your answer is needed" if self._desk.busy else work.words
-            text, self._bar.value = f"{self._name}: {told}", round(100 * work.share, 1)
+            state = "your answer is needed" if self._desk.busy else work.words
+            text, self._bar.value = f"{self._name}: {state}", round(100 * work.share, 1)
         line = f'<div role="status" style="color:{"#c92a2a" if bad else "inherit"}">{escape(text)}</div>'
         _put(self._words, f"<div {SMALL}>{line}</div>" if text else "")
 
     def _show_intake(self, again: bool | None) -> None:
-        """Show what takes a mesh; again: folded up, above the asset that is shown; None: not at all."""
+        """Show the upload controls; again: folded up, above the asset that is shown; None: not at all."""
         if self._shows == again and (self._inner is not None) == (again is not None):
             return
         if self._inner is not None:
@@ -131,14 +131,14 @@ class Workbench:
         up.on_update(lambda _: self._page.act(set_options))
 
     def _place(self, name: str) -> Path:
-        """A folder for an asset that is not there yet."""
+        """Return a folder for an asset that does not exist yet."""
         if self._bench.out is None:
             return self._bench.folder / f"asset-{next(self._numbers)}" / name
         names = itertools.chain([name], (f"{name}-{k}" for k in itertools.count(2)))
         return next(path for path in (self._bench.out / n for n in names) if not path.exists())
 
     def _questions(self, mesh: Path, out: Path) -> Path:
-        """The folder of the questions about a mesh; where they are kept, it is the same for the same mesh in a later run."""
+        """Return the folder of the questions about a mesh; with `out`, the same mesh has the same folder in a later run."""
         if self._bench.out is None:
             return out.with_name("questions")
         content = mesh.read_bytes() if mesh.is_file() else b""
@@ -151,7 +151,7 @@ class Workbench:
         try:
             got = receive(file.name, file.content, self._bench.folder / f"upload-{next(self._numbers)}" / "upload")
         except AnymeshError as error:
-            self._told = (str(error), True)
+            self._message = (str(error), True)
             self.refresh()
             return
         self.start(got.mesh, got.root)
@@ -167,8 +167,8 @@ class Workbench:
                     looked = time.monotonic()
             except Exception as error:  # a defect must not leave a page that stands still
                 log.exception("the work on %s could not be followed", self._name)
-                told = f"The work on {self._name} was ended by an internal defect, {type(error).__name__}: {error}"
-                self._page.act(lambda told=told: self._give_up(told))
+                message = f"The work on {self._name} was ended by an internal defect, {type(error).__name__}: {error}"
+                self._page.act(lambda message=message: self._give_up(message))
 
     def _look(self) -> None:
         """Follow the work: its stage, its mesh, its questions, its end."""
@@ -192,8 +192,8 @@ class Workbench:
         self._finish(text, bad=True)
 
     def _finish(self, text: str, *, bad: bool = False) -> None:
-        """Leave the work behind: its question and its drawing go."""
-        self._work, self._told = None, (text, bad)
+        """Remove the work, its question and its drawing from the page."""
+        self._work, self._message = None, (text, bad)
         self._desk.end()
         self.refresh()
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 from html import escape
 
 from anymesh.loading.load import READERS
-from anymesh.viewer.uploads import MOST_UNPACKED, MOST_UPLOAD
+from anymesh.viewer.uploads import MAX_UNPACKED_BYTES, MAX_UPLOAD_BYTES
 
 EMPTY_PICTURE = "data:image/gif;base64,R0lGODlhAQABAAAAACwAAAAAAQABAAA="
 STYLE = "border:2px dashed #868e96;border-radius:8px;padding:1.4em 0.8em;margin:0.4em 0.8em;text-align:center;line-height:1.45"
@@ -47,13 +47,13 @@ if (!window.anymeshDrop) {
 def drop_zone(*, small: bool) -> str:
     """Return the place to drop a mesh; small: one line, once an asset is shown."""
     formats = ", ".join(suffix[1:].upper() for suffix in READERS)
-    script = escape(SCRIPT.replace("MOST", str(MOST_UPLOAD), 1), quote=True)
+    script = escape(SCRIPT.replace("MOST", str(MAX_UPLOAD_BYTES), 1), quote=True)
     runs = f'<img src="{EMPTY_PICTURE}" alt="" style="display:none" onload="{script}">'
     note = '<div id="anymesh-drop-note" role="alert" style="color:#c92a2a"></div>'
     if small:
         return f'<div id="anymesh-drop" style="{SMALL_STYLE}">Or drop another mesh anywhere on the page.{note}{runs}</div>'
     return (
         f'<div id="anymesh-drop" style="{STYLE}"><b>Drop a mesh here</b><br><span style="font-size:0.8em;opacity:0.8">'
-        f"{formats}, or a zip of one mesh with its textures.<br>At most {MOST_UPLOAD >> 20} MB; {MOST_UNPACKED >> 30} GB "
-        f"unpacked. It stays on this machine.</span>{note}{runs}</div>"
+        f"{formats}, or a zip of one mesh with its textures.<br>"
+        f"At most {MAX_UPLOAD_BYTES >> 20} MB; {MAX_UNPACKED_BYTES >> 30} GB unpacked. It stays on this machine.</span>{note}{runs}</div>"
     )

@@ -11,9 +11,9 @@ from pathlib import Path, PurePosixPath
 from anymesh.errors import InputError
 from anymesh.loading.load import READERS
 
-MOST_UPLOAD = 200 << 20  # [bytes] of a file
-MOST_UNPACKED = 1 << 30  # [bytes] of all files in a zip
-MOST_FILES = 2000  # in a zip
+MAX_UPLOAD_BYTES = 200 << 20  # [bytes] of a file
+MAX_UNPACKED_BYTES = 1 << 30  # [bytes] of all files in a zip
+MAX_FILES = 2000  # in a zip
 BLOCK = 1 << 20  # [bytes] unpacked at a time
 PLAIN_NAME = re.compile(r"[^A-Za-z0-9._-]+")
 
@@ -31,8 +31,8 @@ def receive(name: str, content: bytes, folder: Path) -> Upload:
 
     Raises InputError for a file that is too large, of no known format, or a zip that is unsafe or without exactly one mesh.
     """
-    if len(content) > MOST_UPLOAD:
-        raise InputError(f"the file has {_size(len(content))}; at most {_size(MOST_UPLOAD)} are taken")
+    if len(content) > MAX_UPLOAD_BYTES:
+        raise InputError(f"the file has {_size(len(content))}; at most {_size(MAX_UPLOAD_BYTES)} are taken")
     folder.mkdir(parents=True)
     plain = plain_name(name)
     suffix = Path(plain).suffix.lower()
@@ -65,20 +65,20 @@ def unpack(path: Path, folder: Path) -> None:
     try:
         with zipfile.ZipFile(path) as archive:
             entries = [e for e in archive.infolist() if not e.is_dir()]
-            if len(entries) > MOST_FILES:
-                raise InputError(f"the zip holds {len(entries)} files; at most {MOST_FILES} are unpacked")
-            left = MOST_UNPACKED
+            if len(entries) > MAX_FILES:
+                raise InputError(f"the zip holds {len(entries)} files; at most {MAX_FILES} are unpacked")
+            left = MAX_UNPACKED_BYTES
             for entry in entries:
                 left = _unpack_entry(archive, entry, folder, left)
     except InputError:
         raise
     except Exception as error:  # whatever a broken archive makes the library raise is one thing to the user
-        told = " ".join(f"{type(error).__name__}: {error}".split())[:120]
-        raise InputError(f"the zip cannot be unpacked, it is broken, encrypted or of an unknown kind ({told})") from None
+        reason = " ".join(f"{type(error).__name__}: {error}".split())[:120]
+        raise InputError(f"the zip cannot be unpacked, it is broken, encrypted or of an unknown kind ({reason})") from None
 
 
 def _unpack_entry(archive: zipfile.ZipFile, entry: zipfile.ZipInfo, folder: Path, left: int) -> int:
-    """Write one file; returns how many bytes may still be written. Sizes are counted, not believed."""
+    """Write one file and return how many bytes may still be written. Counts the bytes; headers can lie."""
     target = _inside(entry, folder)
     if target is None:
         return left
@@ -87,13 +87,13 @@ def _unpack_entry(archive: zipfile.ZipFile, entry: zipfile.ZipInfo, folder: Path
         while block := source.read(BLOCK):
             left -= len(block)
             if left < 0:
-                raise InputError(f"the zip holds more than {_size(MOST_UNPACKED)} once unpacked")
+                raise InputError(f"the zip holds more than {_size(MAX_UNPACKED_BYTES)} once unpacked")
             sink.write(block)
     return left
 
 
 def _inside(entry: zipfile.ZipInfo, folder: Path) -> Path | None:
-    """Where an entry goes; None for the hidden files that some systems add. Raises InputError for an unsafe one."""
+    """Return where an entry goes, None for hidden files that some systems add. Raises InputError for an unsafe one."""
     name = entry.filename
     place = PurePosixPath(name)
     unsafe = place.is_absolute() or ".." in place.parts or re.search(r"[\\:\x00-\x1f]", name) is not None
@@ -105,12 +105,12 @@ def _inside(entry: zipfile.ZipInfo, folder: Path) -> Path | None:
 
 
 def _only_mesh(folder: Path) -> Path:
-    """The one mesh file in a folder. Raises InputError when there is none, or several."""
+    """Return the one mesh file in a folder. Raises InputError when there is none, or several."""
     meshes = sorted(p for p in folder.rglob("*") if p.is_file() and p.suffix.lower() in READERS)
     if len(meshes) != 1:
         names = ", ".join(p.relative_to(folder).as_posix() for p in meshes[:4])
-        told = f"{len(meshes)} meshes ({names}{', ...' if len(meshes) > 4 else ''})" if meshes else "no mesh"
-        raise InputError(f"the zip holds {told}; valid is exactly one of {', '.join(READERS)}, with what it refers to")
+        listed = f"{len(meshes)} meshes ({names}{', ...' if len(meshes) > 4 else ''})" if meshes else "no mesh"
+        raise InputError(f"the zip holds {listed}; valid is exactly one of {', '.join(READERS)}, with what it refers to")
     return meshes[0]
 
 

@@ -52,8 +52,8 @@ class Work:
     @property
     def words(self) -> str:
         """What is being done, in words."""
-        told = WORDS.get(self.stage, self.stage)
-        return f"{told} ({self.item})" if self.item and self.stage in ("segment", "joints") else told
+        stage = WORDS.get(self.stage, self.stage)
+        return f"{stage} ({self.item})" if self.item and self.stage in ("segment", "joints") else stage
 
     def cancel(self) -> None:
         """End the work at once."""
@@ -80,15 +80,15 @@ class Work:
         if not self.over:
             self.error = CRASHED.format(f"signal {-code}" if code < 0 else f"exit code {code}")
 
-    def _note(self, kind: str, *told: Any) -> None:
+    def _note(self, kind: str, *fields: Any) -> None:
         match kind:
             case "progress":
-                self.stage, self.item, done, total = told
+                self.stage, self.item, done, total = fields
                 begin, end = STAGES.get(self.stage, (self.share, self.share))
                 self.share = max(self.share, begin + (end - begin) * min(done / max(total, 1), 1.0))
             case "mesh":
-                (self.mesh,) = told
+                (self.mesh,) = fields
             case "done":
                 self.share, self.done = 1.0, True
             case _:
-                (self.error,) = told
+                (self.error,) = fields

@@ -17,17 +17,17 @@ WAITING = "Geometry is working out a suggestion; you need not wait for it."
 SUGGESTED = "Filled in as geometry would answer; change what is wrong."
 
 
-def open_question(folder: Path) -> QuestionFolder | None:
+def find_open_question(folder: Path) -> QuestionFolder | None:
     """Find the question that a run waits for: the last one without an answer, or whose answer was refused."""
     if not folder.is_dir():
         return None
-    found = [q for q in QuestionStore(folder).questions() if not q.outdated]
-    waiting = [q for q in found if q.answer() is None or q.refusal() is not None]
+    asked = [q for q in QuestionStore(folder).questions() if not q.outdated]
+    waiting = [q for q in asked if q.answer() is None or q.refusal() is not None]
     return waiting[-1] if waiting else None
 
 
 @dataclass
-class Asked:
+class OpenQuestion:
     """A question with its form. note: what the person should know about it."""
 
     folder: QuestionFolder
@@ -36,7 +36,7 @@ class Asked:
     _suggested: bool = False
 
     @classmethod
-    def of(cls, folder: QuestionFolder) -> Asked | None:
+    def of(cls, folder: QuestionFolder) -> OpenQuestion | None:
         """Open a question; None for one that cannot be answered on the object itself."""
         try:
             question = unpack_question((folder.path / CHECK).read_bytes(), folder.pictures())
