@@ -52,8 +52,8 @@ def drop_zone(*, small: bool) -> str:
     note = '<div id="anymesh-drop-note" role="alert" style="color:#c92a2a"></div>'
     if small:
         return f'<div id="anymesh-drop" style="{SMALL_STYLE}">Or drop another mesh anywhere on the page.{note}{runs}</div>'
+    limits = f"At most {MAX_UPLOAD_BYTES >> 20} MB; {MAX_UNPACKED_BYTES >> 30} GB unpacked. It stays on this machine."
     return (
         f'<div id="anymesh-drop" style="{STYLE}"><b>Drop a mesh here</b><br><span style="font-size:0.8em;opacity:0.8">'
-        f"{formats}, or a zip of one mesh with its textures.<br>"
-        f"At most {MAX_UPLOAD_BYTES >> 20} MB; {MAX_UNPACKED_BYTES >> 30} GB unpacked. It stays on this machine.</span>{note}{runs}</div>"
+        f"{formats}, or a zip of one mesh with its textures.<br>{limits}</span>{note}{runs}</div>"
     )
