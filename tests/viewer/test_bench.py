@@ -34,7 +34,7 @@ class FakeWork:
         self.asked_mesh, self.out, self.options = mesh, out, options
         self.mesh = self.error = None
         self.done = self.cancelled = False
-        self.words, self.share = "finding the parts", 0.3
+        self.words, self.share, self.begun = "finding the parts", 0.3, True
         FakeWork.made.append(self)
 
     @property

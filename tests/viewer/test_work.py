@@ -24,6 +24,7 @@ def test_what_is_wrong_with_a_mesh_is_told_and_a_crash_too(tmp_path):
     until(lambda: crashed.mesh is not None)
     crashed._process.kill()
     until(lambda: bad.over and crashed.over)
+    assert bad._process.wait(20) == 0
     assert bad.error.startswith("bad.glb")
     assert "signal 9" in crashed.error
     assert not any(work.done for work in (bad, crashed))

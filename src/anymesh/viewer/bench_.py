@@ -95,7 +95,8 @@ class Workbench:
     def refresh(self) -> None:
         """Show the upload controls, or the progress of the work."""
         work = self._work
-        self._show_intake(None if work is not None else self._page.session is not None)
+        if work is None or work.begun:  # until then the browser may still be at the end of its upload
+            self._show_intake(None if work is not None else self._page.session is not None)
         self._bar.visible = work is not None and not self._desk.busy
         self._cancel.visible = work is not None
         text, bad = self._message

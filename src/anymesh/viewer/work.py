@@ -50,6 +50,11 @@ class Work:
         return self.done or self.cancelled or self.error is not None
 
     @property
+    def begun(self) -> bool:
+        """Whether the child process has reported."""
+        return self.stage != "start"
+
+    @property
     def words(self) -> str:
         """What is being done, in words."""
         stage = WORDS.get(self.stage, self.stage)

@@ -51,5 +51,6 @@ def _work(replies: IO[bytes], *, mesh: Path, out: Path, **options: Any) -> None:
 
 def _end_with_parent() -> None:
     """End this process when the parent closes the pipe, whatever it is at."""
-    sys.stdin.buffer.read()
+    while os.read(sys.stdin.fileno(), 1):  # not through sys.stdin, whose lock would be held when this process ends by itself
+        pass
     os._exit(PARENT_GONE)
