@@ -16,6 +16,7 @@ from anymesh.viewer.ask_forms import LabelRow, form_of
 from anymesh.viewer.ask_marks import SPLIT, MarksForm
 from anymesh.viewer.ask_shapes import (
     asked_faces,
+    closer_view,
     is_enclosed,
     mark_color,
     marker_radius,
@@ -159,6 +160,14 @@ def test_a_motion_plays_there_and_back_and_takes_along_what_the_part_carries() -
     np.testing.assert_allclose(motion_pose(door, 1, 0.5, MESH), door.motions[1].transform(1.0), atol=1e-12)
     assert set(FACE_PART[moving_faces(drawer)]) == {2, 3}
     assert set(FACE_PART[moving_faces(door)]) == {1}
+
+
+def test_a_closer_look_shows_the_front_of_a_small_part() -> None:
+    direction, size = closer_view(part(3), MESH)
+    assert np.linalg.norm(direction) == pytest.approx(1)
+    assert direction @ part(3).outward > 0.8
+    assert direction[2] > 0.3
+    assert 0.1 * MESH.diagonal < size < 0.5 * MESH.diagonal
 
 
 def test_each_mark_has_its_faces_and_dense_meshes_are_drawn_with_fewer() -> None:

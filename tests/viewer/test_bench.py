@@ -173,6 +173,10 @@ def test_clicks_reach_the_form_and_a_bad_answer_stays_open(page):
     desk, eye = page.bench._desk, (0.6, -3.0, 0.3)
     asked = desk._asked
     asked.form.chosen = [[]]
+    for closer in (True, False):
+        page.act(lambda closer=closer: desk._look_at(closer))
+        off = np.linalg.norm(np.subtract(page.server.initial_camera.look_at, MESH.bounds.mean(0)))
+        assert (off > 0.01) == closer
     page.act(desk._answer)
     assert found.answer() is None
     assert "two or more points" in desk._panel._note.content

@@ -11,8 +11,10 @@ import numpy as np
 from anymesh.models.question_files import LEAVE
 from anymesh.types import Mesh
 from anymesh.viewer.ask_fields_ import Choices, azimuth_of
+from anymesh.viewer.ask_forms import PartsForm
 from anymesh.viewer.ask_panel_ import AskPanel
 from anymesh.viewer.ask_scene_ import QuestionScene
+from anymesh.viewer.ask_shapes import closer_view
 from anymesh.viewer.open_question import OpenQuestion, find_open_question
 from anymesh.viewer.panels_page import Page
 
@@ -21,6 +23,7 @@ class AskDesk:
     """Asks a person the questions of one folder after the other; every call holds the page's lock."""
 
     def __init__(self, page: Page) -> None:
+        self._page = page
         self._scene, self._panel = QuestionScene(page.server), AskPanel(page.gui, page.act)
         self._folder, self._mesh = Path(), None
         self._asked: OpenQuestion | None = None
@@ -89,6 +92,7 @@ class AskDesk:
                 self._leave_all,
                 self._follow_form,
                 self._show,
+                self._look_at,
                 lambda event: azimuth_of(event.client.camera),
             )
             self._follow_form()
@@ -99,6 +103,16 @@ class AskDesk:
         if self._asked is not None and self._mesh is not None:
             self._began = time.monotonic()
             self._scene.show(self._asked.form, self._mesh)
+
+    def _look_at(self, closer: bool) -> None:
+        """Turn the cameras to the part that is asked about, or to the whole object."""
+        if self._asked is None or self._mesh is None or not isinstance(self._asked.form, PartsForm):
+            return
+        if not closer:
+            self._page.view.look_at(self._mesh)
+        else:
+            part = self._asked.form.part
+            self._page.view.look_from(self._mesh.subset(part.faces), *closer_view(part, self._mesh))
 
     def _clicked(self, event: Any) -> None:
         if self._asked is None:

@@ -31,13 +31,15 @@ NO_FRONT = "none"
 @dataclass(frozen=True)
 class Choices:
     """What a person does with a question, each called with the page's lock held. changed: the scene must follow the form;
-    again: the panel must, too; azimuth: from which a tab looks [deg], given the event of its click."""
+    again: the panel must, too; look: at the part alone (True) or the whole object; azimuth: from which a tab looks [deg], given
+    the event of its click."""
 
     answer: Callable[[], None]
     leave: Callable[[], None]
     leave_rest: Callable[[], None]
     changed: Callable[[], None]
     again: Callable[[], None]
+    look: Callable[[bool], None]
     azimuth: Callable[[Any], float]
 
 

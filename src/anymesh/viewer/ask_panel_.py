@@ -12,6 +12,7 @@ from anymesh.viewer.ask_words import guide, place, title
 from anymesh.viewer.panels import SMALL
 
 REFUSED, NOTE = "#c92a2a", "#1864ab"
+CLOSE, WHOLE = "The part", "The object"
 LEAVE, LEAVE_REST = "Leave this one", "Leave all"
 
 
@@ -63,6 +64,8 @@ class AskPanel:
     def _add_steps(self, form: PartsForm, choices: Choices) -> None:
         """Which part is asked about, and the way to the others."""
         self._gui.add_html(f"<div {SMALL}><b>{escape(place(form))}</b></div>")
+        look = self._gui.add_button_group("Look at", (CLOSE, WHOLE))
+        look.on_click(lambda event: self._act(lambda: choices.look(event.target.value == CLOSE)))
         if len(form.parts) < 2:
             return
         steps = self._gui.add_button_group("Go to", ("← Part before", "Next part →"))

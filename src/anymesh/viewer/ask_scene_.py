@@ -89,7 +89,11 @@ class QuestionScene:
         hidden = form.hidden()
         with self._server.atomic():
             for mark, node in self._marks.items():
-                node.color, node.visible = mark_color(form, mark), mark not in hidden
+                color, visible = mark_color(form, mark), mark not in hidden
+                if tuple(node.color) != color:  # each change is a message
+                    node.color = color
+                if node.visible != visible:
+                    node.visible = visible
 
     def clicked(self, form: Form, origin: np.ndarray, direction: np.ndarray) -> bool:
         """Do what a click along a ray means for a form; returns whether it changed."""

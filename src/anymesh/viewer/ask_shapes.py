@@ -21,6 +21,8 @@ REACH = 0.03  # a click chooses a point whose distance from its ray is below thi
 MARKER, CROWDED = 0.014, 0.4  # radius of a point's marker: share of the diagonal, and of the gap to the next point at most
 ARROW = 0.6  # length of an arrow, as a share of the part's size
 SAMPLES, LIFT, IN_SIGHT = 200, 1e-4, 0.1  # points of a part, [share of the diagonal] off its surface, share that is in sight
+CLOSEST = 0.12  # least size that fills the picture, as a share of the diagonal
+ASLANT, ASIDE, RAISED = 0.3, 20.0, 24.0  # level part of a direction that has a side; [deg] the camera is beside and above it
 TINT, GOLDEN = (0.24, 0.92), 0.618034  # saturation and value of marks that are not given, step between their hues
 NOT_ASKED, DIVIDED = (150, 150, 150), (134, 46, 156)
 
@@ -49,6 +51,15 @@ def is_enclosed(part: PartShown, mesh: Mesh, rays: RayScene) -> bool:
     origins, directions = np.repeat(points, len(ways), 0), np.tile(ways, (len(points), 1))
     free = rays.first_hit(origins + LIFT * mesh.diagonal * directions, directions).face < 0
     return float(free.reshape(len(points), len(ways)).mean(0).max()) < IN_SIGHT
+
+
+def closer_view(part: PartShown, mesh: Mesh) -> tuple[Float[np.ndarray, " 3"], float]:
+    """Return where to look at a part from (unit, from it to the camera) and the size that fills the picture [m]."""
+    corners = mesh.triangles[part.faces].reshape(-1, 3)
+    size = max(float(np.linalg.norm(np.ptp(corners, axis=0))), CLOSEST * mesh.diagonal)
+    level = np.array([*part.outward[:2], 0.0])
+    azimuth = np.arctan2(level[0], -level[1]) if np.linalg.norm(level) > ASLANT else np.deg2rad(ASIDE)
+    return away(float(azimuth) + np.deg2rad(ASIDE), np.deg2rad(RAISED)), size
 
 
 def asked_faces(form: MarksForm) -> dict[int, Int[np.ndarray, " f"]]:

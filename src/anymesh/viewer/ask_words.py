@@ -39,7 +39,7 @@ def title(form: Form) -> str:
         case KindsForm():
             return "How is it attached?"
         case PointsForm():
-            return "Where is its hinge?"
+            return "Where does it turn?"
         case ArrowsForm():
             return "Which way does it slide?"
         case MotionsForm():

@@ -58,8 +58,12 @@ class SceneView:
 
     def look_at(self, mesh: Mesh) -> None:
         """The first view, for tabs that open from now on and those that are open."""
-        center, diagonal = mesh.bounds.mean(0), mesh.diagonal
-        eye = center + DISTANCE * diagonal * away(np.deg2rad(35), np.deg2rad(24))
+        self.look_from(mesh, away(np.deg2rad(35), np.deg2rad(24)), mesh.diagonal)
+
+    def look_from(self, mesh: Mesh, direction: Float[np.ndarray, " 3"], size: float) -> None:
+        """Turn every camera to a mesh. direction: unit, from it to the camera; size: of what fills the picture [m]."""
+        center, diagonal = mesh.bounds.mean(0), size
+        eye = center + DISTANCE * diagonal * direction
         for camera in (self._server.initial_camera, *(c.camera for c in self._server.get_clients().values())):
             camera.position, camera.look_at, camera.fov = eye, center, FOV
             camera.near, camera.far = 0.01 * diagonal, 100 * diagonal
