@@ -142,7 +142,7 @@ def test_a_click_chooses_the_point_that_its_ray_passes_and_none_far_from_all() -
     assert nearest_point(places, eye, np.array([0, 0, 1.0])) is None
     assert nearest_point(places, eye, eye - places[0]) is None  # behind the eye
     assert nearest_point(places[:0], eye, np.ones(3)) is None
-    assert 0 < marker_radius(places, MESH) < 0.05 * MESH.diagonal
+    assert 0 < marker_radius(points().tables[0], MESH) < 0.05 * MESH.diagonal
 
 
 def test_a_question_in_another_scale_is_shown_on_the_mesh_as_it_is() -> None:

@@ -164,7 +164,7 @@ class QuestionScene:
         form.see_through.setdefault(form.step, True)
         self._show_part(form, mesh, SEE_INTO)
         places = point_places(form.table, mesh)
-        radius, hidden = marker_radius(places, mesh), hidden_points(form.table)
+        radius, hidden = marker_radius(form.table, mesh), hidden_points(form.table)
         for k, place in enumerate(places):
             chosen = k + 1 in form.chosen[form.step]
             color = CHOSEN if chosen else HIDDEN_POINT if hidden[k] else POINT

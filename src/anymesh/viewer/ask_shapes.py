@@ -18,7 +18,8 @@ from anymesh.viewer.scene import LEAST, MOST, Color, Surface, color_of
 
 SAME_SIZE = 0.05  # a part of the mesh's own scale within this has it exactly
 REACH = 0.03  # a click chooses a point whose distance from its ray is below this share of the distance to the eye
-MARKER, CROWDED = 0.014, 0.4  # radius of a point's marker: share of the diagonal, and of the gap to the next point at most
+MARKER, ON_PART = 0.014, 0.05  # radius of a point's marker at most: shares of the object's diagonal and of the part's
+CROWDED = 0.4  # the same as a share of the gap to the next point
 ARROW = 0.6  # length of an arrow, as a share of the part's size
 SAMPLES, LIFT, IN_SIGHT = 200, 1e-4, 0.1  # points of a part, [share of the diagonal] off its surface, share that is in sight
 CLOSEST = 0.12  # least size that fills the picture, as a share of the diagonal
@@ -86,9 +87,10 @@ def point_places(table: PointTable, mesh: Mesh) -> Float[np.ndarray, "k 3"]:
     return table.points / scale_of(table.part, mesh)
 
 
-def marker_radius(places: Float[np.ndarray, "k 3"], mesh: Mesh) -> float:
-    """Return the radius of the markers of points, small enough that neighbours can be told apart."""
-    radius = MARKER * mesh.diagonal
+def marker_radius(table: PointTable, mesh: Mesh) -> float:
+    """Return the radius of the markers of points, small enough for their part and to tell neighbours apart."""
+    places, size = point_places(table, mesh), np.ptp(mesh.triangles[table.part.faces].reshape(-1, 3), axis=0)
+    radius = min(MARKER * mesh.diagonal, ON_PART * float(np.linalg.norm(size)))
     if len(places) < 2:
         return radius
     gaps = np.linalg.norm(places[:, None] - places[None], axis=2) + np.diag(np.full(len(places), np.inf))
