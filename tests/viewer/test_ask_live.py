@@ -138,8 +138,9 @@ class Person:
 
     def pose(self) -> tuple[float, ...]:
         """Where the part that plays is."""
-        moving = self.desk._scene._moving
-        return (*moving.wxyz, *moving.position)
+        with self.page._lock:  # the scene may be drawn anew
+            moving = self.desk._scene._moving
+            return (*moving.wxyz, *moving.position)
 
     def click(self, place: np.ndarray) -> None:
         """Click where the page shows a place [m]."""
