@@ -33,7 +33,8 @@ class Answering(TypedDict, total=False):
     for; at_least: parts that geometry takes however thin the evidence is; proposer: of masks for a model, exact, sam:..., or
     exact+sam:...; viewpoints: the cameras whose pictures a model is shown (see `ViewsConfig`); verify: motion, free or off;
     max_calls, max_cost [USD]: no call is made that would pass them; cache: folder of answers (None: no cache); timeout: of one
-    call [s]; wait: wait for an answer in files; spent: what counts towards max_calls and max_cost, shared by several runs.
+    call [s]; wait: wait for an answer in files; suggest: write what geometry would answer beside each question that is waited
+    for; spent: what counts towards max_calls and max_cost, shared by several runs.
     """
 
     answerer: str
@@ -49,6 +50,7 @@ class Answering(TypedDict, total=False):
     cache: Path | str | None
     timeout: float
     wait: bool
+    suggest: bool
     spent: Spent | None
 
 
@@ -116,7 +118,7 @@ def choose_answerer(
             raise OptionError("--parts-list: geometry cannot find parts by their names; it needs an --answerer that sees")
         return Answerer(config, name, None)
     if name.startswith(FILES):
-        return _from_files(config, name, about, options.get("wait", False), deadline or Deadline(), stop)
+        return _from_files(config, name, options, about, deadline or Deadline(), stop)
     from anymesh.models.connect import open_model  # only those who ask a model wait for its modules
     from anymesh.reasoning.vlm import VlmAnswerer
 
@@ -157,7 +159,9 @@ def resolve_auto(name: str) -> tuple[str, str]:
     return found.name, f"auto takes {found.name}, which answers on this machine"
 
 
-def _from_files(config: Config, name: str, about: str | None, wait: bool, deadline: Deadline, stop: Event | None) -> Answerer:
+def _from_files(
+    config: Config, name: str, options: Answering, about: str | None, deadline: Deadline, stop: Event | None
+) -> Answerer:
     from anymesh.models.question_files import QuestionStore
     from anymesh.reasoning.files import FileAnswerer, still_answered
 
@@ -168,6 +172,13 @@ def _from_files(config: Config, name: str, about: str | None, wait: bool, deadli
     return Answerer(
         config,
         name,
-        lambda fallback: FileAnswerer(store, fallback, wait=wait, paused=deadline.paused, stop=stop),
+        lambda fallback: FileAnswerer(
+            store,
+            fallback,
+            wait=options.get("wait", False),
+            paused=deadline.paused,
+            stop=stop,
+            suggest=options.get("suggest", False),
+        ),
         lambda exchanges: still_answered(store, exchanges),
     )

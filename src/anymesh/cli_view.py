@@ -16,9 +16,17 @@ from anymesh.cli_options import Root
 from anymesh.cli_output import Shown, plain
 
 Target = Annotated[
-    Path,
+    Path | None,
     typer.Argument(
-        metavar="ASSET|MESH|FOLDER", help="An output of anymesh, a mesh (articulated first), or a folder of outputs."
+        metavar="[ASSET|MESH|FOLDER]",
+        help="An output of anymesh, a mesh (articulated first), or a folder of outputs; without one, the page takes meshes.",
+    ),
+]
+Ask = Annotated[bool, typer.Option("--ask", help="Answer the questions about MESH yourself, by clicks on the page.")]
+Kept = Annotated[
+    Path | None,
+    typer.Option(
+        "--out", "-o", metavar="DIR", help="A page that takes meshes keeps assets and answers here; else it removes them."
     ),
 ]
 Host = Annotated[str, typer.Option(help="Address to listen on; the default is reached from this machine alone.")]
@@ -30,7 +38,9 @@ Reviewer = Annotated[
 
 
 def view(
-    target: Target,
+    target: Target = None,
+    ask: Ask = False,
+    out: Kept = None,
     host: Host = "127.0.0.1",
     port: Port = 8080,
     no_browser: NoBrowser = False,
@@ -42,7 +52,10 @@ def view(
 
     with ExitStack() as stack:
         with Shown(hidden=False) as progress:
-            page = serve(target, host=host, port=port, author=reviewer or _user(), clock=_now, root=root, progress=progress)
+            page = serve(
+                target, host=host, port=port, author=reviewer or _user(), clock=_now, root=root, ask=ask, out=out,
+                progress=progress,
+            )  # fmt: skip
             serving = stack.enter_context(page)
         for line in (*serving.told, f"{serving.url} (Ctrl-C ends it)"):
             typer.echo(plain(line))

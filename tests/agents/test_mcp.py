@@ -32,8 +32,8 @@ from anymesh.errors import InputError
 from anymesh.evaluation.oracle import oracle
 from anymesh.evaluation.protocols import prepared
 from anymesh.evaluation.truth import example_truths
-from anymesh.evaluation.voice import spoken
 from anymesh.models.question_files import find_questions
+from anymesh.reasoning.answer_json import answer_object
 from anymesh.reasoning.saved_question import unpack_question
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -98,7 +98,7 @@ def known_answer(folder: Path) -> dict[str, Any]:
     seer = oracle(prepared(next(t for t in example_truths(EXAMPLES) if t.name == "storage_box")))
     (found,) = [q for q in find_questions(folder) if q.path == folder]
     question = unpack_question((folder / "check.npz").read_bytes(), found.pictures())
-    return spoken(question, seer.ask(question))
+    return answer_object(question, seer.ask(question))
 
 
 async def finish(agent: Agent, work: Path, told: dict[str, Any], pictures: list[bytes]) -> None:

@@ -18,9 +18,9 @@ from anymesh.evaluating import evaluate
 from anymesh.evaluation.oracle import oracle
 from anymesh.evaluation.protocols import prepared
 from anymesh.evaluation.truth import example_truths
-from anymesh.evaluation.voice import spoken
 from anymesh.models.question_files import find_questions
 from anymesh.models.replay import Replay
+from anymesh.reasoning.answer_json import answer_object
 from anymesh.reasoning.saved_question import unpack_question
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -44,7 +44,7 @@ def known():
     def answer(folder: Path) -> str:
         (found,) = [q for q in find_questions(folder) if q.path == folder]
         question = unpack_question((folder / "check.npz").read_bytes(), found.pictures())
-        return json.dumps(spoken(question, seer.ask(question)))
+        return json.dumps(answer_object(question, seer.ask(question)))
 
     return answer
 

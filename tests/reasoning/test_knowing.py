@@ -6,9 +6,9 @@ from typing import Any
 import numpy as np
 import pytest
 from asked import X, Y, Z, part
-from written import written
 
 from anymesh.models.double import Scripted
+from anymesh.reasoning.answer_json import answer_object
 from anymesh.reasoning.asking import Question, Seer
 from anymesh.reasoning.grounding import MarkedPart, MarksAnswer, WhichMarks, WhichViews
 from anymesh.reasoning.knowing import Knowing, KnownJoint, Reference
@@ -52,7 +52,7 @@ def ask(question: Question[Any], known: Reference = KNOWN) -> Any:
     """The answer; a model that writes it down is understood to mean the same."""
     knowing = Knowing("oracle", lambda: known)
     answer = knowing.ask(question)
-    reader = VlmAnswerer(Scripted([written(question, answer)]), knowing)
+    reader = VlmAnswerer(Scripted([answer_object(question, answer)]), knowing)
     assert reader.ask(question) == answer
     assert reader.remarks == ()
     return answer

@@ -60,5 +60,5 @@ def test_the_options_are_told():
     app = typer.Typer()
     app.command()(view)
     told = CliRunner().invoke(app, ["--help"], env={"COLUMNS": "200", "NO_COLOR": "1"}).output
-    for option in ("--host", "--port", "--no-browser", "--reviewer", "127.0.0.1"):
+    for option in ("--ask", "--out", "--host", "--port", "--no-browser", "--reviewer", "127.0.0.1"):
         assert option in told

@@ -72,6 +72,7 @@ def make_cases(whole: ObjectShape, segmentation: Segmentation, recognition: Reco
             outward=around.outward,
             normal=plane_normal(contact, config.prompts.plane * whole.diagonal, config.seed),
             contact=contact,
+            diagonal=whole.diagonal,
         )
         carried = tuple(descendants(parent, i))
         circles = round_pieces(whole, shapes[i], shapes[parent[i]])

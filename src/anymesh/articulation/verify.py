@@ -42,7 +42,7 @@ class Asking:
 
     def picks(self, offers: Mapping[int, Offers], shown: Mapping[int, tuple[int, ...]]) -> dict[int, MotionPick]:
         """Ask which motion each part makes; shown: the motions in its picture. Picks are numbers of its offers, by part."""
-        tables = {n: offers[n].table(shown[n]) for n in shown}
+        tables = {n: self._table(offers[n], shown[n]) for n in shown}
         picked = ask_each(
             self.seer,
             [offers[n].case for n in shown],
@@ -51,9 +51,15 @@ class Asking:
         )
         return {n: MotionPick(None if a.motion is None else shown[n][a.motion], a.part) for n, a in picked.items()}
 
+    def _table(self, offers: Offers, shown: tuple[int, ...]) -> MotionTable:
+        """The motions with these numbers, and the faces of the part with what it carries."""
+        moving = np.isin(self.labels, [offers.case.number, *offers.case.carried])
+        return replace(offers.table(shown), moving=np.flatnonzero(moving))
+
     def _strip(self, case: Case, title: str, table: MotionTable) -> Picture:
         """The part with what it carries, at rest and in each motion."""
-        moving = np.isin(self.labels, [case.number, *case.carried])
+        moving = np.zeros(len(self.labels), bool)
+        moving[table.moving] = True
         return self.studio.strip(moving, title, table.motions, table.amounts, table.blocked)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import zipfile
 from pathlib import Path
 
@@ -15,12 +16,24 @@ def write_zip(folder: Path, path: Path) -> None:
     Hidden files and saved stages, which no simulator needs, stay out.
     """
     partial = path.with_name(f".{path.name}.partial")
-    with zipfile.ZipFile(partial, "w", zipfile.ZIP_DEFLATED, compresslevel=6) as archive:
+    with partial.open("wb") as sink:
+        _zip(folder, sink, without=path)
+    partial.replace(path)
+
+
+def zip_bytes(folder: Path) -> bytes:
+    """Return the zip of an asset folder, as `write_zip` writes it."""
+    sink = io.BytesIO()
+    _zip(folder, sink)
+    return sink.getvalue()
+
+
+def _zip(folder: Path, sink: io.BufferedIOBase, without: Path | None = None) -> None:
+    with zipfile.ZipFile(sink, "w", zipfile.ZIP_DEFLATED, compresslevel=6) as archive:
         for file in sorted(p for p in folder.rglob("*") if p.is_file()):
             inside = file.relative_to(folder)
-            if file == path or inside.parts[0] == "stages" or any(part.startswith(".") for part in inside.parts):
+            if file == without or inside.parts[0] == "stages" or any(part.startswith(".") for part in inside.parts):
                 continue
             entry = zipfile.ZipInfo(f"{folder.name}/{inside.as_posix()}", EPOCH)
             entry.compress_type, entry.external_attr, entry.create_system = zipfile.ZIP_DEFLATED, PLAIN_FILE, 3
             archive.writestr(entry, file.read_bytes())
-    partial.replace(path)

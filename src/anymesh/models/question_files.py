@@ -27,7 +27,7 @@ from anymesh.types.exchange import Picture
 NAME = "files"  # of whoever answers, in keys and transcripts: the same in every folder
 FORMAT = "anymesh-question-1"
 QUESTION, ANSWER, REFUSED, SCHEMA, WORDS = "question.json", "answer.json", "refused.md", "schema.json", "question.md"
-SHEET, CHECK, OWNER = "sheet.png", "check.npz", "object.json"
+SHEET, CHECK, OWNER, SUGGESTION = "sheet.png", "check.npz", "object.json", "suggestion.json"
 LEAVE = "geometry"  # an answer.json with this word leaves the question to geometry
 LARGEST_ANSWER = 1_000_000  # [bytes]
 
@@ -78,6 +78,18 @@ class QuestionFolder:
         with _writing(self.path):
             write_whole(self.path / ANSWER, (text + "\n").encode())
         self.accept()
+
+    def suggestion(self) -> str | None:
+        """Read what geometry would answer; None when that is not written."""
+        try:
+            return (self.path / SUGGESTION).read_text(encoding="utf-8")
+        except OSError:
+            return None
+
+    def write_suggestion(self, text: str) -> None:
+        """Write what geometry would answer."""
+        with _writing(self.path):
+            write_whole(self.path / SUGGESTION, text.encode())
 
     def refuse(self, reason: str) -> None:
         """Write beside the answer why it is not valid."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import time
 from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager, nullcontext, suppress
@@ -22,6 +23,7 @@ from anymesh.models.question_files import (
     wait_for_answer,
 )
 from anymesh.models.vision import Reply, Request
+from anymesh.reasoning.answer_json import answer_object
 from anymesh.reasoning.asking import Answer, BadAnswerError, Question, Seer
 from anymesh.reasoning.question_words import question_page
 from anymesh.reasoning.reply_text import reply_object
@@ -38,7 +40,8 @@ class FileAnswerer:
     """Takes answers from folders of files.
 
     wait: wait for an answer that is not there, instead of raising OpenQuestionError; paused: entered while waiting, so that
-    a time limit does not count it; stop: ends all waiting; poll: time between two looks [s].
+    a time limit does not count it; stop: ends all waiting; poll: time between two looks [s]; suggest: write the fallback's
+    answer beside each question that is waited for.
     """
 
     blind = False
@@ -53,8 +56,9 @@ class FileAnswerer:
         paused: Callable[[], AbstractContextManager[None]] = nullcontext,
         stop: Event | None = None,
         poll: float = POLL,
+        suggest: bool = False,
     ) -> None:
-        self.name = NAME
+        self.name, self._suggest = NAME, suggest
         self._store, self._fallback, self._wait, self._paused, self._poll = store, fallback, wait, paused, poll
         self._stop = stop or Event()
         self._exchanges: list[Exchange] = []
@@ -77,6 +81,8 @@ class FileAnswerer:
             if not self._wait or self._stop.is_set():
                 raise _open(folder)
             with self._paused():
+                if self._suggest and folder.suggestion() is None:
+                    folder.write_suggestion(json.dumps(answer_object(question, self._fallback.ask(question))))
                 text = wait_for_answer(folder, text, self._poll, self._stop)
 
     def _accept(

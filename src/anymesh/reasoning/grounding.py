@@ -69,8 +69,9 @@ class WhichMarks:
     """Which marks make up which part? regions: the mark a pixel of each picture, -1 none; faces: the face number a pixel.
 
     consistent: a region of the surface has one number in all pictures; found: parts of earlier pictures; splittable: the
-    answer may ask for marks to be split; inside: some pictures show the inside; again: parts
-    of an earlier answer that proved wrong, in words.
+    answer may ask for marks to be split; inside: some pictures show the inside; again: parts of an earlier answer that proved
+    wrong, in words; face_mark: (F,) the mark of each face of the mesh, 0 none, where marks are the same in all views, for
+    those who point at the surface itself.
     """
 
     pictures: tuple[Picture, ...]
@@ -83,6 +84,7 @@ class WhichMarks:
     splittable: bool = False
     inside: bool = False
     again: tuple[str, ...] = ()
+    face_mark: Int[np.ndarray, " F"] | None = None
     kind: str = "marks"
 
     def text(self) -> str:

@@ -33,7 +33,10 @@ class JointKind(StrEnum):
 
 @dataclass(frozen=True, eq=False)
 class PartShown:
-    """A part that is asked about. What follows the label is for those who answer without eyes [m]."""
+    """A part that is asked about. What follows the label is for those who answer without pictures [m].
+
+    diagonal: of the object's box, which tells the scale that an answered size may have changed; None when it is not known.
+    """
 
     label: str
     faces: Int[np.ndarray, " f"]  # of the mesh
@@ -41,6 +44,7 @@ class PartShown:
     outward: Float[np.ndarray, " 3"]  # the way out of the object
     normal: Float[np.ndarray, " 3"]  # of the plane of the connecting area
     contact: Float[np.ndarray, "c 3"]  # points of the connecting area
+    diagonal: float | None = None
 
 
 @dataclass(frozen=True)
@@ -201,13 +205,15 @@ class WhichArrows:
 class MotionTable:
     """Numbered motions of one part, as drawn, and how far each was moved [rad or m]: number k is row k - 1.
 
-    blocked: motions during which the part would run into something as modelled.
+    blocked: motions during which the part would run into something as modelled; moving: faces of the mesh that move, those of
+    parts that it carries included, None for its own alone.
     """
 
     part: PartShown
     motions: tuple[Motion, ...]
     amounts: tuple[float, ...]
     blocked: tuple[bool, ...] = ()
+    moving: Int[np.ndarray, " f"] | None = None
 
     @property
     def listed(self) -> str:

@@ -62,19 +62,24 @@ def ask_exact(
     again: what was wrong with an earlier answer."""
     numbers = np.unique(marks.face_mark[marks.face_mark > 0]).tolist()
     some = numbers if wanted is None else sorted(wanted)
-    first = _in_calls(asked, choose_pictures(marks, some, seen, names, asked.studio.view), (), True, again)
+    first = _in_calls(asked, choose_pictures(marks, some, seen, names, asked.studio.view), marks, (), True, again)
     unsure = set(first.unsure)
     parts = first.parts
     if first.split:
         marks = split(marks, first.split)
         finer = sorted(set(np.unique(marks.face_mark[marks.face_mark > 0]).tolist()) - set(numbers))
-        second = _in_calls(asked, choose_pictures(marks, finer, seen, names, asked.studio.view), parts, False, again)
+        second = _in_calls(asked, choose_pictures(marks, finer, seen, names, asked.studio.view), marks, parts, False, again)
         parts, unsure = _together(parts, second.parts), unsure | set(second.unsure)
     return Grounded(marks, parts, frozenset(unsure))
 
 
 def _in_calls(
-    asked: Asked, shown: Sequence[MarkPicture], found: tuple[MarkedPart, ...], splittable: bool, again: tuple[str, ...]
+    asked: Asked,
+    shown: Sequence[MarkPicture],
+    marks: Marks,
+    found: tuple[MarkedPart, ...],
+    splittable: bool,
+    again: tuple[str, ...],
 ) -> MarksAnswer:
     """The answers about all pictures, MOST_PICTURES in a call; what earlier calls have asked about is not asked again."""
     parts, unsure, split, done = found, set[int](), set[int](), set[int]()
@@ -85,7 +90,7 @@ def _in_calls(
         answer = asked.seer.ask(
             WhichMarks(
                 asked.pictures(some), asked.labels, True, tuple(p.marks for p in some), tuple(p.view.face for p in some),
-                asked.category, parts, splittable, any(p.name.startswith(INSIDE) for p in some), again,
+                asked.category, parts, splittable, any(p.name.startswith(INSIDE) for p in some), again, marks.face_mark,
             )
         )  # fmt: skip
         done |= set[int]().union(*(p.drawn for p in some))

@@ -12,7 +12,9 @@ import numpy as np
 
 from anymesh.correcting import Correction
 from anymesh.errors import AnymeshError, MissingExtraError
+from anymesh.export.archive import zip_bytes
 from anymesh.types import Asset
+from anymesh.viewer.bench_ import Bench, Workbench
 from anymesh.viewer.gallery_ import ReviewPanel
 from anymesh.viewer.live import Clock, Session
 from anymesh.viewer.panels import head
@@ -39,10 +41,13 @@ def start_server(host: str, port: int, label: str) -> Any:
 class LivePage:
     """Everything of one page. Callbacks of the server come from many threads; `act` lets one at a time do its work.
 
-    review: a folder of outputs to go through, None for a page of one asset.
+    review: a folder of outputs to go through, None for a page of one asset; bench: what a workbench needs, on a page that
+    takes meshes.
     """
 
-    def __init__(self, server: Any, *, author: str, clock: Clock, review: Path | None = None) -> None:
+    def __init__(
+        self, server: Any, *, author: str, clock: Clock, review: Path | None = None, bench: Bench | None = None
+    ) -> None:
         self.server, self.gui = server, server.gui
         self._author, self._clock = author, clock
         self._lock, self._ended = threading.RLock(), threading.Event()
@@ -53,11 +58,15 @@ class LivePage:
         self.gui.main_panel.dock_right()
         self.gui.main_panel.set_width(390)
         self._head = self.gui.add_html("")
+        self.bench = None if bench is None else Workbench(self, bench)
         self._buttons = self.gui.add_button_group("Edits", ("Undo", "Redo", "Save"))
         self._buttons.on_click(
             lambda event: self.act({"Undo": self.undo, "Redo": self.redo, "Save": self.save}[event.target.value])
         )
+        self._download = self.gui.add_button("Download zip", hint="The asset with all its files; saves corrections first")
+        self._download.on_click(lambda event: self.act(lambda: self.download(event.client)))
         tabs = self.gui.add_tab_group()
+        self._of_asset = (self._buttons, self._download, tabs)  # there is nothing to do with these before there is an asset
         first = None if review is None else tabs.add_tab("Review")
         self.play = PlayPanel(self, tabs.add_tab("Play"))
         correct = tabs.add_tab("Correct")
@@ -67,6 +76,7 @@ class LivePage:
         self._keys()
         if review is not None:
             self._panels.append(ReviewPanel(self, first, review, reviewer=author, clock=clock, open_=self.open))
+        self._show_controls()
         self._player = threading.Thread(target=self._run, daemon=True)
         self._player.start()
 
@@ -75,11 +85,35 @@ class LivePage:
         with self._lock:
             self.session = Session(folder, self._author, self._clock)
             self.playing = None
-            self.view.look_at(self.session.asset)
+            self.view.look_at(self.session.asset.mesh)
             self.refresh()
+            self._show_controls()
+
+    def shut(self) -> None:
+        """Take the asset off the page."""
+        with self._lock:
+            self.session = self.playing = None
+            self.view.clear()
+            self._head.content = ""
+            self._show_controls()
+
+    def _show_controls(self) -> None:
+        for control in self._of_asset:
+            control.visible = self.bench is None or self.session is not None
+
+    def download(self, client: Any) -> None:
+        """Send the asset as a zip to a tab; corrections are saved first."""
+        if self.session is None:
+            return
+        if self.session.unsaved:
+            self.save()
+        folder = self.session.folder
+        client.send_file_download(f"{folder.name}.zip", zip_bytes(folder), save_immediately=True)
 
     def close(self) -> None:
         """Ends the play and the server."""
+        if self.bench is not None:
+            self.bench.close()
         self._ended.set()
         self._player.join()
         self.server.stop()

@@ -11,8 +11,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from anymesh import pipeline
+from anymesh.errors import OptionError
 from anymesh.progress import Progress, silent
 from anymesh.storage.outputs import CORRECTIONS, written_files
+from anymesh.viewer.bench_ import Bench
 from anymesh.viewer.live import Clock
 from anymesh.viewer.live_ import LivePage, start_server
 
@@ -28,39 +30,61 @@ class Serving:
 
 @contextlib.contextmanager
 def serve(
-    target: str | Path,
+    target: str | Path | None,
     *,
     host: str = "127.0.0.1",
     port: int = 8080,
     author: str,
     clock: Clock,
     root: str | Path | None = None,
+    ask: bool = False,
+    out: str | Path | None = None,
     progress: Progress = silent,
 ) -> Generator[Serving]:
     """The live page of a target, for as long as the `with` block lasts.
 
-    A mesh is articulated first, into a temporary folder that stays when corrections were saved in it. A port that is taken
-    moves on to the next. root: as for `articulate`. Raises InputError, OutputError, MissingExtraError.
+    A mesh is articulated first, into a temporary folder that stays when corrections were saved in it. None: a page that takes
+    meshes. ask: the page takes this mesh and puts the questions about it to the person. out: a folder in which a page that
+    takes meshes keeps assets, and answers for a later run. A port that is taken moves on to the next. root: as for
+    `articulate`. Raises InputError, OptionError, OutputError, MissingExtraError.
     """
-    target = Path(target)
+    place = None if target is None else Path(target)
+    if ask and (place is None or not place.is_file()):
+        raise OptionError(f"--ask needs a mesh file; found {'none' if place is None else place}")
+    if out is not None and place is not None and not ask:
+        raise OptionError("--out is for a page that takes meshes: without a target, or with --ask")
     with contextlib.ExitStack() as stack:
         told: tuple[str, ...] = ()
-        if not target.is_dir():
-            folder, told = stack.enter_context(_articulated(target, root, progress))
+        folder = bench = None
+        if place is None or ask:
+            bench, told = stack.enter_context(_bench(out, ask))
+        elif place.is_dir():
+            folder = place.resolve()
         else:
-            folder = target.resolve()
-        one = written_files(folder) is not None
+            folder, told = stack.enter_context(_articulated(place, root, progress))
+        one = folder is not None and written_files(folder) is not None
         with contextlib.redirect_stdout(io.StringIO()):  # of the library's own banner
-            server = start_server(host, port, f"anymesh: {target.name}")
+            server = start_server(host, port, "anymesh" if place is None else f"anymesh: {place.name}")
         try:
-            page = LivePage(server, author=author, clock=clock, review=None if one else folder)
+            page = LivePage(server, author=author, clock=clock, review=None if one else folder, bench=bench)
         except BaseException:
             server.stop()
             raise
         stack.callback(page.close)
-        if one:
+        if folder is not None and one:
             page.open(folder)
+        if page.bench is not None and place is not None:
+            page.bench.start(place, root)
         yield Serving(page, f"http://{server.get_host()}:{server.get_port()}", told)
+
+
+@contextlib.contextmanager
+def _bench(out: str | Path | None, ask: bool) -> Generator[tuple[Bench, tuple[str, ...]]]:
+    """What a page that takes meshes needs; its temporary folder goes at the end."""
+    with tempfile.TemporaryDirectory(prefix="anymesh-view-", ignore_cleanup_errors=True) as temporary:
+        kept = None if out is None else Path(out).resolve()
+        lost = "Assets are removed at the end: download them from the page, or give --out DIR."
+        yield Bench(Path(temporary).resolve(), kept, ask), (lost if kept is None else f"Assets are kept in {kept}.",)
 
 
 @contextlib.contextmanager

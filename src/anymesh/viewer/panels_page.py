@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any, Protocol, runtime_checkable
 
 from anymesh.correcting import Correction
@@ -20,6 +21,14 @@ class Page(Protocol):
 
     def act(self, what: Callable[[], None]) -> None:
         """Does something for a person; what makes no sense is told, and nothing changes."""
+        ...
+
+    def open(self, folder: Path) -> None:
+        """Shows the asset of an output folder. OutputError when there is none."""
+        ...
+
+    def shut(self) -> None:
+        """Take the asset off the page."""
         ...
 
     def refresh(self) -> None:

@@ -56,10 +56,14 @@ class SceneView:
         """What a person should know about what is drawn."""
         return "" if self._asset is None else self._surfaces.note(self._asset)
 
-    def look_at(self, asset: Asset) -> None:
+    def look_at(self, mesh: Mesh) -> None:
         """The first view, for tabs that open from now on and those that are open."""
-        center, diagonal = asset.mesh.bounds.mean(0), asset.mesh.diagonal
-        eye = center + DISTANCE * diagonal * away(np.deg2rad(35), np.deg2rad(24))
+        self.look_from(mesh, away(np.deg2rad(35), np.deg2rad(24)), mesh.diagonal)
+
+    def look_from(self, mesh: Mesh, direction: Float[np.ndarray, " 3"], size: float) -> None:
+        """Turn every camera to a mesh. direction: unit, from it to the camera; size: of what fills the picture [m]."""
+        center, diagonal = mesh.bounds.mean(0), size
+        eye = center + DISTANCE * diagonal * direction
         for camera in (self._server.initial_camera, *(c.camera for c in self._server.get_clients().values())):
             camera.position, camera.look_at, camera.fov = eye, center, FOV
             camera.near, camera.far = 0.01 * diagonal, 100 * diagonal
@@ -74,6 +78,13 @@ class SceneView:
         self._asset = asset
         self._draw_axes(asset)
         self._draw_overlays(asset)
+
+    def clear(self) -> None:
+        """Take the asset out of the scene."""
+        for handles in (self._marks, self._overlays, [*self._frames.values()], [frame for _, frame in self._axes]):
+            _remove(handles)
+        self._frames, self._meshes, self._looks, self._axes = {}, {}, [], []
+        self._asset = self._drawn = self._built = None
 
     def _draw_parts(self, asset: Asset) -> None:
         _remove([*self._frames.values()])

@@ -1,0 +1,228 @@
+"""What a person has put in so far for one question, whatever shows it. Each form becomes the JSON object that is checked."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, Protocol, runtime_checkable
+
+from anymesh.reasoning.asking import Question
+from anymesh.reasoning.grounding import WhichMarks
+from anymesh.reasoning.prompting import (
+    OTHER,
+    JointKind,
+    MotionTable,
+    PartFit,
+    PartShown,
+    PointTable,
+    WhichArrows,
+    WhichKinds,
+    WhichMotions,
+    WhichPoints,
+)
+from anymesh.reasoning.recognition import Recognize
+from anymesh.types.recognition import BASE, Moves
+from anymesh.viewer.ask_marks import MarksForm
+
+UNNAMED = "part"
+
+
+@runtime_checkable
+class Form(Protocol):
+    """One question with what is answered so far. touched: by the person, so that no suggestion may replace it."""
+
+    touched: bool
+
+    def fill(self, answer: Mapping[str, Any]) -> None:
+        """Take over an answer, such as the one that geometry suggests."""
+        ...
+
+    def answer(self) -> dict[str, Any]:
+        """Make the object that the question checks."""
+        ...
+
+
+@dataclass
+class LabelRow:
+    """One kind of part that moves; limits in degrees or centimetres."""
+
+    label: str = UNNAMED
+    moves: str = Moves.REVOLUTE.value
+    parent: str = BASE
+    lower: float = 0.0
+    upper: float = 90.0
+
+
+@dataclass
+class RecognizeForm:
+    """What the object is and which kinds of part move. front: number of a picture, 0 for none; open_row: the entry that is
+    worked on, -1 for none."""
+
+    question: Recognize
+    category: str = ""
+    longest: float = 1.0
+    front: int = 0
+    rows: list[LabelRow] = field(default_factory=list)
+    open_row: int = -1
+    touched: bool = False
+
+    def fill(self, answer: Mapping[str, Any]) -> None:
+        self.category, self.longest, self.front = answer["category"], float(answer["longest_side_m"]), int(answer["front"])
+        self.rows = [
+            LabelRow(p["label"], p["moves"], p["parent"], round(p["lower"], 1), round(p["upper"], 1)) for p in answer["parts"]
+        ]
+
+    def answer(self) -> dict[str, Any]:
+        rows = [{"label": r.label, "moves": r.moves, "parent": r.parent, "lower": r.lower, "upper": r.upper} for r in self.rows]
+        return {"category": self.category, "longest_side_m": self.longest, "front": self.front, "parts": rows}
+
+    def look_from(self, azimuth: float) -> None:
+        """Take the picture whose azimuth [deg] is nearest as the one that shows the front."""
+        off = [abs((a - azimuth + 180) % 360 - 180) for a in self.question.azimuths]
+        self.front, self.touched = (off.index(min(off)) + 1 if off else 0), True
+
+
+@dataclass
+class PartsForm:
+    """Base of the forms that ask the same of several parts, one after the other. see_through: parts for which the rest of the
+    object is drawn so."""
+
+    parts: tuple[PartShown, ...]
+    step: int = 0
+    touched: bool = False
+    see_through: dict[int, bool] = field(default_factory=dict)
+
+    @property
+    def part(self) -> PartShown:
+        """The part that is shown."""
+        return self.parts[self.step]
+
+    def go(self, by: int) -> None:
+        """Show another part."""
+        self.step = min(max(self.step + by, 0), len(self.parts) - 1)
+
+
+@dataclass
+class KindRow:
+    """How one part is attached."""
+
+    joint: str = JointKind.HINGE_ALONG.value
+    endless: bool = False
+    label: str = OTHER
+
+
+class KindsForm(PartsForm):
+    """How each part is attached. labels: to choose from, empty where that is not asked."""
+
+    def __init__(self, question: WhichKinds) -> None:
+        super().__init__(question.parts)
+        self.labels: tuple[str, ...] = (*question.labels, OTHER) if question.labels else ()
+        self.rows = [KindRow() for _ in question.parts]
+
+    def fill(self, answer: Mapping[str, Any]) -> None:
+        for p in answer["parts"]:
+            self.rows[p["part"] - 1] = KindRow(p["joint"], p["endless"], p.get("label", OTHER))
+
+    def answer(self) -> dict[str, Any]:
+        return {
+            "parts": [
+                {"part": k, "joint": row.joint, "endless": row.endless, **({"label": row.label} if self.labels else {})}
+                for k, row in enumerate(self.rows, 1)
+            ]
+        }
+
+
+class PointsForm(PartsForm):
+    """Which points lie on each axis."""
+
+    def __init__(self, question: WhichPoints) -> None:
+        super().__init__(tuple(t.part for t in question.tables))
+        self.tables = question.tables
+        self.chosen: list[list[int]] = [[] for _ in question.tables]
+
+    @property
+    def table(self) -> PointTable:
+        """The points of the part that is shown."""
+        return self.tables[self.step]
+
+    def toggle(self, number: int) -> None:
+        """Choose a point of the part that is shown, or let go of it; of too many, the one chosen first goes."""
+        now = self.chosen[self.step]
+        now = [n for n in now if n != number] if number in now else [*now, number]
+        self.chosen[self.step], self.touched = now[-self.table.most :], True
+
+    def fill(self, answer: Mapping[str, Any]) -> None:
+        for p in answer["parts"]:
+            self.chosen[p["part"] - 1] = list(p["points"])
+
+    def answer(self) -> dict[str, Any]:
+        return {"parts": [{"part": k, "points": list(chosen)} for k, chosen in enumerate(self.chosen, 1)]}
+
+
+class ArrowsForm(PartsForm):
+    """Along which arrow each part slides."""
+
+    def __init__(self, question: WhichArrows) -> None:
+        super().__init__(tuple(t.part for t in question.tables))
+        self.tables = question.tables
+        self.chosen = [1] * len(question.tables)
+
+    def choose(self, number: int) -> None:
+        """Take an arrow for the part that is shown."""
+        self.chosen[self.step], self.touched = number, True
+
+    def fill(self, answer: Mapping[str, Any]) -> None:
+        for p in answer["parts"]:
+            self.chosen[p["part"] - 1] = p["arrow"]
+
+    def answer(self) -> dict[str, Any]:
+        return {"parts": [{"part": k, "arrow": arrow} for k, arrow in enumerate(self.chosen, 1)]}
+
+
+class MotionsForm(PartsForm):
+    """Which motion each part makes, 0 for none of those shown."""
+
+    def __init__(self, question: WhichMotions) -> None:
+        super().__init__(tuple(t.part for t in question.tables))
+        self.tables, self.ask_fit = question.tables, question.ask_fit
+        self.chosen = [1] * len(question.tables)
+        self.fits = [PartFit.RIGHT.value] * len(question.tables)
+
+    @property
+    def table(self) -> MotionTable:
+        """The motions of the part that is shown."""
+        return self.tables[self.step]
+
+    def choose(self, number: int) -> None:
+        """Take a motion for the part that is shown."""
+        self.chosen[self.step], self.touched = number, True
+
+    def fill(self, answer: Mapping[str, Any]) -> None:
+        for p in answer["parts"]:
+            self.chosen[p["part"] - 1] = p["motion"]
+
+    def answer(self) -> dict[str, Any]:
+        return {
+            "parts": [
+                {"part": k, "motion": motion, **({"part_is": fit} if self.ask_fit else {})}
+                for k, (motion, fit) in enumerate(zip(self.chosen, self.fits, strict=True), 1)
+            ]
+        }
+
+
+def form_of(question: Question[Any]) -> Form | None:
+    """Make the empty form of a question; None for one that cannot be answered on the object itself."""
+    match question:
+        case Recognize():
+            return RecognizeForm(question)
+        case WhichMarks() if question.face_mark is not None:
+            return MarksForm(question, question.face_mark)
+        case WhichKinds():
+            return KindsForm(question)
+        case WhichPoints():
+            return PointsForm(question)
+        case WhichArrows():
+            return ArrowsForm(question)
+        case WhichMotions():
+            return MotionsForm(question)
+    return None

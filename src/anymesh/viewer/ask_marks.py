@@ -1,0 +1,97 @@
+"""Which marks of the surface a person has given to which part."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from jaxtyping import Int
+
+from anymesh.reasoning.grounding import WhichMarks
+
+SPLIT = ("to be divided", 0)  # the group of marks that lie on more than one part
+Group = tuple[str, int]  # label and instance of a part
+
+
+class MarksForm:
+    """Marks by part; each mark belongs to one group at most. current: the group that clicks are for;
+    hide_given: marks of other groups are not shown, so that those behind can be clicked."""
+
+    def __init__(self, question: WhichMarks, face_mark: Int[np.ndarray, " F"]) -> None:
+        self.question, self.face_mark = question, face_mark
+        self.asked = frozenset(np.unique(np.concatenate([r[r > 0] for r in question.regions])).tolist())
+        self._label_rank = {label: k for k, label in enumerate(question.labels)}
+        self.groups: dict[Group, set[int]] = {(p.label, p.instance): set() for p in question.found}
+        self._add_missing()
+        self.unsure: set[Group] = set()
+        self.current = next(iter(self.groups))
+        self.touched = self.hide_given = False
+
+    def hidden(self) -> set[int]:
+        """Return the marks that are not shown."""
+        if not self.hide_given:
+            return set()
+        return set[int]().union(*(marks for group, marks in self.groups.items() if group != self.current)) & self.asked
+
+    def _add_missing(self) -> None:
+        """Offer each label at least once, and marks to be divided where the question takes that."""
+        for label in self.question.labels:
+            if not any(group[0] == label for group in self.groups):
+                self.groups[label, 1] = set()
+        if self.question.splittable:
+            self.groups.setdefault(SPLIT, set())
+        self.groups = dict(sorted(self.groups.items(), key=lambda item: (self._label_rank.get(item[0][0], 99), item[0][1])))
+
+    def add(self, label: str) -> None:
+        """Offer one more part of a label, and take it up."""
+        instance = 1 + max((k for name, k in self.groups if name == label), default=0)
+        self.groups[label, instance] = set()
+        self._add_missing()
+        self.current, self.touched = (label, instance), True
+
+    def toggle(self, mark: int) -> bool:
+        """Give a mark to the current group, or take it back; False for one that is not asked about."""
+        if mark not in self.asked:
+            return False
+        self.touched = True
+        mine = mark in self.groups[self.current]
+        for marks in self.groups.values():
+            marks.discard(mark)
+        if not mine:
+            self.groups[self.current].add(mark)
+        return True
+
+    def set_marks(self, text: str) -> list[int]:
+        """Give the current group the marks of a typed list; returns the numbers that are not asked about."""
+        numbers = {int(n) for n in re.findall(r"\d{1,9}", text)}
+        self.groups[self.current] = set()
+        for mark in numbers & self.asked:
+            self.toggle(mark)
+        self.touched = True
+        return sorted(numbers - self.asked)
+
+    def group_of(self, mark: int) -> Group | None:
+        """The group that a mark is given to."""
+        return next((group for group, marks in self.groups.items() if mark in marks), None)
+
+    def fill(self, answer: Mapping[str, Any]) -> None:
+        for marks in self.groups.values():
+            marks.clear()
+        for p in answer["parts"]:
+            self.groups.setdefault((p["label"], p["instance"]), set()).update(set(p["marks"]) & self.asked)
+        if self.question.splittable:
+            self.groups.setdefault(SPLIT, set()).update(set(answer.get("split", ())) & self.asked)
+        self._add_missing()
+        self.current = next(iter(self.groups))
+
+    def answer(self) -> dict[str, Any]:
+        rows = [
+            {"label": label, "instance": k, "marks": sorted(marks)}
+            for (label, k), marks in self.groups.items()
+            if marks and (label, k) != SPLIT
+        ]
+        unsure = sorted(set[int]().union(*(self.groups[g] for g in self.unsure if g in self.groups)))
+        split = {"split": sorted(self.groups.get(SPLIT, set()))} if self.question.splittable else {}
+        return {"parts": rows, "unsure": unsure, **split}

@@ -1,0 +1,144 @@
+"""What the numbers of a question are on the mesh that is shown: faces of marks, places of points, poses of motions."""
+
+from __future__ import annotations
+
+import colorsys
+
+import numpy as np
+from jaxtyping import Bool, Float, Int
+
+from anymesh.geometry.simplify_ import simplify
+from anymesh.reasoning.prompting import ArrowTable, MotionTable, PartShown, PointTable
+from anymesh.rendering.axes import axis_line
+from anymesh.rendering.raycast_ import RayScene
+from anymesh.rendering.viewpoints import away
+from anymesh.types import Mesh, MotionKind
+from anymesh.viewer.ask_marks import SPLIT, MarksForm
+from anymesh.viewer.scene import LEAST, MOST, Color, Surface, color_of
+
+SAME_SIZE = 0.05  # a part of the mesh's own scale within this has it exactly
+REACH = 0.03  # a click chooses a point whose distance from its ray is below this share of the distance to the eye
+MARKER, ON_PART = 0.014, 0.05  # radius of a point's marker at most: shares of the object's diagonal and of the part's
+CROWDED = 0.4  # the same as a share of the gap to the next point
+ARROW = 0.6  # length of an arrow, as a share of the part's size
+SAMPLES, LIFT, IN_SIGHT = 200, 1e-4, 0.1  # points of a part, [share of the diagonal] off its surface, share that is in sight
+CLOSEST = 0.12  # least size that fills the picture, as a share of the diagonal
+ASLANT, ASIDE, RAISED = 0.3, 20.0, 24.0  # level part of a direction that has a side; [deg] the camera is beside and above it
+TINT, GOLDEN = (0.24, 0.92), 0.618034  # saturation and value of marks that are not given, step between their hues
+NOT_ASKED, DIVIDED = (150, 150, 150), (134, 46, 156)
+
+
+def surface(mesh: Mesh, faces: Int[np.ndarray, " f"], most: int = MOST) -> Surface:
+    """Return some faces as a surface; decimated where the mesh has more than `most`."""
+    if len(mesh.faces) <= most:
+        piece = mesh.subset(faces)
+        return Surface(piece.vertices, piece.faces)
+    few = simplify(mesh.triangles[faces], max(LEAST, most * len(faces) // len(mesh.faces)))
+    return Surface(few.reshape(-1, 3), np.arange(3 * len(few)).reshape(-1, 3))
+
+
+def scale_of(part: PartShown, mesh: Mesh) -> float:
+    """Return the length [m] in a question of one unit of the mesh shown; an answered size may have changed it."""
+    if part.diagonal is None:
+        return 1.0
+    scale = part.diagonal / mesh.diagonal
+    return 1.0 if abs(scale - 1) < SAME_SIZE else scale
+
+
+def is_enclosed(part: PartShown, mesh: Mesh, rays: RayScene) -> bool:
+    """Return whether a part can hardly be seen from outside: from no side are many of its points in sight."""
+    points = part.points[:: max(1, len(part.points) // SAMPLES)] / scale_of(part, mesh)
+    ways = np.array([away(np.deg2rad(a), np.deg2rad(e)) for e in (20, 60) for a in range(0, 360, 45)])
+    origins, directions = np.repeat(points, len(ways), 0), np.tile(ways, (len(points), 1))
+    free = rays.first_hit(origins + LIFT * mesh.diagonal * directions, directions).face < 0
+    return float(free.reshape(len(points), len(ways)).mean(0).max()) < IN_SIGHT
+
+
+def closer_view(part: PartShown, mesh: Mesh) -> tuple[Float[np.ndarray, " 3"], float]:
+    """Return where to look at a part from (unit, from it to the camera) and the size that fills the picture [m]."""
+    corners = mesh.triangles[part.faces].reshape(-1, 3)
+    size = max(float(np.linalg.norm(np.ptp(corners, axis=0))), CLOSEST * mesh.diagonal)
+    level = np.array([*part.outward[:2], 0.0])
+    azimuth = np.arctan2(level[0], -level[1]) if np.linalg.norm(level) > ASLANT else np.deg2rad(ASIDE)
+    return away(float(azimuth) + np.deg2rad(ASIDE), np.deg2rad(RAISED)), size
+
+
+def asked_faces(form: MarksForm) -> dict[int, Int[np.ndarray, " f"]]:
+    """Return the faces of each mark that is asked about."""
+    return {mark: faces for mark in sorted(form.asked) if len(faces := np.flatnonzero(form.face_mark == mark))}
+
+
+def mark_color(form: MarksForm, mark: int) -> Color:
+    """Return the colour of a mark: that of the part it is given to, else a tint that tells it from its neighbours."""
+    group = form.group_of(mark)
+    if group is None:
+        r, g, b = colorsys.hsv_to_rgb(mark * GOLDEN % 1, *TINT)
+        return round(255 * r), round(255 * g), round(255 * b)
+    return group_color(form, group)
+
+
+def group_color(form: MarksForm, group: tuple[str, int]) -> Color:
+    """Return the colour of a part that marks are given to."""
+    return DIVIDED if group == SPLIT else color_of(1 + list(form.groups).index(group))
+
+
+def point_places(table: PointTable, mesh: Mesh) -> Float[np.ndarray, "k 3"]:
+    """Return where the points of a part are on the mesh shown."""
+    return table.points / scale_of(table.part, mesh)
+
+
+def marker_radius(table: PointTable, mesh: Mesh) -> float:
+    """Return the radius of the markers of points, small enough for their part and to tell neighbours apart."""
+    places, size = point_places(table, mesh), np.ptp(mesh.triangles[table.part.faces].reshape(-1, 3), axis=0)
+    radius = min(MARKER * mesh.diagonal, ON_PART * float(np.linalg.norm(size)))
+    if len(places) < 2:
+        return radius
+    gaps = np.linalg.norm(places[:, None] - places[None], axis=2) + np.diag(np.full(len(places), np.inf))
+    return float(np.clip(CROWDED * np.median(gaps.min(1)), 0.3 * radius, radius))
+
+
+def nearest_point(
+    places: Float[np.ndarray, "k 3"], origin: Float[np.ndarray, " 3"], direction: Float[np.ndarray, " 3"]
+) -> int | None:
+    """Return the number (from 1) of the point that a click's ray passes nearest to, None when it passes all at a distance."""
+    if len(places) == 0:
+        return None
+    way = direction / np.linalg.norm(direction)
+    along = (places - origin) @ way
+    off = np.linalg.norm(places - origin - along[:, None] * way, axis=1) / np.maximum(along, 1e-9)
+    off[along <= 0] = np.inf
+    best = int(off.argmin())
+    return best + 1 if off[best] < REACH else None
+
+
+def hidden_points(table: PointTable) -> Bool[np.ndarray, " k"]:
+    """Return which points lie under a surface."""
+    return np.zeros(len(table.points), bool) if table.hidden is None else table.hidden
+
+
+def arrow_ends(table: ArrowTable, mesh: Mesh) -> Float[np.ndarray, "k 2 3"]:
+    """Return the ends of the arrows of a part on the mesh shown."""
+    corners = mesh.triangles[table.part.faces].reshape(-1, 3)
+    middle, length = (corners.min(0) + corners.max(0)) / 2, ARROW * float(np.linalg.norm(np.ptp(corners, axis=0)))
+    return np.stack([np.tile(middle, (len(table.directions), 1)), middle + length * table.directions], 1)
+
+
+def moving_faces(table: MotionTable) -> Int[np.ndarray, " f"]:
+    """Return the faces that move: those of the part and of what it carries."""
+    return table.part.faces if table.moving is None else table.moving
+
+
+def motion_axis(table: MotionTable, row: int, mesh: Mesh) -> Float[np.ndarray, "2 3"]:
+    """Return the ends of the arrow along a motion's axis, on the mesh shown."""
+    motion, corners = table.motions[row], mesh.triangles[table.part.faces].reshape(-1, 3)
+    origin = motion.origin / scale_of(table.part, mesh)
+    slides = motion.kind is MotionKind.SLIDE
+    sign = -1.0 if table.amounts[row] < 0 else 1.0
+    return axis_line(corners, origin, sign * motion.axis, slides, mesh.diagonal)[0]
+
+
+def motion_pose(table: MotionTable, row: int, phase: float, mesh: Mesh) -> Float[np.ndarray, "4 4"]:
+    """Return where the moving faces are at a phase 0..1 of a motion's play, there and back, on the mesh shown."""
+    T = table.motions[row].transform(table.amounts[row] * (1 - np.cos(2 * np.pi * phase)) / 2)
+    T[:3, 3] /= scale_of(table.part, mesh)
+    return T

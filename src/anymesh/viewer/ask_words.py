@@ -1,0 +1,116 @@
+"""What a page says about a question: a title, what to do, what is answered so far. For people, so shorter than for a model."""
+
+from __future__ import annotations
+
+from html import escape
+
+from anymesh.reasoning.prompting import JointKind, MotionTable, PartFit
+from anymesh.types import MotionKind
+from anymesh.types.recognition import Moves
+from anymesh.viewer.ask_forms import ArrowsForm, Form, KindsForm, LabelRow, MotionsForm, PartsForm, PointsForm, RecognizeForm
+from anymesh.viewer.ask_marks import SPLIT, Group, MarksForm
+from anymesh.viewer.ask_shapes import group_color
+from anymesh.viewer.panels import SMALL
+
+KINDS = {
+    "hinge along an edge (door, lid)": JointKind.HINGE_ALONG,
+    "turns in the surface (knob, wheel)": JointKind.HINGE_INTO,
+    "turns, hinge out of sight": JointKind.HINGE_HIDDEN,
+    "slides in or out (drawer, button)": JointKind.SLIDE_OUT,
+    "slides along the surface": JointKind.SLIDE_ALONG,
+    "does not move": JointKind.FIXED,
+}
+MOVES = {
+    "turns within limits": Moves.REVOLUTE,
+    "turns round and round": Moves.CONTINUOUS,
+    "slides": Moves.PRISMATIC,
+}
+FITS = {"is right": PartFit.RIGHT, "is too much": PartFit.TOO_MUCH, "is too little": PartFit.TOO_LITTLE}
+NONE_OF_THESE = "None"
+
+
+def title(form: Form) -> str:
+    """Return what is asked, in a line."""
+    match form:
+        case RecognizeForm():
+            return "What is this, and what moves?"
+        case MarksForm():
+            return "Which faces are which part?"
+        case KindsForm():
+            return "How is it attached?"
+        case PointsForm():
+            return "Where does it turn?"
+        case ArrowsForm():
+            return "Which way does it slide?"
+        case MotionsForm():
+            return "Which motion is right?"
+    raise TypeError(type(form).__name__)
+
+
+def guide(form: Form) -> str:
+    """Return what to do."""
+    match form:
+        case RecognizeForm():
+            return "Name the object and give one entry for each kind of part that moves; click an entry to change it."
+        case MarksForm():
+            return (
+                "Choose a part below, then click its regions on the object; click again to take one back. "
+                "Leave what does not move."
+            )
+        case KindsForm():
+            return "Look at the coloured part and say how it moves."
+        case PointsForm():
+            return f"Click, on the object: {form.table.wanted}. Pale points lie under a surface."
+        case ArrowsForm():
+            return "Choose the arrow along which the coloured part opens."
+        case MotionsForm():
+            return "Each number plays a motion of the coloured part. Leave the right one playing."
+    raise TypeError(type(form).__name__)
+
+
+def place(form: PartsForm) -> str:
+    """Return which of several parts is asked about."""
+    return f"Part {form.step + 1} of {len(form.parts)}: {form.part.label}"
+
+
+def label_words(row: LabelRow) -> str:
+    """Return a kind of part in a line."""
+    moves = Moves(row.moves)
+    words = next(k for k, v in MOVES.items() if v is moves)
+    unit = "cm" if moves is Moves.PRISMATIC else "°"
+    limits = "" if moves is Moves.CONTINUOUS else f", {row.lower:g} to {row.upper:g} {unit}"
+    return f"{row.label}: {words}{limits}"
+
+
+def group_name(group: Group) -> str:
+    """Return the name of a part that marks are given to."""
+    return group[0] if group == SPLIT else f"{group[0]} {group[1]}"
+
+
+def marks_table(form: MarksForm) -> str:
+    """Return each part with its colour and marks."""
+    rows = []
+    for group, marks in form.groups.items():
+        r, g, b = group_color(form, group)
+        dot = (
+            f'<span style="display:inline-block;width:0.8em;height:0.8em;border-radius:2px;background:rgb({r},{g},{b})"></span>'
+        )
+        numbers = ", ".join(map(str, sorted(marks))) or "nothing yet"
+        name = escape(group_name(group))
+        rows.append(f"<div>{dot} {f'<b>{name}</b>' if group == form.current else name}: {numbers}</div>")
+    left = len(form.asked) - sum(len(marks & form.asked) for marks in form.groups.values())
+    return f"<div {SMALL}>{''.join(rows)}<div>{left} regions belong to no part.</div></div>"
+
+
+def chosen_points(form: PointsForm) -> str:
+    """Return the points chosen on the part that is shown."""
+    return ", ".join(map(str, form.chosen[form.step]))
+
+
+def motion_words(table: MotionTable, number: int) -> str:
+    """Return what a motion is, in words; 0: none of them."""
+    if number == 0:
+        return "None of these: the next ones are shown, if there are any."
+    motion = table.motions[number - 1]
+    blocked = ", blocked by something as modelled" if number <= len(table.blocked) and table.blocked[number - 1] else ""
+    return f"Motion {number} of {len(table.motions)}: it {'slides' if motion.kind is MotionKind.SLIDE else 'turns'}{blocked}."

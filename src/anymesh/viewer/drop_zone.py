@@ -1,0 +1,59 @@
+"""The place on the page where a mesh is dropped, as HTML. A file dropped anywhere goes the way of the upload button.
+
+The script runs when its (empty) picture loads, which is how HTML that is put into a page later can run one. It also keeps the
+browser from leaving the page for a file that is dropped beside the place, and files that are too large from being sent.
+"""
+
+from __future__ import annotations
+
+from html import escape
+
+from anymesh.loading.load import READERS
+from anymesh.viewer.uploads import MAX_UNPACKED_BYTES, MAX_UPLOAD_BYTES
+
+EMPTY_PICTURE = "data:image/gif;base64,R0lGODlhAQABAAAAACwAAAAAAQABAAA="
+STYLE = "border:2px dashed #868e96;border-radius:8px;padding:1.4em 0.8em;margin:0.4em 0.8em;text-align:center;line-height:1.45"
+SMALL_STYLE = "padding:0.2em 1em 0.4em;font-size:0.8em;opacity:0.8"
+SCRIPT = """
+if (!window.anymeshDrop) {
+  window.anymeshDrop = true;
+  const most = MOST;
+  const input = () => document.querySelector('input[type=file][id^=file_upload_]');
+  const tell = (text) => { const note = document.getElementById('anymesh-drop-note'); if (note) note.textContent = text; };
+  const paint = (on) => { const zone = document.getElementById('anymesh-drop');
+    if (zone) zone.style.background = on ? 'rgba(34,139,230,0.18)' : ''; };
+  window.addEventListener('dragover', (event) => { event.preventDefault(); paint(true); });
+  window.addEventListener('dragleave', () => paint(false));
+  window.addEventListener('drop', (event) => {
+    event.preventDefault(); paint(false);
+    const files = event.dataTransfer.files, to = input();
+    if (!to) { tell('Wait for the work to end, or cancel it, before the next mesh.'); return; }
+    if (files.length !== 1) { tell('Drop one file; several that belong together as a zip.'); return; }
+    to.files = files;
+    to.dispatchEvent(new Event('change', { bubbles: true }));
+  });
+  window.addEventListener('change', (event) => {
+    if (event.target !== input() || !event.target.files.length) return;
+    tell('');
+    if (event.target.files[0].size > most) {
+      event.stopImmediatePropagation();
+      tell('The file is larger than ' + Math.round(most / 1048576) + ' MB, the most that is taken.');
+    }
+  }, true);
+}
+"""
+
+
+def drop_zone(*, small: bool) -> str:
+    """Return the place to drop a mesh; small: one line, once an asset is shown."""
+    formats = ", ".join(suffix[1:].upper() for suffix in READERS)
+    script = escape(SCRIPT.replace("MOST", str(MAX_UPLOAD_BYTES), 1), quote=True)
+    runs = f'<img src="{EMPTY_PICTURE}" alt="" style="display:none" onload="{script}">'
+    note = '<div id="anymesh-drop-note" role="alert" style="color:#c92a2a"></div>'
+    if small:
+        return f'<div id="anymesh-drop" style="{SMALL_STYLE}">Or drop another mesh anywhere on the page.{note}{runs}</div>'
+    limits = f"At most {MAX_UPLOAD_BYTES >> 20} MB; {MAX_UNPACKED_BYTES >> 30} GB unpacked. It stays on this machine."
+    return (
+        f'<div id="anymesh-drop" style="{STYLE}"><b>Drop a mesh here</b><br><span style="font-size:0.8em;opacity:0.8">'
+        f"{formats}, or a zip of one mesh with its textures.<br>{limits}</span>{note}{runs}</div>"
+    )

@@ -1,0 +1,118 @@
+"""Files that a person hands to the page: a mesh, or a zip with a mesh and what it refers to. Nothing in them is trusted."""
+
+from __future__ import annotations
+
+import re
+import stat
+import zipfile
+from dataclasses import dataclass
+from pathlib import Path, PurePosixPath
+
+from anymesh.errors import InputError
+from anymesh.loading.load import READERS
+
+MAX_UPLOAD_BYTES = 200 << 20  # [bytes] of a file
+MAX_UNPACKED_BYTES = 1 << 30  # [bytes] of all files in a zip
+MAX_FILES = 2000  # in a zip
+BLOCK = 1 << 20  # [bytes] unpacked at a time
+PLAIN_NAME = re.compile(r"[^A-Za-z0-9._-]+")
+
+
+@dataclass(frozen=True)
+class Upload:
+    """A mesh that was handed over. root: the folder within which the files that it refers to lie."""
+
+    mesh: Path
+    root: Path
+
+
+def receive(name: str, content: bytes, folder: Path) -> Upload:
+    """Save an uploaded file in an empty folder; a zip is unpacked there.
+
+    Raises InputError for a file that is too large, of no known format, or a zip that is unsafe or without exactly one mesh.
+    """
+    if len(content) > MAX_UPLOAD_BYTES:
+        raise InputError(f"the file has {_size(len(content))}; at most {_size(MAX_UPLOAD_BYTES)} are taken")
+    folder.mkdir(parents=True)
+    plain = plain_name(name)
+    suffix = Path(plain).suffix.lower()
+    if suffix not in (*READERS, ".zip"):
+        raise InputError(f"{plain}: found the format {suffix or '(none)'}; valid are {', '.join(READERS)}, and .zip")
+    path = folder / plain
+    path.write_bytes(content)
+    if suffix != ".zip":
+        return Upload(path, folder)
+    inside = folder / "unpacked"
+    unpack(path, inside)
+    path.unlink()
+    return Upload(_only_mesh(inside), inside)
+
+
+def plain_name(name: str) -> str:
+    """Return the last part of a file name in plain characters, never hidden or empty."""
+    last = re.split(r"[\\/]", name)[-1]
+    plain = PLAIN_NAME.sub("_", last).strip("._") or "mesh"
+    stem, dot, suffix = plain.rpartition(".")
+    return f"{stem[:60]}{dot}{suffix[:10]}" if dot else plain[:60]
+
+
+def unpack(path: Path, folder: Path) -> None:
+    """Unpack a zip into a new folder.
+
+    Raises InputError when it is broken, encrypted, too large once unpacked, or has a name that leads out of the folder.
+    """
+    folder.mkdir()
+    try:
+        with zipfile.ZipFile(path) as archive:
+            entries = [e for e in archive.infolist() if not e.is_dir()]
+            if len(entries) > MAX_FILES:
+                raise InputError(f"the zip holds {len(entries)} files; at most {MAX_FILES} are unpacked")
+            left = MAX_UNPACKED_BYTES
+            for entry in entries:
+                left = _unpack_entry(archive, entry, folder, left)
+    except InputError:
+        raise
+    except Exception as error:  # whatever a broken archive makes the library raise is one thing to the user
+        reason = " ".join(f"{type(error).__name__}: {error}".split())[:120]
+        raise InputError(f"the zip cannot be unpacked, it is broken, encrypted or of an unknown kind ({reason})") from None
+
+
+def _unpack_entry(archive: zipfile.ZipFile, entry: zipfile.ZipInfo, folder: Path, left: int) -> int:
+    """Write one file and return how many bytes may still be written. Counts the bytes; headers can lie."""
+    target = _inside(entry, folder)
+    if target is None:
+        return left
+    target.parent.mkdir(parents=True, exist_ok=True)
+    with archive.open(entry) as source, target.open("xb") as sink:
+        while block := source.read(BLOCK):
+            left -= len(block)
+            if left < 0:
+                raise InputError(f"the zip holds more than {_size(MAX_UNPACKED_BYTES)} once unpacked")
+            sink.write(block)
+    return left
+
+
+def _inside(entry: zipfile.ZipInfo, folder: Path) -> Path | None:
+    """Return where an entry goes, None for hidden files that some systems add. Raises InputError for an unsafe one."""
+    name = entry.filename
+    place = PurePosixPath(name)
+    unsafe = place.is_absolute() or ".." in place.parts or re.search(r"[\\:\x00-\x1f]", name) is not None
+    if unsafe or stat.S_ISLNK(entry.external_attr >> 16):
+        raise InputError(f"the zip has an unsafe entry, {name[:60]!r}; valid are plain files within the zip")
+    if place.parts[0] == "__MACOSX" or any(part.startswith(".") for part in place.parts):
+        return None
+    return folder / place
+
+
+def _only_mesh(folder: Path) -> Path:
+    """Return the one mesh file in a folder. Raises InputError when there is none, or several."""
+    meshes = sorted(p for p in folder.rglob("*") if p.is_file() and p.suffix.lower() in READERS)
+    if len(meshes) != 1:
+        names = ", ".join(p.relative_to(folder).as_posix() for p in meshes[:4])
+        listed = f"{len(meshes)} meshes ({names}{', ...' if len(meshes) > 4 else ''})" if meshes else "no mesh"
+        raise InputError(f"the zip holds {listed}; valid is exactly one of {', '.join(READERS)}, with what it refers to")
+    return meshes[0]
+
+
+def _size(count: int) -> str:
+    return f"{count / (1 << 20):.0f} MB"

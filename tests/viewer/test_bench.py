@@ -1,0 +1,262 @@
+"""The page that takes meshes, without a browser: its states, its questions, what it refuses, and what it leaves behind."""
+
+import json
+import shutil
+import time
+import zipfile
+from io import BytesIO
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from asked_cabinet import MESH, questions
+from correctable import write_output
+
+from anymesh.correcting import CorrectionError, FlipSign
+from anymesh.errors import OptionError
+from anymesh.models.question_files import QuestionStore
+from anymesh.models.vision import Request
+from anymesh.reasoning.saved_question import pack_question
+from anymesh.viewer import bench_
+from anymesh.viewer.live_serve_ import serve
+
+pytest.importorskip("viser", reason="needs the extra view")
+CUBE = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\nf 1 3 4\nf 2 3 4\n"
+
+
+class FakeWork:
+    """Work that goes on as a test says."""
+
+    made: list = []  # noqa: RUF012
+
+    def __init__(self, mesh, out, **options):
+        self.asked_mesh, self.out, self.options = mesh, out, options
+        self.mesh = self.error = None
+        self.done = self.cancelled = False
+        self.words, self.share, self.begun = "finding the parts", 0.3, True
+        FakeWork.made.append(self)
+
+    @property
+    def over(self):
+        return self.done or self.cancelled or self.error is not None
+
+    def cancel(self):
+        self.cancelled = True
+
+    def finish(self):
+        write_output(self.out)
+        self.done = True
+
+
+@pytest.fixture
+def page(monkeypatch):
+    monkeypatch.setattr(bench_, "Work", FakeWork)
+    monkeypatch.setattr(bench_, "LOOK", 0.02)
+    FakeWork.made = []
+    with serve(None, port=8400, author="Ada", clock=lambda: "2024-05-01T12:00:00+00:00") as serving:
+        yield serving.page
+
+
+def until(what, seconds: float = 10):
+    end = time.monotonic() + seconds
+    while not what():
+        assert time.monotonic() < end, "it did not happen"
+        time.sleep(0.01)
+
+
+def upload(page, name="cube.obj", content=CUBE):
+    page.act(lambda: page.bench._uploaded(SimpleNamespace(name=name, content=content)))
+
+
+def said(page) -> str:
+    return page.bench._words.content
+
+
+def test_a_mesh_is_worked_on_shown_corrected_and_downloaded(page):
+    assert page.session is None
+    assert not page._download.visible
+    upload(page)
+    (work,) = FakeWork.made
+    assert work.asked_mesh.read_bytes() == CUBE
+    assert work.options == {"root": work.asked_mesh.parent, "up": "auto"}
+    until(lambda: "finding the parts" in said(page))
+    assert page.bench._cancel.visible
+    assert page.bench._bar.value == 30
+    work.finish()
+    until(lambda: page._download.visible)
+    assert not page.bench._cancel.visible
+    page.act(lambda: (page.select("door"), page.correct(FlipSign("door"))))
+    sent = []
+    page.act(lambda: page.download(SimpleNamespace(send_file_download=lambda *a, **k: sent.append(a))))
+    ((name, content),) = sent
+    assert name == "cube.zip"
+    assert not page.session.unsaved  # the corrections are in the zip
+    with zipfile.ZipFile(BytesIO(content)) as archive:
+        names = archive.namelist()
+        assert {"cube/cabinet.urdf", "cube/cabinet.xml", "cube/asset.json", "cube/corrections.json"} <= set(names)
+        assert not any("stages" in n for n in names)
+
+
+def test_what_cannot_be_used_is_told_and_the_next_mesh_is_taken(page):
+    upload(page, "notes.txt", b"text")
+    assert "found the format .txt" in said(page)
+    assert FakeWork.made == []
+    upload(page, "<img src=x>.zip", b"PK\x03\x04")
+    assert "broken" in said(page)
+    assert "<img" not in said(page)
+    upload(page)
+    FakeWork.made[0].error = "cube.obj: the mesh has no extent"
+    until(lambda: "was not articulated" in said(page))
+    upload(page)
+    assert len(FakeWork.made) == 2
+
+
+def test_one_mesh_at_a_time_and_cancelling_frees_the_page(page):
+    upload(page)
+    with pytest.raises(CorrectionError, match="one mesh at a time"):
+        page.bench.start(Path("other.obj"), None)
+    page.act(page.bench.cancel)
+    assert FakeWork.made[0].cancelled
+    assert "cancelled" in said(page)
+    upload(page)
+    assert len(FakeWork.made) == 2
+
+
+def test_corrections_that_are_not_saved_keep_the_next_mesh_out(page):
+    upload(page)
+    FakeWork.made[0].finish()
+    until(lambda: page.session is not None)
+    page.act(lambda: (page.select("door"), page.correct(FlipSign("door"))))
+    upload(page)
+    assert len(FakeWork.made) == 1
+    page.act(page.undo)
+    upload(page)
+    assert len(FakeWork.made) == 2
+    assert page.session is None
+
+
+def put(folder, kind):
+    question, answer = questions()[kind]
+    request = Request(question.kind, "system", question.text(), question.pictures, question.schema())
+    found = QuestionStore(folder).put(request, {"check.npz": pack_question(question)})
+    found.write_suggestion(json.dumps(answer))
+    return found, answer
+
+
+def asking(page):
+    """A mesh whose questions are put to the person: the folder of these."""
+    page.bench._who = bench_.MYSELF
+    upload(page)
+    work = FakeWork.made[-1]
+    assert work.options["wait"]
+    assert work.options["suggest"]
+    work.mesh = MESH
+    return Path(work.options["answerer"].removeprefix("files:"))
+
+
+def test_every_question_is_asked_answered_and_recorded(page):
+    folder = asking(page)
+    for kind in questions():
+        found, answer = put(folder, kind)
+        until(lambda: page.bench._desk.busy)
+        until(lambda: "your answer is needed" in said(page))
+        page.act(page.bench._desk._answer)
+        assert json.loads(found.answer()) == answer
+        until(lambda: not page.bench._desk.busy)
+
+
+def test_clicks_reach_the_form_and_a_bad_answer_stays_open(page):
+    folder = asking(page)
+    found, _ = put(folder, "points")
+    until(lambda: page.bench._desk.busy)
+    desk, eye = page.bench._desk, (0.6, -3.0, 0.3)
+    asked = desk._asked
+    asked.form.chosen = [[]]
+    for closer in (True, False):
+        page.act(lambda closer=closer: desk._look_at(closer))
+        off = np.linalg.norm(np.subtract(page.server.initial_camera.look_at, MESH.bounds.mean(0)))
+        assert (off > 0.01) == closer
+    page.act(desk._answer)
+    assert found.answer() is None
+    assert "two or more points" in desk._panel._note.content
+    for place in ((0.6, 0, 0.05), (0.6, 0, 0.55)):
+        page.act(lambda p=place: desk._clicked(SimpleNamespace(ray_origin=eye, ray_direction=tuple(np.subtract(p, eye)))))
+    page.act(desk._answer)
+    assert json.loads(found.answer())["parts"] == [{"part": 1, "points": [1, 3]}]
+    found, _ = put(folder, "marks")
+    until(lambda: desk.busy)
+    desk._asked.form.set_marks("")
+    front = (0.45, -3.0, 0.3)  # looks at the door
+    page.act(lambda: desk._clicked(SimpleNamespace(ray_origin=front, ray_direction=(0.0, 1.0, 0.0))))
+    page.act(desk._answer)
+    assert json.loads(found.answer())["parts"][0] == {"label": "door", "instance": 1, "marks": [1]}
+
+
+def test_one_question_or_all_that_follow_are_left_to_geometry(page):
+    folder = asking(page)
+    first, _ = put(folder, "kinds")
+    until(lambda: page.bench._desk.busy)
+    page.act(page.bench._desk._leave_all)
+    assert first.answer() == "geometry"
+    second, _ = put(folder, "motions")
+    until(lambda: second.answer() == "geometry")
+    assert not page.bench._desk.busy
+
+
+def test_a_defect_is_told_and_the_page_goes_on(page, monkeypatch):
+    folder = asking(page)
+    monkeypatch.setattr(page.bench._desk._scene, "show", lambda form, mesh: 1 / 0)
+    put(folder, "motions")
+    until(lambda: "internal defect, ZeroDivisionError" in said(page))
+    assert FakeWork.made[-1].cancelled
+    upload(page)
+    assert len(FakeWork.made) == 2
+
+
+def test_a_motion_plays_while_it_is_chosen(page):
+    folder = asking(page)
+    put(folder, "motions")
+    until(lambda: page.bench._desk._scene._moving is not None)
+    moving, turns = page.bench._desk._scene._moving, []
+    until(lambda: turns.append(moving.wxyz[0]) or np.ptp(turns) > 0.01)
+
+
+def test_kept_assets_get_names_of_their_own_and_the_same_mesh_the_same_questions(monkeypatch, tmp_path):
+    monkeypatch.setattr(bench_, "Work", FakeWork)
+    FakeWork.made = []
+    source = tmp_path / "in" / "cube.obj"
+    source.parent.mkdir()
+    source.write_bytes(CUBE)
+    for _ in range(2):
+        options = {"ask": True, "out": tmp_path / "out", "author": "Ada", "clock": lambda: ""}
+        with serve(source, port=8420, **options) as serving:
+            assert str(tmp_path / "out") in serving.told[0]
+            FakeWork.made[-1].finish()
+            until(lambda: serving.page.session is not None)
+    first, second = FakeWork.made
+    assert (first.out.name, second.out.name) == ("cube", "cube-2")
+    assert first.options["answerer"] == second.options["answerer"]
+    assert (tmp_path / "out" / "cube-2" / "asset.json").exists()
+
+
+def test_what_was_handed_over_is_removed_at_the_end(monkeypatch):
+    monkeypatch.setattr(bench_, "Work", FakeWork)
+    with serve(None, port=8440, author="Ada", clock=lambda: "") as serving:
+        assert "removed at the end" in serving.told[0]
+        upload(serving.page)
+        folder = serving.page.bench._bench.folder
+        assert folder.exists()
+    assert FakeWork.made[-1].cancelled
+    assert not folder.exists()
+
+
+@pytest.mark.parametrize(
+    ("target", "options"),
+    [(None, {"ask": True}), ("missing.glb", {"ask": True}), (".", {"ask": True}), (".", {"out": "x"})],
+)
+def test_options_that_do_not_go_together_are_refused(tmp_path, monkeypatch, target, options):
+    monkeypatch.chdir(tmp_path)
+    shutil.rmtree(tmp_path / "x", ignore_errors=True)
+    with pytest.raises(OptionError), serve(target, author="Ada", clock=lambda: "", **options):
+        pass
