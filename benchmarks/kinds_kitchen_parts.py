@@ -83,7 +83,8 @@ def body(m: Model, x: Span, y: Span, z: Span, rooms: Sequence[tuple[Span, Span]]
     m.add(BASE, box((x[0], x[0] + wall), y, z), box((x[1] - wall, x[1]), y, z))
     m.add(BASE, *(box((x[0] + wall, x[1] - wall), y, (c, c + wall)) for c in (z[0], z[1] - wall)))
     m.add(BASE, box((x[0] + wall, x[1] - wall), (y[1] - 0.006, y[1]), (z[0] + wall, z[1] - wall)))
-    if len(rooms) > 1 or m.chance(0.4):
+    tight = max(abs(a - b) for r in rooms for a, b in zip((*r[0], *r[1]), (*x, *z), strict=True)) < 2 * wall
+    if not tight or m.chance(0.4):
         m.add(BASE, prism(face, "y", (y[0], y[0] + wall)))
     return True
 
