@@ -84,7 +84,7 @@ def bar_stool(m: Model) -> None:
             )
     lift = base != "legs" and m.chance(0.4)
     seat = "seat"
-    inner = rod((0, 0, 0.55 * high if base != "legs" else high - 0.07), (0, 0, high - 0.02), 0.02, n)
+    inner = rod((0, 0, (0.2 if lift else 0.55) * high if base != "legs" else high - 0.07), (0, 0, high - 0.02), 0.02, n)
     if lift:
         m.add("column", inner)
         m.slide("column", (0, 0, 1), (-0.05, 0.2))
