@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from kinds_model import BASE, Model
-from kinds_solids import Point, Span, ball, box, prism, ring, rod, tube, vec
+from kinds_solids import Point, Span, ball, box, loft, prism, ring, rod, tube, vec
 from shapely.geometry import Polygon
+from trimesh import Trimesh
 
 
 def dial(m: Model, part: str, at: Point, axis: Point, radius: float, parent: str = BASE, style: str = "") -> None:
@@ -94,19 +97,6 @@ def cable(m: Model, at: Point, reach: float) -> None:
     )
 
 
-def turned_profile(profile: list[tuple[float, float]], n: int, z: float = 0.0) -> list[list[tuple[float, float, float]]]:
-    """Rings of a solid of revolution about z from (radius, height) pairs, for `loft`."""
-    t = np.linspace(0, 2 * np.pi, n, endpoint=False)
-    return np.stack([np.c_[r * np.cos(t), r * np.sin(t), np.full(n, z + h)] for r, h in profile])
-
-
-def fluted(radius: float, teeth: int, depth: float, z: Span) -> object:
-    """A ribbed cylinder about z."""
-    t = np.linspace(0, 2 * np.pi, 2 * teeth, endpoint=False)
-    r = np.where(np.arange(2 * teeth) % 2, radius, radius * (1 - depth))
-    return prism(Polygon(np.c_[r * np.cos(t), r * np.sin(t)]), "z", z)
-
-
 def feet(m: Model, x: Span, y: Span, high: float) -> None:
     """What an object stands on: a plinth, round or square feet, casters, skids."""
     style, d = m.pick("plinth", "round", "square", "casters", "skids"), 0.1 * min(x[1] - x[0], y[1] - y[0])
@@ -129,3 +119,19 @@ def feet(m: Model, x: Span, y: Span, high: float) -> None:
                     rod((a - d / 5, b, r), (a + d / 5, b, r), r, 12),
                     box((a - d / 4, a + d / 4), (b - r, b + r), (r, high)),
                 )
+
+
+def lathe(profile: Sequence[tuple[float, float]], n: int, at: Point = (0.0, 0.0, 0.0), caps: bool = True) -> Trimesh:
+    """Turn a profile of (radius, height) about a vertical line; one that returns inside makes a vessel."""
+    t = np.linspace(0, 2 * np.pi, n, endpoint=False)
+    rings = np.stack([np.c_[r * np.cos(t), r * np.sin(t), np.full(n, h)] for r, h in profile])
+    return loft(rings + np.asarray(at, float), caps)
+
+
+def fluted(radius: float, teeth: int, z: Span, at: Point = (0.0, 0.0, 0.0)) -> Trimesh:
+    """A ribbed cylinder about a vertical line."""
+    t = np.linspace(0, 2 * np.pi, 2 * teeth, endpoint=False)
+    r = np.where(np.arange(2 * teeth) % 2, radius, 0.92 * radius)
+    solid = prism(Polygon(np.c_[r * np.cos(t), r * np.sin(t)]), "z", z)
+    solid.apply_translation(np.asarray(at, float))
+    return solid
