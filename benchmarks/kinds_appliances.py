@@ -51,7 +51,8 @@ def racks(m: Model, room: tuple[Span, Span], deep: float, start: float, name: st
     x, z = room
     for k, c in enumerate(np.linspace(*z, m.pick(1, 2, 3) + 2)[1:-1]):
         part = f"{name}_{k}" if m.chance(0.6) else BASE
-        rack(m, part, (x[0] + 0.025, x[1] - 0.025), (start + 0.015, deep - 0.05), float(c))
+        play = 0.025 if part != BASE else 0.016  # fixed ones reach the walls
+        rack(m, part, (x[0] + play, x[1] - play), (start + 0.015, deep - 0.05), float(c))
         if part != BASE:
             m.slide(part, FRONT, 0.7 * deep)
             if m.chance(0.5):

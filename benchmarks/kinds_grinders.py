@@ -44,8 +44,9 @@ def coffee_grinder(m: Model) -> None:
         )
         m.add("crank", *(turned(s, (0, 0, 1), start, at) for s in solids))
         m.spin("crank", at, (0, 0, 1))
-        grip = [rod(end, end + vec(0, 0, 0.02), 0.004, 8), ball(end + vec(0, 0, 0.03), (0.015, 0.015, 0.018), n)]
         part = m.pick("grip", "grip", "crank")
+        pin = [rod(end, end + vec(0, 0, 0.02), 0.004, 8)] if part == "grip" else []
+        grip = [*pin, ball(end + vec(0, 0, 0.03 if pin else 0.014), (0.015, 0.015, 0.018), n)]
         m.add(part, *(turned(s, (0, 0, 1), start, at) for s in grip))
         if part == "grip":
             m.spin(
@@ -116,12 +117,10 @@ def pepper_mill(m: Model) -> None:
         else:
             m.add(top, lathe(dome, n, (x, 0, 0)))
             if m.chance(0.6):
-                nut = m.pick("nut", top)
-                nut = f"nut_{k}" if nut == "nut" else nut
-                m.add(
-                    nut, ball((x, 0, high + 0.006), (0.008,) * 3, 10), rod((x, 0, high - 0.004), (x, 0, high + 0.002), 0.004, 8)
-                )
-                if nut != top:
+                nut = m.pick(f"nut_{k}", top)
+                m.add(nut, ball((x, 0, high + 0.006), (0.008,) * 3, 10))
+                if nut != top:  # its neck shows
+                    m.add(nut, rod((x, 0, high - 0.004), (x, 0, high + 0.002), 0.004, 8))
                     m.spin(nut, (x, 0, high), (0, 0, 1), top)
         m.spin(top, (x, 0, s), (0, 0, 1))
         if m.chance(0.3):

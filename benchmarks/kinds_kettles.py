@@ -54,7 +54,6 @@ def kettle(m: Model) -> None:
     if stove:
         m.slide("lid", (0, 0, 1), m.number(0.05, 0.15))
         up, s = high + m.number(0.07, 0.11), 0.95 * r
-        m.add(BASE, *(rod((s * k, -0.012, 0.75 * high), (s * k, 0.012, 0.75 * high), 0.012, 10) for k in (-1, 1)))
         part = m.pick("bail", "bail", BASE)
         m.add(
             part,
@@ -62,6 +61,7 @@ def kettle(m: Model) -> None:
             rod((-0.6 * s, 0, up), (0.6 * s, 0, up), 0.011, n),
         )
         if part == "bail":
+            m.add(BASE, *(rod((s * k, -0.012, 0.75 * high), (s * k, 0.012, 0.75 * high), 0.012, 10) for k in (-1, 1)))
             m.hinge("bail", (0, 0, 0.75 * high), (1, 0, 0), (-80, 80))
         return
     out, t = r + m.number(0.04, 0.06), 0.011

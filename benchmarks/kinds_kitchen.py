@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 
 import numpy as np
-from kinds_kitchen_parts import body, door, drawer, fill, look, rack, swing, tray
+from kinds_kitchen_parts import blind, body, door, drawer, fill, look, rack, swing, tray
 from kinds_kitchen_trims import feet
 from kinds_model import BASE, Model
 from kinds_solids import Span, box, cut, prism, rod, vec
@@ -32,7 +32,7 @@ def wall_unit(m: Model) -> None:
     for k, (x, z) in enumerate(rooms):
         half = (z[0] + z[1]) / 2
         if k == fixed:
-            fill(m, BASE, x, how.depth, z, look(m, 0.4, (how.front,), (how.pull, "none")))
+            blind(m, x, how.depth, z, how)
         elif folds:
             fill(
                 m,
@@ -185,7 +185,7 @@ def kitchen_run(m: Model) -> None:
         elif kind == "door":
             door(m, f"door_{k}", x, z, side, how, 110)
         elif kind == "false":
-            fill(m, BASE, x, how.depth, z, how, "middle")
+            blind(m, x, how.depth, z, how)
         else:
             rack(m, BASE, x, (0.01, deep - 0.05), (z[0] + z[1]) / 2)
     feet(m, (0, xs[-1]), (0, deep), foot)

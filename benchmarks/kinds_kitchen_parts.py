@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from kinds_model import BASE, Model
@@ -119,6 +119,11 @@ def fill(m: Model, part: str, x: Span, y: Span, z: Span, how: Look, edge: str = 
     if style == "raised":
         m.add(part, prism(rectangle(*inner, 0.2 * rim), "y", (y[0] - 0.25 * thick, y[0])))
     pull(m, part, how, x, y[0], z, edge)
+
+
+def blind(m: Model, x: Span, y: Span, z: Span, how: Look) -> None:
+    """Build a fixed panel in the manner of the fronts, as a rule without a handle."""
+    fill(m, BASE, x, y, z, how if m.chance(0.1) else replace(how, pull="none"), "middle")
 
 
 def _place(how: Look, x: Span, z: Span, edge: str, rim: float) -> tuple[np.ndarray, np.ndarray, float]:

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from kinds_kitchen_parts import body, door, drawer, fill, look, tray
-from kinds_kitchen_trims import feet, trims
+from kinds_kitchen_parts import blind, body, door, drawer, fill, look, tray
+from kinds_kitchen_trims import feet
 from kinds_model import BASE, Model
 from kinds_solids import ball, box, common, cut, prism, rectangle, rod, vec
 from shapely.geometry import Polygon
@@ -18,7 +18,7 @@ def waste_sorter(m: Model) -> None:
     feet(m, (0, wide), (0, deep), foot)
     if room[1][1] < foot + high - 0.1:
         above = ((0.01, wide - 0.01), (room[1][1] + 0.02, foot + high - 0.01))
-        fill(m, BASE, above[0], how.depth, above[1], how, "middle")
+        blind(m, above[0], how.depth, above[1], how)
     if m.chance(0.3):
         door(m, "flap", *room, "bottom", how, m.pick(30, 45))
         return
@@ -101,7 +101,6 @@ def bread_box(m: Model) -> None:
             solid.apply_transform(T)
             m.add("flap", solid)
         m.hinge("flap", (wide / 2, -0.005, 0.002), (1, 0, 0), m.pick(90, 110))
-    trims(m, BASE, (0.0, wide), 0.0, (0.0, 0.3 * high), 0)
     if m.chance(0.5):
         m.add(BASE, *(rod((a, b, -0.012), (a, b, 0), 0.01, 10) for a in (0.03, wide - 0.03) for b in (0.03, deep - 0.03)))
 

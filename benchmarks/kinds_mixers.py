@@ -64,7 +64,8 @@ def stand_mixer(m: Model) -> None:
                 8,
             ),
         )
-    if part == "bowl":
+    if part == "bowl":  # it stands on a plate
+        m.add(BASE, rod((0, y, t), (0, y, t + 0.004), 0.75 * r, n))
         m.spin("bowl", (0, y, t), (0, 0, 1)) if m.chance(0.5) else m.hinge("bowl", (0, y, t), (0, 0, 1), 30)
     m.add("beater", rod((0, y, split + 0.03), (0, y, t + 0.11), 0.007, 8))
     tool = m.pick("flat", "hook", "whisk")
@@ -130,11 +131,10 @@ def blender(m: Model) -> None:
     wall = [(0.75 * r, base + 0.002), (0.7 * r, base + 0.03), (r, top)] + (
         [(r - 0.004, top), (0.66 * r, base + 0.03)] if m.chance(0.8) else []
     )
-    jug = m.pick(BASE, BASE, "jug")
-    m.add(jug, turned(lathe(wall, n), (0, 0, 1), turn, (0, 0, 0)))
+    m.add(BASE, turned(lathe(wall, n), (0, 0, 1), turn, (0, 0, 0)))
     s = m.pick(-1, 1)
     m.add(
-        jug,
+        BASE,
         tube(
             [
                 (s * 0.85 * r, 0, top - 0.02),
@@ -146,8 +146,6 @@ def blender(m: Model) -> None:
             8,
         ),
     )
-    if jug == "jug":
-        m.slide("jug", (0, 0, 1), m.number(0.1, 0.2))
     m.add(
         "lid",
         turned(lathe([(1.05 * r, top + 0.001), (1.02 * r, top + 0.02), (0.5 * r, top + 0.022)], n), (0, 0, 1), turn, (0, 0, 0)),
@@ -155,9 +153,9 @@ def blender(m: Model) -> None:
     if m.chance(0.4):
         m.add("lid", box((s * r, s * (r + 0.03)), (-0.02, 0.02), (top + 0.006, top + 0.018)))
     if m.chance(0.3):
-        m.hinge("lid", (s * 1.04 * r, 0, top + 0.002), (0, s, 0), 100, jug)
+        m.hinge("lid", (s * 1.04 * r, 0, top + 0.002), (0, s, 0), 100)
     else:
-        m.slide("lid", (0, 0, 1), m.number(0.05, 0.15), jug)
+        m.slide("lid", (0, 0, 1), m.number(0.05, 0.15))
     if m.chance(0.7):
         m.add("cap", rod((0, 0, top + 0.022), (0, 0, top + 0.04), 0.35 * r, max(n, 8)))
         m.slide("cap", (0, 0, 1), 0.04, "lid")
@@ -168,7 +166,7 @@ def blender(m: Model) -> None:
         for k in range(count):
             blade = box((-0.5 * r, 0.5 * r), (-0.005, 0.005), (z, z + 0.002))
             m.add("blades", turned(turned(blade, (0, 1, 0), 15 * (k - 1), (0, 0, z)), (0, 0, 1), 180 * k / count, (0, 0, 0)))
-        m.spin("blades", (0, 0, z), (0, 0, 1), jug)
+        m.spin("blades", (0, 0, z), (0, 0, 1))
     c = 0.35 * base
     m.add(BASE, box((-0.6 * r, 0.6 * r), (face - 0.004, face + 0.5 * r), (c - 0.03, c + 0.03)))
     if m.chance(0.5):
