@@ -7,7 +7,7 @@ from typing import TypeAlias
 
 import numpy as np
 from kinds_cabinets import legs
-from kinds_joinery import Style, alike, corners, drawer, front, quad, shrunk
+from kinds_joinery import Style, alike, corners, drawer, front, fuse, quad, shrunk
 from kinds_model import BASE, Model
 from kinds_panels import OUT, hang, middle, sheet
 from kinds_solids import Span, box, cut, loft, prism, rectangle, rounded
@@ -48,6 +48,8 @@ def cabinet(m: Model, x: Span, y: Span, z: Span, layout: list[Column], s: Style,
         if what != "drawer" and s.carcass != "block" and b[1] - b[0] > 0.35 and m.chance(0.6):  # fixed shelves
             for c in np.linspace(b[0], b[1], m.pick(3, 4))[1:-1]:
                 m.add(BASE, box(shrunk(a, 0.005), (y[0] + 0.05, y[1] - 0.01), (c - 0.008, c + 0.008)))
+    if s.fused and m.chance(0.5):
+        fuse(m, BASE)
 
 
 def _fill(m: Model, part: str, what: str, x: Span, y: Span, z: Span, s: Style, depth: float) -> None:
@@ -55,7 +57,7 @@ def _fill(m: Model, part: str, what: str, x: Span, y: Span, z: Span, s: Style, d
     if what == "drawer":
         drawer(m, part, x, y, z, s, depth if s.mount == "overlay" else depth - s.thick)
     elif what == "false":
-        front(m, BASE, x, y, z, replace(s, fused=False))
+        front(m, BASE, x, y, z, replace(s, pull="none", fused=False))
     elif what == "pair":
         for k, side in enumerate(("left", "right")):
             half = ((x[0], middle(x) - s.gap / 2), (middle(x) + s.gap / 2, x[1]))[k]
