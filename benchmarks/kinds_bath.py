@@ -92,7 +92,7 @@ def mirror_cabinet(m: Model) -> None:
         m.add(BASE, box((0, wide), (-0.06, deep), (z - 0.03, z - 0.015)))
 
 
-def vanity(m: Model) -> None:
+def vanity_unit(m: Model) -> None:
     """A wash-stand: doors, drawers and fixed fields below a basin, with a tap that stays or turns, perhaps on legs."""
     wide, high, deep = m.number(0.45, 1.4), m.number(0.4, 0.65), m.number(0.4, 0.52)
     foot, how = m.pick(0.0, 0.1, 0.2), look(m, 0.5)
