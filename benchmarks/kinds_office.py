@@ -11,7 +11,7 @@ from kinds_wheels import beam
 def printer(m: Model) -> None:
     """A case with a lid or scanner, a front flap, a cassette, a rear paper rest, a panel of keys."""
     wide, deep, high = m.number(0.38, 0.5), m.number(0.3, 0.42), m.number(0.14, 0.32)
-    gap, t = abs(m.gap(0.3)), 0.02
+    gap = abs(m.gap(0.3))
     slot, low = m.number(0.3, 0.4) * high, m.number(0.25, 0.35) * high
     hollow, inset = m.chance(0.6), m.chance(0.5)
     body = prism(rounded((0, wide), (0, high), m.pick(0.005, 0.02)), "y", (0, deep))
