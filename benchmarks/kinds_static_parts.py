@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 import trimesh
 from kinds_model import BASE, Model
@@ -24,10 +26,10 @@ def pipe_assembly(m: Model) -> None:
         else:
             m.add(
                 BASE,
-                *(rod(a, b, r, n) for a, b in zip(path[:-1], path[1:], strict=True)),
+                *(rod(a, b, r, n) for a, b in pairwise(path)),
                 *(ball(p, (1.25 * r,) * 3, n) for p in path[1:-1]),
             )
-        for a, b in zip(path[:-1], path[1:], strict=True):
+        for a, b in pairwise(path):
             way = (b - a) / np.linalg.norm(b - a)
             for t in (0.25, 0.75)[: m.pick(0, 1, 2)]:
                 p = a + t * (b - a)
