@@ -1,4 +1,4 @@
-"""Technical objects without any movable part: pipes, engine block, tyres."""
+"""Technical objects without any movable part: pipes, engine block, tyres, street lamp."""
 
 from __future__ import annotations
 
@@ -133,3 +133,58 @@ def tyre_stack(m: Model) -> None:
         m.add(BASE, *upright([lean], (0, -1, m.number(0.05, 0.3)), (0, -r - wide, r)))
     if m.chance(0.3):
         m.add(BASE, box((-0.6, 0.6), (-0.6, 0.6), (-0.1, -0.0)))
+
+
+def street_lamp(m: Model) -> None:
+    """A post with one or two lamps, a base with a plate that looks like a hatch; nothing moves."""
+    tall, n, r = m.number(2.8, 7), m.pick(8, 12, 20), m.number(0.04, 0.08)
+    m.add(
+        BASE,
+        lathe(
+            [(0, 0), (3 * r, 0), (3 * r, 0.1), (1.8 * r, 0.2), (1.8 * r, 0.9), (1.2 * r, 1.0), (0.8 * r, tall), (0, tall)], n
+        ),
+    )
+    if m.chance(0.6):
+        m.add(BASE, box((-r, r), (-1.95 * r, -1.5 * r), (0.4, 0.75)), rod((0, -2.1 * r, 0.7), (0, -1.9 * r, 0.7), 0.01, 6))
+    style, arms = m.pick("lantern", "arm", "globe"), m.pick(1, 2)
+    if style == "arm":
+        for s in (-1, 1)[:arms]:
+            t = np.linspace(0, np.pi / 2, 8)
+            reach = m.number(0.6, 1.6)
+            path = [(s * reach * (1 - np.cos(a)), 0, tall - 0.05 + 0.5 * np.sin(a)) for a in t]
+            m.add(
+                BASE,
+                tube(path, 0.6 * r, 8),
+                prism(
+                    rounded((s * reach - 0.1, s * reach + 0.5 * s + 0.1 * s), (-0.12, 0.12), 0.05),
+                    "z",
+                    (tall + 0.4, tall + 0.5),
+                ),
+            )
+        return
+    tops = [(0, 0)] if arms == 1 else [(-0.45, 0), (0.45, 0)]
+    if arms == 2:
+        m.add(BASE, rod((-0.45, 0, tall), (0.45, 0, tall), 0.6 * r, n))
+    for x, y in tops:
+        if style == "globe":
+            m.add(
+                BASE,
+                ball((x, y, tall + 0.22), (0.2, 0.2, 0.2), n),
+                lathe([(0, 0), (0.08, 0), (0.1, 0.08), (0, 0.08)], n, (x, y, tall)),
+            )
+            continue
+        m.add(
+            BASE,
+            beam((x, y, tall), (x, y, tall + 0.4), 0.2, 0.2, taper=1.7)
+            if m.chance(0.4)
+            else rod((x, y, tall), (x, y, tall + 0.02), 0.12, 4),
+        )
+        m.add(
+            BASE,
+            *(
+                rod((x + a * 0.08, y + b * 0.08, tall), (x + a * 0.15, y + b * 0.15, tall + 0.4), 0.01, 6)
+                for a in (-1, 1)
+                for b in (-1, 1)
+            ),
+        )
+        m.add(BASE, lathe([(0, 0.4), (0.26, 0.4), (0.08, 0.55), (0, 0.62)], m.pick(4, 6, n), (x, y, tall)))
