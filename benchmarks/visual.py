@@ -3,6 +3,7 @@
 python benchmarks/visual.py ask FOLDER --place infinigen=DIR --wait --jobs 4    asks, in FOLDER/NNN/PROTOCOL/, to the end
 python benchmarks/visual.py keep FOLDER                                         answers to benchmarks/recordings/, no pictures
 python benchmarks/visual.py table --place infinigen=DIR [--ablation]            benchmarks/visual.md, from the recordings alone
+python benchmarks/visual.py scores FOLDER                                       benchmarks/visual.md, as measured while asking
 python benchmarks/visual.py pictures FOLDER --only 001                          recorded questions with their pictures
 
 Objects have numbers in the folders of questions, as their names would tell what they are (`recordings/objects.json`), and what
@@ -140,6 +141,19 @@ def table(found: Sequence[Item], ablation: bool, jobs: int, out: Path) -> None:
     print(f"wrote {out}")
 
 
+def measured(found: Sequence[Item], folder: Path) -> list[Row]:
+    """The objects as they were scored when their last question was answered."""
+    rows = []
+    for item in found:
+        for protocol in PROTOCOLS:
+            done = results_of(folder) / item.number / protocol / RECORD
+            if done.exists():
+                calls = sum(q.answer() is not None for q in find_questions(folder / item.number / protocol) if not q.outdated)
+                record = record_of(done.read_text(encoding="utf-8"))
+                rows.append(Row(VARIANTS[0], item.number, item.set, protocol, record, calls))
+    return rows
+
+
 def pictures(item: Item, protocol: Protocol, folder: Path) -> str:
     """Asks again what was recorded, so that the pictures are drawn; the recorded answers stand beside them."""
     place = folder / item.number / protocol
@@ -164,7 +178,7 @@ def _each(work, tasks: Sequence[tuple], jobs: int) -> Iterator:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("what", choices=("ask", "keep", "table", "pictures"))
+    parser.add_argument("what", choices=("ask", "keep", "scores", "table", "pictures"))
     parser.add_argument("folder", nargs="?", type=Path, help="of questions; not for table")
     parser.add_argument("--place", action="append", default=[], metavar="SET=PLACE", help="where a data set lies; may repeat")
     parser.add_argument("--only", default="", metavar="NUMBERS", help="of objects, with commas between")
@@ -180,6 +194,8 @@ def main() -> None:
     protocols = [p for p in PROTOCOLS if options.protocol in (None, p)]
     if options.what == "keep":
         keep(options.folder)
+    elif options.what == "scores":
+        options.markdown.write_text(page(measured(found, options.folder)), encoding="utf-8")
     elif options.what == "table":
         table(found, options.ablation, options.jobs, options.markdown)
     elif options.what == "pictures":

@@ -8,19 +8,18 @@ from statistics import fmean, median
 
 from visual_replay import VARIANTS, Row
 
-from anymesh.evaluation.score import JointScore
-
 HEAD = """# The visual method, with recorded answers
 
 `python benchmarks/visual.py table --ablation --place SET=PLACE ...` replays `benchmarks/recordings/`: no model, no network.
 Each question was answered once, from its text and pictures alone, through `--answerer files:FOLDER`; names and the truth are in
 none of them, and objects have numbers for names.
 
-Recall: true movable parts found with an IoU of .5 or more. mIoU: over the true parts, 0 for one that was not found. Type, angle
-and position at the part: of the joints that were found; the diagonal is 2. Calls: questions answered, mean over objects.
+Recall: true movable parts found with an IoU of .5 or more. mIoU: over the true parts, 0 for one that was not found. Of joints
+that were found: type (turns or slides as it should), exact type (revolute and continuous apart), angle, position at the part
+(the diagonal is 2), whether positive opens. Calls: questions answered, mean over objects.
 Seconds: of the tool, without the answerer, cold, median over objects.
 """
-COLUMNS = ("objects", "joints", "recall", "mIoU", "type", "angle [deg]", "at the part", "calls", "s")
+COLUMNS = ("objects", "joints", "recall", "mIoU", "type", "exact type", "angle [deg]", "at the part", "opens", "calls", "s")
 
 
 def page(rows: Sequence[Row]) -> str:
@@ -75,16 +74,14 @@ def _figures(rows: Sequence[Row]) -> list[str]:
         str(len(joints)),
         _share(sum(s.matched for s in scores), parts),
         _share(sum(s.part_miou * s.true for s in scores), parts),
-        _share(sum(_typed(j) for j in found), len(found)),
+        _share(sum(j.type_right for j in found), len(found)),
+        _share(sum(j.type_found == j.type_true for j in found), len(found)),
         f"{fmean(j.angle or 0.0 for j in found):.2f}" if found else "",
         f"{fmean(turning):.4f}" if turning else "",
+        _share(sum(j.opens_right is True for j in found), sum(j.opens_right is not None for j in found)),
         f"{fmean(r.calls for r in rows):.1f}",
         f"{median(r.record.seconds for r in rows):.0f}",
     ]
-
-
-def _typed(joint: JointScore) -> bool:
-    return joint.type_found == joint.type_true
 
 
 def _share(part: float, whole: int) -> str:
