@@ -96,7 +96,7 @@ def telephone(m: Model) -> None:
     m.add("handset", beam(a, b, 0.03 if side else 0.025, 0.02, (1, 0, 0) if side else (0, 1, 0)))
     for end in (a, b):
         m.add("handset", rod(end - vec(0, 0, 0.025), end + vec(0, 0, 0.012), 0.024, m.sections()))
-    m.slide("handset", (0, 0, 1), 0.12)
+    m.slide("handset", (0, 0, 1), 0.03)
     if m.chance(0.5):
         y = deep - 0.04
         x = (0.03, 0.045) if side else (wide / 2 - 0.01, wide / 2 + 0.01)

@@ -158,7 +158,7 @@ def blender(m: Model) -> None:
         m.slide("lid", (0, 0, 1), m.number(0.05, 0.15))
     if m.chance(0.7):
         m.add("cap", rod((0, 0, top + 0.022), (0, 0, top + 0.04), 0.35 * r, max(n, 8)))
-        m.slide("cap", (0, 0, 1), 0.04, "lid")
+        m.slide("cap", (0, 0, 1), 0.02, "lid")
     if m.chance(0.7):
         z = base + 0.04
         m.add("blades", rod((0, 0, base), (0, 0, z + 0.004), 0.007, 8))

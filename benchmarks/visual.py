@@ -24,7 +24,7 @@ from multiprocessing import get_context
 from pathlib import Path
 
 from visual_replay import VARIANTS, Row, replayed
-from visual_table import page
+from visual_table import MEASURED, page
 
 from anymesh.answering import choose_answerer
 from anymesh.errors import AnymeshError, OpenQuestionError
@@ -195,7 +195,7 @@ def main() -> None:
     if options.what == "keep":
         keep(options.folder)
     elif options.what == "scores":
-        options.markdown.write_text(page(measured(found, options.folder)), encoding="utf-8")
+        options.markdown.write_text(page(measured(found, options.folder), MEASURED), encoding="utf-8")
     elif options.what == "table":
         table(found, options.ablation, options.jobs, options.markdown)
     elif options.what == "pictures":

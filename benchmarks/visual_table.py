@@ -10,21 +10,34 @@ from visual_replay import VARIANTS, Row
 
 HEAD = """# The visual method, with recorded answers
 
-`python benchmarks/visual.py table --ablation --place SET=PLACE ...` replays `benchmarks/recordings/`: no model, no network.
-Each question was answered once, from its text and pictures alone, through `--answerer files:FOLDER`; names and the truth are in
-none of them, and objects have numbers for names.
+{how}
+
+Each question was answered once, from its text and pictures alone, through `--answerer files:FOLDER`, by a general model that
+sees pictures and reads files; no paid API was called. Names and the truth are in none of them, and objects have numbers for
+names. The answerer knew which data sets there are and recognized a few of them; it answered equal keys in one go, and a few
+kinds of motion from the text before it saw the picture.
 
 Recall: true movable parts found with an IoU of .5 or more. mIoU: over the true parts, 0 for one that was not found. Of joints
 that were found: type (turns or slides as it should), exact type (revolute and continuous apart), angle, position at the part
 (the diagonal is 2), whether positive opens. Calls: questions answered, mean over objects.
-Seconds: of the tool, without the answerer, cold, median over objects.
+{seconds}
 """
+REPLAYED = {
+    "how": "`python benchmarks/visual.py table --ablation --place SET=PLACE ...` replays `benchmarks/recordings/`: no model, "
+    "no network.",
+    "seconds": "Seconds: of the tool, without the answerer, cold, median over objects.",
+}
+MEASURED = {
+    "how": "Scores at the time of the recording: `python benchmarks/visual.py scores FOLDER`, after `ask`. `python "
+    "benchmarks/visual.py table --place SET=PLACE ...` replays the recordings in `benchmarks/recordings/` without a model.",
+    "seconds": "Seconds include the wait for answers, with up to twelve objects at a time.",
+}
 COLUMNS = ("objects", "joints", "recall", "mIoU", "type", "exact type", "angle [deg]", "at the part", "opens", "calls", "s")
 
 
-def page(rows: Sequence[Row]) -> str:
-    """The whole page, as Markdown."""
-    lines = [HEAD]
+def page(rows: Sequence[Row], about: dict[str, str] = REPLAYED) -> str:
+    """The whole page, as Markdown. about: how the figures were made, REPLAYED or MEASURED."""
+    lines = [HEAD.format(**about)]
     for protocol in dict.fromkeys(r.protocol for r in rows):
         own = [r for r in rows if r.protocol == protocol]
         first = [r for r in own if r.variant == VARIANTS[0]]

@@ -86,7 +86,7 @@ def test_the_tables_count_what_is_missing_and_what_was_found(visual) -> None:
     other = JointScore("b", 0.0, JointType.PRISMATIC)
     record = Record(ObjectScore("box", (found, other), 1, 2, 1, part_miou=0.45), seconds=12.0)
     told = page([Row("as recorded", "001", "some", visual.Protocol.PARTS, record, 4)])
-    assert "| some | 1 | 2 | 0.500 | 0.450 | 1.000 | 2.00 | 0.0200 | 4.0 | 12 |" in told
+    assert "| some | 1 | 2 | 0.500 | 0.450 | 1.000 | 1.000 | 2.00 | 0.0200 |  | 4.0 | 12 |" in told
     failed = Row(
         "as recorded", "002", "some", visual.Protocol.PARTS, Record(ObjectScore("x", (), 0, 0, 0), error="no answer"), 0
     )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
@@ -173,14 +173,12 @@ class Solver:
 
     def _motions(self, segmentation: Segmentation, progress: Progress = silent) -> list[PartMotions]:
         """Sweep the motions of all parts; those of the parts that were swept last are kept."""
-        faces, parts = segmentation.face_part.tobytes(), segmentation.parts
+        faces = segmentation.face_part.tobytes()
         if self._swept is None or self._swept[0] != faces:
-            found: list[PartMotions] = []
-            for motions in motion_questions(self._ready_for(segmentation), segmentation, self.config, self.deadline):
-                progress("joints", parts[motions[0]].name, len(found), len(parts) - 1)
-                found.append(motions)
-            self._swept = faces, found
-        return relabelled(self._swept[1], segmentation)
+            found = motion_questions(self._ready_for(segmentation), segmentation, self.config, self.deadline)
+            self._swept = faces, list(_told(found, segmentation, progress))
+            return self._swept[1]
+        return list(_told(relabelled(self._swept[1], segmentation), segmentation, progress))
 
     def stays_free(self, without: np.ndarray, joined: np.ndarray, part: int, moves: Moves | None = None) -> bool:
         """Tell whether a part opens as far with the unseen patches that it would gain.
@@ -217,6 +215,13 @@ class Solver:
         """What geometry would answer, for questions that a model could not."""
         joints = estimate_joints(segmentation, self._motions(segmentation), GEOMETRY)
         return reference_of(self.mesh, segmentation, joints, self.config.category or "object")
+
+
+def _told(swept: Iterable[PartMotions], segmentation: Segmentation, progress: Progress) -> Iterator[PartMotions]:
+    """Report each part as its motions come."""
+    for done, motions in enumerate(swept):
+        progress("joints", segmentation.parts[motions[0]].name, done, len(segmentation.parts) - 1)
+        yield motions
 
 
 def reference_of(mesh: Mesh, segmentation: Segmentation, joints: tuple[Joint, ...], category: str) -> Reference:

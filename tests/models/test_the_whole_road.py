@@ -32,7 +32,7 @@ def perfect(truth: Truth) -> Said:
     solver = Solver(placed.mesh, FEW(), lambda instead: Spoken(oracle(prepared(truth)), instead))
     recognized = solver.recognize()
     segmented = solver.parts("auto", recognized.recognition)
-    jointed = solver.joints(segmented.segmentation, recognized.recognition)
+    jointed = solver.joints(segmented.segmentation, recognized.recognition, grounded=True)
     exchanges = (*recognized.exchanges, *segmented.exchanges, *jointed.exchanges)
     return {e.text: (e.kind, e.answer) for e in exchanges}
 

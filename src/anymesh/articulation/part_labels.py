@@ -11,6 +11,7 @@ DRAWER = 0.15  # of the object's diagonal: what slides out and is smaller is a b
 WHEEL = 0.16  # of the object's diagonal: what spins and is smaller is a knob
 MIN_TRAVEL = 0.1  # of its size: what is no button and comes out by less does not move
 UP = 0.8  # cosine of the way out with the vertical from which a hinged part is a lid
+RISES = 0.5  # of its height: a part with a level hinge that stands higher above its parent is a lid that is shown open
 
 
 def label_of(around: Surroundings, best: Candidate) -> str:
@@ -29,4 +30,6 @@ def label_of(around: Surroundings, best: Candidate) -> str:
         return "knob" if size < WHEEL else "wheel"
     if best.role == "bail":
         return "handle" if around.part.slender else "lid"  # a plate on two pivots is a laptop's lid
-    return "lid" if around.outward[2] > UP else "door"
+    low, high = around.part.bounds[:, 2]
+    raised = best.vertical < ALONG and high - around.parent.bounds[1, 2] > RISES * (high - low)
+    return "lid" if around.outward[2] > UP or raised else "door"
