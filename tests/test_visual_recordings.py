@@ -91,3 +91,12 @@ def test_the_tables_count_what_is_missing_and_what_was_found(visual) -> None:
         "as recorded", "002", "some", visual.Protocol.PARTS, Record(ObjectScore("x", (), 0, 0, 0), error="no answer"), 0
     )
     assert "- as recorded, 002 parts: no answer" in page([failed])
+
+
+@pytest.mark.parametrize("number", ["022", *(pytest.param(number, marks=pytest.mark.slow) for number in ("048", "060", "065"))])
+def test_a_recording_of_an_example_replays_without_a_model(visual, number: str) -> None:
+    (item,) = visual.items({}, [number])
+    row = visual.row(item, visual.Protocol.END_TO_END, "as recorded")
+    assert row.record.error == ""
+    assert row.record.score.matched == row.record.score.true == row.record.score.predicted
+    assert all(j.type_right and (j.angle or 0.0) < 2 and (j.at_part or 0.0) < 0.04 for j in row.record.score.joints)

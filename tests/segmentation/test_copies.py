@@ -7,7 +7,9 @@ from assets import box, mesh_of
 from anymesh.config import Config, SegmentationConfig
 from anymesh.errors import OptionError
 from anymesh.geometry.pieces import object_shape
+from anymesh.segmentation import segment
 from anymesh.segmentation.contacts import coplanar, find_contacts
+from anymesh.segmentation.part_tree import Overlap
 from anymesh.segmentation.units import Units, with_held
 from anymesh.solving import Solver
 from anymesh.types import Segmentation
@@ -38,7 +40,15 @@ def test_a_surface_that_creases_part_moves_as_one_but_not_with_the_root() -> Non
     assert 0 not in with_held(units([0, 0, 2, 3]), 1)
 
 
-def test_something_is_taken_where_something_must_move() -> None:
+class Doubtful:
+    """Thinks that no candidate is a part, small ones least of all."""
+
+    def score(self, overlap: Overlap, features: list[dict[str, float]]) -> tuple[np.ndarray, list[str]]:
+        return np.array([-0.1 - row["size"] for row in features]), ["nothing"] * len(features)
+
+
+def test_something_is_taken_where_something_must_move(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(segment, "shipped_classifier", Doubtful)
     nailed = [BODY, box((0.48, -0.2, 0.48), (0.52, 0.02, 0.52))]
     assert len(parts(nailed).parts) == 1
     found = parts(nailed, at_least=1)

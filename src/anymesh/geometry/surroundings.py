@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from jaxtyping import Bool, Float
+from jaxtyping import Bool, Float, Int
 from scipy.spatial import KDTree
 
 from anymesh.config import ArticulationConfig
@@ -141,9 +141,15 @@ class Surroundings:
         return roundest(points, self.part.box.axes[::-1])
 
     @cached_property
+    def nearest(self) -> tuple[Float[np.ndarray, " n"], Int[np.ndarray, " n"]]:
+        """Distance of each sample of the part to the parent [m], and the nearest face of the parent."""
+        distance, face, _ = self.parent.tree.nearest(self.part.samples.points)
+        return distance, face
+
+    @property
     def gap(self) -> Float[np.ndarray, " n"]:
         """Distance of each sample of the part to the parent [m]."""
-        return self.parent.tree.distance(self.part.samples.points)
+        return self.nearest[0]
 
     @cached_property
     def contact(self) -> Float[np.ndarray, "n 3"]:

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import itertools
 from dataclasses import dataclass
+from functools import cached_property
 
 import networkx as nx
 import numpy as np
-from jaxtyping import Int
+from jaxtyping import Float, Int
 
 from anymesh.config import SegmentationConfig
 from anymesh.geometry.boxes import alike, box_pairs
@@ -36,6 +37,16 @@ class Contacts:
     near: Int[np.ndarray, "k 2"]
     body: Int[np.ndarray, " P"]
     area: dict[tuple[int, int], float]  # of the first piece that touches the second [m^2]; none for one flat surface
+
+    @cached_property
+    def patch_bounds(self) -> Float[np.ndarray, "P 2 3"]:
+        """Axis-aligned bounds of every patch [m]."""
+        return np.array([s.bounds for s in self.shapes])
+
+    @cached_property
+    def patch_area(self) -> Float[np.ndarray, " P"]:
+        """Area of every patch [m^2]."""
+        return np.array([s.area for s in self.shapes])
 
 
 def find_contacts(whole: ObjectShape, config: SegmentationConfig) -> Contacts:

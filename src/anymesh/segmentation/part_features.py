@@ -73,14 +73,14 @@ def _shape(scene: FeatureScene, group: int, around: Surroundings) -> dict[str, f
         "width over length": _ratio(core.half[1], core.half[0]),
         "size": around.part.box.diagonal / around.diagonal,
         "thickness": float(2 * core.half[2] / around.diagonal),
-        "area share": float(tree.area[group] / tree.patch_area.sum()),
+        "area share": float(tree.area[group] / tree.contacts.patch_area.sum()),
         "face share": _ratio(4 * core.half[0] * core.half[1], extents[1] * extents[2]),
         "area over box": _ratio(around.part.area, box_area),
         "closed": float(around.part.solid @ around.part.areas / max(around.part.area, 1e-300)),
         "roundness": outline.roundness,
         "height over radius": _ratio(outline.height, outline.radius),
         "patches": float(np.log1p(patches.sum())),
-        "largest patch": float(tree.patch_area[patches].max() / max(tree.area[group], 1e-300)),
+        "largest patch": float(tree.contacts.patch_area[patches].max() / max(tree.area[group], 1e-300)),
         "patches of the object": float(np.log1p(len(patches))),
     }
 

@@ -21,10 +21,10 @@ def on_axis(around: Surroundings) -> bool:
 
 def touching(around: Surroundings, tolerance: float) -> tuple[np.ndarray, np.ndarray]:
     """Which samples touch the rest, and the rest's normal at the closest point of each."""
-    gap, face, _ = around.rest.tree.nearest(around.part.samples.points)
+    gap, face = around.nearest
     while (gap < tolerance).sum() < min(8, len(gap)):  # as the connecting area grows in the paper
         tolerance *= 2
-    return gap < tolerance, around.rest.normals[face]
+    return gap < tolerance, around.parent.normals[face]
 
 
 def fit_of_rim(around: Surroundings, config: SegmentationConfig) -> tuple[int, float]:

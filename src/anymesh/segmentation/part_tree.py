@@ -46,16 +46,6 @@ class PartTree:
     size: Float[np.ndarray, " n"]
     names: tuple[str, ...]  # (P,) the telling name of each patch's node or material, or ""
 
-    @cached_property
-    def patch_area(self) -> Float[np.ndarray, " P"]:
-        """Area of every patch [m^2]."""
-        return np.array([s.area for s in self.contacts.shapes])
-
-    @cached_property
-    def patch_bounds(self) -> Float[np.ndarray, "P 2 3"]:
-        """Axis-aligned bounds of every patch [m]."""
-        return np.array([s.bounds for s in self.contacts.shapes])
-
     @property
     def area(self) -> Float[np.ndarray, " n"]:
         """Area of every group [m^2]."""
@@ -64,12 +54,12 @@ class PartTree:
     @cached_property
     def bounds(self) -> Float[np.ndarray, "n 2 3"]:
         """Axis-aligned bounds of every group [m]."""
-        return np.array([_bounds(self.patch_bounds, m) for m in self.members]).reshape(-1, 2, 3)
+        return np.array([_bounds(self.contacts.patch_bounds, m) for m in self.members]).reshape(-1, 2, 3)
 
     @cached_property
     def overlap(self) -> Overlap:
         """What the groups have in common [m^2]."""
-        return Overlap(self.size, (self.members * self.patch_area) @ self.members.T.astype(float))
+        return Overlap(self.size, (self.members * self.contacts.patch_area) @ self.members.T.astype(float))
 
     def faces(self, group: int) -> Int[np.ndarray, " m"]:
         """Return the faces of a group, ascending, as indices of `whole`."""
@@ -108,9 +98,9 @@ def _largest(
     whole: ObjectShape, contacts: Contacts, masks: list[np.ndarray], smallest: float, most: int
 ) -> tuple[Bool[np.ndarray, "n P"], Float[np.ndarray, " n"]]:
     """Return the largest groups and their diagonals over the object's."""
-    bounds = np.array([s.bounds for s in contacts.shapes])
+    bounds = contacts.patch_bounds
     size = np.array([float(np.linalg.norm(np.ptp(_bounds(bounds, m), axis=0))) for m in masks]) / whole.diagonal
-    area = np.array([s.area for s in contacts.shapes])
+    area = contacts.patch_area
     order = [int(k) for k in np.lexsort((np.arange(len(masks)), -size)) if size[k] >= smallest and area[masks[k]].sum() > 0]
     order = order[:most]
     members = np.array([masks[k] for k in order], bool).reshape(len(order), len(bounds))
@@ -128,7 +118,7 @@ def _merges(units: Units) -> list[list[int]]:
     Those merge first of which the smaller shares most of its contact with the other, small ones before large ones.
     """
     count = len(units.names)
-    area = np.maximum(np.bincount(units.unit, units.piece_area, count), LEAST_AREA * units.piece_area.sum())
+    area = np.maximum(np.bincount(units.unit, units.contacts.patch_area, count), LEAST_AREA * units.contacts.patch_area.sum())
     area = dict(enumerate(area / area.sum()))
     contact: dict[int, dict[int, float]] = {}
     for (i, j), amount in sorted(units.contacts.area.items()):

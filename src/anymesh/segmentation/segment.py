@@ -6,7 +6,9 @@ and the set of groups of highest total score. A part that nothing lets move is n
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 
 import numpy as np
@@ -67,16 +69,22 @@ def _examined(
     mesh: Mesh, tree: PartTree, config: Config, progress: Progress, deadline: Deadline
 ) -> tuple[PartTree, list[dict[str, float]]]:
     """Return the candidates that were examined, and the features of each."""
-    scene, kept, features = FeatureScene.of(mesh, tree, config), [], []
-    for k in range(len(tree.members)):
+    scene = FeatureScene.of(mesh, tree, config)
+
+    def examine(k: int) -> dict[str, float] | None:
         if deadline.late(SEGMENT):
             deadline.leave_out("segmentation: some candidates for parts were not examined")
-            break
-        progress("segment", f"candidate {k}", k, len(tree.members))
+            return None
         around = surroundings_of(scene, k)
-        if around is not None:
-            features.append(part_features(scene, k, around))
-            kept.append(k)
+        return None if around is None else part_features(scene, k, around)
+
+    kept, features = [], []
+    with ThreadPoolExecutor(os.cpu_count()) as threads:  # rays and distances work outside the interpreter's lock
+        for k, row in enumerate(threads.map(examine, range(len(tree.members)))):
+            progress("segment", f"candidate {k}", k, len(tree.members))
+            if row is not None:
+                features.append(row)
+                kept.append(k)
     return replace(tree, members=tree.members[kept], size=tree.size[kept]), features
 
 

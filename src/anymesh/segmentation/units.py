@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -28,37 +27,6 @@ class Units:
     root: int
     hanging: dict[int, list[int]]
     surface: Int[np.ndarray, " P"]  # pieces of one number are parted by creases only
-
-    def faces(self, units: list[int]) -> np.ndarray:
-        chosen = np.flatnonzero(np.isin(self.unit, units))
-        return np.sort(np.concatenate([self.contacts.shapes[p].faces for p in chosen]))
-
-    @cached_property
-    def piece_bounds(self) -> Float[np.ndarray, "P 2 3"]:
-        """Axis-aligned bounds of every piece [m]."""
-        return np.array([s.bounds for s in self.contacts.shapes])
-
-    @cached_property
-    def piece_area(self) -> Float[np.ndarray, " P"]:
-        """Area of every piece [m^2]."""
-        return np.array([s.area for s in self.contacts.shapes])
-
-    @cached_property
-    def bounds(self) -> Float[np.ndarray, "u 2 3"]:
-        """Axis-aligned bounds of every unit with what hangs on it [m]."""
-        count = len(self.names)
-        low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
-        np.minimum.at(low, self.unit, self.piece_bounds[:, 0])
-        np.maximum.at(high, self.unit, self.piece_bounds[:, 1])
-        found = np.empty((count, 2, 3))
-        for u, members in self.hanging.items():
-            found[u] = low[members].min(0), high[members].max(0)
-        return found
-
-    @cached_property
-    def size(self) -> Float[np.ndarray, " u"]:
-        """Diagonal of the bounds of every unit with what hangs on it [m]."""
-        return np.linalg.norm(self.bounds[:, 1] - self.bounds[:, 0], axis=1)
 
     @cached_property
     def touching(self) -> tuple[Int[np.ndarray, "k 2"], Float[np.ndarray, " k"]]:
@@ -114,12 +82,6 @@ def root_ranking(whole: ObjectShape, contacts: Contacts) -> list[int]:
     return [int(i) for i in order]
 
 
-def size_of(units: Units, chosen: list[int]) -> float:
-    """Diagonal of the bounds of some units [m]."""
-    bounds = units.piece_bounds[np.isin(units.unit, chosen)]
-    return float(np.linalg.norm(bounds[:, 1].max(0) - bounds[:, 0].min(0)))
-
-
 def with_held(units: Units, u: int) -> list[int]:
     """The unit, what hangs on it, and the rest of its surface (the box behind a drawer's front, whatever it stands on); of a
     unit that is a surface by itself, the smaller units that touch these more than all else (a shelf on a door)."""
@@ -133,8 +95,8 @@ def with_held(units: Units, u: int) -> list[int]:
 def _grown(units: Units, members: set[int]) -> set[int]:
     (first, second), amount = units.touching[0].T, units.touching[1]
     count = len(units.names)
-    area = np.bincount(units.unit, units.piece_area, count)
-    own = units.piece_area[np.isin(units.unit, list(members))].sum()
+    area = np.bincount(units.unit, units.contacts.patch_area, count)
+    own = units.contacts.patch_area[np.isin(units.unit, list(members))].sum()
     for _ in range(4):
         inside = np.isin(units.unit, list(members))
         outer = ~inside[first]
@@ -151,14 +113,8 @@ def _grown(units: Units, members: set[int]) -> set[int]:
 
 def _of_one_surface(units: Units, u: int) -> list[int]:
     """The units that creases alone part from this one, if their common surface is neither the root's nor most of the object."""
-    surface, area = units.surface, units.piece_area
+    surface, area = units.surface, units.contacts.patch_area
     own = np.isin(surface, surface[units.unit == u])
     if own[units.unit == units.root].any() or area[own].sum() > MOST * area.sum():
         return []
     return [int(v) for v in np.unique(units.unit[own]) if v != u]
-
-
-def touches_outside(units: Units, members: Sequence[int]) -> bool:
-    inside = np.isin(units.unit, list(members))
-    touch = units.contacts.touch
-    return bool((inside[touch[:, 0]] != inside[touch[:, 1]]).any())
