@@ -116,7 +116,8 @@ def test_warm_children_have_the_module_and_answer(monkeypatch):
 
 def test_an_interrupt_ends_the_children_too(tmp_path):
     script = textwrap.dedent(f"""
-        import sys, threading
+        import signal, sys
+        signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's background jobs start with it ignored
         sys.path.insert(0, {str(HERE)!r})
         from anymesh.isolation import shared_pool
         print(shared_pool().run("faulty", "process", {{}}), flush=True)
