@@ -3,7 +3,12 @@
 python benchmarks/train_parts.py FOLDER            benchmarks/parts.md: leave one source out, leave kinds out
 python benchmarks/train_parts.py FOLDER --write    trains on all and writes part_classifier.npz with its manifest
 
-FOLDER: rows as `benchmarks/part_rows.py` writes them. Needs lightgbm and scikit-learn, which nothing else here does.
+FOLDER: rows as `benchmarks/part_rows.py` writes them. Needs lightgbm, which nothing else here does. For the shipped classifier:
+    python benchmarks/kinds.py KINDS --seed 11 --count 5
+    python benchmarks/part_rows.py FOLDER urdf:KINDS@kinds labelled:INFINIGEN@infinigen sweethome3d metaworld libero examples \
+        scene-synthesizer
+    python benchmarks/part_rows.py FOLDER urdf:KINDS@kinds labelled:INFINIGEN@infinigen --change fused --most 24
+The kinds were still being written while their rows were measured: the same commands give other objects of the same kinds.
 """
 
 from __future__ import annotations
