@@ -106,8 +106,8 @@ def rows_of(subject: Subject, source: str, form: str = "") -> PartRows:
 
 
 def kind_of(name: str, category: str) -> str:
-    """The kind of an object: its category where the set tells it, else the first word of its name."""
-    return category if category != "object" else name.split("-")[0].split("_")[0]
+    """The kind of an object: its category where the set tells it, else its name up to the first dash."""
+    return category if category != "object" else name.split("-")[0]
 
 
 def _line(k: int, parent: dict[int, int]) -> list[int]:

@@ -76,7 +76,7 @@ def results_of(folder: Path) -> Path:
 
 
 def ask(item: Item, protocol: Protocol, folder: Path, wait: bool, after: Protocol | None = None) -> str:
-    """Goes as far as the answers go; returns what a user is told."""
+    """Ask until an answer is missing; return a line about the state."""
     place, results = folder / item.number / protocol, results_of(folder) / item.number / protocol
     title = f"{item.number} {protocol}"
     if (results / RECORD).exists():
@@ -168,7 +168,7 @@ def pictures(item: Item, protocol: Protocol, folder: Path) -> str:
 
 
 def _each(work, tasks: Sequence[tuple], jobs: int) -> Iterator:
-    """Results in the order of the tasks; an object's fault is told in its place and does not stop the others."""
+    """Yield the results in the order of the tasks."""
     if jobs == 1:
         yield from (work(*task) for task in tasks)
         return

@@ -38,7 +38,7 @@ class Row:
     carried: int = 0
 
     def told(self) -> str:
-        """A line for whoever waits."""
+        """Return one line about the result."""
         score, error = self.record.score, self.record.error
         what = error or f"{score.matched} of {score.true} parts, {self.calls} calls, {self.record.seconds:.0f} s"
         return f"{self.variant} | {self.number} {score.name} {self.protocol}: {what}"

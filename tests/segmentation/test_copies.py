@@ -47,6 +47,21 @@ class Doubtful:
         return np.array([-0.1 - row["size"] for row in features]), ["nothing"] * len(features)
 
 
+class Sure:
+    """Thinks that every candidate is a part, small ones most of all."""
+
+    def score(self, overlap: Overlap, features: list[dict[str, float]]) -> tuple[np.ndarray, list[str]]:
+        return np.array([1 - row["size"] / 10 for row in features]), ["all"] * len(features)
+
+
+@pytest.mark.parametrize("gap", [0.0, 0.01])
+def test_something_stays_where_every_candidate_is_a_part(monkeypatch: pytest.MonkeyPatch, gap: float) -> None:
+    monkeypatch.setattr(segment, "shipped_classifier", Sure)
+    found = parts([box((0, 0, 0), (1, 1, 1)), box((0, 0, 1 + gap), (1, 1, 1.2))])
+    assert found.parts[0].name == "base"
+    assert found.faces(0).tolist() == list(range(12))  # the larger of the two
+
+
 def test_something_is_taken_where_something_must_move(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(segment, "shipped_classifier", Doubtful)
     nailed = [BODY, box((0.48, -0.2, 0.48), (0.52, 0.02, 0.52))]

@@ -9,8 +9,6 @@ from scipy.sparse import csr_array
 
 from anymesh.segmentation.part_tree import Overlap
 
-WITHIN = 0.98  # share of the smaller candidate from which it lies within the larger one
-APART = 1e-3  # share of the smaller candidate below which two do not overlap
 ALIKE = 0.3  # IoU from which a candidate within another one is the same part
 
 
@@ -19,14 +17,7 @@ def conflicts(overlap: Overlap) -> Bool[np.ndarray, "n n"]:
 
     A part may carry a smaller one (a knob on a door): it keeps the faces that the smaller one does not have.
     """
-    shared, area = overlap.shared, overlap.area
-    smaller = np.minimum(area[:, None], area[None])
-    iou = shared / np.maximum(area[:, None] + area[None] - shared, 1e-300)
-    meet = shared > APART * smaller
-    crossing = meet & (shared < WITHIN * smaller)
-    pairs = crossing | (meet & (iou > ALIKE))
-    np.fill_diagonal(pairs, False)
-    return pairs
+    return overlap.meet & (~overlap.nested | (overlap.iou > ALIKE))
 
 
 def assign_parts(overlap: Overlap, score: Float[np.ndarray, " n"]) -> list[int]:

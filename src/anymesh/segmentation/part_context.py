@@ -8,8 +8,6 @@ from jaxtyping import Bool, Float
 from anymesh.segmentation.part_tree import Overlap
 
 NONE = -6.0  # log-odds where there is no such candidate
-WITHIN = 0.98  # share of the smaller candidate from which it lies within the larger one
-APART = 1e-3  # share of the smaller candidate below which two do not overlap
 ALIKE = 0.5  # IoU of two candidates that are nearly the same
 SAME_AREA, SAME_SIZE = 0.05, 0.02  # relative: areas and diagonals of copies differ by less
 LIKELY = 0.5  # probability from which a candidate counts as a part
@@ -17,12 +15,9 @@ LIKELY = 0.5  # probability from which a candidate counts as a part
 
 def context_features(overlap: Overlap, score: Float[np.ndarray, " n"]) -> dict[str, Float[np.ndarray, " n"]]:
     """Return features of all candidates. score: log-odds of each, from its own features alone."""
-    shared, area, size = overlap.shared, np.maximum(overlap.area, 1e-300), overlap.size
-    smaller = np.minimum(area[:, None], area[None])
+    area, size = np.maximum(overlap.area, 1e-300), overlap.size
     other = ~np.eye(len(score), dtype=bool)
-    meet = (shared > APART * smaller) & other
-    nested = meet & (shared > WITHIN * smaller)
-    alike = shared / (area[:, None] + area[None] - shared) > ALIKE
+    meet, nested, alike = overlap.meet, overlap.nested, overlap.iou > ALIKE
     outer, inner = nested & (area[None] > area[:, None]), nested & (area[None] <= area[:, None])
     copy = ~meet & other & (np.abs(np.log(area[:, None] / area[None])) < SAME_AREA)
     copy &= np.abs(size[:, None] - size[None]) < SAME_SIZE * size[:, None]

@@ -19,6 +19,8 @@ from anymesh.segmentation.units import Units, join_units, root_ranking, with_hel
 from anymesh.types import Mesh
 
 BASES = 3  # likeliest bases from which hanging is measured
+WITHIN = 0.98  # share of the smaller candidate from which it lies within the larger one
+APART = 1e-3  # share of the smaller candidate below which two do not overlap
 LEAST_AREA = 1e-12  # share of the surface that counts as area where patches have none
 
 
@@ -34,6 +36,23 @@ class Overlap:
     def area(self) -> Float[np.ndarray, " n"]:
         """Area of every candidate."""
         return np.diag(self.shared)
+
+    @cached_property
+    def iou(self) -> Float[np.ndarray, "n n"]:
+        """Intersection over union of every two candidates, by area."""
+        return self.shared / np.maximum(self.area[:, None] + self.area[None] - self.shared, 1e-300)
+
+    @cached_property
+    def meet(self) -> Bool[np.ndarray, "n n"]:
+        """Which candidates overlap another one."""
+        found = self.shared > APART * np.minimum(self.area[:, None], self.area[None])
+        np.fill_diagonal(found, False)
+        return found
+
+    @cached_property
+    def nested(self) -> Bool[np.ndarray, "n n"]:
+        """Which candidates lie within another one, or hold it."""
+        return self.meet & (self.shared > WITHIN * np.minimum(self.area[:, None], self.area[None]))
 
 
 @dataclass(frozen=True, eq=False)

@@ -27,9 +27,7 @@ from anymesh.segmentation.part_features import FeatureScene, part_features, surr
 from anymesh.segmentation.part_tree import PartTree, part_tree
 from anymesh.types import Mesh, Segmentation
 
-LabelParts = Callable[
-    [Segmentation], Sequence[str]
-]  # a label of each part but the base by how it moves; "" for one that cannot
+LabelParts = Callable[[Segmentation], Sequence[str]]  # a label per part but the base by its motion, "" for one without
 NAMED, NAMED_FIXED, NAMED_HANDLE = 4.0, -4.0, 0.3  # log-odds that the name of a node or material adds
 
 
@@ -39,7 +37,8 @@ def segment_parts(
 ) -> Segmentation:  # fmt: skip
     """Return the movable parts of a mesh and its base, which is all that is left.
 
-    label_parts: stage B's test of how parts move. Past the deadline no further candidate is examined.
+    label_parts: stage B's test of how parts move, with "" for a part that cannot. Past the deadline no further candidate is
+    examined.
     """
     progress("segment", "contacts", 0, 2)
     settings = config.segmentation
@@ -52,6 +51,8 @@ def segment_parts(
     score = score + np.array([_name_score(word) for word in words])
     chosen = _at_least(examined, score, assign_parts(examined.overlap, score), settings.at_least)
     face_part, order = _face_part(mesh, examined, chosen)
+    while order and face_part.all():  # something must stay: the largest part is the base
+        face_part, order = _face_part(mesh, examined, [k for k in order if k != order[0]])
     told = [word.label if (word := recognize(words[k])) else "" for k in order]
     confidence = [float(np.clip(1 / (1 + np.exp(-score[k])), 0.05, 0.99)) for k in order]
     why = [_reason(reasons[k], words[k], score[k]) for k in order]
@@ -89,7 +90,7 @@ def _examined(
 
 
 def _name(tree: PartTree, group: int) -> str:
-    """Return the telling name that all patches of a candidate share, or "" """
+    """Return the telling name that all patches of a candidate share, "" for none."""
     names = {tree.names[p] for p in np.flatnonzero(tree.members[group])}
     return names.pop() if len(names) == 1 else ""
 
