@@ -18,7 +18,7 @@ from anymesh.articulation.estimate import (
     relabelled,
     surroundings,
 )
-from anymesh.articulation.evidence import weigh_all
+from anymesh.articulation.evidence import hypotheses
 from anymesh.articulation.part_labels import label_of
 from anymesh.articulation.prompted import Questions, Reground, prompt_joints
 from anymesh.articulation.tree import parents
@@ -190,7 +190,7 @@ class Solver:
         ranked = [question.candidates[k] for k in GEOMETRY.which_motion(question).ranking]
         kinds = list(MotionKind) if moves is None else [MotionKind.SLIDE if moves is Moves.PRISMATIC else MotionKind.TURN]
         likely = [c for kind in kinds for c in [c for c in ranked if c.motion.kind is kind][:LIKELY]]
-        after = weigh_all(gained, [(c.role, c.motion) for c in likely])
+        after = hypotheses(gained, [(c.role, c.motion) for c in likely])[::2]
         far = [(max(c.opening, c.closing), max(a.opening, a.closing)) for c, a in zip(likely, after, strict=True)]
         return any(now >= FREE * min(before, ENOUGH) for before, now in far)
 

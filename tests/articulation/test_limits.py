@@ -9,7 +9,7 @@ from assets import box
 from known import the_case
 from scenes import Scene, door, drawer
 
-from anymesh.articulation.evidence import weigh_all
+from anymesh.articulation.evidence import hypotheses
 from anymesh.articulation.limits import answered_range, ends_near, limits, opening_as_answered, opening_motion
 from anymesh.geometry.surroundings import Surroundings
 from anymesh.reasoning.questions import Candidate
@@ -50,7 +50,7 @@ OUT = Motion(MotionKind.SLIDE, -Y, np.zeros(3), "out")
 
 def swept(scene: Callable[[], Scene], motion: Motion) -> tuple[Surroundings, Candidate]:
     around = the_case(scene()).around
-    return around, weigh_all(around, [("asked", motion)])[0]
+    return around, max(hypotheses(around, [("asked", motion)]), key=lambda c: c.outward)
 
 
 def answered(scene: Callable[[], Scene], motion: Motion, kind: JointType, told: tuple[float, float]) -> tuple[np.ndarray, ...]:

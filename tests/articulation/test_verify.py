@@ -19,10 +19,9 @@ from anymesh.articulation.offers import (
     TWINS,
     Offers,
     fits,
-    is_free,
     make_offers,
+    scored_motions,
     shown_amount,
-    weighed,
 )
 from anymesh.articulation.own_axes import CENTRAL
 from anymesh.reasoning.prompting import JointKind, KindAnswer
@@ -44,7 +43,7 @@ def case_of(name: str) -> Case:
 
 
 def candidates_of(name: str, asked: Motion | None = None) -> list[Candidate]:
-    return weighed(replace(case_of(name), asked=asked))[1]
+    return list(scored_motions(replace(case_of(name), asked=asked)).candidates)
 
 
 @cache
@@ -88,11 +87,11 @@ def test_the_motions_shown_are_few_and_look_different(name: str) -> None:
 @pytest.mark.parametrize("name", NAMES)
 def test_what_is_blocked_is_shown_only_where_it_was_answered_or_is_an_axis_of_the_parts_own(name: str) -> None:
     found = offers(name)
-    stuck = [c for c in found.motions if not is_free(c)]
+    stuck = [c for c in found.motions if not c.is_free]
     assert all(c.role in CENTRAL for c in stuck)
-    assert all(is_free(c) or c.role in CENTRAL for c in found.motions)
+    assert all(c.is_free or c.role in CENTRAL for c in found.motions)
     for page in (found.first, found.second):
-        assert found.table(page).blocked == tuple(not is_free(found.motions[k]) for k in page)
+        assert found.table(page).blocked == tuple(not found.motions[k].is_free for k in page)
 
 
 @pytest.mark.parametrize("kind", JointKind)
@@ -107,7 +106,7 @@ def test_lines_that_nobody_can_tell_apart_are_one_however_far_each_is_free(off: 
     """Hinges about a centimetre beside the door's own, one of them inside the case and soon blocked."""
     asked = turn(Z, (0.002 + off[0], -0.012 + off[1], 0))
     found = offers("left", asked)
-    along = [c for c in shown("left", asked, JointKind.HINGE_ALONG) if abs(c.motion.axis @ Z) > 0.99 and is_free(c)]
+    along = [c for c in shown("left", asked, JointKind.HINGE_ALONG) if abs(c.motion.axis @ Z) > 0.99 and c.is_free]
     at_left = [c for c in along if c.motion.origin[0] < 0.1]
     assert 1 <= len(at_left) <= MOST_KIN
     assert found.answered is not None
@@ -137,7 +136,7 @@ UP = Motion(MotionKind.SLIDE, Z, np.zeros(3), "picked")
 def test_an_answer_that_is_blocked_is_shown_and_marked_so(name: str, asked: Motion, kind: JointKind) -> None:
     first = candidates_of(name, asked)[0]
     assert (first.role, first.motion) == ("asked", asked)
-    assert not is_free(first)
+    assert not first.is_free
     found = offers(name, asked, kind)
     assert found.answered is not None
     assert found.answered in found.first
@@ -182,12 +181,12 @@ def test_a_motion_that_may_go_either_way_is_offered_both_ways() -> None:
 
 def test_a_slide_that_is_blocked_one_way_opens_the_other_way() -> None:
     first = candidates_of("blocked", TO_THE_RIGHT)[0]
-    assert is_free(first)
+    assert first.is_free
     assert opening_motion(first).axis == pytest.approx(-X)
 
 
 def test_a_hinge_on_the_side_of_the_grip_comes_behind_the_other_side() -> None:
-    assert is_free(candidates_of("left", GRIP_SIDE)[0])
+    assert candidates_of("left", GRIP_SIDE)[0].is_free
     found = shown("left", GRIP_SIDE, JointKind.HINGE_ALONG)
     upright = [c.motion.origin[0] for c in found if c.motion.kind is MotionKind.TURN and c.vertical > 0.9]
     assert upright[0] == pytest.approx(0.6, abs=0.03)  # away from the grip
@@ -199,7 +198,7 @@ def test_a_hinge_on_the_side_of_the_grip_comes_behind_the_other_side() -> None:
 def test_a_free_answer_or_one_that_looks_like_it_stays_among_them(asked: Motion, most: int) -> None:
     first = candidates_of("left", asked)[0]
     found = shown("left", asked, JointKind.SLIDE_OUT, most)  # as if the answer went against its own kind
-    assert is_free(first)
+    assert first.is_free
     assert len(found) <= most
     assert any(apart(first, c, case_of("left")) <= 1.3 for c in found)
 
@@ -227,8 +226,7 @@ def test_pictures_show_as_much_of_a_motion_as_is_free_and_no_more_than_is_clear(
 def test_a_button_is_shown_pressed() -> None:
     case = the_case({"base": [box((0, 0, 0), (0.6, 0.4, 0.3))], "key": [box((0.29, -0.006, 0.14), (0.31, 0.001, 0.16))]})
     found = make_offers(replace(case, answer=KindAnswer(JointKind.SLIDE_OUT)), MOST, 0)
-    out = next(c for c in found.motions if c.motion.kind is MotionKind.SLIDE and c.outward > 0.9)
-    assert shown_amount(out, case) < 0
-    table = found.table((found.motions.index(out),))
+    into = next(c for c in found.motions if c.motion.kind is MotionKind.SLIDE and c.outward < -0.9)
+    table = found.table((found.motions.index(into),))
     goes = table.motions[0].transform(table.amounts[0])[:3, 3]
     assert goes @ Y > 0  # into the block

@@ -40,30 +40,26 @@ def test_a_surface_that_creases_part_moves_as_one_but_not_with_the_root() -> Non
     assert 0 not in with_held(units([0, 0, 2, 3]), 1)
 
 
-class Doubtful:
-    """Thinks that no candidate is a part, small ones least of all."""
-
-    def score(self, overlap: Overlap, features: list[dict[str, float]]) -> tuple[np.ndarray, list[str]]:
-        return np.array([-0.1 - row["size"] for row in features]), ["nothing"] * len(features)
+def no_part(overlap: Overlap, features: list[dict[str, float]]) -> tuple[np.ndarray, list[str]]:
+    """Score every candidate as no part, large ones the lowest."""
+    return np.array([-0.1 - row["size"] for row in features]), ["nothing"] * len(features)
 
 
-class Sure:
-    """Thinks that every candidate is a part, small ones most of all."""
-
-    def score(self, overlap: Overlap, features: list[dict[str, float]]) -> tuple[np.ndarray, list[str]]:
-        return np.array([1 - row["size"] / 10 for row in features]), ["all"] * len(features)
+def all_parts(overlap: Overlap, features: list[dict[str, float]]) -> tuple[np.ndarray, list[str]]:
+    """Score every candidate as a part, small ones the highest."""
+    return np.array([1 - row["size"] / 10 for row in features]), ["all"] * len(features)
 
 
 @pytest.mark.parametrize("gap", [0.0, 0.01])
 def test_something_stays_where_every_candidate_is_a_part(monkeypatch: pytest.MonkeyPatch, gap: float) -> None:
-    monkeypatch.setattr(segment, "shipped_classifier", Sure)
+    monkeypatch.setattr(segment, "score_parts", all_parts)
     found = parts([box((0, 0, 0), (1, 1, 1)), box((0, 0, 1 + gap), (1, 1, 1.2))])
     assert found.parts[0].name == "base"
     assert found.faces(0).tolist() == list(range(12))  # the larger of the two
 
 
 def test_something_is_taken_where_something_must_move(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(segment, "shipped_classifier", Doubtful)
+    monkeypatch.setattr(segment, "score_parts", no_part)
     nailed = [BODY, box((0.48, -0.2, 0.48), (0.52, 0.02, 0.52))]
     assert len(parts(nailed).parts) == 1
     found = parts(nailed, at_least=1)

@@ -1,31 +1,43 @@
-"""The shipped classifier of parts: small, complete, and said to be trained on what it was trained on."""
+"""The shipped classifiers of parts and of motions: small, complete, and said to be trained on what they were trained on."""
 
+from collections.abc import Callable
 from importlib.resources import files
 
 import numpy as np
+import pytest
 
-from anymesh.segmentation.part_classifier import WEIGHTS, shipped_classifier
+from anymesh.articulation import motion_classifier
+from anymesh.reasoning.two_steps import TwoStepClassifier
+from anymesh.segmentation import part_classifier
 
-EXAMPLES = 21
-
-
-def test_it_is_small_and_complete() -> None:
-    shipped = shipped_classifier()
-    assert (files("anymesh.segmentation") / WEIGHTS).stat().st_size < 1e6
-    assert shipped.first.feature.max() < len(shipped.names)
-    assert len(set(shipped.names)) == len(shipped.names)
+SHIPPED = pytest.mark.parametrize("shipped", [part_classifier.shipped_classifier, motion_classifier.shipped_classifier])
 
 
-def test_the_manifest_says_what_it_was_trained_on() -> None:
-    manifest = shipped_classifier().manifest
-    assert manifest["features"] == list(shipped_classifier().names)
-    assert manifest["sources"]["examples"]["objects"] == EXAMPLES
+@pytest.mark.parametrize(
+    ("package", "file"), [("segmentation", "part_classifier.npz"), ("articulation", "motion_classifier.npz")]
+)
+def test_it_is_small(package: str, file: str) -> None:
+    assert (files(f"anymesh.{package}") / f"{file}.npz").stat().st_size < 1e6
+
+
+@SHIPPED
+def test_it_is_complete(shipped: Callable[[], TwoStepClassifier]) -> None:
+    classifier = shipped()
+    assert classifier.first.feature.max() < len(classifier.names)
+    assert len(set(classifier.names)) == len(classifier.names)
+
+
+@SHIPPED
+def test_the_manifest_says_what_it_was_trained_on(shipped: Callable[[], TwoStepClassifier]) -> None:
+    manifest = shipped().manifest
+    assert manifest["features"] == list(shipped().names)
     assert sum(s["objects"] for s in manifest["sources"].values()) == len(manifest["objects"])
     assert "examples/cabinet" in manifest["objects"]
 
 
-def test_trees_end_in_leaves() -> None:
-    for trees in (shipped_classifier().first, shipped_classifier().second):
+@SHIPPED
+def test_trees_end_in_leaves(shipped: Callable[[], TwoStepClassifier]) -> None:
+    for trees in (shipped().first, shipped().second):
         inner = trees.feature >= 0
         at = np.arange(len(trees.feature))
         assert (trees.left[inner] > at[inner]).all()

@@ -8,9 +8,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from anymesh.articulation.evidence import part_facts, weigh_all
+from anymesh.articulation.evidence import hypotheses, part_facts
 from anymesh.articulation.hypotheses import propose
 from anymesh.articulation.limits import limits, opening_as_answered, opening_motion
+from anymesh.articulation.motion_classifier import UnscoredMotions
 from anymesh.articulation.tree import descendants, parents
 from anymesh.articulation.twins import agree, in_a_row, same_size
 from anymesh.config import ArticulationConfig, Config
@@ -26,7 +27,7 @@ SAME_RIM = 0.01  # share of the scale: hinge lines this near, or as near as the 
 PARALLEL = 0.999  # cosine of their axes
 WIDE = np.deg2rad(110)  # of an opening that a hinge needs no more than
 TIGHT = 0.2  # factor on the penetration that counts: neighbours are a few millimetres away
-MOST_TWINS = 8  # copies of a part that are asked with it
+MOST_COPIES = 8  # of a part, with whose motions its own are compared
 LIKELIEST = ("bail", "round", "barrel", "edge_mid", "slide")  # motions that are swept when the time is over
 PartMotions = tuple[int, int, Surroundings, MotionQuestion]  # number of a part, of its parent, what is around it, its motions
 NOTICED = np.deg2rad(5)  # a line that lets the part open further by less is no better
@@ -50,10 +51,10 @@ def motion_questions(
     parent = parents(shapes, whole.diagonal)
     for numbers in same_size(shapes, parent):
         arounds = agree([surroundings(whole, label, shapes, parent, i, config.articulation) for i in numbers])
-        questions = [motion_question(a, parts[i].name, parts[i].label, deadline) for i, a in zip(numbers, arounds, strict=True)]
-        for i, around, question in zip(numbers, arounds, questions, strict=True):
-            row = (q for q, a in zip(questions, arounds, strict=True) if a is not around and in_a_row(around, a))
-            yield i, parent[i], around, replace(question, twins=tuple(itertools.islice(row, MOST_TWINS)))
+        found = [_unscored(a, parts[i].name, parts[i].label, deadline) for i, a in zip(numbers, arounds, strict=True)]
+        for i, around, motions in zip(numbers, arounds, found, strict=True):
+            row = (m for m, a in zip(found, arounds, strict=True) if a is not around and in_a_row(around, a))
+            yield i, parent[i], around, motions.question(tuple(itertools.islice(row, MOST_COPIES)))
 
 
 def relabelled(swept: Iterable[PartMotions], segmentation: Segmentation) -> list[PartMotions]:
@@ -63,12 +64,7 @@ def relabelled(swept: Iterable[PartMotions], segmentation: Segmentation) -> list
     def named(question: MotionQuestion, i: int) -> MotionQuestion:
         return replace(question, part=replace(question.part, name=parts[i].name, label=parts[i].label))
 
-    found = list(swept)
-    number = {id(q.part): i for i, _, _, q in found}
-    return [
-        (i, over, around, replace(named(q, i), twins=tuple(named(t, number[id(t.part)]) for t in q.twins)))
-        for i, over, around, q in found
-    ]
+    return [(i, over, around, named(question, i)) for i, over, around, question in swept]
 
 
 def surroundings(
@@ -104,15 +100,18 @@ def choose_motion(around: Surroundings, question: MotionQuestion, answerer: Answ
     return answer, _clear_of_others(around, question.candidates[answer.ranking[0]], question.candidates)
 
 
-def motion_question(around: Surroundings, name: str, label: str, deadline: Deadline | None = None) -> MotionQuestion:
-    """How does a part move? The candidates are proposed and swept."""
+def motion_question(around: Surroundings, name: str, label: str) -> MotionQuestion:
+    """Propose, sweep and score the motions of a part by itself."""
+    return _unscored(around, name, label, None).question()
+
+
+def _unscored(around: Surroundings, name: str, label: str, deadline: Deadline | None) -> UnscoredMotions:
     proposed = propose(around)
     if deadline is not None and deadline.late(JOINTS):
         deadline.leave_out("joints: only the likeliest motions were swept")
         proposed = [(role, motion) for role, motion in proposed if role in LIKELIEST] or proposed
-    return MotionQuestion(
-        part_facts(around, name, label, any(role == "bail" for role, _ in proposed)), weigh_all(around, proposed)
-    )
+    facts = part_facts(around, name, label, any(role == "bail" for role, _ in proposed))
+    return UnscoredMotions(around, facts, hypotheses(around, proposed))
 
 
 def _clear_of_others(around: Surroundings, best: Candidate, candidates: tuple[Candidate, ...]) -> Candidate:

@@ -15,7 +15,6 @@ from anymesh.types import Motion, MotionKind, Sweep
 
 ACROSS = 0.6  # weight of a bar that runs across the line
 SLACKS = (3.0, CARVED)  # factors on the penetration that counts, tried in turn where a hinge is blocked
-LEVER = 1.0  # [rad] free each way: what turns up and down, and is held by nothing, is pressed down, as levers are
 RIMS = ("edge", "edge_mid", "barrel")  # hinges at a rim of the part: it may be stuck in the rest, and still turn about them
 OUTWARDS = 0.5  # cosine of a motion with the way out
 STUCK = np.deg2rad(12)  # a hinge that opens less is not free
@@ -106,10 +105,10 @@ def _lid(around: Surroundings) -> float:
     return held * empty
 
 
-def weigh_all(around: Surroundings, proposed: list[tuple[str, Motion]]) -> tuple[Candidate, ...]:
-    """Sweeps every motion and gathers the evidence for it.
+def hypotheses(around: Surroundings, proposed: list[tuple[str, Motion]]) -> tuple[Candidate, ...]:
+    """Sweep every motion and measure it: two candidates per motion, opening along its axis and against it, side by side.
 
-    Part and rest may be stuck in each other at rest, as artists leave them: hinges that are blocked are swept again with more
+    Part and rest may penetrate each other at rest, as artists leave them: hinges that are blocked are swept again with more
     penetration allowed, and at last as if the rest made room for the part.
     """
     motions, steps = [m for _, m in proposed], around.config.sweep_steps
@@ -121,15 +120,20 @@ def weigh_all(around: Surroundings, proposed: list[tuple[str, Motion]]) -> tuple
         chosen = [k for k, x in enumerate(inward) if x is wanted]
         swept.update(zip(chosen, sweep_all(obstacles, [motions[k] for k in chosen], steps), strict=True))
     held = iter(_held(around, [m for m in motions if m.kind is MotionKind.SLIDE]))
-    found = [
+    ahead = [
         _turn(around, role, motion, swept[k], next(along), meeting)
         if motion.kind is MotionKind.TURN
         else _slide(around, role, motion, swept[k], next(held))
         for k, (role, motion) in enumerate(proposed)
     ]
-    found = _loosened(around, found)
+    found = _loosened(around, [way for c in ahead for way in (c, reversed_(c))])
     shares = kept(around, [c.motion for c in found], [c.opens for c in found])
     return tuple(replace(c, kept=float(share)) for c, share in zip(found, shares, strict=True))
+
+
+def reversed_(c: Candidate) -> Candidate:
+    """Return the candidate that opens the other way."""
+    return replace(c, opens=-c.opens, opening=c.closing, closing=c.opening, outward=-c.outward)
 
 
 def _loosened(around: Surroundings, found: list[Candidate]) -> list[Candidate]:
@@ -148,17 +152,10 @@ def _loosened(around: Surroundings, found: list[Candidate]) -> list[Candidate]:
 
 def _turn(around: Surroundings, role: str, motion: Motion, swept: Sweep, near: np.ndarray, meeting: np.ndarray) -> Candidate:
     moves = np.cross(motion.axis, around.part.samples.points.mean(0) - motion.origin)
-    outward = float(moves @ around.outward)
     across = float(np.linalg.norm(moves))
-    toward = outward / across if across > 1e-9 else 0.0
-    opens = _opening_sign(toward, swept.forward, swept.backward, np.deg2rad(20))
-    out = toward * opens
-    if min(swept.forward, swept.backward) > LEVER and abs(moves[2]) > 0.5 * across:
-        opens = -1 if moves[2] > 0 else 1
     reach, hugs, thick = lever(around, motion)
     return Candidate(
-        motion, swept, role, opens,
-        *((swept.forward, swept.backward) if opens > 0 else (swept.backward, swept.forward)),
+        motion, swept, role, 1, swept.forward, swept.backward,
         support=float(near[0]),
         sibling=float(near[1]),
         handle_side=_handle_side(around, motion),
@@ -167,7 +164,7 @@ def _turn(around: Surroundings, role: str, motion: Motion, swept: Sweep, near: n
         vertical=float(abs(motion.axis[2])),
         above=_above(around, motion),
         captured=False,
-        outward=out,
+        outward=float(moves @ around.outward) / across if across > 1e-9 else 0.0,
         pair=pair_side(around, motion, meeting),
         outer=outer_side(around, motion),
         handle_off=_handle_off(around, motion),
@@ -196,15 +193,11 @@ def _held(around: Surroundings, slides: list[Motion]) -> list[float]:
 
 
 def _slide(around: Surroundings, role: str, motion: Motion, swept: Sweep, held: float) -> Candidate:
-    toward = float(motion.axis @ around.outward)
-    opens = _opening_sign(toward, swept.forward, swept.backward, 0.0)
     side = _sides(around, motion)
-    inner = around.inside_depth(motion.axis * opens)
+    inner = around.inside_depth(motion.axis)
     across = sorted(np.ptp(around.part.corners @ d) for d in side)[0]
-    forward, backward = swept.forward / around.scale, swept.backward / around.scale
     return Candidate(
-        motion, swept, role, opens,
-        *((forward, backward) if opens > 0 else (backward, forward)),
+        motion, swept, role, 1, swept.forward / around.scale, swept.backward / around.scale,
         support=0.0,
         sibling=0.0,
         handle_side=0.0,
@@ -213,7 +206,7 @@ def _slide(around: Surroundings, role: str, motion: Motion, swept: Sweep, held: 
         vertical=float(abs(motion.axis[2])),
         above=0.0,
         captured=_captured(around, swept),
-        outward=toward * opens,
+        outward=float(motion.axis @ around.outward),
         passes=passes(around, motion, (swept.forward, swept.backward)),
     )  # fmt: skip
 
@@ -226,15 +219,6 @@ def _above(around: Surroundings, motion: Motion) -> float:
 def _captured(around: Surroundings, swept: Sweep) -> bool:
     room = swept.forward + swept.backward
     return not (swept.clear_forward or swept.clear_backward) and room > 0.25 * around.part.box.diagonal
-
-
-def _opening_sign(toward: float, forward: float, backward: float, little: float) -> int:
-    """+1 when +axis opens: outwards if it is free that way, else the freer way."""
-    if abs(toward) > 0.15:
-        sign = 1 if toward > 0 else -1
-        out, into = (forward, backward) if sign > 0 else (backward, forward)
-        return -sign if out < little and into > 2 * out else sign
-    return 1 if forward >= 0.9 * backward else -1
 
 
 def _handle_side(around: Surroundings, motion: Motion) -> float:

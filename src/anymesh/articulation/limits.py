@@ -9,16 +9,13 @@ from jaxtyping import Bool, Float
 
 from anymesh.geometry.surroundings import Surroundings
 from anymesh.geometry.sweep import free_amount
-from anymesh.reasoning.questions import Candidate
-from anymesh.reasoning.weighing import BLOCKED
+from anymesh.reasoning.questions import MIN_ANGLE, Candidate
 from anymesh.types import JointType, Motion, MotionKind
 from anymesh.types.recognition import Moves, RecognizedLabel
 
 FRONT = 0.35  # a slide less deep than this share of its parent is only a front
-ROUND = 0.8  # a part this round that slides outwards without a grip is a button
-STROKE = 0.5  # of its height: how far a button goes in at least
-BUTTON = 0.06  # a part with less of the object's diagonal that slides outwards is a button, whatever is behind it
-CONTROL = 0.25  # a part with less of the object's diagonal may be a button or a trigger
+MIN_STROKE = 0.1  # of its height: a button with less room behind it fills its hole
+STROKE = 0.5  # of its height: how far such a button goes in
 MIN_TURN = np.deg2rad(2.0)  # a shorter range of a hinge is an error
 MIN_TRAVEL = 0.001  # share of the scale; a shorter range of a slide is an error
 MOSTLY_BLOCKED, MOSTLY_FREE = 0.5, 0.8  # shares of an answered range that are free before and after the axis is reversed
@@ -81,7 +78,7 @@ def opening_as_answered(c: Candidate, answered: Range | None) -> Candidate:
 def _answered_turn(around: Surroundings, c: Candidate, answered: Range) -> Range:
     """Shorten an answered range to what the sweep leaves free; a hinge that the sweep calls blocked keeps all of it."""
     lower, upper = -answered[0], answered[1]
-    if max(c.opening, c.closing) < BLOCKED:
+    if max(c.opening, c.closing) < MIN_ANGLE:
         return (0.0 - lower, upper)
     ahead, back = _free_within(around, c, lower, upper, 3 * around.config.fine_steps)
     if ahead + back < MIN_TURN:
@@ -142,32 +139,9 @@ def ends_near(along: Float[np.ndarray, " n"], near: Bool[np.ndarray, " n"]) -> i
     return sum(bool(near[end].sum() > 0.2 * end.sum()) for end in (along > 0.8, along < -0.8))
 
 
-def pressed(around: Surroundings, c: Candidate, answered: Range | None = None) -> bool:
-    """Return whether a slide goes into its parent from where it is, as buttons do. answered: its range, if there is one."""
-    small = around.part.box.diagonal < CONTROL * around.diagonal or around.outline.roundness > ROUND
-    if c.motion.kind is not MotionKind.SLIDE or c.outward <= 0.7 or not (small or answered):
-        return False
-    if answered is not None:
-        return -answered[0] > answered[1]
-    lower, upper = _slide(around, c)
-    return -lower > upper
-
-
-def _tiny(around: Surroundings) -> bool:
-    return around.part.box.diagonal < BUTTON * around.diagonal
-
-
-def _pressed(around: Surroundings, c: Candidate, inward: float, clear: bool) -> bool:
-    """Whether a part is pushed in rather than pulled out: it has no grip, and is a button, or small with room behind it."""
-    if around.handle is not None:
-        return False
-    small = around.part.box.diagonal < CONTROL * around.diagonal
-    return _button(around) or (small and not clear and inward > 0.1 * around.part.box.diagonal)
-
-
-def _button(around: Surroundings) -> bool:
-    """Whether what slides outwards can only be a button, whatever is behind it: a tiny part or a round one."""
-    return _tiny(around) or around.outline.roundness > ROUND
+def pressed(c: Candidate, answered: Range | None) -> bool:
+    """Return whether a slide goes into its parent by its answered range, as buttons do."""
+    return c.motion.kind is MotionKind.SLIDE and c.outward > 0.7 and answered is not None and -answered[0] > answered[1]
 
 
 def _floor(value: float, step: float) -> float:
@@ -176,22 +150,31 @@ def _floor(value: float, step: float) -> float:
 
 def _slide(around: Surroundings, c: Candidate) -> tuple[float, float]:
     motion = opening_motion(c)
+    leaves = c.sweep.clear_forward if c.opens > 0 else c.sweep.clear_backward
+    if c.outward < -0.7 and not leaves:
+        return (0.0, _stroke(around, c))
     depth = around.inside_depth(motion.axis)
     extent = float(np.ptp(around.part.corners @ motion.axis))
-    outward = c.outward > 0.7
+    outward = abs(c.outward) > 0.7
     most = max((1 - around.config.slide_keep) * (depth if outward else extent), 0.01 * around.scale)
     if c.captured:
         most = 2 * around.part.box.diagonal
     behind = float(np.ptp(around.parent.samples.points @ motion.axis))
-    if outward and not _tiny(around) and extent < FRONT * behind and around.core.half[2] < 0.3 * around.core.half[1]:
+    if outward and extent < FRONT * behind and around.core.half[2] < 0.3 * around.core.half[1]:
         most = around.config.slide_hidden * behind  # a front whose box the surface does not show
     steps = around.config.fine_steps * 2
     upper, _ = free_amount(around.obstacles(c.slack), motion, 1, most, steps)
     lower, clear = free_amount(around.obstacles(c.slack), motion, -1, most, steps)
-    if outward and _pressed(around, c, lower, clear):
-        return (0.0 - max(lower, STROKE * extent if _button(around) else 0.0), 0.0)
     if outward or clear or lower < 0.01 * around.scale:
         lower = 0.0
     if upper < 1e-3 * around.scale:
         upper = most if lower == 0 else 0.0
     return (0.0 - lower, upper)
+
+
+def _stroke(around: Surroundings, c: Candidate) -> float:
+    """Return how far a part goes into its parent [m]: up to its own height, half of it where its mesh fills the hole."""
+    motion = opening_motion(c)
+    extent = float(np.ptp(around.part.corners @ motion.axis))
+    free, _ = free_amount(around.obstacles(c.slack), motion, 1, extent, 2 * around.config.fine_steps)
+    return free if free > MIN_STROKE * extent else STROKE * extent

@@ -3,21 +3,20 @@ of those that would look different."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float
 
 from anymesh.articulation.cases import Case
-from anymesh.articulation.evidence import part_facts, weigh_all
+from anymesh.articulation.evidence import hypotheses, part_facts
 from anymesh.articulation.hypotheses import distinct, propose
 from anymesh.articulation.limits import answered_range, opening_motion, pressed
+from anymesh.articulation.motion_classifier import UnscoredMotions
 from anymesh.articulation.own_axes import CENTRAL, pivots
-from anymesh.reasoning.geometry import turns_freely
+from anymesh.reasoning.geometry import motion_scores
 from anymesh.reasoning.prompting import JointKind, MotionTable
-from anymesh.reasoning.questions import Candidate, PartFacts
-from anymesh.reasoning.vocabulary import habit_of
-from anymesh.reasoning.weighing import BLOCKED, LITTLE, score
+from anymesh.reasoning.questions import Candidate, MotionQuestion, PartFacts
 from anymesh.types import JointType, MotionKind
 from anymesh.types.recognition import Moves
 
@@ -34,8 +33,7 @@ BEHIND = 8.0  # a motion that is less plausible than the best one by more is sho
 FEW = 3  # free motions that are in the first picture however implausible
 OWN = 3  # axes of the part's own shape that are always in the first picture
 ROUGH = 2.0  # a line through picked points is rougher than one of the part's own that looks like it
-ANSWERED = 2.0  # what it is worth, in units of clear evidence, that a motion is of the kind that was answered
-REVERSED = 3.0  # what it costs that a motion goes against the opening direction that its geometry suggests
+ANSWERED = 2.0  # log-odds that a motion gains which is of the kind that was answered
 ENOUGH_POINTS = 200  # of the part, whose places are compared
 
 
@@ -64,27 +62,22 @@ class Offers:
             self.case.shown,
             tuple(opening_motion(c) for c in some),
             tuple(self.amounts[k] for k in shown),
-            tuple(not is_free(c) for c in some),
+            tuple(not c.is_free for c in some),
         )
 
 
 def make_offers(case: Case, most: int, seed: int) -> Offers:
     """Propose, sweep, score and select the motions of a part. most: in a picture; seed: of their order in it."""
-    facts, candidates = weighed(case)
-    habit = habit_of(facts.label)
-    plain = [score(facts, c, habit) for c in candidates]
-    for c, value in list(zip(candidates, plain, strict=True)):
-        if _goes_back(c):
-            candidates.append(replace(c, opens=-c.opens, opening=c.closing, closing=c.opening, outward=-c.outward))
-            plain.append(value - REVERSED)
+    question = scored_motions(case)
+    facts, candidates, plain = question.part, list(question.candidates), motion_scores(question).tolist()
     worth = [v + _agrees(c, case) - ROUGH * (c.role == "asked") for v, c in zip(plain, candidates, strict=True)]
-    order = sorted(range(len(candidates)), key=lambda k: (not is_free(candidates[k]), -worth[k], k))
+    order = sorted(range(len(candidates)), key=lambda k: (not candidates[k].is_free, -worth[k], k))
     kept, amounts, answered, kin = _unlike(case, candidates, [k for k in order if _shown(candidates[k])])
     motions = [candidates[k] for k in kept]
     best = max((worth[k] for k in kept), default=0.0)
     crowding = _crowding(kin, [plain[k] for k in kept])
     likely = [
-        is_free(c) and not (crowding[rank] or _off_part(case, c)) and (worth[k] > best - BEHIND or rank < FEW)
+        c.is_free and not (crowding[rank] or _off_part(case, c)) and (worth[k] > best - BEHIND or rank < FEW)
         for rank, (k, c) in enumerate(zip(kept, motions, strict=True))
     ]
     first, second = _pages(motions, case.kind, likely, answered, most)
@@ -96,21 +89,27 @@ def make_offers(case: Case, most: int, seed: int) -> Offers:
     )  # fmt: skip
 
 
-def weighed(case: Case) -> tuple[PartFacts, list[Candidate]]:
-    """Return all candidate motions of a part with their evidence; the one that was answered comes first, even if it repeats
-    one."""
+def scored_motions(case: Case) -> MotionQuestion:
+    """Propose, sweep and score the motions of a part, both ways where the part may go both ways; the one that was answered
+    comes first, even if it repeats one."""
     around = case.around
     proposed = propose(around)
     facts = part_facts(around, case.label, case.label, any(role == "bail" for role, _ in proposed))
     circles = [("circle", motion) for motion in case.circles]
     proposed = distinct([*proposed, *circles, *pivots(around, case.shown.normal)], around.scale)
     first = [("asked", case.asked)] if case.asked is not None else []
-    return facts, list(weigh_all(around, first + proposed))
-
-
-def is_free(c: Candidate) -> bool:
-    """Return whether the sweep lets a motion open at all."""
-    return bool(c.opening >= (BLOCKED if c.motion.kind is MotionKind.TURN else LITTLE))
+    question = UnscoredMotions(around, facts, hypotheses(around, first + proposed)).question()
+    scores, chosen = motion_scores(question), []
+    for k in range(0, len(scores), 2):
+        best, other = sorted((k, k + 1), key=lambda i: (not question.candidates[i].is_free, -scores[i]))
+        c = question.candidates[other]
+        chosen += [best] if c.turns_freely or c.role == "asked" or not c.is_free else [best, other]
+    return MotionQuestion(
+        facts,
+        tuple(question.candidates[k] for k in chosen),
+        question.scores[chosen],
+        tuple(question.reasons[k] for k in chosen),
+    )
 
 
 def fits(c: Candidate, kind: JointKind) -> bool:
@@ -129,11 +128,11 @@ def shown_amount(c: Candidate, case: Case) -> float:
     """Return how far a motion goes in a picture [rad or m]: opening, or into the parent for what is pressed (negative)."""
     around = case.around
     if c.motion.kind is MotionKind.TURN:
-        return float(min(c.opening, SHOWN_TURN) if is_free(c) else SHOWN_BLOCKED * SHOWN_TURN)
+        return float(min(c.opening, SHOWN_TURN) if c.is_free else SHOWN_BLOCKED * SHOWN_TURN)
     size = SHOWN_SLIDE * around.part.box.diagonal
-    if pressed(around, c, answered_range(case.recognized, JointType.PRISMATIC)):
+    if pressed(c, answered_range(case.recognized, JointType.PRISMATIC)):
         return -0.5 * min(float(np.ptp(around.part.corners @ c.motion.axis)), size)
-    return float(min(c.opening * around.scale, size) if is_free(c) else SHOWN_BLOCKED * size)
+    return float(min(c.opening * around.scale, size) if c.is_free else SHOWN_BLOCKED * size)
 
 
 def _agrees(c: Candidate, case: Case) -> float:
@@ -142,16 +141,9 @@ def _agrees(c: Candidate, case: Case) -> float:
     return ANSWERED * fits(c, case.kind) + ANSWERED * (recognized is not None and moves_as(c, recognized))
 
 
-def _goes_back(c: Candidate) -> bool:
-    """Whether a motion may as well go the other way."""
-    if c.motion.kind is MotionKind.TURN:
-        return c.closing >= BLOCKED and not turns_freely(c) and c.role != "asked"
-    return c.closing >= LITTLE and abs(c.outward) <= 0.7
-
-
 def _shown(c: Candidate) -> bool:
     """Whether a motion may be shown: what is blocked only where it was answered or is an axis of the part's own."""
-    return is_free(c) or c.role == "asked" or c.role in CENTRAL
+    return c.is_free or c.role == "asked" or c.role in CENTRAL
 
 
 def _unlike(case: Case, candidates: list[Candidate], order: list[int]) -> tuple[list[int], list[float], int | None, list[int]]:

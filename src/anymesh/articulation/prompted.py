@@ -25,7 +25,6 @@ from anymesh.config import Config
 from anymesh.geometry.pieces import ObjectShape
 from anymesh.progress import Progress, silent
 from anymesh.reasoning.asking import Seer
-from anymesh.reasoning.geometry import turns_freely
 from anymesh.reasoning.prompting import ArrowTable, JointKind, PartFit, PointTable, WhichArrows, WhichKinds, WhichPoints
 from anymesh.rendering.studio import Shot, Studio
 from anymesh.types import Joint, JointType, Motion, MotionKind, Segmentation
@@ -213,7 +212,7 @@ def _joint(case: Case, choice: Choice, confidence: float, verify: str) -> Joint:
     kind = JointType.FIXED
     if choice.moves:
         turns = choice.best.motion.kind is MotionKind.TURN
-        endless = case.answer.endless and (verify != "motion" or turns_freely(choice.best))
+        endless = case.answer.endless and (verify != "motion" or choice.best.turns_freely)
         kind = JointType.PRISMATIC if not turns else JointType.CONTINUOUS if endless else JointType.REVOLUTE
     answered = answered_range(case.recognized, kind)
     return joint_of(case.around, case.name, case.parent, choice.best, kind, confidence, choice.reason, answered)

@@ -5,11 +5,12 @@ from __future__ import annotations
 from anymesh.articulation.cases import Case
 from anymesh.articulation.confidence import Agreement
 from anymesh.articulation.decode import slide
-from anymesh.articulation.evidence import weigh_all
-from anymesh.articulation.offers import is_free, moves_as
+from anymesh.articulation.evidence import hypotheses, part_facts
+from anymesh.articulation.motion_classifier import score_motions
+from anymesh.articulation.offers import moves_as
 from anymesh.articulation.verify import Choice, words
 from anymesh.reasoning.prompting import JointKind
-from anymesh.types import Motion
+from anymesh.types import Motion, MotionKind
 
 GUIDED = 0.4  # share of the ways sideways in which what slides out is held
 
@@ -30,8 +31,8 @@ def way_out(case: Case) -> Motion:
     outward = around.outward
     directions = [s * a for a in around.core.axes for s in (1.0, -1.0) if s * a @ outward > 0.5] + [outward]
     ways = [normal_outwards(case)] + [slide(d, around, "free way out") for d in directions]
-    found = weigh_all(around, [("asked", way) for way in ways])
-    if is_free(found[0]) and found[0].outward > 0.7 and found[0].guided > GUIDED:
+    found = hypotheses(around, [("asked", way) for way in ways])[::2]
+    if found[0].is_free and found[0].outward > 0.7 and found[0].guided > GUIDED:
         return ways[0]
     return ways[max(range(1, len(ways)), key=lambda k: (found[k].guided, found[k].opening, -k))]
 
@@ -39,7 +40,9 @@ def way_out(case: Case) -> Motion:
 def as_answered(case: Case) -> Choice:
     """Return the motion that was answered, as it is."""
     motion = case.asked or slide(case.around.outward, case.around, "nothing moves")
-    best = weigh_all(case.around, [("asked", motion)])[0]
+    both = hypotheses(case.around, [("asked", motion)])
+    scores = score_motions(case.around, part_facts(case.around, case.label, case.label, bail=False), both)
+    best = both[max((0, 1), key=lambda k: (both[k].is_free, scores[k]))] if motion.kind is MotionKind.TURN else both[0]
     moves = case.recognized.moves if case.recognized else None
     told = moves is not None and moves_as(best, moves)
     features = {
@@ -47,7 +50,7 @@ def as_answered(case: Case) -> Choice:
         "moves": float(told),
         "moves against": float(moves is not None and not told),
         "answered": 1.0,
-        "blocked": float(not is_free(best)),
+        "blocked": float(not best.is_free),
     }
     reason = f"answered: {words(case.kind)}; {motion.source}"
     return Choice(best, reason, Agreement(features), moves=case.kind is not JointKind.FIXED)

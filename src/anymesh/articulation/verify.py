@@ -10,7 +10,7 @@ from jaxtyping import Int
 
 from anymesh.articulation.cases import Case, ask_each
 from anymesh.articulation.confidence import Agreement
-from anymesh.articulation.offers import Offers, fits, is_free, make_offers, moves_as
+from anymesh.articulation.offers import Offers, fits, make_offers, moves_as
 from anymesh.reasoning.asking import Seer
 from anymesh.reasoning.geometry import reason
 from anymesh.reasoning.prompting import JointKind, MotionPick, MotionTable, PartFit, WhichMotions
@@ -95,12 +95,12 @@ def _worth_asking(o: Offers) -> bool:
 
 def _against_all(o: Offers, picked: int | None) -> bool:
     """Whether the motion picked contradicts what geometry and the answers before agree on."""
-    return o.answered == 0 and is_free(o.motions[0]) and picked != 0 and picked is not None
+    return o.answered == 0 and o.motions[0].is_free and picked != 0 and picked is not None
 
 
 def _without_choice(o: Offers) -> Choice:
     best = o.motions[o.first[0] if o.first else 0]
-    told = "the only free motion" if is_free(best) else "no motion is free; as answered"
+    told = "the only free motion" if best.is_free else "no motion is free; as answered"
     if o.case.kind is JointKind.FIXED:
         return Choice(best, "answered: it does not move", agreement(o, None, {"only": 1.0}), moves=False)
     return Choice(best, f"{told}: {reason(o.facts, best)}", agreement(o, 0, {"only": 1.0}))
@@ -122,7 +122,7 @@ def _chosen(o: Offers, picked: int | None, *, doubted: bool, later: bool, fit: P
 
 def _fallback(o: Offers) -> int:
     """The likeliest motion of the kind that was answered, where none was recognized."""
-    return next((k for k, c in enumerate(o.motions) if is_free(c) and fits(c, o.case.kind)), 0)
+    return next((k for k, c in enumerate(o.motions) if c.is_free and fits(c, o.case.kind)), 0)
 
 
 def agreement(o: Offers, picked: int | None, more: Mapping[str, float]) -> Agreement:
@@ -140,7 +140,7 @@ def agreement(o: Offers, picked: int | None, more: Mapping[str, float]) -> Agree
             "moves against": float(moves is not None and not told),
             "answered": float(o.answered == picked),
             "likely": o.shares[picked],
-            "blocked": float(not is_free(c)),
+            "blocked": float(not c.is_free),
             **more,
         }
     )

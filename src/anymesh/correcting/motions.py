@@ -7,17 +7,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 from jaxtyping import Int
 
-from anymesh.articulation.estimate import joint_of, surroundings
-from anymesh.articulation.evidence import part_facts, weigh_all
-from anymesh.articulation.hypotheses import propose
+from anymesh.articulation.estimate import joint_of, motion_question, surroundings
 from anymesh.config import Config
 from anymesh.correcting.corrections import ChooseMotion, vector
 from anymesh.correcting.finding import joint_of_part, part_number
 from anymesh.geometry.pieces import ObjectShape, object_shape
 from anymesh.geometry.simplify_ import simplify
-from anymesh.reasoning.geometry import is_free, joint_type, reason
-from anymesh.reasoning.vocabulary import habit_of
-from anymesh.reasoning.weighing import score
+from anymesh.reasoning.geometry import joint_type, motion_scores, reason
 from anymesh.types import Asset, Joint, JointType, Mesh
 
 MOST = 8
@@ -73,17 +69,15 @@ def ranked_motions(
     shapes = [whole.of(np.flatnonzero(label == k)) for k in range(len(names))]
     number = part_number(asset, part)
     around = surroundings(whole, label, shapes, [hangs.get(n, -1) for n in names], number, settings.articulation)
-    proposed = propose(around)
-    told = asset.segmentation.parts[number].label
-    facts = part_facts(around, part, told, any(role == "bail" for role, _ in proposed))
-    free = [c for c in weigh_all(around, proposed) if is_free(c)]
-    scores = np.array([score(facts, c, habit_of(told)) for c in free])
-    likely = np.exp(scores - scores.max()) if len(scores) else scores
+    question = motion_question(around, part, asset.segmentation.parts[number].label)
+    scores = motion_scores(question)
+    free = [k for k in np.argsort(-scores, kind="stable") if question.candidates[k].is_free]
+    total = float(np.exp(scores[free] - scores.max()).sum()) if free else 1.0
     found: list[ChooseMotion] = []
-    for k in np.argsort(-scores, kind="stable"):
-        kind = joint_type(facts, free[k])
-        joint = joint_of(around, part, names[hangs[part]], free[k], kind, 1.0, reason(facts, free[k]))
-        motion = _choice(joint, float(likely[k] / likely.sum()))
+    for k in free:
+        c = question.candidates[k]
+        joint = joint_of(around, part, names[hangs[part]], c, joint_type(c), 1.0, reason(question.part, c))
+        motion = _choice(joint, float(np.exp(scores[k] - scores.max()) / total))
         if not any(_alike(other, motion, asset.mesh.diagonal) for other in found):
             found.append(motion)
         if len(found) == most:

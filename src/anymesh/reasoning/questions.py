@@ -12,7 +12,11 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.types import Handle, JointType, Motion, Sweep
+from anymesh.types import Handle, JointType, Motion, MotionKind, Sweep
+
+MIN_ANGLE = float(np.deg2rad(12))  # [rad] a hinge that opens less is blocked
+MIN_TRAVEL_RATIO = 0.008  # a slide that is free for less, as a share of the diagonal, is blocked
+FULL_TURN = 3.0  # [rad] free each way from which a turn is endless; the sweep ends at half a turn
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,7 +67,7 @@ class Candidate:
     vertical: float  # |axis . up|
     above: float  # -1..1: where the axis lies between the lowest (-1) and highest (1) of the part
     captured: bool  # a slide that is stopped both ways, with room to move between
-    outward: float  # opening direction . outward, -1..1; a lever that is pressed down counts as it would open otherwise
+    outward: float  # opening direction . outward, -1..1
     pair: float = 0.0  # -1..1: 1 a leaf like it meets the part opposite the hinge, -1 at the hinge
     outer: float = 0.0  # -1..1: 1 the hinge lies at the object's outer side, -1 towards its middle
     handle_off: float = 0.0  # 0..1, how far from the middle of the hinge's length the handle sits
@@ -75,14 +79,30 @@ class Candidate:
     slack: float = 1.0  # factor on the penetration that counts, more than 1 for a part that is stuck in the rest
     passes: float = 0.0  # 0..1, a slide: the part comes to lie over what it did not lie over
 
+    @property
+    def is_free(self) -> bool:
+        """Whether the sweep lets the motion open at all; a slide or a wheel may go back as well, a button may fill its hole."""
+        if self.motion.kind is MotionKind.SLIDE:
+            return max(self.opening, self.closing) >= MIN_TRAVEL_RATIO
+        return max(self.opening, self.closing if self.role == "round" else 0.0) >= MIN_ANGLE
 
-@dataclass(frozen=True)
+    @property
+    def turns_freely(self) -> bool:
+        """Whether nothing stops a turn, either way."""
+        return self.motion.kind is MotionKind.TURN and min(self.opening, self.closing) > FULL_TURN
+
+
+@dataclass(frozen=True, eq=False)
 class MotionQuestion:
-    """How does this part move? One of the candidates, or not at all. twins: the same of its copies in a row with it."""
+    """How does this part move? One of the candidates, or not at all.
+
+    scores: (k,) log-odds that each candidate is right; reasons: the features that decided, in words.
+    """
 
     part: PartFacts
     candidates: tuple[Candidate, ...]
-    twins: tuple[MotionQuestion, ...] = ()
+    scores: Float[np.ndarray, " k"]
+    reasons: tuple[str, ...]
 
 
 @dataclass(frozen=True)

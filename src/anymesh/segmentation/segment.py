@@ -22,7 +22,7 @@ from anymesh.reasoning.vocabulary import Habit, is_fixed_name, recognize
 from anymesh.segmentation.contacts import find_contacts
 from anymesh.segmentation.naming import named_parts
 from anymesh.segmentation.part_assignment import assign_parts, conflicts
-from anymesh.segmentation.part_classifier import shipped_classifier
+from anymesh.segmentation.part_classifier import score_parts
 from anymesh.segmentation.part_features import FeatureScene, part_features, surroundings_of
 from anymesh.segmentation.part_tree import PartTree, part_tree
 from anymesh.types import Mesh, Segmentation
@@ -46,7 +46,7 @@ def segment_parts(
     tree = part_tree(mesh, whole, contacts, settings.smallest, settings.most_candidates)
     progress("segment", "candidates", 1, 2)
     examined, features = _examined(mesh, tree, config, progress, deadline or Deadline())
-    score, reasons = shipped_classifier().score(examined.overlap, features)
+    score, reasons = score_parts(examined.overlap, features)
     words = [_name(examined, k) for k in range(len(score))]
     score = score + np.array([_name_score(word) for word in words])
     chosen = _at_least(examined, score, assign_parts(examined.overlap, score), settings.at_least)

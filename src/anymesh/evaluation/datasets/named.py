@@ -10,7 +10,7 @@ from anymesh.evaluation.datasets.dataset import Dataset
 
 NAMES = (
     "examples[:FOLDER], scene-synthesizer, sweethome3d[:FILE], metaworld[:FOLDER], libero[:FOLDER], "
-    "partnet-mobility:FOLDER, urdf:FOLDER, mjcf:FOLDER, labelled:FOLDER"
+    "partnet-mobility:FOLDER, urdf:FOLDER, static:FOLDER, mjcf:FOLDER, labelled:FOLDER"
 )
 NEEDED = {  # import name -> how it is had
     "scene_synthesizer": "pip install 'articulate-anymesh[eval]'",
@@ -51,7 +51,7 @@ def _open(spec: str, name: str, place: Path | None) -> Dataset:
             from anymesh.evaluation.datasets.mjcf_sets import libero, metaworld
 
             return (metaworld if name == "metaworld" else libero)(None if place is None else _folder(place))
-        case "partnet-mobility" | "urdf" | "mjcf" | "labelled" if place is not None:
+        case "partnet-mobility" | "urdf" | "static" | "mjcf" | "labelled" if place is not None:
             return _in_folder(name, _folder(place))
         case _:
             raise OptionError(f"found the data set {spec!r}; valid are {NAMES}")
@@ -63,10 +63,10 @@ def _in_folder(name: str, folder: Path) -> Dataset:
             from anymesh.evaluation.datasets.partnet_mobility import PartNetMobility
 
             return PartNetMobility(folder)
-        case "urdf":
+        case "urdf" | "static":
             from anymesh.evaluation.datasets.urdf_ import UrdfFolder
 
-            return UrdfFolder(folder)
+            return UrdfFolder(folder, name, static=name == "static")
         case "labelled":
             from anymesh.evaluation.datasets.labelled import LabelledFolder
 

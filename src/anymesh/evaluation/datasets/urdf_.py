@@ -30,10 +30,14 @@ JOINT = re.compile(r"""<joint[^>]*type\s*=\s*["'](revolute|continuous|prismatic)
 
 @dataclass(frozen=True)
 class UrdfFolder:
-    """Every *.urdf below a folder with a joint that moves. Files split_NAME.txt in it list subsets, a name a line."""
+    """Every *.urdf below a folder with a joint that moves; `static`: without one, so that every part found is wrong.
+
+    Files split_NAME.txt in it list subsets, one name per line.
+    """
 
     folder: Path
     name: str = "urdf"
+    static: bool = False
 
     @property
     def splits(self) -> tuple[str, ...]:
@@ -42,9 +46,11 @@ class UrdfFolder:
     def objects(self, split: str | None = None) -> list[str]:
         """Paths without suffix, with - for the folders between."""
         check_split(self.name, split, self.splits)
-        names = sorted(name for name, path in self._files().items() if JOINT.search(path.read_text(errors="replace")))
+        moving = {name: bool(JOINT.search(path.read_text(errors="replace"))) for name, path in self._files().items()}
+        names = sorted(name for name, moves in moving.items() if moves is not self.static)
         if not names:
-            raise InputError(f"{self.folder}: found no .urdf file with a joint that moves; at least one is needed")
+            wanted = "without" if self.static else "with"
+            raise InputError(f"{self.folder}: found no .urdf file {wanted} a joint that moves; at least one is needed")
         return names if split is None else chosen(self.folder, split, names)
 
     def truth(self, name: str, folder: Path) -> Truth:

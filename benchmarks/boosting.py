@@ -1,0 +1,145 @@
+"""Train classifiers in two steps (`anymesh.reasoning.two_steps`) by lightgbm, and score what was left out of training."""
+
+from __future__ import annotations
+
+import json
+from collections import Counter
+from collections.abc import Callable, Hashable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import lightgbm
+import numpy as np
+from jaxtyping import Bool, Float
+
+from anymesh.reasoning.boosted_trees import LEAF, BoostedTrees
+
+SETTINGS = {
+    "objective": "cross_entropy", "learning_rate": 0.1, "num_leaves": 15, "min_data_in_leaf": 25, "feature_fraction": 0.5,
+    "bagging_fraction": 0.7, "bagging_freq": 1, "lambda_l2": 5.0, "verbose": -1, "num_threads": 1, "seed": 0,
+    "deterministic": True,
+}  # fmt: skip
+FOLDS = 4
+Scores = list[Float[np.ndarray, " n"]]
+Context = Callable[[int, Scores], Float[np.ndarray, "n c"]]  # of a sample, from the first scores of all
+
+
+@dataclass(frozen=True, eq=False)
+class Sample:
+    """The candidates of one choice. target: (n,) 1 right, 0 wrong, or between; NaN not trained on; weight: of each candidate."""
+
+    source: str
+    kind: str
+    features: Float[np.ndarray, "n k"]
+    target: Float[np.ndarray, " n"]
+    weight: float
+
+
+def folds_of(groups: Sequence[Hashable], seed: int, count: int = FOLDS) -> np.ndarray:
+    """Return a fold per sample; a group lies in one fold."""
+    known = sorted(set(groups), key=str)
+    order = np.random.default_rng(seed).permutation(len(known))
+    fold = {group: int(order[k]) % count for k, group in enumerate(known)}
+    return np.array([fold[group] for group in groups])
+
+
+class TwoSteps:
+    """Both steps. The second is trained on first scores of kinds that the first was not trained on."""
+
+    def __init__(self, samples: Sequence[Sample], chosen: Sequence[int], context: Context, rounds: tuple[int, int]) -> None:
+        self._samples, self._context = samples, context
+        fold = folds_of([(samples[i].source, samples[i].kind) for i in chosen], 1)
+        first: Scores = [np.zeros(0)] * len(samples)
+        for k in range(FOLDS):
+            step = self._fit([i for i, f in zip(chosen, fold, strict=True) if f != k], rounds[0])
+            for i, f in zip(chosen, fold, strict=True):
+                if f == k:
+                    first[i] = step.score(samples[i].features)
+        self.first = self._fit(chosen, rounds[0])
+        self.second = self._fit(chosen, rounds[1], first)
+
+    def _fit(self, chosen: Sequence[int], rounds: int, first: Scores | None = None) -> BoostedTrees:
+        samples = [self._samples[i] for i in chosen]
+        tables = [self._samples[i].features if first is None else self._joined(i, first) for i in chosen]
+        target = np.concatenate([s.target for s in samples])
+        weight = np.concatenate([np.full(len(s.target), s.weight) for s in samples])
+        known = ~np.isnan(target)
+        data = lightgbm.Dataset(np.concatenate(tables)[known], target[known], weight=weight[known] / weight[known].mean())
+        return trees_of(lightgbm.train(SETTINGS, data, rounds))
+
+    def _joined(self, k: int, first: Scores) -> Float[np.ndarray, "n k"]:
+        return np.concatenate([self._samples[k].features, self._context(k, first)], 1)
+
+    def scores(self, chosen: Sequence[int]) -> Scores:
+        """Return the log-odds of the candidates of some samples; nothing for the others. Copies must be chosen together."""
+        first: Scores = [np.zeros(0)] * len(self._samples)
+        found: Scores = [np.zeros(0)] * len(self._samples)
+        for k in chosen:
+            first[k] = self.first.score(self._samples[k].features)
+        for k in chosen:
+            found[k] = self.second.score(self._joined(k, first))
+        return found
+
+
+def held_out(
+    samples: Sequence[Sample], left: Sequence[Bool[np.ndarray, " s"]], context: Context, rounds: tuple[int, int]
+) -> Scores:
+    """Return the scores of each sample by a classifier that was trained without all that is left out with it."""
+    found: Scores = [np.zeros(0)] * len(samples)
+    for mask in left:
+        model = TwoSteps(samples, [int(k) for k in np.flatnonzero(~mask)], context, rounds)
+        out = [int(k) for k in np.flatnonzero(mask)]
+        scores = model.scores(out)
+        for k in out:
+            found[k] = scores[k]
+    return found
+
+
+def leave_sources_out(samples: Sequence[Sample]) -> list[Bool[np.ndarray, " s"]]:
+    """Return which samples are left out, one source at a time."""
+    return [np.array([s.source == source for s in samples]) for source in sorted({s.source for s in samples})]
+
+
+def leave_kinds_out(samples: Sequence[Sample]) -> list[Bool[np.ndarray, " s"]]:
+    """Return which samples are left out, a fold of kinds at a time."""
+    fold = folds_of([(s.source, s.kind) for s in samples], 0)
+    return [fold == k for k in range(FOLDS)]
+
+
+def trees_of(model: lightgbm.Booster) -> BoostedTrees:
+    """Return the trees of a trained model as arrays."""
+    nodes: list[tuple[int, float, int, int, float]] = []
+
+    def add(node: dict) -> int:
+        at = len(nodes)
+        if "leaf_value" in node:
+            nodes.append((LEAF, 0.0, at, at, node["leaf_value"]))
+            return at
+        nodes.append((0, 0.0, 0, 0, 0.0))
+        left, right = add(node["left_child"]), add(node["right_child"])
+        nodes[at] = node["split_feature"], node["threshold"], left, right, node["internal_value"]
+        return at
+
+    root = [add(tree["tree_structure"]) for tree in model.dump_model()["tree_info"]]
+    feature, threshold, left, right, value = zip(*nodes, strict=True)
+    return BoostedTrees(
+        np.array(feature, np.int16), np.array(threshold, np.float32), np.array(left, np.int32), np.array(right, np.int32),
+        np.array(value, np.float32), np.array(root, np.int32),
+    )  # fmt: skip
+
+
+def write(path: Path, model: TwoSteps, names: Sequence[str], objects: Sequence[tuple[str, str, str]], **more: Any) -> None:
+    """Write a classifier with its manifest. objects: source, kind and name of each that it was trained on."""
+    counts = Counter(source for source, _, _ in objects)
+    manifest = {
+        "features": list(names),
+        "sources": {s: {"objects": counts[s], "kinds": sorted({k for t, k, _ in objects if t == s})} for s in sorted(counts)},
+        "objects": sorted(f"{source}/{name}" for source, _, name in objects),
+        "settings": SETTINGS,
+        "lightgbm": lightgbm.__version__,
+        **more,
+    }
+    arrays = {"manifest": np.frombuffer(json.dumps(manifest).encode(), np.uint8)}
+    np.savez_compressed(path, **arrays, **model.first.arrays("first"), **model.second.arrays("second"))
+    print(f"{path}: {path.stat().st_size / 1e6:.2f} MB")

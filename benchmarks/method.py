@@ -1,0 +1,97 @@
+"""Draw what the geometry answerer does with one object, step by step, for docs/method.md.
+
+python benchmarks/method.py FOLDER [NAME] [--part PART]      writes patches, candidates, parts, motions and joints as PNG
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+import numpy as np
+
+from anymesh.articulation.estimate import motion_questions
+from anymesh.articulation.limits import opening_motion
+from anymesh.articulation.offers import SHOWN_SLIDE, SHOWN_TURN
+from anymesh.config import Config
+from anymesh.loading import load_mesh, place_mesh
+from anymesh.pipeline import articulate
+from anymesh.reasoning.geometry import motion_scores
+from anymesh.reasoning.questions import Candidate
+from anymesh.rendering.encode import encode
+from anymesh.rendering.paint import mark_color
+from anymesh.rendering.render import render
+from anymesh.rendering.sheet import question_sheet
+from anymesh.rendering.studio import Studio
+from anymesh.segmentation.contacts import find_contacts
+from anymesh.segmentation.part_assignment import assign_parts
+from anymesh.segmentation.part_classifier import score_parts
+from anymesh.segmentation.part_features import FeatureScene, part_features, surroundings_of
+from anymesh.segmentation.part_tree import PartTree, part_tree
+from anymesh.solving import Solver
+from anymesh.types import Mesh, MotionKind, Picture
+
+EXAMPLES = Path(__file__).parents[1] / "examples" / "meshes"
+MOST = 9  # candidates that are drawn
+MOTIONS = 7  # motions that are drawn
+
+
+def patches(studio: Studio, mesh: Mesh, tree: PartTree) -> Picture:
+    """Every patch in a colour of its own."""
+    color = np.array([mark_color(k) for k in tree.whole.mesh_piece], np.uint8)
+    views = [render(mesh, view.camera, face_color=color, scene=studio.scene).color for view in studio.views[:4]]
+    return question_sheet([encode(view, f"{len(tree.members[0])} patches") for view in views])
+
+
+def candidates(studio: Studio, tree: PartTree, score: np.ndarray, chosen: list[int]) -> Picture:
+    """The candidates of highest score, each marked, with its probability and whether it was chosen."""
+    cards = []
+    for k in np.argsort(-score, kind="stable")[:MOST]:
+        marked = tree.members[k][tree.whole.mesh_piece].astype(np.int64)
+        card = studio.card(marked, 1, f"p = {1 / (1 + np.exp(-score[k])):.2f}{', chosen' if int(k) in chosen else ''}")
+        cards.append(card)
+    return question_sheet(cards)
+
+
+def motions(studio: Studio, moving: np.ndarray, ranked: list[tuple[float, Candidate]], scale: float, size: float) -> Picture:
+    """A part at rest and in its likeliest motions, likeliest first."""
+    shown = ranked[:MOTIONS]
+    amounts = [
+        min(c.opening, SHOWN_TURN) if c.motion.kind is MotionKind.TURN else min(c.opening * scale, SHOWN_SLIDE * size)
+        for _, c in shown
+    ]
+    title = f"log-odds of 1 and 2: {shown[0][0]:.1f}, {shown[1][0]:.1f}"
+    return studio.strip(moving, title, [opening_motion(c) for _, c in shown], amounts)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description="Draw what the geometry answerer does with one object.")
+    parser.add_argument("folder", type=Path, help="where the pictures go")
+    parser.add_argument("name", nargs="?", default="cabinet", help="an example")
+    parser.add_argument("--part", type=int, default=1, help="whose motions are drawn")
+    options = parser.parse_args()
+    options.folder.mkdir(parents=True, exist_ok=True)
+    config, path = Config(), EXAMPLES / f"{options.name}.glb"
+    mesh = place_mesh(load_mesh(path)).mesh
+    solver, studio = Solver(mesh, config), Studio(mesh, config)
+    contacts = find_contacts(solver.whole, config.segmentation)
+    tree = part_tree(mesh, solver.whole, contacts, config.segmentation.smallest, config.segmentation.most_candidates)
+    scene = FeatureScene.of(mesh, tree, config)
+    rows = [part_features(scene, k, around) for k in range(len(tree.members)) if (around := surroundings_of(scene, k))]
+    score, _ = score_parts(tree.overlap, rows)
+    found = solver.parts().segmentation
+    _, _, around, question = sorted(motion_questions(solver.whole, found, config), key=lambda m: m[0])[options.part - 1]
+    scores = motion_scores(question)
+    ranked = [(float(scores[k]), question.candidates[k]) for k in np.argsort(-scores, kind="stable")]
+    drawn = {
+        "patches": patches(studio, mesh, tree),
+        "candidates": candidates(studio, tree, score, assign_parts(tree.overlap, score)),
+        "motions": motions(studio, found.face_part == options.part, ranked, around.scale, around.part.box.diagonal),
+    }
+    for name, picture in drawn.items():
+        (options.folder / f"{name}.png").write_bytes(picture.png)
+    articulate(path, options.folder / "asset", force=True)
+
+
+if __name__ == "__main__":
+    main()

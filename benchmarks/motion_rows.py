@@ -1,0 +1,167 @@
+"""The candidate motions of the parts of objects with known joints, with their features, kept in a folder: one file per object.
+
+python benchmarks/motion_rows.py FOLDER SPEC ... [--change fused] [--most N] [--workers 2]
+
+SPEC: a data set as for `anymesh eval`, with @NAME to name the source otherwise. Names are removed; the true parts are given.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import tempfile
+from collections.abc import Sequence
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass
+from multiprocessing import get_context
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from jaxtyping import Float, Float32, Int
+from part_rows import kind_of, nameless
+
+from anymesh.articulation.estimate import motion_questions
+from anymesh.articulation.motion_features import motion_features
+from anymesh.config import Config
+from anymesh.evaluation.changes import changed
+from anymesh.evaluation.datasets.named import open_dataset
+from anymesh.evaluation.metrics import angle_error, distance_at, opening_side, opens_both_ways
+from anymesh.evaluation.protocols import prepared
+from anymesh.evaluation.truth import Subject, TrueJoint
+from anymesh.geometry.pieces import object_shape
+from anymesh.types import JointType, Motion, MotionKind
+
+ANGLE, FAR = 5.0, 0.08  # [deg], and half the object's diagonal is 1: a motion that is further off is wrong
+NEAR_ANGLE, NEAR = 2.0, 0.03  # of the right ones, those this near count most
+
+
+@dataclass(frozen=True, eq=False)
+class MotionRows:
+    """The candidate motions of one part.
+
+    features: (n, k) with `names`; axes: (n, 3) in the asset frame; right: (n,) how right a motion is, 0 for wrong; opens_right:
+    (n,) whether it opens to the true side, 1, 0, or -1 where there is none; twins: parts that are copies of it in a row.
+    """
+
+    source: str
+    kind: str
+    name: str
+    form: str
+    part: str
+    number: int
+    twins: tuple[int, ...]
+    names: tuple[str, ...]
+    features: Float32[np.ndarray, "n k"]
+    axes: Float[np.ndarray, "n 3"]
+    right: Float[np.ndarray, " n"]
+    opens_right: Int[np.ndarray, " n"]
+
+
+def rows_of(subject: Subject, source: str, form: str = "") -> list[MotionRows]:
+    """Propose, sweep and measure the motions of all parts with a known joint."""
+    config, truth = Config(), subject.truth
+    whole = object_shape(subject.mesh, config.seed, config.pieces, subject.labels)
+    joints = {j.child: subject.joint(j) for j in truth.joints if j.type is not JointType.FIXED}
+    found: list[MotionRows] = []
+    questions = list(motion_questions(whole, subject.segmentation(), config))
+    numbers = {id(q.part): i for i, _, _, q in questions}
+    for i, _, around, question in questions:
+        name = truth.parts[i].name
+        if name not in joints:
+            continue
+        rows = motion_features(around, question.part, question.candidates)
+        joint, center = joints[name], subject.mesh.triangles[subject.labels == i].reshape(-1, 3).mean(0)
+        motions = [c.motion for c in question.candidates]
+        names = tuple(rows[0])
+        found.append(MotionRows(
+            source, kind_of(truth.name, truth.category), truth.name, form, name, i,
+            tuple(numbers[id(t.part)] for t in question.twins), names,
+            np.array([[row[n] for n in names] for row in rows], np.float32),
+            np.array([m.axis for m in motions]),
+            np.array([how_right(joint, m, center, subject.unit) for m in motions]),
+            np.array([_opens_right(joint, c.motion.axis * c.opens) for c in question.candidates]),
+        ))  # fmt: skip
+    return found
+
+
+def how_right(true: TrueJoint, motion: Motion, center: np.ndarray, unit: float) -> float:
+    """Return 0 for a wrong motion, else how near it is to the true one, up to 1."""
+    slides = true.type is JointType.PRISMATIC
+    if slides != (motion.kind is MotionKind.SLIDE):
+        return 0.0
+    angle = angle_error(motion.axis, true.axis)
+    off = 0.0 if slides else distance_at(center, motion.origin, motion.axis, true.origin, true.axis) / unit
+    if angle > ANGLE or off > FAR:
+        return 0.0
+    return float(np.exp(-((off / NEAR) ** 2 + (angle / NEAR_ANGLE) ** 2) / 2)) + 1e-3
+
+
+def _opens_right(true: TrueJoint, axis: np.ndarray) -> int:
+    if not true.range_known or opens_both_ways(true.limits):
+        return -1
+    return int(opening_side(true.limits) * float(axis @ true.axis) > 0)
+
+
+def save(path: Path, parts: Sequence[MotionRows]) -> None:
+    """Write an .npz file."""
+    told: list[dict[str, Any]] = []
+    arrays: dict[str, np.ndarray] = {}
+    for k, rows in enumerate(parts):
+        fields = vars(rows)
+        arrays |= {f"{key}.{k}": value for key, value in fields.items() if isinstance(value, np.ndarray)}
+        told.append({key: value for key, value in fields.items() if not isinstance(value, np.ndarray)})
+    np.savez_compressed(path, told=np.frombuffer(json.dumps(told).encode(), np.uint8), **arrays)
+
+
+def read_rows(folder: Path) -> list[MotionRows]:
+    """Read all parts of all objects of a folder, in the order of their file names."""
+    found = []
+    for path in sorted(folder.glob("*.npz")):
+        with np.load(path) as file:
+            for k, told in enumerate(json.loads(bytes(file["told"]).decode())):
+                arrays = {key: file[f"{key}.{k}"] for key in ("features", "axes", "right", "opens_right")}
+                told = {key: tuple(value) if isinstance(value, list) else value for key, value in told.items()}
+                found.append(MotionRows(**told, **arrays))
+    return found
+
+
+def collect(spec: str, source: str, name: str, change: str, folder: str) -> str:
+    """Write the rows of one object unless they are there; return a line that says so."""
+    path = Path(folder) / f"{source}{'+' + change if change else ''}--{name}.npz"
+    if path.exists():
+        return ""
+    with tempfile.TemporaryDirectory() as place:
+        subject = nameless(prepared(open_dataset(spec).truth(name, Path(place))))
+        save(path, rows_of(changed(change, subject) if change else subject, source, change))
+    return f"{source} {name} {change}"
+
+
+def main(argv: Sequence[str] | None = None) -> None:
+    parser = argparse.ArgumentParser(description="Candidate motions of parts, with their features.")
+    parser.add_argument("folder", type=Path)
+    parser.add_argument("specs", nargs="+", metavar="SPEC")
+    parser.add_argument("--change", default="", help="as for anymesh eval --changes")
+    parser.add_argument("--most", type=int, default=10**6, help="objects of each set, evenly spread over it")
+    parser.add_argument("--workers", type=int, default=2)
+    options = parser.parse_args(argv)
+    options.folder.mkdir(parents=True, exist_ok=True)
+    with ProcessPoolExecutor(options.workers, get_context("spawn")) as workers:
+        jobs = []
+        for told in options.specs:
+            spec, _, source = told.partition("@")
+            names = list(open_dataset(spec).objects())
+            if len(names) > options.most:
+                names = [names[k] for k in np.linspace(0, len(names) - 1, options.most).astype(int)]
+            called = source or spec.split(":")[0]
+            jobs += [workers.submit(collect, spec, called, n, options.change, str(options.folder)) for n in names]
+        for job in jobs:
+            try:
+                if line := job.result():
+                    print(line, flush=True)
+            except Exception as error:
+                print(f"{type(error).__name__}: {error}", flush=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,113 @@
+"""Train the classifier of motions (`anymesh.articulation.motion_classifier`) and measure it on what it was not trained on.
+
+python benchmarks/train_motions.py FOLDER            benchmarks/motions.md: leave one source out, leave kinds out
+python benchmarks/train_motions.py FOLDER --write    trains on all and writes motion_classifier.npz with its manifest
+
+FOLDER: rows as `benchmarks/motion_rows.py` writes them. Needs lightgbm. For the shipped classifier:
+    python benchmarks/kinds.py KINDS --seed 11 --count 5
+    python benchmarks/motion_rows.py FOLDER urdf:KINDS@kinds labelled:INFINIGEN@infinigen sweethome3d metaworld libero \
+        examples scene-synthesizer mjcf:ROBOSUITE/models/assets/robots@robosuite mjcf:ROBOSUITE/models/assets/grippers@robosuite
+    python benchmarks/motion_rows.py FOLDER urdf:KINDS@kinds labelled:INFINIGEN@infinigen --change fused --most 40
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections import Counter
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+import numpy as np
+from boosting import Sample, Scores, TwoSteps, held_out, leave_kinds_out, leave_sources_out, write
+from jaxtyping import Bool, Float
+from motion_rows import MotionRows, read_rows
+
+from anymesh.articulation.estimate import MOST_COPIES
+from anymesh.articulation.motion_context import ScoredMotions, context_features
+
+ROUNDS = (200, 100)  # trees of the first and of the second step
+OBJECT, SOURCE = 0.5, 0.3  # powers by which parts of an object, and parts of a source, count less the more they are
+HERE = Path(__file__).parent
+WRITTEN = HERE.parent / "src" / "anymesh" / "articulation" / "motion_classifier.npz"
+
+
+def right_side(rows: MotionRows) -> Bool[np.ndarray, " n"]:
+    """Whether each motion is right and opens to the true side, if there is one."""
+    return (rows.right > 0) & (rows.opens_right != 0)
+
+
+def samples_of(rows: Sequence[MotionRows]) -> list[Sample]:
+    """Return the motions of each part as samples."""
+    parts = Counter((r.source, r.form, r.name) for r in rows)
+    sources = Counter(r.source for r in rows)
+    found = []
+    for r in rows:
+        near = np.where(right_side(r), r.right, 0.0)
+        target = near / near.max() if near.any() else near  # the nearest to the true motion is right, others the less so
+        weight = parts[r.source, r.form, r.name] ** -OBJECT * sources[r.source] ** -SOURCE
+        found.append(Sample(r.source, r.kind, r.features, target, weight))
+    return found
+
+
+class CopyContext:
+    """The features of the context, with the copies of each part."""
+
+    def __init__(self, rows: Sequence[MotionRows]) -> None:
+        number = {(r.source, r.form, r.name, r.number): k for k, r in enumerate(rows)}
+        keys = [[(r.source, r.form, r.name, t) for t in r.twins[:MOST_COPIES]] for r in rows]
+        self._rows = rows
+        self._copies = [[number[key] for key in some if key in number] for some in keys]
+
+    def __call__(self, k: int, first: Scores) -> Float[np.ndarray, "n c"]:
+        own, *copies = (
+            ScoredMotions.of(self._rows[i].names, self._rows[i].features, self._rows[i].axes, first[i])
+            for i in [k, *self._copies[k]]
+        )
+        return np.stack(list(context_features(own, copies).values()), 1)
+
+
+def table(rows: Sequence[MotionRows], scores: Scores, of: Callable[[MotionRows], str]) -> list[str]:
+    """Return lines of a table, one for each group of parts."""
+    lines = ["| | joints | offered | right motion | and right side |", "|---|---|---|---|---|"]
+    best = [int(s.argmax()) for s in scores]
+    for group in [*sorted({of(r) for r in rows}), "all"]:
+        chosen = [k for k, r in enumerate(rows) if group in (of(r), "all")]
+        offered = np.mean([bool(right_side(rows[k]).any()) for k in chosen])
+        right = np.mean([rows[k].right[best[k]] > 0 for k in chosen])
+        side = np.mean([right_side(rows[k])[best[k]] for k in chosen])
+        lines.append(f"| {group} | {len(chosen)} | {offered:.2f} | {right:.2f} | {side:.2f} |")
+    return lines
+
+
+def called(rows: MotionRows) -> str:
+    """Return the source and the form of an object, as in tables."""
+    return f"{rows.source}, {rows.form}" if rows.form else rows.source
+
+
+def main(argv: Sequence[str] | None = None) -> None:
+    parser = argparse.ArgumentParser(description="Train the classifier of motions.")
+    parser.add_argument("folder", type=Path)
+    parser.add_argument("--write", action="store_true")
+    options = parser.parse_args(argv)
+    rows = read_rows(options.folder)
+    samples, context = samples_of(rows), CopyContext(rows)
+    if options.write:
+        model = TwoSteps(samples, range(len(rows)), context, ROUNDS)
+        objects = sorted({(r.source, r.kind, r.name) for r in rows})
+        write(WRITTEN, model, rows[0].names, objects, rounds=ROUNDS, joints=len(rows))
+        return
+    by_source = held_out(samples, leave_sources_out(samples), context, ROUNDS)
+    by_kind = held_out(samples, leave_kinds_out(samples), context, ROUNDS)
+    text = [
+        "# Motions chosen by the classifier, on objects that it was not trained on", "",
+        "`python benchmarks/train_motions.py ROWS`; parts given, no names. Right: within 5 degrees and .08 of half the",
+        "diagonal; right side: it opens the way that the true joint does.", "",
+        "## Trained on all other sources", "", *table(rows, by_source, called), "",
+        "## Trained on other kinds (4 folds, a kind in one fold)", "", *table(rows, by_kind, called), "",
+    ]  # fmt: skip
+    (HERE / "motions.md").write_text("\n".join(text), encoding="utf-8")
+    print("\n".join(text))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,258 @@
+"""What geometry shows of a motion of a part, as named numbers: the input of the classifier of motions.
+
+Lengths are shares of the part's own size or of the object's diagonal, shares are 0..1, angles are in half turns. A number that
+a motion does not have (the support of a slide) is MISSING.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+from anymesh.geometry.circles import outline_about
+from anymesh.geometry.surroundings import Surroundings
+from anymesh.reasoning.questions import Candidate, PartFacts
+from anymesh.types import Motion, MotionKind
+
+MISSING = -9.0
+SQUARE = 0.7  # cosine below which a direction lies across an axis
+CENTRAL = 0.2  # distance of the middle from an axis, over the reach, below which a turn may be a spin
+TURNS = np.deg2rad((60.0, 72.0, 90.0, 120.0, 180.0))
+MISFIT_POINTS = 60  # of the part, that are turned
+SECTORS = 12  # of a full turn
+VIEW_POINTS = 80  # of the part, that look along the opening direction
+MOST_RATIO = 4.0  # lengths over lengths are cut here
+ROLES = (
+    "edge", "edge_mid", "center", "round", "bail", "barrel", "contact", "pin", "slide", "contact_slide"
+)  # fmt: skip
+
+
+@dataclass(frozen=True, eq=False)
+class ContactPoints:
+    """Samples of a part at its parent, and where they lie."""
+
+    points: Float[np.ndarray, "n 3"]
+
+    @classmethod
+    def of(cls, around: Surroundings) -> ContactPoints:
+        """Return the samples near the parent, the nearest ones where none is."""
+        gap = around.gap
+        near = gap <= max(0.008 * around.scale, 1.5 * float(gap.min()))
+        return cls(around.part.samples.points[near])
+
+
+def motion_features(around: Surroundings, facts: PartFacts, candidates: Sequence[Candidate]) -> list[dict[str, float]]:
+    """Return the features of each candidate; the keys are the same for all."""
+    contact = ContactPoints.of(around).points
+    part = part_values(around, facts, contact)
+    ways = np.array([_opening_direction(around, c) for c in candidates]).reshape(-1, 3)
+    ahead, behind = _visible(around, ways), _visible(around, -ways)
+    away = ways @ (around.part.samples.points.mean(0) - around.center) / around.diagonal
+    lines: dict[int, dict[str, float]] = {}  # the same for both ways about an axis
+    for c in candidates:
+        if id(c.motion) not in lines:
+            lines[id(c.motion)] = NO_LINE if c.motion.kind is MotionKind.SLIDE else _line(around, c.motion, contact)
+    return [
+        part
+        | _values(around, facts, c)
+        | lines[id(c.motion)]
+        | {"visible ahead": float(a), "visible behind": float(b), "away from the middle": float(m)}
+        for c, a, b, m in zip(candidates, ahead, behind, away, strict=True)
+    ]
+
+
+def _opening_direction(around: Surroundings, c: Candidate) -> Float[np.ndarray, " 3"]:
+    """Return where the part's middle goes first, unit; for a turn about its middle, where its largest part goes."""
+    axis = c.opens * c.motion.axis
+    if c.motion.kind is MotionKind.SLIDE:
+        return axis
+    moves = np.cross(axis, around.part.samples.points.mean(0) - c.motion.origin)
+    return moves / max(float(np.linalg.norm(moves)), 1e-9)
+
+
+def _visible(around: Surroundings, ways: Float[np.ndarray, "h 3"]) -> Float[np.ndarray, " h"]:
+    """Return the share of the part's surface that sees nothing of the rest along each direction."""
+    samples = around.part.samples
+    points = samples.points[:: max(1, len(samples.points) // VIEW_POINTS)]
+    start = (points[None] + 1e-4 * around.diagonal * ways[:, None]).reshape(-1, 3)
+    rays = np.repeat(4 * around.diagonal * ways, len(points), 0)
+    return (around.rest.scene.first_hit(start, rays, 1.0).face < 0).reshape(len(ways), -1).mean(1)
+
+
+def part_values(around: Surroundings, facts: PartFacts, contact: Float[np.ndarray, "n 3"]) -> dict[str, float]:
+    """Return the features of the part itself."""
+    handle = facts.handle
+    extents = np.array(facts.extents)
+    low, high = around.bounds
+    extent = np.maximum(high - low, 1e-12)
+    spread = np.sort(contact.std(0))[::-1] if len(contact) > 1 else np.zeros(3)
+    return {
+        "size": facts.size,
+        "thinness": facts.thinness,
+        "width over length": float(extents[1] / max(extents[0], 1e-9)),
+        "thickness": float(extents[2]),
+        "roundness": facts.roundness,
+        "height over radius": min(facts.flatness, 8.0),
+        "opening direction up": float(around.outward[2]),
+        "visibility": facts.openness,
+        "insertion depth": min(facts.buried, MOST_RATIO),
+        "tall": facts.tall,
+        "height": facts.height,
+        "back contact": facts.seated,
+        "free rim": facts.free_rim,
+        "covers an opening": facts.lid,
+        "rotational asymmetry": min(facts.marked, MOST_RATIO),
+        "held at two ends": float(facts.touches_ends),
+        "handle": float(handle is not None),
+        "handle size": handle.size if handle else 0.0,
+        "handle off the middle": max(abs(a) for a in handle.across) if handle else 0.0,
+        "bar handle": float(handle is not None and handle.along is not None),
+        "contact share": float(len(contact) / len(around.gap)),
+        "contact length": float(spread[0] / max(around.part.box.diagonal, 1e-12)),
+        "contact width": float(spread[1] / max(around.part.box.diagonal, 1e-12)),
+        "gap": float(np.log10(max(float(around.gap.min()) / around.diagonal, 1e-5))),
+        "parts": float(np.log1p(len(around.siblings))),
+        "object height": float(np.clip(extent[2] / extent[:2].max(), 0, MOST_RATIO)),
+        "solid": float(around.part.solid @ around.part.areas / max(around.part.area, 1e-300)),
+        "aside": float(np.linalg.norm(((around.part.bounds.mean(0) - low) / extent * 2 - 1)[:2])),
+        "area over box": float(np.clip(around.part.area / max(_box_area(around), 1e-300), 0, MOST_RATIO)),
+    }
+
+
+def _box_area(around: Surroundings) -> float:
+    a, b, c = around.core.half
+    return 8 * float(a * b + b * c + a * c)
+
+
+def _values(around: Surroundings, facts: PartFacts, c: Candidate) -> dict[str, float]:
+    slides, axis, core = c.motion.kind is MotionKind.SLIDE, c.motion.axis, around.core
+    unit = max(facts.size * around.diagonal / around.scale if slides else np.pi, 1e-9)
+    extent = float(np.ptp(around.part.corners @ axis)) / around.scale
+    turn = {
+        "hinge support": c.support,
+        "support opposite": c.opposite,
+        "another part along": c.sibling,
+        "handle side": c.handle_side,
+        "handle off the hinge's middle": c.handle_off,
+        "above": c.above,
+        "pair": c.pair,
+        "outer": c.outer,
+        "reach": c.reach,
+        "contact proximity": c.hugs,
+        "thick at the line": c.thick,
+        "rises": _rises(around, c),
+    }
+    slide = {
+        "guided": c.guided,
+        "depth": min(c.depth, MOST_RATIO),
+        "overlap gain": c.passes,
+        "captured": float(c.captured),
+        "room over extent": min((c.opening + c.closing) / max(extent, 1e-9), 8.0),
+    }
+    return {
+        "prismatic": float(slides),
+        "role": float(ROLES.index(c.role)) if c.role in ROLES else MISSING,
+        "along length": abs(float(axis @ core.axes[0])),
+        "along width": abs(float(axis @ core.axes[1])),
+        "along thickness": abs(float(axis @ core.axes[2])),
+        "along opening direction": abs(float(axis @ around.outward)),
+        "vertical": c.vertical,
+        "upwards": float(c.opens * axis[2]) if slides else MISSING,
+        "opening": min(c.opening / unit, MOST_RATIO),
+        "closing": min(c.closing / unit, MOST_RATIO),
+        "free both ways": min(c.opening, c.closing) / unit,
+        "outward": c.outward,
+        "contact retention": c.kept,
+        "penetration scale": float(np.log(c.slack)),
+        **(dict.fromkeys(turn, MISSING) if slides else turn),
+        **(slide if slides else dict.fromkeys(slide, MISSING)),
+    }
+
+
+def _rises(around: Surroundings, c: Candidate) -> float:
+    """Return the sine of the slope at which the part's middle goes up first; negative: down."""
+    moves = c.opens * np.cross(c.motion.axis, around.part.samples.points.mean(0) - c.motion.origin)
+    return float(moves[2] / max(float(np.linalg.norm(moves)), 1e-9))
+
+
+def _line(around: Surroundings, motion: Motion, contact: Float[np.ndarray, "n 3"]) -> dict[str, float]:
+    """Return the features of a hinge line that do not depend on the way about it."""
+    core, points, axis = around.core, around.part.samples.points, motion.axis
+    local = np.abs(core.local(motion.origin[None])[0] / np.maximum(core.half, 1e-9))
+    local = np.minimum(local, MOST_RATIO) * (np.abs(core.axes @ axis) < SQUARE)
+    off = _distance(points, motion)
+    reach, length = max(float(off.max()), 1e-9), max(float(np.ptp(points @ axis)), 1e-9)
+    balance = float(_distance(points.mean(0)[None], motion)[0] / reach)
+    outline = outline_about(points, axis)
+    low, high = around.parent.bounds
+    beside = np.abs(np.minimum(motion.origin - low, high - motion.origin))[np.abs(axis) < SQUARE]
+    return {
+        "off along length": float(local[0]),
+        "off along width": float(local[1]),
+        "off along thickness": float(local[2]),
+        "off the part": float(off.min() / max(around.part.box.diagonal, 1e-12)),
+        "balance": balance,
+        "round about the axis": outline.roundness,
+        "circle off the axis": min(
+            float(_distance(outline.center[None], motion)[0] / max(outline.radius, 1e-9)), MOST_RATIO
+        ),
+        "rotational misfit": _misfit(around, motion, reach) if balance < CENTRAL else MISSING,
+        "contact along the line": float(np.clip(np.ptp(contact @ axis) / length, 0, 1)),
+        "contact off the line": float(_distance(contact, motion).mean() / reach),
+        "contact middle off the line": float(_distance(contact.mean(0)[None], motion)[0] / reach),
+        "contact around the axis": _coverage(contact, motion),
+        "off the parent's border": float(beside.min() / around.diagonal) if len(beside) else MISSING,
+        "barrel near": float(any(_distance(rod.box.center[None], motion)[0] < 0.05 * reach for rod in around.slim)),
+        **_handle_place(around, motion, reach),
+    }  # fmt: skip
+
+
+def _misfit(around: Surroundings, motion: Motion, reach: float) -> float:
+    """Return how far a part is from itself, over its reach, after the turn of TURNS that suits it best: 0 for propellers."""
+    points = around.part.samples.points
+    points = points[:: max(1, len(points) // MISFIT_POINTS)]
+    turned = np.concatenate([points @ T[:3, :3].T + T[:3, 3] for T in motion.transforms(TURNS)])
+    off = around.part.tree.distance(turned).reshape(len(TURNS), -1)
+    return float(min(np.quantile(off, 0.9, axis=1).min() / reach, 1.0))
+
+
+def _coverage(points: Float[np.ndarray, "n 3"], motion: Motion) -> float:
+    """Return the share of the directions about an axis in which there are points: 1 for a ring, little for a hinge line."""
+    helper = np.eye(3)[np.abs(motion.axis).argmin()]
+    u = np.cross(motion.axis, helper)
+    v = np.cross(motion.axis, u)
+    arm = points - motion.origin
+    angle = np.arctan2(arm @ v, arm @ u)
+    return len(np.unique(np.floor(angle / (2 * np.pi) * SECTORS))) / SECTORS
+
+
+def _handle_place(around: Surroundings, motion: Motion, reach: float) -> dict[str, float]:
+    """Return how far the handle is from a line, over the part's reach, and whether a bar handle runs along it."""
+    handle = around.handle
+    if handle is None:
+        return {"handle distance": MISSING, "bar handle along": MISSING}
+    at, along = around.core.center.copy(), MISSING
+    for axis, where in zip(around.face_axes, handle.across, strict=True):
+        at += where * around.core.half[axis] * around.core.axes[axis]
+    if handle.along is not None:
+        along = abs(float(around.core.axes[around.face_axes[handle.along]] @ motion.axis))
+    return {"handle distance": min(float(_distance(at[None], motion)[0] / reach), MOST_RATIO), "bar handle along": along}
+
+
+def _distance(points: Float[np.ndarray, "n 3"], motion: Motion) -> Float[np.ndarray, " n"]:
+    """Return the distance of points from a line [m]."""
+    return np.linalg.norm(np.cross(points - motion.origin, motion.axis), axis=1)
+
+
+NO_LINE = dict.fromkeys(
+    (
+        "off along length", "off along width", "off along thickness", "off the part", "balance", "round about the axis",
+        "circle off the axis", "rotational misfit", "contact along the line", "contact off the line",
+        "contact middle off the line", "contact around the axis", "off the parent's border", "barrel near", "handle distance",
+        "bar handle along",
+    ),
+    MISSING,
+)  # fmt: skip

@@ -1,0 +1,106 @@
+"""The features of motions on scenes whose values follow by hand, and what they do not depend on."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from assets import box
+from scenes import Scene, built, case, door, drawer, lid, prism, similarity, wheel
+
+from anymesh.articulation.cases import make_cases
+from anymesh.articulation.evidence import hypotheses, part_facts
+from anymesh.articulation.motion_features import MISSING, motion_features
+from anymesh.config import Config
+from anymesh.geometry.pieces import object_shape
+from anymesh.types import Motion, MotionKind
+
+X, Y, Z = np.eye(3)
+LEFT_EDGE = Motion(MotionKind.TURN, Z, np.array([0.002, -0.012, 0.4]), "left edge")
+OUT = Motion(MotionKind.SLIDE, -Y, np.zeros(3), "out")
+
+
+def features(scene: Scene, motion: Motion, role: str = "edge", T: np.ndarray | None = None) -> list[dict[str, float]]:
+    """The features of a motion of the scene's one part, opening along its axis and against it."""
+    mesh, segmentation = built(scene)
+    whole = object_shape(mesh if T is None else mesh.transformed(T), 0, labels=segmentation.face_part)
+    (only,) = make_cases(whole, segmentation, None, Config())
+    around = only.around
+    facts = part_facts(around, "it", "part", bail=False)
+    return motion_features(around, facts, hypotheses(around, [(role, motion)]))
+
+
+def test_a_door_about_its_left_edge_and_about_its_free_edge() -> None:
+    inwards, outwards = features(door("right"), LEFT_EDGE)
+    assert outwards["opening"] > 0.9 > 0.1 > outwards["closing"]  # half turns
+    assert (inwards["opening"], inwards["closing"]) == (outwards["closing"], outwards["opening"])
+    assert outwards["outward"] == pytest.approx(1, abs=0.05)
+    assert inwards["outward"] == -outwards["outward"]
+    assert outwards["visible ahead"] > 0.95 > 0.05 > outwards["visible behind"]
+    assert inwards["visible behind"] == outwards["visible ahead"]
+    assert outwards["contact along the line"] > 0.9
+    assert outwards["hinge support"] == 1
+    assert outwards["off along width"] == pytest.approx(1, abs=0.02)
+    assert outwards["balance"] == pytest.approx(0.5, abs=0.05)
+    assert outwards["rises"] == pytest.approx(0, abs=0.02)
+    assert outwards["handle distance"] > 0.85
+    assert outwards["bar handle along"] == pytest.approx(1)
+    assert outwards["guided"] == MISSING
+    free = features(door("left"), LEFT_EDGE)[1]
+    assert free["handle distance"] < 0.15
+
+
+def test_a_lid_about_its_back_edge_rises() -> None:
+    back = Motion(MotionKind.TURN, X, np.array([0.3, 0.4, 0.301]), "back edge")
+    down, up = features(lid(), back)
+    assert up["rises"] == pytest.approx(1, abs=0.1)
+    assert up["outward"] > 0.9
+    assert down["opening"] < 0.1 < up["opening"]
+
+
+def test_a_drawer_slides_out_and_is_held() -> None:
+    out, back = features(drawer(), OUT, "slide")
+    assert out["prismatic"] == 1
+    assert out["opening"] > 1 > back["opening"]  # of its own size
+    assert out["visible ahead"] > 0.95
+    assert out["guided"] >= 0.75
+    assert out["depth"] > 1
+    assert out["rises"] == MISSING
+    assert out["upwards"] == pytest.approx(0)
+
+
+def test_a_wheel_is_round_about_its_axle_and_has_contact_all_around_it() -> None:
+    axle = Motion(MotionKind.TURN, Y, np.array([0, -0.035, 0.2]), "axle")
+    found = features(wheel(), axle, "round")[0]
+    assert found["round about the axis"] > 0.95
+    assert found["rotational misfit"] < 0.02
+    assert found["circle off the axis"] < 0.02
+    assert found["contact around the axis"] == 1
+    assert found["opening"] == found["closing"] == pytest.approx(1)
+    rim = Motion(MotionKind.TURN, Y, np.array([0.1, -0.035, 0.2]), "rim")
+    assert features(wheel(), rim)[0]["rotational misfit"] == MISSING  # far from its middle
+
+
+def test_a_square_is_itself_after_a_quarter_turn_and_a_bracket_is_not() -> None:
+    axle = Motion(MotionKind.TURN, Y, np.array([0, -0.035, 0.2]), "axle")
+    base = wheel()["base"]
+    arms = [box((-0.1, -0.05, 0.19), (0.1, -0.02, 0.21)), box((-0.1, -0.05, 0.21), (-0.08, -0.02, 0.3))]
+    bracket = {"base": base, "bracket": [*arms, box((0.08, -0.05, 0.1), (0.1, -0.02, 0.14))]}
+    square = {"base": base, "square": [box((-0.1, -0.05, 0.1), (0.1, -0.02, 0.3))]}
+    assert features(square, axle)[0]["rotational misfit"] < 0.02
+    assert features(bracket, axle)[0]["rotational misfit"] > 0.05
+
+
+def test_features_do_not_depend_on_size_place_or_heading() -> None:
+    T = similarity(90.0, (3.0, -2.0, 0.5), 7.0)
+    moved = Motion(MotionKind.TURN, Z, (T @ [*LEFT_EDGE.origin, 1])[:3], "left edge")
+    plain, other = features(door("right"), LEFT_EDGE), features(door("right"), moved, T=T)
+    for a, b in zip(plain, other, strict=True):
+        for name, value in a.items():
+            assert b[name] == pytest.approx(value, abs=0.06), name
+
+
+def test_a_knob_seen_from_its_side_is_not_round() -> None:
+    knob = {"base": case(0.4), "knob": [prism(0.05, (-0.1, 0.0), 0.3, 0.2)]}
+    across = Motion(MotionKind.TURN, X, np.array([0.3, -0.05, 0.2]), "across")
+    about = Motion(MotionKind.TURN, Y, np.array([0.3, -0.05, 0.2]), "about")
+    assert features(knob, about)[0]["round about the axis"] > 0.95 > features(knob, across)[0]["round about the axis"]
