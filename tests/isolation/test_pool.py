@@ -107,11 +107,13 @@ def test_children_end_with_the_pool_even_at_work(monkeypatch):
     assert not alive(child)
 
 
-def test_warm_children_have_the_module_and_answer(monkeypatch):
+def test_a_warm_child_has_the_module_and_answers(monkeypatch):
     monkeypatch.syspath_prepend(HERE)
     with ChildPool(2) as pool:
-        pool.warm(FAULTY)
+        for _ in range(2):  # the second time there is one
+            pool.warm(FAULTY)
         assert pool.run(FAULTY, "add", {"a": 1, "b": 2}) == 3
+        assert len({pool.run(FAULTY, "process", {}) for _ in range(3)}) == 1
 
 
 def test_an_interrupt_ends_the_children_too(tmp_path):

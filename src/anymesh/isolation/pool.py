@@ -74,7 +74,7 @@ class ChildPool:
         kept = None
         try:
             if child is None:
-                child = self._started()
+                child = self._started(module)
             kind, result = child.call((module, function, dict(arguments), limit), limit)
             kept = child
         finally:
@@ -86,13 +86,15 @@ class ChildPool:
         return result
 
     def warm(self, module: str) -> None:
-        """Start the children that are missing and let them import a module; does not wait for that."""
-        waiting = [self._idle.get() for _ in range(self._idle.qsize())]
-        for child in waiting:
+        """Start one child, if none is idle, and let it import a module; does not wait for that. It answers the next call."""
+        idle = [self._idle.get() for _ in range(self._idle.qsize())]  # the last one first
+        for child in reversed(idle[1:]):
+            self._idle.put(child)
+        if idle:
+            ready = idle[0]
             with contextlib.suppress(ChildError):  # the next call tries again, and tells
-                self._idle.put(child or self._started(module))
-                continue
-            self._idle.put(None)
+                ready = ready or self._started(module)
+            self._idle.put(ready)
 
     def close(self) -> None:
         """End all children, whatever they are at."""
@@ -100,7 +102,7 @@ class ChildPool:
         for child in list(self._live):
             self._end(child)
 
-    def _started(self, module: str = "") -> _Child:
+    def _started(self, module: str) -> _Child:
         if self._closed:
             raise ChildError(Failure.ERROR, "the pool is closed")
         child = _Child(self.limits.memory, module)
