@@ -20,6 +20,7 @@ from anymesh.types import Shape
 DIGITS = 30  # binary, of the coordinates of a component, so that copies at different places become equal
 TINY = 1e-12  # [m] least size of a component
 BATCH_FACES = 2000  # of small components that one call takes together
+ONE_BY_ONE = 64  # components up to which each has a call of its own, so that the children share the slow ones
 
 
 @dataclass(frozen=True)
@@ -113,9 +114,9 @@ def divide_here(batch: list[tuple[Component, Fineness]], method: Method) -> list
 
 
 def _batches(sizes: Sequence[int]) -> list[range]:
-    """Consecutive numbers whose sizes add up to about BATCH_FACES; a larger one is by itself."""
-    if not sizes:
-        return []
+    """Consecutive numbers whose sizes add up to about BATCH_FACES; a larger one is by itself, and so are few."""
+    if len(sizes) <= ONE_BY_ONE:
+        return [range(k, k + 1) for k in range(len(sizes))]
     total = np.cumsum(np.minimum(sizes, BATCH_FACES))
     ends = np.flatnonzero(np.diff(total // BATCH_FACES)) + 1
     return [range(int(a), int(b)) for a, b in pairwise([0, *ends, len(sizes)])]
