@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Generator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -281,13 +282,14 @@ def _join(
 def _export(run: RunFolder, how: Exported, deadline: Deadline, progress: Progress) -> Asset:
     progress("export", "files", 0, 2)
     asset = run.asset()
-    with _timed(run, "export"):
+    with _timed(run, "export"), ThreadPoolExecutor(1) as aside:
+        picture = aside.submit(write_preview, asset, run.folder / "preview.png")  # while children divide components
         model = write_asset(
             asset, run.folder, base=how.base, formats=how.formats, driven=how.driven, cache=cache_folder("shapes"),
             deadline=deadline,
         )  # fmt: skip
         progress("export", "preview", 1, 2)
-        write_preview(asset, run.folder / "preview.png")
+        picture.result()
     return replace(asset, warnings=model.asset.warnings, timing=run.timing())
 
 
