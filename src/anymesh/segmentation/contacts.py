@@ -10,7 +10,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from anymesh.config import SegmentationConfig
-from anymesh.geometry.boxes import alike, box_pairs
+from anymesh.geometry.boxes import alike, box_pairs, within
 from anymesh.geometry.dominators import immediate_dominators
 from anymesh.geometry.pieces import ObjectShape
 from anymesh.geometry.shape import Shape
@@ -137,8 +137,7 @@ def _goes_on(a: Shape, b: Shape) -> bool:
 def _touching(a: Shape, b: Shape, tolerance: float) -> float:
     """Area of a within the tolerance of b [m^2]."""
     samples = a.samples.points[::3]
-    near = ((samples >= b.bounds[0] - tolerance) & (samples <= b.bounds[1] + tolerance)).all(1)
-    gap = b.tree.distance(samples[near])
+    gap = b.tree.distance(samples[within(samples, b.bounds[0] - tolerance, b.bounds[1] + tolerance)])
     return a.area * float((gap < tolerance).sum()) / max(len(samples), 1)
 
 
@@ -164,7 +163,7 @@ def coplanar(contacts: Contacts, whole: ObjectShape, tolerance: float) -> list[t
 def _gap(a: Shape, b: Shape, reach: float) -> float:
     """Smallest distance of a's corners and samples, as far as they lie in b's box, to b [m]."""
     low, high = b.bounds[0] - reach, b.bounds[1] + reach
-    points = [p[((p >= low) & (p <= high)).all(1)] for p in (a.corners, a.samples.points)]
+    points = [p[within(p, low, high)] for p in (a.corners, a.samples.points)]
     points = [p[:: max(1, len(p) // PROBES)] for p in points]
     probe = np.concatenate(points)
     return float(b.tree.distance(probe).min()) if len(probe) else np.inf
