@@ -97,7 +97,7 @@ class ChildPool:
         self._give_back(child)
 
     def _free_child(self) -> _Child | None:
-        """Wait for a child that is idle, or None where one is to be started: the first at once, others when calls have waited."""
+        """Wait for an idle child; return None where one is to be started: the first at once, others when calls have waited."""
         with self._changed:
             while not self._idle:
                 if self._room and (self._room == self.size or self._waited >= START_AFTER):
