@@ -1,4 +1,4 @@
-"""Wall time, processor time, peak memory and the time of each stage on synthetic objects with more and more faces or components.
+"""Times, peak memory and the time of each stage on synthetic objects with more and more faces or components.
 
 python benchmarks/speed.py [NAME[:SIZE,...] ...]      writes benchmarks/speed.md
 
@@ -124,7 +124,9 @@ def write(lines: list[str]) -> None:
         f"children. Load average of the machine at the end: {os.getloadavg()[1]:.1f}; above the number of cores, others worked "
         "on it too, and both times are longer than on a quiet one.",
         "",
-        "| object | size | faces | joints | wall [s] | cpu [s] | peak [GiB] | load [s] | segment [s] | joints [s] | export [s] |",
+        "| object | size | faces | joints | wall [s] | cpu [s] | peak [GiB] | "
+        + " | ".join(f"{stage} [s]" for stage in STAGES)
+        + " |",
         "|---|---|---|---|---|---|---|---|---|---|---|",
     ]
     (HERE / "speed.md").write_text("\n".join([*head, *lines, ""]), encoding="utf-8")
