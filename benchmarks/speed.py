@@ -1,9 +1,9 @@
-"""Wall time, peak memory and the time of each stage on synthetic objects with more and more faces or components.
+"""Times, peak memory and the time of each stage on synthetic objects with more and more faces or components.
 
 python benchmarks/speed.py [NAME[:SIZE,...] ...]      writes benchmarks/speed.md
 
 Names: pot (by faces), boards, chandelier and shelf (by connected components), see speed_scenes.py. The slope is that of
-a line fitted to log(time) over log(size), sizes below a tenth of the largest left out: 1 is linear.
+a line fitted to log(processor time) over log(size), sizes below a tenth of the largest left out: 1 is linear.
 """
 
 from __future__ import annotations
@@ -42,6 +42,7 @@ class Run:
     faces: int
     joints: int
     wall: float
+    cpu: float
     peak: float
     stages: tuple[float, ...]
 
@@ -49,7 +50,8 @@ class Run:
     def row(self) -> str:
         """One row of the table."""
         stages = " | ".join(f"{s:.1f}" for s in self.stages)
-        return f"| {self.name} | {self.size} | {self.faces} | {self.joints} | {self.wall:.1f} | {self.peak:.2f} | {stages} |"
+        seconds = f"{self.wall:.1f} | {self.cpu:.1f} | {self.peak:.2f}"
+        return f"| {self.name} | {self.size} | {self.faces} | {self.joints} | {seconds} | {stages} |"
 
 
 def timed(name: str, size: int, byte_code: Path) -> Run:
@@ -74,15 +76,15 @@ def timed(name: str, size: int, byte_code: Path) -> Run:
         seconds = json.loads((out / "timing.json").read_text())
         joints = len(json.loads((out / "asset.json").read_text())["joints"])
     stages = tuple(float(seconds.get(s, 0)) for s in STAGES)
-    return Run(name, size, len(mesh.faces), joints, wall, usage.ru_maxrss / 2**20, stages)
+    return Run(name, size, len(mesh.faces), joints, wall, usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 2**20, stages)
 
 
 def slope(runs: list[Run]) -> float:
-    """Return the exponent of the growth of time with size, NaN for fewer than two sizes."""
+    """Return the exponent of the growth of processor time with size, NaN for fewer than two sizes."""
     tail = [r for r in runs if r.size >= TAIL * runs[-1].size]
     if len(tail) < 2:
         return float("nan")
-    return float(np.polyfit(np.log([r.size for r in tail]), np.log([r.wall for r in tail]), 1)[0])
+    return float(np.polyfit(np.log([r.size for r in tail]), np.log([r.cpu for r in tail]), 1)[0])
 
 
 def requested(arguments: list[str]) -> Iterator[tuple[str, tuple[int, ...]]]:
@@ -105,7 +107,7 @@ def main() -> None:
                 runs.append(timed(name, size, Path(byte_code)))
                 print(runs[-1].row, flush=True)
                 write([*lines, *(r.row for r in runs)])
-            lines += [r.row for r in runs] + [f"| {name} | slope | | | {slope(runs):.2f} | | | | | |"]
+            lines += [r.row for r in runs] + [f"| {name} | slope | | | {slope(runs):.2f} | | | | | | |"]
             print(lines[-1], flush=True)
             write(lines)
 
@@ -118,10 +120,14 @@ def write(lines: list[str]) -> None:
         f"`python benchmarks/speed.py {' '.join(sys.argv[1:])}`, {datetime.date.today()}, "
         f"version {version('articulate-anymesh')}, Python {platform.python_version()}, {os.cpu_count()} cores. Synthetic "
         "objects of `speed_scenes.py`; size: faces asked for (pot), connected components (the others). Slope: exponent of "
-        "the growth of the wall time with the size, over the largest tenfold.",
+        "the growth of the processor time with the size, over the largest tenfold. cpu: processor time of the process and its "
+        f"children. Load average of the machine at the end: {os.getloadavg()[1]:.1f}; above the number of cores, others worked "
+        "on it too, and both times are longer than on a quiet one.",
         "",
-        "| object | size | faces | joints | wall [s] | peak [GiB] | load [s] | segment [s] | joints [s] | export [s] |",
-        "|---|---|---|---|---|---|---|---|---|---|",
+        "| object | size | faces | joints | wall [s] | cpu [s] | peak [GiB] | "
+        + " | ".join(f"{stage} [s]" for stage in STAGES)
+        + " |",
+        "|---|---|---|---|---|---|---|---|---|---|---|",
     ]
     (HERE / "speed.md").write_text("\n".join([*head, *lines, ""]), encoding="utf-8")
 

@@ -53,7 +53,8 @@ def test_each_protocol_gets_a_box_right(protocol: str, tmp_path: Path) -> None:
 
 
 def test_a_change_and_an_oracle_have_their_rows(tmp_path: Path) -> None:
-    records = evaluate(SET, tmp_path, protocol="parts", only=["valve"], changes=["none", "turned"], answerer="oracle", jobs=1)
+    records = evaluate(SET, tmp_path, protocol="parts", only=["valve"], changes=["none", "turned"], answerer="oracle",
+                       viewpoints="4@15+30,1@50+30", jobs=1)  # fmt: skip
     assert [r.change for r in records] == ["none", "turned"]
     assert all(j.type_right and (j.angle or 0) < 1 for r in records for j in r.score.joints)
 

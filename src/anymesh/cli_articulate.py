@@ -79,7 +79,7 @@ def articulate(
     quiet: Quiet = False,
 ) -> None:
     """The whole job: MESH to an articulated asset in DIR; with --batch, each of many to a folder of its name in DIR."""
-    shared_pool().warm(DECOMPOSER)  # the children import while this process does
+    shared_pool().warm(DECOMPOSER)  # the child imports while this process does
     from anymesh import pipeline
 
     answerer = chosen_answerer(answerer, quiet or json_)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Generator
+from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -30,6 +31,7 @@ from anymesh.stopped_run import kept_transcript
 from anymesh.types import Asset, Joint, Segmentation, Source
 
 Result = TypeVar("Result", Recognized, Segmented, Jointed)
+ASIDE = 500_000  # faces up to which the preview is drawn beside the files; with more, both together take too much memory
 
 
 def articulate(
@@ -281,13 +283,18 @@ def _join(
 def _export(run: RunFolder, how: Exported, deadline: Deadline, progress: Progress) -> Asset:
     progress("export", "files", 0, 2)
     asset = run.asset()
-    with _timed(run, "export"):
+    with _timed(run, "export"), ThreadPoolExecutor(1) as aside:
+
+        def draw() -> Future[None]:
+            return aside.submit(write_preview, asset, run.folder / "preview.png")
+
+        picture = draw() if len(asset.mesh.faces) <= ASIDE else None  # while children divide components
         model = write_asset(
             asset, run.folder, base=how.base, formats=how.formats, driven=how.driven, cache=cache_folder("shapes"),
             deadline=deadline,
         )  # fmt: skip
         progress("export", "preview", 1, 2)
-        write_preview(asset, run.folder / "preview.png")
+        (picture or draw()).result()
     return replace(asset, warnings=model.asset.warnings, timing=run.timing())
 
 

@@ -41,9 +41,10 @@ class FakePool(ChildPool):
 
     def __init__(self, *failing: Method, failure: Failure = Failure.CRASH) -> None:
         super().__init__(2)
-        self.failing, self.failure, self.calls = failing, failure, []
+        self.failing, self.failure, self.calls, self.seconds = failing, failure, [], []
 
     def run(self, module, function, arguments, *, seconds):
+        self.seconds.append(seconds)
         self.calls.append((arguments["method"], len(arguments["batch"])))
         if arguments["method"] in self.failing:
             raise ChildError(self.failure, "signal 11")
@@ -113,6 +114,22 @@ def test_copies_are_divided_once():
     assert pool.calls == [(Method.CUTS, 1)]
     for a, b in zip(one.shapes, other.shapes, strict=True):
         np.testing.assert_allclose(as_hull(a).vertices + shift, as_hull(b).vertices, atol=1e-8)
+
+
+def test_a_few_components_are_shared_out_one_by_one_and_many_in_batches():
+    few, many = FakePool(), FakePool()
+    for pool, count in ((few, 20), (many, 200)):
+        boxes = [Component(triangles(box((0, 0, 0), (1, 2, 3 + k))), True) for k in range(count)]
+        assert len(Decomposer(pool, None, 30.0).divide(boxes, [FINE] * count)) == count
+    assert few.calls == [(Method.CUTS, 1)] * 20
+    assert len(many.calls) < 5
+
+
+def test_a_dense_component_gets_time_to_be_simplified():
+    pool, fine = FakePool(), triangles(*[box((0, 0, k), (1, 1, k + 1)) for k in range(1000)])
+    Decomposer(pool, None, 5.0).divide([bracket(), Component(fine, False)], [FINE, FINE])
+    assert pool.seconds[0] == pytest.approx(5.0, abs=0.01)
+    assert pool.seconds[1] == pytest.approx(5.0 + 2e-5 * len(fine))
 
 
 def test_cleaning_removes_slivers_and_double_faces_alone():

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from rigid import apply, move, shape_of
 from scipy.spatial.transform import Rotation
 
-from anymesh.geometry.boxes import box_in_frame, dominant_normals, fit_box
+from anymesh.geometry.boxes import box_in_frame, dominant_normals, fit_box, within
 from anymesh.geometry.circles import fit_circle, outline_about, roundest
 
 SIZE = np.array([0.3, 2.0, 0.9])
@@ -117,3 +117,10 @@ def test_a_wheel_with_a_grip_keeps_its_center_and_a_square_is_not_round():
     assert 0.9 < found.roundness < 1
     square = rim / np.abs(rim).max(1, keepdims=True)
     assert outline_about(square, np.array([0.0, 0, 1])).roundness < 0.6
+
+
+def test_within_tells_what_lies_in_a_box_borders_included():
+    points = np.random.default_rng(0).integers(-3, 4, (200, 3)).astype(float)
+    low, high = np.array([-1.0, -2.0, 0.0]), np.array([2.0, 2.0, 3.0])
+    np.testing.assert_array_equal(within(points, low, high), ((points >= low) & (points <= high)).all(1))
+    assert within(points[:0], low, high).shape == (0,)

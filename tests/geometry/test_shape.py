@@ -8,7 +8,8 @@ from rigid import apply, move, shape_of
 
 from anymesh.config import PiecesConfig
 from anymesh.geometry.pieces import object_shape
-from anymesh.geometry.shape import surface_of
+from anymesh.geometry.shape import Shape, surface_of
+from anymesh.types.triangles import normals_and_areas
 
 
 def outwardness(shape) -> np.ndarray:
@@ -81,3 +82,21 @@ def test_a_dense_mesh_is_asked_about_in_fewer_faces_of_the_same_pieces():
     for k in range(2):
         assert (outwardness(found.of(np.flatnonzero(found.piece == k))) > 0).all()
     np.testing.assert_array_equal(mesh.vertices, before)
+
+
+def test_shapes_taken_from_a_prepared_one_are_as_if_made_alone() -> None:
+    rng = np.random.default_rng(3)
+    vertices = np.round(rng.random((60, 3)), 2)
+    triangles = vertices[rng.integers(0, 60, (200, 3))]
+    plain = Shape(triangles, normals_and_areas(triangles)[0], np.zeros(200, bool), np.arange(200))
+    ready = plain.prepared()
+    origins, directions = rng.random((500, 3)) * 2 - 0.5, rng.normal(size=(500, 3))
+    for index in (np.arange(200), np.arange(30, 90, 2), np.array([5])):
+        alone, taken = plain.take(index), ready.take(index).take(np.arange(len(index)))
+        for name in ("corners", "areas", "bounds"):
+            np.testing.assert_array_equal(getattr(taken, name), getattr(alone, name))
+        np.testing.assert_array_equal(taken.samples.points, alone.samples.points)
+        np.testing.assert_array_equal(taken.samples.normals, alone.samples.normals)
+        one, other = (s.scene.first_hit(origins, directions) for s in (alone, taken))
+        np.testing.assert_array_equal(other.face, one.face)
+        np.testing.assert_array_equal(other.distance, one.distance)

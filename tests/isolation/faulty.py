@@ -38,6 +38,11 @@ def process() -> int:
     return os.getpid()
 
 
+def rest(seconds: float) -> int:
+    time.sleep(seconds)
+    return os.getpid()
+
+
 def threads() -> str:
     return os.environ["OMP_NUM_THREADS"]
 

@@ -107,11 +107,20 @@ def test_children_end_with_the_pool_even_at_work(monkeypatch):
     assert not alive(child)
 
 
-def test_warm_children_have_the_module_and_answer(monkeypatch):
+def test_a_warm_child_has_the_module_and_answers(monkeypatch):
     monkeypatch.syspath_prepend(HERE)
     with ChildPool(2) as pool:
-        pool.warm(FAULTY)
+        for _ in range(2):  # the second time there is one
+            pool.warm(FAULTY)
         assert pool.run(FAULTY, "add", {"a": 1, "b": 2}) == 3
+        assert len({pool.run(FAULTY, "process", {}) for _ in range(3)}) == 1
+
+
+def test_further_children_are_started_when_calls_wait_long(monkeypatch):
+    monkeypatch.syspath_prepend(HERE)
+    with ChildPool(2) as pool, ThreadPoolExecutor(2) as threads:
+        assert len({pool.run(FAULTY, "process", {}) for _ in range(5)}) == 1
+        assert len({*threads.map(lambda _: pool.run(FAULTY, "rest", {"seconds": 0.4}), range(8))}) == 2
 
 
 def test_an_interrupt_ends_the_children_too(tmp_path):

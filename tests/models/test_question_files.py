@@ -25,7 +25,7 @@ from anymesh.reasoning.saved_question import unpack_question
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 MESH = EXAMPLES / "meshes" / "storage_box.glb"
-FEW = partial(Config, grounding=GroundingConfig(points=40_000), views=ViewsConfig(size=320))  # faster, and as good here
+FEW = partial(Config, grounding=GroundingConfig(points=8_000), views=ViewsConfig(size=240))  # faster, and as good here
 
 
 @pytest.fixture

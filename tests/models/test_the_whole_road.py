@@ -22,7 +22,7 @@ from anymesh.solving import Solver
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 NAME = "storage_box"
-FEW = partial(Config, grounding=GroundingConfig(points=40_000), views=ViewsConfig(size=320))  # faster, and as good here
+FEW = partial(Config, grounding=GroundingConfig(points=8_000), views=ViewsConfig(size=240))  # faster, and as good here
 Said = dict[str, tuple[str, str]]  # question -> its kind and the answer
 
 

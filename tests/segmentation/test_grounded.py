@@ -21,7 +21,7 @@ from anymesh.types import Mesh, Segmentation
 from anymesh.types.recognition import Recognition, RecognizedLabel
 
 TRUTHS = {t.name: t for t in example_truths(Path(__file__).parents[2] / "examples")}
-FEW, VIEWS = GroundingConfig(points=60_000), ViewsConfig(size=320)
+FEW, VIEWS = GroundingConfig(points=20_000), ViewsConfig(size=320)
 
 
 def found_in(name: str, proposer: str = "exact") -> tuple[Truth, Mesh, Segmented]:

@@ -20,6 +20,8 @@ from anymesh.types import Shape
 DIGITS = 30  # binary, of the coordinates of a component, so that copies at different places become equal
 TINY = 1e-12  # [m] least size of a component
 BATCH_FACES = 2000  # of small components that one call takes together
+PER_FACE = 2e-5  # [s] added to the limit of a call for every face: simplifying millions takes longer than dividing what is left
+ONE_BY_ONE = 64  # components up to which each has a call of its own, so that the children share the slow ones
 
 
 @dataclass(frozen=True)
@@ -40,7 +42,8 @@ class Divided:
 
 @dataclass(frozen=True, eq=False)
 class Decomposer:
-    """Divides components in the children of a pool; what it found is kept in `cache` by content. seconds: per call [s]."""
+    """Divides components in the children of a pool; what it found is kept in `cache` by content. seconds: of processor time per
+    call [s], and PER_FACE more for every face."""
 
     pool: ChildPool
     cache: Path | None
@@ -97,7 +100,8 @@ class Decomposer:
 
     def _call(self, batch: list[tuple[Component, Fineness]], method: Method) -> list[tuple[Shape, ...]]:
         arguments = {"batch": batch, "method": method}
-        return self.pool.run(DECOMPOSER, "divide_here", arguments, seconds=self.seconds)
+        seconds = self.seconds + PER_FACE * sum(len(component.triangles) for component, _ in batch)
+        return self.pool.run(DECOMPOSER, "divide_here", arguments, seconds=seconds)
 
 
 def _at_origin(component: Component, corner: np.ndarray) -> Component:
@@ -113,9 +117,9 @@ def divide_here(batch: list[tuple[Component, Fineness]], method: Method) -> list
 
 
 def _batches(sizes: Sequence[int]) -> list[range]:
-    """Consecutive numbers whose sizes add up to about BATCH_FACES; a larger one is by itself."""
-    if not sizes:
-        return []
+    """Consecutive numbers whose sizes add up to about BATCH_FACES; a larger one is by itself, and so are few."""
+    if len(sizes) <= ONE_BY_ONE:
+        return [range(k, k + 1) for k in range(len(sizes))]
     total = np.cumsum(np.minimum(sizes, BATCH_FACES))
     ends = np.flatnonzero(np.diff(total // BATCH_FACES)) + 1
     return [range(int(a), int(b)) for a, b in pairwise([0, *ends, len(sizes)])]

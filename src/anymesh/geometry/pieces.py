@@ -59,7 +59,7 @@ def object_shape(
     group = piece if labels is None else piece * (int(labels.max()) + 1) + labels
     shape, source = _simplified(s.shape, s.parts.flip[s.parts.label] & ~s.void[s.parts.label], group, config)
     fronts = np.flatnonzero(np.bincount(piece, np.where(told, s.shape.areas, -s.shape.areas)) > 0)
-    return ObjectShape(shape, piece[source], source, piece, shared, fronts, s.diagonal)
+    return ObjectShape(shape.prepared(), piece[source], source, piece, shared, fronts, s.diagonal)
 
 
 def _simplified(

@@ -40,15 +40,22 @@ def sample_surface(triangles: Float[np.ndarray, "F 3 3"], count: int, seed: int,
     small faces are seen too.
     """
     normals, areas = normals_and_areas(triangles)
+    points, index = spread_points(triangles, areas, count, seed)
+    if at_least:
+        unseen = np.setdiff1d(np.flatnonzero(areas > 0), index)
+        points = np.concatenate([points, triangles[unseen].mean(1)])
+        index = np.concatenate([index, unseen])
+    return SurfacePoints(points, normals[index], index)
+
+
+def spread_points(
+    triangles: Float[np.ndarray, "F 3 3"], areas: Float[np.ndarray, " F"], count: int, seed: int
+) -> tuple[Float[np.ndarray, "n 3"], Int[np.ndarray, " n"]]:
+    """Return the points of `sample_surface` and the face of each, where the areas of the faces are known."""
     rng = np.random.default_rng(seed)
     weights = areas if (areas > 0).any() else np.ones(len(areas))
     ticks = (np.arange(count if len(areas) else 0) + rng.random()) / count * weights.sum()
     index = np.minimum(np.searchsorted(np.cumsum(weights), ticks), len(areas) - 1)
     r1, r2 = np.sqrt(rng.random(len(index))), rng.random(len(index))
     t = triangles[index]
-    points = (1 - r1)[:, None] * t[:, 0] + (r1 * (1 - r2))[:, None] * t[:, 1] + (r1 * r2)[:, None] * t[:, 2]
-    if at_least:
-        unseen = np.setdiff1d(np.flatnonzero(areas > 0), index)
-        points = np.concatenate([points, triangles[unseen].mean(1)])
-        index = np.concatenate([index, unseen])
-    return SurfacePoints(points, normals[index], index)
+    return (1 - r1)[:, None] * t[:, 0] + (r1 * (1 - r2))[:, None] * t[:, 1] + (r1 * r2)[:, None] * t[:, 2], index

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -10,13 +10,43 @@ from jaxtyping import Bool, Float, Int
 
 from anymesh.geometry.boxes import Box, fit_box
 from anymesh.geometry.distance_ import TriangleTree, winding_number
-from anymesh.geometry.sampling import SurfacePoints, sample_surface
+from anymesh.geometry.sampling import SurfacePoints, spread_points
 from anymesh.geometry.topology import Components, components
 from anymesh.rendering.raycast_ import RayScene
 from anymesh.types import Mesh
-from anymesh.types.triangles import normals_and_areas
+from anymesh.types.triangles import bounds_of, normals_and_areas
 
 SAMPLES = 3000  # surface points a shape; enough for a share of 1 % to be 30 points
+
+
+@dataclass(frozen=True, eq=False)
+class KnownFaces:
+    """What is computed once for a shape and all that are taken from it.
+
+    positions: (V, 3) distinct corner positions in lexical order, also of faces that were not taken [m]; corner: (F, 3) the
+    position of each corner; areas: (F,) [m^2].
+    """
+
+    positions: Float[np.ndarray, "V 3"]
+    corner: Int[np.ndarray, "F 3"]
+    areas: Float[np.ndarray, " F"]
+
+    @classmethod
+    def of(cls, triangles: Float[np.ndarray, "F 3 3"]) -> KnownFaces:
+        """Of the faces of a whole object."""
+        positions, corner = np.unique(triangles.reshape(-1, 3), axis=0, return_inverse=True)
+        return cls(positions, corner.reshape(-1, 3), normals_and_areas(triangles)[1])
+
+    def take(self, index: np.ndarray) -> KnownFaces:
+        """Of some of the faces."""
+        return KnownFaces(self.positions, self.corner[index], self.areas[index])
+
+    @cached_property
+    def compact(self) -> tuple[Float[np.ndarray, "n 3"], Int[np.ndarray, "F 3"]]:
+        """The positions that these faces have, in lexical order, and the faces as indices of them."""
+        used = np.zeros(len(self.positions), bool)
+        used[self.corner.reshape(-1)] = True
+        return self.positions[used], (np.cumsum(used) - 1)[self.corner]
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,11 +62,12 @@ class Shape:
     solid: Bool[np.ndarray, " F"]
     faces: Int[np.ndarray, " F"]
     seed: int = 0
+    known: KnownFaces | None = None
 
     @cached_property
     def areas(self) -> Float[np.ndarray, " F"]:
         """Area of every face [m^2]."""
-        return normals_and_areas(self.triangles)[1]
+        return normals_and_areas(self.triangles)[1] if self.known is None else self.known.areas
 
     @cached_property
     def lowest(self) -> Float[np.ndarray, "F 3"]:
@@ -58,19 +89,21 @@ class Shape:
     @cached_property
     def scene(self) -> RayScene:
         """For casting rays at these triangles."""
+        if self.known is not None:
+            return RayScene(*self.known.compact)
         corners = self.triangles.reshape(-1, 3)
         return RayScene(corners, np.arange(len(corners)).reshape(-1, 3))
 
     @cached_property
     def corners(self) -> Float[np.ndarray, "n 3"]:
         """The distinct corner positions."""
-        return np.unique(self.triangles.reshape(-1, 3), axis=0)
+        return np.unique(self.triangles.reshape(-1, 3), axis=0) if self.known is None else self.known.compact[0]
 
     @cached_property
     def samples(self) -> SurfacePoints:
         """Points spread evenly by area, with outward normals."""
-        s = sample_surface(self.triangles, SAMPLES, self.seed)
-        return SurfacePoints(s.points, self.normals[s.faces], s.faces)
+        points, faces = spread_points(self.triangles, self.areas, SAMPLES, self.seed)
+        return SurfacePoints(points, self.normals[faces], faces)
 
     @cached_property
     def box(self) -> Box:
@@ -80,8 +113,7 @@ class Shape:
     @cached_property
     def bounds(self) -> Float[np.ndarray, "2 3"]:
         """Axis-aligned bounds [m]."""
-        corners = self.triangles.reshape(-1, 3)
-        return np.array([corners.min(0), corners.max(0)])
+        return bounds_of(self.triangles.reshape(-1, 3))
 
     @property
     def area(self) -> float:
@@ -96,7 +128,12 @@ class Shape:
 
     def take(self, index: np.ndarray) -> Shape:
         """The shape of some of the faces (index into this shape, or a mask)."""
-        return Shape(self.triangles[index], self.normals[index], self.solid[index], self.faces[index], self.seed)
+        known = None if self.known is None else self.known.take(index)
+        return Shape(self.triangles[index], self.normals[index], self.solid[index], self.faces[index], self.seed, known)
+
+    def prepared(self) -> Shape:
+        """The same shape, for taking many others from it."""
+        return replace(self, known=KnownFaces.of(self.triangles))
 
 
 @dataclass(frozen=True, eq=False)

@@ -2,6 +2,6 @@
 
 from anymesh.isolation.pool import ChildError, ChildLimits, ChildPool, Failure, shared_pool
 
-DECOMPOSER = "anymesh.collision.decomposer"  # the module that children are warmed with
+DECOMPOSER = "anymesh.collision.decomposer"  # the module that children import
 
 __all__ = ["DECOMPOSER", "ChildError", "ChildLimits", "ChildPool", "Failure", "shared_pool"]

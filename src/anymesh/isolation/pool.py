@@ -6,11 +6,11 @@ import atexit
 import contextlib
 import os
 import pickle
-import queue
 import signal
 import subprocess
 import sys
 import threading
+import time
 from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
@@ -19,6 +19,7 @@ from typing import Any
 
 from anymesh.isolation.child import LENGTH, PATIENCE, write_message
 
+START_AFTER = 0.3  # [s] calls wait in all before another child is started, which takes as much
 ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")  # results must not depend on the cores
 
 
@@ -57,9 +58,10 @@ class ChildPool:
 
     def __init__(self, size: int | None = None, limits: ChildLimits = ChildLimits()) -> None:
         self.size, self.limits = size or os.cpu_count() or 1, limits
-        self._idle: queue.LifoQueue[_Child | None] = queue.LifoQueue()
-        for _ in range(self.size):
-            self._idle.put(None)
+        self._idle: list[_Child] = []
+        self._room = self.size  # children that may still be started
+        self._waited = 0.0  # [s] by all calls
+        self._changed = threading.Condition()
         self._live: set[_Child] = set()
         self._closed = False
 
@@ -70,29 +72,50 @@ class ChildPool:
         ChildError, after which the next call gets a fresh child.
         """
         limit = min(self.limits.seconds, seconds) if seconds is not None else self.limits.seconds
-        child = self._idle.get()
-        kept = None
+        child, kept = self._free_child(), None
         try:
-            if child is None:
-                child = self._started()
+            child = child or self._started(module)
             kind, result = child.call((module, function, dict(arguments), limit), limit)
             kept = child
         finally:
             if kept is None and child is not None:
                 self._end(child)
-            self._idle.put(kept)
+            self._give_back(kept)
         if kind != "done":
             raise ChildError(Failure.MEMORY if kind == "memory" else Failure.ERROR, result)
         return result
 
     def warm(self, module: str) -> None:
-        """Start the children that are missing and let them import a module; does not wait for that."""
-        waiting = [self._idle.get() for _ in range(self._idle.qsize())]
-        for child in waiting:
-            with contextlib.suppress(ChildError):  # the next call tries again, and tells
-                self._idle.put(child or self._started(module))
-                continue
-            self._idle.put(None)
+        """Start one child, if there is none, and let it import a module; does not wait for that."""
+        with self._changed:
+            if self._room < self.size:
+                return
+            self._room -= 1
+        child = None
+        with contextlib.suppress(ChildError):  # the next call tries again, and tells
+            child = self._started(module)
+        self._give_back(child)
+
+    def _free_child(self) -> _Child | None:
+        """Wait for an idle child; return None where one is to be started: the first at once, others when calls have waited."""
+        with self._changed:
+            while not self._idle:
+                if self._room and (self._room == self.size or self._waited >= START_AFTER):
+                    self._room -= 1
+                    return None
+                begin = time.monotonic()
+                self._changed.wait(START_AFTER - self._waited if self._room else None)
+                self._waited += time.monotonic() - begin
+            return self._idle.pop()
+
+    def _give_back(self, child: _Child | None) -> None:
+        """Let the next call have a child, or the place of one that ended."""
+        with self._changed:
+            if child is None:
+                self._room += 1
+            else:
+                self._idle.append(child)
+            self._changed.notify()
 
     def close(self) -> None:
         """End all children, whatever they are at."""
@@ -100,7 +123,7 @@ class ChildPool:
         for child in list(self._live):
             self._end(child)
 
-    def _started(self, module: str = "") -> _Child:
+    def _started(self, module: str) -> _Child:
         if self._closed:
             raise ChildError(Failure.ERROR, "the pool is closed")
         child = _Child(self.limits.memory, module)

@@ -10,6 +10,7 @@ import numpy as np
 from jaxtyping import Float, Float32, Int, Int32
 
 from anymesh.errors import MissingExtraError
+from anymesh.types.triangles import bounds_of
 
 FAR = 1e30  # distance that stands for endless, in lengths of the ray's direction
 
@@ -70,7 +71,7 @@ class RayScene:
             from embreex.rtcore_scene import EmbreeScene  # ty: ignore[import-not-found]
         except ImportError:
             raise MissingExtraError("embreex is missing; it comes with articulate-anymesh, install that again") from None
-        low, high = vertices.min(0), vertices.max(0)
+        low, high = bounds_of(vertices)
         self.center, self.scale = (low + high) / 2, 1.0 / (float((high - low).max()) or 1.0)
         self.unit_half = ((high - low) / 2 * self.scale).astype(np.float32)  # half sides of the bounds in the unit frame
         self._scene = EmbreeScene(_device())

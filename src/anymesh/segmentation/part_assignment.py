@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 from jaxtyping import Bool, Float
-from scipy.optimize import Bounds, LinearConstraint, milp
 from scipy.sparse import csr_array
 
 from anymesh.segmentation.part_tree import Overlap
@@ -29,6 +28,8 @@ def assign_parts(overlap: Overlap, score: Float[np.ndarray, " n"]) -> list[int]:
     first, second = np.nonzero(np.triu(conflicts(overlap)[np.ix_(likely, likely)]))
     if len(first) == 0:
         return [int(k) for k in likely]
+    from scipy.optimize import Bounds, LinearConstraint, milp  # takes 0.1 s to import
+
     row = np.arange(len(first)).repeat(2)
     pairs = csr_array((np.ones(len(row)), (row, np.stack([first, second], 1).reshape(-1))), (len(first), len(likely)))
     found = milp(
