@@ -27,7 +27,7 @@ Context = Callable[[int, Scores], Float[np.ndarray, "n c"]]  # of a sample, from
 
 @dataclass(frozen=True, eq=False)
 class Sample:
-    """The candidates of one choice. target: (n,) 1 right, 0 wrong, or between; NaN not trained on; weight: of each candidate."""
+    """The candidates of one choice. target: (n,) 1 right to 0 wrong, NaN not trained on; weight: of each candidate."""
 
     source: str
     kind: str

@@ -6,12 +6,12 @@ import pytest
 from anymesh.articulation.motion_context import ScoredMotions, context_features, in_one_manner
 
 X, Y, Z = np.eye(3)
-NAMES = ("prismatic", "role", "vertical", "outward", "above")
+NAMES = ("prismatic", "balance", "vertical", "outward", "above")
 
 
 def motions(*rows: tuple[np.ndarray, bool, float, float, float]) -> ScoredMotions:
     """Axis, whether it slides, cosine with the opening direction, place between lowest -1 and highest 1, score of each."""
-    table = np.array([[slides, 0.0, abs(axis[2]), outward, above] for axis, slides, outward, above, _ in rows])
+    table = np.array([[slides, 0.5, abs(axis[2]), outward, above] for axis, slides, outward, above, _ in rows])
     return ScoredMotions.of(NAMES, table, np.array([axis for axis, *_ in rows]), np.array([row[-1] for row in rows]))
 
 

@@ -11,7 +11,7 @@ from jaxtyping import Bool, Float
 NONE = -9.0  # log-odds where there is no such motion
 SAME_AXIS = 0.97  # cosine of axes that are one
 LEAST_LOSS, MOST_LOSS = 0.0, 6.0  # log-odds between the best motion of a copy and its best motion in the same manner
-ROUND = 3.0  # in the feature "role": about the axis of the part's round outline
+SAME_BALANCE = 0.2  # difference of the feature "balance" below which axes lie alike: through the middle, or at a rim
 SIDE = -0.05  # product of two cosines with the opening directions from which both motions go to the same side
 
 
@@ -32,7 +32,7 @@ class ScoredMotions:
         score: Float[np.ndarray, " n"],
     ) -> ScoredMotions:
         """From the table of all features, whose columns have these names."""
-        used = ("prismatic", "role", "vertical", "outward", "above")
+        used = ("prismatic", "balance", "vertical", "outward", "above")
         return cls({name: np.asarray(table[:, list(names).index(name)], float) for name in used}, axes, score)
 
 
@@ -70,7 +70,6 @@ def in_one_manner(a: ScoredMotions, b: ScoredMotions) -> Bool[np.ndarray, "n m"]
     same = slides == (b.values["prismatic"][None] > 0)
     same &= np.abs(a.axes @ b.axes.T) > SAME_AXIS
     same &= a.values["outward"][:, None] * b.values["outward"][None] >= SIDE
-    spins = a.values["role"][:, None] == ROUND
-    same &= spins == (b.values["role"][None] == ROUND)
+    same &= slides | (np.abs(a.values["balance"][:, None] - b.values["balance"][None]) < SAME_BALANCE)
     upright = a.values["vertical"][:, None] > SAME_AXIS
-    return same & (slides | spins | upright | (a.values["above"][:, None] * b.values["above"][None] >= 0))
+    return same & (slides | upright | (a.values["above"][:, None] * b.values["above"][None] >= 0))

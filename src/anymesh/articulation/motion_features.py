@@ -25,9 +25,6 @@ MISFIT_POINTS = 60  # of the part, that are turned
 SECTORS = 12  # of a full turn
 VIEW_POINTS = 80  # of the part, that look along the opening direction
 MOST_RATIO = 4.0  # lengths over lengths are cut here
-ROLES = (
-    "edge", "edge_mid", "center", "round", "bail", "barrel", "contact", "pin", "slide", "contact_slide"
-)  # fmt: skip
 
 
 @dataclass(frozen=True, eq=False)
@@ -154,7 +151,6 @@ def _values(around: Surroundings, facts: PartFacts, c: Candidate) -> dict[str, f
     }
     return {
         "prismatic": float(slides),
-        "role": float(ROLES.index(c.role)) if c.role in ROLES else MISSING,
         "along length": abs(float(axis @ core.axes[0])),
         "along width": abs(float(axis @ core.axes[1])),
         "along thickness": abs(float(axis @ core.axes[2])),
