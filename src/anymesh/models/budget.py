@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 from threading import Lock
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 from anymesh.errors import BudgetError, OptionError
 from anymesh.models.prices import cost_of, most_input_tokens
@@ -30,6 +30,7 @@ class Limit:
             raise BudgetError(f"{kind}: {told}; {spent}")
 
 
+@runtime_checkable
 class Account(Protocol):
     """Counts calls and their cost [USD] over everything that shares it, also over processes."""
 

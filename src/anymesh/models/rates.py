@@ -7,7 +7,7 @@ from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
 from threading import Lock
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 from anymesh.errors import OptionError
 from anymesh.models.prices import most_input_tokens
@@ -37,6 +37,7 @@ class Rate:
         return fits and (self.requests is None or requests < self.requests)
 
 
+@runtime_checkable
 class Limiter(Protocol):
     """Counts requests and tokens of the last minute over everything that shares it, also over processes."""
 
