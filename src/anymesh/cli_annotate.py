@@ -176,7 +176,8 @@ def _tell_estimate(source: str, count: int, speed: Speed, options: dict[str, Any
     from anymesh.annotation.estimate import estimate
 
     found = estimate(source, count, speed=speed, **options)
-    typer.echo(json.dumps(asdict(found), indent=2) if json_ else plain(found.words()))
+    lines = [json.dumps(asdict(found), indent=2)] if json_ else [plain(line) for line in found.words().splitlines()]
+    typer.echo("\n".join(lines))
 
 
 @contextmanager

@@ -65,13 +65,20 @@ class LedgerLimiter:
     def acquire(self, tokens: int) -> int:
         """Wait until a request of so many tokens may be sent; return the number of its entry."""
         while True:
-            with self._ledger.writing() as connection:
-                now = self._clock()
-                connection.execute("DELETE FROM rates WHERE at <= ? OR at > ?", (now - WINDOW, now))  # after: an earlier boot's
-                count, used, first = connection.execute("SELECT count(*), total(tokens), min(at) FROM rates").fetchone()
-                if self._rate.allows(count, int(used), tokens):
-                    return int(connection.execute("INSERT INTO rates(at, tokens) VALUES(?,?)", (now, tokens)).lastrowid or 0)
-            self._sleep(max(first + WINDOW - now, 0.01))
+            entry, wait = self.attempt(tokens)
+            if entry is not None:
+                return entry
+            self._sleep(wait)
+
+    def attempt(self, tokens: int) -> tuple[int | None, float]:
+        """The number of the entry of a request that may be sent now; else None, and how long to wait [s]."""
+        with self._ledger.writing() as connection:
+            now = self._clock()
+            connection.execute("DELETE FROM rates WHERE at <= ? OR at > ?", (now - WINDOW, now))  # after: an earlier boot's
+            count, used, first = connection.execute("SELECT count(*), total(tokens), min(at) FROM rates").fetchone()
+            if self._rate.allows(count, int(used), tokens):
+                return connection.execute("INSERT INTO rates(at, tokens) VALUES(?,?)", (now, tokens)).lastrowid, 0.0
+        return None, max(first + WINDOW - now, 0.01)
 
     def correct(self, entry: int, tokens: int) -> None:
         """Replace the estimate of an entry by the tokens that were billed."""

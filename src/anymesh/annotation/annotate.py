@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Generator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from importlib.util import find_spec
@@ -132,7 +132,7 @@ def _open_again(ledger: Ledger, again: bool) -> None:
 
 
 @contextmanager
-def _workers(speed: Speed, options: Mapping[str, Any], plan: Plan, given: Workers | None) -> Iterator[tuple[Workers, int]]:
+def _workers(speed: Speed, options: Mapping[str, Any], plan: Plan, given: Workers | None) -> Generator[tuple[Workers, int]]:
     if speed.workers is not None and speed.workers < 1:
         raise OptionError(f"--workers: found {speed.workers}; valid are integers from 1 up")
     seconds = speed.kill_after or KILL * float(options.get("time_limit", DEFAULT_SECONDS))

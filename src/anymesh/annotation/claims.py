@@ -62,11 +62,17 @@ def begun_run(ledger: Ledger, workers: int) -> Generator[str]:
         try:
             yield run
         finally:
-            with suppress(OutputError), ledger.writing() as connection:  # else the next run frees them
-                connection.execute(f"UPDATE objects SET state = 'pending', token = NULL WHERE {RUNNING}", (run,))
-                connection.execute("UPDATE runs SET ended = ? WHERE run = ?", (time.time(), run))
+            with suppress(OutputError):  # else the next run frees them
+                with ledger.writing() as connection:
+                    connection.execute(f"UPDATE objects SET state = 'pending', token = NULL WHERE {RUNNING}", (run,))
+                _end(ledger, run)
+
+
+def _end(ledger: Ledger, run: str) -> None:
+    with ledger.writing() as connection:
+        connection.execute("UPDATE runs SET ended = ? WHERE run = ?", (time.time(), run))
     with suppress(OSError):
-        lock.unlink()
+        (ledger.out / RUNS / f"{run}.lock").unlink()
 
 
 def renew(ledger: Ledger, run: str) -> None:
@@ -137,23 +143,25 @@ def _next_state(outcome: Outcome, attempts: int, losses: int, most: int) -> Stat
 
 def free_lost(ledger: Ledger, run: str) -> int:
     """Free what runs that are gone have claimed; return how many objects."""
-    others = ledger.rows("SELECT DISTINCT run FROM objects WHERE state = 'running' AND run != ?", (run,))
-    gone = [other for (other,) in others if not _is_alive(ledger, other)]
     freed = 0
-    for other in gone:
+    for other in _open_runs(ledger, run):
+        if _is_alive(ledger, other):
+            continue
         for seq, name, token in ledger.rows(f"SELECT seq, name, token FROM objects WHERE {RUNNING}", (other,)):
             told = f"the run that worked on it ended {LOSSES} times without a word (killed, out of memory, power?)"
             lost = Outcome(Result.LOST, "LostError", told)
             freed += finish(ledger, Claim(seq, name, "", {}, "", token, False), lost, most=1) is not None
-        with suppress(OSError):
-            (ledger.out / RUNS / f"{other}.lock").unlink()
+        _end(ledger, other)
     return freed
+
+
+def _open_runs(ledger: Ledger, run: str) -> list[str]:
+    return [other for (other,) in ledger.rows("SELECT run FROM runs WHERE ended IS NULL AND run != ?", (run,))]
 
 
 def live_runs(ledger: Ledger, run: str) -> int:
     """How many other runs work on this output."""
-    others = ledger.rows("SELECT run FROM runs WHERE ended IS NULL AND run != ?", (run,))
-    return sum(_is_alive(ledger, other) for (other,) in others)
+    return sum(_is_alive(ledger, other) for other in _open_runs(ledger, run))
 
 
 def _is_alive(ledger: Ledger, run: str) -> bool:

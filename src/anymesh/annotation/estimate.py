@@ -6,17 +6,18 @@ import random
 import shutil
 import statistics
 import tempfile
-import time
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from anymesh.annotation.annotate import KILL, Speed, checked
 from anymesh.annotation.inputs import find_objects
 from anymesh.annotation.requests import ObjectRequest
 from anymesh.annotation.states import Claim, Outcome, Result
 from anymesh.annotation.tally import duration
 from anymesh.annotation.work import Job
 from anymesh.annotation.workers import Limits, LocalWorkers, machine_cores
+from anymesh.deadline import DEFAULT_SECONDS
 from anymesh.errors import OptionError
 from anymesh.solving import GEOMETRY
 
@@ -40,8 +41,8 @@ class Figure:
 
 @dataclass(frozen=True)
 class Estimate:
-    """What `total` objects will take. sample: objects tried, of which `failed` gave no asset; seconds, cost [USD], calls, tokens
-    and bytes: of one object; hours: of the collection on `workers` workers, without waiting for the model."""
+    """What `total` objects will take. sample: objects tried, of which `failed` gave no asset; seconds, cost [USD], calls,
+    tokens and bytes: of one object; hours: of the collection on `workers` workers, without waiting for the model."""
 
     total: int
     sample: int
@@ -56,11 +57,12 @@ class Estimate:
 
     def words(self) -> str:
         """For people."""
-        n, most = self.total, f"95 % interval over {self.sample} objects tried, {self.failed} of them without an asset"
+        n, size = self.total, self.bytes
+        most = f"95 % interval over {self.sample} objects tried, {self.failed} of them without an asset"
         lines = [
             f"{n:,} objects on {self.workers} workers ({most}):",
             f"  time     {self.seconds.mean:.1f} +- {self.seconds.half:.1f} s an object, {duration(3600 * self.hours)} in all",
-            f"  storage  {self.bytes.mean / 1e6:.2f} +- {self.bytes.half / 1e6:.2f} MB an object, {n * self.bytes.mean / 1e9:.2f} GB",
+            f"  storage  {size.mean / 1e6:.2f} +- {size.half / 1e6:.2f} MB an object, {n * size.mean / 1e9:.2f} GB in all",
         ]
         if self.calls.mean:
             lines.append(f"  calls    {self.calls.mean:.1f} an object, {self.tokens.mean:,.0f} tokens")
@@ -73,15 +75,12 @@ class Estimate:
         return "\n".join(lines)
 
 
-def estimate(source: str, count: int, *, speed: Any, **options: Any) -> Estimate:
+def estimate(source: str, count: int, *, speed: Speed, **options: Any) -> Estimate:
     """Try `count` objects, drawn at random by the seed, in a temporary folder; with a model, geometry answers in its place.
 
     So a model's questions are asked and counted, with their pictures, and none is sent; bad answers that are asked again are
-    not in the count. speed: a Speed. Raises as `annotate`.
+    not in the count. Raises as `annotate`.
     """
-    from anymesh.annotation.annotate import KILL, checked
-    from anymesh.deadline import DEFAULT_SECONDS
-
     if count < 1:
         raise OptionError(f"--dry-run: found {count}; valid are integers from 1 up")
     who = checked({**options, "answerer": GEOMETRY.name, "parts_list": ()})
@@ -92,13 +91,12 @@ def estimate(source: str, count: int, *, speed: Any, **options: Any) -> Estimate
     limits = Limits.default(workers, speed.memory, speed.kill_after or KILL * float(options.get("time_limit", DEFAULT_SECONDS)))
     work = LocalWorkers(workers, limits, REHEARSAL)
     folder = Path(tempfile.mkdtemp(prefix="anymesh-dry-run-"))
-    begin = time.monotonic()
     try:
         outcomes = _tried(work, chosen, folder, {**options, "answerer": who})
     finally:
         work.close()
         shutil.rmtree(folder, ignore_errors=True)
-    return _summary(outcomes, len(requests), workers, time.monotonic() - begin, paid=who != GEOMETRY.name)
+    return _summary(outcomes, len(requests), workers, paid=who != GEOMETRY.name)
 
 
 def _tried(work: LocalWorkers, chosen: list[ObjectRequest], folder: Path, options: dict[str, Any]) -> list[Outcome]:
@@ -113,16 +111,12 @@ def _tried(work: LocalWorkers, chosen: list[ObjectRequest], folder: Path, option
     return outcomes
 
 
-def _summary(outcomes: list[Outcome], total: int, workers: int, elapsed: float, *, paid: bool) -> Estimate:
+def _summary(outcomes: list[Outcome], total: int, workers: int, *, paid: bool) -> Estimate:
     done = [o for o in outcomes if o.result is Result.DONE]
     usage = [o.record.get("usage", {}) for o in done] if paid else []
     costs = [u.get("cost_usd") for u in usage]
     seconds = Figure.of([o.seconds for o in outcomes])
-    at_once = min(workers, len(outcomes)) or 1
-    busy = (
-        min(seconds.mean * len(outcomes) / (at_once * elapsed), 1.0) if elapsed else 1.0
-    )  # the first of each waits for imports
-    estimate = Estimate(
+    return Estimate(
         total=total,
         sample=len(outcomes),
         failed=len(outcomes) - len(done),
@@ -134,4 +128,3 @@ def _summary(outcomes: list[Outcome], total: int, workers: int, elapsed: float, 
         cost=None if None in costs else Figure.of([float(c) for c in costs if c is not None]),
         hours=seconds.mean * total / workers / 3600,
     )
-    return replace(estimate, hours=estimate.hours / max(busy, 0.5)) if len(outcomes) >= 4 * workers else estimate

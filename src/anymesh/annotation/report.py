@@ -93,9 +93,6 @@ def _causes(ledger: Ledger) -> str:
       ORDER BY seq LIMIT ?"""
     rows = []
     for kind, stage, count, attempts, error in ledger.rows(query):
-        told = (
-            "SELECT name FROM objects WHERE state='quarantined' AND error_class=? AND coalesce(stage,'')=? ORDER BY seq LIMIT ?"
-        )
         names = ", ".join(name[:80] for (name,) in ledger.rows(such, (kind, stage, EXAMPLES)))
         rows.append((said(kind), said(stage), f"{count:,}", f"{attempts:,}", said((error or "")[:200]), said(names)))
     return _table("Failures by cause", ("cause", "stage", "objects", "attempts", "such as", "objects"), rows, numbers=(2, 3))

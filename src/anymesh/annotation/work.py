@@ -36,7 +36,8 @@ class Job:
     """An object for a worker. out: its folder; collection: the output with the ledger; options: of `articulate`.
 
     rate: requests and tokens a minute; known: digest of the mesh that its asset was made from, None when there is none;
-    core: that the process keeps to, None for any; metered: whether a model's calls are counted in the ledger.
+    core: that the process keeps to, None for any; metered: whether a model's calls are counted in the ledger; bridge: socket
+    of who keeps the ledger, where that is another process.
     """
 
     name: str
@@ -49,6 +50,7 @@ class Job:
     rate: tuple[int | None, int | None] = (None, None)
     core: int | None = None
     metered: bool = False
+    bridge: str | None = None
 
     def as_dict(self) -> dict[str, Any]:
         """Plain values, for another process."""
@@ -73,7 +75,7 @@ def _annotated(job: Job) -> Outcome:
     from anymesh.annotation.results import asset_columns
     from anymesh.pipeline import articulate
 
-    mesh = _local_mesh(job.source)
+    mesh = local_mesh(job.source)
     out = Path(job.out)
     if not job.redo and (made := asset_columns(out)) and made["sha256"] == _digest(mesh):
         return Outcome(Result.DONE, record=made)  # its run ended between the last file and the ledger
@@ -91,6 +93,11 @@ def _annotated(job: Job) -> Outcome:
 def _metered(job: Job) -> dict[str, Any]:
     if not job.metered:
         return {}
+    if job.bridge is not None:
+        from anymesh.annotation.bridge import RemoteMeter
+
+        remote = RemoteMeter(job.bridge, job.name, job.token)
+        return {"spent": remote, "limiter": remote if any(job.rate) else None}
     from anymesh.annotation.accounts import open_account
     from anymesh.models.rates import Rate
 
@@ -99,7 +106,8 @@ def _metered(job: Job) -> dict[str, Any]:
     return {"spent": account, "limiter": limiter}
 
 
-def _local_mesh(source: str) -> Path:
+def local_mesh(source: str) -> Path:
+    """The file of a mesh, fetched where it is not on this machine. Raises InputError, UnavailableError."""
     if not source.startswith(OBJAVERSE):
         return Path(source)
     from anymesh.annotation.objaverse_ import fetch
