@@ -201,7 +201,8 @@ SCRIPT = f"""
 
 def begun(source: Path, out: Path) -> subprocess.Popen:
     script = textwrap.dedent(SCRIPT)
-    return subprocess.Popen([sys.executable, "-c", script, str(source), str(out)], stderr=subprocess.DEVNULL)
+    log = (source.parent / f"stderr-{time.monotonic_ns()}").open("w")
+    return subprocess.Popen([sys.executable, "-c", script, str(source), str(out)], stderr=log)
 
 
 def wait_for(count: int, out: Path) -> None:

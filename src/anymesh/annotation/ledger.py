@@ -69,8 +69,22 @@ class Ledger:
                 raise OutputError(f"{self.out / NAME} has version {version}; valid is {VERSION}: use the anymesh that made it")
             self._connection.execute("PRAGMA synchronous = NORMAL")  # in WAL a kill loses nothing
             if version == 0:
+                self._create()
+
+    def _create(self) -> None:
+        """Make the tables; another process may be at the same, and SQLite does not wait for a change of the journal."""
+        end = time.monotonic() + BUSY
+        while True:
+            try:
                 self._connection.execute("PRAGMA journal_mode = WAL")
                 self._connection.executescript(f"BEGIN IMMEDIATE;{SCHEMA}COMMIT;")
+                return
+            except sqlite3.OperationalError as error:
+                if self._connection.in_transaction:
+                    self._connection.execute("ROLLBACK")
+                if "locked" not in str(error) or time.monotonic() > end:
+                    raise
+                time.sleep(0.05)
 
     @contextmanager
     def guarded(self) -> Generator[None]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import secrets
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -37,10 +38,13 @@ def write_rows(path: Path, columns: Mapping[str, str], batches: Iterator[Sequenc
     arrow = _pyarrow()
     kinds = {"TEXT": arrow.string(), "INTEGER": arrow.int64(), "REAL": arrow.float64()}
     schema = arrow.schema([(name, kinds[kind]) for name, kind in columns.items()])
-    temporary = path.with_name(f".{path.name}.part")
-    with arrow.parquet.ParquetWriter(temporary, schema, compression="zstd") as writer:
-        for rows in batches:
-            values = list(zip(*rows, strict=True)) if rows else [()] * len(columns)
-            arrays = [arrow.array(column, kind) for column, kind in zip(values, schema.types, strict=True)]
-            writer.write_table(arrow.Table.from_arrays(arrays, schema=schema))
-    temporary.replace(path)
+    temporary = path.with_name(f".{path.name}.{secrets.token_hex(4)}.part")
+    try:
+        with arrow.parquet.ParquetWriter(temporary, schema, compression="zstd") as writer:
+            for rows in batches:
+                values = list(zip(*rows, strict=True)) if rows else [()] * len(columns)
+                arrays = [arrow.array(column, kind) for column, kind in zip(values, schema.types, strict=True)]
+                writer.write_table(arrow.Table.from_arrays(arrays, schema=schema))
+        temporary.replace(path)
+    finally:
+        temporary.unlink(missing_ok=True)
