@@ -6,7 +6,6 @@ import os
 import signal
 import subprocess
 import sys
-import textwrap
 import time
 from pathlib import Path
 
@@ -188,21 +187,9 @@ def test_quarantined_objects_get_another_chance_when_asked(tmp_path, collection,
     assert column(out, "a", "(SELECT count(*) FROM attempts)") == 2
 
 
-SCRIPT = f"""
-    import signal, sys
-    signal.signal(signal.SIGINT, signal.default_int_handler)
-    sys.path.insert(0, {str(HERE)!r})
-    from anymesh.annotation.annotate import annotate
-    from anymesh.annotation.workers import Limits, LocalWorkers
-    work = LocalWorkers(2, Limits(2 << 30, 20.0, 20.0), ("fake_work", "run"))
-    annotate(sys.argv[1], sys.argv[2], work=work)
-"""
-
-
 def begun(source: Path, out: Path) -> subprocess.Popen:
-    script = textwrap.dedent(SCRIPT)
     log = (source.parent / f"stderr-{time.monotonic_ns()}").open("w")
-    return subprocess.Popen([sys.executable, "-c", script, str(source), str(out)], stderr=log)
+    return subprocess.Popen([sys.executable, HERE / "fake_run.py", str(source), str(out)], stderr=log)
 
 
 def wait_for(count: int, out: Path) -> None:
@@ -212,7 +199,7 @@ def wait_for(count: int, out: Path) -> None:
     assert len(trace(out)) >= count
 
 
-@pytest.mark.parametrize("how", [signal.SIGKILL, signal.SIGINT])
+@pytest.mark.parametrize("how", [signal.SIGKILL, pytest.param(signal.SIGINT, marks=pytest.mark.slow)])
 def test_a_run_that_is_killed_loses_nothing_and_redoes_nothing(tmp_path, collection, how) -> None:
     source, out = collection(**{f"n{k}": f"slow 0.0{k % 7}" for k in range(30)}), tmp_path / "out"
     process = begun(source, out)
@@ -252,4 +239,4 @@ def test_an_asset_whose_run_ended_before_the_ledger_knew_is_taken_as_it_is(tmp_p
 def test_limits_are_checked() -> None:
     with pytest.raises(OptionError, match="--memory"):
         Limits.default(2, 0.1, 10.0)
-    assert Limits.default(2, 3, 10.0, waits=True) == Limits(3 << 30, 10.0, 100.0)
+    assert Limits.default(2, 3.0, 10.0, waits=True) == Limits(3 << 30, 10.0, 100.0)

@@ -39,7 +39,8 @@ class RayWorkers:
 
     def __init__(self, address: str, limits: Limits, most: int | None = None, target: tuple[str, str] = TARGET) -> None:
         self._ray = ray = _ray()
-        if not ray.is_initialized():
+        self._began = not ray.is_initialized()
+        if self._began:
             try:
                 ray.init(address=address, logging_level="ERROR", log_to_driver=False, runtime_env=_environment())
             except (ConnectionError, ValueError, RuntimeError) as error:
@@ -98,6 +99,8 @@ class RayWorkers:
         for meter in self._meters.values():
             self._ray.kill(meter)
         self._running, self._meters = {}, {}
+        if self._began:
+            self._ray.shutdown()
 
 
 def _environment() -> dict[str, Any]:
