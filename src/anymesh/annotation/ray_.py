@@ -8,6 +8,7 @@ when its node is lost; when it gives up, the object is pending again, and the lo
 from __future__ import annotations
 
 import os
+import socket
 from collections.abc import Iterator
 from contextlib import ExitStack
 from dataclasses import asdict
@@ -22,6 +23,7 @@ from anymesh.errors import MissingExtraError, OptionError
 from anymesh.isolation import ChildError, ChildLimits, ChildPool
 
 RETRIES = 3  # times that Ray starts a task anew whose node is lost
+REACH = 5.0  # [s] for a connection to the cluster
 AHEAD = 2  # tasks a core that are handed to the cluster, so that no core waits for the driver
 
 
@@ -41,6 +43,7 @@ class RayWorkers:
         self._ray = ray = _ray()
         self._began = not ray.is_initialized()
         if self._began:
+            _check_address(address)
             try:
                 ray.init(address=address, logging_level="ERROR", log_to_driver=False, runtime_env=_environment())
             except (ConnectionError, ValueError, RuntimeError) as error:
@@ -101,6 +104,18 @@ class RayWorkers:
         self._running, self._meters = {}, {}
         if self._began:
             self._ray.shutdown()
+
+
+def _check_address(address: str) -> None:
+    """Ray itself tries for minutes where nobody listens. Raises OptionError."""
+    host, _, port = address.removeprefix("ray://").rpartition(":")
+    if not (host and port.isdecimal()):
+        return  # `auto`, or what Ray itself judges
+    try:
+        socket.create_connection((host, int(port)), REACH).close()
+    except (OSError, OverflowError) as error:
+        told = getattr(error, "strerror", None) or error
+        raise OptionError(f"--ray: found no cluster at {address!r} ({told}); `ray status` tells the address") from None
 
 
 def _environment() -> dict[str, Any]:

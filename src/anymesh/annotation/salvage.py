@@ -51,8 +51,11 @@ def _take_over(ledger: Ledger, aside: Path) -> int:
     with closing(sqlite3.connect(aside, isolation_level=None)) as damaged:
         for table, query in (("meta", "SELECT key, value FROM meta"), ("account", "SELECT id, calls, cost FROM account")):
             marks = "?, ?" if table == "meta" else "?, ?, ?"
-            with suppress(sqlite3.Error), ledger.writing() as connection:
-                connection.executemany(f"INSERT OR REPLACE INTO {table} VALUES({marks})", damaged.execute(query).fetchall())
+            rows = []
+            with suppress(sqlite3.Error):
+                rows = damaged.execute(query).fetchall()
+            with ledger.writing() as connection:
+                connection.executemany(f"INSERT OR REPLACE INTO {table} VALUES({marks})", rows)
         last = _last_row(damaged)
         for first in range(1, last + 1, STEP):
             rows = _readable(damaged, names, first, min(first + STEP - 1, last))
