@@ -55,10 +55,13 @@ class RayWorkers:
         )(_task)
         self._running: dict[Any, Claim] = {}
         self._meters: dict[str, Any] = {}
+        self._closed = False
 
     @property
     def free(self) -> int:
         """How many more jobs can be taken; follows the nodes that come and go."""
+        if self._closed:
+            return 0
         most = self._most or AHEAD * max(int(self._ray.cluster_resources().get("CPU", 1)), 1)
         return max(most - len(self._running), 0)
 
@@ -101,7 +104,7 @@ class RayWorkers:
             self._ray.cancel(reference, force=True)
         for meter in self._meters.values():
             self._ray.kill(meter)
-        self._running, self._meters = {}, {}
+        self._running, self._meters, self._closed = {}, {}, True
         if self._began:
             self._ray.shutdown()
 
