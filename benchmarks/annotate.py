@@ -3,7 +3,7 @@
 python benchmarks/annotate.py WORK rate [--objects 200] [--workers 2]        a mixed set: examples, generated scenes
 python benchmarks/annotate.py WORK scaling [--objects 24]                    1 worker, then 2, the same objects, in one run
 python benchmarks/annotate.py WORK kills [--objects 200] [--kills 24]        kill -9 of the whole run, again and again
-python benchmarks/annotate.py WORK ledger [--objects 1000000]                the ledger alone: size, time of a claim and an entry
+python benchmarks/annotate.py WORK ledger [--objects 1000000]                the ledger alone: its size and its times
 python benchmarks/annotate.py WORK licences                                  licences of what is installed
 
 Each prints one JSON object and keeps it in WORK. The machine should have nothing else to do.

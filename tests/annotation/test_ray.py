@@ -56,7 +56,8 @@ def test_an_address_without_a_cluster_is_an_error_of_ours(tmp_path, collection) 
 def test_the_budget_holds_over_all_nodes(tmp_path, collection, cluster, monkeypatch) -> None:
     from anymesh.annotation import annotate as module
 
-    monkeypatch.setattr(module, "checked", metered)  # a model is asked, as far as the account is concerned
+    name = "openai:gpt-4o"
+    monkeypatch.setattr(module, "checked", lambda _: name)  # a model is asked, as far as the account is concerned
     source, out = collection(**{f"n{k}": "pay" for k in range(12)}), tmp_path / "out"
     found = annotate(str(source), out, work=workers(cluster), max_cost=0.95)
     assert found.ended is not None
