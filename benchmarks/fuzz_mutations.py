@@ -150,13 +150,17 @@ def xml_changed(data: bytes, rng: random.Random) -> bytes:
     match rng.randrange(7):
         case 0:
             lines = "".join(f'<!ENTITY e{k + 1} "{f"&e{k};" * 10}">' for k in range(12))
-            return data.replace(b"?>\n", f'?>\n<!DOCTYPE x [<!ENTITY e0 "lol">{lines}]>\n'.encode(), 1).replace(b"red", b"&e12;")
+            return data.replace(b"?>\n", f'?>\n<!DOCTYPE x [<!ENTITY e0 "lol">{lines}]>\n'.encode(), 1).replace(
+                b"red", b"&e12;"
+            )
         case 1:
             outside = b'?>\n<!DOCTYPE x [<!ENTITY e SYSTEM "file:///etc/passwd">]>\n'
             return data.replace(b"?>\n", outside, 1).replace(b"red", b"&e;")
         case 2:
             deep = rng.choice([50, 500, 3000])
-            return data.replace(node, b"<node>" * deep + node).replace(b"</visual_scene>", b"</node>" * deep + b"</visual_scene>")
+            return data.replace(node, b"<node>" * deep + node).replace(
+                b"</visual_scene>", b"</node>" * deep + b"</visual_scene>"
+            )
         case 3:
             return data.replace(node, node + b'<instance_node url="#n"/>')
         case 4:
@@ -165,7 +169,9 @@ def xml_changed(data: bytes, rng: random.Random) -> bytes:
         case 5:
             return re.sub(rb'(count|stride|offset)="\d+"', lambda m: m[1] + b'="' + rng.choice(NUMBERS).encode() + b'"', data)
         case _:
-            return re.sub(rb"#\w+", lambda m: m[0] if rng.random() < 0.9 else b"#" + rng.choice([b"g", b"v", b"n", b"", b"p"]), data)
+            return re.sub(
+                rb"#\w+", lambda m: m[0] if rng.random() < 0.9 else b"#" + rng.choice([b"g", b"v", b"n", b"", b"p"]), data
+            )
 
 
 def mutations(ending: str) -> list[Mutation]:

@@ -80,8 +80,11 @@ _watch: Watch | None = None
 _lines: set[tuple[str, int]] = set()
 
 
-def try_inputs(inputs: list[tuple[str, bytes]]) -> list[Result]:
-    """Load each (name, content); runs in a child process. A result: outcome, message, what was opened outside, new lines."""
+def try_inputs(inputs: list[tuple[str, bytes]], every: int = TRACED) -> list[Result]:
+    """Load each (name, content); runs in a child process. A result: outcome, message, what was opened outside, new lines.
+
+    every: of so many inputs one is traced; 0: none.
+    """
     global _watch
     import anymesh.loading.load as load
 
@@ -89,7 +92,7 @@ def try_inputs(inputs: list[tuple[str, bytes]]) -> list[Result]:
     _watch = _watch or Watch()
     with tempfile.TemporaryDirectory() as top:
         folder = _around(Path(top))
-        return [_tried(load, folder / n, content, _watch, k % TRACED == 0) for k, (n, content) in enumerate(inputs)]
+        return [_tried(load, folder / n, c, _watch, every > 0 and k % every == 0) for k, (n, c) in enumerate(inputs)]
 
 
 def _around(top: Path) -> Path:
