@@ -24,11 +24,11 @@ from anymesh.storage.hidden import locked, locks_known
 
 RUNS = "runs"  # folder of the lock files
 LEASE = 120.0  # [s] without a beat, after which a run that holds its lock is taken for stuck
-LOSSES = 5  # times that a run may be killed while it works on an object, before that is quarantined
+LOSSES = 20  # times that a run may be killed while it works on an object, before that is quarantined
 RUNNING = f"state = '{State.RUNNING}' AND run = ?"
 CLAIM = f"""
 UPDATE objects SET state = 'running', run = ?, token = ? || '.' || seq || '.' || losses || '.' || attempts || '.' || ?
-WHERE seq IN (SELECT seq FROM objects WHERE state = '{State.PENDING}' ORDER BY attempts, seq LIMIT ?)
+WHERE seq IN (SELECT seq FROM objects WHERE state = '{State.PENDING}' ORDER BY attempts, losses, seq LIMIT ?)
 RETURNING seq, name, source, options, folder, token, redo
 """
 FINISH = """
@@ -82,7 +82,7 @@ def renew(ledger: Ledger, run: str) -> None:
 
 
 def claim(ledger: Ledger, run: str, count: int) -> list[Claim]:
-    """Claim up to `count` pending objects, those that failed before after the others."""
+    """Claim up to `count` pending objects, those that failed or were lost before after the others."""
     if count < 1:
         return []
     with ledger.writing() as connection:

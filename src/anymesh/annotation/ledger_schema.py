@@ -46,7 +46,7 @@ def _column(name: str, kind: str) -> str:
 SCHEMA = f"""
 CREATE TABLE IF NOT EXISTS meta(key TEXT PRIMARY KEY, value TEXT NOT NULL);
 CREATE TABLE IF NOT EXISTS objects(seq INTEGER PRIMARY KEY, {", ".join(_column(n, k) for n, k in OBJECTS.items())});
-CREATE INDEX IF NOT EXISTS objects_next ON objects(state, attempts, seq);
+CREATE INDEX IF NOT EXISTS objects_next ON objects(state, attempts, losses, seq);
 CREATE INDEX IF NOT EXISTS objects_unsure ON objects(state, confidence);
 CREATE TABLE IF NOT EXISTS attempts(seq INTEGER NOT NULL, run TEXT, ended REAL, outcome TEXT, error_class TEXT, error TEXT,
   seconds REAL, memory INTEGER);
