@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from conftest import column, states, trace
+from ledger_rows import column, states, trace
 
 from anymesh.annotation.annotate import Speed, annotate
 from anymesh.annotation.workers import Limits

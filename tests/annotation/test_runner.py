@@ -10,7 +10,7 @@ import time
 from pathlib import Path
 
 import pytest
-from conftest import column, states, trace
+from ledger_rows import column, states, trace
 
 from anymesh.annotation import annotate as module
 from anymesh.annotation import runner
