@@ -4,7 +4,6 @@ python benchmarks/annotate.py WORK rate [--objects 200] [--workers 2]        a m
 python benchmarks/annotate.py WORK scaling [--objects 24]                    1 worker, then 2, the same objects, in one run
 python benchmarks/annotate.py WORK kills [--objects 200] [--kills 24]        kill -9 of the whole run, again and again
 python benchmarks/annotate.py WORK ledger [--objects 1000000]                the ledger alone: its size and its times
-python benchmarks/annotate.py WORK licences                                  licences of what is installed
 
 Each prints one JSON object and keeps it in WORK. The machine should have nothing else to do.
 """
@@ -21,7 +20,6 @@ import sqlite3
 import subprocess
 import sys
 import time
-from importlib.metadata import distributions
 from pathlib import Path
 from typing import Any
 
@@ -186,30 +184,19 @@ def ledger(how: argparse.Namespace) -> Figures:
     return {"objects": how.objects, "megabytes": round(size / 1e6, 1), **{k: round(v, 3) for k, v in times.items()}}
 
 
-def licences(how: argparse.Namespace) -> Figures:
-    """Every installed distribution with its version and licence, as it tells them itself."""
-    found = {}
-    for package in distributions():
-        told = package.metadata
-        classifiers = [c.rpartition(":: ")[2] for c in told.get_all("Classifier") or [] if c.startswith("License")]
-        text = told.get("License-Expression") or ", ".join(classifiers) or (told.get("License") or "not told").splitlines()[0]
-        found[f"{told['Name']} {package.version}"] = text[:80]
-    return dict(sorted(found.items(), key=lambda item: item[0].lower()))
-
-
 def main() -> None:
     parser = argparse.ArgumentParser(description="Figures of `anymesh annotate`.")
     parser.add_argument("work", type=Path, help="folder for the sets, the outputs and the figures")
-    parser.add_argument("what", choices=("rate", "scaling", "kills", "ledger", "licences"))
+    parser.add_argument("what", choices=("rate", "scaling", "kills", "ledger"))
     parser.add_argument("--objects", type=int)
     parser.add_argument("--workers", type=int, default=2)
     parser.add_argument("--kills", type=int, default=24)
     how = parser.parse_args()
     usual = {"rate": 200, "scaling": 24, "kills": 200, "ledger": 1_000_000}
-    how.objects = how.objects or usual.get(how.what, 0)
+    how.objects = how.objects or usual[how.what]
     how.work = how.work.resolve()
     how.work.mkdir(parents=True, exist_ok=True)
-    made = {"rate": rate, "scaling": scaling, "kills": kills, "ledger": ledger, "licences": licences}[how.what](how)
+    made = {"rate": rate, "scaling": scaling, "kills": kills, "ledger": ledger}[how.what](how)
     text = json.dumps(made, indent=1)
     (how.work / f"{how.what}.json").write_text(text + "\n")
     print(text)
