@@ -7,6 +7,7 @@ import tempfile
 import time
 from collections.abc import Callable
 from contextlib import suppress
+from multiprocessing import AuthenticationError
 from multiprocessing.connection import Client, Connection, Listener
 from pathlib import Path
 from threading import Thread
@@ -60,25 +61,30 @@ class Bridge:
     """
 
     def __init__(self, ask: Ask) -> None:
-        self._ask, self._word = ask, secrets.token_hex(16)
+        self._ask, self._word, self._closed = ask, secrets.token_hex(16), False
 
     def __enter__(self) -> str:
         self._folder = tempfile.TemporaryDirectory(prefix="anymesh-")
-        path = str(Path(self._folder.name, "meter"))
-        self._listener = Listener(path, "AF_UNIX", authkey=self._word.encode())
-        Thread(target=self._serve, name="anymesh-bridge", daemon=True).start()
-        return f"{self._word}@{path}"
+        self._path = str(Path(self._folder.name, "meter"))
+        self._listener = Listener(self._path, "AF_UNIX", authkey=self._word.encode())
+        self._thread = Thread(target=self._serve, name="anymesh-bridge", daemon=True)
+        self._thread.start()
+        return f"{self._word}@{self._path}"
 
     def __exit__(self, *_: object) -> None:
+        self._closed = True
+        with suppress(OSError, EOFError, AuthenticationError), Client(self._path, "AF_UNIX", authkey=self._word.encode()):
+            pass  # wakes the thread that waits for a client
+        self._thread.join()
         self._listener.close()
         self._folder.cleanup()
 
     def _serve(self) -> None:
-        while True:
+        while not self._closed:
             try:
                 connection = self._listener.accept()
-            except (OSError, EOFError):
-                return
+            except (AuthenticationError, OSError, EOFError):
+                continue  # a stranger, or one who went away
             with connection, suppress(OSError, EOFError):
                 self._answer(connection)
 
@@ -104,7 +110,7 @@ class RemoteMeter:
             with Client(self._path, "AF_UNIX", authkey=self._word.encode()) as connection:
                 connection.send((method, values))
                 kind, answer = connection.recv()
-        except (OSError, EOFError) as error:
+        except (OSError, EOFError, AuthenticationError) as error:
             raise OutputError(f"the process that keeps the ledger cannot be reached ({type(error).__name__})") from None
         if kind == "error":
             raise OutputError(f"the ledger cannot be written: {answer}")
