@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import secrets
+import socket
 import tempfile
 import time
 from collections.abc import Callable
@@ -20,6 +21,7 @@ from anymesh.models.budget import Limit
 from anymesh.models.rates import Rate
 
 Ask = Callable[..., Any]
+CLOSING = 5.0  # [s] to wait for the thread of a bridge
 
 
 class Meter:
@@ -73,9 +75,9 @@ class Bridge:
 
     def __exit__(self, *_: object) -> None:
         self._closed = True
-        with suppress(OSError, EOFError, AuthenticationError), Client(self._path, "AF_UNIX", authkey=self._word.encode()):
-            pass  # wakes the thread that waits for a client
-        self._thread.join()
+        with suppress(OSError), socket.socket(socket.AF_UNIX) as waking:
+            waking.connect(self._path)  # wakes the thread that waits for a client; without a word it is a stranger
+        self._thread.join(CLOSING)
         self._listener.close()
         self._folder.cleanup()
 
