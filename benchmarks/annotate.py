@@ -99,7 +99,8 @@ def scaling(how: argparse.Namespace) -> Figures:
     found = [timed(source, how.work / f"scaling_{n}", n) for n in (1, 2)]
     begun = "SELECT (SELECT max(ended) FROM attempts) - (SELECT min(begun) FROM runs)"
     one, two = (rows(how.work / f"scaling_{n}", begun)[0][0] for n in (1, 2))
-    return {"efficiency": round(one / (2 * two), 3), "seconds": [round(one, 1), round(two, 1)], "runs": found}
+    busy = [round(run["work_seconds"] / (n * span), 3) for n, span, run in zip((1, 2), (one, two), found, strict=True)]
+    return {"efficiency": round(one / (2 * two), 3), "seconds": [round(one, 1), round(two, 1)], "busy": busy, "runs": found}
 
 
 def kills(how: argparse.Namespace) -> Figures:
