@@ -7,6 +7,7 @@ when its node is lost; when it gives up, the object is pending again, and the lo
 
 from __future__ import annotations
 
+import importlib
 import os
 import socket
 from collections.abc import Iterator
@@ -29,11 +30,10 @@ AHEAD = 2  # tasks a core that are handed to the cluster, so that no core waits 
 
 def _ray() -> Any:
     try:
-        import ray
+        return importlib.import_module("ray")
     except ImportError:
         told = "a cluster needs Ray, which is not installed; `pip install articulate-anymesh[ray]` brings it"
         raise MissingExtraError(told) from None
-    return ray
 
 
 class RayWorkers:
@@ -74,7 +74,7 @@ class RayWorkers:
     def _meter(self, job: Job) -> Any:
         """The actor that keeps the account, on the driver's machine, where the ledger is."""
         if job.collection not in self._meters:
-            here = self._ray.util.scheduling_strategies.NodeAffinitySchedulingStrategy(
+            here = importlib.import_module("ray.util.scheduling_strategies").NodeAffinitySchedulingStrategy(
                 self._ray.get_runtime_context().get_node_id(), soft=False
             )
             make = self._ray.remote(num_cpus=0, scheduling_strategy=here)(Meter)
