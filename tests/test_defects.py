@@ -11,7 +11,7 @@ import trimesh
 
 from anymesh import __version__, pipeline, solving
 from anymesh.cli import run
-from anymesh.cli_defect import redacted
+from anymesh.defects import redacted
 from anymesh.errors import InputError
 
 KEY = "sk-0123456789abcdefghijklmnopqrstuvwxyz"

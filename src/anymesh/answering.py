@@ -12,9 +12,10 @@ from typing import TypedDict
 from anymesh.config import DEFAULT_VIEWS, Config, SegmentationConfig
 from anymesh.deadline import CALL_SECONDS, Deadline
 from anymesh.errors import OptionError
-from anymesh.models.budget import Spent
+from anymesh.models.budget import Account
 from anymesh.models.cache import cache_folder
 from anymesh.models.patience import Patience
+from anymesh.models.rates import Limiter
 from anymesh.models.servers import SERVERS, first_seeing, probe_servers
 from anymesh.reasoning.asking import Seer
 from anymesh.reasoning.recognition import told_labels
@@ -34,7 +35,8 @@ class Answering(TypedDict, total=False):
     exact+sam:...; viewpoints: the cameras whose pictures a model is shown (see `ViewsConfig`); verify: motion, free or off;
     max_calls, max_cost [USD]: no call is made that would pass them; cache: folder of answers (None: no cache); timeout: of one
     call [s]; wait: wait for an answer in files; suggest: write what geometry would answer beside each question that is waited
-    for; spent: what counts towards max_calls and max_cost, shared by several runs.
+    for; spent: what counts towards max_calls and max_cost, shared by several runs; limiter: waits where a provider would be
+    asked too much in a minute.
     """
 
     answerer: str
@@ -51,7 +53,8 @@ class Answering(TypedDict, total=False):
     timeout: float
     wait: bool
     suggest: bool
-    spent: Spent | None
+    spent: Account | None
+    limiter: Limiter | None
 
 
 class Asked:
@@ -131,6 +134,7 @@ def choose_answerer(
         max_cost=None if name.partition(":")[0] in SERVERS else options.get("max_cost"),  # one's own servers cost nothing
         timeout=options.get("timeout", CALL_SECONDS),
         spent=options.get("spent"),
+        limiter=options.get("limiter"),
     )
 
     def renewed() -> Asked:

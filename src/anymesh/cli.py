@@ -11,6 +11,7 @@ import typer
 from typer.core import TyperCommand
 
 from anymesh import __version__
+from anymesh.cli_annotate import annotate
 from anymesh.cli_answer import answer
 from anymesh.cli_articulate import articulate
 from anymesh.cli_check import check
@@ -75,6 +76,7 @@ def _main(
 
 
 _command()(articulate)
+_command()(annotate)
 _command()(segment)
 _command()(joints)
 _command()(export)

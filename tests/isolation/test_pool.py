@@ -123,7 +123,8 @@ def test_further_children_are_started_when_calls_wait_long(monkeypatch):
         assert len({*threads.map(lambda _: pool.run(FAULTY, "rest", {"seconds": 0.4}), range(8))}) == 2
 
 
-def test_an_interrupt_ends_the_children_too(tmp_path):
+@pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGKILL])
+def test_children_at_work_end_with_their_parent(how):
     script = textwrap.dedent(f"""
         import signal, sys
         signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's background jobs start with it ignored
@@ -135,9 +136,22 @@ def test_an_interrupt_ends_the_children_too(tmp_path):
     process = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
     child = int(process.stdout.readline())
     time.sleep(0.5)
-    process.send_signal(signal.SIGINT)
+    process.send_signal(how)
     process.wait(timeout=20)
     deadline = time.monotonic() + 5
     while alive(child) and time.monotonic() < deadline:
         time.sleep(0.05)
     assert not alive(child)
+
+
+def test_a_child_is_replaced_after_so_many_calls(monkeypatch):
+    monkeypatch.syspath_prepend(HERE)
+    with ChildPool(1, ChildLimits(calls=2)) as pool:
+        first, second, third = (pool.run(FAULTY, "process", {}) for _ in range(3))
+    assert first == second != third
+
+
+def test_elapsed_time_has_a_limit_of_its_own(monkeypatch):
+    monkeypatch.syspath_prepend(HERE)
+    with ChildPool(1, ChildLimits(seconds=30.0, wall=0.5)) as pool, pytest.raises(ChildError, match=r"time limit: 0\.5 s"):
+        pool.run(FAULTY, "hang", {})

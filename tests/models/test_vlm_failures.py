@@ -1,6 +1,7 @@
 """What goes wrong between a client and its service: which failures may pass, and that none gives a secret away."""
 
 import logging
+import time
 import traceback
 from collections.abc import Callable
 
@@ -83,6 +84,25 @@ def test_a_connection_cut_in_mid_answer_may_pass(dialect: Dialect, service: Serv
     error = fail(connected(dialect))
     assert isinstance(error, TransientError)
     assert "broke off" in str(error)
+
+
+def test_an_answer_that_drips_is_given_up_in_time(dialect: Dialect, service: Service, connected: Connect) -> None:
+    def drip(handler) -> None:
+        handler.send_response(200)
+        handler.send_header("content-type", "application/json")
+        handler.send_header("content-length", "100000")
+        handler.end_headers()
+        while not service.over.wait(0.05):
+            try:
+                handler.wfile.write(b" ")
+                handler.wfile.flush()
+            except OSError:
+                return
+
+    service.turns.append(drip)
+    begin = time.monotonic()
+    assert "no answer within 0.8 s" in str(fail(connected(dialect, timeout=0.8)))
+    assert time.monotonic() - begin < 5
 
 
 def test_nobody_listening_may_pass(

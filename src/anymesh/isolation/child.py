@@ -49,6 +49,27 @@ def limit_time(seconds: float | None) -> None:
         return
 
 
+def end_with_parent(lifeline: int) -> None:
+    """End this process at once when the parent is gone, however it ended and whatever native code runs here.
+
+    lifeline: read end of a pipe that only the parent holds open and never writes to (-1: none). The kernel signals its end;
+    where it cannot (Windows), a child ends at its next call or time limit.
+    """
+    if lifeline < 0:
+        return
+    try:
+        import fcntl
+
+        fcntl.fcntl(lifeline, fcntl.F_SETOWN, os.getpid())
+        fcntl.fcntl(lifeline, fcntl.F_SETFL, os.O_ASYNC | os.O_NONBLOCK)
+        if os.read(lifeline, 1) == b"":  # the parent was gone before
+            os._exit(1)
+    except BlockingIOError:
+        return  # the parent lives
+    except (ImportError, AttributeError, OSError):
+        return
+
+
 def call(module: str, function: str, arguments: dict[str, Any]) -> tuple[str, Any]:
     """Run one call: ("done", its result), ("memory", why) or ("error", why)."""
     try:
@@ -62,8 +83,9 @@ def call(module: str, function: str, arguments: dict[str, Any]) -> tuple[str, An
 def main() -> None:
     """Serve calls until standard input ends. What native code prints goes nowhere.
 
-    Arguments of the process: the memory limit [bytes], and a module to import at once ("" for none).
+    Arguments of the process: the memory limit [bytes], a module to import at once ("" for none), and the lifeline.
     """
+    end_with_parent(int(sys.argv[3]))
     requests, replies = sys.stdin.buffer, os.fdopen(os.dup(1), "wb")
     nowhere = os.open(os.devnull, os.O_WRONLY)
     os.dup2(nowhere, 1)
@@ -72,8 +94,8 @@ def main() -> None:
     if sys.argv[2]:
         import_module(sys.argv[2])
     while head := requests.read(LENGTH):
-        module, function, arguments, seconds = pickle.loads(requests.read(int.from_bytes(head, "little")))
-        faulthandler.dump_traceback_later(PATIENCE * seconds + GRACE, exit=True)
+        module, function, arguments, seconds, wall = pickle.loads(requests.read(int.from_bytes(head, "little")))
+        faulthandler.dump_traceback_later(wall + GRACE, exit=True)
         limit_time(seconds)
         answer = call(module, function, arguments)
         faulthandler.cancel_dump_traceback_later()

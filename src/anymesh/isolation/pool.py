@@ -42,11 +42,13 @@ class ChildError(Exception):
 
 @dataclass(frozen=True)
 class ChildLimits:
-    """Limits of one child process. seconds: processor time of one call [s], and PATIENCE times as much wall time; memory:
-    address space [bytes]."""
+    """Limits of one child process. seconds: processor time of one call [s]; wall: elapsed time of one call [s], PATIENCE
+    times its processor time by default; memory: address space [bytes]; calls: after which a child is replaced."""
 
     seconds: float = 60.0
     memory: int = 4 << 30
+    wall: float | None = None
+    calls: int | None = None
 
 
 class ChildPool:
@@ -75,8 +77,9 @@ class ChildPool:
         child, kept = self._free_child(), None
         try:
             child = child or self._started(module)
-            kind, result = child.call((module, function, dict(arguments), limit), limit)
-            kept = child
+            wall = PATIENCE * limit if self.limits.wall is None else self.limits.wall
+            kind, result = child.call((module, function, dict(arguments), limit, wall), wall)
+            kept = child if self.limits.calls is None or child.calls < self.limits.calls else None
         finally:
             if kept is None and child is not None:
                 self._end(child)
@@ -145,19 +148,27 @@ class _Child:
     """One child process."""
 
     def __init__(self, memory: int, module: str) -> None:
-        command = [sys.executable, "-c", "from anymesh.isolation.child import main; main()", str(memory), module]
+        self.calls, self._lock = 0, threading.Lock()
         environment = {**os.environ, **dict.fromkeys(ONE_THREAD, "1"), "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
+        theirs, self._lifeline = os.pipe() if os.name == "posix" else (-1, -1)
+        inherited = (theirs,) if theirs >= 0 else ()
+        program = "from anymesh.isolation.child import main; main()"
         try:
             self._process = subprocess.Popen(
-                command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=environment, start_new_session=True
-            )
+                [sys.executable, "-c", program, str(memory), module, str(theirs)],
+                stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=environment, start_new_session=True, pass_fds=inherited,
+            )  # fmt: skip
         except OSError as error:
+            _close(self._lifeline)
             raise ChildError(Failure.ERROR, f"a child process cannot be started: {error}") from None
+        finally:
+            _close(theirs)
 
-    def call(self, request: tuple[Any, ...], seconds: float) -> tuple[str, Any]:
-        """Send a request and wait for the answer. Raises ChildError when the process ends or the time is over."""
+    def call(self, request: tuple[Any, ...], wall: float) -> tuple[str, Any]:
+        """Send a request and wait so long [s] for the answer. Raises ChildError when the process ends or the time is over."""
+        self.calls += 1
         late = threading.Event()
-        timer = threading.Timer(PATIENCE * seconds, lambda: (late.set(), self._process.kill()))
+        timer = threading.Timer(wall, lambda: (late.set(), self._process.kill()))
         timer.daemon = True
         timer.start()
         try:
@@ -167,7 +178,7 @@ class _Child:
         except (OSError, EOFError):
             code = self._process.wait()
             if late.is_set() or -code == getattr(signal, "SIGXCPU", None):
-                raise ChildError(Failure.TIME, f"{seconds:g} s") from None
+                raise ChildError(Failure.TIME, f"{wall if late.is_set() else request[3]:g} s") from None
             raise ChildError(Failure.CRASH, f"signal {-code}" if code < 0 else f"exit code {code}") from None
         finally:
             timer.cancel()
@@ -188,12 +199,24 @@ class _Child:
                 with contextlib.suppress(OSError):
                     stream.close()
         self._process.wait()
+        with self._lock:  # two threads may end it
+            _close(self._lifeline)
+            self._lifeline = -1
+
+
+def _close(descriptor: int) -> None:
+    if descriptor >= 0:
+        os.close(descriptor)
+
+
+SIZE = "ANYMESH_CHILDREN"  # environment: children of the shared pool; one per core when not set
 
 
 @cache
 def shared_pool() -> ChildPool:
-    """The pool of this process, one child per core."""
-    pool = ChildPool()
+    """The pool of this process, one child per core; the environment may set another size."""
+    size = os.environ.get(SIZE, "")
+    pool = ChildPool(int(size) if size.isdecimal() and int(size) else None)
     atexit.register(pool.close)
     return pool
 

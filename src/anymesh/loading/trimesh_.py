@@ -17,6 +17,8 @@ from anymesh.loading.pictures import picture_file, quiet_decoder
 from anymesh.types import Material, Mesh, Texture
 from anymesh.types.color import to_linear
 
+ENCODINGS = ("utf-8", "us-ascii", "ascii", "iso-8859-1", "iso-8859-15", "windows-1252")  # supersets of ASCII
+
 
 def read_dae(data: bytes, folder: Folder) -> Mesh:
     """The scene in file coordinates. Raises InputError."""
@@ -40,6 +42,12 @@ def _because(folder: Folder) -> str:
 
 def parse_dae(name: str, data: bytes) -> ET.Element:
     """The document. Raises InputError."""
+    declared = re.match(rb"""(?:\xef\xbb\xbf)?\s*<\?xml[^>]*?encoding\s*=\s*["']([^"']*)""", data)
+    encoding = declared[1].decode("ascii", "replace").lower() if declared else "utf-8"
+    if b"\0" in data or encoding not in ENCODINGS:  # in any other, a document type would be written in other bytes
+        raise InputError(
+            f"{name}: found the encoding {encoding[:40] if declared else 'UTF-16'}; valid are {', '.join(ENCODINGS)}"
+        )
     if b"<!DOCTYPE" in data or b"<!ENTITY" in data:
         raise InputError(f"{name} declares a document type; a COLLADA file needs none, and it is not read")
     try:

@@ -2,27 +2,90 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from threading import Lock
+from typing import Protocol, runtime_checkable
 
 from anymesh.errors import BudgetError, OptionError
 from anymesh.models.prices import cost_of, most_input_tokens
 from anymesh.models.vision import Reply, Request, VisionModel
 
 
+@dataclass(frozen=True)
+class Limit:
+    """What may be spent: calls, and their cost [USD]; None: without limit."""
+
+    calls: int | None = None
+    cost: float | None = None
+
+    def check(self, kind: str, calls: int, cost: float, most: float, spent: str) -> None:
+        """Raise BudgetError when one more call of at most `most` [USD] could pass the limit.
+
+        calls, cost: spent and held so far; kind: which question; spent: both in words.
+        """
+        if self.calls is not None and calls >= self.calls:
+            raise BudgetError(f"{kind}: call {calls + 1} would pass --max-calls {self.calls}; {spent}")
+        if self.cost is not None and cost + most > self.cost:
+            told = f"the next call may cost up to {most:.4f} USD, which could pass --max-cost {self.cost:g}"
+            raise BudgetError(f"{kind}: {told}; {spent}")
+
+
+@runtime_checkable
+class Account(Protocol):
+    """Counts calls and their cost [USD] over everything that shares it, also over processes."""
+
+    @property
+    def calls(self) -> int: ...
+
+    @property
+    def cost(self) -> float: ...
+
+    def hold(self, kind: str, most: float, limit: Limit) -> int:
+        """Reserve a call of at most `most` [USD] and return the number of the hold. Raises BudgetError."""
+        ...
+
+    def settle(self, hold: int, cost: float | None) -> None:
+        """Replace a hold by what the call cost; None: it was not answered, and not billed."""
+        ...
+
+
 @dataclass
 class Spent:
-    """Calls and their cost [USD, of known prices] so far; shared by the runs of a batch."""
+    """Calls and their cost [USD, of known prices] so far; shared by the runs of a batch, and by threads."""
 
     calls: int = 0
     cost: float = 0.0
+    _held: dict[int, float] = field(default_factory=dict, repr=False)
+    _lock: Lock = field(default_factory=Lock, repr=False, compare=False)
+    _last: int = field(default=0, repr=False)
+
+    def hold(self, kind: str, most: float, limit: Limit) -> int:
+        """Reserve a call, so that threads cannot pass the limit together. Raises BudgetError."""
+        with self._lock:
+            spent = spent_words(self.calls, self.cost)
+            limit.check(kind, self.calls + len(self._held), self.cost + sum(self._held.values()), most, spent)
+            self._last += 1
+            self._held[self._last] = most
+            return self._last
+
+    def settle(self, hold: int, cost: float | None) -> None:
+        """Count a call that was answered; forget one that was not."""
+        with self._lock:
+            del self._held[hold]
+            self.calls += cost is not None
+            self.cost += cost or 0.0
+
+
+def spent_words(calls: int, cost: float) -> str:
+    """Calls and cost [USD] in words."""
+    return f"spent so far: {calls} calls, {cost:.4f} USD"
 
 
 class Budgeted:
     """Stops before the call that could pass a limit: max_calls, or max_cost [USD]. Fills in each reply's cost.
 
     A call counts when it is answered: one that failed was not billed. `spent` counts them, and may be shared with models
-    before and after. A call in progress holds its upper bound, so threads cannot pass the limit together.
+    before and after, and in other processes. A call in progress holds its upper bound.
     """
 
     def __init__(
@@ -31,7 +94,7 @@ class Budgeted:
         *,
         max_calls: int | None = None,
         max_cost: float | None = None,
-        spent: Spent | None = None,
+        spent: Account | None = None,
     ) -> None:
         if max_calls is not None and max_calls < 0:
             raise OptionError(f"--max-calls must be 0 or more, found {max_calls}")
@@ -40,9 +103,8 @@ class Budgeted:
         if max_cost is not None and cost_of(model.name, 0, 0) is None:
             raise OptionError(f"--max-cost needs a known price, and that of {model.name} is not: use --max-calls")
         self.name = model.name
-        self.spent = spent if spent is not None else Spent()
-        self._model, self._max_calls, self._max_cost = model, max_calls, max_cost
-        self._lock, self._waiting, self._held = Lock(), 0, 0.0
+        self.spent: Account = spent if spent is not None else Spent()
+        self._model, self._limit = model, Limit(max_calls, max_cost)
 
     @property
     def calls(self) -> int:
@@ -57,31 +119,12 @@ class Budgeted:
     def ask(self, request: Request) -> Reply:
         """Raises BudgetError instead of the call."""
         most = cost_of(self.name, most_input_tokens(self.name, request), request.max_tokens) or 0.0
-        self._hold(request.kind, most)
-        reply = None
+        hold = self.spent.hold(request.kind, most, self._limit)
         try:
             reply = self._model.ask(request)
-        finally:
-            cost = None if reply is None else cost_of(self.name, reply.input_tokens, reply.output_tokens)
-            with self._lock:
-                self._waiting -= 1
-                self._held -= most
-                self.spent.calls += reply is not None
-                self.spent.cost += cost or 0.0
+        except BaseException:
+            self.spent.settle(hold, None)
+            raise
+        cost = cost_of(self.name, reply.input_tokens, reply.output_tokens)
+        self.spent.settle(hold, cost or 0.0)
         return replace(reply, cost=cost)
-
-    def _hold(self, kind: str, most: float) -> None:
-        with self._lock:
-            calls, cost = self.spent.calls + self._waiting, self.spent.cost + self._held
-            if self._max_calls is not None and calls >= self._max_calls:
-                raise BudgetError(f"{kind}: call {calls + 1} would pass --max-calls {self._max_calls}; {self._spent()}")
-            if self._max_cost is not None and cost + most > self._max_cost:
-                raise BudgetError(
-                    f"{kind}: the next call may cost up to {most:.4f} USD, which could pass --max-cost {self._max_cost:g}; "
-                    f"{self._spent()}"
-                )
-            self._waiting += 1
-            self._held += most
-
-    def _spent(self) -> str:
-        return f"spent so far: {self.spent.calls} calls, {self.spent.cost:.4f} USD"

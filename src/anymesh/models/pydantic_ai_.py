@@ -94,7 +94,8 @@ class Client:
 
         async def attempt() -> ModelResponse | _Failure:
             try:
-                return await self._exchange(request, pictures, schema=schema)
+                # the libraries' own limit holds between two bytes, and an answer may drip for ever
+                return await asyncio.wait_for(self._exchange(request, pictures, schema=schema), self.timeout)
             except Exception as error:
                 return self._failure(error, request)
 

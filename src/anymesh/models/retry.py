@@ -27,6 +27,10 @@ class TransientError(ModelError):
         self.retry_after = retry_after
 
 
+class UnavailableError(ModelError):
+    """A service that did not answer at any attempt; it may be back later."""
+
+
 class Retrying:
     """Asks up to `attempts` times, waiting `first` [s], then twice that, and so on up to `most`, each shortened by chance.
 
@@ -81,8 +85,10 @@ def persist(
         if attempt == attempts:
             break
         if (failure.retry_after or 0) > PATIENCE:
-            raise ModelError(f"{failure}; it asks to wait {failure.retry_after:.0f} s, which is longer than {PATIENCE:.0f} s")
+            raise UnavailableError(
+                f"{failure}; it asks to wait {failure.retry_after:.0f} s, which is longer than {PATIENCE:.0f} s"
+            )
         wait = max(min(most, first * 2 ** (attempt - 1)) * (1 - chance() / 2), failure.retry_after or 0.0)
         log.info("%s; attempt %d of %d in %.1f s", failure, attempt + 1, attempts, wait)
         sleep(wait)
-    raise ModelError(f"{failure}; gave up after {attempts} attempts")
+    raise UnavailableError(f"{failure}; gave up after {attempts} attempts")

@@ -30,12 +30,15 @@ TOLD = 6.0  # [s] that a message stays
 
 
 def start_server(host: str, port: int, label: str) -> Any:
-    """A viser server. MissingExtraError without the package."""
+    """A viser server that answers at its own address only. MissingExtraError without the package."""
     try:
         import viser
     except ImportError:
         raise MissingExtraError("the viewer needs the extra `view`: pip install 'articulate-anymesh[view]'") from None
-    return viser.ViserServer(host=host, port=port, label=label, verbose=False)
+    from anymesh.viewer.guard_ import guarded_server
+
+    with guarded_server(host):
+        return viser.ViserServer(host=host, port=port, label=label, verbose=False)
 
 
 class LivePage:

@@ -1,0 +1,1 @@
+"""Annotation of whole collections of meshes: many objects, many processes, one ledger."""

@@ -1,0 +1,167 @@
+"""`anymesh annotate`: every object of a collection to an asset in a folder of its own, with a ledger that says how it went."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Generator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+from anymesh.annotation.claims import begun_run, free_lost
+from anymesh.annotation.entering import enter_objects
+from anymesh.annotation.inputs import find_objects
+from anymesh.annotation.ledger import Ledger
+from anymesh.annotation.outages import Outage
+from anymesh.annotation.report import write_report
+from anymesh.annotation.runner import Plan, Runner
+from anymesh.annotation.salvage import open_ledger
+from anymesh.annotation.states import Outcome
+from anymesh.annotation.tally import Tally, tally
+from anymesh.annotation.workers import Limits, LocalWorkers, Workers, machine_cores
+from anymesh.answering import FILES, Answering, choose_answerer
+from anymesh.deadline import DEFAULT_SECONDS
+from anymesh.errors import OptionError
+from anymesh.export.formats import DEFAULT
+from anymesh.export_options import Exported
+from anymesh.models.rates import Rate
+from anymesh.solving import GEOMETRY
+
+PARQUET = "ledger.parquet"
+UNPINNED = ("max_calls", "max_cost", "cache", "timeout")  # what runs on one output may have different
+KILL = 4.0  # times the time limit that an object may take
+PATIENCE = 3600.0  # [s] that a run waits for a model that cannot be reached
+
+
+@dataclass(frozen=True)
+class Speed:
+    """How many objects at a time, and what each may take. workers: None: one a core; memory: address space [GiB]; kill_after
+    [s]: processor time after which an object is ended, 4 times its time limit by default; attempts: before quarantine;
+    requests, tokens: of a model in a minute; patience [s] with one that cannot be reached; ray: address of a cluster."""
+
+    workers: int | None = None
+    memory: float | None = None
+    kill_after: float | None = None
+    attempts: int = 3
+    requests: int | None = None
+    tokens: int | None = None
+    patience: float = PATIENCE
+    ray: str | None = None
+
+
+@dataclass(frozen=True)
+class Annotated:
+    """What a run left. ended: what ended it before all was done; report: the page."""
+
+    found: Tally
+    ended: Outcome | None
+    report: Path
+
+
+def annotate(
+    source: str,
+    out: str | Path,
+    *,
+    speed: Speed = Speed(),
+    again: bool = False,
+    tell: Callable[[Tally], None] = lambda _: None,
+    work: Workers | None = None,
+    **options: Any,
+) -> Annotated:
+    """Annotate every object of a collection that is not finished, and write the report.
+
+    source: a folder, a pattern, a table (.csv, .parquet), or `objaverse:` with ids or a file of them; again: also what is
+    quarantined; options: as for `articulate`, for all objects; work: who works, processes on this machine when not given.
+    A KeyboardInterrupt ends the workers at once, and nothing that finished is lost. Raises InputError, OptionError,
+    OutputError, MissingExtraError, ModelError before anything begins.
+    """
+    out = Path(out).absolute()
+    who = checked(options)
+    plan = Plan(options, speed.attempts, (speed.requests, speed.tokens), metered=who not in (GEOMETRY.name, FILES))
+    if speed.attempts < 1:
+        raise OptionError(f"--attempts: found {speed.attempts}; valid are integers from 1 up")
+    Rate(speed.requests, speed.tokens)
+    with open_ledger(out) as ledger, _workers(speed, options, plan, work) as (workers, count):
+        _pin(ledger, options)
+        enter_objects(ledger, find_objects(source, without=out))
+        _open_again(ledger, again)
+        with begun_run(ledger, count) as run:
+            runner = Runner(ledger, run, workers, plan, Outage(speed.patience), tell, count=count)
+            free_lost(ledger, run)
+            try:
+                runner.loop()
+            finally:
+                workers.close()
+        report = write_report(ledger)
+        if find_spec("pyarrow") is not None:
+            export_ledger(ledger, out / PARQUET)
+        return Annotated(tally(ledger), runner.ended, report)
+
+
+def checked(options: Mapping[str, Any]) -> str:
+    """Check the options that hold for all objects; return who answers: geometry, files:, or a model's name.
+
+    Raises OptionError, ModelError (no key), MissingExtraError.
+    """
+    answering: Answering = {k: v for k, v in options.items() if k in Answering.__annotations__}  # ty: ignore[invalid-assignment]
+    Exported.parse(options.get("base", "fixed"), options.get("formats", ",".join(DEFAULT)), options.get("drives", "passive"))
+    who = choose_answerer(answering).name
+    return FILES if who.startswith(FILES) else who
+
+
+def _pin(ledger: Ledger, options: Mapping[str, Any]) -> None:
+    """What an output was begun with holds for all of it. Raises OptionError."""
+    told = json.dumps({k: str(v) for k, v in sorted(options.items()) if k not in UNPINNED})
+    kept = ledger.setting("options", told)
+    if kept != told:
+        ours, theirs = json.loads(told), json.loads(kept or "{}")
+        names = sorted(k for k in {*ours, *theirs} if ours.get(k) != theirs.get(k))
+        shown = ", ".join(f"{k} {theirs.get(k, 'default')!r}, now {ours.get(k, 'default')!r}" for k in names)
+        raise OptionError(f"{ledger.out} was begun with {shown}; use the same options, or another output")
+
+
+def _open_again(ledger: Ledger, again: bool) -> None:
+    """Questions may have been answered since; quarantined objects get another chance when that is wanted."""
+    with ledger.writing() as connection:
+        connection.execute("UPDATE objects SET state = 'pending' WHERE state = 'waiting'")
+        if again:
+            told = "UPDATE objects SET state = 'pending', attempts = 0, losses = 0 WHERE state = 'quarantined'"
+            connection.execute(told)
+
+
+@contextmanager
+def _workers(speed: Speed, options: Mapping[str, Any], plan: Plan, given: Workers | None) -> Generator[tuple[Workers, int]]:
+    if speed.workers is not None and speed.workers < 1:
+        raise OptionError(f"--workers: found {speed.workers}; valid are integers from 1 up")
+    seconds = speed.kill_after or KILL * float(options.get("time_limit", DEFAULT_SECONDS))
+    if given is not None:
+        yield given, given.free
+    elif speed.ray is not None:
+        from anymesh.annotation.ray_ import RayWorkers
+
+        limits = Limits.default(1, speed.memory or 4.0, seconds, waits=plan.metered)
+        workers = RayWorkers(speed.ray, limits, speed.workers)
+        yield workers, workers.free
+    else:
+        count = speed.workers or machine_cores()
+        yield LocalWorkers(count, Limits.default(count, speed.memory, seconds, waits=plan.metered)), count
+
+
+def export_ledger(ledger: Ledger, path: Path) -> None:
+    """Write the table of objects as Parquet. Raises MissingExtraError, OutputError."""
+    from anymesh.annotation.ledger_schema import OBJECTS
+    from anymesh.annotation.parquet_ import write_rows
+    from anymesh.errors import OutputError
+
+    try:
+        write_rows(path, OBJECTS, ledger.export_rows())
+    except OSError as error:
+        raise OutputError(f"cannot write {path}: {error.strerror or error}") from error
+
+
+def collection_status(out: str | Path) -> Tally:
+    """Where a collection stands, also while runs work on it. Raises OutputError when there is none."""
+    with Ledger.open(Path(out)) as ledger:
+        return tally(ledger)

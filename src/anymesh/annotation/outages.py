@@ -1,0 +1,44 @@
+"""What a run does while a model or a hub cannot be reached: wait, try with one object at a time, and give up after so long."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+
+FIRST, MOST = 5.0, 120.0  # [s] between attempts
+
+
+class Outage:
+    """The state of what is asked. patience [s] from the first failure, after which the run ends."""
+
+    def __init__(self, patience: float, *, clock: Callable[[], float] = time.monotonic, first: float = FIRST) -> None:
+        self._patience, self._clock, self._first = patience, clock, first
+        self._since: float | None = None
+        self._next, self._wait = 0.0, first
+
+    @property
+    def is_on(self) -> bool:
+        """Whether the last that was heard was a failure."""
+        return self._since is not None
+
+    @property
+    def is_over(self) -> bool:
+        """Whether patience is at its end."""
+        return self._since is not None and self._clock() - self._since > self._patience
+
+    def failed(self) -> None:
+        """Note that somebody could not be reached; failures that come at once count as one."""
+        now = self._clock()
+        self._since = now if self._since is None else self._since
+        if now >= self._next:
+            self._next, self._wait = now + self._wait, min(2 * self._wait, MOST)
+
+    def reached(self) -> None:
+        """Note that somebody answered."""
+        self._since, self._next, self._wait = None, 0.0, self._first
+
+    def allowed(self, free: int, running: int) -> int:
+        """How many objects may be begun now: all that have room, or during an outage one after each wait."""
+        if not self.is_on:
+            return free
+        return int(free > 0 and running == 0 and self._clock() >= self._next)

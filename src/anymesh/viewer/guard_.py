@@ -1,0 +1,72 @@
+"""Who may speak to the live page: browsers at its own address only, so that no other web page reaches it.
+
+A page elsewhere that a person visits may send requests to the loopback address: its Origin gives it away. A name that was
+made to point to the loopback address (DNS rebinding) is another Host than the page's.
+"""
+
+from __future__ import annotations
+
+import http
+import ipaddress
+from collections.abc import Callable, Generator
+from contextlib import contextmanager
+from typing import Any
+from urllib.parse import urlsplit
+
+REFUSAL = b"this page answers at its own address only\n"
+
+
+def is_permitted(host: str | None, origin: str | None, *, bound: str) -> bool:
+    """Tell whether a request with these headers may be answered. bound: the address that the server listens at.
+
+    At a loopback address, Host must be one; Origin, where a browser sends it, must be the page's own everywhere.
+    """
+    if not host or (_is_loopback(bound) and not _is_loopback(_name(f"//{host}"))):
+        return False
+    return origin is None or urlsplit(origin).netloc.lower() == host.lower()
+
+
+def _name(address: str) -> str:
+    try:
+        return urlsplit(address).hostname or ""
+    except ValueError:
+        return ""
+
+
+def _is_loopback(name: str) -> bool:
+    if name == "localhost":
+        return True
+    try:
+        return ipaddress.ip_address(name).is_loopback
+    except ValueError:
+        return False
+
+
+@contextmanager
+def guarded_server(bound: str) -> Generator[None]:
+    """Let a server that is started inside refuse what is not permitted, before its own handlers see it."""
+    import websockets.asyncio.server as library
+    from websockets.datastructures import Headers, MultipleValuesError
+    from websockets.http11 import Response
+
+    serve = library.serve
+
+    def started(*values: Any, process_request: Callable[..., Any] | None = None, **options: Any) -> Any:
+        def check(connection: Any, request: Any) -> Any:
+            try:
+                fine = is_permitted(request.headers.get("Host"), request.headers.get("Origin"), bound=bound)
+            except MultipleValuesError:
+                fine = False
+            if not fine:
+                return Response(
+                    http.HTTPStatus.FORBIDDEN, "Forbidden", Headers(), b"this page answers at its own address only\n"
+                )
+            return None if process_request is None else process_request(connection, request)
+
+        return serve(*values, process_request=check, **options)
+
+    library.serve = started  # ty: ignore[invalid-assignment]
+    try:
+        yield
+    finally:
+        library.serve = serve
