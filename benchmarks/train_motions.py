@@ -26,7 +26,7 @@ from anymesh.articulation.estimate import MOST_COPIES
 from anymesh.articulation.motion_context import ScoredMotions, context_features
 
 ROUNDS = (200, 100)  # trees of the first and of the second step
-OBJECT, SOURCE = 0.5, 0.3  # powers by which parts of an object, and parts of a source, count less the more they are
+OBJECT, SOURCE = 0.5, 0.6  # powers by which parts of an object, and parts of a source, count less the more they are
 HERE = Path(__file__).parent
 WRITTEN = HERE.parent / "src" / "anymesh" / "articulation" / "motion_classifier.npz"
 

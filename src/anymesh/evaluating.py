@@ -29,6 +29,7 @@ from anymesh.evaluation.record import Record
 from anymesh.evaluation.report import write_report
 from anymesh.evaluation.results import ResultsFolder
 from anymesh.evaluation.score import ObjectScore
+from anymesh.evaluation.training import trained_note
 from anymesh.evaluation.truth import Subject
 from anymesh.names import legal_name
 from anymesh.progress import Progress, silent
@@ -82,7 +83,8 @@ def evaluate(
         raise _waiting(waiting, total)
     every = [record for name in names for record in results.load(name)]
     title = f"{data.name}{f' {split}' if split else ''}, {exam.protocol}, {results.settings['answerer']}"
-    write_report(every, results.folder, title=title, settings=results.settings)
+    settings = {**results.settings, "trained on": trained_note(data.name, names)}
+    write_report(every, results.folder, title=title, settings=settings)
     return every
 
 

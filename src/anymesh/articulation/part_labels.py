@@ -7,9 +7,9 @@ from anymesh.reasoning.questions import Candidate
 from anymesh.types import MotionKind
 
 ALONG = 0.5  # cosine with the way out below which a slide runs along the surface
-DRAWER = 0.15  # of the object's diagonal: what slides out and is smaller is a button
+DRAWER = 0.15  # of the object's diagonal: what slides in and is smaller is a button
 WHEEL = 0.16  # of the object's diagonal: what spins and is smaller is a knob
-MIN_TRAVEL = 0.1  # of its size: what is no button and comes out by less does not move
+MIN_TRAVEL = 0.1  # of its size: what is no button and slides by less does not move
 UP = 0.8  # cosine of the way out with the vertical from which a hinged part is a lid
 RISES = 0.5  # of its height: a part with a level hinge that stands higher above its parent is a lid that is shown open
 
@@ -23,7 +23,7 @@ def label_of(around: Surroundings, best: Candidate) -> str:
     if best.motion.kind is MotionKind.SLIDE:
         if abs(best.outward) < ALONG:
             return "slider"
-        if size <= DRAWER:
+        if size <= DRAWER and best.outward < 0:
             return "button"
         return "drawer" if best.opening * around.scale >= MIN_TRAVEL * around.part.box.diagonal else ""
     if best.role == "round":

@@ -12,6 +12,7 @@ from anymesh.types import JointType, MotionKind
 UNSURE = 0.3  # confidence of a joint that no motion speaks for
 SAME_AXIS = 0.97  # cosine of axes that are one to a user
 SAME_LINE = 0.1  # and the share of the part's own size that their lines may be apart
+BLOCKED = -4.0  # log-odds that a motion loses which the sweep calls blocked
 LABEL_PRIOR = {  # log-odds that a label adds to a hinge, to a turn about the axis of a round outline, to a slide
     Habit.HINGE: (1.5, -2.5, -2.0),
     Habit.BAIL: (1.5, -2.5, -2.0),
@@ -41,12 +42,13 @@ class GeometryAnswerer:
 
 
 def motion_scores(question: MotionQuestion) -> Float[np.ndarray, " k"]:
-    """Return the log-odds of each candidate with what the part's label says of its usual motion."""
+    """Return the log-odds of each candidate, with what is blocked behind, and what the label says of the usual motion."""
+    scores = question.scores + np.array([0.0 if c.is_free else BLOCKED for c in question.candidates])
     prior = LABEL_PRIOR.get(habit) if (habit := habit_of(question.part.label)) else None
     if prior is None:
-        return question.scores
+        return scores
     kinds = [2 if c.motion.kind is MotionKind.SLIDE else int(c.role == "round") for c in question.candidates]
-    return question.scores + np.array(prior)[kinds]
+    return scores + np.array(prior)[kinds]
 
 
 def _differs(a: Candidate, b: Candidate, part: PartFacts) -> bool:

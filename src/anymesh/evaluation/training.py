@@ -1,0 +1,33 @@
+"""Which objects the shipped classifiers were trained on: figures on those are not held out."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cache
+
+from anymesh.articulation import motion_classifier
+from anymesh.segmentation import part_classifier
+
+FOLDERS = ("urdf", "static", "labelled", "mjcf", "partnet-mobility")  # kinds of data sets, whose objects have any source
+
+
+@cache
+def trained_objects() -> frozenset[str]:
+    """Return SOURCE/NAME of every object that the classifier of parts or that of motions was trained on."""
+    classifiers = (part_classifier.shipped_classifier(), motion_classifier.shipped_classifier())
+    return frozenset(name for classifier in classifiers for name in classifier.manifest["objects"])
+
+
+def trained_on(dataset: str, names: Sequence[str]) -> int:
+    """Count the objects of a data set that were trained on; those of a folder are found by their names alone."""
+    known = trained_objects()
+    if dataset in FOLDERS:
+        plain = {name.partition("/")[2] for name in known}
+        return sum(name in plain for name in names)
+    return sum(f"{dataset}/{name}" in known for name in names)
+
+
+def trained_note(dataset: str, names: Sequence[str]) -> str:
+    """Say in a report whether its figures are held out."""
+    count = trained_on(dataset, names)
+    return f"{count} of {len(names)} objects: figures on them are not held out" if count else "none of these objects"
