@@ -23,6 +23,8 @@ from dataclasses import dataclass
 from multiprocessing import get_context
 from pathlib import Path
 
+from visual_choices import FILE as CHOICES
+from visual_choices import choices_of, write_choices
 from visual_replay import VARIANTS, Row, replayed
 from visual_table import MEASURED, page
 
@@ -115,6 +117,7 @@ def keep(folder: Path) -> None:
             (place / question.path.name).mkdir(parents=True)
             for name in (QUESTION, ANSWER):
                 shutil.copyfile(question.path / name, place / question.path.name / name)
+        write_choices(place / CHOICES, choices_of(answered))
         shutil.copyfile(asked / OWNER, place / OWNER)
         print(f"kept {place.relative_to(RECORDINGS)}: {record_of(done.read_text(encoding='utf-8')).score.name}")
 

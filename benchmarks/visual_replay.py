@@ -6,6 +6,8 @@ import tempfile
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from visual_choices import FILE, WithChoices, read_choices
+
 from anymesh.config import Config
 from anymesh.errors import ModelError
 from anymesh.evaluation.datasets.dataset import Dataset
@@ -83,7 +85,7 @@ def replayed(
 ) -> Row:  # fmt: skip
     """The object answered from the recording in `folder`. Where nothing was recorded for a question, the record has an error;
     so with the variants other than the first the recorded result answers (see `Carried`)."""
-    exam, made = Exam(protocol, (change,)), list[Seer]()
+    exam, made = Exam(protocol, (change,)), list[WithChoices]()
     replay = Replay(folder)
     base = Config()
 
@@ -96,15 +98,17 @@ def replayed(
         return record
 
     def recorded(fallback: Seer) -> Seer:
-        made.append(VlmAnswerer(replay, fallback))
+        made.append(WithChoices(VlmAnswerer(replay, fallback), choices))
         return made[-1]
+
+    choices = read_choices(folder / FILE)
 
     row = Row(variant, folder.parent.name, set_, protocol, Record(ObjectScore(name, (), 0, 0, 0)), 0)
     if variant == VARIANTS[3]:
         return replace(row, record=run(Keeping(base), None))
     first = Keeping(base)
     record = run(first, recorded)
-    calls = sum(len(seer.exchanges) for seer in made)
+    calls = sum(len(seer.exchanges) + seer.again for seer in made)
     if variant == VARIANTS[0] or record.error or first.result is None:
         return replace(row, record=record, calls=calls)
     mesh, segmentation, joints = first.result

@@ -7,6 +7,7 @@ import sys
 from collections import Counter
 from pathlib import Path
 
+import numpy as np
 import pytest
 from PIL import Image
 
@@ -18,18 +19,20 @@ from anymesh.models.replay import Replay
 from anymesh.models.vision import Request
 from anymesh.reasoning.files import FileAnswerer, QuestionStore
 from anymesh.reasoning.knowing import Knowing
+from anymesh.reasoning.prompting import MotionPick, MotionTable, PartFit, PartShown, WhichMotions
 from anymesh.reasoning.recognition import Recognize
 from anymesh.reasoning.vlm import SYSTEM
 from anymesh.rendering.encode import encode
-from anymesh.types import JointType
+from anymesh.types import JointType, Motion, MotionKind
 
+X, Y, Z = np.eye(3)
 BENCHMARKS = Path(__file__).parents[1] / "benchmarks"
 
 
 @pytest.fixture
 def visual(monkeypatch: pytest.MonkeyPatch):
     monkeypatch.syspath_prepend(str(BENCHMARKS))
-    for name in ("visual", "visual_replay", "visual_table"):
+    for name in ("visual", "visual_choices", "visual_replay", "visual_table"):
         sys.modules.pop(name, None)
     import visual
 
@@ -37,8 +40,6 @@ def visual(monkeypatch: pytest.MonkeyPatch):
 
 
 def question() -> Recognize:
-    import numpy as np
-
     return Recognize((encode(np.asarray(Image.new("RGB", (40, 30), (200, 30, 30))), "picture 1"),), None, (0.0,))
 
 
@@ -60,7 +61,7 @@ def test_answers_are_kept_without_pictures_and_found_again(visual, tmp_path: Pat
     visual.keep(folder)
     kept = tmp_path / "kept" / "001" / "parts"
     names = {path.name for path in kept.rglob("*") if path.is_file()}
-    assert names == {"question.json", "answer.json", "object.json"}
+    assert names == {"question.json", "answer.json", "object.json", "choices.json"}
     reply = Replay(kept).ask(Request(asked.kind, SYSTEM, asked.text(), asked.pictures, asked.schema()))
     assert json.loads(reply.text) == ANSWER
     assert not any(word in path.read_text() for path in folder.rglob("*.json") for word in ("truth", "results"))
@@ -91,6 +92,28 @@ def test_the_tables_count_what_is_missing_and_what_was_found(visual) -> None:
         "as recorded", "002", "some", visual.Protocol.PARTS, Record(ObjectScore("x", (), 0, 0, 0), error="no answer"), 0
     )
     assert "- as recorded, 002 parts: no answer" in page([failed])
+
+
+def motions_shown(amount: float, *axes: np.ndarray) -> WhichMotions:
+    """One part, a plate, and turns about lines through the origin."""
+    points = np.array([[0.0, 0, 0], [0.4, 0.02, 0.6]])
+    part = PartShown("door", np.arange(2), points, Y, Y, points)
+    motions = tuple(Motion(MotionKind.TURN, axis, np.zeros(3), "a line") for axis in axes)
+    return WhichMotions((), (MotionTable(part, motions, (amount,) * len(axes)),))
+
+
+def test_a_choice_is_found_again_in_another_order_or_the_other_way(visual) -> None:
+    from visual_choices import Choice, pick_again
+
+    bounds = [[0.0, 0.0, 0.0], [0.4, 0.02, 0.6]]
+    about_z = Choice(bounds, ("turn", [0.0, 0.0, 1.0], [0.0, 0.0, 0.1], 1.0), "right")
+    assert pick_again(motions_shown(0.8, X, Z), [about_z])[0].motion == 1
+    assert pick_again(motions_shown(0.8, -Z, Z, X), [about_z])[0].motion == 1
+    assert pick_again(motions_shown(0.8, X, -Z), [about_z])[0].motion == 1  # the same line; only one way is shown
+    assert pick_again(motions_shown(0.8, X, Y), [about_z]) is None
+    assert pick_again(motions_shown(0.8, X, Y), [Choice(bounds, None, "too_much")])[0] == MotionPick(None, PartFit.TOO_MUCH)
+    elsewhere = Choice([[1.0, 0.0, 0.0], [1.4, 0.02, 0.6]], about_z.motion, "right")
+    assert pick_again(motions_shown(0.8, X, Z), [elsewhere]) is None
 
 
 @pytest.mark.parametrize("number", ["022", *(pytest.param(number, marks=pytest.mark.slow) for number in ("048", "060", "065"))])

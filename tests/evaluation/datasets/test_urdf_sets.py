@@ -135,6 +135,17 @@ def test_a_folder_is_searched_and_its_lists_are_subsets(tmp_path: Path) -> None:
         data.truth("c-x", tmp_path / "out")
 
 
+def test_objects_of_which_nothing_moves_are_a_set_of_their_own(tmp_path: Path) -> None:
+    solid = ROBOT.replace('type="prismatic"', 'type="fixed"').replace('type="revolute"', 'type="fixed"')
+    (tmp_path / "moves.urdf").write_text(ROBOT)
+    (tmp_path / "still.urdf").write_text(solid.replace('type="continuous"', 'type="fixed"'))
+    data = UrdfFolder(tmp_path, "static", static=True)
+    assert data.objects() == ["still"]
+    truth = data.truth("still", tmp_path / "out")
+    assert (len(truth.parts), truth.joints) == (1, ())
+    assert UrdfFolder(tmp_path).objects() == ["moves"]
+
+
 def test_an_empty_folder_is_an_input_error(tmp_path: Path) -> None:
     with pytest.raises(InputError, match=r"\.urdf"):
         UrdfFolder(tmp_path).objects()

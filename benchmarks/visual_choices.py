@@ -1,0 +1,160 @@
+"""Recorded choices of motions in a form that outlives the selection and the order in which motions are shown.
+
+A recorded answer names the number of a motion in a picture. Beside it stand the motion itself and where the part lies, so that
+a question that shows the same motion at another place is answered as recorded.
+"""
+
+from __future__ import annotations
+
+import itertools
+import json
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+import numpy as np
+
+from anymesh.errors import ModelError
+from anymesh.models.question_files import CHECK, QuestionFolder
+from anymesh.reasoning.asking import Answer, Question, Seer
+from anymesh.reasoning.prompting import MotionPick, MotionTable, PartFit, WhichMotions
+from anymesh.reasoning.saved_question import unpack_question
+from anymesh.types import Exchange, Motion, MotionKind
+
+FILE = "choices.json"
+KIND = "motions"
+SAME_PART = 0.05  # share of the part's diagonal by which its bounds may differ
+NEAR, LEAST = 0.15, 0.02  # share of the way, and of the part's diagonal: motions that keep the part's corners this near are one
+DIGITS = 5  # of the numbers in the file
+
+
+@dataclass(frozen=True)
+class Choice:
+    """The motion that was chosen for one part.
+
+    bounds: of the part's points [m]; motion: kind, axis, origin [m] and amount [rad or m] as shown, None for none of those
+    shown; fit: whether the part was called right.
+    """
+
+    bounds: list[list[float]]
+    motion: tuple[str, list[float], list[float], float] | None
+    fit: str
+
+
+def choices_of(questions: Sequence[QuestionFolder]) -> list[Choice]:
+    """Return what was chosen in answered questions about motions, in their order."""
+    found = []
+    for question in questions:
+        text = question.answer()
+        if question.kind != KIND or question.outdated or text is None:
+            continue
+        asked = unpack_question((question.path / CHECK).read_bytes(), question.pictures())
+        assert isinstance(asked, WhichMotions)
+        for table, pick in zip(asked.tables, asked.parse(json.loads(text)), strict=True):
+            motion = None
+            if pick.motion is not None:
+                m = table.motions[pick.motion]
+                motion = str(m.kind), _rounded(m.axis), _rounded(m.origin), float(table.amounts[pick.motion])
+            found.append(Choice([_rounded(row) for row in _bounds(table)], motion, str(pick.part)))
+    return found
+
+
+def write_choices(path: Path, choices: Sequence[Choice]) -> None:
+    """Write them as JSON."""
+    path.write_text(json.dumps([asdict(choice) for choice in choices]) + "\n", encoding="utf-8")
+
+
+def read_choices(path: Path) -> list[Choice]:
+    """Read what `write_choices` wrote; none where there is no file."""
+    if not path.exists():
+        return []
+    return [Choice(**{**row, "motion": row["motion"] and tuple(row["motion"])}) for row in json.loads(path.read_text())]
+
+
+def pick_again(question: WhichMotions, choices: Sequence[Choice]) -> tuple[MotionPick, ...] | None:
+    """Answer a question as recorded; None where a part or its motion is not among what was recorded."""
+    picks = []
+    for table in question.tables:
+        mine = [c for c in choices if _is_part(table, c)]
+        moved = [c for c in mine if c.motion is not None]
+        rows = [row for c in moved if (row := same_motion(c, table)) is not None]
+        if not mine or (moved and not rows):
+            return None
+        picks.append(MotionPick(rows[0] if rows else None, PartFit(mine[0].fit)))
+    return tuple(picks)
+
+
+def same_motion(choice: Choice, table: MotionTable) -> int | None:
+    """Return the row of the motion that takes the part to where the chosen one took it, None where there is none.
+
+    A turn may go the other way where the first way is not shown.
+    """
+    assert choice.motion is not None
+    kind, axis, origin, amount = choice.motion
+    corners = np.array(list(itertools.product(*zip(*choice.bounds, strict=True))))
+    size = float(np.linalg.norm(np.ptp(corners, axis=0)))
+    unit = np.array(axis) / np.linalg.norm(axis)
+    goal = _moved(Motion(MotionKind(kind), unit, np.array(origin), "recorded"), amount, corners)
+    reach = max(NEAR * float(np.linalg.norm(goal - corners, axis=1).mean()), LEAST * size)
+    for reverse in (1.0, -1.0):
+        off = []
+        for motion, shown in zip(table.motions, table.amounts, strict=True):
+            alike = str(motion.kind) == kind and (reverse > 0 or motion.kind is MotionKind.TURN)
+            there = _moved(motion, reverse * float(np.sign(shown)) * abs(amount), corners)
+            off.append(float(np.linalg.norm(there - goal, axis=1).mean()) if alike else np.inf)
+        if off and min(off) < reach:
+            return int(np.argmin(off))
+    return None
+
+
+def _is_part(table: MotionTable, choice: Choice) -> bool:
+    bounds = np.array(choice.bounds)
+    return bool(np.abs(_bounds(table) - bounds).max() < SAME_PART * np.linalg.norm(bounds[1] - bounds[0]))
+
+
+def _bounds(table: MotionTable) -> np.ndarray:
+    return np.array([table.part.points.min(0), table.part.points.max(0)])
+
+
+def _moved(motion: Motion, amount: float, points: np.ndarray) -> np.ndarray:
+    T = motion.transform(amount)
+    return points @ T[:3, :3].T + T[:3, 3]
+
+
+def _rounded(values: np.ndarray) -> list[float]:
+    return [round(float(v), DIGITS) for v in values]
+
+
+class WithChoices:
+    """An answerer from a recording; a question about motions that was asked otherwise then is answered by the choices."""
+
+    def __init__(self, recorded: Seer, choices: Sequence[Choice]) -> None:
+        self._recorded, self._choices = recorded, choices
+        self.again = 0  # questions that were answered by the choices
+
+    @property
+    def name(self) -> str:
+        return self._recorded.name
+
+    @property
+    def blind(self) -> bool:
+        return self._recorded.blind
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        return self._recorded.remarks
+
+    @property
+    def exchanges(self) -> tuple[Exchange, ...]:
+        return self._recorded.exchanges
+
+    def ask(self, question: Question[Answer]) -> Answer:
+        """Answer as recorded. Raises ModelError for what was not."""
+        try:
+            return self._recorded.ask(question)
+        except ModelError:
+            picks = pick_again(question, self._choices) if isinstance(question, WhichMotions) else None
+            if picks is None:
+                raise
+            self.again += 1
+            return picks  # ty: ignore[invalid-return-type]
