@@ -6,6 +6,8 @@ python benchmarks/method.py FOLDER [NAME] [--part PART]      writes patches, can
 from __future__ import annotations
 
 import argparse
+import shutil
+import tempfile
 from pathlib import Path
 
 import numpy as np
@@ -90,7 +92,9 @@ def main() -> None:
     }
     for name, picture in drawn.items():
         (options.folder / f"{name}.png").write_bytes(picture.png)
-    articulate(path, options.folder / "asset", force=True)
+    with tempfile.TemporaryDirectory() as place:
+        articulate(path, Path(place) / "asset")
+        shutil.copyfile(Path(place) / "asset" / "preview.png", options.folder / "joints.png")
 
 
 if __name__ == "__main__":
