@@ -72,16 +72,16 @@ def read_choices(path: Path) -> list[Choice]:
 
 
 def pick_again(question: WhichMotions, choices: Sequence[Choice]) -> tuple[MotionPick, ...] | None:
-    """Answer a question as recorded; None where a part or its motion is not among what was recorded."""
+    """Answer a question as recorded: "none of these" for a part whose motion is not shown, or that was not asked about then.
+
+    Returns None where nothing was recorded.
+    """
     picks = []
     for table in question.tables:
         mine = [c for c in choices if _is_part(table, c)]
-        moved = [c for c in mine if c.motion is not None]
-        rows = [row for c in moved if (row := same_motion(c, table)) is not None]
-        if not mine or (moved and not rows):
-            return None
-        picks.append(MotionPick(rows[0] if rows else None, PartFit(mine[0].fit)))
-    return tuple(picks)
+        rows = [row for c in mine if c.motion is not None and (row := same_motion(c, table)) is not None]
+        picks.append(MotionPick(rows[0] if rows else None, PartFit(mine[0].fit) if mine else PartFit.RIGHT))
+    return tuple(picks) if choices else None
 
 
 def same_motion(choice: Choice, table: MotionTable) -> int | None:

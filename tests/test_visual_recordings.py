@@ -110,10 +110,11 @@ def test_a_choice_is_found_again_in_another_order_or_the_other_way(visual) -> No
     assert pick_again(motions_shown(0.8, X, Z), [about_z])[0].motion == 1
     assert pick_again(motions_shown(0.8, -Z, Z, X), [about_z])[0].motion == 1
     assert pick_again(motions_shown(0.8, X, -Z), [about_z])[0].motion == 1  # the same line; only one way is shown
-    assert pick_again(motions_shown(0.8, X, Y), [about_z]) is None
+    assert pick_again(motions_shown(0.8, X, Y), [about_z])[0].motion is None  # none of these
     assert pick_again(motions_shown(0.8, X, Y), [Choice(bounds, None, "too_much")])[0] == MotionPick(None, PartFit.TOO_MUCH)
     elsewhere = Choice([[1.0, 0.0, 0.0], [1.4, 0.02, 0.6]], about_z.motion, "right")
-    assert pick_again(motions_shown(0.8, X, Z), [elsewhere]) is None
+    assert pick_again(motions_shown(0.8, X, Z), [elsewhere])[0].motion is None
+    assert pick_again(motions_shown(0.8, X, Z), []) is None
 
 
 @pytest.mark.parametrize("number", ["022", *(pytest.param(number, marks=pytest.mark.slow) for number in ("048", "060", "065"))])
