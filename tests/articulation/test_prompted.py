@@ -215,11 +215,11 @@ def test_more_parts_than_pictures_in_a_call_take_more_calls() -> None:
 
 
 def test_a_choice_against_all_that_was_answered_before_must_be_given_twice() -> None:
-    scene, true = KNOWN["right"].scene, KNOWN["right"].joint
+    scene, true = KNOWN["drawer"].scene, KNOWN["drawer"].joint
     asked: list[WhichMotions] = []
 
-    (right,) = answered("right")[1].asked[-1].tables
-    kept = answered("right")[0]
+    (right,) = answered("drawer")[1].asked[-1].tables
+    kept = answered("drawer")[0]
     wrong = next(k for k, m in enumerate(right.motions) if abs(m.axis @ kept.axis) < 0.5)
 
     def once(question: WhichMotions) -> tuple[MotionPick, ...]:
