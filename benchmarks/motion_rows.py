@@ -7,29 +7,27 @@ SPEC: a data set as for `anymesh eval`, with @NAME to name the source otherwise.
 
 from __future__ import annotations
 
-import argparse
 import json
 import tempfile
 from collections.abc import Sequence
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
-from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from jaxtyping import Float, Float32, Int
-from part_rows import kind_of, nameless
+from rows import collect_all, kind_of, nameless
 
-from anymesh.articulation.estimate import motion_questions
+from anymesh.articulation.estimate import PartMotions, motion_questions
 from anymesh.articulation.motion_features import motion_features
+from anymesh.articulation.twins import in_a_row, same_size
 from anymesh.config import Config
 from anymesh.evaluation.changes import changed
 from anymesh.evaluation.datasets.named import open_dataset
 from anymesh.evaluation.metrics import angle_error, distance_at, opening_side, opens_both_ways
 from anymesh.evaluation.protocols import prepared
 from anymesh.evaluation.truth import Subject, TrueJoint
-from anymesh.geometry.pieces import object_shape
+from anymesh.geometry.pieces import ObjectShape, object_shape
 from anymesh.types import JointType, Motion, MotionKind
 
 ANGLE, FAR = 5.0, 0.08  # [deg], and half the object's diagonal is 1: a motion that is further off is wrong
@@ -65,7 +63,7 @@ def rows_of(subject: Subject, source: str, form: str = "") -> list[MotionRows]:
     joints = {j.child: subject.joint(j) for j in truth.joints if j.type is not JointType.FIXED}
     found: list[MotionRows] = []
     questions = list(motion_questions(whole, subject.segmentation(), config))
-    numbers = {id(q.part): i for i, _, _, q in questions}
+    copies = _copies(whole, subject, questions)
     for i, _, around, question in questions:
         name = truth.parts[i].name
         if name not in joints:
@@ -76,13 +74,23 @@ def rows_of(subject: Subject, source: str, form: str = "") -> list[MotionRows]:
         names = tuple(rows[0])
         found.append(MotionRows(
             source, kind_of(truth.name, truth.category), truth.name, form, name, i,
-            tuple(numbers[id(t.part)] for t in question.twins), names,
+            copies[i], names,
             np.array([[row[n] for n in names] for row in rows], np.float32),
             np.array([m.axis for m in motions]),
             np.array([how_right(joint, m, center, subject.unit) for m in motions]),
             np.array([_opens_right(joint, c.motion.axis * c.opens) for c in question.candidates]),
         ))  # fmt: skip
     return found
+
+
+def _copies(whole: ObjectShape, subject: Subject, questions: Sequence[PartMotions]) -> dict[int, tuple[int, ...]]:
+    """Return the parts that stage B compares each part with: of the same size and parent, in a row with it."""
+    label = subject.labels[whole.source]
+    shapes = [whole.of(np.flatnonzero(label == i)) for i in range(len(subject.truth.parts))]
+    parent = {i: over for i, over, _, _ in questions}
+    around = {i: a for i, _, a, _ in questions}
+    groups = same_size(shapes, [-1, *(parent[i] for i in sorted(parent))])
+    return {i: tuple(j for j in group if j != i and in_a_row(around[i], around[j])) for group in groups for i in group}
 
 
 def how_right(true: TrueJoint, motion: Motion, center: np.ndarray, unit: float) -> float:
@@ -138,29 +146,7 @@ def collect(spec: str, source: str, name: str, change: str, folder: str) -> str:
 
 
 def main(argv: Sequence[str] | None = None) -> None:
-    parser = argparse.ArgumentParser(description="Candidate motions of parts, with their features.")
-    parser.add_argument("folder", type=Path)
-    parser.add_argument("specs", nargs="+", metavar="SPEC")
-    parser.add_argument("--change", default="", help="as for anymesh eval --changes")
-    parser.add_argument("--most", type=int, default=10**6, help="objects of each set, evenly spread over it")
-    parser.add_argument("--workers", type=int, default=2)
-    options = parser.parse_args(argv)
-    options.folder.mkdir(parents=True, exist_ok=True)
-    with ProcessPoolExecutor(options.workers, get_context("spawn")) as workers:
-        jobs = []
-        for told in options.specs:
-            spec, _, source = told.partition("@")
-            names = list(open_dataset(spec).objects())
-            if len(names) > options.most:
-                names = [names[k] for k in np.linspace(0, len(names) - 1, options.most).astype(int)]
-            called = source or spec.split(":")[0]
-            jobs += [workers.submit(collect, spec, called, n, options.change, str(options.folder)) for n in names]
-        for job in jobs:
-            try:
-                if line := job.result():
-                    print(line, flush=True)
-            except Exception as error:
-                print(f"{type(error).__name__}: {error}", flush=True)
+    collect_all("Candidate motions of parts, with their features.", collect, argv)
 
 
 if __name__ == "__main__":

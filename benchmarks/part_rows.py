@@ -7,18 +7,16 @@ SPEC: a data set as for `anymesh eval`, with @NAME to name the source otherwise.
 
 from __future__ import annotations
 
-import argparse
 import json
 import tempfile
 from collections.abc import Sequence
-from concurrent.futures import ProcessPoolExecutor
-from dataclasses import dataclass, replace
-from multiprocessing import get_context
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from jaxtyping import Bool, Float, Float32
+from rows import collect_all, kind_of, nameless
 
 from anymesh.config import Config
 from anymesh.evaluation.changes import changed
@@ -105,11 +103,6 @@ def rows_of(subject: Subject, source: str, form: str = "") -> PartRows:
     )  # fmt: skip
 
 
-def kind_of(name: str, category: str) -> str:
-    """The kind of an object: its category where the set tells it, else its name up to the first dash."""
-    return category if category != "object" else name.split("-")[0]
-
-
 def _line(k: int, parent: dict[int, int]) -> list[int]:
     """The part and what it hangs on."""
     line: list[int] = []
@@ -117,14 +110,6 @@ def _line(k: int, parent: dict[int, int]) -> list[int]:
         line.append(k)
         k = parent[k]
     return line
-
-
-def nameless(subject: Subject) -> Subject:
-    """The object without names of nodes and materials."""
-    mesh = subject.mesh
-    nodes = tuple(replace(n, name=f"node{k}") for k, n in enumerate(mesh.nodes))
-    materials = tuple(replace(m, name=f"material{k}") for k, m in enumerate(mesh.materials))
-    return replace(subject, mesh=replace(mesh, nodes=nodes, materials=materials))
 
 
 def collect(spec: str, source: str, name: str, change: str, folder: str) -> str:
@@ -139,26 +124,7 @@ def collect(spec: str, source: str, name: str, change: str, folder: str) -> str:
 
 
 def main(argv: Sequence[str] | None = None) -> None:
-    parser = argparse.ArgumentParser(description="Candidates for parts, with their features.")
-    parser.add_argument("folder", type=Path)
-    parser.add_argument("specs", nargs="+", metavar="SPEC")
-    parser.add_argument("--change", default="", help="as for anymesh eval --changes")
-    parser.add_argument("--most", type=int, default=10**6, help="objects of each set, evenly spread over it")
-    parser.add_argument("--workers", type=int, default=2)
-    options = parser.parse_args(argv)
-    options.folder.mkdir(parents=True, exist_ok=True)
-    with ProcessPoolExecutor(options.workers, get_context("spawn")) as workers:
-        jobs = []
-        for told in options.specs:
-            spec, _, source = told.partition("@")
-            names = list(open_dataset(spec).objects())
-            if len(names) > options.most:
-                names = [names[k] for k in np.linspace(0, len(names) - 1, options.most).astype(int)]
-            called = source or spec.split(":")[0]
-            jobs += [workers.submit(collect, spec, called, n, options.change, str(options.folder)) for n in names]
-        for job in jobs:
-            if line := job.result():
-                print(line, flush=True)
+    collect_all("Candidates for parts, with their features.", collect, argv)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,59 @@
+"""Measure objects of data sets in processes, one file per object: shared by `part_rows.py` and `motion_rows.py`."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import replace
+from multiprocessing import get_context
+from pathlib import Path
+
+import numpy as np
+
+from anymesh.evaluation.datasets.named import open_dataset
+from anymesh.evaluation.truth import Subject
+
+Collect = Callable[
+    [str, str, str, str, str], str
+]  # data set, source, object, change, folder; returns a line, "" if it was there
+
+
+def kind_of(name: str, category: str) -> str:
+    """The kind of an object: its category where the set tells it, else its name up to the first dash."""
+    return category if category != "object" else name.split("-")[0]
+
+
+def nameless(subject: Subject) -> Subject:
+    """The object without names of nodes and materials."""
+    mesh = subject.mesh
+    nodes = tuple(replace(n, name=f"node{k}") for k, n in enumerate(mesh.nodes))
+    materials = tuple(replace(m, name=f"material{k}") for k, m in enumerate(mesh.materials))
+    return replace(subject, mesh=replace(mesh, nodes=nodes, materials=materials))
+
+
+def collect_all(description: str, collect: Collect, argv: Sequence[str] | None) -> None:
+    """Run a script that measures all objects of some data sets; an object that fails is told and left out."""
+    parser = argparse.ArgumentParser(description=description)
+    parser.add_argument("folder", type=Path)
+    parser.add_argument("specs", nargs="+", metavar="SPEC")
+    parser.add_argument("--change", default="", help="as for anymesh eval --changes")
+    parser.add_argument("--most", type=int, default=10**6, help="objects of each set, evenly spread over it")
+    parser.add_argument("--workers", type=int, default=2)
+    options = parser.parse_args(argv)
+    options.folder.mkdir(parents=True, exist_ok=True)
+    with ProcessPoolExecutor(options.workers, get_context("spawn")) as workers:
+        jobs = []
+        for told in options.specs:
+            spec, _, source = told.partition("@")
+            names = list(open_dataset(spec).objects())
+            if len(names) > options.most:
+                names = [names[k] for k in np.linspace(0, len(names) - 1, options.most).astype(int)]
+            called = source or spec.split(":")[0]
+            jobs += [workers.submit(collect, spec, called, n, options.change, str(options.folder)) for n in names]
+        for job in jobs:
+            try:
+                if line := job.result():
+                    print(line, flush=True)
+            except Exception as error:
+                print(f"{type(error).__name__}: {error}", flush=True)
