@@ -33,7 +33,7 @@ def nameless(subject: Subject) -> Subject:
 
 
 def collect_all(description: str, collect: Collect, argv: Sequence[str] | None) -> None:
-    """Run a script that measures all objects of some data sets; an object that fails is told and left out."""
+    """Run a script that measures all objects of some data sets; print the error of an object that fails and go on."""
     parser = argparse.ArgumentParser(description=description)
     parser.add_argument("folder", type=Path)
     parser.add_argument("specs", nargs="+", metavar="SPEC")

@@ -1,4 +1,4 @@
-"""What is told of an internal defect: what is needed to find it, and nothing of the user's data, keys or folders."""
+"""Write the report of an internal defect: what is needed to find it, without the user's data, keys or folders."""
 
 from __future__ import annotations
 

@@ -32,6 +32,7 @@ from anymesh.progress import Progress, silent
 from anymesh.reasoning.asking import Seer
 from anymesh.reasoning.geometry import GeometryAnswerer
 from anymesh.reasoning.knowing import Knowing, KnownJoint, Reference
+from anymesh.reasoning.questions import Candidate
 from anymesh.reasoning.recognition import answered_scale, recognize
 from anymesh.rendering.studio import Studio
 from anymesh.segmentation.ask_marks import Asked
@@ -187,9 +188,11 @@ class Solver:
         """
         alone, gained = self._around(without, part), self._around(joined, part)
         question = motion_question(alone, "candidate", "part")
-        ranked = [question.candidates[k] for k in GEOMETRY.which_motion(question).ranking]
+        best: dict[int, Candidate] = {}  # of the two ways along each axis
+        for k in GEOMETRY.which_motion(question).ranking:
+            best.setdefault(id(question.candidates[k].motion), question.candidates[k])
         kinds = list(MotionKind) if moves is None else [MotionKind.SLIDE if moves is Moves.PRISMATIC else MotionKind.TURN]
-        likely = [c for kind in kinds for c in [c for c in ranked if c.motion.kind is kind][:LIKELY]]
+        likely = [c for kind in kinds for c in [c for c in best.values() if c.motion.kind is kind][:LIKELY]]
         after = hypotheses(gained, [(c.role, c.motion) for c in likely])[::2]
         far = [(max(c.opening, c.closing), max(a.opening, a.closing)) for c, a in zip(likely, after, strict=True)]
         return any(now >= FREE * min(before, ENOUGH) for before, now in far)

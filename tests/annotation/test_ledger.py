@@ -1,4 +1,4 @@
-"""The ledger: claims that nobody shares, clocks that jump, pages that are damaged, a budget and rates over processes."""
+"""Test the ledger: exclusive claims, clock jumps, damaged pages, a budget and rates shared by processes."""
 
 from __future__ import annotations
 

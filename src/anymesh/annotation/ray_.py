@@ -110,7 +110,7 @@ class RayWorkers:
 
 
 def _check_address(address: str) -> None:
-    """Ray itself tries for minutes where nobody listens. Raises OptionError."""
+    """Check that a cluster answers at an address, since Ray itself tries for minutes. Raises OptionError."""
     host, _, port = address.removeprefix("ray://").rpartition(":")
     if not (host and port.isdecimal()):
         return  # `auto`, or what Ray itself judges

@@ -16,6 +16,7 @@ from anymesh.types.recognition import Moves, RecognizedLabel
 FRONT = 0.35  # a slide less deep than this share of its parent is only a front
 MIN_STROKE = 0.1  # of its height: a button with less room behind it fills its hole
 STROKE = 0.5  # of its height: how far such a button goes in
+SMALL = 0.06  # of the object's diagonal: what is smaller is no front of a hidden box
 MIN_TURN = np.deg2rad(2.0)  # a shorter range of a hinge is an error
 MIN_TRAVEL = 0.001  # share of the scale; a shorter range of a slide is an error
 MOSTLY_BLOCKED, MOSTLY_FREE = 0.5, 0.8  # shares of an answered range that are free before and after the axis is reversed
@@ -160,7 +161,8 @@ def _slide(around: Surroundings, c: Candidate) -> tuple[float, float]:
     if c.captured:
         most = 2 * around.part.box.diagonal
     behind = float(np.ptp(around.parent.samples.points @ motion.axis))
-    if outward and extent < FRONT * behind and around.core.half[2] < 0.3 * around.core.half[1]:
+    small = around.part.box.diagonal < SMALL * around.diagonal
+    if outward and not small and extent < FRONT * behind and around.core.half[2] < 0.3 * around.core.half[1]:
         most = around.config.slide_hidden * behind  # a front whose box the surface does not show
     steps = around.config.fine_steps * 2
     upper, _ = free_amount(around.obstacles(c.slack), motion, 1, most, steps)

@@ -7,17 +7,17 @@ a motion does not have (the support of a slide) is MISSING.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float
 
+from anymesh.articulation.hold import NEAR, TOUCH
 from anymesh.geometry.circles import outline_about
 from anymesh.geometry.surroundings import Surroundings
 from anymesh.reasoning.questions import Candidate, PartFacts
+from anymesh.reasoning.two_steps import MISSING
 from anymesh.types import Motion, MotionKind
 
-MISSING = -9.0
 SQUARE = 0.7  # cosine below which a direction lies across an axis
 CENTRAL = 0.2  # distance of the middle from an axis, over the reach, below which a turn may be a spin
 TURNS = np.deg2rad((60.0, 72.0, 90.0, 120.0, 180.0))
@@ -27,23 +27,9 @@ VIEW_POINTS = 80  # of the part, that look along the opening direction
 MOST_RATIO = 4.0  # lengths over lengths are cut here
 
 
-@dataclass(frozen=True, eq=False)
-class ContactPoints:
-    """Samples of a part at its parent, and where they lie."""
-
-    points: Float[np.ndarray, "n 3"]
-
-    @classmethod
-    def of(cls, around: Surroundings) -> ContactPoints:
-        """Return the samples near the parent, the nearest ones where none is."""
-        gap = around.gap
-        near = gap <= max(0.008 * around.scale, 1.5 * float(gap.min()))
-        return cls(around.part.samples.points[near])
-
-
 def motion_features(around: Surroundings, facts: PartFacts, candidates: Sequence[Candidate]) -> list[dict[str, float]]:
     """Return the features of each candidate; the keys are the same for all."""
-    contact = ContactPoints.of(around).points
+    contact = _contact_points(around)
     part = part_values(around, facts, contact)
     ways = np.array([_opening_direction(around, c) for c in candidates]).reshape(-1, 3)
     ahead, behind = _visible(around, ways), _visible(around, -ways)
@@ -61,8 +47,14 @@ def motion_features(around: Surroundings, facts: PartFacts, candidates: Sequence
     ]
 
 
+def _contact_points(around: Surroundings) -> Float[np.ndarray, "n 3"]:
+    """Return the part's samples near the parent, the nearest ones where none is [m]."""
+    gap = around.gap
+    return around.part.samples.points[gap <= max(TOUCH * around.scale, NEAR * float(gap.min()))]
+
+
 def _opening_direction(around: Surroundings, c: Candidate) -> Float[np.ndarray, " 3"]:
-    """Return where the part's middle goes first, unit; for a turn about its middle, where its largest part goes."""
+    """Return where the part's middle goes first, unit; it means nothing for a turn about the middle."""
     axis = c.opens * c.motion.axis
     if c.motion.kind is MotionKind.SLIDE:
         return axis

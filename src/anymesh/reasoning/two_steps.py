@@ -13,6 +13,7 @@ from jaxtyping import Float
 from anymesh.reasoning.boosted_trees import BoostedTrees
 
 REASONS = 3  # features that are named
+MISSING = -9.0  # value of a feature that a candidate does not have
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,5 +50,5 @@ class TwoStepClassifier:
         return self.second.score(table), [self._reason(row, g) for row, g in zip(own, gain, strict=True)]
 
     def _reason(self, row: Float[np.ndarray, " k"], gain: Float[np.ndarray, " k"]) -> str:
-        best = [int(k) for k in np.argsort(-gain, kind="stable")[:REASONS] if gain[k] > 0]
+        best = [int(k) for k in np.argsort(-gain, kind="stable") if gain[k] > 0 and row[k] != MISSING][:REASONS]
         return ", ".join(f"{self.names[k]} {row[k]:.2g}" for k in best) or "the other candidates"

@@ -6,12 +6,12 @@ import itertools
 from dataclasses import dataclass
 from functools import cached_property
 
+import networkx as nx
 import numpy as np
 from jaxtyping import Float, Int
 
 from anymesh.config import SegmentationConfig
 from anymesh.geometry.boxes import alike, box_pairs, within
-from anymesh.geometry.dominators import immediate_dominators
 from anymesh.geometry.pieces import ObjectShape
 from anymesh.geometry.shape import Shape
 from anymesh.geometry.topology import label_connected
@@ -188,14 +188,21 @@ def hanging_on(contacts: Contacts, unit: Int[np.ndarray, " P"], root: int) -> di
 
     Units join pieces that are known to move as one. Bodies that are near nothing hang on the root.
     """
+    graph = nx.DiGraph()
     count = int(unit.max()) + 1
-    pairs = unit[np.concatenate([contacts.touch, contacts.near])].reshape(-1, 2)
-    island = label_connected(count, pairs)
-    alone = np.flatnonzero(island != island[root])  # near nothing that is near the root: it hangs on the root
-    parent = immediate_dominators(count, np.concatenate([pairs, np.stack([np.full(len(alone), root), alone], 1)]), root)
+    graph.add_nodes_from(range(count))
+    for i, j in np.concatenate([contacts.touch, contacts.near]):
+        a, b = int(unit[i]), int(unit[j])
+        if a != b:
+            graph.add_edge(a, b)
+            graph.add_edge(b, a)
+    for island in list(nx.weakly_connected_components(graph)):
+        if root not in island:  # near nothing: it hangs on the root
+            graph.add_edges_from((root, node) for node in island)
+    parent = nx.immediate_dominators(graph, root)
     children: dict[int, list[int]] = {u: [] for u in range(count)}
-    for node in range(count):
-        if node != root:
+    for node in sorted(parent):
+        if node != root and parent[node] is not None and parent[node] != node:
             children[parent[node]].append(node)
     found: dict[int, list[int]] = {}
     for node in range(count):
