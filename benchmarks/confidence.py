@@ -19,7 +19,7 @@ import numpy as np
 
 from anymesh.articulation import offers
 from anymesh.articulation.confidence import WEIGHTS, Agreement
-from anymesh.articulation.evidence import weigh_all
+from anymesh.articulation.evidence import hypotheses
 from anymesh.articulation.prompted import Questions, prompt_joints
 from anymesh.config import Config
 from anymesh.evaluation.datasets.named import open_dataset
@@ -56,15 +56,15 @@ class Swept:
     """Sweeps each motion of each part once, however often it is answered otherwise."""
 
     def __init__(self) -> None:
-        self._known: dict[tuple[object, ...], Candidate] = {}
+        self._known: dict[tuple[object, ...], tuple[Candidate, ...]] = {}
 
     def __call__(self, around, proposed) -> tuple[Candidate, ...]:
         place = around.part.bounds.tobytes()
         keys = [(place, role, m.kind, m.axis.tobytes(), m.origin.tobytes()) for role, m in proposed]
         new = [k for k, key in enumerate(keys) if key not in self._known]
-        for k, found in zip(new, weigh_all(around, [proposed[k] for k in new]), strict=True):
-            self._known[keys[k]] = found
-        return tuple(self._known[key] for key in keys)
+        found = hypotheses(around, [proposed[k] for k in new])
+        self._known.update((keys[k], found[2 * n : 2 * n + 2]) for n, k in enumerate(new))  # opening one way and the other
+        return tuple(c for key in keys for c in self._known[key])
 
 
 def recognized(subject: Subject, wrong: float, rng: np.random.Generator) -> Recognition:
@@ -80,7 +80,7 @@ def samples(subject: Subject, rounds: int, rng: np.random.Generator) -> Iterator
     solver, plain = Solver(subject.mesh), subject.segmentation()
     parts = [replace(p, label=f"thing {p.name}") if k else p for k, p in enumerate(plain.parts)]
     segmentation = replace(plain, parts=tuple(parts))
-    offers.weigh_all = Swept()  # ty: ignore[invalid-assignment]
+    offers.hypotheses = Swept()  # ty: ignore[invalid-assignment]
     whole = solver._ready_for(segmentation)
     numbers = {p.name: k - 1 for k, p in enumerate(parts)}
     for wrong in WRONG:

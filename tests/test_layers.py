@@ -123,3 +123,20 @@ def test_no_machine_paths_and_no_registry_addresses() -> None:
             and ".venv" not in path.parts
         ):
             assert not bad.search(path.read_text(errors="replace")), name
+
+
+@pytest.mark.parametrize("folder", ["benchmarks", "examples"])
+def test_scripts_import_names_that_exist(folder):
+    """No test imports them: a name renamed in the package would break them unseen."""
+    missing = []
+    for path in sorted((ROOT / folder).glob("*.py")):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.ImportFrom) and (node.module or "").split(".")[0] == "anymesh":
+                place = SOURCE.parent / node.module.replace(".", "/")
+                text = (place / "__init__.py" if place.is_dir() else place.with_suffix(".py")).read_text(encoding="utf-8")
+                missing += [
+                    f"{path.name}: {node.module}.{a.name}"
+                    for a in node.names
+                    if not re.search(rf"\b{a.name}\b", text) and not (place / f"{a.name}.py").exists()
+                ]
+    assert not missing
