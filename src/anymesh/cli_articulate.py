@@ -39,7 +39,7 @@ from anymesh.cli_output import Shown, cache_of, chosen_answerer, plain, split_la
 from anymesh.config import DEFAULT_VIEWS
 from anymesh.deadline import CALL_SECONDS, DEFAULT_SECONDS
 from anymesh.errors import AnymeshError, OpenQuestionError, OptionError
-from anymesh.isolation import DECOMPOSER, shared_pool
+from anymesh.isolation import AHEAD, shared_pool
 
 Meshes = Annotated[
     list[Path], typer.Argument(metavar="MESH", help="GLB, glTF, OBJ, PLY, STL, OFF or DAE; several with --batch.")
@@ -79,7 +79,7 @@ def articulate(
     quiet: Quiet = False,
 ) -> None:
     """The whole job: MESH to an articulated asset in DIR; with --batch, each of many to a folder of its name in DIR."""
-    shared_pool().warm(DECOMPOSER)  # the child imports while this process does
+    shared_pool().warm(*AHEAD)  # the children import while this process does
     from anymesh import pipeline
 
     answerer = chosen_answerer(answerer, quiet or json_)

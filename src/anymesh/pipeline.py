@@ -18,7 +18,7 @@ from anymesh.export.archive import write_zip
 from anymesh.export.formats import DEFAULT
 from anymesh.export.package import write_package
 from anymesh.export_options import Exported
-from anymesh.isolation import DECOMPOSER, shared_pool
+from anymesh.isolation import AHEAD, shared_pool
 from anymesh.loading import load_mesh, place_mesh
 from anymesh.models.cache import cache_folder
 from anymesh.progress import Progress, silent
@@ -61,7 +61,7 @@ def articulate(
     """
     how, deadline = Exported.parse(base, formats, drives), Deadline(time_limit)
     who = choose_answerer(answering, about=object_name(mesh_path), deadline=deadline)
-    shared_pool().warm(DECOMPOSER)
+    shared_pool().warm(*AHEAD)
     with RunFolder.create(Path(out), source=Path(mesh_path), force=force) as run, kept_transcript(run, who):
         solver, recognized, key = _seen(run, Path(mesh_path), parts, Placement(up, scale, root), who, deadline, progress)
         segmented, key = _segment(run, solver, recognized, key, parts, who, progress)

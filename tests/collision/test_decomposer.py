@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -63,6 +64,28 @@ def test_children_divide_as_this_process_does_and_keep_the_order():
         found = Decomposer(pool, None, 30.0).divide(components, [FINE, FINE])
     assert [len(d.shapes) for d in found] == [2, 1]
     assert [d.fallback for d in found] == [None, None]
+
+
+def test_pieces_do_not_depend_on_the_number_of_threads():
+    turn = np.linspace(0, 2 * np.pi, 24, endpoint=False)
+    x, y = np.cos(turn), np.sin(turn)
+    wall = [(1.0, 0.0), (1.0, 1.0), (0.9, 1.0), (0.9, 0.1)]  # of a cup, radius and height
+    rings = [np.c_[r * x, r * y, np.full(24, h)] for r, h in wall]
+    i, j = np.arange(24), (np.arange(24) + 1) % 24
+    sides = [np.concatenate([np.stack([a[i], a[j], b[j]], 1), np.stack([a[i], b[j], b[i]], 1)]) for a, b in pairwise(rings)]
+    ends = [
+        np.stack([np.tile([0, 0, h], (24, 1)), ring[a], ring[b]], 1)
+        for ring, h, a, b in ((rings[0], 0, j, i), (rings[3], 0.1, i, j))
+    ]
+    cup = Component(np.concatenate([*sides, *ends]), True)
+    made = []
+    for size in (1, 2):
+        with ChildPool(size, ChildLimits(60.0)) as pool:
+            made.append(Decomposer(pool, None, 30.0).divide([cup], [FINE])[0])
+    assert len(made[0].shapes) > 4
+    assert made[0].fallback is None
+    for a, b in zip(made[0].shapes, made[1].shapes, strict=True):
+        np.testing.assert_array_equal(as_hull(a).vertices, as_hull(b).vertices)
 
 
 @pytest.mark.parametrize(

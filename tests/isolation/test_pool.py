@@ -84,8 +84,11 @@ def test_what_native_code_prints_does_not_reach_the_answers_or_the_terminal(pool
     assert capfd.readouterr() == ("", "")
 
 
-def test_children_use_one_thread_so_that_results_do_not_depend_on_the_cores(pool):
-    assert pool.run(FAULTY, "threads", {}) == "1"
+@pytest.mark.parametrize(("size", "threads"), [(1, "1"), (64, "2")])
+def test_threads_of_a_child_are_bounded(monkeypatch, size, threads):
+    monkeypatch.syspath_prepend(HERE)
+    with ChildPool(size) as pool:
+        assert pool.run(FAULTY, "threads", {}) == threads
 
 
 def test_more_threads_than_children_wait_their_turn(pool):
@@ -107,13 +110,13 @@ def test_children_end_with_the_pool_even_at_work(monkeypatch):
     assert not alive(child)
 
 
-def test_a_warm_child_has_the_module_and_answers(monkeypatch):
+def test_warm_children_answer_also_when_a_module_is_missing(monkeypatch):
     monkeypatch.syspath_prepend(HERE)
-    with ChildPool(2) as pool:
-        for _ in range(2):  # the second time there is one
-            pool.warm(FAULTY)
+    with ChildPool(8) as pool:
+        for _ in range(2):  # the second time there are some
+            pool.warm(FAULTY, "no_such_module")
+        assert len(pool._live) == 2
         assert pool.run(FAULTY, "add", {"a": 1, "b": 2}) == 3
-        assert len({pool.run(FAULTY, "process", {}) for _ in range(3)}) == 1
 
 
 def test_further_children_are_started_when_calls_wait_long(monkeypatch):

@@ -2,6 +2,7 @@
 
 from anymesh.isolation.pool import ChildError, ChildLimits, ChildPool, Failure, shared_pool
 
-DECOMPOSER = "anymesh.collision.decomposer"  # the module that children import
+DECOMPOSER = "anymesh.collision.decomposer"  # the module whose functions children run
+AHEAD = (DECOMPOSER, "coacd")  # modules that a child imports before its first call
 
-__all__ = ["DECOMPOSER", "ChildError", "ChildLimits", "ChildPool", "Failure", "shared_pool"]
+__all__ = ["AHEAD", "DECOMPOSER", "ChildError", "ChildLimits", "ChildPool", "Failure", "shared_pool"]

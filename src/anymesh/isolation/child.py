@@ -5,6 +5,7 @@ A message is an 8-byte little-endian length and a pickle. Only the parent writes
 
 from __future__ import annotations
 
+import contextlib
 import faulthandler
 import math
 import os
@@ -83,7 +84,7 @@ def call(module: str, function: str, arguments: dict[str, Any]) -> tuple[str, An
 def main() -> None:
     """Serve calls until standard input ends. What native code prints goes nowhere.
 
-    Arguments of the process: the memory limit [bytes], a module to import at once ("" for none), and the lifeline.
+    Arguments of the process: the memory limit [bytes], modules to import at once (with spaces between), and the lifeline.
     """
     end_with_parent(int(sys.argv[3]))
     requests, replies = sys.stdin.buffer, os.fdopen(os.dup(1), "wb")
@@ -91,8 +92,9 @@ def main() -> None:
     os.dup2(nowhere, 1)
     os.dup2(nowhere, 2)
     limit_memory(int(sys.argv[1]))
-    if sys.argv[2]:
-        import_module(sys.argv[2])
+    for module in sys.argv[2].split():
+        with contextlib.suppress(ImportError):  # the call that needs it tells
+            import_module(module)
     while head := requests.read(LENGTH):
         module, function, arguments, seconds, wall = pickle.loads(requests.read(int.from_bytes(head, "little")))
         faulthandler.dump_traceback_later(wall + GRACE, exit=True)

@@ -11,7 +11,7 @@ import subprocess
 import sys
 import threading
 import time
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from functools import cache
@@ -19,8 +19,10 @@ from typing import Any
 
 from anymesh.isolation.child import LENGTH, PATIENCE, write_message
 
+WARM = 2  # children that are started ahead of the first call
 START_AFTER = 0.3  # [s] calls wait in all before another child is started, which takes as much
-ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")  # results must not depend on the cores
+THREADS = 2  # most OpenMP threads of a child; CoACD's pieces do not depend on their number (docs/decisions.md)
+ONE_THREAD = ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")  # sums that must not depend on the cores
 
 
 class Failure(StrEnum):
@@ -76,7 +78,7 @@ class ChildPool:
         limit = min(self.limits.seconds, seconds) if seconds is not None else self.limits.seconds
         child, kept = self._free_child(), None
         try:
-            child = child or self._started(module)
+            child = child or self._started((module,))
             wall = PATIENCE * limit if self.limits.wall is None else self.limits.wall
             kind, result = child.call((module, function, dict(arguments), limit, wall), wall)
             kept = child if self.limits.calls is None or child.calls < self.limits.calls else None
@@ -88,16 +90,18 @@ class ChildPool:
             raise ChildError(Failure.MEMORY if kind == "memory" else Failure.ERROR, result)
         return result
 
-    def warm(self, module: str) -> None:
-        """Start one child, if there is none, and let it import a module; does not wait for that."""
+    def warm(self, *modules: str) -> None:
+        """Start up to WARM children, if there are none, and let them import modules; does not wait for that."""
         with self._changed:
             if self._room < self.size:
                 return
-            self._room -= 1
-        child = None
-        with contextlib.suppress(ChildError):  # the next call tries again, and tells
-            child = self._started(module)
-        self._give_back(child)
+            count = min(self.size, WARM)
+            self._room -= count
+        for _ in range(count):
+            child = None
+            with contextlib.suppress(ChildError):  # the next call tries again, and tells
+                child = self._started(modules)
+            self._give_back(child)
 
     def _free_child(self) -> _Child | None:
         """Wait for an idle child; return None where one is to be started: the first at once, others when calls have waited."""
@@ -126,10 +130,10 @@ class ChildPool:
         for child in list(self._live):
             self._end(child)
 
-    def _started(self, module: str) -> _Child:
+    def _started(self, modules: Sequence[str]) -> _Child:
         if self._closed:
             raise ChildError(Failure.ERROR, "the pool is closed")
-        child = _Child(self.limits.memory, module)
+        child = _Child(self.limits.memory, modules, min(self.size, THREADS))
         self._live.add(child)
         return child
 
@@ -147,15 +151,16 @@ class ChildPool:
 class _Child:
     """One child process."""
 
-    def __init__(self, memory: int, module: str) -> None:
+    def __init__(self, memory: int, modules: Sequence[str], threads: int) -> None:
         self.calls, self._lock = 0, threading.Lock()
-        environment = {**os.environ, **dict.fromkeys(ONE_THREAD, "1"), "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
+        settings = {"OMP_NUM_THREADS": str(threads), "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
+        environment = {**os.environ, **dict.fromkeys(ONE_THREAD, "1"), **settings}
         theirs, self._lifeline = os.pipe() if os.name == "posix" else (-1, -1)
         inherited = (theirs,) if theirs >= 0 else ()
         program = "from anymesh.isolation.child import main; main()"
         try:
             self._process = subprocess.Popen(
-                [sys.executable, "-c", program, str(memory), module, str(theirs)],
+                [sys.executable, "-c", program, str(memory), " ".join(modules), str(theirs)],
                 stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=environment, start_new_session=True, pass_fds=inherited,
             )  # fmt: skip
         except OSError as error:
