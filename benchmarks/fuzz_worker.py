@@ -38,6 +38,7 @@ from anymesh.pipeline import articulate, finish  # noqa: E402
 
 FORMATS = "urdf,mjcf,usd,sdf,glb"
 MEMORY = 12 * 1024**3  # [bytes] of address space
+TIME_LIMIT = 60.0  # [s] that a run may spend before its stages cut their work short
 PACKAGE = str(Path(anymesh.__file__).parent)
 FINISHED = "finished"  # the folder of stage C's result
 
@@ -84,7 +85,7 @@ def _make(mesh: Path, out: Path, parts: str, options: dict[str, str], work: Path
     """One run of all stages; the hash is over the files of both assets."""
     if parts == "labels":
         parts = str(_labels(mesh, work / "labels.npy"))
-    asset = articulate(mesh, out, parts=parts, formats=FORMATS, force=True, **options)
+    asset = articulate(mesh, out, parts=parts, formats=FORMATS, force=True, time_limit=TIME_LIMIT, **options)
     if finished:
         finish(out, out.parent / f"{out.name}_{FINISHED}", formats=FORMATS, force=True)
     return {

@@ -16,13 +16,14 @@ from anymesh.collision.decompose import Component, Fineness, least_box, split_co
 from anymesh.collision.decomposer import Decomposer, Fallback
 from anymesh.collision.settings import CollisionConfig
 from anymesh.deadline import COLLISION, Deadline
-from anymesh.geometry.kinematics import link_transforms
+from anymesh.geometry.kinematics import carried_links, joint_transform, link_transforms
 from anymesh.geometry.simplify_ import simplify
 from anymesh.isolation import ChildPool, shared_pool
 from anymesh.types import Asset, Joint, JointType, Shape
 
 __all__ = ["Collision", "CollisionConfig", "collision_shapes", "joint_poses", "sampled_poses"]
 FACES = 50_000  # of a link, for the question whether surfaces cross
+MOST_POSES, LEAST_POSES = 2000, 3  # that shapes are tried at, in all and per joint
 SMALL = 0.3  # components smaller than this share of the first gap need no shape beside larger ones
 
 
@@ -66,9 +67,14 @@ def collision_shapes(
     ]
     owner = {id(c): link for link, c in parts}
 
+    def late() -> bool:
+        if late := deadline.late(COLLISION):
+            deadline.leave_out("collision: false contacts stay")
+        return late
+
     def shapes_of(some: Sequence[Component], levels: Sequence[int]) -> list[tuple[Shape, ...]]:
         if deadline.late(COLLISION):
-            deadline.leave_out("collision: one convex hull per component, and false contacts stay")
+            deadline.leave_out("collision: one convex hull per component")
             return [_one_hull(c, wall) for c in some]
         fineness = [Fineness(config.gaps[k] * size, wall, config.pieces[k]) for k in levels]
         divided = decomposer.divide(some, fineness)
@@ -83,7 +89,7 @@ def collision_shapes(
         config.contact * size,
         config.crossing * size,
     )
-    done = clear(scene, pieces, shapes_of, levels=len(config.gaps), rounds=config.rounds, late=lambda: deadline.late(COLLISION))
+    done = clear(scene, pieces, shapes_of, levels=len(config.gaps), rounds=config.rounds, late=late)
     found = {link: tuple(s for p in done.pieces if p.link == link for s in p.shapes) for link in triangles}
     found = {link: shapes or (least_box(triangles[link], wall),) for link, shapes in found.items()}
     warnings = tuple(
@@ -100,20 +106,35 @@ def _one_hull(component: Component, wall: float) -> tuple[Shape, ...]:
 def joint_poses(
     asset: Asset, origins: Mapping[str, Float[np.ndarray, " 3"]], joint: Joint, count: int
 ) -> list[dict[str, Float[np.ndarray, "4 4"]]]:
-    """Where link frames are at rest, and at `count` places of one joint over its range, the others at rest."""
-    lower, upper = (-np.pi, np.pi) if joint.limits is None else joint.limits
-    places = [0.0, *(float(v) for v in np.linspace(lower, upper, count) if v != 0)]
-    return [_placed(asset, origins, {joint.name: v}) for v in places]
+    """Return where link frames are at rest, and at `count` places of one joint over its range, the others at rest."""
+    rest = _placed(asset, origins, {})
+    return [rest, *_alone(asset, rest, joint, count)]
 
 
 def sampled_poses(
     asset: Asset, origins: Mapping[str, Float[np.ndarray, " 3"]], count: int
 ) -> list[dict[str, Float[np.ndarray, "4 4"]]]:
-    """Where link frames are at rest, with each joint alone over its range, and with all joints opened."""
+    """Return where link frames are at rest, with each joint alone over its range, and with all joints opened.
+
+    Each joint has `count` places, fewer where that would be more than MOST_POSES in all, but at least LEAST_POSES. Links that
+    a joint does not move share their transform with the rest pose.
+    """
     moving = [j for j in asset.joints if j.type is not JointType.FIXED]
-    alone = [pose for joint in moving for pose in joint_poses(asset, origins, joint, count)[1:]]
+    count = int(np.clip(MOST_POSES // max(len(moving), 1), min(LEAST_POSES, count), count))
+    rest = _placed(asset, origins, {})
+    alone = [pose for joint in moving for pose in _alone(asset, rest, joint, count)]
     opened = {j.name: np.pi if j.limits is None else j.limits[1] for j in moving}
-    return [_placed(asset, origins, {}), *alone, _placed(asset, origins, opened)]
+    return [rest, *alone, _placed(asset, origins, opened)]
+
+
+def _alone(
+    asset: Asset, rest: dict[str, Float[np.ndarray, "4 4"]], joint: Joint, count: int
+) -> list[dict[str, Float[np.ndarray, "4 4"]]]:
+    """Poses with one joint at places of its range other than 0."""
+    lower, upper = (-np.pi, np.pi) if joint.limits is None else joint.limits
+    carried = carried_links(asset, joint)
+    moved = [joint_transform(joint, float(v)) for v in np.linspace(lower, upper, count) if v != 0]
+    return [rest | {name: T @ rest[name] for name in carried} for T in moved]
 
 
 def _placed(

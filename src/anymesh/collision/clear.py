@@ -15,7 +15,7 @@ import numpy as np
 
 from anymesh.collision.contacts_ import Contact, ContactBench, Pose
 from anymesh.collision.convex import trimmed, volume
-from anymesh.collision.crossing import Surface, cross
+from anymesh.collision.crossing import Surface, cross, placed_bounds
 from anymesh.collision.decompose import Component
 from anymesh.collision.primitives import EXACT, as_hull, fitted
 from anymesh.types import Shape
@@ -67,7 +67,9 @@ class Scene:
     def overlapping(self) -> tuple[tuple[str, str], ...]:
         """Pairs of links whose surfaces go through each other at rest."""
         names = sorted(self.surfaces)
-        return tuple((a, b) for i, a in enumerate(names) for b in names[i + 1 :] if self._cross(a, b, 0))
+        low, high = np.stack([placed_bounds(self.surfaces[name], self.poses[0][name]) for name in names], 1)
+        near = np.triu((low[:, None] <= high[None]).all(2) & (low[None] <= high[:, None]).all(2), 1)
+        return tuple((names[i], names[k]) for i, k in np.argwhere(near) if self._cross(names[i], names[k], 0))
 
     @cached_property
     def _crossings(self) -> dict[tuple[str, str, int], bool]:
@@ -80,8 +82,10 @@ class Scene:
             self._crossings[a, b, at] = cross(self.surfaces[a], pose[a], self.surfaces[b], pose[b], self.crossing)
         return self._crossings[a, b, at]
 
-    def faults(self, pieces: Sequence[Piece], at: Sequence[int] | None = None) -> Faults:
-        """Find the false contacts at some poses, all by default."""
+    def faults(
+        self, pieces: Sequence[Piece], at: Sequence[int] | None = None, late: Callable[[], bool] = lambda: False
+    ) -> Faults:
+        """Find the false contacts at some poses, None for all; poses that come when it is late are left out."""
         owner = {
             link: [(k, n) for k, p in enumerate(pieces) if p.link == link for n in range(len(p.shapes))]
             for link in self.surfaces
@@ -90,6 +94,8 @@ class Scene:
         worst: dict[tuple[tuple[int, int], tuple[int, int]], Fault] = {}
         poses = []
         for number in range(len(self.poses)) if at is None else at:
+            if late():
+                break
             found: dict[tuple[str, str], list[Contact]] = {}
             for contact in bench.contacts(self.poses[number], self.contact):
                 a, b = sorted((contact.first[0], contact.second[0]))
@@ -120,7 +126,7 @@ def clear(
     Shapes only shrink, so a round looks at the poses that had false contacts; when these are free, all are looked at again.
     late: tells that the time is over, after which false contacts stay.
     """
-    faults = scene.faults(pieces)
+    faults = scene.faults(pieces, None, late)
     before = len(faults.found)
     while faults.found and rounds > 0 and not late():
         rounds -= 1
@@ -133,8 +139,8 @@ def clear(
         elif costly:
             planed, _ = _planed(pieces, faults.found, scene.contact, MUCH)
         pieces = planed
-        again = scene.faults(pieces, faults.poses)
-        faults = again if again.found else scene.faults(pieces)
+        again = scene.faults(pieces, faults.poses, late)
+        faults = again if again.found else scene.faults(pieces, None, late)
     links = [(pieces[f.first[0]].link, pieces[f.second[0]].link) for f in faults.found]
     return Cleared(pieces, before, tuple(sorted({(min(pair), max(pair)) for pair in links})))
 

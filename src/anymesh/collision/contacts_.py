@@ -49,6 +49,7 @@ class ContactBench:
             spec.add_exclude(bodyname1=a, bodyname2=b)
         self._mujoco, self._model = mujoco, spec.compile()
         self._data = mujoco.MjData(self._model)
+        self._placed: dict[str, np.ndarray] = {}  # where each link was placed last; poses share what does not move
         self._address = {link: int(self._model.jnt_qposadr[self._model.body(link).jntadr[0]]) for link in shapes}
 
     def contacts(self, pose: Pose, least: float) -> list[Contact]:
@@ -56,8 +57,11 @@ class ContactBench:
         mujoco, model, data = self._mujoco, self._model, self._data
         quat = np.zeros(4)
         for link, k in self._address.items():
+            if self._placed.get(link) is pose[link]:
+                continue
             mujoco.mju_mat2Quat(quat, np.ascontiguousarray(pose[link][:3, :3]).reshape(-1))
             data.qpos[k : k + 3], data.qpos[k + 3 : k + 7] = pose[link][:3, 3], quat
+            self._placed[link] = pose[link]
         mujoco.mj_kinematics(model, data)
         mujoco.mj_collision(model, data)
         found = data.contact

@@ -55,8 +55,13 @@ def cross(a: Surface, T_a: Float[np.ndarray, "4 4"], b: Surface, T_b: Float[np.n
     for one, T_one, other, T_other in ((a, T_a, b, T_b), (b, T_b, a, T_a)):
         T = np.linalg.inv(T_other) @ T_one
         back = np.linalg.inv(T)
-        corners = np.take_along_axis(other.bounds, CORNERS, axis=0) @ back[:3, :3].T + back[:3, 3]
-        start, end = (p @ T[:3, :3].T + T[:3, 3] for p in one.edges_near(np.stack([corners.min(0), corners.max(0)])))
+        start, end = (p @ T[:3, :3].T + T[:3, 3] for p in one.edges_near(placed_bounds(other, back)))
         if other.crossed_by(start, end, depth):
             return True
     return False
+
+
+def placed_bounds(surface: Surface, T: Float[np.ndarray, "4 4"]) -> Float[np.ndarray, "2 3"]:
+    """Return the bounds of the surface's own bounds where a transform places them."""
+    corners = np.take_along_axis(surface.bounds, CORNERS, axis=0) @ T[:3, :3].T + T[:3, 3]
+    return np.stack([corners.min(0), corners.max(0)])

@@ -35,6 +35,17 @@ def link_transforms(asset: Asset, positions: Mapping[str, float]) -> dict[str, F
     return found
 
 
+def carried_links(asset: Asset, joint: Joint) -> list[str]:
+    """Return the names of the links that a joint moves: its child and all that hang on it."""
+    children: dict[str, list[str]] = {}
+    for j in asset.joints:
+        children.setdefault(j.parent, []).append(j.child)
+    found = [joint.child]
+    for name in found:
+        found += children.get(name, ())
+    return found
+
+
 def posed(asset: Asset, positions: Mapping[str, float]) -> Mesh:
     """The mesh with its parts moved; faces keep their numbers, vertices are shared within a part only."""
     transforms, mesh, face_part = link_transforms(asset, positions), asset.mesh, asset.segmentation.face_part
