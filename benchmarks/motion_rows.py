@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from jaxtyping import Float, Float32, Int
+from jaxtyping import Bool, Float, Float32, Int
 from rows import collect_all, kind_of, nameless
 
 from anymesh.articulation.estimate import PartMotions, motion_questions
@@ -28,6 +28,7 @@ from anymesh.evaluation.metrics import angle_error, distance_at, opening_side, o
 from anymesh.evaluation.protocols import prepared
 from anymesh.evaluation.truth import Subject, TrueJoint
 from anymesh.geometry.pieces import ObjectShape, object_shape
+from anymesh.reasoning.geometry import same_joints
 from anymesh.types import JointType, Motion, MotionKind
 
 ANGLE, FAR = 5.0, 0.08  # [deg], and half the object's diagonal is 1: a motion that is further off is wrong
@@ -39,7 +40,8 @@ class MotionRows:
     """The candidate motions of one part.
 
     features: (n, k) with `names`; axes: (n, 3) in the asset frame; right: (n,) how right a motion is, 0 for wrong; opens_right:
-    (n,) whether it opens to the true side, 1, 0, or -1 where there is none; twins: parts that are copies of it in a row.
+    (n,) whether it opens to the true side, 1, 0, or -1 where there is none; same: (n, n) motions that are one joint to a user;
+    free: (n,) not blocked; twins: parts that are copies of it in a row.
     """
 
     source: str
@@ -54,6 +56,8 @@ class MotionRows:
     axes: Float[np.ndarray, "n 3"]
     right: Float[np.ndarray, " n"]
     opens_right: Int[np.ndarray, " n"]
+    same: Bool[np.ndarray, "n n"]
+    free: Bool[np.ndarray, " n"]
 
 
 def rows_of(subject: Subject, source: str, form: str = "") -> list[MotionRows]:
@@ -79,6 +83,8 @@ def rows_of(subject: Subject, source: str, form: str = "") -> list[MotionRows]:
             np.array([m.axis for m in motions]),
             np.array([how_right(joint, m, center, subject.unit) for m in motions]),
             np.array([_opens_right(joint, c.motion.axis * c.opens) for c in question.candidates]),
+            np.array([same_joints(question, k) for k in range(len(motions))]),
+            np.array([c.is_free for c in question.candidates]),
         ))  # fmt: skip
     return found
 
@@ -128,7 +134,7 @@ def read_rows(folder: Path) -> list[MotionRows]:
     for path in sorted(folder.glob("*.npz")):
         with np.load(path) as file:
             for k, told in enumerate(json.loads(bytes(file["told"]).decode())):
-                arrays = {key: file[f"{key}.{k}"] for key in ("features", "axes", "right", "opens_right")}
+                arrays = {key: file[f"{key}.{k}"] for key in ("features", "axes", "right", "opens_right", "same", "free")}
                 told = {key: tuple(value) if isinstance(value, list) else value for key, value in told.items()}
                 found.append(MotionRows(**told, **arrays))
     return found

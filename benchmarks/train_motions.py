@@ -19,11 +19,13 @@ from pathlib import Path
 
 import numpy as np
 from boosting import Sample, Scores, TwoSteps, held_out, leave_kinds_out, leave_sources_out, write
+from calibration import Scored, calibration_table, fit_confidence, log_odds
 from jaxtyping import Bool, Float
 from motion_rows import MotionRows, read_rows
 
 from anymesh.articulation.estimate import MOST_COPIES
 from anymesh.articulation.motion_context import ScoredMotions, context_features
+from anymesh.reasoning.geometry import BLOCKED, share_of_best
 
 ROUNDS = (200, 100)  # trees of the first and of the second step
 OBJECT, SOURCE = 0.5, 0.6  # powers by which parts of an object, and parts of a source, count less the more they are
@@ -79,6 +81,15 @@ def table(rows: Sequence[MotionRows], scores: Scores, of: Callable[[MotionRows],
     return lines
 
 
+def confidences(rows: Sequence[MotionRows], scores: Scores) -> Scored:
+    """Return the share of the best motion of each part before calibration, and whether the motion and its side are right."""
+    ranked = [s + np.where(r.free, 0.0, BLOCKED) for r, s in zip(rows, scores, strict=True)]
+    best = [int(s.argmax()) for s in ranked]
+    shares = [share_of_best(s, r.same[k]) for r, s, k in zip(rows, ranked, best, strict=True)]
+    right = np.array([right_side(r)[k] for r, k in zip(rows, best, strict=True)])
+    return Scored(log_odds(np.array(shares)), right, [called(r) for r in rows])
+
+
 def called(rows: MotionRows) -> str:
     """Return the source and the form of an object, as in tables."""
     return f"{rows.source}, {rows.form}" if rows.form else rows.source
@@ -98,12 +109,18 @@ def main(argv: Sequence[str] | None = None) -> None:
         return
     by_source = held_out(samples, leave_sources_out(samples), context, ROUNDS)
     by_kind = held_out(samples, leave_kinds_out(samples), context, ROUNDS)
+    told = confidences(rows, by_kind)
+    slope, offset = fit_confidence(told)
     text = [
         "# Motions chosen by the classifier, on objects that it was not trained on", "",
         "`python benchmarks/train_motions.py ROWS`; parts given, no names. Right: within 5 degrees and .08 of half the",
         "diagonal; right side: it opens the way that the true joint does.", "",
         "## Trained on all other sources", "", *table(rows, by_source, called), "",
         "## Trained on other kinds (4 folds, a kind in one fold)", "", *table(rows, by_kind, called), "",
+        "## Confidence", "",
+        f"Fitted to other kinds, all sources alike: slope {slope:.2f}, offset {offset:.2f} (`reasoning/geometry.py`).",
+        "", *calibration_table(told, slope, offset), "", "The same on other sources:", "",
+        *calibration_table(confidences(rows, by_source), slope, offset), "",
     ]  # fmt: skip
     (HERE / "motions.md").write_text("\n".join(text), encoding="utf-8")
     print("\n".join(text))

@@ -21,8 +21,10 @@ from pathlib import Path
 
 import numpy as np
 from boosting import FOLDS, Sample, Scores, TwoSteps, held_out, leave_kinds_out, leave_sources_out, write
+from calibration import Scored, calibration_table, fit_confidence
 from jaxtyping import Float
 from part_rows import PartRows, read_rows
+from part_scores import RIGHT as RIGHT_IOU
 from part_scores import Counts, overlap_of, scored
 
 from anymesh.segmentation.part_assignment import assign_parts
@@ -76,6 +78,14 @@ def table(rows: Sequence[PartRows], scores: Sequence[np.ndarray], of: Callable[[
     return lines
 
 
+def confidences(rows: Sequence[PartRows], scores: Sequence[np.ndarray]) -> Scored:
+    """Return the scores of the chosen candidates, and whether they are parts."""
+    chosen = [
+        (r, s[k], r.iou()[k] > RIGHT_IOU) for r, s in zip(rows, scores, strict=True) for k in assign_parts(overlap_of(r), s)
+    ]
+    return Scored(np.array([s for _, s, _ in chosen]), np.array([y for _, _, y in chosen]), [called(r) for r, _, _ in chosen])
+
+
 def called(rows: PartRows) -> str:
     """Return the source and the form of an object, as in tables."""
     return f"{rows.source}, {rows.form}" if rows.form else rows.source
@@ -97,6 +107,8 @@ def main(argv: Sequence[str] | None = None) -> None:
     by_kind = held_out(samples, leave_kinds_out(samples), context, ROUNDS)
     still = [k for k, r in enumerate(rows) if not r.moving]
     wrong = counts([rows[k] for k in still], [by_kind[k] for k in still]).found
+    told = confidences(rows, by_kind)
+    slope, offset = fit_confidence(told)
     text = [
         "# Parts found by the classifier, on objects that it was not trained on", "",
         "`python benchmarks/train_parts.py ROWS`; stage A alone, parts at IoU .5, no names of nodes and materials.", "",
@@ -104,6 +116,10 @@ def main(argv: Sequence[str] | None = None) -> None:
         f"## Trained on other kinds ({FOLDS} folds, a kind in one fold)", "",
         *table(rows, by_kind, called), "",
         f"On {len(still)} objects of which nothing moves, {wrong} parts were found.", "",
+        "## Confidence", "",
+        f"Fitted to other kinds, all sources alike: slope {slope:.2f}, offset {offset:.2f} (`segmentation/segment.py`).", "",
+        *calibration_table(told, slope, offset), "", "The same on other sources:", "",
+        *calibration_table(confidences(rows, by_source), slope, offset), "",
     ]  # fmt: skip
     (HERE / "parts.md").write_text("\n".join(text), encoding="utf-8")
     print("\n".join(text))

@@ -5,8 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from anymesh.reasoning.geometry import GeometryAnswerer
+from anymesh.reasoning.geometry import OFFSET, SLOPE, GeometryAnswerer, same_joints, share_of_best
 from anymesh.reasoning.questions import Candidate, MotionAnswer, MotionQuestion, PartFacts
+from anymesh.reasoning.two_steps import MOST, confidence_of
 from anymesh.types import JointType, Motion, MotionKind, Sweep
 
 WHO = GeometryAnswerer()
@@ -64,11 +65,26 @@ def test_motions_are_ranked_by_score_and_the_reason_names_what_decided() -> None
     assert "some feature 1" in answer.reason
 
 
-def test_the_confidence_is_the_share_of_motions_that_a_user_could_not_tell_from_the_best() -> None:
+def question(*candidates: Candidate) -> MotionQuestion:
+    return MotionQuestion(PLATE, candidates, np.zeros(len(candidates)), ("",) * len(candidates))
+
+
+def test_motions_are_the_same_joint_about_one_line_to_one_side() -> None:
     near = replace(EDGE, motion=Motion(MotionKind.TURN, Z, 0.01 * X, "nearly the same edge"))
-    alone = asked(PLATE, [EDGE, FAR_EDGE], [0.0, 0.0])
-    assert alone.confidence == pytest.approx(0.5)
-    assert asked(PLATE, [EDGE, FAR_EDGE, near], [0.0, 0.0, 0.0]).confidence == pytest.approx(2 / 3)
+    against = replace(EDGE, opens=-EDGE.opens)
+    slid = replace(PULL, motion=Motion(MotionKind.SLIDE, Y, X, "elsewhere"))  # where a slide starts says nothing
+    assert same_joints(question(EDGE, FAR_EDGE, near, against), 0).tolist() == [True, False, True, False]
+    assert same_joints(question(PULL, slid, EDGE), 0).tolist() == [True, True, False]
+    assert same_joints(question(ROUND, replace(ROUND, opens=-1)), 0).tolist() == [True, True]  # turns freely: no side
+
+
+def test_the_confidence_grows_with_the_share_of_the_best_motion() -> None:
+    assert share_of_best(np.zeros(4), np.array([True, True, False, False])) == pytest.approx(0.5)
+    told = [asked(PLATE, [EDGE, FAR_EDGE], [lead, 0.0]).confidence for lead in (0.0, 0.5, 1.0, 3.0, 40.0)]
+    assert told == sorted(told)
+    assert told[0] == pytest.approx(confidence_of(0.0, SLOPE, OFFSET))
+    assert told[3] == pytest.approx(confidence_of(3.0, SLOPE, OFFSET))
+    assert told[-1] == MOST
 
 
 def test_what_turns_endlessly_is_continuous_and_what_is_stopped_is_not() -> None:

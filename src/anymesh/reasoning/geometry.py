@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Bool, Float
 
 from anymesh.reasoning.questions import Candidate, MotionAnswer, MotionQuestion, PartFacts
+from anymesh.reasoning.two_steps import confidence_of
 from anymesh.reasoning.vocabulary import Habit, habit_of
 from anymesh.types import JointType, MotionKind
 
 UNSURE = 0.3  # confidence of a joint that no motion speaks for
+SLOPE, OFFSET = (
+    0.81,
+    0.05,
+)  # of the log-odds of a confidence; fitted to kinds left out of training (benchmarks/train_motions.py)
 SAME_AXIS = 0.97  # cosine of axes that are one to a user
 SAME_LINE = 0.1  # and the share of the part's own size that their lines may be apart
 BLOCKED = -4.0  # log-odds that a motion loses which the sweep calls blocked
@@ -28,15 +33,14 @@ class GeometryAnswerer:
     name = "geometry"
 
     def which_motion(self, question: MotionQuestion) -> MotionAnswer:
-        """Rank the candidates by score; the confidence is the share of those that a user could not tell from the best."""
+        """Rank the candidates by score; the confidence comes from the share of those like the best to a user."""
         scores = motion_scores(question)
         ranking = tuple(int(i) for i in np.argsort(-scores, kind="stable"))
         best = question.candidates[ranking[0]]
         if not best.is_free:
             return MotionAnswer(ranking, JointType.FIXED, UNSURE, "no candidate motion is free and plausible")
-        likely = np.exp(scores - scores.max())
-        alike = np.array([not _differs(best, c, question.part) for c in question.candidates])
-        confidence = float(np.clip(likely[alike].sum() / likely.sum(), 0.05, 0.99))
+        share = np.clip(share_of_best(scores, same_joints(question, ranking[0])), 1e-6, 1 - 1e-6)
+        confidence = confidence_of(float(np.log(share / (1 - share))), SLOPE, OFFSET)
         why = f"{reason(question.part, best)}; {question.reasons[ranking[0]]}"
         return MotionAnswer(ranking, joint_type(best), confidence, why)
 
@@ -51,12 +55,26 @@ def motion_scores(question: MotionQuestion) -> Float[np.ndarray, " k"]:
     return scores + np.array(prior)[kinds]
 
 
-def _differs(a: Candidate, b: Candidate, part: PartFacts) -> bool:
-    """Whether two candidates would be different joints to a user."""
-    if a.motion.kind is not b.motion.kind or abs(float(a.motion.axis @ b.motion.axis)) < SAME_AXIS:
-        return True
-    apart = np.linalg.norm(np.cross(b.motion.origin - a.motion.origin, a.motion.axis))
-    return a.motion.kind is MotionKind.TURN and float(apart) > SAME_LINE * part.size * part.diagonal
+def same_joints(question: MotionQuestion, best: int) -> Bool[np.ndarray, " k"]:
+    """Return which candidates a user could not tell from `best`: of its kind, about the same line, opening to the same side.
+
+    What turns freely both ways has no side.
+    """
+    motions = [c.motion for c in question.candidates]
+    same = np.array([m.kind is motions[best].kind for m in motions])
+    axes, axis = np.array([c.motion.axis * c.opens for c in question.candidates]), motions[best].axis
+    cosine = axes @ (axis * question.candidates[best].opens)
+    same &= (np.abs(cosine) if question.candidates[best].turns_freely else cosine) >= SAME_AXIS
+    if motions[best].kind is MotionKind.TURN:
+        offset = np.array([m.origin for m in motions]) - motions[best].origin
+        same &= np.linalg.norm(np.cross(offset, axis), axis=1) <= SAME_LINE * question.part.size * question.part.diagonal
+    return same
+
+
+def share_of_best(scores: Float[np.ndarray, " k"], same: Bool[np.ndarray, " k"]) -> float:
+    """Return the probability of the candidates that are the same joint, as if one of all were right."""
+    likely = np.exp(scores - scores.max())
+    return float(likely[same].sum() / likely.sum())
 
 
 def joint_type(c: Candidate) -> JointType:

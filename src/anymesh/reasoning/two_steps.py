@@ -13,6 +13,7 @@ from jaxtyping import Float
 from anymesh.reasoning.boosted_trees import BoostedTrees
 
 REASONS = 3  # features that are named
+LEAST, MOST = 0.05, 0.99  # confidence
 MISSING = -9.0  # value of a feature that a candidate does not have
 
 
@@ -52,3 +53,8 @@ class TwoStepClassifier:
     def _reason(self, row: Float[np.ndarray, " k"], gain: Float[np.ndarray, " k"]) -> str:
         best = [int(k) for k in np.argsort(-gain, kind="stable") if gain[k] > 0 and row[k] != MISSING][:REASONS]
         return ", ".join(f"{self.names[k]} {row[k]:.2g}" for k in best) or "the other candidates"
+
+
+def confidence_of(log_odds: float, slope: float, offset: float) -> float:
+    """Return how often a choice with these log-odds is right. slope, offset: fitted to what was left out of training."""
+    return float(np.clip(1 / (1 + np.exp(-slope * log_odds - offset)), LEAST, MOST))

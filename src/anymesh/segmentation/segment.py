@@ -18,6 +18,7 @@ from anymesh.config import Config
 from anymesh.deadline import SEGMENT, Deadline
 from anymesh.geometry.pieces import ObjectShape
 from anymesh.progress import Progress, silent
+from anymesh.reasoning.two_steps import confidence_of
 from anymesh.reasoning.vocabulary import Habit, is_fixed_name, recognize
 from anymesh.segmentation.contacts import find_contacts
 from anymesh.segmentation.naming import named_parts
@@ -28,6 +29,7 @@ from anymesh.segmentation.part_tree import PartTree, part_tree
 from anymesh.types import Mesh, Segmentation
 
 LabelParts = Callable[[Segmentation], Sequence[str]]  # a label per part but the base by its motion, "" for one without
+SLOPE, OFFSET = 1.17, -0.75  # of the log-odds of a confidence; fitted to kinds left out of training (benchmarks/train_parts.py)
 NAMED, NAMED_FIXED, NAMED_HANDLE = 4.0, -4.0, 0.3  # log-odds that the name of a node or material adds
 
 
@@ -54,7 +56,7 @@ def segment_parts(
     while order and face_part.all():  # something must stay: the largest part is the base
         face_part, order = _face_part(mesh, examined, [k for k in order if k != order[0]])
     told = [word.label if (word := recognize(words[k])) else "" for k in order]
-    confidence = [float(np.clip(1 / (1 + np.exp(-score[k])), 0.05, 0.99)) for k in order]
+    confidence = [confidence_of(float(score[k]), SLOPE, OFFSET) for k in order]
     why = [_reason(reasons[k], words[k], score[k]) for k in order]
 
     def parts_of(numbers: np.ndarray, labels: Sequence[str]) -> Segmentation:
