@@ -67,6 +67,16 @@ def test_names_of_what_stays(name: str) -> None:
     assert recognize(name) is None
 
 
+@pytest.mark.parametrize(
+    ("name", "label", "fixed"),
+    [("drawer_top_wood", "drawer", False), ("drawer_bottom", "drawer", False), ("table_top", None, True), ("top", None, True)],
+)
+def test_where_a_part_is_does_not_say_what_it_is(name: str, label: str | None, fixed: bool) -> None:
+    found = recognize(name)
+    assert (None if found is None else found.label) == label
+    assert is_fixed_name(name) is fixed
+
+
 @pytest.mark.parametrize("name", ["tapes", "capes", "Türe"])
 def test_an_ending_is_not_cut_to_make_a_word(name: str) -> None:
     assert recognize(name) is None

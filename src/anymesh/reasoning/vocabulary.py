@@ -49,6 +49,7 @@ FIXED = frozenset(
     "base body frame corpus housing case carcass chassis shell panel board wall side back top bottom floor shelf shelves leg "
     "foot feet stand support table plinth fixed static burner hinge screw logo".split()
 )
+PLACES = frozenset("side back top bottom".split())  # a side of the object by themselves, but "drawer_top" is a drawer
 _BY_NAME = {name: word for word in WORDS for name in word.names}
 _SIBILANTS = ("ches", "shes", "ses", "xes", "zes")  # their singular lacks "es": "switches"; but not "tapes"
 _SPLIT = re.compile(r"[^A-Za-z]+|(?<=[a-z])(?=[A-Z])")
@@ -74,23 +75,19 @@ def _singular(word: str) -> str:
 
 
 def recognize(name: str) -> Word | None:
-    """The kind of part that a name speaks of; the last telling word counts (a "door handle" is a handle)."""
-    for word in reversed(words_of(name)):
-        if word in _BY_NAME:
-            return _BY_NAME[word]
-        if word in FIXED:
-            return None
-    return None
+    """Return the kind of part that a name speaks of; the last telling word counts (a "door handle" is a handle)."""
+    return _BY_NAME.get(_telling(name))
 
 
 def is_fixed_name(name: str) -> bool:
-    """True when the last telling word names something that does not move."""
-    for word in reversed(words_of(name)):
-        if word in _BY_NAME:
-            return False
-        if word in FIXED:
-            return True
-    return False
+    """Return whether the last telling word names something that does not move."""
+    return _telling(name) in FIXED
+
+
+def _telling(name: str) -> str:
+    """Return the last word that names a part, before those that say where it is; "" for none."""
+    told = [word for word in words_of(name) if word in _BY_NAME or word in FIXED]
+    return next((word for word in reversed(told) if word not in PLACES), told[-1] if told else "")
 
 
 def habit_of(label: str) -> Habit | None:
