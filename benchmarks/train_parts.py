@@ -31,7 +31,7 @@ from anymesh.segmentation.part_assignment import assign_parts
 from anymesh.segmentation.part_context import context_features
 
 ROUNDS = (150, 100)  # trees of the first and of the second step
-RIGHT, WRONG = 0.6, 0.35  # IoU from which a candidate is a part, and below which it is none; between, it is not trained on
+WRONG, RIGHT = 0.35, 0.95  # IoU below which a candidate is no part, and from which it is one; between, it is partly right
 OBJECT, SOURCE = 0.5, 0.3  # powers by which candidates of an object, and objects of a source, count less the more they are
 HERE = Path(__file__).parent
 WRITTEN = HERE.parent / "src" / "anymesh" / "segmentation" / "part_classifier.npz"
@@ -43,7 +43,7 @@ def samples_of(rows: Sequence[PartRows]) -> list[Sample]:
     found = []
     for r in rows:
         iou = r.iou()
-        target = np.where(iou > RIGHT, 1.0, np.where(iou < WRONG, 0.0, np.nan))
+        target = np.clip((iou - WRONG) / (RIGHT - WRONG), 0, 1)  # a door without its handle is less right than with it
         found.append(Sample(r.source, r.kind, r.features, target, len(iou) ** -OBJECT * sources[r.source] ** -SOURCE))
     return found
 
