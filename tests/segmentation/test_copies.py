@@ -9,7 +9,8 @@ from anymesh.errors import OptionError
 from anymesh.geometry.pieces import object_shape
 from anymesh.segmentation import segment
 from anymesh.segmentation.contacts import coplanar, find_contacts
-from anymesh.segmentation.part_tree import Overlap
+from anymesh.segmentation.part_assignment import LEAST
+from anymesh.segmentation.part_tree import Overlap, PartTree
 from anymesh.segmentation.units import Units, with_held
 from anymesh.solving import Solver
 from anymesh.types import Segmentation
@@ -42,7 +43,7 @@ def test_a_surface_that_creases_part_moves_as_one_but_not_with_the_root() -> Non
 
 def no_part(overlap: Overlap, features: list[dict[str, float]]) -> tuple[np.ndarray, list[str]]:
     """Score every candidate as no part, large ones the lowest."""
-    return np.array([-0.1 - row["size"] for row in features]), ["nothing"] * len(features)
+    return np.array([LEAST - 0.1 - row["size"] for row in features]), ["nothing"] * len(features)
 
 
 def all_parts(overlap: Overlap, features: list[dict[str, float]]) -> tuple[np.ndarray, list[str]]:
@@ -70,3 +71,35 @@ def test_something_is_taken_where_something_must_move(monkeypatch: pytest.Monkey
     assert len(parts([BODY], at_least=1).parts) == 1  # nothing can
     with pytest.raises(OptionError, match="--at-least: found -1"):
         SegmentationConfig(at_least=-1)
+
+
+def test_a_candidate_that_is_held_makes_room_for_the_next(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A board nailed through the case scores highest, but cannot move; then the box on top is taken."""
+    nail, top = box((0.48, -0.2, 0.48), (0.52, 0.02, 0.52)), box((0.2, 0.1, 1.0), (0.8, 0.4, 1.2))
+
+    def by_size(overlap: Overlap, features: list[dict[str, float]]) -> tuple[np.ndarray, list[str]]:
+        return np.array([1.0 if row["size"] < 0.3 else LEAST - row["size"] for row in features]), ["size"] * len(features)
+
+    asked: list[int] = []
+
+    def labels(found: Segmentation) -> list[str]:
+        asked.append(len(found.parts))
+        return ["" if found.faces(k).min() < 24 else "box" for k in range(1, len(found.parts))]
+
+    monkeypatch.setattr(segment, "score_parts", by_size)
+    mesh, _ = mesh_of([BODY, nail, top])
+    config = Config(segmentation=SegmentationConfig(at_least=1))
+    found = segment.segment_parts(mesh, object_shape(mesh, 0, config.pieces), labels, config)
+    assert asked == [2, 2]
+    assert found.faces(1).tolist() == list(range(24, 36))
+    assert "stands out most" in found.parts[1].reason
+
+
+def test_names_that_begin_alike_are_one_part() -> None:
+    """The wood and the metal of a drawer, as exporters split a node by material, and those of another one."""
+    names = ("drawer_top_metal", "drawer_top_wood", "door_left_wood", "base_body")
+    mesh, _ = mesh_of([box((k, 0, 0), (k + 0.5, 1, 1)) for k in range(4)])
+    whole = object_shape(mesh, 0, Config().pieces)
+    members = np.array([[1, 1, 0, 0], [0, 1, 0, 0], [1, 1, 1, 0], [1, 1, 1, 1]], bool)
+    tree = PartTree(whole, find_contacts(whole, SegmentationConfig()), members, np.ones(4), names)
+    assert [segment._name(tree, k) for k in range(4)] == ["drawer top", "drawer_top_wood", "", ""]

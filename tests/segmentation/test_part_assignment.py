@@ -4,8 +4,12 @@ from itertools import combinations
 
 import numpy as np
 import pytest
+from assets import box, mesh_of
 
-from anymesh.segmentation.part_assignment import assign_parts, conflicts
+from anymesh.config import Config, SegmentationConfig
+from anymesh.geometry.pieces import object_shape
+from anymesh.segmentation.contacts import find_contacts
+from anymesh.segmentation.part_assignment import LEAST, assign_parts, conflicts, join_floating
 from anymesh.segmentation.part_tree import Overlap
 
 
@@ -21,10 +25,12 @@ def test_no_set_without_conflicts_scores_higher(seed: int) -> None:
     candidates = overlap(members, rng.uniform(0.1, 1, 6))
     score = rng.normal(0.5, 1, 9)
     clash = conflicts(candidates)
-    best = max(sum(score[list(s)]) for n in range(10) for s in combinations(range(9), n) if not clash[np.ix_(s, s)].any())
+    best = max(
+        sum(score[list(s)] - LEAST) for n in range(10) for s in combinations(range(9), n) if not clash[np.ix_(s, s)].any()
+    )
     chosen = assign_parts(candidates, score)
     assert not clash[np.ix_(chosen, chosen)].any()
-    assert score[chosen].sum() == pytest.approx(best)
+    assert (score[chosen] - LEAST).sum() == pytest.approx(best)
 
 
 def test_a_knob_on_a_door_is_a_part_and_the_door_without_its_trim_is_not() -> None:
@@ -37,3 +43,24 @@ def test_a_knob_on_a_door_is_a_part_and_the_door_without_its_trim_is_not() -> No
     assert not clash.diagonal().any()
     assert assign_parts(candidates, np.array([2.0, 1.0, 1.5, 0.5])) == [0, 1]
     assert assign_parts(candidates, np.array([-1.0, -1.0, -1.0, -1.0])) == []
+
+
+def test_what_only_a_part_holds_goes_with_it() -> None:
+    """A case, a door before it with its handle, a sill that both hold, and a cup on the case."""
+    boxes = [
+        box((0, 0.1, 0), (1, 1, 1)), box((0.1, 0.05, 0.1), (0.9, 0.1, 0.9)), box((0.2, 0, 0.4), (0.25, 0.05, 0.6)),
+        box((0.3, 0.05, 0.9), (0.6, 0.1, 0.95)), box((0.4, 0.4, 1), (0.5, 0.5, 1.1)),
+    ]  # fmt: skip
+    mesh, part = mesh_of(boxes)
+    whole = object_shape(mesh, 0, Config().pieces)
+    contacts = find_contacts(whole, SegmentationConfig())
+    patch = np.array([whole.mesh_piece[part == k][0] for k in range(5)])
+
+    def joined(*owner: int) -> list[int]:
+        given = np.empty(5, np.int64)
+        given[patch] = owner
+        return join_floating(given, contacts)[patch].tolist()
+
+    assert joined(-1, 7, -1, -1, -1) == [-1, 7, 7, -1, -1]
+    assert joined(7, -1, -1, -1, -1) == [7, -1, -1, -1, 7]  # the door is the largest of what is left
+    assert joined(-1, 7, 8, -1, -1) == [-1, 7, 8, -1, -1]  # a part of its own stays

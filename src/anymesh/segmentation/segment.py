@@ -1,11 +1,12 @@
 """STAGE A (paper, 3.2) on the embedded default: which parts move, with no name given.
 
 Patches and what touches what, a tree of groups of patches that may be parts, what geometry shows of each, a learned score,
-and the set of groups of highest total score. A part that nothing lets move is none.
+and the set of groups of highest total score. Groups that nothing lets move are taken out, and the set is chosen again.
 """
 
 from __future__ import annotations
 
+import itertools
 import os
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
@@ -19,17 +20,18 @@ from anymesh.deadline import SEGMENT, Deadline
 from anymesh.geometry.pieces import ObjectShape
 from anymesh.progress import Progress, silent
 from anymesh.reasoning.two_steps import confidence_of
-from anymesh.reasoning.vocabulary import Habit, is_fixed_name, recognize
+from anymesh.reasoning.vocabulary import Habit, is_fixed_name, recognize, words_of
 from anymesh.segmentation.contacts import find_contacts
 from anymesh.segmentation.naming import named_parts
-from anymesh.segmentation.part_assignment import assign_parts, conflicts
+from anymesh.segmentation.part_assignment import LEAST, assign_parts, conflicts, join_floating
 from anymesh.segmentation.part_classifier import score_parts
 from anymesh.segmentation.part_features import FeatureScene, part_features, surroundings_of
 from anymesh.segmentation.part_tree import PartTree, part_tree
 from anymesh.types import Mesh, Segmentation
 
 LabelParts = Callable[[Segmentation], Sequence[str]]  # a label per part but the base by its motion, "" for one without
-SLOPE, OFFSET = 1.17, -0.75  # of the log-odds of a confidence; fitted to kinds left out of training (benchmarks/train_parts.py)
+TRIES = 3  # assignments, each without the candidates that turned out to be held
+SLOPE, OFFSET = 0.80, 0.29  # of the log-odds of a confidence; fitted to kinds left out of training (benchmarks/train_parts.py)
 NAMED, NAMED_FIXED, NAMED_HANDLE = 4.0, -4.0, 0.3  # log-odds that the name of a node or material adds
 
 
@@ -51,21 +53,22 @@ def segment_parts(
     score, reasons = score_parts(examined.overlap, features)
     words = [_name(examined, k) for k in range(len(score))]
     score = score + np.array([_name_score(word) for word in words])
-    chosen = _at_least(examined, score, assign_parts(examined.overlap, score), settings.at_least)
-    face_part, order = _face_part(mesh, examined, chosen)
-    while order and face_part.all():  # something must stay: the largest part is the base
-        face_part, order = _face_part(mesh, examined, [k for k in order if k != order[0]])
-    told = [word.label if (word := recognize(words[k])) else "" for k in order]
-    confidence = [confidence_of(float(score[k]), SLOPE, OFFSET) for k in order]
-    why = [_reason(reasons[k], words[k], score[k]) for k in order]
-
-    def parts_of(numbers: np.ndarray, labels: Sequence[str]) -> Segmentation:
-        return named_parts(numbers, labels, mesh.face_areas, confidence, why)
-
-    labels = label_parts(parts_of(face_part, [label or "part" for label in told]))
-    still = [k for k, label in enumerate(labels, start=1) if not label]
+    for _ in range(TRIES):
+        chosen = _at_least(examined, score, assign_parts(examined.overlap, score), settings.at_least)
+        face_part, order = _face_part(mesh, examined, chosen)
+        while order and face_part.all():  # something must stay: the largest part is the base
+            face_part, order = _face_part(mesh, examined, [k for k in order if k != order[0]])
+        told = [word.label if (word := recognize(words[k])) else "" for k in order]
+        confidence = [confidence_of(float(score[k]), SLOPE, OFFSET) for k in order]
+        why = [_reason(reasons[k], words[k], score[k]) for k in order]
+        labels = label_parts(named_parts(face_part, [label or "part" for label in told], mesh.face_areas, confidence, why))
+        still = [n for n, label in enumerate(labels, start=1) if not label]
+        if not still:
+            break
+        score[[order[n - 1] for n in still]] = -np.inf  # the same part with its handle, or another one, may move
     face_part = np.where(np.isin(face_part, still), 0, face_part)
-    return parts_of(face_part, [named or label for named, label in zip(told, labels, strict=True)])
+    told = [named or label for named, label in zip(told, labels, strict=True)]
+    return named_parts(face_part, told, mesh.face_areas, confidence, why)
 
 
 def _examined(
@@ -92,14 +95,17 @@ def _examined(
 
 
 def _name(tree: PartTree, group: int) -> str:
-    """Return the telling name that all patches of a candidate share, "" for none."""
-    names = {tree.names[p] for p in np.flatnonzero(tree.members[group])}
-    return names.pop() if len(names) == 1 else ""
+    """Return the telling name that all patches of a candidate share, or the words that all their names begin with."""
+    names = sorted({tree.names[p] for p in np.flatnonzero(tree.members[group])})
+    if len(names) == 1:
+        return names[0]
+    first, last = words_of(names[0]), words_of(names[-1])
+    return " ".join(a for a, _ in itertools.takewhile(lambda pair: pair[0] == pair[1], zip(first, last, strict=False)))
 
 
 def _reason(learned: str, name: str, score: float) -> str:
     told = [f'named "{name}"'] if _name_score(name) else []
-    told += ["stands out most, where parts were asked for"] if score <= 0 else []
+    told += ["stands out most, where parts were asked for"] if score <= LEAST else []
     return "; ".join([*told, learned])
 
 
@@ -116,7 +122,7 @@ def _at_least(tree: PartTree, score: Float[np.ndarray, " n"], chosen: list[int],
         return chosen
     apart = ~conflicts(tree.overlap)
     for k in np.argsort(-score, kind="stable"):
-        if len(chosen) < count and int(k) not in chosen and apart[k, chosen].all():
+        if len(chosen) < count and int(k) not in chosen and apart[k, chosen].all() and score[k] > -np.inf:
             chosen = sorted([*chosen, int(k)])
     return chosen
 
@@ -127,7 +133,7 @@ def _face_part(mesh: Mesh, tree: PartTree, chosen: list[int]) -> tuple[Int[np.nd
     owner = np.full(len(tree.contacts.shapes), -1)
     for k in sorted(chosen, key=lambda k: (-tree.area[k], k)):
         owner[tree.members[k]] = k
-    of_face = owner[tree.whole.mesh_piece]
+    of_face = join_floating(owner, tree.contacts)[tree.whole.mesh_piece]
     area = np.bincount(of_face + 1, mesh.face_areas, len(tree.members) + 1)[1:]
     order = [int(k) for k in np.unique(of_face[of_face >= 0])]
     order.sort(key=lambda k: (-area[k], k))
