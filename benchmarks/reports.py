@@ -29,7 +29,6 @@ RUNS = {
     **{f"{name}-fused": f"{name} --protocol end-to-end --changes fused{' --at-least 1' * (name in MOVING)}" for name in SETS},
     **{f"{name}-views": f"{name} --protocol views --views 2" for name in ("examples", "scene-synthesizer", "sweethome3d")},
     "scene-synthesizer-random-parts": "scene-synthesizer --split random --protocol parts",
-    "kinds-parts": "urdf:{kinds} --protocol parts",
     "examples-robustness": f"examples --protocol end-to-end --changes {HARSH}",
     "sweethome3d-robustness": "sweethome3d --protocol parts --changes none,turned,spun,noise.0005,half-faces,unseen-gone",
 }
@@ -43,13 +42,16 @@ HEAD = """# Reports
 
 Made by `python benchmarks/reports.py WORK`; the command of each report stands above it. Answerer: geometry (no key,
 no network). The columns are told in [docs/evaluation.md](../../docs/evaluation.md); "all" is over all sets together.
-`kinds` are made by `python benchmarks/kinds.py FOLDER --seed 7 --count 2` and named as `urdf:FOLDER`.
+
+The classifiers that are shipped were trained on these sets (each report says on how many of its objects). So these figures say
+that the pieces work together, not how well they do on what is new: for that see [parts.md](../parts.md) and
+[motions.md](../motions.md).
 """
 
 
 def command(name: str, work: Path, places: dict[str, str]) -> list[str]:
     """The arguments of the command line for one report."""
-    words = shlex.split(RUNS[name].format(**places) if "{" in RUNS[name] else RUNS[name])
+    words = shlex.split(RUNS[name])
     words[0] = f"{words[0]}:{places[words[0]]}" if words[0] in places else words[0]
     return ["eval", *words, "-o", str(work / name)]
 
@@ -89,7 +91,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description="Makes the committed reports anew.")
     parser.add_argument("work", type=Path, metavar="WORK")
     parser.add_argument("names", nargs="*", metavar="NAME", help=f"of {', '.join(RUNS)}")
-    parser.add_argument("--place", action="append", default=[], metavar="SET=PLACE", help="where a set lies; kinds=FOLDER")
+    parser.add_argument("--place", action="append", default=[], metavar="SET=PLACE", help="where a set lies")
     parser.add_argument("--anew", action="store_true", help="remove what was done of these before")
     options = parser.parse_args()
     unknown = sorted(set(options.names) - set(RUNS))
