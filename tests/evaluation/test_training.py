@@ -22,7 +22,8 @@ def test_objects_are_found_by_source_and_name_and_those_of_folders_by_name() -> 
 
 def test_a_report_says_that_its_objects_are_not_held_out() -> None:
     assert trained_note("examples", ["cabinet", "other"]).startswith("1 of 2 objects")
-    assert trained_note("examples", ["other"]) == "none of these objects"
+    assert trained_note("examples", ["other"]) == "other objects of this set: figures are not held out"
+    assert trained_note("urdf", ["no such object"]) == "none of these objects"
 
 
 @pytest.mark.parametrize("path", [p for p in REPORTS if "| trained on |" in p.read_text()], ids=lambda p: p.stem)

@@ -30,4 +30,8 @@ def trained_on(dataset: str, names: Sequence[str]) -> int:
 def trained_note(dataset: str, names: Sequence[str]) -> str:
     """Say in a report whether its figures are held out."""
     count = trained_on(dataset, names)
-    return f"{count} of {len(names)} objects: figures on them are not held out" if count else "none of these objects"
+    if count:
+        return f"{count} of {len(names)} objects: figures on them are not held out"
+    if any(name.startswith(f"{dataset}/") for name in trained_objects()):
+        return "other objects of this set: figures are not held out"
+    return "none of these objects"
