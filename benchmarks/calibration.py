@@ -11,7 +11,7 @@ from jaxtyping import Bool, Float
 from scipy.optimize import minimize
 
 BINS = 10  # of the confidence, for the calibration error
-COVERED = 0.8  # share of the answers, the surest first, whose share of right ones is told
+COVERED = 0.8  # share of the answers, those of highest confidence, among which right ones are counted
 
 
 @dataclass(frozen=True, eq=False)

@@ -25,7 +25,7 @@ CALLED = {
     "valve": ["wheel"],
 }
 WRONG_WAY = {("drill", "trigger")}  # small, deep in its guide, no handle: said to be pulled out like a drawer (docs/method.md)
-LONG = {"toy_car", "cabinet_fused", "stove_fused", "named_cabinet"}  # `pytest -m slow tests/test_examples.py`
+LONG = {"toy_car", "cabinet_fused", "stove_fused"}  # `pytest -m slow tests/test_examples.py`
 
 
 @pytest.mark.parametrize("name", [pytest.param(n, marks=[pytest.mark.slow] if n in LONG else []) for n in sorted(TRUTHS)])

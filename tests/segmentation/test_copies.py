@@ -97,9 +97,9 @@ def test_a_candidate_that_is_held_makes_room_for_the_next(monkeypatch: pytest.Mo
 
 def test_names_that_begin_alike_are_one_part() -> None:
     """The wood and the metal of a drawer, as exporters split a node by material, and those of another one."""
-    names = ("drawer_top_metal", "drawer_top_wood", "door_left_wood", "base_body")
-    mesh, _ = mesh_of([box((k, 0, 0), (k + 0.5, 1, 1)) for k in range(4)])
+    names = ("drawer_top_metal", "drawer_top_wood", "Door_left_wood", "base_body", "DRAWER_low")
+    mesh, _ = mesh_of([box((k, 0, 0), (k + 0.5, 1, 1)) for k in range(5)])
     whole = object_shape(mesh, 0, Config().pieces)
-    members = np.array([[1, 1, 0, 0], [0, 1, 0, 0], [1, 1, 1, 0], [1, 1, 1, 1]], bool)
-    tree = PartTree(whole, find_contacts(whole, SegmentationConfig()), members, np.ones(4), names)
-    assert [segment._name(tree, k) for k in range(4)] == ["drawer top", "drawer_top_wood", "", ""]
+    members = np.array([[1, 1, 0, 0, 0], [0, 1, 0, 0, 0], [1, 1, 1, 0, 0], [1, 1, 1, 1, 1], [1, 0, 0, 0, 1]], bool)
+    tree = PartTree(whole, find_contacts(whole, SegmentationConfig()), members, np.ones(5), names)
+    assert [segment._name(tree, k) for k in range(5)] == ["drawer top", "drawer_top_wood", "", "", "drawer"]

@@ -140,7 +140,10 @@ def clear(
             planed, _ = _planed(pieces, faults.found, scene.contact, MUCH)
         pieces = planed
         again = scene.faults(pieces, faults.poses, late)
-        faults = again if again.found else scene.faults(pieces, None, late)
+        again = again if again.found else scene.faults(pieces, None, late)
+        if late():  # not all poses were looked at: what had false contacts before may still have them
+            break
+        faults = again
     links = [(pieces[f.first[0]].link, pieces[f.second[0]].link) for f in faults.found]
     return Cleared(pieces, before, tuple(sorted({(min(pair), max(pair)) for pair in links})))
 

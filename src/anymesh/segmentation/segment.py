@@ -32,7 +32,7 @@ from anymesh.types import Mesh, Segmentation
 LabelParts = Callable[[Segmentation], Sequence[str]]  # a label per part but the base by its motion, "" for one without
 TRIES = 3  # assignments, each without the candidates that turned out to be held
 SLOPE, OFFSET = 0.80, 0.29  # of the log-odds of a confidence; fitted to kinds left out of training (benchmarks/train_parts.py)
-NAMED, NAMED_FIXED, NAMED_HANDLE = 4.0, -4.0, 0.3  # log-odds that the name of a node or material adds
+NAMED, NAMED_FIXED, NAMED_HANDLE = LEAST + 4, LEAST - 4, 0.3  # log-odds that the name of a node or material adds
 
 
 def segment_parts(
@@ -49,7 +49,8 @@ def segment_parts(
     contacts = find_contacts(whole, settings)
     tree = part_tree(mesh, whole, contacts, settings.smallest, settings.most_candidates)
     progress("segment", "candidates", 1, 2)
-    examined, features = _examined(mesh, tree, config, progress, deadline or Deadline())
+    deadline = deadline or Deadline()
+    examined, features = _examined(mesh, tree, config, progress, deadline)
     score, reasons = score_parts(examined.overlap, features)
     words = [_name(examined, k) for k in range(len(score))]
     score = score + np.array([_name_score(word) for word in words])
@@ -63,7 +64,7 @@ def segment_parts(
         why = [_reason(reasons[k], words[k], score[k]) for k in order]
         labels = label_parts(named_parts(face_part, [label or "part" for label in told], mesh.face_areas, confidence, why))
         still = [n for n, label in enumerate(labels, start=1) if not label]
-        if not still:
+        if not still or deadline.late(SEGMENT):
             break
         score[[order[n - 1] for n in still]] = -np.inf  # the same part with its handle, or another one, may move
     face_part = np.where(np.isin(face_part, still), 0, face_part)
@@ -96,10 +97,10 @@ def _examined(
 
 def _name(tree: PartTree, group: int) -> str:
     """Return the telling name that all patches of a candidate share, or the words that all their names begin with."""
-    names = sorted({tree.names[p] for p in np.flatnonzero(tree.members[group])})
+    names = {tree.names[p] for p in np.flatnonzero(tree.members[group])}
     if len(names) == 1:
-        return names[0]
-    first, last = words_of(names[0]), words_of(names[-1])
+        return names.pop()
+    first, *_, last = sorted(words_of(name) for name in names)  # words that these two begin with, all others begin with too
     return " ".join(a for a, _ in itertools.takewhile(lambda pair: pair[0] == pair[1], zip(first, last, strict=False)))
 
 
