@@ -87,7 +87,7 @@ def _make(mesh: Path, out: Path, parts: str, options: dict[str, str], work: Path
         parts = str(_labels(mesh, work / "labels.npy"))
     asset = articulate(mesh, out, parts=parts, formats=FORMATS, force=True, time_limit=TIME_LIMIT, **options)
     if finished:
-        finish(out, out.parent / f"{out.name}_{FINISHED}", formats=FORMATS, force=True)
+        finish(out, out.parent / f"{out.name}_{FINISHED}", formats=FORMATS, force=True, time_limit=TIME_LIMIT)
     return {
         "outcome": "asset",
         "faces": len(asset.mesh.faces),

@@ -52,6 +52,17 @@ def test_a_surface_becomes_a_whole_asset_and_the_input_stays(surface, tmp_path):
     assert check_asset(tmp_path / "done").ok
 
 
+def test_finish_past_its_time_limit_leaves_surfaces_open_and_says_so(surface, tmp_path):
+    asset = finish(surface, tmp_path / "done", time_limit=1e-6)
+    record = json.loads((tmp_path / "done" / "asset.json").read_text())
+    assert not any(p.get("new_faces") for p in record["parts"])
+    assert "time limit of 1e-06 s: completion: some surfaces stay open" in asset.notes
+    assert record["joints"] == json.loads((surface / "asset.json").read_text())["joints"]
+    assert check_asset(tmp_path / "done").ok
+    whole = finish(surface, tmp_path / "done", force=True)  # another limit computes the stage anew
+    assert any("given" in note for note in whole.notes)
+
+
 def test_a_rerun_and_an_export_write_the_same(surface, tmp_path):
     finish(surface, tmp_path / "a")
     finish(surface, tmp_path / "b")

@@ -7,8 +7,9 @@ from typing import Annotated
 
 import typer
 
-from anymesh.cli_options import FORMATS, BaseName, Drives, Force, Formats, Json, MaxCalls, Out, Quiet
+from anymesh.cli_options import FORMATS, BaseName, Drives, Force, Formats, Json, MaxCalls, Out, Quiet, TimeLimit
 from anymesh.cli_output import Shown, tell_asset
+from anymesh.deadline import DEFAULT_SECONDS
 
 Asset = Annotated[Path, typer.Argument(metavar="DIR", help="An output of `anymesh articulate`.")]
 Completer = Annotated[str, typer.Option(help="Of shapes: builtin, off, holopart:FOLDER(#PYTHON) or holopart:URL.")]
@@ -27,6 +28,7 @@ def finish(
     formats: Formats = FORMATS,
     drives: Drives = "passive",
     force: Force = False,
+    time_limit: TimeLimit = DEFAULT_SECONDS,
     json_: Json = False,
     quiet: Quiet = False,
 ) -> None:
@@ -36,6 +38,6 @@ def finish(
     with Shown(quiet or json_) as progress:
         asset = pipeline.finish(
             folder, out, completer=completer, texture=texture, watertight=watertight, max_calls=max_calls, base=base,
-            formats=formats, drives=drives, force=force, progress=progress,
+            formats=formats, drives=drives, force=force, time_limit=time_limit, progress=progress,
         )  # fmt: skip
     tell_asset(asset, out, json_, quiet)

@@ -11,11 +11,7 @@ from anymesh.errors import OptionError
 
 CALL_SECONDS = 120.0  # of `--timeout`: for one call of a model [s]
 DEFAULT_SECONDS = 600.0  # of `--time-limit` [s]
-SEGMENT, JOINTS, COLLISION = (
-    0.4,
-    0.7,
-    0.9,
-)  # shares of the limit after which stage A, B and collision are cut short
+SEGMENT, JOINTS, COMPLETION, COLLISION = 0.4, 0.7, 0.7, 0.9  # shares of the limit after which each is cut short
 
 
 class Deadline:

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from anymesh.deadline import Deadline
 from anymesh.errors import ModelError
 from anymesh.postprocessing.complete import complete
 from anymesh.postprocessing.protocol import Completer, Finished
@@ -17,30 +18,41 @@ from anymesh.types import Asset
 
 
 def finish_asset(
-    asset: Asset, *, shapes: bool, completer: Completer | None, retexturer: Retexturer, config: ShapeConfig
+    asset: Asset,
+    *,
+    shapes: bool,
+    completer: Completer | None,
+    retexturer: Retexturer,
+    config: ShapeConfig,
+    deadline: Deadline | None = None,
 ) -> Completed:
     """The mesh of an asset with completed shapes and looks.
 
     shapes: off leaves shapes as they are. completer: is asked first, None for nobody; the built-in completer does the parts
-    that it does not give, or gives so that they disagree with what is seen.
+    that it does not give, or gives so that they disagree with what is seen. deadline: past it, further surfaces stay open.
     """
+    deadline = deadline or Deadline()
     finished = Finished(asset, np.arange(len(asset.mesh.faces)))
     notes: list[str] = []
     if shapes:
-        finished, notes = _completed(asset, completer, config)
+        finished, notes = _completed(asset, completer, config, deadline)
     painted = retexturer.retexture(finished)
     segmentation = painted.asset.segmentation
-    return Completed(painted.asset.mesh, segmentation.face_part, finished.source_face, (*notes, *painted.notes))
+    return Completed(
+        painted.asset.mesh, segmentation.face_part, finished.source_face, (*notes, *deadline.warnings(), *painted.notes)
+    )
 
 
-def _completed(asset: Asset, completer: Completer | None, config: ShapeConfig) -> tuple[Finished, list[str]]:
+def _completed(
+    asset: Asset, completer: Completer | None, config: ShapeConfig, deadline: Deadline
+) -> tuple[Finished, list[str]]:
     try:
-        found = complete(asset, config, completer=completer)
+        found = complete(asset, config, completer=completer, deadline=deadline)
         return found, list(_told(found))
     except ModelError as error:
         if completer is None:
             raise
-        found = complete(asset, config)
+        found = complete(asset, config, deadline=deadline)
         return found, [f"{completer.name}: {error}; the built-in completer did all parts", *_told(found)]
 
 

@@ -145,26 +145,29 @@ def finish(
     formats: str = ",".join(DEFAULT),
     drives: str = Driven.PASSIVE,
     force: bool = False,
+    time_limit: float = DEFAULT_SECONDS,
     progress: Progress = silent,
 ) -> Asset:
     """Stage C: completes shapes and looks of the asset in `folder`, an output of `articulate`, and writes it to `out`.
 
     completer: builtin, off, holopart:FOLDER[#PYTHON] or holopart:URL; texture: builtin, bake, bake:PIXELS, meshy or
-    meshy:PROMPT, with at most `max_calls` paid tasks; watertight: also close what no motion lays open. Raises OptionError,
-    OutputError, ModelError, BudgetError; a paid task that was begun is gone on with by the next run.
+    meshy:PROMPT, with at most `max_calls` paid tasks; watertight: also close what no motion lays open; time_limit: [s], as
+    for `articulate`. Raises OptionError, OutputError, ModelError, BudgetError; a paid task that was begun is resumed by the
+    next run.
     """
     from anymesh.finishing import finish_asset
     from anymesh.postprocessing.outside import open_completer, open_retexturer
     from anymesh.postprocessing.settings import ShapeConfig
 
-    how = Exported.parse(base, formats, drives)
+    how, deadline = Exported.parse(base, formats, drives), Deadline(time_limit)
     out = Path(out)
     who = open_completer(completer)
     looks = open_retexturer(texture, state=out.parent / f".{out.name}.meshy.json", max_calls=max_calls)
     with RunFolder.create(out, source=Path(folder) / "asset.json", force=force) as run:
         run.take_over(Path(folder))
         progress("finish", completer, 0, 1)
-        key = stage_key(COMPLETION, previous=run.last_key(), config={"by": completer, "texture": texture, "tight": watertight})
+        settings = {"by": completer, "texture": texture, "tight": watertight, "limit": time_limit}
+        key = stage_key(COMPLETION, previous=run.last_key(), config=settings)
         if run.load(COMPLETION, key) is None:
             with _timed(run, "finish"):
                 done = finish_asset(
@@ -173,9 +176,10 @@ def finish(
                     completer=who,
                     retexturer=looks,
                     config=ShapeConfig(watertight=watertight),
+                    deadline=deadline,
                 )
             run.save(COMPLETION, key, done)
-        return _export(run, how, Deadline(), progress)
+        return _export(run, how, deadline, progress)
 
 
 @dataclass(frozen=True)

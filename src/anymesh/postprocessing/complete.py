@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from anymesh.deadline import Deadline
 from anymesh.postprocessing.accept import accept, accepted
 from anymesh.postprocessing.protocol import Completer, Finished
 from anymesh.postprocessing.settings import ShapeConfig
@@ -16,14 +17,16 @@ def complete(
     config: ShapeConfig = ShapeConfig(),  # noqa: B008 - frozen
     *,
     completer: Completer | None = None,
+    deadline: Deadline | None = None,
 ) -> Finished:
     """The asset with the shapes of its parts completed: those that `completer` makes and `accept` takes, the others by
-    `complete_shapes`. Errors of the completer are passed on."""
+    `complete_shapes`, until the deadline. Errors of the completer are passed on."""
     if completer is None:
-        return complete_shapes(asset, config)
+        return complete_shapes(asset, config, deadline=deadline)
     first = accept(asset, completer.complete(asset), who=completer.name)
     taken = set(accepted(first, completer.name))
-    second = complete_shapes(first.asset, config, parts=[p.name for p in asset.segmentation.parts if p.name not in taken])
+    left = [p.name for p in asset.segmentation.parts if p.name not in taken]
+    second = complete_shapes(first.asset, config, parts=left, deadline=deadline)
     source = np.where(second.source_face < 0, -1, first.source_face[second.source_face])
     names = [p.name for p in asset.segmentation.parts]
     notes = {n: (*first.notes.get(n, ()), *second.notes.get(n, ())) for n in names}

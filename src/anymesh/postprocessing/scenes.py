@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -94,9 +94,13 @@ def widest(joint: Joint) -> float:
 
 @dataclass(eq=False)
 class Growing:
-    """The parts while they are completed: what was there and what was added, with what was done, in words."""
+    """The parts while they are completed: what was there and what was added, with what was done, in words.
+
+    late: whether the time that completion may take is over.
+    """
 
     scenes: Scenes
+    late: Callable[[], bool] = lambda: False
     added: dict[int, list[Float[np.ndarray, "n 3 3"]]] = field(default_factory=dict)
     notes: dict[int, list[str]] = field(default_factory=dict)
 

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from anymesh.deadline import COMPLETION, Deadline
 from anymesh.postprocessing.added import with_new_faces
 from anymesh.postprocessing.cavity import add_walls
 from anymesh.postprocessing.drawers import add_box
@@ -27,20 +28,26 @@ def complete_shapes(
     config: ShapeConfig = ShapeConfig(),  # noqa: B008 - frozen
     *,
     parts: Collection[str] | None = None,
+    deadline: Deadline | None = None,
 ) -> Finished:
     """The asset with the faces that its parts lack: caps on the holes that others hid, backs of plates, inner skins of shells,
     walls of the cavities behind doors, boxes behind the fronts of drawers.
 
     What was there stays as it is, face by face; a part without open borders gets nothing, so that finishing twice changes
     nothing. No part loses more of its range than the sweep of stage B tells apart. parts: names, all if None. The same asset
-    gives the same faces. MissingExtraError without manifold3d.
+    gives the same faces. Past the deadline further surfaces stay open, and what was added and not swept is taken back.
+    MissingExtraError without manifold3d.
     """
-    growing = Growing(Scenes(asset))
+    deadline = deadline or Deadline()
+    growing = Growing(Scenes(asset), lambda: deadline.late(COMPLETION))
     names = [p.name for p in asset.segmentation.parts]
     chosen = [k for k in growing.scenes.order if parts is None or names[k] in parts]
     touched = {k for k in chosen if close_part(k, growing, config)}
     for part in growing.scenes.order:
         _free_again(part, touched, growing, config)
+    if growing.late():
+        deadline.leave_out("completion: some surfaces stay open")
+        return _grown(asset, growing)
     carrier = {k: growing.scenes.carriers(k)[0] for k in growing.scenes.joint}
     near = [k for k in growing.scenes.order if k in touched or carrier.get(k) in touched]
     fronts = [front for k in near if (front := find_front(k, growing, config)) is not None]
@@ -57,6 +64,10 @@ def _free_again(part: int, touched: set[int], growing: Growing, config: ShapeCon
     """Makes what was added to a part, and to its carrier, thinner where the part moves as far as it did only then."""
     joint = growing.scenes.joint.get(part)
     both = [] if joint is None else [k for k in (part, growing.scenes.number[joint.parent]) if k in touched]
+    if both and growing.late():
+        for k in both:
+            growing.undo(k)
+        return
     for share in (*THINNER, 1.0):  # whole again where the part fits its hole so closely that no thickness frees it
         if not both or moves_freely(part, growing, Growing(growing.scenes)):
             return

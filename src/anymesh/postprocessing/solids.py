@@ -38,6 +38,11 @@ class Around:
     def own_scene(self) -> RayScene | None:
         return scene_of(self.own)
 
+    @cached_property
+    def bounds(self) -> Float[np.ndarray, "2 3"]:
+        """Lowest and highest corner of the part's box [m]."""
+        return np.stack([self.own.min((0, 1)), self.own.max((0, 1))])
+
     @property
     def wall(self) -> float:
         """Thickness of a wall [m]."""
@@ -58,14 +63,15 @@ def close_part(part: int, growing: Growing, config: ShapeConfig) -> bool:
     Bodies that share an edge and lie in each other may not be told apart: their sheets are closed again, slightly thinner.
     """
     mesh, mine, scenes = growing.scenes.asset.mesh, growing.faces(part), growing.scenes
-    sheets = [look_at(sheet, scenes, config) for sheet in open_sheets(mesh.vertices, mesh.faces[mine])]
+    found = open_sheets(mesh.vertices, mesh.faces[mine])
+    sheets = [look_at(sheet, scenes, config) for sheet in found if not growing.late()]
     if not config.watertight:
         sheets = [s for s in sheets if s.both or is_laid_open(s, part, scenes, config)]
     around = Around(part, mesh.triangles[mine], scene_of(growing.others(part)), scenes, config)
-    made = [closed(seen, around) for seen in sheets]
+    made = [(around.own[:0], []) if growing.late() else closed(seen, around) for seen in sheets]
     for share in SHARES:
         again = _still_open(around.own, [s.sheet for s in sheets], [new for new, _ in made])
-        if not again:
+        if not again or growing.late():
             break
         for k in again:
             made[k] = closed(sheets[k], around, share)
@@ -100,7 +106,8 @@ def closed(seen: Seen, around: Around, share: float = 1.0) -> tuple[Float[np.nda
             thickness = share * _shell_thickness(seen, around)
             capped = capped.with_faces(*shelled(capped, thickness, faces_out=seen.faces_out))
         notes.append(f"a {'plate given a back' if plate else 'shell given an inner skin'}, {thickness:.2g} m thick")
-    return without_folds(capped.triangles[capped.own < 0], around.own), notes
+    beside = np.concatenate([sheet.triangles, around.bounds[None, [0, 1, 1]]])  # the bounds, so that all weld to one grid
+    return without_folds(capped.triangles[capped.own < 0], beside), notes
 
 
 def _count(number: int, thing: str) -> str:

@@ -12,6 +12,7 @@ from anymesh.types import Mesh
 PROBES = 20_000  # points on the surface, besides the middle of every face
 DIRECTIONS = 96  # from which each is looked at
 GRAZE = 0.02  # share of them in which a point must be in sight to count as seen from a side: less is through a gap
+RAYS = 50_000  # cast at a time
 OFF = 1e-5  # of the diagonal: how far off the surface rays begin
 
 
@@ -28,14 +29,15 @@ def escapes(
     """Share of all directions in which nothing stands between a point and far away: on the side its normal points to, and
     on the other."""
     found = np.zeros((len(points), 2))
-    ways = spread_directions(DIRECTIONS)
-    for way in ways:
-        front = normals @ way > 0
-        start = points + OFF * diagonal * np.where(front, 1.0, -1.0)[:, None] * normals
-        free = scene.first_hit(start, np.repeat(way[None] * 2 * diagonal, len(points), 0), 1.0).face < 0
-        found[:, 0] += free & front
-        found[:, 1] += free & ~front
-    return found / len(ways)
+    directions = spread_directions(DIRECTIONS)
+    for ways in np.array_split(directions, min(len(directions), 1 + len(points) * len(directions) // RAYS)):
+        front = ways @ normals.T > 0
+        start = points + OFF * diagonal * np.where(front, 1.0, -1.0)[:, :, None] * normals
+        rays = np.repeat(ways * 2 * diagonal, len(points), 0)
+        free = scene.first_hit(start.reshape(-1, 3), rays, 1.0).face.reshape(front.shape) < 0
+        found[:, 0] += (free & front).sum(0)
+        found[:, 1] += (free & ~front).sum(0)
+    return found / len(directions)
 
 
 def visible_faces(mesh: Mesh) -> Bool[np.ndarray, " F"]:
