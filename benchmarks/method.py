@@ -40,7 +40,7 @@ MOTIONS = 7  # motions that are drawn
 
 def patches(studio: Studio, mesh: Mesh, tree: PartTree) -> Picture:
     """Every patch in a colour of its own."""
-    color = np.array([mark_color(k) for k in tree.whole.mesh_piece], np.uint8)
+    color = np.array([mark_color(k) for k in tree.whole.mesh_patch], np.uint8)
     views = [render(mesh, view.camera, face_color=color, scene=studio.scene).color for view in studio.views[:4]]
     return question_sheet([encode(view, f"{len(tree.members[0])} patches") for view in views])
 
@@ -49,7 +49,7 @@ def candidates(studio: Studio, tree: PartTree, score: np.ndarray, chosen: list[i
     """The candidates of highest score, each marked, with its probability and whether it was chosen."""
     cards = []
     for k in np.argsort(-score, kind="stable")[:MOST]:
-        marked = tree.members[k][tree.whole.mesh_piece].astype(np.int64)
+        marked = tree.members[k][tree.whole.mesh_patch].astype(np.int64)
         card = studio.card(marked, 1, f"p = {1 / (1 + np.exp(-score[k])):.2f}{', chosen' if int(k) in chosen else ''}")
         cards.append(card)
     return question_sheet(cards)
@@ -59,7 +59,7 @@ def motions(studio: Studio, moving: np.ndarray, ranked: list[tuple[float, Candid
     """A part at rest and in its likeliest motions, likeliest first."""
     shown = ranked[:MOTIONS]
     amounts = [
-        min(c.opening, SHOWN_TURN) if c.motion.kind is MotionKind.TURN else min(c.opening * scale, SHOWN_SLIDE * size)
+        min(c.opening, SHOWN_TURN) if c.motion.kind is MotionKind.REVOLUTE else min(c.opening * scale, SHOWN_SLIDE * size)
         for _, c in shown
     ]
     title = f"log-odds of 1 and 2: {shown[0][0]:.1f}, {shown[1][0]:.1f}"

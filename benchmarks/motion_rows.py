@@ -82,7 +82,7 @@ def rows_of(subject: Subject, source: str, form: str = "") -> list[MotionRows]:
             np.array([[row[n] for n in names] for row in rows], np.float32),
             np.array([m.axis for m in motions]),
             np.array([how_right(joint, m, center, subject.unit) for m in motions]),
-            np.array([_opens_right(joint, c.motion.axis * c.opens) for c in question.candidates]),
+            np.array([_opens_right(joint, c.motion.axis * c.opening_sign) for c in question.candidates]),
             np.array([same_joints(question, k) for k in range(len(motions))]),
             np.array([c.is_free for c in question.candidates]),
         ))  # fmt: skip
@@ -102,7 +102,7 @@ def _copies(whole: ObjectShape, subject: Subject, questions: Sequence[PartMotion
 def how_right(true: TrueJoint, motion: Motion, center: np.ndarray, unit: float) -> float:
     """Return 0 for a wrong motion, else how near it is to the true one, up to 1."""
     slides = true.type is JointType.PRISMATIC
-    if slides != (motion.kind is MotionKind.SLIDE):
+    if slides != (motion.kind is MotionKind.PRISMATIC):
         return 0.0
     angle = angle_error(motion.axis, true.axis)
     off = 0.0 if slides else distance_at(center, motion.origin, motion.axis, true.origin, true.axis) / unit

@@ -93,7 +93,7 @@ def rows_of(subject: Subject, source: str, form: str = "") -> PartRows:
             rows.append(part_features(scene, k, around))
     names = tuple(rows[0]) if rows else ()
     shape = len(contacts.shapes), len(truth.parts)
-    area = np.bincount(whole.mesh_piece * shape[1] + subject.labels, mesh.face_areas, shape[0] * shape[1]).reshape(shape)
+    area = np.bincount(whole.mesh_patch * shape[1] + subject.labels, mesh.face_areas, shape[0] * shape[1]).reshape(shape)
     number = {part.name: k for k, part in enumerate(truth.parts)}
     parent = {number[j.child]: number.get(j.parent, 0) for j in truth.joints}
     return PartRows(

@@ -99,7 +99,7 @@ def same_motion(choice: Choice, table: MotionTable) -> int | None:
     for reverse in (1.0, -1.0):
         off = []
         for motion, shown in zip(table.motions, table.amounts, strict=True):
-            alike = str(motion.kind) == kind and (reverse > 0 or motion.kind is MotionKind.TURN)
+            alike = str(motion.kind) == kind and (reverse > 0 or motion.kind is MotionKind.REVOLUTE)
             there = _moved(motion, reverse * float(np.sign(shown)) * abs(amount), corners)
             off.append(float(np.linalg.norm(there - goal, axis=1).mean()) if alike else np.inf)
         if off and min(off) < reach:

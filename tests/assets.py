@@ -158,7 +158,7 @@ def poses(asset: Asset, positions: dict[str, float]) -> dict[str, np.ndarray]:
             continue
         step = np.eye(4)
         if j.type is not JointType.FIXED:
-            kind = MotionKind.SLIDE if j.type is JointType.PRISMATIC else MotionKind.TURN
+            kind = MotionKind.PRISMATIC if j.type is JointType.PRISMATIC else MotionKind.REVOLUTE
             step = Motion(kind, j.axis, j.origin, "test").transform(positions.get(j.name, 0.0))
         found[j.child] = found[j.parent] @ step
     return found

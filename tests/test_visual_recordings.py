@@ -98,7 +98,7 @@ def motions_shown(amount: float, *axes: np.ndarray) -> WhichMotions:
     """One part, a plate, and turns about lines through the origin."""
     points = np.array([[0.0, 0, 0], [0.4, 0.02, 0.6]])
     part = PartShown("door", np.arange(2), points, Y, Y, points)
-    motions = tuple(Motion(MotionKind.TURN, axis, np.zeros(3), "a line") for axis in axes)
+    motions = tuple(Motion(MotionKind.REVOLUTE, axis, np.zeros(3), "a line") for axis in axes)
     return WhichMotions((), (MotionTable(part, motions, (amount,) * len(axes)),))
 
 

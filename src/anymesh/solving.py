@@ -25,7 +25,7 @@ from anymesh.articulation.tree import parents
 from anymesh.config import Config
 from anymesh.deadline import Deadline
 from anymesh.geometry.pieces import ObjectShape, object_shape
-from anymesh.geometry.surroundings import Surroundings
+from anymesh.geometry.surroundings import PartContext
 from anymesh.models.sam import PromptedSegmenter
 from anymesh.models.sam_load import load_sam
 from anymesh.progress import Progress, silent
@@ -191,13 +191,15 @@ class Solver:
         best: dict[int, Candidate] = {}  # of the two ways along each axis
         for k in GEOMETRY.which_motion(question).ranking:
             best.setdefault(id(question.candidates[k].motion), question.candidates[k])
-        kinds = list(MotionKind) if moves is None else [MotionKind.SLIDE if moves is Moves.PRISMATIC else MotionKind.TURN]
+        kinds = (
+            list(MotionKind) if moves is None else [MotionKind.PRISMATIC if moves is Moves.PRISMATIC else MotionKind.REVOLUTE]
+        )
         likely = [c for kind in kinds for c in [c for c in best.values() if c.motion.kind is kind][:LIKELY]]
         after = hypotheses(gained, [(c.role, c.motion) for c in likely])[::2]
         far = [(max(c.opening, c.closing), max(a.opening, a.closing)) for c, a in zip(likely, after, strict=True)]
         return any(now >= FREE * min(before, ENOUGH) for before, now in far)
 
-    def _around(self, label: np.ndarray, part: int) -> Surroundings:
+    def _around(self, label: np.ndarray, part: int) -> PartContext:
         shapes = [self.whole.of(np.flatnonzero(label == k)) for k in np.unique(label)]
         rank = np.searchsorted(np.unique(label), label)
         number = int(np.searchsorted(np.unique(label), part))
@@ -206,7 +208,7 @@ class Solver:
     def _ready_for(self, segmentation: Segmentation) -> ObjectShape:
         """The mesh made ready, in pieces that each belong to one of these parts."""
         label, whole = segmentation.face_part, self.whole
-        if (label == label[whole.source][np.unique(whole.piece, return_index=True)[1]][whole.mesh_piece]).all():
+        if (label == label[whole.source][np.unique(whole.patch, return_index=True)[1]][whole.mesh_patch]).all():
             return whole
         return object_shape(self.mesh, self.config.seed, self.config.pieces, label)
 

@@ -144,9 +144,9 @@ def test_a_ring_of_contact_has_its_middle_as_a_candidate_and_not_a_point_of_the_
 
 def test_axes_into_the_surface_are_points_where_they_come_out() -> None:
     around = the_case(KNOWN["wheel"].scene).around
-    hub, off = (Motion(MotionKind.TURN, Y, np.array([x, 0.3, 0.2]), "hub") for x in (0.0, 0.05))
-    along = Motion(MotionKind.TURN, np.array([1.0, 0, 0]), np.zeros(3), "along")
+    hub, off = (Motion(MotionKind.REVOLUTE, Y, np.array([x, 0.3, 0.2]), "hub") for x in (0.0, 0.05))
+    along = Motion(MotionKind.REVOLUTE, np.array([1.0, 0, 0]), np.zeros(3), "along")
     points, axes = axis_points(around, [hub, along, off, hub], across(2000), CONFIG)
     assert points[:, [0, 2]] == pytest.approx(np.array([[0, 0.2], [0.05, 0.2]]))  # neither along the surface, nor one twice
-    assert points[:, 1] == pytest.approx(around.part.bounds[0 if around.outward @ Y < 0 else 1, 1])
+    assert points[:, 1] == pytest.approx(around.part.bounds[0 if around.opening_direction @ Y < 0 else 1, 1])
     assert np.abs(axes @ Y) == pytest.approx(1)

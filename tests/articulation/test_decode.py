@@ -54,7 +54,7 @@ def test_a_hinge_goes_through_its_points_wherever_they_are_taken(seed: int, coun
     along = np.sort(rng.uniform(-1, 1, count)) * 3
     picked = shift + along[:, None] * turn.apply(Z)
     found = hinge(picked, X)
-    assert found.kind is MotionKind.TURN
+    assert found.kind is MotionKind.REVOLUTE
     assert between(found.axis, turn.apply(Z)) < 1e-4
     assert np.cross(picked - found.origin, found.axis) == pytest.approx(0, abs=1e-6)
     assert str(count) in found.source
@@ -73,7 +73,7 @@ def test_a_hinge_turns_and_moves_with_its_points(seed: int) -> None:
 
 def test_one_point_turns_about_the_normal_through_it() -> None:
     found = hinge(np.array([[1.0, 2, 3]]), 5 * Y)
-    assert found.kind is MotionKind.TURN
+    assert found.kind is MotionKind.REVOLUTE
     assert found.axis == pytest.approx(Y)
     assert found.origin == pytest.approx([1, 2, 3])
 
@@ -81,14 +81,14 @@ def test_one_point_turns_about_the_normal_through_it() -> None:
 def test_a_slide_goes_along_its_direction() -> None:
     case = the_case(KNOWN["slider"].scene)
     found = slide(-3 * X, case.around, "asked")
-    assert (found.kind, found.source) == (MotionKind.SLIDE, "asked")
+    assert (found.kind, found.source) == (MotionKind.PRISMATIC, "asked")
     assert found.axis == pytest.approx(-X)
 
 
 def test_arrows_lie_in_the_surface_and_point_both_ways() -> None:
     case = the_case(KNOWN["slider"].scene)
     found = surface_directions(case.around)
-    assert found @ case.around.outward == pytest.approx(0, abs=1e-9)
+    assert found @ case.around.opening_direction == pytest.approx(0, abs=1e-9)
     assert found @ found.T == pytest.approx(np.array([[1, -1, 0, 0], [-1, 1, 0, 0], [0, 0, 1, -1], [0, 0, -1, 1]]), abs=1e-9)
     assert max(found @ X) == pytest.approx(1)  # the way along its rails is among them
 
@@ -99,7 +99,7 @@ def test_the_plane_normal_of_an_open_drawer_leads_sideways_and_the_free_way_out_
     assert between(case.shown.normal, Y) > 60
     found = way_out(case)
     assert between(found.axis, Y) < 2
-    assert found.axis @ case.around.outward > 0.99
+    assert found.axis @ case.around.opening_direction > 0.99
 
 
 @pytest.mark.parametrize("degrees", [0.0, -20.0])

@@ -11,7 +11,7 @@ from scenes import Scene, door, drawer
 
 from anymesh.articulation.evidence import hypotheses
 from anymesh.articulation.limits import answered_range, ends_near, limits, opening_as_answered, opening_motion
-from anymesh.geometry.surroundings import Surroundings
+from anymesh.geometry.surroundings import PartContext
 from anymesh.reasoning.questions import Candidate
 from anymesh.types import JointType, Motion, MotionKind
 from anymesh.types.recognition import Moves, RecognizedLabel
@@ -43,12 +43,12 @@ def button() -> Scene:
     return {"base": [box((0, 0, 0), (0.6, 0.4, 0.3))], "key": [box((0.29, -0.006, 0.14), (0.31, 0.001, 0.16))]}
 
 
-LID = Motion(MotionKind.TURN, X, np.array([0.3, 0.4, 0.302]), "back edge")
-HINGE = Motion(MotionKind.TURN, Z, np.array([0.598, -0.002, 0]), "right edge")
-OUT = Motion(MotionKind.SLIDE, -Y, np.zeros(3), "out")
+LID = Motion(MotionKind.REVOLUTE, X, np.array([0.3, 0.4, 0.302]), "back edge")
+HINGE = Motion(MotionKind.REVOLUTE, Z, np.array([0.598, -0.002, 0]), "right edge")
+OUT = Motion(MotionKind.PRISMATIC, -Y, np.zeros(3), "out")
 
 
-def swept(scene: Callable[[], Scene], motion: Motion) -> tuple[Surroundings, Candidate]:
+def swept(scene: Callable[[], Scene], motion: Motion) -> tuple[PartContext, Candidate]:
     around = the_case(scene()).around
     return around, max(hypotheses(around, [("asked", motion)]), key=lambda c: c.outward)
 
@@ -77,9 +77,9 @@ def test_a_lid_that_is_shown_open_closes_further_than_it_opens() -> None:
 
 def test_the_opening_direction_follows_the_answer_where_only_that_leaves_the_range_free() -> None:
     _, c = swept(open_lid, LID)
-    wrong = replace(c, opens=-c.opens, opening=c.closing, closing=c.opening)
+    wrong = replace(c, opens=-c.opening_sign, opening=c.closing, closing=c.opening)
     blocked = replace(wrong, closing=30 * DEG)  # as if the lid could close by 30 degrees only
-    assert opening_as_answered(blocked, (-85 * DEG, 20 * DEG)).opens == c.opens
+    assert opening_as_answered(blocked, (-85 * DEG, 20 * DEG)).opening_sign == c.opening_sign
     assert opening_as_answered(blocked, (-20 * DEG, 85 * DEG)) is blocked  # it opens further than it closes
     assert opening_as_answered(blocked, None) is blocked
 

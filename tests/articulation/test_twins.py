@@ -84,7 +84,7 @@ def test_a_mark_on_a_round_pin_speaks_for_a_turn() -> None:
         mesh, segmentation = built({"base": WALL, "pin": pieces})
         whole = object_shape(mesh, 0, labels=segmentation.face_part)
         _, _, _, question = next(iter(estimate.motion_questions(whole, segmentation, Config())))
-        turns = np.array([c.motion.kind is MotionKind.TURN for c in question.candidates])
+        turns = np.array([c.motion.kind is MotionKind.REVOLUTE for c in question.candidates])
         return float(question.scores[turns].max() - question.scores[~turns].max())
 
     assert lead([pin, mark]) > lead([pin])

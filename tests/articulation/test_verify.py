@@ -34,7 +34,7 @@ NAMES = ["left", "drawer", "lid", "slider", "wheel"]
 
 
 def turn(axis: np.ndarray, origin) -> Motion:
-    return Motion(MotionKind.TURN, axis, np.asarray(origin, float), "picked")
+    return Motion(MotionKind.REVOLUTE, axis, np.asarray(origin, float), "picked")
 
 
 @cache
@@ -124,8 +124,8 @@ FAR_SIDE = turn(Z, (0.598, -0.012, 0))
 THROUGH = turn(Z, (0.3, 0.2, 0))  # in the middle of the case: the leaf would be swung through its sides
 BEYOND = turn(Z, (0.7, -0.012, 0))
 BELOW = turn(X, (0.3, -0.022, 0.002))
-TO_THE_RIGHT = Motion(MotionKind.SLIDE, X, np.array([0.3, -0.012, 0.4]), "picked")
-UP = Motion(MotionKind.SLIDE, Z, np.zeros(3), "picked")
+TO_THE_RIGHT = Motion(MotionKind.PRISMATIC, X, np.array([0.3, -0.012, 0.4]), "picked")
+UP = Motion(MotionKind.PRISMATIC, Z, np.zeros(3), "picked")
 
 
 @pytest.mark.parametrize(
@@ -141,16 +141,16 @@ def test_an_answer_that_is_blocked_is_shown_and_marked_so(name: str, asked: Moti
     assert found.answered is not None
     assert found.answered in found.first
     assert found.table((found.answered,)).blocked == (True,)
-    assert found.table((found.answered,)).amounts[0] > np.deg2rad(30) * (asked.kind is MotionKind.TURN)  # enough to be seen
+    assert found.table((found.answered,)).amounts[0] > np.deg2rad(30) * (asked.kind is MotionKind.REVOLUTE)  # enough to be seen
 
 
 @pytest.mark.parametrize("name", ["wheel", "left"])
 def test_the_middle_lines_of_what_turns_into_the_surface_are_in_the_first_picture(name: str) -> None:
     around = case_of(name).around
     found = [c for c in shown(name, None, JointKind.HINGE_INTO) if c.role in CENTRAL]
-    through = [c for c in found if np.linalg.norm(np.cross(around.core.center - c.motion.origin, c.motion.axis)) < 0.02]
+    through = [c for c in found if np.linalg.norm(np.cross(around.body_obb.center - c.motion.origin, c.motion.axis)) < 0.02]
     assert len(through) >= 1
-    assert any(abs(c.motion.axis @ around.outward) > 0.99 for c in found)
+    assert any(abs(c.motion.axis @ around.opening_direction) > 0.99 for c in found)
 
 
 def test_the_axis_of_a_pin_on_a_part_that_is_not_round_is_offered() -> None:
@@ -176,7 +176,7 @@ def test_a_motion_that_may_go_either_way_is_offered_both_ways() -> None:
     case = the_case({"base": [box((0, 0, 0), (1, 1, 0.1))], "flap": [box((0, 0.48, 0.101), (1, 0.52, 0.6))]})
     found = make_offers(replace(case, answer=KindAnswer(JointKind.HINGE_ALONG)), MOST, 0)
     hinges = [c for c in found.motions if abs(c.motion.axis @ X) > 0.9 and c.motion.origin[2] < 0.15]
-    assert {c.opens for c in hinges} == {-1, 1}
+    assert {c.opening_sign for c in hinges} == {-1, 1}
 
 
 def test_a_slide_that_is_blocked_one_way_opens_the_other_way() -> None:
@@ -188,7 +188,7 @@ def test_a_slide_that_is_blocked_one_way_opens_the_other_way() -> None:
 def test_a_hinge_on_the_side_of_the_grip_comes_behind_the_other_side() -> None:
     assert candidates_of("left", GRIP_SIDE)[0].is_free
     found = shown("left", GRIP_SIDE, JointKind.HINGE_ALONG)
-    upright = [c.motion.origin[0] for c in found if c.motion.kind is MotionKind.TURN and c.vertical > 0.9]
+    upright = [c.motion.origin[0] for c in found if c.motion.kind is MotionKind.REVOLUTE and c.vertical > 0.9]
     assert upright[0] == pytest.approx(0.6, abs=0.03)  # away from the grip
     assert min(upright) < 0.02  # what was answered can still be chosen
 
@@ -214,7 +214,7 @@ def test_what_was_answered_speaks_for_motions_of_its_kind() -> None:
     for c in candidates_of("drawer"):
         kinds = {kind for kind in JointKind if kind is not JointKind.FIXED and fits(c, kind)}
         slides = {JointKind.SLIDE_OUT if abs(c.motion.axis @ Y) > 0.7 else JointKind.SLIDE_ALONG}
-        assert kinds == (turns if c.motion.kind is MotionKind.TURN else slides)
+        assert kinds == (turns if c.motion.kind is MotionKind.REVOLUTE else slides)
 
 
 def test_pictures_show_as_much_of_a_motion_as_is_free_and_no_more_than_is_clear() -> None:
@@ -226,7 +226,7 @@ def test_pictures_show_as_much_of_a_motion_as_is_free_and_no_more_than_is_clear(
 def test_a_button_is_shown_pressed() -> None:
     case = the_case({"base": [box((0, 0, 0), (0.6, 0.4, 0.3))], "key": [box((0.29, -0.006, 0.14), (0.31, 0.001, 0.16))]})
     found = make_offers(replace(case, answer=KindAnswer(JointKind.SLIDE_OUT)), MOST, 0)
-    into = next(c for c in found.motions if c.motion.kind is MotionKind.SLIDE and c.outward < -0.9)
+    into = next(c for c in found.motions if c.motion.kind is MotionKind.PRISMATIC and c.outward < -0.9)
     table = found.table((found.motions.index(into),))
     goes = table.motions[0].transform(table.amounts[0])[:3, 3]
     assert goes @ Y > 0  # into the block

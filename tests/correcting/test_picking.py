@@ -8,7 +8,7 @@ from anymesh.correcting import CorrectionError
 from anymesh.correcting.picking import PickedPart
 from anymesh.types import Asset, Joint, JointType, Motion, MotionKind, Part, Segmentation
 
-TURNS = [np.eye(4), Motion(MotionKind.TURN, np.array([0.6, 0.0, 0.8]), np.array([0.3, 0.1, 0]), "test").transform(0.7)]
+TURNS = [np.eye(4), Motion(MotionKind.REVOLUTE, np.array([0.6, 0.0, 0.8]), np.array([0.3, 0.1, 0]), "test").transform(0.7)]
 
 
 def cylinder(radius: float, height: float, sides: int = 32) -> tuple[np.ndarray, np.ndarray]:

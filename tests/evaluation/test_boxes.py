@@ -19,7 +19,7 @@ def shifted(x: float, y: float = 0, z: float = 0) -> np.ndarray:
 
 
 def turned(degrees: float, origin=(0.5, 0.5, 0.5)) -> np.ndarray:
-    return Motion(MotionKind.TURN, np.array([0, 0, 1.0]), np.array(origin, float), "test").transform(np.deg2rad(degrees))
+    return Motion(MotionKind.REVOLUTE, np.array([0, 0, 1.0]), np.array(origin, float), "test").transform(np.deg2rad(degrees))
 
 
 def test_axis_aligned_boxes() -> None:

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from anymesh.geometry.layout import Front, filled, tile
+from anymesh.geometry.layout import PanelRectangle, filled, tile
 
 LOW, HIGH = np.zeros(2), np.array([1.0, 1.0])
 BAR, KNOB = 0.06, 0.01  # half lengths
@@ -16,13 +16,13 @@ def handle(x: float, y: float, along: int) -> np.ndarray:
     return np.add([x, y], [-half, half])
 
 
-def fronts(*handles: tuple[float, float, int], low=LOW, high=HIGH) -> list[Front]:
+def fronts(*handles: tuple[float, float, int], low=LOW, high=HIGH) -> list[PanelRectangle]:
     spots = np.array([handle(*h) for h in handles]).reshape(-1, 2, 2)
     found = tile(low, high, spots, np.array([h[2] for h in handles], np.int64))
     return sorted(found, key=lambda f: f.handle)
 
 
-def rectangles(found: list[Front]) -> np.ndarray:
+def rectangles(found: list[PanelRectangle]) -> np.ndarray:
     return np.array([[*f.low, *f.high] for f in found])
 
 

@@ -11,7 +11,7 @@ from anymesh.config import PiecesConfig
 from anymesh.geometry.boxes import box_pairs
 from anymesh.geometry.distance_ import TriangleTree, distance_to_mesh
 from anymesh.geometry.pieces import object_shape
-from anymesh.geometry.shape import surface_of
+from anymesh.geometry.shape import mesh_surface
 from anymesh.geometry.simplify_ import FEWEST, simplify
 
 
@@ -60,11 +60,11 @@ def test_cavities_are_found_whatever_else_is_inside_out() -> None:
         return piece[0], piece[1][:, ::-1]
 
     pieces = [box((0, 0, 0), (1, 1, 1)), inward(box((0.2, 0.2, 0.2), (0.4, 0.4, 0.4))), inward(box((2, 0, 0), (3, 1, 1)))]
-    assert surface_of(mesh_of(pieces)[0]).void.tolist() == [False, True, False]
+    assert mesh_surface(mesh_of(pieces)[0]).void.tolist() == [False, True, False]
 
 
 def test_above_the_most_pieces_all_copies_join_what_they_are_nearest_to() -> None:
     beads = [box((x, 0.4, 1.01), (x + 0.01, 0.41, 1.02)) for x in np.linspace(0.05, 0.4, 12)]
     mesh = mesh_of([box((0, 0, 0), (1, 1, 1)), box((3, 0, 0), (4, 1, 1)), *beads])[0]
-    assert int(object_shape(mesh, config=PiecesConfig(most_pieces=5)).piece.max()) + 1 == 2
-    assert int(object_shape(mesh).piece.max()) + 1 == 14
+    assert int(object_shape(mesh, config=PiecesConfig(most_pieces=5)).patch.max()) + 1 == 2
+    assert int(object_shape(mesh).patch.max()) + 1 == 14

@@ -8,7 +8,7 @@ from rigid import apply, move, shape_of
 
 from anymesh.config import PiecesConfig
 from anymesh.geometry.pieces import object_shape
-from anymesh.geometry.shape import Shape, surface_of
+from anymesh.geometry.shape import FaceSet, mesh_surface
 from anymesh.types.triangles import normals_and_areas
 
 
@@ -44,8 +44,8 @@ def test_only_an_inside_out_wall_within_a_solid_is_a_cavity(seed):
         inside_out((3, 3, 5), (4, 4, 6)),  # likewise, above
     ]
     mesh, number = mesh_of(pieces)
-    found = surface_of(mesh.transformed(move(seed)))
-    assert found.parts.label.tolist() == number.tolist()
+    found = mesh_surface(mesh.transformed(move(seed)))
+    assert found.components.label.tolist() == number.tolist()
     assert found.void.tolist() == [False, True, False, False, False]
     for k in range(5):
         sign = -1 if k == 1 else 1
@@ -76,11 +76,11 @@ def test_a_dense_mesh_is_asked_about_in_fewer_faces_of_the_same_pieces():
     )
     before = mesh.vertices.copy()
     found = object_shape(mesh, config=PiecesConfig(most_faces=1000))
-    assert 600 < len(found.piece) <= 1000
-    assert found.mesh_piece.tolist() == number.tolist()
-    np.testing.assert_array_equal(found.mesh_piece[found.source], found.piece)
+    assert 600 < len(found.patch) <= 1000
+    assert found.mesh_patch.tolist() == number.tolist()
+    np.testing.assert_array_equal(found.mesh_patch[found.source], found.patch)
     for k in range(2):
-        assert (outwardness(found.of(np.flatnonzero(found.piece == k))) > 0).all()
+        assert (outwardness(found.of(np.flatnonzero(found.patch == k))) > 0).all()
     np.testing.assert_array_equal(mesh.vertices, before)
 
 
@@ -88,7 +88,7 @@ def test_shapes_taken_from_a_prepared_one_are_as_if_made_alone() -> None:
     rng = np.random.default_rng(3)
     vertices = np.round(rng.random((60, 3)), 2)
     triangles = vertices[rng.integers(0, 60, (200, 3))]
-    plain = Shape(triangles, normals_and_areas(triangles)[0], np.zeros(200, bool), np.arange(200))
+    plain = FaceSet(triangles, normals_and_areas(triangles)[0], np.zeros(200, bool), np.arange(200))
     ready = plain.prepared()
     origins, directions = rng.random((500, 3)) * 2 - 0.5, rng.normal(size=(500, 3))
     for index in (np.arange(200), np.arange(30, 90, 2), np.array([5])):

@@ -23,11 +23,11 @@ Z = np.array([0.0, 0, 1])
 
 
 def turn(axis, origin, T=None) -> Motion:
-    return motion(MotionKind.TURN, axis, origin, T)
+    return motion(MotionKind.REVOLUTE, axis, origin, T)
 
 
 def slide(axis, T=None) -> Motion:
-    return motion(MotionKind.SLIDE, axis, (0, 0, 0), T)
+    return motion(MotionKind.PRISMATIC, axis, (0, 0, 0), T)
 
 
 def motion(kind, axis, origin, T) -> Motion:

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from assets import box, mesh_of
 
-from anymesh.geometry.boxes import Box
-from anymesh.geometry.unseen import hidden, hidden_walls, unseen_body
+from anymesh.geometry.boxes import OrientedBox
+from anymesh.geometry.unseen import hidden_base, is_occluded, occluded_walls
 from anymesh.rendering.render import render
 from anymesh.rendering.viewpoints import orbit_camera
 
@@ -18,11 +18,11 @@ DEPTH = render(MESH, CAMERA).depth
 def test_points_behind_what_is_seen_are_hidden_and_points_before_and_beside_it_are_not() -> None:
     behind, before, beside = [0.5, 0.5, 1.0], [0.5, -0.5, 1.0], [-0.8, 0.5, 1.0]
     on = [0.5, -0.05, 1.0]
-    assert hidden(np.array([behind, before, beside, on]), CAMERA, DEPTH).tolist() == [True, False, False, False]
+    assert is_occluded(np.array([behind, before, beside, on]), CAMERA, DEPTH).tolist() == [True, False, False, False]
 
 
 def test_only_the_far_sides_that_nothing_shows_are_walls() -> None:
-    walls = hidden_walls(Box(np.array([0.5, 0.5, 1.0]), np.eye(3), np.array([0.5, 0.5, 1.0])), CAMERA, DEPTH)
+    walls = occluded_walls(OrientedBox(np.array([0.5, 0.5, 1.0]), np.eye(3), np.array([0.5, 0.5, 1.0])), CAMERA, DEPTH)
     low, high = walls.min(1), walls.max(1)
     left, back, below = high[:, 0] < 1e-9, low[:, 1] > 1 - 1e-9, high[:, 2] < 1e-9
     assert (left | back | below).all()
@@ -39,7 +39,7 @@ def test_only_the_far_sides_that_nothing_shows_are_walls() -> None:
 def test_a_shut_door_gets_something_to_lie_on() -> None:
     seen = MESH.subset((PART == 1) | (MESH.face_normals @ [1, 0, 1] > 0.5))
     part = np.where(seen.triangles[:, :, 1].max(1) < 0, 1, 0)
-    added = unseen_body(seen, part, CAMERA, DEPTH)
+    added = hidden_base(seen, part, CAMERA, DEPTH)
     upright = np.ptp(added[:, :, 1], axis=1) < 1e-9
     behind_door = added[upright & (added[:, 0, 1] < 0.1)]
     assert len(behind_door)
@@ -51,5 +51,5 @@ def test_an_open_door_is_no_wall_of_the_body() -> None:
     leaf = box((1, -1, 0), (1.04, 0, 2))
     mesh, part = mesh_of([CASE, leaf])
     camera = orbit_camera(mesh.bounds, -0.4, 0.4, 128)
-    added = unseen_body(mesh, part, camera, render(mesh, camera).depth)
+    added = hidden_base(mesh, part, camera, render(mesh, camera).depth)
     assert added[..., 1].min() > -0.01

@@ -66,7 +66,7 @@ def picks(name: str, *rows: Any) -> dict[str, Any]:
     return parts(*({"part": k, name: row} for k, row in enumerate(rows, 1)))
 
 
-TURNS = tuple(Motion(MotionKind.TURN, axis, np.zeros(3), "built so") for axis in (X, Z))
+TURNS = tuple(Motion(MotionKind.REVOLUTE, axis, np.zeros(3), "built so") for axis in (X, Z))
 REGIONS = (np.array([[1, 2], [3, -1]]), np.array([[2, 4], [-1, -1]]))  # the marks of two pictures
 FACES = (np.zeros((2, 2), int), np.zeros((2, 2), int))
 DOOR = {"label": "door", "moves": "revolute", "parent": "base", "lower": 0, "upper": 90}

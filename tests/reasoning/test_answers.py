@@ -26,29 +26,29 @@ PLATE = PartFacts(
     diagonal=1.0,
     horizontal=False,
     handle=None,
-    touches_ends=False,
+    two_pivot=False,
     tall=-0.6,
     height=0.5,
-    seated=0.0,
+    back_contact=0.0,
     free_rim=0.0,
-    lid=0.0,
+    covers_opening=0.0,
 )
 
 
 def candidate(role: str, kind: MotionKind, axis, **changes) -> Candidate:
-    free = np.pi if kind is MotionKind.TURN else 0.5
+    free = np.pi if kind is MotionKind.REVOLUTE else 0.5
     sweep = Sweep(free, 0.0, True, False)
     made = Candidate(
-        Motion(kind, axis, np.zeros(3), f"a {role}"), sweep, role, 1, free, 0.0, support=0.0, sibling=0.0, handle_side=0.0,
-        guided=0.0, depth=0.0, vertical=float(abs(axis[2])), above=0.0, captured=False, outward=1.0,
+        Motion(kind, axis, np.zeros(3), f"a {role}"), sweep, role, 1, free, 0.0, hinge_support=0.0, sibling=0.0,
+        handle_side=0.0, guided=0.0, depth=0.0, vertical=float(abs(axis[2])), above=0.0, captured=False, outward=1.0,
     )  # fmt: skip
     return replace(made, **changes)
 
 
-EDGE = candidate("edge", MotionKind.TURN, Z, support=1.0)
-FAR_EDGE = replace(EDGE, motion=Motion(MotionKind.TURN, Z, X, "the other edge"))
-PULL = candidate("slide", MotionKind.SLIDE, Y)
-ROUND = candidate("round", MotionKind.TURN, Y, closing=np.pi)
+EDGE = candidate("edge", MotionKind.REVOLUTE, Z, support=1.0)
+FAR_EDGE = replace(EDGE, motion=Motion(MotionKind.REVOLUTE, Z, X, "the other edge"))
+PULL = candidate("slide", MotionKind.PRISMATIC, Y)
+ROUND = candidate("round", MotionKind.REVOLUTE, Y, closing=np.pi)
 
 
 def asked(part: PartFacts, candidates: list[Candidate], scores: list[float]) -> MotionAnswer:
@@ -70,9 +70,9 @@ def question(*candidates: Candidate) -> MotionQuestion:
 
 
 def test_motions_are_the_same_joint_about_one_line_to_one_side() -> None:
-    near = replace(EDGE, motion=Motion(MotionKind.TURN, Z, 0.01 * X, "nearly the same edge"))
-    against = replace(EDGE, opens=-EDGE.opens)
-    slid = replace(PULL, motion=Motion(MotionKind.SLIDE, Y, X, "elsewhere"))  # where a slide starts says nothing
+    near = replace(EDGE, motion=Motion(MotionKind.REVOLUTE, Z, 0.01 * X, "nearly the same edge"))
+    against = replace(EDGE, opens=-EDGE.opening_sign)
+    slid = replace(PULL, motion=Motion(MotionKind.PRISMATIC, Y, X, "elsewhere"))  # where a slide starts says nothing
     assert same_joints(question(EDGE, FAR_EDGE, near, against), 0).tolist() == [True, False, True, False]
     assert same_joints(question(PULL, slid, EDGE), 0).tolist() == [True, True, False]
     assert same_joints(question(ROUND, replace(ROUND, opens=-1)), 0).tolist() == [True, True]  # turns freely: no side

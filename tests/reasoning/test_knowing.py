@@ -188,7 +188,7 @@ def test_what_is_fixed_is_answered_as_well_as_can_be() -> None:
 
 
 def turn(axis: np.ndarray, origin=(0.0, 0, 0)) -> Motion:
-    return Motion(MotionKind.TURN, axis, np.asarray(origin, float), "built so")
+    return Motion(MotionKind.REVOLUTE, axis, np.asarray(origin, float), "built so")
 
 
 MOTIONS = {
@@ -196,7 +196,7 @@ MOTIONS = {
     "nearly the joint's own": ((turn(X), turn(Z, (0.05, 0, 0))), 1),
     "none but backwards": ((turn(X), turn(-Z)), None),
     "none about the other side": ((turn(Z, (1, 0, 0)),), None),
-    "none but a slide": ((Motion(MotionKind.SLIDE, Y, np.zeros(3), "built so"),), None),
+    "none but a slide": ((Motion(MotionKind.PRISMATIC, Y, np.zeros(3), "built so"),), None),
     "the nearest of two": ((turn(Z, (0.05, 0, 0)), turn(Z, (0.02, 0, 0))), 1),
 }
 

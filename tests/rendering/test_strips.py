@@ -18,11 +18,11 @@ X, Y, Z = np.eye(3)
 
 
 def turn(axis, origin) -> Motion:
-    return Motion(MotionKind.TURN, np.asarray(axis, float), np.asarray(origin, float), "test")
+    return Motion(MotionKind.REVOLUTE, np.asarray(axis, float), np.asarray(origin, float), "test")
 
 
 def slide(axis) -> Motion:
-    return Motion(MotionKind.SLIDE, np.asarray(axis, float), np.zeros(3), "test")
+    return Motion(MotionKind.PRISMATIC, np.asarray(axis, float), np.zeros(3), "test")
 
 
 def door():

@@ -47,7 +47,7 @@ def test_superpoints_are_the_sides_of_boxes() -> None:
 
 def test_no_superpoint_spans_two_pieces_and_small_ones_are_merged() -> None:
     cloud = cloud_of(MESH)
-    piece = object_shape(MESH).mesh_piece[cloud.faces]
+    piece = object_shape(MESH).mesh_patch[cloud.faces]
     spans = [len(np.unique(piece[cloud.superpoint == s])) for s in range(cloud.count)]
     assert max(spans) == 1
     assert np.bincount(cloud.superpoint).min() >= FEW.least_points

@@ -54,7 +54,7 @@ def test_what_only_a_part_holds_goes_with_it() -> None:
     mesh, part = mesh_of(boxes)
     whole = object_shape(mesh, 0, Config().pieces)
     contacts = find_contacts(whole, SegmentationConfig())
-    patch = np.array([whole.mesh_piece[part == k][0] for k in range(5)])
+    patch = np.array([whole.mesh_patch[part == k][0] for k in range(5)])
 
     def joined(*owner: int) -> list[int]:
         given = np.empty(5, np.int64)

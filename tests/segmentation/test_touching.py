@@ -25,7 +25,7 @@ def gaps(a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 def test_the_connecting_area_of_two_boxes_is_their_common_face() -> None:
     boxes = [BLOCK, box((1, 0.25, 0.25), (2, 0.75, 0.75))]
     whole = object_shape(mesh_of(boxes)[0])
-    a, b = (whole.of(np.flatnonzero(whole.piece == k)).samples.points for k in (0, 1))
+    a, b = (whole.of(np.flatnonzero(whole.patch == k)).samples.points for k in (0, 1))
     in_a, in_b, threshold = connecting_area(*gaps(a, b), 0.05)
     assert threshold == 0.05
     for points in (a[in_a], b[in_b]):

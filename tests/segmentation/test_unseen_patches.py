@@ -20,8 +20,8 @@ def pieces(*more) -> tuple[ObjectShape, np.ndarray, Solver]:
     mesh, piece = mesh_of([*WALLS, FRONT, *more])
     solver = Solver(mesh)
     whole = solver.whole
-    of = np.zeros(int(whole.mesh_piece.max()) + 1, int)
-    of[whole.mesh_piece] = piece
+    of = np.zeros(int(whole.mesh_patch.max()) + 1, int)
+    of[whole.mesh_patch] = piece
     return whole, np.where(of < 5, 0, np.where(of == 5, 1, -1)), solver
 
 
@@ -43,7 +43,7 @@ def test_a_part_gains_what_it_holds_unless_it_is_less_free_with_it() -> None:
 
 def test_a_drawer_slides_as_far_with_its_box_and_a_door_does_not_turn_with_it() -> None:
     whole, part, solver = pieces(BIN)
-    joined, alone = np.where(part < 0, 1, part)[whole.piece], np.maximum(part, 0)[whole.piece]
+    joined, alone = np.where(part < 0, 1, part)[whole.patch], np.maximum(part, 0)[whole.patch]
     assert solver.stays_free(alone, joined, 1, Moves.PRISMATIC)
     assert not solver.stays_free(alone, joined, 1, Moves.REVOLUTE)
     assert solver.stays_free(alone, joined, 1)  # nobody said: a drawer it may be

@@ -32,7 +32,7 @@ def test_motions_are_rigid_and_add_up(seed, kind, a, b):
 
 @given(SEEDS, st.floats(-3, 3))
 def test_a_turn_follows_the_right_hand_and_a_slide_the_axis(seed, amount):
-    turn, slide = motion(seed, MotionKind.TURN), motion(seed, MotionKind.SLIDE)
+    turn, slide = motion(seed, MotionKind.REVOLUTE), motion(seed, MotionKind.PRISMATIC)
     np.testing.assert_allclose(turn.transform(amount)[:3, :3], Rotation.from_rotvec(amount * turn.axis).as_matrix(), atol=1e-9)
     on_axis = np.r_[turn.origin + 1.7 * turn.axis, 1]
     np.testing.assert_allclose(turn.transform(amount) @ on_axis, on_axis, atol=1e-9)
@@ -41,7 +41,7 @@ def test_a_turn_follows_the_right_hand_and_a_slide_the_axis(seed, amount):
 
 def test_an_axis_is_a_unit_vector():
     with pytest.raises(ValueError, match=r"length 2\.0"):
-        Motion(MotionKind.TURN, np.array([0, 0, 2.0]), np.zeros(3), "test")
+        Motion(MotionKind.REVOLUTE, np.array([0, 0, 2.0]), np.zeros(3), "test")
 
 
 @given(SEEDS, st.floats(0.1, 2.5), st.integers(1, 9), st.integers(1, 9))

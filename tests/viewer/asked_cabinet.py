@@ -49,8 +49,8 @@ def points(scale: float = 1.0) -> WhichPoints:
 
 
 def motions(scale: float = 1.0) -> WhichMotions:
-    hinge = Motion(MotionKind.TURN, Z, scale * np.array([0.6, 0, 0.3]), "hinge")
-    out = Motion(MotionKind.SLIDE, -Y, np.zeros(3), "out")
+    hinge = Motion(MotionKind.REVOLUTE, Z, scale * np.array([0.6, 0, 0.3]), "hinge")
+    out = Motion(MotionKind.PRISMATIC, -Y, np.zeros(3), "out")
     door = MotionTable(part(1, scale), (out, hinge), (0.2 * scale, 1.0), (False, True))
     both = np.flatnonzero(np.isin(FACE_PART, [2, 3]))
     return WhichMotions((PICTURE,) * 2, (door, MotionTable(part(2, scale), (out,), (0.2 * scale,), (False,), both)))

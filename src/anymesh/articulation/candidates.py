@@ -11,7 +11,7 @@ from scipy.spatial import KDTree
 from anymesh.config import GroundingConfig, PromptConfig
 from anymesh.geometry.sampling import SurfacePoints
 from anymesh.geometry.superpoints import superpoints
-from anymesh.geometry.surroundings import Surroundings
+from anymesh.geometry.surroundings import PartContext
 from anymesh.rendering.points import labels_apart
 from anymesh.types import Motion
 
@@ -35,7 +35,7 @@ def cluster_points(contact: Float[np.ndarray, "n 3"], project: Project, config: 
 
 
 def axis_points(
-    around: Surroundings, axes: Sequence[Motion], project: Project, config: PromptConfig
+    around: PartContext, axes: Sequence[Motion], project: Project, config: PromptConfig
 ) -> tuple[Float[np.ndarray, "k 3"], Float[np.ndarray, "k 3"]]:
     """Return the points where some axes leave the part on its outer side, and the directions of these axes.
 
@@ -43,8 +43,8 @@ def axis_points(
     """
     points, directions = np.zeros((0, 3)), np.zeros((0, 3))
     for motion in axes:
-        sign = 1.0 if motion.axis @ around.outward >= 0 else -1.0
-        if abs(float(motion.axis @ around.outward)) < INTO or len(points) >= config.most_candidates // 2:
+        sign = 1.0 if motion.axis @ around.opening_direction >= 0 else -1.0
+        if abs(float(motion.axis @ around.opening_direction)) < INTO or len(points) >= config.most_candidates // 2:
             continue
         reach = float(((around.part.corners - motion.origin) @ (sign * motion.axis)).max())
         more = np.concatenate([points, (motion.origin + reach * sign * motion.axis)[None]])

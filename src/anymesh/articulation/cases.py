@@ -14,7 +14,7 @@ from anymesh.articulation.tree import descendants, parents
 from anymesh.articulation.twins import agree, same_size
 from anymesh.config import Config
 from anymesh.geometry.pieces import ObjectShape
-from anymesh.geometry.surroundings import Surroundings
+from anymesh.geometry.surroundings import PartContext
 from anymesh.reasoning.asking import Answer, Question, Seer
 from anymesh.reasoning.prompting import JointKind, KindAnswer, PartShown
 from anymesh.types import Motion, Picture, Segmentation
@@ -35,7 +35,7 @@ class Case:
     name: str
     parent: str
     carried: tuple[int, ...]
-    around: Surroundings
+    around: PartContext
     shown: PartShown
     circles: tuple[Motion, ...] = ()
     recognized: RecognizedLabel | None = None

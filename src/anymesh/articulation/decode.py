@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.geometry.surroundings import Surroundings
+from anymesh.geometry.surroundings import PartContext
 from anymesh.types import Motion, MotionKind
 
 TRIALS = 200  # planes tried by RANSAC
@@ -39,18 +39,18 @@ def hinge(
     if len(picked) == 1:
         own = axis is not None and not np.isnan(axis).any()
         along, source = (axis, "axis at the point picked") if own else (normal, "normal at the point picked")
-        return Motion(MotionKind.TURN, along / np.linalg.norm(along), picked[0], source)
+        return Motion(MotionKind.REVOLUTE, along / np.linalg.norm(along), picked[0], source)
     middle = picked.mean(0)
     axis = np.linalg.svd(picked - middle, full_matrices=False)[2][0]
-    return Motion(MotionKind.TURN, axis / np.linalg.norm(axis), middle, f"line through the {len(picked)} points picked")
+    return Motion(MotionKind.REVOLUTE, axis / np.linalg.norm(axis), middle, f"line through the {len(picked)} points picked")
 
 
-def surface_directions(around: Surroundings) -> Float[np.ndarray, "4 3"]:
+def surface_directions(around: PartContext) -> Float[np.ndarray, "4 3"]:
     """Both ways along the two sides of the part that lie along the surface."""
-    a, b = (around.core.axes[k] for k in around.face_axes)
+    a, b = (around.body_obb.axes[k] for k in around.face_axes)
     return np.stack([a, -a, b, -b])
 
 
-def slide(direction: Float[np.ndarray, " 3"], around: Surroundings, source: str) -> Motion:
+def slide(direction: Float[np.ndarray, " 3"], around: PartContext, source: str) -> Motion:
     """A slide of the part along a direction."""
-    return Motion(MotionKind.SLIDE, direction / np.linalg.norm(direction), around.part.box.center, source)
+    return Motion(MotionKind.PRISMATIC, direction / np.linalg.norm(direction), around.part.box.center, source)

@@ -17,10 +17,10 @@ from anymesh.articulation.twins import agree, in_a_row, same_size
 from anymesh.config import ArticulationConfig, Config
 from anymesh.deadline import JOINTS, Deadline
 from anymesh.geometry.pieces import ObjectShape
-from anymesh.geometry.shape import Shape
-from anymesh.geometry.surroundings import Surroundings, rods
+from anymesh.geometry.shape import FaceSet
+from anymesh.geometry.surroundings import PartContext, find_barrel_candidates
 from anymesh.geometry.sweep import free_amount
-from anymesh.reasoning.questions import Answerer, Candidate, MotionAnswer, MotionQuestion
+from anymesh.reasoning.questions import Candidate, MotionAnswer, MotionAnswerer, MotionQuestion
 from anymesh.types import Joint, JointType, Motion, MotionKind, Segmentation
 
 SAME_RIM = 0.01  # share of the scale: hinge lines this near, or as near as the part is thick, are at one rim
@@ -29,11 +29,11 @@ WIDE = np.deg2rad(110)  # of an opening that a hinge needs no more than
 TIGHT = 0.2  # factor on the penetration that counts: neighbours are a few millimetres away
 MOST_COPIES = 8  # of a part, with whose motions its own are compared
 LIKELIEST = ("bail", "round", "barrel", "edge_mid", "slide")  # motions that are swept when the time is over
-PartMotions = tuple[int, int, Surroundings, MotionQuestion]  # number of a part, of its parent, what is around it, its motions
+PartMotions = tuple[int, int, PartContext, MotionQuestion]  # number of a part, of its parent, what is around it, its motions
 NOTICED = np.deg2rad(5)  # a line that lets the part open further by less is no better
 
 
-def estimate_joints(segmentation: Segmentation, motions: Iterable[PartMotions], answerer: Answerer) -> tuple[Joint, ...]:
+def estimate_joints(segmentation: Segmentation, motions: Iterable[PartMotions], answerer: MotionAnswerer) -> tuple[Joint, ...]:
     """Return one joint for every part but the root, in the order of the parts. motions: as from `motion_questions`."""
     parts = segmentation.parts
     joints = {
@@ -68,8 +68,8 @@ def relabelled(swept: Iterable[PartMotions], segmentation: Segmentation) -> list
 
 
 def surroundings(
-    whole: ObjectShape, label: np.ndarray, shapes: list[Shape], parent: list[int], i: int, config: ArticulationConfig
-) -> Surroundings:
+    whole: ObjectShape, label: np.ndarray, shapes: list[FaceSet], parent: list[int], i: int, config: ArticulationConfig
+) -> PartContext:
     """Part i with what hangs on it; what stands still is the root and the parts that i hangs on."""
     carried = [i, *descendants(parent, i)]
     line, at = [0], parent[i]
@@ -80,13 +80,13 @@ def surroundings(
     moving = np.isin(label, carried)
     others = ~still & ~moving
     center = whole.shape.bounds.mean(0)
-    return Surroundings(
+    return PartContext(
         part=whole.of(np.flatnonzero(moving)),
         parent=shapes[parent[i]],
         rest=whole.of(np.flatnonzero(still)),
         others=whole.of(np.flatnonzero(others)) if others.any() else None,
         everything=whole.of(np.flatnonzero(~moving)),
-        slim=rods(whole, shapes[i], shapes[parent[i]]),
+        barrel_candidates=find_barrel_candidates(whole, shapes[i], shapes[parent[i]]),
         diagonal=whole.diagonal,
         center=center,
         config=config,
@@ -94,18 +94,18 @@ def surroundings(
     )
 
 
-def choose_motion(around: Surroundings, question: MotionQuestion, answerer: Answerer) -> tuple[MotionAnswer, Candidate]:
+def choose_motion(around: PartContext, question: MotionQuestion, answerer: MotionAnswerer) -> tuple[MotionAnswer, Candidate]:
     """Return how a part moves: the answer with the candidate chosen."""
     answer = answerer.which_motion(question)
     return answer, _clear_of_others(around, question.candidates[answer.ranking[0]], question.candidates)
 
 
-def motion_question(around: Surroundings, name: str, label: str) -> MotionQuestion:
+def motion_question(around: PartContext, name: str, label: str) -> MotionQuestion:
     """Propose, sweep and score the motions of a part by itself."""
     return _unscored(around, name, label, None).question()
 
 
-def _unscored(around: Surroundings, name: str, label: str, deadline: Deadline | None) -> UnscoredMotions:
+def _unscored(around: PartContext, name: str, label: str, deadline: Deadline | None) -> UnscoredMotions:
     proposed = propose(around)
     if deadline is not None and deadline.late(JOINTS):
         deadline.leave_out("joints: only the likeliest motions were swept")
@@ -114,14 +114,14 @@ def _unscored(around: Surroundings, name: str, label: str, deadline: Deadline | 
     return UnscoredMotions(around, facts, hypotheses(around, proposed))
 
 
-def _clear_of_others(around: Surroundings, best: Candidate, candidates: tuple[Candidate, ...]) -> Candidate:
+def _clear_of_others(around: PartContext, best: Candidate, candidates: tuple[Candidate, ...]) -> Candidate:
     """Of the lines through the thickness of the part at the hinge that was chosen, the one about which the other parts, at
     rest, let it open furthest: nothing of the part's own shape tells them apart."""
     rims = ("edge", "edge_mid")
     if best.role not in rims or not around.siblings:
         return best
-    near = replace(around.held_by, tolerance=TIGHT * around.penetration)
-    thickness = max(2 * float(around.core.half[2]), SAME_RIM * around.scale)
+    near = replace(around.obstacles_at_rest, tolerance=TIGHT * around.penetration)
+    thickness = max(2 * float(around.body_obb.half[2]), SAME_RIM * around.scale)
 
     def opens(c: Candidate) -> float:
         return free_amount(near, opening_motion(c), 1, min(c.opening, WIDE), around.config.sweep_steps)[0]
@@ -139,17 +139,19 @@ def _at_one_rim(a: Candidate, b: Candidate, thickness: float) -> bool:
     return float(np.linalg.norm(np.cross(b.motion.origin - a.motion.origin, a.motion.axis))) < 1.5 * thickness
 
 
-def estimate_joint(around: Surroundings, name: str, parent: str, question: MotionQuestion, answerer: Answerer) -> Joint:
+def estimate_joint(around: PartContext, name: str, parent: str, question: MotionQuestion, answerer: MotionAnswerer) -> Joint:
     """The joint of one part."""
     answer, best = choose_motion(around, question, answerer)
     if answer.type is not JointType.FIXED:
         return joint_of(around, name, parent, best, answer.type, answer.confidence, answer.reason)
-    kind = JointType.PRISMATIC if best.motion.kind is MotionKind.SLIDE else JointType.REVOLUTE  # somebody said that it moves
+    kind = (
+        JointType.PRISMATIC if best.motion.kind is MotionKind.PRISMATIC else JointType.REVOLUTE
+    )  # somebody said that it moves
     return joint_of(around, name, parent, best, kind, answer.confidence, f"{answer.reason}; likeliest: {best.motion.source}")
 
 
 def joint_of(
-    around: Surroundings,
+    around: PartContext,
     name: str,
     parent: str,
     best: Candidate,
@@ -174,7 +176,7 @@ def joint_of(
     )
 
 
-def _on_part(motion: Motion, around: Surroundings) -> np.ndarray:
+def _on_part(motion: Motion, around: PartContext) -> np.ndarray:
     """The point of the axis level with the part's middle."""
     return motion.origin + ((around.part.box.center - motion.origin) @ motion.axis) * motion.axis
 

@@ -8,13 +8,13 @@ import numpy as np
 
 from anymesh.articulation.hold import kept, lever, support
 from anymesh.articulation.leaves import meeting_sides, outer_side, pair_side, passes
-from anymesh.geometry.surroundings import CARVED, Surroundings
+from anymesh.geometry.surroundings import IGNORE_OVERLAP_SCALE, PartContext
 from anymesh.geometry.sweep import free_amounts, sweep_all
 from anymesh.reasoning.questions import Candidate, PartFacts
 from anymesh.types import Motion, MotionKind, Sweep
 
 ACROSS = 0.6  # weight of a bar that runs across the line
-SLACKS = (3.0, CARVED)  # factors on the penetration that counts, tried in turn where a hinge is blocked
+SLACKS = (3.0, IGNORE_OVERLAP_SCALE)  # factors on the penetration that counts, tried in turn where a hinge is blocked
 RIMS = ("edge", "edge_mid", "barrel")  # hinges at a rim of the part: it may be stuck in the rest, and still turn about them
 OUTWARDS = 0.5  # cosine of a motion with the way out
 STUCK = np.deg2rad(12)  # a hinge that opens less is not free
@@ -23,9 +23,9 @@ TURNS = (37, 90, 141, 200, 285)  # [deg] about its axis; a body of revolution lo
 HELD = 0.02  # a slide is held sideways when stopped within this share of the diagonal
 
 
-def part_facts(around: Surroundings, name: str, label: str, bail: bool) -> PartFacts:
+def part_facts(around: PartContext, name: str, label: str, bail: bool) -> PartFacts:
     """The facts of one part that do not depend on a motion."""
-    core = around.core
+    core = around.body_obb
     extents = 2 * core.half / around.diagonal
     return PartFacts(
         name=name,
@@ -34,39 +34,39 @@ def part_facts(around: Surroundings, name: str, label: str, bail: bool) -> PartF
         thinness=float(core.half[2] / max(core.half[1], 1e-12)),
         roundness=around.outline.roundness,
         flatness=around.outline.height / max(around.outline.radius, 1e-9),
-        outward=around.outward,
-        openness=around.openness,
-        buried=around.buried,
+        opening_direction=around.opening_direction,
+        visibility=around.visibility,
+        insertion_depth=around.insertion_depth,
         size=around.part.box.diagonal / around.diagonal,
         diagonal=around.diagonal,
-        horizontal=bool(abs(around.outward[2]) > 0.8),
+        horizontal=bool(abs(around.opening_direction[2]) > 0.8),
         handle=around.handle,
-        touches_ends=bail,
+        two_pivot=bail,
         tall=_tall(around),
         height=float((around.part.bounds.mean(0)[2] - around.bounds[0, 2]) / max(np.ptp(around.bounds[:, 2]), 1e-9)),
-        seated=_seated(around),
+        back_contact=_seated(around),
         free_rim=_free_rim(around) if around.outline.roundness > 0.5 else 0.0,
-        lid=_lid(around) if around.outline.roundness > 0.5 else 0.0,
-        marked=_marked(around) if around.outline.roundness > 0.5 else 1.0,
+        covers_opening=_lid(around) if around.outline.roundness > 0.5 else 0.0,
+        rotational_asymmetry=_marked(around) if around.outline.roundness > 0.5 else 1.0,
     )
 
 
-def _tall(around: Surroundings) -> float:
-    if abs(around.outward[2]) > 0.8:
+def _tall(around: PartContext) -> float:
+    if abs(around.opening_direction[2]) > 0.8:
         return 0.0
-    across = np.cross(around.outward, (0.0, 0.0, 1.0))
+    across = np.cross(around.opening_direction, (0.0, 0.0, 1.0))
     width = float(np.ptp(around.part.corners @ (across / np.linalg.norm(across))))
     return float(np.log2(max(float(np.ptp(around.part.bounds[:, 2])), 1e-9) / max(width, 1e-9)))
 
 
-def _seated(around: Surroundings) -> float:
+def _seated(around: PartContext) -> float:
     """Share of what faces away from the way out that lies on the parent, or in it."""
-    back = around.part.samples.normals @ around.outward < -SQUARE
+    back = around.part.samples.normals @ around.opening_direction < -SQUARE
     near = around.gap < max(2 * around.config.connecting * around.scale, 1.5 * float(around.gap.min()))
     return float(near[back].mean()) if back.sum() > 3 else 0.0
 
 
-def _free_rim(around: Surroundings) -> float:
+def _free_rim(around: PartContext) -> float:
     """Share of a round part's rim that sees nothing of the rest within two radii, straight away from its axis."""
     outline, points = around.outline, around.part.samples.points
     arm = points - outline.center
@@ -80,18 +80,18 @@ def _free_rim(around: Surroundings) -> float:
     return float((around.rest.scene.first_hit(start, 2 * outline.radius * away, 1.0).face < 0).mean())
 
 
-def _marked(around: Surroundings) -> float:
+def _marked(around: PartContext) -> float:
     """How far a round part is from a body of revolution, over its radius: what turns has something on it that shows it."""
     outline, points = around.outline, around.part.samples.points[::4]
     off = 0.0
     for turn in np.deg2rad(TURNS):
-        T = Motion(MotionKind.TURN, outline.axis, outline.center, "").transform(turn)
+        T = Motion(MotionKind.REVOLUTE, outline.axis, outline.center, "").transform(turn)
         turned = points @ T[:3, :3].T + T[:3, 3]
         off = max(off, float(np.percentile(around.part.tree.distance(turned), 99)))
     return off / max(outline.radius, 1e-9)
 
 
-def _lid(around: Surroundings) -> float:
+def _lid(around: PartContext) -> float:
     """How much of a round part's rim lies near the parent, times the share of its back with nothing close behind."""
     outline, points = around.outline, around.part.samples.points
     arm = points - outline.center
@@ -100,63 +100,63 @@ def _lid(around: Surroundings) -> float:
     if rim.sum() < 3 or back.sum() < 3:
         return 0.0
     held = float((around.gap[rim] < 0.1 * outline.radius).mean())
-    rays = np.repeat(-around.outward[None] * 0.5 * outline.radius, int(back.sum()), 0)
+    rays = np.repeat(-around.opening_direction[None] * 0.5 * outline.radius, int(back.sum()), 0)
     empty = float((around.rest.scene.first_hit(points[back], rays, 1.0).face < 0).mean())
     return held * empty
 
 
-def hypotheses(around: Surroundings, proposed: list[tuple[str, Motion]]) -> tuple[Candidate, ...]:
+def hypotheses(around: PartContext, proposed: list[tuple[str, Motion]]) -> tuple[Candidate, ...]:
     """Sweep every motion and measure it: two candidates per motion, opening along its axis and against it, side by side.
 
     Part and rest may penetrate each other at rest, as artists leave them: hinges that are blocked are swept again with more
     penetration allowed, and at last as if the rest made room for the part.
     """
     motions, steps = [m for _, m in proposed], around.config.sweep_steps
-    turns = [m for m in motions if m.kind is MotionKind.TURN]
+    turns = [m for m in motions if m.kind is MotionKind.REVOLUTE]
     along, meeting = iter(support(around, turns)), meeting_sides(around)
-    inward = [m.kind is MotionKind.SLIDE and abs(float(m.axis @ around.outward)) <= OUTWARDS for m in motions]
+    inward = [m.kind is MotionKind.PRISMATIC and abs(float(m.axis @ around.opening_direction)) <= OUTWARDS for m in motions]
     swept: dict[int, Sweep] = {}
-    for obstacles, wanted in ((around.obstacles(), False), (around.held_by, True)):
+    for obstacles, wanted in ((around.obstacles(), False), (around.obstacles_at_rest, True)):
         chosen = [k for k, x in enumerate(inward) if x is wanted]
         swept.update(zip(chosen, sweep_all(obstacles, [motions[k] for k in chosen], steps), strict=True))
-    held = iter(_held(around, [m for m in motions if m.kind is MotionKind.SLIDE]))
+    held = iter(_held(around, [m for m in motions if m.kind is MotionKind.PRISMATIC]))
     ahead = [
         _turn(around, role, motion, swept[k], next(along), meeting)
-        if motion.kind is MotionKind.TURN
+        if motion.kind is MotionKind.REVOLUTE
         else _slide(around, role, motion, swept[k], next(held))
         for k, (role, motion) in enumerate(proposed)
     ]
     found = _loosened(around, [way for c in ahead for way in (c, reversed_(c))])
-    shares = kept(around, [c.motion for c in found], [c.opens for c in found])
+    shares = kept(around, [c.motion for c in found], [c.opening_sign for c in found])
     return tuple(replace(c, kept=float(share)) for c, share in zip(found, shares, strict=True))
 
 
 def reversed_(c: Candidate) -> Candidate:
     """Return the candidate that opens the other way."""
-    return replace(c, opens=-c.opens, opening=c.closing, closing=c.opening, outward=-c.outward)
+    return replace(c, opens=-c.opening_sign, opening=c.closing, closing=c.opening, outward=-c.outward)
 
 
-def _loosened(around: Surroundings, found: list[Candidate]) -> list[Candidate]:
+def _loosened(around: PartContext, found: list[Candidate]) -> list[Candidate]:
     """Hinges that would let the part out but for what holds it, with as little of the hold ignored as sets each free."""
     found = list(found)
     stuck = [k for k, c in enumerate(found) if c.role in RIMS and c.outward >= OUTWARDS and c.opening <= STUCK]
     for slack in SLACKS:
         swept = sweep_all(around.obstacles(slack), [found[k].motion for k in stuck], around.config.sweep_steps) if stuck else []
         for k, free in zip(list(stuck), swept, strict=True):
-            opening, closing = (free.forward, free.backward)[:: found[k].opens]
+            opening, closing = (free.forward, free.backward)[:: found[k].opening_sign]
             if opening > STUCK:
                 found[k] = replace(found[k], sweep=free, opening=opening, closing=closing, slack=slack)
                 stuck.remove(k)
     return found
 
 
-def _turn(around: Surroundings, role: str, motion: Motion, swept: Sweep, near: np.ndarray, meeting: np.ndarray) -> Candidate:
+def _turn(around: PartContext, role: str, motion: Motion, swept: Sweep, near: np.ndarray, meeting: np.ndarray) -> Candidate:
     moves = np.cross(motion.axis, around.part.samples.points.mean(0) - motion.origin)
     across = float(np.linalg.norm(moves))
     reach, hugs, thick = lever(around, motion)
     return Candidate(
         motion, swept, role, 1, swept.forward, swept.backward,
-        support=float(near[0]),
+        hinge_support=float(near[0]),
         sibling=float(near[1]),
         handle_side=_handle_side(around, motion),
         guided=0.0,
@@ -164,41 +164,41 @@ def _turn(around: Surroundings, role: str, motion: Motion, swept: Sweep, near: n
         vertical=float(abs(motion.axis[2])),
         above=_above(around, motion),
         captured=False,
-        outward=float(moves @ around.outward) / across if across > 1e-9 else 0.0,
+        outward=float(moves @ around.opening_direction) / across if across > 1e-9 else 0.0,
         pair=pair_side(around, motion, meeting),
         outer=outer_side(around, motion),
         handle_off=_handle_off(around, motion),
-        opposite=float(near[2]),
+        support_opposite=float(near[2]),
         reach=reach,
-        hugs=hugs,
+        contact_proximity=hugs,
         thick=thick,
     )  # fmt: skip
 
 
-def _sides(around: Surroundings, motion: Motion) -> np.ndarray:
+def _sides(around: PartContext, motion: Motion) -> np.ndarray:
     """(2, 3) Directions across a slide, along the part's box as far as they are square to it; unit."""
-    flat = sorted(around.core.axes, key=lambda a: abs(float(a @ motion.axis)))[:2]
+    flat = sorted(around.body_obb.axes, key=lambda a: abs(float(a @ motion.axis)))[:2]
     side = np.array([a - (a @ motion.axis) * motion.axis for a in flat])
     return side / np.linalg.norm(side, axis=1, keepdims=True)
 
 
-def _held(around: Surroundings, slides: list[Motion]) -> list[float]:
+def _held(around: PartContext, slides: list[Motion]) -> list[float]:
     """The share of the four directions across each slide in which the part is stopped at once."""
-    sideways = [Motion(MotionKind.SLIDE, d, m.origin, "sideways") for m in slides for d in _sides(around, m)]
+    sideways = [Motion(MotionKind.PRISMATIC, d, m.origin, "sideways") for m in slides for d in _sides(around, m)]
     step = [HELD * around.scale] * (2 * len(sideways))
     signs = [1] * len(sideways) + [-1] * len(sideways)
-    free = free_amounts(around.held_by, sideways + sideways, signs, step, 3) if slides else []
+    free = free_amounts(around.obstacles_at_rest, sideways + sideways, signs, step, 3) if slides else []
     stopped = np.array([not clear for _, clear in free], bool).reshape(2, len(slides), 2)
     return [float(share) for share in stopped.mean((0, 2))]
 
 
-def _slide(around: Surroundings, role: str, motion: Motion, swept: Sweep, held: float) -> Candidate:
+def _slide(around: PartContext, role: str, motion: Motion, swept: Sweep, held: float) -> Candidate:
     side = _sides(around, motion)
-    inner = around.inside_depth(motion.axis)
+    inner = around.depth_in_parent(motion.axis)
     across = sorted(np.ptp(around.part.corners @ d) for d in side)[0]
     return Candidate(
         motion, swept, role, 1, swept.forward / around.scale, swept.backward / around.scale,
-        support=0.0,
+        hinge_support=0.0,
         sibling=0.0,
         handle_side=0.0,
         guided=held,
@@ -206,22 +206,22 @@ def _slide(around: Surroundings, role: str, motion: Motion, swept: Sweep, held: 
         vertical=float(abs(motion.axis[2])),
         above=0.0,
         captured=_captured(around, swept),
-        outward=float(motion.axis @ around.outward),
-        passes=passes(around, motion, (swept.forward, swept.backward)),
+        outward=float(motion.axis @ around.opening_direction),
+        overlap_gain=passes(around, motion, (swept.forward, swept.backward)),
     )  # fmt: skip
 
 
-def _above(around: Surroundings, motion: Motion) -> float:
+def _above(around: PartContext, motion: Motion) -> float:
     low, high = around.part.bounds[:, 2]
     return float(np.clip(2 * (motion.origin[2] - low) / max(high - low, 1e-9) - 1, -1, 1))
 
 
-def _captured(around: Surroundings, swept: Sweep) -> bool:
+def _captured(around: PartContext, swept: Sweep) -> bool:
     room = swept.forward + swept.backward
     return not (swept.clear_forward or swept.clear_backward) and room > 0.25 * around.part.box.diagonal
 
 
-def _handle_side(around: Surroundings, motion: Motion) -> float:
+def _handle_side(around: PartContext, motion: Motion) -> float:
     """1: the handle is at the side opposite the line; -1: right at the line; 0: no handle, or level with the line.
 
     A grip that runs across the line counts less: hands close around bars that are parallel to the hinge.
@@ -230,18 +230,18 @@ def _handle_side(around: Surroundings, motion: Motion) -> float:
     if handle is None:
         return 0.0
     total = 0.0
-    arm = motion.origin - around.core.center
+    arm = motion.origin - around.body_obb.center
     for axis, where in zip(around.face_axes, handle.across, strict=True):
-        if abs(around.core.axes[axis] @ motion.axis) < 0.3:
-            side = float(arm @ around.core.axes[axis]) / max(float(around.core.half[axis]), 1e-9)
+        if abs(around.body_obb.axes[axis] @ motion.axis) < 0.3:
+            side = float(arm @ around.body_obb.axes[axis]) / max(float(around.body_obb.half[axis]), 1e-9)
             across = handle.along is not None and around.face_axes[handle.along] == axis
             total -= float(np.clip(side, -1, 1)) * where * (ACROSS if across else 1.0)
     return float(np.clip(total, -1, 1))
 
 
-def _handle_off(around: Surroundings, motion: Motion) -> float:
+def _handle_off(around: PartContext, motion: Motion) -> float:
     """How far the handle sits from the middle of the hinge's length: flaps have it in the middle, doors where hands reach."""
     if around.handle is None:
         return 0.0
     across = zip(around.face_axes, around.handle.across, strict=True)
-    return max((abs(w) for axis, w in across if abs(around.core.axes[axis] @ motion.axis) > 0.7), default=0.0)
+    return max((abs(w) for axis, w in across if abs(around.body_obb.axes[axis] @ motion.axis) > 0.7), default=0.0)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from anymesh.geometry.surroundings import Surroundings
+from anymesh.geometry.surroundings import PartContext
 from anymesh.types import Motion, MotionKind
 
 LINE_POINTS = 21  # along a hinge line
@@ -16,7 +16,7 @@ TOUCH = 0.008  # share of the scale; what is nearer to the parent is contact
 RIM = 0.15  # share of the part's reach across a line; surface nearer to the line is at its rim
 
 
-def kept(around: Surroundings, motions: list[Motion], signs: list[int]) -> np.ndarray:
+def kept(around: PartContext, motions: list[Motion], signs: list[int]) -> np.ndarray:
     """(motions,) share of the part's contact that stays near the parent when it opens a little (sign: of the opening)."""
     tolerance = max(TOUCH * around.scale, NEAR * float(around.gap.min()))
     contact = around.part.samples.points[around.gap <= tolerance]
@@ -26,14 +26,14 @@ def kept(around: Surroundings, motions: list[Motion], signs: list[int]) -> np.nd
     moved = []
     for motion, sign in zip(motions, signs, strict=True):
         extent = float(np.ptp(around.part.corners @ motion.axis))
-        amount = TURN if motion.kind is MotionKind.TURN else TRAVEL * extent
+        amount = TURN if motion.kind is MotionKind.REVOLUTE else TRAVEL * extent
         T = motion.transform(sign * amount)
         moved.append(contact @ T[:3, :3].T + T[:3, 3])
     off = around.parent.tree.distance(np.concatenate(moved))
     return (off.reshape(len(motions), -1) < NEAR * tolerance).mean(1)
 
 
-def support(around: Surroundings, motions: list[Motion]) -> np.ndarray:
+def support(around: PartContext, motions: list[Motion]) -> np.ndarray:
     """(turns, 3) for each hinge line, as long as the part: the shares that have the parent, and another movable part, near;
     and the first for the line mirrored at the part's middle, which is its free side if there is one."""
     if not motions:
@@ -43,7 +43,7 @@ def support(around: Surroundings, motions: list[Motion]) -> np.ndarray:
         along = points @ motion.axis
         at = np.linspace(along.min(), along.max(), LINE_POINTS) - motion.origin @ motion.axis
         line = motion.origin + at[:, None] * motion.axis
-        arm = around.core.center - motion.origin
+        arm = around.body_obb.center - motion.origin
         lines += [line, line + 2 * (arm - (arm @ motion.axis) * motion.axis)]
     probe = np.concatenate(lines)
     reach = around.config.support * around.scale
@@ -55,7 +55,7 @@ def support(around: Surroundings, motions: list[Motion]) -> np.ndarray:
     return np.stack([parent[:, 0], other, parent[:, 1]], 1)
 
 
-def lever(around: Surroundings, motion: Motion) -> tuple[float, float, float]:
+def lever(around: PartContext, motion: Motion) -> tuple[float, float, float]:
     """Of a hinge line: log2 of the part's reach across it over its length along it; how near the line the contact lies
     (0..1); and the part's thickness at the line over its largest (0..1), thin edges being free ones."""
     points = around.part.samples.points
@@ -68,7 +68,7 @@ def lever(around: Surroundings, motion: Motion) -> tuple[float, float, float]:
     tolerance = max(TOUCH * around.scale, NEAR * float(around.gap.min()))
     contact = off[around.gap <= tolerance]
     hugs = 1 - float(np.median(contact)) / reach if len(contact) else 0.0
-    normal = around.core.axes[2]
+    normal = around.body_obb.axes[2]
     height = points @ normal
     rim = off < RIM * reach
     thick = float(np.ptp(height[rim])) / max(float(np.ptp(height)), 1e-9) if rim.sum() > 3 else 0.0

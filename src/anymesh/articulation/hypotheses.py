@@ -8,16 +8,16 @@ from __future__ import annotations
 
 import numpy as np
 
-from anymesh.geometry.boxes import Box
+from anymesh.geometry.boxes import OrientedBox
 from anymesh.geometry.circles import outline_about
-from anymesh.geometry.surroundings import Surroundings
+from anymesh.geometry.surroundings import PartContext
 from anymesh.types import Motion, MotionKind
 
 SAME_DIRECTION = np.cos(np.deg2rad(1.0))
 SAME_LINE = 0.004  # share of the object's diagonal
 
 
-def _edges(box: Box, what: str) -> list[tuple[str, Motion]]:
+def _edges(box: OrientedBox, what: str) -> list[tuple[str, Motion]]:
     found = []
     for k in range(3):
         i, j = (a for a in range(3) if a != k)
@@ -26,11 +26,11 @@ def _edges(box: Box, what: str) -> list[tuple[str, Motion]]:
                 local = np.zeros(3)
                 local[i], local[j] = si * box.half[i], sj * box.half[j]
                 origin = box.world(local[None])[0]
-                found.append(("edge", Motion(MotionKind.TURN, box.axes[k], origin, f"edge of {what}")))
+                found.append(("edge", Motion(MotionKind.REVOLUTE, box.axes[k], origin, f"edge of {what}")))
     return found
 
 
-def _edge_middles(box: Box, what: str) -> list[tuple[str, Motion]]:
+def _edge_middles(box: OrientedBox, what: str) -> list[tuple[str, Motion]]:
     """Lines half way through the thickness of a plate, along its four rims."""
     found = []
     for k in range(2):
@@ -39,16 +39,16 @@ def _edge_middles(box: Box, what: str) -> list[tuple[str, Motion]]:
             local = np.zeros(3)
             local[other] = s * box.half[other]
             origin = box.world(local[None])[0]
-            found.append(("edge_mid", Motion(MotionKind.TURN, box.axes[k], origin, f"rim of {what}")))
+            found.append(("edge_mid", Motion(MotionKind.REVOLUTE, box.axes[k], origin, f"rim of {what}")))
     return found
 
 
-def _through(box: Box, what: str) -> list[tuple[str, Motion]]:
-    return [("center", Motion(MotionKind.TURN, a, box.center, f"middle line of {what}")) for a in box.axes]
+def _through(box: OrientedBox, what: str) -> list[tuple[str, Motion]]:
+    return [("center", Motion(MotionKind.REVOLUTE, a, box.center, f"middle line of {what}")) for a in box.axes]
 
 
-def _slides(box: Box, what: str) -> list[tuple[str, Motion]]:
-    return [("slide", Motion(MotionKind.SLIDE, a, box.center, f"direction of {what}")) for a in box.axes]
+def _slides(box: OrientedBox, what: str) -> list[tuple[str, Motion]]:
+    return [("slide", Motion(MotionKind.PRISMATIC, a, box.center, f"direction of {what}")) for a in box.axes]
 
 
 def _principal(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -57,18 +57,18 @@ def _principal(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return s / np.sqrt(len(points)), vt
 
 
-def _from_contact(around: Surroundings) -> list[tuple[str, Motion]]:
+def _from_contact(around: PartContext) -> list[tuple[str, Motion]]:
     """The paper's: the line along the connecting area, its plane's normal and the directions in the plane."""
     contact = around.contact
     if len(contact) < 4:
         return []
     middle = contact.mean(0)
     _, directions = _principal(contact)
-    found = [("contact", Motion(MotionKind.TURN, _unit(directions[0]), middle, "line along the connecting area"))]
-    found.append(("center", Motion(MotionKind.TURN, _unit(directions[2]), middle, "normal of the connecting area")))
-    found.append(("pin", Motion(MotionKind.TURN, _unit(directions[1]), middle, "width of the connecting area")))
+    found = [("contact", Motion(MotionKind.REVOLUTE, _unit(directions[0]), middle, "line along the connecting area"))]
+    found.append(("center", Motion(MotionKind.REVOLUTE, _unit(directions[2]), middle, "normal of the connecting area")))
+    found.append(("pin", Motion(MotionKind.REVOLUTE, _unit(directions[1]), middle, "width of the connecting area")))
     found += [
-        ("contact_slide", Motion(MotionKind.SLIDE, _unit(d), middle, f"{what} of the connecting area"))
+        ("contact_slide", Motion(MotionKind.PRISMATIC, _unit(d), middle, f"{what} of the connecting area"))
         for d, what in zip(directions, ("length", "width", "plane normal"), strict=True)
     ]
     return found
@@ -79,7 +79,7 @@ def _unit(v: np.ndarray) -> np.ndarray:
     return -v if v[np.abs(v).argmax()] < 0 else v
 
 
-def bail_line(around: Surroundings) -> Motion | None:
+def bail_line(around: PartContext) -> Motion | None:
     """The line through two contacts that lie far apart with nothing between them (a bucket's bail, a trunnion)."""
     near = around.part.samples.points[around.gap < max(0.008 * around.scale, float(around.gap.min()) * 1.5)]
     if len(near) < 6:
@@ -95,7 +95,7 @@ def bail_line(around: Surroundings) -> Motion | None:
     width = max(float(np.linalg.norm(np.ptp(near[side == s], axis=0))) for s in (0, 1))
     if apart < 0.45 * around.part.box.diagonal * 0.8 or width > 0.35 * apart:
         return None
-    return Motion(MotionKind.TURN, _unit(b - a), (a + b) / 2, "line through the two far contacts")
+    return Motion(MotionKind.REVOLUTE, _unit(b - a), (a + b) / 2, "line through the two far contacts")
 
 
 def _two_groups(points: np.ndarray, centers: np.ndarray) -> np.ndarray:
@@ -107,31 +107,33 @@ def _two_groups(points: np.ndarray, centers: np.ndarray) -> np.ndarray:
     return side
 
 
-def barrels(around: Surroundings) -> list[tuple[str, Motion]]:
+def barrels(around: PartContext) -> list[tuple[str, Motion]]:
     """Axes of small cylinders at the border of part and parent: hinge barrels and pins."""
     found = []
-    for piece in around.slim:
+    for piece in around.barrel_candidates:
         seen = outline_about(np.concatenate([piece.corners, piece.samples.points]), piece.box.axes[0])
         if seen.roundness > 0.85 and seen.height > 2 * seen.radius:
-            found.append(("barrel", Motion(MotionKind.TURN, _unit(seen.axis), seen.center, "axis of a hinge barrel")))
+            found.append(("barrel", Motion(MotionKind.REVOLUTE, _unit(seen.axis), seen.center, "axis of a hinge barrel")))
     return found
 
 
-def propose(around: Surroundings) -> list[tuple[str, Motion]]:
+def propose(around: PartContext) -> list[tuple[str, Motion]]:
     """All candidate motions of a part, each with its role, without near copies; the order is fixed."""
-    core, box = around.core, around.part.box
+    core, box = around.body_obb, around.part.box
     found = _edges(core, "the part") + _edge_middles(core, "the part") + _through(core, "the part")
     found += _slides(core, "the part")
     found[:0] = barrels(around)
     outline = around.outline
     if outline.roundness > 0.5:
-        found.insert(0, ("round", Motion(MotionKind.TURN, _unit(outline.axis), outline.center, "axis of its round outline")))
+        found.insert(
+            0, ("round", Motion(MotionKind.REVOLUTE, _unit(outline.axis), outline.center, "axis of its round outline"))
+        )
     bail = bail_line(around)
     if bail is not None:
         found.insert(0, ("bail", bail))
     if not np.allclose(box.half, core.half, rtol=0.02):
         found += _edges(box, "the part's outer box")
-    found += _slides(Box(box.center, np.eye(3), box.half), "the object")
+    found += _slides(OrientedBox(box.center, np.eye(3), box.half), "the object")
     found += _from_contact(around)
     return distinct(found, around.scale)
 
@@ -148,6 +150,6 @@ def distinct(found: list[tuple[str, Motion]], diagonal: float) -> list[tuple[str
 def _same(a: Motion, b: Motion, diagonal: float) -> bool:
     if a.kind is not b.kind or abs(float(a.axis @ b.axis)) < SAME_DIRECTION:
         return False
-    if a.kind is MotionKind.SLIDE:
+    if a.kind is MotionKind.PRISMATIC:
         return True
     return float(np.linalg.norm(np.cross(b.origin - a.origin, a.axis))) < SAME_LINE * diagonal

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from anymesh.geometry.boxes import Box
-from anymesh.geometry.surroundings import Surroundings
+from anymesh.geometry.boxes import OrientedBox
+from anymesh.geometry.surroundings import PartContext
 from anymesh.types import Motion
 
 ALIKE = 0.25  # leaves whose sides differ by less, relatively, are alike
@@ -14,9 +14,9 @@ BEHIND = 3.0  # thicknesses: what lies within this of a leaf lies right behind i
 GAIN = 0.5  # share of a leaf that must come to lie over something when it passes it
 
 
-def meeting_sides(around: Surroundings) -> np.ndarray:
+def meeting_sides(around: PartContext) -> np.ndarray:
     """(2, 2) for the face axes and their two signs (-, +): how many leaves like the part adjoin it there, in its plane."""
-    core, found = around.core, np.zeros((2, 2))
+    core, found = around.body_obb, np.zeros((2, 2))
     flat = around.face_axes
     thin = next(k for k in range(3) if k not in flat)
     for leaf in around.siblings:
@@ -33,14 +33,14 @@ def meeting_sides(around: Surroundings) -> np.ndarray:
     return found
 
 
-def _extent(box: Box, frame: Box) -> np.ndarray:
+def _extent(box: OrientedBox, frame: OrientedBox) -> np.ndarray:
     """Sides of a box, measured along the axes of another."""
     return 2 * np.abs(frame.axes @ box.axes.T) @ box.half
 
 
-def pair_side(around: Surroundings, motion: Motion, meeting: np.ndarray) -> float:
+def pair_side(around: PartContext, motion: Motion, meeting: np.ndarray) -> float:
     """1: leaves of a pair meet at the side opposite this hinge; -1: at the hinge; 0: no pair, or in the middle of three."""
-    core, total = around.core, 0.0
+    core, total = around.body_obb, 0.0
     arm = motion.origin - core.center
     for axis, sides in zip(around.face_axes, meeting, strict=True):
         if abs(core.axes[axis] @ motion.axis) < 0.3:
@@ -49,9 +49,9 @@ def pair_side(around: Surroundings, motion: Motion, meeting: np.ndarray) -> floa
     return float(np.clip(total, -1, 1))
 
 
-def outer_side(around: Surroundings, motion: Motion) -> float:
+def outer_side(around: PartContext, motion: Motion) -> float:
     """1: the line lies at the object's outer side, as a cabinet's hinges do; -1: at its middle; 0: the part is central."""
-    core = around.core
+    core = around.body_obb
     arm, away = motion.origin - core.center, core.center - around.center
     total = 0.0
     for axis in around.face_axes:
@@ -63,14 +63,14 @@ def outer_side(around: Surroundings, motion: Motion) -> float:
     return float(np.clip(total, -1, 1))
 
 
-def passes(around: Surroundings, motion: Motion, free: tuple[float, float]) -> float:
+def passes(around: PartContext, motion: Motion, free: tuple[float, float]) -> float:
     """How much more of the part lies over something else when it has slid its own width, one way or the other (0..1).
 
     free: what it is free for along +axis and -axis [m]; sashes and sliding doors come to lie over their twins.
     """
     width = float(np.ptp(around.part.corners @ motion.axis))
-    thin = max(2 * float(around.core.half[2]), 0.004 * around.scale)
-    normal = around.core.axes[2]
+    thin = max(2 * float(around.body_obb.half[2]), 0.004 * around.scale)
+    normal = around.body_obb.axes[2]
     if abs(float(normal @ motion.axis)) > 0.3:
         return 0.0
     points = around.part.samples.points[::6]

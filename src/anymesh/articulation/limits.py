@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 from jaxtyping import Bool, Float
 
-from anymesh.geometry.surroundings import Surroundings
+from anymesh.geometry.surroundings import PartContext
 from anymesh.geometry.sweep import free_amount
 from anymesh.reasoning.questions import MIN_ANGLE, Candidate
 from anymesh.types import JointType, Motion, MotionKind
@@ -26,7 +26,7 @@ HELD_DEPTH = 0.3  # share of an answered travel: a part inside its parent by les
 Range = tuple[float, float]  # lower, upper [rad or m], lower <= 0 <= upper
 
 
-def limits(around: Surroundings, c: Candidate, kind: JointType, answered: Range | None = None) -> Range | None:
+def limits(around: PartContext, c: Candidate, kind: JointType, answered: Range | None = None) -> Range | None:
     """Compute (lower, upper) about the opening axis [rad or m]; None for continuous and fixed joints.
 
     answered: the range about the opening axis that an answerer gave; the sweep only shortens it.
@@ -46,7 +46,7 @@ def limits(around: Surroundings, c: Candidate, kind: JointType, answered: Range 
 
 def opening_motion(c: Candidate) -> Motion:
     """The candidate's motion with the axis turned so that positive opens."""
-    return Motion(c.motion.kind, c.motion.axis * c.opens, c.motion.origin, c.motion.source)
+    return Motion(c.motion.kind, c.motion.axis * c.opening_sign, c.motion.origin, c.motion.source)
 
 
 def answered_range(told: RecognizedLabel | None, kind: JointType) -> Range | None:
@@ -67,16 +67,16 @@ def opening_as_answered(c: Candidate, answered: Range | None) -> Candidate:
     A lid that is shown open closes further than it opens (-105..20 deg). Only then, and only where the sweep leaves more of
     the range free with the axis reversed, the opening direction that the geometry suggests is reversed.
     """
-    if answered is None or -answered[0] <= answered[1] or c.motion.kind is MotionKind.SLIDE:
+    if answered is None or -answered[0] <= answered[1] or c.motion.kind is MotionKind.PRISMATIC:
         return c
     lower, upper = -answered[0], answered[1]
     kept, reversed_ = min(upper, c.opening) + min(lower, c.closing), min(upper, c.closing) + min(lower, c.opening)
     if kept > MOSTLY_BLOCKED * (lower + upper) or reversed_ < MOSTLY_FREE * (lower + upper):
         return c
-    return replace(c, opens=-c.opens, opening=c.closing, closing=c.opening, outward=-c.outward)
+    return replace(c, opens=-c.opening_sign, opening=c.closing, closing=c.opening, outward=-c.outward)
 
 
-def _answered_turn(around: Surroundings, c: Candidate, answered: Range) -> Range:
+def _answered_turn(around: PartContext, c: Candidate, answered: Range) -> Range:
     """Shorten an answered range to what the sweep leaves free; a hinge that the sweep calls blocked keeps all of it."""
     lower, upper = -answered[0], answered[1]
     if max(c.opening, c.closing) < MIN_ANGLE:
@@ -87,14 +87,14 @@ def _answered_turn(around: Surroundings, c: Candidate, answered: Range) -> Range
     return (0.0 - back, ahead)
 
 
-def _answered_slide(around: Surroundings, c: Candidate, answered: Range) -> Range:
+def _answered_slide(around: PartContext, c: Candidate, answered: Range) -> Range:
     """Shorten an answered range to what the sweep leaves free and, outwards, to the depth at which the part is held.
 
     What is pressed in keeps its stroke, up to its own height: its mesh may fill the hole that it moves in.
     """
     motion, (lower, upper) = opening_motion(c), (-answered[0], answered[1])
     extent = float(np.ptp(around.part.corners @ motion.axis))
-    depth = around.inside_depth(motion.axis)
+    depth = around.depth_in_parent(motion.axis)
     if c.outward > 0.7 and depth > HELD_DEPTH * upper:
         upper = min(upper, depth)
     ahead, back = _free_within(around, c, lower, upper, 2 * around.config.fine_steps)
@@ -105,20 +105,20 @@ def _answered_slide(around: Surroundings, c: Candidate, answered: Range) -> Rang
     return (0.0 - back, ahead)
 
 
-def _free_within(around: Surroundings, c: Candidate, lower: float, upper: float, steps: int) -> tuple[float, float]:
+def _free_within(around: PartContext, c: Candidate, lower: float, upper: float, steps: int) -> tuple[float, float]:
     """Return how far the part is free ahead, up to `upper`, and back, up to `lower` [rad or m]."""
-    obstacles, motion = around.obstacles(c.slack), opening_motion(c)
+    obstacles, motion = around.obstacles(c.penetration_scale), opening_motion(c)
     ahead = free_amount(obstacles, motion, 1, upper, steps)[0] if upper > 0 else 0.0
     back = free_amount(obstacles, motion, -1, lower, steps)[0] if lower > 0 else 0.0
     return ahead, back
 
 
-def _turn(around: Surroundings, c: Candidate) -> tuple[float, float]:
+def _turn(around: PartContext, c: Candidate) -> tuple[float, float]:
     config, motion = around.config, opening_motion(c)
     most = np.deg2rad(config.door_most if c.vertical > 0.7 else config.flap_most)
     steps = config.fine_steps * 3
-    upper, clear = free_amount(around.obstacles(c.slack), motion, 1, most, steps)
-    lower, _ = free_amount(around.obstacles(c.slack), motion, -1, most, steps)
+    upper, clear = free_amount(around.obstacles(c.penetration_scale), motion, 1, most, steps)
+    lower, _ = free_amount(around.obstacles(c.penetration_scale), motion, -1, most, steps)
     if not clear:
         upper = _floor(upper, np.deg2rad(1))
     closed = c.role in ("edge", "edge_mid", "asked") and _shut(around)
@@ -128,10 +128,10 @@ def _turn(around: Surroundings, c: Candidate) -> tuple[float, float]:
     return (0.0 - lower, upper)
 
 
-def _shut(around: Surroundings) -> bool:
+def _shut(around: PartContext) -> bool:
     """Whether the part lies shut: near the parent at both ends of its face, so that inwards is where it came from."""
     near = around.gap < 0.02 * around.scale
-    local = around.core.local(around.part.samples.points) / np.maximum(around.core.half, 1e-9)
+    local = around.body_obb.local(around.part.samples.points) / np.maximum(around.body_obb.half, 1e-9)
     return sum(ends_near(local[:, axis], near) for axis in around.face_axes) >= 3
 
 
@@ -142,19 +142,19 @@ def ends_near(along: Float[np.ndarray, " n"], near: Bool[np.ndarray, " n"]) -> i
 
 def pressed(c: Candidate, answered: Range | None) -> bool:
     """Return whether a slide goes into its parent by its answered range, as buttons do."""
-    return c.motion.kind is MotionKind.SLIDE and c.outward > 0.7 and answered is not None and -answered[0] > answered[1]
+    return c.motion.kind is MotionKind.PRISMATIC and c.outward > 0.7 and answered is not None and -answered[0] > answered[1]
 
 
 def _floor(value: float, step: float) -> float:
     return float(np.floor(value / step + 1e-9) * step)
 
 
-def _slide(around: Surroundings, c: Candidate) -> tuple[float, float]:
+def _slide(around: PartContext, c: Candidate) -> tuple[float, float]:
     motion = opening_motion(c)
-    leaves = c.sweep.clear_forward if c.opens > 0 else c.sweep.clear_backward
+    leaves = c.sweep.clear_forward if c.opening_sign > 0 else c.sweep.clear_backward
     if c.outward < -0.7 and not leaves:
         return (0.0, _stroke(around, c))
-    depth = around.inside_depth(motion.axis)
+    depth = around.depth_in_parent(motion.axis)
     extent = float(np.ptp(around.part.corners @ motion.axis))
     outward = abs(c.outward) > 0.7
     most = max((1 - around.config.slide_keep) * (depth if outward else extent), 0.01 * around.scale)
@@ -162,11 +162,11 @@ def _slide(around: Surroundings, c: Candidate) -> tuple[float, float]:
         most = 2 * around.part.box.diagonal
     behind = float(np.ptp(around.parent.samples.points @ motion.axis))
     small = around.part.box.diagonal < SMALL * around.diagonal
-    if outward and not small and extent < FRONT * behind and around.core.half[2] < 0.3 * around.core.half[1]:
+    if outward and not small and extent < FRONT * behind and around.body_obb.half[2] < 0.3 * around.body_obb.half[1]:
         most = around.config.slide_hidden * behind  # a front whose box the surface does not show
     steps = around.config.fine_steps * 2
-    upper, _ = free_amount(around.obstacles(c.slack), motion, 1, most, steps)
-    lower, clear = free_amount(around.obstacles(c.slack), motion, -1, most, steps)
+    upper, _ = free_amount(around.obstacles(c.penetration_scale), motion, 1, most, steps)
+    lower, clear = free_amount(around.obstacles(c.penetration_scale), motion, -1, most, steps)
     if outward or clear or lower < 0.01 * around.scale:
         lower = 0.0
     if upper < 1e-3 * around.scale:
@@ -174,9 +174,9 @@ def _slide(around: Surroundings, c: Candidate) -> tuple[float, float]:
     return (0.0 - lower, upper)
 
 
-def _stroke(around: Surroundings, c: Candidate) -> float:
+def _stroke(around: PartContext, c: Candidate) -> float:
     """Return how far a part goes into its parent [m]: up to its own height, half of it where its mesh fills the hole."""
     motion = opening_motion(c)
     extent = float(np.ptp(around.part.corners @ motion.axis))
-    free, _ = free_amount(around.obstacles(c.slack), motion, 1, extent, 2 * around.config.fine_steps)
+    free, _ = free_amount(around.obstacles(c.penetration_scale), motion, 1, extent, 2 * around.config.fine_steps)
     return free if free > MIN_STROKE * extent else STROKE * extent

@@ -10,7 +10,7 @@ from jaxtyping import Float
 
 from anymesh.articulation.motion_context import ScoredMotions, context_features
 from anymesh.articulation.motion_features import motion_features
-from anymesh.geometry.surroundings import Surroundings
+from anymesh.geometry.surroundings import PartContext
 from anymesh.reasoning.questions import Candidate, MotionQuestion, PartFacts
 from anymesh.reasoning.two_steps import TwoStepClassifier
 
@@ -18,7 +18,7 @@ from anymesh.reasoning.two_steps import TwoStepClassifier
 class UnscoredMotions:
     """The motions of one part with their features, after the first step."""
 
-    def __init__(self, around: Surroundings, facts: PartFacts, candidates: Sequence[Candidate]) -> None:
+    def __init__(self, around: PartContext, facts: PartFacts, candidates: Sequence[Candidate]) -> None:
         classifier = shipped_classifier()
         self.facts, self.candidates = facts, tuple(candidates)
         self.table = classifier.table(motion_features(around, facts, candidates))
@@ -32,7 +32,7 @@ class UnscoredMotions:
         return MotionQuestion(self.facts, self.candidates, scores, tuple(reasons))
 
 
-def score_motions(around: Surroundings, facts: PartFacts, candidates: Sequence[Candidate]) -> Float[np.ndarray, " n"]:
+def score_motions(around: PartContext, facts: PartFacts, candidates: Sequence[Candidate]) -> Float[np.ndarray, " n"]:
     """Return the log-odds of each motion of a part, copies of which are not looked at."""
     return UnscoredMotions(around, facts, candidates).question().scores
 

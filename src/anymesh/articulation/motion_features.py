@@ -13,7 +13,7 @@ from jaxtyping import Float
 
 from anymesh.articulation.hold import NEAR, TOUCH
 from anymesh.geometry.circles import outline_about
-from anymesh.geometry.surroundings import Surroundings
+from anymesh.geometry.surroundings import PartContext
 from anymesh.reasoning.questions import Candidate, PartFacts
 from anymesh.reasoning.two_steps import MISSING
 from anymesh.types import Motion, MotionKind
@@ -27,7 +27,7 @@ VIEW_POINTS = 80  # of the part, that look along the opening direction
 MOST_RATIO = 4.0  # lengths over lengths are cut here
 
 
-def motion_features(around: Surroundings, facts: PartFacts, candidates: Sequence[Candidate]) -> list[dict[str, float]]:
+def motion_features(around: PartContext, facts: PartFacts, candidates: Sequence[Candidate]) -> list[dict[str, float]]:
     """Return the features of each candidate; the keys are the same for all."""
     contact = _contact_points(around)
     part = part_values(around, facts, contact)
@@ -37,7 +37,7 @@ def motion_features(around: Surroundings, facts: PartFacts, candidates: Sequence
     lines: dict[int, dict[str, float]] = {}  # the same for both ways about an axis
     for c in candidates:
         if id(c.motion) not in lines:
-            lines[id(c.motion)] = NO_LINE if c.motion.kind is MotionKind.SLIDE else _line(around, c.motion, contact)
+            lines[id(c.motion)] = NO_LINE if c.motion.kind is MotionKind.PRISMATIC else _line(around, c.motion, contact)
     return [
         part
         | _values(around, facts, c)
@@ -47,22 +47,22 @@ def motion_features(around: Surroundings, facts: PartFacts, candidates: Sequence
     ]
 
 
-def _contact_points(around: Surroundings) -> Float[np.ndarray, "n 3"]:
+def _contact_points(around: PartContext) -> Float[np.ndarray, "n 3"]:
     """Return the part's samples near the parent, the nearest ones where none is [m]."""
     gap = around.gap
     return around.part.samples.points[gap <= max(TOUCH * around.scale, NEAR * float(gap.min()))]
 
 
-def _opening_direction(around: Surroundings, c: Candidate) -> Float[np.ndarray, " 3"]:
+def _opening_direction(around: PartContext, c: Candidate) -> Float[np.ndarray, " 3"]:
     """Return where the part's middle goes first, unit; it means nothing for a turn about the middle."""
-    axis = c.opens * c.motion.axis
-    if c.motion.kind is MotionKind.SLIDE:
+    axis = c.opening_sign * c.motion.axis
+    if c.motion.kind is MotionKind.PRISMATIC:
         return axis
     moves = np.cross(axis, around.part.samples.points.mean(0) - c.motion.origin)
     return moves / max(float(np.linalg.norm(moves)), 1e-9)
 
 
-def _visible(around: Surroundings, ways: Float[np.ndarray, "h 3"]) -> Float[np.ndarray, " h"]:
+def _visible(around: PartContext, ways: Float[np.ndarray, "h 3"]) -> Float[np.ndarray, " h"]:
     """Return the share of the part's surface that sees nothing of the rest along each direction."""
     samples = around.part.samples
     points = samples.points[:: max(1, len(samples.points) // VIEW_POINTS)]
@@ -71,7 +71,7 @@ def _visible(around: Surroundings, ways: Float[np.ndarray, "h 3"]) -> Float[np.n
     return (around.rest.scene.first_hit(start, rays, 1.0).face < 0).reshape(len(ways), -1).mean(1)
 
 
-def part_values(around: Surroundings, facts: PartFacts, contact: Float[np.ndarray, "n 3"]) -> dict[str, float]:
+def part_values(around: PartContext, facts: PartFacts, contact: Float[np.ndarray, "n 3"]) -> dict[str, float]:
     """Return the features of the part itself."""
     handle = facts.handle
     extents = np.array(facts.extents)
@@ -85,16 +85,16 @@ def part_values(around: Surroundings, facts: PartFacts, contact: Float[np.ndarra
         "thickness": float(extents[2]),
         "roundness": facts.roundness,
         "height over radius": min(facts.flatness, 8.0),
-        "opening direction up": float(around.outward[2]),
-        "visibility": facts.openness,
-        "insertion depth": min(facts.buried, MOST_RATIO),
+        "opening direction up": float(around.opening_direction[2]),
+        "visibility": facts.visibility,
+        "insertion depth": min(facts.insertion_depth, MOST_RATIO),
         "tall": facts.tall,
         "height": facts.height,
-        "back contact": facts.seated,
+        "back contact": facts.back_contact,
         "free rim": facts.free_rim,
-        "covers an opening": facts.lid,
-        "rotational asymmetry": min(facts.marked, MOST_RATIO),
-        "held at two ends": float(facts.touches_ends),
+        "covers an opening": facts.covers_opening,
+        "rotational asymmetry": min(facts.rotational_asymmetry, MOST_RATIO),
+        "held at two ends": float(facts.two_pivot),
         "handle": float(handle is not None),
         "handle size": handle.size if handle else 0.0,
         "handle off the middle": max(abs(a) for a in handle.across) if handle else 0.0,
@@ -111,18 +111,18 @@ def part_values(around: Surroundings, facts: PartFacts, contact: Float[np.ndarra
     }
 
 
-def _box_area(around: Surroundings) -> float:
-    a, b, c = around.core.half
+def _box_area(around: PartContext) -> float:
+    a, b, c = around.body_obb.half
     return 8 * float(a * b + b * c + a * c)
 
 
-def _values(around: Surroundings, facts: PartFacts, c: Candidate) -> dict[str, float]:
-    slides, axis, core = c.motion.kind is MotionKind.SLIDE, c.motion.axis, around.core
+def _values(around: PartContext, facts: PartFacts, c: Candidate) -> dict[str, float]:
+    slides, axis, core = c.motion.kind is MotionKind.PRISMATIC, c.motion.axis, around.body_obb
     unit = max(facts.size * around.diagonal / around.scale if slides else np.pi, 1e-9)
     extent = float(np.ptp(around.part.corners @ axis)) / around.scale
     turn = {
-        "hinge support": c.support,
-        "support opposite": c.opposite,
+        "hinge support": c.hinge_support,
+        "support opposite": c.support_opposite,
         "another part along": c.sibling,
         "handle side": c.handle_side,
         "handle off the hinge's middle": c.handle_off,
@@ -130,14 +130,14 @@ def _values(around: Surroundings, facts: PartFacts, c: Candidate) -> dict[str, f
         "pair": c.pair,
         "outer": c.outer,
         "reach": c.reach,
-        "contact proximity": c.hugs,
+        "contact proximity": c.contact_proximity,
         "thick at the line": c.thick,
         "rises": _rises(around, c),
     }
     slide = {
         "guided": c.guided,
         "depth": min(c.depth, MOST_RATIO),
-        "overlap gain": c.passes,
+        "overlap gain": c.overlap_gain,
         "captured": float(c.captured),
         "room over extent": min((c.opening + c.closing) / max(extent, 1e-9), 8.0),
     }
@@ -146,29 +146,29 @@ def _values(around: Surroundings, facts: PartFacts, c: Candidate) -> dict[str, f
         "along length": abs(float(axis @ core.axes[0])),
         "along width": abs(float(axis @ core.axes[1])),
         "along thickness": abs(float(axis @ core.axes[2])),
-        "along opening direction": abs(float(axis @ around.outward)),
+        "along opening direction": abs(float(axis @ around.opening_direction)),
         "vertical": c.vertical,
-        "upwards": float(c.opens * axis[2]) if slides else MISSING,
+        "upwards": float(c.opening_sign * axis[2]) if slides else MISSING,
         "opening": min(c.opening / unit, MOST_RATIO),
         "closing": min(c.closing / unit, MOST_RATIO),
         "free both ways": min(c.opening, c.closing) / unit,
         "outward": c.outward,
-        "contact retention": c.kept,
-        "penetration scale": float(np.log(c.slack)),
+        "contact retention": c.contact_retention,
+        "penetration scale": float(np.log(c.penetration_scale)),
         **(dict.fromkeys(turn, MISSING) if slides else turn),
         **(slide if slides else dict.fromkeys(slide, MISSING)),
     }
 
 
-def _rises(around: Surroundings, c: Candidate) -> float:
+def _rises(around: PartContext, c: Candidate) -> float:
     """Return the sine of the slope at which the part's middle goes up first; negative: down."""
-    moves = c.opens * np.cross(c.motion.axis, around.part.samples.points.mean(0) - c.motion.origin)
+    moves = c.opening_sign * np.cross(c.motion.axis, around.part.samples.points.mean(0) - c.motion.origin)
     return float(moves[2] / max(float(np.linalg.norm(moves)), 1e-9))
 
 
-def _line(around: Surroundings, motion: Motion, contact: Float[np.ndarray, "n 3"]) -> dict[str, float]:
+def _line(around: PartContext, motion: Motion, contact: Float[np.ndarray, "n 3"]) -> dict[str, float]:
     """Return the features of a hinge line that do not depend on the way about it."""
-    core, points, axis = around.core, around.part.samples.points, motion.axis
+    core, points, axis = around.body_obb, around.part.samples.points, motion.axis
     local = np.abs(core.local(motion.origin[None])[0] / np.maximum(core.half, 1e-9))
     local = np.minimum(local, MOST_RATIO) * (np.abs(core.axes @ axis) < SQUARE)
     off = _distance(points, motion)
@@ -193,12 +193,12 @@ def _line(around: Surroundings, motion: Motion, contact: Float[np.ndarray, "n 3"
         "contact middle off the line": float(_distance(contact.mean(0)[None], motion)[0] / reach),
         "contact around the axis": _coverage(contact, motion),
         "off the parent's border": float(beside.min() / around.diagonal) if len(beside) else MISSING,
-        "barrel near": float(any(_distance(rod.box.center[None], motion)[0] < 0.05 * reach for rod in around.slim)),
+        "barrel near": float(any(_distance(b.box.center[None], motion)[0] < 0.05 * reach for b in around.barrel_candidates)),
         **_handle_place(around, motion, reach),
     }  # fmt: skip
 
 
-def _misfit(around: Surroundings, motion: Motion, reach: float) -> float:
+def _misfit(around: PartContext, motion: Motion, reach: float) -> float:
     """Return how far a part is from itself, over its reach, after the turn of TURNS that suits it best: 0 for propellers."""
     points = around.part.samples.points
     points = points[:: max(1, len(points) // MISFIT_POINTS)]
@@ -217,16 +217,16 @@ def _coverage(points: Float[np.ndarray, "n 3"], motion: Motion) -> float:
     return len(np.unique(np.floor(angle / (2 * np.pi) * SECTORS))) / SECTORS
 
 
-def _handle_place(around: Surroundings, motion: Motion, reach: float) -> dict[str, float]:
+def _handle_place(around: PartContext, motion: Motion, reach: float) -> dict[str, float]:
     """Return how far the handle is from a line, over the part's reach, and whether a bar handle runs along it."""
     handle = around.handle
     if handle is None:
         return {"handle distance": MISSING, "bar handle along": MISSING}
-    at, along = around.core.center.copy(), MISSING
+    at, along = around.body_obb.center.copy(), MISSING
     for axis, where in zip(around.face_axes, handle.across, strict=True):
-        at += where * around.core.half[axis] * around.core.axes[axis]
+        at += where * around.body_obb.half[axis] * around.body_obb.axes[axis]
     if handle.along is not None:
-        along = abs(float(around.core.axes[around.face_axes[handle.along]] @ motion.axis))
+        along = abs(float(around.body_obb.axes[around.face_axes[handle.along]] @ motion.axis))
     return {"handle distance": min(float(_distance(at[None], motion)[0] / reach), MOST_RATIO), "bar handle along": along}
 
 

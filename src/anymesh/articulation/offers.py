@@ -114,20 +114,20 @@ def scored_motions(case: Case) -> MotionQuestion:
 
 def fits(c: Candidate, kind: JointKind) -> bool:
     """Return whether a motion is of the kind that was answered."""
-    if kind.turns or c.motion.kind is MotionKind.TURN:
-        return kind.turns and c.motion.kind is MotionKind.TURN
+    if kind.turns or c.motion.kind is MotionKind.REVOLUTE:
+        return kind.turns and c.motion.kind is MotionKind.REVOLUTE
     return (abs(c.outward) > 0.7) == (kind is JointKind.SLIDE_OUT)
 
 
 def moves_as(c: Candidate, moves: Moves) -> bool:
     """Return whether a motion is a turn or a slide as recognition said."""
-    return (moves is Moves.PRISMATIC) == (c.motion.kind is MotionKind.SLIDE)
+    return (moves is Moves.PRISMATIC) == (c.motion.kind is MotionKind.PRISMATIC)
 
 
 def shown_amount(c: Candidate, case: Case) -> float:
     """Return how far a motion goes in a picture [rad or m]: opening, or into the parent for what is pressed (negative)."""
     around = case.around
-    if c.motion.kind is MotionKind.TURN:
+    if c.motion.kind is MotionKind.REVOLUTE:
         return float(min(c.opening, SHOWN_TURN) if c.is_free else SHOWN_BLOCKED * SHOWN_TURN)
     size = SHOWN_SLIDE * around.part.box.diagonal
     if pressed(c, answered_range(case.recognized, JointType.PRISMATIC)):
@@ -200,7 +200,7 @@ def _crowding(first: list[int], values: list[float]) -> list[bool]:
 
 def _off_part(case: Case, c: Candidate) -> bool:
     """Whether a hinge line passes the part at a distance, as an edge of a box does that a handle stretches."""
-    if c.motion.kind is not MotionKind.TURN or c.role not in ("edge", "edge_mid"):
+    if c.motion.kind is not MotionKind.REVOLUTE or c.role not in ("edge", "edge_mid"):
         return False
     off = np.linalg.norm(np.cross(case.around.part.samples.points - c.motion.origin, c.motion.axis), axis=1)
     return bool(off.min() > OFF_PART * case.around.scale)

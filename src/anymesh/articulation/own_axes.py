@@ -10,8 +10,8 @@ from jaxtyping import Float
 
 from anymesh.geometry.circles import outline_about
 from anymesh.geometry.pieces import ObjectShape
-from anymesh.geometry.shape import Shape
-from anymesh.geometry.surroundings import Surroundings
+from anymesh.geometry.shape import FaceSet
+from anymesh.geometry.surroundings import PartContext
 from anymesh.types import Motion, MotionKind
 
 ROUND = 0.8  # roundness of a circle that stands for an axis
@@ -22,20 +22,20 @@ SAME_DIRECTION = 0.98  # cosine
 LEAST_POINTS = 24  # of a contact that may be a ring
 
 
-def round_pieces(whole: ObjectShape, part: Shape, parent: Shape) -> tuple[Motion, ...]:
+def round_pieces(whole: ObjectShape, part: FaceSet, parent: FaceSet) -> tuple[Motion, ...]:
     """Return the axes of round pieces of a part, and of round pieces of its parent that it encloses or sits on (pins)."""
     found: list[tuple[float, Motion]] = []
     low, high = part.bounds
     for own, shape in ((True, part), (False, parent)):
-        numbers, count = np.unique(whole.piece[shape.faces], return_counts=True)
+        numbers, count = np.unique(whole.patch[shape.faces], return_counts=True)
         if own and len(numbers) < 2:
             continue
         for number in numbers[np.argsort(-count, kind="stable")][:MOST_PIECES]:
-            corners = shape.triangles[whole.piece[shape.faces] == number].reshape(-1, 3)
+            corners = shape.triangles[whole.patch[shape.faces] == number].reshape(-1, 3)
             meets = (corners.max(0) >= low).all() and (corners.min(0) <= high).all()
             if len(corners) < LEAST_POINTS or not (own or meets):
                 continue
-            piece = shape.take(np.flatnonzero(whole.piece[shape.faces] == number))
+            piece = shape.take(np.flatnonzero(whole.patch[shape.faces] == number))
             if own or piece.box.diagonal < part.box.diagonal:
                 points = np.concatenate([corners, piece.samples.points])
                 outlines = [outline_about(points, axis) for axis in piece.box.axes]
@@ -46,12 +46,12 @@ def round_pieces(whole: ObjectShape, part: Shape, parent: Shape) -> tuple[Motion
     return tuple(motion for _, motion in found[:MOST_CIRCLES])
 
 
-def pivots(around: Surroundings, normal: Float[np.ndarray, " 3"]) -> list[tuple[str, Motion]]:
+def pivots(around: PartContext, normal: Float[np.ndarray, " 3"]) -> list[tuple[str, Motion]]:
     """Return lines through the middle of the contact, and the axis of its ring. normal: of the contact's plane, unit."""
     contact = around.contact
     middle = (contact.min(0) + contact.max(0)) / 2
     directions: list[np.ndarray] = []
-    for d in (normal, around.outward, *around.core.axes):
+    for d in (normal, around.opening_direction, *around.body_obb.axes):
         if all(abs(float(d @ other)) < SAME_DIRECTION for other in directions):
             directions.append(d)
     found = []
@@ -61,10 +61,10 @@ def pivots(around: Surroundings, normal: Float[np.ndarray, " 3"]) -> list[tuple[
         if best.roundness > ROUND:
             found.append(("hub", _turn(best.axis, best.center, "axis of the ring where it is held")))
     found += [("pivot", _turn(d, middle, "line through the middle of the contact")) for d in directions]
-    found.append(("pivot", _turn(normal, around.core.center, "middle line along the contact's normal")))
+    found.append(("pivot", _turn(normal, around.body_obb.center, "middle line along the contact's normal")))
     return found
 
 
 def _turn(axis: Float[np.ndarray, " 3"], origin: Float[np.ndarray, " 3"], source: str) -> Motion:
     axis = axis / np.linalg.norm(axis)
-    return Motion(MotionKind.TURN, -axis if axis[np.abs(axis).argmax()] < 0 else axis, origin, source)
+    return Motion(MotionKind.REVOLUTE, -axis if axis[np.abs(axis).argmax()] < 0 else axis, origin, source)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from anymesh.geometry.surroundings import Surroundings
+from anymesh.geometry.surroundings import PartContext
 from anymesh.reasoning.questions import Candidate
 from anymesh.types import MotionKind
 
@@ -14,13 +14,13 @@ UP = 0.8  # cosine of the way out with the vertical from which a hinged part is 
 RISES = 0.5  # of its height: a part with a level hinge that stands higher above its parent is a lid that is shown open
 
 
-def label_of(around: Surroundings, best: Candidate) -> str:
+def label_of(around: PartContext, best: Candidate) -> str:
     """Return drawer, button, slider, knob, wheel, handle, lid or door, or "" for what is as good as fixed.
 
     best: the motion of the part.
     """
     size = around.part.box.diagonal / around.diagonal
-    if best.motion.kind is MotionKind.SLIDE:
+    if best.motion.kind is MotionKind.PRISMATIC:
         if abs(best.outward) < ALONG:
             return "slider"
         if size <= DRAWER and best.outward < 0:
@@ -32,4 +32,4 @@ def label_of(around: Surroundings, best: Candidate) -> str:
         return "handle" if around.part.slender else "lid"  # a plate on two pivots is a laptop's lid
     low, high = around.part.bounds[:, 2]
     raised = best.vertical < ALONG and high - around.parent.bounds[1, 2] > RISES * (high - low)
-    return "lid" if around.outward[2] > UP or raised else "door"
+    return "lid" if around.opening_direction[2] > UP or raised else "door"

@@ -181,7 +181,7 @@ def _points(questions: Questions, case: Case, shot: Shot, whole: ObjectShape) ->
         motions = [m for _, m in pivots(case.around, case.shown.normal)]
         outline = case.around.outline
         if outline.roundness > 0.5:
-            motions.insert(0, Motion(MotionKind.TURN, outline.axis, outline.center, "axis of its round outline"))
+            motions.insert(0, Motion(MotionKind.REVOLUTE, outline.axis, outline.center, "axis of its round outline"))
         first, axes = axis_points(case.around, [*case.circles, *motions], project, prompts)
         axes = axes[shot.is_inside(first)]
         points = followed(first[shot.is_inside(first)], points, project, prompts)
@@ -211,7 +211,7 @@ def _surface_slides(questions: Questions, cases: list[Case], segmentation: Segme
 def _joint(case: Case, choice: Choice, confidence: float, verify: str) -> Joint:
     kind = JointType.FIXED
     if choice.moves:
-        turns = choice.best.motion.kind is MotionKind.TURN
+        turns = choice.best.motion.kind is MotionKind.REVOLUTE
         endless = case.answer.endless and (verify != "motion" or choice.best.turns_freely)
         kind = JointType.PRISMATIC if not turns else JointType.CONTINUOUS if endless else JointType.REVOLUTE
     answered = answered_range(case.recognized, kind)

@@ -18,7 +18,7 @@ GUIDED = 0.4  # share of the ways sideways in which what slides out is held
 def normal_outwards(case: Case) -> Motion:
     """Return the slide along the normal of the connecting area's plane, outwards (paper, 3.3)."""
     normal = case.shown.normal
-    outward = normal if normal @ case.around.outward >= 0 else -normal
+    outward = normal if normal @ case.around.opening_direction >= 0 else -normal
     return slide(outward, case.around, "normal of the connecting area's plane")
 
 
@@ -28,8 +28,8 @@ def way_out(case: Case) -> Motion:
     On real drawers the connecting area is rim and sides, and its plane's normal alone may be off by 80 degrees and more.
     """
     around = case.around
-    outward = around.outward
-    directions = [s * a for a in around.core.axes for s in (1.0, -1.0) if s * a @ outward > 0.5] + [outward]
+    outward = around.opening_direction
+    directions = [s * a for a in around.body_obb.axes for s in (1.0, -1.0) if s * a @ outward > 0.5] + [outward]
     ways = [normal_outwards(case)] + [slide(d, around, "free way out") for d in directions]
     found = hypotheses(around, [("asked", way) for way in ways])[::2]
     if found[0].is_free and found[0].outward > 0.7 and found[0].guided > GUIDED:
@@ -39,10 +39,10 @@ def way_out(case: Case) -> Motion:
 
 def as_answered(case: Case) -> Choice:
     """Return the motion that was answered, as it is."""
-    motion = case.asked or slide(case.around.outward, case.around, "nothing moves")
+    motion = case.asked or slide(case.around.opening_direction, case.around, "nothing moves")
     both = hypotheses(case.around, [("asked", motion)])
     scores = score_motions(case.around, part_facts(case.around, case.label, case.label, bail=False), both)
-    best = both[max((0, 1), key=lambda k: (both[k].is_free, scores[k]))] if motion.kind is MotionKind.TURN else both[0]
+    best = both[max((0, 1), key=lambda k: (both[k].is_free, scores[k]))] if motion.kind is MotionKind.REVOLUTE else both[0]
     moves = case.recognized.moves if case.recognized else None
     told = moves is not None and moves_as(best, moves)
     features = {

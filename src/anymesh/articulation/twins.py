@@ -9,19 +9,19 @@ from dataclasses import replace
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.geometry.boxes import alike
-from anymesh.geometry.shape import Shape
-from anymesh.geometry.surroundings import Surroundings, core_box
+from anymesh.geometry.boxes import same_box
+from anymesh.geometry.shape import FaceSet
+from anymesh.geometry.surroundings import PartContext, body_obb
 
 LEVEL = 0.25  # of the way from one to the other: a row goes across its way out, but for this share
 
 
-def same_size(shapes: Sequence[Shape], parent: Sequence[int]) -> list[list[int]]:
+def same_size(shapes: Sequence[FaceSet], parent: Sequence[int]) -> list[list[int]]:
     """The numbers of all parts but the root (0), those together that have the same parent, sides and directions."""
     groups: list[list[int]] = []
-    boxes = [core_box(shape) for shape in shapes]
+    boxes = [body_obb(shape) for shape in shapes]
     for i in range(1, len(shapes)):
-        found = next((g for g in groups if parent[g[0]] == parent[i] and alike(boxes[g[0]], boxes[i])), None)
+        found = next((g for g in groups if parent[g[0]] == parent[i] and same_box(boxes[g[0]], boxes[i])), None)
         if found is None:
             groups.append([i])
         else:
@@ -29,30 +29,30 @@ def same_size(shapes: Sequence[Shape], parent: Sequence[int]) -> list[list[int]]
     return groups
 
 
-def agree(arounds: Sequence[Surroundings]) -> list[Surroundings]:
+def agree(arounds: Sequence[PartContext]) -> list[PartContext]:
     """Copies that lie in a row open to the same side of it: the one that is most open over all of them."""
     if len(arounds) == 1:
         return list(arounds)
     return [_agreed(a, [a, *(b for b in arounds if b is not a and in_a_row(a, b))]) for a in arounds]
 
 
-def in_a_row(a: Surroundings, b: Surroundings) -> bool:
+def in_a_row(a: PartContext, b: PartContext) -> bool:
     """Whether b lies beside a, as one of them at least opens."""
-    return _beside(a, b, a.outward) or _beside(a, b, b.outward)
+    return _beside(a, b, a.opening_direction) or _beside(a, b, b.opening_direction)
 
 
-def _beside(a: Surroundings, b: Surroundings, way: Float[np.ndarray, " 3"]) -> bool:
-    offset = b.core.center - a.core.center
+def _beside(a: PartContext, b: PartContext, way: Float[np.ndarray, " 3"]) -> bool:
+    offset = b.body_obb.center - a.body_obb.center
     return bool(abs(float(offset @ way)) < LEVEL * np.linalg.norm(offset))
 
 
-def _agreed(around: Surroundings, row: list[Surroundings]) -> Surroundings:
-    ways, total = around.ways_out
+def _agreed(around: PartContext, row: list[PartContext]) -> PartContext:
+    ways, total = around.opening_directions
     beside = np.array([all(_beside(around, other, way) for other in row[1:]) for way in ways])
     if len(row) == 1 or not beside.any():
         return around
     for other in row[1:]:
-        theirs, worth = other.ways_out
+        theirs, worth = other.opening_directions
         total = total + worth[(ways @ theirs.T).argmax(1)]
     best = np.where(beside, total, -np.inf).argmax()
-    return around if (ways[best] == around.outward).all() else replace(around, agreed=ways[best])
+    return around if (ways[best] == around.opening_direction).all() else replace(around, agreed=ways[best])

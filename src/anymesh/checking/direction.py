@@ -9,7 +9,7 @@ import numpy as np
 from anymesh.checking.content import Content
 from anymesh.checking.groups import rigid_groups
 from anymesh.checking.report import Finding, failure, warning
-from anymesh.geometry.shape import Shape
+from anymesh.geometry.shape import FaceSet
 from anymesh.geometry.simplify_ import simplify
 from anymesh.geometry.sweep import Obstacles, free_amount
 from anymesh.geometry.topology import components
@@ -38,21 +38,21 @@ def check_direction(content: Content) -> Iterator[Finding]:
             yield from _ways(content, joint, _shape(part), _shape(rest))
 
 
-def _shape(triangles: np.ndarray) -> Shape:
+def _shape(triangles: np.ndarray) -> FaceSet:
     """With outward normals where it is closed."""
     triangles = simplify(triangles, FACES)
     corners = triangles.reshape(-1, 3)
     found = components(corners, np.arange(len(corners)).reshape(-1, 3))
     normals = normals_and_areas(triangles)[0]
     normals = np.where(found.flip[found.label][:, None], -normals, normals)
-    return Shape(triangles, normals, found.solid[found.label], np.arange(len(triangles)))
+    return FaceSet(triangles, normals, found.solid[found.label], np.arange(len(triangles)))
 
 
-def _ways(content: Content, joint: RobotJoint, part: Shape, rest: Shape) -> Iterator[Finding]:
+def _ways(content: Content, joint: RobotJoint, part: FaceSet, rest: FaceSet) -> Iterator[Finding]:
     T = content.places[joint.child]
     axis = T[:3, :3] @ joint.axis / np.linalg.norm(joint.axis)
     slides = joint.type == "prismatic"
-    motion = Motion(MotionKind.SLIDE if slides else MotionKind.TURN, axis, T[:3, 3], joint.name)
+    motion = Motion(MotionKind.PRISMATIC if slides else MotionKind.REVOLUTE, axis, T[:3, 3], joint.name)
     obstacles = Obstacles(part, rest, TOLERANCE * content.diagonal)
     unit = "m" if slides else "rad"
     for sign, most in ((1, joint.range[1]), (-1, -joint.range[0])):

@@ -46,5 +46,5 @@ def _amount(joint: Joint | TrueJoint, side: int, size: float) -> float:
 def _transform(joint: Joint | TrueJoint, amount: float) -> Float[np.ndarray, "4 4"]:
     if joint.type is JointType.FIXED:
         return np.eye(4)
-    kind = MotionKind.SLIDE if joint.type is JointType.PRISMATIC else MotionKind.TURN
+    kind = MotionKind.PRISMATIC if joint.type is JointType.PRISMATIC else MotionKind.REVOLUTE
     return Motion(kind, joint.axis, joint.origin, "joint").transform(amount)

@@ -108,7 +108,7 @@ def _motion(joint: TrueJoint | Joint, size: float) -> tuple[Motion | None, float
     if joint.type is JointType.FIXED:
         return None, 0.0
     slides = joint.type is JointType.PRISMATIC
-    motion = Motion(MotionKind.SLIDE if slides else MotionKind.TURN, joint.axis, joint.origin, "joint")
+    motion = Motion(MotionKind.PRISMATIC if slides else MotionKind.REVOLUTE, joint.axis, joint.origin, "joint")
     if joint.limits is None or (isinstance(joint, TrueJoint) and not joint.range_known):
         return motion, TRAVEL * size if slides else TURNED
     return motion, HALF_WAY * max(joint.limits, key=abs)
@@ -180,7 +180,7 @@ def _axis(
     corners = mesh.triangles[faces].reshape(-1, 3)
     depth = float(camera.project(corners.mean(0)[None])[1][0])
     size = max(float(np.linalg.norm(np.ptp(corners, axis=0))), LEGIBLE * 2 * depth * float(np.tan(camera.fov / 2)))
-    axis, slides = (-motion.axis if move.amount < 0 else motion.axis), motion.kind is MotionKind.SLIDE
+    axis, slides = (-motion.axis if move.amount < 0 else motion.axis), motion.kind is MotionKind.PRISMATIC
     ends, center = axis_line(corners, motion.origin, axis, slides, LEAST * size)
     return ends, None if slides else ring(center, axis, RING * size * (1 + scale / AXES[0]))
 

@@ -163,7 +163,7 @@ def _moved(joint: Joint | TrueJoint, shares: np.ndarray) -> Float[np.ndarray, "S
     if joint.type is JointType.FIXED:
         return np.tile(np.eye(4), (len(shares), 1, 1))
     low, high = joint.limits or ENDLESS
-    kind = MotionKind.SLIDE if joint.type is JointType.PRISMATIC else MotionKind.TURN
+    kind = MotionKind.PRISMATIC if joint.type is JointType.PRISMATIC else MotionKind.REVOLUTE
     return Motion(kind, joint.axis, joint.origin, "joint").transforms(low + (high - low) * shares)
 
 

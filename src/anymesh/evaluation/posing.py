@@ -49,7 +49,7 @@ def _motion(subject: Subject, joint: TrueJoint, position: float) -> np.ndarray:
     placed = subject.joint(joint)
     slides = joint.type is JointType.PRISMATIC
     scale = float(np.linalg.norm(subject.T[:3, :3] @ joint.axis)) if slides else 1.0
-    kind = MotionKind.SLIDE if slides else MotionKind.TURN
+    kind = MotionKind.PRISMATIC if slides else MotionKind.REVOLUTE
     return Motion(kind, placed.axis, placed.origin, "true joint").transform(position * scale)
 
 

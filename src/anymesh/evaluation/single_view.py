@@ -21,7 +21,7 @@ from anymesh.errors import InputError
 from anymesh.evaluation.partial import visible_surface
 from anymesh.evaluation.posing import posed
 from anymesh.evaluation.truth import Subject, TrueJoint, Truth
-from anymesh.geometry.unseen import unseen_body
+from anymesh.geometry.unseen import hidden_base
 from anymesh.rendering.raycast_ import RayScene
 from anymesh.rendering.render import View, render
 from anymesh.rendering.viewpoints import orbit_camera
@@ -82,7 +82,7 @@ def observed(subject: Subject, camera: Camera, rays: RayScene | None = None) -> 
 
 def _closed(mesh: Mesh, labels: Int[np.ndarray, " F"], view: View) -> tuple[Mesh, Int[np.ndarray, " G"]]:
     """The surface with the unseen walls of its box behind it, as base."""
-    walls = unseen_body(mesh, labels, view.camera, view.depth)
+    walls = hidden_base(mesh, labels, view.camera, view.depth)
     count, first = len(walls), len(mesh.vertices)
     if not count:
         return mesh, labels

@@ -9,12 +9,12 @@ from jaxtyping import Bool, Float, Int
 
 from anymesh.types.triangles import bounds_of
 
-SAME_SIZE = 0.03  # of the diagonal: sides of copies differ by less
-PARALLEL = 0.99  # cosine of the axes of copies
+MAX_SIDE_DIFFERENCE_RATIO = 0.03  # of the diagonal: sides of copies differ by less
+MIN_PARALLEL_COSINE = 0.99  # cosine of the axes of copies
 
 
 @dataclass(frozen=True, eq=False)
-class Box:
+class OrientedBox:
     """An oriented box. axes: rows are unit, right-handed, longest side first; half: half side lengths in that order [m]."""
 
     center: Float[np.ndarray, " 3"]
@@ -34,12 +34,12 @@ class Box:
         return local @ self.axes + self.center
 
 
-def alike(a: Box, b: Box) -> bool:
+def same_box(a: OrientedBox, b: OrientedBox) -> bool:
     """Whether two boxes have the same sides in the same directions: around copies, mirrored ones too."""
     cosines = np.abs(a.axes @ b.axes.T)
-    if cosines.max(1).min() < PARALLEL:
+    if cosines.max(1).min() < MIN_PARALLEL_COSINE:
         return False
-    return bool(np.abs(b.half[cosines.argmax(1)] - a.half).max() < SAME_SIZE * a.diagonal / 2)
+    return bool(np.abs(b.half[cosines.argmax(1)] - a.half).max() < MAX_SIDE_DIFFERENCE_RATIO * a.diagonal / 2)
 
 
 def _frame(first: np.ndarray, second: np.ndarray) -> np.ndarray | None:
@@ -52,7 +52,7 @@ def _frame(first: np.ndarray, second: np.ndarray) -> np.ndarray | None:
     return np.array([first, second, (b * z - c * y, c * x - a * z, a * y - b * x)])  # np.cross, without its overhead
 
 
-FLAT = 0.6  # share of the surface that faces one way from which a box lies along it
+MIN_FLAT_AREA_RATIO = 0.6  # share of the surface that faces one way from which a box lies along it
 
 
 def dominant_normals(
@@ -78,7 +78,9 @@ def dominant_normals(
     return np.array(found).reshape(-1, 3)
 
 
-def fit_box(points: Float[np.ndarray, "n 3"], normals: Float[np.ndarray, "m 3"], weights: Float[np.ndarray, " m"]) -> Box:
+def fit_box(
+    points: Float[np.ndarray, "n 3"], normals: Float[np.ndarray, "m 3"], weights: Float[np.ndarray, " m"]
+) -> OrientedBox:
     """The smallest of the boxes along the asset axes, the dominant normals, and the principal directions.
 
     A frame must be clearly smaller (3 %) to be preferred to the asset's own axes. What is flat for the most part gets a box
@@ -95,7 +97,10 @@ def fit_box(points: Float[np.ndarray, "n 3"], normals: Float[np.ndarray, "m 3"],
         rest.extend(np.eye(3))
         frames.extend(f for second in rest if (f := _frame(first, second)) is not None)
     frames.append(_frame(principal[0], principal[1]) if len(points) > 2 else None)
-    if len(directions) and weights[np.abs(normals @ directions[0]) > np.cos(np.deg2rad(5))].sum() > FLAT * weights.sum():
+    if (
+        len(directions)
+        and weights[np.abs(normals @ directions[0]) > np.cos(np.deg2rad(5))].sum() > MIN_FLAT_AREA_RATIO * weights.sum()
+    ):
         frames = [f for f in frames if f is not None and np.abs(f @ directions[0]).max() > 1 - 1e-6] or frames
     best, best_volume = np.eye(3), np.inf
     slack = 1e-3 * float(np.linalg.norm(np.ptp(points, axis=0)))
@@ -110,7 +115,7 @@ def fit_box(points: Float[np.ndarray, "n 3"], normals: Float[np.ndarray, "m 3"],
     return box_in_frame(points, best)
 
 
-def box_in_frame(points: Float[np.ndarray, "n 3"], axes: Float[np.ndarray, "3 3"]) -> Box:
+def box_in_frame(points: Float[np.ndarray, "n 3"], axes: Float[np.ndarray, "3 3"]) -> OrientedBox:
     """The tight box of points in a given frame (rows of `axes`), sides sorted longest first."""
     local = points @ axes.T
     low, high = bounds_of(local)
@@ -122,7 +127,7 @@ def box_in_frame(points: Float[np.ndarray, "n 3"], axes: Float[np.ndarray, "3 3"
     center = ((low + high) / 2) @ axes
     if np.linalg.det(sorted_axes) < 0:
         sorted_axes[2] *= -1
-    return Box(center, sorted_axes, ((high - low) / 2)[order])
+    return OrientedBox(center, sorted_axes, ((high - low) / 2)[order])
 
 
 def within(

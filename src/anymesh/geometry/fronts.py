@@ -6,29 +6,31 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 from scipy.spatial import ConvexHull
 
-from anymesh.geometry.grips import ALIGNED, Grip, aligned, find_grips, is_body, region_sizes
+from anymesh.geometry.grips import ALIGNED, SurfaceHandle, aligned, find_handles, is_main_component, region_sizes
 from anymesh.geometry.layout import filled, tile
 from anymesh.geometry.sampling import sample_surface
-from anymesh.geometry.shape import Surface
+from anymesh.geometry.shape import MeshSurface
 from anymesh.geometry.topology import label_connected
 
-WITHIN = 40.0  # [deg] a face may bend so far
-BULGE = 0.06  # share of the diagonal that it may bulge
-EVEN = 0.96  # length of its mean normal: .92 is a part of a cylinder that bends so far both ways, 1 is plane
-FITS = 3  # of its plane
-LARGE = 0.3  # share of a side of the object from which a face has fronts with knobs
+MAX_BEND_DEG = 40.0  # [deg] a face may bend so far
+MAX_BULGE_RATIO = 0.06  # share of the diagonal that it may bulge
+MIN_FLATNESS = 0.96  # length of its mean normal: .92 is a part of a cylinder that bends so far both ways, 1 is plane
+PLANE_FITS = 3  # of its plane
+MIN_KNOB_FACE_RATIO = 0.3  # share of a side of the object from which a face has fronts with knobs
 UPRIGHT = 0.5  # vertical part of a unit normal up to which a face stands upright
-PLATE = 0.35  # thickness over smaller side of what is a front as it is
-COARSEST = 0.25  # area of the largest triangle over the smallest front, or none of these has a border
-CUT_OFF = 0.5  # area over the front's of what goes with a front that cuts it off: what is larger is a side of the body
+MAX_PANEL_THICKNESS_RATIO = 0.35  # thickness over smaller side of what is a front as it is
+MAX_TRIANGLE_RATIO = 0.25  # area of the largest triangle over the smallest front, or none of these has a border
+MAX_CUT_OFF_RATIO = (
+    0.5  # area over the front's of what goes with a front that cuts it off: what is larger is a side of the body
+)
 SAMPLES = 20_000  # points on a face, to find the rectangle that it fills
 
 
-def divide_fronts(whole: Surface, region: Int[np.ndarray, " F"]) -> tuple[Int[np.ndarray, " F"], Bool[np.ndarray, " F"]]:
+def split_panels(whole: MeshSurface, region: Int[np.ndarray, " F"]) -> tuple[Int[np.ndarray, " F"], Bool[np.ndarray, " F"]]:
     """The regions, those divided whose handles ask for several fronts, or for one on a body that is no front itself; and
     which faces are such a front's."""
     found, count = region.copy(), int(region.max()) + 1
-    for faces, grips in _gripped_faces(whole, region):
+    for faces, grips in _faces_with_handles(whole, region):
         new = int(found.max()) + 1
         if (found[faces] < count).all():
             _divide(whole, found, faces, grips)
@@ -36,10 +38,10 @@ def divide_fronts(whole: Surface, region: Int[np.ndarray, " F"]) -> tuple[Int[np
     return np.unique(found, return_inverse=True)[1].reshape(-1), found >= count
 
 
-def _gripped_faces(whole: Surface, region: np.ndarray) -> list[tuple[Int[np.ndarray, " n"], list[Grip]]]:
+def _faces_with_handles(whole: MeshSurface, region: np.ndarray) -> list[tuple[Int[np.ndarray, " n"], list[SurfaceHandle]]]:
     """Faces (flat parts of regions) that handles grow out of, each with all handles on it that lie along one another."""
-    found: list[tuple[np.ndarray, list[Grip]]] = []
-    for grip in find_grips(whole, region):
+    found: list[tuple[np.ndarray, list[SurfaceHandle]]] = []
+    for grip in find_handles(whole, region):
         for faces, others in found:
             if np.isin(grip.foot, faces).any():
                 others.append(grip)
@@ -49,34 +51,34 @@ def _gripped_faces(whole: Surface, region: np.ndarray) -> list[tuple[Int[np.ndar
     return [(faces, kept) for faces, grips in found if (kept := _of_a_kind(whole, faces, grips))]
 
 
-def _of_a_kind(whole: Surface, faces: np.ndarray, grips: list[Grip]) -> list[Grip]:
+def _of_a_kind(whole: MeshSurface, faces: np.ndarray, handles: list[SurfaceHandle]) -> list[SurfaceHandle]:
     """The bars that run along each other or across; without bars the knobs, if the face is a large one that stands upright:
     beside bars, and on small panels, knobs are controls, and under an object they are feet. None on what is round."""
     normal = whole.shape.areas[faces] @ whole.shape.normals[faces]
-    if np.linalg.norm(normal) < EVEN * whole.shape.areas[faces].sum():
+    if np.linalg.norm(normal) < MIN_FLATNESS * whole.shape.areas[faces].sum():
         return []
-    bars = [g for g in grips if g.axis is not None]
+    bars = [g for g in handles if g.axis is not None]
     if bars:
         return [g for g in bars if aligned(bars[0], g)]
     across = np.ptp(whole.shape.triangles.reshape(-1, 3), axis=0)
     side = across.prod() / across * np.abs(normal) / max(float(np.linalg.norm(normal)), 1e-300)
     upright = abs(normal[2]) < UPRIGHT * np.linalg.norm(normal)
-    return grips if upright and np.linalg.norm(normal) > LARGE * side.sum() else []
+    return handles if upright and np.linalg.norm(normal) > MIN_KNOB_FACE_RATIO * side.sum() else []
 
 
-def _face_of(whole: Surface, region: np.ndarray, grip: Grip) -> Int[np.ndarray, " n"]:
+def _face_of(whole: MeshSurface, region: np.ndarray, handle: SurfaceHandle) -> Int[np.ndarray, " n"]:
     """The faces of the grip's region that lie in one plane with its foot, more or less, and hang together with it; the plane
     is that of the foot first, then that of the face."""
-    pairs = whole.parts.edges.faces
+    pairs = whole.components.edges.faces
     centers, areas = whole.shape.triangles.mean(1), whole.shape.areas
-    normal, level = grip.normal, grip.level
+    normal, level = handle.normal, handle.level
     face = np.zeros(0, np.int64)
-    for _ in range(FITS):
-        flat = (whole.shape.normals @ normal > np.cos(np.deg2rad(WITHIN))) & (region == grip.region)
-        flat &= np.abs(centers @ normal - level) < BULGE * whole.diagonal
+    for _ in range(PLANE_FITS):
+        flat = (whole.shape.normals @ normal > np.cos(np.deg2rad(MAX_BEND_DEG))) & (region == handle.region)
+        flat &= np.abs(centers @ normal - level) < MAX_BULGE_RATIO * whole.diagonal
         label = label_connected(len(flat), pairs[flat[pairs].all(1)])
         area = np.bincount(label, np.where(flat, areas, 0))
-        mine = np.unique(label[grip.foot])
+        mine = np.unique(label[handle.foot])
         face = np.flatnonzero(flat & (label == mine[area[mine].argmax()]))
         if len(face) == 0:
             break
@@ -99,26 +101,26 @@ def _smallest_frame(points: Float[np.ndarray, "n 2"]) -> Float[np.ndarray, "2 2"
     return best
 
 
-def _divide(whole: Surface, region: np.ndarray, faces: np.ndarray, grips: list[Grip]) -> None:
+def _divide(whole: MeshSurface, region: np.ndarray, faces: np.ndarray, handles: list[SurfaceHandle]) -> None:
     """Gives each front of the face a region of its own."""
     if len(faces) < 2:
         return
-    number = grips[0].region
+    number = handles[0].region
     normal = whole.shape.areas[faces] @ whole.shape.normals[faces]
     normal /= max(float(np.linalg.norm(normal)), 1e-300)
     frame = np.linalg.svd(normal[None])[2][1:]
     frame = _smallest_frame(whole.shape.triangles[faces].reshape(-1, 3) @ frame.T) @ frame
     sides = np.ptp(whole.shape.triangles[faces].reshape(-1, 3) @ frame.T, axis=0)
     thickness = np.ptp(whole.shape.triangles[region == number].reshape(-1, 3) @ normal)
-    if thickness < PLATE * sides.min() and not is_body(whole, region, number):
+    if thickness < MAX_PANEL_THICKNESS_RATIO * sides.min() and not is_main_component(whole, region, number):
         return
-    spots = np.array([[(g.points @ frame.T).min(0), (g.points @ frame.T).max(0)] for g in grips])
-    along = np.array([-1 if g.axis is None else int(np.abs(frame @ g.axis).argmax()) for g in grips])
+    spots = np.array([[(g.points @ frame.T).min(0), (g.points @ frame.T).max(0)] for g in handles])
+    along = np.array([-1 if g.axis is None else int(np.abs(frame @ g.axis).argmax()) for g in handles])
     samples = sample_surface(whole.shape.triangles[faces], SAMPLES, whole.shape.seed).points @ frame.T
     rectangle = filled(samples, np.array([spots[:, 0].min(0), spots[:, 1].max(0)]))
     fronts = tile(*rectangle, spots, along) if rectangle is not None else ()
     least = min((float(np.prod(np.subtract(f.high, f.low))) for f in fronts), default=0.0)
-    if len(fronts) > 1 and whole.shape.areas[faces].max() > COARSEST * least:
+    if len(fronts) > 1 and whole.shape.areas[faces].max() > MAX_TRIANGLE_RATIO * least:
         return  # triangles too large to tell the fronts apart
     middle = whole.shape.triangles[faces].mean(1) @ frame.T
     new = int(region.max()) + 1
@@ -126,18 +128,20 @@ def _divide(whole: Surface, region: np.ndarray, faces: np.ndarray, grips: list[G
         inside = (middle >= np.array(front.low)).all(1) & (middle <= np.array(front.high)).all(1)
         region[faces[inside]] = new + k
     for k, front in enumerate(fronts):
-        grip = grips[front.handle]
+        grip = handles[front.handle]
         region[np.r_[grip.faces, np.intersect1d(grip.foot, faces)]] = new + k
     _hand_over(whole, region, number, new)
 
 
-def _through(whole: Surface, region: np.ndarray, new: int) -> None:
+def _through(whole: MeshSurface, region: np.ndarray, new: int) -> None:
     """The other side of a thin body belongs to the front on this side: of a door, not of a cabinet. Numbered from `new`."""
     fronts = np.flatnonzero(region >= new)
     if not len(fronts):
         return
     area = np.bincount(region[fronts] - new, whole.shape.areas[fronts])
-    thin = PLATE * area / np.maximum(region_sizes(whole, region)[new:], 1e-300)  # nearly the shorter side of an oblong
+    thin = (
+        MAX_PANEL_THICKNESS_RATIO * area / np.maximum(region_sizes(whole, region)[new:], 1e-300)
+    )  # nearly the shorter side of an oblong
     back = np.flatnonzero(region < new)
     rays = -whole.shape.normals[back]
     start = whole.shape.triangles[back].mean(1) + 1e-5 * whole.diagonal * rays
@@ -149,9 +153,9 @@ def _through(whole: Surface, region: np.ndarray, new: int) -> None:
     region[back[seen[mine]]] = front[mine] + new
 
 
-def _hand_over(whole: Surface, region: np.ndarray, host: int, new: int) -> None:
+def _hand_over(whole: MeshSurface, region: np.ndarray, host: int, new: int) -> None:
     """What the fronts, numbered from `new`, cut off from the rest of their region (the reveal round a pane) goes with them."""
-    pairs = whole.parts.edges.faces
+    pairs = whole.components.edges.faces
     rest = region == host
     if not rest.any():
         return
@@ -165,5 +169,5 @@ def _hand_over(whole: Surface, region: np.ndarray, host: int, new: int) -> None:
         at = np.flatnonzero(label == c)
         beside = np.r_[side[np.isin(pairs[:, 0], at), 1], side[np.isin(pairs[:, 1], at), 0]]
         front = int(np.bincount(beside[beside >= new]).argmax())
-        own = whole.shape.areas[at].sum() < CUT_OFF * whole.shape.areas[region == front].sum()
+        own = whole.shape.areas[at].sum() < MAX_CUT_OFF_RATIO * whole.shape.areas[region == front].sum()
         region[at] = front if own else host

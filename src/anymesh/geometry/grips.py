@@ -7,28 +7,28 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float, Int
 
-from anymesh.geometry.boxes import Box, fit_box
+from anymesh.geometry.boxes import OrientedBox, fit_box
 from anymesh.geometry.distance_ import distance_to_mesh
-from anymesh.geometry.shape import Surface
+from anymesh.geometry.shape import MeshSurface
 from anymesh.geometry.topology import label_connected
 
-LONG = 2.0  # length of a bar over its larger width
-LARGEST = 0.6  # share of the diagonal that a bar may be long
-KNOB = 0.08  # share of the diagonal that a knob may have
-SLIGHT = 0.04  # share of the surface that a handle has at most
-LEAST = 0.006  # share of the diagonal that a handle stands out, and is wide, at least
-STANDS_OUT = 0.4  # of the width that it covers: what stands out less is a moulding
+MIN_BAR_ASPECT = 2.0  # length of a bar over its larger width
+MAX_BAR_LENGTH_RATIO = 0.6  # share of the diagonal that a bar may be long
+MAX_KNOB_SIZE_RATIO = 0.08  # share of the diagonal that a knob may have
+MAX_HANDLE_AREA_RATIO = 0.04  # share of the surface that a handle has at most
+MIN_HANDLE_SIZE_RATIO = 0.006  # share of the diagonal that a handle stands out, and is wide, at least
+MIN_HEIGHT_WIDTH_RATIO = 0.4  # of the width that it covers: what stands out less is a moulding
 SHEET = 0.6  # length of its mean normal from which it is a strip: half a ball has a half, a bar on a face a third
 FLAT = 0.5  # length of the mean normal round the foot of a handle; 1 where that is plane
 ALIGNED = 0.94  # cosine from which directions are one
-BODY = 0.8  # share of the surface from which one region is nearly all there is
-APART = 0.02  # share of the diagonal that a handle may be from the body
+MIN_MAIN_COMPONENT_RATIO = 0.8  # share of the surface from which one region is nearly all there is
+MAX_HANDLE_GAP_RATIO = 0.02  # share of the diagonal that a handle may be from the body
 TOUCH = 0.003  # share of the diagonal: of a handle that is apart, what is so much further than its nearest point is its foot
 CORNERS = 2000  # of a handle that its box is fitted to
 
 
 @dataclass(frozen=True, eq=False)
-class Grip:
+class SurfaceHandle:
     """A handle on a region. normal, level: the plane that it stands on; axis: that it runs along, None for a knob; points: its
     corners; faces: its own; foot: the region's faces beside them."""
 
@@ -41,12 +41,12 @@ class Grip:
     foot: Int[np.ndarray, " m"]
 
 
-def find_grips(whole: Surface, region: Int[np.ndarray, " F"]) -> list[Grip]:
+def find_handles(whole: MeshSurface, region: Int[np.ndarray, " F"]) -> list[SurfaceHandle]:
     """All handles, in the order of the first regions that they are made of: small regions that border on a large one, or are
     apart from but next to one that is nearly all there is."""
     area = np.bincount(region, whole.shape.areas)
-    small = (region_sizes(whole, region) < LARGEST * whole.diagonal) & (area < SLIGHT * area.sum())
-    pairs = whole.parts.edges.faces
+    small = (region_sizes(whole, region) < MAX_BAR_LENGTH_RATIO * whole.diagonal) & (area < MAX_HANDLE_AREA_RATIO * area.sum())
+    pairs = whole.components.edges.faces
     a, b = region[pairs[:, 0]], region[pairs[:, 1]]
     group = label_connected(len(area), np.unique(np.c_[a, b][small[a] & small[b]], axis=0))
     mixed = np.flatnonzero(small[a] != small[b])
@@ -60,11 +60,11 @@ def find_grips(whole: Surface, region: Int[np.ndarray, " F"]) -> list[Grip]:
         if beside is not None:
             host = int(np.bincount(region[beside]).argmax())
             foot = np.unique(beside[region[beside] == host])
-        elif is_body(whole, region, body):
+        elif is_main_component(whole, region, body):
             host, foot = body, _near(whole, faces, np.flatnonzero(region == body))
         else:
             continue
-        grip = _grip(whole, faces, host, foot) if len(foot) else None
+        grip = _surface_handle(whole, faces, host, foot) if len(foot) else None
         grips += [grip] if grip is not None else []
     return grips
 
@@ -76,23 +76,23 @@ def _listed(key: np.ndarray, value: np.ndarray) -> dict[int, np.ndarray]:
     return {int(k): v for k, v in zip(keys, np.split(value[order], start[1:]), strict=True)} if len(keys) else {}
 
 
-def _near(whole: Surface, faces: np.ndarray, host: np.ndarray) -> Int[np.ndarray, " n"]:
+def _near(whole: MeshSurface, faces: np.ndarray, host: np.ndarray) -> Int[np.ndarray, " n"]:
     """Faces of the host where a separate body comes nearest to it; none when it is far, or too large for a handle."""
     points = _corners(whole, faces)
-    if np.ptp(points, axis=0).max() > LARGEST * whole.diagonal:
+    if np.ptp(points, axis=0).max() > MAX_BAR_LENGTH_RATIO * whole.diagonal:
         return np.zeros(0, np.int64)
     corners = whole.shape.triangles[host].reshape(-1, 3)
     gap, face, _ = distance_to_mesh(points, corners, np.arange(len(corners)).reshape(-1, 3))
-    near = gap < min(float(gap.min()) + TOUCH * whole.diagonal, APART * whole.diagonal)
+    near = gap < min(float(gap.min()) + TOUCH * whole.diagonal, MAX_HANDLE_GAP_RATIO * whole.diagonal)
     return np.unique(host[face[near]])
 
 
-def _corners(whole: Surface, faces: np.ndarray) -> np.ndarray:
+def _corners(whole: MeshSurface, faces: np.ndarray) -> np.ndarray:
     points = whole.shape.triangles[faces].reshape(-1, 3)
     return points[:: max(1, len(points) // CORNERS)]
 
 
-def _grip(whole: Surface, faces: np.ndarray, host: int, foot: np.ndarray) -> Grip | None:
+def _surface_handle(whole: MeshSurface, faces: np.ndarray, host: int, foot: np.ndarray) -> SurfaceHandle | None:
     """These faces as a handle on a face of the host, if they are one."""
     mean = whole.shape.areas[foot] @ whole.shape.normals[foot]
     if np.linalg.norm(mean) < FLAT * whole.shape.areas[foot].sum():
@@ -102,36 +102,36 @@ def _grip(whole: Surface, faces: np.ndarray, host: int, foot: np.ndarray) -> Gri
     points = _corners(whole, faces)
     out = float((points @ normal).max()) - level
     turned = np.linalg.norm(whole.shape.areas[faces] @ whole.shape.normals[faces])
-    if out < LEAST * whole.diagonal or turned > SHEET * whole.shape.areas[faces].sum():
+    if out < MIN_HANDLE_SIZE_RATIO * whole.diagonal or turned > SHEET * whole.shape.areas[faces].sum():
         return None
     box = fit_box(points, whole.shape.normals[faces], whole.shape.areas[faces])
     bar = _is_bar(box, normal)
-    if not bar and box.diagonal > KNOB * whole.diagonal:
+    if not bar and box.diagonal > MAX_KNOB_SIZE_RATIO * whole.diagonal:
         return None
     width = float(np.ptp(points @ np.cross(box.axes[0], normal))) if bar else 2 * float(box.half[1])
-    if 2 * box.half[1] < LEAST * whole.diagonal or out < STANDS_OUT * width:
+    if 2 * box.half[1] < MIN_HANDLE_SIZE_RATIO * whole.diagonal or out < MIN_HEIGHT_WIDTH_RATIO * width:
         return None
-    return Grip(host, normal, level, box.axes[0] if bar else None, points, faces, foot)
+    return SurfaceHandle(host, normal, level, box.axes[0] if bar else None, points, faces, foot)
 
 
-def _is_bar(box: Box, normal: np.ndarray) -> bool:
+def _is_bar(box: OrientedBox, normal: np.ndarray) -> bool:
     """Whether a handle is long, and lies along the face that it is on."""
-    return bool(box.half[0] >= LONG * box.half[1] and abs(box.axes[0] @ normal) < np.sqrt(1 - ALIGNED**2))
+    return bool(box.half[0] >= MIN_BAR_ASPECT * box.half[1] and abs(box.axes[0] @ normal) < np.sqrt(1 - ALIGNED**2))
 
 
-def aligned(a: Grip, b: Grip) -> bool:
+def aligned(a: SurfaceHandle, b: SurfaceHandle) -> bool:
     """Whether both are knobs, or bars along each other or across."""
     if a.axis is None or b.axis is None:
         return a.axis is b.axis
     return bool(max(abs(a.axis @ b.axis), abs(a.axis @ np.cross(b.normal, b.axis))) > ALIGNED)
 
 
-def is_body(whole: Surface, region: Int[np.ndarray, " F"], number: int) -> bool:
+def is_main_component(whole: MeshSurface, region: Int[np.ndarray, " F"], number: int) -> bool:
     """Whether one region is nearly all there is."""
-    return float(whole.shape.areas[region == number].sum()) > BODY * whole.shape.area
+    return float(whole.shape.areas[region == number].sum()) > MIN_MAIN_COMPONENT_RATIO * whole.shape.area
 
 
-def region_sizes(whole: Surface, region: Int[np.ndarray, " F"]) -> Float[np.ndarray, " n"]:
+def region_sizes(whole: MeshSurface, region: Int[np.ndarray, " F"]) -> Float[np.ndarray, " n"]:
     """Diagonal of the axis-aligned box of every region [m]."""
     count = int(region.max()) + 1
     low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)

@@ -15,7 +15,7 @@ def joint_transform(joint: Joint, position: float) -> Float[np.ndarray, "4 4"]:
     """How a joint at `position` [rad or m] moves its child, in the asset frame at rest."""
     if joint.type is JointType.FIXED:
         return np.eye(4)
-    kind = MotionKind.SLIDE if joint.type is JointType.PRISMATIC else MotionKind.TURN
+    kind = MotionKind.PRISMATIC if joint.type is JointType.PRISMATIC else MotionKind.REVOLUTE
     return Motion(kind, joint.axis, joint.origin, "joint").transform(position)
 
 

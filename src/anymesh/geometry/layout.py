@@ -13,15 +13,15 @@ import numpy as np
 from jaxtyping import Float, Int
 from scipy import ndimage
 
-MIDDLE = 0.25  # what being off the middle across the grip counts, against along it
-SLENDER = 5.0  # sides of a front; what would be longer is no front, but one in a row of controls
+OFF_CENTER_WEIGHT = 0.25  # what being off the middle across the grip counts, against along it
+MAX_PANEL_ASPECT = 5.0  # sides of a front; what would be longer is no front, but one in a row of controls
 GRID = 32  # cells along each side of a face, to find the rectangle that it fills
-FILL = 0.9  # share of the cells that it must fill
-MOST = 12  # handles on one face; more of them are no handles
+MIN_FILL_RATIO = 0.9  # share of the cells that it must fill
+MAX_HANDLES = 12  # handles on one face; more of them are no handles
 
 
 @dataclass(frozen=True)
-class Front:
+class PanelRectangle:
     """A rectangle of the face and the handle in it."""
 
     low: tuple[float, float]
@@ -48,7 +48,7 @@ def filled(
         np.arange(a0 + 1), np.arange(b0 + 1), np.arange(a1 + 1, GRID + 1), np.arange(b1 + 1, GRID + 1), indexing="ij"
     )
     area = (k - i) * (m - j)
-    full = total[k, m] - total[i, m] - total[k, j] + total[i, j] >= FILL * area
+    full = total[k, m] - total[i, m] - total[k, j] + total[i, j] >= MIN_FILL_RATIO * area
     if not full.any():
         return None
     at = np.unravel_index(np.where(full, area, 0).argmax(), area.shape)
@@ -60,20 +60,20 @@ def tile(
     high: Float[np.ndarray, " 2"],
     handles: Float[np.ndarray, "h 2 2"],
     along: Int[np.ndarray, " h"],
-) -> tuple[Front, ...]:
+) -> tuple[PanelRectangle, ...]:
     """The fronts of the likeliest layout of a face, one a handle; none where that is no layout of fronts.
 
     handles: (h, 2, 2) lower and upper corner of each; along: (h,) the axis that each runs along, -1 for a knob.
     """
-    if not 0 < len(handles) <= MOST:
+    if not 0 < len(handles) <= MAX_HANDLES:
         return ()
 
     @cache
-    def best(box: tuple[float, ...], members: tuple[int, ...]) -> tuple[float, tuple[Front, ...]]:
+    def best(box: tuple[float, ...], members: tuple[int, ...]) -> tuple[float, tuple[PanelRectangle, ...]]:
         if len(members) == 1:
-            front = Front((box[0], box[1]), (box[2], box[3]), members[0])
-            return _unlikely(front, handles[members[0]], int(along[members[0]])), (front,)
-        found: tuple[float, tuple[Front, ...]] = (np.inf, ())
+            front = PanelRectangle((box[0], box[1]), (box[2], box[3]), members[0])
+            return _layout_cost(front, handles[members[0]], int(along[members[0]])), (front,)
+        found: tuple[float, tuple[PanelRectangle, ...]] = (np.inf, ())
         for axis in (0, 1):
             for at, before, after in _cuts(box, members, handles, axis):
                 one = best((*box[: 2 + axis], at, *box[3 + axis :]), before)
@@ -86,16 +86,16 @@ def tile(
     return fronts if np.isfinite(cost) else ()
 
 
-def _unlikely(front: Front, handle: np.ndarray, along: int) -> float:
+def _layout_cost(panel: PanelRectangle, handle: np.ndarray, along: int) -> float:
     """How far the handle is from where it would be on such a front: 0 just there; infinite for what is no front."""
-    low, high = np.array(front.low), np.array(front.high)
+    low, high = np.array(panel.low), np.array(panel.high)
     sides = high - low
-    if sides.max() > SLENDER * sides.min():
+    if sides.max() > MAX_PANEL_ASPECT * sides.min():
         return np.inf
     off = np.abs(handle.mean(0) - (low + high) / 2) / sides  # 0 in the middle, .5 at the edge
     if along < 0:
         return float(min(off.sum(), 1 - 2 * off.max()))
-    return float(min(2 * off[along] + MIDDLE * off[1 - along], 1 - 2 * off[1 - along]))
+    return float(min(2 * off[along] + OFF_CENTER_WEIGHT * off[1 - along], 1 - 2 * off[1 - along]))
 
 
 def _cuts(

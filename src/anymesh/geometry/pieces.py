@@ -12,17 +12,17 @@ from scipy.spatial import KDTree
 from anymesh.config import PiecesConfig
 from anymesh.geometry.creases import convex_regions
 from anymesh.geometry.distance_ import TriangleTree
-from anymesh.geometry.fronts import divide_fronts
+from anymesh.geometry.fronts import split_panels
 from anymesh.geometry.grips import region_sizes
-from anymesh.geometry.shape import Shape, Surface, surface_of
+from anymesh.geometry.shape import FaceSet, MeshSurface, mesh_surface
 from anymesh.geometry.simplify_ import simplify
 from anymesh.geometry.topology import label_connected
 from anymesh.types import Mesh
 from anymesh.types.triangles import normals_and_areas
 
-SMALL_SHARE = 3  # times the faces that are kept of a dense mesh, that many small pieces may add to them
-LEAST_FACES = 20  # that a piece of very many keeps
-SAME_SIZE = 0.05  # relative: diagonals of copies differ by less
+SMALL_PATCH_FACES_RATIO = 3  # times the faces that are kept of a dense mesh, that many small pieces may add to them
+MIN_PATCH_FACES = 20  # that a piece of very many keeps
+MAX_SIZE_DIFFERENCE_RATIO = 0.05  # relative: diagonals of copies differ by less
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,15 +34,15 @@ class ObjectShape:
     but a handle tells (see `fronts`); diagonal [m].
     """
 
-    shape: Shape
-    piece: Int[np.ndarray, " R"]
+    shape: FaceSet
+    patch: Int[np.ndarray, " R"]
     source: Int[np.ndarray, " R"]
-    mesh_piece: Int[np.ndarray, " F"]
+    mesh_patch: Int[np.ndarray, " F"]
     shared: Int[np.ndarray, "k 2"]
-    fronts: Int[np.ndarray, " p"]
+    panels: Int[np.ndarray, " p"]
     diagonal: float
 
-    def of(self, faces: Int[np.ndarray, " n"]) -> Shape:
+    def of(self, faces: Int[np.ndarray, " n"]) -> FaceSet:
         """The shape of some of the R faces."""
         return self.shape.take(faces)
 
@@ -52,19 +52,19 @@ def object_shape(
 ) -> ObjectShape:
     """Orients, splits and simplifies a mesh; the mesh itself is not changed. labels: (F,) parts that are kept apart."""
     config = config or PiecesConfig()
-    s = surface_of(mesh, seed)
-    piece, told = split(s, config)
-    pairs = np.sort(piece[s.parts.edges.faces], 1)
+    s = mesh_surface(mesh, seed)
+    piece, told = split_patches(s, config)
+    pairs = np.sort(piece[s.components.edges.faces], 1)
     shared = np.unique(pairs[pairs[:, 0] != pairs[:, 1]], axis=0)
     group = piece if labels is None else piece * (int(labels.max()) + 1) + labels
-    shape, source = _simplified(s.shape, s.parts.flip[s.parts.label] & ~s.void[s.parts.label], group, config)
+    shape, source = _simplified(s.shape, s.components.flip[s.components.label] & ~s.void[s.components.label], group, config)
     fronts = np.flatnonzero(np.bincount(piece, np.where(told, s.shape.areas, -s.shape.areas)) > 0)
     return ObjectShape(shape.prepared(), piece[source], source, piece, shared, fronts, s.diagonal)
 
 
 def _simplified(
-    shape: Shape, flipped: Bool[np.ndarray, " F"], group: Int[np.ndarray, " F"], config: PiecesConfig
-) -> tuple[Shape, Int[np.ndarray, " R"]]:
+    shape: FaceSet, flipped: Bool[np.ndarray, " F"], group: Int[np.ndarray, " F"], config: PiecesConfig
+) -> tuple[FaceSet, Int[np.ndarray, " R"]]:
     """Each group in its share of the faces that are kept; small groups stay as they are."""
     count = len(group)
     if count <= config.most_faces:
@@ -72,7 +72,7 @@ def _simplified(
     triangles = np.where(flipped[:, None, None], shape.triangles[:, ::-1], shape.triangles)
     order = np.argsort(group, kind="stable")
     bounds = np.flatnonzero(np.r_[True, np.diff(group[order]) != 0, True])
-    least = int(np.clip(SMALL_SHARE * config.most_faces / (len(bounds) - 1), LEAST_FACES, config.least_faces))
+    least = int(np.clip(SMALL_PATCH_FACES_RATIO * config.most_faces / (len(bounds) - 1), MIN_PATCH_FACES, config.least_faces))
     kept, source = [], []
     for a, b in pairwise(bounds):
         mine = order[a:b]
@@ -80,24 +80,24 @@ def _simplified(
         kept.append(few)
         source.append(mine if len(few) == len(mine) else np.full(len(few), mine[0]))
     found, where = np.concatenate(kept), np.concatenate(source)
-    return Shape(found, normals_and_areas(found)[0], shape.solid[where], np.arange(len(found)), shape.seed), where
+    return FaceSet(found, normals_and_areas(found)[0], shape.solid[where], np.arange(len(found)), shape.seed), where
 
 
-def split(whole: Surface, config: PiecesConfig) -> tuple[Int[np.ndarray, " F"], Bool[np.ndarray, " F"]]:
+def split_patches(whole: MeshSurface, config: PiecesConfig) -> tuple[Int[np.ndarray, " F"], Bool[np.ndarray, " F"]]:
     """A piece number a face, numbered from 0 in the order of the pieces' first faces; and the faces that are on a front that
     nothing but a handle tells.
 
     Components are cut along their concave creases, sharp or soft, where they are large enough to hide a fused part; crumbs
     left by the cut go to the neighbour that they share the longest edge with.
     """
-    component = whole.parts.label
+    component = whole.components.label
     large = region_sizes(whole, component) > config.fused_size * whole.diagonal
-    edges = whole.parts.edges
+    edges = whole.components.edges
     pairs = edges.faces
     concave = _concave(whole, config.crease)
     soft = _soft_regions(whole, component, large, config)
     cut = (concave & edges.aligned & large[component[pairs[:, 0]]]) | (soft[pairs[:, 0]] != soft[pairs[:, 1]])
-    region, told = divide_fronts(whole, label_connected(len(component), pairs[~cut]))
+    region, told = split_panels(whole, label_connected(len(component), pairs[~cut]))
     cut |= region[pairs[:, 0]] != region[pairs[:, 1]]
     length = np.linalg.norm(_ends(whole, 0) - _ends(whole, 1), axis=1)
     region = _absorb_crumbs(whole, region, pairs[cut], length[cut], config)
@@ -105,11 +105,11 @@ def split(whole: Surface, config: PiecesConfig) -> tuple[Int[np.ndarray, " F"], 
     return _limit_count(whole, region, config.most_pieces), told
 
 
-def _soft_regions(whole: Surface, component: np.ndarray, large: np.ndarray, config: PiecesConfig) -> np.ndarray:
+def _soft_regions(whole: MeshSurface, component: np.ndarray, large: np.ndarray, config: PiecesConfig) -> np.ndarray:
     """What soft concave creases bound, on large and dense components; one region a component elsewhere."""
     region = component.copy()
     count = np.bincount(component)
-    flip = whole.parts.flip & ~whole.void
+    flip = whole.components.flip & ~whole.void
     for c in np.flatnonzero(large & (count > config.soft_faces)):
         mine = np.flatnonzero(component == c)
         triangles = whole.shape.triangles[mine]
@@ -118,22 +118,22 @@ def _soft_regions(whole: Surface, component: np.ndarray, large: np.ndarray, conf
     return region
 
 
-def _ends(whole: Surface, which: int) -> np.ndarray:
-    return whole.vertices[whole.parts.edges.vertices[:, which]]
+def _ends(whole: MeshSurface, which: int) -> np.ndarray:
+    return whole.vertices[whole.components.edges.vertices[:, which]]
 
 
-def _concave(whole: Surface, least: float) -> np.ndarray:
+def _concave(whole: MeshSurface, min_angle: float) -> np.ndarray:
     """Edge pairs that fold inwards by more than `least` [deg]."""
-    f, g = whole.parts.edges.faces.T
+    f, g = whole.components.edges.faces.T
     normals, centers = whole.shape.normals, whole.shape.triangles.mean(1)
     inward = np.einsum("ij,ij->i", centers[g] - centers[f], normals[f])
     inward += np.einsum("ij,ij->i", centers[f] - centers[g], normals[g])
     cosine = np.einsum("ij,ij->i", normals[f], normals[g])
-    return (inward > 0) & (cosine < np.cos(np.deg2rad(least)))
+    return (inward > 0) & (cosine < np.cos(np.deg2rad(min_angle)))
 
 
 def _absorb_crumbs(
-    whole: Surface, region: np.ndarray, pairs: np.ndarray, length: np.ndarray, config: PiecesConfig
+    whole: MeshSurface, region: np.ndarray, pairs: np.ndarray, length: np.ndarray, config: PiecesConfig
 ) -> np.ndarray:
     """Joins regions too small to matter to the neighbour with the longest common border; three rounds settle chains."""
     for _ in range(3):
@@ -154,9 +154,9 @@ def _absorb_crumbs(
     return region
 
 
-def _fill_voids(whole: Surface, region: np.ndarray) -> np.ndarray:
+def _fill_voids(whole: MeshSurface, region: np.ndarray) -> np.ndarray:
     """Walls of closed cavities belong to the nearest other region; nothing in there moves."""
-    hidden = whole.void[whole.parts.label]
+    hidden = whole.void[whole.components.label]
     if not hidden.any():
         return region
     centers = whole.shape.triangles.mean(1)
@@ -168,15 +168,15 @@ def _fill_voids(whole: Surface, region: np.ndarray) -> np.ndarray:
     return np.unique(target, return_inverse=True)[1].reshape(-1)
 
 
-def _limit_count(whole: Surface, region: np.ndarray, most: int) -> np.ndarray:
+def _limit_count(whole: MeshSurface, region: np.ndarray, max_count: int) -> np.ndarray:
     """At most about `most` pieces: the smallest join their nearest larger one, all copies of one size alike."""
     count = int(region.max()) + 1
-    if count <= most:
+    if count <= max_count:
         return region
     size = region_sizes(whole, region)
     order = np.argsort(-size, kind="stable")
-    larger = order[size[order] > (1 + SAME_SIZE) * size[order[most]]]
-    keep = np.sort(larger if len(larger) > 1 else order[:most])
+    larger = order[size[order] > (1 + MAX_SIZE_DIFFERENCE_RATIO) * size[order[max_count]]]
+    keep = np.sort(larger if len(larger) > 1 else order[:max_count])
     kept = np.isin(region, keep)
     centers = whole.shape.triangles.mean(1)
     lost = np.setdiff1d(np.arange(count), keep)

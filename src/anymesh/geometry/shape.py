@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
-from anymesh.geometry.boxes import Box, fit_box
+from anymesh.geometry.boxes import OrientedBox, fit_box
 from anymesh.geometry.distance_ import TriangleTree, winding_number
 from anymesh.geometry.sampling import SurfacePoints, spread_points
 from anymesh.geometry.topology import Components, components
@@ -50,7 +50,7 @@ class KnownFaces:
 
 
 @dataclass(frozen=True, eq=False)
-class Shape:
+class FaceSet:
     """Triangles with outward normals where the surface is closed.
 
     triangles: (F, 3, 3) [m]; normals: (F, 3) unit, outward for solid faces, else as wound; solid: (F,) the face belongs to
@@ -106,7 +106,7 @@ class Shape:
         return SurfacePoints(points, self.normals[faces], faces)
 
     @cached_property
-    def box(self) -> Box:
+    def box(self) -> OrientedBox:
         """The smallest box along the shape's own directions."""
         return fit_box(self.corners, self.normals, self.areas)
 
@@ -126,35 +126,35 @@ class Shape:
         a, b, c = self.box.half
         return bool(self.area < 0.6 * 8 * (a * b + b * c + a * c))
 
-    def take(self, index: np.ndarray) -> Shape:
+    def take(self, index: np.ndarray) -> FaceSet:
         """The shape of some of the faces (index into this shape, or a mask)."""
         known = None if self.known is None else self.known.take(index)
-        return Shape(self.triangles[index], self.normals[index], self.solid[index], self.faces[index], self.seed, known)
+        return FaceSet(self.triangles[index], self.normals[index], self.solid[index], self.faces[index], self.seed, known)
 
-    def prepared(self) -> Shape:
+    def prepared(self) -> FaceSet:
         """The same shape, for taking many others from it."""
         return replace(self, known=KnownFaces.of(self.triangles))
 
 
 @dataclass(frozen=True, eq=False)
-class Surface:
+class MeshSurface:
     """The whole object's shape, and the connected components of its welded surface."""
 
-    shape: Shape
-    parts: Components
+    shape: FaceSet
+    components: Components
     void: Bool[np.ndarray, " c"]  # components that are the walls of a closed cavity in another
     vertices: Float[np.ndarray, "V 3"]
     diagonal: float
 
 
-def surface_of(mesh: Mesh, seed: int = 0) -> Surface:
+def mesh_surface(mesh: Mesh, seed: int = 0) -> MeshSurface:
     """Orients and prepares a mesh; the mesh itself is not changed."""
     parts = components(mesh.vertices, mesh.faces)
     void = _voids(mesh, parts)
     flip = (parts.flip & ~void)[parts.label]
     normals = np.where(flip[:, None], -mesh.face_normals, mesh.face_normals)
-    shape = Shape(mesh.triangles, normals, parts.solid[parts.label], np.arange(len(mesh.faces)), seed)
-    return Surface(shape, parts, void, mesh.vertices, mesh.diagonal)
+    shape = FaceSet(mesh.triangles, normals, parts.solid[parts.label], np.arange(len(mesh.faces)), seed)
+    return MeshSurface(shape, parts, void, mesh.vertices, mesh.diagonal)
 
 
 def _voids(mesh: Mesh, parts: Components) -> Bool[np.ndarray, " c"]:

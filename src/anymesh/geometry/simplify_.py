@@ -16,13 +16,13 @@ CLUSTERED = 3  # times the faces that are wanted, that clustering aims at
 STALLED = 1.25  # times the faces that are wanted, above which quadrics are taken to have stalled
 
 
-def simplify(triangles: Float[np.ndarray, "F 3 3"], most: int) -> Float[np.ndarray, "R 3 3"]:
+def simplify(triangles: Float[np.ndarray, "F 3 3"], max_faces: int) -> Float[np.ndarray, "R 3 3"]:
     """Return the surface in about `most` triangles, wound as before; the input when it has no more, or would collapse.
 
     A very dense surface is clustered first: quadrics on millions of faces take minutes where many are slivers. So is one on
     which quadrics stall short of `most`: on a fine, regular grid they fold what they leave.
     """
-    if len(triangles) <= most:
+    if len(triangles) <= max_faces:
         return triangles
     corners = triangles.reshape(-1, 3)
     number = weld(corners)  # without gaps, in the order of the first corners
@@ -30,12 +30,12 @@ def simplify(triangles: Float[np.ndarray, "F 3 3"], most: int) -> Float[np.ndarr
     first[number[::-1]] = np.arange(len(number))[::-1]
     center = corners.mean(0)  # float32 inside: near the origin it keeps its digits
     before, corner = corners[first] - center, number.reshape(-1, 3)
-    if len(corner) > max(DENSE * most, FEWEST):
-        points, faces = _by_quadrics(*_clustered(before, corner, CLUSTERED * most), most)
+    if len(corner) > max(DENSE * max_faces, FEWEST):
+        points, faces = _by_quadrics(*_clustered(before, corner, CLUSTERED * max_faces), max_faces)
     else:
-        points, faces = _by_quadrics(before, corner, most)
-        if len(faces) > STALLED * most:
-            again = _by_quadrics(*_clustered(before, corner, CLUSTERED * most), most)
+        points, faces = _by_quadrics(before, corner, max_faces)
+        if len(faces) > STALLED * max_faces:
+            again = _by_quadrics(*_clustered(before, corner, CLUSTERED * max_faces), max_faces)
             area = _area(before, corner)
             points, faces = min((points, faces), again, key=lambda mesh: abs(_area(*mesh) - area))
     found = points.astype(np.float64)[faces]
@@ -45,14 +45,14 @@ def simplify(triangles: Float[np.ndarray, "F 3 3"], most: int) -> Float[np.ndarr
 
 
 def _by_quadrics(
-    points: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"], most: int
+    points: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"], max_faces: int
 ) -> tuple[Float[np.ndarray, "v 3"], Int[np.ndarray, "f 3"]]:
     """Collapse edges by quadric error, to about `most` faces; the input when it has no more."""
-    if len(faces) <= most:
+    if len(faces) <= max_faces:
         return points, faces
     from fast_simplification import simplify as quadric
 
-    return quadric(np.ascontiguousarray(points, np.float32), np.ascontiguousarray(faces, np.int32), target_count=most)
+    return quadric(np.ascontiguousarray(points, np.float32), np.ascontiguousarray(faces, np.int32), target_count=max_faces)
 
 
 def _area(points: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"]) -> float:
@@ -60,7 +60,7 @@ def _area(points: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"]) -> fl
 
 
 def _clustered(
-    points: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"], most: int
+    points: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"], max_faces: int
 ) -> tuple[Float[np.ndarray, "v 3"], Int[np.ndarray, "f 3"]]:
     """Join the vertices in each cell of a grid that face the same octant (Rossignac and Borrel 1993), to about `most` faces.
 
@@ -70,7 +70,9 @@ def _clustered(
     double = np.linalg.norm(cross, axis=1)
     normal = np.stack([np.bincount(faces.reshape(-1), np.repeat(column, 3), len(points)) for column in cross.T], 1)
     around = np.bincount(faces.reshape(-1), np.repeat(double, 3), len(points))
-    cell = max(np.sqrt(double.sum() / most), 2.0**-20 * float(np.ptp(points, axis=0).max()))  # a cell of area has two faces
+    cell = max(
+        np.sqrt(double.sum() / max_faces), 2.0**-20 * float(np.ptp(points, axis=0).max())
+    )  # a cell of area has two faces
     x, y, z = np.floor((points - points.min(0)) / cell).astype(np.int64).T
     key = (((x << 20) | y) << 20 | z) << 3 | (normal > 0) @ np.array([4, 2, 1])
     sharp = np.linalg.norm(normal, axis=1) / np.maximum(around, 1e-300)
@@ -80,10 +82,10 @@ def _clustered(
     number[order] = np.cumsum(np.r_[False, np.diff(key[order]) != 0])
     corner = number[faces]
     whole = (corner != np.roll(corner, 1, axis=1)).all(1)
-    return points[first], np.unique(_least_first(corner[whole]), axis=0)
+    return points[first], np.unique(_smallest_index_first(corner[whole]), axis=0)
 
 
-def _least_first(faces: Int[np.ndarray, "F 3"]) -> Int[np.ndarray, "F 3"]:
+def _smallest_index_first(faces: Int[np.ndarray, "F 3"]) -> Int[np.ndarray, "F 3"]:
     """Turn every face so that its smallest corner comes first; the winding stays."""
     return np.take_along_axis(faces, (faces.argmin(1)[:, None] + np.arange(3)) % 3, 1)
 

@@ -17,8 +17,8 @@ from functools import cached_property
 import numpy as np
 from jaxtyping import Bool, Float, Float32, Int
 
-from anymesh.geometry.boxes import Box
-from anymesh.geometry.shape import Shape
+from anymesh.geometry.boxes import OrientedBox
+from anymesh.geometry.shape import FaceSet
 from anymesh.types import Motion, MotionKind, Sweep
 
 CHUNKS = (3, 6, 9, 18)  # steps cast at a time; the last size repeats. Most blocked motions are blocked early
@@ -34,10 +34,10 @@ class Obstacles:
     """The rest of the object around a part, with the points used both ways. tolerance: penetration that counts [m];
     hole: the rest's surface in it is no obstacle."""
 
-    part: Shape
-    rest: Shape
+    part: FaceSet
+    rest: FaceSet
     tolerance: float
-    hole: Box | None = None
+    ignored_box: OrientedBox | None = None
     count: int = 350
 
     @cached_property
@@ -55,7 +55,7 @@ class Obstacles:
         close = np.flatnonzero(((center > low - 0.1 * reach) & (center < high + 0.1 * reach)).all(1))
         found = [_spread(self.rest.take(index), self.count) for index in (near, close) if len(index)]
         points = np.concatenate(found) if found else np.zeros((0, 3))
-        return points[~self.carved(points)]
+        return points[~self.is_ignored(points)]
 
     def prepare(self) -> None:
         """Compute what is kept, so that threads find it."""
@@ -69,7 +69,7 @@ class Obstacles:
         """The part's points past the rest, and the rest's points, moved the other way, past the part."""
         there = np.array([m.transforms(a) for m, a in zip(motions, signed, strict=True)])
         back = np.array([m.transforms(-a) for m, a in zip(motions, signed, strict=True)])
-        gone = None if self.hole is None else self.carved
+        gone = None if self.ignored_box is None else self.is_ignored
         ways = (self.part_points, there, self.rest, gone), (self.rest_points, back, self.part, None)
         return [
             _Passage.of(points, poses, amounts, target, self.tolerance, hole)
@@ -77,14 +77,14 @@ class Obstacles:
             if len(points) and len(target.triangles)
         ]
 
-    def carved(self, points: Float[np.ndarray, "n 3"]) -> Bool[np.ndarray, " n"]:
+    def is_ignored(self, points: Float[np.ndarray, "n 3"]) -> Bool[np.ndarray, " n"]:
         """Which points of the rest lie in the hole."""
-        if self.hole is None:
+        if self.ignored_box is None:
             return np.zeros(len(points), bool)
-        return np.all(np.abs(self.hole.local(points)) < self.hole.half + self.tolerance, axis=1)
+        return np.all(np.abs(self.ignored_box.local(points)) < self.ignored_box.half + self.tolerance, axis=1)
 
 
-def _spread(shape: Shape, count: int) -> np.ndarray:
+def _spread(shape: FaceSet, count: int) -> np.ndarray:
     """Surface points and corners, about `count` of each, a little inside closed surfaces."""
     samples = shape.samples
     step = max(1, len(samples) // count)
@@ -106,9 +106,9 @@ class _Passage:
     points: Float32[np.ndarray, "4 n"]
     poses: Float32[np.ndarray, "3 T k 4"]
     amounts: Float[np.ndarray, "T k"]
-    target: Shape
+    target: FaceSet
     tolerance: float
-    gone: Callable[[np.ndarray], np.ndarray] | None
+    is_ignored: Callable[[np.ndarray], np.ndarray] | None
 
     @classmethod
     def of(
@@ -116,7 +116,7 @@ class _Passage:
         points: Float[np.ndarray, "n 3"],
         poses: Float[np.ndarray, "T k 4 4"],
         amounts: Float[np.ndarray, "T k"],
-        target: Shape,
+        target: FaceSet,
         tolerance: float,
         gone: Callable[[np.ndarray], np.ndarray] | None,
     ) -> _Passage:
@@ -188,8 +188,8 @@ class _Passage:
         point = start + span * where[:, None]
         normal = self.target.normals[face].astype(np.float32)
         counts = ~(self.target.solid[face] & (np.einsum("ij,ij->i", span, normal) >= 0))
-        if self.gone is not None:
-            counts &= ~self.gone(self.target.scene.from_unit(point))
+        if self.is_ignored is not None:
+            counts &= ~self.is_ignored(self.target.scene.from_unit(point))
         behind = [np.einsum("ij,ij->i", later - point, normal) for later in ahead]
         counts &= np.abs(behind).max(0) > self.tolerance
         chosen = np.flatnonzero(counts)
@@ -222,7 +222,7 @@ def _rows(path: Float32[np.ndarray, "3 k"], columns: Int[np.ndarray, " m"]) -> F
 
 
 def free_amounts(
-    obstacles: Obstacles, motions: Sequence[Motion], signs: Sequence[int], most: Sequence[float], steps: int
+    obstacles: Obstacles, motions: Sequence[Motion], signs: Sequence[int], max_amounts: Sequence[float], steps: int
 ) -> list[tuple[float, bool]]:
     """Compute how far the part moves along each sign * motion before it is stopped, and whether it never was.
 
@@ -233,7 +233,7 @@ def free_amounts(
     obstacles.prepare()
 
     def free(group: np.ndarray) -> list[tuple[float, bool]]:
-        return _free(obstacles, [motions[m] for m in group], [signs[m] for m in group], [most[m] for m in group], steps)
+        return _free(obstacles, [motions[m] for m in group], [signs[m] for m in group], [max_amounts[m] for m in group], steps)
 
     groups = np.array_split(np.arange(len(motions)), -(-len(motions) // AT_ONCE))
     if len(groups) == 1:
@@ -243,12 +243,12 @@ def free_amounts(
 
 
 def _free(
-    obstacles: Obstacles, motions: Sequence[Motion], signs: Sequence[int], most: Sequence[float], steps: int
+    obstacles: Obstacles, motions: Sequence[Motion], signs: Sequence[int], max_amounts: Sequence[float], steps: int
 ) -> list[tuple[float, bool]]:
-    amounts = np.array([np.linspace(0, far, steps + 1) for far in most])
+    amounts = np.array([np.linspace(0, far, steps + 1) for far in max_amounts])
     ways = obstacles.passages(motions, np.array(signs)[:, None] * amounts, amounts)
     quorum = max(2, int(SHARE_STOPPED * sum(way.points.shape[1] for way in ways)))
-    found: list[tuple[float, bool]] = [(far, True) for far in most]
+    found: list[tuple[float, bool]] = [(far, True) for far in max_amounts]
     stops = [np.full((len(motions), way.points.shape[1]), np.inf) for way in ways]
     live, begin = np.arange(len(motions)), 0
     for size in itertools.chain(CHUNKS, itertools.repeat(CHUNKS[-1])):  # stops are met in the order of the steps
@@ -265,23 +265,23 @@ def _free(
     return found
 
 
-def free_amount(obstacles: Obstacles, motion: Motion, sign: int, most: float, steps: int) -> tuple[float, bool]:
+def free_amount(obstacles: Obstacles, motion: Motion, sign: int, max_amount: float, steps: int) -> tuple[float, bool]:
     """`free_amounts` for one motion."""
-    return free_amounts(obstacles, [motion], [sign], [most], steps)[0]
+    return free_amounts(obstacles, [motion], [sign], [max_amount], steps)[0]
 
 
-def sweep_all(obstacles: Obstacles, motions: Sequence[Motion], steps: int = 36, most: float | None = None) -> list[Sweep]:
+def sweep_all(obstacles: Obstacles, motions: Sequence[Motion], steps: int = 36, max_amount: float | None = None) -> list[Sweep]:
     """Compute the free range both ways of each motion.
 
     most: the range tested each way [rad or m]; default half a turn, or 2 diagonals of the part.
     """
     slide = 2 * obstacles.part.box.diagonal
-    reach = [(np.pi if m.kind is MotionKind.TURN else slide) if most is None else most for m in motions]
+    reach = [(np.pi if m.kind is MotionKind.REVOLUTE else slide) if max_amount is None else max_amount for m in motions]
     free = free_amounts(obstacles, [*motions, *motions], [1] * len(motions) + [-1] * len(motions), reach + reach, steps)
     pairs = zip(free[: len(motions)], free[len(motions) :], strict=True)
     return [Sweep(forward, backward, clear, clear_back) for (forward, clear), (backward, clear_back) in pairs]
 
 
-def sweep(obstacles: Obstacles, motion: Motion, most: float | None = None, steps: int = 36) -> Sweep:
+def sweep(obstacles: Obstacles, motion: Motion, max_amount: float | None = None, steps: int = 36) -> Sweep:
     """`sweep_all` for one motion."""
-    return sweep_all(obstacles, [motion], steps, most)[0]
+    return sweep_all(obstacles, [motion], steps, max_amount)[0]

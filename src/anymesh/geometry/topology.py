@@ -10,7 +10,7 @@ from jaxtyping import Bool, Float, Int
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-LEVEL = 0.05  # [rad] faces at an edge that differ by less lie in one plane, as far as careless exports go
+MAX_COPLANAR_ANGLE_RAD = 0.05  # [rad] faces at an edge that differ by less lie in one plane, as far as careless exports go
 
 
 def weld(vertices: Float[np.ndarray, "V 3"]) -> Int[np.ndarray, " V"]:
@@ -101,10 +101,12 @@ def _across_material(
     v = np.cross(edge, u)
     angle = np.arctan2((into * v).sum(2), (into * u).sum(2))
     turn = (angle[:, :, None] - angle[:, None, :]) % (2 * np.pi)
-    turn = np.where((turn < LEVEL) | (turn > 2 * np.pi - LEVEL), 2 * np.pi, turn)
+    turn = np.where((turn < MAX_COPLANAR_ANGLE_RAD) | (turn > 2 * np.pi - MAX_COPLANAR_ANGLE_RAD), 2 * np.pi, turn)
     turn = np.where(forward[:, :, None] & ~forward[:, None, :], turn, np.inf)
     apart = np.abs(owner[:, :, None] - owner[:, None, :])
-    mate, back = (np.where(turn <= turn.min(k, keepdims=True) + LEVEL, apart, np.inf).argmin(k) for k in (2, 1))
+    mate, back = (
+        np.where(turn <= turn.min(k, keepdims=True) + MAX_COPLANAR_ANGLE_RAD, apart, np.inf).argmin(k) for k in (2, 1)
+    )
     row, slot = np.nonzero(np.isfinite(turn.min(2)))
     mutual = back[row, mate[row, slot]] == slot
     row, slot = row[mutual], slot[mutual]

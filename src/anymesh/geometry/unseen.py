@@ -6,22 +6,22 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 from scipy.ndimage import maximum_filter
 
-from anymesh.geometry.boxes import Box, box_in_frame
-from anymesh.geometry.shape import Shape
-from anymesh.geometry.surroundings import core_box
+from anymesh.geometry.boxes import OrientedBox, box_in_frame
+from anymesh.geometry.shape import FaceSet
+from anymesh.geometry.surroundings import body_obb
 from anymesh.types import Mesh
 from anymesh.types.camera import Camera
 
 CELLS = 64  # along the longest side of the body
 UPRIGHT = np.cos(np.deg2rad(10.0))
-SHUT = 0.05  # a part that reaches no further out of the body, as a share of its diagonal, is shut
-PLATE = 0.35  # thickness over width of a door, drawer front or lid at most
-SMALL = 0.15  # a part with less of the body's diagonal sits on something that is seen
-WITHIN = 0.8  # share of a plate's face that its rim is no part of
-BEHIND = 0.005  # how far behind a plate its support is taken to be, as a share of the body's diagonal
+MAX_CLOSED_PROTRUSION_RATIO = 0.05  # a part that reaches no further out of the body, as a share of its diagonal, is shut
+MAX_PANEL_THICKNESS_RATIO = 0.35  # thickness over width of a door, drawer front or lid at most
+MIN_PANEL_SIZE_RATIO = 0.15  # a part with less of the body's diagonal sits on something that is seen
+PANEL_INTERIOR_RATIO = 0.8  # share of a plate's face that its rim is no part of
+BACKING_OFFSET_RATIO = 0.005  # how far behind a plate its support is taken to be, as a share of the body's diagonal
 
 
-def unseen_body(
+def hidden_base(
     mesh: Mesh, face_part: Int[np.ndarray, " F"], camera: Camera, depth: Float[np.ndarray, "H W"]
 ) -> Float[np.ndarray, "G 3 3"]:
     """Triangles of the body that the surface seen leaves open: the walls of its box that are hidden, and what shut doors
@@ -31,17 +31,17 @@ def unseen_body(
     added where the picture shows free space (as in space carving, Kutulakos and Seitz 2000).
     """
     shapes = [_shape(mesh, face_part == k) for k in range(int(face_part.max()) + 1)]
-    body, shut = _body(mesh, [shapes[0].box, *(core_box(s) for s in shapes[1:])])
-    backs = [_backs(shapes[k].corners, core, camera, BEHIND * body.diagonal) for k, core in shut.items()]
-    return np.concatenate([hidden_walls(body, camera, depth), *backs])
+    body, shut = _base_box(mesh, [shapes[0].box, *(body_obb(s) for s in shapes[1:])])
+    backs = [_backs(shapes[k].corners, core, camera, BACKING_OFFSET_RATIO * body.diagonal) for k, core in shut.items()]
+    return np.concatenate([occluded_walls(body, camera, depth), *backs])
 
 
-def _shape(mesh: Mesh, faces: Bool[np.ndarray, " F"]) -> Shape:
+def _shape(mesh: Mesh, faces: Bool[np.ndarray, " F"]) -> FaceSet:
     index = np.flatnonzero(faces)
-    return Shape(mesh.triangles[index], mesh.face_normals[index], np.zeros(len(index), bool), index)
+    return FaceSet(mesh.triangles[index], mesh.face_normals[index], np.zeros(len(index), bool), index)
 
 
-def _body(mesh: Mesh, boxes: list[Box]) -> tuple[Box, dict[int, Box]]:
+def _base_box(mesh: Mesh, boxes: list[OrientedBox]) -> tuple[OrientedBox, dict[int, OrientedBox]]:
     """The box of the body as far as it is seen, down to the ground, and of the doors, drawers and lids that are shut; and
     the boxes of these, by the part's number."""
     base = boxes[0]
@@ -54,7 +54,7 @@ def _body(mesh: Mesh, boxes: list[Box]) -> tuple[Box, dict[int, Box]]:
         else:
             high[axis] = everything[:, axis].max()
     across = float(np.linalg.norm(high - low))
-    slack = SHUT * across
+    slack = MAX_CLOSED_PROTRUSION_RATIO * across
     filled, shut = [low[None], high[None]], {}
     for number, core in enumerate(boxes[1:], start=1):
         ends = core.world(_corners(-core.half, core.half)) @ frame.T
@@ -69,24 +69,26 @@ def _corners(low: np.ndarray, high: np.ndarray) -> Float[np.ndarray, "8 3"]:
     return np.array([[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
 
 
-def _is_plate(core: Box, body: float) -> bool:
-    return bool(core.half[2] < PLATE * core.half[1] and core.diagonal > SMALL * body)
+def _is_plate(core: OrientedBox, base_diagonal: float) -> bool:
+    return bool(
+        core.half[2] < MAX_PANEL_THICKNESS_RATIO * core.half[1] and core.diagonal > MIN_PANEL_SIZE_RATIO * base_diagonal
+    )
 
 
-def _backs(points: np.ndarray, core: Box, camera: Camera, behind: float) -> Float[np.ndarray, "n 3 3"]:
+def _backs(points: np.ndarray, core: OrientedBox, camera: Camera, behind: float) -> Float[np.ndarray, "n 3 3"]:
     """What a plate lies on: its face moved away from the camera to behind all that is seen of it, and the same within its
     rim alone, which may be deeper than the plate is thick."""
     away = core.axes[2] * np.sign((core.center - camera.T_world_camera[:3, 3]) @ core.axes[2])
     deep, across = (points - core.center) @ away, np.abs(core.local(points)[:, :2] / core.half[:2]).max(1)
     found = []
-    for share in (1.0, WITHIN):
+    for share in (1.0, PANEL_INTERIOR_RATIO):
         inside = deep[across <= share + 1e-6]
         if len(inside):
             found.append(_rectangle(core, core.center + (inside.max() + behind) * away, share, away))
     return np.concatenate(found) if found else np.zeros((0, 3, 3))
 
 
-def _rectangle(core: Box, middle: np.ndarray, share: float, away: np.ndarray) -> Float[np.ndarray, "2 3 3"]:
+def _rectangle(core: OrientedBox, middle: np.ndarray, share: float, away: np.ndarray) -> Float[np.ndarray, "2 3 3"]:
     """A share of a box's largest side, wound to face against `away`."""
     u, v = share * core.half[0] * core.axes[0], share * core.half[1] * core.axes[1]
     u = u if np.cross(u, v) @ away < 0 else -u
@@ -94,7 +96,7 @@ def _rectangle(core: Box, middle: np.ndarray, share: float, away: np.ndarray) ->
     return np.array([[a, b, c], [a, c, d]])
 
 
-def hidden_walls(box: Box, camera: Camera, depth: Float[np.ndarray, "H W"]) -> Float[np.ndarray, "F 3 3"]:
+def occluded_walls(box: OrientedBox, camera: Camera, depth: Float[np.ndarray, "H W"]) -> Float[np.ndarray, "F 3 3"]:
     """Triangles of the box's far sides, wound outwards, without what the picture shows to be free or shows itself."""
     step = 2 * float(box.half.max()) / CELLS
     found = []
@@ -106,7 +108,7 @@ def hidden_walls(box: Box, camera: Camera, depth: Float[np.ndarray, "H W"]) -> F
             local[..., axis], local[..., u], local[..., v] = sign * box.half[axis], at_u[:, None], at_v[None]
             points = box.world(local.reshape(-1, 3))
             beyond = (points - camera.T_world_camera[:3, 3]) @ (sign * box.axes[axis]) > 0
-            out = (beyond & hidden(points, camera, depth)).reshape(local.shape[:2])
+            out = (beyond & is_occluded(points, camera, depth)).reshape(local.shape[:2])
             corners = points.reshape(local.shape)
             a, b, c, d = (corners[i, j] for i in (slice(None, -1), slice(1, None)) for j in (slice(None, -1), slice(1, None)))
             whole = out[:-1, :-1] & out[1:, :-1] & out[:-1, 1:] & out[1:, 1:]
@@ -115,7 +117,7 @@ def hidden_walls(box: Box, camera: Camera, depth: Float[np.ndarray, "H W"]) -> F
     return np.concatenate(found)
 
 
-def hidden(points: Float[np.ndarray, "n 3"], camera: Camera, depth: Float[np.ndarray, "H W"]) -> Bool[np.ndarray, " n"]:
+def is_occluded(points: Float[np.ndarray, "n 3"], camera: Camera, depth: Float[np.ndarray, "H W"]) -> Bool[np.ndarray, " n"]:
     """Which points lie behind what a picture shows, by more than a pixel is wide; what shows nothing shows free space."""
     size = np.array([camera.width, camera.height])
     at, far = camera.project(points)

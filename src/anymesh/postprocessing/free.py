@@ -6,7 +6,7 @@ import numpy as np
 from jaxtyping import Float
 
 from anymesh.config import ArticulationConfig
-from anymesh.geometry.shape import Shape
+from anymesh.geometry.shape import FaceSet
 from anymesh.geometry.sweep import Obstacles, free_amount
 from anymesh.geometry.topology import components
 from anymesh.postprocessing.scenes import Growing
@@ -40,7 +40,7 @@ def moves_freely(
     own, rest = (np.concatenate([growing.triangles(*k), new]) for k, new in ((carried, more), (others, beside)))
     after = Obstacles(shape_of(own), shape_of(rest), tolerance)
     motion = Motion(
-        MotionKind.SLIDE if joint.type is JointType.PRISMATIC else MotionKind.TURN, joint.axis, joint.origin, "joint"
+        MotionKind.PRISMATIC if joint.type is JointType.PRISMATIC else MotionKind.REVOLUTE, joint.axis, joint.origin, "joint"
     )
     for sign, most in limits_of(joint):
         now = free_amount(after, motion, sign, most, STEPS)[0]
@@ -57,10 +57,10 @@ def limits_of(joint: Joint) -> list[tuple[int, float]]:
     return [(sign, amount) for sign, amount in ((1, float(high)), (-1, -float(low))) if amount > 0]
 
 
-def shape_of(triangles: Float[np.ndarray, "n 3 3"]) -> Shape:
+def shape_of(triangles: Float[np.ndarray, "n 3 3"]) -> FaceSet:
     """Triangles made ready for sweeps: closed components face outwards."""
     corners = triangles.reshape(-1, 3)
     found = components(corners, np.arange(len(corners)).reshape(-1, 3))
     normals = normals_and_areas(triangles)[0]
     flip = found.flip[found.label]
-    return Shape(triangles, np.where(flip[:, None], -normals, normals), found.solid[found.label], np.arange(len(triangles)))
+    return FaceSet(triangles, np.where(flip[:, None], -normals, normals), found.solid[found.label], np.arange(len(triangles)))

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.geometry.boxes import Box
+from anymesh.geometry.boxes import OrientedBox
 from anymesh.geometry.kinematics import joint_transform
-from anymesh.geometry.shape import Shape
-from anymesh.geometry.surroundings import core_box
+from anymesh.geometry.shape import FaceSet
+from anymesh.geometry.surroundings import body_obb
 from anymesh.postprocessing.scenes import Growing, Scenes, scene_of, widest
 from anymesh.postprocessing.settings import ShapeConfig
 from anymesh.types import JointType
@@ -59,8 +59,8 @@ def find_front(part: int, growing: Growing, config: ShapeConfig) -> Front | None
 def _face(part: int, scenes: Scenes) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:
     """Axes and bounds of the face that a part shows: the side of its box that most of what is seen of it looks to."""
     mesh, faces = scenes.asset.mesh, scenes.asset.segmentation.faces(part)
-    shape = Shape(mesh.triangles[faces], mesh.face_normals[faces], np.zeros(len(faces), bool), faces)
-    box, s = core_box(shape), shape.samples
+    shape = FaceSet(mesh.triangles[faces], mesh.face_normals[faces], np.zeros(len(faces), bool), faces)
+    box, s = body_obb(shape), shape.samples
     seen = scenes.seen(s.points, s.normals)
     best, most = None, 0
     for axis in np.concatenate([box.axes, -box.axes]):
@@ -76,7 +76,7 @@ def _face(part: int, scenes: Scenes) -> tuple[np.ndarray, np.ndarray, np.ndarray
     return (axes, low, high) if filled > FILLED * (high - low)[0] * (high - low)[1] else None
 
 
-def _upright(box: Box, inward: np.ndarray) -> Float[np.ndarray, "3 3"]:
+def _upright(box: OrientedBox, inward: np.ndarray) -> Float[np.ndarray, "3 3"]:
     """A box's axes with the last one inward, and of the others the second as upright as can be, upwards."""
     others = [a for a in box.axes if abs(a @ inward) < 0.5]
     up = max(others, key=lambda a: (round(abs(float(a[2])), 9), round(abs(float(a[1])), 9), round(abs(float(a[0])), 9)))

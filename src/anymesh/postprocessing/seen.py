@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.geometry.boxes import Box, fit_box
+from anymesh.geometry.boxes import OrientedBox, fit_box
 from anymesh.geometry.sampling import SurfacePoints, sample_surface
 from anymesh.postprocessing.scenes import Scenes
 from anymesh.postprocessing.settings import ShapeConfig
@@ -32,7 +32,7 @@ class Seen:
         return 1.0 if self.faces_out else -1.0
 
     @cached_property
-    def box(self) -> Box:
+    def box(self) -> OrientedBox:
         return fit_box(self.sheet.points, self.sheet.normals, self.sheet.areas)
 
     @property

@@ -51,7 +51,7 @@ def motion_scores(question: MotionQuestion) -> Float[np.ndarray, " k"]:
     prior = LABEL_PRIOR.get(habit) if (habit := habit_of(question.part.label)) else None
     if prior is None:
         return scores
-    kinds = [2 if c.motion.kind is MotionKind.SLIDE else int(c.role == "round") for c in question.candidates]
+    kinds = [2 if c.motion.kind is MotionKind.PRISMATIC else int(c.role == "round") for c in question.candidates]
     return scores + np.array(prior)[kinds]
 
 
@@ -62,10 +62,10 @@ def same_joints(question: MotionQuestion, best: int) -> Bool[np.ndarray, " k"]:
     """
     motions = [c.motion for c in question.candidates]
     same = np.array([m.kind is motions[best].kind for m in motions])
-    axes, axis = np.array([c.motion.axis * c.opens for c in question.candidates]), motions[best].axis
-    cosine = axes @ (axis * question.candidates[best].opens)
+    axes, axis = np.array([c.motion.axis * c.opening_sign for c in question.candidates]), motions[best].axis
+    cosine = axes @ (axis * question.candidates[best].opening_sign)
     same &= (np.abs(cosine) if question.candidates[best].turns_freely else cosine) >= SAME_AXIS
-    if motions[best].kind is MotionKind.TURN:
+    if motions[best].kind is MotionKind.REVOLUTE:
         offset = np.array([m.origin for m in motions]) - motions[best].origin
         same &= np.linalg.norm(np.cross(offset, axis), axis=1) <= SAME_LINE * question.part.size * question.part.diagonal
     return same
@@ -79,14 +79,14 @@ def share_of_best(scores: Float[np.ndarray, " k"], same: Bool[np.ndarray, " k"])
 
 def joint_type(c: Candidate) -> JointType:
     """Return the type of joint that goes with a candidate."""
-    if c.motion.kind is MotionKind.SLIDE:
+    if c.motion.kind is MotionKind.PRISMATIC:
         return JointType.PRISMATIC
     return JointType.CONTINUOUS if c.role == "round" and c.turns_freely else JointType.REVOLUTE
 
 
 def reason(part: PartFacts, c: Candidate) -> str:
     """Describe a motion in words."""
-    if c.motion.kind is MotionKind.SLIDE:
+    if c.motion.kind is MotionKind.PRISMATIC:
         held = f"held on {round(4 * c.guided)} of 4 sides"
         way = "outwards" if c.outward > 0.7 else "inwards" if c.outward < -0.7 else "along the surface"
         return f"slides {way}, {held}, free for {100 * c.opening:.0f} % of the object's diagonal ({c.motion.source})"
@@ -96,6 +96,6 @@ def reason(part: PartFacts, c: Candidate) -> str:
     told = [c.motion.source]
     if c.handle_side > 0.3:
         told.insert(0, "hinge opposite the handle")
-    if c.support > 0.5:
+    if c.hinge_support > 0.5:
         told.append("the parent runs along it")
     return ", ".join([*told, free])

@@ -55,7 +55,7 @@ class KnownJoint:
     def motion(self) -> Motion:
         """Turned so that positive goes into the larger part of the range."""
         sign = -1.0 if self.limits is not None and sum(self.limits) < 0 else 1.0
-        kind = MotionKind.SLIDE if self.type is JointType.PRISMATIC else MotionKind.TURN
+        kind = MotionKind.PRISMATIC if self.type is JointType.PRISMATIC else MotionKind.REVOLUTE
         return Motion(kind, sign * self.axis / np.linalg.norm(self.axis), self.origin, "known")
 
     @property

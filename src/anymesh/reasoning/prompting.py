@@ -221,7 +221,7 @@ class MotionTable:
         words = []
         for k, motion in enumerate(self.motions):
             blocked = ", blocked" if k < len(self.blocked) and self.blocked[k] else ""
-            words.append(f"{k + 1} ({'slides' if motion.kind is MotionKind.SLIDE else 'turns'}{blocked})")
+            words.append(f"{k + 1} ({'slides' if motion.kind is MotionKind.PRISMATIC else 'turns'}{blocked})")
         return ", ".join(words)
 
 

@@ -29,20 +29,20 @@ class PartFacts:
     thinness: float  # shortest side / middle side of the core box
     roundness: float  # 0..1 of its roundest outline
     flatness: float  # height along that outline's axis over its radius
-    outward: Float[np.ndarray, " 3"]  # the way out of the object, unit
-    openness: float  # 0..1, share of the part's surface that sees the outside along `outward`
-    buried: float  # depth within the parent along `outward`, over the smallest side across
+    opening_direction: Float[np.ndarray, " 3"]  # the way out of the object, unit
+    visibility: float  # 0..1, share of the part's surface that sees the outside along `outward`
+    insertion_depth: float  # depth within the parent along `outward`, over the smallest side across
     size: float  # its diagonal over the object's
     diagonal: float  # the object's [m]
     horizontal: bool  # its face looks up or down
     handle: Handle | None
-    touches_ends: bool  # held by two contacts far apart with free space between (a bail)
+    two_pivot: bool  # held by two contacts far apart with free space between (a bail)
     tall: float  # log2 of its face's height over its width; 0 for a level face
     height: float  # 0..1, of its middle in the object's height
-    seated: float  # 0..1, share of its back that lies on the parent
+    back_contact: float  # 0..1, share of its back that lies on the parent
     free_rim: float  # 0..1, a round part: share of its rim that sees the outside across its axis
-    lid: float  # 0..1, a round part: how much of its rim lies on the parent around an opening behind it
-    marked: float = 1.0  # a round part: how far it is from a body of revolution, over its radius
+    covers_opening: float  # 0..1, a round part: how much of its rim lies on the parent around an opening behind it
+    rotational_asymmetry: float = 1.0  # a round part: how far it is from a body of revolution, over its radius
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,10 +56,10 @@ class Candidate:
     motion: Motion
     sweep: Sweep
     role: str
-    opens: int
+    opening_sign: int
     opening: float
     closing: float
-    support: float  # 0..1, share of the hinge line that has the parent near
+    hinge_support: float  # 0..1, share of the hinge line that has the parent near
     sibling: float  # 0..1, share of the hinge line that has another movable part near
     handle_side: float  # -1..1: 1 the handle is opposite the hinge, 0 no handle or level with it
     guided: float  # 0..1, a slide: share of the sideways directions in which the part is held
@@ -71,25 +71,25 @@ class Candidate:
     pair: float = 0.0  # -1..1: 1 a leaf like it meets the part opposite the hinge, -1 at the hinge
     outer: float = 0.0  # -1..1: 1 the hinge lies at the object's outer side, -1 towards its middle
     handle_off: float = 0.0  # 0..1, how far from the middle of the hinge's length the handle sits
-    opposite: float = 0.0  # 0..1, as support, of the line at the part's other side: a free side has nothing near
+    support_opposite: float = 0.0  # 0..1, as support, of the line at the part's other side: a free side has nothing near
     reach: float = 0.0  # log2 of the part's reach across the line over its length along it
-    hugs: float = 0.0  # 0..1, how near the line the contact lies
+    contact_proximity: float = 0.0  # 0..1, how near the line the contact lies
     thick: float = 0.0  # 0..1, thickness at the line over the part's largest
-    kept: float = 0.0  # 0..1, share of the contact that stays when the part opens a little
-    slack: float = 1.0  # factor on the penetration that counts, more than 1 for a part that is stuck in the rest
-    passes: float = 0.0  # 0..1, a slide: the part comes to lie over what it did not lie over
+    contact_retention: float = 0.0  # 0..1, share of the contact that stays when the part opens a little
+    penetration_scale: float = 1.0  # factor on the penetration that counts, more than 1 for a part that is stuck in the rest
+    overlap_gain: float = 0.0  # 0..1, a slide: the part comes to lie over what it did not lie over
 
     @property
     def is_free(self) -> bool:
         """Whether the sweep lets the motion open at all; a slide or a wheel may go back as well, a button may fill its hole."""
-        if self.motion.kind is MotionKind.SLIDE:
+        if self.motion.kind is MotionKind.PRISMATIC:
             return max(self.opening, self.closing) >= MIN_TRAVEL_RATIO
         return max(self.opening, self.closing if self.role == "round" else 0.0) >= MIN_ANGLE
 
     @property
     def turns_freely(self) -> bool:
         """Whether nothing stops a turn, either way."""
-        return self.motion.kind is MotionKind.TURN and min(self.opening, self.closing) > FULL_TURN
+        return self.motion.kind is MotionKind.REVOLUTE and min(self.opening, self.closing) > FULL_TURN
 
 
 @dataclass(frozen=True, eq=False)
@@ -120,7 +120,7 @@ class MotionAnswer:
 
 
 @runtime_checkable
-class Answerer(Protocol):
+class MotionAnswerer(Protocol):
     """Whoever answers: geometry alone, a vision-language model, or ground truth."""
 
     name: str

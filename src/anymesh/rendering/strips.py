@@ -75,7 +75,7 @@ def motion_strip(
         picture = _painted(still, lines, posed.part_pixels(poses[k + 1], fine))
         picture = blend(picture, outline, (90, 90, 90), 0.7)
         drawn = _with_axis(picture, *_axis(posed.corners, motion, amount, fine), fine)
-        word = "slides" if motion.kind is MotionKind.SLIDE else "turns"
+        word = "slides" if motion.kind is MotionKind.PRISMATIC else "turns"
         panels.append(_titled(_half(drawn), str(number), f"{word}, blocked" if k < len(blocked) and blocked[k] else word))
     return grid(panels)
 
@@ -151,7 +151,7 @@ def _axis(
     """
     depth = float(camera.project(corners.mean(0)[None])[1][0])
     size = max(float(np.linalg.norm(np.ptp(corners, axis=0))), LEGIBLE * 2 * depth * float(np.tan(camera.fov / 2)))
-    axis, slides = (-motion.axis if amount < 0 else motion.axis), motion.kind is MotionKind.SLIDE
+    axis, slides = (-motion.axis if amount < 0 else motion.axis), motion.kind is MotionKind.PRISMATIC
     ends, center = axis_line(corners, motion.origin, axis, slides, AXIS_LEAST * size)
     return ends, None if slides else ring(center, axis, RING * size)
 

@@ -61,7 +61,7 @@ def sample_cloud(mesh: Mesh, whole: ObjectShape, config: GroundingConfig | None 
     config = config or GroundingConfig()
     s = sample_surface(mesh.triangles, config.points, seed, at_least=1)
     colors = point_colors(mesh, s)
-    label, borders = find_superpoints(s, colors, whole.mesh_piece[s.faces], config)
+    label, borders = find_superpoints(s, colors, whole.mesh_patch[s.faces], config)
     boxes = np.stack([np.full((int(label.max()) + 1, 3), np.inf), np.full((int(label.max()) + 1, 3), -np.inf)], 1)
     np.minimum.at(boxes[:, 0], label, s.points)
     np.maximum.at(boxes[:, 1], label, s.points)

@@ -11,9 +11,9 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from anymesh.config import SegmentationConfig
-from anymesh.geometry.boxes import alike, box_pairs, within
+from anymesh.geometry.boxes import box_pairs, same_box, within
 from anymesh.geometry.pieces import ObjectShape
-from anymesh.geometry.shape import Shape
+from anymesh.geometry.shape import FaceSet
 from anymesh.geometry.topology import label_connected
 
 FLAT = 0.6  # length of the mean normal of a sheet, with its handle; 1 where it is plane
@@ -32,7 +32,7 @@ class Contacts:
     body: (P,) bodies are pieces that touch, directly or through others.
     """
 
-    shapes: tuple[Shape, ...]
+    shapes: tuple[FaceSet, ...]
     touch: Int[np.ndarray, "m 2"]
     near: Int[np.ndarray, "k 2"]
     body: Int[np.ndarray, " P"]
@@ -51,8 +51,8 @@ class Contacts:
 
 def find_contacts(whole: ObjectShape, config: SegmentationConfig) -> Contacts:
     """Measures all pairs of pieces whose boxes are near each other."""
-    order = np.argsort(whole.piece, kind="stable")
-    start = np.searchsorted(whole.piece[order], np.arange(int(whole.piece.max()) + 2))
+    order = np.argsort(whole.patch, kind="stable")
+    start = np.searchsorted(whole.patch[order], np.arange(int(whole.patch.max()) + 2))
     shapes = tuple(whole.of(order[a:b]) for a, b in itertools.pairwise(start))
     shared = {(int(a), int(b)) for a, b in whole.shared}
     tolerance, reach = config.touch * whole.diagonal, config.near * whole.diagonal
@@ -76,7 +76,7 @@ def find_contacts(whole: ObjectShape, config: SegmentationConfig) -> Contacts:
 
 
 def _measured(
-    shapes: tuple[Shape, ...], pairs: list[tuple[int, int]], tolerance: float, reach: float
+    shapes: tuple[FaceSet, ...], pairs: list[tuple[int, int]], tolerance: float, reach: float
 ) -> tuple[list[tuple[int, int]], list[tuple[int, int, float]]]:
     """Of pairs whose boxes meet, those that touch or cross, and the others within reach with the distance between them."""
     touch, near = [], []
@@ -91,7 +91,7 @@ def _measured(
 
 
 def _neighbours(
-    near: list[tuple[int, int, float]], beside: list[tuple[float, int, int]], body: np.ndarray, shapes: tuple[Shape, ...],
+    near: list[tuple[int, int, float]], beside: list[tuple[float, int, int]], body: np.ndarray, shapes: tuple[FaceSet, ...],
     slack: float, reach: float,
 ) -> np.ndarray:  # fmt: skip
     """Of the pairs of bodies with a clearance, those that are among the nearest of the smaller body.
@@ -127,14 +127,14 @@ def _neighbours(
     return np.array(sorted(kept), np.int64).reshape(-1, 2)
 
 
-def _goes_on(a: Shape, b: Shape) -> bool:
+def _goes_on(a: FaceSet, b: FaceSet) -> bool:
     """Whether both are sheets that face the same way."""
     mean = [s.areas @ s.normals / max(s.area, 1e-300) for s in (a, b)]
     length = [float(np.linalg.norm(m)) for m in mean]
     return min(length) > FLAT and bool(mean[0] @ mean[1] > SAME_WAY * length[0] * length[1])
 
 
-def _touching(a: Shape, b: Shape, tolerance: float) -> float:
+def _touching(a: FaceSet, b: FaceSet, tolerance: float) -> float:
     """Area of a within the tolerance of b [m^2]."""
     samples = a.samples.points[::3]
     gap = b.tree.distance(samples[within(samples, b.bounds[0] - tolerance, b.bounds[1] + tolerance)])
@@ -153,14 +153,14 @@ def coplanar(contacts: Contacts, whole: ObjectShape, tolerance: float) -> list[t
         if max(a.half[2] / max(a.half[1], 1e-12), b.half[2] / max(b.half[1], 1e-12)) > 0.5:
             continue
         level = abs(float((a.center - b.center) @ a.axes[2]))
-        if min(s.half[1] / max(s.half[0], 1e-12) for s in (a, b)) > LEAF and alike(a, b):
+        if min(s.half[1] / max(s.half[0], 1e-12) for s in (a, b)) > LEAF and same_box(a, b):
             continue  # two leaves of a window
         if abs(float(a.axes[2] @ b.axes[2])) > 0.9995 and level < tolerance and abs(a.half[2] - b.half[2]) < tolerance:
             found.append((int(i), int(j)))
     return found
 
 
-def _gap(a: Shape, b: Shape, reach: float) -> float:
+def _gap(a: FaceSet, b: FaceSet, reach: float) -> float:
     """Smallest distance of a's corners and samples, as far as they lie in b's box, to b [m]."""
     low, high = b.bounds[0] - reach, b.bounds[1] + reach
     points = [p[within(p, low, high)] for p in (a.corners, a.samples.points)]
@@ -169,7 +169,7 @@ def _gap(a: Shape, b: Shape, reach: float) -> float:
     return float(b.tree.distance(probe).min()) if len(probe) else np.inf
 
 
-def _crosses(a: Shape, b: Shape) -> bool:
+def _crosses(a: FaceSet, b: FaceSet) -> bool:
     """Whether edges of one shape pass through faces of the other."""
     for one, other in ((a, b), (b, a)):
         start = one.triangles.reshape(-1, 3)

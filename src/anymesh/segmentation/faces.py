@@ -35,8 +35,8 @@ def face_parts(
     """
     config = config or Config()
     most = int(point_part.max(initial=0)) + 1
-    piece = whole.mesh_piece[cloud.faces]
-    pieces = int(whole.mesh_piece.max()) + 1
+    piece = whole.mesh_patch[cloud.faces]
+    pieces = int(whole.mesh_patch.max()) + 1
     known = point_part >= 0
     votes = np.bincount(piece[known] * most + point_part[known], minlength=pieces * most).reshape(pieces, most)
     total = votes.sum(1)
@@ -45,7 +45,7 @@ def face_parts(
     share = votes.max(1) / np.maximum(total, 1)
     mixed = told & (share <= np.where(_cuttable(mesh, whole, config), CUTTABLE, ALONE))
     winner = join_unseen(whole, winner, config, stays_free)
-    found = winner[whole.mesh_piece]
+    found = winner[whole.mesh_patch]
     for p in np.flatnonzero(mixed):
         mine = np.flatnonzero(piece == p)
         faces, label = _cut(cloud, mine, point_part[mine], most)
@@ -55,10 +55,10 @@ def face_parts(
 
 def _cuttable(mesh: Mesh, whole: ObjectShape, config: Config) -> Bool[np.ndarray, " P"]:
     """Pieces that may hold several parts: parts of a fused surface, and large ones."""
-    count = int(whole.mesh_piece.max()) + 1
+    count = int(whole.mesh_patch.max()) + 1
     low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
-    np.minimum.at(low, whole.mesh_piece, mesh.triangles.min(1))
-    np.maximum.at(high, whole.mesh_piece, mesh.triangles.max(1))
+    np.minimum.at(low, whole.mesh_patch, mesh.triangles.min(1))
+    np.maximum.at(high, whole.mesh_patch, mesh.triangles.max(1))
     large = np.linalg.norm(high - low, axis=1) > config.pieces.fused_size * whole.diagonal
     large[whole.shared.reshape(-1)] = True
     return large
@@ -105,7 +105,7 @@ def mark_parts(
         part_of[[m for m in marks if m > 0]] = k
     part_of[-1] = UNSEEN
     found = part_of[face_mark]
-    piece = whole.mesh_piece
+    piece = whole.mesh_patch
     found[(found == 0) & little[piece]] = UNSEEN
     count = int(piece.max()) + 1
     weight = np.maximum(mesh.face_areas, 1e-300)

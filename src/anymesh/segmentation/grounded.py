@@ -89,7 +89,7 @@ def ground_parts(
     )
     inside: tuple[str, ...] = ()
     left = found.unseen & (found.face_part == 0)  # by whoever was shown the inside
-    left &= (patch_sizes(mesh, whole) >= LEAST_INSIDE)[whole.mesh_piece]  # smaller ones are gaps and creases, no parts
+    left &= (patch_sizes(mesh, whole) >= LEAST_INSIDE)[whole.mesh_patch]  # smaller ones are gaps and creases, no parts
     by_user = recognition.size is None  # told the labels; else somebody was shown the inside and asked what moves in there
     if labels and by_user and mesh.face_areas[left].sum() > SLIVER * mesh.face_areas[found.unseen].sum():
         parts, inside = with_hidden(parts, by_geometry(), found.unseen, mesh.face_areas)
@@ -132,14 +132,14 @@ def _exactly(
     parts, labels = [p.marks for p in answer.parts], tuple(p.label for p in answer.parts)
     named = np.isin(answer.marks.face_mark, [m for marks in parts for m in marks])
     little = hidden
-    if named[hidden[whole.mesh_piece]].any():  # somebody told what is what inside, so what they left belongs to the rest
+    if named[hidden[whole.mesh_patch]].any():  # somebody told what is what inside, so what they left belongs to the rest
         little = unseen_patches(whole, cloud, seen_points(cloud, seen))
     face_part = mark_parts(mesh, whole, answer.marks.face_mark, parts, little, config, free(labels))
     doubts = [sorted(answer.unsure & set(p.marks)) for p in answer.parts]
     crowded = f"{marks.crowded} small regions have no mark of their own: the object has too many to be shown"
     return Found(
         face_part,
-        hidden[whole.mesh_piece],
+        hidden[whole.mesh_patch],
         labels,
         tuple(UNSURE if some else SURE for some in doubts),
         tuple(
@@ -191,7 +191,7 @@ def _by_masks(
     pointed = frozenset(p.label for p in marked)
     kept = [found.labels[k - 1] for k in np.unique(face_part[face_part > 0])]
     return Found(
-        face_part, hidden[whole.mesh_piece], found.labels, (SURE,) * count, ("",) * count, pointed, _lost(marked, kept)
+        face_part, hidden[whole.mesh_patch], found.labels, (SURE,) * count, ("",) * count, pointed, _lost(marked, kept)
     )  # fmt: skip
 
 

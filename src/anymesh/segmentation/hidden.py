@@ -32,8 +32,8 @@ def unseen_patches(
     whole: ObjectShape, cloud: Cloud, shown: Bool[np.ndarray, " n"], share: float = SLIVER
 ) -> Bool[np.ndarray, " P"]:
     """Patches that no view shows, or so little of them (a share of the surface) that nobody could name them."""
-    piece = whole.mesh_piece[cloud.faces]
-    total = np.bincount(piece, minlength=int(whole.mesh_piece.max()) + 1)
+    piece = whole.mesh_patch[cloud.faces]
+    total = np.bincount(piece, minlength=int(whole.mesh_patch.max()) + 1)
     return np.bincount(piece, shown, len(total)) <= share * total
 
 
@@ -44,16 +44,16 @@ def inner_faces(
     diagonal below `least`, a share of the object's."""
     hidden, size = unseen_patches(whole, cloud, shown, MOSTLY), patch_sizes(mesh, whole)
     if not (hidden & (size >= least)).any():
-        return np.zeros(len(whole.mesh_piece), bool)
-    return (hidden & (size >= LEAST_INSIDE))[whole.mesh_piece]
+        return np.zeros(len(whole.mesh_patch), bool)
+    return (hidden & (size >= LEAST_INSIDE))[whole.mesh_patch]
 
 
 def patch_sizes(mesh: Mesh, whole: ObjectShape) -> Float[np.ndarray, " P"]:
     """The diagonal of each patch, as a share of the object's."""
-    count = int(whole.mesh_piece.max()) + 1
+    count = int(whole.mesh_patch.max()) + 1
     low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
-    np.minimum.at(low, whole.mesh_piece, mesh.triangles.min(1))
-    np.maximum.at(high, whole.mesh_piece, mesh.triangles.max(1))
+    np.minimum.at(low, whole.mesh_patch, mesh.triangles.min(1))
+    np.maximum.at(high, whole.mesh_patch, mesh.triangles.max(1))
     return np.linalg.norm(high - low, axis=1) / whole.diagonal
 
 

@@ -8,7 +8,7 @@ import numpy as np
 from jaxtyping import Int
 
 from anymesh.config import Config
-from anymesh.geometry.surroundings import Surroundings
+from anymesh.geometry.surroundings import PartContext
 from anymesh.segmentation.part_fit import enclosed_share, fit_of_rim, held_at_two_ends, on_axis, open_behind, touching
 from anymesh.segmentation.part_tree import PartTree
 from anymesh.types import Mesh
@@ -33,20 +33,20 @@ class FeatureScene:
         return cls(tree, config, mesh.face_material[tree.whole.source])
 
 
-def surroundings_of(scene: FeatureScene, group: int) -> Surroundings | None:
+def surroundings_of(scene: FeatureScene, group: int) -> PartContext | None:
     """Return a group among all else; None where it has no face, or nothing is left."""
     tree = scene.tree
-    moving = tree.members[group][tree.whole.piece]
+    moving = tree.members[group][tree.whole.patch]
     if not moving.any() or moving.all():
         return None
     rest = tree.whole.of(np.flatnonzero(~moving))
-    return Surroundings(
-        part=tree.whole.of(np.flatnonzero(moving)), parent=rest, rest=rest, others=None, everything=rest, slim=(),
+    return PartContext(
+        part=tree.whole.of(np.flatnonzero(moving)), parent=rest, rest=rest, others=None, everything=rest, barrel_candidates=(),
         diagonal=tree.whole.diagonal, center=tree.whole.shape.bounds.mean(0), config=scene.config.articulation,
     )  # fmt: skip
 
 
-def part_features(scene: FeatureScene, group: int, around: Surroundings) -> dict[str, float]:
+def part_features(scene: FeatureScene, group: int, around: PartContext) -> dict[str, float]:
     """Return all features of a candidate; the keys are the same for all."""
     return {
         **_shape(scene, group, around),
@@ -63,8 +63,8 @@ def _ratio(a: float, b: float) -> float:
     return float(np.clip(a / max(b, 1e-12), 0, MOST_RATIO))
 
 
-def _shape(scene: FeatureScene, group: int, around: Surroundings) -> dict[str, float]:
-    core, outline, tree = around.core, around.outline, scene.tree
+def _shape(scene: FeatureScene, group: int, around: PartContext) -> dict[str, float]:
+    core, outline, tree = around.body_obb, around.outline, scene.tree
     extents = np.sort(np.ptp(tree.whole.shape.bounds, axis=0))
     box_area = 8 * float(core.half[0] * core.half[1] + core.half[1] * core.half[2] + core.half[0] * core.half[2])
     patches = tree.members[group]
@@ -85,7 +85,7 @@ def _shape(scene: FeatureScene, group: int, around: Surroundings) -> dict[str, f
     }
 
 
-def _place(around: Surroundings) -> dict[str, float]:
+def _place(around: PartContext) -> dict[str, float]:
     low, high = around.bounds
     extent = np.maximum(high - low, 1e-12)
     mine = around.part.bounds
@@ -100,21 +100,21 @@ def _place(around: Surroundings) -> dict[str, float]:
         "sides reached": float(reached[:, :2].sum()),
         "width share": float(((mine[1] - mine[0]) / extent)[:2].max()),
         "height share": float((mine[1, 2] - mine[0, 2]) / extent[2]),
-        "faces up": float(around.outward[2]),
-        "seen": around.openness,
-        "thin way out": float(np.abs(around.core.axes[2] @ around.outward)),
-        "out from the middle": float((mine.mean(0) - around.center) @ around.outward / around.diagonal),
+        "faces up": float(around.opening_direction[2]),
+        "seen": around.visibility,
+        "thin way out": float(np.abs(around.body_obb.axes[2] @ around.opening_direction)),
+        "out from the middle": float((mine.mean(0) - around.center) @ around.opening_direction / around.diagonal),
         "proportion": _ratio(extent[2], float(extent[:2].max())),
     }
 
 
-def _fit(scene: FeatureScene, around: Surroundings) -> dict[str, float]:
+def _fit(scene: FeatureScene, around: PartContext) -> dict[str, float]:
     settings = scene.config.segmentation
     near, normals = touching(around, 2 * settings.touch * around.diagonal)
     sides, flush = fit_of_rim(around, settings)
     gaps = np.quantile(around.gap, [0.05, 0.5]) / around.diagonal
-    depth = around.inside_depth(around.outward)
-    outer = around.part.samples.normals @ around.outward
+    depth = around.depth_in_parent(around.opening_direction)
+    outer = around.part.samples.normals @ around.opening_direction
     back = outer < -0.5
     return {
         "rims with clearance": float(sides),
@@ -125,7 +125,7 @@ def _fit(scene: FeatureScene, around: Surroundings) -> dict[str, float]:
         "near gap": float(np.log10(gaps[0] + 1e-5)),
         "middle gap": float(np.log10(gaps[1] + 1e-5)),
         "enclosed": enclosed_share(around),
-        "depth": _ratio(depth, 2 * float(around.core.half[1])),
+        "depth": _ratio(depth, 2 * float(around.body_obb.half[1])),
         "two pivots": float(held_at_two_ends(around, near, normals)),
         "on axis": float(on_axis(around)),
         "axle level": float(abs(around.outline.axis[2]) < 0.5),
@@ -133,15 +133,15 @@ def _fit(scene: FeatureScene, around: Surroundings) -> dict[str, float]:
     }
 
 
-def _contact_layout(around: Surroundings, near: np.ndarray) -> dict[str, float]:
+def _contact_layout(around: PartContext, near: np.ndarray) -> dict[str, float]:
     """Where the contact lies on the part's face: spread over it, or gathered at one side."""
     if near.sum() < 2:
         return {"contact spread": 0.0, "contact off the middle": 0.0, "contact upright": 0.0}
-    local = around.core.local(around.part.samples.points[near]) / np.maximum(around.core.half, 1e-12)
+    local = around.body_obb.local(around.part.samples.points[near]) / np.maximum(around.body_obb.half, 1e-12)
     face = local[:, around.face_axes]
     middle, spread = face.mean(0), face.std(0)
     k = int(np.abs(middle).argmax())
-    axis = around.core.axes[around.face_axes[1 - k]]
+    axis = around.body_obb.axes[around.face_axes[1 - k]]
     return {
         "contact spread": float(spread.min()),
         "contact off the middle": float(np.abs(middle).max()),
@@ -172,7 +172,7 @@ def _neighbours(scene: FeatureScene, group: int) -> dict[str, float]:
     }
 
 
-def _copies(scene: FeatureScene, group: int, around: Surroundings) -> dict[str, float]:
+def _copies(scene: FeatureScene, group: int, around: PartContext) -> dict[str, float]:
     """Other groups of the same size that share no patch with this one."""
     tree = scene.tree
     alike = np.abs(tree.size - tree.size[group]) < SAME_SIZE * tree.size[group]
@@ -191,10 +191,10 @@ def _copies(scene: FeatureScene, group: int, around: Surroundings) -> dict[str, 
     }
 
 
-def _material(scene: FeatureScene, group: int, around: Surroundings) -> dict[str, float]:
+def _material(scene: FeatureScene, group: int, around: PartContext) -> dict[str, float]:
     """How far the part's commonest material sets it apart from the rest."""
     whole, count = scene.tree.whole, int(scene.material.max()) + 2
-    moving = scene.tree.members[group][whole.piece]
+    moving = scene.tree.members[group][whole.patch]
     mine = np.bincount(scene.material[moving] + 1, whole.shape.areas[moving], count)
     rest = np.bincount(scene.material[~moving] + 1, whole.shape.areas[~moving], count)
     k = int(mine.argmax())
@@ -205,7 +205,7 @@ def _material(scene: FeatureScene, group: int, around: Surroundings) -> dict[str
     }
 
 
-def _handle(around: Surroundings) -> dict[str, float]:
+def _handle(around: PartContext) -> dict[str, float]:
     handle = around.handle
     if handle is None:
         return {"handle": 0.0, "handle size": 0.0, "handle off the middle": 0.0, "bar handle": 0.0}

@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 
 from anymesh.config import SegmentationConfig
-from anymesh.geometry.surroundings import Surroundings
+from anymesh.geometry.surroundings import PartContext
 
 FACING = 0.5  # cosine between a rim's normal and what faces it across a clearance
 RIM = 0.75  # samples beyond this share of the half side belong to a rim
 
 
-def on_axis(around: Surroundings) -> bool:
+def on_axis(around: PartContext) -> bool:
     """Whether the rest has something on the axis of the round outline within 5 % of the diagonal of the part."""
     outline = around.outline
     ends = outline.center + np.array([[-0.5], [0.5]]) * outline.height * outline.axis
@@ -19,7 +19,7 @@ def on_axis(around: Surroundings) -> bool:
     return bool((around.rest.scene.first_hit(ends - rays, 2 * rays, 1.0).face >= 0).any())
 
 
-def touching(around: Surroundings, tolerance: float) -> tuple[np.ndarray, np.ndarray]:
+def touching(around: PartContext, tolerance: float) -> tuple[np.ndarray, np.ndarray]:
     """Which samples touch the rest, and the rest's normal at the closest point of each."""
     gap, face = around.nearest
     while (gap < tolerance).sum() < min(8, len(gap)):  # as the connecting area grows in the paper
@@ -27,9 +27,9 @@ def touching(around: Surroundings, tolerance: float) -> tuple[np.ndarray, np.nda
     return gap < tolerance, around.parent.normals[face]
 
 
-def fit_of_rim(around: Surroundings, config: SegmentationConfig) -> tuple[int, float]:
+def fit_of_rim(around: PartContext, config: SegmentationConfig) -> tuple[int, float]:
     """How many of the four rims keep a clearance to what faces them, and the share of the rim that touches it."""
-    core = around.core
+    core = around.body_obb
     samples = around.part.samples
     local = core.local(samples.points) / np.maximum(core.half, 1e-12)
     facing = samples.normals @ core.axes.T
@@ -54,10 +54,10 @@ def fit_of_rim(around: Surroundings, config: SegmentationConfig) -> tuple[int, f
     return sides, touched / max(count, 1)
 
 
-def open_behind(around: Surroundings) -> float:
+def open_behind(around: PartContext) -> float:
     """Share of the candidate's back with an opening behind it: free for three thicknesses and 3 % of the diagonal."""
-    core = around.core
-    k = int(np.abs(core.axes @ around.outward).argmax())
+    core = around.body_obb
+    k = int(np.abs(core.axes @ around.opening_direction).argmax())
     thick = 2 * core.half[k]
     free = max(3 * thick, 0.03 * around.diagonal)
     grid = np.linspace(-0.85, 0.85, 9)
@@ -65,26 +65,26 @@ def open_behind(around: Surroundings) -> float:
     local = np.zeros((u.size, 3))
     for axis, value in zip(around.face_axes, (u, v), strict=True):
         local[:, axis] = value.reshape(-1) * core.half[axis]
-    points = core.world(local) - around.outward * (core.half[k] + 1e-4 * around.diagonal)
-    rays = np.repeat(-around.outward[None], len(points), 0)
+    points = core.world(local) - around.opening_direction * (core.half[k] + 1e-4 * around.diagonal)
+    rays = np.repeat(-around.opening_direction[None], len(points), 0)
     hits = around.rest.scene.first_hit(points, rays)
     face = np.maximum(hits.face, 0)
-    buried = (hits.face >= 0) & around.rest.solid[face] & (np.einsum("ij,ij->i", rays, around.rest.normals[face]) > 0)
-    return float((~buried & (hits.distance > free)).mean())
+    hits_inside = (hits.face >= 0) & around.rest.solid[face] & (np.einsum("ij,ij->i", rays, around.rest.normals[face]) > 0)
+    return float((~hits_inside & (hits.distance > free)).mean())
 
 
-def enclosed_share(around: Surroundings) -> float:
+def enclosed_share(around: PartContext) -> float:
     """Share of the candidate that has the rest on at least three of the four sides across the way out."""
     points = around.part.samples.points[::20]
     hit = np.zeros(len(points), int)
     for axis in around.face_axes:
         for sign in (1, -1):
-            rays = np.repeat(sign * around.core.axes[axis][None] * around.diagonal, len(points), 0)
+            rays = np.repeat(sign * around.body_obb.axes[axis][None] * around.diagonal, len(points), 0)
             hit += around.rest.scene.first_hit(points, rays, 1.0).face >= 0
     return float((hit >= 3).mean())
 
 
-def held_at_two_ends(around: Surroundings, near: np.ndarray, normals: np.ndarray) -> bool:
+def held_at_two_ends(around: PartContext, near: np.ndarray, normals: np.ndarray) -> bool:
     """Held at two far ends by surfaces that face along the line between them: pivots, not the feet of a fixed grip."""
     points = around.part.samples.points
     if near.sum() < 4:

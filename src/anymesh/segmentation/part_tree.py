@@ -82,7 +82,7 @@ class PartTree:
 
     def faces(self, group: int) -> Int[np.ndarray, " m"]:
         """Return the faces of a group, ascending, as indices of `whole`."""
-        return np.flatnonzero(self.members[group][self.whole.piece])
+        return np.flatnonzero(self.members[group][self.whole.patch])
 
 
 def part_tree(mesh: Mesh, whole: ObjectShape, contacts: Contacts, smallest: float, most: int) -> PartTree:

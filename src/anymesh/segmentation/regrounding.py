@@ -92,7 +92,7 @@ def _redrawn(
 ) -> Segmentation | None:
     """The parts with these marks. What was asked about and is given to none of them any more joins the base, and with it
     faces without a mark of patches of which no mark is left to the part."""
-    found, piece = segmentation.face_part.copy(), whole.mesh_piece
+    found, piece = segmentation.face_part.copy(), whole.mesh_patch
     open_ = np.isin(asked_about, list(wanted))
     for part, chosen in given.items():
         now = np.isin(marks.face_mark, chosen)

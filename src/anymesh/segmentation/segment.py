@@ -134,7 +134,7 @@ def _face_part(mesh: Mesh, tree: PartTree, chosen: list[int]) -> tuple[Int[np.nd
     owner = np.full(len(tree.contacts.shapes), -1)
     for k in sorted(chosen, key=lambda k: (-tree.area[k], k)):
         owner[tree.members[k]] = k
-    of_face = join_floating(owner, tree.contacts)[tree.whole.mesh_piece]
+    of_face = join_floating(owner, tree.contacts)[tree.whole.mesh_patch]
     area = np.bincount(of_face + 1, mesh.face_areas, len(tree.members) + 1)[1:]
     order = [int(k) for k in np.unique(of_face[of_face >= 0])]
     order.sort(key=lambda k: (-area[k], k))

@@ -43,7 +43,7 @@ def join_units(mesh: Mesh, whole: ObjectShape, contacts: Contacts, root_piece: i
     same = np.array(coplanar(contacts, whole, 1e-3 * whole.diagonal), np.int64).reshape(-1, 2)
     key = np.where(key < len(shapes), label_connected(len(shapes), same), key)
     names = [""] * len(shapes)
-    faces = np.split(np.argsort(whole.mesh_piece, kind="stable"), np.cumsum(np.bincount(whole.mesh_piece))[:-1])
+    faces = np.split(np.argsort(whole.mesh_patch, kind="stable"), np.cumsum(np.bincount(whole.mesh_patch))[:-1])
     common = _most(mesh.face_material[faces[root_piece]])
     for p, mine in enumerate(faces):
         node, material = _most(mesh.face_node[mine]), _most(mesh.face_material[mine])
@@ -78,7 +78,7 @@ def root_ranking(whole: ObjectShape, contacts: Contacts) -> list[int]:
         stands = ((samples.points[:, 2] < low) & (samples.normals[:, 2] < -0.7)).mean() if len(samples) else 0.0
         sides = int((np.abs(s.bounds - bounds) < 0.02 * whole.diagonal).sum())  # of the object: walls reach most of them
         rank.append(size * (1.3 if stands > 0.05 else 1.0) * (1 + 0.1 * sides))
-    order = np.lexsort((-np.array(rank), np.isin(np.arange(len(rank)), whole.fronts)))
+    order = np.lexsort((-np.array(rank), np.isin(np.arange(len(rank)), whole.panels)))
     return [int(i) for i in order]
 
 

@@ -30,7 +30,7 @@ def join_unseen(
         return joined
     for k in gaining:
         without = np.where((part < 0) & (joined == k), 0, joined)
-        if not stays_free(without[whole.piece], joined[whole.piece], int(k)):
+        if not stays_free(without[whole.patch], joined[whole.patch], int(k)):
             joined = without
     return joined
 

@@ -82,7 +82,7 @@ class RobotJoint:
         """From the child's frame to the parent's, at a position [rad or m]."""
         if not self.moves or position == 0:
             return self.T_parent_joint
-        kind = MotionKind.SLIDE if self.type == "prismatic" else MotionKind.TURN
+        kind = MotionKind.PRISMATIC if self.type == "prismatic" else MotionKind.REVOLUTE
         motion = Motion(kind, self.axis / np.linalg.norm(self.axis), np.zeros(3), self.name)
         return self.T_parent_joint @ motion.transform(position)
 

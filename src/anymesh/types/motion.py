@@ -12,8 +12,8 @@ from jaxtyping import Float
 class MotionKind(StrEnum):
     """How a part may move against its parent."""
 
-    TURN = "turn"
-    SLIDE = "slide"
+    REVOLUTE = "turn"
+    PRISMATIC = "slide"
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,7 +37,7 @@ class Motion:
     def transforms(self, amounts: Float[np.ndarray, " k"]) -> Float[np.ndarray, "k 4 4"]:
         """Rigid transforms for many amounts."""
         T = np.tile(np.eye(4), (len(amounts), 1, 1))
-        if self.kind is MotionKind.SLIDE:
+        if self.kind is MotionKind.PRISMATIC:
             T[:, :3, 3] = amounts[:, None] * self.axis
             return T
         x, y, z = self.axis

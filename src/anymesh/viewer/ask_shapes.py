@@ -132,7 +132,7 @@ def motion_axis(table: MotionTable, row: int, mesh: Mesh) -> Float[np.ndarray, "
     """Return the ends of the arrow along a motion's axis, on the mesh shown."""
     motion, corners = table.motions[row], mesh.triangles[table.part.faces].reshape(-1, 3)
     origin = motion.origin / scale_of(table.part, mesh)
-    slides = motion.kind is MotionKind.SLIDE
+    slides = motion.kind is MotionKind.PRISMATIC
     sign = -1.0 if table.amounts[row] < 0 else 1.0
     return axis_line(corners, origin, sign * motion.axis, slides, mesh.diagonal)[0]
 

@@ -113,4 +113,6 @@ def motion_words(table: MotionTable, number: int) -> str:
         return "None of these: the next ones are shown, if there are any."
     motion = table.motions[number - 1]
     blocked = ", blocked by something as modelled" if number <= len(table.blocked) and table.blocked[number - 1] else ""
-    return f"Motion {number} of {len(table.motions)}: it {'slides' if motion.kind is MotionKind.SLIDE else 'turns'}{blocked}."
+    return (
+        f"Motion {number} of {len(table.motions)}: it {'slides' if motion.kind is MotionKind.PRISMATIC else 'turns'}{blocked}."
+    )
