@@ -13,7 +13,7 @@ import lightgbm
 import numpy as np
 from jaxtyping import Bool, Float
 
-from anymesh.reasoning.boosted_trees import LEAF, BoostedTrees
+from anymesh.reasoning.boosted_trees import NO_FEATURE, BoostedTrees
 
 SETTINGS = {
     "objective": "cross_entropy", "learning_rate": 0.1, "num_leaves": 15, "min_data_in_leaf": 25, "feature_fraction": 0.5,
@@ -114,7 +114,7 @@ def trees_of(model: lightgbm.Booster) -> BoostedTrees:
     def add(node: dict) -> int:
         at = len(nodes)
         if "leaf_value" in node:
-            nodes.append((LEAF, 0.0, at, at, node["leaf_value"]))
+            nodes.append((NO_FEATURE, 0.0, at, at, node["leaf_value"]))
             return at
         nodes.append((0, 0.0, 0, 0, 0.0))
         left, right = add(node["left_child"]), add(node["right_child"])

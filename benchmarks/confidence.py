@@ -28,7 +28,7 @@ from anymesh.evaluation.protocols import prepared
 from anymesh.evaluation.score import JointScore, score
 from anymesh.evaluation.truth import Subject
 from anymesh.reasoning.questions import Candidate
-from anymesh.solving import Solver
+from anymesh.solving import ArticulationSolver
 from anymesh.types.recognition import Moves, Recognition, RecognizedLabel
 
 WRONG = (0.0, 0.1, 0.25, 0.5, 1.0)  # probabilities of a wrong item; the last: all answers at random
@@ -77,7 +77,7 @@ def recognized(subject: Subject, wrong: float, rng: np.random.Generator) -> Reco
 
 def samples(subject: Subject, rounds: int, rng: np.random.Generator) -> Iterator[Sample]:
     """The joints of one object, answered with errors of every probability."""
-    solver, plain = Solver(subject.mesh), subject.segmentation()
+    solver, plain = ArticulationSolver(subject.mesh), subject.segmentation()
     parts = [replace(p, label=f"thing {p.name}") if k else p for k, p in enumerate(plain.parts)]
     segmentation = replace(plain, parts=tuple(parts))
     offers.hypotheses = Swept()  # ty: ignore[invalid-assignment]
@@ -87,7 +87,7 @@ def samples(subject: Subject, rounds: int, rng: np.random.Generator) -> Iterator
         for n in range(1 if wrong == 0 else rounds):
             seer = Random(oracle(subject), rng) if wrong == 1 else Noisy(oracle(subject), wrong, rng)
             told = recognized(subject, wrong, rng) if n % 2 else None
-            made = prompt_joints(Questions(solver._studio, seer, Config(), told), lambda _: whole, segmentation)
+            made = prompt_joints(Questions(solver._visual_prompts, seer, Config(), told), lambda _: whole, segmentation)
             own = [a.own for a in made.agreements]
             for j in score(subject, segmentation, made.joints).joints:
                 k = numbers[j.part]

@@ -19,7 +19,7 @@ from anymesh.evaluation.truth import Truth, example_truths
 from anymesh.evaluation.voice import Spoken
 from anymesh.export.asset_json import usage
 from anymesh.loading import load_mesh, place_mesh
-from anymesh.solving import Solver
+from anymesh.solving import ArticulationSolver
 
 HEAD = """# Cost of a model
 
@@ -38,7 +38,9 @@ def row(truth: Truth, like: str, cache: Path) -> str:
     seconds, exchanges, parts = [], [], 0
     for _ in range(2):
         begin = time.perf_counter()
-        solver = Solver(placed.mesh, see=lambda instead: Spoken(oracle(prepared(truth)), instead, like, cache))
+        solver = ArticulationSolver(
+            placed.mesh, answerer_factory=lambda instead: Spoken(oracle(prepared(truth)), instead, like, cache)
+        )
         recognized = solver.recognize()
         segmented = solver.parts("auto", recognized.recognition)
         jointed = solver.joints(segmented.segmentation, recognized.recognition)

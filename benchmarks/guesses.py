@@ -44,7 +44,7 @@ def main() -> None:
                 begin, done = time.perf_counter(), done + 1
                 try:
                     guesser = Guesser(seed, pictured=options.pictures)
-                    segmentation, joints = solve(subject.mesh, config=QUICK, see=lambda _, who=guesser: who)
+                    segmentation, joints = solve(subject.mesh, config=QUICK, answerer_factory=lambda _, who=guesser: who)
                     told = f"{len(segmentation.parts) - 1} parts, {len(joints)} joints"
                 except Exception:
                     crashes += 1

@@ -14,7 +14,7 @@ import numpy as np
 
 from anymesh.articulation.estimate import motion_questions
 from anymesh.articulation.limits import opening_motion
-from anymesh.articulation.offers import SHOWN_SLIDE, SHOWN_TURN
+from anymesh.articulation.offers import MAX_SHOWN_ANGLE_RAD, MAX_SHOWN_TRAVEL_RATIO
 from anymesh.config import Config
 from anymesh.loading import load_mesh, place_mesh
 from anymesh.pipeline import articulate
@@ -24,13 +24,13 @@ from anymesh.rendering.encode import encode
 from anymesh.rendering.paint import mark_color
 from anymesh.rendering.render import render
 from anymesh.rendering.sheet import question_sheet
-from anymesh.rendering.studio import Studio
+from anymesh.rendering.studio import VisualPrompts
 from anymesh.segmentation.contacts import find_contacts
 from anymesh.segmentation.part_assignment import assign_parts
 from anymesh.segmentation.part_classifier import score_parts
 from anymesh.segmentation.part_features import FeatureScene, part_features, surroundings_of
 from anymesh.segmentation.part_tree import PartTree, part_tree
-from anymesh.solving import Solver
+from anymesh.solving import ArticulationSolver
 from anymesh.types import Mesh, MotionKind, Picture
 
 EXAMPLES = Path(__file__).parents[1] / "examples" / "meshes"
@@ -38,14 +38,14 @@ MOST = 9  # candidates that are drawn
 MOTIONS = 7  # motions that are drawn
 
 
-def patches(studio: Studio, mesh: Mesh, tree: PartTree) -> Picture:
+def patches(studio: VisualPrompts, mesh: Mesh, tree: PartTree) -> Picture:
     """Every patch in a colour of its own."""
     color = np.array([mark_color(k) for k in tree.whole.mesh_patch], np.uint8)
     views = [render(mesh, view.camera, face_color=color, scene=studio.scene).color for view in studio.views[:4]]
     return question_sheet([encode(view, f"{len(tree.members[0])} patches") for view in views])
 
 
-def candidates(studio: Studio, tree: PartTree, score: np.ndarray, chosen: list[int]) -> Picture:
+def candidates(studio: VisualPrompts, tree: PartTree, score: np.ndarray, chosen: list[int]) -> Picture:
     """The candidates of highest score, each marked, with its probability and whether it was chosen."""
     cards = []
     for k in np.argsort(-score, kind="stable")[:MOST]:
@@ -55,11 +55,15 @@ def candidates(studio: Studio, tree: PartTree, score: np.ndarray, chosen: list[i
     return question_sheet(cards)
 
 
-def motions(studio: Studio, moving: np.ndarray, ranked: list[tuple[float, Candidate]], scale: float, size: float) -> Picture:
+def motions(
+    studio: VisualPrompts, moving: np.ndarray, ranked: list[tuple[float, Candidate]], scale: float, size: float
+) -> Picture:
     """A part at rest and in its likeliest motions, likeliest first."""
     shown = ranked[:MOTIONS]
     amounts = [
-        min(c.opening, SHOWN_TURN) if c.motion.kind is MotionKind.REVOLUTE else min(c.opening * scale, SHOWN_SLIDE * size)
+        min(c.opening, MAX_SHOWN_ANGLE_RAD)
+        if c.motion.kind is MotionKind.REVOLUTE
+        else min(c.opening * scale, MAX_SHOWN_TRAVEL_RATIO * size)
         for _, c in shown
     ]
     title = f"log-odds of 1 and 2: {shown[0][0]:.1f}, {shown[1][0]:.1f}"
@@ -75,7 +79,7 @@ def main() -> None:
     options.folder.mkdir(parents=True, exist_ok=True)
     config, path = Config(), EXAMPLES / f"{options.name}.glb"
     mesh = place_mesh(load_mesh(path)).mesh
-    solver, studio = Solver(mesh, config), Studio(mesh, config)
+    solver, studio = ArticulationSolver(mesh, config), VisualPrompts(mesh, config)
     contacts = find_contacts(solver.whole, config.segmentation)
     tree = part_tree(mesh, solver.whole, contacts, config.segmentation.smallest, config.segmentation.most_candidates)
     scene = FeatureScene.of(mesh, tree, config)

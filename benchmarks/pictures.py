@@ -13,7 +13,7 @@ from anymesh.evaluation.protocols import prepared
 from anymesh.evaluation.truth import example_truths
 from anymesh.evaluation.voice import Spoken
 from anymesh.loading import load_mesh, place_mesh
-from anymesh.solving import Solver
+from anymesh.solving import ArticulationSolver
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 
@@ -26,7 +26,7 @@ def main() -> None:
     options = parser.parse_args()
     truth = next(t for t in example_truths(EXAMPLES) if t.name == options.name)
     placed = place_mesh(load_mesh(truth.mesh))
-    solver = Solver(placed.mesh, see=lambda instead: Spoken(oracle(prepared(truth)), instead))
+    solver = ArticulationSolver(placed.mesh, answerer_factory=lambda instead: Spoken(oracle(prepared(truth)), instead))
     recognized = solver.recognize()
     segmented = solver.parts("auto", recognized.recognition)
     jointed = solver.joints(segmented.segmentation, recognized.recognition)

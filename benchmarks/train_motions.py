@@ -23,7 +23,7 @@ from calibration import Scored, calibration_table, fit_confidence, log_odds
 from jaxtyping import Bool, Float
 from motion_rows import MotionRows, read_rows
 
-from anymesh.articulation.estimate import MOST_COPIES
+from anymesh.articulation.estimate import MAX_COPIES
 from anymesh.articulation.motion_context import ScoredMotions, context_features
 from anymesh.reasoning.geometry import BLOCKED, share_of_best
 
@@ -56,7 +56,7 @@ class CopyContext:
 
     def __init__(self, rows: Sequence[MotionRows]) -> None:
         number = {(r.source, r.form, r.name, r.number): k for k, r in enumerate(rows)}
-        keys = [[(r.source, r.form, r.name, t) for t in r.twins[:MOST_COPIES]] for r in rows]
+        keys = [[(r.source, r.form, r.name, t) for t in r.twins[:MAX_COPIES]] for r in rows]
         self._rows = rows
         self._copies = [[number[key] for key in some if key in number] for some in keys]
 

@@ -91,11 +91,11 @@ def ask(item: Item, protocol: Protocol, folder: Path, wait: bool, after: Protoco
     results.mkdir(parents=True, exist_ok=True)
     exam = Exam(protocol, (item.change,))
 
-    def see(_):
-        return choose_answerer({"answerer": f"files:{place}", "wait": wait}, about=item.number).see
+    def answerer_factory(_):
+        return choose_answerer({"answerer": f"files:{place}", "wait": wait}, about=item.number).factory
 
     try:
-        (record,) = examine(exam, open_dataset(item.spec), item.object, results, solve, see)
+        (record,) = examine(exam, open_dataset(item.spec), item.object, results, solve, answerer_factory)
     except OpenQuestionError as error:
         return f"{title}: open {', '.join(str(f) for f in error.folders)}"
     if record.error:

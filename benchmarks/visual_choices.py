@@ -16,7 +16,7 @@ import numpy as np
 
 from anymesh.errors import ModelError
 from anymesh.models.question_files import CHECK, QuestionFolder
-from anymesh.reasoning.asking import Answer, Question, Seer
+from anymesh.reasoning.asking import Answer, Question, VisualAnswerer
 from anymesh.reasoning.prompting import MotionPick, MotionTable, PartFit, WhichMotions
 from anymesh.reasoning.saved_question import unpack_question
 from anymesh.types import Exchange, Motion, MotionKind
@@ -128,7 +128,7 @@ def _rounded(values: np.ndarray) -> list[float]:
 class WithChoices:
     """An answerer from a recording; a question about motions that was asked otherwise then is answered by the choices."""
 
-    def __init__(self, recorded: Seer, choices: Sequence[Choice]) -> None:
+    def __init__(self, recorded: VisualAnswerer, choices: Sequence[Choice]) -> None:
         self._recorded, self._choices = recorded, choices
         self.again = 0  # questions that were answered by the choices
 
@@ -137,12 +137,12 @@ class WithChoices:
         return self._recorded.name
 
     @property
-    def blind(self) -> bool:
-        return self._recorded.blind
+    def needs_images(self) -> bool:
+        return self._recorded.needs_images
 
     @property
-    def remarks(self) -> tuple[str, ...]:
-        return self._recorded.remarks
+    def warnings(self) -> tuple[str, ...]:
+        return self._recorded.warnings
 
     @property
     def exchanges(self) -> tuple[Exchange, ...]:

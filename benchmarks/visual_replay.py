@@ -16,8 +16,8 @@ from anymesh.evaluation.record import Record
 from anymesh.evaluation.score import ObjectScore
 from anymesh.models.replay import Replay
 from anymesh.models.vision import Request
-from anymesh.reasoning.asking import Answer, Question, Seer
-from anymesh.reasoning.knowing import Knowing
+from anymesh.reasoning.asking import Answer, Question, VisualAnswerer
+from anymesh.reasoning.knowing import ReferenceAnswerer
 from anymesh.reasoning.reply_text import reply_object
 from anymesh.reasoning.vlm import SYSTEM, VlmAnswerer
 from anymesh.solving import reference_of, solve
@@ -49,11 +49,11 @@ class Row:
 class Carried:
     """Answers as recorded; to a question that was not, as somebody would who holds the recorded result for the truth."""
 
-    blind = False
-    remarks: tuple[str, ...] = ()
+    needs_images = True
+    warnings: tuple[str, ...] = ()
     exchanges: tuple[Exchange, ...] = ()
 
-    def __init__(self, replay: Replay, known: Knowing) -> None:
+    def __init__(self, replay: Replay, known: ReferenceAnswerer) -> None:
         self.name, self._replay, self._known = replay.name, replay, known
         self.calls = self.carried = 0
 
@@ -74,8 +74,10 @@ class Keeping:
         self._config = config
         self.result: tuple[Mesh, Segmentation, tuple[Joint, ...]] | None = None
 
-    def __call__(self, mesh: Mesh, given: Segmentation | None, *, see=None) -> tuple[Segmentation, tuple[Joint, ...]]:
-        found = solve(mesh, given, config=self._config, see=see)
+    def __call__(
+        self, mesh: Mesh, given: Segmentation | None, *, answerer_factory=None
+    ) -> tuple[Segmentation, tuple[Joint, ...]]:
+        found = solve(mesh, given, config=self._config, answerer_factory=answerer_factory)
         self.result = (mesh, *found)
         return found
 
@@ -89,15 +91,15 @@ def replayed(
     replay = Replay(folder)
     base = Config()
 
-    def run(solver: Keeping, see) -> Record:
+    def run(solver: Keeping, answerer_factory) -> Record:
         with tempfile.TemporaryDirectory() as report:
             try:
-                (record,) = examine(exam, dataset, name, Path(report), solver, lambda _: see)
+                (record,) = examine(exam, dataset, name, Path(report), solver, lambda _: answerer_factory)
             except ModelError as error:
                 return Record(ObjectScore(name, (), 0, 0, 0), error=str(error))
         return record
 
-    def recorded(fallback: Seer) -> Seer:
+    def recorded(fallback: VisualAnswerer) -> VisualAnswerer:
         made.append(WithChoices(VlmAnswerer(replay, fallback), choices))
         return made[-1]
 
@@ -112,7 +114,7 @@ def replayed(
     if variant == VARIANTS[0] or record.error or first.result is None:
         return replace(row, record=record, calls=calls)
     mesh, segmentation, joints = first.result
-    carried = Carried(replay, Knowing("recording", lambda: reference_of(mesh, segmentation, joints, "object")))
+    carried = Carried(replay, ReferenceAnswerer("recording", lambda: reference_of(mesh, segmentation, joints, "object")))
     config = Config(verify="off") if variant == VARIANTS[1] else replace(base, views=replace(base.views, around=ONE_VIEW))
     record = run(Keeping(config), lambda _: carried)
     return replace(row, record=record, calls=carried.calls, carried=carried.carried)

@@ -11,7 +11,16 @@ from assets import cabinet
 
 from anymesh.export import write_asset
 from anymesh.run_folder import RunFolder
-from anymesh.stage_results import COMPLETION, JOINTS, MESH, SEGMENTATION, Completed, Jointed, Placed, Segmented
+from anymesh.stage_results import (
+    COMPLETION,
+    JOINTS,
+    MESH,
+    SEGMENTATION,
+    CompletionResult,
+    JointResult,
+    LoadResult,
+    SegmentationResult,
+)
 from anymesh.types import Asset
 
 
@@ -37,11 +46,11 @@ def _written(target: Path, asset: Asset, finished: bool) -> Path:
     source.parent.mkdir(exist_ok=True, parents=True)
     source.write_bytes(b"mesh")
     with RunFolder.create(target, source=source) as run:
-        run.save(MESH, "m", Placed(asset.mesh, asset.source, ()))
-        run.save(SEGMENTATION, "s", Segmented(asset.segmentation, "geometry"))
-        run.save(JOINTS, "j", Jointed(asset.joints, "geometry", ("joint hinge: low confidence (0.20), please check",)))
+        run.save(MESH, "m", LoadResult(asset.mesh, asset.source, ()))
+        run.save(SEGMENTATION, "s", SegmentationResult(asset.segmentation, "geometry"))
+        run.save(JOINTS, "j", JointResult(asset.joints, "geometry", ("joint hinge: low confidence (0.20), please check",)))
         if finished:
             same = np.arange(len(asset.mesh.faces))
-            run.save(COMPLETION, "c", Completed(asset.mesh, asset.segmentation.face_part, same, ("walls",)))
+            run.save(COMPLETION, "c", CompletionResult(asset.mesh, asset.segmentation.face_part, same, ("walls",)))
         write_asset(run.asset(), run.folder)
     return target

@@ -13,12 +13,12 @@ from assets import cabinet, slanted
 
 from anymesh.errors import OpenQuestionError, OutputError
 from anymesh.export import write_asset
-from anymesh.run_folder import JOINTS, MESH, SEGMENTATION, Jointed, Placed, RunFolder, Segmented, stage_key
+from anymesh.run_folder import JOINTS, MESH, SEGMENTATION, JointResult, LoadResult, RunFolder, SegmentationResult, stage_key
 
 
 def results(asset):
-    placed = Placed(asset.mesh, asset.source, ("scaled",))
-    return placed, Segmented(asset.segmentation, "geometry"), Jointed(asset.joints, "geometry", ("unsure",))
+    placed = LoadResult(asset.mesh, asset.source, ("scaled",))
+    return placed, SegmentationResult(asset.segmentation, "geometry"), JointResult(asset.joints, "geometry", ("unsure",))
 
 
 def write_all(target: Path, source: Path, asset=None, *, force=False, export=True) -> None:

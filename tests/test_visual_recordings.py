@@ -18,7 +18,7 @@ from anymesh.models.question_files import find_questions
 from anymesh.models.replay import Replay
 from anymesh.models.vision import Request
 from anymesh.reasoning.files import FileAnswerer, QuestionStore
-from anymesh.reasoning.knowing import Knowing
+from anymesh.reasoning.knowing import ReferenceAnswerer
 from anymesh.reasoning.prompting import MotionPick, MotionTable, PartFit, PartShown, WhichMotions
 from anymesh.reasoning.recognition import Recognize
 from anymesh.reasoning.vlm import SYSTEM
@@ -51,7 +51,7 @@ def test_answers_are_kept_without_pictures_and_found_again(visual, tmp_path: Pat
     place = folder / "001" / "parts"
     store, asked = QuestionStore(place, "001"), question()
     with pytest.raises(ModelError):
-        FileAnswerer(store, Knowing("nobody", lambda: pytest.fail("asked"))).ask(asked)
+        FileAnswerer(store, ReferenceAnswerer("nobody", lambda: pytest.fail("asked"))).ask(asked)
     (open_,) = find_questions(folder)
     open_.write_answer(json.dumps(ANSWER))
     done = visual.results_of(folder) / "001" / "parts"

@@ -17,9 +17,9 @@ from anymesh.models.cache import cache_folder
 from anymesh.models.patience import Patience
 from anymesh.models.rates import Limiter
 from anymesh.models.servers import SERVERS, first_seeing, probe_servers
-from anymesh.reasoning.asking import Seer
-from anymesh.reasoning.recognition import told_labels
-from anymesh.solving import GEOMETRY, Seeing
+from anymesh.reasoning.asking import VisualAnswerer
+from anymesh.reasoning.recognition import parse_labels
+from anymesh.solving import GEOMETRY, AnswererFactory
 from anymesh.types import Exchange
 
 FILES, AUTO = "files:", "auto"
@@ -57,13 +57,13 @@ class Answering(TypedDict, total=False):
     limiter: Limiter | None
 
 
-class Asked:
+class RecordingFactory:
     """Makes the answerers of one run: they share their patience, and what they asked is known after a fault too."""
 
-    def __init__(self, make: Callable[[Seer, Patience], Seer]) -> None:
-        self._make, self._patience, self._made = make, Patience(), list[Seer]()
+    def __init__(self, make: Callable[[VisualAnswerer, Patience], VisualAnswerer]) -> None:
+        self._make, self._patience, self._made = make, Patience(), list[VisualAnswerer]()
 
-    def __call__(self, fallback: Seer) -> Seer:
+    def __call__(self, fallback: VisualAnswerer) -> VisualAnswerer:
         made = self._make(fallback, self._patience)
         self._made.append(made)
         return made
@@ -74,7 +74,7 @@ class Asked:
 
 
 @dataclass(frozen=True, eq=False)
-class Answerer:
+class AnswererSetup:
     """The settings of a run, the name of who answers, and what makes the answerer (None: geometry).
 
     stands: whether a saved stage still has the answers that it was made with; asked: every call to a model in this run;
@@ -83,10 +83,10 @@ class Answerer:
 
     config: Config
     name: str
-    see: Seeing | None
-    stands: Callable[[Sequence[Exchange]], bool] = field(default=lambda exchanges: True)
-    asked: Callable[[], tuple[Exchange, ...]] = tuple
-    renewed: Callable[[], Seeing] | None = None
+    factory: AnswererFactory | None
+    is_current: Callable[[Sequence[Exchange]], bool] = field(default=lambda exchanges: True)
+    exchanges: Callable[[], tuple[Exchange, ...]] = tuple
+    new_factory: Callable[[], AnswererFactory] | None = None
 
     def settings(self, *without: str) -> dict[str, object]:
         """What the result of a stage hangs on, without what that stage does not use."""
@@ -95,7 +95,7 @@ class Answerer:
 
 def choose_answerer(
     options: Answering, *, about: str | None = None, deadline: Deadline | None = None, stop: Event | None = None
-) -> Answerer:
+) -> AnswererSetup:
     """From the options to who answers. For answers in files, about: the object's name; deadline: paused while waiting for
     one; stop: ends the waiting.
 
@@ -106,7 +106,7 @@ def choose_answerer(
         raise OptionError(f"found the options {unknown}; valid are {', '.join(Answering.__annotations__)}")
     told = options.get("parts_list", ())
     name, _ = resolve_auto(options.get("answerer", GEOMETRY.name))
-    labels = told_labels(told.split(",") if isinstance(told, str) else told)
+    labels = parse_labels(told.split(",") if isinstance(told, str) else told)
     config = Config(
         seed=options.get("seed", 0),
         category=options.get("category"),
@@ -119,7 +119,7 @@ def choose_answerer(
     if name == GEOMETRY.name:
         if labels:
             raise OptionError("--parts-list: geometry cannot find parts by their names; it needs an --answerer that sees")
-        return Answerer(config, name, None)
+        return AnswererSetup(config, name, None)
     if name.startswith(FILES):
         return _from_files(config, name, options, about, deadline or Deadline(), stop)
     from anymesh.models.connect import open_model  # only those who ask a model wait for its modules
@@ -137,11 +137,11 @@ def choose_answerer(
         limiter=options.get("limiter"),
     )
 
-    def renewed() -> Asked:
-        return Asked(lambda fallback, patience: VlmAnswerer(model, fallback, patience))
+    def renewed() -> RecordingFactory:
+        return RecordingFactory(lambda fallback, patience: VlmAnswerer(model, fallback, patience))
 
     asked = renewed()
-    return Answerer(config, name, asked, asked=asked.exchanges, renewed=renewed)
+    return AnswererSetup(config, name, asked, exchanges=asked.exchanges, new_factory=renewed)
 
 
 def object_name(mesh: str | Path) -> str:
@@ -165,7 +165,7 @@ def resolve_auto(name: str) -> tuple[str, str]:
 
 def _from_files(
     config: Config, name: str, options: Answering, about: str | None, deadline: Deadline, stop: Event | None
-) -> Answerer:
+) -> AnswererSetup:
     from anymesh.models.question_files import QuestionStore
     from anymesh.reasoning.files import FileAnswerer, still_answered
 
@@ -173,7 +173,7 @@ def _from_files(
     if not folder.strip():
         raise OptionError("answers from files need a folder: --answerer files:FOLDER")
     store = QuestionStore(Path(folder), about)
-    return Answerer(
+    return AnswererSetup(
         config,
         name,
         lambda fallback: FileAnswerer(

@@ -8,7 +8,7 @@ from pathlib import Path
 from anymesh.errors import OptionError
 from anymesh.models.question_files import QuestionFolder, find_questions
 from anymesh.reasoning.asking import BadAnswerError
-from anymesh.reasoning.files import check_answer, leaves, open_questions
+from anymesh.reasoning.files import check_answer, is_left_to_geometry, open_questions
 from anymesh.reasoning.shorthand import answer_text
 
 
@@ -52,7 +52,7 @@ def record_answer(folder: Path, told: str) -> Recorded:
     if not (found or here):
         raise OptionError(f"no question is open in {folder}; name the folder of a question to answer it again")
     question = (found or here)[0]
-    text = told.strip() if leaves(told) else answer_text(told, question.schema)
+    text = told.strip() if is_left_to_geometry(told) else answer_text(told, question.schema)
     try:
         whole = check_answer(question, text)
     except BadAnswerError as error:

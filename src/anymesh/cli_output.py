@@ -67,9 +67,9 @@ def tell_asset(asset: Asset, out: Path, json_: bool, quiet: bool) -> None:
 
 def unsure_hint(asset: Asset) -> str:
     """What would help where geometry answered alone and is not sure of a joint; empty where nothing is to say."""
-    from anymesh.solving import GEOMETRY, UNSURE
+    from anymesh.solving import GEOMETRY, LOW_CONFIDENCE
 
-    count = sum(j.confidence < UNSURE for j in asset.joints)
+    count = sum(j.confidence < LOW_CONFIDENCE for j in asset.joints)
     if asset.answerer != GEOMETRY.name or not count:
         return ""
     joints = "1 joint is" if count == 1 else f"{count} joints are"

@@ -23,7 +23,7 @@ from anymesh.errors import OpenQuestionError, OptionError
 from anymesh.evaluation.changes import CHANGES
 from anymesh.evaluation.datasets.dataset import Dataset
 from anymesh.evaluation.datasets.named import open_dataset
-from anymesh.evaluation.examine import Exam, Protocol, See, examine
+from anymesh.evaluation.examine import Exam, Protocol, SampleAnswerer, examine
 from anymesh.evaluation.oracle import Noisy, oracle
 from anymesh.evaluation.record import Record
 from anymesh.evaluation.report import write_report
@@ -33,7 +33,7 @@ from anymesh.evaluation.training import trained_note
 from anymesh.evaluation.truth import Subject
 from anymesh.names import legal_name
 from anymesh.progress import Progress, silent
-from anymesh.solving import GEOMETRY, Seeing, solve
+from anymesh.solving import GEOMETRY, AnswererFactory, solve
 
 ORACLE = "oracle"
 Examined = list[Record] | OpenQuestionError  # the records of an object, or the question that it waits for
@@ -63,7 +63,7 @@ def evaluate(
     """
     exam = _exam(protocol, changes, views, answering.get("seed", 0))
     stop = Event()
-    see, data = _see(answering, exam.seed, stop), open_dataset(dataset)
+    answerer_for, data = _answerer_for(answering, exam.seed, stop), open_dataset(dataset)
     names = _chosen(data, split, only)
     results = ResultsFolder.open(Path(out), _settings(dataset, split, only, exam, answering), force=force)
     left = [name for name in names if not results.has(name)]
@@ -73,7 +73,7 @@ def evaluate(
     alone = (GEOMETRY.name, ORACLE, *(() if answering.get("wait") else (FILES,)))
     shared = not results.settings["answerer"].startswith(alone)
     waiting: list[OpenQuestionError] = []
-    for done, (name, records) in enumerate(_all(left, work, see, shared, jobs or _cores(), stop), start=before):
+    for done, (name, records) in enumerate(_all(left, work, answerer_for, shared, jobs or _cores(), stop), start=before):
         progress("eval", name, done, total)
         if isinstance(records, OpenQuestionError):
             waiting.append(records)
@@ -144,21 +144,21 @@ def _cores() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
-def _see(answering: Answering, seed: int, stop: Event | None = None) -> See:
+def _answerer_for(answering: Answering, seed: int, stop: Event | None = None) -> SampleAnswerer:
     """Who answers about a subject: geometry, its truth (with errors on purpose where wanted), files, or a model."""
     name, _, share = answering.get("answerer", GEOMETRY.name).partition(":")
     if name == FILES.removesuffix(":"):
 
-        def asked(subject: Subject) -> Seeing | None:
+        def asked(subject: Subject) -> AnswererFactory | None:
             place: Answering = {**answering, "answerer": f"{FILES}{Path(share) / legal_name(subject.truth.name)}"}
-            return choose_answerer(place, about=subject.truth.name, stop=stop).see
+            return choose_answerer(place, about=subject.truth.name, stop=stop).factory
 
         one = f"{FILES}{Path(share) / 'object'}" if share else FILES
         _ = choose_answerer({**answering, "answerer": one})  # what is wrong with the options is told before anything is done
         return asked
     if name != ORACLE:
         who = choose_answerer(answering)
-        return lambda subject: who.see if who.renewed is None else who.renewed()
+        return lambda subject: who.factory if who.new_factory is None else who.new_factory()
     try:
         wrong = float(share or 0)
     except ValueError:
@@ -166,33 +166,37 @@ def _see(answering: Answering, seed: int, stop: Event | None = None) -> See:
     if not 0 <= wrong <= 1:
         raise OptionError(f"--answerer oracle:P needs a probability P from 0 to 1, found {share!r}")
 
-    def known(subject: Subject) -> Seeing:
+    def known(subject: Subject) -> AnswererFactory:
         rng = np.random.default_rng((seed, crc32(subject.truth.name.encode())))
         return lambda instead: Noisy(oracle(subject), wrong, rng) if wrong else oracle(subject)
 
     return known
 
 
-def _examined(dataset: str, exam: Exam, answering: Answering, folder: Path, name: str, see: See | None = None) -> Examined:
+def _examined(
+    dataset: str, exam: Exam, answering: Answering, folder: Path, name: str, answerer_for: SampleAnswerer | None = None
+) -> Examined:
     """One object's records; in a process of its own, which opens the data set anew."""
     options: Answering = {**answering, "answerer": GEOMETRY.name, "parts_list": ()}
     solver = partial(solve, config=choose_answerer(options).config)
     try:
-        return examine(exam, open_dataset(dataset), name, folder, solver, see or _see(answering, exam.seed))
+        return examine(exam, open_dataset(dataset), name, folder, solver, answerer_for or _answerer_for(answering, exam.seed))
     except OpenQuestionError as error:
         return error
 
 
-def _all(names: Sequence[str], work: partial[Examined], see: See, shared: bool, jobs: int, stop: Event) -> Done:
+def _all(
+    names: Sequence[str], work: partial[Examined], answerer_for: SampleAnswerer, shared: bool, jobs: int, stop: Event
+) -> Done:
     """The records of each object as they come. shared: a model and its budget, so in threads; else in processes. stop: set
     at the end, for threads that wait for answers."""
     if jobs == 1 or len(names) < 2:
-        yield from ((name, work(name, see)) for name in names)
+        yield from ((name, work(name, answerer_for)) for name in names)
         return
     pool: Executor = ThreadPoolExecutor(jobs) if shared else ProcessPoolExecutor(jobs, get_context("spawn"))
     lost = []
     try:
-        futures = {pool.submit(work, name, see if shared else None): name for name in names}
+        futures = {pool.submit(work, name, answerer_for if shared else None): name for name in names}
         for future in as_completed(futures):
             try:
                 yield futures[future], future.result()

@@ -13,7 +13,7 @@ from anymesh.postprocessing.complete import complete
 from anymesh.postprocessing.protocol import Completer, Finished
 from anymesh.postprocessing.settings import ShapeConfig
 from anymesh.postprocessing.texture import Retexturer
-from anymesh.stage_results import Completed
+from anymesh.stage_results import CompletionResult
 from anymesh.types import Asset
 
 
@@ -25,7 +25,7 @@ def finish_asset(
     retexturer: Retexturer,
     config: ShapeConfig,
     deadline: Deadline | None = None,
-) -> Completed:
+) -> CompletionResult:
     """The mesh of an asset with completed shapes and looks.
 
     shapes: off leaves shapes as they are. completer: is asked first, None for nobody; the built-in completer does the parts
@@ -38,7 +38,7 @@ def finish_asset(
         finished, notes = _completed(asset, completer, config, deadline)
     painted = retexturer.retexture(finished)
     segmentation = painted.asset.segmentation
-    return Completed(
+    return CompletionResult(
         painted.asset.mesh, segmentation.face_part, finished.source_face, (*notes, *deadline.warnings(), *painted.notes)
     )
 

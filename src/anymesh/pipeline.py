@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TypeVar, Unpack
 
-from anymesh.answering import Answerer, Answering, choose_answerer, object_name
+from anymesh.answering import AnswererSetup, Answering, choose_answerer, object_name
 from anymesh.deadline import DEFAULT_SECONDS, Deadline
 from anymesh.errors import OptionError, note_stage
 from anymesh.export import Base, Driven, Format, write_asset
@@ -25,12 +25,22 @@ from anymesh.progress import Progress, silent
 from anymesh.rendering.preview import write_preview
 from anymesh.run_folder import RunFolder, stage_key
 from anymesh.segmentation.given import GIVEN
-from anymesh.solving import Solver
-from anymesh.stage_results import COMPLETION, JOINTS, MESH, RECOGNITION, SEGMENTATION, Jointed, Placed, Recognized, Segmented
+from anymesh.solving import ArticulationSolver
+from anymesh.stage_results import (
+    COMPLETION,
+    JOINTS,
+    MESH,
+    RECOGNITION,
+    SEGMENTATION,
+    JointResult,
+    LoadResult,
+    RecognitionResult,
+    SegmentationResult,
+)
 from anymesh.stopped_run import kept_transcript
 from anymesh.types import Asset, Joint, Segmentation, Source
 
-Result = TypeVar("Result", Recognized, Segmented, Jointed)
+Result = TypeVar("Result", RecognitionResult, SegmentationResult, JointResult)
 ASIDE = 500_000  # faces up to which the preview is drawn beside the files; with more, both together take too much memory
 
 
@@ -101,8 +111,8 @@ def joints(
     deadline = Deadline(time_limit)
     who = choose_answerer(answering, deadline=deadline)
     with RunFolder.open(Path(folder)) as run, kept_transcript(run, who):
-        recognized, segmented = run.recognized(), run.need(SEGMENTATION)
-        solver = Solver(recognized.sized(run.need(MESH)).mesh, who.config, who.see, deadline)
+        recognized, segmented = run.recognition(), run.need(SEGMENTATION)
+        solver = ArticulationSolver(recognized.sized(run.need(MESH)).mesh, who.config, who.factory, deadline)
         return _join(run, solver, recognized, segmented, run.key(SEGMENTATION), who, progress).joints
 
 
@@ -192,19 +202,19 @@ class Placement:
 
 
 def _seen(
-    run: RunFolder, path: Path, parts: str, how: Placement, who: Answerer, deadline: Deadline, progress: Progress
-) -> tuple[Solver, Recognized, str]:
+    run: RunFolder, path: Path, parts: str, how: Placement, who: AnswererSetup, deadline: Deadline, progress: Progress
+) -> tuple[ArticulationSolver, RecognitionResult, str]:
     """The mesh placed, looked at, and in the size that was answered; ready for both stages."""
     placed, key = _place(run, path, how, who.config.category, progress)
-    solver = Solver(placed.mesh, who.config, who.see, deadline)
+    solver = ArticulationSolver(placed.mesh, who.config, who.factory, deadline)
     if parts != "auto":
         solver.parts(parts)  # what is wrong with them is better told before anything is asked
     recognized, key = _recognize(run, solver, key, who, how.scale == "auto", placed.metric)
     sized = recognized.sized(placed)
-    return (solver if sized is placed else Solver(sized.mesh, who.config, who.see, deadline)), recognized, key
+    return (solver if sized is placed else ArticulationSolver(sized.mesh, who.config, who.factory, deadline)), recognized, key
 
 
-def _place(run: RunFolder, path: Path, how: Placement, category: str | None, progress: Progress) -> tuple[Placed, str]:
+def _place(run: RunFolder, path: Path, how: Placement, category: str | None, progress: Progress) -> tuple[LoadResult, str]:
     progress("load", path.name, 0, 1)
     with _timed(run, "load"):
         loaded = load_mesh(path, root=how.root)
@@ -214,22 +224,22 @@ def _place(run: RunFolder, path: Path, how: Placement, category: str | None, pro
         if found is None:
             p = place_mesh(loaded, up=how.up, scale=how.scale, category=category)
             source = Source(str(path), loaded.sha256, p.T_asset_source, p.up, p.notes)
-            found = Placed(p.mesh, source, (*loaded.warnings, *p.warnings), p.metric)
+            found = LoadResult(p.mesh, source, (*loaded.warnings, *p.warnings), p.metric)
             run.save(MESH, key, found)
     return found, key
 
 
-def _answered(found: Result | None, who: Answerer) -> Result | None:
+def _answered(found: Result | None, who: AnswererSetup) -> Result | None:
     """A saved stage, unless geometry stood in for a model there (the model is asked again), or its answers have changed."""
-    if found is None or any(e.given_up for e in found.exchanges) or not who.stands(found.exchanges):
+    if found is None or any(e.given_up for e in found.exchanges) or not who.is_current(found.exchanges):
         return None
     return found
 
 
 def _recognize(
-    run: RunFolder, solver: Solver, previous: str, who: Answerer, sized: bool, metric: bool
-) -> tuple[Recognized, str]:
-    if who.see is None:
+    run: RunFolder, solver: ArticulationSolver, previous: str, who: AnswererSetup, sized: bool, metric: bool
+) -> tuple[RecognitionResult, str]:
+    if who.factory is None:
         return solver.recognize(), previous
     key = stage_key(
         RECOGNITION, previous=previous, config={**who.settings("verify", "proposer"), "sized": sized, "metric": metric}
@@ -243,8 +253,14 @@ def _recognize(
 
 
 def _segment(
-    run: RunFolder, solver: Solver, recognized: Recognized, previous: str, parts: str, who: Answerer, progress: Progress
-) -> tuple[Segmented, str]:
+    run: RunFolder,
+    solver: ArticulationSolver,
+    recognized: RecognitionResult,
+    previous: str,
+    parts: str,
+    who: AnswererSetup,
+    progress: Progress,
+) -> tuple[SegmentationResult, str]:
     settings = {**who.settings("verify"), "parts": parts, "labels": _bytes_of_labels(parts), "limit": solver.deadline.seconds}
     key = stage_key(SEGMENTATION, previous=previous, config=settings)
     found = _answered(run.load(SEGMENTATION, key), who)
@@ -265,13 +281,13 @@ def _bytes_of_labels(parts: str) -> str:
 
 def _join(
     run: RunFolder,
-    solver: Solver,
-    recognized: Recognized,
-    segmented: Segmented,
+    solver: ArticulationSolver,
+    recognized: RecognitionResult,
+    segmented: SegmentationResult,
     previous: str,
-    who: Answerer,
+    who: AnswererSetup,
     progress: Progress,
-) -> Jointed:
+) -> JointResult:
     key = stage_key(JOINTS, previous=previous, config={**who.settings(), "limit": solver.deadline.seconds})
     found = _answered(run.load(JOINTS, key), who)
     if found is None:

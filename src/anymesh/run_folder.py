@@ -25,20 +25,30 @@ from anymesh.stage_results import (
     REVISION,
     SEGMENTATION,
     STAGES,
-    Jointed,
-    Placed,
-    Recognized,
-    Segmented,
+    JointResult,
+    LoadResult,
+    RecognitionResult,
+    SegmentationResult,
     Stage,
 )
-from anymesh.storage.hidden import OURS, Hidden, dead_hidden, list_files, locks_known, make_hidden, move_in, recover, swap_in
+from anymesh.storage.hidden import (
+    FOLDER_PREFIX,
+    LockedFolder,
+    list_files,
+    locks_known,
+    make_locked_folder,
+    move_files,
+    recover,
+    replace_folder,
+    stale_folders,
+)
 from anymesh.storage.outputs import (
     CORRECTIONS,
     GENERATOR,
     MANIFEST,
+    atomic_prefix,
     check_replaceable,
     check_uncorrected,
-    hidden_prefix,
     written_files,
 )
 from anymesh.storage.saved import TIMING, Saved
@@ -57,11 +67,11 @@ __all__ = [
     "MESH",
     "RECOGNITION",
     "SEGMENTATION",
-    "Jointed",
-    "Placed",
-    "Recognized",
+    "JointResult",
+    "LoadResult",
+    "RecognitionResult",
     "RunFolder",
-    "Segmented",
+    "SegmentationResult",
     "stage_key",
 ]
 Result = TypeVar("Result")
@@ -70,7 +80,7 @@ LAST = "asset.json"  # an output that has it is finished
 
 def _existing(target: Path) -> list[str]:
     """The files that this program wrote into an output, a killed run put right. OutputError when it is none."""
-    recover(target, hidden_prefix(target, "old"))
+    recover(target, atomic_prefix(target, "old"))
     written = written_files(target)
     if written is None:
         raise OutputError(f"{target} is no output of anymesh; `anymesh segment MESH -o {target}` makes one")
@@ -85,7 +95,7 @@ class RunFolder(Saved):
     """
 
     def __init__(
-        self, target: Path, hidden: Hidden, *, base: Path | None, earlier: Sequence[Path], dead: Sequence[Hidden]
+        self, target: Path, hidden: LockedFolder, *, base: Path | None, earlier: Sequence[Path], dead: Sequence[LockedFolder]
     ) -> None:
         super().__init__(target)
         self.folder = hidden.path
@@ -110,19 +120,19 @@ class RunFolder(Saved):
         if source.resolve().is_relative_to(target):
             raise OutputError(f"the source mesh {source} lies in the output folder {target}; choose another folder")
         try:
-            recover(target, hidden_prefix(target, "old"))
+            recover(target, atomic_prefix(target, "old"))
             if target.exists() and not target.is_dir():
                 raise OutputError(f"{target} is a file; an output is a folder")
             inside = target.is_dir() and os.path.ismount(target)  # a mount point cannot be renamed
-            old = target.is_dir() and any(p for p in target.iterdir() if not p.name.startswith(OURS))
+            old = target.is_dir() and any(p for p in target.iterdir() if not p.name.startswith(FOLDER_PREFIX))
             if old:
                 check_replaceable(target, force)
             target.parent.mkdir(parents=True, exist_ok=True)
-            place = (target, f"{OURS}tmp-") if inside else (target.parent, hidden_prefix(target, "tmp"))
-            dead = dead_hidden(*place)
+            place = (target, f"{FOLDER_PREFIX}tmp-") if inside else (target.parent, atomic_prefix(target, "tmp"))
+            dead = stale_folders(*place)
             earlier = [d.path for d in dead] + ([target] if old else [])
             base = target if inside else None
-            run = cls(target, make_hidden(*place), base=base, earlier=earlier, dead=dead)
+            run = cls(target, make_locked_folder(*place), base=base, earlier=earlier, dead=dead)
         except OSError as error:
             raise OutputError(f"cannot write {target}: {error.strerror or error}") from error
         run._resumable = locks_known()
@@ -135,8 +145,8 @@ class RunFolder(Saved):
         target = Path(target).resolve()
         try:
             _existing(target)
-            dead = dead_hidden(target, f"{OURS}tmp-")
-            hidden = make_hidden(target, f"{OURS}tmp-")
+            dead = stale_folders(target, f"{FOLDER_PREFIX}tmp-")
+            hidden = make_locked_folder(target, f"{FOLDER_PREFIX}tmp-")
         except OSError as error:
             raise OutputError(f"cannot write {target}: {error.strerror or error}") from error
         return cls(target, hidden, base=target, earlier=[], dead=dead)
@@ -152,7 +162,9 @@ class RunFolder(Saved):
             return cls.open(target)
         try:
             ours = set(_existing(target))
-            run = cls(target, make_hidden(target.parent, hidden_prefix(target, "tmp")), base=None, earlier=[target], dead=[])
+            run = cls(
+                target, make_locked_folder(target.parent, atomic_prefix(target, "tmp")), base=None, earlier=[target], dead=[]
+            )
             run._foreign = set(list_files(target)) - ours
             stages = {name for stage in STAGES for name in stage_files(stage)}
             for name in sorted((ours & (stages | {TIMING})) | run._foreign):
@@ -214,13 +226,13 @@ class RunFolder(Saved):
         try:
             if self._base is None:
                 self._write_manifest(new)
-                aside = self.target.parent / f"{hidden_prefix(self.target, 'old')}{os.getpid()}"
-                swap_in(self.folder, self.target, aside if self._replaces else None)
+                aside = self.target.parent / f"{atomic_prefix(self.target, 'old')}{os.getpid()}"
+                replace_folder(self.folder, self.target, aside if self._replaces else None)
             else:
                 before = set(written_files(self.target) or ())
                 kept = before - self._outdated(before, new)
                 self._write_manifest(new | kept)
-                move_in(self.folder, self.target, remove=sorted(before - kept - new), last=LAST)
+                move_files(self.folder, self.target, remove=sorted(before - kept - new), last=LAST)
         except OSError as error:
             raise OutputError(f"cannot write {self.target}: {error.strerror or error}") from error
 

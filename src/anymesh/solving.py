@@ -15,8 +15,8 @@ from anymesh.articulation.estimate import (
     estimate_joints,
     motion_question,
     motion_questions,
+    part_context,
     relabelled,
-    surroundings,
 )
 from anymesh.articulation.evidence import hypotheses
 from anymesh.articulation.part_labels import label_of
@@ -29,12 +29,12 @@ from anymesh.geometry.surroundings import PartContext
 from anymesh.models.sam import PromptedSegmenter
 from anymesh.models.sam_load import load_sam
 from anymesh.progress import Progress, silent
-from anymesh.reasoning.asking import Seer
+from anymesh.reasoning.asking import VisualAnswerer
 from anymesh.reasoning.geometry import GeometryAnswerer
-from anymesh.reasoning.knowing import Knowing, KnownJoint, Reference
+from anymesh.reasoning.knowing import Reference, ReferenceAnswerer, ReferenceJoint
 from anymesh.reasoning.questions import Candidate
 from anymesh.reasoning.recognition import answered_scale, recognize
-from anymesh.rendering.studio import Studio
+from anymesh.rendering.studio import VisualPrompts
 from anymesh.segmentation.ask_marks import Asked
 from anymesh.segmentation.cloud import Cloud
 from anymesh.segmentation.given import GIVEN, parts_from_file, parts_from_nodes
@@ -42,27 +42,33 @@ from anymesh.segmentation.grounded import EXACT, ground_parts, object_cloud
 from anymesh.segmentation.hidden import LEAST_TOLD, inner_faces, seen_points
 from anymesh.segmentation.regrounding import ground_again
 from anymesh.segmentation.segment import segment_parts
-from anymesh.stage_results import Jointed, Recognized, Segmented
+from anymesh.stage_results import JointResult, RecognitionResult, SegmentationResult
 from anymesh.types import Joint, JointType, Mesh, MotionKind, Picture, Segmentation
 from anymesh.types.recognition import Moves, Recognition
 
-Seeing = Callable[[Seer], Seer]  # an answerer that sees, given who answers in its place where it cannot
-MOST_INSIDE = 2  # pictures of the inside in the question of what the object is
-UNSURE = 0.4  # joints below this confidence are named in the warnings
-LIKELY = 4  # motions of each kind, likeliest first, of which one is to stay free with what the part gains
-FREE = 0.8  # a part that gains unseen patches opens this much as far as without them
-ENOUGH = float(np.deg2rad(60))  # [rad, or share of the diagonal] an opening beyond is not compared
+AnswererFactory = Callable[
+    [VisualAnswerer], VisualAnswerer
+]  # an answerer that sees, given who answers in its place where it cannot
+MAX_INSIDE_VIEWS = 2  # pictures of the inside in the question of what the object is
+LOW_CONFIDENCE = 0.4  # joints below this confidence are named in the warnings
+MOTIONS_PER_TYPE = 4  # motions of each kind, likeliest first, of which one is to stay free with what the part gains
+MIN_FREE_RATIO = 0.8  # a part that gains unseen patches opens this much as far as without them
+SUFFICIENT_OPENING = float(np.deg2rad(60))  # [rad, or share of the diagonal] an opening beyond is not compared
 GEOMETRY = GeometryAnswerer()
 
 
-class Solver:
+class ArticulationSolver:
     """Stage A and Stage B for one placed mesh [m, Z up]. `see` makes the answerer; without it geometry answers. What is left
     out past the deadline is among the warnings of each stage."""
 
     def __init__(
-        self, mesh: Mesh, config: Config | None = None, see: Seeing | None = None, deadline: Deadline | None = None
+        self,
+        mesh: Mesh,
+        config: Config | None = None,
+        answerer_factory: AnswererFactory | None = None,
+        deadline: Deadline | None = None,
     ) -> None:
-        self.mesh, self.config, self._see = mesh, config or Config(), see
+        self.mesh, self.config, self._see = mesh, config or Config(), answerer_factory
         self.deadline = deadline or Deadline()
         self._by_itself: Segmentation | None = None
         self._swept: tuple[bytes, list[PartMotions]] | None = None  # faces of parts, and their motions
@@ -82,56 +88,58 @@ class Solver:
         return object_cloud(self.mesh, self.whole, self.config)
 
     @cached_property
-    def _studio(self) -> Studio:
-        return Studio(self.mesh, self.config)
+    def _visual_prompts(self) -> VisualPrompts:
+        return VisualPrompts(self.mesh, self.config)
 
-    def recognize(self, *, sized: bool = False, metric: bool = False) -> Recognized:
+    def recognize(self, *, sized: bool = False, metric: bool = False) -> RecognitionResult:
         """What the object is and which parts move, from someone who sees.
 
         sized: the answered size sets the scale, unless the file states its unit (metric): then a size that contradicts is a
         warning.
         """
         if self._see is None:
-            return Recognized(None, GEOMETRY.name)
+            return RecognitionResult(None, GEOMETRY.name)
         _ = self._segmenter  # weights that cannot be used are better missed before anything is asked
-        seer = self._see(Knowing(GEOMETRY.name, lambda: self._geometric_reference))
+        answerer = self._see(ReferenceAnswerer(GEOMETRY.name, lambda: self._geometric_reference))
         azimuths = [azimuth for azimuth, _ in self.config.views.directions]
-        found = recognize(self._view_pictures, seer, self.config.category, self.config.parts_list, azimuths)
+        found = recognize(self._view_pictures, answerer, self.config.category, self.config.parts_list, azimuths)
         scale, note, doubt = answered_scale(found, float(self.mesh.extents.max()), metric=metric) if sized else (1.0, "", ())
-        return Recognized(found, seer.name, scale, note, (*seer.remarks, *doubt), seer.exchanges)
+        return RecognitionResult(found, answerer.name, scale, note, (*answerer.warnings, *doubt), answerer.exchanges)
 
     def _view_pictures(self) -> tuple[Picture, ...]:
-        seen, studio = self._studio.views, self._studio
+        seen, studio = self._visual_prompts.views, self._visual_prompts
         names = studio.names(len(seen))
         inside = inner_faces(self.mesh, self.whole, self._cloud, seen_points(self._cloud, seen), LEAST_TOLD)
         if inside.any():
-            chosen = studio.most_of_inside(inside, MOST_INSIDE)
+            chosen = studio.most_of_inside(inside, MAX_INSIDE_VIEWS)
             seen = [*seen, *(studio.insides(inside)[k] for k in chosen)]
             names += [studio.inside_names()[k] for k in chosen]
         return studio.pictures([view.color for view in seen], names)
 
-    def parts(self, parts: str = "auto", recognition: Recognition | None = None, progress: Progress = silent) -> Segmented:
+    def parts(
+        self, parts: str = "auto", recognition: Recognition | None = None, progress: Progress = silent
+    ) -> SegmentationResult:
         """Stage A. parts: auto, nodes, or a file of face labels."""
         if parts != "auto":
             given = parts_from_nodes(self.mesh) if parts == "nodes" else parts_from_file(self.mesh, Path(parts))
-            return _segmented(given, GIVEN)
+            return _segmentation_result(given, GIVEN)
         if self._see is None or recognition is None:
-            return _segmented(self._geometric_parts(progress), GEOMETRY.name, None, self.deadline.warnings())
-        seer = self._see(Knowing(GEOMETRY.name, lambda: self._geometric_reference))
+            return _segmentation_result(self._geometric_parts(progress), GEOMETRY.name, None, self.deadline.warnings())
+        answerer = self._see(ReferenceAnswerer(GEOMETRY.name, lambda: self._geometric_reference))
         found, warnings = ground_parts(
             self.mesh,
             self.whole,
-            seer,
+            answerer,
             self.config,
             recognition,
-            self._studio,
+            self._visual_prompts,
             self._segmenter,
             self._geometric_parts,
             self.stays_free,
             progress,
             self._cloud,
         )
-        return _segmented(found, seer.name, seer, (*warnings, *self.deadline.warnings()))
+        return _segmentation_result(found, answerer.name, answerer, (*warnings, *self.deadline.warnings()))
 
     def joints(
         self,
@@ -139,22 +147,22 @@ class Solver:
         recognition: Recognition | None = None,
         progress: Progress = silent,
         grounded: bool = False,
-    ) -> Jointed:
+    ) -> JointResult:
         """Stage B. grounded: the parts were found by `parts`, so answers may call them too much or too little, once."""
         if self._see is None:
             found = estimate_joints(segmentation, self._motions(segmentation, progress), GEOMETRY)
-            return _jointed(found, GEOMETRY.name, None, self.deadline.warnings())
-        seer = self._see(Knowing(GEOMETRY.name, lambda: self._reference(segmentation)))
-        questions = Questions(self._studio, seer, self.config, recognition, progress)
+            return _joint_result(found, GEOMETRY.name, None, self.deadline.warnings())
+        answerer = self._see(ReferenceAnswerer(GEOMETRY.name, lambda: self._reference(segmentation)))
+        questions = Questions(self._visual_prompts, answerer, self.config, recognition, progress)
         reground = self._regrounding(questions, segmentation) if grounded and recognition is not None else None
         made = prompt_joints(questions, self._ready_for, segmentation, reground)
-        found = _jointed(made.joints, seer.name, seer, (*made.warnings, *self.deadline.warnings()))
+        found = _joint_result(made.joints, answerer.name, answerer, (*made.warnings, *self.deadline.warnings()))
         return replace(found, segmentation=made.segmentation if made.segmentation is not segmentation else None)
 
     def _regrounding(self, questions: Questions, segmentation: Segmentation) -> Reground:
         """What goes back to the marks of parts that are wrong."""
         recognition = questions.recognition
-        asked = Asked(questions.seer, self._studio, questions.labels, questions.category, self.config)
+        asked = Asked(questions.answerer, self._visual_prompts, questions.labels, questions.category, self.config)
         front = recognition.front if recognition else None
         return lambda wrong: ground_again(self.mesh, self.whole, self._cloud, asked, segmentation, wrong, front)
 
@@ -177,9 +185,9 @@ class Solver:
         faces = segmentation.face_part.tobytes()
         if self._swept is None or self._swept[0] != faces:
             found = motion_questions(self._ready_for(segmentation), segmentation, self.config, self.deadline)
-            self._swept = faces, list(_told(found, segmentation, progress))
+            self._swept = faces, list(_with_progress(found, segmentation, progress))
             return self._swept[1]
-        return list(_told(relabelled(self._swept[1], segmentation), segmentation, progress))
+        return list(_with_progress(relabelled(self._swept[1], segmentation), segmentation, progress))
 
     def stays_free(self, without: np.ndarray, joined: np.ndarray, part: int, moves: Moves | None = None) -> bool:
         """Tell whether a part opens as far with the unseen patches that it would gain.
@@ -194,16 +202,16 @@ class Solver:
         kinds = (
             list(MotionKind) if moves is None else [MotionKind.PRISMATIC if moves is Moves.PRISMATIC else MotionKind.REVOLUTE]
         )
-        likely = [c for kind in kinds for c in [c for c in best.values() if c.motion.kind is kind][:LIKELY]]
+        likely = [c for kind in kinds for c in [c for c in best.values() if c.motion.kind is kind][:MOTIONS_PER_TYPE]]
         after = hypotheses(gained, [(c.role, c.motion) for c in likely])[::2]
         far = [(max(c.opening, c.closing), max(a.opening, a.closing)) for c, a in zip(likely, after, strict=True)]
-        return any(now >= FREE * min(before, ENOUGH) for before, now in far)
+        return any(now >= MIN_FREE_RATIO * min(before, SUFFICIENT_OPENING) for before, now in far)
 
     def _around(self, label: np.ndarray, part: int) -> PartContext:
         shapes = [self.whole.of(np.flatnonzero(label == k)) for k in np.unique(label)]
         rank = np.searchsorted(np.unique(label), label)
         number = int(np.searchsorted(np.unique(label), part))
-        return surroundings(self.whole, rank, shapes, parents(shapes, self.whole.diagonal), number, self.config.articulation)
+        return part_context(self.whole, rank, shapes, parents(shapes, self.whole.diagonal), number, self.config.articulation)
 
     def _ready_for(self, segmentation: Segmentation) -> ObjectShape:
         """The mesh made ready, in pieces that each belong to one of these parts."""
@@ -222,7 +230,7 @@ class Solver:
         return reference_of(self.mesh, segmentation, joints, self.config.category or "object")
 
 
-def _told(swept: Iterable[PartMotions], segmentation: Segmentation, progress: Progress) -> Iterator[PartMotions]:
+def _with_progress(swept: Iterable[PartMotions], segmentation: Segmentation, progress: Progress) -> Iterator[PartMotions]:
     """Report each part as its motions come."""
     for done, motions in enumerate(swept):
         progress("joints", segmentation.parts[motions[0]].name, done, len(segmentation.parts) - 1)
@@ -241,31 +249,37 @@ def reference_of(mesh: Mesh, segmentation: Segmentation, joints: tuple[Joint, ..
         face_area=mesh.face_areas,
         labels=tuple(p.label for p in segmentation.parts),
         parents=tuple(0 if j is None else number[j.parent] for j in made),
-        joints=tuple(None if j is None else KnownJoint(j.type, j.axis, j.origin, j.limits) for j in made),
+        joints=tuple(None if j is None else ReferenceJoint(j.type, j.axis, j.origin, j.limits) for j in made),
     )
 
 
-def _segmented(
-    segmentation: Segmentation, answerer: str, seer: Seer | None = None, warnings: tuple[str, ...] = ()
-) -> Segmented:
+def _segmentation_result(
+    segmentation: Segmentation, name: str, answerer: VisualAnswerer | None = None, warnings: tuple[str, ...] = ()
+) -> SegmentationResult:
     none = ("nothing was found that moves",) if len(segmentation.parts) == 1 else ()
-    remarks = seer.remarks if seer else ()
-    return Segmented(segmentation, answerer, (*remarks, *warnings, *none), seer.exchanges if seer else ())
+    noted = answerer.warnings if answerer else ()
+    return SegmentationResult(segmentation, name, (*noted, *warnings, *none), answerer.exchanges if answerer else ())
 
 
-def _jointed(joints: tuple[Joint, ...], answerer: str, seer: Seer | None = None, cut: tuple[str, ...] = ()) -> Jointed:
+def _joint_result(
+    joints: tuple[Joint, ...], name: str, answerer: VisualAnswerer | None = None, cut: tuple[str, ...] = ()
+) -> JointResult:
     unsure = tuple(
-        f"joint {j.name}: low confidence ({j.confidence:.2f}), please check" for j in joints if j.confidence < UNSURE
+        f"joint {j.name}: low confidence ({j.confidence:.2f}), please check" for j in joints if j.confidence < LOW_CONFIDENCE
     )
-    remarks = seer.remarks if seer else ()
-    return Jointed(joints, answerer, (*remarks, *cut, *unsure), seer.exchanges if seer else ())
+    noted = answerer.warnings if answerer else ()
+    return JointResult(joints, name, (*noted, *cut, *unsure), answerer.exchanges if answerer else ())
 
 
 def solve(
-    mesh: Mesh, given: Segmentation | None = None, *, config: Config | None = None, see: Seeing | None = None
+    mesh: Mesh,
+    given: Segmentation | None = None,
+    *,
+    config: Config | None = None,
+    answerer_factory: AnswererFactory | None = None,
 ) -> tuple[Segmentation, tuple[Joint, ...]]:
     """Both stages on a placed mesh, the second alone where the parts are given."""
-    solver = Solver(mesh, config, see)
+    solver = ArticulationSolver(mesh, config, answerer_factory)
     if given is not None:
         return given, solver.joints(given).joints
     recognition = solver.recognize().recognition

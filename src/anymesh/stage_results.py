@@ -17,7 +17,7 @@ Record = dict[str, Any]
 
 
 @dataclass(frozen=True, eq=False)
-class Placed:
+class LoadResult:
     """The mesh in the asset frame, the file that it came from, and what a user should know.
 
     metric: whether the scale is the unit that the file states.
@@ -30,7 +30,7 @@ class Placed:
 
 
 @dataclass(frozen=True, eq=False)
-class Recognized:
+class RecognitionResult:
     """What the object is, when someone who sees was asked; scale: what the placed mesh is multiplied by, with the reason."""
 
     recognition: Recognition | None
@@ -40,19 +40,19 @@ class Recognized:
     warnings: tuple[str, ...] = ()
     exchanges: tuple[Exchange, ...] = ()
 
-    def sized(self, placed: Placed) -> Placed:
+    def sized(self, loaded: LoadResult) -> LoadResult:
         """The mesh in the size that was answered."""
         if self.scale == 1:
-            return placed
+            return loaded
         S = np.diag([self.scale] * 3 + [1.0])
         source = replace(
-            placed.source, T_asset_source=S @ placed.source.T_asset_source, notes=(*placed.source.notes, self.note)
+            loaded.source, T_asset_source=S @ loaded.source.T_asset_source, notes=(*loaded.source.notes, self.note)
         )
-        return Placed(placed.mesh.transformed(S), source, placed.warnings, placed.metric)
+        return LoadResult(loaded.mesh.transformed(S), source, loaded.warnings, loaded.metric)
 
 
 @dataclass(frozen=True, eq=False)
-class Segmented:
+class SegmentationResult:
     """Stage A: the parts, who answered, and what a user should know."""
 
     segmentation: Segmentation
@@ -62,7 +62,7 @@ class Segmented:
 
 
 @dataclass(frozen=True, eq=False)
-class Jointed:
+class JointResult:
     """Stage B: the joints, who answered, and what a user should know.
 
     segmentation: the parts with the labels that were answered, where these changed; it is saved as the result of stage A.
@@ -76,7 +76,7 @@ class Jointed:
 
 
 @dataclass(frozen=True, eq=False)
-class Completed:
+class CompletionResult:
     """Stage C: the mesh with new faces and looks, the part of each, the number that it had before (-1: new), and what was
     done, in words."""
 
@@ -91,7 +91,7 @@ class Completed:
 
 
 @dataclass(frozen=True, eq=False)
-class Corrected:
+class CorrectionResult:
     """What a person made of the parts and joints; log: each correction as JSON values, in order."""
 
     segmentation: Segmentation
@@ -112,7 +112,7 @@ class Stage(Generic[Result]):
 MESH_ARRAYS = ("vertices", "faces", "face_node", "face_material", "corner_uv", "corner_color", "corner_normal")
 
 
-def _pack_placed(result: Placed) -> tuple[Record, dict[str, np.ndarray]]:
+def _pack_load(result: LoadResult) -> tuple[Record, dict[str, np.ndarray]]:
     source = result.source
     record, arrays = _pack_mesh(result.mesh)
     record |= {
@@ -145,10 +145,10 @@ def _pack_mesh(mesh: Mesh) -> tuple[Record, dict[str, np.ndarray]]:
     return {"nodes": [asdict(node) for node in mesh.nodes], "materials": materials}, arrays
 
 
-def _unpack_placed(record: Record, arrays: Arrays) -> Placed:
+def _unpack_load(record: Record, arrays: Arrays) -> LoadResult:
     s = record["source"]
     source = Source(s["path"], s["sha256"], np.array(s["T_asset_source"]), s["up"], tuple(s["notes"]))
-    return Placed(_unpack_mesh(record, arrays), source, tuple(record["warnings"]), record.get("metric", False))
+    return LoadResult(_unpack_mesh(record, arrays), source, tuple(record["warnings"]), record.get("metric", False))
 
 
 def _unpack_mesh(record: Record, arrays: Arrays) -> Mesh:
@@ -186,7 +186,7 @@ def _unpack_exchanges(records: list[Record], arrays: Arrays) -> tuple[Exchange, 
     return tuple(exchange(found) for found in records)
 
 
-def _pack_recognition(result: Recognized) -> tuple[Record, dict[str, np.ndarray]]:
+def _pack_recognition(result: RecognitionResult) -> tuple[Record, dict[str, np.ndarray]]:
     exchanges, arrays = _pack_exchanges(result.exchanges)
     record = {
         "recognition": None if result.recognition is None else asdict(result.recognition),
@@ -199,7 +199,7 @@ def _pack_recognition(result: Recognized) -> tuple[Record, dict[str, np.ndarray]
     return record, arrays
 
 
-def _unpack_recognition(record: Record, arrays: Arrays) -> Recognized:
+def _unpack_recognition(record: Record, arrays: Arrays) -> RecognitionResult:
     def label(found: Record) -> RecognizedLabel:
         limits = None if found["limits"] is None else (float(found["limits"][0]), float(found["limits"][1]))
         moves = None if found["moves"] is None else Moves(found["moves"])
@@ -211,10 +211,12 @@ def _unpack_recognition(record: Record, arrays: Arrays) -> Recognized:
         labels = tuple(label(found) for found in r["labels"])
         recognition = Recognition(r["category"], r["size"], labels, r.get("front"))
     exchanges = _unpack_exchanges(record["exchanges"], arrays)
-    return Recognized(recognition, record["answerer"], record["scale"], record["note"], tuple(record["warnings"]), exchanges)
+    return RecognitionResult(
+        recognition, record["answerer"], record["scale"], record["note"], tuple(record["warnings"]), exchanges
+    )
 
 
-def _pack_segmentation(result: Segmented) -> tuple[Record, dict[str, np.ndarray]]:
+def _pack_segmentation(result: SegmentationResult) -> tuple[Record, dict[str, np.ndarray]]:
     exchanges, arrays = _pack_exchanges(result.exchanges)
     record = {
         "parts": [asdict(part) for part in result.segmentation.parts],
@@ -225,10 +227,10 @@ def _pack_segmentation(result: Segmented) -> tuple[Record, dict[str, np.ndarray]
     return record, {**arrays, "face_part": result.segmentation.face_part}
 
 
-def _unpack_segmentation(record: Record, arrays: Arrays) -> Segmented:
+def _unpack_segmentation(record: Record, arrays: Arrays) -> SegmentationResult:
     segmentation = Segmentation(arrays["face_part"], tuple(Part(**part) for part in record["parts"]))
     exchanges = _unpack_exchanges(record["exchanges"], arrays)
-    return Segmented(segmentation, record["answerer"], tuple(record["warnings"]), exchanges)
+    return SegmentationResult(segmentation, record["answerer"], tuple(record["warnings"]), exchanges)
 
 
 def _pack_joint(joint: Joint) -> Record:
@@ -243,19 +245,19 @@ def _unpack_joint(found: Record) -> Joint:
     return Joint(**values)
 
 
-def _pack_joints(result: Jointed) -> tuple[Record, dict[str, np.ndarray]]:
+def _pack_joints(result: JointResult) -> tuple[Record, dict[str, np.ndarray]]:
     joints = [_pack_joint(joint) for joint in result.joints]
     exchanges, arrays = _pack_exchanges(result.exchanges)
     record = {"joints": joints, "answerer": result.answerer, "warnings": list(result.warnings), "exchanges": exchanges}
     return record, arrays
 
 
-def _unpack_joints(record: Record, arrays: Arrays) -> Jointed:
+def _unpack_joints(record: Record, arrays: Arrays) -> JointResult:
     joints = tuple(_unpack_joint(j) for j in record["joints"])
-    return Jointed(joints, record["answerer"], tuple(record["warnings"]), _unpack_exchanges(record["exchanges"], arrays))
+    return JointResult(joints, record["answerer"], tuple(record["warnings"]), _unpack_exchanges(record["exchanges"], arrays))
 
 
-def _pack_completed(result: Completed) -> tuple[Record, dict[str, np.ndarray]]:
+def _pack_completed(result: CompletionResult) -> tuple[Record, dict[str, np.ndarray]]:
     record, arrays = _pack_mesh(result.mesh)
     return {**record, "notes": list(result.notes)}, {
         **arrays,
@@ -264,11 +266,11 @@ def _pack_completed(result: Completed) -> tuple[Record, dict[str, np.ndarray]]:
     }
 
 
-def _unpack_completed(record: Record, arrays: Arrays) -> Completed:
-    return Completed(_unpack_mesh(record, arrays), arrays["face_part"], arrays["source_face"], tuple(record["notes"]))
+def _unpack_completed(record: Record, arrays: Arrays) -> CompletionResult:
+    return CompletionResult(_unpack_mesh(record, arrays), arrays["face_part"], arrays["source_face"], tuple(record["notes"]))
 
 
-def _pack_corrected(result: Corrected) -> tuple[Record, dict[str, np.ndarray]]:
+def _pack_corrected(result: CorrectionResult) -> tuple[Record, dict[str, np.ndarray]]:
     record = {
         "parts": [asdict(part) for part in result.segmentation.parts],
         "joints": [_pack_joint(joint) for joint in result.joints],
@@ -278,13 +280,13 @@ def _pack_corrected(result: Corrected) -> tuple[Record, dict[str, np.ndarray]]:
     return record, {"face_part": result.segmentation.face_part}
 
 
-def _unpack_corrected(record: Record, arrays: Arrays) -> Corrected:
+def _unpack_corrected(record: Record, arrays: Arrays) -> CorrectionResult:
     segmentation = Segmentation(arrays["face_part"], tuple(Part(**part) for part in record["parts"]))
     joints = tuple(_unpack_joint(j) for j in record["joints"])
-    return Corrected(segmentation, joints, tuple(record["warnings"]), tuple(record["log"]))
+    return CorrectionResult(segmentation, joints, tuple(record["warnings"]), tuple(record["log"]))
 
 
-MESH = Stage("mesh", _pack_placed, _unpack_placed)
+MESH = Stage("mesh", _pack_load, _unpack_load)
 RECOGNITION = Stage("recognition", _pack_recognition, _unpack_recognition)
 SEGMENTATION = Stage("segmentation", _pack_segmentation, _unpack_segmentation)
 JOINTS = Stage("joints", _pack_joints, _unpack_joints)

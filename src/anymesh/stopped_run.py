@@ -7,7 +7,7 @@ from collections.abc import Generator, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from anymesh.answering import Answerer
+from anymesh.answering import AnswererSetup
 from anymesh.errors import OpenQuestionError, OutputError
 from anymesh.models.transcript import remove_transcript, write_transcript
 from anymesh.run_folder import RunFolder
@@ -18,7 +18,7 @@ log = logging.getLogger("anymesh")
 
 
 @contextmanager
-def kept_transcript(run: RunFolder, who: Answerer) -> Generator[None]:
+def kept_transcript(run: RunFolder, who: AnswererSetup) -> Generator[None]:
     """Write OUT.transcript beside the output when the run ends early, and remove that of an earlier run when it does not."""
     folder = run.target.parent / f"{run.target.name}.transcript"
     try:
@@ -32,9 +32,9 @@ def kept_transcript(run: RunFolder, who: Answerer) -> Generator[None]:
         remove_transcript(folder)
 
 
-def _write(run: RunFolder, who: Answerer, folder: Path) -> None:
+def _write(run: RunFolder, who: AnswererSetup, folder: Path) -> None:
     saved = list(_saved(run))
-    exchanges = [*saved, *(e for e in who.asked() if e not in saved)]
+    exchanges = [*saved, *(e for e in who.exchanges() if e not in saved)]
     if exchanges:
         try:
             write_transcript(exchanges, folder)

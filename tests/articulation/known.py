@@ -10,13 +10,13 @@ import numpy as np
 from assets import box
 from scenes import Scene, built, case, door, drawer, lid, slider, wheel
 
-from anymesh.articulation.cases import Case, make_cases
+from anymesh.articulation.cases import PartCase, make_cases
 from anymesh.articulation.prompted import Questions, prompt_joints
 from anymesh.config import Config, PromptConfig, ViewsConfig
 from anymesh.geometry.pieces import ObjectShape, object_shape
-from anymesh.reasoning.asking import Seer
-from anymesh.reasoning.knowing import Knowing, KnownJoint, Reference
-from anymesh.rendering.studio import Studio
+from anymesh.reasoning.asking import VisualAnswerer
+from anymesh.reasoning.knowing import Reference, ReferenceAnswerer, ReferenceJoint
+from anymesh.rendering.studio import VisualPrompts
 from anymesh.types import Exchange, Joint, JointType, Mesh, Segmentation
 
 X, Y, Z = np.eye(3)
@@ -25,8 +25,8 @@ QUICK = Config(
 )  # half as fine
 
 
-def known(kind: str, axis, origin=(0.0, 0, 0), limits: tuple[float, float] | None = (0.0, 1.9)) -> KnownJoint:
-    return KnownJoint(JointType(kind), np.asarray(axis, float), np.asarray(origin, float), limits)
+def known(kind: str, axis, origin=(0.0, 0, 0), limits: tuple[float, float] | None = (0.0, 1.9)) -> ReferenceJoint:
+    return ReferenceJoint(JointType(kind), np.asarray(axis, float), np.asarray(origin, float), limits)
 
 
 def open_drawer() -> Scene:
@@ -45,7 +45,7 @@ class Known:
     """A scene and the true joint of its one moving part."""
 
     scene: Scene
-    joint: KnownJoint
+    joint: ReferenceJoint
 
 
 KNOWN = {
@@ -59,7 +59,7 @@ KNOWN = {
 }
 
 
-def row_of(*names: str) -> tuple[Scene, tuple[KnownJoint, ...]]:
+def row_of(*names: str) -> tuple[Scene, tuple[ReferenceJoint, ...]]:
     """Some of these beside each other, on one base."""
     scene, joints = {"base": []}, []
     for k, name in enumerate(names):
@@ -75,45 +75,45 @@ def ready(scene: Scene) -> tuple[Mesh, ObjectShape, Segmentation]:
     return mesh, object_shape(mesh, 0, labels=segmentation.face_part), segmentation
 
 
-def the_case(scene: Scene) -> Case:
+def the_case(scene: Scene) -> PartCase:
     """The one moving part of a scene."""
     _, whole, segmentation = ready(scene)
     (found,) = make_cases(whole, segmentation, None, Config())
     return found
 
 
-def knowing(mesh: Mesh, segmentation: Segmentation, joints: tuple[KnownJoint, ...]) -> Knowing:
+def knowing(mesh: Mesh, segmentation: Segmentation, joints: tuple[ReferenceJoint, ...]) -> ReferenceAnswerer:
     """Answers from these joints, one a part after the base, all on the base."""
     labels = ("base", *(p.label for p in segmentation.parts[1:]))
     made = Reference("object", 1.0, segmentation.face_part, mesh.face_areas, labels, (0,) * len(labels), (None, *joints))
-    return Knowing("oracle", lambda: made)
+    return ReferenceAnswerer("oracle", lambda: made)
 
 
 @dataclass
 class Watched:
     """Another seer, with what it was asked; changed: answers given in its place, of a question, by its kind.
 
-    blind=False makes the pictures be drawn that a model would see.
+    needs_images=True makes the pictures be drawn that a model would see.
     """
 
-    seer: Seer
-    blind: bool = True
+    seer: VisualAnswerer
+    needs_images: bool = False
     changed: dict[str, Callable[[Any], Any]] = field(default_factory=dict)
     asked: list[Any] = field(default_factory=list)
     name: str = "watched"
     exchanges: tuple[Exchange, ...] = ()
-    remarks: tuple[str, ...] = ()
+    warnings: tuple[str, ...] = ()
 
     def ask(self, question: Any) -> Any:
         self.asked.append(question)
         return self.changed[question.kind](question) if question.kind in self.changed else self.seer.ask(question)
 
 
-def prompted(scene: Scene, joints: tuple[KnownJoint, ...], **options: Any) -> tuple[tuple[Joint, ...], Watched]:
+def prompted(scene: Scene, joints: tuple[ReferenceJoint, ...], **options: Any) -> tuple[tuple[Joint, ...], Watched]:
     """The joints of a scene, asked of someone who knows them; options: of Watched, verify, or recognition."""
     mesh, whole, segmentation = ready(scene)
     config = replace(QUICK, verify=options.pop("verify", "motion"))
     recognition = options.pop("recognition", None)
     watched = Watched(knowing(mesh, segmentation, joints), **options)
-    questions = Questions(Studio(mesh, config), watched, config, recognition)
+    questions = Questions(VisualPrompts(mesh, config), watched, config, recognition)
     return prompt_joints(questions, lambda _: whole, segmentation).joints, watched

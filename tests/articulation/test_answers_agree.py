@@ -10,12 +10,12 @@ from scenes import Scene, prism, wheel
 
 from anymesh.articulation.cases import make_cases
 from anymesh.articulation.confidence import Agreement, confidences
-from anymesh.articulation.prompted import Prompted, Questions, prompt_joints
+from anymesh.articulation.prompted import PromptedJoints, Questions, prompt_joints
 from anymesh.articulation.relabel import labels_by_name
-from anymesh.articulation.taken import normal_outwards, way_out
+from anymesh.articulation.taken import normal_outwards, opening_slide
 from anymesh.reasoning.prompting import JointKind, KindAnswer, MotionPick, PartFit
-from anymesh.rendering.studio import Studio
-from anymesh.solving import Solver
+from anymesh.rendering.studio import VisualPrompts
+from anymesh.solving import ArticulationSolver
 from anymesh.types import JointType, Part, Segmentation
 from anymesh.types.recognition import Moves, Recognition, RecognizedLabel
 
@@ -31,12 +31,14 @@ DOOR = RecognizedLabel("door", Moves.REVOLUTE, "base", (0.0, 1.2))
 TRAY = RecognizedLabel("tray", Moves.PRISMATIC, "base", (0.0, 0.3))
 
 
-def asked(scene: Scene, told: Recognition, name: str = "leaf", verify: str = "motion", **changed) -> tuple[Prompted, Watched]:
+def asked(
+    scene: Scene, told: Recognition, name: str = "leaf", verify: str = "motion", **changed
+) -> tuple[PromptedJoints, Watched]:
     mesh, whole, segmentation = ready(scene)
     segmentation = replace(segmentation, parts=(segmentation.parts[0], Part(name, "part")))
     config = replace(QUICK, verify=verify)
     watched = Watched(knowing(mesh, segmentation, (LEFT.joint,)), changed=changed)
-    return prompt_joints(Questions(Studio(mesh, config), watched, config, told), lambda _: whole, segmentation), watched
+    return prompt_joints(Questions(VisualPrompts(mesh, config), watched, config, told), lambda _: whole, segmentation), watched
 
 
 @pytest.mark.parametrize(
@@ -111,7 +113,7 @@ def test_a_part_that_is_too_much_is_grounded_again_once() -> None:
     mesh, whole, segmentation = ready(LEFT.scene)
     seer = Watched(knowing(mesh, segmentation, (LEFT.joint,)))
     seer.changed = {"motions": lambda q: tuple(replace(a, part=PartFit.TOO_MUCH) for a in seer.seer.ask(q))}
-    questions = Questions(Studio(mesh, QUICK), seer, QUICK)
+    questions = Questions(VisualPrompts(mesh, QUICK), seer, QUICK)
     found = prompt_joints(questions, lambda _: whole, segmentation, reground)
     assert calls == [{"leaf": PartFit.TOO_MUCH}]
     first, second = (q for q in seer.asked if q.kind == "motions")
@@ -127,8 +129,8 @@ def test_the_papers_method_takes_the_planes_normal_and_the_free_one_what_is_held
     _, whole, segmentation = ready(KNOWN["open drawer"].scene)
     (case,) = make_cases(whole, segmentation, None, QUICK)
     assert abs(normal_outwards(case).axis @ case.shown.normal) == pytest.approx(1)
-    assert abs(way_out(case).axis @ Y) > 0.999
-    for verify, axis in (("off", normal_outwards(case).axis), ("free", way_out(case).axis)):
+    assert abs(opening_slide(case).axis @ Y) > 0.999
+    for verify, axis in (("off", normal_outwards(case).axis), ("free", opening_slide(case).axis)):
         (found,), seer = prompted(KNOWN["open drawer"].scene, (KNOWN["open drawer"].joint,), verify=verify)
         assert abs(found.axis @ axis) > 0.999
         assert [q.kind for q in seer.asked] == ["kinds"]
@@ -161,7 +163,7 @@ def test_only_points_that_are_drawn_are_listed_and_hidden_ones_are_told() -> Non
 def test_labels_that_were_answered_are_part_of_the_stages_result() -> None:
     mesh, _, segmentation = ready(LEFT.scene)
     given = replace(segmentation, parts=(segmentation.parts[0], Part("cabinet_door", "part")))
-    solver = Solver(mesh, QUICK, lambda _: knowing(mesh, segmentation, (LEFT.joint,)))
+    solver = ArticulationSolver(mesh, QUICK, lambda _: knowing(mesh, segmentation, (LEFT.joint,)))
     named = solver.joints(given, recognition(DOOR))
     assert named.segmentation is not None
     assert [p.label for p in named.segmentation.parts] == ["part", "door"]

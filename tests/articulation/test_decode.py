@@ -9,8 +9,8 @@ from known import KNOWN, the_case
 from scenes import drawer
 from scipy.spatial.transform import Rotation
 
-from anymesh.articulation.decode import hinge, plane_normal, slide, surface_directions
-from anymesh.articulation.prompted import way_out
+from anymesh.articulation.decode import hinge, plane_normal, prismatic, surface_directions
+from anymesh.articulation.prompted import opening_slide
 from anymesh.types import MotionKind
 
 X, Y, Z = np.eye(3)
@@ -80,7 +80,7 @@ def test_one_point_turns_about_the_normal_through_it() -> None:
 
 def test_a_slide_goes_along_its_direction() -> None:
     case = the_case(KNOWN["slider"].scene)
-    found = slide(-3 * X, case.around, "asked")
+    found = prismatic(-3 * X, case.around, "asked")
     assert (found.kind, found.source) == (MotionKind.PRISMATIC, "asked")
     assert found.axis == pytest.approx(-X)
 
@@ -97,7 +97,7 @@ def test_the_plane_normal_of_an_open_drawer_leads_sideways_and_the_free_way_out_
     """The paper's rule alone fails on real drawers: what is near the case are the box's sides and its floor."""
     case = the_case(KNOWN["open drawer"].scene)
     assert between(case.shown.normal, Y) > 60
-    found = way_out(case)
+    found = opening_slide(case)
     assert between(found.axis, Y) < 2
     assert found.axis @ case.around.opening_direction > 0.99
 
@@ -106,7 +106,7 @@ def test_the_plane_normal_of_an_open_drawer_leads_sideways_and_the_free_way_out_
 @pytest.mark.parametrize("depth", [0.2, 0.35])
 def test_the_way_out_of_a_shut_drawer_is_its_own_even_when_it_is_tilted(depth: float, degrees: float) -> None:
     a = np.deg2rad(degrees)
-    found = way_out(the_case(drawer(depth, degrees)))
+    found = opening_slide(the_case(drawer(depth, degrees)))
     assert found.axis == pytest.approx([0, -np.cos(a), -np.sin(a)], abs=0.03)
 
 

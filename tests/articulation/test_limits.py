@@ -77,7 +77,7 @@ def test_a_lid_that_is_shown_open_closes_further_than_it_opens() -> None:
 
 def test_the_opening_direction_follows_the_answer_where_only_that_leaves_the_range_free() -> None:
     _, c = swept(open_lid, LID)
-    wrong = replace(c, opens=-c.opening_sign, opening=c.closing, closing=c.opening)
+    wrong = replace(c, opening_sign=-c.opening_sign, opening=c.closing, closing=c.opening)
     blocked = replace(wrong, closing=30 * DEG)  # as if the lid could close by 30 degrees only
     assert opening_as_answered(blocked, (-85 * DEG, 20 * DEG)).opening_sign == c.opening_sign
     assert opening_as_answered(blocked, (-20 * DEG, 85 * DEG)) is blocked  # it opens further than it closes

@@ -25,7 +25,7 @@ def features(scene: Scene, motion: Motion, role: str = "edge", T: np.ndarray | N
     whole = object_shape(mesh if T is None else mesh.transformed(T), 0, labels=segmentation.face_part)
     (only,) = make_cases(whole, segmentation, None, Config())
     around = only.around
-    facts = part_facts(around, "it", "part", bail=False)
+    facts = part_facts(around, "it", "part", two_pivot=False)
     return motion_features(around, facts, hypotheses(around, [(role, motion)]))
 
 

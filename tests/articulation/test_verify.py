@@ -9,15 +9,15 @@ from assets import box
 from known import KNOWN, the_case
 from scenes import Scene, door, prism
 
-from anymesh.articulation.cases import Case
+from anymesh.articulation.cases import PartCase
 from anymesh.articulation.limits import opening_motion
 from anymesh.articulation.offers import (
-    MOST_KIN,
-    SHOWN_BLOCKED,
-    SHOWN_TURN,
-    TWIN_WAY,
-    TWINS,
-    Offers,
+    BLOCKED_SHOWN_RATIO,
+    DUPLICATE_MOTION_RATIO,
+    DUPLICATE_OBJECT_RATIO,
+    MAX_SHOWN_ANGLE_RAD,
+    MAX_SIMILAR,
+    MotionOffers,
     fits,
     make_offers,
     scored_motions,
@@ -38,7 +38,7 @@ def turn(axis: np.ndarray, origin) -> Motion:
 
 
 @cache
-def case_of(name: str) -> Case:
+def case_of(name: str) -> PartCase:
     return the_case(blocked_door() if name == "blocked" else KNOWN[name].scene)
 
 
@@ -47,7 +47,7 @@ def candidates_of(name: str, asked: Motion | None = None) -> list[Candidate]:
 
 
 @cache
-def offers(name: str, asked: Motion | None = None, kind: JointKind = JointKind.HINGE_ALONG, most: int = MOST) -> Offers:
+def offers(name: str, asked: Motion | None = None, kind: JointKind = JointKind.HINGE_ALONG, most: int = MOST) -> MotionOffers:
     return make_offers(replace(case_of(name), asked=asked, answer=KindAnswer(kind)), most, 0)
 
 
@@ -57,13 +57,13 @@ def shown(name: str, asked: Motion | None, kind: JointKind, most: int = MOST) ->
     return [found.motions[k] for k in sorted(found.first)]
 
 
-def moved(c: Candidate, case: Case, amount: float) -> np.ndarray:
+def moved(c: Candidate, case: PartCase, amount: float) -> np.ndarray:
     T = opening_motion(c).transform(amount)
     points = case.around.part.samples.points[::20]
     return points @ T[:3, :3].T + T[:3, 3] - points
 
 
-def apart(a: Candidate, b: Candidate, case: Case) -> float:
+def apart(a: Candidate, b: Candidate, case: PartCase) -> float:
     """How far apart two motions take a part, both as far as the one that is shown further; in units of what is too near."""
     if a.motion.kind is not b.motion.kind:
         return np.inf
@@ -71,7 +71,7 @@ def apart(a: Candidate, b: Candidate, case: Case) -> float:
     ways = moved(a, case, amount), moved(b, case, amount)
     way = min(float(np.linalg.norm(way, axis=1).mean()) for way in ways)
     off = float(np.linalg.norm(ways[0] - ways[1], axis=1).mean())
-    return off / min(TWINS * case.around.scale, TWIN_WAY * way)
+    return off / min(DUPLICATE_OBJECT_RATIO * case.around.scale, DUPLICATE_MOTION_RATIO * way)
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -108,7 +108,7 @@ def test_lines_that_nobody_can_tell_apart_are_one_however_far_each_is_free(off: 
     found = offers("left", asked)
     along = [c for c in shown("left", asked, JointKind.HINGE_ALONG) if abs(c.motion.axis @ Z) > 0.99 and c.is_free]
     at_left = [c for c in along if c.motion.origin[0] < 0.1]
-    assert 1 <= len(at_left) <= MOST_KIN
+    assert 1 <= len(at_left) <= MAX_SIMILAR
     assert found.answered is not None
     assert found.motions[found.answered].role != "asked"  # the door's own edge stands for it
 
@@ -210,7 +210,7 @@ def test_an_answer_that_repeats_a_line_of_the_part_takes_its_place_from_no_other
 
 
 def test_what_was_answered_speaks_for_motions_of_its_kind() -> None:
-    turns = {kind for kind in JointKind if kind.turns}
+    turns = {kind for kind in JointKind if kind.is_rotation}
     for c in candidates_of("drawer"):
         kinds = {kind for kind in JointKind if kind is not JointKind.FIXED and fits(c, kind)}
         slides = {JointKind.SLIDE_OUT if abs(c.motion.axis @ Y) > 0.7 else JointKind.SLIDE_ALONG}
@@ -219,8 +219,8 @@ def test_what_was_answered_speaks_for_motions_of_its_kind() -> None:
 
 def test_pictures_show_as_much_of_a_motion_as_is_free_and_no_more_than_is_clear() -> None:
     free, stuck = (candidates_of("left", asked)[0] for asked in (FAR_SIDE, THROUGH))
-    assert shown_amount(free, case_of("left")) == pytest.approx(SHOWN_TURN)
-    assert shown_amount(stuck, case_of("left")) == pytest.approx(SHOWN_BLOCKED * SHOWN_TURN)
+    assert shown_amount(free, case_of("left")) == pytest.approx(MAX_SHOWN_ANGLE_RAD)
+    assert shown_amount(stuck, case_of("left")) == pytest.approx(BLOCKED_SHOWN_RATIO * MAX_SHOWN_ANGLE_RAD)
 
 
 def test_a_button_is_shown_pressed() -> None:

@@ -27,7 +27,7 @@ from anymesh.correcting import (
 )
 from anymesh.errors import OutputError
 from anymesh.run_folder import RunFolder
-from anymesh.stage_results import JOINTS, Jointed
+from anymesh.stage_results import JOINTS, JointResult
 from anymesh.types import JointType
 
 NOW = "2024-05-01T12:00:00+00:00"
@@ -183,7 +183,7 @@ def test_no_run_takes_corrections_away(tmp_path):
     save_asset(corrected(open_asset(folder), FlipSign("door")))
     kept = content(folder)
     with pytest.raises(OutputError, match="corrected by hand"), RunFolder.open(folder) as run:
-        run.save(JOINTS, "new", Jointed((), "geometry"))
+        run.save(JOINTS, "new", JointResult((), "geometry"))
     with pytest.raises(OutputError, match="corrected by hand"):
         RunFolder.create(folder, source=tmp_path / "mesh.glb", force=True)
     assert content(folder) == kept

@@ -10,7 +10,7 @@ from assets import box, mesh_of
 
 from anymesh.config import Config, GroundingConfig, ViewsConfig
 from anymesh.evaluation.guessing import Guesser
-from anymesh.reasoning.asking import Seer
+from anymesh.reasoning.asking import VisualAnswerer
 from anymesh.reasoning.grounding import WhichMarks, WhichViews
 from anymesh.reasoning.recognition import Recognize
 from anymesh.solving import solve
@@ -27,7 +27,7 @@ def test_guesses_are_valid_and_the_same_for_a_seed(consistent: bool) -> None:
         WhichViews((), ("door", "lid"), REGION),
         WhichMarks((), ("door", "lid"), consistent, REGION, REGION, splittable=consistent),
     ]
-    assert isinstance(Guesser(0), Seer)
+    assert isinstance(Guesser(0), VisualAnswerer)
     for seed in range(20):
         first, second = Guesser(seed), Guesser(seed)
         for question in questions:
@@ -40,7 +40,7 @@ def test_whatever_is_answered_there_is_a_result() -> None:
     mesh, _ = mesh_of(
         [flat, box((0, 0, 0), (1, 1, 1)), box((0, -0.1, 0.5), (1, -0.01, 1)), box((0.3, 0.3, 0.3), (0.6, 0.6, 0.6))]
     )  # fmt: skip
-    segmentation, joints = solve(mesh, config=QUICK, see=lambda _: Guesser(0, pictured=True))
+    segmentation, joints = solve(mesh, config=QUICK, answerer_factory=lambda _: Guesser(0, pictured=True))
     assert len(joints) == len(segmentation.parts) - 1
     assert len(segmentation.face_part) == len(mesh.faces)
 

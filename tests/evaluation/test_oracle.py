@@ -10,9 +10,9 @@ from assets import cabinet
 from anymesh.evaluation.oracle import Noisy, oracle, true_reference
 from anymesh.evaluation.truth import Subject, TrueJoint, Truth
 from anymesh.geometry.kinematics import joint_transform
-from anymesh.reasoning.asking import Seer
+from anymesh.reasoning.asking import VisualAnswerer
 from anymesh.reasoning.grounding import WhichMarks
-from anymesh.reasoning.knowing import Knowing, KnownJoint, Reference
+from anymesh.reasoning.knowing import Reference, ReferenceAnswerer, ReferenceJoint
 from anymesh.reasoning.prompting import (
     ArrowTable,
     JointKind,
@@ -79,8 +79,8 @@ def test_a_part_without_a_word_for_it_is_named_by_its_motion() -> None:
 
 def test_the_oracle_knows_the_truth() -> None:
     seer = oracle(subject(TURNED))
-    assert isinstance(seer, Seer)
-    assert (seer.name, seer.blind) == ("oracle", True)
+    assert isinstance(seer, VisualAnswerer)
+    assert (seer.name, seer.needs_images) == ("oracle", False)
     faces = np.flatnonzero(ASSET.segmentation.face_part == 2)
     shown = PartShown("part", faces, ASSET.mesh.triangles[faces].reshape(-1, 3), -Y, Y, np.zeros((1, 3)))
     (kind,) = seer.ask(WhichKinds((), (shown,)))
@@ -88,8 +88,10 @@ def test_the_oracle_knows_the_truth() -> None:
 
 
 # One door of a hundred faces with a hinge along z: what is asked, and what is right, is plain.
-HINGE = KnownJoint(JointType.REVOLUTE, Z, np.zeros(3), (0.0, 1.5))
-KNOWN = Knowing("oracle", lambda: Reference("x", 1.0, np.ones(100, int), np.ones(100), ("base", "door"), (0, 0), (None, HINGE)))
+HINGE = ReferenceJoint(JointType.REVOLUTE, Z, np.zeros(3), (0.0, 1.5))
+KNOWN = ReferenceAnswerer(
+    "oracle", lambda: Reference("x", 1.0, np.ones(100, int), np.ones(100), ("base", "door"), (0, 0), (None, HINGE))
+)
 DOOR = PartShown("door", np.arange(100), np.stack([0 * X, X, Z, X + Z]), -Y, Y, np.zeros((1, 3)))
 CORNERS = np.array([[1, 0, 0], [0, 0, 0], [1, 0, 1], [0, 0, 1], [1, 0, 0.5]])
 TURNS = tuple(Motion(MotionKind.REVOLUTE, a, np.asarray(o, float), "") for a, o in ((X, 0 * X), (Z, 0 * X), (Z, X)))
@@ -121,7 +123,7 @@ def items(answer: Any) -> list[Any]:
 @pytest.mark.parametrize("name", QUESTIONS)
 def test_without_errors_it_is_the_oracle(name: str) -> None:
     assert noisy(0.0).ask(QUESTIONS[name]) == KNOWN.ask(QUESTIONS[name])
-    assert isinstance(noisy(0.0), Seer)
+    assert isinstance(noisy(0.0), VisualAnswerer)
 
 
 @pytest.mark.parametrize("name", QUESTIONS)

@@ -18,7 +18,7 @@ from anymesh.evaluation.truth import Truth, example_truths
 from anymesh.evaluation.voice import Spoken
 from anymesh.export.asset_json import schema
 from anymesh.loading import load_mesh, place_mesh
-from anymesh.solving import Solver
+from anymesh.solving import ArticulationSolver
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 NAME = "storage_box"
@@ -29,7 +29,7 @@ Said = dict[str, tuple[str, str]]  # question -> its kind and the answer
 def perfect(truth: Truth) -> Said:
     """What a perfect model says to each question about an object."""
     placed = place_mesh(load_mesh(truth.mesh))
-    solver = Solver(placed.mesh, FEW(), lambda instead: Spoken(oracle(prepared(truth)), instead))
+    solver = ArticulationSolver(placed.mesh, FEW(), lambda instead: Spoken(oracle(prepared(truth)), instead))
     recognized = solver.recognize()
     segmented = solver.parts("auto", recognized.recognition)
     jointed = solver.joints(segmented.segmentation, recognized.recognition, grounded=True)

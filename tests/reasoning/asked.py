@@ -117,7 +117,7 @@ ASKED = {
         (KindAnswer(JointKind.HINGE_INTO, True), KindAnswer(JointKind.SLIDE_OUT, False)),
     ),
     "points": Asked(
-        WhichPoints((PICTURE,) * 3, tuple(table(kind, 4) for kind in JointKind if kind.turns)),
+        WhichPoints((PICTURE,) * 3, tuple(table(kind, 4) for kind in JointKind if kind.is_rotation)),
         parts({"part": 3, "points": [2]}, {"part": 1, "points": [4, 1, 4]}, {"part": 2, "points": [3]}),
         ((3, 0), (2,), (1,)),
     ),

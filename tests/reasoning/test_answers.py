@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from anymesh.reasoning.geometry import OFFSET, SLOPE, GeometryAnswerer, same_joints, share_of_best
+from anymesh.reasoning.geometry import CALIBRATION_SLOPE, OFFSET, GeometryAnswerer, same_joints, share_of_best
 from anymesh.reasoning.questions import Candidate, MotionAnswer, MotionQuestion, PartFacts
-from anymesh.reasoning.two_steps import MOST, confidence_of
+from anymesh.reasoning.two_steps import MAX_CONFIDENCE, confidence_of
 from anymesh.types import JointType, Motion, MotionKind, Sweep
 
 WHO = GeometryAnswerer()
@@ -45,7 +45,7 @@ def candidate(role: str, kind: MotionKind, axis, **changes) -> Candidate:
     return replace(made, **changes)
 
 
-EDGE = candidate("edge", MotionKind.REVOLUTE, Z, support=1.0)
+EDGE = candidate("edge", MotionKind.REVOLUTE, Z, hinge_support=1.0)
 FAR_EDGE = replace(EDGE, motion=Motion(MotionKind.REVOLUTE, Z, X, "the other edge"))
 PULL = candidate("slide", MotionKind.PRISMATIC, Y)
 ROUND = candidate("round", MotionKind.REVOLUTE, Y, closing=np.pi)
@@ -71,20 +71,20 @@ def question(*candidates: Candidate) -> MotionQuestion:
 
 def test_motions_are_the_same_joint_about_one_line_to_one_side() -> None:
     near = replace(EDGE, motion=Motion(MotionKind.REVOLUTE, Z, 0.01 * X, "nearly the same edge"))
-    against = replace(EDGE, opens=-EDGE.opening_sign)
+    against = replace(EDGE, opening_sign=-EDGE.opening_sign)
     slid = replace(PULL, motion=Motion(MotionKind.PRISMATIC, Y, X, "elsewhere"))  # where a slide starts says nothing
     assert same_joints(question(EDGE, FAR_EDGE, near, against), 0).tolist() == [True, False, True, False]
     assert same_joints(question(PULL, slid, EDGE), 0).tolist() == [True, True, False]
-    assert same_joints(question(ROUND, replace(ROUND, opens=-1)), 0).tolist() == [True, True]  # turns freely: no side
+    assert same_joints(question(ROUND, replace(ROUND, opening_sign=-1)), 0).tolist() == [True, True]  # turns freely: no side
 
 
 def test_the_confidence_grows_with_the_share_of_the_best_motion() -> None:
     assert share_of_best(np.zeros(4), np.array([True, True, False, False])) == pytest.approx(0.5)
     told = [asked(PLATE, [EDGE, FAR_EDGE], [lead, 0.0]).confidence for lead in (0.0, 0.5, 1.0, 3.0, 40.0)]
     assert told == sorted(told)
-    assert told[0] == pytest.approx(confidence_of(0.0, SLOPE, OFFSET))
-    assert told[3] == pytest.approx(confidence_of(3.0, SLOPE, OFFSET))
-    assert told[-1] == MOST
+    assert told[0] == pytest.approx(confidence_of(0.0, CALIBRATION_SLOPE, OFFSET))
+    assert told[3] == pytest.approx(confidence_of(3.0, CALIBRATION_SLOPE, OFFSET))
+    assert told[-1] == MAX_CONFIDENCE
 
 
 def test_what_turns_endlessly_is_continuous_and_what_is_stopped_is_not() -> None:

@@ -8,7 +8,7 @@ from asked import ASKED, DOOR, KNOB, TRAY, marks, parts, picks
 
 from anymesh.reasoning.asking import BadAnswerError, check_schema
 from anymesh.reasoning.grounding import WhichMarks
-from anymesh.reasoning.recognition import MOST_LABELS
+from anymesh.reasoning.recognition import MAX_LABELS
 
 
 def joints(*rows: tuple[int, str]) -> dict[str, Any]:
@@ -102,9 +102,9 @@ def test_words_outside_the_schema_do_not_get_as_far_as_the_parser() -> None:
 
 
 def test_too_many_labels_are_refused() -> None:
-    rows = [{**TRAY, "label": f"tray {k}"} for k in range(MOST_LABELS + 1)]
+    rows = [{**TRAY, "label": f"tray {k}"} for k in range(MAX_LABELS + 1)]
     question = ASKED["recognize"].question
-    assert len(question.parse({"category": "x", "longest_side_m": 1, "front": 0, "parts": rows[1:]}).labels) == MOST_LABELS
+    assert len(question.parse({"category": "x", "longest_side_m": 1, "front": 0, "parts": rows[1:]}).labels) == MAX_LABELS
     with pytest.raises(BadAnswerError, match="at most 24"):
         question.parse({"category": "x", "longest_side_m": 1, "front": 0, "parts": rows})
 

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from anymesh.reasoning.boosted_trees import LEAF, BoostedTrees
+from anymesh.reasoning.boosted_trees import NO_FEATURE, BoostedTrees
 
 # x0 <= 1 ? -1 : (x1 <= 2 ? 3 : 5), and x1 <= 0 ? 10 : 20; values of inner nodes are means
 TREES = BoostedTrees(
-    feature=np.array([0, LEAF, 1, LEAF, LEAF, 1, LEAF, LEAF], np.int16),
+    feature=np.array([0, NO_FEATURE, 1, NO_FEATURE, NO_FEATURE, 1, NO_FEATURE, NO_FEATURE], np.int16),
     threshold=np.array([1, 0, 2, 0, 0, 0, 0, 0], np.float32),
     left=np.array([1, 1, 3, 3, 4, 6, 6, 7], np.int32),
     right=np.array([2, 1, 4, 3, 4, 7, 6, 7], np.int32),

@@ -9,9 +9,9 @@ from asked import X, Y, Z, part
 
 from anymesh.models.double import Scripted
 from anymesh.reasoning.answer_json import answer_object
-from anymesh.reasoning.asking import Question, Seer
+from anymesh.reasoning.asking import Question, VisualAnswerer
 from anymesh.reasoning.grounding import MarkedPart, MarksAnswer, WhichMarks, WhichViews
-from anymesh.reasoning.knowing import Knowing, KnownJoint, Reference
+from anymesh.reasoning.knowing import Reference, ReferenceAnswerer, ReferenceJoint
 from anymesh.reasoning.prompting import (
     ArrowTable,
     JointKind,
@@ -30,10 +30,10 @@ from anymesh.reasoning.vlm import VlmAnswerer
 from anymesh.types import JointType, Motion, MotionKind
 from anymesh.types.recognition import Moves, RecognizedLabel
 
-HINGE = KnownJoint(JointType.REVOLUTE, Z, np.zeros(3), (0.0, 1.5))
-SLIDE = KnownJoint(JointType.PRISMATIC, -2 * Y, np.zeros(3), (0.0, 0.3))
-SPIN = KnownJoint(JointType.CONTINUOUS, Y, np.array([0.2, 0, 0.2]), None)
-FIXED = KnownJoint(JointType.FIXED, np.zeros(3), np.zeros(3), None)
+HINGE = ReferenceJoint(JointType.REVOLUTE, Z, np.zeros(3), (0.0, 1.5))
+SLIDE = ReferenceJoint(JointType.PRISMATIC, -2 * Y, np.zeros(3), (0.0, 0.3))
+SPIN = ReferenceJoint(JointType.CONTINUOUS, Y, np.array([0.2, 0, 0.2]), None)
+FIXED = ReferenceJoint(JointType.FIXED, np.zeros(3), np.zeros(3), None)
 # Ten faces a part: the base, two doors, a drawer, a knob on the panel of the second door, that panel.
 LABELS = ("base", "door", "door", "drawer", "knob", "panel")
 KNOWN = Reference(
@@ -50,11 +50,11 @@ BASE, DOOR, OTHER, DRAWER, KNOB, PANEL = (10 * k for k in range(6))  # the first
 
 def ask(question: Question[Any], known: Reference = KNOWN) -> Any:
     """The answer; a model that writes it down is understood to mean the same."""
-    knowing = Knowing("oracle", lambda: known)
+    knowing = ReferenceAnswerer("oracle", lambda: known)
     answer = knowing.ask(question)
     reader = VlmAnswerer(Scripted([answer_object(question, answer)]), knowing)
     assert reader.ask(question) == answer
-    assert reader.remarks == ()
+    assert reader.warnings == ()
     return answer
 
 
@@ -70,8 +70,8 @@ def shown(first: int, label: str = "part", **changes: Any) -> PartShown:
 
 def test_it_is_made_when_it_is_first_asked() -> None:
     made = []
-    seer = Knowing("oracle", lambda: made.append(1) or KNOWN)
-    assert isinstance(seer, Seer)
+    seer = ReferenceAnswerer("oracle", lambda: made.append(1) or KNOWN)
+    assert isinstance(seer, VisualAnswerer)
     assert made == []
     for _ in range(2):
         seer.ask(Recognize(()))
@@ -94,7 +94,7 @@ def test_parts_of_one_label_that_move_differently_are_told_apart() -> None:
 
 
 def test_limits_go_with_the_way_that_opens() -> None:
-    turned = KnownJoint(JointType.REVOLUTE, Z, np.zeros(3), (-1.5, 0.1))
+    turned = ReferenceJoint(JointType.REVOLUTE, Z, np.zeros(3), (-1.5, 0.1))
     found = ask(Recognize(()), replace(KNOWN, joints=(None, turned, *KNOWN.joints[2:])))
     assert found.labels[0].limits == (-0.1, 1.5)
     assert turned.motion.axis == pytest.approx(-Z)

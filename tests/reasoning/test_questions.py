@@ -10,10 +10,10 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from anymesh.errors import OptionError
-from anymesh.reasoning.asking import BadAnswerError, Seer, check_schema
+from anymesh.reasoning.asking import BadAnswerError, VisualAnswerer, check_schema
 from anymesh.reasoning.grounding import MarkedPart, MarksAnswer, WhichMarks, WhichViews
 from anymesh.reasoning.prompting import JointKind, WhichPoints
-from anymesh.reasoning.recognition import recognize, told_labels
+from anymesh.reasoning.recognition import parse_labels, recognize
 from anymesh.types.recognition import RecognizedLabel
 
 
@@ -83,14 +83,14 @@ def test_one_candidate_point_is_enough_where_there_is_no_other() -> None:
 
 def test_labels_that_a_user_told_are_not_asked_for() -> None:
     class Nobody:
-        name, blind = "nobody", False
-        exchanges = remarks = ()
+        name, needs_images = "nobody", True
+        exchanges = warnings = ()
 
         def ask(self, question):
             raise AssertionError("asked")
 
-    assert isinstance(Nobody(), Seer)
-    told = told_labels([" Oven  Door", "knob"])
+    assert isinstance(Nobody(), VisualAnswerer)
+    told = parse_labels([" Oven  Door", "knob"])
     found = recognize(lambda: (), Nobody(), None, told)
     assert found.labels == tuple(RecognizedLabel(label, None, None, None) for label in ("oven door", "knob"))
     assert (found.category, found.size) == ("object", None)
@@ -99,7 +99,7 @@ def test_labels_that_a_user_told_are_not_asked_for() -> None:
 @pytest.mark.parametrize("labels", [["Tür"], ["base"], ["door", "Door"], [""]])
 def test_labels_that_a_user_told_are_checked(labels: list[str]) -> None:
     with pytest.raises(OptionError, match="--parts-list: "):
-        told_labels(labels)
+        parse_labels(labels)
 
 
 @pytest.mark.parametrize("name", ASKED)

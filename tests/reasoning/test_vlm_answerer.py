@@ -12,7 +12,7 @@ from anymesh.models.budget import Budgeted
 from anymesh.models.cache import Cached, request_key
 from anymesh.models.double import Scripted
 from anymesh.models.patience import Patience
-from anymesh.reasoning.asking import Seer
+from anymesh.reasoning.asking import VisualAnswerer
 from anymesh.reasoning.vlm import SYSTEM, VlmAnswerer
 
 ARROWS = ASKED["arrows"].question  # one part, four arrows
@@ -47,8 +47,8 @@ FAULTS = {
 class Other:
     """Answers in the place of a model; asked: what it was asked."""
 
-    name, blind = "geometry", True
-    exchanges = remarks = ()
+    name, needs_images = "geometry", False
+    exchanges = warnings = ()
 
     def __init__(self) -> None:
         self.asked: list[Any] = []
@@ -67,8 +67,8 @@ def asked(*answers) -> tuple[Any, VlmAnswerer, Scripted, Other]:
 def test_a_good_answer_is_taken_and_kept_with_what_it_was_asked_with() -> None:
     answer, seer, model, other = asked(GOOD)
     (request,), (exchange,) = model.requests, seer.exchanges
-    assert isinstance(seer, Seer)
-    assert (answer, seer.remarks, other.asked, seer.name) == ((3,), (), [], "openai:gpt-4o")
+    assert isinstance(seer, VisualAnswerer)
+    assert (answer, seer.warnings, other.asked, seer.name) == ((3,), (), [], "openai:gpt-4o")
     assert (request.kind, request.system, request.text) == ("arrows", SYSTEM, ARROWS.text())
     assert (request.pictures, request.schema) == (ARROWS.pictures, ARROWS.schema())
     assert (exchange.pictures, exchange.text, json.loads(exchange.answer)) == (ARROWS.pictures, ARROWS.text(), GOOD)
@@ -80,7 +80,7 @@ def test_a_bad_answer_is_asked_again_with_what_was_wrong(fault: str) -> None:
     bad, words = FAULTS[fault]
     answer, seer, model, other = asked(bad, GOOD)
     first, second = model.requests
-    assert (answer, seer.remarks, other.asked) == ((3,), (), [])
+    assert (answer, seer.warnings, other.asked) == ((3,), (), [])
     assert second.text.startswith(first.text)
     assert words in second.text
     assert len(second.text) < len(first.text) + 250
@@ -96,7 +96,7 @@ def test_after_two_bad_answers_another_answers_that_question_and_it_is_told(faul
     bad, words = FAULTS[fault]
     answer, seer, model, other = asked("Nein.", bad)
     assert (answer, other.asked, len(model.requests)) == ((2,), [ARROWS], 2)
-    (remark,) = seer.remarks
+    (remark,) = seer.warnings
     assert [w for w in ("openai:gpt-4o", "'arrows'", words, "geometry answered it") if w not in remark] == []
     assert len(remark) < 250
     assert "no JSON" in seer.exchanges[0].verdict
@@ -108,7 +108,7 @@ def test_only_the_question_that_went_wrong_is_answered_by_another() -> None:
     model, other = Scripted([GOOD, "", "", GOOD]), Other()
     seer = VlmAnswerer(model, other)
     assert [seer.ask(ARROWS) for _ in range(3)] == [(3,), (2,), (3,)]
-    assert (len(other.asked), len(seer.remarks), len(seer.exchanges)) == (1, 1, 4)
+    assert (len(other.asked), len(seer.warnings), len(seer.exchanges)) == (1, 1, 4)
 
 
 def test_exchanges_carry_the_keys_of_what_was_asked_and_no_two_are_alike() -> None:
@@ -123,7 +123,7 @@ def test_what_is_kept_of_a_bad_answer_does_not_answer_the_second_time(tmp_path: 
     model = Scripted([bad, GOOD])
     for _ in range(2):  # the second round is all from the cache
         seer = VlmAnswerer(Cached(model, tmp_path), Other())
-        assert (seer.ask(ARROWS), seer.remarks) == ((3,), ())
+        assert (seer.ask(ARROWS), seer.warnings) == ((3,), ())
     assert len(model.requests) == 2
     assert [e.cached for e in seer.exchanges] == [True, True]
 
@@ -150,6 +150,6 @@ def test_a_model_is_given_up_after_three_bad_answers_in_a_row_and_that_is_said_o
     assert not patience.lost
     assert [second.ask(ARROWS) for _ in range(3)] == [(2,)] * 3
     assert len(model.requests) == 5  # the good answer that is left is never asked for
-    assert sum("given up" in told for told in (*first.remarks, *second.remarks)) == 1
+    assert sum("given up" in told for told in (*first.warnings, *second.warnings)) == 1
     assert [e.skipped for e in second.exchanges] == [False, True, True]
     assert all(e.given_up for e in second.exchanges)

@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from anymesh.reasoning.vocabulary import FIXED, WORDS, Habit, habit_of, is_fixed_name, recognize, words_of
+from anymesh.reasoning.vocabulary import FIXED, WORDS, TypicalMotion, is_fixed_name, recognize, typical_motion, words_of
 
 
 @pytest.mark.parametrize(
@@ -58,7 +58,7 @@ def test_names_that_speak_of_a_part(name: str, label: str | None) -> None:
 def test_names_that_mean_nothing(name: str) -> None:
     assert recognize(name) is None
     assert not is_fixed_name(name)
-    assert habit_of(name) is None
+    assert typical_motion(name) is None
 
 
 @pytest.mark.parametrize("name", ["chassis", "Corpus_01", "CHASSIS", "lower_shelves", "glass panels", "bodies"])
@@ -104,5 +104,5 @@ def test_no_word_is_in_two_kinds() -> None:
     names = [n for w in WORDS for n in w.names]
     assert len(names) == len(set(names))
     assert not FIXED & set(names)
-    assert all(habit_of(w.label) is w.habit for w in WORDS)
-    assert Habit.NONE not in {w.habit for w in WORDS}
+    assert all(typical_motion(w.label) is w.motion for w in WORDS)
+    assert TypicalMotion.NONE not in {w.motion for w in WORDS}

@@ -12,14 +12,14 @@ from anymesh.segmentation.contacts import coplanar, find_contacts
 from anymesh.segmentation.part_assignment import LEAST
 from anymesh.segmentation.part_tree import Overlap, PartTree
 from anymesh.segmentation.units import Units, with_held
-from anymesh.solving import Solver
+from anymesh.solving import ArticulationSolver
 from anymesh.types import Segmentation
 
 BODY = box((0, 0.02, 0), (1, 0.5, 1))
 
 
 def parts(pieces, **settings) -> Segmentation:
-    return Solver(mesh_of(pieces)[0], Config(segmentation=SegmentationConfig(**settings))).parts().segmentation
+    return ArticulationSolver(mesh_of(pieces)[0], Config(segmentation=SegmentationConfig(**settings))).parts().segmentation
 
 
 @pytest.mark.parametrize(("width", "joined"), [(0.4, False), (0.12, True)])

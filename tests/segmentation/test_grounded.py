@@ -15,8 +15,8 @@ from anymesh.evaluation.truth import Truth, example_truths
 from anymesh.loading import load_mesh, place_mesh
 from anymesh.rendering.viewpoints import part_pixels
 from anymesh.segmentation import grounded
-from anymesh.solving import Solver
-from anymesh.stage_results import Segmented
+from anymesh.solving import ArticulationSolver
+from anymesh.stage_results import SegmentationResult
 from anymesh.types import Mesh, Segmentation
 from anymesh.types.recognition import Recognition, RecognizedLabel
 
@@ -24,10 +24,12 @@ TRUTHS = {t.name: t for t in example_truths(Path(__file__).parents[2] / "example
 FEW, VIEWS = GroundingConfig(points=20_000), ViewsConfig(size=320)
 
 
-def found_in(name: str, proposer: str = "exact") -> tuple[Truth, Mesh, Segmented]:
+def found_in(name: str, proposer: str = "exact") -> tuple[Truth, Mesh, SegmentationResult]:
     truth = TRUTHS[name]
     placed = place_mesh(load_mesh(truth.mesh))
-    solver = Solver(placed.mesh, Config(grounding=FEW, views=VIEWS, proposer=proposer), lambda _: oracle(prepared(truth)))
+    solver = ArticulationSolver(
+        placed.mesh, Config(grounding=FEW, views=VIEWS, proposer=proposer), lambda _: oracle(prepared(truth))
+    )
     return truth, placed.mesh, solver.parts("auto", solver.recognize().recognition)
 
 
@@ -48,7 +50,7 @@ def test_marks_become_parts_those_inside_too() -> None:
 def test_geometry_finds_what_is_inside_where_nobody_was_asked_for_it() -> None:
     truth = TRUTHS["microwave"]
     placed = place_mesh(load_mesh(truth.mesh))
-    solver = Solver(placed.mesh, Config(grounding=FEW, views=VIEWS), lambda _: oracle(prepared(truth)))
+    solver = ArticulationSolver(placed.mesh, Config(grounding=FEW, views=VIEWS), lambda _: oracle(prepared(truth)))
     asked = [label for label in solver.recognize().recognition.labels if label.label != "wheel"]
     found = solver.parts("auto", Recognition("microwave", None, tuple(asked)))
     assert "wheel" in ious(truth, placed.mesh, found.segmentation) or len(found.segmentation.parts) == len(truth.parts)
@@ -93,7 +95,7 @@ def test_masks_of_a_model_become_parts_by_partslip(name: str, monkeypatch: pytes
 def test_what_is_expected_and_not_there_is_told() -> None:
     truth = TRUTHS["tilted_drawer"]
     placed = place_mesh(load_mesh(truth.mesh))
-    solver = Solver(placed.mesh, Config(grounding=FEW, views=VIEWS), lambda _: oracle(prepared(truth)))
+    solver = ArticulationSolver(placed.mesh, Config(grounding=FEW, views=VIEWS), lambda _: oracle(prepared(truth)))
     asked = [RecognizedLabel(label, None, None, None) for label in ("drawer", "trapdoor")]
     found = solver.parts("auto", Recognition("cabinet", None, tuple(asked)))
     assert [p.label for p in found.segmentation.parts] == ["base", "drawer"]
@@ -104,12 +106,12 @@ def test_where_nothing_moves_nothing_is_asked() -> None:
     placed = place_mesh(load_mesh(TRUTHS["table"].mesh))
 
     class Silent:
-        name, blind, exchanges, remarks = "silent", True, (), ()
+        name, needs_images, exchanges, warnings = "silent", False, (), ()
 
         def ask(self, question):
             raise AssertionError(f"asked {question.kind}")
 
-    found = Solver(placed.mesh, Config(grounding=FEW, views=VIEWS), lambda _: Silent()).parts(
+    found = ArticulationSolver(placed.mesh, Config(grounding=FEW, views=VIEWS), lambda _: Silent()).parts(
         "auto", Recognition("table", None, ())
     )
     assert [p.name for p in found.segmentation.parts] == ["base"]

@@ -8,7 +8,7 @@ from assets import box, mesh_of
 
 from anymesh.config import Config, GroundingConfig, ViewsConfig
 from anymesh.reasoning.grounding import MarkedPart, MarksAnswer, WhichMarks, WhichViews
-from anymesh.rendering.studio import Studio
+from anymesh.rendering.studio import VisualPrompts
 from anymesh.segmentation import ask_marks
 from anymesh.segmentation.ask_marks import Asked, ask_exact, ask_masks
 from anymesh.segmentation.grounded import _lost
@@ -22,8 +22,8 @@ BODY = box((0, 0, 0), (1, 1, 1))
 KEYS = [box((x, -0.2, z), (x + 0.08, 0, z + 0.08)) for x in np.arange(0, 1, 0.125) for z in np.arange(0, 1, 0.125)]
 
 
-def studio_of(mesh: Mesh) -> Studio:
-    return Studio(mesh, Config(views=VIEWS, grounding=GroundingConfig(points=20_000)))
+def studio_of(mesh: Mesh) -> VisualPrompts:
+    return VisualPrompts(mesh, Config(views=VIEWS, grounding=GroundingConfig(points=20_000)))
 
 
 def drawn_in(regions: tuple[np.ndarray, ...]) -> set[int]:
@@ -31,7 +31,7 @@ def drawn_in(regions: tuple[np.ndarray, ...]) -> set[int]:
 
 
 @cache
-def keyboard() -> tuple[Studio, np.ndarray]:
+def keyboard() -> tuple[VisualPrompts, np.ndarray]:
     mesh, piece = mesh_of([BODY, *KEYS])
     return studio_of(mesh), piece
 
@@ -63,7 +63,7 @@ def test_a_keyboard_is_shown_in_close_ups_with_every_key() -> None:
 class Points:
     """Answers that every mark but the first is a key of its own; asks to split what it is told to."""
 
-    name, blind, exchanges, remarks = "points", True, (), ()
+    name, needs_images, exchanges, warnings = "points", False, (), ()
 
     def __init__(self, split: tuple[int, ...] = ()) -> None:
         self.asked: list[WhichMarks] = []
@@ -112,7 +112,7 @@ def test_views_of_masks_are_numbered_as_the_pictures_are() -> None:
     studio, asked = studio_of(mesh), []
 
     class Two(Points):
-        blind = False
+        needs_images = True
 
         def ask(self, question):
             asked.append(question)

@@ -10,7 +10,7 @@ from assets import box, mesh_of
 
 from anymesh.config import Config, GroundingConfig, ViewsConfig
 from anymesh.reasoning.grounding import MarkedPart, MarksAnswer
-from anymesh.reasoning.knowing import Knowing, KnownJoint, Reference
+from anymesh.reasoning.knowing import Reference, ReferenceAnswerer, ReferenceJoint
 from anymesh.reasoning.prompting import PartFit
 from anymesh.solving import solve
 from anymesh.types import JointType
@@ -24,10 +24,10 @@ QUICK = Config(views=ViewsConfig(around="4@15+30,1@50+30", size=240), grounding=
 class Scripted:
     """Answers from the truth, but for the first answer about marks, and says once which part is wrong."""
 
-    name, blind, exchanges, remarks = "scripted", True, (), ()
+    name, needs_images, exchanges, warnings = "scripted", False, (), ()
 
     def __init__(self, reference: Reference, fit: PartFit) -> None:
-        self.knows, self.fit, self.asked = Knowing("truth", lambda: reference), fit, []
+        self.knows, self.fit, self.asked = ReferenceAnswerer("truth", lambda: reference), fit, []
 
     def ask(self, question):
         first = all(q.kind != question.kind for q in self.asked)
@@ -64,11 +64,11 @@ def test_a_wrong_part_goes_back_to_the_marks_and_is_solved_again(fit: PartFit) -
     mesh, piece = mesh_of([*CASE, *DOORS, *KNOBS])
     truth = np.array([0, 1, 2, 1, 2])[piece]
     z = np.array([0.0, 0.0, 1.0])
-    joints = (None, KnownJoint(JointType.REVOLUTE, -z, np.array([0, -0.015, 0.3]), (0.0, 1.5)),
-              KnownJoint(JointType.REVOLUTE, z, np.array([0.6, -0.015, 0.3]), (0.0, 1.5)))  # fmt: skip
+    joints = (None, ReferenceJoint(JointType.REVOLUTE, -z, np.array([0, -0.015, 0.3]), (0.0, 1.5)),
+              ReferenceJoint(JointType.REVOLUTE, z, np.array([0.6, -0.015, 0.3]), (0.0, 1.5)))  # fmt: skip
     reference = Reference("cabinet", 0.6, truth, mesh.face_areas, ("base", "door", "door"), (0, 0, 0), joints)
     seer = Scripted(reference, fit)
-    segmentation, found = solve(mesh, config=QUICK, see=lambda _: seer)
+    segmentation, found = solve(mesh, config=QUICK, answerer_factory=lambda _: seer)
     kinds = [q.kind for q in seer.asked]
     assert kinds.count("marks") == 2
     again = [q for q in seer.asked if q.kind == "marks"][1]

@@ -16,15 +16,15 @@ from anymesh.rendering.points import labels_apart
 from anymesh.types import Motion
 
 Project = Callable[[Float[np.ndarray, "n 3"]], Float[np.ndarray, "n 2"]]  # points [m] to pixels of the picture that is shown
-MOST_POINTS = 4000  # of a connecting area that are clustered
-INTO = 0.7  # cosine with the opening direction from which an axis sticks into the surface
+MAX_POINTS = 4000  # of a connecting area that are clustered
+MIN_NORMAL_COSINE = 0.7  # cosine with the opening direction from which an axis sticks into the surface
 
 
 def cluster_points(contact: Float[np.ndarray, "n 3"], project: Project, config: PromptConfig) -> Float[np.ndarray, "k 3"]:
     """Return the centres of the connecting area's clusters: as many as keep their numbers apart in the picture."""
     from scipy.cluster.vq import kmeans2  # takes .1 s to import, and only a model's questions need it
 
-    points = contact[:: max(1, len(contact) // MOST_POINTS)]
+    points = contact[:: max(1, len(contact) // MAX_POINTS)]
     order = _farthest(points, min(config.most_candidates, len(points)))
     best = points.mean(0)[None]
     for k in range(2, len(order) + 1):
@@ -44,7 +44,7 @@ def axis_points(
     points, directions = np.zeros((0, 3)), np.zeros((0, 3))
     for motion in axes:
         sign = 1.0 if motion.axis @ around.opening_direction >= 0 else -1.0
-        if abs(float(motion.axis @ around.opening_direction)) < INTO or len(points) >= config.most_candidates // 2:
+        if abs(float(motion.axis @ around.opening_direction)) < MIN_NORMAL_COSINE or len(points) >= config.most_candidates // 2:
             continue
         reach = float(((around.part.corners - motion.origin) @ (sign * motion.axis)).max())
         more = np.concatenate([points, (motion.origin + reach * sign * motion.axis)[None]])

@@ -8,23 +8,23 @@ from dataclasses import dataclass
 import numpy as np
 
 from anymesh.articulation.decode import plane_normal
-from anymesh.articulation.estimate import surroundings
-from anymesh.articulation.own_axes import round_pieces
+from anymesh.articulation.estimate import part_context
+from anymesh.articulation.own_axes import round_patches
 from anymesh.articulation.tree import descendants, parents
-from anymesh.articulation.twins import agree, same_size
+from anymesh.articulation.twins import same_size, share_opening_directions
 from anymesh.config import Config
 from anymesh.geometry.pieces import ObjectShape
 from anymesh.geometry.surroundings import PartContext
-from anymesh.reasoning.asking import Answer, Question, Seer
+from anymesh.reasoning.asking import Answer, Question, VisualAnswerer
 from anymesh.reasoning.prompting import JointKind, KindAnswer, PartShown
 from anymesh.types import Motion, Picture, Segmentation
 from anymesh.types.recognition import BASE, Recognition, RecognizedLabel
 
-MOST_PICTURES = 8  # in one call
+MAX_PICTURES = 8  # in one call
 
 
 @dataclass(frozen=True, eq=False)
-class Case:
+class PartCase:
     """A part on its way to a joint.
 
     number: in the segmentation; carried: parts that hang on it; circles: axes of round pieces; recognized: what recognition
@@ -51,7 +51,9 @@ class Case:
         return self.shown.label
 
 
-def make_cases(whole: ObjectShape, segmentation: Segmentation, recognition: Recognition | None, config: Config) -> list[Case]:
+def make_cases(
+    whole: ObjectShape, segmentation: Segmentation, recognition: Recognition | None, config: Config
+) -> list[PartCase]:
     """A case for every part but the root, in the order of the parts."""
     label = segmentation.face_part[whole.source]
     shapes = [whole.of(np.flatnonzero(label == i)) for i in range(len(segmentation.parts))]
@@ -59,8 +61,8 @@ def make_cases(whole: ObjectShape, segmentation: Segmentation, recognition: Reco
     parent = parents(shapes, whole.diagonal, _answered_parents(segmentation, told))
     arounds = {}
     for numbers in same_size(shapes, parent):
-        some = [surroundings(whole, label, shapes, parent, i, config.articulation) for i in numbers]
-        arounds |= zip(numbers, agree(some), strict=True)
+        some = [part_context(whole, label, shapes, parent, i, config.articulation) for i in numbers]
+        arounds |= zip(numbers, share_opening_directions(some), strict=True)
     found = []
     for i, part in enumerate(segmentation.parts[1:], start=1):
         around = arounds[i]
@@ -75,14 +77,14 @@ def make_cases(whole: ObjectShape, segmentation: Segmentation, recognition: Reco
             diagonal=whole.diagonal,
         )
         carried = tuple(descendants(parent, i))
-        circles = round_pieces(whole, shapes[i], shapes[parent[i]])
+        circles = round_patches(whole, shapes[i], shapes[parent[i]])
         found.append(
-            Case(i, part.name, segmentation.parts[parent[i]].name, carried, around, shown, circles, told.get(part.label))
+            PartCase(i, part.name, segmentation.parts[parent[i]].name, carried, around, shown, circles, told.get(part.label))
         )
     return found
 
 
-def _answered_parents(segmentation: Segmentation, told: Mapping[str, RecognizedLabel]) -> list[set[int]]:
+def _answered_parents(segmentation: Segmentation, recognized: Mapping[str, RecognizedLabel]) -> list[set[int]]:
     """For each part, the indices of its possible parents according to the answers; empty without an answer.
 
     A label that hangs on itself is that of a chain: such parts hang on each other, the first of them on any other part.
@@ -90,7 +92,7 @@ def _answered_parents(segmentation: Segmentation, told: Mapping[str, RecognizedL
     numbers = range(len(segmentation.parts))
     found: list[set[int]] = []
     for i, part in enumerate(segmentation.parts):
-        over = told[part.label].parent if part.label in told else None
+        over = recognized[part.label].parent if part.label in recognized else None
         if over == BASE:
             found.append({0})
         elif over == part.label:
@@ -101,17 +103,19 @@ def _answered_parents(segmentation: Segmentation, told: Mapping[str, RecognizedL
 
 
 def ask_each(
-    seer: Seer,
-    cases: Sequence[Case],
-    picture: Callable[[Case, str], Picture],
-    question: Callable[[tuple[Picture, ...], Sequence[Case]], Question[tuple[Answer, ...]]],
+    answerer: VisualAnswerer,
+    cases: Sequence[PartCase],
+    picture: Callable[[PartCase, str], Picture],
+    question: Callable[[tuple[Picture, ...], Sequence[PartCase]], Question[tuple[Answer, ...]]],
 ) -> dict[int, Answer]:
     """Asks about all cases, MOST_PICTURES in a call, a picture each that is titled with its place; answers by part number."""
     found: dict[int, Answer] = {}
-    for begin in range(0, len(cases), MOST_PICTURES):
-        some = cases[begin : begin + MOST_PICTURES]
+    for begin in range(0, len(cases), MAX_PICTURES):
+        some = cases[begin : begin + MAX_PICTURES]
         titles = [f"part {k}: {case.label}" for k, case in enumerate(some, 1)]
-        pictures = () if seer.blind else tuple(picture(case, title) for case, title in zip(some, titles, strict=True))
-        answers = seer.ask(question(pictures, some))
+        pictures = (
+            tuple(picture(case, title) for case, title in zip(some, titles, strict=True)) if answerer.needs_images else ()
+        )
+        answers = answerer.ask(question(pictures, some))
         found |= {case.number: answer for case, answer in zip(some, answers, strict=True)}
     return found

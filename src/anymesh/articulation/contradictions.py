@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from anymesh.articulation.cases import Case
+from anymesh.articulation.cases import PartCase
 from anymesh.reasoning.prompting import JointKind
 from anymesh.types import Joint, JointType
 from anymesh.types.recognition import Moves
@@ -12,11 +12,11 @@ from anymesh.types.recognition import Moves
 TURNING = (JointType.REVOLUTE, JointType.CONTINUOUS)
 
 
-def contradictions(cases: Sequence[Case], joints: Sequence[Joint]) -> tuple[str, ...]:
+def contradictions(cases: Sequence[PartCase], joints: Sequence[Joint]) -> tuple[str, ...]:
     """Return a warning for each part whose answers (recognized, kind of joint, motion) contradict each other."""
     found = []
     for case, joint in zip(cases, joints, strict=True):
-        told = list(_told(case))
+        told = list(_answered_motion(case))
         kinds = {kind for kind, _ in told} | {_motion(joint.type)}
         if len(kinds) > 1:
             said = ", then ".join(words for _, words in told)
@@ -24,12 +24,12 @@ def contradictions(cases: Sequence[Case], joints: Sequence[Joint]) -> tuple[str,
     return tuple(found)
 
 
-def _told(case: Case) -> Iterator[tuple[str, str]]:
+def _answered_motion(case: PartCase) -> Iterator[tuple[str, str]]:
     moves = case.recognized.moves if case.recognized else None
     if moves is not None:
         yield ("slides" if moves is Moves.PRISMATIC else "turns"), f"recognized as {moves}"
     kind = case.kind
-    yield "fixed" if kind is JointKind.FIXED else "turns" if kind.turns else "slides", kind.value.replace("_", " ")
+    yield "fixed" if kind is JointKind.FIXED else "turns" if kind.is_rotation else "slides", kind.value.replace("_", " ")
 
 
 def _motion(kind: JointType) -> str:

@@ -51,6 +51,6 @@ def surface_directions(around: PartContext) -> Float[np.ndarray, "4 3"]:
     return np.stack([a, -a, b, -b])
 
 
-def slide(direction: Float[np.ndarray, " 3"], around: PartContext, source: str) -> Motion:
+def prismatic(direction: Float[np.ndarray, " 3"], around: PartContext, source: str) -> Motion:
     """A slide of the part along a direction."""
     return Motion(MotionKind.PRISMATIC, direction / np.linalg.norm(direction), around.part.box.center, source)

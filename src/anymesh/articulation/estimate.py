@@ -13,7 +13,7 @@ from anymesh.articulation.hypotheses import propose
 from anymesh.articulation.limits import limits, opening_as_answered, opening_motion
 from anymesh.articulation.motion_classifier import UnscoredMotions
 from anymesh.articulation.tree import descendants, parents
-from anymesh.articulation.twins import agree, in_a_row, same_size
+from anymesh.articulation.twins import in_a_row, same_size, share_opening_directions
 from anymesh.config import ArticulationConfig, Config
 from anymesh.deadline import JOINTS, Deadline
 from anymesh.geometry.pieces import ObjectShape
@@ -23,14 +23,14 @@ from anymesh.geometry.sweep import free_amount
 from anymesh.reasoning.questions import Candidate, MotionAnswer, MotionAnswerer, MotionQuestion
 from anymesh.types import Joint, JointType, Motion, MotionKind, Segmentation
 
-SAME_RIM = 0.01  # share of the scale: hinge lines this near, or as near as the part is thick, are at one rim
-PARALLEL = 0.999  # cosine of their axes
-WIDE = np.deg2rad(110)  # of an opening that a hinge needs no more than
-TIGHT = 0.2  # factor on the penetration that counts: neighbours are a few millimetres away
-MOST_COPIES = 8  # of a part, with whose motions its own are compared
-LIKELIEST = ("bail", "round", "barrel", "edge_mid", "slide")  # motions that are swept when the time is over
+MAX_RIM_DISTANCE_RATIO = 0.01  # share of the scale: hinge lines this near, or as near as the part is thick, are at one rim
+MIN_PARALLEL_COSINE = 0.999  # cosine of their axes
+SUFFICIENT_OPENING_RAD = np.deg2rad(110)  # of an opening that a hinge needs no more than
+TIGHT_PENETRATION_SCALE = 0.2  # factor on the penetration that counts: neighbours are a few millimetres away
+MAX_COPIES = 8  # of a part, with whose motions its own are compared
+ROLES_AFTER_DEADLINE = ("bail", "round", "barrel", "edge_mid", "slide")  # motions that are swept when the time is over
 PartMotions = tuple[int, int, PartContext, MotionQuestion]  # number of a part, of its parent, what is around it, its motions
-NOTICED = np.deg2rad(5)  # a line that lets the part open further by less is no better
+MIN_OPENING_GAIN_RAD = np.deg2rad(5)  # a line that lets the part open further by less is no better
 
 
 def estimate_joints(segmentation: Segmentation, motions: Iterable[PartMotions], answerer: MotionAnswerer) -> tuple[Joint, ...]:
@@ -50,11 +50,13 @@ def motion_questions(
     shapes = [whole.of(np.flatnonzero(label == i)) for i in range(len(parts))]
     parent = parents(shapes, whole.diagonal)
     for numbers in same_size(shapes, parent):
-        arounds = agree([surroundings(whole, label, shapes, parent, i, config.articulation) for i in numbers])
+        arounds = share_opening_directions(
+            [part_context(whole, label, shapes, parent, i, config.articulation) for i in numbers]
+        )
         found = [_unscored(a, parts[i].name, parts[i].label, deadline) for i, a in zip(numbers, arounds, strict=True)]
         for i, around, motions in zip(numbers, arounds, found, strict=True):
             row = (m for m, a in zip(found, arounds, strict=True) if a is not around and in_a_row(around, a))
-            yield i, parent[i], around, motions.question(tuple(itertools.islice(row, MOST_COPIES)))
+            yield i, parent[i], around, motions.question(tuple(itertools.islice(row, MAX_COPIES)))
 
 
 def relabelled(swept: Iterable[PartMotions], segmentation: Segmentation) -> list[PartMotions]:
@@ -67,7 +69,7 @@ def relabelled(swept: Iterable[PartMotions], segmentation: Segmentation) -> list
     return [(i, over, around, named(question, i)) for i, over, around, question in swept]
 
 
-def surroundings(
+def part_context(
     whole: ObjectShape, label: np.ndarray, shapes: list[FaceSet], parent: list[int], i: int, config: ArticulationConfig
 ) -> PartContext:
     """Part i with what hangs on it; what stands still is the root and the parts that i hangs on."""
@@ -109,7 +111,7 @@ def _unscored(around: PartContext, name: str, label: str, deadline: Deadline | N
     proposed = propose(around)
     if deadline is not None and deadline.late(JOINTS):
         deadline.leave_out("joints: only the likeliest motions were swept")
-        proposed = [(role, motion) for role, motion in proposed if role in LIKELIEST] or proposed
+        proposed = [(role, motion) for role, motion in proposed if role in ROLES_AFTER_DEADLINE] or proposed
     facts = part_facts(around, name, label, any(role == "bail" for role, _ in proposed))
     return UnscoredMotions(around, facts, hypotheses(around, proposed))
 
@@ -120,21 +122,21 @@ def _clear_of_others(around: PartContext, best: Candidate, candidates: tuple[Can
     rims = ("edge", "edge_mid")
     if best.role not in rims or not around.siblings:
         return best
-    near = replace(around.obstacles_at_rest, tolerance=TIGHT * around.penetration)
-    thickness = max(2 * float(around.body_obb.half[2]), SAME_RIM * around.scale)
+    near = replace(around.obstacles_at_rest, tolerance=TIGHT_PENETRATION_SCALE * around.penetration)
+    thickness = max(2 * float(around.body_obb.half[2]), MAX_RIM_DISTANCE_RATIO * around.scale)
 
     def opens(c: Candidate) -> float:
-        return free_amount(near, opening_motion(c), 1, min(c.opening, WIDE), around.config.sweep_steps)[0]
+        return free_amount(near, opening_motion(c), 1, min(c.opening, SUFFICIENT_OPENING_RAD), around.config.sweep_steps)[0]
 
     alike = [c for c in candidates if c is best or (c.role in rims and c.outward * best.outward > 0)]
     twins = [c for c in alike if _at_one_rim(best, c, thickness)]
     free = {id(c): opens(c) for c in twins}
     most = max(free.values())
-    return best if free[id(best)] > most - NOTICED else next(c for c in twins if free[id(c)] == most)
+    return best if free[id(best)] > most - MIN_OPENING_GAIN_RAD else next(c for c in twins if free[id(c)] == most)
 
 
 def _at_one_rim(a: Candidate, b: Candidate, thickness: float) -> bool:
-    if abs(float(a.motion.axis @ b.motion.axis)) < PARALLEL:
+    if abs(float(a.motion.axis @ b.motion.axis)) < MIN_PARALLEL_COSINE:
         return False
     return float(np.linalg.norm(np.cross(b.motion.origin - a.motion.origin, a.motion.axis))) < 1.5 * thickness
 
@@ -181,4 +183,4 @@ def _on_part(motion: Motion, around: PartContext) -> np.ndarray:
     return motion.origin + ((around.part.box.center - motion.origin) @ motion.axis) * motion.axis
 
 
-__all__ = ["choose_motion", "estimate_joints", "joint_of", "motion_questions", "relabelled", "surroundings"]
+__all__ = ["choose_motion", "estimate_joints", "joint_of", "motion_questions", "part_context", "relabelled"]

@@ -6,24 +6,31 @@ from dataclasses import replace
 
 import numpy as np
 
-from anymesh.articulation.hold import kept, lever, support
-from anymesh.articulation.leaves import meeting_sides, outer_side, pair_side, passes
+from anymesh.articulation.hold import contact_retention, hinge_support, lever_arm
+from anymesh.articulation.leaves import adjacent_sides, outer_side, overlap_gain, pair_side
 from anymesh.geometry.surroundings import IGNORE_OVERLAP_SCALE, PartContext
 from anymesh.geometry.sweep import free_amounts, sweep_all
 from anymesh.reasoning.questions import Candidate, PartFacts
 from anymesh.types import Motion, MotionKind, Sweep
 
-ACROSS = 0.6  # weight of a bar that runs across the line
-SLACKS = (3.0, IGNORE_OVERLAP_SCALE)  # factors on the penetration that counts, tried in turn where a hinge is blocked
-RIMS = ("edge", "edge_mid", "barrel")  # hinges at a rim of the part: it may be stuck in the rest, and still turn about them
-OUTWARDS = 0.5  # cosine of a motion with the way out
-STUCK = np.deg2rad(12)  # a hinge that opens less is not free
-SQUARE = 0.7  # cosine from which a surface faces the way out, or away from it
-TURNS = (37, 90, 141, 200, 285)  # [deg] about its axis; a body of revolution looks the same after all of them
-HELD = 0.02  # a slide is held sideways when stopped within this share of the diagonal
+CROSSWISE_HANDLE_WEIGHT = 0.6  # weight of a bar that runs across the line
+PENETRATION_SCALES = (
+    3.0,
+    IGNORE_OVERLAP_SCALE,
+)  # factors on the penetration that counts, tried in turn where a hinge is blocked
+RIM_ROLES = (
+    "edge",
+    "edge_mid",
+    "barrel",
+)  # hinges at a rim of the part: it may be stuck in the rest, and still turn about them
+MIN_OUTWARD_COSINE = 0.5  # cosine of a motion with the way out
+MIN_FREE_ANGLE_RAD = np.deg2rad(12)  # a hinge that opens less is not free
+FACING_COSINE = 0.7  # cosine from which a surface faces the way out, or away from it
+ASYMMETRY_ANGLES_DEG = (37, 90, 141, 200, 285)  # [deg] about its axis; a body of revolution looks the same after all of them
+GUIDE_STEP_RATIO = 0.02  # a slide is held sideways when stopped within this share of the diagonal
 
 
-def part_facts(around: PartContext, name: str, label: str, bail: bool) -> PartFacts:
+def part_facts(around: PartContext, name: str, label: str, two_pivot: bool) -> PartFacts:
     """The facts of one part that do not depend on a motion."""
     core = around.body_obb
     extents = 2 * core.half / around.diagonal
@@ -41,17 +48,17 @@ def part_facts(around: PartContext, name: str, label: str, bail: bool) -> PartFa
         diagonal=around.diagonal,
         horizontal=bool(abs(around.opening_direction[2]) > 0.8),
         handle=around.handle,
-        two_pivot=bail,
-        tall=_tall(around),
+        two_pivot=two_pivot,
+        tall=_face_aspect(around),
         height=float((around.part.bounds.mean(0)[2] - around.bounds[0, 2]) / max(np.ptp(around.bounds[:, 2]), 1e-9)),
-        back_contact=_seated(around),
+        back_contact=_back_contact(around),
         free_rim=_free_rim(around) if around.outline.roundness > 0.5 else 0.0,
-        covers_opening=_lid(around) if around.outline.roundness > 0.5 else 0.0,
-        rotational_asymmetry=_marked(around) if around.outline.roundness > 0.5 else 1.0,
+        covers_opening=_covers_opening(around) if around.outline.roundness > 0.5 else 0.0,
+        rotational_asymmetry=_rotational_asymmetry(around) if around.outline.roundness > 0.5 else 1.0,
     )
 
 
-def _tall(around: PartContext) -> float:
+def _face_aspect(around: PartContext) -> float:
     if abs(around.opening_direction[2]) > 0.8:
         return 0.0
     across = np.cross(around.opening_direction, (0.0, 0.0, 1.0))
@@ -59,9 +66,9 @@ def _tall(around: PartContext) -> float:
     return float(np.log2(max(float(np.ptp(around.part.bounds[:, 2])), 1e-9) / max(width, 1e-9)))
 
 
-def _seated(around: PartContext) -> float:
+def _back_contact(around: PartContext) -> float:
     """Share of what faces away from the way out that lies on the parent, or in it."""
-    back = around.part.samples.normals @ around.opening_direction < -SQUARE
+    back = around.part.samples.normals @ around.opening_direction < -FACING_COSINE
     near = around.gap < max(2 * around.config.connecting * around.scale, 1.5 * float(around.gap.min()))
     return float(near[back].mean()) if back.sum() > 3 else 0.0
 
@@ -80,18 +87,18 @@ def _free_rim(around: PartContext) -> float:
     return float((around.rest.scene.first_hit(start, 2 * outline.radius * away, 1.0).face < 0).mean())
 
 
-def _marked(around: PartContext) -> float:
+def _rotational_asymmetry(around: PartContext) -> float:
     """How far a round part is from a body of revolution, over its radius: what turns has something on it that shows it."""
     outline, points = around.outline, around.part.samples.points[::4]
     off = 0.0
-    for turn in np.deg2rad(TURNS):
+    for turn in np.deg2rad(ASYMMETRY_ANGLES_DEG):
         T = Motion(MotionKind.REVOLUTE, outline.axis, outline.center, "").transform(turn)
         turned = points @ T[:3, :3].T + T[:3, 3]
         off = max(off, float(np.percentile(around.part.tree.distance(turned), 99)))
     return off / max(outline.radius, 1e-9)
 
 
-def _lid(around: PartContext) -> float:
+def _covers_opening(around: PartContext) -> float:
     """How much of a round part's rim lies near the parent, times the share of its back with nothing close behind."""
     outline, points = around.outline, around.part.samples.points
     arm = points - outline.center
@@ -113,47 +120,53 @@ def hypotheses(around: PartContext, proposed: list[tuple[str, Motion]]) -> tuple
     """
     motions, steps = [m for _, m in proposed], around.config.sweep_steps
     turns = [m for m in motions if m.kind is MotionKind.REVOLUTE]
-    along, meeting = iter(support(around, turns)), meeting_sides(around)
-    inward = [m.kind is MotionKind.PRISMATIC and abs(float(m.axis @ around.opening_direction)) <= OUTWARDS for m in motions]
+    along, meeting = iter(hinge_support(around, turns)), adjacent_sides(around)
+    inward = [
+        m.kind is MotionKind.PRISMATIC and abs(float(m.axis @ around.opening_direction)) <= MIN_OUTWARD_COSINE for m in motions
+    ]
     swept: dict[int, Sweep] = {}
     for obstacles, wanted in ((around.obstacles(), False), (around.obstacles_at_rest, True)):
         chosen = [k for k, x in enumerate(inward) if x is wanted]
         swept.update(zip(chosen, sweep_all(obstacles, [motions[k] for k in chosen], steps), strict=True))
-    held = iter(_held(around, [m for m in motions if m.kind is MotionKind.PRISMATIC]))
+    held = iter(_guided_share(around, [m for m in motions if m.kind is MotionKind.PRISMATIC]))
     ahead = [
-        _turn(around, role, motion, swept[k], next(along), meeting)
+        _revolute(around, role, motion, swept[k], next(along), meeting)
         if motion.kind is MotionKind.REVOLUTE
-        else _slide(around, role, motion, swept[k], next(held))
+        else _prismatic(around, role, motion, swept[k], next(held))
         for k, (role, motion) in enumerate(proposed)
     ]
-    found = _loosened(around, [way for c in ahead for way in (c, reversed_(c))])
-    shares = kept(around, [c.motion for c in found], [c.opening_sign for c in found])
-    return tuple(replace(c, kept=float(share)) for c, share in zip(found, shares, strict=True))
+    found = _with_overlap_ignored(around, [way for c in ahead for way in (c, reversed_(c))])
+    shares = contact_retention(around, [c.motion for c in found], [c.opening_sign for c in found])
+    return tuple(replace(c, contact_retention=float(share)) for c, share in zip(found, shares, strict=True))
 
 
 def reversed_(c: Candidate) -> Candidate:
     """Return the candidate that opens the other way."""
-    return replace(c, opens=-c.opening_sign, opening=c.closing, closing=c.opening, outward=-c.outward)
+    return replace(c, opening_sign=-c.opening_sign, opening=c.closing, closing=c.opening, outward=-c.outward)
 
 
-def _loosened(around: PartContext, found: list[Candidate]) -> list[Candidate]:
+def _with_overlap_ignored(around: PartContext, found: list[Candidate]) -> list[Candidate]:
     """Hinges that would let the part out but for what holds it, with as little of the hold ignored as sets each free."""
     found = list(found)
-    stuck = [k for k, c in enumerate(found) if c.role in RIMS and c.outward >= OUTWARDS and c.opening <= STUCK]
-    for slack in SLACKS:
+    stuck = [
+        k
+        for k, c in enumerate(found)
+        if c.role in RIM_ROLES and c.outward >= MIN_OUTWARD_COSINE and c.opening <= MIN_FREE_ANGLE_RAD
+    ]
+    for slack in PENETRATION_SCALES:
         swept = sweep_all(around.obstacles(slack), [found[k].motion for k in stuck], around.config.sweep_steps) if stuck else []
         for k, free in zip(list(stuck), swept, strict=True):
             opening, closing = (free.forward, free.backward)[:: found[k].opening_sign]
-            if opening > STUCK:
-                found[k] = replace(found[k], sweep=free, opening=opening, closing=closing, slack=slack)
+            if opening > MIN_FREE_ANGLE_RAD:
+                found[k] = replace(found[k], sweep=free, opening=opening, closing=closing, penetration_scale=slack)
                 stuck.remove(k)
     return found
 
 
-def _turn(around: PartContext, role: str, motion: Motion, swept: Sweep, near: np.ndarray, meeting: np.ndarray) -> Candidate:
+def _revolute(around: PartContext, role: str, motion: Motion, swept: Sweep, near: np.ndarray, meeting: np.ndarray) -> Candidate:
     moves = np.cross(motion.axis, around.part.samples.points.mean(0) - motion.origin)
     across = float(np.linalg.norm(moves))
-    reach, hugs, thick = lever(around, motion)
+    reach, hugs, thick = lever_arm(around, motion)
     return Candidate(
         motion, swept, role, 1, swept.forward, swept.backward,
         hinge_support=float(near[0]),
@@ -162,12 +175,12 @@ def _turn(around: PartContext, role: str, motion: Motion, swept: Sweep, near: np
         guided=0.0,
         depth=0.0,
         vertical=float(abs(motion.axis[2])),
-        above=_above(around, motion),
+        above=_axis_height(around, motion),
         captured=False,
         outward=float(moves @ around.opening_direction) / across if across > 1e-9 else 0.0,
         pair=pair_side(around, motion, meeting),
         outer=outer_side(around, motion),
-        handle_off=_handle_off(around, motion),
+        handle_off=_handle_offset(around, motion),
         support_opposite=float(near[2]),
         reach=reach,
         contact_proximity=hugs,
@@ -182,17 +195,17 @@ def _sides(around: PartContext, motion: Motion) -> np.ndarray:
     return side / np.linalg.norm(side, axis=1, keepdims=True)
 
 
-def _held(around: PartContext, slides: list[Motion]) -> list[float]:
+def _guided_share(around: PartContext, prismatic: list[Motion]) -> list[float]:
     """The share of the four directions across each slide in which the part is stopped at once."""
-    sideways = [Motion(MotionKind.PRISMATIC, d, m.origin, "sideways") for m in slides for d in _sides(around, m)]
-    step = [HELD * around.scale] * (2 * len(sideways))
+    sideways = [Motion(MotionKind.PRISMATIC, d, m.origin, "sideways") for m in prismatic for d in _sides(around, m)]
+    step = [GUIDE_STEP_RATIO * around.scale] * (2 * len(sideways))
     signs = [1] * len(sideways) + [-1] * len(sideways)
-    free = free_amounts(around.obstacles_at_rest, sideways + sideways, signs, step, 3) if slides else []
-    stopped = np.array([not clear for _, clear in free], bool).reshape(2, len(slides), 2)
+    free = free_amounts(around.obstacles_at_rest, sideways + sideways, signs, step, 3) if prismatic else []
+    stopped = np.array([not clear for _, clear in free], bool).reshape(2, len(prismatic), 2)
     return [float(share) for share in stopped.mean((0, 2))]
 
 
-def _slide(around: PartContext, role: str, motion: Motion, swept: Sweep, held: float) -> Candidate:
+def _prismatic(around: PartContext, role: str, motion: Motion, swept: Sweep, guided: float) -> Candidate:
     side = _sides(around, motion)
     inner = around.depth_in_parent(motion.axis)
     across = sorted(np.ptp(around.part.corners @ d) for d in side)[0]
@@ -201,17 +214,17 @@ def _slide(around: PartContext, role: str, motion: Motion, swept: Sweep, held: f
         hinge_support=0.0,
         sibling=0.0,
         handle_side=0.0,
-        guided=held,
+        guided=guided,
         depth=float(inner / max(across, 1e-9)),
         vertical=float(abs(motion.axis[2])),
         above=0.0,
         captured=_captured(around, swept),
         outward=float(motion.axis @ around.opening_direction),
-        overlap_gain=passes(around, motion, (swept.forward, swept.backward)),
+        overlap_gain=overlap_gain(around, motion, (swept.forward, swept.backward)),
     )  # fmt: skip
 
 
-def _above(around: PartContext, motion: Motion) -> float:
+def _axis_height(around: PartContext, motion: Motion) -> float:
     low, high = around.part.bounds[:, 2]
     return float(np.clip(2 * (motion.origin[2] - low) / max(high - low, 1e-9) - 1, -1, 1))
 
@@ -235,11 +248,11 @@ def _handle_side(around: PartContext, motion: Motion) -> float:
         if abs(around.body_obb.axes[axis] @ motion.axis) < 0.3:
             side = float(arm @ around.body_obb.axes[axis]) / max(float(around.body_obb.half[axis]), 1e-9)
             across = handle.along is not None and around.face_axes[handle.along] == axis
-            total -= float(np.clip(side, -1, 1)) * where * (ACROSS if across else 1.0)
+            total -= float(np.clip(side, -1, 1)) * where * (CROSSWISE_HANDLE_WEIGHT if across else 1.0)
     return float(np.clip(total, -1, 1))
 
 
-def _handle_off(around: PartContext, motion: Motion) -> float:
+def _handle_offset(around: PartContext, motion: Motion) -> float:
     """How far the handle sits from the middle of the hinge's length: flaps have it in the middle, doors where hands reach."""
     if around.handle is None:
         return 0.0

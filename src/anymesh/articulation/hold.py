@@ -8,32 +8,32 @@ from anymesh.geometry.surroundings import PartContext
 from anymesh.types import Motion, MotionKind
 
 LINE_POINTS = 21  # along a hinge line
-POINTS = 120  # of the contact, that are moved
-TURN = np.deg2rad(30)  # how far contact is watched on a turn
-TRAVEL = 0.5  # and on a slide, as a share of the part's extent along it
-NEAR = 1.5  # contact is kept within this factor of what it was, and of the tolerance below
-TOUCH = 0.008  # share of the scale; what is nearer to the parent is contact
-RIM = 0.15  # share of the part's reach across a line; surface nearer to the line is at its rim
+MAX_CONTACT_POINTS = 120  # of the contact, that are moved
+WATCHED_ANGLE_RAD = np.deg2rad(30)  # how far contact is watched on a turn
+WATCHED_TRAVEL_RATIO = 0.5  # and on a slide, as a share of the part's extent along it
+CONTACT_TOLERANCE_FACTOR = 1.5  # contact is kept within this factor of what it was, and of the tolerance below
+CONTACT_RATIO = 0.008  # share of the scale; what is nearer to the parent is contact
+RIM_RATIO = 0.15  # share of the part's reach across a line; surface nearer to the line is at its rim
 
 
-def kept(around: PartContext, motions: list[Motion], signs: list[int]) -> np.ndarray:
+def contact_retention(around: PartContext, motions: list[Motion], signs: list[int]) -> np.ndarray:
     """(motions,) share of the part's contact that stays near the parent when it opens a little (sign: of the opening)."""
-    tolerance = max(TOUCH * around.scale, NEAR * float(around.gap.min()))
+    tolerance = max(CONTACT_RATIO * around.scale, CONTACT_TOLERANCE_FACTOR * float(around.gap.min()))
     contact = around.part.samples.points[around.gap <= tolerance]
     if len(contact) < 3 or not motions:
         return np.zeros(len(motions))
-    contact = contact[:: max(1, len(contact) // POINTS)]
+    contact = contact[:: max(1, len(contact) // MAX_CONTACT_POINTS)]
     moved = []
     for motion, sign in zip(motions, signs, strict=True):
         extent = float(np.ptp(around.part.corners @ motion.axis))
-        amount = TURN if motion.kind is MotionKind.REVOLUTE else TRAVEL * extent
+        amount = WATCHED_ANGLE_RAD if motion.kind is MotionKind.REVOLUTE else WATCHED_TRAVEL_RATIO * extent
         T = motion.transform(sign * amount)
         moved.append(contact @ T[:3, :3].T + T[:3, 3])
     off = around.parent.tree.distance(np.concatenate(moved))
-    return (off.reshape(len(motions), -1) < NEAR * tolerance).mean(1)
+    return (off.reshape(len(motions), -1) < CONTACT_TOLERANCE_FACTOR * tolerance).mean(1)
 
 
-def support(around: PartContext, motions: list[Motion]) -> np.ndarray:
+def hinge_support(around: PartContext, motions: list[Motion]) -> np.ndarray:
     """(turns, 3) for each hinge line, as long as the part: the shares that have the parent, and another movable part, near;
     and the first for the line mirrored at the part's middle, which is its free side if there is one."""
     if not motions:
@@ -55,7 +55,7 @@ def support(around: PartContext, motions: list[Motion]) -> np.ndarray:
     return np.stack([parent[:, 0], other, parent[:, 1]], 1)
 
 
-def lever(around: PartContext, motion: Motion) -> tuple[float, float, float]:
+def lever_arm(around: PartContext, motion: Motion) -> tuple[float, float, float]:
     """Of a hinge line: log2 of the part's reach across it over its length along it; how near the line the contact lies
     (0..1); and the part's thickness at the line over its largest (0..1), thin edges being free ones."""
     points = around.part.samples.points
@@ -65,11 +65,11 @@ def lever(around: PartContext, motion: Motion) -> tuple[float, float, float]:
     off = np.linalg.norm(across, axis=1)
     reach = max(float(off.max()), 1e-9)
     length = max(float(np.ptp(along)), 1e-9)
-    tolerance = max(TOUCH * around.scale, NEAR * float(around.gap.min()))
+    tolerance = max(CONTACT_RATIO * around.scale, CONTACT_TOLERANCE_FACTOR * float(around.gap.min()))
     contact = off[around.gap <= tolerance]
     hugs = 1 - float(np.median(contact)) / reach if len(contact) else 0.0
     normal = around.body_obb.axes[2]
     height = points @ normal
-    rim = off < RIM * reach
+    rim = off < RIM_RATIO * reach
     thick = float(np.ptp(height[rim])) / max(float(np.ptp(height)), 1e-9) if rim.sum() > 3 else 0.0
     return float(np.log2(reach / length)), hugs, thick

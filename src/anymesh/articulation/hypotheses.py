@@ -47,7 +47,7 @@ def _through(box: OrientedBox, what: str) -> list[tuple[str, Motion]]:
     return [("center", Motion(MotionKind.REVOLUTE, a, box.center, f"middle line of {what}")) for a in box.axes]
 
 
-def _slides(box: OrientedBox, what: str) -> list[tuple[str, Motion]]:
+def _box_directions(box: OrientedBox, what: str) -> list[tuple[str, Motion]]:
     return [("slide", Motion(MotionKind.PRISMATIC, a, box.center, f"direction of {what}")) for a in box.axes]
 
 
@@ -79,7 +79,7 @@ def _unit(v: np.ndarray) -> np.ndarray:
     return -v if v[np.abs(v).argmax()] < 0 else v
 
 
-def bail_line(around: PartContext) -> Motion | None:
+def two_pivot_line(around: PartContext) -> Motion | None:
     """The line through two contacts that lie far apart with nothing between them (a bucket's bail, a trunnion)."""
     near = around.part.samples.points[around.gap < max(0.008 * around.scale, float(around.gap.min()) * 1.5)]
     if len(near) < 6:
@@ -121,19 +121,19 @@ def propose(around: PartContext) -> list[tuple[str, Motion]]:
     """All candidate motions of a part, each with its role, without near copies; the order is fixed."""
     core, box = around.body_obb, around.part.box
     found = _edges(core, "the part") + _edge_middles(core, "the part") + _through(core, "the part")
-    found += _slides(core, "the part")
+    found += _box_directions(core, "the part")
     found[:0] = barrels(around)
     outline = around.outline
     if outline.roundness > 0.5:
         found.insert(
             0, ("round", Motion(MotionKind.REVOLUTE, _unit(outline.axis), outline.center, "axis of its round outline"))
         )
-    bail = bail_line(around)
+    bail = two_pivot_line(around)
     if bail is not None:
         found.insert(0, ("bail", bail))
     if not np.allclose(box.half, core.half, rtol=0.02):
         found += _edges(box, "the part's outer box")
-    found += _slides(OrientedBox(box.center, np.eye(3), box.half), "the object")
+    found += _box_directions(OrientedBox(box.center, np.eye(3), box.half), "the object")
     found += _from_contact(around)
     return distinct(found, around.scale)
 

@@ -8,13 +8,13 @@ from anymesh.geometry.boxes import OrientedBox
 from anymesh.geometry.surroundings import PartContext
 from anymesh.types import Motion
 
-ALIKE = 0.25  # leaves whose sides differ by less, relatively, are alike
-MEET = 0.15  # of a leaf's side: leaves that meet are not further apart, nor shifted against each other
-BEHIND = 3.0  # thicknesses: what lies within this of a leaf lies right behind it
-GAIN = 0.5  # share of a leaf that must come to lie over something when it passes it
+MAX_SIZE_DIFFERENCE = 0.25  # leaves whose sides differ by less, relatively, are alike
+MAX_GAP_RATIO = 0.15  # of a leaf's side: leaves that meet are not further apart, nor shifted against each other
+BEHIND_THICKNESSES = 3.0  # thicknesses: what lies within this of a leaf lies right behind it
+FULL_GAIN_RATIO = 0.5  # share of a leaf that must come to lie over something when it passes it
 
 
-def meeting_sides(around: PartContext) -> np.ndarray:
+def adjacent_sides(around: PartContext) -> np.ndarray:
     """(2, 2) for the face axes and their two signs (-, +): how many leaves like the part adjoin it there, in its plane."""
     core, found = around.body_obb, np.zeros((2, 2))
     flat = around.face_axes
@@ -22,13 +22,13 @@ def meeting_sides(around: PartContext) -> np.ndarray:
     for leaf in around.siblings:
         size, offset = _extent(leaf.box, core), core.local(leaf.box.center[None])[0]
         mine = 2 * core.half
-        if any(abs(size[k] - mine[k]) > ALIKE * max(size[k], mine[k]) for k in flat):
+        if any(abs(size[k] - mine[k]) > MAX_SIZE_DIFFERENCE * max(size[k], mine[k]) for k in flat):
             continue
         if abs(offset[thin]) > max(core.half[thin] + size[thin] / 2, 0.05 * mine[flat].max()) * 0.6:
             continue
         for row, (k, other) in enumerate((flat, flat[::-1])):
             gap = abs(offset[k]) - (mine[k] + size[k]) / 2
-            if abs(gap) < MEET * mine[k] and abs(offset[other]) < MEET * mine[other]:
+            if abs(gap) < MAX_GAP_RATIO * mine[k] and abs(offset[other]) < MAX_GAP_RATIO * mine[other]:
                 found[row, int(offset[k] > 0)] += 1
     return found
 
@@ -38,11 +38,11 @@ def _extent(box: OrientedBox, frame: OrientedBox) -> np.ndarray:
     return 2 * np.abs(frame.axes @ box.axes.T) @ box.half
 
 
-def pair_side(around: PartContext, motion: Motion, meeting: np.ndarray) -> float:
+def pair_side(around: PartContext, motion: Motion, adjacent: np.ndarray) -> float:
     """1: leaves of a pair meet at the side opposite this hinge; -1: at the hinge; 0: no pair, or in the middle of three."""
     core, total = around.body_obb, 0.0
     arm = motion.origin - core.center
-    for axis, sides in zip(around.face_axes, meeting, strict=True):
+    for axis, sides in zip(around.face_axes, adjacent, strict=True):
         if abs(core.axes[axis] @ motion.axis) < 0.3:
             side = float(np.clip(arm @ core.axes[axis] / max(float(core.half[axis]), 1e-9), -1, 1))
             total -= side * float(np.clip(sides[1] - sides[0], -1, 1))
@@ -63,7 +63,7 @@ def outer_side(around: PartContext, motion: Motion) -> float:
     return float(np.clip(total, -1, 1))
 
 
-def passes(around: PartContext, motion: Motion, free: tuple[float, float]) -> float:
+def overlap_gain(around: PartContext, motion: Motion, free: tuple[float, float]) -> float:
     """How much more of the part lies over something else when it has slid its own width, one way or the other (0..1).
 
     free: what it is free for along +axis and -axis [m]; sashes and sliding doors come to lie over their twins.
@@ -78,11 +78,11 @@ def passes(around: PartContext, motion: Motion, free: tuple[float, float]) -> fl
     def over(shift: float) -> float:
         """Share of the part that has something on one side only: with something on both it would go into a hollow."""
         start = points + shift * motion.axis
-        rays = np.repeat(normal[None] * (BEHIND + 1) * thin, len(points), 0)
+        rays = np.repeat(normal[None] * (BEHIND_THICKNESSES + 1) * thin, len(points), 0)
         front, back = (around.everything.scene.first_hit(start, sign * rays, 1.0).face >= 0 for sign in (1.0, -1.0))
         return float(max((front & ~back).mean(), (back & ~front).mean()))
 
     rest = over(0.0)
     shifts = [sign * 0.9 * width for sign, room in zip((1, -1), free, strict=True) if room > 0.8 * width]
     gain = max((over(s) - rest for s in shifts), default=0.0)
-    return float(np.clip(gain / GAIN, 0, 1))
+    return float(np.clip(gain / FULL_GAIN_RATIO, 0, 1))

@@ -13,14 +13,17 @@ from anymesh.reasoning.questions import MIN_ANGLE, Candidate
 from anymesh.types import JointType, Motion, MotionKind
 from anymesh.types.recognition import Moves, RecognizedLabel
 
-FRONT = 0.35  # a slide less deep than this share of its parent is only a front
-MIN_STROKE = 0.1  # of its height: a button with less room behind it fills its hole
-STROKE = 0.5  # of its height: how far such a button goes in
-SMALL = 0.06  # of the object's diagonal: what is smaller is no front of a hidden box
-MIN_TURN = np.deg2rad(2.0)  # a shorter range of a hinge is an error
-MIN_TRAVEL = 0.001  # share of the scale; a shorter range of a slide is an error
-MOSTLY_BLOCKED, MOSTLY_FREE = 0.5, 0.8  # shares of an answered range that are free before and after the axis is reversed
-HELD_DEPTH = 0.3  # share of an answered travel: a part inside its parent by less is only a front
+MIN_DRAWER_DEPTH_RATIO = 0.35  # a slide less deep than this share of its parent is only a front
+MIN_STROKE_RATIO = 0.1  # of its height: a button with less room behind it fills its hole
+STROKE_RATIO = 0.5  # of its height: how far such a button goes in
+MIN_DRAWER_SIZE_RATIO = 0.06  # of the object's diagonal: what is smaller is no front of a hidden box
+MIN_ANGLE_RAD = np.deg2rad(2.0)  # a shorter range of a hinge is an error
+MIN_TRAVEL_RATIO = 0.001  # share of the scale; a shorter range of a slide is an error
+MAX_BLOCKED_RATIO, MIN_REVERSED_FREE_RATIO = (
+    0.5,
+    0.8,
+)  # shares of an answered range that are free before and after the axis is reversed
+MIN_DEPTH_IN_PARENT_RATIO = 0.3  # share of an answered travel: a part inside its parent by less is only a front
 
 
 Range = tuple[float, float]  # lower, upper [rad or m], lower <= 0 <= upper
@@ -35,13 +38,13 @@ def limits(around: PartContext, c: Candidate, kind: JointType, answered: Range |
         case JointType.CONTINUOUS | JointType.FIXED:
             return None
         case JointType.REVOLUTE if answered is not None:
-            return _answered_turn(around, c, answered)
+            return _answered_revolute(around, c, answered)
         case JointType.PRISMATIC if answered is not None:
-            return _answered_slide(around, c, answered)
+            return _answered_prismatic(around, c, answered)
         case JointType.REVOLUTE:
-            return _turn(around, c)
+            return _revolute(around, c)
         case JointType.PRISMATIC:
-            return _slide(around, c)
+            return _prismatic(around, c)
 
 
 def opening_motion(c: Candidate) -> Motion:
@@ -49,15 +52,15 @@ def opening_motion(c: Candidate) -> Motion:
     return Motion(c.motion.kind, c.motion.axis * c.opening_sign, c.motion.origin, c.motion.source)
 
 
-def answered_range(told: RecognizedLabel | None, kind: JointType) -> Range | None:
+def answered_range(recognized: RecognizedLabel | None, kind: JointType) -> Range | None:
     """Return the range [rad or m] that was answered for a joint of this type, None when there is none that helps."""
-    if told is None or told.limits is None:
+    if recognized is None or recognized.limits is None:
         return None
-    lower, upper = told.limits
-    if kind is JointType.REVOLUTE and told.moves is Moves.REVOLUTE:
-        return told.limits if upper - lower >= MIN_TURN else None
-    if kind is JointType.PRISMATIC and told.moves is Moves.PRISMATIC:
-        return told.limits if upper > lower else None
+    lower, upper = recognized.limits
+    if kind is JointType.REVOLUTE and recognized.moves is Moves.REVOLUTE:
+        return recognized.limits if upper - lower >= MIN_ANGLE_RAD else None
+    if kind is JointType.PRISMATIC and recognized.moves is Moves.PRISMATIC:
+        return recognized.limits if upper > lower else None
     return None
 
 
@@ -71,23 +74,23 @@ def opening_as_answered(c: Candidate, answered: Range | None) -> Candidate:
         return c
     lower, upper = -answered[0], answered[1]
     kept, reversed_ = min(upper, c.opening) + min(lower, c.closing), min(upper, c.closing) + min(lower, c.opening)
-    if kept > MOSTLY_BLOCKED * (lower + upper) or reversed_ < MOSTLY_FREE * (lower + upper):
+    if kept > MAX_BLOCKED_RATIO * (lower + upper) or reversed_ < MIN_REVERSED_FREE_RATIO * (lower + upper):
         return c
-    return replace(c, opens=-c.opening_sign, opening=c.closing, closing=c.opening, outward=-c.outward)
+    return replace(c, opening_sign=-c.opening_sign, opening=c.closing, closing=c.opening, outward=-c.outward)
 
 
-def _answered_turn(around: PartContext, c: Candidate, answered: Range) -> Range:
+def _answered_revolute(around: PartContext, c: Candidate, answered: Range) -> Range:
     """Shorten an answered range to what the sweep leaves free; a hinge that the sweep calls blocked keeps all of it."""
     lower, upper = -answered[0], answered[1]
     if max(c.opening, c.closing) < MIN_ANGLE:
         return (0.0 - lower, upper)
     ahead, back = _free_within(around, c, lower, upper, 3 * around.config.fine_steps)
-    if ahead + back < MIN_TURN:
+    if ahead + back < MIN_ANGLE_RAD:
         return (0.0 - lower, upper)
     return (0.0 - back, ahead)
 
 
-def _answered_slide(around: PartContext, c: Candidate, answered: Range) -> Range:
+def _answered_prismatic(around: PartContext, c: Candidate, answered: Range) -> Range:
     """Shorten an answered range to what the sweep leaves free and, outwards, to the depth at which the part is held.
 
     What is pressed in keeps its stroke, up to its own height: its mesh may fill the hole that it moves in.
@@ -95,12 +98,12 @@ def _answered_slide(around: PartContext, c: Candidate, answered: Range) -> Range
     motion, (lower, upper) = opening_motion(c), (-answered[0], answered[1])
     extent = float(np.ptp(around.part.corners @ motion.axis))
     depth = around.depth_in_parent(motion.axis)
-    if c.outward > 0.7 and depth > HELD_DEPTH * upper:
+    if c.outward > 0.7 and depth > MIN_DEPTH_IN_PARENT_RATIO * upper:
         upper = min(upper, depth)
     ahead, back = _free_within(around, c, lower, upper, 2 * around.config.fine_steps)
     if upper < lower and c.outward > 0.7:
         back = min(lower, extent)
-    if ahead + back < MIN_TRAVEL * around.scale:
+    if ahead + back < MIN_TRAVEL_RATIO * around.scale:
         return (0.0 - lower, upper)
     return (0.0 - back, ahead)
 
@@ -113,7 +116,7 @@ def _free_within(around: PartContext, c: Candidate, lower: float, upper: float, 
     return ahead, back
 
 
-def _turn(around: PartContext, c: Candidate) -> tuple[float, float]:
+def _revolute(around: PartContext, c: Candidate) -> tuple[float, float]:
     config, motion = around.config, opening_motion(c)
     most = np.deg2rad(config.door_most if c.vertical > 0.7 else config.flap_most)
     steps = config.fine_steps * 3
@@ -121,14 +124,14 @@ def _turn(around: PartContext, c: Candidate) -> tuple[float, float]:
     lower, _ = free_amount(around.obstacles(c.penetration_scale), motion, -1, most, steps)
     if not clear:
         upper = _floor(upper, np.deg2rad(1))
-    closed = c.role in ("edge", "edge_mid", "asked") and _shut(around)
+    closed = c.role in ("edge", "edge_mid", "asked") and _is_closed(around)
     lower = 0.0 if closed or lower < np.deg2rad(5) else _floor(lower, np.deg2rad(1))
     if upper < np.deg2rad(2):
         upper = most if lower == 0 else 0.0
     return (0.0 - lower, upper)
 
 
-def _shut(around: PartContext) -> bool:
+def _is_closed(around: PartContext) -> bool:
     """Whether the part lies shut: near the parent at both ends of its face, so that inwards is where it came from."""
     near = around.gap < 0.02 * around.scale
     local = around.body_obb.local(around.part.samples.points) / np.maximum(around.body_obb.half, 1e-9)
@@ -149,7 +152,7 @@ def _floor(value: float, step: float) -> float:
     return float(np.floor(value / step + 1e-9) * step)
 
 
-def _slide(around: PartContext, c: Candidate) -> tuple[float, float]:
+def _prismatic(around: PartContext, c: Candidate) -> tuple[float, float]:
     motion = opening_motion(c)
     leaves = c.sweep.clear_forward if c.opening_sign > 0 else c.sweep.clear_backward
     if c.outward < -0.7 and not leaves:
@@ -161,8 +164,13 @@ def _slide(around: PartContext, c: Candidate) -> tuple[float, float]:
     if c.captured:
         most = 2 * around.part.box.diagonal
     behind = float(np.ptp(around.parent.samples.points @ motion.axis))
-    small = around.part.box.diagonal < SMALL * around.diagonal
-    if outward and not small and extent < FRONT * behind and around.body_obb.half[2] < 0.3 * around.body_obb.half[1]:
+    small = around.part.box.diagonal < MIN_DRAWER_SIZE_RATIO * around.diagonal
+    if (
+        outward
+        and not small
+        and extent < MIN_DRAWER_DEPTH_RATIO * behind
+        and around.body_obb.half[2] < 0.3 * around.body_obb.half[1]
+    ):
         most = around.config.slide_hidden * behind  # a front whose box the surface does not show
     steps = around.config.fine_steps * 2
     upper, _ = free_amount(around.obstacles(c.penetration_scale), motion, 1, most, steps)
@@ -179,4 +187,4 @@ def _stroke(around: PartContext, c: Candidate) -> float:
     motion = opening_motion(c)
     extent = float(np.ptp(around.part.corners @ motion.axis))
     free, _ = free_amount(around.obstacles(c.penetration_scale), motion, 1, extent, 2 * around.config.fine_steps)
-    return free if free > MIN_STROKE * extent else STROKE * extent
+    return free if free > MIN_STROKE_RATIO * extent else STROKE_RATIO * extent

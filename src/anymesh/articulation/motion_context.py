@@ -10,7 +10,7 @@ from jaxtyping import Bool, Float
 
 NONE = -9.0  # log-odds where there is no such motion
 SAME_AXIS = 0.97  # cosine of axes that are one
-LEAST_LOSS, MOST_LOSS = 0.0, 6.0  # log-odds between the best motion of a copy and its best motion in the same manner
+MIN_LOSS, MAX_LOSS = 0.0, 6.0  # log-odds between the best motion of a copy and its best motion in the same manner
 SAME_BALANCE = 0.2  # difference of the feature "balance" below which axes lie alike: through the middle, or at a rim
 SIDE = -0.05  # product of two cosines with the opening directions from which both motions go to the same side
 
@@ -61,7 +61,7 @@ def _best(score: Float[np.ndarray, " n"], mask: Bool[np.ndarray, " n"]) -> float
 def _lost(own: ScoredMotions, copy: ScoredMotions) -> Float[np.ndarray, " n"]:
     """Return, for each motion, how much worse a copy does that moves in the same manner than with its best motion."""
     theirs = np.where(in_one_manner(own, copy), copy.score[None], -np.inf).max(1)
-    return np.clip(copy.score.max() - theirs, LEAST_LOSS, MOST_LOSS)
+    return np.clip(copy.score.max() - theirs, MIN_LOSS, MAX_LOSS)
 
 
 def in_one_manner(a: ScoredMotions, b: ScoredMotions) -> Bool[np.ndarray, "n m"]:

@@ -11,20 +11,20 @@ from collections.abc import Sequence
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.articulation.hold import NEAR, TOUCH
+from anymesh.articulation.hold import CONTACT_RATIO, CONTACT_TOLERANCE_FACTOR
 from anymesh.geometry.circles import outline_about
 from anymesh.geometry.surroundings import PartContext
 from anymesh.reasoning.questions import Candidate, PartFacts
 from anymesh.reasoning.two_steps import MISSING
 from anymesh.types import Motion, MotionKind
 
-SQUARE = 0.7  # cosine below which a direction lies across an axis
-CENTRAL = 0.2  # distance of the middle from an axis, over the reach, below which a turn may be a spin
-TURNS = np.deg2rad((60.0, 72.0, 90.0, 120.0, 180.0))
+MAX_ACROSS_COSINE = 0.7  # cosine below which a direction lies across an axis
+MAX_CENTRAL_RATIO = 0.2  # distance of the middle from an axis, over the reach, below which a turn may be a spin
+MISFIT_ANGLES_RAD = np.deg2rad((60.0, 72.0, 90.0, 120.0, 180.0))
 MISFIT_POINTS = 60  # of the part, that are turned
 SECTORS = 12  # of a full turn
 VIEW_POINTS = 80  # of the part, that look along the opening direction
-MOST_RATIO = 4.0  # lengths over lengths are cut here
+MAX_RATIO = 4.0  # lengths over lengths are cut here
 
 
 def motion_features(around: PartContext, facts: PartFacts, candidates: Sequence[Candidate]) -> list[dict[str, float]]:
@@ -50,7 +50,7 @@ def motion_features(around: PartContext, facts: PartFacts, candidates: Sequence[
 def _contact_points(around: PartContext) -> Float[np.ndarray, "n 3"]:
     """Return the part's samples near the parent, the nearest ones where none is [m]."""
     gap = around.gap
-    return around.part.samples.points[gap <= max(TOUCH * around.scale, NEAR * float(gap.min()))]
+    return around.part.samples.points[gap <= max(CONTACT_RATIO * around.scale, CONTACT_TOLERANCE_FACTOR * float(gap.min()))]
 
 
 def _opening_direction(around: PartContext, c: Candidate) -> Float[np.ndarray, " 3"]:
@@ -87,13 +87,13 @@ def part_values(around: PartContext, facts: PartFacts, contact: Float[np.ndarray
         "height over radius": min(facts.flatness, 8.0),
         "opening direction up": float(around.opening_direction[2]),
         "visibility": facts.visibility,
-        "insertion depth": min(facts.insertion_depth, MOST_RATIO),
+        "insertion depth": min(facts.insertion_depth, MAX_RATIO),
         "tall": facts.tall,
         "height": facts.height,
         "back contact": facts.back_contact,
         "free rim": facts.free_rim,
         "covers an opening": facts.covers_opening,
-        "rotational asymmetry": min(facts.rotational_asymmetry, MOST_RATIO),
+        "rotational asymmetry": min(facts.rotational_asymmetry, MAX_RATIO),
         "held at two ends": float(facts.two_pivot),
         "handle": float(handle is not None),
         "handle size": handle.size if handle else 0.0,
@@ -104,10 +104,10 @@ def part_values(around: PartContext, facts: PartFacts, contact: Float[np.ndarray
         "contact width": float(spread[1] / max(around.part.box.diagonal, 1e-12)),
         "gap": float(np.log10(max(float(around.gap.min()) / around.diagonal, 1e-5))),
         "parts": float(np.log1p(len(around.siblings))),
-        "object height": float(np.clip(extent[2] / extent[:2].max(), 0, MOST_RATIO)),
+        "object height": float(np.clip(extent[2] / extent[:2].max(), 0, MAX_RATIO)),
         "solid": float(around.part.solid @ around.part.areas / max(around.part.area, 1e-300)),
         "aside": float(np.linalg.norm(((around.part.bounds.mean(0) - low) / extent * 2 - 1)[:2])),
-        "area over box": float(np.clip(around.part.area / max(_box_area(around), 1e-300), 0, MOST_RATIO)),
+        "area over box": float(np.clip(around.part.area / max(_box_area(around), 1e-300), 0, MAX_RATIO)),
     }
 
 
@@ -136,7 +136,7 @@ def _values(around: PartContext, facts: PartFacts, c: Candidate) -> dict[str, fl
     }
     slide = {
         "guided": c.guided,
-        "depth": min(c.depth, MOST_RATIO),
+        "depth": min(c.depth, MAX_RATIO),
         "overlap gain": c.overlap_gain,
         "captured": float(c.captured),
         "room over extent": min((c.opening + c.closing) / max(extent, 1e-9), 8.0),
@@ -149,8 +149,8 @@ def _values(around: PartContext, facts: PartFacts, c: Candidate) -> dict[str, fl
         "along opening direction": abs(float(axis @ around.opening_direction)),
         "vertical": c.vertical,
         "upwards": float(c.opening_sign * axis[2]) if slides else MISSING,
-        "opening": min(c.opening / unit, MOST_RATIO),
-        "closing": min(c.closing / unit, MOST_RATIO),
+        "opening": min(c.opening / unit, MAX_RATIO),
+        "closing": min(c.closing / unit, MAX_RATIO),
         "free both ways": min(c.opening, c.closing) / unit,
         "outward": c.outward,
         "contact retention": c.contact_retention,
@@ -170,13 +170,13 @@ def _line(around: PartContext, motion: Motion, contact: Float[np.ndarray, "n 3"]
     """Return the features of a hinge line that do not depend on the way about it."""
     core, points, axis = around.body_obb, around.part.samples.points, motion.axis
     local = np.abs(core.local(motion.origin[None])[0] / np.maximum(core.half, 1e-9))
-    local = np.minimum(local, MOST_RATIO) * (np.abs(core.axes @ axis) < SQUARE)
+    local = np.minimum(local, MAX_RATIO) * (np.abs(core.axes @ axis) < MAX_ACROSS_COSINE)
     off = _distance(points, motion)
     reach, length = max(float(off.max()), 1e-9), max(float(np.ptp(points @ axis)), 1e-9)
     balance = float(_distance(points.mean(0)[None], motion)[0] / reach)
     outline = outline_about(points, axis)
     low, high = around.parent.bounds
-    beside = np.abs(np.minimum(motion.origin - low, high - motion.origin))[np.abs(axis) < SQUARE]
+    beside = np.abs(np.minimum(motion.origin - low, high - motion.origin))[np.abs(axis) < MAX_ACROSS_COSINE]
     return {
         "off along length": float(local[0]),
         "off along width": float(local[1]),
@@ -185,9 +185,9 @@ def _line(around: PartContext, motion: Motion, contact: Float[np.ndarray, "n 3"]
         "balance": balance,
         "round about the axis": outline.roundness,
         "circle off the axis": min(
-            float(_distance(outline.center[None], motion)[0] / max(outline.radius, 1e-9)), MOST_RATIO
+            float(_distance(outline.center[None], motion)[0] / max(outline.radius, 1e-9)), MAX_RATIO
         ),
-        "rotational misfit": _misfit(around, motion, reach) if balance < CENTRAL else MISSING,
+        "rotational misfit": _misfit(around, motion, reach) if balance < MAX_CENTRAL_RATIO else MISSING,
         "contact along the line": float(np.clip(np.ptp(contact @ axis) / length, 0, 1)),
         "contact off the line": float(_distance(contact, motion).mean() / reach),
         "contact middle off the line": float(_distance(contact.mean(0)[None], motion)[0] / reach),
@@ -202,8 +202,8 @@ def _misfit(around: PartContext, motion: Motion, reach: float) -> float:
     """Return how far a part is from itself, over its reach, after the turn of TURNS that suits it best: 0 for propellers."""
     points = around.part.samples.points
     points = points[:: max(1, len(points) // MISFIT_POINTS)]
-    turned = np.concatenate([points @ T[:3, :3].T + T[:3, 3] for T in motion.transforms(TURNS)])
-    off = around.part.tree.distance(turned).reshape(len(TURNS), -1)
+    turned = np.concatenate([points @ T[:3, :3].T + T[:3, 3] for T in motion.transforms(MISFIT_ANGLES_RAD)])
+    off = around.part.tree.distance(turned).reshape(len(MISFIT_ANGLES_RAD), -1)
     return float(min(np.quantile(off, 0.9, axis=1).min() / reach, 1.0))
 
 
@@ -227,7 +227,7 @@ def _handle_place(around: PartContext, motion: Motion, reach: float) -> dict[str
         at += where * around.body_obb.half[axis] * around.body_obb.axes[axis]
     if handle.along is not None:
         along = abs(float(around.body_obb.axes[around.face_axes[handle.along]] @ motion.axis))
-    return {"handle distance": min(float(_distance(at[None], motion)[0] / reach), MOST_RATIO), "bar handle along": along}
+    return {"handle distance": min(float(_distance(at[None], motion)[0] / reach), MAX_RATIO), "bar handle along": along}
 
 
 def _distance(points: Float[np.ndarray, "n 3"], motion: Motion) -> Float[np.ndarray, " n"]:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.articulation.cases import Case
+from anymesh.articulation.cases import PartCase
 from anymesh.articulation.evidence import hypotheses, part_facts
 from anymesh.articulation.hypotheses import distinct, propose
 from anymesh.articulation.limits import answered_range, opening_motion, pressed
@@ -20,25 +20,27 @@ from anymesh.reasoning.questions import Candidate, MotionQuestion, PartFacts
 from anymesh.types import JointType, MotionKind
 from anymesh.types.recognition import Moves
 
-SHOWN_TURN = np.deg2rad(60.0)  # most of a turn in a picture
-SHOWN_SLIDE = 0.6  # most of a slide in a picture, as a share of the part's size
-SHOWN_BLOCKED = 0.6  # share of these that is shown of a motion that is blocked
-ALIKE = 0.2  # motions that take the part's points to places this near, as a share of the way, are kin:
-MOST_KIN, KIN_BEHIND = 2, 1.0  # so many are in the first picture, and none that is less plausible than another by more
-PIXELS = 0.01  # near-twins are also those this near, as a share of the part's diagonal: two or three pixels
-TWINS = 0.02  # share of the object's diagonal: motions that keep the part's points this near to each other are near-twins,
-TWIN_WAY = 0.15  # but for a small part no more than this share of the way
+MAX_SHOWN_ANGLE_RAD = np.deg2rad(60.0)  # most of a turn in a picture
+MAX_SHOWN_TRAVEL_RATIO = 0.6  # most of a slide in a picture, as a share of the part's size
+BLOCKED_SHOWN_RATIO = 0.6  # share of these that is shown of a motion that is blocked
+SIMILAR_RATIO = 0.2  # motions that take the part's points to places this near, as a share of the way, are kin:
+MAX_SIMILAR, MAX_SIMILAR_LOSS = 2, 1.0  # so many are in the first picture, and none that is less plausible than another by more
+DUPLICATE_PART_RATIO = 0.01  # near-twins are also those this near, as a share of the part's diagonal: two or three pixels
+DUPLICATE_OBJECT_RATIO = (
+    0.02  # share of the object's diagonal: motions that keep the part's points this near to each other are near-twins,
+)
+DUPLICATE_MOTION_RATIO = 0.15  # but for a small part no more than this share of the way
 OFF_PART = 0.02  # share of the object's diagonal: a hinge line further from the part's surface is not in the first picture
-BEHIND = 8.0  # a motion that is less plausible than the best one by more is shown in the second picture, unless few are left
-FEW = 3  # free motions that are in the first picture however implausible
-OWN = 3  # axes of the part's own shape that are always in the first picture
-ROUGH = 2.0  # a line through picked points is rougher than one of the part's own that looks like it
-ANSWERED = 2.0  # log-odds that a motion gains which is of the kind that was answered
+MAX_LOSS = 8.0  # a motion that is less plausible than the best one by more is shown in the second picture, unless few are left
+MIN_FREE_MOTIONS = 3  # free motions that are in the first picture however implausible
+SHAPE_AXES = 3  # axes of the part's own shape that are always in the first picture
+PICKED_POINT_PENALTY = 2.0  # a line through picked points is rougher than one of the part's own that looks like it
+ANSWERED_BONUS = 2.0  # log-odds that a motion gains which is of the kind that was answered
 ENOUGH_POINTS = 200  # of the part, whose places are compared
 
 
 @dataclass(frozen=True, eq=False)
-class Offers:
+class MotionOffers:
     """The motions of a part that look different, likeliest first.
 
     shares: (k,) how likely each is by geometry alone; amounts: how far each is moved in a picture [rad or m]; first, second:
@@ -46,7 +48,7 @@ class Offers:
     is, or looks like, what was answered before.
     """
 
-    case: Case
+    case: PartCase
     facts: PartFacts
     motions: tuple[Candidate, ...]
     shares: tuple[float, ...]
@@ -66,30 +68,30 @@ class Offers:
         )
 
 
-def make_offers(case: Case, most: int, seed: int) -> Offers:
+def make_offers(case: PartCase, max_motions: int, seed: int) -> MotionOffers:
     """Propose, sweep, score and select the motions of a part. most: in a picture; seed: of their order in it."""
     question = scored_motions(case)
     facts, candidates, plain = question.part, list(question.candidates), motion_scores(question).tolist()
-    worth = [v + _agrees(c, case) - ROUGH * (c.role == "asked") for v, c in zip(plain, candidates, strict=True)]
+    worth = [v + _agrees(c, case) - PICKED_POINT_PENALTY * (c.role == "asked") for v, c in zip(plain, candidates, strict=True)]
     order = sorted(range(len(candidates)), key=lambda k: (not candidates[k].is_free, -worth[k], k))
     kept, amounts, answered, kin = _unlike(case, candidates, [k for k in order if _shown(candidates[k])])
     motions = [candidates[k] for k in kept]
     best = max((worth[k] for k in kept), default=0.0)
     crowding = _crowding(kin, [plain[k] for k in kept])
     likely = [
-        c.is_free and not (crowding[rank] or _off_part(case, c)) and (worth[k] > best - BEHIND or rank < FEW)
+        c.is_free and not (crowding[rank] or _off_part(case, c)) and (worth[k] > best - MAX_LOSS or rank < MIN_FREE_MOTIONS)
         for rank, (k, c) in enumerate(zip(kept, motions, strict=True))
     ]
-    first, second = _pages(motions, case.kind, likely, answered, most)
+    first, second = _pages(motions, case.kind, likely, answered, max_motions)
     rng = np.random.default_rng([seed, case.number])
     shares = np.exp(np.array([plain[k] for k in kept]) - max((plain[k] for k in kept), default=0.0))
-    return Offers(
+    return MotionOffers(
         case, facts, tuple(motions), tuple((shares / max(shares.sum(), 1e-12)).tolist()), tuple(amounts),
         tuple(rng.permutation(first).tolist()), tuple(rng.permutation(second).tolist()), answered,
     )  # fmt: skip
 
 
-def scored_motions(case: Case) -> MotionQuestion:
+def scored_motions(case: PartCase) -> MotionQuestion:
     """Propose, sweep and score the motions of a part, both ways where the part may go both ways; the one that was answered
     comes first, even if it repeats one."""
     around = case.around
@@ -103,7 +105,7 @@ def scored_motions(case: Case) -> MotionQuestion:
     for k in range(0, len(scores), 2):
         best, other = sorted((k, k + 1), key=lambda i: (not question.candidates[i].is_free, -scores[i]))
         c = question.candidates[other]
-        chosen += [best] if c.turns_freely or c.role == "asked" or not c.is_free else [best, other]
+        chosen += [best] if c.is_endless or c.role == "asked" or not c.is_free else [best, other]
     return MotionQuestion(
         facts,
         tuple(question.candidates[k] for k in chosen),
@@ -114,8 +116,8 @@ def scored_motions(case: Case) -> MotionQuestion:
 
 def fits(c: Candidate, kind: JointKind) -> bool:
     """Return whether a motion is of the kind that was answered."""
-    if kind.turns or c.motion.kind is MotionKind.REVOLUTE:
-        return kind.turns and c.motion.kind is MotionKind.REVOLUTE
+    if kind.is_rotation or c.motion.kind is MotionKind.REVOLUTE:
+        return kind.is_rotation and c.motion.kind is MotionKind.REVOLUTE
     return (abs(c.outward) > 0.7) == (kind is JointKind.SLIDE_OUT)
 
 
@@ -124,21 +126,21 @@ def moves_as(c: Candidate, moves: Moves) -> bool:
     return (moves is Moves.PRISMATIC) == (c.motion.kind is MotionKind.PRISMATIC)
 
 
-def shown_amount(c: Candidate, case: Case) -> float:
+def shown_amount(c: Candidate, case: PartCase) -> float:
     """Return how far a motion goes in a picture [rad or m]: opening, or into the parent for what is pressed (negative)."""
     around = case.around
     if c.motion.kind is MotionKind.REVOLUTE:
-        return float(min(c.opening, SHOWN_TURN) if c.is_free else SHOWN_BLOCKED * SHOWN_TURN)
-    size = SHOWN_SLIDE * around.part.box.diagonal
+        return float(min(c.opening, MAX_SHOWN_ANGLE_RAD) if c.is_free else BLOCKED_SHOWN_RATIO * MAX_SHOWN_ANGLE_RAD)
+    size = MAX_SHOWN_TRAVEL_RATIO * around.part.box.diagonal
     if pressed(c, answered_range(case.recognized, JointType.PRISMATIC)):
         return -0.5 * min(float(np.ptp(around.part.corners @ c.motion.axis)), size)
-    return float(min(c.opening * around.scale, size) if c.is_free else SHOWN_BLOCKED * size)
+    return float(min(c.opening * around.scale, size) if c.is_free else BLOCKED_SHOWN_RATIO * size)
 
 
-def _agrees(c: Candidate, case: Case) -> float:
+def _agrees(c: Candidate, case: PartCase) -> float:
     """What it is worth that a motion agrees with the answers about the part and its label."""
     recognized = case.recognized.moves if case.recognized else None
-    return ANSWERED * fits(c, case.kind) + ANSWERED * (recognized is not None and moves_as(c, recognized))
+    return ANSWERED_BONUS * fits(c, case.kind) + ANSWERED_BONUS * (recognized is not None and moves_as(c, recognized))
 
 
 def _shown(c: Candidate) -> bool:
@@ -146,12 +148,14 @@ def _shown(c: Candidate) -> bool:
     return c.is_free or c.role == "asked" or c.role in CENTRAL
 
 
-def _unlike(case: Case, candidates: list[Candidate], order: list[int]) -> tuple[list[int], list[float], int | None, list[int]]:
+def _unlike(
+    case: PartCase, candidates: list[Candidate], order: list[int]
+) -> tuple[list[int], list[float], int | None, list[int]]:
     """Return those that look different, the likeliest of each group of near-twins, how far they are moved, which of them stands
     for what was answered, and for each the first that it is like."""
     samples = case.around.part.samples.points
     points = samples[:: max(1, len(samples) // ENOUGH_POINTS)]
-    least, twins = PIXELS * case.around.part.box.diagonal, TWINS * case.around.scale
+    least, twins = DUPLICATE_PART_RATIO * case.around.part.box.diagonal, DUPLICATE_OBJECT_RATIO * case.around.scale
     kept: list[int] = []
     amounts: list[float] = []
     first: list[int] = []
@@ -160,10 +164,10 @@ def _unlike(case: Case, candidates: list[Candidate], order: list[int]) -> tuple[
         amount, own, head = shown_amount(candidates[k], case), len(kept), len(kept)
         for n, other in enumerate(kept):
             apart, way = _apart(points, candidates[k], candidates[other], max(amount, amounts[n], key=abs))
-            if apart <= max(least, min(twins, TWIN_WAY * way)):
+            if apart <= max(least, min(twins, DUPLICATE_MOTION_RATIO * way)):
                 own = n
                 break
-            if apart <= ALIKE * way:
+            if apart <= SIMILAR_RATIO * way:
                 head = min(head, first[n])
         if own == len(kept):
             kept.append(k)
@@ -194,11 +198,11 @@ def _crowding(first: list[int], values: list[float]) -> list[bool]:
     for k, head in enumerate(first):
         kin = [n for n in range(k) if first[n] == head and not found[n]]
         best = max((values[n] for n in kin), default=-np.inf)
-        found.append(bool(kin) and (len(kin) >= MOST_KIN or values[k] < best - KIN_BEHIND))
+        found.append(bool(kin) and (len(kin) >= MAX_SIMILAR or values[k] < best - MAX_SIMILAR_LOSS))
     return found
 
 
-def _off_part(case: Case, c: Candidate) -> bool:
+def _off_part(case: PartCase, c: Candidate) -> bool:
     """Whether a hinge line passes the part at a distance, as an edge of a box does that a handle stretches."""
     if c.motion.kind is not MotionKind.REVOLUTE or c.role not in ("edge", "edge_mid"):
         return False
@@ -207,11 +211,11 @@ def _off_part(case: Case, c: Candidate) -> bool:
 
 
 def _pages(
-    motions: list[Candidate], kind: JointKind, likely: list[bool], answered: int | None, most: int
+    motions: list[Candidate], kind: JointKind, likely: list[bool], answered: int | None, max_motions: int
 ) -> tuple[list[int], list[int]]:
     """Numbers of the motions in the first picture and in the second."""
-    own = [k for k, c in enumerate(motions) if c.role in CENTRAL and fits(c, kind)][:OWN]
+    own = [k for k, c in enumerate(motions) if c.role in CENTRAL and fits(c, kind)][:SHAPE_AXES]
     must = ([] if answered is None else [answered]) + [k for k in own if k != answered]
-    first = must[:most]
-    first += [k for k, good in enumerate(likely) if good and k not in first][: most - len(first)]
-    return first, [k for k in range(len(motions)) if k not in first][:most]
+    first = must[:max_motions]
+    first += [k for k, good in enumerate(likely) if good and k not in first][: max_motions - len(first)]
+    return first, [k for k in range(len(motions)) if k not in first][:max_motions]

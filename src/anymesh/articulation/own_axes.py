@@ -14,15 +14,15 @@ from anymesh.geometry.shape import FaceSet
 from anymesh.geometry.surroundings import PartContext
 from anymesh.types import Motion, MotionKind
 
-ROUND = 0.8  # roundness of a circle that stands for an axis
-MOST_CIRCLES = 4  # round pieces of a part, the largest first
-MOST_PIECES = 40  # looked at, the largest first
+MIN_ROUNDNESS = 0.8  # roundness of a circle that stands for an axis
+MAX_CIRCLES = 4  # round pieces of a part, the largest first
+MAX_PATCHES = 40  # looked at, the largest first
 CENTRAL = ("round", "center", "hub", "circle", "pivot", "pin", "bail", "barrel")  # roles of axes that a part's shape gives
 SAME_DIRECTION = 0.98  # cosine
-LEAST_POINTS = 24  # of a contact that may be a ring
+MIN_POINTS = 24  # of a contact that may be a ring
 
 
-def round_pieces(whole: ObjectShape, part: FaceSet, parent: FaceSet) -> tuple[Motion, ...]:
+def round_patches(whole: ObjectShape, part: FaceSet, parent: FaceSet) -> tuple[Motion, ...]:
     """Return the axes of round pieces of a part, and of round pieces of its parent that it encloses or sits on (pins)."""
     found: list[tuple[float, Motion]] = []
     low, high = part.bounds
@@ -30,20 +30,20 @@ def round_pieces(whole: ObjectShape, part: FaceSet, parent: FaceSet) -> tuple[Mo
         numbers, count = np.unique(whole.patch[shape.faces], return_counts=True)
         if own and len(numbers) < 2:
             continue
-        for number in numbers[np.argsort(-count, kind="stable")][:MOST_PIECES]:
+        for number in numbers[np.argsort(-count, kind="stable")][:MAX_PATCHES]:
             corners = shape.triangles[whole.patch[shape.faces] == number].reshape(-1, 3)
             meets = (corners.max(0) >= low).all() and (corners.min(0) <= high).all()
-            if len(corners) < LEAST_POINTS or not (own or meets):
+            if len(corners) < MIN_POINTS or not (own or meets):
                 continue
             piece = shape.take(np.flatnonzero(whole.patch[shape.faces] == number))
             if own or piece.box.diagonal < part.box.diagonal:
                 points = np.concatenate([corners, piece.samples.points])
                 outlines = [outline_about(points, axis) for axis in piece.box.axes]
                 best = max(outlines, key=lambda o: o.roundness)
-                if best.roundness > ROUND:
-                    found.append((best.radius, _turn(best.axis, best.center, "axis of a round piece")))
+                if best.roundness > MIN_ROUNDNESS:
+                    found.append((best.radius, _revolute(best.axis, best.center, "axis of a round piece")))
     found.sort(key=lambda item: -item[0])
-    return tuple(motion for _, motion in found[:MOST_CIRCLES])
+    return tuple(motion for _, motion in found[:MAX_CIRCLES])
 
 
 def pivots(around: PartContext, normal: Float[np.ndarray, " 3"]) -> list[tuple[str, Motion]]:
@@ -55,16 +55,16 @@ def pivots(around: PartContext, normal: Float[np.ndarray, " 3"]) -> list[tuple[s
         if all(abs(float(d @ other)) < SAME_DIRECTION for other in directions):
             directions.append(d)
     found = []
-    if len(contact) >= LEAST_POINTS:
+    if len(contact) >= MIN_POINTS:
         rings = [outline_about(contact, d) for d in directions]
         best = max(rings, key=lambda o: o.roundness)
-        if best.roundness > ROUND:
-            found.append(("hub", _turn(best.axis, best.center, "axis of the ring where it is held")))
-    found += [("pivot", _turn(d, middle, "line through the middle of the contact")) for d in directions]
-    found.append(("pivot", _turn(normal, around.body_obb.center, "middle line along the contact's normal")))
+        if best.roundness > MIN_ROUNDNESS:
+            found.append(("hub", _revolute(best.axis, best.center, "axis of the ring where it is held")))
+    found += [("pivot", _revolute(d, middle, "line through the middle of the contact")) for d in directions]
+    found.append(("pivot", _revolute(normal, around.body_obb.center, "middle line along the contact's normal")))
     return found
 
 
-def _turn(axis: Float[np.ndarray, " 3"], origin: Float[np.ndarray, " 3"], source: str) -> Motion:
+def _revolute(axis: Float[np.ndarray, " 3"], origin: Float[np.ndarray, " 3"], source: str) -> Motion:
     axis = axis / np.linalg.norm(axis)
     return Motion(MotionKind.REVOLUTE, -axis if axis[np.abs(axis).argmax()] < 0 else axis, origin, source)

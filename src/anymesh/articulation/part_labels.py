@@ -6,12 +6,14 @@ from anymesh.geometry.surroundings import PartContext
 from anymesh.reasoning.questions import Candidate
 from anymesh.types import MotionKind
 
-ALONG = 0.5  # cosine with the way out below which a slide runs along the surface
-DRAWER = 0.15  # of the object's diagonal: what slides in and is smaller is a button
-WHEEL = 0.16  # of the object's diagonal: what spins and is smaller is a knob
-MIN_TRAVEL = 0.1  # of its size: what is no button and slides by less does not move
-UP = 0.8  # cosine of the way out with the vertical from which a hinged part is a lid
-RISES = 0.5  # of its height: a part with a level hinge that stands higher above its parent is a lid that is shown open
+MAX_ALONG_COSINE = 0.5  # cosine with the way out below which a slide runs along the surface
+MIN_DRAWER_SIZE_RATIO = 0.15  # of the object's diagonal: what slides in and is smaller is a button
+MIN_WHEEL_SIZE_RATIO = 0.16  # of the object's diagonal: what spins and is smaller is a knob
+MIN_TRAVEL_RATIO = 0.1  # of its size: what is no button and slides by less does not move
+MIN_LID_COSINE = 0.8  # cosine of the way out with the vertical from which a hinged part is a lid
+MIN_OPEN_LID_RISE_RATIO = (
+    0.5  # of its height: a part with a level hinge that stands higher above its parent is a lid that is shown open
+)
 
 
 def label_of(around: PartContext, best: Candidate) -> str:
@@ -21,15 +23,15 @@ def label_of(around: PartContext, best: Candidate) -> str:
     """
     size = around.part.box.diagonal / around.diagonal
     if best.motion.kind is MotionKind.PRISMATIC:
-        if abs(best.outward) < ALONG:
+        if abs(best.outward) < MAX_ALONG_COSINE:
             return "slider"
-        if size <= DRAWER and best.outward < 0:
+        if size <= MIN_DRAWER_SIZE_RATIO and best.outward < 0:
             return "button"
-        return "drawer" if best.opening * around.scale >= MIN_TRAVEL * around.part.box.diagonal else ""
+        return "drawer" if best.opening * around.scale >= MIN_TRAVEL_RATIO * around.part.box.diagonal else ""
     if best.role == "round":
-        return "knob" if size < WHEEL else "wheel"
+        return "knob" if size < MIN_WHEEL_SIZE_RATIO else "wheel"
     if best.role == "bail":
         return "handle" if around.part.slender else "lid"  # a plate on two pivots is a laptop's lid
     low, high = around.part.bounds[:, 2]
-    raised = best.vertical < ALONG and high - around.parent.bounds[1, 2] > RISES * (high - low)
-    return "lid" if around.opening_direction[2] > UP or raised else "door"
+    raised = best.vertical < MAX_ALONG_COSINE and high - around.parent.bounds[1, 2] > MIN_OPEN_LID_RISE_RATIO * (high - low)
+    return "lid" if around.opening_direction[2] > MIN_LID_COSINE or raised else "door"

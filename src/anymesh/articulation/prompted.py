@@ -11,22 +11,22 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from anymesh.articulation.candidates import axis_points, cluster_points, followed, superpoint_centres, with_more
-from anymesh.articulation.cases import Case, ask_each, make_cases
+from anymesh.articulation.cases import PartCase, ask_each, make_cases
 from anymesh.articulation.confidence import Agreement, confidences
 from anymesh.articulation.contradictions import contradictions
-from anymesh.articulation.decode import hinge, slide, surface_directions
+from anymesh.articulation.decode import hinge, prismatic, surface_directions
 from anymesh.articulation.estimate import joint_of
 from anymesh.articulation.limits import answered_range
 from anymesh.articulation.own_axes import pivots
 from anymesh.articulation.relabel import labels_by_name, relabelled, unlabelled
-from anymesh.articulation.taken import as_answered, normal_outwards, way_out
-from anymesh.articulation.verify import Asking, Choice, choose
+from anymesh.articulation.taken import as_answered, normal_outwards, opening_slide
+from anymesh.articulation.verify import Choice, MotionQuestioner, choose_motions
 from anymesh.config import Config
 from anymesh.geometry.pieces import ObjectShape
 from anymesh.progress import Progress, silent
-from anymesh.reasoning.asking import Seer
+from anymesh.reasoning.asking import VisualAnswerer
 from anymesh.reasoning.prompting import ArrowTable, JointKind, PartFit, PointTable, WhichArrows, WhichKinds, WhichPoints
-from anymesh.rendering.studio import Shot, Studio
+from anymesh.rendering.studio import Shot, VisualPrompts
 from anymesh.types import Joint, JointType, Motion, MotionKind, Segmentation
 from anymesh.types.recognition import Recognition
 
@@ -36,7 +36,7 @@ Reground = Callable[[Mapping[str, PartFit]], Segmentation | None]  # parts by na
 
 
 @dataclass(frozen=True, eq=False)
-class Prompted:
+class PromptedJoints:
     """One joint for every part but the root, in the order of the parts. segmentation: with the labels that were answered, and
     the parts as they were grounded again; warnings: contradictions between answers; agreements: what speaks for each joint."""
 
@@ -50,8 +50,8 @@ class Prompted:
 class Questions:
     """Who is asked about the joints of one object, with what pictures. recognition: of the object, None without one."""
 
-    studio: Studio
-    seer: Seer
+    visual_prompts: VisualPrompts
+    answerer: VisualAnswerer
     config: Config
     recognition: Recognition | None = None
     progress: Progress = silent
@@ -68,10 +68,10 @@ class Questions:
 
 
 @dataclass(frozen=True, eq=False)
-class _Asked:
+class _ChosenMotions:
     """Parts that were asked about, with the motion chosen for each by number."""
 
-    cases: list[Case]
+    cases: list[PartCase]
     chosen: dict[int, Choice]
     segmentation: Segmentation
 
@@ -80,15 +80,15 @@ class _Asked:
         fits = {c.name: self.chosen[c.number].fit for c in self.cases}
         return {name: fit for name, fit in fits.items() if fit is not PartFit.RIGHT}
 
-    def with_changed(self, later: _Asked) -> _Asked:
+    def with_changed(self, later: _ChosenMotions) -> _ChosenMotions:
         """The same with what was asked again later, of the same parts by number."""
         cases = {c.number: c for c in (*self.cases, *later.cases)}
-        return _Asked([cases[c.number] for c in self.cases], {**self.chosen, **later.chosen}, later.segmentation)
+        return _ChosenMotions([cases[c.number] for c in self.cases], {**self.chosen, **later.chosen}, later.segmentation)
 
 
 def prompt_joints(
     questions: Questions, shape_of: ShapeOf, segmentation: Segmentation, reground: Reground | None = None
-) -> Prompted:
+) -> PromptedJoints:
     """Ask how each part moves and build its joint, as `config.verify` says: off, the paper's method; free, which also replaces
     what cannot move; or motion, which shows motions to choose from.
 
@@ -105,37 +105,37 @@ def prompt_joints(
     verify = questions.config.verify
     joints = tuple(_joint(c, found.chosen[c.number], sure[c.number], verify) for c in found.cases)
     agreements = tuple(found.chosen[c.number].agreement for c in found.cases)
-    return Prompted(joints, found.segmentation, contradictions(found.cases, joints), agreements)
+    return PromptedJoints(joints, found.segmentation, contradictions(found.cases, joints), agreements)
 
 
 def _ask(
     questions: Questions, shape_of: ShapeOf, segmentation: Segmentation, *, fits: bool, only: Collection[str] | None = None
-) -> _Asked:
+) -> _ChosenMotions:
     """Ask about the parts. fits: also whether the region shown is the part; only: names of parts, None for all."""
     whole, config, progress = shape_of(segmentation), questions.config, questions.progress
     cases = [c for c in make_cases(whole, segmentation, questions.recognition, config) if only is None or c.name in only]
     progress("joints", "kinds", 0, 4)
     cases, segmentation = _with_kinds(questions, cases, whole, segmentation)
     progress("joints", "points and arrows", 1, 4)
-    asked = {**_hinges(questions, cases, whole, segmentation), **_surface_slides(questions, cases, segmentation)}
-    out = normal_outwards if config.verify == "off" else way_out
+    asked = {**_hinges(questions, cases, whole, segmentation), **_surface_directions(questions, cases, segmentation)}
+    out = normal_outwards if config.verify == "off" else opening_slide
     asked |= {c.number: out(c) for c in cases if c.kind is JointKind.SLIDE_OUT}
     cases = [replace(c, asked=asked.get(c.number)) for c in cases]
     progress("joints", "motions", 2, 4)
     if config.verify != "motion":
-        return _Asked(cases, {c.number: as_answered(c) for c in cases}, segmentation)
-    asking = Asking(questions.studio, segmentation.face_part, questions.seer, questions.category, fits)
-    return _Asked(cases, choose(cases, asking, config.prompts.motions, config.seed), segmentation)
+        return _ChosenMotions(cases, {c.number: as_answered(c) for c in cases}, segmentation)
+    asking = MotionQuestioner(questions.visual_prompts, segmentation.face_part, questions.answerer, questions.category, fits)
+    return _ChosenMotions(cases, choose_motions(cases, asking, config.prompts.motions, config.seed), segmentation)
 
 
 def _with_kinds(
-    questions: Questions, cases: list[Case], whole: ObjectShape, segmentation: Segmentation
-) -> tuple[list[Case], Segmentation]:
+    questions: Questions, cases: list[PartCase], whole: ObjectShape, segmentation: Segmentation
+) -> tuple[list[PartCase], Segmentation]:
     """Ask what kind of joint each part has and, where its label is none of those recognized, which of these it is."""
-    studio, labels = questions.studio, segmentation.face_part
+    studio, labels = questions.visual_prompts, segmentation.face_part
     choices = questions.labels if unlabelled(segmentation, questions.labels) else ()
     kinds = ask_each(
-        questions.seer,
+        questions.answerer,
         cases,
         lambda c, title: studio.card(labels, c.number, title, c.shown.contact),
         lambda p, some: WhichKinds(p, tuple(c.shown for c in some), choices, questions.category),
@@ -148,14 +148,14 @@ def _with_kinds(
     return [replace(c, answer=kinds[c.number]) for c in cases], segmentation
 
 
-def _hinges(questions: Questions, cases: list[Case], whole: ObjectShape, segmentation: Segmentation) -> dict[int, Motion]:
+def _hinges(questions: Questions, cases: list[PartCase], whole: ObjectShape, segmentation: Segmentation) -> dict[int, Motion]:
     """Return the hinges by part number: points are shown, picked, and their line taken."""
-    labels, studio = segmentation.face_part, questions.studio
-    turning = [c for c in cases if c.kind.turns]
+    labels, studio = segmentation.face_part, questions.visual_prompts
+    turning = [c for c in cases if c.kind.is_rotation]
     shots = {c.number: studio.shot(labels, c.number) for c in turning}
     tables = {c.number: _points(questions, c, shots[c.number], whole) for c in turning}
     picks = ask_each(
-        questions.seer,
+        questions.answerer,
         turning,
         lambda c, title: shots[c.number].with_points(tables[c.number].points, title, tables[c.number].hidden),
         lambda p, some: WhichPoints(p, tuple(tables[c.number] for c in some), questions.category),
@@ -168,9 +168,9 @@ def _hinges(questions: Questions, cases: list[Case], whole: ObjectShape, segment
     return found
 
 
-def _points(questions: Questions, case: Case, shot: Shot, whole: ObjectShape) -> PointTable:
+def _points(questions: Questions, case: PartCase, shot: Shot, whole: ObjectShape) -> PointTable:
     """The candidate points of a part that turns; with the paper's method clusters and superpoints alone."""
-    config, studio = questions.config, questions.studio
+    config, studio = questions.config, questions.visual_prompts
     project, prompts = shot.project, config.prompts
     shaped = case.kind is JointKind.HINGE_INTO and config.verify != "off"
     if shaped:
@@ -194,25 +194,25 @@ def _points(questions: Questions, case: Case, shot: Shot, whole: ObjectShape) ->
     return PointTable(case.shown, points, case.kind, axes if len(axes) else None, studio.hidden(shot, points))
 
 
-def _surface_slides(questions: Questions, cases: list[Case], segmentation: Segmentation) -> dict[int, Motion]:
+def _surface_directions(questions: Questions, cases: list[PartCase], segmentation: Segmentation) -> dict[int, Motion]:
     """Return the slides along the surface by part number: arrows in its plane are shown, and one is picked."""
-    studio, labels = questions.studio, segmentation.face_part
+    studio, labels = questions.visual_prompts, segmentation.face_part
     sliding = [c for c in cases if c.kind is JointKind.SLIDE_ALONG]
     tables = {c.number: ArrowTable(c.shown, surface_directions(c.around)) for c in sliding}
     rows = ask_each(
-        questions.seer,
+        questions.answerer,
         sliding,
         lambda c, title: studio.arrows(labels, c.number, title, c.around.part.box.center, tables[c.number].directions),
         lambda p, some: WhichArrows(p, tuple(tables[c.number] for c in some), questions.category),
     )
-    return {c.number: slide(tables[c.number].directions[rows[c.number]], c.around, "arrow picked") for c in sliding}
+    return {c.number: prismatic(tables[c.number].directions[rows[c.number]], c.around, "arrow picked") for c in sliding}
 
 
-def _joint(case: Case, choice: Choice, confidence: float, verify: str) -> Joint:
+def _joint(case: PartCase, choice: Choice, confidence: float, verify: str) -> Joint:
     kind = JointType.FIXED
     if choice.moves:
         turns = choice.best.motion.kind is MotionKind.REVOLUTE
-        endless = case.answer.endless and (verify != "motion" or choice.best.turns_freely)
+        endless = case.answer.endless and (verify != "motion" or choice.best.is_endless)
         kind = JointType.PRISMATIC if not turns else JointType.CONTINUOUS if endless else JointType.REVOLUTE
     answered = answered_range(case.recognized, kind)
     return joint_of(case.around, case.name, case.parent, choice.best, kind, confidence, choice.reason, answered)

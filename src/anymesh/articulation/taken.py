@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from anymesh.articulation.cases import Case
+from anymesh.articulation.cases import PartCase
 from anymesh.articulation.confidence import Agreement
-from anymesh.articulation.decode import slide
+from anymesh.articulation.decode import prismatic
 from anymesh.articulation.evidence import hypotheses, part_facts
 from anymesh.articulation.motion_classifier import score_motions
 from anymesh.articulation.offers import moves_as
@@ -12,17 +12,17 @@ from anymesh.articulation.verify import Choice, words
 from anymesh.reasoning.prompting import JointKind
 from anymesh.types import Motion, MotionKind
 
-GUIDED = 0.4  # share of the ways sideways in which what slides out is held
+MIN_GUIDED_SHARE = 0.4  # share of the ways sideways in which what slides out is held
 
 
-def normal_outwards(case: Case) -> Motion:
+def normal_outwards(case: PartCase) -> Motion:
     """Return the slide along the normal of the connecting area's plane, outwards (paper, 3.3)."""
     normal = case.shown.normal
     outward = normal if normal @ case.around.opening_direction >= 0 else -normal
-    return slide(outward, case.around, "normal of the connecting area's plane")
+    return prismatic(outward, case.around, "normal of the connecting area's plane")
 
 
-def way_out(case: Case) -> Motion:
+def opening_slide(case: PartCase) -> Motion:
     """Return the plane's normal where the part is free and held along it, else the free way out that is held best.
 
     On real drawers the connecting area is rim and sides, and its plane's normal alone may be off by 80 degrees and more.
@@ -30,18 +30,18 @@ def way_out(case: Case) -> Motion:
     around = case.around
     outward = around.opening_direction
     directions = [s * a for a in around.body_obb.axes for s in (1.0, -1.0) if s * a @ outward > 0.5] + [outward]
-    ways = [normal_outwards(case)] + [slide(d, around, "free way out") for d in directions]
+    ways = [normal_outwards(case)] + [prismatic(d, around, "free way out") for d in directions]
     found = hypotheses(around, [("asked", way) for way in ways])[::2]
-    if found[0].is_free and found[0].outward > 0.7 and found[0].guided > GUIDED:
+    if found[0].is_free and found[0].outward > 0.7 and found[0].guided > MIN_GUIDED_SHARE:
         return ways[0]
     return ways[max(range(1, len(ways)), key=lambda k: (found[k].guided, found[k].opening, -k))]
 
 
-def as_answered(case: Case) -> Choice:
+def as_answered(case: PartCase) -> Choice:
     """Return the motion that was answered, as it is."""
-    motion = case.asked or slide(case.around.opening_direction, case.around, "nothing moves")
+    motion = case.asked or prismatic(case.around.opening_direction, case.around, "nothing moves")
     both = hypotheses(case.around, [("asked", motion)])
-    scores = score_motions(case.around, part_facts(case.around, case.label, case.label, bail=False), both)
+    scores = score_motions(case.around, part_facts(case.around, case.label, case.label, two_pivot=False), both)
     best = both[max((0, 1), key=lambda k: (both[k].is_free, scores[k]))] if motion.kind is MotionKind.REVOLUTE else both[0]
     moves = case.recognized.moves if case.recognized else None
     told = moves is not None and moves_as(best, moves)

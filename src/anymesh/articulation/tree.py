@@ -8,7 +8,9 @@ import numpy as np
 
 from anymesh.geometry.shape import FaceSet
 
-CLEARLY = 3.0  # a part hangs on another part rather than on the root when it is this much nearer, or touches this much more
+MIN_PARENT_GAIN = (
+    3.0  # a part hangs on another part rather than on the root when it is this much nearer, or touches this much more
+)
 
 
 def parents(shapes: list[FaceSet], diagonal: float, answered: Sequence[set[int]] | None = None) -> list[int]:
@@ -34,8 +36,8 @@ def _touching(shapes: list[FaceSet], i: int, size: Sequence[float], tolerance: f
             continue
         to = shapes[j].tree.distance(points)
         touch = float((to < tolerance).mean())
-        nearer = base.min() > max(CLEARLY * to.min(), 0.4 * tolerance) and to.min() < tolerance
-        more = touch > CLEARLY * touch_base + 0.01
+        nearer = base.min() > max(MIN_PARENT_GAIN * to.min(), 0.4 * tolerance) and to.min() < tolerance
+        more = touch > MIN_PARENT_GAIN * touch_base + 0.01
         if (nearer or more) and touch > best_score:
             best, best_score = j, touch
     return best

@@ -13,7 +13,7 @@ from anymesh.geometry.boxes import same_box
 from anymesh.geometry.shape import FaceSet
 from anymesh.geometry.surroundings import PartContext, body_obb
 
-LEVEL = 0.25  # of the way from one to the other: a row goes across its way out, but for this share
+MAX_ROW_OFFSET_RATIO = 0.25  # of the way from one to the other: a row goes across its way out, but for this share
 
 
 def same_size(shapes: Sequence[FaceSet], parent: Sequence[int]) -> list[list[int]]:
@@ -29,11 +29,11 @@ def same_size(shapes: Sequence[FaceSet], parent: Sequence[int]) -> list[list[int
     return groups
 
 
-def agree(arounds: Sequence[PartContext]) -> list[PartContext]:
+def share_opening_directions(arounds: Sequence[PartContext]) -> list[PartContext]:
     """Copies that lie in a row open to the same side of it: the one that is most open over all of them."""
     if len(arounds) == 1:
         return list(arounds)
-    return [_agreed(a, [a, *(b for b in arounds if b is not a and in_a_row(a, b))]) for a in arounds]
+    return [_with_row_direction(a, [a, *(b for b in arounds if b is not a and in_a_row(a, b))]) for a in arounds]
 
 
 def in_a_row(a: PartContext, b: PartContext) -> bool:
@@ -43,10 +43,10 @@ def in_a_row(a: PartContext, b: PartContext) -> bool:
 
 def _beside(a: PartContext, b: PartContext, way: Float[np.ndarray, " 3"]) -> bool:
     offset = b.body_obb.center - a.body_obb.center
-    return bool(abs(float(offset @ way)) < LEVEL * np.linalg.norm(offset))
+    return bool(abs(float(offset @ way)) < MAX_ROW_OFFSET_RATIO * np.linalg.norm(offset))
 
 
-def _agreed(around: PartContext, row: list[PartContext]) -> PartContext:
+def _with_row_direction(around: PartContext, row: list[PartContext]) -> PartContext:
     ways, total = around.opening_directions
     beside = np.array([all(_beside(around, other, way) for other in row[1:]) for way in ways])
     if len(row) == 1 or not beside.any():
@@ -55,4 +55,4 @@ def _agreed(around: PartContext, row: list[PartContext]) -> PartContext:
         theirs, worth = other.opening_directions
         total = total + worth[(ways @ theirs.T).argmax(1)]
     best = np.where(beside, total, -np.inf).argmax()
-    return around if (ways[best] == around.opening_direction).all() else replace(around, agreed=ways[best])
+    return around if (ways[best] == around.opening_direction).all() else replace(around, shared_opening_direction=ways[best])

@@ -8,14 +8,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 from jaxtyping import Int
 
-from anymesh.articulation.cases import Case, ask_each
+from anymesh.articulation.cases import PartCase, ask_each
 from anymesh.articulation.confidence import Agreement
-from anymesh.articulation.offers import Offers, fits, make_offers, moves_as
-from anymesh.reasoning.asking import Seer
+from anymesh.articulation.offers import MotionOffers, fits, make_offers, moves_as
+from anymesh.reasoning.asking import VisualAnswerer
 from anymesh.reasoning.geometry import reason
 from anymesh.reasoning.prompting import JointKind, MotionPick, MotionTable, PartFit, WhichMotions
 from anymesh.reasoning.questions import Candidate
-from anymesh.rendering.studio import Studio
+from anymesh.rendering.studio import VisualPrompts
 from anymesh.types import Picture
 
 
@@ -31,46 +31,46 @@ class Choice:
 
 
 @dataclass(frozen=True, eq=False)
-class Asking:
+class MotionQuestioner:
     """What the motion question is asked with. labels: (F,) the part of each face; category: what the object is."""
 
-    studio: Studio
+    visual_prompts: VisualPrompts
     labels: Int[np.ndarray, " F"]
-    seer: Seer
+    answerer: VisualAnswerer
     category: str
     ask_fit: bool = False
 
-    def picks(self, offers: Mapping[int, Offers], shown: Mapping[int, tuple[int, ...]]) -> dict[int, MotionPick]:
+    def picks(self, offers: Mapping[int, MotionOffers], shown: Mapping[int, tuple[int, ...]]) -> dict[int, MotionPick]:
         """Ask which motion each part makes; shown: the motions in its picture. Picks are numbers of its offers, by part."""
         tables = {n: self._table(offers[n], shown[n]) for n in shown}
         picked = ask_each(
-            self.seer,
+            self.answerer,
             [offers[n].case for n in shown],
             lambda c, title: self._strip(c, title, tables[c.number]),
             lambda p, some: WhichMotions(p, tuple(tables[c.number] for c in some), self.category, self.ask_fit),
         )
         return {n: MotionPick(None if a.motion is None else shown[n][a.motion], a.part) for n, a in picked.items()}
 
-    def _table(self, offers: Offers, shown: tuple[int, ...]) -> MotionTable:
+    def _table(self, offers: MotionOffers, shown: tuple[int, ...]) -> MotionTable:
         """The motions with these numbers, and the faces of the part with what it carries."""
         moving = np.isin(self.labels, [offers.case.number, *offers.case.carried])
         return replace(offers.table(shown), moving=np.flatnonzero(moving))
 
-    def _strip(self, case: Case, title: str, table: MotionTable) -> Picture:
+    def _strip(self, case: PartCase, title: str, table: MotionTable) -> Picture:
         """The part with what it carries, at rest and in each motion."""
         moving = np.zeros(len(self.labels), bool)
         moving[table.moving] = True
-        return self.studio.strip(moving, title, table.motions, table.amounts, table.blocked)
+        return self.visual_prompts.strip(moving, title, table.motions, table.amounts, table.blocked)
 
 
-def choose(cases: list[Case], asking: Asking, most: int, seed: int) -> dict[int, Choice]:
+def choose_motions(cases: list[PartCase], asking: MotionQuestioner, max_motions: int, seed: int) -> dict[int, Choice]:
     """Show the motions of each part and return the one chosen, by part number. most: motions in a picture.
 
     Where none of those shown is right, the next are shown, once. Where the choice contradicts what geometry and the answers
     before agree on, it is asked for again in another order and must be the same. seed: of the order in the pictures.
     """
-    offers = {c.number: make_offers(c, most, seed) for c in cases}
-    found = {n: _without_choice(o) for n, o in offers.items() if not _worth_asking(o)}
+    offers = {c.number: make_offers(c, max_motions, seed) for c in cases}
+    found = {n: _without_choice(o) for n, o in offers.items() if not _needs_question(o)}
     shown = {n: o.first for n, o in offers.items() if n not in found}
     picks = asking.picks(offers, shown)
     fit = {n: pick.part for n, pick in picks.items()}
@@ -87,18 +87,18 @@ def choose(cases: list[Case], asking: Asking, most: int, seed: int) -> dict[int,
     return found
 
 
-def _worth_asking(o: Offers) -> bool:
+def _needs_question(o: MotionOffers) -> bool:
     """Whether there is something to choose between; what two answers call fixed is not asked about again."""
     fixed = o.case.kind is JointKind.FIXED and (o.case.recognized is None or o.case.recognized.moves is None)
     return len(o.first) > 1 and not fixed
 
 
-def _against_all(o: Offers, picked: int | None) -> bool:
+def _against_all(o: MotionOffers, picked: int | None) -> bool:
     """Whether the motion picked contradicts what geometry and the answers before agree on."""
     return o.answered == 0 and o.motions[0].is_free and picked != 0 and picked is not None
 
 
-def _without_choice(o: Offers) -> Choice:
+def _without_choice(o: MotionOffers) -> Choice:
     best = o.motions[o.first[0] if o.first else 0]
     told = "the only free motion" if best.is_free else "no motion is free; as answered"
     if o.case.kind is JointKind.FIXED:
@@ -106,7 +106,7 @@ def _without_choice(o: Offers) -> Choice:
     return Choice(best, f"{told}: {reason(o.facts, best)}", agreement(o, 0, {"only": 1.0}))
 
 
-def _chosen(o: Offers, picked: int | None, *, doubted: bool, later: bool, fit: PartFit) -> Choice:
+def _chosen(o: MotionOffers, picked: int | None, *, doubted: bool, later: bool, fit: PartFit) -> Choice:
     best = o.motions[_fallback(o) if picked is None else picked]
     against = "" if fits(best, o.case.kind) else f", though {words(o.case.kind)} was answered"
     told = (
@@ -120,12 +120,12 @@ def _chosen(o: Offers, picked: int | None, *, doubted: bool, later: bool, fit: P
     return Choice(best, f"chosen among {told}", agreement(o, picked, seen), fit)
 
 
-def _fallback(o: Offers) -> int:
+def _fallback(o: MotionOffers) -> int:
     """The likeliest motion of the kind that was answered, where none was recognized."""
     return next((k for k, c in enumerate(o.motions) if c.is_free and fits(c, o.case.kind)), 0)
 
 
-def agreement(o: Offers, picked: int | None, more: Mapping[str, float]) -> Agreement:
+def agreement(o: MotionOffers, picked: int | None, more: Mapping[str, float]) -> Agreement:
     """Return what speaks for a motion of a part; None: that it does not move."""
     case = o.case
     moves = case.recognized.moves if case.recognized else None

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from jaxtyping import Int
 
-from anymesh.articulation.estimate import joint_of, motion_question, surroundings
+from anymesh.articulation.estimate import joint_of, motion_question, part_context
 from anymesh.config import Config
 from anymesh.correcting.corrections import ChooseMotion, vector
 from anymesh.correcting.finding import joint_of_part, part_number
@@ -68,7 +68,7 @@ def ranked_motions(
     whole, label = ready.whole, ready.part
     shapes = [whole.of(np.flatnonzero(label == k)) for k in range(len(names))]
     number = part_number(asset, part)
-    around = surroundings(whole, label, shapes, [hangs.get(n, -1) for n in names], number, settings.articulation)
+    around = part_context(whole, label, shapes, [hangs.get(n, -1) for n in names], number, settings.articulation)
     question = motion_question(around, part, asset.segmentation.parts[number].label)
     scores = motion_scores(question)
     free = [k for k in np.argsort(-scores, kind="stable") if question.candidates[k].is_free]

@@ -16,7 +16,7 @@ from anymesh.export.formats import DEFAULT
 from anymesh.models.cache import cache_folder
 from anymesh.rendering.preview import write_preview
 from anymesh.run_folder import RunFolder, stage_key
-from anymesh.stage_results import CORRECTION, Corrected
+from anymesh.stage_results import CORRECTION, CorrectionResult
 from anymesh.storage.hidden import locked
 from anymesh.storage.outputs import CORRECTIONS
 from anymesh.storage.saved import Saved
@@ -63,7 +63,7 @@ def save_asset(opened: Opened) -> Opened:
 def _write(run: RunFolder, history: History) -> None:
     stage, log, asset = run.editing(), pack_log(history.done), history.asset
     key = stage_key(stage, previous=run.last_key(edited=False), config={"log": log})
-    run.save(stage, key, Corrected(asset.segmentation, asset.joints, asset.warnings, tuple(log)))
+    run.save(stage, key, CorrectionResult(asset.segmentation, asset.joints, asset.warnings, tuple(log)))
     with _timed(run):
         written = read_json(run.target / "asset.json") or {}
         formats = tuple(Format(name) for name in written.get("files", {})) or DEFAULT

@@ -24,7 +24,7 @@ from anymesh.evaluation.single_view import observation
 from anymesh.evaluation.truth import Subject, Truth
 from anymesh.evaluation.worst import badness
 from anymesh.names import legal_name
-from anymesh.reasoning.asking import Seer
+from anymesh.reasoning.asking import VisualAnswerer
 from anymesh.types import Joint, Segmentation
 
 log = logging.getLogger("anymesh")
@@ -32,7 +32,7 @@ PICTURES = "pictures"  # folder, under the report's
 MOST_PICTURES = 3  # of joints that are off, an object
 OFF_ANGLE = 5.0  # [deg] a joint that is further off is drawn
 OFF_LINE = 0.05  # and so is one whose axis is further off at the part; the diagonal is 2
-See = Callable[[Subject], Callable[[Seer], Seer] | None]  # who answers, None: geometry
+SampleAnswerer = Callable[[Subject], Callable[[VisualAnswerer], VisualAnswerer] | None]  # who answers, None: geometry
 
 
 class Protocol(StrEnum):
@@ -54,7 +54,9 @@ class Exam:
     seed: int = 0
 
 
-def examine(exam: Exam, dataset: Dataset, name: str, folder: Path, solver: Solver, see: See) -> list[Record]:
+def examine(
+    exam: Exam, dataset: Dataset, name: str, folder: Path, solver: Solver, answerer_for: SampleAnswerer
+) -> list[Record]:
     """A record for each change or view; joints that are off are drawn under `folder`.
 
     What fails is a record with an error. ModelError (no answer can be had, the budget is spent) is raised.
@@ -66,7 +68,7 @@ def examine(exam: Exam, dataset: Dataset, name: str, folder: Path, solver: Solve
             return [Record(ObjectScore(name, (), 0, 0, 0), error=str(error))]
         if exam.protocol is Protocol.VIEWS and not truth.joints:
             return []  # no picture shows a part that moves
-        return [_record(exam, truth, variant, folder, solver, see) for variant in _variants(exam)]
+        return [_record(exam, truth, variant, folder, solver, answerer_for) for variant in _variants(exam)]
 
 
 def _variants(exam: Exam) -> list[tuple[str, int]]:
@@ -75,7 +77,9 @@ def _variants(exam: Exam) -> list[tuple[str, int]]:
     return [(change, view) for change in exam.changes for view in views]
 
 
-def _record(exam: Exam, truth: Truth, variant: tuple[str, int], folder: Path, solver: Solver, see: See) -> Record:
+def _record(
+    exam: Exam, truth: Truth, variant: tuple[str, int], folder: Path, solver: Solver, answerer_for: SampleAnswerer
+) -> Record:
     change, view = variant
     label = f"{change}, view {view}" if view else change
     begin = time.perf_counter()
@@ -85,7 +89,9 @@ def _record(exam: Exam, truth: Truth, variant: tuple[str, int], folder: Path, so
             subject = observation(subject, view - 1, exam.seed)
         given = exam.protocol in (Protocol.PARTS, Protocol.VIEWS)
         begin = time.perf_counter()
-        segmentation, joints = solver(subject.mesh, subject.segmentation() if given else None, see=see(subject))
+        segmentation, joints = solver(
+            subject.mesh, subject.segmentation() if given else None, answerer_factory=answerer_for(subject)
+        )
         seconds = time.perf_counter() - begin
         found = score(subject, segmentation, joints)
         if exam.protocol is Protocol.EXECUTABILITY:

@@ -28,10 +28,10 @@ class Guesser:
     """
 
     exchanges: tuple[Exchange, ...] = ()
-    remarks: tuple[str, ...] = ()
+    warnings: tuple[str, ...] = ()
 
     def __init__(self, seed: int, *, pictured: bool = False) -> None:
-        self.name, self.blind = f"guesses of seed {seed}", not pictured
+        self.name, self.needs_images = f"guesses of seed {seed}", pictured
         self._rng = np.random.default_rng(seed)
 
     def ask(self, question: Question[Answer]) -> Answer:
@@ -54,7 +54,7 @@ class Guesser:
             case WhichKinds():
                 pools: list[Pools] = [{} for _ in question.parts]
             case WhichPoints():
-                pools = [{"points": self._points(t.least, t.most, len(t.points))} for t in question.tables]
+                pools = [{"points": self._points(t.min_points, t.max_points, len(t.points))} for t in question.tables]
             case WhichArrows():
                 pools = [{"arrow": list(range(1, len(t.directions) + 1))} for t in question.tables]
             case WhichMotions():

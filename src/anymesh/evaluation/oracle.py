@@ -9,9 +9,9 @@ from typing import Any, TypeVar, cast
 import numpy as np
 
 from anymesh.evaluation.truth import Subject
-from anymesh.reasoning.asking import Answer, Question, Seer
+from anymesh.reasoning.asking import Answer, Question, VisualAnswerer
 from anymesh.reasoning.grounding import WhichMarks
-from anymesh.reasoning.knowing import Knowing, KnownJoint, Reference
+from anymesh.reasoning.knowing import Reference, ReferenceAnswerer, ReferenceJoint
 from anymesh.reasoning.prompting import (
     JointKind,
     KindAnswer,
@@ -29,9 +29,9 @@ from anymesh.types import Exchange
 Item = TypeVar("Item")
 
 
-def oracle(subject: Subject) -> Knowing:
+def oracle(subject: Subject) -> ReferenceAnswerer:
     """Answers each question as a perfect model would."""
-    return Knowing("oracle", lambda: true_reference(subject))
+    return ReferenceAnswerer("oracle", lambda: true_reference(subject))
 
 
 def true_reference(subject: Subject) -> Reference:
@@ -48,7 +48,7 @@ def true_reference(subject: Subject) -> Reference:
         face_area=mesh.face_areas,
         labels=("base", *(word.label if word else "part" for word in labels[1:])),
         parents=tuple(0 if j is None or j.parent not in names else names.index(j.parent) for j in made),
-        joints=tuple(None if j is None else KnownJoint(j.type, j.axis, j.origin, j.limits) for j in made),
+        joints=tuple(None if j is None else ReferenceJoint(j.type, j.axis, j.origin, j.limits) for j in made),
     )
 
 
@@ -56,10 +56,10 @@ class Noisy:
     """Another seer, of whose answers each item is wrong with a probability: another mark, kind, point, arrow or motion."""
 
     exchanges: tuple[Exchange, ...] = ()
-    remarks: tuple[str, ...] = ()
-    blind = True
+    warnings: tuple[str, ...] = ()
+    needs_images = False
 
-    def __init__(self, seer: Seer, wrong: float, rng: np.random.Generator) -> None:
+    def __init__(self, seer: VisualAnswerer, wrong: float, rng: np.random.Generator) -> None:
         self.name, self._seer, self._wrong, self._rng = f"noisy {seer.name}", seer, wrong, rng
 
     def ask(self, question: Question[Answer]) -> Answer:
@@ -108,17 +108,17 @@ class Random:
     """Answers the questions about joints at random, with valid answers; another answerer answers the rest."""
 
     exchanges: tuple[Exchange, ...] = ()
-    remarks: tuple[str, ...] = ()
-    blind = True
+    warnings: tuple[str, ...] = ()
+    needs_images = False
 
-    def __init__(self, seer: Seer, rng: np.random.Generator) -> None:
+    def __init__(self, seer: VisualAnswerer, rng: np.random.Generator) -> None:
         self.name, self._seer, self._rng = "random", seer, rng
 
     def ask(self, question: Question[Answer]) -> Answer:
         answer: Any
         match question:
             case WhichKinds():
-                answer = tuple(KindAnswer(kind, self._coin() and kind.turns) for kind in map(self._kind, question.parts))
+                answer = tuple(KindAnswer(kind, self._coin() and kind.is_rotation) for kind in map(self._kind, question.parts))
             case WhichPoints():
                 answer = tuple(self._points(t) for t in question.tables)
             case WhichArrows():
@@ -137,5 +137,5 @@ class Random:
         return list(JointKind)[int(self._rng.integers(len(JointKind)))]
 
     def _points(self, table: PointTable) -> tuple[int, ...]:
-        count = int(self._rng.integers(table.least, table.most + 1))
+        count = int(self._rng.integers(table.min_points, table.max_points + 1))
         return tuple(int(k) for k in self._rng.permutation(len(table.points))[:count])

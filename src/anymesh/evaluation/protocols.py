@@ -9,7 +9,7 @@ from anymesh.evaluation.oracle import oracle
 from anymesh.evaluation.score import ObjectScore, score
 from anymesh.evaluation.truth import Subject, Truth
 from anymesh.loading import load_mesh, place_mesh
-from anymesh.reasoning.asking import Seer
+from anymesh.reasoning.asking import VisualAnswerer
 from anymesh.types import Joint, Mesh, Segmentation
 
 Change = Callable[[Subject], Subject]  # turned, shaken, fused, and so on
@@ -17,10 +17,14 @@ Change = Callable[[Subject], Subject]  # turned, shaken, fused, and so on
 
 @runtime_checkable
 class Solver(Protocol):
-    """Finds parts (unless they are given) and joints of a placed mesh; see: makes who answers, None for geometry."""
+    """Find the parts (unless given) and joints of a placed mesh; answerer_factory: None for geometry."""
 
     def __call__(
-        self, mesh: Mesh, given: Segmentation | None, *, see: Callable[[Seer], Seer] | None = None
+        self,
+        mesh: Mesh,
+        given: Segmentation | None,
+        *,
+        answerer_factory: Callable[[VisualAnswerer], VisualAnswerer] | None = None,
     ) -> tuple[Segmentation, tuple[Joint, ...]]: ...
 
 
@@ -30,15 +34,15 @@ def evaluate(
     *,
     given: bool = False,
     change: Change | None = None,
-    knowing: Callable[[Seer], Seer] | None = None,
+    knowing: Callable[[VisualAnswerer], VisualAnswerer] | None = None,
 ) -> ObjectScore:
     """Loads and places the mesh, changes it, lets the solver find its parts (unless given) and joints, and scores them.
 
     knowing: the oracle answers, or what this function makes of it (see `oracle.Noisy`).
     """
     subject = prepared(truth, change)
-    see = None if knowing is None else (lambda _: knowing(oracle(subject)))
-    segmentation, joints = solver(subject.mesh, subject.segmentation() if given else None, see=see)
+    answerer_factory = None if knowing is None else (lambda _: knowing(oracle(subject)))
+    segmentation, joints = solver(subject.mesh, subject.segmentation() if given else None, answerer_factory=answerer_factory)
     return score(subject, segmentation, joints)
 
 

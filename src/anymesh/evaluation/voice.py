@@ -10,7 +10,7 @@ from anymesh.models.cache import Cached
 from anymesh.models.prices import cost_of, most_picture_tokens
 from anymesh.models.vision import Reply, Request
 from anymesh.reasoning.answer_json import answer_object
-from anymesh.reasoning.asking import Answer, Question, Seer
+from anymesh.reasoning.asking import Answer, Question, VisualAnswerer
 from anymesh.reasoning.vlm import VlmAnswerer
 
 LETTERS = 4  # of English and JSON that make a token, about
@@ -19,7 +19,7 @@ LETTERS = 4  # of English and JSON that make a token, about
 class Voice:
     """The model. `question` is what the next request asks. Tokens are estimates, by the price table of model `like`."""
 
-    def __init__(self, seer: Seer, like: str) -> None:
+    def __init__(self, seer: VisualAnswerer, like: str) -> None:
         self.name, self._seer = like, seer
         self.question: Question[Any] | None = None
 
@@ -37,7 +37,9 @@ class Voice:
 class Spoken(VlmAnswerer):
     """The answerer that asks the voice of another seer."""
 
-    def __init__(self, seer: Seer, instead: Seer, like: str = "openai:gpt-4o", cache: Path | None = None) -> None:
+    def __init__(
+        self, seer: VisualAnswerer, instead: VisualAnswerer, like: str = "openai:gpt-4o", cache: Path | None = None
+    ) -> None:
         self._voice = Voice(seer, like)
         super().__init__(Cached(self._voice, cache) if cache else self._voice, instead)
 

@@ -44,21 +44,21 @@ class Question(Protocol[Answer_co]):
 
 
 @runtime_checkable
-class Seer(Protocol):
-    """Whoever answers questions with pictures: a model, geometry in its place, or ground truth.
+class VisualAnswerer(Protocol):
+    """Answerer of questions with pictures: a model, geometry as its fallback, or ground truth.
 
-    exchanges: every call so far; remarks: what a user should know (who answered instead of whom, and why); blind: answers
-    from what the question holds besides, so that no picture need be drawn for it.
+    exchanges: every call so far; warnings: what a user should know (which fallback answered, and why); needs_images: False
+    where the other fields of a question are enough, so that its pictures are not rendered.
     """
 
     name: str
-    blind: bool
+    needs_images: bool
 
     @property
     def exchanges(self) -> tuple[Exchange, ...]: ...
 
     @property
-    def remarks(self) -> tuple[str, ...]: ...
+    def warnings(self) -> tuple[str, ...]: ...
 
     def ask(self, question: Question[Answer]) -> Answer: ...
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float, Float32, Int16, Int32
 
-LEAF = -1  # in `feature`
+NO_FEATURE = -1  # in `feature`
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,7 +31,7 @@ class BoostedTrees:
         rows = np.asarray(rows, np.float32)
         node = np.repeat(self.root[None], len(rows), 0)
         at = np.arange(len(rows))[:, None]
-        while (inner := self.feature[node] != LEAF).any():
+        while (inner := self.feature[node] != NO_FEATURE).any():
             column = np.maximum(self.feature[node], 0)
             above = rows[at, column] > self.threshold[node]
             node = np.where(inner, np.where(above, self.right[node], self.left[node]), node)
@@ -43,7 +43,7 @@ class BoostedTrees:
         found = np.zeros(rows.shape)
         node = np.repeat(self.root[None], len(rows), 0)
         at = np.arange(len(rows))[:, None].repeat(len(self.root), 1)
-        while (inner := self.feature[node] != LEAF).any():
+        while (inner := self.feature[node] != NO_FEATURE).any():
             column = np.maximum(self.feature[node], 0)
             new = np.where(inner, np.where(rows[at, column] > self.threshold[node], self.right[node], self.left[node]), node)
             np.add.at(found, (at, column), np.where(inner, self.value[new] - self.value[node], 0.0))

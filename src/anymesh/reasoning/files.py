@@ -24,7 +24,7 @@ from anymesh.models.question_files import (
 )
 from anymesh.models.vision import Reply, Request
 from anymesh.reasoning.answer_json import answer_object
-from anymesh.reasoning.asking import Answer, BadAnswerError, Question, Seer
+from anymesh.reasoning.asking import Answer, BadAnswerError, Question, VisualAnswerer
 from anymesh.reasoning.question_words import question_page
 from anymesh.reasoning.reply_text import reply_object
 from anymesh.reasoning.saved_question import pack_question, unpack_question
@@ -44,13 +44,13 @@ class FileAnswerer:
     answer beside each question that is waited for.
     """
 
-    blind = False
-    remarks: tuple[str, ...] = ()
+    needs_images = True
+    warnings: tuple[str, ...] = ()
 
     def __init__(
         self,
         store: QuestionStore,
-        fallback: Seer,
+        fallback: VisualAnswerer,
         *,
         wait: bool = False,
         paused: Callable[[], AbstractContextManager[None]] = nullcontext,
@@ -88,7 +88,7 @@ class FileAnswerer:
     def _accept(
         self, question: Question[Answer], request: Request, folder: QuestionFolder, text: str, seconds: float
     ) -> Answer:
-        left = leaves(text)
+        left = is_left_to_geometry(text)
         answer = self._fallback.ask(question) if left else question.parse(reply_object(text, request.schema))
         folder.accept()
         reply = Reply(text, NAME, 0, 0, cost=0.0, seconds=seconds)
@@ -96,7 +96,7 @@ class FileAnswerer:
         return answer
 
 
-def leaves(text: str) -> bool:
+def is_left_to_geometry(text: str) -> bool:
     """Tell whether an answer leaves its question to geometry."""
     return text.strip().strip('"') == LEAVE
 
@@ -106,7 +106,7 @@ def check_answer(folder: QuestionFolder, text: str) -> bool:
 
     Returns whether it was. Raises BadAnswerError.
     """
-    if leaves(text):
+    if is_left_to_geometry(text):
         return True
     found = reply_object(text, folder.schema)
     try:

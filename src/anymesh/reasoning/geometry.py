@@ -7,11 +7,11 @@ from jaxtyping import Bool, Float
 
 from anymesh.reasoning.questions import Candidate, MotionAnswer, MotionQuestion, PartFacts
 from anymesh.reasoning.two_steps import confidence_of
-from anymesh.reasoning.vocabulary import Habit, habit_of
+from anymesh.reasoning.vocabulary import TypicalMotion, typical_motion
 from anymesh.types import JointType, MotionKind
 
 UNSURE = 0.3  # confidence of a joint that no motion speaks for
-SLOPE, OFFSET = (
+CALIBRATION_SLOPE, OFFSET = (
     0.81,
     0.05,
 )  # of the log-odds of a confidence; fitted to kinds left out of training (benchmarks/train_motions.py)
@@ -19,11 +19,11 @@ SAME_AXIS = 0.97  # cosine of axes that are one to a user
 SAME_LINE = 0.1  # and the share of the part's own size that their lines may be apart
 BLOCKED = -4.0  # log-odds that a motion loses which the sweep calls blocked
 LABEL_PRIOR = {  # log-odds that a label adds to a hinge, to a turn about the axis of a round outline, to a slide
-    Habit.HINGE: (1.5, -2.5, -2.0),
-    Habit.BAIL: (1.5, -2.5, -2.0),
-    Habit.SLIDE: (-2.0, -2.5, 2.0),
-    Habit.PRESS: (-2.0, -2.5, 2.0),
-    Habit.SPIN: (-1.5, 2.5, -2.0),
+    TypicalMotion.HINGE: (1.5, -2.5, -2.0),
+    TypicalMotion.TWO_PIVOT: (1.5, -2.5, -2.0),
+    TypicalMotion.SLIDE: (-2.0, -2.5, 2.0),
+    TypicalMotion.PRESS: (-2.0, -2.5, 2.0),
+    TypicalMotion.SPIN: (-1.5, 2.5, -2.0),
 }
 
 
@@ -40,7 +40,7 @@ class GeometryAnswerer:
         if not best.is_free:
             return MotionAnswer(ranking, JointType.FIXED, UNSURE, "no candidate motion is free and plausible")
         share = np.clip(share_of_best(scores, same_joints(question, ranking[0])), 1e-6, 1 - 1e-6)
-        confidence = confidence_of(float(np.log(share / (1 - share))), SLOPE, OFFSET)
+        confidence = confidence_of(float(np.log(share / (1 - share))), CALIBRATION_SLOPE, OFFSET)
         why = f"{reason(question.part, best)}; {question.reasons[ranking[0]]}"
         return MotionAnswer(ranking, joint_type(best), confidence, why)
 
@@ -48,7 +48,7 @@ class GeometryAnswerer:
 def motion_scores(question: MotionQuestion) -> Float[np.ndarray, " k"]:
     """Return the log-odds of each candidate, with what is blocked behind, and what the label says of the usual motion."""
     scores = question.scores + np.array([0.0 if c.is_free else BLOCKED for c in question.candidates])
-    prior = LABEL_PRIOR.get(habit) if (habit := habit_of(question.part.label)) else None
+    prior = LABEL_PRIOR.get(habit) if (habit := typical_motion(question.part.label)) else None
     if prior is None:
         return scores
     kinds = [2 if c.motion.kind is MotionKind.PRISMATIC else int(c.role == "round") for c in question.candidates]
@@ -64,7 +64,7 @@ def same_joints(question: MotionQuestion, best: int) -> Bool[np.ndarray, " k"]:
     same = np.array([m.kind is motions[best].kind for m in motions])
     axes, axis = np.array([c.motion.axis * c.opening_sign for c in question.candidates]), motions[best].axis
     cosine = axes @ (axis * question.candidates[best].opening_sign)
-    same &= (np.abs(cosine) if question.candidates[best].turns_freely else cosine) >= SAME_AXIS
+    same &= (np.abs(cosine) if question.candidates[best].is_endless else cosine) >= SAME_AXIS
     if motions[best].kind is MotionKind.REVOLUTE:
         offset = np.array([m.origin for m in motions]) - motions[best].origin
         same &= np.linalg.norm(np.cross(offset, axis), axis=1) <= SAME_LINE * question.part.size * question.part.diagonal
@@ -81,7 +81,7 @@ def joint_type(c: Candidate) -> JointType:
     """Return the type of joint that goes with a candidate."""
     if c.motion.kind is MotionKind.PRISMATIC:
         return JointType.PRISMATIC
-    return JointType.CONTINUOUS if c.role == "round" and c.turns_freely else JointType.REVOLUTE
+    return JointType.CONTINUOUS if c.role == "round" and c.is_endless else JointType.REVOLUTE
 
 
 def reason(part: PartFacts, c: Candidate) -> str:

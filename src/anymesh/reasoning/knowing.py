@@ -32,18 +32,20 @@ from anymesh.reasoning.recognition import Recognize
 from anymesh.types import Exchange, JointType, Motion, MotionKind
 from anymesh.types.recognition import BASE, Moves, Recognition, RecognizedLabel
 
-LEAST_SEEN = 40  # [px] of a part that a viewer notices
-MOST = 0.5  # share of a mark's pixels that lie on the part it is given to
-MIXED = 0.02  # share of a mark's pixels from which another part on it is a reason to split it
-NEAR = 0.05  # of the part's size: a contact point this near the axis lies on it
-SPREAD = 0.25  # of the part's extent along the axis: near points further apart show a hinge
-INTO = np.cos(np.deg2rad(20.0))  # an axis this near the contact plane's normal sticks into the surface
-OUT = 0.7  # a slide this much along the way out
-RIGHT = 0.5  # a motion is recognized when it takes the part no further than this from where it belongs, as a share of the way
+MIN_VISIBLE_PIXELS = 40  # [px] of a part that a viewer notices
+MIN_MARK_OVERLAP = 0.5  # share of a mark's pixels that lie on the part it is given to
+MIN_SPLIT_OVERLAP = 0.02  # share of a mark's pixels from which another part on it is a reason to split it
+MAX_AXIS_DISTANCE_RATIO = 0.05  # of the part's size: a contact point this near the axis lies on it
+MIN_HINGE_SPREAD_RATIO = 0.25  # of the part's extent along the axis: near points further apart show a hinge
+MIN_NORMAL_COSINE = np.cos(np.deg2rad(20.0))  # an axis this near the contact plane's normal sticks into the surface
+MIN_OPENING_COSINE = 0.7  # a slide this much along the way out
+MAX_MOTION_ERROR_RATIO = (
+    0.5  # a motion is recognized when it takes the part no further than this from where it belongs, as a share of the way
+)
 
 
 @dataclass(frozen=True, eq=False)
-class KnownJoint:
+class ReferenceJoint:
     """A joint in the asset frame [m]; positive opens."""
 
     type: JointType
@@ -74,7 +76,7 @@ class Reference:
     face_area: Float[np.ndarray, " F"]
     labels: tuple[str, ...]
     parents: tuple[int, ...]
-    joints: tuple[KnownJoint | None, ...]
+    joints: tuple[ReferenceJoint | None, ...]
 
     @cached_property
     def kinds(self) -> tuple[str, ...]:
@@ -88,12 +90,12 @@ class Reference:
         )
 
 
-class Knowing:
+class ReferenceAnswerer:
     """Answers from a reference, which is made when it is first needed."""
 
     exchanges: tuple[Exchange, ...] = ()
-    remarks: tuple[str, ...] = ()
-    blind = True
+    warnings: tuple[str, ...] = ()
+    needs_images = False
 
     def __init__(self, name: str, reference: Callable[[], Reference]) -> None:
         self.name, self._make = name, reference
@@ -151,7 +153,9 @@ class Knowing:
         kinds = self._known.kinds
         seen = [np.bincount(self._pixels(f)[f >= 0], minlength=len(kinds)) for f in question.faces]
         most = {label: [max(n[p] * (kinds[p] == label) for p in range(len(kinds))) for n in seen] for label in question.labels}
-        return {label: tuple(v for v, pixels in enumerate(found) if pixels >= LEAST_SEEN) for label, found in most.items()}
+        return {
+            label: tuple(v for v, pixels in enumerate(found) if pixels >= MIN_VISIBLE_PIXELS) for label, found in most.items()
+        }
 
     def _marks(self, question: WhichMarks) -> MarksAnswer:
         parts = [self._pixels(f) for f in question.faces]
@@ -167,9 +171,9 @@ class Knowing:
                 counts = np.bincount(part[on & (region == mark)])
                 best = int(counts.argmax())
                 second = int(np.sort(counts)[-2]) if len(counts) > 1 else 0
-                if question.splittable and second > max(MIXED * counts.sum(), LEAST_SEEN):
+                if question.splittable and second > max(MIN_SPLIT_OVERLAP * counts.sum(), MIN_VISIBLE_PIXELS):
                     split.append(int(mark))
-                elif best > 0 and counts[best] > MOST * counts.sum() and self._known.kinds[best] in question.labels:
+                elif best > 0 and counts[best] > MIN_MARK_OVERLAP * counts.sum() and self._known.kinds[best] in question.labels:
                     found.setdefault((best, view), []).append(int(mark))
         marked = tuple(
             MarkedPart(self._known.kinds[part], self._instance(part), view, tuple(marks))
@@ -187,7 +191,7 @@ class Knowing:
         moving = int(area[1:].argmax()) + 1 if len(area) > 1 and area[1:].max() > 0 else 0
         return moving if moving and self._moves(moving) else 0
 
-    def _joint(self, part: PartShown) -> KnownJoint | None:
+    def _joint(self, part: PartShown) -> ReferenceJoint | None:
         return self._known.joints[self._number(part)]
 
     def _kind(self, part: PartShown, labels: tuple[str, ...]) -> KindAnswer:
@@ -199,21 +203,21 @@ class Knowing:
         endless = joint.type is JointType.CONTINUOUS
         return KindAnswer(self._kind_of(part, joint), endless, told)
 
-    def _kind_of(self, part: PartShown, joint: KnownJoint) -> JointKind:
+    def _kind_of(self, part: PartShown, joint: ReferenceJoint) -> JointKind:
         axis = joint.motion.axis
         if joint.type is JointType.PRISMATIC:
-            return JointKind.SLIDE_OUT if abs(float(axis @ part.outward)) > OUT else JointKind.SLIDE_ALONG
-        on = part.contact[_to_line(part.contact, joint) < NEAR * _size(part)]
+            return JointKind.SLIDE_OUT if abs(float(axis @ part.outward)) > MIN_OPENING_COSINE else JointKind.SLIDE_ALONG
+        on = part.contact[_to_line(part.contact, joint) < MAX_AXIS_DISTANCE_RATIO * _size(part)]
         along = np.ptp(on @ axis) if len(on) > 1 else 0.0
-        if along > SPREAD * np.ptp(part.points @ axis):
+        if along > MIN_HINGE_SPREAD_RATIO * np.ptp(part.points @ axis):
             return JointKind.HINGE_ALONG
-        return JointKind.HINGE_INTO if abs(float(axis @ part.normal)) > INTO else JointKind.HINGE_HIDDEN
+        return JointKind.HINGE_INTO if abs(float(axis @ part.normal)) > MIN_NORMAL_COSINE else JointKind.HINGE_HIDDEN
 
     def _points(self, table: PointTable) -> tuple[int, ...]:
         """The point whose axis is nearest, or the two whose line takes the part nearest to where the joint takes it."""
         joint = self._joint(table.part)
         if joint is None:
-            return tuple(range(table.least))
+            return tuple(range(table.min_points))
         size = _size(table.part)
         normals = np.broadcast_to(table.part.normal, table.points.shape)
         if table.axes is not None:
@@ -221,8 +225,8 @@ class Knowing:
         off = _to_line(table.points, joint)
         single = np.array([_turned_by(n, joint) for n in normals]) * size + off
         best = (int(single.argmin() if table.axes is not None else off.argmin()),)
-        least = float(single[best[0]]) if table.least == 1 else np.inf
-        for a, b in combinations(range(len(table.points)), 2) if table.most > 1 else ():
+        least = float(single[best[0]]) if table.min_points == 1 else np.inf
+        for a, b in combinations(range(len(table.points)), 2) if table.max_points > 1 else ():
             apart = table.points[b] - table.points[a]
             length = float(np.linalg.norm(apart))
             if length < 1e-9:
@@ -230,7 +234,7 @@ class Knowing:
             error = _turned_by(apart / length, joint) * size + float(off[[a, b]].mean())
             if error < least:
                 best, least = (a, b), error
-        return best if len(best) >= table.least else (0, 1)
+        return best if len(best) >= table.min_points else (0, 1)
 
     def _arrow(self, part: PartShown, directions: np.ndarray) -> int:
         joint = self._joint(part)
@@ -249,14 +253,14 @@ class Knowing:
                 here = _moved(part.points, motion, amount)
                 way = float(np.linalg.norm(here - part.points, axis=1).mean())
                 off[k] = min(float(np.linalg.norm(here - g, axis=1).mean()) for g in goal) / max(way, 1e-12)
-        return int(off.argmin()) if off.min(initial=np.inf) < RIGHT else None
+        return int(off.argmin()) if off.min(initial=np.inf) < MAX_MOTION_ERROR_RATIO else None
 
 
-def _to_line(points: np.ndarray, joint: KnownJoint) -> np.ndarray:
+def _to_line(points: np.ndarray, joint: ReferenceJoint) -> np.ndarray:
     return np.linalg.norm(np.cross(points - joint.origin, joint.motion.axis), axis=1)
 
 
-def _turned_by(direction: np.ndarray, joint: KnownJoint) -> float:
+def _turned_by(direction: np.ndarray, joint: ReferenceJoint) -> float:
     """Sine of the angle between a unit direction and the axis."""
     return float(np.linalg.norm(np.cross(direction, joint.motion.axis)))
 

@@ -27,7 +27,7 @@ class JointKind(StrEnum):
     FIXED = "fixed"
 
     @property
-    def turns(self) -> bool:
+    def is_rotation(self) -> bool:
         return self in (JointKind.HINGE_ALONG, JointKind.HINGE_INTO, JointKind.HINGE_HIDDEN)
 
 
@@ -91,7 +91,7 @@ class WhichKinds:
 
     def _answer(self, found: Mapping[str, Any]) -> KindAnswer:
         kind, label = JointKind(found["joint"]), found.get("label")
-        return KindAnswer(kind, found["endless"] and kind.turns, None if label == OTHER else label)
+        return KindAnswer(kind, found["endless"] and kind.is_rotation, None if label == OTHER else label)
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,11 +109,11 @@ class PointTable:
     hidden: Bool[np.ndarray, " k"] | None = None
 
     @property
-    def least(self) -> int:
+    def min_points(self) -> int:
         return 2 if self.kind is JointKind.HINGE_ALONG and len(self.points) > 1 else 1
 
     @property
-    def most(self) -> int:
+    def max_points(self) -> int:
         into = self.kind is JointKind.HINGE_INTO
         return min(len(self.points), (1 if self.axes is None else 2) if into else len(self.points))
 
@@ -121,9 +121,9 @@ class PointTable:
     def wanted(self) -> str:
         if self.kind is JointKind.HINGE_INTO:
             one = "the one point nearest to its axis"
-            return one if self.most == 1 else f"{one} where that comes out of the surface, or two points on its axis"
+            return one if self.max_points == 1 else f"{one} where that comes out of the surface, or two points on its axis"
         far = "two or more points on its hinge line, far apart"
-        return far if self.least > 1 else f"{far}, or a single point if the axis sticks out of the surface there"
+        return far if self.min_points > 1 else f"{far}, or a single point if the axis sticks out of the surface there"
 
     @property
     def listed(self) -> str:
@@ -163,7 +163,7 @@ class WhichPoints:
             wrong = [n for n in by_part[k] if not 1 <= n <= len(table.points)]
             if wrong:
                 raise BadAnswerError(f"points of part {k} are 1..{len(table.points)}, found {wrong[:10]}")
-            if not table.least <= len(by_part[k]) <= table.most:
+            if not table.min_points <= len(by_part[k]) <= table.max_points:
                 raise BadAnswerError(f"part {k} needs {table.wanted}; found {len(by_part[k])} points")
         return tuple(tuple(n - 1 for n in by_part[k]) for k in range(1, len(self.tables) + 1))
 

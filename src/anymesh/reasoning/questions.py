@@ -16,7 +16,7 @@ from anymesh.types import Handle, JointType, Motion, MotionKind, Sweep
 
 MIN_ANGLE = float(np.deg2rad(12))  # [rad] a hinge that opens less is blocked
 MIN_TRAVEL_RATIO = 0.008  # a slide that is free for less, as a share of the diagonal, is blocked
-FULL_TURN = 3.0  # [rad] free each way from which a turn is endless; the sweep ends at half a turn
+ENDLESS_ANGLE = 3.0  # [rad] free each way from which a turn is endless; the sweep ends at half a turn
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,9 +87,9 @@ class Candidate:
         return max(self.opening, self.closing if self.role == "round" else 0.0) >= MIN_ANGLE
 
     @property
-    def turns_freely(self) -> bool:
+    def is_endless(self) -> bool:
         """Whether nothing stops a turn, either way."""
-        return self.motion.kind is MotionKind.REVOLUTE and min(self.opening, self.closing) > FULL_TURN
+        return self.motion.kind is MotionKind.REVOLUTE and min(self.opening, self.closing) > ENDLESS_ANGLE
 
 
 @dataclass(frozen=True, eq=False)

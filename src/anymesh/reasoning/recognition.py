@@ -8,11 +8,21 @@ from dataclasses import dataclass
 from typing import Any
 
 from anymesh.errors import OptionError
-from anymesh.reasoning.asking import INTEGER, NUMBER, STRING, BadAnswerError, Seer, a_list, an_answer, an_object, one_of
+from anymesh.reasoning.asking import (
+    INTEGER,
+    NUMBER,
+    STRING,
+    BadAnswerError,
+    VisualAnswerer,
+    a_list,
+    an_answer,
+    an_object,
+    one_of,
+)
 from anymesh.types import Picture
 from anymesh.types.recognition import BASE, Moves, Recognition, RecognizedLabel
 
-MOST_LABELS = 24
+MAX_LABELS = 24
 SIZES = (0.002, 200.0)  # [m] of things that this program is for
 ROUGH = 1.5  # an answered size is a guess: the mesh keeps its own when both agree within this factor
 DOUBTFUL = 2.5  # an answered size that differs by more from that of a file with a unit is worth a warning
@@ -99,8 +109,8 @@ def check_labels(labels: Sequence[str]) -> tuple[str, ...]:
     for label in labels:
         if not WORD.fullmatch(label) or label == BASE:
             raise BadAnswerError(f"a label is a short English noun in lower case and not {BASE!r}, found {label[:40]!r}")
-    if len(set(labels)) != len(labels) or len(labels) > MOST_LABELS:
-        raise BadAnswerError(f"each label once and at most {MOST_LABELS} of them, found {len(labels)}: {list(labels)[:30]}")
+    if len(set(labels)) != len(labels) or len(labels) > MAX_LABELS:
+        raise BadAnswerError(f"each label once and at most {MAX_LABELS} of them, found {len(labels)}: {list(labels)[:30]}")
     return tuple(labels)
 
 
@@ -120,7 +130,7 @@ def _check_tree(parent: Mapping[str, str]) -> None:
             at = parent[at]
 
 
-def told_labels(labels: Sequence[str]) -> tuple[str, ...]:
+def parse_labels(labels: Sequence[str]) -> tuple[str, ...]:
     """The labels that a user gives. Raises OptionError."""
     try:
         return check_labels([_folded(label) for label in labels])
@@ -130,15 +140,15 @@ def told_labels(labels: Sequence[str]) -> tuple[str, ...]:
 
 def recognize(
     pictures: Callable[[], tuple[Picture, ...]],
-    seer: Seer,
+    answerer: VisualAnswerer,
     category: str | None,
-    told: Sequence[str],
+    labels: Sequence[str],
     azimuths: Sequence[float] = (),
 ) -> Recognition:
     """Asks, unless the labels were told. azimuths: of the pictures [deg]."""
-    if told:
-        return Recognition(category or "object", None, tuple(RecognizedLabel(label, None, None, None) for label in told))
-    return seer.ask(Recognize(() if seer.blind else pictures(), category, tuple(azimuths)))
+    if labels:
+        return Recognition(category or "object", None, tuple(RecognizedLabel(label, None, None, None) for label in labels))
+    return answerer.ask(Recognize(pictures() if answerer.needs_images else (), category, tuple(azimuths)))
 
 
 def answered_scale(found: Recognition, size: float, *, metric: bool) -> tuple[float, str, tuple[str, ...]]:

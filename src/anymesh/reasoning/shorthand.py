@@ -14,28 +14,28 @@ from typing import Any
 
 from anymesh.errors import OptionError
 
-ENTRY = re.compile(r"([^=\s#][^=#]*?)(?:#(-?\d+))?=([^=\s]*)(?=\s|$)")
+ASSIGNMENT = re.compile(r"([^=\s#][^=#]*?)(?:#(-?\d+))?=([^=\s]*)(?=\s|$)")
 Schema = Mapping[str, Any]
 
 
 def answer_text(told: str, schema: Schema) -> str:
     """Turn what a user typed into an answer's JSON; text that is JSON already stays. Raises OptionError."""
     told = told.strip()
-    if told.startswith(("{", "[", '"')) or not ENTRY.match(told):
+    if told.startswith(("{", "[", '"')) or not ASSIGNMENT.match(told):
         return told
     lists = [n for n, part in schema["properties"].items() if part["type"] == "array" and part["items"]["type"] == "object"]
     if len(lists) != 1:
         raise OptionError(f"this question takes a JSON object with {list(schema['properties'])}, not the short form")
     items = schema["properties"][lists[0]]["items"]
-    rest = ENTRY.sub("", told).strip()
+    rest = ASSIGNMENT.sub("", told).strip()
     if rest:
         raise OptionError(f"the short form is NAME=VALUE,VALUE ..., found {rest[:40]!r} besides")
     found: dict[str, Any] = {name: _blank(name, part) for name, part in schema["properties"].items() if name != lists[0]}
-    found[lists[0]] = [_entry(*match.groups(), items) for match in ENTRY.finditer(told)]
+    found[lists[0]] = [_assignment(*match.groups(), items) for match in ASSIGNMENT.finditer(told)]
     return json.dumps({name: found[name] for name in schema["properties"]})
 
 
-def _entry(name: str, number: str | None, told: str, items: Schema) -> dict[str, Any]:
+def _assignment(name: str, number: str | None, told: str, items: Schema) -> dict[str, Any]:
     properties = dict(items["properties"])
     named = (item for item in properties.items() if item[1]["type"] == "integer" or "enum" in item[1])
     first, part = next(named, next(iter(properties.items())))  # text that explains may come before

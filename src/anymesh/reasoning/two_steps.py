@@ -13,7 +13,7 @@ from jaxtyping import Float
 from anymesh.reasoning.boosted_trees import BoostedTrees
 
 REASONS = 3  # features that are named
-LEAST, MOST = 0.05, 0.99  # confidence
+MIN_CONFIDENCE, MAX_CONFIDENCE = 0.05, 0.99  # confidence
 MISSING = -9.0  # value of a feature that a candidate does not have
 
 
@@ -57,4 +57,4 @@ class TwoStepClassifier:
 
 def confidence_of(log_odds: float, slope: float, offset: float) -> float:
     """Return how often a choice with these log-odds is right. slope, offset: fitted to what was left out of training."""
-    return float(np.clip(1 / (1 + np.exp(-slope * log_odds - offset)), LEAST, MOST))
+    return float(np.clip(1 / (1 + np.exp(-slope * log_odds - offset)), MIN_CONFIDENCE, MAX_CONFIDENCE))

@@ -7,10 +7,10 @@ from dataclasses import replace
 from anymesh.models.cache import request_key
 from anymesh.models.patience import MOST, Patience
 from anymesh.models.vision import Reply, Request, VisionModel
-from anymesh.reasoning.asking import Answer, BadAnswerError, Question, Seer
+from anymesh.reasoning.asking import Answer, BadAnswerError, Question, VisualAnswerer
 from anymesh.reasoning.reply_text import reply_object
 from anymesh.types import Exchange
-from anymesh.types.exchange import INSTEAD, NOT_ASKED
+from anymesh.types.exchange import FALLBACK_VERDICT, NOT_ASKED
 
 SYSTEM = (
     "You help to turn rigid 3D models into articulated ones for robot simulators. You are shown rendered pictures and asked "
@@ -20,32 +20,32 @@ SYSTEM = (
 
 
 class VlmAnswerer:
-    """Asks a model; what it cannot answer properly, `fallback` answers, and the remarks say so.
+    """Asks a model; what it cannot answer properly, `fallback` answers, and the warnings say so.
 
     patience: shared by the answerers of one run; once it is lost the model is not asked any more.
     """
 
-    blind = False
+    needs_images = True
 
-    def __init__(self, model: VisionModel, fallback: Seer, patience: Patience | None = None) -> None:
+    def __init__(self, model: VisionModel, fallback: VisualAnswerer, patience: Patience | None = None) -> None:
         self.name = model.name
         self._model, self._fallback, self._patience = model, fallback, patience or Patience()
         self._exchanges: list[Exchange] = []
-        self._remarks: list[str] = []
+        self._warnings: list[str] = []
 
     @property
     def exchanges(self) -> tuple[Exchange, ...]:
         return tuple(self._exchanges)
 
     @property
-    def remarks(self) -> tuple[str, ...]:
-        return tuple(self._remarks)
+    def warnings(self) -> tuple[str, ...]:
+        return tuple(self._warnings)
 
     def ask(self, question: Question[Answer]) -> Answer:
         """Raises ModelError when no reply can be had at all, BudgetError before a call that would pass the budget."""
         request = Request(question.kind, SYSTEM, question.text(), question.pictures, question.schema())
         if self._patience.lost:
-            verdict = f"{NOT_ASKED}, {self.name} was given up; {self._fallback.name} {INSTEAD}"
+            verdict = f"{NOT_ASKED}, {self.name} was given up; {self._fallback.name} {FALLBACK_VERDICT}"
             nothing = Reply("", self._model.name, 0, 0, cost=0.0)
             self._exchanges.append(exchange_of(self._model.name, request, nothing, verdict))
             return self._fallback.ask(question)
@@ -55,17 +55,17 @@ class VlmAnswerer:
             found = self._try(replace(request, text=again), question)
         if not isinstance(found, BadAnswerError):
             return found
-        self._give_way(question.kind, found)
+        self._fall_back(question.kind, found)
         return self._fallback.ask(question)
 
-    def _give_way(self, kind: str, why: BadAnswerError) -> None:
+    def _fall_back(self, kind: str, why: BadAnswerError) -> None:
         """Note that somebody else answers."""
         other = self._fallback.name
-        self._remarks.append(f"{self.name} gave no valid answer to {kind!r} ({why}); {other} answered it")
+        self._warnings.append(f"{self.name} gave no valid answer to {kind!r} ({why}); {other} answered it")
         if self._patience.first_time():
-            self._remarks.append(f"{self.name} was given up after {MOST} answers in a row that were not valid; {other} "
+            self._warnings.append(f"{self.name} was given up after {MOST} answers in a row that were not valid; {other} "
                                  "answered the rest")  # fmt: skip
-        self._exchanges[-1] = replace(self._exchanges[-1], verdict=f"not valid: {why}; {other} {INSTEAD}")
+        self._exchanges[-1] = replace(self._exchanges[-1], verdict=f"not valid: {why}; {other} {FALLBACK_VERDICT}")
 
     def _try(self, request: Request, question: Question[Answer]) -> Answer | BadAnswerError:
         reply = self._model.ask(request)

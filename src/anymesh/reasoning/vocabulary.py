@@ -8,13 +8,13 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 
-class Habit(StrEnum):
+class TypicalMotion(StrEnum):
     """How a kind of part usually moves."""
 
     HINGE = "hinge"
     SLIDE = "slide"
     SPIN = "spin"
-    BAIL = "bail"
+    TWO_PIVOT = "bail"
     PRESS = "press"
     LEVER = "lever"  # a hinge or a slide: geometry decides
     NONE = "none"  # belongs to what it is fixed to
@@ -25,25 +25,28 @@ class Word:
     """One kind of part."""
 
     label: str
-    habit: Habit
+    motion: TypicalMotion
     names: tuple[str, ...]
 
 
 WORDS = (
-    Word("door", Habit.HINGE, ("door", "tuer", "porte", "puerta", "porta", "hatch", "gate", "shutter")),
-    Word("lid", Habit.HINGE, ("lid", "cover", "hood", "bonnet", "trunk", "tailgate", "cap", "deckel", "screen", "display")),
-    Word("flap", Habit.HINGE, ("flap", "aileron", "elevator", "rudder", "slat", "visor", "tilt", "airbrake", "spoiler")),
-    Word("drawer", Habit.SLIDE, ("drawer", "schublade", "tiroir", "cajon", "tray", "rack", "basket", "bin", "crisper")),
-    Word("window", Habit.LEVER, ("window", "sash", "pane")),
-    Word("slider", Habit.SLIDE, ("slider", "slide", "sliding", "rail", "carriage", "piston", "plunger", "bolt", "magazine")),
-    Word("button", Habit.PRESS, ("button", "key", "keycap", "trigger", "push")),
-    Word("knob", Habit.SPIN, ("knob", "dial", "valve", "tap", "chuck", "control")),
-    Word("wheel", Habit.SPIN, ("wheel", "tire", "tyre", "caster", "castor", "roller", "rotor", "propeller", "fan", "gear",
-                               "steering", "turntable", "blade", "hub", "crank", "pulley", "spinner")),
-    Word("bail", Habit.BAIL, ("bail", "swing")),
-    Word("lever", Habit.LEVER, ("lever", "switch", "pedal", "arm", "toggle", "latch", "joystick", "stick", "brake")),
-    Word("handle", Habit.LEVER, ("handle", "grip", "griff", "poignee")),
-    Word("seat", Habit.LEVER, ("seat", "backrest", "recliner")),
+    Word("door", TypicalMotion.HINGE, ("door", "tuer", "porte", "puerta", "porta", "hatch", "gate", "shutter")),
+    Word("lid", TypicalMotion.HINGE, ("lid", "cover", "hood", "bonnet", "trunk", "tailgate", "cap", "deckel", "screen",
+                                      "display")),
+    Word("flap", TypicalMotion.HINGE, ("flap", "aileron", "elevator", "rudder", "slat", "visor", "tilt", "airbrake",
+                                       "spoiler")),
+    Word("drawer", TypicalMotion.SLIDE, ("drawer", "schublade", "tiroir", "cajon", "tray", "rack", "basket", "bin", "crisper")),
+    Word("window", TypicalMotion.LEVER, ("window", "sash", "pane")),
+    Word("slider", TypicalMotion.SLIDE, ("slider", "slide", "sliding", "rail", "carriage", "piston", "plunger", "bolt",
+                                         "magazine")),
+    Word("button", TypicalMotion.PRESS, ("button", "key", "keycap", "trigger", "push")),
+    Word("knob", TypicalMotion.SPIN, ("knob", "dial", "valve", "tap", "chuck", "control")),
+    Word("wheel", TypicalMotion.SPIN, ("wheel", "tire", "tyre", "caster", "castor", "roller", "rotor", "propeller", "fan",
+                                       "gear", "steering", "turntable", "blade", "hub", "crank", "pulley", "spinner")),
+    Word("bail", TypicalMotion.TWO_PIVOT, ("bail", "swing")),
+    Word("lever", TypicalMotion.LEVER, ("lever", "switch", "pedal", "arm", "toggle", "latch", "joystick", "stick", "brake")),
+    Word("handle", TypicalMotion.LEVER, ("handle", "grip", "griff", "poignee")),
+    Word("seat", TypicalMotion.LEVER, ("seat", "backrest", "recliner")),
 )  # fmt: skip
 FIXED = frozenset(
     "base body frame corpus housing case carcass chassis shell panel board wall side back top bottom floor shelf shelves leg "
@@ -90,7 +93,7 @@ def _telling(name: str) -> str:
     return next((word for word in reversed(told) if word not in PLACES), told[-1] if told else "")
 
 
-def habit_of(label: str) -> Habit | None:
+def typical_motion(label: str) -> TypicalMotion | None:
     """The usual motion of a label, None when it is unknown."""
     word = recognize(label)
-    return None if word is None else word.habit
+    return None if word is None else word.motion

@@ -59,7 +59,7 @@ class Shot:
         return encode(titled(image, title))
 
 
-class Studio:
+class VisualPrompts:
     """Draws one object, with its parts where they are known (face_part: (F,) the part of each face)."""
 
     def __init__(self, mesh: Mesh, config: Config) -> None:

@@ -8,11 +8,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from anymesh.config import Config
-from anymesh.reasoning.asking import Seer
+from anymesh.reasoning.asking import VisualAnswerer
 from anymesh.reasoning.grounding import MarkedPart, MarksAnswer, WhichMarks, WhichViews
 from anymesh.rendering.marks import draw_marks
 from anymesh.rendering.render import View
-from anymesh.rendering.studio import Studio
+from anymesh.rendering.studio import VisualPrompts
 from anymesh.segmentation.mark_pictures import MarkPicture, choose_pictures
 from anymesh.segmentation.propose import Proposal
 from anymesh.segmentation.regions import Marks
@@ -26,15 +26,15 @@ MOST_PICTURES = 16  # in one call
 class Asked:
     """Who is asked about which object, and in which words."""
 
-    seer: Seer
-    studio: Studio
+    seer: VisualAnswerer
+    studio: VisualPrompts
     labels: tuple[str, ...]
     category: str | None
     config: Config
 
     def pictures(self, shown: Sequence[MarkPicture]) -> tuple[Picture, ...]:
         """The pictures with their marks drawn; none for who needs none."""
-        if self.seer.blind:
+        if not self.seer.needs_images:
             return ()
         images = [draw_marks(p.view.color, p.marks, alpha=self.config.grounding.alpha) for p in shown]
         return self.studio.pictures(images, [p.name for p in shown])
@@ -112,7 +112,7 @@ def ask_masks(
     asked: Asked, proposals: Sequence[Proposal], seen: Sequence[View], names: Sequence[str]
 ) -> tuple[MarkedPart, ...]:
     """Ask about masks that are numbered in each view on its own: which labels show where, then which marks are which."""
-    plain = () if asked.seer.blind else asked.studio.pictures([v.color for v in seen], names)
+    plain = asked.studio.pictures([v.color for v in seen], names) if asked.seer.needs_images else ()
     seen_in = asked.seer.ask(WhichViews(plain, asked.labels, tuple(v.face for v in seen), asked.category))
     score = np.array([sum(k in found for found in seen_in.values()) for k in range(len(seen))])
     chosen = [int(k) for k in np.sort(np.argsort(-score, kind="stable")[:MOST_PICTURES]) if score[k] > 0]

@@ -13,10 +13,10 @@ from anymesh.config import Config
 from anymesh.geometry.pieces import ObjectShape
 from anymesh.models.sam import PromptedSegmenter, automatic_masks
 from anymesh.progress import Progress, silent
-from anymesh.reasoning.asking import Seer
+from anymesh.reasoning.asking import VisualAnswerer
 from anymesh.reasoning.grounding import MarkedPart
 from anymesh.rendering.render import View
-from anymesh.rendering.studio import Studio
+from anymesh.rendering.studio import VisualPrompts
 from anymesh.rendering.viewpoints import normal_picture
 from anymesh.segmentation.ask_marks import Asked, Grounded, ask_exact, ask_masks
 from anymesh.segmentation.close_ups import close_ups
@@ -55,10 +55,10 @@ class Found:
 def ground_parts(
     mesh: Mesh,
     whole: ObjectShape,
-    seer: Seer,
+    seer: VisualAnswerer,
     config: Config,
     recognition: Recognition,
-    studio: Studio,
+    studio: VisualPrompts,
     segmenter: PromptedSegmenter | None,
     by_geometry: Callable[[], Segmentation],
     stays_free: MovesFreely | None = None,
@@ -99,7 +99,7 @@ def ground_parts(
     return parts, (*found.warnings, *lost, *inside)
 
 
-def _pointed(seer: Seer) -> str:
+def _pointed(seer: VisualAnswerer) -> str:
     """Who pointed at the parts: whoever answered the question about marks."""
     if any(e.kind == "marks" and e.given_up for e in seer.exchanges):
         return f"geometry points at it in place of {seer.name}"

@@ -20,7 +20,7 @@ from anymesh.deadline import SEGMENT, Deadline
 from anymesh.geometry.pieces import ObjectShape
 from anymesh.progress import Progress, silent
 from anymesh.reasoning.two_steps import confidence_of
-from anymesh.reasoning.vocabulary import Habit, is_fixed_name, recognize, words_of
+from anymesh.reasoning.vocabulary import TypicalMotion, is_fixed_name, recognize, words_of
 from anymesh.segmentation.contacts import find_contacts
 from anymesh.segmentation.naming import named_parts
 from anymesh.segmentation.part_assignment import LEAST, assign_parts, conflicts, join_floating
@@ -114,7 +114,7 @@ def _name_score(name: str) -> float:
     word = recognize(name)
     if word is None:
         return NAMED_FIXED if is_fixed_name(name) else 0.0
-    return NAMED_HANDLE if word.habit is Habit.NONE or word.label == "handle" else NAMED
+    return NAMED_HANDLE if word.motion is TypicalMotion.NONE or word.label == "handle" else NAMED
 
 
 def _at_least(tree: PartTree, score: Float[np.ndarray, " n"], chosen: list[int], count: int) -> list[int]:

@@ -7,47 +7,54 @@ from dataclasses import replace
 from pathlib import Path
 
 from anymesh.names import legal_name
-from anymesh.stage_results import Completed, Corrected, Jointed, Placed, Recognized, Segmented
+from anymesh.stage_results import (
+    CompletionResult,
+    CorrectionResult,
+    JointResult,
+    LoadResult,
+    RecognitionResult,
+    SegmentationResult,
+)
 from anymesh.types import Asset
 
 
 def assemble(
-    placed: Placed,
-    recognized: Recognized,
-    segmented: Segmented,
-    jointed: Jointed,
+    loaded: LoadResult,
+    recognition: RecognitionResult,
+    segmentation: SegmentationResult,
+    joints: JointResult,
     *,
-    corrected: Corrected | None,
-    completed: Completed | None,
-    revised: Corrected | None,
+    correction: CorrectionResult | None,
+    completion: CompletionResult | None,
+    revision: CorrectionResult | None,
     timing: Mapping[str, float],
 ) -> Asset:
     """The asset of the stages in their order; corrected: by a person before Stage C, revised: after it."""
-    placed = recognized.sized(placed)
+    loaded = recognition.sized(loaded)
     asset = Asset(
-        name=legal_name(Path(placed.source.path).stem, fallback="asset"),
-        source=placed.source,
-        mesh=placed.mesh,
-        segmentation=segmented.segmentation,
-        joints=jointed.joints,
-        answerer=jointed.answerer,
-        warnings=_once((*placed.warnings, *recognized.warnings, *segmented.warnings, *jointed.warnings)),
+        name=legal_name(Path(loaded.source.path).stem, fallback="asset"),
+        source=loaded.source,
+        mesh=loaded.mesh,
+        segmentation=segmentation.segmentation,
+        joints=joints.joints,
+        answerer=joints.answerer,
+        warnings=_once((*loaded.warnings, *recognition.warnings, *segmentation.warnings, *joints.warnings)),
         timing=timing,
-        exchanges=(*recognized.exchanges, *segmented.exchanges, *jointed.exchanges),
+        exchanges=(*recognition.exchanges, *segmentation.exchanges, *joints.exchanges),
     )
-    asset = asset if corrected is None else _corrected(asset, corrected)
-    if completed is not None:
+    asset = asset if correction is None else _corrected(asset, correction)
+    if completion is not None:
         asset = replace(
             asset,
-            mesh=completed.mesh,
-            segmentation=completed.parted(asset.segmentation),
-            source_face=completed.source_face,
-            notes=completed.notes,
+            mesh=completion.mesh,
+            segmentation=completion.parted(asset.segmentation),
+            source_face=completion.source_face,
+            notes=completion.notes,
         )
-    return asset if revised is None else _corrected(asset, revised)
+    return asset if revision is None else _corrected(asset, revision)
 
 
-def _corrected(asset: Asset, by: Corrected) -> Asset:
+def _corrected(asset: Asset, by: CorrectionResult) -> Asset:
     return replace(asset, segmentation=by.segmentation, joints=by.joints, warnings=_once(by.warnings))
 
 

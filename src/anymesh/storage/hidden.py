@@ -15,12 +15,12 @@ try:
 except ImportError:  # Windows: no folder is taken for dead there
     fcntl = None
 
-OURS = ".anymesh."  # how hidden folders inside an output begin
+FOLDER_PREFIX = ".anymesh."  # how hidden folders inside an output begin
 IGNORED = frozenset({"Thumbs.db", "desktop.ini", ".DS_Store"})  # put there by file managers
 
 
 @dataclass(frozen=True)
-class Hidden:
+class LockedFolder:
     """A hidden folder and the lock on it (a file descriptor, -1 where locks are missing)."""
 
     path: Path
@@ -69,17 +69,17 @@ def locks_known() -> bool:
     return fcntl is not None
 
 
-def make_hidden(parent: Path, prefix: str) -> Hidden:
+def make_locked_folder(parent: Path, prefix: str) -> LockedFolder:
     """A new, locked folder `<parent>/<prefix><random>`."""
     while True:
         path = parent / f"{prefix}{secrets.token_hex(4)}"
         path.mkdir()
         lock = _locked(path)
         if lock is not None and path.is_dir():  # else another process took it for dead in between
-            return Hidden(path, lock)
+            return LockedFolder(path, lock)
 
 
-def dead_hidden(parent: Path, prefix: str) -> list[Hidden]:
+def stale_folders(parent: Path, prefix: str) -> list[LockedFolder]:
     """Folders that ended processes left behind, locked so that no other process takes them."""
     if fcntl is None or not parent.is_dir():
         return []
@@ -87,7 +87,7 @@ def dead_hidden(parent: Path, prefix: str) -> list[Hidden]:
     for path in sorted(parent.glob(f"{_escaped(prefix)}*")):
         lock = _locked(path) if path.is_dir() else None
         if lock is not None:
-            found.append(Hidden(path, lock))
+            found.append(LockedFolder(path, lock))
     return found
 
 
@@ -100,14 +100,14 @@ def list_files(folder: Path) -> list[str]:
     found = []
     for path in folder.rglob("*"):
         relative = path.relative_to(folder)
-        if relative.parts[0].startswith(OURS) or path.name in IGNORED:
+        if relative.parts[0].startswith(FOLDER_PREFIX) or path.name in IGNORED:
             continue
         if path.is_symlink() or not path.is_dir():
             found.append(relative.as_posix())
     return sorted(found)
 
 
-def swap_in(new: Path, target: Path, old: Path | None) -> None:
+def replace_folder(new: Path, target: Path, old: Path | None) -> None:
     """Puts `new` in the place of `target`; what was there waits at `old` for as long as two renames take, then goes.
 
     Without `old`, the target must be missing or empty.
@@ -133,7 +133,7 @@ def swap_in(new: Path, target: Path, old: Path | None) -> None:
 
 def recover(target: Path, prefix: str) -> None:
     """After a kill within `swap_in`: the old folder comes back, or goes when the new one is in place."""
-    for left in dead_hidden(target.parent, prefix):
+    for left in stale_folders(target.parent, prefix):
         if target.exists():
             left.discard()
         else:
@@ -141,7 +141,7 @@ def recover(target: Path, prefix: str) -> None:
             left.release()
 
 
-def move_in(new: Path, target: Path, *, remove: Iterable[str], last: str) -> None:
+def move_files(new: Path, target: Path, *, remove: Iterable[str], last: str) -> None:
     """Moves the files of `new` into `target` one by one; `last`, the mark of a finished output, comes last."""
     files, remove = list_files(new), list(remove)
     if last in files:

@@ -13,7 +13,7 @@ MANIFEST = "stages/files.json"  # what was written here; nothing else is ever re
 CORRECTIONS = "corrections.json"  # what a person corrected; a new run never takes it away
 
 
-def hidden_prefix(target: Path, word: str) -> str:
+def atomic_prefix(target: Path, word: str) -> str:
     """How the hidden folders of an output begin, which lie beside it."""
     return f".{target.name[:100]}.{word}-"
 

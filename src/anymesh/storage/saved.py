@@ -15,8 +15,8 @@ from anymesh.stage_results import (
     REVISION,
     SEGMENTATION,
     STAGES,
-    Corrected,
-    Recognized,
+    CorrectionResult,
+    RecognitionResult,
     Record,
     Stage,
 )
@@ -54,9 +54,9 @@ class Saved:
             raise self._missing(stage)
         return found
 
-    def recognized(self) -> Recognized:
+    def recognition(self) -> RecognitionResult:
         """What was recognized; nothing where nobody who sees was asked."""
-        return self._find(RECOGNITION) or Recognized(None, "")
+        return self._find(RECOGNITION) or RecognitionResult(None, "")
 
     def _find(self, stage: Stage[Result]) -> Result | None:
         return next((found for place in self._places(stage) if (found := read_stage(place, stage, None)) is not None), None)
@@ -86,15 +86,15 @@ class Saved:
             return None if stage is last and not edited else self._find(stage)
 
         return assemble(
-            self.need(MESH), self.recognized(), self.need(SEGMENTATION), self.need(JOINTS),
-            corrected=found(CORRECTION), completed=found(COMPLETION), revised=found(REVISION), timing=self.timing(),
+            self.need(MESH), self.recognition(), self.need(SEGMENTATION), self.need(JOINTS),
+            correction=found(CORRECTION), completion=found(COMPLETION), revision=found(REVISION), timing=self.timing(),
         )  # fmt: skip
 
-    def editing(self) -> Stage[Corrected]:
+    def editing(self) -> Stage[CorrectionResult]:
         """The stage that holds corrections of this output as it is."""
         return CORRECTION if self._key(COMPLETION) is None else REVISION
 
-    def corrections(self, stage: Stage[Corrected]) -> tuple[Record, ...]:
+    def corrections(self, stage: Stage[CorrectionResult]) -> tuple[Record, ...]:
         """The log of corrections in a stage, empty when there are none."""
         found = self._find(stage)
         return () if found is None else found.log

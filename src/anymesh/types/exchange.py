@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-INSTEAD = "answered instead"  # how the verdict ends where a model gave no valid answer
+FALLBACK_VERDICT = "answered instead"  # how the verdict ends where a model gave no valid answer
 NOT_ASKED = "not asked"  # how the verdict begins where a model had been given up before
 PNG = b"\x89PNG\r\n\x1a\n"
 
@@ -46,7 +46,7 @@ class Exchange:
     @property
     def given_up(self) -> bool:
         """Whether somebody else answered in the model's place."""
-        return self.verdict.endswith(INSTEAD)
+        return self.verdict.endswith(FALLBACK_VERDICT)
 
     @property
     def skipped(self) -> bool:

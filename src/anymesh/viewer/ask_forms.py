@@ -149,7 +149,7 @@ class PointsForm(PartsForm):
         """Choose a point of the part that is shown, or let go of it; of too many, the one chosen first goes."""
         now = self.chosen[self.step]
         now = [n for n in now if n != number] if number in now else [*now, number]
-        self.chosen[self.step], self.touched = now[-self.table.most :], True
+        self.chosen[self.step], self.touched = now[-self.table.max_points :], True
 
     def fill(self, answer: Mapping[str, Any]) -> None:
         for p in answer["parts"]:
