@@ -28,7 +28,7 @@ from anymesh.rendering.studio import VisualPrompts
 from anymesh.segmentation.contacts import find_contacts
 from anymesh.segmentation.part_assignment import assign_parts
 from anymesh.segmentation.part_classifier import score_parts
-from anymesh.segmentation.part_features import FeatureScene, part_features, surroundings_of
+from anymesh.segmentation.part_features import FeatureScene, part_context_of, part_features
 from anymesh.segmentation.part_tree import PartTree, part_tree
 from anymesh.solving import ArticulationSolver
 from anymesh.types import Mesh, MotionKind, Picture
@@ -83,7 +83,7 @@ def main() -> None:
     contacts = find_contacts(solver.whole, config.segmentation)
     tree = part_tree(mesh, solver.whole, contacts, config.segmentation.smallest, config.segmentation.most_candidates)
     scene = FeatureScene.of(mesh, tree, config)
-    rows = [part_features(scene, k, around) for k in range(len(tree.members)) if (around := surroundings_of(scene, k))]
+    rows = [part_features(scene, k, around) for k in range(len(tree.members)) if (around := part_context_of(scene, k))]
     score, _ = score_parts(tree.overlap, rows)
     found = solver.parts().segmentation
     _, _, around, question = sorted(motion_questions(solver.whole, found, config), key=lambda m: m[0])[options.part - 1]

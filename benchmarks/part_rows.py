@@ -25,7 +25,7 @@ from anymesh.evaluation.protocols import prepared
 from anymesh.evaluation.truth import Subject
 from anymesh.geometry.pieces import object_shape
 from anymesh.segmentation.contacts import find_contacts
-from anymesh.segmentation.part_features import FeatureScene, part_features, surroundings_of
+from anymesh.segmentation.part_features import FeatureScene, part_context_of, part_features
 from anymesh.segmentation.part_tree import part_tree
 
 
@@ -87,7 +87,7 @@ def rows_of(subject: Subject, source: str, form: str = "") -> PartRows:
     tree = part_tree(mesh, whole, contacts, config.segmentation.smallest, config.segmentation.most_candidates)
     scene, kept, rows = FeatureScene.of(mesh, tree, config), [], []
     for k in range(len(tree.members)):
-        around = surroundings_of(scene, k)
+        around = part_context_of(scene, k)
         if around is not None:
             kept.append(k)
             rows.append(part_features(scene, k, around))

@@ -258,12 +258,12 @@ def test_several_meshes_need_batch_and_a_batch_goes_on_past_what_fails(mesh, cap
 
 
 def test_an_unsure_joint_says_what_would_help(mesh, capfd, monkeypatch) -> None:
-    monkeypatch.setattr(solving, "UNSURE", 1.1)
+    monkeypatch.setattr(solving, "LOW_CONFIDENCE", 1.1)
     code, out, _ = called(capfd, "articulate", mesh, "-o", "out", "--formats", "urdf", *PARTS)
     assert code == 0
     (line,) = [line for line in out.splitlines() if "files:FOLDER" in line]
     assert "unsure" in line
-    monkeypatch.setattr(solving, "UNSURE", 0.0)
+    monkeypatch.setattr(solving, "LOW_CONFIDENCE", 0.0)
     code, out, _ = called(capfd, "articulate", mesh, "-o", "sure", "--formats", "urdf", *PARTS, "--json")
     assert (code, json.loads(out)["hint"], json.loads(out)["answerer"]) == (0, "", "geometry")
 

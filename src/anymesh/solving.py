@@ -35,11 +35,11 @@ from anymesh.reasoning.knowing import Reference, ReferenceAnswerer, ReferenceJoi
 from anymesh.reasoning.questions import Candidate
 from anymesh.reasoning.recognition import answered_scale, recognize
 from anymesh.rendering.studio import VisualPrompts
-from anymesh.segmentation.ask_marks import Asked
+from anymesh.segmentation.ask_marks import MarkQuestioner
 from anymesh.segmentation.cloud import Cloud
 from anymesh.segmentation.given import GIVEN, parts_from_file, parts_from_nodes
 from anymesh.segmentation.grounded import EXACT, ground_parts, object_cloud
-from anymesh.segmentation.hidden import LEAST_TOLD, inner_faces, seen_points
+from anymesh.segmentation.hidden import MIN_RECOGNITION_PATCH_RATIO, inner_faces, seen_points
 from anymesh.segmentation.regrounding import ground_again
 from anymesh.segmentation.segment import segment_parts
 from anymesh.stage_results import JointResult, RecognitionResult, SegmentationResult
@@ -109,7 +109,7 @@ class ArticulationSolver:
     def _view_pictures(self) -> tuple[Picture, ...]:
         seen, studio = self._visual_prompts.views, self._visual_prompts
         names = studio.names(len(seen))
-        inside = inner_faces(self.mesh, self.whole, self._cloud, seen_points(self._cloud, seen), LEAST_TOLD)
+        inside = inner_faces(self.mesh, self.whole, self._cloud, seen_points(self._cloud, seen), MIN_RECOGNITION_PATCH_RATIO)
         if inside.any():
             chosen = studio.most_of_inside(inside, MAX_INSIDE_VIEWS)
             seen = [*seen, *(studio.insides(inside)[k] for k in chosen)]
@@ -162,7 +162,7 @@ class ArticulationSolver:
     def _regrounding(self, questions: Questions, segmentation: Segmentation) -> Reground:
         """What goes back to the marks of parts that are wrong."""
         recognition = questions.recognition
-        asked = Asked(questions.answerer, self._visual_prompts, questions.labels, questions.category, self.config)
+        asked = MarkQuestioner(questions.answerer, self._visual_prompts, questions.labels, questions.category, self.config)
         front = recognition.front if recognition else None
         return lambda wrong: ground_again(self.mesh, self.whole, self._cloud, asked, segmentation, wrong, front)
 

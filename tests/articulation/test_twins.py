@@ -54,7 +54,7 @@ def test_a_leaf_without_a_grip_does_as_its_copy_with_one() -> None:
 
 def test_copies_that_agree_change_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     with_copies = joints_of(pair("both"))
-    monkeypatch.setattr(estimate, "MOST_COPIES", 0)
+    monkeypatch.setattr(estimate, "MAX_COPIES", 0)
     by_themselves = joints_of(pair("both"))
     for name in ("left", "right"):
         assert by_themselves[name].axis == pytest.approx(with_copies[name].axis)

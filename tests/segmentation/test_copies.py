@@ -9,9 +9,9 @@ from anymesh.errors import OptionError
 from anymesh.geometry.pieces import object_shape
 from anymesh.segmentation import segment
 from anymesh.segmentation.contacts import coplanar, find_contacts
-from anymesh.segmentation.part_assignment import LEAST
+from anymesh.segmentation.part_assignment import MIN_SCORE
 from anymesh.segmentation.part_tree import Overlap, PartTree
-from anymesh.segmentation.units import Units, with_held
+from anymesh.segmentation.units import RigidGroups, with_supported
 from anymesh.solving import ArticulationSolver
 from anymesh.types import Segmentation
 
@@ -29,21 +29,21 @@ def test_leaves_that_meet_are_two_and_planks_are_one(width: float, joined: bool)
     assert ((0, 1) in found) is joined
 
 
-def units(surface: list[int]) -> Units:
+def units(surface: list[int]) -> RigidGroups:
     """A body, a front, a tray that stands on a shelf of its own and touches the front by a line."""
     pieces = [BODY, box((0, -0.02, 0), (1, 0, 0.4)), box((0.1, 0, 0.1), (0.9, 0.3, 0.3)), box((0.1, 0, 0.08), (0.9, 0.3, 0.1))]
     contacts = find_contacts(object_shape(mesh_of(pieces)[0]), SegmentationConfig())
-    return Units(contacts, np.arange(4), [""] * 4, 0, {k: [k] for k in range(4)}, np.array(surface))
+    return RigidGroups(contacts, np.arange(4), [""] * 4, 0, {k: [k] for k in range(4)}, np.array(surface))
 
 
 def test_a_surface_that_creases_part_moves_as_one_but_not_with_the_root() -> None:
-    assert with_held(units([0, 1, 1, 3]), 1) == [1, 2]
-    assert 0 not in with_held(units([0, 0, 2, 3]), 1)
+    assert with_supported(units([0, 1, 1, 3]), 1) == [1, 2]
+    assert 0 not in with_supported(units([0, 0, 2, 3]), 1)
 
 
 def no_part(overlap: Overlap, features: list[dict[str, float]]) -> tuple[np.ndarray, list[str]]:
     """Score every candidate as no part, large ones the lowest."""
-    return np.array([LEAST - 0.1 - row["size"] for row in features]), ["nothing"] * len(features)
+    return np.array([MIN_SCORE - 0.1 - row["size"] for row in features]), ["nothing"] * len(features)
 
 
 def all_parts(overlap: Overlap, features: list[dict[str, float]]) -> tuple[np.ndarray, list[str]]:
@@ -78,7 +78,7 @@ def test_a_candidate_that_is_held_makes_room_for_the_next(monkeypatch: pytest.Mo
     nail, top = box((0.48, -0.2, 0.48), (0.52, 0.02, 0.52)), box((0.2, 0.1, 1.0), (0.8, 0.4, 1.2))
 
     def by_size(overlap: Overlap, features: list[dict[str, float]]) -> tuple[np.ndarray, list[str]]:
-        return np.array([1.0 if row["size"] < 0.3 else LEAST - row["size"] for row in features]), ["size"] * len(features)
+        return np.array([1.0 if row["size"] < 0.3 else MIN_SCORE - row["size"] for row in features]), ["size"] * len(features)
 
     asked: list[int] = []
 

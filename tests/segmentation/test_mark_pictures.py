@@ -10,9 +10,9 @@ from anymesh.config import Config, GroundingConfig, ViewsConfig
 from anymesh.reasoning.grounding import MarkedPart, MarksAnswer, WhichMarks, WhichViews
 from anymesh.rendering.studio import VisualPrompts
 from anymesh.segmentation import ask_marks
-from anymesh.segmentation.ask_marks import Asked, ask_exact, ask_masks
+from anymesh.segmentation.ask_marks import MarkQuestioner, ask_exact, ask_masks
 from anymesh.segmentation.grounded import _lost
-from anymesh.segmentation.mark_pictures import LEAST, MOST_IN_PICTURE, WELL, choose_pictures
+from anymesh.segmentation.mark_pictures import MAX_MARKS_PER_PICTURE, MIN_MARK_PIXELS, WELL, choose_pictures
 from anymesh.segmentation.propose import Proposal
 from anymesh.segmentation.regions import Marks
 from anymesh.types import Mesh
@@ -53,11 +53,11 @@ def test_a_cube_with_a_knob_behind_and_one_on_top_needs_few_views() -> None:
 
 def test_a_keyboard_is_shown_in_close_ups_with_every_key() -> None:
     found = pictures([BODY, *KEYS])
-    assert max(len(p.drawn) for p in found) <= MOST_IN_PICTURE
+    assert max(len(p.drawn) for p in found) <= MAX_MARKS_PER_PICTURE
     assert set().union(*(p.drawn for p in found)) == set(range(1, 66))
     assert sum("close-up" in p.name for p in found) >= 3
     for mark in range(2, 66):
-        assert max((p.marks == mark).sum() for p in found) > 2 * LEAST
+        assert max((p.marks == mark).sum() for p in found) > 2 * MIN_MARK_PIXELS
 
 
 class Points:
@@ -78,9 +78,9 @@ class Points:
 
 
 def test_many_pictures_are_asked_about_in_several_calls_and_no_mark_twice(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(ask_marks, "MOST_PICTURES", 1)
+    monkeypatch.setattr(ask_marks, "MAX_PICTURES", 1)
     (studio, piece), who = keyboard(), Points()
-    asked = Asked(who, studio, ("key",), "keyboard", Config(views=VIEWS))
+    asked = MarkQuestioner(who, studio, ("key",), "keyboard", Config(views=VIEWS))
     found = ask_exact(asked, Marks(piece + 1), studio.views, studio.names(11), lambda marks, some: marks)
     assert {p.marks for p in found.parts} == {(n,) for n in range(2, 66)}
     assert len(who.asked) > 1
@@ -99,7 +99,7 @@ def test_a_split_is_asked_about_once_with_the_new_marks_alone() -> None:
         assert tuple(some) == (2,)
         return Marks(np.where(marks.face_mark == 2, 4 + right, marks.face_mark))
 
-    asked = Asked(who, studio, ("key",), None, Config(views=VIEWS))
+    asked = MarkQuestioner(who, studio, ("key",), None, Config(views=VIEWS))
     found = ask_exact(asked, Marks(piece + 1), studio.views, studio.names(11), split)
     first, second = who.asked
     assert (first.splittable, second.splittable) == (True, False)
@@ -123,7 +123,7 @@ def test_views_of_masks_are_numbered_as_the_pictures_are() -> None:
     labels = [np.where(v.face >= 0, piece[np.maximum(v.face, 0)] + 1, -1) for v in studio.views]
     proposals = [Proposal(k, label, (1, 2)) for k, label in enumerate(labels)]
     names = studio.names(11, 0.0)
-    found = ask_masks(Asked(Two(), studio, ("key",), None, Config(views=VIEWS)), proposals, studio.views, names)
+    found = ask_masks(MarkQuestioner(Two(), studio, ("key",), None, Config(views=VIEWS)), proposals, studio.views, names)
     assert found == (MarkedPart("key", 1, 7, (2,)),)  # the second picture is the eighth view
     captions = [p.caption for p in asked[1].pictures]
     assert captions == [f"picture 1: {names[1]}", f"picture 2: {names[7]}"]

@@ -9,7 +9,7 @@ from assets import box, mesh_of
 from anymesh.config import Config, SegmentationConfig
 from anymesh.geometry.pieces import object_shape
 from anymesh.segmentation.contacts import find_contacts
-from anymesh.segmentation.part_assignment import LEAST, assign_parts, conflicts, join_floating
+from anymesh.segmentation.part_assignment import MIN_SCORE, assign_parts, conflicts, join_floating
 from anymesh.segmentation.part_tree import Overlap
 
 
@@ -26,11 +26,11 @@ def test_no_set_without_conflicts_scores_higher(seed: int) -> None:
     score = rng.normal(0.5, 1, 9)
     clash = conflicts(candidates)
     best = max(
-        sum(score[list(s)] - LEAST) for n in range(10) for s in combinations(range(9), n) if not clash[np.ix_(s, s)].any()
+        sum(score[list(s)] - MIN_SCORE) for n in range(10) for s in combinations(range(9), n) if not clash[np.ix_(s, s)].any()
     )
     chosen = assign_parts(candidates, score)
     assert not clash[np.ix_(chosen, chosen)].any()
-    assert (score[chosen] - LEAST).sum() == pytest.approx(best)
+    assert (score[chosen] - MIN_SCORE).sum() == pytest.approx(best)
 
 
 def test_a_knob_on_a_door_is_a_part_and_the_door_without_its_trim_is_not() -> None:

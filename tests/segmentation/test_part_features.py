@@ -7,7 +7,7 @@ from assets import box, mesh_of
 from anymesh.config import Config
 from anymesh.geometry.pieces import object_shape
 from anymesh.segmentation.contacts import find_contacts
-from anymesh.segmentation.part_features import FeatureScene, part_features, surroundings_of
+from anymesh.segmentation.part_features import FeatureScene, part_context_of, part_features
 from anymesh.segmentation.part_tree import part_tree
 from anymesh.types import Mesh
 
@@ -26,7 +26,7 @@ def features(mesh: Mesh, solids: set[int]) -> dict[str, float]:
     tree = part_tree(mesh, whole, contacts, 0.004, 150)
     group = next(k for k, m in enumerate(tree.members) if set(np.flatnonzero(m).tolist()) == solids)
     scene = FeatureScene.of(mesh, tree, config)
-    around = surroundings_of(scene, group)
+    around = part_context_of(scene, group)
     assert around is not None
     return part_features(scene, group, around)
 

@@ -115,7 +115,7 @@ def test_a_hundred_keys_have_a_mark_each() -> None:
 
 
 def test_regions_that_join_as_there_are_too_many_are_counted(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(regions, "MOST_MARKS", 30)
+    monkeypatch.setattr(regions, "MAX_MARKS", 30)
     marks, _, _ = marks_of(mesh_of([BODY, FRONT, *KEYS])[0])
     assert marks.face_mark.max() == 30
     assert marks.crowded == 72

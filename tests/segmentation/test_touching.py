@@ -47,7 +47,7 @@ def test_touching_boxes_are_one_body_that_touches_at_the_face() -> None:
     found = contacts(BLOCK, box((1, 0, 0), (3, 1, 1)))
     assert found.touch.tolist() == [[0, 1]]
     assert len(found.near) == 0
-    assert found.body[0] == found.body[1]
+    assert found.component[0] == found.component[1]
     assert found.area[0, 1] == pytest.approx(1, abs=0.1)  # from a thousand points
     assert found.area[1, 0] == pytest.approx(1, abs=0.1)  # from a thousand points
 
@@ -57,7 +57,7 @@ def test_a_clearance_keeps_bodies_apart_and_a_wide_one_makes_them_strangers() ->
     far = contacts(BLOCK, box((1.5, 0, 0), (2, 1, 1)))
     assert (near.touch.tolist(), near.near.tolist()) == ([], [[0, 1]])
     assert (far.touch.tolist(), far.near.tolist()) == ([], [])
-    assert near.body[0] != near.body[1]
+    assert near.component[0] != near.component[1]
 
 
 def test_boxes_that_cross_touch() -> None:

@@ -71,7 +71,7 @@ def make_cases(
             label=part.label,
             faces=segmentation.faces(i),
             points=around.part.samples.points,
-            outward=around.outward,
+            outward=around.opening_direction,
             normal=plane_normal(contact, config.prompts.plane * whole.diagonal, config.seed),
             contact=contact,
             diagonal=whole.diagonal,

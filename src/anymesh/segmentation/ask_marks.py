@@ -19,29 +19,29 @@ from anymesh.segmentation.regions import Marks
 from anymesh.types import Picture
 
 INSIDE = "inside"  # how the names of pictures of the inside begin
-MOST_PICTURES = 16  # in one call
+MAX_PICTURES = 16  # in one call
 
 
 @dataclass(frozen=True, eq=False)
-class Asked:
+class MarkQuestioner:
     """Who is asked about which object, and in which words."""
 
-    seer: VisualAnswerer
-    studio: VisualPrompts
+    answerer: VisualAnswerer
+    visual_prompts: VisualPrompts
     labels: tuple[str, ...]
     category: str | None
     config: Config
 
     def pictures(self, shown: Sequence[MarkPicture]) -> tuple[Picture, ...]:
         """The pictures with their marks drawn; none for who needs none."""
-        if not self.seer.needs_images:
+        if not self.answerer.needs_images:
             return ()
         images = [draw_marks(p.view.color, p.marks, alpha=self.config.grounding.alpha) for p in shown]
-        return self.studio.pictures(images, [p.name for p in shown])
+        return self.visual_prompts.pictures(images, [p.name for p in shown])
 
 
 @dataclass(frozen=True, eq=False)
-class Grounded:
+class MarkAnswers:
     """Which marks are which part. marks: where they are, after splits; unsure: marks that may be wrong."""
 
     marks: Marks
@@ -50,31 +50,35 @@ class Grounded:
 
 
 def ask_exact(
-    asked: Asked,
+    questioner: MarkQuestioner,
     marks: Marks,
     seen: Sequence[View],
     names: Sequence[str],
     split: Callable[[Marks, Sequence[int]], Marks],
     wanted: Collection[int] | None = None,
     again: tuple[str, ...] = (),
-) -> Grounded:
+) -> MarkAnswers:
     """Ask about marks that are the same in all views. split: divides some of them; wanted: those asked about, None for all;
     again: what was wrong with an earlier answer."""
     numbers = np.unique(marks.face_mark[marks.face_mark > 0]).tolist()
     some = numbers if wanted is None else sorted(wanted)
-    first = _in_calls(asked, choose_pictures(marks, some, seen, names, asked.studio.view), marks, (), True, again)
+    first = _in_calls(
+        questioner, choose_pictures(marks, some, seen, names, questioner.visual_prompts.view), marks, (), True, again
+    )
     unsure = set(first.unsure)
     parts = first.parts
     if first.split:
         marks = split(marks, first.split)
         finer = sorted(set(np.unique(marks.face_mark[marks.face_mark > 0]).tolist()) - set(numbers))
-        second = _in_calls(asked, choose_pictures(marks, finer, seen, names, asked.studio.view), marks, parts, False, again)
+        second = _in_calls(
+            questioner, choose_pictures(marks, finer, seen, names, questioner.visual_prompts.view), marks, parts, False, again
+        )
         parts, unsure = _together(parts, second.parts), unsure | set(second.unsure)
-    return Grounded(marks, parts, frozenset(unsure))
+    return MarkAnswers(marks, parts, frozenset(unsure))
 
 
 def _in_calls(
-    asked: Asked,
+    questioner: MarkQuestioner,
     shown: Sequence[MarkPicture],
     marks: Marks,
     found: tuple[MarkedPart, ...],
@@ -83,16 +87,25 @@ def _in_calls(
 ) -> MarksAnswer:
     """The answers about all pictures, MOST_PICTURES in a call; what earlier calls have asked about is not asked again."""
     parts, unsure, split, done = found, set[int](), set[int](), set[int]()
-    for begin in range(0, len(shown), MOST_PICTURES):
-        some = [p for p in (p.without(done) for p in shown[begin : begin + MOST_PICTURES]) if p.drawn]
+    for begin in range(0, len(shown), MAX_PICTURES):
+        some = [p for p in (p.without(done) for p in shown[begin : begin + MAX_PICTURES]) if p.drawn]
         if not some:
             continue
-        answer = asked.seer.ask(
+        answer = questioner.answerer.ask(
             WhichMarks(
-                asked.pictures(some), asked.labels, True, tuple(p.marks for p in some), tuple(p.view.face for p in some),
-                asked.category, parts, splittable, any(p.name.startswith(INSIDE) for p in some), again, marks.face_mark,
+                questioner.pictures(some),
+                questioner.labels,
+                True,
+                tuple(p.marks for p in some),
+                tuple(p.view.face for p in some),
+                questioner.category,
+                parts,
+                splittable,
+                any(p.name.startswith(INSIDE) for p in some),
+                again,
+                marks.face_mark,
             )
-        )  # fmt: skip
+        )
         done |= set[int]().union(*(p.drawn for p in some))
         parts = _together(parts, answer.parts)
         unsure |= set(answer.unsure)
@@ -109,19 +122,21 @@ def _together(first: Sequence[MarkedPart], second: Sequence[MarkedPart]) -> tupl
 
 
 def ask_masks(
-    asked: Asked, proposals: Sequence[Proposal], seen: Sequence[View], names: Sequence[str]
+    questioner: MarkQuestioner, proposals: Sequence[Proposal], seen: Sequence[View], names: Sequence[str]
 ) -> tuple[MarkedPart, ...]:
     """Ask about masks that are numbered in each view on its own: which labels show where, then which marks are which."""
-    plain = asked.studio.pictures([v.color for v in seen], names) if asked.seer.needs_images else ()
-    seen_in = asked.seer.ask(WhichViews(plain, asked.labels, tuple(v.face for v in seen), asked.category))
+    plain = questioner.visual_prompts.pictures([v.color for v in seen], names) if questioner.answerer.needs_images else ()
+    seen_in = questioner.answerer.ask(WhichViews(plain, questioner.labels, tuple(v.face for v in seen), questioner.category))
     score = np.array([sum(k in found for found in seen_in.values()) for k in range(len(seen))])
-    chosen = [int(k) for k in np.sort(np.argsort(-score, kind="stable")[:MOST_PICTURES]) if score[k] > 0]
+    chosen = [int(k) for k in np.sort(np.argsort(-score, kind="stable")[:MAX_PICTURES]) if score[k] > 0]
     if not chosen:
         return ()
     regions = [np.where(np.isin(proposals[k].labels, proposals[k].numbers), proposals[k].labels, -1) for k in chosen]
     some = [MarkPicture(seen[k], region, names[k]) for k, region in zip(chosen, regions, strict=True)]
     labels = tuple(label for label, found in seen_in.items() if found)
-    answer = asked.seer.ask(
-        WhichMarks(asked.pictures(some), labels, False, tuple(regions), tuple(p.view.face for p in some), asked.category)
+    answer = questioner.answerer.ask(
+        WhichMarks(
+            questioner.pictures(some), labels, False, tuple(regions), tuple(p.view.face for p in some), questioner.category
+        )
     )
     return tuple(replace(p, view=chosen[p.view]) for p in answer.parts if p.view is not None)

@@ -12,11 +12,11 @@ from anymesh.rendering.render import View
 from anymesh.segmentation.cloud import Cloud, sight
 from anymesh.types.camera import Camera
 
-MOST = 8  # close-ups; each is one more picture in a question
-SMALL, THIN = 250.0, 4.0  # [px, px across] of a 640 px view: regions below cannot be judged there
-LEGIBLE, ACROSS = 1500.0, 12.0  # [px, px across] that a close-up is to show of them
-LEAST_ZOOM = 2.0
-OPEN = 0.1  # share of a region's surface that views see; less is seen through a gap
+MAX_CLOSE_UPS = 8  # close-ups; each is one more picture in a question
+MIN_AREA_PX, MIN_WIDTH_PX = 250.0, 4.0  # [px, px across] of a 640 px view: regions below cannot be judged there
+LEGIBLE_AREA_PX, LEGIBLE_WIDTH_PX = 1500.0, 12.0  # [px, px across] that a close-up is to show of them
+MIN_ZOOM = 2.0
+MIN_VISIBLE_SHARE = 0.1  # share of a region's surface that views see; less is seen through a gap
 WINDOW = 0.8  # of the close-up's side in which the regions' middles lie
 
 
@@ -25,7 +25,7 @@ def close_ups(
     cloud: Cloud,
     views: Sequence[View],
     pictures: ViewsConfig | None = None,
-    small: float = SMALL,
+    small: float = MIN_AREA_PX,
 ) -> tuple[Camera, ...]:
     """At most MOST cameras, none where nothing is small: each from the place of a view, on as many of the small regions as
     fit, the smallest first.
@@ -35,13 +35,13 @@ def close_ups(
     pictures = pictures or ViewsConfig()
     size, across, middle = _shown(region, views)
     scale = views[0].camera.height / 640
-    zoom = np.sqrt(LEGIBLE * scale**2 / np.maximum(size, 1))
-    zoom = np.maximum(zoom, np.where(across < THIN * scale, ACROSS * scale / np.maximum(across, 0.1), 0))
-    zoom = np.clip(zoom, LEAST_ZOOM, pictures.zoom_size / pictures.size)
-    little = (size < small * scale**2).all(0) | (across < THIN * scale).all(0)
+    zoom = np.sqrt(LEGIBLE_AREA_PX * scale**2 / np.maximum(size, 1))
+    zoom = np.maximum(zoom, np.where(across < MIN_WIDTH_PX * scale, LEGIBLE_WIDTH_PX * scale / np.maximum(across, 0.1), 0))
+    zoom = np.clip(zoom, MIN_ZOOM, pictures.zoom_size / pictures.size)
+    little = (size < small * scale**2).all(0) | (across < MIN_WIDTH_PX * scale).all(0)
     open_to = little & (size > 0).any(0) & _open(region, cloud, views)
     found: list[Camera] = []
-    while open_to.any() and len(found) < MOST:
+    while open_to.any() and len(found) < MAX_CLOSE_UPS:
         most = size.max(0)
         first = int(np.where(open_to, most, np.inf).argmin())
         v = int(size[:, first].argmax())
@@ -85,7 +85,7 @@ def _open(region: np.ndarray, cloud: Cloud, views: Sequence[View]) -> Bool[np.nd
         seen[sight(cloud, view).points] = True
     own = region[cloud.faces]
     count = int(region.max()) + 1
-    return np.bincount(own[seen & (own >= 0)], minlength=count) >= OPEN * np.maximum(
+    return np.bincount(own[seen & (own >= 0)], minlength=count) >= MIN_VISIBLE_SHARE * np.maximum(
         np.bincount(own[own >= 0], minlength=count), 1
     )
 

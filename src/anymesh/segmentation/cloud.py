@@ -18,9 +18,9 @@ from anymesh.types import Mesh
 
 CUT_POINTS = 40_000  # the cut runs on so many points; 800k would take 20 s and find the same borders
 FOOTPRINT = 1.5  # [px] a point this near the depth that a pixel shows is seen there, if the surface there faces alike
-ALONG = 0.7  # cosine for that: the back of a door is not what the rim beside it shows
+MIN_NORMAL_COSINE = 0.7  # cosine for that: the back of a door is not what the rim beside it shows
 SIMILAR = 0.9  # cosine from which two normals count as one surface
-TURN = 4.0  # a normal turned by 60 degrees is as far as so many spacings
+NORMAL_WEIGHT = 4.0  # a normal turned by 60 degrees is as far as so many spacings
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,52 +99,52 @@ def _barycentric(t: np.ndarray, points: np.ndarray) -> np.ndarray:
 
 
 def find_superpoints(
-    s: SurfacePoints, colors: UInt8[np.ndarray, "n 3"], piece: Int[np.ndarray, " n"], config: GroundingConfig
+    s: SurfacePoints, colors: UInt8[np.ndarray, "n 3"], patch: Int[np.ndarray, " n"], config: GroundingConfig
 ) -> tuple[Int[np.ndarray, " n"], Int[np.ndarray, "m 2"]]:
     """A superpoint number a point, and which superpoints meet. The cut runs on CUT_POINTS of them within each piece; every
     point then takes the superpoint of the nearest of these in its piece whose normal is alike."""
     chosen = np.arange(0, len(s), max(1, len(s) // CUT_POINTS))
-    first = np.unique(piece, return_index=True)[1]
+    first = np.unique(patch, return_index=True)[1]
     chosen = np.union1d(chosen, first)  # no piece goes without
     beyond = 10 * float(np.ptp(s.points, axis=0).max())
-    own = np.c_[s.points, beyond * piece][chosen]  # neighbours are of the same piece, however thin a gap is
+    own = np.c_[s.points, beyond * patch][chosen]  # neighbours are of the same piece, however thin a gap is
     near = KDTree(own).query(own, k=min(config.neighbours + 1, len(chosen)), workers=-1)[1]
     near = near.reshape(len(chosen), -1)
     edges = np.sort(np.stack([np.repeat(np.arange(len(chosen)), near.shape[1]), near.reshape(-1)], 1), 1)
-    edges = edges[(edges[:, 0] != edges[:, 1]) & (piece[chosen[edges[:, 0]]] == piece[chosen[edges[:, 1]]])]
+    edges = edges[(edges[:, 0] != edges[:, 1]) & (patch[chosen[edges[:, 0]]] == patch[chosen[edges[:, 1]]])]
     key = np.unique(edges @ np.array([len(chosen), 1]))
     edges = np.stack([key // len(chosen), key % len(chosen)], 1)
     signal = np.concatenate([s.normals, config.color_weight * colors / 255.0], 1)[chosen]
     ones = np.ones(len(chosen))
     label = superpoints(signal, ones, edges, np.ones(len(edges)), config.strength)
-    nearest = _nearest_alike(s, piece, chosen)
+    nearest = _nearest_alike(s, patch, chosen)
     label = _absorb_small(label, np.bincount(nearest, minlength=len(chosen)), edges, config.least_points)
     pairs = np.sort(label[edges], 1)
     return label[nearest], np.unique(pairs[pairs[:, 0] != pairs[:, 1]], axis=0)
 
 
-def _nearest_alike(s: SurfacePoints, piece: np.ndarray, chosen: np.ndarray) -> Int[np.ndarray, " n"]:
+def _nearest_alike(s: SurfacePoints, patch: np.ndarray, chosen: np.ndarray) -> Int[np.ndarray, " n"]:
     """For every point the nearest chosen one (index into these) of the same piece with a like normal."""
     gap, nearest = KDTree(s.points[chosen]).query(s.points, workers=-1)
     found = chosen[nearest]
     alike = np.einsum("ij,ij->i", s.normals, s.normals[found]) > SIMILAR
-    wrong = np.flatnonzero((piece != piece[found]) | ~alike)
+    wrong = np.flatnonzero((patch != patch[found]) | ~alike)
     spacing = float(np.median(gap[gap > 0])) if (gap > 0).any() else 1.0
-    apart = 10 * float(np.ptp(s.points, axis=0).max()) / spacing + 10 * TURN  # further than anything within a piece
+    apart = 10 * float(np.ptp(s.points, axis=0).max()) / spacing + 10 * NORMAL_WEIGHT  # further than anything within a piece
 
     def feature(index: np.ndarray) -> np.ndarray:
-        return np.c_[s.points[index] / spacing, TURN * s.normals[index], apart * piece[index]]
+        return np.c_[s.points[index] / spacing, NORMAL_WEIGHT * s.normals[index], apart * patch[index]]
 
     if len(wrong):
         nearest[wrong] = KDTree(feature(chosen)).query(feature(wrong), workers=-1)[1]
     return nearest
 
 
-def _absorb_small(label: np.ndarray, weight: np.ndarray, edges: np.ndarray, least: int) -> Int[np.ndarray, " n"]:
+def _absorb_small(label: np.ndarray, weight: np.ndarray, edges: np.ndarray, min_points: int) -> Int[np.ndarray, " n"]:
     """Superpoints of fewer than `least` points (weight: points a node stands for) join the neighbour that they border most."""
     while True:
         count = int(label.max()) + 1
-        small = np.bincount(label, weight, count) < least
+        small = np.bincount(label, weight, count) < min_points
         a, b = label[edges].T
         source, target = np.r_[a, b], np.r_[b, a]
         use = small[source] & (source != target)
@@ -175,5 +175,5 @@ def sight(cloud: Cloud, view: View) -> Sight:
     off = np.abs(view.depth.reshape(-1)[at] - depth[inside])
     near = np.flatnonzero(~seen & (off < FOOTPRINT * depth[inside] / camera.focal))
     facing = np.einsum("ij,ij->i", view.normal.reshape(-1, 3)[at[near]], cloud.normals[inside[near]])
-    seen[near] = np.abs(facing) > ALONG
+    seen[near] = np.abs(facing) > MIN_NORMAL_COSINE
     return Sight(inside[seen], at[seen])

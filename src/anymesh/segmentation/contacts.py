@@ -16,11 +16,11 @@ from anymesh.geometry.pieces import ObjectShape
 from anymesh.geometry.shape import FaceSet
 from anymesh.geometry.topology import label_connected
 
-FLAT = 0.6  # length of the mean normal of a sheet, with its handle; 1 where it is plane
-LEAF = 0.3  # width of a plate over its length; planks are narrower
-SAME_WAY = 0.95  # cosine
-WIDEST = 2.0  # times the nearest clearance of a body: what is further away is no neighbour
-ONE_SIDED = 1.3  # the same of what is small against its nearest piece
+MIN_FLATNESS = 0.6  # length of the mean normal of a sheet, with its handle; 1 where it is plane
+MIN_PLATE_ASPECT = 0.3  # width of a plate over its length; planks are narrower
+MIN_ALIGNED_COSINE = 0.95  # cosine
+MAX_CLEARANCE_FACTOR = 2.0  # times the nearest clearance of a body: what is further away is no neighbour
+MAX_SMALL_CLEARANCE_FACTOR = 1.3  # the same of what is small against its nearest piece
 PROBES = 160  # points of a piece that are measured against another
 
 
@@ -35,7 +35,7 @@ class Contacts:
     shapes: tuple[FaceSet, ...]
     touch: Int[np.ndarray, "m 2"]
     near: Int[np.ndarray, "k 2"]
-    body: Int[np.ndarray, " P"]
+    component: Int[np.ndarray, " P"]
     area: dict[tuple[int, int], float]  # of the first piece that touches the second [m^2]; none for one flat surface
 
     @cached_property
@@ -91,38 +91,42 @@ def _measured(
 
 
 def _neighbours(
-    near: list[tuple[int, int, float]], beside: list[tuple[float, int, int]], body: np.ndarray, shapes: tuple[FaceSet, ...],
-    slack: float, reach: float,
-) -> np.ndarray:  # fmt: skip
+    near: list[tuple[int, int, float]],
+    beside: list[tuple[float, int, int]],
+    component: np.ndarray,
+    shapes: tuple[FaceSet, ...],
+    tolerance: float,
+    reach: float,
+) -> np.ndarray:
     """Of the pairs of bodies with a clearance, those that are among the nearest of the smaller body.
 
     A fit has clearances that differ by a factor of two; what is small against its nearest piece hangs on that alone.
     near: with their distance; beside: pairs that are yet to be measured, each behind the least distance that it can have.
     """
     size = [float(np.linalg.norm(s.bounds[1] - s.bounds[0])) for s in shapes]
-    extent = np.zeros(int(body.max()) + 1)
-    np.maximum.at(extent, body, size)
+    extent = np.zeros(int(component.max()) + 1)
+    np.maximum.at(extent, component, size)
 
     def ordered(i: int, j: int) -> tuple[int, int]:
-        first, second = sorted((i, j), key=lambda p: (extent[body[p]], body[p]))
+        first, second = sorted((i, j), key=lambda p: (extent[component[p]], component[p]))
         return first, second
 
-    pairs = [(gap, *ordered(i, j)) for i, j, gap in near if body[i] != body[j]]
+    pairs = [(gap, *ordered(i, j)) for i, j, gap in near if component[i] != component[j]]
     nearest = np.full(len(extent), np.inf)
-    np.minimum.at(nearest, body[[small for _, small, _ in pairs]], [gap for gap, *_ in pairs])
+    np.minimum.at(nearest, component[[small for _, small, _ in pairs]], [gap for gap, *_ in pairs])
     for least, i, j in sorted(beside):
         small, large = ordered(i, j)
-        if body[i] == body[j] or least > WIDEST * nearest[body[small]] + slack:
+        if component[i] == component[j] or least > MAX_CLEARANCE_FACTOR * nearest[component[small]] + tolerance:
             continue
         gap = min(_gap(shapes[i], shapes[j], reach), _gap(shapes[j], shapes[i], reach))
         if gap < reach:
             pairs.append((gap, small, large))
-            nearest[body[small]] = min(nearest[body[small]], gap)
+            nearest[component[small]] = min(nearest[component[small]], gap)
     most: dict[int, float] = {}
     kept = []
     for gap, small, large in sorted(pairs):
-        factor = ONE_SIDED if extent[body[small]] < 0.5 * size[large] else WIDEST
-        if gap <= most.setdefault(int(body[small]), factor * gap) + slack:
+        factor = MAX_SMALL_CLEARANCE_FACTOR if extent[component[small]] < 0.5 * size[large] else MAX_CLEARANCE_FACTOR
+        if gap <= most.setdefault(int(component[small]), factor * gap) + tolerance:
             kept.append((min(small, large), max(small, large)))
     return np.array(sorted(kept), np.int64).reshape(-1, 2)
 
@@ -131,7 +135,7 @@ def _goes_on(a: FaceSet, b: FaceSet) -> bool:
     """Whether both are sheets that face the same way."""
     mean = [s.areas @ s.normals / max(s.area, 1e-300) for s in (a, b)]
     length = [float(np.linalg.norm(m)) for m in mean]
-    return min(length) > FLAT and bool(mean[0] @ mean[1] > SAME_WAY * length[0] * length[1])
+    return min(length) > MIN_FLATNESS and bool(mean[0] @ mean[1] > MIN_ALIGNED_COSINE * length[0] * length[1])
 
 
 def _touching(a: FaceSet, b: FaceSet, tolerance: float) -> float:
@@ -153,7 +157,7 @@ def coplanar(contacts: Contacts, whole: ObjectShape, tolerance: float) -> list[t
         if max(a.half[2] / max(a.half[1], 1e-12), b.half[2] / max(b.half[1], 1e-12)) > 0.5:
             continue
         level = abs(float((a.center - b.center) @ a.axes[2]))
-        if min(s.half[1] / max(s.half[0], 1e-12) for s in (a, b)) > LEAF and same_box(a, b):
+        if min(s.half[1] / max(s.half[0], 1e-12) for s in (a, b)) > MIN_PLATE_ASPECT and same_box(a, b):
             continue  # two leaves of a window
         if abs(float(a.axes[2] @ b.axes[2])) > 0.9995 and level < tolerance and abs(a.half[2] - b.half[2]) < tolerance:
             found.append((int(i), int(j)))
@@ -183,16 +187,16 @@ def _crosses(a: FaceSet, b: FaceSet) -> bool:
     return False
 
 
-def hanging_on(contacts: Contacts, unit: Int[np.ndarray, " P"], root: int) -> dict[int, list[int]]:
+def hanging_on(contacts: Contacts, group: Int[np.ndarray, " P"], root: int) -> dict[int, list[int]]:
     """For every unit, the units that reach the root only through it (itself first): its dominated set.
 
     Units join pieces that are known to move as one. Bodies that are near nothing hang on the root.
     """
     graph = nx.DiGraph()
-    count = int(unit.max()) + 1
+    count = int(group.max()) + 1
     graph.add_nodes_from(range(count))
     for i, j in np.concatenate([contacts.touch, contacts.near]):
-        a, b = int(unit[i]), int(unit[j])
+        a, b = int(group[i]), int(group[j])
         if a != b:
             graph.add_edge(a, b)
             graph.add_edge(b, a)

@@ -18,7 +18,7 @@ from anymesh.segmentation.cloud import Cloud
 from anymesh.segmentation.fuse import Counts, Instances
 
 CERTAIN = 3.0  # logit of the instance that a superpoint starts in; the others start at 0
-LEAST = 1e-7  # probabilities are kept this far from 0 and 1
+MIN_PROBABILITY = 1e-7  # probabilities are kept this far from 0 and 1
 ADAM = (0.9, 0.999, 1e-8)  # Kingma and Ba 2015: decay of the gradient's mean, of its square's, and what is added below
 JOIN_POINTS = 40_000  # of the cloud, that tell which superpoints are near each other
 
@@ -71,7 +71,7 @@ def maximise(
 def probabilities(logits: Float[np.ndarray, "S K"]) -> Float[np.ndarray, "S K"]:
     """Softmax over the instances, kept from 0 and 1."""
     p = np.exp(logits - logits.max(1, keepdims=True))
-    return np.clip(p / p.sum(1, keepdims=True), LEAST, 1 - LEAST)
+    return np.clip(p / p.sum(1, keepdims=True), MIN_PROBABILITY, 1 - MIN_PROBABILITY)
 
 
 def match(logits: Float[np.ndarray, "S K"], target: Int[np.ndarray, "S N"]) -> tuple[np.ndarray, np.ndarray]:

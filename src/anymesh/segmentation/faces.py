@@ -15,9 +15,11 @@ from anymesh.segmentation.fuse import Instances
 from anymesh.segmentation.unseen import UNSEEN, StaysFree, join_unseen
 from anymesh.types import Mesh
 
-ALONE = 0.5  # a component joins the part of so much of its visible surface (the paper's implementation)
-SLIVER = 0.02  # share of a piece's surface; of less, seen through a gap, no view tells what it is
-CUTTABLE = 0.85  # the same for a piece that may hold several parts, as it is large or was cut out of a fused surface
+MIN_COMPONENT_SHARE = 0.5  # a component joins the part of so much of its visible surface (the paper's implementation)
+MIN_SEEN_SHARE = 0.02  # share of a piece's surface; of less, seen through a gap, no view tells what it is
+MIN_SEEN_SHARE_CUTTABLE = (
+    0.85  # the same for a piece that may hold several parts, as it is large or was cut out of a fused surface
+)
 
 
 def face_parts(
@@ -40,10 +42,10 @@ def face_parts(
     known = point_part >= 0
     votes = np.bincount(piece[known] * most + point_part[known], minlength=pieces * most).reshape(pieces, most)
     total = votes.sum(1)
-    told = total > SLIVER * np.bincount(piece, minlength=pieces)
+    told = total > MIN_SEEN_SHARE * np.bincount(piece, minlength=pieces)
     winner = np.where(told, votes.argmax(1), UNSEEN)
     share = votes.max(1) / np.maximum(total, 1)
-    mixed = told & (share <= np.where(_cuttable(mesh, whole, config), CUTTABLE, ALONE))
+    mixed = told & (share <= np.where(_cuttable(mesh, whole, config), MIN_SEEN_SHARE_CUTTABLE, MIN_COMPONENT_SHARE))
     winner = join_unseen(whole, winner, config, stays_free)
     found = winner[whole.mesh_patch]
     for p in np.flatnonzero(mixed):
@@ -64,7 +66,7 @@ def _cuttable(mesh: Mesh, whole: ObjectShape, config: Config) -> Bool[np.ndarray
     return large
 
 
-def _cut(cloud: Cloud, mine: np.ndarray, part: np.ndarray, most: int) -> tuple[np.ndarray, np.ndarray]:
+def _cut(cloud: Cloud, mine: np.ndarray, part: np.ndarray, max_parts: int) -> tuple[np.ndarray, np.ndarray]:
     """Faces of one piece and the part of each: its superpoints vote first, so that a border runs where theirs does.
 
     mine: points of the piece; part: of each, -1 unknown.
@@ -72,7 +74,7 @@ def _cut(cloud: Cloud, mine: np.ndarray, part: np.ndarray, most: int) -> tuple[n
     names, own = np.unique(cloud.superpoint[mine], return_inverse=True)
     own = own.reshape(-1)
     known = part >= 0
-    votes = np.bincount(own[known] * most + part[known], minlength=len(names) * most).reshape(-1, most)
+    votes = np.bincount(own[known] * max_parts + part[known], minlength=len(names) * max_parts).reshape(-1, max_parts)
     best = np.where(votes.sum(1) > 0, votes.argmax(1), UNSEEN)
     label = best[own]
     lost = label < 0
@@ -80,7 +82,7 @@ def _cut(cloud: Cloud, mine: np.ndarray, part: np.ndarray, most: int) -> tuple[n
         nearest = KDTree(cloud.points[mine[~lost]]).query(cloud.points[mine[lost]], workers=-1)[1]
         label[lost] = label[~lost][nearest]
     faces, where = np.unique(cloud.faces[mine], return_inverse=True)
-    inside = np.bincount(where.reshape(-1) * most + label, minlength=len(faces) * most).reshape(-1, most)
+    inside = np.bincount(where.reshape(-1) * max_parts + label, minlength=len(faces) * max_parts).reshape(-1, max_parts)
     return faces, inside.argmax(1)
 
 

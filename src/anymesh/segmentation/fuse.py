@@ -156,7 +156,7 @@ def _groups(cloud: Cloud, counts: Sequence[Counts], mine: np.ndarray, config: Gr
     return [mine[group == g] for g in np.unique(group)]
 
 
-def _confirmed(counts: Sequence[Counts], group: np.ndarray, label: str, least: float) -> bool:
+def _confirmed(counts: Sequence[Counts], group: np.ndarray, label: str, min_iou: float) -> bool:
     """Whether some view has a mask of the label where the instance shows: boxes with an IoU above `least`."""
     for c in counts:
         which = [k for k, name in enumerate(c.labels) if name == label]
@@ -164,7 +164,7 @@ def _confirmed(counts: Sequence[Counts], group: np.ndarray, label: str, least: f
         if not which or len(shown) == 0:
             continue
         box = np.r_[c.box[shown, :2].min(0), c.box[shown, 2:].max(0)]
-        if (_box_ious(box, c.mask_box[which]) > least).any():
+        if (_box_ious(box, c.mask_box[which]) > min_iou).any():
             return True
     return False
 

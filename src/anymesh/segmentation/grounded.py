@@ -18,13 +18,20 @@ from anymesh.reasoning.grounding import MarkedPart
 from anymesh.rendering.render import View
 from anymesh.rendering.studio import VisualPrompts
 from anymesh.rendering.viewpoints import normal_picture
-from anymesh.segmentation.ask_marks import Asked, Grounded, ask_exact, ask_masks
+from anymesh.segmentation.ask_marks import MarkAnswers, MarkQuestioner, ask_exact, ask_masks
 from anymesh.segmentation.close_ups import close_ups
 from anymesh.segmentation.cloud import Cloud, sample_cloud
 from anymesh.segmentation.em import refine_instances
-from anymesh.segmentation.faces import SLIVER, face_parts, mark_parts, point_parts
+from anymesh.segmentation.faces import MIN_SEEN_SHARE, face_parts, mark_parts, point_parts
 from anymesh.segmentation.fuse import count_points, fuse_masks, marked_masks
-from anymesh.segmentation.hidden import LEAST_INSIDE, inner_faces, patch_sizes, seen_points, unseen_patches, with_hidden
+from anymesh.segmentation.hidden import (
+    MIN_INNER_PATCH_RATIO,
+    add_hidden_parts,
+    inner_faces,
+    patch_sizes,
+    seen_points,
+    unseen_patches,
+)
 from anymesh.segmentation.naming import named_parts
 from anymesh.segmentation.propose import Proposal, propose_masks
 from anymesh.segmentation.regions import face_regions, number_regions, split_marks
@@ -39,7 +46,7 @@ MovesFreely = Callable[[Int[np.ndarray, " R"], Int[np.ndarray, " R"], int, Moves
 
 
 @dataclass(frozen=True, eq=False)
-class Found:
+class GroundedParts:
     """Parts of the surface. face_part: (F,) 0 the rest; unseen: (F,) faces of patches that no view shows; an entry of the
     rest a part."""
 
@@ -55,10 +62,10 @@ class Found:
 def ground_parts(
     mesh: Mesh,
     whole: ObjectShape,
-    seer: VisualAnswerer,
+    answerer: VisualAnswerer,
     config: Config,
     recognition: Recognition,
-    studio: VisualPrompts,
+    visual_prompts: VisualPrompts,
     segmenter: PromptedSegmenter | None,
     by_geometry: Callable[[], Segmentation],
     stays_free: MovesFreely | None = None,
@@ -71,7 +78,7 @@ def ground_parts(
     whether a part opens as far with unseen patches; cloud: of `object_cloud`, where it is at hand.
     """
     labels = tuple(r.label for r in recognition.labels)
-    asked = Asked(seer, studio, labels, recognition.category, config)
+    asked = MarkQuestioner(answerer, visual_prompts, labels, recognition.category, config)
     ground = _exactly if segmenter is None else _by_masks
     moves = {r.label: r.moves for r in recognition.labels}
 
@@ -83,27 +90,27 @@ def ground_parts(
     progress("segment", "views", 0, 3 + (segmenter is not None))
     cloud = cloud or object_cloud(mesh, whole, config)
     found = ground(mesh, whole, asked, cloud, recognition.front, segmenter, free, progress)
-    reason = _pointed(seer)
+    reason = _pointed(answerer)
     parts = named_parts(
         found.face_part, found.labels, mesh.face_areas, found.confidence, [f"{reason}{doubt}" for doubt in found.doubts]
     )
     inside: tuple[str, ...] = ()
     left = found.unseen & (found.face_part == 0)  # by whoever was shown the inside
-    left &= (patch_sizes(mesh, whole) >= LEAST_INSIDE)[whole.mesh_patch]  # smaller ones are gaps and creases, no parts
+    left &= (patch_sizes(mesh, whole) >= MIN_INNER_PATCH_RATIO)[whole.mesh_patch]  # smaller ones are gaps and creases, no parts
     by_user = recognition.size is None  # told the labels; else somebody was shown the inside and asked what moves in there
-    if labels and by_user and mesh.face_areas[left].sum() > SLIVER * mesh.face_areas[found.unseen].sum():
-        parts, inside = with_hidden(parts, by_geometry(), found.unseen, mesh.face_areas)
+    if labels and by_user and mesh.face_areas[left].sum() > MIN_SEEN_SHARE * mesh.face_areas[found.unseen].sum():
+        parts, inside = add_hidden_parts(parts, by_geometry(), found.unseen, mesh.face_areas)
     missing = [label for label in labels if label not in {p.label for p in parts.parts}]
-    told = {True: "what was pointed at is all of the object, or too little of it", False: f"though {seer.name} expects one"}
+    told = {True: "what was pointed at is all of the object, or too little of it", False: f"though {answerer.name} expects one"}
     lost = tuple(f"no {label} was found, {told[label in found.pointed]}" for label in missing)
     return parts, (*found.warnings, *lost, *inside)
 
 
-def _pointed(seer: VisualAnswerer) -> str:
+def _pointed(answerer: VisualAnswerer) -> str:
     """Who pointed at the parts: whoever answered the question about marks."""
-    if any(e.kind == "marks" and e.given_up for e in seer.exchanges):
-        return f"geometry points at it in place of {seer.name}"
-    return f"pointed at by {seer.name}"
+    if any(e.kind == "marks" and e.given_up for e in answerer.exchanges):
+        return f"geometry points at it in place of {answerer.name}"
+    return f"pointed at by {answerer.name}"
 
 
 def object_cloud(mesh: Mesh, whole: ObjectShape, config: Config) -> Cloud:
@@ -113,19 +120,25 @@ def object_cloud(mesh: Mesh, whole: ObjectShape, config: Config) -> Cloud:
 
 
 def _exactly(
-    mesh: Mesh, whole: ObjectShape, asked: Asked, cloud: Cloud, front: float | None, segmenter: PromptedSegmenter | None,
-    free: Callable[[Sequence[str]], StaysFree | None], progress: Progress,
-) -> Found:  # fmt: skip
+    mesh: Mesh,
+    whole: ObjectShape,
+    questioner: MarkQuestioner,
+    cloud: Cloud,
+    front: float | None,
+    segmenter: PromptedSegmenter | None,
+    free: Callable[[Sequence[str]], StaysFree | None],
+    progress: Progress,
+) -> GroundedParts:
     """Parts from marks on exact regions of the surface."""
-    config = asked.config
+    config = questioner.config
     region = face_regions(whole, cloud)
-    seen, names, hidden = shown_views(mesh, whole, asked, cloud, region, front)
+    seen, names, hidden = shown_views(mesh, whole, questioner, cloud, region, front)
     marks = number_regions(region, seen, whole.diagonal, config.grounding)
     progress("segment", "marks", 1, 3)
-    answer = Grounded(marks, (), frozenset())
-    if asked.labels:
+    answer = MarkAnswers(marks, (), frozenset())
+    if questioner.labels:
         answer = ask_exact(
-            asked, marks, seen, names,
+            questioner, marks, seen, names,
             lambda some, chosen: split_marks(some, chosen, mesh, cloud, seen, config.grounding),
         )  # fmt: skip
     progress("segment", "parts", 2, 3)
@@ -137,7 +150,7 @@ def _exactly(
     face_part = mark_parts(mesh, whole, answer.marks.face_mark, parts, little, config, free(labels))
     doubts = [sorted(answer.unsure & set(p.marks)) for p in answer.parts]
     crowded = f"{marks.crowded} small regions have no mark of their own: the object has too many to be shown"
-    return Found(
+    return GroundedParts(
         face_part,
         hidden[whole.mesh_patch],
         labels,
@@ -152,34 +165,40 @@ def _exactly(
 
 
 def shown_views(
-    mesh: Mesh, whole: ObjectShape, asked: Asked, cloud: Cloud, region: Int[np.ndarray, " F"], front: float | None
+    mesh: Mesh, whole: ObjectShape, questioner: MarkQuestioner, cloud: Cloud, region: Int[np.ndarray, " F"], front: float | None
 ) -> tuple[list[View], list[str], Bool[np.ndarray, " P"]]:
     """The views to choose pictures from with their names, and the patches that none from outside shows: all sides, close-ups,
     and the inside where there is one."""
-    studio, config = asked.studio, asked.config
-    small = close_ups(region, cloud, studio.views, config.views) if asked.labels else ()
+    studio, config = questioner.visual_prompts, questioner.config
+    small = close_ups(region, cloud, studio.views, config.views) if questioner.labels else ()
     seen = [*studio.views, *(studio.view(camera) for camera in small)]
     names = studio.names(len(seen), front)
     shown = seen_points(cloud, seen)
     inside = inner_faces(mesh, whole, cloud, shown)
-    if asked.labels and inside.any():
+    if questioner.labels and inside.any():
         seen, names = [*seen, *studio.insides(inside)], [*names, *studio.inside_names(front)]
     return seen, names, unseen_patches(whole, cloud, shown)
 
 
 def _by_masks(
-    mesh: Mesh, whole: ObjectShape, asked: Asked, cloud: Cloud, front: float | None, segmenter: PromptedSegmenter | None,
-    free: Callable[[Sequence[str]], StaysFree | None], progress: Progress,
-) -> Found:  # fmt: skip
+    mesh: Mesh,
+    whole: ObjectShape,
+    questioner: MarkQuestioner,
+    cloud: Cloud,
+    front: float | None,
+    segmenter: PromptedSegmenter | None,
+    free: Callable[[Sequence[str]], StaysFree | None],
+    progress: Progress,
+) -> GroundedParts:
     """Parts from a model's masks in every view, voted on by PartSlip++."""
-    config = asked.config
+    config = questioner.config
     assert segmenter is not None
     region = face_regions(whole, cloud)
-    seen, names, hidden = shown_views(mesh, whole, asked, cloud, region, front)
+    seen, names, hidden = shown_views(mesh, whole, questioner, cloud, region, front)
     progress("segment", "masks", 1, 4)
     proposals = propose(whole, region, seen, segmenter, config)
     progress("segment", "marks", 2, 4)
-    marked = ask_masks(asked, proposals, seen, names) if asked.labels else ()
+    marked = ask_masks(questioner, proposals, seen, names) if questioner.labels else ()
     progress("segment", "fusion", 3, 4)
     masks = marked_masks(proposals, marked)
     told = [k for k, p in enumerate(proposals) if p.numbers] or range(len(seen))  # a view without masks has no vote
@@ -190,7 +209,7 @@ def _by_masks(
     face_part = face_parts(mesh, whole, cloud, point_parts(cloud, found, seen_points(cloud, seen)), config, free(found.labels))
     pointed = frozenset(p.label for p in marked)
     kept = [found.labels[k - 1] for k in np.unique(face_part[face_part > 0])]
-    return Found(
+    return GroundedParts(
         face_part, hidden[whole.mesh_patch], found.labels, (SURE,) * count, ("",) * count, pointed, _lost(marked, kept)
     )  # fmt: skip
 

@@ -11,13 +11,15 @@ from jaxtyping import Bool, Float
 from anymesh.geometry.pieces import ObjectShape
 from anymesh.rendering.render import View
 from anymesh.segmentation.cloud import Cloud, sight
-from anymesh.segmentation.faces import SLIVER
+from anymesh.segmentation.faces import MIN_SEEN_SHARE
 from anymesh.segmentation.naming import named_parts
 from anymesh.types import Mesh, Segmentation
 
-MOSTLY = 0.25  # share of a patch's surface up to which it counts as mostly hidden
-LEAST_INSIDE = 0.05  # of the diagonal: hidden patches with a smaller diagonal are not shown
-LEAST_TOLD = 0.1  # of the diagonal: with smaller ones alone, nobody is shown the inside to tell what the object is
+MAX_SEEN_SHARE = 0.25  # share of a patch's surface up to which it counts as mostly hidden
+MIN_INNER_PATCH_RATIO = 0.05  # of the diagonal: hidden patches with a smaller diagonal are not shown
+MIN_RECOGNITION_PATCH_RATIO = (
+    0.1  # of the diagonal: with smaller ones alone, nobody is shown the inside to tell what the object is
+)
 
 
 def seen_points(cloud: Cloud, views: Sequence[View]) -> Bool[np.ndarray, " n"]:
@@ -29,7 +31,7 @@ def seen_points(cloud: Cloud, views: Sequence[View]) -> Bool[np.ndarray, " n"]:
 
 
 def unseen_patches(
-    whole: ObjectShape, cloud: Cloud, shown: Bool[np.ndarray, " n"], share: float = SLIVER
+    whole: ObjectShape, cloud: Cloud, shown: Bool[np.ndarray, " n"], share: float = MIN_SEEN_SHARE
 ) -> Bool[np.ndarray, " P"]:
     """Patches that no view shows, or so little of them (a share of the surface) that nobody could name them."""
     piece = whole.mesh_patch[cloud.faces]
@@ -38,14 +40,14 @@ def unseen_patches(
 
 
 def inner_faces(
-    mesh: Mesh, whole: ObjectShape, cloud: Cloud, shown: Bool[np.ndarray, " n"], least: float = LEAST_INSIDE
+    mesh: Mesh, whole: ObjectShape, cloud: Cloud, shown: Bool[np.ndarray, " n"], min_size: float = MIN_INNER_PATCH_RATIO
 ) -> Bool[np.ndarray, " F"]:
     """Faces of patches that are mostly hidden and large enough to be shown alone and asked about; none where all of them have a
     diagonal below `least`, a share of the object's."""
-    hidden, size = unseen_patches(whole, cloud, shown, MOSTLY), patch_sizes(mesh, whole)
-    if not (hidden & (size >= least)).any():
+    hidden, size = unseen_patches(whole, cloud, shown, MAX_SEEN_SHARE), patch_sizes(mesh, whole)
+    if not (hidden & (size >= min_size)).any():
         return np.zeros(len(whole.mesh_patch), bool)
-    return (hidden & (size >= LEAST_INSIDE))[whole.mesh_patch]
+    return (hidden & (size >= MIN_INNER_PATCH_RATIO))[whole.mesh_patch]
 
 
 def patch_sizes(mesh: Mesh, whole: ObjectShape) -> Float[np.ndarray, " P"]:
@@ -57,7 +59,7 @@ def patch_sizes(mesh: Mesh, whole: ObjectShape) -> Float[np.ndarray, " P"]:
     return np.linalg.norm(high - low, axis=1) / whole.diagonal
 
 
-def with_hidden(
+def add_hidden_parts(
     found: Segmentation, other: Segmentation, unseen: Bool[np.ndarray, " F"], areas: Float[np.ndarray, " F"]
 ) -> tuple[Segmentation, tuple[str, ...]]:
     """The parts found and those of another segmentation that no view shows (a turntable behind a closed door), with a
@@ -66,7 +68,7 @@ def with_hidden(
     parts, warnings = list(found.parts[1:]), []
     for k, part in enumerate(other.parts[1:], start=1):
         mine = other.face_part == k
-        if areas[mine & ~unseen].sum() <= SLIVER * areas[mine].sum() and not face_part[mine].any():
+        if areas[mine & ~unseen].sum() <= MIN_SEEN_SHARE * areas[mine].sum() and not face_part[mine].any():
             parts.append(replace(part, reason=f"no view shows it; found by geometry: {part.reason}"))
             warnings.append(f"no view shows the {part.label} inside; geometry found it")
             face_part[mine] = len(parts)

@@ -13,10 +13,10 @@ from anymesh.rendering.viewpoints import zoom
 from anymesh.segmentation.regions import Marks
 from anymesh.types.camera import Camera
 
-MOST_IN_PICTURE = 40  # marks that can be told apart in one picture
+MAX_MARKS_PER_PICTURE = 40  # marks that can be told apart in one picture
 WELL, HALF = 400.0, 0.5  # a view shows a mark well with so many pixels of a 640 px view, or with this share of the most
-LEAST = 30.0  # [px of a 640 px view] of a mark that is drawn
-ENOUGH = 5  # views up to which marks are shown a second time
+MIN_MARK_PIXELS = 30.0  # [px of a 640 px view] of a mark that is drawn
+MAX_VIEWS_SHOWN_TWICE = 5  # views up to which marks are shown a second time
 TILE_AIR = 0.15  # round the marks of a close-up, a share of their box on each side
 TILES = 4  # times that a crowded view is halved at most: 16 close-ups
 
@@ -65,9 +65,9 @@ def _cover(well: Bool[np.ndarray, "V n"], size: np.ndarray) -> list[tuple[int, n
     """The views to take, in their order, each with the marks (a mask) that it is taken for: every mark is shown well once,
     and as many as ENOUGH views allow twice."""
     found: dict[int, np.ndarray] = {}
-    for most in (len(well), ENOUGH):
+    for most in (len(well), MAX_VIEWS_SHOWN_TWICE):
         left = well.any(0)
-        if most == ENOUGH:
+        if most == MAX_VIEWS_SHOWN_TWICE:
             left &= (well & np.isin(np.arange(len(well)), list(found))[:, None]).sum(0) < 2
         while left.any() and len(found) < most:
             rest = (well & left).sum(1) + 1e-9 * (size * left).sum(1)
@@ -91,11 +91,11 @@ def _drawn(
     marks: Marks,
 ) -> list[MarkPicture]:
     """One picture with all that it shows, where that is not too much; else with what is new; else close-ups of that."""
-    shown = numbers[size >= LEAST * (view.camera.height / 640) ** 2]
+    shown = numbers[size >= MIN_MARK_PIXELS * (view.camera.height / 640) ** 2]
     own = np.union1d(shown, numbers[new])
-    if len(own) <= MOST_IN_PICTURE:
+    if len(own) <= MAX_MARKS_PER_PICTURE:
         return [MarkPicture(view, np.where(np.isin(label, own), label, -1), name)]
-    if new.sum() <= MOST_IN_PICTURE:
+    if new.sum() <= MAX_MARKS_PER_PICTURE:
         return [MarkPicture(view, np.where(np.isin(label, numbers[new]), label, -1), name)]
     return _tiles(label, numbers[new], view, name, render, marks)
 
@@ -110,7 +110,7 @@ def _tiles(
     middle = np.stack([np.bincount(where, x, len(own)) / count for x in (column, row)], 1)
     groups = [np.arange(len(own))]
     for _ in range(TILES):
-        if max(map(len, groups)) <= MOST_IN_PICTURE:
+        if max(map(len, groups)) <= MAX_MARKS_PER_PICTURE:
             break
         groups = [half for group in groups for half in _halves(middle, group)]
     found = []
@@ -125,7 +125,7 @@ def _tiles(
 
 def _halves(middle: np.ndarray, group: np.ndarray) -> list[np.ndarray]:
     """A group of marks in two, across the longer side of where they are."""
-    if len(group) <= MOST_IN_PICTURE:
+    if len(group) <= MAX_MARKS_PER_PICTURE:
         return [group]
     axis = int(np.ptp(middle[group], axis=0).argmax())
     order = group[np.argsort(middle[group, axis], kind="stable")]

@@ -10,8 +10,8 @@ from anymesh.geometry.topology import label_connected
 from anymesh.segmentation.contacts import Contacts
 from anymesh.segmentation.part_tree import Overlap
 
-LEAST = -0.5  # log-odds from which a candidate may be a part; highest F1 on kinds left out of training
-ALIKE = 0.3  # IoU from which a candidate within another one is the same part
+MIN_SCORE = -0.5  # log-odds from which a candidate may be a part; highest F1 on kinds left out of training
+MIN_DUPLICATE_IOU = 0.3  # IoU from which a candidate within another one is the same part
 
 
 def conflicts(overlap: Overlap) -> Bool[np.ndarray, "n n"]:
@@ -19,7 +19,7 @@ def conflicts(overlap: Overlap) -> Bool[np.ndarray, "n n"]:
 
     A part may carry a smaller one (a knob on a door): it keeps the faces that the smaller one does not have.
     """
-    return overlap.meet & (~overlap.nested | (overlap.iou > ALIKE))
+    return overlap.meet & (~overlap.nested | (overlap.iou > MIN_DUPLICATE_IOU))
 
 
 def assign_parts(overlap: Overlap, score: Float[np.ndarray, " n"]) -> list[int]:
@@ -27,7 +27,7 @@ def assign_parts(overlap: Overlap, score: Float[np.ndarray, " n"]) -> list[int]:
 
     score: log-odds that a candidate is a part. Exact, by mixed-integer programming.
     """
-    likely = np.flatnonzero(score > LEAST)
+    likely = np.flatnonzero(score > MIN_SCORE)
     first, second = np.nonzero(np.triu(conflicts(overlap)[np.ix_(likely, likely)]))
     if len(first) == 0:
         return [int(k) for k in likely]
@@ -36,7 +36,10 @@ def assign_parts(overlap: Overlap, score: Float[np.ndarray, " n"]) -> list[int]:
     row = np.arange(len(first)).repeat(2)
     pairs = csr_array((np.ones(len(row)), (row, np.stack([first, second], 1).reshape(-1))), (len(first), len(likely)))
     found = milp(
-        LEAST - score[likely], integrality=np.ones(len(likely)), bounds=Bounds(0, 1), constraints=LinearConstraint(pairs, ub=1)
+        MIN_SCORE - score[likely],
+        integrality=np.ones(len(likely)),
+        bounds=Bounds(0, 1),
+        constraints=LinearConstraint(pairs, ub=1),
     )
     return [int(k) for k in likely[np.round(found.x).astype(bool)]]
 

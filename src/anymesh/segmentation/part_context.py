@@ -8,16 +8,16 @@ from jaxtyping import Bool, Float
 from anymesh.segmentation.part_tree import Overlap
 
 NONE = -6.0  # log-odds where there is no such candidate
-ALIKE = 0.5  # IoU of two candidates that are nearly the same
+MIN_DUPLICATE_IOU = 0.5  # IoU of two candidates that are nearly the same
 SAME_AREA, SAME_SIZE = 0.05, 0.02  # relative: areas and diagonals of copies differ by less
-LIKELY = 0.5  # probability from which a candidate counts as a part
+MIN_PROBABILITY = 0.5  # probability from which a candidate counts as a part
 
 
 def context_features(overlap: Overlap, score: Float[np.ndarray, " n"]) -> dict[str, Float[np.ndarray, " n"]]:
     """Return features of all candidates. score: log-odds of each, from its own features alone."""
     area, size = np.maximum(overlap.area, 1e-300), overlap.size
     other = ~np.eye(len(score), dtype=bool)
-    meet, nested, alike = overlap.meet, overlap.nested, overlap.iou > ALIKE
+    meet, nested, alike = overlap.meet, overlap.nested, overlap.iou > MIN_DUPLICATE_IOU
     outer, inner = nested & (area[None] > area[:, None]), nested & (area[None] <= area[:, None])
     copy = ~meet & other & (np.abs(np.log(area[:, None] / area[None])) < SAME_AREA)
     copy &= np.abs(size[:, None] - size[None]) < SAME_SIZE * size[:, None]
@@ -34,9 +34,9 @@ def context_features(overlap: Overlap, score: Float[np.ndarray, " n"]) -> dict[s
         "best crossing candidate": _best(meet & ~nested, score),
         "lead over what it overlaps": score - _best(meet, score),
         "rank": np.argsort(np.argsort(-score, kind="stable"), kind="stable").astype(float),
-        "likely parts of the object": np.full(len(score), float(probability[probability > LIKELY].sum())),
+        "likely parts of the object": np.full(len(score), float(probability[probability > MIN_PROBABILITY].sum())),
         "best score of the object": np.full(len(score), float(score.max(initial=NONE))),
-        "likely parts beside it": (~meet & other & (probability[None] > LIKELY)).sum(1).astype(float),
+        "likely parts beside it": (~meet & other & (probability[None] > MIN_PROBABILITY)).sum(1).astype(float),
         "parts within": inner @ probability,
         "parts around": outer @ probability,
     }

@@ -9,14 +9,14 @@ from jaxtyping import Int
 
 from anymesh.config import Config
 from anymesh.geometry.surroundings import PartContext
-from anymesh.segmentation.part_fit import enclosed_share, fit_of_rim, held_at_two_ends, on_axis, open_behind, touching
+from anymesh.segmentation.part_fit import enclosed_share, fit_of_rim, has_two_pivots, on_axis, open_behind, touching
 from anymesh.segmentation.part_tree import PartTree
 from anymesh.types import Mesh
 
 AT_BORDER = 0.02  # of the diagonal: a side of the object's bounds is reached within this
 SAME_SIZE = 0.02  # relative: diagonals of copies differ by less
 IN_LINE = 0.02  # of the diagonal: middles of copies in one row are as level as this
-MOST_RATIO = 8.0  # lengths over lengths are cut here
+MAX_RATIO = 8.0  # lengths over lengths are cut here
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,7 +33,7 @@ class FeatureScene:
         return cls(tree, config, mesh.face_material[tree.whole.source])
 
 
-def surroundings_of(scene: FeatureScene, group: int) -> PartContext | None:
+def part_context_of(scene: FeatureScene, group: int) -> PartContext | None:
     """Return a group among all else; None where it has no face, or nothing is left."""
     tree = scene.tree
     moving = tree.members[group][tree.whole.patch]
@@ -60,7 +60,7 @@ def part_features(scene: FeatureScene, group: int, around: PartContext) -> dict[
 
 
 def _ratio(a: float, b: float) -> float:
-    return float(np.clip(a / max(b, 1e-12), 0, MOST_RATIO))
+    return float(np.clip(a / max(b, 1e-12), 0, MAX_RATIO))
 
 
 def _shape(scene: FeatureScene, group: int, around: PartContext) -> dict[str, float]:
@@ -126,7 +126,7 @@ def _fit(scene: FeatureScene, around: PartContext) -> dict[str, float]:
         "middle gap": float(np.log10(gaps[1] + 1e-5)),
         "enclosed": enclosed_share(around),
         "depth": _ratio(depth, 2 * float(around.body_obb.half[1])),
-        "two pivots": float(held_at_two_ends(around, near, normals)),
+        "two pivots": float(has_two_pivots(around, near, normals)),
         "on axis": float(on_axis(around)),
         "axle level": float(abs(around.outline.axis[2]) < 0.5),
         **_contact_layout(around, near),

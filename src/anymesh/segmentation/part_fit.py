@@ -84,7 +84,7 @@ def enclosed_share(around: PartContext) -> float:
     return float((hit >= 3).mean())
 
 
-def held_at_two_ends(around: PartContext, near: np.ndarray, normals: np.ndarray) -> bool:
+def has_two_pivots(around: PartContext, near: np.ndarray, normals: np.ndarray) -> bool:
     """Held at two far ends by surfaces that face along the line between them: pivots, not the feet of a fixed grip."""
     points = around.part.samples.points
     if near.sum() < 4:

@@ -15,13 +15,13 @@ from jaxtyping import Bool, Float, Int
 
 from anymesh.geometry.pieces import ObjectShape
 from anymesh.segmentation.contacts import Contacts
-from anymesh.segmentation.units import Units, join_units, root_ranking, with_held
+from anymesh.segmentation.units import RigidGroups, rigid_groups, root_ranking, with_supported
 from anymesh.types import Mesh
 
 BASES = 3  # likeliest bases from which hanging is measured
-WITHIN = 0.98  # share of the smaller candidate from which it lies within the larger one
-APART = 1e-3  # share of the smaller candidate below which two do not overlap
-LEAST_AREA = 1e-12  # share of the surface that counts as area where patches have none
+MIN_NESTED_SHARE = 0.98  # share of the smaller candidate from which it lies within the larger one
+MAX_DISJOINT_SHARE = 1e-3  # share of the smaller candidate below which two do not overlap
+MIN_AREA_RATIO = 1e-12  # share of the surface that counts as area where patches have none
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,14 +45,14 @@ class Overlap:
     @cached_property
     def meet(self) -> Bool[np.ndarray, "n n"]:
         """Which candidates overlap another one."""
-        found = self.shared > APART * np.minimum(self.area[:, None], self.area[None])
+        found = self.shared > MAX_DISJOINT_SHARE * np.minimum(self.area[:, None], self.area[None])
         np.fill_diagonal(found, False)
         return found
 
     @cached_property
     def nested(self) -> Bool[np.ndarray, "n n"]:
         """Which candidates lie within another one, or hold it."""
-        return self.meet & (self.shared > WITHIN * np.minimum(self.area[:, None], self.area[None]))
+        return self.meet & (self.shared > MIN_NESTED_SHARE * np.minimum(self.area[:, None], self.area[None]))
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,7 +85,7 @@ class PartTree:
         return np.flatnonzero(self.members[group][self.whole.patch])
 
 
-def part_tree(mesh: Mesh, whole: ObjectShape, contacts: Contacts, smallest: float, most: int) -> PartTree:
+def part_tree(mesh: Mesh, whole: ObjectShape, contacts: Contacts, min_size: float, max_candidates: int) -> PartTree:
     """Return the groups of a mesh that may be parts, without repetition.
 
     smallest: least diagonal of a group, as a share of the object's; most: number of groups, the largest are taken.
@@ -100,28 +100,28 @@ def part_tree(mesh: Mesh, whole: ObjectShape, contacts: Contacts, smallest: floa
 
     ranking = root_ranking(whole, contacts)
     for base in ranking[:BASES]:
-        units = join_units(mesh, whole, contacts, base)
-        names = [units.names[u] for u in units.unit]
+        units = rigid_groups(mesh, whole, contacts, base)
+        names = [units.names[u] for u in units.group]
         for u in sorted(units.hanging):
             if u != units.root:
-                for chosen in ([u], units.hanging[u], with_held(units, u)):
-                    add(np.isin(units.unit, chosen))
-    first = join_units(mesh, whole, contacts, ranking[0])
+                for chosen in ([u], units.hanging[u], with_supported(units, u)):
+                    add(np.isin(units.group, chosen))
+    first = rigid_groups(mesh, whole, contacts, ranking[0])
     for merged in _merges(first):
-        add(np.isin(first.unit, merged))
-    members, size = _largest(whole, contacts, list(found.values()), smallest, most)
+        add(np.isin(first.group, merged))
+    members, size = _largest(whole, contacts, list(found.values()), min_size, max_candidates)
     return PartTree(whole, contacts, members, size, tuple(names))
 
 
 def _largest(
-    whole: ObjectShape, contacts: Contacts, masks: list[np.ndarray], smallest: float, most: int
+    whole: ObjectShape, contacts: Contacts, masks: list[np.ndarray], min_size: float, max_candidates: int
 ) -> tuple[Bool[np.ndarray, "n P"], Float[np.ndarray, " n"]]:
     """Return the largest groups and their diagonals over the object's."""
     bounds = contacts.patch_bounds
     size = np.array([float(np.linalg.norm(np.ptp(_bounds(bounds, m), axis=0))) for m in masks]) / whole.diagonal
     area = contacts.patch_area
-    order = [int(k) for k in np.lexsort((np.arange(len(masks)), -size)) if size[k] >= smallest and area[masks[k]].sum() > 0]
-    order = order[:most]
+    order = [int(k) for k in np.lexsort((np.arange(len(masks)), -size)) if size[k] >= min_size and area[masks[k]].sum() > 0]
+    order = order[:max_candidates]
     members = np.array([masks[k] for k in order], bool).reshape(len(order), len(bounds))
     return members, size[order]
 
@@ -131,21 +131,23 @@ def _bounds(patches: Float[np.ndarray, "P 2 3"], members: Bool[np.ndarray, " P"]
     return np.array([mine[:, 0].min(0), mine[:, 1].max(0)])
 
 
-def _merges(units: Units) -> list[list[int]]:
+def _merges(groups: RigidGroups) -> list[list[int]]:
     """Merge neighbours until all are one; return the groups on the way.
 
     Those merge first of which the smaller shares most of its contact with the other, small ones before large ones.
     """
-    count = len(units.names)
-    area = np.maximum(np.bincount(units.unit, units.contacts.patch_area, count), LEAST_AREA * units.contacts.patch_area.sum())
+    count = len(groups.names)
+    area = np.maximum(
+        np.bincount(groups.group, groups.contacts.patch_area, count), MIN_AREA_RATIO * groups.contacts.patch_area.sum()
+    )
     area = dict(enumerate(area / area.sum()))
     contact: dict[int, dict[int, float]] = {}
-    for (i, j), amount in sorted(units.contacts.area.items()):
-        a, b = int(units.unit[i]), int(units.unit[j])
+    for (i, j), amount in sorted(groups.contacts.area.items()):
+        a, b = int(groups.group[i]), int(groups.group[j])
         if a != b:
             for x, y in ((a, b), (b, a)):
                 row = contact.setdefault(x, {})
-                row[y] = row.get(y, 0.0) + max(amount, LEAST_AREA)
+                row[y] = row.get(y, 0.0) + max(amount, MIN_AREA_RATIO)
     members = {k: [k] for k in range(count)}
 
     def strength(i: int, j: int) -> float:

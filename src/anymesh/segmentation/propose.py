@@ -11,7 +11,7 @@ from scipy import ndimage
 
 from anymesh.config import GroundingConfig
 from anymesh.rendering.render import View
-from anymesh.segmentation.regions import least_pixels
+from anymesh.segmentation.regions import min_pixels
 
 MAJORITY = 5  # [px] side of the filter that smooths masks
 
@@ -25,9 +25,9 @@ class Proposal:
     numbers: tuple[int, ...]
 
 
-def _large_enough(labels: np.ndarray, least: float) -> tuple[int, ...]:
+def _large_enough(labels: np.ndarray, min_pixels: float) -> tuple[int, ...]:
     count = np.bincount(labels[labels > 0])
-    return tuple(int(n) for n in np.flatnonzero(count >= least) if n > 0)
+    return tuple(int(n) for n in np.flatnonzero(count >= min_pixels) if n > 0)
 
 
 def propose_masks(
@@ -37,20 +37,20 @@ def propose_masks(
     config = config or GroundingConfig()
     found = []
     for k, (some, view) in enumerate(zip(masks, views, strict=True)):
-        least = least_pixels(view, config)
+        least = min_pixels(view, config)
         labels = masks_to_labels(some, least)
         labels[view.face < 0] = -1
         found.append(Proposal(k, labels, _large_enough(labels, least)))
     return tuple(found)
 
 
-def masks_to_labels(masks: Bool[np.ndarray, "n H W"], least: float) -> Int[np.ndarray, "H W"]:
+def masks_to_labels(masks: Bool[np.ndarray, "n H W"], min_pixels: float) -> Int[np.ndarray, "H W"]:
     """A region number (from 1) a pixel, -1 none: masks of `least` pixels or more, small over large, smoothed by a majority
     filter, split into connected pieces; pieces below `least` are none."""
     size = masks.sum((1, 2))
     order = np.argsort(-size, kind="stable")
     painted = np.full(masks.shape[1:], -1)
-    for n, k in enumerate(order[size[order] >= least]):
+    for n, k in enumerate(order[size[order] >= min_pixels]):
         painted[masks[k]] = n
     smooth = _majority(painted)
     labels, count = np.full(painted.shape, -1), 0
@@ -58,7 +58,7 @@ def masks_to_labels(masks: Bool[np.ndarray, "n H W"], least: float) -> Int[np.nd
         pieces, many = ndimage.label(smooth == n)
         area = np.bincount(pieces.reshape(-1), minlength=many + 1)
         number = np.full(many + 1, -1)
-        kept = np.flatnonzero(area[1:] >= least) + 1
+        kept = np.flatnonzero(area[1:] >= min_pixels) + 1
         number[kept] = count + 1 + np.arange(len(kept))
         labels[pieces > 0] = number[pieces[pieces > 0]]
         count += len(kept)

@@ -15,13 +15,13 @@ from anymesh.rendering.render import View
 from anymesh.segmentation.cloud import Cloud
 from anymesh.types import Mesh
 
-MOST_MARKS = 400  # of one object, over all pictures; beyond, the smallest join their neighbours, with a warning
-MOST_OF_SPLIT = 24  # marks that one mark is split into
-LEAST_EXACT = 0.25  # of least_mask: a region drawn from the geometry is no noise however small, if its number can be placed
+MAX_MARKS = 400  # of one object, over all pictures; beyond, the smallest join their neighbours, with a warning
+MAX_SPLIT_MARKS = 24  # marks that one mark is split into
+MIN_EXACT_SHARE = 0.25  # of least_mask: a region drawn from the geometry is no noise however small, if its number can be placed
 COLOR_STEP = 0.12  # distance of mean colours (0..1 a channel) that parts two regions of one patch
-LARGE = 0.02  # share of the surface from which a patch may hide a part that only its colour tells
-DOMINANT = 0.8  # share of the surface from which a patch is the whole object, and its large sides are told apart too
-NEXT_TO = 0.02  # of the diagonal: depths that differ by less belong to things that touch
+MIN_COLOR_PATCH_SHARE = 0.02  # share of the surface from which a patch may hide a part that only its colour tells
+MIN_DOMINANT_SHARE = 0.8  # share of the surface from which a patch is the whole object, and its large sides are told apart too
+MAX_DEPTH_STEP_RATIO = 0.02  # of the diagonal: depths that differ by less belong to things that touch
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,7 +36,7 @@ class Marks:
         return np.where(view.face >= 0, self.face_mark[np.maximum(view.face, 0)], -1)
 
 
-def least_pixels(view: View, config: GroundingConfig) -> float:
+def min_pixels(view: View, config: GroundingConfig) -> float:
     """The size below which a mask is dropped [px], for this view's size."""
     return config.least_mask * view.face.size / ViewsConfig().size ** 2
 
@@ -51,8 +51,8 @@ def face_regions(whole: ObjectShape, cloud: Cloud) -> Int[np.ndarray, " F"]:
     color = np.stack([np.bincount(cloud.superpoint, c, cloud.count) for c in cloud.colors.T / 255.0], 1) / weight[:, None]
     a, b = cloud.borders.T
     alike = np.linalg.norm(color[a] - color[b], axis=1) < COLOR_STEP
-    split = share[piece_of] >= LARGE
-    side = (share[piece_of] >= DOMINANT) & (weight >= LARGE * weight.sum())
+    split = share[piece_of] >= MIN_COLOR_PATCH_SHARE
+    side = (share[piece_of] >= MIN_DOMINANT_SHARE) & (weight >= MIN_COLOR_PATCH_SHARE * weight.sum())
     together = ~split[a] | (alike & ~side[a] & ~side[b])
     patch = label_connected(cloud.count, cloud.borders[together])
     _, first, rank = np.unique(piece_of, return_index=True, return_inverse=True)  # a patch without area has no point
@@ -81,7 +81,7 @@ def number_regions(
     """
     config = config or GroundingConfig()
     size, shown = _sizes(region, views, config)
-    target, crowded = _merged(size, _touching(shown, views, size.shape[1], diagonal), MOST_MARKS)
+    target, crowded = _merged(size, _touching(shown, views, size.shape[1], diagonal), MAX_MARKS)
     return Marks(_numbered(region, size, target, 1), crowded)
 
 
@@ -105,7 +105,7 @@ def split_marks(
     size, shown = _sizes(region, views, config)
     border = _touching(shown, views, len(names), cloud.diagonal)
     border[names[:, None, 0] != names[None, :, 0]] = 0  # what two marks share stays apart
-    target, crowded = _merged(size, border, MOST_OF_SPLIT * len(chosen))
+    target, crowded = _merged(size, border, MAX_SPLIT_MARKS * len(chosen))
     finer = _numbered(region, size, target, int(marks.face_mark.max()) + 1)
     return Marks(np.where(inside, finer, marks.face_mark), crowded)
 
@@ -116,7 +116,7 @@ def _sizes(
     """Pixels of every region in every view, in units of the least that can be marked; and the region a pixel shows."""
     count = int(region.max(initial=-1)) + 1
     shown = [np.where(v.face >= 0, region[np.maximum(v.face, 0)], -1) for v in views]
-    least = [LEAST_EXACT * least_pixels(v, config) for v in views]
+    least = [MIN_EXACT_SHARE * min_pixels(v, config) for v in views]
     return np.stack([np.bincount(s[s >= 0], minlength=count) / few for s, few in zip(shown, least, strict=True)]), shown
 
 
@@ -137,12 +137,12 @@ def _touching(shown: list[np.ndarray], views: Sequence[View], count: int, diagon
         for one, two in ((np.s_[:, 1:], np.s_[:, :-1]), (np.s_[1:], np.s_[:-1])):
             a, b = labels[one], labels[two]
             met = np.nonzero((a != b) & (a >= 0) & (b >= 0))
-            close = np.abs(view.depth[one][met] - view.depth[two][met]) < NEXT_TO * diagonal
+            close = np.abs(view.depth[one][met] - view.depth[two][met]) < MAX_DEPTH_STEP_RATIO * diagonal
             np.add.at(border, (a[met][close], b[met][close]), 1)
     return border + border.T
 
 
-def _merged(size: np.ndarray, border: np.ndarray, most: int) -> tuple[Int[np.ndarray, " R"], int]:
+def _merged(size: np.ndarray, border: np.ndarray, max_marks: int) -> tuple[Int[np.ndarray, " R"], int]:
     """The region that each becomes part of, -1 where it is left out, and how many joined others only as there were too many.
 
     size: (V, R) in units of the least that is kept.
@@ -156,7 +156,7 @@ def _merged(size: np.ndarray, border: np.ndarray, most: int) -> tuple[Int[np.nda
         best = np.where(open_to, size.max(0), np.inf)
         smallest = int(best.argmin())
         if best[smallest] >= 1:
-            if open_to.sum() <= most:
+            if open_to.sum() <= max_marks:
                 break
             crowded += 1
         open_to[smallest] = False

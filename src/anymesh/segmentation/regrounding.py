@@ -11,7 +11,7 @@ from jaxtyping import Int
 from anymesh.geometry.pieces import ObjectShape
 from anymesh.reasoning.grounding import MarkedPart
 from anymesh.reasoning.prompting import PartFit
-from anymesh.segmentation.ask_marks import Asked, ask_exact
+from anymesh.segmentation.ask_marks import MarkQuestioner, ask_exact
 from anymesh.segmentation.cloud import Cloud
 from anymesh.segmentation.grounded import shown_views
 from anymesh.segmentation.regions import Marks, face_regions, number_regions, split_marks
@@ -27,7 +27,7 @@ def ground_again(
     mesh: Mesh,
     whole: ObjectShape,
     cloud: Cloud,
-    asked: Asked,
+    questioner: MarkQuestioner,
     segmentation: Segmentation,
     wrong: Mapping[str, PartFit],
     front: float | None,
@@ -42,9 +42,9 @@ def ground_again(
     numbers = {p.name: k for k, p in enumerate(segmentation.parts)}
     instance = {k: labels[1 : k + 1].count(labels[k]) for k in numbers.values()}
     parts = {(labels[numbers[name]], instance[numbers[name]]): numbers[name] for name in wrong}
-    asked = replace(asked, labels=tuple(dict.fromkeys(label for label, _ in parts)))
-    seen, names, _ = shown_views(mesh, whole, asked, cloud, face_regions(whole, cloud), front)
-    config = asked.config.grounding
+    questioner = replace(questioner, labels=tuple(dict.fromkeys(label for label, _ in parts)))
+    seen, names, _ = shown_views(mesh, whole, questioner, cloud, face_regions(whole, cloud), front)
+    config = questioner.config.grounding
     marks = number_regions(face_regions(whole, cloud), seen, whole.diagonal, config)
     areas = mesh.face_areas
     owner = _owners(marks, segmentation, areas)
@@ -54,9 +54,11 @@ def ground_again(
         owner = _owners(marks, segmentation, areas)
     if all(fit is PartFit.TOO_MUCH for fit in wrong.values()):  # nothing else need be asked about
         owner = {m: part for m, part in owner.items() if part in parts.values()}
-    told = tuple(_told(MarkedPart(label, n, None, _of(owner, k)), wrong, segmentation, k) for (label, n), k in parts.items())
+    told = tuple(
+        _problem_text(MarkedPart(label, n, None, _of(owner, k)), wrong, segmentation, k) for (label, n), k in parts.items()
+    )
     answer = ask_exact(
-        asked, marks, seen, names, lambda some, chosen: split_marks(some, chosen, mesh, cloud, seen, config),
+        questioner, marks, seen, names, lambda some, chosen: split_marks(some, chosen, mesh, cloud, seen, config),
         wanted=owner, again=told,
     )  # fmt: skip
     given = {parts[p.label, p.instance]: p.marks for p in answer.parts if (p.label, p.instance) in parts}
@@ -76,7 +78,7 @@ def _of(owner: Mapping[int, int], part: int) -> tuple[int, ...]:
     return tuple(sorted(m for m, k in owner.items() if k == part))
 
 
-def _told(part: MarkedPart, wrong: Mapping[str, PartFit], segmentation: Segmentation, number: int) -> str:
+def _problem_text(part: MarkedPart, wrong: Mapping[str, PartFit], segmentation: Segmentation, number: int) -> str:
     """What the question says of a part that is wrong."""
     marks = ", ".join(map(str, part.marks)) or "none"
     return f"{part.label} {part.instance} (marks {marks}) is {WORDS[wrong[segmentation.parts[number].name]]}"
@@ -109,6 +111,6 @@ def _redrawn(
     return None if same or lacking else Segmentation(found, segmentation.parts)
 
 
-def _shared(piece: np.ndarray, now: np.ndarray, face_mark: np.ndarray) -> np.ndarray:
+def _shared(patch: np.ndarray, now: np.ndarray, face_mark: np.ndarray) -> np.ndarray:
     """Faces of patches with marks that are, and marks that are not, of the part."""
-    return np.isin(piece, piece[(face_mark > 0) & ~now])
+    return np.isin(patch, patch[(face_mark > 0) & ~now])

@@ -23,16 +23,23 @@ from anymesh.reasoning.two_steps import confidence_of
 from anymesh.reasoning.vocabulary import TypicalMotion, is_fixed_name, recognize, words_of
 from anymesh.segmentation.contacts import find_contacts
 from anymesh.segmentation.naming import named_parts
-from anymesh.segmentation.part_assignment import LEAST, assign_parts, conflicts, join_floating
+from anymesh.segmentation.part_assignment import MIN_SCORE, assign_parts, conflicts, join_floating
 from anymesh.segmentation.part_classifier import score_parts
-from anymesh.segmentation.part_features import FeatureScene, part_features, surroundings_of
+from anymesh.segmentation.part_features import FeatureScene, part_context_of, part_features
 from anymesh.segmentation.part_tree import PartTree, part_tree
 from anymesh.types import Mesh, Segmentation
 
 LabelParts = Callable[[Segmentation], Sequence[str]]  # a label per part but the base by its motion, "" for one without
-TRIES = 3  # assignments, each without the candidates that turned out to be held
-SLOPE, OFFSET = 0.80, 0.29  # of the log-odds of a confidence; fitted to kinds left out of training (benchmarks/train_parts.py)
-NAMED, NAMED_FIXED, NAMED_HANDLE = LEAST + 4, LEAST - 4, 0.3  # log-odds that the name of a node or material adds
+MAX_ASSIGNMENTS = 3  # assignments, each without the candidates that turned out to be held
+CALIBRATION_SLOPE, CALIBRATION_OFFSET = (
+    0.80,
+    0.29,
+)  # of the log-odds of a confidence; fitted to kinds left out of training (benchmarks/train_parts.py)
+NAME_SCORE, FIXED_NAME_SCORE, HANDLE_NAME_SCORE = (
+    MIN_SCORE + 4,
+    MIN_SCORE - 4,
+    0.3,
+)  # log-odds that the name of a node or material adds
 
 
 def segment_parts(
@@ -50,17 +57,17 @@ def segment_parts(
     tree = part_tree(mesh, whole, contacts, settings.smallest, settings.most_candidates)
     progress("segment", "candidates", 1, 2)
     deadline = deadline or Deadline()
-    examined, features = _examined(mesh, tree, config, progress, deadline)
+    examined, features = _candidate_features(mesh, tree, config, progress, deadline)
     score, reasons = score_parts(examined.overlap, features)
     words = [_name(examined, k) for k in range(len(score))]
     score = score + np.array([_name_score(word) for word in words])
-    for _ in range(TRIES):
-        chosen = _at_least(examined, score, assign_parts(examined.overlap, score), settings.at_least)
+    for _ in range(MAX_ASSIGNMENTS):
+        chosen = _chosen_at_least(examined, score, assign_parts(examined.overlap, score), settings.at_least)
         face_part, order = _face_part(mesh, examined, chosen)
         while order and face_part.all():  # something must stay: the largest part is the base
             face_part, order = _face_part(mesh, examined, [k for k in order if k != order[0]])
         told = [word.label if (word := recognize(words[k])) else "" for k in order]
-        confidence = [confidence_of(float(score[k]), SLOPE, OFFSET) for k in order]
+        confidence = [confidence_of(float(score[k]), CALIBRATION_SLOPE, CALIBRATION_OFFSET) for k in order]
         why = [_reason(reasons[k], words[k], score[k]) for k in order]
         labels = label_parts(named_parts(face_part, [label or "part" for label in told], mesh.face_areas, confidence, why))
         still = [n for n, label in enumerate(labels, start=1) if not label]
@@ -72,7 +79,7 @@ def segment_parts(
     return named_parts(face_part, told, mesh.face_areas, confidence, why)
 
 
-def _examined(
+def _candidate_features(
     mesh: Mesh, tree: PartTree, config: Config, progress: Progress, deadline: Deadline
 ) -> tuple[PartTree, list[dict[str, float]]]:
     """Return the candidates that were examined, and the features of each."""
@@ -82,7 +89,7 @@ def _examined(
         if deadline.late(SEGMENT):
             deadline.leave_out("segmentation: some candidates for parts were not examined")
             return None
-        around = surroundings_of(scene, k)
+        around = part_context_of(scene, k)
         return None if around is None else part_features(scene, k, around)
 
     kept, features = [], []
@@ -106,18 +113,18 @@ def _name(tree: PartTree, group: int) -> str:
 
 def _reason(learned: str, name: str, score: float) -> str:
     told = [f'named "{name}"'] if _name_score(name) else []
-    told += ["stands out most, where parts were asked for"] if score <= LEAST else []
+    told += ["stands out most, where parts were asked for"] if score <= MIN_SCORE else []
     return "; ".join([*told, learned])
 
 
 def _name_score(name: str) -> float:
     word = recognize(name)
     if word is None:
-        return NAMED_FIXED if is_fixed_name(name) else 0.0
-    return NAMED_HANDLE if word.motion is TypicalMotion.NONE or word.label == "handle" else NAMED
+        return FIXED_NAME_SCORE if is_fixed_name(name) else 0.0
+    return HANDLE_NAME_SCORE if word.motion is TypicalMotion.NONE or word.label == "handle" else NAME_SCORE
 
 
-def _at_least(tree: PartTree, score: Float[np.ndarray, " n"], chosen: list[int], count: int) -> list[int]:
+def _chosen_at_least(tree: PartTree, score: Float[np.ndarray, " n"], chosen: list[int], count: int) -> list[int]:
     """Add the best of the other candidates until there are as many as asked for."""
     if len(chosen) >= count:
         return chosen

@@ -14,15 +14,15 @@ from anymesh.reasoning.vocabulary import is_fixed_name, recognize
 from anymesh.segmentation.contacts import Contacts, coplanar, hanging_on
 from anymesh.types import Mesh
 
-MOST = 0.5  # share of the object's surface: what is one with more is the object, creases or not
+MAX_SURFACE_SHARE = 0.5  # share of the object's surface: what is one with more is the object, creases or not
 
 
 @dataclass(frozen=True, eq=False)
-class Units:
+class RigidGroups:
     """Pieces joined into units that move as one, and what hangs on each."""
 
     contacts: Contacts
-    unit: Int[np.ndarray, " P"]
+    group: Int[np.ndarray, " P"]
     names: list[str]
     root: int
     hanging: dict[int, list[int]]
@@ -32,19 +32,21 @@ class Units:
     def touching(self) -> tuple[Int[np.ndarray, "k 2"], Float[np.ndarray, " k"]]:
         """Pairs of pieces of different units that touch, both ways, and the area of the first that does [m^2]."""
         pairs = np.array(list(self.contacts.area), np.int64).reshape(-1, 2)
-        apart = self.unit[pairs[:, 0]] != self.unit[pairs[:, 1]]
+        apart = self.group[pairs[:, 0]] != self.group[pairs[:, 1]]
         return pairs[apart], np.array(list(self.contacts.area.values()), np.float64)[apart]
 
 
-def join_units(mesh: Mesh, whole: ObjectShape, contacts: Contacts, root_piece: int) -> Units:
+def rigid_groups(mesh: Mesh, whole: ObjectShape, contacts: Contacts, root_patch: int) -> RigidGroups:
     """Bodies that touch nothing move as one; so do the pieces of a node whose name means something."""
     shapes = contacts.shapes
-    key = np.where(contacts.body == contacts.body[root_piece], np.arange(len(shapes)), len(shapes) + contacts.body)
+    key = np.where(
+        contacts.component == contacts.component[root_patch], np.arange(len(shapes)), len(shapes) + contacts.component
+    )
     same = np.array(coplanar(contacts, whole, 1e-3 * whole.diagonal), np.int64).reshape(-1, 2)
     key = np.where(key < len(shapes), label_connected(len(shapes), same), key)
     names = [""] * len(shapes)
     faces = np.split(np.argsort(whole.mesh_patch, kind="stable"), np.cumsum(np.bincount(whole.mesh_patch))[:-1])
-    common = _most(mesh.face_material[faces[root_piece]])
+    common = _most(mesh.face_material[faces[root_patch]])
     for p, mine in enumerate(faces):
         node, material = _most(mesh.face_node[mine]), _most(mesh.face_material[mine])
         name = mesh.nodes[node].name
@@ -55,9 +57,9 @@ def join_units(mesh: Mesh, whole: ObjectShape, contacts: Contacts, root_piece: i
             names[p] = mesh.materials[material].name  # tells what a piece is, not that pieces move as one
     _, first, unit = np.unique(key, return_index=True, return_inverse=True)
     unit = unit.reshape(-1)
-    root = int(unit[root_piece])
+    root = int(unit[root_patch])
     surface = label_connected(len(shapes), np.array(whole.shared, np.int64).reshape(-1, 2))
-    return Units(contacts, unit, [names[p] for p in first], root, hanging_on(contacts, unit, root), surface)
+    return RigidGroups(contacts, unit, [names[p] for p in first], root, hanging_on(contacts, unit, root), surface)
 
 
 def _most(numbers: np.ndarray) -> int:
@@ -82,39 +84,39 @@ def root_ranking(whole: ObjectShape, contacts: Contacts) -> list[int]:
     return [int(i) for i in order]
 
 
-def with_held(units: Units, u: int) -> list[int]:
+def with_supported(groups: RigidGroups, u: int) -> list[int]:
     """The unit, what hangs on it, and the rest of its surface (the box behind a drawer's front, whatever it stands on); of a
     unit that is a surface by itself, the smaller units that touch these more than all else (a shelf on a door)."""
-    surface = _of_one_surface(units, u)
-    members = set(units.hanging[u]).union(*(units.hanging[v] for v in surface))
+    surface = _of_one_surface(groups, u)
+    members = set(groups.hanging[u]).union(*(groups.hanging[v] for v in surface))
     if not surface:
-        members = _grown(units, members)
-    return [u, *sorted(members - {u, units.root})]
+        members = _grown(groups, members)
+    return [u, *sorted(members - {u, groups.root})]
 
 
-def _grown(units: Units, members: set[int]) -> set[int]:
-    (first, second), amount = units.touching[0].T, units.touching[1]
-    count = len(units.names)
-    area = np.bincount(units.unit, units.contacts.patch_area, count)
-    own = units.contacts.patch_area[np.isin(units.unit, list(members))].sum()
+def _grown(groups: RigidGroups, members: set[int]) -> set[int]:
+    (first, second), amount = groups.touching[0].T, groups.touching[1]
+    count = len(groups.names)
+    area = np.bincount(groups.group, groups.contacts.patch_area, count)
+    own = groups.contacts.patch_area[np.isin(groups.group, list(members))].sum()
     for _ in range(4):
-        inside = np.isin(units.unit, list(members))
+        inside = np.isin(groups.group, list(members))
         outer = ~inside[first]
-        beside, within = units.unit[first[outer]], inside[second[outer]]
+        beside, within = groups.group[first[outer]], inside[second[outer]]
         here = np.bincount(beside[within], amount[outer][within], count)
         elsewhere = np.bincount(beside[~within], amount[outer][~within], count)
-        new = [int(v) for v in np.flatnonzero((here > elsewhere) & (area < own)) if v != units.root]
-        grown = members.union(*(units.hanging[v] for v in new)) - {units.root}
+        new = [int(v) for v in np.flatnonzero((here > elsewhere) & (area < own)) if v != groups.root]
+        grown = members.union(*(groups.hanging[v] for v in new)) - {groups.root}
         if grown == members:
             break
         members = grown
     return members
 
 
-def _of_one_surface(units: Units, u: int) -> list[int]:
+def _of_one_surface(groups: RigidGroups, u: int) -> list[int]:
     """The units that creases alone part from this one, if their common surface is neither the root's nor most of the object."""
-    surface, area = units.surface, units.contacts.patch_area
-    own = np.isin(surface, surface[units.unit == u])
-    if own[units.unit == units.root].any() or area[own].sum() > MOST * area.sum():
+    surface, area = groups.surface, groups.contacts.patch_area
+    own = np.isin(surface, surface[groups.group == u])
+    if own[groups.group == groups.root].any() or area[own].sum() > MAX_SURFACE_SHARE * area.sum():
         return []
-    return [int(v) for v in np.unique(units.unit[own]) if v != u]
+    return [int(v) for v in np.unique(groups.group[own]) if v != u]

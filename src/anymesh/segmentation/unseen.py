@@ -42,9 +42,9 @@ def _joined(whole: ObjectShape, part: Int[np.ndarray, " P"], config: Config) -> 
         return part
     contacts = find_contacts(whole, config.segmentation)
     reach = config.grounding.join_component * whole.diagonal
-    part = _of_one_body(contacts.body, part)
+    part = _single_part_components(contacts.component, part)
     for together in (False, True):  # each on its own first; then unseen pieces that touch, a drawer's box, as one
-        part = np.where(_goes_on(whole, part), 0, _held(contacts, part, together, reach))
+        part = np.where(_goes_on(whole, part), 0, _supported_by(contacts, part, together, reach))
     return part
 
 
@@ -57,16 +57,16 @@ def _goes_on(whole: ObjectShape, part: np.ndarray) -> Bool[np.ndarray, " P"]:
     return found & (part < 0)
 
 
-def _of_one_body(body: np.ndarray, part: np.ndarray) -> Int[np.ndarray, " P"]:
+def _single_part_components(component: np.ndarray, part: np.ndarray) -> Int[np.ndarray, " P"]:
     """Unseen pieces of a body of which all that is seen is one part belong to it: nothing else touches it."""
-    least, most = np.full(int(body.max()) + 1, np.iinfo(np.int64).max), np.full(int(body.max()) + 1, UNSEEN)
-    np.minimum.at(least, body[part >= 0], part[part >= 0])
-    np.maximum.at(most, body, part)
+    least, most = np.full(int(component.max()) + 1, np.iinfo(np.int64).max), np.full(int(component.max()) + 1, UNSEEN)
+    np.minimum.at(least, component[part >= 0], part[part >= 0])
+    np.maximum.at(most, component, part)
     one = (least == most) & (most >= 0)
-    return np.where((part < 0) & one[body], most[body], part)
+    return np.where((part < 0) & one[component], most[component], part)
 
 
-def _held(contacts: Contacts, part: np.ndarray, together: bool, reach: float) -> Int[np.ndarray, " P"]:
+def _supported_by(contacts: Contacts, part: np.ndarray, together: bool, reach: float) -> Int[np.ndarray, " P"]:
     """Unseen pieces that hang on a part or touch it more than all else; `together`: those that touch each other as one."""
     unseen = part < 0
     if not unseen.any() or not (part == 0).any():
@@ -83,29 +83,29 @@ def _held(contacts: Contacts, part: np.ndarray, together: bool, reach: float) ->
         for p in np.flatnonzero(np.isin(unit, hanging[int(unit[own[0]])]) & (found < 0)):
             if _near(contacts, int(p), own, reach):
                 found[p] = k
-    return _touching_most(contacts, unit, found)
+    return _largest_contact(contacts, unit, found)
 
 
-def _touching_most(contacts: Contacts, unit: np.ndarray, part: np.ndarray) -> Int[np.ndarray, " P"]:
+def _largest_contact(contacts: Contacts, group: np.ndarray, part: np.ndarray) -> Int[np.ndarray, " P"]:
     """Unseen units that touch one part more than all else belong to it: a drawer's box on a runner. Four rounds settle
     chains. (As `with_held`, but what is unseen may be larger than the part: a box behind its front.)"""
     found = part.copy()
     for _ in range(4):
-        area = np.zeros((int(unit.max()) + 1, int(found.max()) + 2))  # the first column: of other unseen units
+        area = np.zeros((int(group.max()) + 1, int(found.max()) + 2))  # the first column: of other unseen units
         for (i, j), a in contacts.area.items():
-            if found[i] < 0 and unit[i] != unit[j]:
-                area[unit[i], found[j] + 1] += a
+            if found[i] < 0 and group[i] != group[j]:
+                area[group[i], found[j] + 1] += a
         best = area.argmax(1)
         joins = (best > 1) & (area.max(1) > area.sum(1) - area.max(1))
-        new = (found < 0) & joins[unit]
+        new = (found < 0) & joins[group]
         if not new.any():
             break
-        found[new] = best[unit[new]] - 1
+        found[new] = best[group[new]] - 1
     return found
 
 
-def _near(contacts: Contacts, piece: int, others: np.ndarray, reach: float) -> bool:
+def _near(contacts: Contacts, patch: int, others: np.ndarray, reach: float) -> bool:
     """Whether the piece's box is within `reach` of the box of one of the others [m]."""
-    low, high = contacts.shapes[piece].bounds
+    low, high = contacts.shapes[patch].bounds
     boxes = np.array([contacts.shapes[p].bounds for p in others])
     return bool(((boxes[:, 0] <= high + reach) & (boxes[:, 1] >= low - reach)).all(1).any())
