@@ -150,14 +150,14 @@ def ledger(how: argparse.Namespace) -> Figures:
     from anymesh.annotation.entering import enter_objects
     from anymesh.annotation.ledger import Ledger
     from anymesh.annotation.requests import ObjectRequest
-    from anymesh.annotation.states import Outcome, Result
+    from anymesh.annotation.states import AttemptOutcome, Result
     from anymesh.annotation.tally import tally
 
     out = how.work / "ledger"
     shutil.rmtree(out, ignore_errors=True)
     record = {"confidence": 0.5, "parts": 4, "joints": 3, "faces": 20_000, "warnings": 1, "bytes": 900_000, "sha256": "0" * 64}
     record["stage_seconds"] = '{"load": 0.01, "segment": 1.25, "joints": 0.75, "export": 0.5}'
-    done = Outcome(Result.DONE, seconds=2.5, memory=300 << 20, record=record)
+    done = AttemptOutcome(Result.DONE, seconds=2.5, memory=300 << 20, record=record)
     times = {}
     with Ledger.open(out, create=True) as opened, begun_run(opened, 2) as run:
         begin = time.perf_counter()

@@ -21,10 +21,10 @@ from pathlib import Path
 import numpy as np
 
 from anymesh.collision import CollisionConfig, collision_shapes, joint_poses
-from anymesh.collision.clear import Piece, Scene
+from anymesh.collision.clear import ComponentShapes, ContactScene
 from anymesh.collision.coacd_ import decompose
 from anymesh.collision.convex import hull_of
-from anymesh.collision.crossing import Surface
+from anymesh.collision.crossing import LinkSurface
 from anymesh.collision.decompose import Component
 from anymesh.evaluation.datasets.named import open_dataset
 from anymesh.evaluation.protocols import prepared
@@ -69,13 +69,13 @@ WAYS: dict[str, Callable[[Asset, tuple[Link, ...]], Shapes]] = {
 def free_joints(asset: Asset, links: tuple[Link, ...], shapes: Shapes) -> tuple[int, int]:
     """How many joints are free, of how many that move."""
     size, config = asset.mesh.diagonal, CollisionConfig()
-    surfaces = {link.name: Surface(link.triangles) for link in links}
+    surfaces = {link.name: LinkSurface(link.triangles) for link in links}
     origins = {link.name: link.origin for link in links}
-    pieces = [Piece(name, Component(np.zeros((0, 3, 3)), False), 0, some) for name, some in shapes.items()]
+    pieces = [ComponentShapes(name, Component(np.zeros((0, 3, 3)), False), 0, some) for name, some in shapes.items()]
     free = moving = 0
     for joint in asset.joints:
         if joint.type is not JointType.FIXED:
-            scene = Scene(surfaces, joint_poses(asset, origins, joint, 21), DEEP * size, config.crossing * size)
+            scene = ContactScene(surfaces, joint_poses(asset, origins, joint, 21), DEEP * size, config.crossing * size)
             moving += 1
             free += not any({pieces[f.first[0]].link, pieces[f.second[0]].link} & {joint.child} for f in scene.faults(pieces))
     return free, moving

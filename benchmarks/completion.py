@@ -23,8 +23,8 @@ from completion_figures import cavity, grid_of, iou, moved, open_parts, picture
 from anymesh.evaluation.changes import changed
 from anymesh.evaluation.datasets.scene_synthesizer_ import CLASSES, synthesize
 from anymesh.evaluation.executability import drive
+from anymesh.evaluation.ground_truth import GroundTruth, example_truths
 from anymesh.evaluation.protocols import prepared
-from anymesh.evaluation.truth import Truth, example_truths
 from anymesh.postprocessing.shape import complete_shapes
 from anymesh.types import JointType
 
@@ -64,7 +64,7 @@ class Row:
     seconds: float
 
 
-def measure(truth: Truth, change: str, pictures: Path | None) -> Row:
+def measure(truth: GroundTruth, change: str, pictures: Path | None) -> Row:
     whole = prepared(truth)
     true, surface = whole.asset(), changed(change, whole).asset()
     begin = time.perf_counter()

@@ -23,12 +23,12 @@ from anymesh.articulation.evidence import hypotheses
 from anymesh.articulation.prompted import Questions, prompt_joints
 from anymesh.config import Config
 from anymesh.evaluation.datasets.named import open_dataset
+from anymesh.evaluation.ground_truth import EvalSample
 from anymesh.evaluation.oracle import Noisy, Random, oracle
 from anymesh.evaluation.protocols import prepared
 from anymesh.evaluation.score import JointScore, score
-from anymesh.evaluation.truth import Subject
 from anymesh.reasoning.questions import Candidate
-from anymesh.solving import ArticulationSolver
+from anymesh.solving import Solver
 from anymesh.types.recognition import Moves, Recognition, RecognizedLabel
 
 WRONG = (0.0, 0.1, 0.25, 0.5, 1.0)  # probabilities of a wrong item; the last: all answers at random
@@ -67,7 +67,7 @@ class Swept:
         return tuple(c for key in keys for c in self._known[key])
 
 
-def recognized(subject: Subject, wrong: float, rng: np.random.Generator) -> Recognition:
+def recognized(subject: EvalSample, wrong: float, rng: np.random.Generator) -> Recognition:
     """A label for each part, of which the way it moves is wrong with a probability; labels tell nothing else."""
     moves = [Moves(j.type.value) for j in subject.truth.joints]
     told = [list(Moves)[int(rng.integers(3))] if rng.random() < wrong else m for m in moves]
@@ -75,9 +75,9 @@ def recognized(subject: Subject, wrong: float, rng: np.random.Generator) -> Reco
     return Recognition("object", None, tuple(RecognizedLabel(n, m, None, None) for n, m in zip(names, told, strict=True)))
 
 
-def samples(subject: Subject, rounds: int, rng: np.random.Generator) -> Iterator[Sample]:
+def samples(subject: EvalSample, rounds: int, rng: np.random.Generator) -> Iterator[Sample]:
     """The joints of one object, answered with errors of every probability."""
-    solver, plain = ArticulationSolver(subject.mesh), subject.segmentation()
+    solver, plain = Solver(subject.mesh), subject.segmentation()
     parts = [replace(p, label=f"thing {p.name}") if k else p for k, p in enumerate(plain.parts)]
     segmentation = replace(plain, parts=tuple(parts))
     offers.hypotheses = Swept()  # ty: ignore[invalid-assignment]

@@ -13,13 +13,13 @@ import tempfile
 import time
 from pathlib import Path
 
+from anymesh.evaluation.ground_truth import GroundTruth, example_truths
 from anymesh.evaluation.oracle import oracle
 from anymesh.evaluation.protocols import prepared
-from anymesh.evaluation.truth import Truth, example_truths
-from anymesh.evaluation.voice import Spoken
+from anymesh.evaluation.simulated_vlm import SimulatedVlm
 from anymesh.export.asset_json import usage
 from anymesh.loading import load_mesh, place_mesh
-from anymesh.solving import ArticulationSolver
+from anymesh.solving import Solver
 
 HEAD = """# Cost of a model
 
@@ -33,13 +33,13 @@ model's. A second run takes every answer from the cache: no call, no cost.
 EXAMPLES = Path(__file__).parents[1] / "examples"
 
 
-def row(truth: Truth, like: str, cache: Path) -> str:
+def row(truth: GroundTruth, like: str, cache: Path) -> str:
     placed = place_mesh(load_mesh(truth.mesh))
     seconds, exchanges, parts = [], [], 0
     for _ in range(2):
         begin = time.perf_counter()
-        solver = ArticulationSolver(
-            placed.mesh, answerer_factory=lambda instead: Spoken(oracle(prepared(truth)), instead, like, cache)
+        solver = Solver(
+            placed.mesh, answerer_factory=lambda instead: SimulatedVlm(oracle(prepared(truth)), instead, like, cache)
         )
         recognized = solver.recognize()
         segmented = solver.parts("auto", recognized.recognition)

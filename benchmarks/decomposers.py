@@ -23,12 +23,12 @@ from pathlib import Path
 
 import numpy as np
 
-from anymesh.collision import SMALL, CollisionConfig, sampled_poses
-from anymesh.collision.clear import Piece, Scene
+from anymesh.collision import MIN_COMPONENT_SIZE_RATIO, CollisionConfig, sampled_poses
+from anymesh.collision.clear import ComponentShapes, ContactScene
 from anymesh.collision.coacd_ import SEARCH
 from anymesh.collision.convex import hull_of
-from anymesh.collision.crossing import Surface
-from anymesh.collision.decompose import Component, Fineness, component_shapes, solid_mesh, split_components
+from anymesh.collision.crossing import LinkSurface
+from anymesh.collision.decompose import Component, Resolution, component_shapes, solid_mesh, split_components
 from anymesh.collision.primitives import fitted
 from anymesh.collision.split import patch_of, split_surface
 from anymesh.evaluation.datasets.named import open_dataset
@@ -42,7 +42,7 @@ SETS = ("examples", "scene-synthesizer", "metaworld", "libero")
 SECONDS = 10.0
 
 
-def divide(way: str, component: Component, fineness: Fineness) -> tuple[list[np.ndarray], float]:
+def divide(way: str, component: Component, fineness: Resolution) -> tuple[list[np.ndarray], float]:
     """The corners of the pieces of a component, and the seconds that took. The function that children run."""
     name, _, folder = way.partition("=")
     if folder:
@@ -50,7 +50,9 @@ def divide(way: str, component: Component, fineness: Fineness) -> tuple[list[np.
     begin = time.perf_counter()
     triangles = simplify(component.triangles, 3000)
     if name == "cuts by planes":
-        made = [h.vertices for h in split_surface(triangles, gap=fineness.gap, wall=fineness.wall, most=fineness.most)]
+        made = [
+            h.vertices for h in split_surface(triangles, gap=fineness.gap, wall=fineness.wall, max_pieces=fineness.max_pieces)
+        ]
     elif name.startswith("V-HACD"):
         import vhacdx
 
@@ -67,7 +69,7 @@ def divide(way: str, component: Component, fineness: Fineness) -> tuple[list[np.
     return [np.asarray(p, float) for p in made], time.perf_counter() - begin
 
 
-def divide_ours(component: Component, fineness: Fineness) -> tuple[list, float]:
+def divide_ours(component: Component, fineness: Resolution) -> tuple[list, float]:
     begin = time.perf_counter()
     return list(component_shapes(component, fineness)), time.perf_counter() - begin
 
@@ -84,7 +86,7 @@ class Tally:
     contacts: int = 0
 
 
-def shapes_of(pool: ChildPool, way: str, component: Component, fineness: Fineness, tally: Tally) -> tuple:
+def shapes_of(pool: ChildPool, way: str, component: Component, fineness: Resolution, tally: Tally) -> tuple:
     whole = patch_of(simplify(component.triangles, 3000), fineness.wall)
     if whole is None or whole.gap <= fineness.gap or not component.solid:
         return () if whole is None else (fitted(whole.hull),)
@@ -109,14 +111,18 @@ def measure(spec: str, pools: dict[str, ChildPool], tallies: dict[str, Tally]) -
         with tempfile.TemporaryDirectory() as folder:
             asset = prepared(data.truth(name, Path(folder))).asset()
         links, size = split_links(asset), asset.mesh.diagonal
-        fineness = Fineness(config.gaps[0] * size, min(config.wall * size, config.wall_most), config.pieces[0])
-        surfaces = {k.name: Surface(simplify(k.triangles, 50_000)) for k in links}
+        fineness = Resolution(config.gaps[0] * size, min(config.wall * size, config.wall_most), config.pieces[0])
+        surfaces = {k.name: LinkSurface(simplify(k.triangles, 50_000)) for k in links}
         poses = sampled_poses(asset, {k.name: k.origin for k in links}, config.poses)
-        scene = Scene(surfaces, poses, config.contact * size, config.crossing * size)
+        scene = ContactScene(surfaces, poses, config.contact * size, config.crossing * size)
         for way, tally in tallies.items():
             tally.links += len(links)
-            parts = [(k.name, c) for k in links for c in split_components(k.triangles, SMALL * config.gaps[0] * size)]
-            pieces = [Piece(n, c, 0, shapes_of(pools[way], way, c, fineness, tally)) for n, c in parts]
+            parts = [
+                (k.name, c)
+                for k in links
+                for c in split_components(k.triangles, MIN_COMPONENT_SIZE_RATIO * config.gaps[0] * size)
+            ]
+            pieces = [ComponentShapes(n, c, 0, shapes_of(pools[way], way, c, fineness, tally)) for n, c in parts]
             tally.contacts += len(scene.faults(pieces).found)
 
 

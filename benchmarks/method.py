@@ -24,13 +24,13 @@ from anymesh.rendering.encode import encode
 from anymesh.rendering.paint import mark_color
 from anymesh.rendering.render import render
 from anymesh.rendering.sheet import question_sheet
-from anymesh.rendering.studio import VisualPrompts
+from anymesh.rendering.visual_prompts import VisualPrompts
 from anymesh.segmentation.contacts import find_contacts
 from anymesh.segmentation.part_assignment import assign_parts
 from anymesh.segmentation.part_classifier import score_parts
 from anymesh.segmentation.part_features import FeatureScene, part_context_of, part_features
 from anymesh.segmentation.part_tree import PartTree, part_tree
-from anymesh.solving import ArticulationSolver
+from anymesh.solving import Solver
 from anymesh.types import Mesh, MotionKind, Picture
 
 EXAMPLES = Path(__file__).parents[1] / "examples" / "meshes"
@@ -79,7 +79,7 @@ def main() -> None:
     options.folder.mkdir(parents=True, exist_ok=True)
     config, path = Config(), EXAMPLES / f"{options.name}.glb"
     mesh = place_mesh(load_mesh(path)).mesh
-    solver, studio = ArticulationSolver(mesh, config), VisualPrompts(mesh, config)
+    solver, studio = Solver(mesh, config), VisualPrompts(mesh, config)
     contacts = find_contacts(solver.whole, config.segmentation)
     tree = part_tree(mesh, solver.whole, contacts, config.segmentation.smallest, config.segmentation.most_candidates)
     scene = FeatureScene.of(mesh, tree, config)

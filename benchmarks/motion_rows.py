@@ -20,14 +20,14 @@ from rows import collect_all, kind_of, nameless
 
 from anymesh.articulation.estimate import PartMotions, motion_questions
 from anymesh.articulation.motion_features import motion_features
-from anymesh.articulation.twins import in_a_row, same_size
+from anymesh.articulation.repeated_parts import in_a_row, same_size
 from anymesh.config import Config
 from anymesh.evaluation.changes import changed
 from anymesh.evaluation.datasets.named import open_dataset
+from anymesh.evaluation.ground_truth import EvalSample, TrueJoint
 from anymesh.evaluation.metrics import angle_error, distance_at, opening_side, opens_both_ways
 from anymesh.evaluation.protocols import prepared
-from anymesh.evaluation.truth import Subject, TrueJoint
-from anymesh.geometry.pieces import ObjectShape, object_shape
+from anymesh.geometry.patches import ObjectShape, object_shape
 from anymesh.reasoning.geometry import same_joints
 from anymesh.types import JointType, Motion, MotionKind
 
@@ -60,7 +60,7 @@ class MotionRows:
     free: Bool[np.ndarray, " n"]
 
 
-def rows_of(subject: Subject, source: str, form: str = "") -> list[MotionRows]:
+def rows_of(subject: EvalSample, source: str, form: str = "") -> list[MotionRows]:
     """Propose, sweep and measure the motions of all parts with a known joint."""
     config, truth = Config(), subject.truth
     whole = object_shape(subject.mesh, config.seed, config.pieces, subject.labels)
@@ -89,7 +89,7 @@ def rows_of(subject: Subject, source: str, form: str = "") -> list[MotionRows]:
     return found
 
 
-def _copies(whole: ObjectShape, subject: Subject, questions: Sequence[PartMotions]) -> dict[int, tuple[int, ...]]:
+def _copies(whole: ObjectShape, subject: EvalSample, questions: Sequence[PartMotions]) -> dict[int, tuple[int, ...]]:
     """Return the parts that stage B compares each part with: of the same size and parent, in a row with it."""
     label = subject.labels[whole.source]
     shapes = [whole.of(np.flatnonzero(label == i)) for i in range(len(subject.truth.parts))]

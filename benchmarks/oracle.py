@@ -18,13 +18,13 @@ import numpy as np
 
 from anymesh.config import Config
 from anymesh.evaluation.datasets.scene_synthesizer_ import CLASSES, synthesize
+from anymesh.evaluation.ground_truth import GroundTruth, example_truths
 from anymesh.evaluation.oracle import Noisy
 from anymesh.evaluation.protocols import evaluate
 from anymesh.evaluation.record import Record
 from anymesh.evaluation.report import markdown
 from anymesh.evaluation.score import JointScore, ObjectScore
 from anymesh.evaluation.tables import group_table
-from anymesh.evaluation.truth import Truth, example_truths
 from anymesh.solving import solve
 
 HEAD = """# The oracle
@@ -40,10 +40,10 @@ WRONG = (0.0, 0.1, 0.2, 0.35, 0.5)
 COLORS = {"motion": "#0a6", "free": "#26c", "off": "#c33"}
 
 
-def run(truths: Sequence[Truth], verify: str, *, given: bool, wrong: float = 0.0) -> list[ObjectScore]:
+def run(truths: Sequence[GroundTruth], verify: str, *, given: bool, wrong: float = 0.0) -> list[ObjectScore]:
     rng = np.random.default_rng(0)
     solver = partial(solve, config=Config(verify=verify))
-    return [evaluate(t, solver, given=given, knowing=lambda seer: Noisy(seer, wrong, rng) if wrong else seer) for t in truths]
+    return [evaluate(t, solver, given=given, reference=lambda seer: Noisy(seer, wrong, rng) if wrong else seer) for t in truths]
 
 
 def right(j: JointScore) -> bool:
@@ -52,7 +52,7 @@ def right(j: JointScore) -> bool:
     return j.type_found == j.type_true and near and j.opens_right is not False
 
 
-def report(title: str, truths: Sequence[Truth], verify: str, given: bool) -> str:
+def report(title: str, truths: Sequence[GroundTruth], verify: str, given: bool) -> str:
     begin = time.perf_counter()
     scores = run(truths, verify, given=given)
     joints = [j for s in scores for j in s.joints]
@@ -66,7 +66,7 @@ def report(title: str, truths: Sequence[Truth], verify: str, given: bool) -> str
     return "\n".join(lines)
 
 
-def noise(truths: Sequence[Truth]) -> tuple[str, dict[str, list[float]]]:
+def noise(truths: Sequence[GroundTruth]) -> tuple[str, dict[str, list[float]]]:
     shares: dict[str, list[float]] = {v: [] for v in VERIFY}
     for verify in VERIFY:
         for p in WRONG:

@@ -21,9 +21,9 @@ from rows import collect_all, kind_of, nameless
 from anymesh.config import Config
 from anymesh.evaluation.changes import changed
 from anymesh.evaluation.datasets.named import open_dataset
+from anymesh.evaluation.ground_truth import EvalSample
 from anymesh.evaluation.protocols import prepared
-from anymesh.evaluation.truth import Subject
-from anymesh.geometry.pieces import object_shape
+from anymesh.geometry.patches import object_shape
 from anymesh.segmentation.contacts import find_contacts
 from anymesh.segmentation.part_features import FeatureScene, part_context_of, part_features
 from anymesh.segmentation.part_tree import part_tree
@@ -79,7 +79,7 @@ def read_rows(folder: Path) -> list[PartRows]:
     return found
 
 
-def rows_of(subject: Subject, source: str, form: str = "") -> PartRows:
+def rows_of(subject: EvalSample, source: str, form: str = "") -> PartRows:
     """Find and measure the candidates of an object."""
     mesh, truth, config = subject.mesh, subject.truth, Config()
     whole = object_shape(mesh, config.seed, config.pieces)

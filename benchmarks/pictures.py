@@ -8,12 +8,12 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from anymesh.evaluation.ground_truth import example_truths
 from anymesh.evaluation.oracle import oracle
 from anymesh.evaluation.protocols import prepared
-from anymesh.evaluation.truth import example_truths
-from anymesh.evaluation.voice import Spoken
+from anymesh.evaluation.simulated_vlm import SimulatedVlm
 from anymesh.loading import load_mesh, place_mesh
-from anymesh.solving import ArticulationSolver
+from anymesh.solving import Solver
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 
@@ -26,7 +26,7 @@ def main() -> None:
     options = parser.parse_args()
     truth = next(t for t in example_truths(EXAMPLES) if t.name == options.name)
     placed = place_mesh(load_mesh(truth.mesh))
-    solver = ArticulationSolver(placed.mesh, answerer_factory=lambda instead: Spoken(oracle(prepared(truth)), instead))
+    solver = Solver(placed.mesh, answerer_factory=lambda instead: SimulatedVlm(oracle(prepared(truth)), instead))
     recognized = solver.recognize()
     segmented = solver.parts("auto", recognized.recognition)
     jointed = solver.joints(segmented.segmentation, recognized.recognition)

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from anymesh.evaluation.datasets.named import open_dataset
-from anymesh.evaluation.truth import Subject
+from anymesh.evaluation.ground_truth import EvalSample
 
 Collect = Callable[
     [str, str, str, str, str], str
@@ -24,7 +24,7 @@ def kind_of(name: str, category: str) -> str:
     return category if category != "object" else name.split("-")[0]
 
 
-def nameless(subject: Subject) -> Subject:
+def nameless(subject: EvalSample) -> EvalSample:
     """The object without names of nodes and materials."""
     mesh = subject.mesh
     nodes = tuple(replace(n, name=f"node{k}") for k, n in enumerate(mesh.nodes))

@@ -27,8 +27,8 @@ from part_rows import PartRows, read_rows
 from part_scores import RIGHT as RIGHT_IOU
 from part_scores import Counts, overlap_of, scored
 
+from anymesh.segmentation.candidate_context import context_features
 from anymesh.segmentation.part_assignment import assign_parts
-from anymesh.segmentation.part_context import context_features
 
 ROUNDS = (150, 100)  # trees of the first and of the second step
 WRONG, RIGHT = 0.35, 0.95  # IoU below which a candidate is no part, and from which it is one; between, it is partly right

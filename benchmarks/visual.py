@@ -31,7 +31,7 @@ from visual_table import MEASURED, page
 from anymesh.answering import choose_answerer
 from anymesh.errors import AnymeshError, OpenQuestionError
 from anymesh.evaluation.datasets.named import open_dataset
-from anymesh.evaluation.examine import Exam, Protocol, examine
+from anymesh.evaluation.evaluate_sample import EvalConfig, EvalProtocol, evaluate_sample
 from anymesh.evaluation.record import record_of, record_text
 from anymesh.models.question_files import ANSWER, OWNER, QUESTION, find_questions
 from anymesh.reasoning.files import open_questions
@@ -39,7 +39,7 @@ from anymesh.solving import solve
 
 HERE = Path(__file__).parent
 RECORDINGS = HERE / "recordings"
-PROTOCOLS = (Protocol.END_TO_END, Protocol.PARTS)
+PROTOCOLS = (EvalProtocol.END_TO_END, EvalProtocol.PARTS)
 FORMS = {"as it is": "none", "fused": "fused"}
 RECORD = "record.json"
 
@@ -77,7 +77,7 @@ def results_of(folder: Path) -> Path:
     return folder.with_name(f"{folder.name}.results")
 
 
-def ask(item: Item, protocol: Protocol, folder: Path, wait: bool, after: Protocol | None = None) -> str:
+def ask(item: Item, protocol: EvalProtocol, folder: Path, wait: bool, after: EvalProtocol | None = None) -> str:
     """Ask until an answer is missing; return a line about the state."""
     place, results = folder / item.number / protocol, results_of(folder) / item.number / protocol
     title = f"{item.number} {protocol}"
@@ -89,13 +89,13 @@ def ask(item: Item, protocol: Protocol, folder: Path, wait: bool, after: Protoco
     if waiting:
         return f"{title}: open {', '.join(str(q.path) for q in waiting)}"
     results.mkdir(parents=True, exist_ok=True)
-    exam = Exam(protocol, (item.change,))
+    exam = EvalConfig(protocol, (item.change,))
 
     def answerer_factory(_):
         return choose_answerer({"answerer": f"files:{place}", "wait": wait}, about=item.number).factory
 
     try:
-        (record,) = examine(exam, open_dataset(item.spec), item.object, results, solve, answerer_factory)
+        (record,) = evaluate_sample(exam, open_dataset(item.spec), item.object, results, solve, answerer_factory)
     except OpenQuestionError as error:
         return f"{title}: open {', '.join(str(f) for f in error.folders)}"
     if record.error:
@@ -122,12 +122,12 @@ def keep(folder: Path) -> None:
         print(f"kept {place.relative_to(RECORDINGS)}: {record_of(done.read_text(encoding='utf-8')).score.name}")
 
 
-def recorded(found: Sequence[Item]) -> list[tuple[Item, Protocol]]:
+def recorded(found: Sequence[Item]) -> list[tuple[Item, EvalProtocol]]:
     """What there is a recording of."""
     return [(i, p) for i in found for p in PROTOCOLS if (RECORDINGS / i.number / p).is_dir()]
 
 
-def row(item: Item, protocol: Protocol, variant: str) -> Row:
+def row(item: Item, protocol: EvalProtocol, variant: str) -> Row:
     """One object, answered from its recording."""
     return replayed(RECORDINGS / item.number / protocol, item.set, open_dataset(item.spec), item.object, item.change, protocol,
                     variant)  # fmt: skip
@@ -157,7 +157,7 @@ def measured(found: Sequence[Item], folder: Path) -> list[Row]:
     return rows
 
 
-def pictures(item: Item, protocol: Protocol, folder: Path) -> str:
+def pictures(item: Item, protocol: EvalProtocol, folder: Path) -> str:
     """Asks again what was recorded, so that the pictures are drawn; the recorded answers stand beside them."""
     place = folder / item.number / protocol
     answers = {q.key: str(q.answer()) for q in find_questions(RECORDINGS / item.number / protocol)}
@@ -205,7 +205,7 @@ def main() -> None:
         for told in _each(pictures, [(i, p, options.folder) for i, p in recorded(found)], options.jobs):
             print(told, flush=True)
     else:
-        after = {Protocol.PARTS: Protocol.END_TO_END} if len(protocols) > 1 else {}
+        after = {EvalProtocol.PARTS: EvalProtocol.END_TO_END} if len(protocols) > 1 else {}
         tasks = [(i, p, options.folder, options.wait, after.get(p)) for p in protocols for i in found]
         told = []
         for line in _each(ask, tasks, options.jobs):

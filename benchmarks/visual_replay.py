@@ -11,13 +11,13 @@ from visual_choices import FILE, WithChoices, read_choices
 from anymesh.config import Config
 from anymesh.errors import ModelError
 from anymesh.evaluation.datasets.dataset import Dataset
-from anymesh.evaluation.examine import Exam, Protocol, examine
+from anymesh.evaluation.evaluate_sample import EvalConfig, EvalProtocol, evaluate_sample
 from anymesh.evaluation.record import Record
 from anymesh.evaluation.score import ObjectScore
 from anymesh.models.replay import Replay
 from anymesh.models.vision import Request
 from anymesh.reasoning.asking import Answer, Question, VisualAnswerer
-from anymesh.reasoning.knowing import ReferenceAnswerer
+from anymesh.reasoning.reference_answerer import ReferenceAnswerer
 from anymesh.reasoning.reply_text import reply_object
 from anymesh.reasoning.vlm import SYSTEM, VlmAnswerer
 from anymesh.solving import reference_of, solve
@@ -34,7 +34,7 @@ class Row:
     variant: str
     number: str
     set: str
-    protocol: Protocol
+    protocol: EvalProtocol
     record: Record
     calls: int
     carried: int = 0
@@ -83,18 +83,18 @@ class Keeping:
 
 
 def replayed(
-    folder: Path, set_: str, dataset: Dataset, name: str, change: str, protocol: Protocol, variant: str
+    folder: Path, set_: str, dataset: Dataset, name: str, change: str, protocol: EvalProtocol, variant: str
 ) -> Row:  # fmt: skip
     """The object answered from the recording in `folder`. Where nothing was recorded for a question, the record has an error;
     so with the variants other than the first the recorded result answers (see `Carried`)."""
-    exam, made = Exam(protocol, (change,)), list[WithChoices]()
+    exam, made = EvalConfig(protocol, (change,)), list[WithChoices]()
     replay = Replay(folder)
     base = Config()
 
     def run(solver: Keeping, answerer_factory) -> Record:
         with tempfile.TemporaryDirectory() as report:
             try:
-                (record,) = examine(exam, dataset, name, Path(report), solver, lambda _: answerer_factory)
+                (record,) = evaluate_sample(exam, dataset, name, Path(report), solver, lambda _: answerer_factory)
             except ModelError as error:
                 return Record(ObjectScore(name, (), 0, 0, 0), error=str(error))
         return record

@@ -11,7 +11,7 @@ from anymesh import evaluating
 from anymesh.cli import run
 from anymesh.errors import InputError, ModelError, OptionError, OutputError
 from anymesh.evaluating import evaluate
-from anymesh.evaluation.truth import Truth, example_truths
+from anymesh.evaluation.ground_truth import GroundTruth, example_truths
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 SET = f"examples:{EXAMPLES}"
@@ -29,7 +29,7 @@ class Shelf:
     def objects(self, split: str | None = None) -> Sequence[str]:
         return self.names
 
-    def truth(self, name: str, folder: Path) -> Truth:
+    def truth(self, name: str, folder: Path) -> GroundTruth:
         if name == "broken":
             raise InputError("broken has no faces")
         return TRUTHS[name]

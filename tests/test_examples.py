@@ -5,9 +5,9 @@ from pathlib import Path
 import contract
 import pytest
 
+from anymesh.evaluation.ground_truth import example_truths
 from anymesh.evaluation.protocols import prepared
 from anymesh.evaluation.score import score
-from anymesh.evaluation.truth import example_truths
 from anymesh.pipeline import articulate
 from anymesh.simulation.mujoco_ import sweep_joints
 from anymesh.types import JointType

@@ -11,9 +11,9 @@ from assets import CABINET, mesh_of
 import anymesh
 from anymesh.config import Config
 from anymesh.errors import OptionError
+from anymesh.evaluation.ground_truth import example_truths
 from anymesh.evaluation.protocols import prepared
-from anymesh.evaluation.truth import example_truths
-from anymesh.solving import ArticulationSolver
+from anymesh.solving import Solver
 from anymesh.types import Mesh
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "meshes" / "tilted_drawer.glb"
@@ -39,7 +39,7 @@ def test_same_seed_same_result() -> None:
     mesh, _ = mesh_of([piece for pieces in CABINET.values() for piece in pieces])
     results = []
     for _ in range(2):
-        solver = ArticulationSolver(mesh, Config(seed=7))
+        solver = Solver(mesh, Config(seed=7))
         parts = solver.parts().segmentation
         joints = solver.joints(parts).joints
         results.append(
@@ -51,7 +51,7 @@ def test_same_seed_same_result() -> None:
 
 def test_another_seed_finds_the_same_motion() -> None:
     subject = prepared(next(t for t in example_truths(EXAMPLE.parents[1]) if t.name == "storage_box"))
-    one, other = (ArticulationSolver(subject.mesh, Config(seed=s)).joints(subject.segmentation()).joints for s in (0, 1))
+    one, other = (Solver(subject.mesh, Config(seed=s)).joints(subject.segmentation()).joints for s in (0, 1))
     for a, b in zip(one, other, strict=True):
         assert (a.type, a.parent, a.child) == (b.type, b.parent, b.child)
         assert abs(a.axis @ b.axis) > 0.999
@@ -60,9 +60,9 @@ def test_another_seed_finds_the_same_motion() -> None:
 def test_the_mesh_handed_in_is_not_changed() -> None:
     mesh, _ = mesh_of([piece for pieces in CABINET.values() for piece in pieces])
     before = arrays(mesh)
-    parts = ArticulationSolver(mesh).parts().segmentation
+    parts = Solver(mesh).parts().segmentation
     labels = parts.face_part.copy()
-    ArticulationSolver(mesh).joints(parts)
+    Solver(mesh).joints(parts)
     assert (parts.face_part == labels).all()
     after = arrays(mesh)
     assert before.keys() == after.keys()

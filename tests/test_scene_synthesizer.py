@@ -4,20 +4,20 @@ import numpy as np
 import pytest
 
 from anymesh.evaluation.datasets.scene_synthesizer_ import CLASSES, synthesize
+from anymesh.evaluation.ground_truth import GroundTruth
 from anymesh.evaluation.metrics import same_motion
 from anymesh.evaluation.protocols import evaluate
-from anymesh.evaluation.truth import Truth
 from anymesh.loading import load_mesh, place_mesh
 from anymesh.solving import solve
 
 
 @pytest.fixture(scope="module")
-def truths(tmp_path_factory: pytest.TempPathFactory) -> list[Truth]:
+def truths(tmp_path_factory: pytest.TempPathFactory) -> list[GroundTruth]:
     folder = tmp_path_factory.mktemp("scene_synthesizer")
     return [synthesize(name, folder) for name in CLASSES]
 
 
-def test_truth_is_of_the_mesh(truths: list[Truth]) -> None:
+def test_truth_is_of_the_mesh(truths: list[GroundTruth]) -> None:
     for truth in truths:
         mesh = place_mesh(load_mesh(truth.mesh)).mesh
         assert len(truth.labels) == len(mesh.faces)
@@ -26,7 +26,7 @@ def test_truth_is_of_the_mesh(truths: list[Truth]) -> None:
 
 
 @pytest.mark.slow
-def test_parts_given(truths: list[Truth]) -> None:
+def test_parts_given(truths: list[GroundTruth]) -> None:
     joints = [j for t in truths for j in evaluate(t, solve, given=True).joints]
     right = [j.type_found is not None and same_motion(j.type_true, j.type_found) for j in joints]
     assert np.mean(right) >= 0.9
@@ -36,7 +36,7 @@ def test_parts_given(truths: list[Truth]) -> None:
 
 
 @pytest.mark.slow
-def test_end_to_end(truths: list[Truth]) -> None:
+def test_end_to_end(truths: list[GroundTruth]) -> None:
     scores = [evaluate(t, solve) for t in truths]
     matched, true, predicted = (sum(getattr(s, k) for s in scores) for k in ("matched", "true", "predicted"))
     assert 2 * matched / (true + predicted) >= 0.7

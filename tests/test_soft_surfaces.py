@@ -8,16 +8,16 @@ import numpy as np
 import pytest
 import trimesh
 
+from anymesh.evaluation.ground_truth import GroundTruth, example_truths
 from anymesh.evaluation.metrics import same_motion
 from anymesh.evaluation.protocols import evaluate
-from anymesh.evaluation.truth import Truth, example_truths
 from anymesh.loading import load_mesh
 from anymesh.solving import solve
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 
 
-def softened(truth: Truth, path: Path) -> Truth:
+def softened(truth: GroundTruth, path: Path) -> GroundTruth:
     """Refined to edges of 1.2 % of the diagonal and smoothed ten times without shrinking (Taubin)."""
     mesh = load_mesh(truth.mesh).mesh
     welded = trimesh.Trimesh(mesh.vertices, mesh.faces, merge_tex=True, merge_norm=True)

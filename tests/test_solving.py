@@ -5,7 +5,7 @@ import pytest
 from assets import box, mesh_of
 
 from anymesh.loading import load_mesh, place_mesh
-from anymesh.solving import ArticulationSolver
+from anymesh.solving import Solver
 from anymesh.types.recognition import Recognition
 
 MESH, _ = mesh_of([box((0, 0, 0), (1, 1, 0.5))])
@@ -33,15 +33,13 @@ class Sees:
 def test_an_answered_size_sets_the_scale_unless_the_file_has_a_unit(
     size: float, metric: bool, scale: float, doubted: bool
 ) -> None:
-    found = ArticulationSolver(MESH, answerer_factory=lambda _: Sees(size)).recognize(sized=True, metric=metric)
+    found = Solver(MESH, answerer_factory=lambda _: Sees(size)).recognize(sized=True, metric=metric)
     assert found.scale == pytest.approx(scale)
     assert bool(found.warnings) is doubted
     if doubted:
         assert "give --scale" in found.warnings[0]
         assert ("unit was kept" in found.warnings[0]) is metric
-    assert (
-        ArticulationSolver(MESH, answerer_factory=lambda _: Sees(size)).recognize(metric=metric).scale == 1.0
-    )  # the user gave the scale
+    assert Solver(MESH, answerer_factory=lambda _: Sees(size)).recognize(metric=metric).scale == 1.0  # the user gave the scale
 
 
 def test_files_say_whether_they_have_a_unit(tmp_path) -> None:

@@ -18,9 +18,9 @@ from anymesh.models.question_files import find_questions
 from anymesh.models.replay import Replay
 from anymesh.models.vision import Request
 from anymesh.reasoning.files import FileAnswerer, QuestionStore
-from anymesh.reasoning.knowing import ReferenceAnswerer
 from anymesh.reasoning.prompting import MotionPick, MotionTable, PartFit, PartShown, WhichMotions
 from anymesh.reasoning.recognition import Recognize
+from anymesh.reasoning.reference_answerer import ReferenceAnswerer
 from anymesh.reasoning.vlm import SYSTEM
 from anymesh.rendering.encode import encode
 from anymesh.types import JointType, Motion, MotionKind

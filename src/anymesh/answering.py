@@ -1,4 +1,4 @@
-"""Who answers the questions of both stages: from the names that users give to what the solver asks."""
+"""Choose the answerer of both stages from the options of a run."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from anymesh.models.budget import Account
 from anymesh.models.cache import cache_folder
 from anymesh.models.patience import Patience
 from anymesh.models.rates import Limiter
-from anymesh.models.servers import SERVERS, first_seeing, probe_servers
+from anymesh.models.servers import SERVERS, first_vision_model, probe_servers
 from anymesh.reasoning.asking import VisualAnswerer
 from anymesh.reasoning.recognition import parse_labels
 from anymesh.solving import GEOMETRY, AnswererFactory
@@ -58,7 +58,7 @@ class Answering(TypedDict, total=False):
 
 
 class RecordingFactory:
-    """Makes the answerers of one run: they share their patience, and what they asked is known after a fault too."""
+    """Factory of the answerers of one run; they share their patience, and their exchanges survive an error."""
 
     def __init__(self, make: Callable[[VisualAnswerer, Patience], VisualAnswerer]) -> None:
         self._make, self._patience, self._made = make, Patience(), list[VisualAnswerer]()
@@ -69,7 +69,7 @@ class RecordingFactory:
         return made
 
     def exchanges(self) -> tuple[Exchange, ...]:
-        """Every call so far."""
+        """Return all calls so far."""
         return tuple(e for seer in self._made for e in seer.exchanges)
 
 
@@ -77,8 +77,8 @@ class RecordingFactory:
 class AnswererSetup:
     """The settings of a run, the name of who answers, and what makes the answerer (None: geometry).
 
-    stands: whether a saved stage still has the answers that it was made with; asked: every call to a model in this run;
-    renewed: the same answerer for another run, with the same model and budget.
+    is_current: whether a saved stage still has the answers that it was made with; exchanges: every call to a model in this run;
+    new_factory: the same answerer for another run, with the same model and budget.
     """
 
     config: Config
@@ -154,7 +154,7 @@ def resolve_auto(name: str) -> tuple[str, str]:
     """From `auto` to the name of who answers, and why, in words; other names stay. Nothing that costs money is taken."""
     if name != AUTO:
         return name, ""
-    found = first_seeing(probe_servers())
+    found = first_vision_model(probe_servers())
     if found is None:
         return GEOMETRY.name, "auto takes geometry: no local model that takes pictures answers (`anymesh models`)"
     if find_spec("pydantic_ai") is None:

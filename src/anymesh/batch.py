@@ -21,7 +21,7 @@ ENDING = (BudgetError, MissingExtraError, OptionError)  # would come up again fo
 
 
 @dataclass(frozen=True)
-class Outcome:
+class MeshOutcome:
     """What became of one mesh. error: what stopped it, None when its asset is written."""
 
     mesh: Path
@@ -38,7 +38,7 @@ class Outcome:
 
 def articulate_many(
     meshes: Sequence[str | Path], out: str | Path, *, progress: Progress = silent, **options: Any
-) -> list[Outcome]:
+) -> list[MeshOutcome]:
     """Articulate each mesh into a folder of its own name in `out`; outputs that are there for the same mesh stay.
 
     meshes: files, or folders with files; options: as for `articulate`. With `files:FOLDER`, the questions of an object lie in
@@ -55,11 +55,11 @@ def articulate_many(
         try:
             if not _is_done(path, target, who, force=bool(options.get("force"))):
                 pipeline.articulate(path, target, answerer=who, spent=spent, progress=progress, **options)
-            outcomes.append(Outcome(path, target))
+            outcomes.append(MeshOutcome(path, target))
         except ENDING:
             raise
         except AnymeshError as error:
-            outcomes.append(Outcome(path, target, error))
+            outcomes.append(MeshOutcome(path, target, error))
     return outcomes
 
 

@@ -11,7 +11,7 @@ from typing import Any
 from anymesh.answers import open_in
 from anymesh.errors import BudgetError, OptionError, OutputError
 from anymesh.models.cache import write_whole
-from anymesh.models.prices import cost_of, most_input_tokens
+from anymesh.models.prices import cost_of, max_input_tokens
 from anymesh.models.question_files import QuestionFolder, find_questions, read_question
 from anymesh.models.vision import Request
 from anymesh.reasoning.files import open_questions
@@ -88,7 +88,7 @@ def _request(question: QuestionFolder) -> Request:
 def _check_cost(model: str, requests: Mapping[str, Request], max_cost: float | None) -> None:
     if max_cost is None:
         return
-    costs = [cost_of(model, most_input_tokens(model, r), r.max_tokens) for r in requests.values()]
+    costs = [cost_of(model, max_input_tokens(model, r), r.max_tokens) for r in requests.values()]
     known = [cost for cost in costs if cost is not None]
     if len(known) < len(costs):
         raise OptionError(f"--max-cost needs a known price, and that of {model} is not")

@@ -15,10 +15,10 @@ from anymesh.cli_output import plain
 def models(json_: Json = False) -> None:
     """Which models answer on this machine, and which keys are set (never what they are)."""
     from anymesh.models.address import KEYS
-    from anymesh.models.servers import SERVERS, first_seeing, probe_servers
+    from anymesh.models.servers import SERVERS, first_vision_model, probe_servers
 
     found = probe_servers()
-    chosen = first_seeing(found)
+    chosen = first_vision_model(found)
     keys = [
         {"provider": provider, "variable": name, "set": bool(os.environ.get(name, "").strip())}
         for provider, names in KEYS.items()
@@ -31,7 +31,7 @@ def models(json_: Json = False) -> None:
                 "url": f.url,
                 "answers": f.models is not None,
                 "note": f.note,
-                "models": [{"name": m.name, "takes_pictures": m.sees} for m in f.models or ()],
+                "models": [{"name": m.name, "takes_pictures": m.takes_pictures} for m in f.models or ()],
             }
             for f in found
         ],
@@ -45,7 +45,7 @@ def models(json_: Json = False) -> None:
     for f in found:
         typer.echo(plain(f"{f.server} at {f.url or 'no address'}: {f.note or f'{len(f.models or ())} models'}"))
         for m in f.models or ():
-            typer.echo(plain(f"  {m.name}  ({words[m.sees]})"))
+            typer.echo(plain(f"  {m.name}  ({words[m.takes_pictures]})"))
         if f.models is None:
             typer.echo(f"  elsewhere: set {' or '.join(SERVERS[f.server].variables)}")
     typer.echo("keys: " + ", ".join(f"{k['variable']} {'is set' if k['set'] else 'is not set'}" for k in keys))

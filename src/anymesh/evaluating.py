@@ -23,14 +23,14 @@ from anymesh.errors import OpenQuestionError, OptionError
 from anymesh.evaluation.changes import CHANGES
 from anymesh.evaluation.datasets.dataset import Dataset
 from anymesh.evaluation.datasets.named import open_dataset
-from anymesh.evaluation.examine import Exam, Protocol, SampleAnswerer, examine
+from anymesh.evaluation.evaluate_sample import EvalConfig, EvalProtocol, SampleAnswerer, evaluate_sample
+from anymesh.evaluation.ground_truth import EvalSample
 from anymesh.evaluation.oracle import Noisy, oracle
 from anymesh.evaluation.record import Record
 from anymesh.evaluation.report import write_report
 from anymesh.evaluation.results import ResultsFolder
 from anymesh.evaluation.score import ObjectScore
 from anymesh.evaluation.training import trained_note
-from anymesh.evaluation.truth import Subject
 from anymesh.names import legal_name
 from anymesh.progress import Progress, silent
 from anymesh.solving import GEOMETRY, AnswererFactory, solve
@@ -44,7 +44,7 @@ def evaluate(
     dataset: str,
     out: str | Path,
     *,
-    protocol: str = Protocol.PARTS,
+    protocol: str = EvalProtocol.PARTS,
     split: str | None = None,
     changes: Sequence[str] = ("none",),
     views: int = 1,
@@ -97,15 +97,15 @@ def _waiting(errors: Sequence[OpenQuestionError], total: int) -> OpenQuestionErr
     )
 
 
-def _exam(protocol: str, changes: Sequence[str], views: int, seed: int) -> Exam:
-    if protocol not in list(Protocol):
-        raise OptionError(f"--protocol: found {protocol!r}; valid are {', '.join(Protocol)}")
+def _exam(protocol: str, changes: Sequence[str], views: int, seed: int) -> EvalConfig:
+    if protocol not in list(EvalProtocol):
+        raise OptionError(f"--protocol: found {protocol!r}; valid are {', '.join(EvalProtocol)}")
     unknown = [c for c in changes if c not in CHANGES]
     if unknown or not changes:
         raise OptionError(f"--change: found {', '.join(unknown) or 'none'}; valid are {', '.join(CHANGES)}")
     if views < 1:
         raise OptionError(f"--views must be 1 or more, found {views}")
-    return Exam(Protocol(protocol), tuple(dict.fromkeys(changes)), views, seed)
+    return EvalConfig(EvalProtocol(protocol), tuple(dict.fromkeys(changes)), views, seed)
 
 
 def _chosen(data: Dataset, split: str | None, only: Sequence[str]) -> list[str]:
@@ -118,7 +118,7 @@ def _chosen(data: Dataset, split: str | None, only: Sequence[str]) -> list[str]:
     return [n for n in names if not only or n in only]
 
 
-def _settings(dataset: str, split: str | None, only: Sequence[str], exam: Exam, answering: Answering) -> dict[str, str]:
+def _settings(dataset: str, split: str | None, only: Sequence[str], exam: EvalConfig, answering: Answering) -> dict[str, str]:
     """What an evaluation hangs on, in words, and with what it was made."""
     told = {
         "dataset": dataset,
@@ -129,12 +129,12 @@ def _settings(dataset: str, split: str | None, only: Sequence[str], exam: Exam, 
         "seed": str(exam.seed),
         "anymesh": __version__,
     }
-    if exam.protocol is Protocol.VIEWS:
+    if exam.protocol is EvalProtocol.VIEWS:
         told["views"] = str(exam.views)
     if only:
         told["only"] = ", ".join(sorted(only))
     told |= {k: str(answering[k]) for k in ("verify", "proposer", "viewpoints") if k in answering}
-    if exam.protocol in (Protocol.END_TO_END, Protocol.EXECUTABILITY):
+    if exam.protocol in (EvalProtocol.END_TO_END, EvalProtocol.EXECUTABILITY):
         told["at least"] = str(answering.get("at_least", 0))
     made = {"date": datetime.datetime.now(datetime.UTC).date().isoformat(), "python": platform.python_version()}
     return told | made | {"numpy": np.__version__, "machine": f"{platform.machine()}, {_cores()} cores"}
@@ -149,7 +149,7 @@ def _answerer_for(answering: Answering, seed: int, stop: Event | None = None) ->
     name, _, share = answering.get("answerer", GEOMETRY.name).partition(":")
     if name == FILES.removesuffix(":"):
 
-        def asked(subject: Subject) -> AnswererFactory | None:
+        def asked(subject: EvalSample) -> AnswererFactory | None:
             place: Answering = {**answering, "answerer": f"{FILES}{Path(share) / legal_name(subject.truth.name)}"}
             return choose_answerer(place, about=subject.truth.name, stop=stop).factory
 
@@ -166,7 +166,7 @@ def _answerer_for(answering: Answering, seed: int, stop: Event | None = None) ->
     if not 0 <= wrong <= 1:
         raise OptionError(f"--answerer oracle:P needs a probability P from 0 to 1, found {share!r}")
 
-    def known(subject: Subject) -> AnswererFactory:
+    def known(subject: EvalSample) -> AnswererFactory:
         rng = np.random.default_rng((seed, crc32(subject.truth.name.encode())))
         return lambda instead: Noisy(oracle(subject), wrong, rng) if wrong else oracle(subject)
 
@@ -174,13 +174,15 @@ def _answerer_for(answering: Answering, seed: int, stop: Event | None = None) ->
 
 
 def _examined(
-    dataset: str, exam: Exam, answering: Answering, folder: Path, name: str, answerer_for: SampleAnswerer | None = None
+    dataset: str, exam: EvalConfig, answering: Answering, folder: Path, name: str, answerer_for: SampleAnswerer | None = None
 ) -> Examined:
     """One object's records; in a process of its own, which opens the data set anew."""
     options: Answering = {**answering, "answerer": GEOMETRY.name, "parts_list": ()}
     solver = partial(solve, config=choose_answerer(options).config)
     try:
-        return examine(exam, open_dataset(dataset), name, folder, solver, answerer_for or _answerer_for(answering, exam.seed))
+        return evaluate_sample(
+            exam, open_dataset(dataset), name, folder, solver, answerer_for or _answerer_for(answering, exam.seed)
+        )
     except OpenQuestionError as error:
         return error
 

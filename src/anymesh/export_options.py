@@ -9,7 +9,7 @@ from anymesh.export import Base, Driven, Format, parse_formats
 
 
 @dataclass(frozen=True)
-class Exported:
+class ExportOptions:
     """How an asset is written."""
 
     base: Base
@@ -17,7 +17,7 @@ class Exported:
     driven: Driven
 
     @classmethod
-    def parse(cls, base: str, formats: str, drives: str) -> Exported:
+    def parse(cls, base: str, formats: str, drives: str) -> ExportOptions:
         """From the words of an option; OptionError names what would have been valid."""
         if base not in set(Base):
             raise OptionError(f"--base: found {base!r}; valid are {', '.join(Base)}")

@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TypeVar, Unpack
 
+from anymesh import stage_results as results
 from anymesh.answering import AnswererSetup, Answering, choose_answerer, object_name
 from anymesh.deadline import DEFAULT_SECONDS, Deadline
 from anymesh.errors import OptionError, note_stage
@@ -17,7 +18,7 @@ from anymesh.export import Base, Driven, Format, write_asset
 from anymesh.export.archive import write_zip
 from anymesh.export.formats import DEFAULT
 from anymesh.export.package import write_package
-from anymesh.export_options import Exported
+from anymesh.export_options import ExportOptions
 from anymesh.isolation import AHEAD, shared_pool
 from anymesh.loading import load_mesh, place_mesh
 from anymesh.models.cache import cache_folder
@@ -25,22 +26,12 @@ from anymesh.progress import Progress, silent
 from anymesh.rendering.preview import write_preview
 from anymesh.run_folder import RunFolder, stage_key
 from anymesh.segmentation.given import GIVEN
-from anymesh.solving import ArticulationSolver
-from anymesh.stage_results import (
-    COMPLETION,
-    JOINTS,
-    MESH,
-    RECOGNITION,
-    SEGMENTATION,
-    JointResult,
-    LoadResult,
-    RecognitionResult,
-    SegmentationResult,
-)
+from anymesh.solving import Solver
+from anymesh.stage_results import COMPLETION, JOINTS, MESH, RECOGNITION, SEGMENTATION
 from anymesh.stopped_run import kept_transcript
 from anymesh.types import Asset, Joint, Segmentation, Source
 
-Result = TypeVar("Result", RecognitionResult, SegmentationResult, JointResult)
+Result = TypeVar("Result", results.RecognitionResult, results.SegmentationResult, results.JointResult)
 ASIDE = 500_000  # faces up to which the preview is drawn beside the files; with more, both together take too much memory
 
 
@@ -69,7 +60,7 @@ def articulate(
     cuts its work short and says so in the warnings. Raises InputError, OptionError, OutputError, ModelError; then nothing is
     written. OpenQuestionError and BudgetError: what is finished is kept for the next call.
     """
-    how, deadline = Exported.parse(base, formats, drives), Deadline(time_limit)
+    how, deadline = ExportOptions.parse(base, formats, drives), Deadline(time_limit)
     who = choose_answerer(answering, about=object_name(mesh_path), deadline=deadline)
     shared_pool().warm(*AHEAD)
     with RunFolder.create(Path(out), source=Path(mesh_path), force=force) as run, kept_transcript(run, who):
@@ -101,18 +92,14 @@ def segment(
 
 
 def joints(
-    folder: str | Path,
-    *,
-    time_limit: float = DEFAULT_SECONDS,
-    progress: Progress = silent,
-    **answering: Unpack[Answering],
+    folder: str | Path, *, time_limit: float = DEFAULT_SECONDS, progress: Progress = silent, **answering: Unpack[Answering]
 ) -> tuple[Joint, ...]:
     """Stage B alone, on the parts that `segment` saved in `folder`. Options as for `articulate`."""
     deadline = Deadline(time_limit)
     who = choose_answerer(answering, deadline=deadline)
     with RunFolder.open(Path(folder)) as run, kept_transcript(run, who):
         recognized, segmented = run.recognition(), run.need(SEGMENTATION)
-        solver = ArticulationSolver(recognized.sized(run.need(MESH)).mesh, who.config, who.factory, deadline)
+        solver = Solver(recognized.sized(run.need(MESH)).mesh, who.config, who.factory, deadline)
         return _join(run, solver, recognized, segmented, run.key(SEGMENTATION), who, progress).joints
 
 
@@ -131,7 +118,7 @@ def export(
 
     package: a folder that gets a ROS 2 package of the URDF; archive: a zip file of the asset.
     """
-    how, deadline = Exported.parse(base, formats, drives), Deadline(time_limit)
+    how, deadline = ExportOptions.parse(base, formats, drives), Deadline(time_limit)
     if package is not None and Format.URDF not in how.formats:
         raise OptionError(f"--package needs the format urdf, found {formats!r}")
     with RunFolder.open(Path(folder)) as run:
@@ -169,7 +156,7 @@ def finish(
     from anymesh.postprocessing.outside import open_completer, open_retexturer
     from anymesh.postprocessing.settings import ShapeConfig
 
-    how, deadline = Exported.parse(base, formats, drives), Deadline(time_limit)
+    how, deadline = ExportOptions.parse(base, formats, drives), Deadline(time_limit)
     out = Path(out)
     who = open_completer(completer)
     looks = open_retexturer(texture, state=out.parent / f".{out.name}.meshy.json", max_calls=max_calls)
@@ -203,18 +190,20 @@ class Placement:
 
 def _seen(
     run: RunFolder, path: Path, parts: str, how: Placement, who: AnswererSetup, deadline: Deadline, progress: Progress
-) -> tuple[ArticulationSolver, RecognitionResult, str]:
+) -> tuple[Solver, results.RecognitionResult, str]:
     """The mesh placed, looked at, and in the size that was answered; ready for both stages."""
     placed, key = _place(run, path, how, who.config.category, progress)
-    solver = ArticulationSolver(placed.mesh, who.config, who.factory, deadline)
+    solver = Solver(placed.mesh, who.config, who.factory, deadline)
     if parts != "auto":
         solver.parts(parts)  # what is wrong with them is better told before anything is asked
     recognized, key = _recognize(run, solver, key, who, how.scale == "auto", placed.metric)
     sized = recognized.sized(placed)
-    return (solver if sized is placed else ArticulationSolver(sized.mesh, who.config, who.factory, deadline)), recognized, key
+    return (solver if sized is placed else Solver(sized.mesh, who.config, who.factory, deadline)), recognized, key
 
 
-def _place(run: RunFolder, path: Path, how: Placement, category: str | None, progress: Progress) -> tuple[LoadResult, str]:
+def _place(
+    run: RunFolder, path: Path, how: Placement, category: str | None, progress: Progress
+) -> tuple[results.LoadResult, str]:
     progress("load", path.name, 0, 1)
     with _timed(run, "load"):
         loaded = load_mesh(path, root=how.root)
@@ -224,7 +213,7 @@ def _place(run: RunFolder, path: Path, how: Placement, category: str | None, pro
         if found is None:
             p = place_mesh(loaded, up=how.up, scale=how.scale, category=category)
             source = Source(str(path), loaded.sha256, p.T_asset_source, p.up, p.notes)
-            found = LoadResult(p.mesh, source, (*loaded.warnings, *p.warnings), p.metric)
+            found = results.LoadResult(p.mesh, source, (*loaded.warnings, *p.warnings), p.metric)
             run.save(MESH, key, found)
     return found, key
 
@@ -237,8 +226,8 @@ def _answered(found: Result | None, who: AnswererSetup) -> Result | None:
 
 
 def _recognize(
-    run: RunFolder, solver: ArticulationSolver, previous: str, who: AnswererSetup, sized: bool, metric: bool
-) -> tuple[RecognitionResult, str]:
+    run: RunFolder, solver: Solver, previous: str, who: AnswererSetup, sized: bool, metric: bool
+) -> tuple[results.RecognitionResult, str]:
     if who.factory is None:
         return solver.recognize(), previous
     key = stage_key(
@@ -253,14 +242,9 @@ def _recognize(
 
 
 def _segment(
-    run: RunFolder,
-    solver: ArticulationSolver,
-    recognized: RecognitionResult,
-    previous: str,
-    parts: str,
-    who: AnswererSetup,
+    run: RunFolder, solver: Solver, recognized: results.RecognitionResult, previous: str, parts: str, who: AnswererSetup,
     progress: Progress,
-) -> tuple[SegmentationResult, str]:
+) -> tuple[results.SegmentationResult, str]:  # fmt: skip
     settings = {**who.settings("verify"), "parts": parts, "labels": _bytes_of_labels(parts), "limit": solver.deadline.seconds}
     key = stage_key(SEGMENTATION, previous=previous, config=settings)
     found = _answered(run.load(SEGMENTATION, key), who)
@@ -280,14 +264,9 @@ def _bytes_of_labels(parts: str) -> str:
 
 
 def _join(
-    run: RunFolder,
-    solver: ArticulationSolver,
-    recognized: RecognitionResult,
-    segmented: SegmentationResult,
-    previous: str,
-    who: AnswererSetup,
-    progress: Progress,
-) -> JointResult:
+    run: RunFolder, solver: Solver, recognized: results.RecognitionResult, segmented: results.SegmentationResult,
+    previous: str, who: AnswererSetup, progress: Progress,
+) -> results.JointResult:  # fmt: skip
     key = stage_key(JOINTS, previous=previous, config={**who.settings(), "limit": solver.deadline.seconds})
     found = _answered(run.load(JOINTS, key), who)
     if found is None:
@@ -300,7 +279,7 @@ def _join(
     return found
 
 
-def _export(run: RunFolder, how: Exported, deadline: Deadline, progress: Progress) -> Asset:
+def _export(run: RunFolder, how: ExportOptions, deadline: Deadline, progress: Progress) -> Asset:
     progress("export", "files", 0, 2)
     asset = run.asset()
     with _timed(run, "export"), ThreadPoolExecutor(1) as aside:

@@ -31,7 +31,7 @@ from anymesh.stage_results import (
     SegmentationResult,
     Stage,
 )
-from anymesh.storage.hidden import (
+from anymesh.storage.atomic_folder import (
     FOLDER_PREFIX,
     LockedFolder,
     list_files,

@@ -1,4 +1,4 @@
-"""Both stages on one placed mesh, with whoever answers: geometry, a model that sees, or ground truth in an evaluation."""
+"""Stages A and B on one mesh, answered by geometry, a vision-language model, or ground truth in an evaluation."""
 
 from __future__ import annotations
 
@@ -24,17 +24,17 @@ from anymesh.articulation.prompted import Questions, Reground, prompt_joints
 from anymesh.articulation.tree import parents
 from anymesh.config import Config
 from anymesh.deadline import Deadline
-from anymesh.geometry.pieces import ObjectShape, object_shape
-from anymesh.geometry.surroundings import PartContext
+from anymesh.geometry.part_context import PartContext
+from anymesh.geometry.patches import ObjectShape, object_shape
 from anymesh.models.sam import PromptedSegmenter
 from anymesh.models.sam_load import load_sam
 from anymesh.progress import Progress, silent
 from anymesh.reasoning.asking import VisualAnswerer
 from anymesh.reasoning.geometry import GeometryAnswerer
-from anymesh.reasoning.knowing import Reference, ReferenceAnswerer, ReferenceJoint
 from anymesh.reasoning.questions import Candidate
 from anymesh.reasoning.recognition import answered_scale, recognize
-from anymesh.rendering.studio import VisualPrompts
+from anymesh.reasoning.reference_answerer import Reference, ReferenceAnswerer, ReferenceJoint
+from anymesh.rendering.visual_prompts import VisualPrompts
 from anymesh.segmentation.ask_marks import MarkQuestioner
 from anymesh.segmentation.cloud import Cloud
 from anymesh.segmentation.given import GIVEN, parts_from_file, parts_from_nodes
@@ -57,7 +57,7 @@ SUFFICIENT_OPENING = float(np.deg2rad(60))  # [rad, or share of the diagonal] an
 GEOMETRY = GeometryAnswerer()
 
 
-class ArticulationSolver:
+class Solver:
     """Stage A and Stage B for one placed mesh [m, Z up]. `see` makes the answerer; without it geometry answers. What is left
     out past the deadline is among the warnings of each stage."""
 
@@ -75,7 +75,7 @@ class ArticulationSolver:
 
     @cached_property
     def whole(self) -> ObjectShape:
-        """The mesh made ready for both stages."""
+        """Return the object as both stages use it."""
         return object_shape(self.mesh, self.config.seed, self.config.pieces)
 
     @cached_property
@@ -92,7 +92,7 @@ class ArticulationSolver:
         return VisualPrompts(self.mesh, self.config)
 
     def recognize(self, *, sized: bool = False, metric: bool = False) -> RecognitionResult:
-        """What the object is and which parts move, from someone who sees.
+        """Recognize the object and its movable parts by a visual answerer.
 
         sized: the answered size sets the scale, unless the file states its unit (metric): then a size that contradicts is a
         warning.
@@ -111,7 +111,7 @@ class ArticulationSolver:
         names = studio.names(len(seen))
         inside = inner_faces(self.mesh, self.whole, self._cloud, seen_points(self._cloud, seen), MIN_RECOGNITION_PATCH_RATIO)
         if inside.any():
-            chosen = studio.most_of_inside(inside, MAX_INSIDE_VIEWS)
+            chosen = studio.clearest_inside_views(inside, MAX_INSIDE_VIEWS)
             seen = [*seen, *(studio.insides(inside)[k] for k in chosen)]
             names += [studio.inside_names()[k] for k in chosen]
         return studio.pictures([view.color for view in seen], names)
@@ -160,14 +160,14 @@ class ArticulationSolver:
         return replace(found, segmentation=made.segmentation if made.segmentation is not segmentation else None)
 
     def _regrounding(self, questions: Questions, segmentation: Segmentation) -> Reground:
-        """What goes back to the marks of parts that are wrong."""
+        """Return the function that grounds wrong parts again."""
         recognition = questions.recognition
         asked = MarkQuestioner(questions.answerer, self._visual_prompts, questions.labels, questions.category, self.config)
         front = recognition.front if recognition else None
         return lambda wrong: ground_again(self.mesh, self.whole, self._cloud, asked, segmentation, wrong, front)
 
     def _geometric_parts(self, progress: Progress = silent) -> Segmentation:
-        """What geometry finds; once, however many questions it answers."""
+        """Return the parts found by geometry, computed once."""
         if self._by_itself is None:
             self._by_itself = segment_parts(self.mesh, self.whole, self._labels, self.config, progress, self.deadline)
         return self._by_itself
@@ -214,7 +214,7 @@ class ArticulationSolver:
         return part_context(self.whole, rank, shapes, parents(shapes, self.whole.diagonal), number, self.config.articulation)
 
     def _ready_for(self, segmentation: Segmentation) -> ObjectShape:
-        """The mesh made ready, in pieces that each belong to one of these parts."""
+        """Return the object with patches that each belong to one of these parts."""
         label, whole = segmentation.face_part, self.whole
         if (label == label[whole.source][np.unique(whole.patch, return_index=True)[1]][whole.mesh_patch]).all():
             return whole
@@ -225,20 +225,20 @@ class ArticulationSolver:
         return self._reference(self._geometric_parts())
 
     def _reference(self, segmentation: Segmentation) -> Reference:
-        """What geometry would answer, for questions that a model could not."""
+        """Return the reference made of geometry's answers, the fallback of a model."""
         joints = estimate_joints(segmentation, self._motions(segmentation), GEOMETRY)
         return reference_of(self.mesh, segmentation, joints, self.config.category or "object")
 
 
 def _with_progress(swept: Iterable[PartMotions], segmentation: Segmentation, progress: Progress) -> Iterator[PartMotions]:
-    """Report each part as its motions come."""
+    """Report progress for each part."""
     for done, motions in enumerate(swept):
         progress("joints", segmentation.parts[motions[0]].name, done, len(segmentation.parts) - 1)
         yield motions
 
 
 def reference_of(mesh: Mesh, segmentation: Segmentation, joints: tuple[Joint, ...], category: str) -> Reference:
-    """Parts and joints as things that are known."""
+    """Build a reference from parts and joints."""
     number = {p.name: k for k, p in enumerate(segmentation.parts)}
     by_child = {j.child: j for j in joints}
     made = [by_child.get(p.name) for p in segmentation.parts]
@@ -278,8 +278,8 @@ def solve(
     config: Config | None = None,
     answerer_factory: AnswererFactory | None = None,
 ) -> tuple[Segmentation, tuple[Joint, ...]]:
-    """Both stages on a placed mesh, the second alone where the parts are given."""
-    solver = ArticulationSolver(mesh, config, answerer_factory)
+    """Run both stages on a mesh in the asset frame; only Stage B where the parts are given."""
+    solver = Solver(mesh, config, answerer_factory)
     if given is not None:
         return given, solver.joints(given).joints
     recognition = solver.recognize().recognition

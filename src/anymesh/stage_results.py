@@ -1,4 +1,4 @@
-"""What each stage hands to the next, and how it is taken apart into JSON values and arrays and put together again."""
+"""Results of the stages, and their conversion to JSON values and arrays and back."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ Record = dict[str, Any]
 
 @dataclass(frozen=True, eq=False)
 class LoadResult:
-    """The mesh in the asset frame, the file that it came from, and what a user should know.
+    """The mesh in the asset frame, its source file, and warnings.
 
-    metric: whether the scale is the unit that the file states.
+    metric: whether the scale is the unit stated by the file.
     """
 
     mesh: Mesh
@@ -31,7 +31,7 @@ class LoadResult:
 
 @dataclass(frozen=True, eq=False)
 class RecognitionResult:
-    """What the object is, when someone who sees was asked; scale: what the placed mesh is multiplied by, with the reason."""
+    """The recognized object, where a model was asked; scale: factor on the loaded mesh; note: its reason."""
 
     recognition: Recognition | None
     answerer: str
@@ -41,7 +41,7 @@ class RecognitionResult:
     exchanges: tuple[Exchange, ...] = ()
 
     def sized(self, loaded: LoadResult) -> LoadResult:
-        """The mesh in the size that was answered."""
+        """Return the loaded mesh in the answered size."""
         if self.scale == 1:
             return loaded
         S = np.diag([self.scale] * 3 + [1.0])
@@ -53,7 +53,7 @@ class RecognitionResult:
 
 @dataclass(frozen=True, eq=False)
 class SegmentationResult:
-    """Stage A: the parts, who answered, and what a user should know."""
+    """Stage A: the parts, the name of the answerer, and warnings."""
 
     segmentation: Segmentation
     answerer: str
@@ -63,9 +63,9 @@ class SegmentationResult:
 
 @dataclass(frozen=True, eq=False)
 class JointResult:
-    """Stage B: the joints, who answered, and what a user should know.
+    """Stage B: the joints, the name of the answerer, and warnings.
 
-    segmentation: the parts with the labels that were answered, where these changed; it is saved as the result of stage A.
+    segmentation: the parts with the answered labels, where these changed; it is saved as the result of Stage A.
     """
 
     joints: tuple[Joint, ...]
@@ -77,8 +77,8 @@ class JointResult:
 
 @dataclass(frozen=True, eq=False)
 class CompletionResult:
-    """Stage C: the mesh with new faces and looks, the part of each, the number that it had before (-1: new), and what was
-    done, in words."""
+    """Stage C: the mesh with new faces and materials, the part of each face, its previous index (-1: new), and notes on the
+    changes."""
 
     mesh: Mesh
     face_part: np.ndarray
@@ -86,13 +86,13 @@ class CompletionResult:
     notes: tuple[str, ...] = ()
 
     def parted(self, before: Segmentation) -> Segmentation:
-        """The same parts, of these faces."""
+        """Return the same parts with these faces."""
         return Segmentation(self.face_part, before.parts)
 
 
 @dataclass(frozen=True, eq=False)
 class CorrectionResult:
-    """What a person made of the parts and joints; log: each correction as JSON values, in order."""
+    """Manually corrected parts and joints; log: the corrections in order, as JSON values."""
 
     segmentation: Segmentation
     joints: tuple[Joint, ...]
@@ -102,7 +102,7 @@ class CorrectionResult:
 
 @dataclass(frozen=True)
 class Stage(Generic[Result]):
-    """A stage whose result can be saved: its name, and the two ways."""
+    """A stage with a saved result: its name, and the functions that pack and unpack the result."""
 
     name: str
     pack: Callable[[Result], tuple[Record, dict[str, np.ndarray]]]
@@ -130,7 +130,7 @@ def _pack_load(result: LoadResult) -> tuple[Record, dict[str, np.ndarray]]:
 
 
 def _pack_mesh(mesh: Mesh) -> tuple[Record, dict[str, np.ndarray]]:
-    """Nodes and materials, and the arrays of a mesh with its images."""
+    """Pack nodes and materials, and the arrays of a mesh with its images."""
     arrays = {name: getattr(mesh, name) for name in MESH_ARRAYS if getattr(mesh, name) is not None}
     images: dict[bytes, str] = {}
     materials = []
@@ -167,7 +167,7 @@ def _unpack_mesh(record: Record, arrays: Arrays) -> Mesh:
 
 
 def _pack_exchanges(exchanges: tuple[Exchange, ...]) -> tuple[list[Record], dict[str, np.ndarray]]:
-    """A picture that was shown twice is kept once."""
+    """Pack exchanges; a picture that was shown twice is stored once."""
     names: dict[bytes, str] = {}
     records = []
     for exchange in exchanges:

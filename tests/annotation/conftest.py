@@ -7,10 +7,10 @@ from pathlib import Path
 
 import pytest
 
-from anymesh.annotation.workers import Limits, LocalWorkers
+from anymesh.annotation.workers import LocalWorkers, ObjectLimits
 
 TARGET = ("fake_work", "run")
-LIMITS = Limits(memory=2 << 30, seconds=20.0, wall=1.5)
+LIMITS = ObjectLimits(memory=2 << 30, seconds=20.0, wall=1.5)
 
 
 @pytest.fixture
@@ -19,7 +19,7 @@ def workers(monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[..., LocalWork
     monkeypatch.syspath_prepend(Path(__file__).parent)
     made: list[LocalWorkers] = []
 
-    def make(count: int = 2, limits: Limits = LIMITS) -> LocalWorkers:
+    def make(count: int = 2, limits: ObjectLimits = LIMITS) -> LocalWorkers:
         made.append(LocalWorkers(count, limits, TARGET))
         return made[-1]
 

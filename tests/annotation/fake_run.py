@@ -10,12 +10,12 @@ from anymesh.annotation.inputs import find_objects
 from anymesh.annotation.outages import Outage
 from anymesh.annotation.runner import Plan, Runner
 from anymesh.annotation.salvage import open_ledger
-from anymesh.annotation.workers import Limits, LocalWorkers
+from anymesh.annotation.workers import LocalWorkers, ObjectLimits
 
 
 def main(source: str, out: Path) -> None:
     signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's background jobs start with it ignored
-    workers = LocalWorkers(2, Limits(2 << 30, 20.0, 20.0), ("fake_work", "run"))
+    workers = LocalWorkers(2, ObjectLimits(2 << 30, 20.0, 20.0), ("fake_work", "run"))
     with open_ledger(out) as ledger:
         enter_objects(ledger, find_objects(source, without=out))
         with begun_run(ledger, 2) as run:

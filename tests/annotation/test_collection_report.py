@@ -14,7 +14,7 @@ from anymesh.annotation.entering import enter_objects
 from anymesh.annotation.ledger import Ledger
 from anymesh.annotation.report import GALLERY, write_report
 from anymesh.annotation.requests import ObjectRequest
-from anymesh.annotation.states import Outcome, Result
+from anymesh.annotation.states import AttemptOutcome, Result
 from anymesh.annotation.tally import METRICS, tally, write_metrics
 
 EVIL = '"><script>alert(1)</script>\n<img src=x onerror=alert(2)>'
@@ -37,11 +37,11 @@ def page(out) -> str:
                 if k:
                     Image.new("RGB", (900, 300), "red").save(folder / "preview.png")
                 record = {"confidence": k / 40, "joints": 2, "parts": 3, "warnings": 1, "bytes": 5}
-                outcome = Outcome(Result.DONE, record=record, seconds=2.0, memory=1 << 20)
+                outcome = AttemptOutcome(Result.DONE, record=record, seconds=2.0, memory=1 << 20)
             elif k == 40:
-                outcome = Outcome(Result.REFUSED, "InputError", EVIL)
+                outcome = AttemptOutcome(Result.REFUSED, "InputError", EVIL)
             else:
-                outcome = Outcome(Result.FAILED, "CrashError", "signal 11", stage="segment")
+                outcome = AttemptOutcome(Result.FAILED, "CrashError", "signal 11", stage="segment")
             finish(ledger, one, outcome, most=1)
         write_metrics(ledger.out, tally(ledger, finished=43, seconds=3600.0, workers=1), 1.5)
         return write_report(ledger).read_text()

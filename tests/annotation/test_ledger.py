@@ -19,12 +19,12 @@ from anymesh.annotation.ledger import NAME, Ledger
 from anymesh.annotation.outages import Outage
 from anymesh.annotation.requests import ObjectRequest
 from anymesh.annotation.salvage import open_ledger
-from anymesh.annotation.states import Claim, Outcome, Result, State
+from anymesh.annotation.states import AttemptOutcome, Claim, Result, State
 from anymesh.errors import BudgetError, InputError, OptionError, OutputError
 from anymesh.models.budget import Limit
 from anymesh.models.rates import Rate, WindowLimiter
 
-DONE = Outcome(Result.DONE, record={"confidence": 0.5, "sha256": "x"})
+DONE = AttemptOutcome(Result.DONE, record={"confidence": 0.5, "sha256": "x"})
 
 
 @pytest.fixture
@@ -110,7 +110,7 @@ def test_an_object_whose_runs_are_killed_again_and_again_is_quarantined(ledger) 
     for _ in range(claims.LOSSES):
         with begun_run(ledger, 1) as run:
             (taken,) = claim(ledger, run, 1)
-            state = finish(ledger, taken, Outcome(Result.LOST, "LostError", "gone"), most=3)
+            state = finish(ledger, taken, AttemptOutcome(Result.LOST, "LostError", "gone"), most=3)
     assert state is State.QUARANTINED
 
 
@@ -178,7 +178,7 @@ def test_a_call_whose_process_died_counts_at_its_upper_bound(ledger) -> None:
     with begun_run(ledger, 1) as run:
         (taken,) = claim(ledger, run, 1)
         hold = LedgerAccount(ledger, taken.name, taken.token).hold("marks", 0.6, Limit())
-        finish(ledger, taken, Outcome(Result.FAILED, "CrashError"), most=3)
+        finish(ledger, taken, AttemptOutcome(Result.FAILED, "CrashError"), most=3)
         assert spent(ledger) == (1, 0.6)
         LedgerAccount(ledger, taken.name, taken.token).settle(hold, 0.1)  # it was alive after all: not counted twice
         assert spent(ledger) == (1, 0.6)

@@ -16,13 +16,13 @@ import pytest
 from ledger_rows import column, states, trace
 
 from anymesh.annotation.annotate import Speed, annotate
-from anymesh.annotation.workers import Limits
+from anymesh.annotation.workers import ObjectLimits
 from anymesh.errors import OptionError
 
 pytestmark = pytest.mark.slow
 ray = pytest.importorskip("ray")
 HERE = Path(__file__).parent
-LIMITS = Limits(memory=2 << 30, seconds=30.0, wall=30.0)
+LIMITS = ObjectLimits(memory=2 << 30, seconds=30.0, wall=30.0)
 
 
 @pytest.fixture(scope="module")

@@ -15,7 +15,7 @@ from ledger_rows import column, states, trace
 from anymesh.annotation import annotate as module
 from anymesh.annotation import runner
 from anymesh.annotation.annotate import Speed, annotate, collection_status
-from anymesh.annotation.workers import Limits
+from anymesh.annotation.workers import ObjectLimits
 from anymesh.errors import InputError, OptionError, OutputError
 
 HERE = Path(__file__).parent
@@ -238,5 +238,5 @@ def test_an_asset_whose_run_ended_before_the_ledger_knew_is_taken_as_it_is(tmp_p
 
 def test_limits_are_checked() -> None:
     with pytest.raises(OptionError, match="--memory"):
-        Limits.default(2, 0.1, 10.0)
-    assert Limits.default(2, 3.0, 10.0, waits=True) == Limits(3 << 30, 10.0, 100.0)
+        ObjectLimits.default(2, 0.1, 10.0)
+    assert ObjectLimits.default(2, 3.0, 10.0, waits=True) == ObjectLimits(3 << 30, 10.0, 100.0)

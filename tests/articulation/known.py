@@ -13,10 +13,10 @@ from scenes import Scene, built, case, door, drawer, lid, slider, wheel
 from anymesh.articulation.cases import PartCase, make_cases
 from anymesh.articulation.prompted import Questions, prompt_joints
 from anymesh.config import Config, PromptConfig, ViewsConfig
-from anymesh.geometry.pieces import ObjectShape, object_shape
+from anymesh.geometry.patches import ObjectShape, object_shape
 from anymesh.reasoning.asking import VisualAnswerer
-from anymesh.reasoning.knowing import Reference, ReferenceAnswerer, ReferenceJoint
-from anymesh.rendering.studio import VisualPrompts
+from anymesh.reasoning.reference_answerer import Reference, ReferenceAnswerer, ReferenceJoint
+from anymesh.rendering.visual_prompts import VisualPrompts
 from anymesh.types import Exchange, Joint, JointType, Mesh, Segmentation
 
 X, Y, Z = np.eye(3)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from assets import box, mesh_of
 
-from anymesh.solving import ArticulationSolver
+from anymesh.solving import Solver
 from anymesh.types import Joint, Mesh, Part, Segmentation
 
 Piece = tuple[np.ndarray, np.ndarray]
@@ -23,7 +23,7 @@ def joints_of(scene: Scene, T: np.ndarray | None = None) -> dict[str, Joint]:
     """The joint of every part, by the part's name; T (4, 4) moves the whole scene first."""
     mesh, segmentation = built(scene)
     mesh = mesh if T is None else mesh.transformed(T)
-    return {j.child: j for j in ArticulationSolver(mesh).joints(segmentation).joints}
+    return {j.child: j for j in Solver(mesh).joints(segmentation).joints}
 
 
 def similarity(degrees: float, shift=(0.0, 0.0, 0.0), factor: float = 1.0) -> np.ndarray:

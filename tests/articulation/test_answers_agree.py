@@ -14,8 +14,8 @@ from anymesh.articulation.prompted import PromptedJoints, Questions, prompt_join
 from anymesh.articulation.relabel import labels_by_name
 from anymesh.articulation.taken import normal_outwards, opening_slide
 from anymesh.reasoning.prompting import JointKind, KindAnswer, MotionPick, PartFit
-from anymesh.rendering.studio import VisualPrompts
-from anymesh.solving import ArticulationSolver
+from anymesh.rendering.visual_prompts import VisualPrompts
+from anymesh.solving import Solver
 from anymesh.types import JointType, Part, Segmentation
 from anymesh.types.recognition import Moves, Recognition, RecognizedLabel
 
@@ -163,7 +163,7 @@ def test_only_points_that_are_drawn_are_listed_and_hidden_ones_are_told() -> Non
 def test_labels_that_were_answered_are_part_of_the_stages_result() -> None:
     mesh, _, segmentation = ready(LEFT.scene)
     given = replace(segmentation, parts=(segmentation.parts[0], Part("cabinet_door", "part")))
-    solver = ArticulationSolver(mesh, QUICK, lambda _: knowing(mesh, segmentation, (LEFT.joint,)))
+    solver = Solver(mesh, QUICK, lambda _: knowing(mesh, segmentation, (LEFT.joint,)))
     named = solver.joints(given, recognition(DOOR))
     assert named.segmentation is not None
     assert [p.label for p in named.segmentation.parts] == ["part", "door"]

@@ -11,7 +11,7 @@ from anymesh.articulation.cases import make_cases
 from anymesh.articulation.evidence import hypotheses, part_facts
 from anymesh.articulation.motion_features import MISSING, motion_features
 from anymesh.config import Config
-from anymesh.geometry.pieces import object_shape
+from anymesh.geometry.patches import object_shape
 from anymesh.types import Motion, MotionKind
 
 X, Y, Z = np.eye(3)

@@ -12,9 +12,9 @@ from scenes import Scene
 from anymesh.articulation.cases import MAX_PICTURES, ask_each, make_cases
 from anymesh.articulation.prompted import Questions, prompt_joints
 from anymesh.evaluation.metrics import angle_error, line_distance
-from anymesh.reasoning.knowing import ReferenceJoint
 from anymesh.reasoning.prompting import JointKind, KindAnswer, MotionPick, WhichMotions
-from anymesh.rendering.studio import VisualPrompts
+from anymesh.reasoning.reference_answerer import ReferenceJoint
+from anymesh.rendering.visual_prompts import VisualPrompts
 from anymesh.types import Joint, JointType, Motion, Part, Picture
 from anymesh.types.recognition import Moves, Recognition, RecognizedLabel
 
@@ -168,7 +168,7 @@ def test_more_points_are_offered_where_the_hinge_is_hidden() -> None:
     assert any(tuple(p) not in centres for p in more.points)
     back = {round(float(p[1]), 3) for p in more.points} - {round(float(p[1]), 3) for p in plain.points}
     assert min(back) < -0.015  # on the leaf's outer side, which the case does not touch
-    assert (plain.least, more.least) == (2, 1)
+    assert (plain.min_points, more.min_points) == (2, 1)
 
 
 def test_names_of_parts_are_never_part_of_a_question() -> None:

@@ -6,8 +6,8 @@ import mujoco
 import numpy as np
 import pytest
 
+from anymesh.evaluation.ground_truth import read_ground_truth
 from anymesh.evaluation.protocols import prepared
-from anymesh.evaluation.truth import read_truth
 from anymesh.export import write_asset
 from anymesh.rendering.raycast_ import RayScene
 from anymesh.types import Asset, JointType
@@ -18,7 +18,7 @@ BALL = 0.03  # of the object's diagonal, its radius
 
 def true_asset(name: str) -> Asset:
     """A shipped example with its true parts and joints."""
-    return prepared(read_truth(EXAMPLES / "truth" / f"{name}.json", EXAMPLES / "meshes" / f"{name}.glb")).asset()
+    return prepared(read_ground_truth(EXAMPLES / "truth" / f"{name}.json", EXAMPLES / "meshes" / f"{name}.glb")).asset()
 
 
 class World:

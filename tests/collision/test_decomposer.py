@@ -12,14 +12,14 @@ from assets import box, cabinet
 from anymesh.collision import collision_shapes
 from anymesh.collision.convex import volume
 from anymesh.collision.cuts import cut_solid
-from anymesh.collision.decompose import Component, Fineness, Method, cleaned, split_components
+from anymesh.collision.decompose import Component, Method, Resolution, cleaned, split_components
 from anymesh.collision.decomposer import Decomposer, divide_here
 from anymesh.collision.primitives import as_hull
 from anymesh.deadline import Deadline
 from anymesh.export.links import split_links
 from anymesh.isolation import ChildError, ChildLimits, ChildPool, Failure
 
-FINE = Fineness(gap=0.01, wall=0.002, most=24)
+FINE = Resolution(gap=0.01, wall=0.002, max_pieces=24)
 
 
 def triangles(*pieces) -> np.ndarray:
@@ -53,7 +53,7 @@ class FakePool(ChildPool):
 
 
 def test_a_faceted_solid_is_cut_into_its_blocks_exactly():
-    hulls = cut_solid(bracket().triangles, gap=0.01, wall=0.002, most=16)
+    hulls = cut_solid(bracket().triangles, gap=0.01, wall=0.002, max_pieces=16)
     assert len(hulls) == 2
     assert sum(volume(h) for h in hulls) == pytest.approx(0.36, rel=1e-9)
 
@@ -163,7 +163,7 @@ def test_cleaning_removes_slivers_and_double_faces_alone():
 
 def test_small_components_beyond_the_most_share_hulls():
     beads = [box((x, y, 0), (x + 0.01, y + 0.01, 0.01)) for x in np.arange(20) for y in np.arange(20)]
-    found = split_components(triangles(*beads), 0.0, most=50)
+    found = split_components(triangles(*beads), 0.0, max_components=50)
     assert 50 < len(found) <= 50 + 64
     assert sum(len(c.triangles) for c in found) == 12 * 400
 

@@ -7,9 +7,9 @@ from dataclasses import replace
 import numpy as np
 from assets import box, cabinet, joint, mesh_of, source
 
-from anymesh.collision import LEAST_POSES, MOST_POSES, sampled_poses
-from anymesh.collision.clear import Scene
-from anymesh.collision.crossing import Surface
+from anymesh.collision import MAX_POSES, MIN_POSES, sampled_poses
+from anymesh.collision.clear import ContactScene
+from anymesh.collision.crossing import LinkSurface
 from anymesh.export.links import split_links
 from anymesh.geometry.kinematics import carried_links, link_transforms
 from anymesh.types import Asset, Part, Segmentation
@@ -54,8 +54,8 @@ def test_a_joint_carries_its_child_and_what_hangs_on_it():
 def test_many_joints_get_fewer_places_each():
     few, many = row(3), row(300)
     assert len(sampled_poses(few, origins_of(few), 17)) == 2 + 3 * 16  # 0 is the rest pose
-    count = MOST_POSES // 300
-    assert LEAST_POSES < count < 17
+    count = MAX_POSES // 300
+    assert MIN_POSES < count < 17
     assert len(sampled_poses(many, origins_of(many), 17)) == 2 + 300 * (count - 1)
 
 
@@ -64,7 +64,7 @@ def test_overlaps_are_found_among_all_pairs():
     rng = np.random.default_rng(0)
     solids = {f"link_{k}": _turned_box(rng) for k in range(12)}
     poses = [{name: np.eye(4) for name in solids}]
-    scene = Scene({name: Surface(t) for name, t in solids.items()}, poses, 1e-3, 1e-3)
+    scene = ContactScene({name: LinkSurface(t) for name, t in solids.items()}, poses, 1e-3, 1e-3)
     pairs = [(a, b) for a in sorted(solids) for b in sorted(solids) if a < b]
     alone = [pair for pair in pairs if replace(scene, surfaces={n: scene.surfaces[n] for n in pair})._cross(*pair, 0)]
     assert scene.overlapping == tuple(alone)

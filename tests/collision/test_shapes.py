@@ -9,7 +9,7 @@ from assets import box, cabinet, joint, mesh_of, source
 
 from anymesh.collision import CollisionConfig, collision_shapes
 from anymesh.collision.convex import cut, hull_of, trimmed, volume
-from anymesh.collision.decompose import Fineness, component_shapes, least_box, split_components
+from anymesh.collision.decompose import Resolution, component_shapes, smallest_box, split_components
 from anymesh.collision.primitives import as_hull, fitted
 from anymesh.collision.split import split_surface
 from anymesh.collision.store import content_key, load_shapes, save_shapes
@@ -17,7 +17,7 @@ from anymesh.export.links import split_links
 from anymesh.geometry.distance_ import distance_to_triangles
 from anymesh.types import Asset, Box, Cylinder, Hull, Part, Segmentation
 
-FINE = Fineness(gap=0.02, wall=0.002, most=24)
+FINE = Resolution(gap=0.02, wall=0.002, max_pieces=24)
 
 
 def triangles(vertices, faces):
@@ -96,7 +96,7 @@ def test_an_open_shell_stays_thin_and_hollow(turn):
     middle = np.array([[0.3, 0.2, 0.25], [0.05, 0.05, 0.05], [0.3, 0.0, 0.25]])
     if turn:
         shell, middle = turned(shell), turned(middle)
-    hulls = split_surface(shell, gap=0.02, wall=0.002, most=24)
+    hulls = split_surface(shell, gap=0.02, wall=0.002, max_pieces=24)
     assert not inside(hulls, middle).any()
     for hull in hulls:
         assert distance_to_triangles(hull.vertices, shell).max() <= 0.02
@@ -138,7 +138,7 @@ def test_flat_and_empty_links_get_a_thickness():
     assert isinstance(shape, Box)
     np.testing.assert_allclose(np.sort(shape.size), [FINE.wall, 1, 1], atol=1e-9)
     assert shape.center[2] == pytest.approx(-FINE.wall / 2)  # behind the face that is seen
-    nothing = least_box(np.zeros((1, 3, 3)), 0.002)
+    nothing = smallest_box(np.zeros((1, 3, 3)), 0.002)
     np.testing.assert_allclose(as_hull(nothing).vertices.max(0), [0.001] * 3)
 
 

@@ -14,10 +14,10 @@ from anymesh.correcting import (
     ChangeType,
     ChooseMotion,
     CorrectionError,
-    Entry,
     FaceSet,
     FlipSign,
     History,
+    HistoryEntry,
     MergeParts,
     MoveFaces,
     Relabel,
@@ -48,7 +48,7 @@ ONE_OF_EACH = (
 
 
 def entries(corrections):
-    return tuple(Entry(c, f"2024-05-0{1 + i % 9}T12:00:00+00:00", "Ada") for i, c in enumerate(corrections))
+    return tuple(HistoryEntry(c, f"2024-05-0{1 + i % 9}T12:00:00+00:00", "Ada") for i, c in enumerate(corrections))
 
 
 def same(a, b) -> None:

@@ -15,8 +15,8 @@ from anymesh import pipeline
 from anymesh.checking import check_asset
 from anymesh.correcting import (
     ChangeType,
-    Entry,
     FlipSign,
+    HistoryEntry,
     MergeParts,
     Opened,
     SetLimits,
@@ -36,7 +36,7 @@ NOW = "2024-05-01T12:00:00+00:00"
 def corrected(opened: Opened, *corrections) -> Opened:
     history = opened.history
     for c in corrections:
-        history = history.do(Entry(c, NOW, "Ada"))
+        history = history.do(HistoryEntry(c, NOW, "Ada"))
     return Opened(opened.folder, history, opened.version)
 
 

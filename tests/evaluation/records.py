@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from anymesh.evaluation.likeness import Likeness
+from anymesh.evaluation.particulate_metrics import ParticulateMetrics
 from anymesh.evaluation.record import Record
 from anymesh.evaluation.score import JointScore, ObjectScore
 from anymesh.types import JointType
@@ -19,7 +19,7 @@ KNOB = replace(
     DOOR, part="knob", type_true=JointType.CONTINUOUS, type_found=JointType.CONTINUOUS, opens_right=None, range_iou=1.0
 )
 MISSING = JointScore("lid", 0.2, JointType.REVOLUTE, part_size=0.5)
-ALIKE = Likeness(0.8, 0.7, 0.01)
+ALIKE = ParticulateMetrics(0.8, 0.7, 0.01)
 
 
 def record(*joints: JointScore, name: str = "cabinet", error: str = "", **more) -> Record:

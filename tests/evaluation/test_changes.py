@@ -10,8 +10,8 @@ from assets import cabinet
 from anymesh.errors import OptionError
 from anymesh.evaluation.changes import CHANGES, changed, moved, rotation
 from anymesh.evaluation.fused_ import joined, wrapped
+from anymesh.evaluation.ground_truth import EvalSample, GroundTruth, TrueJoint, example_truths
 from anymesh.evaluation.protocols import prepared
-from anymesh.evaluation.truth import Subject, TrueJoint, Truth, example_truths
 from anymesh.geometry.distance_ import distance_to_mesh
 from anymesh.geometry.topology import components
 from anymesh.types import Part
@@ -21,11 +21,11 @@ MOTIONS = ("turned", "tilted", "lying", "overturned", "spun", "shrunk", "grown")
 
 
 @pytest.fixture(scope="module")
-def microwave() -> Subject:
+def microwave() -> EvalSample:
     return prepared(TRUTHS["microwave"])
 
 
-def off_the_old_surface(new: Subject, old: Subject) -> float:
+def off_the_old_surface(new: EvalSample, old: EvalSample) -> float:
     """Largest distance of the new faces of each part from that part's old faces [diagonals], whatever moved."""
     back = new.mesh.transformed(old.T @ np.linalg.inv(new.T))
     names = [p.name for p in old.truth.parts]
@@ -37,7 +37,7 @@ def off_the_old_surface(new: Subject, old: Subject) -> float:
 
 
 @pytest.mark.parametrize("name", MOTIONS)
-def test_a_motion_moves_mesh_and_truth_alike(name: str, microwave: Subject) -> None:
+def test_a_motion_moves_mesh_and_truth_alike(name: str, microwave: EvalSample) -> None:
     new = changed(name, microwave)
     M = new.T @ np.linalg.inv(microwave.T)
     assert np.linalg.norm(M - np.eye(4)) > 0.01
@@ -47,7 +47,7 @@ def test_a_motion_moves_mesh_and_truth_alike(name: str, microwave: Subject) -> N
     assert new.unit == pytest.approx(microwave.unit * np.cbrt(np.linalg.det(M)))
 
 
-def test_up_stays_up_when_turned_alone(microwave: Subject) -> None:
+def test_up_stays_up_when_turned_alone(microwave: EvalSample) -> None:
     up = {name: (changed(name, microwave).T @ np.linalg.inv(microwave.T))[:3, :3] @ [0, 0, 1] for name in MOTIONS}
     assert np.allclose(up["turned"], [0, 0, 1])
     assert up["tilted"][2] == pytest.approx(np.cos(np.deg2rad(5)))
@@ -56,7 +56,7 @@ def test_up_stays_up_when_turned_alone(microwave: Subject) -> None:
 
 
 @pytest.mark.parametrize("name", sorted(set(CHANGES) - {"none", "fused", *MOTIONS}))
-def test_every_part_keeps_to_its_own_surface(name: str, microwave: Subject) -> None:
+def test_every_part_keeps_to_its_own_surface(name: str, microwave: EvalSample) -> None:
     new = changed(name, microwave)
     assert len(new.labels) == len(new.mesh.faces)
     assert off_the_old_surface(new, microwave) < 0.02
@@ -64,27 +64,27 @@ def test_every_part_keeps_to_its_own_surface(name: str, microwave: Subject) -> N
     assert set(new.labels) == set(range(len(new.truth.parts)))
 
 
-def test_the_same_seed_gives_the_same_mesh_and_another_seed_another(microwave: Subject) -> None:
+def test_the_same_seed_gives_the_same_mesh_and_another_seed_another(microwave: EvalSample) -> None:
     first, again, other = (changed("noise.001", microwave, seed).mesh.vertices for seed in (3, 3, 4))
     assert (first == again).all()
     assert not np.allclose(first, other)
 
 
-def test_noise_opens_no_seam(microwave: Subject) -> None:
+def test_noise_opens_no_seam(microwave: EvalSample) -> None:
     new = changed("noise.001", microwave)
     spread = np.abs(new.mesh.vertices - microwave.mesh.vertices).mean() / microwave.mesh.diagonal
     assert 0.0006 < spread < 0.001  # of a normal distribution it is .8 of the deviation
     assert components(new.mesh.vertices, new.mesh.faces).solid.all()
 
 
-def test_a_quarter_of_the_faces(microwave: Subject) -> None:
+def test_a_quarter_of_the_faces(microwave: EvalSample) -> None:
     label = components(microwave.mesh.vertices, microwave.mesh.faces).label
     dense = np.bincount(label).max()
     new = changed("quarter-faces", microwave)
     assert np.bincount(components(new.mesh.vertices, new.mesh.faces).label).max() <= max(60, 0.3 * dense)
 
 
-def test_what_is_behind_a_door_is_gone_and_not_to_be_found(microwave: Subject) -> None:
+def test_what_is_behind_a_door_is_gone_and_not_to_be_found(microwave: EvalSample) -> None:
     hidden = [changed(name, microwave).truth for name in ("unseen-gone", "fused-coarse")]
     assert [len(t.parts) for t in (microwave.truth, *hidden)] == [4, 3, 3]  # without the turntable
     assert [len(t.joints) for t in hidden] == [2, 2]
@@ -96,8 +96,8 @@ def test_what_moved_on_a_part_that_is_gone_moves_on_its_carrier() -> None:
     parts = tuple(Part(name, "part") for name in ("base", "a", "b"))
     inside = np.zeros(len(mesh.faces), np.int64)
     inside[-1] = 2
-    subject = Subject(
-        Truth("x", Path("x.glb"), parts, inside, (joint, replace(joint, child="b", parent="a"))), mesh, inside, np.eye(4)
+    subject = EvalSample(
+        GroundTruth("x", Path("x.glb"), parts, inside, (joint, replace(joint, child="b", parent="a"))), mesh, inside, np.eye(4)
     )
     new = changed("noise.0001", subject)
     assert new.truth is subject.truth  # faces stay
@@ -139,11 +139,11 @@ def test_a_wrap_keeps_its_distance_and_needs_no_closed_surface() -> None:
     assert volume(vertices[faces]) == pytest.approx(5 * 0.06, rel=0.2)  # five sides, each as thick as twice the distance
 
 
-def test_an_unknown_change_is_told_with_the_known_ones(microwave: Subject) -> None:
+def test_an_unknown_change_is_told_with_the_known_ones(microwave: EvalSample) -> None:
     with pytest.raises(OptionError, match=r"'melted'.*turned.*fused"):
         changed("melted", microwave)
 
 
-def test_moving_twice_is_moving_by_the_product(microwave: Subject) -> None:
+def test_moving_twice_is_moving_by_the_product(microwave: EvalSample) -> None:
     a, b = rotation(np.array([0, 0, 1.0]), 0.4), rotation(np.array([1.0, 0, 0]), -1.0)
     assert np.allclose(moved(moved(microwave, a), b).mesh.vertices, moved(microwave, b @ a).mesh.vertices)

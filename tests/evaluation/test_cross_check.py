@@ -14,10 +14,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from anymesh.evaluation.displacement import TURNED, displacement
+from anymesh.evaluation.ground_truth import EvalSample, GroundTruth, TrueJoint
 from anymesh.evaluation.metrics import angle_error, line_distance, range_iou
 from anymesh.evaluation.score import JointScore, score
 from anymesh.evaluation.success import articulate_anything, opd, s2o
-from anymesh.evaluation.truth import Subject, TrueJoint, Truth
 from anymesh.export import write_asset
 from anymesh.types import Asset, Joint, JointType
 
@@ -80,8 +80,8 @@ def perturbed(seed: int) -> Asset:
 def scored(found: Asset) -> dict[str, JointScore]:
     joints = tuple(TrueJoint(j.child, j.parent, j.type, j.origin, j.axis, j.limits) for j in ASSET.joints)
     s = ASSET.segmentation
-    truth = Truth("cabinet", Path("x"), s.parts, s.face_part, joints)
-    return {j.part: j for j in score(Subject(truth, found.mesh, s.face_part, np.eye(4)), s, found.joints).joints}
+    truth = GroundTruth("cabinet", Path("x"), s.parts, s.face_part, joints)
+    return {j.part: j for j in score(EvalSample(truth, found.mesh, s.face_part, np.eye(4)), s, found.joints).joints}
 
 
 @pytest.mark.parametrize("seed", range(8))

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from anymesh.evaluation.displacement import displacement
-from anymesh.evaluation.truth import TrueJoint
+from anymesh.evaluation.ground_truth import TrueJoint
 from anymesh.types import Joint, JointType
 
 X, Y, Z = np.eye(3)

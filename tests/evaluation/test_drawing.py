@@ -8,12 +8,12 @@ from assets import cabinet
 from test_score import truth_of
 
 from anymesh.evaluation.drawing import FOUND, TRUE, draw_joint, without_caption
+from anymesh.evaluation.ground_truth import EvalSample
 from anymesh.evaluation.score import JointScore
-from anymesh.evaluation.truth import Subject
 from anymesh.types import Part, Segmentation
 
 ASSET, PANEL = cabinet(), 120
-SUBJECT = Subject(truth_of(ASSET, np.eye(4)), ASSET.mesh, ASSET.segmentation.face_part, np.eye(4))
+SUBJECT = EvalSample(truth_of(ASSET, np.eye(4)), ASSET.mesh, ASSET.segmentation.face_part, np.eye(4))
 JOINTS = {j.child: j for j in ASSET.joints}
 
 

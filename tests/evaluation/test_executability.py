@@ -8,8 +8,8 @@ import pytest
 from assets import box, cabinet, joint, mesh_of
 
 from anymesh.evaluation.executability import drive, executability
+from anymesh.evaluation.ground_truth import EvalSample, GroundTruth, TrueJoint
 from anymesh.evaluation.score import ObjectScore
-from anymesh.evaluation.truth import Subject, TrueJoint, Truth
 from anymesh.types import Part, Segmentation
 
 pytest.importorskip("mujoco")
@@ -23,8 +23,8 @@ SLIDE = joint("slide", "prismatic", "base", "slider", (0.1, 0, 0), (1, 0, 0), (0
 NOTHING = ObjectScore("block", (), 0, 0, 0)
 
 
-def subject(*joints: TrueJoint) -> Subject:
-    return Subject(Truth("block", Path("x"), PARTS, LABELS, joints), MESH, LABELS, np.eye(4))
+def subject(*joints: TrueJoint) -> EvalSample:
+    return EvalSample(GroundTruth("block", Path("x"), PARTS, LABELS, joints), MESH, LABELS, np.eye(4))
 
 
 TRUE = TrueJoint("slider", "base", SLIDE.type, SLIDE.origin, SLIDE.axis, (0.0, 0.25))

@@ -7,12 +7,11 @@ import numpy as np
 import pytest
 from assets import cabinet
 
+from anymesh.evaluation.ground_truth import EvalSample, GroundTruth, TrueJoint
 from anymesh.evaluation.oracle import Noisy, oracle, true_reference
-from anymesh.evaluation.truth import Subject, TrueJoint, Truth
 from anymesh.geometry.kinematics import joint_transform
 from anymesh.reasoning.asking import VisualAnswerer
 from anymesh.reasoning.grounding import WhichMarks
-from anymesh.reasoning.knowing import Reference, ReferenceAnswerer, ReferenceJoint
 from anymesh.reasoning.prompting import (
     ArrowTable,
     JointKind,
@@ -24,6 +23,7 @@ from anymesh.reasoning.prompting import (
     WhichMotions,
     WhichPoints,
 )
+from anymesh.reasoning.reference_answerer import Reference, ReferenceAnswerer, ReferenceJoint
 from anymesh.types import Joint, JointType, Motion, MotionKind, Part
 
 X, Y, Z = np.eye(3)
@@ -31,7 +31,7 @@ ASSET = cabinet()
 TURNED = np.array([[0, -0.01, 0, 1], [0, 0, 0.01, 2], [-0.01, 0, 0, 3], [0, 0, 0, 1]])  # in centimetres, and lying
 
 
-def subject(T_asset_source: np.ndarray, labels=("base", "Door_01", "drawer", "knob")) -> Subject:
+def subject(T_asset_source: np.ndarray, labels=("base", "Door_01", "drawer", "knob")) -> EvalSample:
     """The cabinet's truth in the coordinates of a file, on the cabinet."""
     T = np.linalg.inv(T_asset_source)
     scale = float(np.linalg.norm(T[:3, 0]))
@@ -43,8 +43,8 @@ def subject(T_asset_source: np.ndarray, labels=("base", "Door_01", "drawer", "kn
 
     s = ASSET.segmentation
     parts = tuple(Part(p.name, label) for p, label in zip(s.parts, labels, strict=True))
-    truth = Truth("cabinet", Path("mesh.glb"), parts, s.face_part, tuple(map(one, ASSET.joints)))
-    return Subject(truth, ASSET.mesh, s.face_part, T_asset_source)
+    truth = GroundTruth("cabinet", Path("mesh.glb"), parts, s.face_part, tuple(map(one, ASSET.joints)))
+    return EvalSample(truth, ASSET.mesh, s.face_part, T_asset_source)
 
 
 @pytest.mark.parametrize("T", [np.eye(4), TURNED], ids=["same frame", "other frame and unit"])
@@ -73,8 +73,8 @@ def test_the_reference_tells_what_is_where() -> None:
 def test_a_part_without_a_word_for_it_is_named_by_its_motion() -> None:
     made = true_reference(subject(np.eye(4), ("base", "x1", "x2", "x3")))
     assert made.labels == ("base", "door", "drawer", "knob")  # by the parts' own names
-    nameless = Truth("x", Path("x"), tuple(Part(f"x{k}", "?") for k in range(4)), made.face_part, ())
-    assert true_reference(Subject(nameless, ASSET.mesh, made.face_part, np.eye(4))).kinds[1:] == ("part",) * 3
+    nameless = GroundTruth("x", Path("x"), tuple(Part(f"x{k}", "?") for k in range(4)), made.face_part, ())
+    assert true_reference(EvalSample(nameless, ASSET.mesh, made.face_part, np.eye(4))).kinds[1:] == ("part",) * 3
 
 
 def test_the_oracle_knows_the_truth() -> None:

@@ -7,15 +7,15 @@ import numpy as np
 import pytest
 from assets import cabinet
 
+from anymesh.evaluation.ground_truth import EvalSample, GroundTruth, TrueJoint
 from anymesh.evaluation.posing import link_transforms, posed
-from anymesh.evaluation.truth import Subject, TrueJoint, Truth
 from anymesh.types import JointType, Part
 
 ASSET = cabinet()
 TURNED = np.array([[0, -0.01, 0, 1], [0, 0, 0.01, 2], [-0.01, 0, 0, 3], [0, 0, 0, 1]])  # in centimetres, and lying
 
 
-def subject(T: np.ndarray) -> Subject:
+def subject(T: np.ndarray) -> EvalSample:
     """The cabinet, its truth in coordinates that T takes to the mesh's."""
     back = np.linalg.inv(T)
     scale = float(np.linalg.norm(back[:3, 0]))
@@ -27,10 +27,10 @@ def subject(T: np.ndarray) -> Subject:
         return TrueJoint(j.child, j.parent, j.type, back[:3, :3] @ j.origin + back[:3, 3], axis, limits)
 
     s = ASSET.segmentation
-    truth = Truth(
+    truth = GroundTruth(
         "cabinet", Path("mesh.glb"), tuple(Part(p.name, "part") for p in s.parts), s.face_part, (*map(one, ASSET.joints),)
     )
-    return Subject(truth, ASSET.mesh, s.face_part, T)
+    return EvalSample(truth, ASSET.mesh, s.face_part, T)
 
 
 @pytest.mark.parametrize("T", [np.eye(4), TURNED], ids=["same frame", "other frame and unit"])

@@ -7,14 +7,14 @@ import numpy as np
 import pytest
 from assets import cabinet
 
+from anymesh.evaluation.ground_truth import EvalSample, GroundTruth, TrueJoint
 from anymesh.evaluation.score import ObjectScore, failed, score
-from anymesh.evaluation.truth import Subject, TrueJoint, Truth
 from anymesh.types import Asset, Joint, JointType, Part, Segmentation
 
 ASSET = cabinet()
 
 
-def truth_of(asset: Asset, T_asset_source: np.ndarray) -> Truth:
+def truth_of(asset: Asset, T_asset_source: np.ndarray) -> GroundTruth:
     """The asset as the truth in the coordinates of a file that T takes to the asset frame."""
     T = np.linalg.inv(T_asset_source)
     scale = float(np.cbrt(np.linalg.det(T)))
@@ -27,13 +27,13 @@ def truth_of(asset: Asset, T_asset_source: np.ndarray) -> Truth:
         return TrueJoint(j.child, j.parent, j.type, T[:3, :3] @ j.origin + T[:3, 3], axis, limits)
 
     s = asset.segmentation
-    return Truth(asset.name, Path("mesh.glb"), s.parts, s.face_part, tuple(map(one, asset.joints)))
+    return GroundTruth(asset.name, Path("mesh.glb"), s.parts, s.face_part, tuple(map(one, asset.joints)))
 
 
 def scored(joints=ASSET.joints, segmentation=ASSET.segmentation, T=None, truth=None) -> ObjectScore:
     T = np.eye(4) if T is None else T
     truth = truth_of(ASSET, T) if truth is None else truth
-    return score(Subject(truth, ASSET.mesh, ASSET.segmentation.face_part, T), segmentation, tuple(joints))
+    return score(EvalSample(truth, ASSET.mesh, ASSET.segmentation.face_part, T), segmentation, tuple(joints))
 
 
 def changed(child: str, **changes) -> ObjectScore:

@@ -8,9 +8,9 @@ import pytest
 from assets import box, mesh_of
 
 from anymesh.errors import InputError
+from anymesh.evaluation.ground_truth import EvalSample, GroundTruth, TrueJoint
 from anymesh.evaluation.score import score
 from anymesh.evaluation.single_view import observation, observations, observed
-from anymesh.evaluation.truth import Subject, TrueJoint, Truth
 from anymesh.rendering.viewpoints import orbit_camera
 from anymesh.solving import solve
 from anymesh.types import JointType, Part
@@ -29,7 +29,7 @@ PIECES = {
 X, Y, Z = np.eye(3)
 
 
-def closet() -> Subject:
+def closet() -> EvalSample:
     """A case with a door, hinged at the right, and a box inside that turns on the door."""
     mesh, piece = mesh_of([p for part in PIECES.values() for p in part])
     labels = np.repeat(np.arange(3), [len(part) for part in PIECES.values()])[piece]
@@ -38,7 +38,7 @@ def closet() -> Subject:
         TrueJoint("hidden", "door", JointType.CONTINUOUS, np.array([0.35, 0.25, 0.3]), Z, None),
     )
     parts = tuple(Part(name, "part") for name in PIECES)
-    return Subject(Truth("closet", Path("mesh.glb"), parts, labels, joints), mesh, labels, np.eye(4))
+    return EvalSample(GroundTruth("closet", Path("mesh.glb"), parts, labels, joints), mesh, labels, np.eye(4))
 
 
 WHOLE = closet()

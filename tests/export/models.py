@@ -13,7 +13,7 @@ from scipy.spatial import ConvexHull
 from anymesh.export.inertia import link_inertia
 from anymesh.export.links import Link, split_links, with_legal_names
 from anymesh.export.meshes import write_meshes
-from anymesh.export.model import Base, Body, Driven, Exclusion, Model
+from anymesh.export.model import Base, Driven, Exclusion, ExportLink, Model
 from anymesh.export.settings import ExportConfig
 from anymesh.types import Asset, Box, Cylinder, Hull, Material, Part, Segmentation, Shape, Texture
 from anymesh.types.mesh import TEXTURE_SLOTS
@@ -62,7 +62,7 @@ def model_of(
     asset = with_legal_names(asset)
     links = split_links(asset)
     shapes = [shapes_of(link, i) for i, link in enumerate(links)] if like is None else [b.shapes for b in like.bodies]
-    bodies = tuple(Body(link, link_inertia(link.triangles, CONFIG), s) for link, s in zip(links, shapes, strict=True))
+    bodies = tuple(ExportLink(link, link_inertia(link.triangles, CONFIG), s) for link, s in zip(links, shapes, strict=True))
     return Model(asset, bodies, base, exclusions, driven)
 
 

@@ -6,7 +6,7 @@ import numpy as np
 from assets import mesh_of
 from scipy.spatial.transform import Rotation
 
-from anymesh.geometry.shape import FaceSet, mesh_surface
+from anymesh.geometry.triangle_set import TriangleSet, mesh_surface
 
 
 def move(seed: int, far: float = 3.0) -> np.ndarray:
@@ -21,7 +21,7 @@ def apply(T: np.ndarray, points: np.ndarray) -> np.ndarray:
     return points @ T[:3, :3].T + T[:3, 3]
 
 
-def shape_of(*pieces, T: np.ndarray | None = None) -> FaceSet:
+def shape_of(*pieces, T: np.ndarray | None = None) -> TriangleSet:
     """The shape of (vertices, faces) pieces, moved by T."""
     mesh, _ = mesh_of(pieces)
     return mesh_surface(mesh if T is None else mesh.transformed(T)).shape

@@ -12,7 +12,7 @@ from holopart_checkout import checkout
 from meshy_wire import MeshyServer, refuses, says
 
 from anymesh.errors import ModelError, OptionError
-from anymesh.models.holopart import Checkout, CrashError, Server, open_holopart
+from anymesh.models.holopart import Checkout, CrashError, PartServer, open_holopart
 from anymesh.postprocessing.accept import accept, accepted
 from anymesh.postprocessing.holopart import HoloPart, read_pieces
 from anymesh.postprocessing.scene_glb import scene_glb
@@ -150,7 +150,7 @@ def test_a_server_takes_and_gives_glb(loopback_only: None, monkeypatch: pytest.M
     running = service.start()
     monkeypatch.setenv("no_proxy", "*")
     found = open_holopart(service.url + "/complete", timeout=5.0)
-    assert isinstance(found, Server)
+    assert isinstance(found, PartServer)
     service.fails("create", lambda handler: says(handler, b"made of " + handler.content, kind="model/gltf-binary"))
     assert found.complete(b"glTF") == b"made of glTF"
     service.fails("create", refuses(500, "min(): Expected reduction dim 0"), refuses(503, "busy"))
@@ -160,7 +160,7 @@ def test_a_server_takes_and_gives_glb(loopback_only: None, monkeypatch: pytest.M
         found.complete(b"glTF")
     service.fails("create", lambda handler: service.over.wait(5))
     with pytest.raises(ModelError, match="no answer within"):
-        Server(service.url, 0.2).complete(b"glTF")
+        PartServer(service.url, 0.2).complete(b"glTF")
     service.over.set()
     running.shutdown()
     running.server_close()

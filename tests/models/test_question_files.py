@@ -15,9 +15,9 @@ from anymesh.cli import run
 from anymesh.config import Config, GroundingConfig, ViewsConfig
 from anymesh.errors import OpenQuestionError, OptionError
 from anymesh.evaluating import evaluate
+from anymesh.evaluation.ground_truth import example_truths
 from anymesh.evaluation.oracle import oracle
 from anymesh.evaluation.protocols import prepared
-from anymesh.evaluation.truth import example_truths
 from anymesh.models.question_files import find_questions
 from anymesh.models.replay import Replay
 from anymesh.reasoning.answer_json import answer_object

@@ -15,7 +15,7 @@ from anymesh.cli import run
 from anymesh.errors import OptionError
 from anymesh.models.address import parse_address
 from anymesh.models.connect import open_model
-from anymesh.models.servers import SERVERS, LocalModel, first_seeing, probe_servers
+from anymesh.models.servers import SERVERS, LocalModel, first_vision_model, probe_servers
 
 VARIABLES = [v for server in SERVERS.values() for v in (*server.variables, *server.keys)]
 
@@ -131,7 +131,7 @@ def test_auto_takes_nothing_that_costs(monkeypatch: pytest.MonkeyPatch) -> None:
     assert name == "geometry"
     assert "no local model" in told
     far = [f for f in probe_servers() if f.models is None]
-    assert first_seeing(far) is None
+    assert first_vision_model(far) is None
 
 
 def test_models_shows_which_keys_are_set_and_never_what_they_are(monkeypatch: pytest.MonkeyPatch, capsys) -> None:

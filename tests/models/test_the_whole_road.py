@@ -12,13 +12,13 @@ from wire import SECRET, Service, _openai, _openai_content
 from anymesh import answering
 from anymesh.cli import run
 from anymesh.config import Config, GroundingConfig, ViewsConfig
+from anymesh.evaluation.ground_truth import GroundTruth, example_truths
 from anymesh.evaluation.oracle import oracle
 from anymesh.evaluation.protocols import prepared
-from anymesh.evaluation.truth import Truth, example_truths
-from anymesh.evaluation.voice import Spoken
+from anymesh.evaluation.simulated_vlm import SimulatedVlm
 from anymesh.export.asset_json import schema
 from anymesh.loading import load_mesh, place_mesh
-from anymesh.solving import ArticulationSolver
+from anymesh.solving import Solver
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 NAME = "storage_box"
@@ -26,10 +26,10 @@ FEW = partial(Config, grounding=GroundingConfig(points=8_000), views=ViewsConfig
 Said = dict[str, tuple[str, str]]  # question -> its kind and the answer
 
 
-def perfect(truth: Truth) -> Said:
+def perfect(truth: GroundTruth) -> Said:
     """What a perfect model says to each question about an object."""
     placed = place_mesh(load_mesh(truth.mesh))
-    solver = ArticulationSolver(placed.mesh, FEW(), lambda instead: Spoken(oracle(prepared(truth)), instead))
+    solver = Solver(placed.mesh, FEW(), lambda instead: SimulatedVlm(oracle(prepared(truth)), instead))
     recognized = solver.recognize()
     segmented = solver.parts("auto", recognized.recognition)
     jointed = solver.joints(segmented.segmentation, recognized.recognition, grounded=True)

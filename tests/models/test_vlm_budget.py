@@ -9,8 +9,8 @@ from wire import a_request, png
 
 from anymesh.errors import BudgetError, ModelError, OptionError
 from anymesh.models.budget import Budgeted
-from anymesh.models.double import Scripted
-from anymesh.models.prices import LONG, PRICES, cost_of, most_input_tokens, most_picture_tokens
+from anymesh.models.prices import LONG, PRICES, cost_of, max_input_tokens, max_picture_tokens
+from anymesh.models.scripted import ScriptedModel
 from anymesh.models.vision import Reply, Request
 from anymesh.types import Picture
 
@@ -65,20 +65,20 @@ def test_another_model_has_no_known_price(name: str) -> None:
 
 
 def test_the_documented_examples_of_picture_tokens() -> None:
-    assert most_picture_tokens("openai", "gpt-4o", 1024, 1024) == 765  # 2 x 2 tiles
-    assert most_picture_tokens("openai", "gpt-4o", 2048, 4096) == 1105  # 2 x 3 tiles
-    assert most_picture_tokens("openai", "gpt-4o-mini", 1024, 1024) == 25501
-    assert most_picture_tokens("openai", "gpt-4.1-mini", 1024, 1024) >= 1024 * 1.62
-    assert most_picture_tokens("anthropic", "claude-sonnet-4-5", 1000, 1000) >= 1334
-    assert most_picture_tokens("google", "gemini-2.5-flash", 960, 540) >= 6 * 258
-    assert most_picture_tokens("google", "gemini-3.8-flash", 300, 300) >= 1120
+    assert max_picture_tokens("openai", "gpt-4o", 1024, 1024) == 765  # 2 x 2 tiles
+    assert max_picture_tokens("openai", "gpt-4o", 2048, 4096) == 1105  # 2 x 3 tiles
+    assert max_picture_tokens("openai", "gpt-4o-mini", 1024, 1024) == 25501
+    assert max_picture_tokens("openai", "gpt-4.1-mini", 1024, 1024) >= 1024 * 1.62
+    assert max_picture_tokens("anthropic", "claude-sonnet-4-5", 1000, 1000) >= 1334
+    assert max_picture_tokens("google", "gemini-2.5-flash", 960, 540) >= 6 * 258
+    assert max_picture_tokens("google", "gemini-3.8-flash", 300, 300) >= 1120
 
 
 def test_every_picture_and_word_counts_in_the_upper_bound() -> None:
     name = "anthropic:claude-sonnet-4-5"
-    few = most_input_tokens(name, a_request())
-    assert most_input_tokens(name, a_request(text="word " * 1000)) > few + 1000
-    assert most_input_tokens(name, a_request(pictures=(Picture(png(750, 1000), ""),) * 3)) > few + 2000
+    few = max_input_tokens(name, a_request())
+    assert max_input_tokens(name, a_request(text="word " * 1000)) > few + 1000
+    assert max_input_tokens(name, a_request(pictures=(Picture(png(750, 1000), ""),) * 3)) > few + 2000
 
 
 def test_fills_in_the_cost_and_adds_up() -> None:
@@ -88,7 +88,7 @@ def test_fills_in_the_cost_and_adds_up() -> None:
 
 
 def test_stops_before_one_call_too_many() -> None:
-    inner = Scripted(["a", "b", "c"])
+    inner = ScriptedModel(["a", "b", "c"])
     model = Budgeted(inner, max_calls=2)
     model.ask(a_request())
     model.ask(a_request())
@@ -99,15 +99,15 @@ def test_stops_before_one_call_too_many() -> None:
 
 def test_no_call_at_all_may_be_wanted() -> None:
     with pytest.raises(BudgetError):
-        Budgeted(Scripted(["a"]), max_calls=0).ask(a_request())
+        Budgeted(ScriptedModel(["a"]), max_calls=0).ask(a_request())
 
 
 def test_stops_before_a_call_that_could_pass_the_cost() -> None:
     request = a_request(max_tokens=1000)
-    most = cost_of("openai:gpt-4o", most_input_tokens("openai:gpt-4o", request), 1000)
+    most = cost_of("openai:gpt-4o", max_input_tokens("openai:gpt-4o", request), 1000)
     assert most is not None
     assert most > 0.01  # the tokens out alone
-    inner = Scripted(["a", "b"], name="openai:gpt-4o")
+    inner = ScriptedModel(["a", "b"], name="openai:gpt-4o")
     with pytest.raises(BudgetError, match=r"may cost up to 0\.0\d+ USD, which could pass --max-cost .*; spent so far: 0 calls"):
         Budgeted(inner, max_cost=0.99 * most).ask(request)
     assert not inner.requests
@@ -116,7 +116,7 @@ def test_stops_before_a_call_that_could_pass_the_cost() -> None:
 
 def test_goes_on_until_the_next_call_could_pass_the_cost_and_never_passes_it() -> None:
     request = a_request(max_tokens=1000)
-    most = cost_of("openai:gpt-4o", most_input_tokens("openai:gpt-4o", request), 1000)
+    most = cost_of("openai:gpt-4o", max_input_tokens("openai:gpt-4o", request), 1000)
     assert most is not None
     model = Budgeted(Billed(1000, 900), max_cost=0.1)
     for _ in range(8):
@@ -127,7 +127,7 @@ def test_goes_on_until_the_next_call_could_pass_the_cost_and_never_passes_it() -
 
 
 def test_a_call_that_failed_takes_nothing() -> None:
-    model = Budgeted(Scripted([ModelError("no"), "a"]), max_calls=1)
+    model = Budgeted(ScriptedModel([ModelError("no"), "a"]), max_calls=1)
     with pytest.raises(ModelError, match="no"):
         model.ask(a_request())
     assert (model.calls, model.cost) == (0, 0)
@@ -142,7 +142,7 @@ def test_threads_do_not_pass_the_limit_together() -> None:
         done.wait()
         return "a"
 
-    model = Budgeted(Scripted(slow), max_calls=2)
+    model = Budgeted(ScriptedModel(slow), max_calls=2)
     threads = [threading.Thread(target=model.ask, args=(a_request(),)) for _ in range(2)]
     for thread in threads:
         thread.start()
@@ -157,7 +157,7 @@ def test_threads_do_not_pass_the_limit_together() -> None:
 
 def test_a_cost_limit_needs_a_known_price() -> None:
     with pytest.raises(OptionError, match="use --max-calls"):
-        Budgeted(Scripted([], name="openai-compatible:http://localhost/v1#m"), max_cost=1.0)
+        Budgeted(ScriptedModel([], name="openai-compatible:http://localhost/v1#m"), max_cost=1.0)
 
 
 @pytest.mark.parametrize("limits", [{"max_calls": -1}, {"max_cost": -0.5}, {"max_cost": float("nan")}])
@@ -167,6 +167,6 @@ def test_limits_that_make_no_sense(limits: dict) -> None:
 
 
 def test_an_unknown_price_leaves_the_cost_unknown() -> None:
-    model = Budgeted(Scripted(["a"]))
+    model = Budgeted(ScriptedModel(["a"]))
     assert model.ask(a_request()).cost is None
     assert (model.calls, model.cost) == (1, 0)

@@ -11,7 +11,7 @@ from wire import ANSWER, SCHEMA, a_request, png
 
 from anymesh.models.budget import Budgeted
 from anymesh.models.cache import Cached, cache_folder, request_key
-from anymesh.models.double import Scripted
+from anymesh.models.scripted import ScriptedModel
 from anymesh.models.vision import Request
 from anymesh.types import Picture
 
@@ -19,7 +19,7 @@ FIRST, SECOND = a_request().pictures
 
 
 def test_a_hit_costs_nothing_and_counts_nothing(tmp_path: Path) -> None:
-    inner = Scripted([ANSWER], name="openai:gpt-4o")
+    inner = ScriptedModel([ANSWER], name="openai:gpt-4o")
     paid = Budgeted(inner, max_calls=1)
     model = Cached(paid, tmp_path)
     fresh, kept, again = (model.ask(a_request()) for _ in range(3))
@@ -33,8 +33,8 @@ def test_a_hit_costs_nothing_and_counts_nothing(tmp_path: Path) -> None:
 
 
 def test_another_process_finds_it(tmp_path: Path) -> None:
-    Cached(Scripted([ANSWER]), tmp_path).ask(a_request())
-    assert Cached(Scripted([]), tmp_path).ask(a_request()).cached
+    Cached(ScriptedModel([ANSWER]), tmp_path).ask(a_request())
+    assert Cached(ScriptedModel([]), tmp_path).ask(a_request()).cached
 
 
 @pytest.mark.parametrize(
@@ -71,23 +71,23 @@ def test_the_key_is_the_same_in_every_version() -> None:
 
 @pytest.mark.parametrize("content", [b"", b"{", b"[]", b"\xff\x00", b'{"answer": 3}', b"null"])
 def test_a_spoiled_file_is_as_good_as_none_and_is_mended(content: bytes, tmp_path: Path) -> None:
-    Cached(Scripted([ANSWER]), tmp_path).ask(a_request())
+    Cached(ScriptedModel([ANSWER]), tmp_path).ask(a_request())
     [path] = tmp_path.iterdir()
     path.write_bytes(content)
-    assert not Cached(Scripted([ANSWER]), tmp_path).ask(a_request()).cached
-    assert Cached(Scripted([]), tmp_path).ask(a_request()).cached
+    assert not Cached(ScriptedModel([ANSWER]), tmp_path).ask(a_request()).cached
+    assert Cached(ScriptedModel([]), tmp_path).ask(a_request()).cached
 
 
 def test_an_answer_under_a_wrong_name_is_not_used(tmp_path: Path) -> None:
-    Cached(Scripted([ANSWER]), tmp_path).ask(a_request(text="another question"))
+    Cached(ScriptedModel([ANSWER]), tmp_path).ask(a_request(text="another question"))
     [path] = tmp_path.iterdir()
     path.rename(tmp_path / f"{request_key('scripted', a_request())}.json")
-    assert Cached(Scripted(['{"new": 1}']), tmp_path).ask(a_request()).text == '{"new": 1}'
+    assert Cached(ScriptedModel(['{"new": 1}']), tmp_path).ask(a_request()).text == '{"new": 1}'
 
 
 @pytest.mark.parametrize("text", ["", " ", "I cannot help with that.", '{"hinge": 3, "wh', "[3]", "3"])
 def test_an_empty_refused_or_truncated_answer_is_not_kept(text: str, tmp_path: Path) -> None:
-    model = Cached(Scripted([text, ANSWER]), tmp_path)
+    model = Cached(ScriptedModel([text, ANSWER]), tmp_path)
     assert model.ask(a_request()).text == text
     assert list(tmp_path.iterdir()) == []
     assert model.ask(a_request()).text == ANSWER
@@ -95,12 +95,12 @@ def test_an_empty_refused_or_truncated_answer_is_not_kept(text: str, tmp_path: P
 
 def test_a_folder_that_cannot_be_written_loses_no_answer(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
     (tmp_path / "file").write_text("in the way")
-    assert Cached(Scripted([ANSWER]), tmp_path / "file" / "cache").ask(a_request()).text == ANSWER
+    assert Cached(ScriptedModel([ANSWER]), tmp_path / "file" / "cache").ask(a_request()).text == ANSWER
     assert "is not kept" in caplog.text
 
 
 def test_the_record_is_plain_and_holds_no_picture(tmp_path: Path) -> None:
-    Cached(Scripted([ANSWER]), tmp_path).ask(a_request())
+    Cached(ScriptedModel([ANSWER]), tmp_path).ask(a_request())
     [path] = tmp_path.iterdir()
     assert path.stem == request_key("scripted", a_request())
     assert set(json.loads(path.read_text())) == {"kind", "key", "model", "answer", "input_tokens", "output_tokens"}
@@ -108,7 +108,7 @@ def test_the_record_is_plain_and_holds_no_picture(tmp_path: Path) -> None:
 
 def _write_many(folder: Path) -> None:
     for number in range(30):
-        Cached(Scripted([ANSWER]), folder).ask(a_request(text=str(number % 3)))
+        Cached(ScriptedModel([ANSWER]), folder).ask(a_request(text=str(number % 3)))
 
 
 def test_processes_share_a_folder(tmp_path: Path) -> None:
@@ -120,7 +120,7 @@ def test_processes_share_a_folder(tmp_path: Path) -> None:
         worker.join(20)
         assert worker.exitcode == 0
     assert len(list(tmp_path.iterdir())) == 3  # and nothing half written
-    assert all(Cached(Scripted([]), tmp_path).ask(a_request(text=str(k))).cached for k in range(3))
+    assert all(Cached(ScriptedModel([]), tmp_path).ask(a_request(text=str(k))).cached for k in range(3))
 
 
 @pytest.mark.parametrize(

@@ -14,7 +14,7 @@ from PIL import Image
 from wire import ANSWER, ANTHROPIC, COMPATIBLE, GOOGLE, OPENAI, SCHEMA, SECRET, Dialect, Service, a_request, png
 
 from anymesh.errors import MissingExtraError, ModelError, OptionError
-from anymesh.models.limits import LIMITS, Limits, fit
+from anymesh.models.limits import LIMITS, RequestLimits, fit
 from anymesh.models.pydantic_ai_ import connect
 from anymesh.models.vision import VisionModel
 from anymesh.types import Picture
@@ -269,7 +269,7 @@ def test_a_picture_that_packs_worse_when_smaller_is_made_smaller_still(monkeypat
     bits = np.random.default_rng(0).integers(0, 2, (300, 300)).astype(bool)  # one bit a pixel, greys once it is shrunk
     buffer = io.BytesIO()
     Image.fromarray(bits).save(buffer, "PNG")
-    monkeypatch.setitem(LIMITS, "anthropic", Limits(picture=10_000, side=2000, pictures=9, request=10**6))
+    monkeypatch.setitem(LIMITS, "anthropic", RequestLimits(picture=10_000, side=2000, pictures=9, request=10**6))
     [small] = fit(a_request(pictures=(Picture(buffer.getvalue(), "bits"),)), "anthropic")
     assert len(small.png) * 4 / 3 <= 10_000
     assert small.size[0] == small.size[1] > 20
@@ -277,6 +277,6 @@ def test_a_picture_that_packs_worse_when_smaller_is_made_smaller_still(monkeypat
 
 
 def test_a_request_of_too_many_bytes_is_not_sent(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(LIMITS, "google", Limits(picture=10**6, side=3000, pictures=9, request=10_000))
+    monkeypatch.setitem(LIMITS, "google", RequestLimits(picture=10**6, side=3000, pictures=9, request=10_000))
     with pytest.raises(ModelError, match=r"hinge: a request of 0\.\d MB, google takes"):
         fit(a_request(text="x" * 100_000), "google")

@@ -9,7 +9,7 @@ from wire import ANSWER, COMPATIBLE, OPENAI, SECRET, Dialect, Service, a_request
 
 from anymesh.errors import BudgetError, ModelError, OptionError
 from anymesh.models.connect import open_model
-from anymesh.models.double import Scripted
+from anymesh.models.scripted import ScriptedModel
 from anymesh.models.transcript import write_transcript
 from anymesh.models.vision import VisionModel
 
@@ -71,7 +71,7 @@ def test_no_key_reaches_any_file_or_log(
 
 
 def test_a_recording_is_opened_by_its_folder(tmp_path: Path, loopback_only: None) -> None:
-    write_transcript([exchange(a_request(), Scripted([ANSWER], name="openai:gpt-4o").ask(a_request()))], tmp_path)
+    write_transcript([exchange(a_request(), ScriptedModel([ANSWER], name="openai:gpt-4o").ask(a_request()))], tmp_path)
     model = open_model(f"replay:{tmp_path}")
     assert model.name == "openai:gpt-4o"
     assert model.ask(a_request()).text == ANSWER
@@ -97,8 +97,8 @@ def test_every_layer_is_a_vision_model(opened: Callable[..., VisionModel], tmp_p
 
 
 def test_the_double_answers_by_a_rule_and_remembers() -> None:
-    model = Scripted(lambda request: {"kind": request.kind})
+    model = ScriptedModel(lambda request: {"kind": request.kind})
     assert model.ask(a_request()).text == '{"kind": "hinge"}'
     assert [request.kind for request in model.requests] == ["hinge"]
     with pytest.raises(ModelError, match="no answer to question 1"):
-        Scripted([]).ask(a_request())
+        ScriptedModel([]).ask(a_request())

@@ -4,8 +4,8 @@ import pytest
 from wire import a_request
 
 from anymesh.errors import ModelError, OptionError
-from anymesh.models.double import Scripted
 from anymesh.models.retry import Retrying, TransientError
+from anymesh.models.scripted import ScriptedModel
 
 
 def later(after: float | None = None) -> TransientError:
@@ -14,7 +14,7 @@ def later(after: float | None = None) -> TransientError:
 
 def test_waits_double_up_to_the_most_and_then_it_gives_up() -> None:
     waits: list[float] = []
-    model = Scripted([later() for _ in range(5)])
+    model = ScriptedModel([later() for _ in range(5)])
     with pytest.raises(ModelError, match="busy; gave up after 5 attempts") as caught:
         Retrying(model, first=2.0, most=10.0, sleep=waits.append, chance=lambda: 0.0).ask(a_request())
     assert waits == [2, 4, 8, 10]
@@ -26,30 +26,30 @@ def test_waits_double_up_to_the_most_and_then_it_gives_up() -> None:
 def test_chance_takes_off_up_to_a_half() -> None:
     waits: list[float] = []
     chances = iter([0.0, 0.5, 1.0])
-    Retrying(Scripted([later(), later(), later(), "x"]), sleep=waits.append, chance=lambda: next(chances)).ask(a_request())
+    Retrying(ScriptedModel([later(), later(), later(), "x"]), sleep=waits.append, chance=lambda: next(chances)).ask(a_request())
     assert waits == [1, 1.5, 2]
 
 
 def test_waits_as_long_as_it_is_asked_to_but_not_for_ever() -> None:
     waits: list[float] = []
-    assert Retrying(Scripted([later(42.0), "x"]), sleep=waits.append).ask(a_request()).text == "x"
+    assert Retrying(ScriptedModel([later(42.0), "x"]), sleep=waits.append).ask(a_request()).text == "x"
     assert waits == [42]
     with pytest.raises(ModelError, match="asks to wait 3600 s"):
-        Retrying(Scripted([later(3600.0), "x"]), sleep=waits.append).ask(a_request())
+        Retrying(ScriptedModel([later(3600.0), "x"]), sleep=waits.append).ask(a_request())
     assert waits == [42]
 
 
 def test_what_does_not_pass_is_not_tried_again() -> None:
-    model = Scripted([ModelError("no"), "x"])
+    model = ScriptedModel([ModelError("no"), "x"])
     with pytest.raises(ModelError, match=r"^no$"):
         Retrying(model, sleep=lambda _: pytest.fail("waited")).ask(a_request())
     assert len(model.requests) == 1
 
 
 def test_the_last_attempt_may_succeed() -> None:
-    assert Retrying(Scripted([later(), "x"]), attempts=2, sleep=lambda _: None).ask(a_request()).text == "x"
+    assert Retrying(ScriptedModel([later(), "x"]), attempts=2, sleep=lambda _: None).ask(a_request()).text == "x"
 
 
 def test_attempts_must_be_one_or_more() -> None:
     with pytest.raises(OptionError, match="found 0"):
-        Retrying(Scripted([]), attempts=0)
+        Retrying(ScriptedModel([]), attempts=0)

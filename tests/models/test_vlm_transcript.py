@@ -10,15 +10,15 @@ from wire import ANSWER, a_request, exchange, png
 
 from anymesh.errors import ModelError, OptionError
 from anymesh.models.cache import Cached
-from anymesh.models.double import Scripted
 from anymesh.models.replay import Replay
+from anymesh.models.scripted import ScriptedModel
 from anymesh.models.transcript import remove_transcript, write_transcript
 from anymesh.models.vision import Reply, Request
 from anymesh.types import Exchange, Picture
 
 
 def asked(*questions: Request, answers: list[str], name: str = "openai:gpt-4o") -> list[Exchange]:
-    model = Scripted(answers, name=name)
+    model = ScriptedModel(answers, name=name)
     return [exchange(question, model.ask(question)) for question in questions]
 
 
@@ -59,7 +59,7 @@ def test_replay_gives_the_same_answers(tmp_path: Path) -> None:
 
 
 def test_a_cache_can_be_replayed_too(tmp_path: Path) -> None:
-    Cached(Scripted([ANSWER], name="google:gemini-2.5-flash"), tmp_path).ask(a_request())
+    Cached(ScriptedModel([ANSWER], name="google:gemini-2.5-flash"), tmp_path).ask(a_request())
     model = Replay(tmp_path)
     assert model.name == "google:gemini-2.5-flash"
     assert model.ask(a_request()).text == ANSWER

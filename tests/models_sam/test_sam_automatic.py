@@ -104,7 +104,7 @@ def test_small_regions_are_cleaned_when_asked():
 
 def test_thresholds_of_zero_keep_all():
     image = disc_picture()
-    settings = AutomaticMasks(points_per_side=4, least_score=0.0, least_stability=0.0, nms_iou=1.0)
+    settings = AutomaticMasks(points_per_side=4, min_score=0.0, min_stability=0.0, nms_iou=1.0)
     assert len(automatic_masks(Discs(), image, settings=settings)) == 4 * 4 * 3
 
 

@@ -47,7 +47,7 @@ def test_a_disc_is_where_the_point_is(kind, batch, tmp_path):
 @pytest.mark.parametrize("kind", KINDS)
 def test_automatic_masks_end_to_end(kind, tmp_path):
     model = load_sam(f"sam:{pair(tmp_path, kind)[0].parent}")
-    settings = AutomaticMasks(points_per_side=5, least_stability=0.5)
+    settings = AutomaticMasks(points_per_side=5, min_stability=0.5)
     found = automatic_masks(model, picture(), settings=settings)
     again = automatic_masks(model, picture(), settings=settings)
     assert len(found) >= 20

@@ -89,7 +89,7 @@ def test_a_saved_model_end_to_end(save, padded, tmp_path):
         direct = whole(pixel_values=torch.from_numpy(model.frame.normalized(picture())), input_points=at)
     np.testing.assert_allclose(logits, direct.pred_masks[0].numpy(), atol=1e-5)
     np.testing.assert_allclose(scores, direct.iou_scores[0].numpy(), atol=1e-5)
-    settings = AutomaticMasks(points_per_side=4, least_score=0.0, least_stability=0.0, nms_iou=0.9)
+    settings = AutomaticMasks(points_per_side=4, min_score=0.0, min_stability=0.0, nms_iou=0.9)
     found = automatic_masks(model, picture(), settings=settings)
     assert found
     assert all(p.mask.shape == (HEIGHT, WIDTH) for p in found)

@@ -10,8 +10,8 @@ from asked import ASKED, picks
 from anymesh.errors import BudgetError, ModelError
 from anymesh.models.budget import Budgeted
 from anymesh.models.cache import Cached, request_key
-from anymesh.models.double import Scripted
 from anymesh.models.patience import Patience
+from anymesh.models.scripted import ScriptedModel
 from anymesh.reasoning.asking import VisualAnswerer
 from anymesh.reasoning.vlm import SYSTEM, VlmAnswerer
 
@@ -58,8 +58,8 @@ class Other:
         return (2,)
 
 
-def asked(*answers) -> tuple[Any, VlmAnswerer, Scripted, Other]:
-    model, other = Scripted(answers, name="openai:gpt-4o"), Other()
+def asked(*answers) -> tuple[Any, VlmAnswerer, ScriptedModel, Other]:
+    model, other = ScriptedModel(answers, name="openai:gpt-4o"), Other()
     seer = VlmAnswerer(model, other)
     return seer.ask(ARROWS), seer, model, other
 
@@ -105,7 +105,7 @@ def test_after_two_bad_answers_another_answers_that_question_and_it_is_told(faul
 
 
 def test_only_the_question_that_went_wrong_is_answered_by_another() -> None:
-    model, other = Scripted([GOOD, "", "", GOOD]), Other()
+    model, other = ScriptedModel([GOOD, "", "", GOOD]), Other()
     seer = VlmAnswerer(model, other)
     assert [seer.ask(ARROWS) for _ in range(3)] == [(3,), (2,), (3,)]
     assert (len(other.asked), len(seer.warnings), len(seer.exchanges)) == (1, 1, 4)
@@ -120,7 +120,7 @@ def test_exchanges_carry_the_keys_of_what_was_asked_and_no_two_are_alike() -> No
 
 def test_what_is_kept_of_a_bad_answer_does_not_answer_the_second_time(tmp_path: Path) -> None:
     bad = picks("arrow", 9)  # an object, so that the cache keeps it
-    model = Scripted([bad, GOOD])
+    model = ScriptedModel([bad, GOOD])
     for _ in range(2):  # the second round is all from the cache
         seer = VlmAnswerer(Cached(model, tmp_path), Other())
         assert (seer.ask(ARROWS), seer.warnings) == ((3,), ())
@@ -137,13 +137,13 @@ def test_no_reply_is_no_bad_answer(before: list[str]) -> None:
 def test_a_spent_budget_is_no_bad_answer() -> None:
     other = Other()
     with pytest.raises(BudgetError, match="--max-calls 1"):
-        VlmAnswerer(Budgeted(Scripted(["", GOOD]), max_calls=1), other).ask(ARROWS)
+        VlmAnswerer(Budgeted(ScriptedModel(["", GOOD]), max_calls=1), other).ask(ARROWS)
     assert other.asked == []
 
 
 def test_a_model_is_given_up_after_three_bad_answers_in_a_row_and_that_is_said_once() -> None:
     patience, other = Patience(), Other()
-    model = Scripted(["no", json.dumps(GOOD), "no", "no", "no", json.dumps(GOOD)], name="openai:gpt-4o")
+    model = ScriptedModel(["no", json.dumps(GOOD), "no", "no", "no", json.dumps(GOOD)], name="openai:gpt-4o")
     first, second = (VlmAnswerer(model, other, patience) for _ in range(2))  # of two stages of one run
     assert first.ask(ARROWS) == (3,)
     assert first.ask(ARROWS) == (2,)  # two bad answers

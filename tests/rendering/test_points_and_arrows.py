@@ -5,7 +5,7 @@ import pytest
 from assets import box, mesh_of
 
 from anymesh.config import ViewsConfig
-from anymesh.rendering.arrows import distinctness, draw_arrows, most_distinct_view
+from anymesh.rendering.arrows import clearest_view, distinctness, draw_arrows
 from anymesh.rendering.paint import mark_color
 from anymesh.rendering.points import DOT, draw_points, labels_apart
 from anymesh.rendering.raycast_ import RayScene
@@ -64,7 +64,7 @@ def frontal(azimuth: float, part_side: float):
 @pytest.mark.parametrize("azimuth", [0, 90, 180, 270])
 def test_the_chosen_view_sees_the_plane_of_the_arrows_frontally(azimuth):
     found, center, directions, number = frontal(azimuth, 1)
-    best = most_distinct_view(found, center, directions, number, 1)
+    best = clearest_view(found, center, directions, number, 1)
     assert best == azimuth // 45
     # the opposite view has the arrows as distinct, but the part is hidden there
     behind = distinctness(found[(best + 4) % 8].camera, center, directions)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from assets import QUAD_UV, box, checker, mesh_of
 
-from anymesh.rendering.drawing import BRIGHTNESS, draw, ground, light_on, look_of_faces, look_of_materials, subject_of
+from anymesh.rendering.drawing import BRIGHTNESS, draw, face_colors, ground, light_on, material_colors, render_target
 from anymesh.rendering.materials import texels_per_pixel
 from anymesh.rendering.outlines import stroke
 from anymesh.rendering.raycast_ import RayScene
@@ -22,12 +22,12 @@ WHOLE = Window(0, 0, SIZE, SIZE)
 
 
 def samples_of(mesh: Mesh, camera: Camera = CAMERA):
-    return sample(subject_of(mesh, RayScene(mesh.vertices, mesh.faces), np.zeros(len(mesh.faces), int)), camera, WHOLE)
+    return sample(render_target(mesh, RayScene(mesh.vertices, mesh.faces), np.zeros(len(mesh.faces), int)), camera, WHOLE)
 
 
 def picture(mesh: Mesh) -> np.ndarray:
     samples = samples_of(mesh)
-    return draw(samples, look_of_materials(mesh, samples), light_on(samples), ground(SIZE, SIZE))
+    return draw(samples, material_colors(mesh, samples), light_on(samples), ground(SIZE, SIZE))
 
 
 def painted(pieces, grey: float) -> Mesh:
@@ -145,9 +145,9 @@ def test_faces_of_two_colours_meet_in_a_smooth_edge():
     mesh = painted([box((-0.5, 0, -0.5), (0.5, 0.1, 0.5))], 0.5)
     camera = Camera.looking_at(np.array([0.0, -3, 0]), np.zeros(3), 0.5, SIZE, SIZE)
     colors = np.tile(np.array([[200, 60, 60], [60, 60, 200]], np.uint8), (6, 1))
-    subject = subject_of(mesh, RayScene(mesh.vertices, mesh.faces), np.arange(12))
+    subject = render_target(mesh, RayScene(mesh.vertices, mesh.faces), np.arange(12))
     samples = sample(subject, camera, WHOLE)
-    drawn = draw(samples, look_of_faces(colors, samples), light_on(samples), ground(SIZE, SIZE))
+    drawn = draw(samples, face_colors(colors, samples), light_on(samples), ground(SIZE, SIZE))
     inner = drawn[SIZE // 2 - 20 : SIZE // 2 + 20, SIZE // 2 - 20 : SIZE // 2 + 20].reshape(-1, 3)
     assert len(np.unique(inner, axis=0)) > 2
     assert len(samples.steps.pairs[samples.steps.crease > 0]) == 0
@@ -193,7 +193,7 @@ def test_a_fine_texture_is_averaged_to_the_pixels(texels):
     samples = samples_of(mesh, camera)
     found = texels_per_pixel(mesh, samples.hits, samples.pairs_beside())
     assert found == {0: max(1, round(texels / SIZE))}
-    assert (np.ptp(look_of_materials(mesh, samples)[: len(samples.plain)], axis=0).max() > 100) == (texels < SIZE)
+    assert (np.ptp(material_colors(mesh, samples)[: len(samples.plain)], axis=0).max() > 100) == (texels < SIZE)
 
 
 def test_where_strokes_meet_the_strongest_counts():

@@ -6,20 +6,20 @@ from assets import box, mesh_of
 
 from anymesh.config import Config, SegmentationConfig
 from anymesh.errors import OptionError
-from anymesh.geometry.pieces import object_shape
+from anymesh.geometry.patches import object_shape
 from anymesh.segmentation import segment
 from anymesh.segmentation.contacts import coplanar, find_contacts
 from anymesh.segmentation.part_assignment import MIN_SCORE
 from anymesh.segmentation.part_tree import Overlap, PartTree
-from anymesh.segmentation.units import RigidGroups, with_supported
-from anymesh.solving import ArticulationSolver
+from anymesh.segmentation.rigid_groups import RigidGroups, with_supported
+from anymesh.solving import Solver
 from anymesh.types import Segmentation
 
 BODY = box((0, 0.02, 0), (1, 0.5, 1))
 
 
 def parts(pieces, **settings) -> Segmentation:
-    return ArticulationSolver(mesh_of(pieces)[0], Config(segmentation=SegmentationConfig(**settings))).parts().segmentation
+    return Solver(mesh_of(pieces)[0], Config(segmentation=SegmentationConfig(**settings))).parts().segmentation
 
 
 @pytest.mark.parametrize(("width", "joined"), [(0.4, False), (0.12, True)])

@@ -8,9 +8,9 @@ import trimesh
 from assets import box, mesh_of
 
 from anymesh.config import GroundingConfig
+from anymesh.evaluation.ground_truth import GroundTruth, example_truths
 from anymesh.evaluation.matching import match_parts, part_ious
-from anymesh.evaluation.truth import Truth, example_truths
-from anymesh.geometry.pieces import object_shape
+from anymesh.geometry.patches import object_shape
 from anymesh.loading import load_mesh, place_mesh
 from anymesh.rendering.render import View, render
 from anymesh.segmentation.cloud import Cloud, sample_cloud
@@ -117,7 +117,7 @@ def test_parts_without_faces_are_left_out_and_a_base_is_found() -> None:
 TRUTHS = {t.name: t for t in example_truths(Path(__file__).parents[2] / "examples")}
 
 
-def grounded(truth: Truth, exact: bool) -> tuple[float, float]:
+def grounded(truth: GroundTruth, exact: bool) -> tuple[float, float]:
     """Mean IoU of the movable parts and IoU of the base when a perfect labeller names the regions."""
     mesh = place_mesh(load_mesh(truth.mesh)).mesh
     whole = object_shape(mesh)
@@ -137,7 +137,7 @@ def grounded(truth: Truth, exact: bool) -> tuple[float, float]:
     return sum(iou for _, _, iou in match_parts(ious)) / (len(truth.parts) - 1), float(ious[0, 0])
 
 
-def by_masks(truth: Truth, marks: Marks, cloud: Cloud, views: list[View]) -> Instances:
+def by_masks(truth: GroundTruth, marks: Marks, cloud: Cloud, views: list[View]) -> Instances:
     """What PartSlip++ makes of the regions when views need not number parts alike."""
     rng = np.random.default_rng(0)
     counts = []

@@ -6,7 +6,7 @@ from assets import box, mesh_of
 from rows import counts_of, row_cloud
 
 from anymesh.config import GroundingConfig
-from anymesh.geometry.pieces import object_shape
+from anymesh.geometry.patches import object_shape
 from anymesh.reasoning.grounding import MarkedPart
 from anymesh.rendering.render import render
 from anymesh.segmentation.cloud import sample_cloud

@@ -8,14 +8,14 @@ import pytest
 
 from anymesh import solving
 from anymesh.config import Config, GroundingConfig, ViewsConfig
+from anymesh.evaluation.ground_truth import GroundTruth, example_truths
 from anymesh.evaluation.matching import match_parts, part_ious
 from anymesh.evaluation.oracle import oracle
 from anymesh.evaluation.protocols import prepared
-from anymesh.evaluation.truth import Truth, example_truths
 from anymesh.loading import load_mesh, place_mesh
 from anymesh.rendering.viewpoints import part_pixels
 from anymesh.segmentation import grounded
-from anymesh.solving import ArticulationSolver
+from anymesh.solving import Solver
 from anymesh.stage_results import SegmentationResult
 from anymesh.types import Mesh, Segmentation
 from anymesh.types.recognition import Recognition, RecognizedLabel
@@ -24,16 +24,14 @@ TRUTHS = {t.name: t for t in example_truths(Path(__file__).parents[2] / "example
 FEW, VIEWS = GroundingConfig(points=20_000), ViewsConfig(size=320)
 
 
-def found_in(name: str, proposer: str = "exact") -> tuple[Truth, Mesh, SegmentationResult]:
+def found_in(name: str, proposer: str = "exact") -> tuple[GroundTruth, Mesh, SegmentationResult]:
     truth = TRUTHS[name]
     placed = place_mesh(load_mesh(truth.mesh))
-    solver = ArticulationSolver(
-        placed.mesh, Config(grounding=FEW, views=VIEWS, proposer=proposer), lambda _: oracle(prepared(truth))
-    )
+    solver = Solver(placed.mesh, Config(grounding=FEW, views=VIEWS, proposer=proposer), lambda _: oracle(prepared(truth)))
     return truth, placed.mesh, solver.parts("auto", solver.recognize().recognition)
 
 
-def ious(truth: Truth, mesh: Mesh, found: Segmentation) -> dict[str, float]:
+def ious(truth: GroundTruth, mesh: Mesh, found: Segmentation) -> dict[str, float]:
     pairs = match_parts(part_ious(found.face_part, truth.labels, mesh.face_areas))
     return {truth.parts[t].name: iou for _, t, iou in pairs}
 
@@ -50,7 +48,7 @@ def test_marks_become_parts_those_inside_too() -> None:
 def test_geometry_finds_what_is_inside_where_nobody_was_asked_for_it() -> None:
     truth = TRUTHS["microwave"]
     placed = place_mesh(load_mesh(truth.mesh))
-    solver = ArticulationSolver(placed.mesh, Config(grounding=FEW, views=VIEWS), lambda _: oracle(prepared(truth)))
+    solver = Solver(placed.mesh, Config(grounding=FEW, views=VIEWS), lambda _: oracle(prepared(truth)))
     asked = [label for label in solver.recognize().recognition.labels if label.label != "wheel"]
     found = solver.parts("auto", Recognition("microwave", None, tuple(asked)))
     assert "wheel" in ious(truth, placed.mesh, found.segmentation) or len(found.segmentation.parts) == len(truth.parts)
@@ -95,7 +93,7 @@ def test_masks_of_a_model_become_parts_by_partslip(name: str, monkeypatch: pytes
 def test_what_is_expected_and_not_there_is_told() -> None:
     truth = TRUTHS["tilted_drawer"]
     placed = place_mesh(load_mesh(truth.mesh))
-    solver = ArticulationSolver(placed.mesh, Config(grounding=FEW, views=VIEWS), lambda _: oracle(prepared(truth)))
+    solver = Solver(placed.mesh, Config(grounding=FEW, views=VIEWS), lambda _: oracle(prepared(truth)))
     asked = [RecognizedLabel(label, None, None, None) for label in ("drawer", "trapdoor")]
     found = solver.parts("auto", Recognition("cabinet", None, tuple(asked)))
     assert [p.label for p in found.segmentation.parts] == ["base", "drawer"]
@@ -111,7 +109,7 @@ def test_where_nothing_moves_nothing_is_asked() -> None:
         def ask(self, question):
             raise AssertionError(f"asked {question.kind}")
 
-    found = ArticulationSolver(placed.mesh, Config(grounding=FEW, views=VIEWS), lambda _: Silent()).parts(
+    found = Solver(placed.mesh, Config(grounding=FEW, views=VIEWS), lambda _: Silent()).parts(
         "auto", Recognition("table", None, ())
     )
     assert [p.name for p in found.segmentation.parts] == ["base"]

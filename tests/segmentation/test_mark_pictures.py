@@ -8,7 +8,7 @@ from assets import box, mesh_of
 
 from anymesh.config import Config, GroundingConfig, ViewsConfig
 from anymesh.reasoning.grounding import MarkedPart, MarksAnswer, WhichMarks, WhichViews
-from anymesh.rendering.studio import VisualPrompts
+from anymesh.rendering.visual_prompts import VisualPrompts
 from anymesh.segmentation import ask_marks
 from anymesh.segmentation.ask_marks import MarkQuestioner, ask_exact, ask_masks
 from anymesh.segmentation.grounded import _lost

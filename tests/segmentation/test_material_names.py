@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from assets import box, mesh_of
 
-from anymesh.solving import ArticulationSolver
+from anymesh.solving import Solver
 from anymesh.types import Material
 
 WALLS = [
@@ -25,5 +25,5 @@ def test_a_front_in_a_material_named_door(wood: str, paint: str, found: list[str
     materials = (Material(wood),) if wood == paint else (Material(wood), Material(paint))
     number = np.repeat([0] * len(WALLS) + [len(materials) - 1], 12)
     mesh, _ = mesh_of([*WALLS, FRONT], number, materials=materials)
-    segmentation = ArticulationSolver(mesh).parts().segmentation
+    segmentation = Solver(mesh).parts().segmentation
     assert [p.name for p in segmentation.parts] == found

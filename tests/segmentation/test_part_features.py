@@ -5,7 +5,7 @@ import pytest
 from assets import box, mesh_of
 
 from anymesh.config import Config
-from anymesh.geometry.pieces import object_shape
+from anymesh.geometry.patches import object_shape
 from anymesh.segmentation.contacts import find_contacts
 from anymesh.segmentation.part_features import FeatureScene, part_context_of, part_features
 from anymesh.segmentation.part_tree import part_tree

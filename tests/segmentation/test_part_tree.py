@@ -4,7 +4,7 @@ import numpy as np
 from assets import box, mesh_of
 
 from anymesh.config import SegmentationConfig
-from anymesh.geometry.pieces import object_shape
+from anymesh.geometry.patches import object_shape
 from anymesh.segmentation.contacts import find_contacts
 from anymesh.segmentation.part_tree import PartTree, part_tree
 

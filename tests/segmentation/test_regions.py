@@ -8,7 +8,7 @@ import trimesh
 from assets import box, mesh_of
 
 from anymesh.config import GroundingConfig, ViewsConfig
-from anymesh.geometry.pieces import object_shape
+from anymesh.geometry.patches import object_shape
 from anymesh.rendering.render import render
 from anymesh.segmentation import regions
 from anymesh.segmentation.close_ups import close_ups

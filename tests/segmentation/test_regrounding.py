@@ -10,8 +10,8 @@ from assets import box, mesh_of
 
 from anymesh.config import Config, GroundingConfig, ViewsConfig
 from anymesh.reasoning.grounding import MarkedPart, MarksAnswer
-from anymesh.reasoning.knowing import Reference, ReferenceAnswerer, ReferenceJoint
 from anymesh.reasoning.prompting import PartFit
+from anymesh.reasoning.reference_answerer import Reference, ReferenceAnswerer, ReferenceJoint
 from anymesh.solving import solve
 from anymesh.types import JointType
 

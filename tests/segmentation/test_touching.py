@@ -7,7 +7,7 @@ from scipy.spatial.distance import cdist
 
 from anymesh.config import SegmentationConfig
 from anymesh.geometry.contact import connecting_area
-from anymesh.geometry.pieces import object_shape
+from anymesh.geometry.patches import object_shape
 from anymesh.segmentation.contacts import Contacts, find_contacts, hanging_on
 
 BLOCK = box((0, 0, 0), (1, 1, 1))

@@ -4,9 +4,9 @@ import numpy as np
 from assets import box, mesh_of
 
 from anymesh.config import Config
-from anymesh.geometry.pieces import ObjectShape
+from anymesh.geometry.patches import ObjectShape
 from anymesh.segmentation.unseen import join_unseen
-from anymesh.solving import ArticulationSolver
+from anymesh.solving import Solver
 from anymesh.types.recognition import Moves
 
 WALLS = [box((0, 0, 0), (1, 1, 0.02)), box((0, 0, 0.98), (1, 1, 1)), box((0, 0, 0.02), (0.02, 1, 0.98)),
@@ -15,10 +15,10 @@ FRONT = box((0.05, -0.05, 0.05), (0.95, -0.002, 0.95))
 BIN = box((0.1, -0.002, 0.1), (0.9, 0.8, 0.9))  # behind the front, and touching nothing else
 
 
-def pieces(*more) -> tuple[ObjectShape, np.ndarray, ArticulationSolver]:
+def pieces(*more) -> tuple[ObjectShape, np.ndarray, Solver]:
     """The shape, the part of each of its patches (the front is 1, what is behind it is unseen), and who tests what is free."""
     mesh, piece = mesh_of([*WALLS, FRONT, *more])
-    solver = ArticulationSolver(mesh)
+    solver = Solver(mesh)
     whole = solver.whole
     of = np.zeros(int(whole.mesh_patch.max()) + 1, int)
     of[whole.mesh_patch] = piece

@@ -51,7 +51,7 @@ class FakeWork:
 
 @pytest.fixture
 def page(monkeypatch):
-    monkeypatch.setattr(bench_, "Work", FakeWork)
+    monkeypatch.setattr(bench_, "ArticulationWork", FakeWork)
     monkeypatch.setattr(bench_, "LOOK", 0.02)
     FakeWork.made = []
     with serve(None, port=8400, author="Ada", clock=lambda: "2024-05-01T12:00:00+00:00") as serving:
@@ -223,7 +223,7 @@ def test_a_motion_plays_while_it_is_chosen(page):
 
 
 def test_kept_assets_get_names_of_their_own_and_the_same_mesh_the_same_questions(monkeypatch, tmp_path):
-    monkeypatch.setattr(bench_, "Work", FakeWork)
+    monkeypatch.setattr(bench_, "ArticulationWork", FakeWork)
     FakeWork.made = []
     source = tmp_path / "in" / "cube.obj"
     source.parent.mkdir()
@@ -241,7 +241,7 @@ def test_kept_assets_get_names_of_their_own_and_the_same_mesh_the_same_questions
 
 
 def test_what_was_handed_over_is_removed_at_the_end(monkeypatch):
-    monkeypatch.setattr(bench_, "Work", FakeWork)
+    monkeypatch.setattr(bench_, "ArticulationWork", FakeWork)
     with serve(None, port=8440, author="Ada", clock=lambda: "") as serving:
         assert "removed at the end" in serving.told[0]
         upload(serving.page)

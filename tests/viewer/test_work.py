@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from anymesh.viewer.work import Work
+from anymesh.viewer.work import ArticulationWork
 
 MESHES = Path(__file__).parents[2] / "examples" / "meshes"
 
@@ -20,7 +20,9 @@ def until(what, seconds: float = 60):
 
 def test_what_is_wrong_with_a_mesh_is_told_and_a_crash_too(tmp_path):
     (tmp_path / "bad.glb").write_bytes(b"glTF but no more")
-    bad, crashed = (Work(path, tmp_path / f"out{k}") for k, path in enumerate((tmp_path / "bad.glb", MESHES / "cabinet.glb")))
+    bad, crashed = (
+        ArticulationWork(path, tmp_path / f"out{k}") for k, path in enumerate((tmp_path / "bad.glb", MESHES / "cabinet.glb"))
+    )
     until(lambda: crashed.mesh is not None)
     crashed._process.kill()
     until(lambda: bad.over and crashed.over)
@@ -32,7 +34,7 @@ def test_what_is_wrong_with_a_mesh_is_told_and_a_crash_too(tmp_path):
 
 
 def test_work_is_ended_at_once(tmp_path):
-    work = Work(MESHES / "cabinet.glb", tmp_path / "out")
+    work = ArticulationWork(MESHES / "cabinet.glb", tmp_path / "out")
     begin = time.monotonic()
     work.cancel()
     assert time.monotonic() - begin < 2
@@ -44,7 +46,7 @@ def test_work_is_ended_at_once(tmp_path):
 @pytest.mark.slow
 def test_a_mesh_becomes_an_asset_and_its_stages_are_told(tmp_path):
     shutil.copy(MESHES / "storage_box.glb", tmp_path / "box.glb")
-    work, seen = Work(tmp_path / "box.glb", tmp_path / "out"), []
+    work, seen = ArticulationWork(tmp_path / "box.glb", tmp_path / "out"), []
     until(lambda: (seen.append((work.share, work.words)), work.over)[1])
     assert work.done, work.error
     assert [share for share, _ in seen] == sorted(share for share, _ in seen)

@@ -17,7 +17,7 @@ from pydantic import ConfigDict, Field
 
 from anymesh import __version__
 from anymesh.agents.places import Places
-from anymesh.agents.tools import Shown, Tools, skill_text
+from anymesh.agents.tools import AgentTools, ToolResult, skill_text
 from anymesh.errors import AnymeshError
 
 Content = list[str | Image]
@@ -33,14 +33,14 @@ CORRECTIONS = (
 )
 
 
-class Work:
+class ToolRunner:
     """Runs the tools in threads, one at a time, with progress."""
 
-    def __init__(self, tools: Tools) -> None:
+    def __init__(self, tools: AgentTools) -> None:
         self.tools, self._lock = tools, threading.Lock()
 
     async def run(
-        self, ctx: Context, tool: Callable[..., Shown], *arguments: Any, long: bool = False, **options: Any
+        self, ctx: Context, tool: Callable[..., ToolResult], *arguments: Any, long: bool = False, **options: Any
     ) -> Content:
         """Raises ToolError for every error of this package."""
         count = 0
@@ -50,7 +50,7 @@ class Work:
             count += 1
             from_thread.run(partial(ctx.report_progress, count, None, f"{stage} {item} ({done + 1}/{total})"))
 
-        def work() -> Shown:
+        def work() -> ToolResult:
             with self._lock:
                 return tool(*arguments, **options, **({"progress": tell} if long else {}))
 
@@ -66,7 +66,7 @@ class Work:
 
 def make_server(folders: Sequence[str]) -> MCPServer[Any]:
     """Make the server. Raises InputError for a folder that does not exist."""
-    work = Work(Tools(Places(folders)))
+    work = ToolRunner(AgentTools(Places(folders)))
     tools = [Tool.from_function(tool, structured_output=False) for tool in (*_making(work), *_looking(work))]
     for tool in tools:  # an argument that a tool does not have is an error, not silence
         model = tool.fn_metadata.arg_model
@@ -76,7 +76,7 @@ def make_server(folders: Sequence[str]) -> MCPServer[Any]:
     return MCPServer("anymesh", version=__version__, instructions=skill_text(), log_level="WARNING", tools=tools)
 
 
-def _making(work: Work) -> tuple[Callable[..., Any], ...]:
+def _making(work: ToolRunner) -> tuple[Callable[..., Any], ...]:
     async def articulate(
         ctx: Context,
         mesh: MeshPath,
@@ -133,7 +133,7 @@ def _making(work: Work) -> tuple[Callable[..., Any], ...]:
     return articulate, answer, correct, export
 
 
-def _looking(work: Work) -> tuple[Callable[..., Any], ...]:
+def _looking(work: ToolRunner) -> tuple[Callable[..., Any], ...]:
     async def open_questions(
         ctx: Context,
         folder: Annotated[str | None, Field(description="Where to look; everywhere when not given.")] = None,

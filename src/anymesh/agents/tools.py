@@ -31,14 +31,14 @@ SHEET_FROM = 5  # so many pictures are shown as one sheet unless all are asked f
 
 
 @dataclass(frozen=True)
-class Shown:
+class ToolResult:
     """What a tool gives back: JSON values, and PNG pictures with captions."""
 
     record: dict[str, Any]
     pictures: tuple[tuple[str, bytes], ...] = ()
 
 
-class Tools:
+class AgentTools:
     """The tools over some folders. Every path that comes in is checked, every path that goes out can come in again."""
 
     def __init__(self, places: Places) -> None:
@@ -58,7 +58,7 @@ class Tools:
         force: bool = False,
         time_limit: float = DEFAULT_SECONDS,
         progress: Progress = silent,
-    ) -> Shown:
+    ) -> ToolResult:
         """Work on a mesh until its asset is written or a question is open."""
         source, target = self._places.inside(mesh), self._places.inside(out, below=True)
         if answerer not in ANSWERERS:
@@ -76,31 +76,33 @@ class Tools:
             (path,) = error.folders
             shown = self._question(next(q for q in find_questions(path) if q.path == path))
             told = "answer the question with the tool `answer`, then call `articulate` again with the same arguments"
-            return Shown({"state": "open", "next": told, **shown.record}, shown.pictures)
+            return ToolResult({"state": "open", "next": told, **shown.record}, shown.pictures)
         shown = self.inspect(out)
-        return Shown({"state": "done", "answerer": asset.answerer, **shown.record}, shown.pictures)
+        return ToolResult({"state": "done", "answerer": asset.answerer, **shown.record}, shown.pictures)
 
-    def open_questions(self, folder: str | None = None, *, pictures: str = "auto") -> Shown:
+    def open_questions(self, folder: str | None = None, *, pictures: str = "auto") -> ToolResult:
         """List open questions; the first one with its pictures. pictures: auto, all (each at full size) or none."""
         if pictures not in ("auto", "all", "none"):
             raise OptionError(f"pictures must be auto, all or none, found {pictures!r}")
         roots = self._places.folders if folder is None else (self._places.inside(folder),)
         found = [q for root in roots for q in (open_in(root) if find_questions(root) else [])]
         if not found:
-            return Shown({"open": 0})
+            return ToolResult({"open": 0})
         first = self._question(found[0], pictures)
         others = [self._places.shown(q.path) for q in found[1:]]
-        return Shown({"open": len(found), **first.record, "also_open": others}, first.pictures)
+        return ToolResult({"open": len(found), **first.record, "also_open": others}, first.pictures)
 
-    def answer(self, question: str, answer: Mapping[str, Any] | str) -> Shown:
+    def answer(self, question: str, answer: Mapping[str, Any] | str) -> ToolResult:
         """Check and write an answer to an open question."""
         folder = self._places.inside(question)
         if not (folder / "question.json").is_file():
             raise OptionError(f"{question!r} is no question; `open_questions` lists them")
         told = record_answer(folder, answer if isinstance(answer, str) else json.dumps(answer))
-        return Shown({"answered": self._places.shown(folder), "checked_whole": told.whole, "next": "call `articulate` again"})
+        return ToolResult(
+            {"answered": self._places.shown(folder), "checked_whole": told.whole, "next": "call `articulate` again"}
+        )
 
-    def inspect(self, asset: str, *, motions_of: str | None = None) -> Shown:
+    def inspect(self, asset: str, *, motions_of: str | None = None) -> ToolResult:
         """Tell the parts, joints, confidence and warnings of an asset, with its preview; of one part, its free motions too."""
         folder = self._places.inside(asset)
         record = read_json(folder / "asset.json")
@@ -122,9 +124,9 @@ class Tools:
         pictures = (
             ((f"preview of {asset}: at rest, parts coloured, opened", preview.read_bytes()),) if preview.is_file() else ()
         )
-        return Shown(told, pictures)
+        return ToolResult(told, pictures)
 
-    def correct(self, asset: str, corrections: Sequence[Mapping[str, Any]]) -> Shown:
+    def correct(self, asset: str, corrections: Sequence[Mapping[str, Any]]) -> ToolResult:
         """Apply corrections, all or none, and write the asset again."""
         folder = self._places.inside(asset, below=True)
         opened = open_asset(folder)
@@ -139,10 +141,10 @@ class Tools:
         save_asset(dataclasses.replace(opened, history=history))
         return self.inspect(asset)
 
-    def check(self, asset: str, engines: Sequence[str] = ("mujoco",)) -> Shown:
+    def check(self, asset: str, engines: Sequence[str] = ("mujoco",)) -> ToolResult:
         """Check what a simulator needs of an asset, and drive every joint."""
         report = check_asset(self._places.inside(asset), engines=engines)
-        return Shown(report.as_json() | {"path": self._places.shown(self._places.inside(asset))})
+        return ToolResult(report.as_json() | {"path": self._places.shown(self._places.inside(asset))})
 
     def export(
         self,
@@ -154,7 +156,7 @@ class Tools:
         package: str | None = None,
         archive: str | None = None,
         progress: Progress = silent,
-    ) -> Shown:
+    ) -> ToolResult:
         """Write the files of an asset anew in other formats; package: folder for a ROS 2 package; archive: a zip file."""
         folder = self._places.inside(asset, below=True)
         places = [None if path is None else self._places.inside(path) for path in (package, archive)]
@@ -162,11 +164,11 @@ class Tools:
             folder, formats=formats, base=base, drives=drives, package=places[0], archive=places[1], progress=progress
         )
         made = [self._places.shown(path) for path in places if path is not None]
-        return Shown(
+        return ToolResult(
             {"asset": self._places.shown(folder), "files": (read_json(folder / "asset.json") or {})["files"], "made": made}
         )
 
-    def _question(self, question: QuestionFolder, pictures: str = "auto") -> Shown:
+    def _question(self, question: QuestionFolder, pictures: str = "auto") -> ToolResult:
         record = {
             "question": self._places.shown(question.path),
             "kind": question.kind,
@@ -176,17 +178,17 @@ class Tools:
         }
         single = question.pictures()
         if pictures == "none" or not single:
-            return Shown(record)
+            return ToolResult(record)
         if pictures == "auto" and len(single) >= SHEET_FROM:
             told = f"all {len(single)} pictures; `open_questions` with pictures='all' gives each at full size"
-            return Shown(record, ((told, (question.path / "sheet.png").read_bytes()),))
-        return Shown(record, tuple((f"{k}. {p.caption}".strip(), p.png) for k, p in enumerate(single, 1)))
+            return ToolResult(record, ((told, (question.path / "sheet.png").read_bytes()),))
+        return ToolResult(record, tuple((f"{k}. {p.caption}".strip(), p.png) for k, p in enumerate(single, 1)))
 
 
 def _packed(motion: Any) -> dict[str, Any]:
-    from anymesh.correcting import Entry
+    from anymesh.correcting import HistoryEntry
 
-    found = pack_entry(Entry(motion, "", ""))
+    found = pack_entry(HistoryEntry(motion, "", ""))
     return {name: value for name, value in found.items() if name not in ("time", "author")}
 
 

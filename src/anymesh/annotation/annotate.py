@@ -18,14 +18,14 @@ from anymesh.annotation.outages import Outage
 from anymesh.annotation.report import write_report
 from anymesh.annotation.runner import Plan, Runner
 from anymesh.annotation.salvage import open_ledger
-from anymesh.annotation.states import Outcome
+from anymesh.annotation.states import AttemptOutcome
 from anymesh.annotation.tally import Tally, tally
-from anymesh.annotation.workers import Limits, LocalWorkers, Workers, machine_cores
+from anymesh.annotation.workers import LocalWorkers, ObjectLimits, Workers, machine_cores
 from anymesh.answering import FILES, Answering, choose_answerer
 from anymesh.deadline import DEFAULT_SECONDS
 from anymesh.errors import OptionError
 from anymesh.export.formats import DEFAULT
-from anymesh.export_options import Exported
+from anymesh.export_options import ExportOptions
 from anymesh.models.rates import Rate
 from anymesh.solving import GEOMETRY
 
@@ -56,7 +56,7 @@ class Annotated:
     """What a run left. ended: what ended it before all was done; report: the page."""
 
     found: Tally
-    ended: Outcome | None
+    ended: AttemptOutcome | None
     report: Path
 
 
@@ -106,7 +106,9 @@ def checked(options: Mapping[str, Any]) -> str:
     Raises OptionError, ModelError (no key), MissingExtraError.
     """
     answering: Answering = {k: v for k, v in options.items() if k in Answering.__annotations__}  # ty: ignore[invalid-assignment]
-    Exported.parse(options.get("base", "fixed"), options.get("formats", ",".join(DEFAULT)), options.get("drives", "passive"))
+    ExportOptions.parse(
+        options.get("base", "fixed"), options.get("formats", ",".join(DEFAULT)), options.get("drives", "passive")
+    )
     who = choose_answerer(answering).name
     return FILES if who.startswith(FILES) else who
 
@@ -141,12 +143,12 @@ def _workers(speed: Speed, options: Mapping[str, Any], plan: Plan, given: Worker
     elif speed.ray is not None:
         from anymesh.annotation.ray_ import RayWorkers
 
-        limits = Limits.default(1, speed.memory or 4.0, seconds, waits=plan.metered)
+        limits = ObjectLimits.default(1, speed.memory or 4.0, seconds, waits=plan.metered)
         workers = RayWorkers(speed.ray, limits, speed.workers)
         yield workers, workers.free
     else:
         count = speed.workers or machine_cores()
-        yield LocalWorkers(count, Limits.default(count, speed.memory, seconds, waits=plan.metered)), count
+        yield LocalWorkers(count, ObjectLimits.default(count, speed.memory, seconds, waits=plan.metered)), count
 
 
 def export_ledger(ledger: Ledger, path: Path) -> None:

@@ -18,9 +18,9 @@ from pathlib import Path
 
 from anymesh import __version__
 from anymesh.annotation.ledger import Ledger
-from anymesh.annotation.states import Claim, Outcome, Result, State
+from anymesh.annotation.states import AttemptOutcome, Claim, Result, State
 from anymesh.errors import OutputError
-from anymesh.storage.hidden import locked, locks_known
+from anymesh.storage.atomic_folder import locked, locks_known
 
 RUNS = "runs"  # folder of the lock files
 LEASE = 120.0  # [s] without a beat, after which a run that holds its lock is taken for stuck
@@ -90,7 +90,7 @@ def claim(ledger: Ledger, run: str, count: int) -> list[Claim]:
     return [Claim(s, name, src, json.loads(o), folder, token, bool(redo)) for s, name, src, o, folder, token, redo in found]
 
 
-def finish(ledger: Ledger, taken: Claim, outcome: Outcome, *, most: int) -> State | None:
+def finish(ledger: Ledger, taken: Claim, outcome: AttemptOutcome, *, most: int) -> State | None:
     """Enter what became of a claimed object; return its state, None when the claim was no longer held.
 
     most: attempts after which a failing object is quarantined.
@@ -125,7 +125,7 @@ def _charge_holds(connection: sqlite3.Connection, taken: Claim) -> None:
         execute("DELETE FROM holds WHERE token = ?", (taken.token,))
 
 
-def _next_state(outcome: Outcome, attempts: int, losses: int, most: int) -> State:
+def _next_state(outcome: AttemptOutcome, attempts: int, losses: int, most: int) -> State:
     match outcome.result:
         case Result.DONE:
             return State.DONE
@@ -149,7 +149,7 @@ def free_lost(ledger: Ledger, run: str) -> int:
             continue
         for seq, name, token in ledger.rows(f"SELECT seq, name, token FROM objects WHERE {RUNNING}", (other,)):
             told = f"the run that worked on it ended {LOSSES} times without a word (killed, out of memory, power?)"
-            lost = Outcome(Result.LOST, "LostError", told)
+            lost = AttemptOutcome(Result.LOST, "LostError", told)
             freed += finish(ledger, Claim(seq, name, "", {}, "", token, False), lost, most=1) is not None
         _end(ledger, other)
     return freed

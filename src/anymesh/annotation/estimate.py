@@ -13,10 +13,10 @@ from typing import Any
 from anymesh.annotation.annotate import KILL, Speed, checked
 from anymesh.annotation.inputs import find_objects
 from anymesh.annotation.requests import ObjectRequest
-from anymesh.annotation.states import Claim, Outcome, Result
+from anymesh.annotation.states import AttemptOutcome, Claim, Result
 from anymesh.annotation.tally import duration
 from anymesh.annotation.work import Job
-from anymesh.annotation.workers import Limits, LocalWorkers, machine_cores
+from anymesh.annotation.workers import LocalWorkers, ObjectLimits, machine_cores
 from anymesh.deadline import DEFAULT_SECONDS
 from anymesh.errors import OptionError
 from anymesh.solving import GEOMETRY
@@ -88,7 +88,9 @@ def estimate(source: str, count: int, *, speed: Speed, **options: Any) -> Estima
     requests = [r for r in find_objects(source, without=Path("/nonexistent")) if not r.refusal]
     chosen = random.Random(int(options.get("seed", 0))).sample(requests, min(count, len(requests)))
     workers = speed.workers or machine_cores()
-    limits = Limits.default(workers, speed.memory, speed.kill_after or KILL * float(options.get("time_limit", DEFAULT_SECONDS)))
+    limits = ObjectLimits.default(
+        workers, speed.memory, speed.kill_after or KILL * float(options.get("time_limit", DEFAULT_SECONDS))
+    )
     work = LocalWorkers(workers, limits, REHEARSAL)
     folder = Path(tempfile.mkdtemp(prefix="anymesh-dry-run-"))
     try:
@@ -99,8 +101,8 @@ def estimate(source: str, count: int, *, speed: Speed, **options: Any) -> Estima
     return _summary(outcomes, len(requests), workers, paid=who != GEOMETRY.name)
 
 
-def _tried(work: LocalWorkers, chosen: list[ObjectRequest], folder: Path, options: dict[str, Any]) -> list[Outcome]:
-    waiting, outcomes = list(chosen), list[Outcome]()
+def _tried(work: LocalWorkers, chosen: list[ObjectRequest], folder: Path, options: dict[str, Any]) -> list[AttemptOutcome]:
+    waiting, outcomes = list(chosen), list[AttemptOutcome]()
     while len(outcomes) < len(chosen):
         while waiting and work.free:
             r = waiting.pop()
@@ -111,7 +113,7 @@ def _tried(work: LocalWorkers, chosen: list[ObjectRequest], folder: Path, option
     return outcomes
 
 
-def _summary(outcomes: list[Outcome], total: int, workers: int, *, paid: bool) -> Estimate:
+def _summary(outcomes: list[AttemptOutcome], total: int, workers: int, *, paid: bool) -> Estimate:
     done = [o for o in outcomes if o.result is Result.DONE]
     usage = [o.record.get("usage", {}) for o in done] if paid else []
     costs = [u.get("cost_usd") for u in usage]

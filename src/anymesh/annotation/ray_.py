@@ -17,9 +17,9 @@ from pathlib import Path
 from typing import Any
 
 from anymesh.annotation.bridge import Bridge, Meter
-from anymesh.annotation.states import Claim, Outcome, Result
+from anymesh.annotation.states import AttemptOutcome, Claim, Result
 from anymesh.annotation.work import Job
-from anymesh.annotation.workers import TARGET, Limits, as_outcome, child_failure
+from anymesh.annotation.workers import TARGET, ObjectLimits, as_outcome, child_failure
 from anymesh.errors import MissingExtraError, OptionError
 from anymesh.isolation import ChildError, ChildLimits, ChildPool
 
@@ -39,7 +39,7 @@ def _ray() -> Any:
 class RayWorkers:
     """Tasks of the cluster at an address. most: tasks at a time, two a core of the cluster by default."""
 
-    def __init__(self, address: str, limits: Limits, most: int | None = None, target: tuple[str, str] = TARGET) -> None:
+    def __init__(self, address: str, limits: ObjectLimits, most: int | None = None, target: tuple[str, str] = TARGET) -> None:
         self._ray = ray = _ray()
         self._began = not ray.is_initialized()
         if self._began:
@@ -81,7 +81,7 @@ class RayWorkers:
             self._meters[job.collection] = make.remote(job.collection, job.rate)
         return self._meters[job.collection]
 
-    def collect(self, timeout: float) -> Iterator[tuple[Claim, Outcome]]:
+    def collect(self, timeout: float) -> Iterator[tuple[Claim, AttemptOutcome]]:
         """Yield what is finished; wait for so long [s] when nothing is."""
         if not self._running:
             return
@@ -90,13 +90,13 @@ class RayWorkers:
             claim = self._running.pop(reference)
             yield claim, self._outcome(reference)
 
-    def _outcome(self, reference: Any) -> Outcome:
+    def _outcome(self, reference: Any) -> AttemptOutcome:
         try:
             return as_outcome(self._ray.get(reference))
         except self._ray.exceptions.RayTaskError as error:  # of the task itself: nothing that the object did
-            return Outcome(Result.FAILED, "RayTaskError", " ".join(str(error.cause).split())[:300])
+            return AttemptOutcome(Result.FAILED, "RayTaskError", " ".join(str(error.cause).split())[:300])
         except self._ray.exceptions.RayError as error:
-            return Outcome(Result.LOST, type(error).__name__, "the node that worked on it was lost")
+            return AttemptOutcome(Result.LOST, type(error).__name__, "the node that worked on it was lost")
 
     def close(self) -> None:
         """End all tasks at once."""
@@ -127,7 +127,7 @@ def _environment() -> dict[str, Any]:
     return {"env_vars": {"PYTHONPATH": os.pathsep.join(filter(None, paths))}}
 
 
-def _task(target: tuple[str, str], job: dict[str, Any], limits: Limits, meter: Any) -> dict[str, Any]:
+def _task(target: tuple[str, str], job: dict[str, Any], limits: ObjectLimits, meter: Any) -> dict[str, Any]:
     """One object, in a child process of the task's; what that asks of the account goes through a socket."""
     how = ChildLimits(seconds=limits.seconds, memory=limits.memory, wall=limits.wall)
     with ExitStack() as stack:

@@ -13,10 +13,10 @@ from anymesh.annotation.work import Job, annotate_object, local_mesh
 from anymesh.annotation.workers import as_outcome
 from anymesh.answering import Answering, choose_answerer
 from anymesh.errors import AnymeshError
-from anymesh.evaluation.voice import Spoken
+from anymesh.evaluation.simulated_vlm import SimulatedVlm
 from anymesh.export.asset_json import usage
 from anymesh.loading import load_mesh, place_mesh
-from anymesh.solving import GEOMETRY, ArticulationSolver
+from anymesh.solving import GEOMETRY, Solver
 
 
 def rehearse_object(job: dict[str, Any]) -> dict[str, Any]:
@@ -47,7 +47,7 @@ def asked_of_a_model(job: Job, like: str) -> Mapping[str, Any]:
     config = replace(config, parts_list=tuple(options.get("parts_list", ())))
     told = {name: str(job.options.get(name, "auto")) for name in ("up", "scale")}
     placed = place_mesh(load_mesh(local_mesh(job.source), root=job.options.get("root")), **told)
-    solver = ArticulationSolver(placed.mesh, config, lambda fallback: Spoken(fallback, fallback, like))
+    solver = Solver(placed.mesh, config, lambda fallback: SimulatedVlm(fallback, fallback, like))
     recognized = solver.recognize()
     segmented = solver.parts(str(job.options.get("parts", "auto")), recognized.recognition)
     jointed = solver.joints(segmented.segmentation, recognized.recognition)

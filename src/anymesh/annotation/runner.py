@@ -12,7 +12,7 @@ from typing import Any
 from anymesh.annotation.claims import claim, finish, free_lost, live_runs, renew
 from anymesh.annotation.ledger import Ledger
 from anymesh.annotation.outages import Outage
-from anymesh.annotation.states import ENDING, Claim, Outcome, Result, State
+from anymesh.annotation.states import ENDING, AttemptOutcome, Claim, Result, State
 from anymesh.annotation.tally import Tally, tally, write_metrics
 from anymesh.annotation.work import Job
 from anymesh.annotation.workers import Workers
@@ -47,7 +47,7 @@ class Runner:
     outage: Outage
     tell: Callable[[Tally], None] = lambda _: None
     finished: int = 0
-    ended: Outcome | None = None
+    ended: AttemptOutcome | None = None
     count: int = 1  # workers, for the metrics
     _running: int = 0
     _same: list[str] = field(default_factory=list)
@@ -75,7 +75,7 @@ class Runner:
             return 0
         if shutil.disk_usage(self.ledger.out).free < FREE:
             told = f"less than {FREE >> 20} MiB are free where {self.ledger.out} is"
-            self.ended = Outcome(Result.STORAGE, "OutputError", told, exit_code=OutputError.exit_code)
+            self.ended = AttemptOutcome(Result.STORAGE, "OutputError", told, exit_code=OutputError.exit_code)
             return 0
         found = claim(self.ledger, self.run, self.outage.allowed(self.workers.free, self._running))
         for taken in found:
@@ -90,7 +90,7 @@ class Runner:
             metered=self.plan.metered,
         )  # fmt: skip
 
-    def _enter(self, taken: Claim, outcome: Outcome) -> None:
+    def _enter(self, taken: Claim, outcome: AttemptOutcome) -> None:
         self._running -= 1
         state = finish(self.ledger, taken, outcome, most=self.plan.attempts)
         if state is None:
@@ -106,7 +106,7 @@ class Runner:
             self.ended = outcome
         self._note_same(outcome)
 
-    def _note_same(self, outcome: Outcome) -> None:
+    def _note_same(self, outcome: AttemptOutcome) -> None:
         """End the run when a model refuses object after object: a wrong key, weights that are not the pinned ones."""
         if outcome.result is Result.DONE:
             self._same = []
@@ -136,4 +136,4 @@ class Runner:
             write_metrics(self.ledger.out, found, self.ledger.seconds)
             self.tell(found)
 
-    _last_outage: Outcome = field(default_factory=lambda: Outcome(Result.OUTAGE))
+    _last_outage: AttemptOutcome = field(default_factory=lambda: AttemptOutcome(Result.OUTAGE))

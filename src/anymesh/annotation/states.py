@@ -49,7 +49,7 @@ class Claim:
 
 
 @dataclass(frozen=True)
-class Outcome:
+class AttemptOutcome:
     """What became of an attempt: error in one line, with its class; record: columns of the ledger for what was found."""
 
     result: Result

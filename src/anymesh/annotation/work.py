@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from anymesh.annotation.requests import OBJAVERSE
-from anymesh.annotation.states import Outcome, Result
+from anymesh.annotation.states import AttemptOutcome, Result
 from anymesh.errors import (
     AnymeshError,
     BudgetError,
@@ -71,14 +71,14 @@ def annotate_object(job: dict[str, Any]) -> dict[str, Any]:
     return found | {"result": str(outcome.result)}
 
 
-def _annotated(job: Job) -> Outcome:
+def _annotated(job: Job) -> AttemptOutcome:
     from anymesh.annotation.results import asset_columns
     from anymesh.pipeline import articulate
 
     mesh = local_mesh(job.source)
     out = Path(job.out)
     if not job.redo and (made := asset_columns(out)) and made["sha256"] == _digest(mesh):
-        return Outcome(Result.DONE, record=made)  # its run ended between the last file and the ledger
+        return AttemptOutcome(Result.DONE, record=made)  # its run ended between the last file and the ledger
     options = dict(job.options)
     if str(options.get("answerer", "")).startswith(FILES):
         options["answerer"] = f"{options['answerer']}/{out.name}"
@@ -87,7 +87,7 @@ def _annotated(job: Job) -> Outcome:
     made = asset_columns(out)
     if made is None:
         raise InputError(f"{out} was removed while it was worked on")
-    return Outcome(Result.DONE, record=made)
+    return AttemptOutcome(Result.DONE, record=made)
 
 
 def _metered(job: Job) -> dict[str, Any]:
@@ -122,28 +122,28 @@ def _digest(mesh: Path) -> str:
         return hashlib.file_digest(file, "sha256").hexdigest()
 
 
-def failure(error: Exception) -> Outcome:
+def failure(error: Exception) -> AttemptOutcome:
     """What an error makes of an attempt, in one line without keys."""
     from anymesh.defects import redacted
 
     name, code = type(error).__name__, getattr(error, "exit_code", 0)
     stage = failed_stage(error) or ""
     if _is_storage(error):
-        return Outcome(Result.STORAGE, name, _line(error), stage, exit_code=4)
+        return AttemptOutcome(Result.STORAGE, name, _line(error), stage, exit_code=4)
     match error:
         case OpenQuestionError():
-            return Outcome(Result.WAITING, name, "; ".join(map(str, error.folders))[:LONGEST], exit_code=code)
+            return AttemptOutcome(Result.WAITING, name, "; ".join(map(str, error.folders))[:LONGEST], exit_code=code)
         case BudgetError():
-            return Outcome(Result.BUDGET, name, _line(error), exit_code=code)
+            return AttemptOutcome(Result.BUDGET, name, _line(error), exit_code=code)
         case MissingExtraError():
-            return Outcome(Result.STOPPED, name, _line(error), exit_code=code)
+            return AttemptOutcome(Result.STOPPED, name, _line(error), exit_code=code)
         case ModelError():
             result = Result.OUTAGE if isinstance(error, UnavailableError) else Result.FAILED
-            return Outcome(result, name, _line(error), stage, exit_code=code)
+            return AttemptOutcome(result, name, _line(error), stage, exit_code=code)
         case InputError() | OptionError() | AnymeshError():
-            return Outcome(Result.REFUSED, name, _line(error), stage, exit_code=code)
+            return AttemptOutcome(Result.REFUSED, name, _line(error), stage, exit_code=code)
         case _:
-            return Outcome(Result.FAILED, name, redacted(str(error)), stage, exit_code=70)
+            return AttemptOutcome(Result.FAILED, name, redacted(str(error)), stage, exit_code=70)
 
 
 def _is_storage(error: BaseException | None) -> bool:
@@ -155,7 +155,7 @@ def _is_storage(error: BaseException | None) -> bool:
 
 
 def _line(error: BaseException) -> str:
-    from anymesh.models.hearsay import SECRET
+    from anymesh.models.error_redaction import SECRET
 
     keys = re.compile(r"\b(?:sk-|AIza|Bearer )\S+")  # not SECRET alone: paths may be as long as keys
     line = " ".join(str(error).split())

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Protocol, runtime_checkable
 
-from anymesh.annotation.states import Claim, Outcome, Result
+from anymesh.annotation.states import AttemptOutcome, Claim, Result
 from anymesh.annotation.work import Job
 from anymesh.errors import OptionError
 from anymesh.isolation import ChildError, ChildLimits, ChildPool, Failure
@@ -19,12 +19,12 @@ from anymesh.isolation import ChildError, ChildLimits, ChildPool, Failure
 TARGET = ("anymesh.annotation.work", "annotate_object")
 RENEWED = 100  # objects after which a worker process is replaced, so that nothing it leaks adds up
 GIB = 1 << 30
-LEAST_GIB = 1.5  # of address space, that the libraries alone take
+MIN_GIB = 1.5  # of address space, that the libraries alone take
 WAITING = 10.0  # times the processor time that an object may take while it waits for a model
 
 
 @dataclass(frozen=True)
-class Limits:
+class ObjectLimits:
     """Of one object. memory: address space of its process [bytes]; seconds, wall: processor time and elapsed time [s] after
     which it is ended."""
 
@@ -33,11 +33,11 @@ class Limits:
     wall: float
 
     @classmethod
-    def default(cls, workers: int, memory: float | None, seconds: float, *, waits: bool = False) -> Limits:
+    def default(cls, workers: int, memory: float | None, seconds: float, *, waits: bool = False) -> ObjectLimits:
         """memory [GiB]; None: an equal share of nine tenths of what the machine has, 2 to 16 GiB. waits: for a model, which
         takes elapsed time but no processor time."""
-        if memory is not None and not memory >= LEAST_GIB:
-            raise OptionError(f"--memory: found {memory:g}; valid are numbers from {LEAST_GIB:g} GiB up")
+        if memory is not None and not memory >= MIN_GIB:
+            raise OptionError(f"--memory: found {memory:g}; valid are numbers from {MIN_GIB:g} GiB up")
         if not seconds > 0:
             raise OptionError(f"--kill-after: found {seconds:g}; valid are seconds above 0")
         share = 0.9 * machine_memory() / max(workers, 1)
@@ -56,7 +56,7 @@ class Workers(Protocol):
 
     def submit(self, claim: Claim, job: Job) -> None: ...
 
-    def collect(self, timeout: float) -> Iterator[tuple[Claim, Outcome]]:
+    def collect(self, timeout: float) -> Iterator[tuple[Claim, AttemptOutcome]]:
         """Yield what is finished; wait for so long [s] when nothing is."""
         ...
 
@@ -68,15 +68,15 @@ class Workers(Protocol):
 class LocalWorkers:
     """`count` child processes. target: module and function that they call."""
 
-    def __init__(self, count: int, limits: Limits, target: tuple[str, str] = TARGET) -> None:
+    def __init__(self, count: int, limits: ObjectLimits, target: tuple[str, str] = TARGET) -> None:
         self._count, self._target = count, target
         child = ChildLimits(seconds=limits.seconds, memory=limits.memory, wall=limits.wall, calls=RENEWED)
         self._pool = ChildPool(count, child)
         self._threads = ThreadPoolExecutor(count, "anymesh-annotate")
-        self._running: dict[Future[Outcome], Claim] = {}
+        self._running: dict[Future[AttemptOutcome], Claim] = {}
         cores = sorted(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else [None]
         self._cores: deque[int | None] = deque(cores[k % len(cores)] for k in range(count))
-        self._on_core: dict[Future[Outcome], int | None] = {}
+        self._on_core: dict[Future[AttemptOutcome], int | None] = {}
 
     @property
     def free(self) -> int:
@@ -89,13 +89,13 @@ class LocalWorkers:
         future = self._threads.submit(self._run, replace(job, core=core))
         self._running[future], self._on_core[future] = claim, core
 
-    def _run(self, job: Job) -> Outcome:
+    def _run(self, job: Job) -> AttemptOutcome:
         try:
             return as_outcome(self._pool.run(*self._target, {"job": job.as_dict()}))
         except ChildError as error:
             return child_failure(error)
 
-    def collect(self, timeout: float) -> Iterator[tuple[Claim, Outcome]]:
+    def collect(self, timeout: float) -> Iterator[tuple[Claim, AttemptOutcome]]:
         """Yield what is finished; wait for so long [s] when nothing is."""
         done, _ = wait(self._running, timeout, FIRST_COMPLETED)
         for future in done:
@@ -108,16 +108,16 @@ class LocalWorkers:
         self._threads.shutdown(wait=True, cancel_futures=True)
 
 
-def child_failure(error: ChildError) -> Outcome:
+def child_failure(error: ChildError) -> AttemptOutcome:
     """What a process that gave no result makes of an attempt."""
     names = {Failure.CRASH: "CrashError", Failure.TIME: "TimeLimitError", Failure.MEMORY: "MemoryLimitError"}
-    return Outcome(Result.FAILED, names.get(error.failure, "ChildError"), str(error)[:500])
+    return AttemptOutcome(Result.FAILED, names.get(error.failure, "ChildError"), str(error)[:500])
 
 
-def as_outcome(values: Mapping[str, Any]) -> Outcome:
+def as_outcome(values: Mapping[str, Any]) -> AttemptOutcome:
     """The outcome that a worker returned as a dictionary."""
     rest: dict[str, Any] = {k: v for k, v in values.items() if k != "result"}
-    return Outcome(Result(values["result"]), **rest)
+    return AttemptOutcome(Result(values["result"]), **rest)
 
 
 def machine_memory() -> int:

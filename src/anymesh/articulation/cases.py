@@ -10,11 +10,11 @@ import numpy as np
 from anymesh.articulation.decode import plane_normal
 from anymesh.articulation.estimate import part_context
 from anymesh.articulation.own_axes import round_patches
+from anymesh.articulation.repeated_parts import same_size, share_opening_directions
 from anymesh.articulation.tree import descendants, parents
-from anymesh.articulation.twins import same_size, share_opening_directions
 from anymesh.config import Config
-from anymesh.geometry.pieces import ObjectShape
-from anymesh.geometry.surroundings import PartContext
+from anymesh.geometry.part_context import PartContext
+from anymesh.geometry.patches import ObjectShape
 from anymesh.reasoning.asking import Answer, Question, VisualAnswerer
 from anymesh.reasoning.prompting import JointKind, KindAnswer, PartShown
 from anymesh.types import Motion, Picture, Segmentation

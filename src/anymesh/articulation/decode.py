@@ -1,18 +1,18 @@
-"""From picks to motions (paper, 3.3): points to a hinge line, a plane's normal to an axis or a way out, arrows to a slide."""
+"""Decode picks into motions (paper, 3.3): points into a hinge line, a plane normal into an axis, arrows into a slide."""
 
 from __future__ import annotations
 
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.geometry.surroundings import PartContext
+from anymesh.geometry.part_context import PartContext
 from anymesh.types import Motion, MotionKind
 
 TRIALS = 200  # planes tried by RANSAC
 
 
 def plane_normal(points: Float[np.ndarray, "n 3"], tolerance: float, seed: int) -> Float[np.ndarray, " 3"]:
-    """Unit normal of the plane that most points lie on within `tolerance` [m] (RANSAC), fitted again to those."""
+    """Fit a plane to points by RANSAC with `tolerance` [m]; return its unit normal."""
     rng = np.random.default_rng(seed)
     best, most = np.arange(len(points)), 2
     for trio in rng.integers(0, len(points), (TRIALS, 3)) if len(points) > 3 else ():
@@ -46,11 +46,11 @@ def hinge(
 
 
 def surface_directions(around: PartContext) -> Float[np.ndarray, "4 3"]:
-    """Both ways along the two sides of the part that lie along the surface."""
+    """Return both directions along the two sides of the part that are parallel to the surface."""
     a, b = (around.body_obb.axes[k] for k in around.face_axes)
     return np.stack([a, -a, b, -b])
 
 
 def prismatic(direction: Float[np.ndarray, " 3"], around: PartContext, source: str) -> Motion:
-    """A slide of the part along a direction."""
+    """Return the prismatic motion of a part along a direction."""
     return Motion(MotionKind.PRISMATIC, direction / np.linalg.norm(direction), around.part.box.center, source)

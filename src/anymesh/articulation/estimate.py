@@ -1,4 +1,4 @@
-"""STAGE B (paper, 3.3): parts to joints. Candidates are proposed, swept, put to the answerer, and limited."""
+"""Stage B (paper, 3.3): estimate joints. Propose and sweep candidate motions, choose one per part, compute its limits."""
 
 from __future__ import annotations
 
@@ -12,25 +12,25 @@ from anymesh.articulation.evidence import hypotheses, part_facts
 from anymesh.articulation.hypotheses import propose
 from anymesh.articulation.limits import limits, opening_as_answered, opening_motion
 from anymesh.articulation.motion_classifier import UnscoredMotions
+from anymesh.articulation.repeated_parts import in_a_row, same_size, share_opening_directions
 from anymesh.articulation.tree import descendants, parents
-from anymesh.articulation.twins import in_a_row, same_size, share_opening_directions
 from anymesh.config import ArticulationConfig, Config
 from anymesh.deadline import JOINTS, Deadline
-from anymesh.geometry.pieces import ObjectShape
-from anymesh.geometry.shape import FaceSet
-from anymesh.geometry.surroundings import PartContext, find_barrel_candidates
+from anymesh.geometry.part_context import PartContext, find_barrel_candidates
+from anymesh.geometry.patches import ObjectShape
 from anymesh.geometry.sweep import free_amount
+from anymesh.geometry.triangle_set import TriangleSet
 from anymesh.reasoning.questions import Candidate, MotionAnswer, MotionAnswerer, MotionQuestion
 from anymesh.types import Joint, JointType, Motion, MotionKind, Segmentation
 
 MAX_RIM_DISTANCE_RATIO = 0.01  # share of the scale: hinge lines this near, or as near as the part is thick, are at one rim
 MIN_PARALLEL_COSINE = 0.999  # cosine of their axes
-SUFFICIENT_OPENING_RAD = np.deg2rad(110)  # of an opening that a hinge needs no more than
-TIGHT_PENETRATION_SCALE = 0.2  # factor on the penetration that counts: neighbours are a few millimetres away
-MAX_COPIES = 8  # of a part, with whose motions its own are compared
-ROLES_AFTER_DEADLINE = ("bail", "round", "barrel", "edge_mid", "slide")  # motions that are swept when the time is over
-PartMotions = tuple[int, int, PartContext, MotionQuestion]  # number of a part, of its parent, what is around it, its motions
-MIN_OPENING_GAIN_RAD = np.deg2rad(5)  # a line that lets the part open further by less is no better
+SUFFICIENT_OPENING_RAD = np.deg2rad(110)  # [rad] openings beyond are not compared
+TIGHT_PENETRATION_SCALE = 0.2  # penetration scale for the clearance to neighbours, which is a few millimetres
+MAX_COPIES = 8  # whose motions are compared with those of a part
+ROLES_AFTER_DEADLINE = ("bail", "round", "barrel", "edge_mid", "slide")  # swept after the deadline
+PartMotions = tuple[int, int, PartContext, MotionQuestion]  # part number, parent number, context, motions
+MIN_OPENING_GAIN_RAD = np.deg2rad(5)  # [rad] minimum gain in opening angle
 
 
 def estimate_joints(segmentation: Segmentation, motions: Iterable[PartMotions], answerer: MotionAnswerer) -> tuple[Joint, ...]:
@@ -45,7 +45,7 @@ def estimate_joints(segmentation: Segmentation, motions: Iterable[PartMotions], 
 def motion_questions(
     whole: ObjectShape, segmentation: Segmentation, config: Config, deadline: Deadline | None = None
 ) -> Iterator[PartMotions]:
-    """Of every part but the root, copies together: its number, its parent's, what is around it, and the question."""
+    """Yield the part number, parent number, context and motion question of each part but the root, copies together."""
     label, parts = segmentation.face_part[whole.source], segmentation.parts
     shapes = [whole.of(np.flatnonzero(label == i)) for i in range(len(parts))]
     parent = parents(shapes, whole.diagonal)
@@ -70,9 +70,9 @@ def relabelled(swept: Iterable[PartMotions], segmentation: Segmentation) -> list
 
 
 def part_context(
-    whole: ObjectShape, label: np.ndarray, shapes: list[FaceSet], parent: list[int], i: int, config: ArticulationConfig
+    whole: ObjectShape, label: np.ndarray, shapes: list[TriangleSet], parent: list[int], i: int, config: ArticulationConfig
 ) -> PartContext:
-    """Part i with what hangs on it; what stands still is the root and the parts that i hangs on."""
+    """Build the context of part i with its descendants; the root and its ancestors are static."""
     carried = [i, *descendants(parent, i)]
     line, at = [0], parent[i]
     while at > 0:
@@ -117,8 +117,7 @@ def _unscored(around: PartContext, name: str, label: str, deadline: Deadline | N
 
 
 def _clear_of_others(around: PartContext, best: Candidate, candidates: tuple[Candidate, ...]) -> Candidate:
-    """Of the lines through the thickness of the part at the hinge that was chosen, the one about which the other parts, at
-    rest, let it open furthest: nothing of the part's own shape tells them apart."""
+    """Among hinge lines at one rim, choose the one with the largest opening when the other parts are at rest."""
     rims = ("edge", "edge_mid")
     if best.role not in rims or not around.siblings:
         return best
@@ -142,7 +141,7 @@ def _at_one_rim(a: Candidate, b: Candidate, thickness: float) -> bool:
 
 
 def estimate_joint(around: PartContext, name: str, parent: str, question: MotionQuestion, answerer: MotionAnswerer) -> Joint:
-    """The joint of one part."""
+    """Estimate the joint of one part."""
     answer, best = choose_motion(around, question, answerer)
     if answer.type is not JointType.FIXED:
         return joint_of(around, name, parent, best, answer.type, answer.confidence, answer.reason)
@@ -179,7 +178,7 @@ def joint_of(
 
 
 def _on_part(motion: Motion, around: PartContext) -> np.ndarray:
-    """The point of the axis level with the part's middle."""
+    """Return the point of the axis nearest to the middle of the part [m]."""
     return motion.origin + ((around.part.box.center - motion.origin) @ motion.axis) * motion.axis
 
 

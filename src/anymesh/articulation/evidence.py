@@ -1,4 +1,4 @@
-"""What sweeping each candidate motion shows: freedom, support, guidance, the side of the handle."""
+"""Evidence for each candidate motion, from its sweep: free range, support, guidance, handle side."""
 
 from __future__ import annotations
 
@@ -6,32 +6,25 @@ from dataclasses import replace
 
 import numpy as np
 
-from anymesh.articulation.hold import contact_retention, hinge_support, lever_arm
-from anymesh.articulation.leaves import adjacent_sides, outer_side, overlap_gain, pair_side
-from anymesh.geometry.surroundings import IGNORE_OVERLAP_SCALE, PartContext
+from anymesh.articulation.adjacent_panels import adjacent_sides, outer_side, overlap_gain, pair_side
+from anymesh.articulation.contact_metrics import contact_retention, hinge_support, lever_arm
+from anymesh.geometry.part_context import IGNORE_OVERLAP_SCALE, PartContext
 from anymesh.geometry.sweep import free_amounts, sweep_all
 from anymesh.reasoning.questions import Candidate, PartFacts
 from anymesh.types import Motion, MotionKind, Sweep
 
 CROSSWISE_HANDLE_WEIGHT = 0.6  # weight of a bar that runs across the line
-PENETRATION_SCALES = (
-    3.0,
-    IGNORE_OVERLAP_SCALE,
-)  # factors on the penetration that counts, tried in turn where a hinge is blocked
-RIM_ROLES = (
-    "edge",
-    "edge_mid",
-    "barrel",
-)  # hinges at a rim of the part: it may be stuck in the rest, and still turn about them
-MIN_OUTWARD_COSINE = 0.5  # cosine of a motion with the way out
-MIN_FREE_ANGLE_RAD = np.deg2rad(12)  # a hinge that opens less is not free
-FACING_COSINE = 0.7  # cosine from which a surface faces the way out, or away from it
+PENETRATION_SCALES = (3.0, IGNORE_OVERLAP_SCALE)  # tried in turn where a hinge is blocked
+RIM_ROLES = ("edge", "edge_mid", "barrel")  # hinges at a rim: they may turn although the part overlaps static geometry
+MIN_OUTWARD_COSINE = 0.5  # cosine of a motion with the opening direction
+MIN_FREE_ANGLE_RAD = np.deg2rad(12)  # [rad] a hinge that opens less is blocked
+FACING_COSINE = 0.7  # cosine from which a surface faces the opening direction, or away from it
 ASYMMETRY_ANGLES_DEG = (37, 90, 141, 200, 285)  # [deg] about its axis; a body of revolution looks the same after all of them
-GUIDE_STEP_RATIO = 0.02  # a slide is held sideways when stopped within this share of the diagonal
+GUIDE_STEP_RATIO = 0.02  # a slide is guided where a sideways step of this share of the scale is blocked
 
 
 def part_facts(around: PartContext, name: str, label: str, two_pivot: bool) -> PartFacts:
-    """The facts of one part that do not depend on a motion."""
+    """Compute the facts of a part that do not depend on a motion."""
     core = around.body_obb
     extents = 2 * core.half / around.diagonal
     return PartFacts(
@@ -67,14 +60,14 @@ def _face_aspect(around: PartContext) -> float:
 
 
 def _back_contact(around: PartContext) -> float:
-    """Share of what faces away from the way out that lies on the parent, or in it."""
+    """Return the share of the back that is in contact with the parent, or inside it."""
     back = around.part.samples.normals @ around.opening_direction < -FACING_COSINE
     near = around.gap < max(2 * around.config.connecting * around.scale, 1.5 * float(around.gap.min()))
     return float(near[back].mean()) if back.sum() > 3 else 0.0
 
 
 def _free_rim(around: PartContext) -> float:
-    """Share of a round part's rim that sees nothing of the rest within two radii, straight away from its axis."""
+    """Return the share of a round part's rim that is free for two radii, radially."""
     outline, points = around.outline, around.part.samples.points
     arm = points - outline.center
     arm -= (arm @ outline.axis)[:, None] * outline.axis
@@ -88,7 +81,7 @@ def _free_rim(around: PartContext) -> float:
 
 
 def _rotational_asymmetry(around: PartContext) -> float:
-    """How far a round part is from a body of revolution, over its radius: what turns has something on it that shows it."""
+    """Return the distance of a round part from a body of revolution, over its radius: knobs carry marks or grips."""
     outline, points = around.outline, around.part.samples.points[::4]
     off = 0.0
     for turn in np.deg2rad(ASYMMETRY_ANGLES_DEG):
@@ -99,17 +92,17 @@ def _rotational_asymmetry(around: PartContext) -> float:
 
 
 def _covers_opening(around: PartContext) -> float:
-    """How much of a round part's rim lies near the parent, times the share of its back with nothing close behind."""
+    """Return the share of a round part's rim near the parent, times the share of its back with an opening behind it."""
     outline, points = around.outline, around.part.samples.points
     arm = points - outline.center
     radius = np.linalg.norm(arm - (arm @ outline.axis)[:, None] * outline.axis, axis=1)
     rim, back = radius > 0.85 * outline.radius, radius < 0.6 * outline.radius
     if rim.sum() < 3 or back.sum() < 3:
         return 0.0
-    held = float((around.gap[rim] < 0.1 * outline.radius).mean())
+    supported = float((around.gap[rim] < 0.1 * outline.radius).mean())
     rays = np.repeat(-around.opening_direction[None] * 0.5 * outline.radius, int(back.sum()), 0)
     empty = float((around.rest.scene.first_hit(points[back], rays, 1.0).face < 0).mean())
-    return held * empty
+    return supported * empty
 
 
 def hypotheses(around: PartContext, proposed: list[tuple[str, Motion]]) -> tuple[Candidate, ...]:
@@ -119,8 +112,8 @@ def hypotheses(around: PartContext, proposed: list[tuple[str, Motion]]) -> tuple
     penetration allowed, and at last as if the rest made room for the part.
     """
     motions, steps = [m for _, m in proposed], around.config.sweep_steps
-    turns = [m for m in motions if m.kind is MotionKind.REVOLUTE]
-    along, meeting = iter(hinge_support(around, turns)), adjacent_sides(around)
+    revolute = [m for m in motions if m.kind is MotionKind.REVOLUTE]
+    along, adjacent = iter(hinge_support(around, revolute)), adjacent_sides(around)
     inward = [
         m.kind is MotionKind.PRISMATIC and abs(float(m.axis @ around.opening_direction)) <= MIN_OUTWARD_COSINE for m in motions
     ]
@@ -128,11 +121,11 @@ def hypotheses(around: PartContext, proposed: list[tuple[str, Motion]]) -> tuple
     for obstacles, wanted in ((around.obstacles(), False), (around.obstacles_at_rest, True)):
         chosen = [k for k, x in enumerate(inward) if x is wanted]
         swept.update(zip(chosen, sweep_all(obstacles, [motions[k] for k in chosen], steps), strict=True))
-    held = iter(_guided_share(around, [m for m in motions if m.kind is MotionKind.PRISMATIC]))
+    guided = iter(_guided_share(around, [m for m in motions if m.kind is MotionKind.PRISMATIC]))
     ahead = [
-        _revolute(around, role, motion, swept[k], next(along), meeting)
+        _revolute(around, role, motion, swept[k], next(along), adjacent)
         if motion.kind is MotionKind.REVOLUTE
-        else _prismatic(around, role, motion, swept[k], next(held))
+        else _prismatic(around, role, motion, swept[k], next(guided))
         for k, (role, motion) in enumerate(proposed)
     ]
     found = _with_overlap_ignored(around, [way for c in ahead for way in (c, reversed_(c))])
@@ -146,7 +139,7 @@ def reversed_(c: Candidate) -> Candidate:
 
 
 def _with_overlap_ignored(around: PartContext, found: list[Candidate]) -> list[Candidate]:
-    """Hinges that would let the part out but for what holds it, with as little of the hold ignored as sets each free."""
+    """Sweep blocked hinges again at the smallest penetration scale that frees each of them."""
     found = list(found)
     stuck = [
         k
@@ -163,10 +156,12 @@ def _with_overlap_ignored(around: PartContext, found: list[Candidate]) -> list[C
     return found
 
 
-def _revolute(around: PartContext, role: str, motion: Motion, swept: Sweep, near: np.ndarray, meeting: np.ndarray) -> Candidate:
+def _revolute(
+    around: PartContext, role: str, motion: Motion, swept: Sweep, near: np.ndarray, adjacent: np.ndarray
+) -> Candidate:
     moves = np.cross(motion.axis, around.part.samples.points.mean(0) - motion.origin)
     across = float(np.linalg.norm(moves))
-    reach, hugs, thick = lever_arm(around, motion)
+    reach, proximity, thick = lever_arm(around, motion)
     return Candidate(
         motion, swept, role, 1, swept.forward, swept.backward,
         hinge_support=float(near[0]),
@@ -178,25 +173,25 @@ def _revolute(around: PartContext, role: str, motion: Motion, swept: Sweep, near
         above=_axis_height(around, motion),
         captured=False,
         outward=float(moves @ around.opening_direction) / across if across > 1e-9 else 0.0,
-        pair=pair_side(around, motion, meeting),
+        pair=pair_side(around, motion, adjacent),
         outer=outer_side(around, motion),
         handle_off=_handle_offset(around, motion),
         support_opposite=float(near[2]),
         reach=reach,
-        contact_proximity=hugs,
+        contact_proximity=proximity,
         thick=thick,
     )  # fmt: skip
 
 
 def _sides(around: PartContext, motion: Motion) -> np.ndarray:
-    """(2, 3) Directions across a slide, along the part's box as far as they are square to it; unit."""
+    """Return the (2, 3) unit directions across a slide, along the part's box where that is perpendicular."""
     flat = sorted(around.body_obb.axes, key=lambda a: abs(float(a @ motion.axis)))[:2]
     side = np.array([a - (a @ motion.axis) * motion.axis for a in flat])
     return side / np.linalg.norm(side, axis=1, keepdims=True)
 
 
 def _guided_share(around: PartContext, prismatic: list[Motion]) -> list[float]:
-    """The share of the four directions across each slide in which the part is stopped at once."""
+    """Return the share of the four directions across each slide in which the part is stopped within GUIDE_STEP_RATIO."""
     sideways = [Motion(MotionKind.PRISMATIC, d, m.origin, "sideways") for m in prismatic for d in _sides(around, m)]
     step = [GUIDE_STEP_RATIO * around.scale] * (2 * len(sideways))
     signs = [1] * len(sideways) + [-1] * len(sideways)
@@ -235,9 +230,9 @@ def _captured(around: PartContext, swept: Sweep) -> bool:
 
 
 def _handle_side(around: PartContext, motion: Motion) -> float:
-    """1: the handle is at the side opposite the line; -1: right at the line; 0: no handle, or level with the line.
+    """Return the side of the handle: 1 opposite the hinge line, -1 at the line, 0 level with it or without a handle.
 
-    A grip that runs across the line counts less: hands close around bars that are parallel to the hinge.
+    A handle that runs across the line counts less: pulls are parallel to the hinge.
     """
     handle = around.handle
     if handle is None:
@@ -253,7 +248,7 @@ def _handle_side(around: PartContext, motion: Motion) -> float:
 
 
 def _handle_offset(around: PartContext, motion: Motion) -> float:
-    """How far the handle sits from the middle of the hinge's length: flaps have it in the middle, doors where hands reach."""
+    """Return the offset of the handle from the middle of the hinge line (0..1): small for flaps, large for doors."""
     if around.handle is None:
         return 0.0
     across = zip(around.face_axes, around.handle.across, strict=True)

@@ -10,7 +10,7 @@ import numpy as np
 
 from anymesh.geometry.boxes import OrientedBox
 from anymesh.geometry.circles import outline_about
-from anymesh.geometry.surroundings import PartContext
+from anymesh.geometry.part_context import PartContext
 from anymesh.types import Motion, MotionKind
 
 SAME_DIRECTION = np.cos(np.deg2rad(1.0))
@@ -31,7 +31,7 @@ def _edges(box: OrientedBox, what: str) -> list[tuple[str, Motion]]:
 
 
 def _edge_middles(box: OrientedBox, what: str) -> list[tuple[str, Motion]]:
-    """Lines half way through the thickness of a plate, along its four rims."""
+    """Return the lines half way through the thickness of a plate, along its four rims."""
     found = []
     for k in range(2):
         other = 1 - k
@@ -80,7 +80,7 @@ def _unit(v: np.ndarray) -> np.ndarray:
 
 
 def two_pivot_line(around: PartContext) -> Motion | None:
-    """The line through two contacts that lie far apart with nothing between them (a bucket's bail, a trunnion)."""
+    """Return the line through two contacts far apart with free space between them (a bucket handle, a trunnion)."""
     near = around.part.samples.points[around.gap < max(0.008 * around.scale, float(around.gap.min()) * 1.5)]
     if len(near) < 6:
         return None
@@ -108,7 +108,7 @@ def _two_groups(points: np.ndarray, centers: np.ndarray) -> np.ndarray:
 
 
 def barrels(around: PartContext) -> list[tuple[str, Motion]]:
-    """Axes of small cylinders at the border of part and parent: hinge barrels and pins."""
+    """Return the axes of small cylinders near part and parent: hinge barrels and pins."""
     found = []
     for piece in around.barrel_candidates:
         seen = outline_about(np.concatenate([piece.corners, piece.samples.points]), piece.box.axes[0])
@@ -118,7 +118,7 @@ def barrels(around: PartContext) -> list[tuple[str, Motion]]:
 
 
 def propose(around: PartContext) -> list[tuple[str, Motion]]:
-    """All candidate motions of a part, each with its role, without near copies; the order is fixed."""
+    """Propose all candidate motions of a part with their roles, without near copies, in a fixed order."""
     core, box = around.body_obb, around.part.box
     found = _edges(core, "the part") + _edge_middles(core, "the part") + _through(core, "the part")
     found += _box_directions(core, "the part")

@@ -1,4 +1,4 @@
-"""Limits of a joint, from the sweep of its motion."""
+"""Compute the limits of a joint from the sweep of its motion."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 from jaxtyping import Bool, Float
 
-from anymesh.geometry.surroundings import PartContext
+from anymesh.geometry.part_context import PartContext
 from anymesh.geometry.sweep import free_amount
 from anymesh.reasoning.questions import MIN_ANGLE, Candidate
 from anymesh.types import JointType, Motion, MotionKind
@@ -48,7 +48,7 @@ def limits(around: PartContext, c: Candidate, kind: JointType, answered: Range |
 
 
 def opening_motion(c: Candidate) -> Motion:
-    """The candidate's motion with the axis turned so that positive opens."""
+    """Return the motion of a candidate with its axis signed so that positive opens."""
     return Motion(c.motion.kind, c.motion.axis * c.opening_sign, c.motion.origin, c.motion.source)
 
 
@@ -132,7 +132,7 @@ def _revolute(around: PartContext, c: Candidate) -> tuple[float, float]:
 
 
 def _is_closed(around: PartContext) -> bool:
-    """Whether the part lies shut: near the parent at both ends of its face, so that inwards is where it came from."""
+    """Return whether the part is closed: near the parent at both ends of its face."""
     near = around.gap < 0.02 * around.scale
     local = around.body_obb.local(around.part.samples.points) / np.maximum(around.body_obb.half, 1e-9)
     return sum(ends_near(local[:, axis], near) for axis in around.face_axes) >= 3

@@ -11,9 +11,9 @@ from collections.abc import Sequence
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.articulation.hold import CONTACT_RATIO, CONTACT_TOLERANCE_FACTOR
+from anymesh.articulation.contact_metrics import CONTACT_RATIO, CONTACT_TOLERANCE_FACTOR
 from anymesh.geometry.circles import outline_about
-from anymesh.geometry.surroundings import PartContext
+from anymesh.geometry.part_context import PartContext
 from anymesh.reasoning.questions import Candidate, PartFacts
 from anymesh.reasoning.two_steps import MISSING
 from anymesh.types import Motion, MotionKind

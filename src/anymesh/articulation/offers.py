@@ -69,7 +69,7 @@ class MotionOffers:
 
 
 def make_offers(case: PartCase, max_motions: int, seed: int) -> MotionOffers:
-    """Propose, sweep, score and select the motions of a part. most: in a picture; seed: of their order in it."""
+    """Propose, sweep, score and select the motions of a part. max_motions: in a picture; seed: of their order in it."""
     question = scored_motions(case)
     facts, candidates, plain = question.part, list(question.candidates), motion_scores(question).tolist()
     worth = [v + _agrees(c, case) - PICKED_POINT_PENALTY * (c.role == "asked") for v, c in zip(plain, candidates, strict=True)]

@@ -1,4 +1,4 @@
-"""Axes that a part's own shape suggests to the eye: circles on it or beside it, the ring where it is held, its pivot.
+"""Propose axes from the shape of a part: circles on it or beside it, the ring of its contact, its pivot.
 
 They come on top of `hypotheses.propose`; only those who see the part are asked about them.
 """
@@ -9,9 +9,9 @@ import numpy as np
 from jaxtyping import Float
 
 from anymesh.geometry.circles import outline_about
-from anymesh.geometry.pieces import ObjectShape
-from anymesh.geometry.shape import FaceSet
-from anymesh.geometry.surroundings import PartContext
+from anymesh.geometry.part_context import PartContext
+from anymesh.geometry.patches import ObjectShape
+from anymesh.geometry.triangle_set import TriangleSet
 from anymesh.types import Motion, MotionKind
 
 MIN_ROUNDNESS = 0.8  # roundness of a circle that stands for an axis
@@ -22,7 +22,7 @@ SAME_DIRECTION = 0.98  # cosine
 MIN_POINTS = 24  # of a contact that may be a ring
 
 
-def round_patches(whole: ObjectShape, part: FaceSet, parent: FaceSet) -> tuple[Motion, ...]:
+def round_patches(whole: ObjectShape, part: TriangleSet, parent: TriangleSet) -> tuple[Motion, ...]:
     """Return the axes of round pieces of a part, and of round pieces of its parent that it encloses or sits on (pins)."""
     found: list[tuple[float, Motion]] = []
     low, high = part.bounds

@@ -1,8 +1,8 @@
-"""The field's word for a part that moves in a certain way, if it moves at all."""
+"""Label a part by its motion."""
 
 from __future__ import annotations
 
-from anymesh.geometry.surroundings import PartContext
+from anymesh.geometry.part_context import PartContext
 from anymesh.reasoning.questions import Candidate
 from anymesh.types import MotionKind
 

@@ -22,11 +22,11 @@ from anymesh.articulation.relabel import labels_by_name, relabelled, unlabelled
 from anymesh.articulation.taken import as_answered, normal_outwards, opening_slide
 from anymesh.articulation.verify import Choice, MotionQuestioner, choose_motions
 from anymesh.config import Config
-from anymesh.geometry.pieces import ObjectShape
+from anymesh.geometry.patches import ObjectShape
 from anymesh.progress import Progress, silent
 from anymesh.reasoning.asking import VisualAnswerer
 from anymesh.reasoning.prompting import ArrowTable, JointKind, PartFit, PointTable, WhichArrows, WhichKinds, WhichPoints
-from anymesh.rendering.studio import Shot, VisualPrompts
+from anymesh.rendering.visual_prompts import Shot, VisualPrompts
 from anymesh.types import Joint, JointType, Motion, MotionKind, Segmentation
 from anymesh.types.recognition import Recognition
 

@@ -1,4 +1,4 @@
-"""Answers that are taken as they are: the paper's method, and the same where what cannot move is replaced."""
+"""Motions taken from answers without verification: the paper's method, and a variant that replaces blocked motions."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def normal_outwards(case: PartCase) -> Motion:
 
 
 def opening_slide(case: PartCase) -> Motion:
-    """Return the plane's normal where the part is free and held along it, else the free way out that is held best.
+    """Return the plane's normal where the part is free and guided along it, else the best guided free direction.
 
     On real drawers the connecting area is rim and sides, and its plane's normal alone may be off by 80 degrees and more.
     """
@@ -38,7 +38,7 @@ def opening_slide(case: PartCase) -> Motion:
 
 
 def as_answered(case: PartCase) -> Choice:
-    """Return the motion that was answered, as it is."""
+    """Return the answered motion unchanged."""
     motion = case.asked or prismatic(case.around.opening_direction, case.around, "nothing moves")
     both = hypotheses(case.around, [("asked", motion)])
     scores = score_motions(case.around, part_facts(case.around, case.label, case.label, two_pivot=False), both)

@@ -1,4 +1,4 @@
-"""Who hangs on whom: the parent of every part."""
+"""Find the parent of each part."""
 
 from __future__ import annotations
 
@@ -6,14 +6,14 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from anymesh.geometry.shape import FaceSet
+from anymesh.geometry.triangle_set import TriangleSet
 
 MIN_PARENT_GAIN = (
     3.0  # a part hangs on another part rather than on the root when it is this much nearer, or touches this much more
 )
 
 
-def parents(shapes: list[FaceSet], diagonal: float, answered: Sequence[set[int]] | None = None) -> list[int]:
+def parents(shapes: list[TriangleSet], diagonal: float, answered: Sequence[set[int]] | None = None) -> list[int]:
     """Return the parent's index of every part (the root, 0, has -1): the root, unless the part clearly hangs on a larger part.
 
     answered: for each part, the indices of possible parents, may be empty; the nearest of them that touches is taken.
@@ -25,7 +25,7 @@ def parents(shapes: list[FaceSet], diagonal: float, answered: Sequence[set[int]]
     return _without_circles([-1, *rest])
 
 
-def _touching(shapes: list[FaceSet], i: int, size: Sequence[float], tolerance: float) -> int:
+def _touching(shapes: list[TriangleSet], i: int, size: Sequence[float], tolerance: float) -> int:
     """Return the larger part that part i clearly hangs on, the root when there is none. tolerance: of touching [m]."""
     points = shapes[i].samples.points[::6]
     best, best_score = 0, 0.0
@@ -43,7 +43,7 @@ def _touching(shapes: list[FaceSet], i: int, size: Sequence[float], tolerance: f
     return best
 
 
-def _answered_parents(shapes: list[FaceSet], answered: Sequence[set[int]], reach: Sequence[float]) -> dict[int, int]:
+def _answered_parents(shapes: list[TriangleSet], answered: Sequence[set[int]], reach: Sequence[float]) -> dict[int, int]:
     """Return the parents that were named and touch, by part.
 
     Parts that name each other, as the arms of a lamp do, form a chain: those that touch a part outside of it come first, then
@@ -65,13 +65,13 @@ def _answered_parents(shapes: list[FaceSet], answered: Sequence[set[int]], reach
         placed |= ready.keys()
 
 
-def _boxes_near(a: FaceSet, b: FaceSet, reach: float) -> bool:
-    """Whether two shapes may have points within `reach` of each other [m]."""
+def _boxes_near(a: TriangleSet, b: TriangleSet, reach: float) -> bool:
+    """Return whether two shapes may have points within `reach` of each other [m]."""
     return bool((a.bounds[0] - reach <= b.bounds[1]).all() and (b.bounds[0] - reach <= a.bounds[1]).all())
 
 
-def _nearest(points: np.ndarray, shapes: list[FaceSet], among: set[int], reach: float) -> int | None:
-    """The one of some parts that is nearest to these points, None when none is within reach [m]."""
+def _nearest(points: np.ndarray, shapes: list[TriangleSet], among: set[int], reach: float) -> int | None:
+    """Return the part nearest to these points, None when none is within reach [m]."""
     off = {j: float(shapes[j].tree.distance(points).min()) for j in sorted(among)}
     best = min(off, key=lambda j: off[j], default=None)
     return best if best is not None and off[best] < reach else None
@@ -90,7 +90,7 @@ def _without_circles(parent: list[int]) -> list[int]:
 
 
 def descendants(parent: list[int], i: int) -> list[int]:
-    """The parts that hang on part i, near and far, without i."""
+    """Return all descendants of part i."""
     found: list[int] = []
     for j in range(len(parent)):
         at = parent[j]

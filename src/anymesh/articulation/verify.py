@@ -15,7 +15,7 @@ from anymesh.reasoning.asking import VisualAnswerer
 from anymesh.reasoning.geometry import reason
 from anymesh.reasoning.prompting import JointKind, MotionPick, MotionTable, PartFit, WhichMotions
 from anymesh.reasoning.questions import Candidate
-from anymesh.rendering.studio import VisualPrompts
+from anymesh.rendering.visual_prompts import VisualPrompts
 from anymesh.types import Picture
 
 
@@ -64,7 +64,7 @@ class MotionQuestioner:
 
 
 def choose_motions(cases: list[PartCase], asking: MotionQuestioner, max_motions: int, seed: int) -> dict[int, Choice]:
-    """Show the motions of each part and return the one chosen, by part number. most: motions in a picture.
+    """Show the motions of each part and return the one chosen, by part number. max_motions: motions in a picture.
 
     Where none of those shown is right, the next are shown, once. Where the choice contradicts what geometry and the answers
     before agree on, it is asked for again in another order and must be the same. seed: of the order in the pictures.

@@ -9,10 +9,10 @@ import numpy as np
 from anymesh.checking.content import Content
 from anymesh.checking.groups import rigid_groups
 from anymesh.checking.report import Finding, failure, warning
-from anymesh.geometry.shape import FaceSet
 from anymesh.geometry.simplify_ import simplify
 from anymesh.geometry.sweep import Obstacles, free_amount
 from anymesh.geometry.topology import components
+from anymesh.geometry.triangle_set import TriangleSet
 from anymesh.simulation.robot import RobotJoint
 from anymesh.types import Motion, MotionKind
 from anymesh.types.triangles import normals_and_areas
@@ -38,17 +38,17 @@ def check_direction(content: Content) -> Iterator[Finding]:
             yield from _ways(content, joint, _shape(part), _shape(rest))
 
 
-def _shape(triangles: np.ndarray) -> FaceSet:
+def _shape(triangles: np.ndarray) -> TriangleSet:
     """With outward normals where it is closed."""
     triangles = simplify(triangles, FACES)
     corners = triangles.reshape(-1, 3)
     found = components(corners, np.arange(len(corners)).reshape(-1, 3))
     normals = normals_and_areas(triangles)[0]
     normals = np.where(found.flip[found.label][:, None], -normals, normals)
-    return FaceSet(triangles, normals, found.solid[found.label], np.arange(len(triangles)))
+    return TriangleSet(triangles, normals, found.solid[found.label], np.arange(len(triangles)))
 
 
-def _ways(content: Content, joint: RobotJoint, part: FaceSet, rest: FaceSet) -> Iterator[Finding]:
+def _ways(content: Content, joint: RobotJoint, part: TriangleSet, rest: TriangleSet) -> Iterator[Finding]:
     T = content.places[joint.child]
     axis = T[:3, :3] @ joint.axis / np.linalg.norm(joint.axis)
     slides = joint.type == "prismatic"

@@ -9,10 +9,10 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.collision.clear import Piece, Scene, clear
+from anymesh.collision.clear import ComponentShapes, ContactScene, clear
 from anymesh.collision.convex import hull_of, thinned
-from anymesh.collision.crossing import Surface
-from anymesh.collision.decompose import Component, Fineness, least_box, split_components
+from anymesh.collision.crossing import LinkSurface
+from anymesh.collision.decompose import Component, Resolution, smallest_box, split_components
 from anymesh.collision.decomposer import Decomposer, Fallback
 from anymesh.collision.settings import CollisionConfig
 from anymesh.deadline import COLLISION, Deadline
@@ -22,9 +22,9 @@ from anymesh.isolation import ChildPool, shared_pool
 from anymesh.types import Asset, Joint, JointType, Shape
 
 __all__ = ["Collision", "CollisionConfig", "collision_shapes", "joint_poses", "sampled_poses"]
-FACES = 50_000  # of a link, for the question whether surfaces cross
-MOST_POSES, LEAST_POSES = 2000, 3  # that shapes are tried at, in all and per joint
-SMALL = 0.3  # components smaller than this share of the first gap need no shape beside larger ones
+MAX_CROSSING_FACES = 50_000  # of a link, for the question whether surfaces cross
+MAX_POSES, MIN_POSES = 2000, 3  # that shapes are tried at, in all and per joint
+MIN_COMPONENT_SIZE_RATIO = 0.3  # components smaller than this share of the first gap need no shape beside larger ones
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,7 +63,7 @@ def collision_shapes(
     parts = [
         (link, c)
         for link, t in triangles.items()
-        for c in split_components(t, SMALL * config.gaps[0] * size, config.most_components)
+        for c in split_components(t, MIN_COMPONENT_SIZE_RATIO * config.gaps[0] * size, config.most_components)
     ]
     owner = {id(c): link for link, c in parts}
 
@@ -76,22 +76,22 @@ def collision_shapes(
         if deadline.late(COLLISION):
             deadline.leave_out("collision: one convex hull per component")
             return [_one_hull(c, wall) for c in some]
-        fineness = [Fineness(config.gaps[k] * size, wall, config.pieces[k]) for k in levels]
+        fineness = [Resolution(config.gaps[k] * size, wall, config.pieces[k]) for k in levels]
         divided = decomposer.divide(some, fineness)
         fallbacks.update({owner[id(c)]: d.fallback for c, d in zip(some, divided, strict=True) if d.fallback is not None})
         return [d.shapes for d in divided]
 
     first = shapes_of([c for _, c in parts], [0] * len(parts))
-    pieces = [Piece(link, c, 0, shapes) for (link, c), shapes in zip(parts, first, strict=True)]
-    scene = Scene(
-        {link: Surface(simplify(t, FACES)) for link, t in triangles.items()},
+    pieces = [ComponentShapes(link, c, 0, shapes) for (link, c), shapes in zip(parts, first, strict=True)]
+    scene = ContactScene(
+        {link: LinkSurface(simplify(t, MAX_CROSSING_FACES)) for link, t in triangles.items()},
         sampled_poses(asset, origins, config.poses),
         config.contact * size,
         config.crossing * size,
     )
     done = clear(scene, pieces, shapes_of, levels=len(config.gaps), rounds=config.rounds, late=late)
     found = {link: tuple(s for p in done.pieces if p.link == link for s in p.shapes) for link in triangles}
-    found = {link: shapes or (least_box(triangles[link], wall),) for link, shapes in found.items()}
+    found = {link: shapes or (smallest_box(triangles[link], wall),) for link, shapes in found.items()}
     warnings = tuple(
         f"link {link}: collision made by {f.used}, since {'; '.join(f.reasons)}" for link, f in sorted(fallbacks.items())
     )
@@ -120,7 +120,7 @@ def sampled_poses(
     a joint does not move share their transform with the rest pose.
     """
     moving = [j for j in asset.joints if j.type is not JointType.FIXED]
-    count = int(np.clip(MOST_POSES // max(len(moving), 1), min(LEAST_POSES, count), count))
+    count = int(np.clip(MAX_POSES // max(len(moving), 1), min(MIN_POSES, count), count))
     rest = _placed(asset, origins, {})
     alone = [pose for joint in moving for pose in _alone(asset, rest, joint, count)]
     opened = {j.name: np.pi if j.limits is None else j.limits[1] for j in moving}

@@ -15,18 +15,18 @@ import numpy as np
 
 from anymesh.collision.contacts_ import Contact, ContactBench, Pose
 from anymesh.collision.convex import trimmed, volume
-from anymesh.collision.crossing import Surface, cross, placed_bounds
+from anymesh.collision.crossing import LinkSurface, cross, placed_bounds
 from anymesh.collision.decompose import Component
 from anymesh.collision.primitives import EXACT, as_hull, fitted
 from anymesh.types import Shape
 
-LITTLE = 0.15  # share of a shape that is planed off rather than its piece refined
-MUCH = 0.7  # share that is planed off where nothing finer is left
+MAX_PLANED_RATIO = 0.15  # share of a shape that is planed off rather than its piece refined
+MAX_PLANED_RATIO_LAST = 0.7  # share that is planed off where nothing finer is left
 Refine = Callable[[Sequence[Component], Sequence[int]], list[tuple[Shape, ...]]]  # shapes of components at levels of fineness
 
 
 @dataclass(frozen=True, eq=False)
-class Piece:
+class ComponentShapes:
     """A component of a link and its shapes at a level of fineness."""
 
     link: str
@@ -55,10 +55,10 @@ class Faults:
 
 
 @dataclass(frozen=True, eq=False)
-class Scene:
+class ContactScene:
     """Surfaces per link in link frames, poses (the first one is rest), and depths that count [m]."""
 
-    surfaces: dict[str, Surface]
+    surfaces: dict[str, LinkSurface]
     poses: Sequence[Pose]
     contact: float
     crossing: float
@@ -83,7 +83,7 @@ class Scene:
         return self._crossings[a, b, at]
 
     def faults(
-        self, pieces: Sequence[Piece], at: Sequence[int] | None = None, late: Callable[[], bool] = lambda: False
+        self, pieces: Sequence[ComponentShapes], at: Sequence[int] | None = None, late: Callable[[], bool] = lambda: False
     ) -> Faults:
         """Find the false contacts at some poses, None for all; poses that come when it is late are left out."""
         owner = {
@@ -113,66 +113,74 @@ class Scene:
 class Cleared:
     """Pieces after clearing, how many false contacts there were first, and the pairs of links that still have some."""
 
-    pieces: list[Piece]
+    pieces: list[ComponentShapes]
     before: int
     left: tuple[tuple[str, str], ...]
 
 
 def clear(
-    scene: Scene, pieces: list[Piece], refine: Refine, *, levels: int, rounds: int, late: Callable[[], bool] = lambda: False
+    scene: ContactScene,
+    components: list[ComponentShapes],
+    refine: Refine,
+    *,
+    levels: int,
+    rounds: int,
+    late: Callable[[], bool] = lambda: False,
 ) -> Cleared:
     """Plane the shapes of false contacts where that costs them little; refine pieces up to the last of `levels` where not.
 
     Shapes only shrink, so a round looks at the poses that had false contacts; when these are free, all are looked at again.
     late: tells that the time is over, after which false contacts stay.
     """
-    faults = scene.faults(pieces, None, late)
+    faults = scene.faults(components, None, late)
     before = len(faults.found)
     while faults.found and rounds > 0 and not late():
         rounds -= 1
-        planed, costly = _planed(pieces, faults.found, scene.contact, LITTLE)
-        coarse = sorted({k for f in costly for k, _ in (f.first, f.second) if pieces[k].level + 1 < levels})
+        planed, costly = _planed(components, faults.found, scene.contact, MAX_PLANED_RATIO)
+        coarse = sorted({k for f in costly for k, _ in (f.first, f.second) if components[k].level + 1 < levels})
         if coarse:
-            finer = refine([pieces[k].component for k in coarse], [pieces[k].level + 1 for k in coarse])
+            finer = refine([components[k].component for k in coarse], [components[k].level + 1 for k in coarse])
             for k, shapes in zip(coarse, finer, strict=True):
-                planed[k] = replace(pieces[k], level=pieces[k].level + 1, shapes=shapes)
+                planed[k] = replace(components[k], level=components[k].level + 1, shapes=shapes)
         elif costly:
-            planed, _ = _planed(pieces, faults.found, scene.contact, MUCH)
-        pieces = planed
-        again = scene.faults(pieces, faults.poses, late)
-        again = again if again.found else scene.faults(pieces, None, late)
+            planed, _ = _planed(components, faults.found, scene.contact, MAX_PLANED_RATIO_LAST)
+        components = planed
+        again = scene.faults(components, faults.poses, late)
+        again = again if again.found else scene.faults(components, None, late)
         if late():  # not all poses were looked at: what had false contacts before may still have them
             break
         faults = again
-    links = [(pieces[f.first[0]].link, pieces[f.second[0]].link) for f in faults.found]
-    return Cleared(pieces, before, tuple(sorted({(min(pair), max(pair)) for pair in links})))
+    links = [(components[f.first[0]].link, components[f.second[0]].link) for f in faults.found]
+    return Cleared(components, before, tuple(sorted({(min(pair), max(pair)) for pair in links})))
 
 
-def _planed(pieces: list[Piece], faults: Sequence[Fault], slack: float, most: float) -> tuple[list[Piece], list[Fault]]:
+def _planed(
+    components: list[ComponentShapes], faults: Sequence[Fault], margin: float, max_ratio: float
+) -> tuple[list[ComponentShapes], list[Fault]]:
     """Of each fault, the shape that loses the smaller share of itself is cut back, and the faults that would cost more than
-    the share `most`."""
-    shapes: list[list[Shape | None]] = [list(p.shapes) for p in pieces]
+    the share `max_ratio`."""
+    shapes: list[list[Shape | None]] = [list(p.shapes) for p in components]
     costly = []
     for fault in faults:
-        sides = [(k, n, fault.pose[pieces[k].link], shapes[k][n]) for k, n in (fault.first, fault.second)]
+        sides = [(k, n, fault.pose[components[k].link], shapes[k][n]) for k, n in (fault.first, fault.second)]
         reach = [
             None if shape is None else float((placed_hull(shape, T) @ (sign * fault.normal)).max())
             for (_, _, T, shape), sign in zip(sides, (1.0, -1.0), strict=True)
         ]
         if reach[0] is None or reach[1] is None or reach[0] + reach[1] <= 0:  # parted by an earlier cut
             continue
-        depth = reach[0] + reach[1] + slack
+        depth = reach[0] + reach[1] + margin
         cuts = [
             _cut(shape, T, sign * fault.normal, depth)
             for (_, _, T, shape), sign in zip(sides, (1.0, -1.0), strict=True)
             if shape is not None
         ]
         side = 0 if cuts[0][0] <= cuts[1][0] else 1
-        if cuts[side][0] > most:
+        if cuts[side][0] > max_ratio:
             costly.append(fault)
         else:
             shapes[sides[side][0]][sides[side][1]] = cuts[side][1]
-    kept = [replace(p, shapes=tuple(s for s in some if s is not None)) for p, some in zip(pieces, shapes, strict=True)]
+    kept = [replace(p, shapes=tuple(s for s in some if s is not None)) for p, some in zip(components, shapes, strict=True)]
     return kept, costly
 
 

@@ -10,11 +10,11 @@ from anymesh.geometry.sampling import spread_directions
 from anymesh.types import Hull
 from anymesh.types.triangles import face_cross
 
-MOST = 64  # corners of a hull; engines on a GPU take no more
-FLAT = 1e-4  # thinner than this share of the diagonal: no engine takes the hull
+MAX_CORNERS = 64  # corners of a hull; engines on a GPU take no more
+MIN_THICKNESS_RATIO = 1e-4  # thinner than this share of the diagonal: no engine takes the hull
 
 
-DIRECTIONS = spread_directions(MOST)
+DIRECTIONS = spread_directions(MAX_CORNERS)
 
 
 def hull_of(points: Float[np.ndarray, "n 3"], wall: float = 0.0, inward: np.ndarray | None = None) -> Hull | None:
@@ -29,9 +29,9 @@ def hull_of(points: Float[np.ndarray, "n 3"], wall: float = 0.0, inward: np.ndar
     size = float(np.linalg.norm(np.ptp(points, axis=0)))
     axes = np.linalg.svd(spread, full_matrices=False)[2] if len(points) > 3 else np.linalg.svd(spread)[2]
     extent = np.ptp(spread @ axes.T, axis=0)
-    if size == 0 or extent[1] <= FLAT * size:
+    if size == 0 or extent[1] <= MIN_THICKNESS_RATIO * size:
         return None
-    if extent[2] <= max(FLAT * size, 1e-9):
+    if extent[2] <= max(MIN_THICKNESS_RATIO * size, 1e-9):
         if wall <= 0:
             return None
         normal = axes[2]
@@ -53,7 +53,7 @@ def hull_of(points: Float[np.ndarray, "n 3"], wall: float = 0.0, inward: np.ndar
 
 def thinned(hull: Hull) -> Hull:
     """A hull with more than MOST corners keeps those that reach furthest, each in its direction."""
-    if len(hull.vertices) <= MOST:
+    if len(hull.vertices) <= MAX_CORNERS:
         return hull
     furthest = np.unique((hull.vertices @ DIRECTIONS.T).argmax(0))
     return hull_of(hull.vertices[furthest]) or hull

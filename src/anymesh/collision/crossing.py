@@ -14,7 +14,7 @@ from anymesh.types.triangles import normals_and_areas
 CORNERS = np.array(list(product((0, 1), repeat=3)))  # of a box: which of its two bounds each takes along x, y, z
 
 
-class Surface:
+class LinkSurface:
     """The triangles of a link in its frame, with its edges, ready to be crossed."""
 
     def __init__(self, triangles: Float[np.ndarray, "n 3 3"]) -> None:
@@ -50,7 +50,7 @@ class Surface:
         return False
 
 
-def cross(a: Surface, T_a: Float[np.ndarray, "4 4"], b: Surface, T_b: Float[np.ndarray, "4 4"], depth: float) -> bool:
+def cross(a: LinkSurface, T_a: Float[np.ndarray, "4 4"], b: LinkSurface, T_b: Float[np.ndarray, "4 4"], depth: float) -> bool:
     """Whether the surfaces of two links, placed by their transforms, go more than `depth` [m] through each other."""
     for one, T_one, other, T_other in ((a, T_a, b, T_b), (b, T_b, a, T_a)):
         T = np.linalg.inv(T_other) @ T_one
@@ -61,7 +61,7 @@ def cross(a: Surface, T_a: Float[np.ndarray, "4 4"], b: Surface, T_b: Float[np.n
     return False
 
 
-def placed_bounds(surface: Surface, T: Float[np.ndarray, "4 4"]) -> Float[np.ndarray, "2 3"]:
+def placed_bounds(surface: LinkSurface, T: Float[np.ndarray, "4 4"]) -> Float[np.ndarray, "2 3"]:
     """Return the bounds of the surface's own bounds where a transform places them."""
     corners = np.take_along_axis(surface.bounds, CORNERS, axis=0) @ T[:3, :3].T + T[:3, 3]
     return np.stack([corners.min(0), corners.max(0)])

@@ -22,9 +22,9 @@ from anymesh.geometry.topology import edge_pairs
 from anymesh.types import Hull
 from anymesh.types.triangles import normals_and_areas
 
-CONCAVE = 10.0  # [deg] of the fold at an edge from which it counts as concave
-MOST_PLANES = 32  # distinct planes at concave edges; a solid with more is not faceted
-TRIED = 16  # planes per cut, those with the longest concave edges first
+MIN_CONCAVE_ANGLE_DEG = 10.0  # [deg] of the fold at an edge from which it counts as concave
+MAX_PLANES = 32  # distinct planes at concave edges; a solid with more is not faceted
+PLANES_PER_CUT = 16  # planes per cut, those with the longest concave edges first
 FLAT = 1e-9  # volume of a side, as a share of both, below which a plane does not divide
 SAME_PLANE = (0.9999, 1e-4)  # cosine of the normals, and offset as a share of the diagonal
 
@@ -38,11 +38,11 @@ class _Block:
     gap: float
 
 
-def cut_solid(triangles: Float[np.ndarray, "n 3 3"], *, gap: float, wall: float, most: int) -> list[Hull] | None:
-    """Return convex pieces that stand off a closed solid by at most `gap` [m], or None if that takes more than `most` pieces
+def cut_solid(triangles: Float[np.ndarray, "n 3 3"], *, gap: float, wall: float, max_pieces: int) -> list[Hull] | None:
+    """Return convex pieces that stand off a closed solid by at most `gap` [m], or None if that takes more than `max_pieces`
     or the solid is not faceted. wall: least distance of other cutting planes [m]."""
     planes = _concave_planes(triangles)
-    if not 0 < len(planes) <= MOST_PLANES:
+    if not 0 < len(planes) <= MAX_PLANES:
         return None
     solid = solid_mesh(triangles)
     whole = _block(triangles, solid)
@@ -50,7 +50,7 @@ def cut_solid(triangles: Float[np.ndarray, "n 3 3"], *, gap: float, wall: float,
     cuts = 0
     while waiting:
         cuts += 1
-        if len(done) + len(waiting) > most or cuts > 2 * most:
+        if len(done) + len(waiting) > max_pieces or cuts > 2 * max_pieces:
             return None
         block = waiting.pop()
         if block.gap <= gap:
@@ -81,17 +81,17 @@ def _halves(triangles: np.ndarray, planes: Sequence[tuple[np.ndarray, float]], w
     Where no concave edge is left, the block is curved: it is cut across the directions that it faces.
     """
     outlined = outline(triangles)
-    best = _best(outlined, planes, TRIED) or _best(outlined, list(cutting_planes(triangles, wall)))
+    best = _best(outlined, planes, PLANES_PER_CUT) or _best(outlined, list(cutting_planes(triangles, wall)))
     return [] if best is None else list(cut(triangles, *best))
 
 
 def _best(
-    outlined: tuple[np.ndarray, np.ndarray], planes: Sequence[tuple[np.ndarray, float]], most: int | None = None
+    outlined: tuple[np.ndarray, np.ndarray], planes: Sequence[tuple[np.ndarray, float]], max_planes: int | None = None
 ) -> tuple[np.ndarray, float] | None:
-    """Of the first `most` planes that divide an outline, the one that leaves the least volume in both hulls."""
+    """Of the first `max_planes` planes that divide an outline, the one that leaves the least volume in both hulls."""
     sides = ([_volume(side) for side in below_and_above(*outlined, *plane)] for plane in planes)
     dividing = ((sum(pair), plane) for pair, plane in zip(sides, planes, strict=True) if min(pair) > FLAT * sum(pair))
-    found = min(enumerate(itertools.islice(dividing, most)), key=lambda item: (item[1][0], item[0]), default=None)
+    found = min(enumerate(itertools.islice(dividing, max_planes)), key=lambda item: (item[1][0], item[0]), default=None)
     return None if found is None else found[1][1]
 
 
@@ -102,7 +102,7 @@ def _concave_planes(triangles: np.ndarray) -> list[tuple[np.ndarray, float]]:
     normals, middle = normals_and_areas(triangles)[0], triangles.mean(1)
     f, g = pairs.faces.T
     inward = np.einsum("ij,ij->i", middle[g] - middle[f], normals[f] - normals[g])
-    folded = np.einsum("ij,ij->i", normals[f], normals[g]) < np.cos(np.deg2rad(CONCAVE))
+    folded = np.einsum("ij,ij->i", normals[f], normals[g]) < np.cos(np.deg2rad(MIN_CONCAVE_ANGLE_DEG))
     concave = np.flatnonzero((inward > 0) & folded)
     ends = corners[pairs.vertices[concave]]
     length = np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1)
@@ -115,7 +115,7 @@ def _distinct(normal: np.ndarray, offset: np.ndarray, weight: np.ndarray, size: 
     """Planes without near copies, by the sum of the weights of each and its copies, at most one more than MOST_PLANES."""
     left = np.argsort(-weight, kind="stable")
     found: list[tuple[float, np.ndarray, float]] = []
-    while len(left) and len(found) <= MOST_PLANES:
+    while len(left) and len(found) <= MAX_PLANES:
         n, o = normal[left[0]], float(offset[left[0]])
         along = normal[left] @ n
         same = (np.abs(along) > SAME_PLANE[0]) & (np.abs(offset[left] * np.sign(along) - o) < SAME_PLANE[1] * size)

@@ -36,12 +36,12 @@ class Method(StrEnum):
 
 
 @dataclass(frozen=True)
-class Fineness:
-    """gap: how far a shape may stand off the surface [m]; wall: thickness of open shells [m]; most: pieces per component."""
+class Resolution:
+    """gap: largest distance of a shape from the surface [m]; wall: thickness of open shells [m]; max_pieces: per component."""
 
     gap: float
     wall: float
-    most: int
+    max_pieces: int
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,19 +52,21 @@ class Component:
     solid: bool
 
 
-def split_components(triangles: Float[np.ndarray, "n 3 3"], least: float, most: int | None = None) -> list[Component]:
+def split_components(
+    triangles: Float[np.ndarray, "n 3 3"], min_size: float, max_components: int | None = None
+) -> list[Component]:
     """Return the components of a link that need shapes of their own, largest first.
 
-    Left out are those smaller than `least` [m], unless all are; those without a surface; and those within the hull of a convex
-    one. Of more than `most`, the smaller ones that lie in one cell of a grid are joined.
+    Omitted are those smaller than `min_size` [m], unless all are; those without a surface; and those in the hull of a convex
+    one. Of more than `max_components`, the smaller ones that lie in one cell of a grid are joined.
     """
     found = components(triangles.reshape(-1, 3), np.arange(3 * len(triangles)).reshape(-1, 3))
     order = np.argsort(found.label, kind="stable")
     pieces = np.split(triangles[order], np.cumsum(np.bincount(found.label, minlength=found.count))[:-1])
     sizes = np.array([float(np.linalg.norm(np.ptp(piece.reshape(-1, 3), axis=0))) for piece in pieces])
     by_size = np.argsort(sizes, kind="stable")[::-1]
-    large = [int(k) for k in by_size if sizes[k] >= min(least, sizes.max())]
-    small = [] if most is None else large[most:]
+    large = [int(k) for k in by_size if sizes[k] >= min(min_size, sizes.max())]
+    small = [] if max_components is None else large[max_components:]
     kept: list[Component] = []
     around: list[_Around] = []
     for k in large[: len(large) - len(small)]:
@@ -106,38 +108,38 @@ def _gathered(pieces: list[np.ndarray]) -> list[Component]:
     return [Component(np.concatenate([pieces[k] for k in np.flatnonzero(cell == c)]), False) for c in np.unique(cell)]
 
 
-def component_shapes(component: Component, fineness: Fineness, method: Method = Method.CUTS) -> tuple[Shape, ...]:
+def component_shapes(component: Component, resolution: Resolution, method: Method = Method.CUTS) -> tuple[Shape, ...]:
     """Return one shape where the hull is near enough to the surface, else the shapes of its pieces.
 
     method: how a solid is divided; an open surface is always cut by planes. Call it in a child process unless the method is
     SPLIT: CoACD may crash.
     """
     triangles = simplify(component.triangles, FACES)
-    whole = patch_of(triangles, fineness.wall)
+    whole = patch_of(triangles, resolution.wall)
     if whole is None:
         return ()
-    if whole.gap <= fineness.gap:
+    if whole.gap <= resolution.gap:
         return (fitted(hull_of(component.triangles.reshape(-1, 3)) or whole.hull),)
-    hulls = _divided(triangles, fineness, method) if component.solid else []
+    hulls = _divided(triangles, resolution, method) if component.solid else []
     if not hulls:
-        hulls = split_surface(triangles, gap=fineness.gap, wall=fineness.wall, most=fineness.most)
+        hulls = split_surface(triangles, gap=resolution.gap, wall=resolution.wall, max_pieces=resolution.max_pieces)
     return tuple(fitted(hull) for hull in hulls)
 
 
-def _divided(triangles: np.ndarray, fineness: Fineness, method: Method) -> list[Hull]:
+def _divided(triangles: np.ndarray, resolution: Resolution, method: Method) -> list[Hull]:
     """The hulls of a solid's pieces; none where the method has none."""
     match method:
         case Method.CUTS:
-            most = int(CUTS_SHARE * fineness.most)
-            cuts = cut_solid(triangles, gap=fineness.gap, wall=fineness.wall, most=most)
-            return cuts or _by_coacd(triangles, fineness)
+            most = int(CUTS_SHARE * resolution.max_pieces)
+            cuts = cut_solid(triangles, gap=resolution.gap, wall=resolution.wall, max_pieces=most)
+            return cuts or _by_coacd(triangles, resolution)
         case Method.CLEANED:
-            return _by_coacd(cleaned(triangles), fineness)
+            return _by_coacd(cleaned(triangles), resolution)
         case Method.SPLIT:
             return []
 
 
-def _by_coacd(triangles: np.ndarray, fineness: Fineness) -> list[Hull]:
+def _by_coacd(triangles: np.ndarray, resolution: Resolution) -> list[Hull]:
     """The hulls of CoACD's pieces; none where the surface is not closed."""
     for few in (simplify(triangles, COACD_FACES), triangles):  # simplification may open a surface
         vertices, faces = solid_mesh(few)
@@ -146,7 +148,7 @@ def _by_coacd(triangles: np.ndarray, fineness: Fineness) -> list[Hull]:
     else:
         return []
     half = float(np.ptp(vertices, axis=0).max()) / 2
-    corners = decompose(vertices, faces, concavity=float(np.clip(fineness.gap / half, *CONCAVITY)))
+    corners = decompose(vertices, faces, concavity=float(np.clip(resolution.gap / half, *CONCAVITY)))
     return [hull for points in corners if (hull := hull_of(points)) is not None]
 
 
@@ -162,7 +164,7 @@ def cleaned(triangles: Float[np.ndarray, "n 3 3"]) -> Float[np.ndarray, "m 3 3"]
     return snapped[kept & (normals_and_areas(snapped)[1] > SLIVER * size**2)]
 
 
-def least_box(triangles: Float[np.ndarray, "n 3 3"], wall: float) -> Shape:
+def smallest_box(triangles: Float[np.ndarray, "n 3 3"], wall: float) -> Shape:
     """Return a box round a link that has no extent to make a hull of, `wall` [m] thick at least."""
     corners = triangles.reshape(-1, 3)
     low, high = corners.min(0), corners.max(0)

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from anymesh.collision.convex import hull_of
-from anymesh.collision.decompose import Component, Fineness, Method, component_shapes
+from anymesh.collision.decompose import Component, Method, Resolution, component_shapes
 from anymesh.collision.primitives import shifted
 from anymesh.collision.store import content_key, load_shapes, save_shapes
 from anymesh.isolation import DECOMPOSER, ChildError, ChildPool, Failure
@@ -50,14 +50,14 @@ class Decomposer:
     seconds: float
     methods: tuple[Method, ...] = tuple(Method)
 
-    def divide(self, components: Sequence[Component], fineness: Sequence[Fineness]) -> list[Divided]:
+    def divide(self, components: Sequence[Component], fineness: Sequence[Resolution]) -> list[Divided]:
         """Return the shapes of each component, in their order. Never raises for what a child process does.
 
         Components that differ by a shift alone are divided once.
         """
         low = [c.triangles.reshape(-1, 3).min(0) for c in components]
         local = [_at_origin(c, corner) for c, corner in zip(components, low, strict=True)]
-        keys = [content_key(c.triangles, c.solid, f.gap, f.wall, f.most) for c, f in zip(local, fineness, strict=True)]
+        keys = [content_key(c.triangles, c.solid, f.gap, f.wall, f.max_pieces) for c, f in zip(local, fineness, strict=True)]
         found = {key: Divided(shapes) for key in set(keys) if (shapes := load_shapes(self.cache, key)) is not None}
         todo = {key: k for k, key in reversed(list(enumerate(keys))) if key not in found}
         order = sorted(todo.values())
@@ -76,7 +76,7 @@ class Decomposer:
             for key, corner in zip(keys, low, strict=True)
         ]
 
-    def _divide_batch(self, batch: list[tuple[Component, Fineness]]) -> list[Divided]:
+    def _divide_batch(self, batch: list[tuple[Component, Resolution]]) -> list[Divided]:
         """All of a batch in one call; one by one where that fails, so that one component does not cost the others."""
         try:
             return [Divided(shapes) for shapes in self._call(batch, self.methods[0])]
@@ -87,7 +87,7 @@ class Decomposer:
             methods = self.methods[-1:] if slow else self.methods[1:]
             return [self._fall_back(*batch[0], methods, f"{self.methods[0].value}: {error}")]
 
-    def _fall_back(self, component: Component, fineness: Fineness, methods: Sequence[Method], reason: str) -> Divided:
+    def _fall_back(self, component: Component, fineness: Resolution, methods: Sequence[Method], reason: str) -> Divided:
         reasons = [reason]
         for method in methods:
             try:
@@ -98,7 +98,7 @@ class Decomposer:
         hull = hull_of(component.triangles.reshape(-1, 3), fineness.wall)
         return Divided(() if hull is None else (hull,), Fallback(tuple(reasons), "one convex hull"))
 
-    def _call(self, batch: list[tuple[Component, Fineness]], method: Method) -> list[tuple[Shape, ...]]:
+    def _call(self, batch: list[tuple[Component, Resolution]], method: Method) -> list[tuple[Shape, ...]]:
         arguments = {"batch": batch, "method": method}
         seconds = self.seconds + PER_FACE * sum(len(component.triangles) for component, _ in batch)
         return self.pool.run(DECOMPOSER, "divide_here", arguments, seconds=seconds)
@@ -111,7 +111,7 @@ def _at_origin(component: Component, corner: np.ndarray) -> Component:
     return Component(np.round(moved / step) * step, component.solid)
 
 
-def divide_here(batch: list[tuple[Component, Fineness]], method: Method) -> list[tuple[Shape, ...]]:
+def divide_here(batch: list[tuple[Component, Resolution]], method: Method) -> list[tuple[Shape, ...]]:
     """Divide components in this process. The function that children run."""
     return [component_shapes(component, fineness, method) for component, fineness in batch]
 

@@ -48,14 +48,14 @@ def patch_of(triangles: Float[np.ndarray, "n 3 3"], wall: float) -> Patch | None
     return Patch(triangles, hull, float(distance_to_triangles(points, triangles).max()))
 
 
-def split_surface(triangles: Float[np.ndarray, "n 3 3"], *, gap: float, wall: float, most: int) -> list[Hull]:
-    """Hulls of pieces that are within `gap` [m] of the surface, or `most` pieces; thin ones are `wall` [m] thick."""
+def split_surface(triangles: Float[np.ndarray, "n 3 3"], *, gap: float, wall: float, max_pieces: int) -> list[Hull]:
+    """Hulls of pieces that are within `gap` [m] of the surface, or `max_pieces` pieces; thin ones are `wall` [m] thick."""
     first = patch_of(triangles, wall)
     done, waiting = [], [] if first is None else [first]
     while waiting:
         worst = max(range(len(waiting)), key=lambda k: waiting[k].gap)
         patch = waiting.pop(worst)
-        if patch.gap <= max(gap, 2 * wall) or len(done) + len(waiting) + 1 >= most:
+        if patch.gap <= max(gap, 2 * wall) or len(done) + len(waiting) + 1 >= max_pieces:
             done.append(patch)
             continue
         halves = _halves(patch, wall)

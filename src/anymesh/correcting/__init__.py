@@ -18,7 +18,7 @@ from anymesh.correcting.corrections import (
     SplitComponents,
     SplitPart,
 )
-from anymesh.correcting.history import Entry, History
+from anymesh.correcting.history import History, HistoryEntry
 from anymesh.correcting.motions import ranked_motions
 from anymesh.correcting.save import Opened, StaleError, open_asset, save_asset
 
@@ -28,10 +28,10 @@ __all__ = [
     "ChooseMotion",
     "Correction",
     "CorrectionError",
-    "Entry",
     "FaceSet",
     "FlipSign",
     "History",
+    "HistoryEntry",
     "MergeParts",
     "MoveFaces",
     "Opened",

@@ -10,7 +10,7 @@ from anymesh.types import Asset
 
 
 @dataclass(frozen=True)
-class Entry:
+class HistoryEntry:
     """A correction, when it was made (ISO 8601), and by whom."""
 
     correction: Correction
@@ -23,15 +23,15 @@ class History:
     """states: the asset before the first correction and after each; done: one entry a correction; undone: latest last."""
 
     states: tuple[Asset, ...]
-    done: tuple[Entry, ...] = ()
-    undone: tuple[Entry, ...] = ()
+    done: tuple[HistoryEntry, ...] = ()
+    undone: tuple[HistoryEntry, ...] = ()
 
     def __post_init__(self) -> None:
         if len(self.states) != len(self.done) + 1:
             raise ValueError(f"a history needs one state more than corrections, found {len(self.states)}, {len(self.done)}")
 
     @classmethod
-    def of(cls, original: Asset, log: tuple[Entry, ...] = ()) -> History:
+    def of(cls, original: Asset, log: tuple[HistoryEntry, ...] = ()) -> History:
         """The history that a log makes of an asset. CorrectionError when it is the log of another asset."""
         found = cls((original,))
         for entry in log:
@@ -48,7 +48,7 @@ class History:
         """The asset as it is now."""
         return self.states[-1]
 
-    def do(self, entry: Entry) -> History:
+    def do(self, entry: HistoryEntry) -> History:
         """One correction more; what was undone is gone. CorrectionError when it makes no sense."""
         return History((*self.states, apply(self.asset, entry.correction)), (*self.done, entry))
 

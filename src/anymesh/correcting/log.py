@@ -23,7 +23,7 @@ from anymesh.correcting.corrections import (
     SplitComponents,
     SplitPart,
 )
-from anymesh.correcting.history import Entry
+from anymesh.correcting.history import HistoryEntry
 from anymesh.types import JointType
 
 KINDS: dict[str, type[Correction]] = {
@@ -43,12 +43,12 @@ KINDS: dict[str, type[Correction]] = {
 NAMES = {kind: name for name, kind in KINDS.items()}
 
 
-def pack_log(log: Sequence[Entry]) -> list[dict[str, Any]]:
+def pack_log(log: Sequence[HistoryEntry]) -> list[dict[str, Any]]:
     """One object an entry: `correction` (the kind), its fields, `time` and `author`. Face sets are runs [first, after last]."""
     return [pack_entry(entry) for entry in log]
 
 
-def pack_entry(entry: Entry) -> dict[str, Any]:
+def pack_entry(entry: HistoryEntry) -> dict[str, Any]:
     c = entry.correction
     values = {f.name: _plain(getattr(c, f.name)) for f in fields(c)}
     return {"correction": NAMES[type(c)], **values, "time": entry.time, "author": entry.author}
@@ -62,18 +62,18 @@ def _plain(value: Any) -> Any:
     return list(value) if isinstance(value, tuple) else value
 
 
-def unpack_log(records: Sequence[Mapping[str, Any]]) -> tuple[Entry, ...]:
+def unpack_log(records: Sequence[Mapping[str, Any]]) -> tuple[HistoryEntry, ...]:
     """The entries of a log. CorrectionError for one that this version does not know."""
     return tuple(_entry(record) for record in records)
 
 
-def _entry(record: Mapping[str, Any]) -> Entry:
+def _entry(record: Mapping[str, Any]) -> HistoryEntry:
     kind = KINDS.get(record.get("correction", ""))
     if kind is None:
         raise CorrectionError(f"unknown correction {record.get('correction')!r}; valid are {', '.join(KINDS)}")
     try:
         values = {f.name: _typed(f.name, record[f.name]) for f in fields(kind)}
-        return Entry(kind(**values), record["time"], record["author"])
+        return HistoryEntry(kind(**values), record["time"], record["author"])
     except (KeyError, TypeError, ValueError) as error:
         raise CorrectionError(f"a correction {record['correction']!r} in the log cannot be read: {error!r}") from error
 

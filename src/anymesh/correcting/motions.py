@@ -11,7 +11,7 @@ from anymesh.articulation.estimate import joint_of, motion_question, part_contex
 from anymesh.config import Config
 from anymesh.correcting.corrections import ChooseMotion, vector
 from anymesh.correcting.finding import joint_of_part, part_number
-from anymesh.geometry.pieces import ObjectShape, object_shape
+from anymesh.geometry.patches import ObjectShape, object_shape
 from anymesh.geometry.simplify_ import simplify
 from anymesh.reasoning.geometry import joint_type, motion_scores, reason
 from anymesh.types import Asset, Joint, JointType, Mesh

@@ -17,7 +17,7 @@ from anymesh.models.cache import cache_folder
 from anymesh.rendering.preview import write_preview
 from anymesh.run_folder import RunFolder, stage_key
 from anymesh.stage_results import CORRECTION, CorrectionResult
-from anymesh.storage.hidden import locked
+from anymesh.storage.atomic_folder import locked
 from anymesh.storage.outputs import CORRECTIONS
 from anymesh.storage.saved import Saved
 from anymesh.storage.stage_files import read_json, write_json

@@ -12,7 +12,7 @@ from jaxtyping import Bool, Float, Int
 
 from anymesh.errors import OptionError
 from anymesh.evaluation.fused_ import joined, wrapped
-from anymesh.evaluation.truth import Subject
+from anymesh.evaluation.ground_truth import EvalSample
 from anymesh.geometry.distance_ import distance_to_mesh
 from anymesh.geometry.sampling import SurfacePoints, sample_surface, spread_directions
 from anymesh.geometry.simplify_ import simplify
@@ -22,7 +22,7 @@ from anymesh.segmentation.cloud import point_colors
 from anymesh.types import Mesh, Node
 from anymesh.types.triangles import normals_and_areas
 
-Change = Callable[[Subject, np.random.Generator], Subject]
+Change = Callable[[EvalSample, np.random.Generator], EvalSample]
 
 TILT = 5.0  # [deg] off level, as of a scan
 SCALES = (0.01, 100.0)  # centimetres and metres taken for each other, either way
@@ -33,14 +33,14 @@ FINE, COARSE = 256, 128  # cells along the longest side of an object of which on
 FUSED_FACES = 50_000  # of that surface; generated meshes come with about as many
 
 
-def changed(name: str, subject: Subject, seed: int = 0) -> Subject:
+def changed(name: str, subject: EvalSample, seed: int = 0) -> EvalSample:
     """The subject after one of CHANGES; the same for the same seed and subject."""
     if name not in CHANGES:
         raise OptionError(f"change {name!r}; valid are {', '.join(CHANGES)}")
     return CHANGES[name](subject, np.random.default_rng([seed, *name.encode(), *subject.truth.name.encode()]))
 
 
-def moved(subject: Subject, T: Float[np.ndarray, "4 4"]) -> Subject:
+def moved(subject: EvalSample, T: Float[np.ndarray, "4 4"]) -> EvalSample:
     """The subject moved by a rigid motion with a scale; its lengths are told in units of the box that it had before."""
     size = 2 * subject.unit * float(np.cbrt(np.linalg.det(T[:3, :3])))
     return replace(subject, mesh=subject.mesh.transformed(T), T=T @ subject.T, diagonal=size)
@@ -55,36 +55,36 @@ def rotation(axis: Float[np.ndarray, " 3"], angle: float) -> Float[np.ndarray, "
     return T
 
 
-def _turned(subject: Subject, rng: np.random.Generator) -> Subject:
+def _turned(subject: EvalSample, rng: np.random.Generator) -> EvalSample:
     return moved(subject, rotation(np.array([0, 0, 1.0]), rng.uniform(0, 2 * np.pi)))
 
 
-def _tilted(subject: Subject, rng: np.random.Generator) -> Subject:
+def _tilted(subject: EvalSample, rng: np.random.Generator) -> EvalSample:
     way = rng.uniform(0, 2 * np.pi)
     return moved(subject, rotation(np.array([np.cos(way), np.sin(way), 0]), np.deg2rad(TILT)))
 
 
-def _lying(subject: Subject, rng: np.random.Generator) -> Subject:
+def _lying(subject: EvalSample, rng: np.random.Generator) -> EvalSample:
     """On one of four sides: whoever placed it took another axis for up."""
     return moved(subject, rotation(np.eye(3)[rng.integers(2)], rng.choice([-1, 1]) * np.pi / 2))
 
 
-def _overturned(subject: Subject, rng: np.random.Generator) -> Subject:
+def _overturned(subject: EvalSample, rng: np.random.Generator) -> EvalSample:
     return moved(subject, rotation(np.eye(3)[rng.integers(2)], np.pi))
 
 
-def _spun(subject: Subject, rng: np.random.Generator) -> Subject:
+def _spun(subject: EvalSample, rng: np.random.Generator) -> EvalSample:
     """Turned any way at all, evenly over all rotations."""
     w, x, y, z = (q := rng.normal(size=4)) / np.linalg.norm(q)
     sine = max(float(np.linalg.norm([x, y, z])), 1e-300)
     return moved(subject, rotation(np.array([x, y, z]) / sine, 2 * np.arctan2(sine, w)))
 
 
-def _scaled(subject: Subject, rng: np.random.Generator, *, factor: float) -> Subject:
+def _scaled(subject: EvalSample, rng: np.random.Generator, *, factor: float) -> EvalSample:
     return moved(subject, np.diag([factor, factor, factor, 1.0]))
 
 
-def _noisy(subject: Subject, rng: np.random.Generator, *, share: float) -> Subject:
+def _noisy(subject: EvalSample, rng: np.random.Generator, *, share: float) -> EvalSample:
     """Gaussian noise of `share` diagonals on every welded corner, so that no seam opens."""
     mesh = subject.mesh
     corner = weld(mesh.vertices)
@@ -92,7 +92,7 @@ def _noisy(subject: Subject, rng: np.random.Generator, *, share: float) -> Subje
     return replace(subject, mesh=replace(mesh, vertices=mesh.vertices + shift[corner], corner_normal=None))
 
 
-def _decimated(subject: Subject, rng: np.random.Generator, *, share: float) -> Subject:
+def _decimated(subject: EvalSample, rng: np.random.Generator, *, share: float) -> EvalSample:
     """Every connected component with this share of its faces, by quadric error."""
     mesh = subject.mesh
     label = components(mesh.vertices, mesh.faces).label
@@ -104,7 +104,7 @@ def _decimated(subject: Subject, rng: np.random.Generator, *, share: float) -> S
     return resurfaced(subject, corners, np.arange(len(corners)).reshape(-1, 3), nodes=True)
 
 
-def _unseen_gone(subject: Subject, rng: np.random.Generator) -> Subject:
+def _unseen_gone(subject: EvalSample, rng: np.random.Generator) -> EvalSample:
     """Without the faces that nobody sees from outside, whatever their winding; a face that shows in part stays."""
     mesh = subject.mesh
     s = sample_surface(mesh.triangles, PROBES, int(rng.integers(2**31)), at_least=1)
@@ -128,7 +128,7 @@ def _seen(mesh: Mesh, probe: SurfacePoints) -> Bool[np.ndarray, " n"]:
     return seen
 
 
-def _fused(subject: Subject, rng: np.random.Generator, *, cells: int) -> Subject:
+def _fused(subject: EvalSample, rng: np.random.Generator, *, cells: int) -> EvalSample:
     """One closed surface round the object, as voxel fusion and generators make it: gaps below two cells become grooves,
     what lies behind them is gone. Colours stay, names do not."""
     t = subject.mesh.triangles
@@ -137,7 +137,7 @@ def _fused(subject: Subject, rng: np.random.Generator, *, cells: int) -> Subject
     return resurfaced(subject, few.reshape(-1, 3), np.arange(3 * len(few)).reshape(-1, 3))
 
 
-def _joined(subject: Subject, rng: np.random.Generator) -> Subject:
+def _joined(subject: EvalSample, rng: np.random.Generator) -> EvalSample:
     """The exact union of all closed components, as a CAD export or a boolean makes it; open ones stay as they are."""
     mesh = subject.mesh
     found = components(mesh.vertices, mesh.faces)
@@ -150,8 +150,8 @@ def _joined(subject: Subject, rng: np.random.Generator) -> Subject:
 
 
 def resurfaced(
-    subject: Subject, vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"], *, nodes: bool = False
-) -> Subject:
+    subject: EvalSample, vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"], *, nodes: bool = False
+) -> EvalSample:
     """The subject with another surface, of which each face takes the label, and each corner the colour, of the nearest
     point of the old one. nodes: the faces stay in their nodes, else all are one."""
     mesh = subject.mesh
@@ -173,7 +173,7 @@ def resurfaced(
     return _only(replace(subject, mesh=made, labels=subject.labels[nearest]), np.ones(len(faces), bool))
 
 
-def _only(subject: Subject, kept: Bool[np.ndarray, " F"]) -> Subject:
+def _only(subject: EvalSample, kept: Bool[np.ndarray, " F"]) -> EvalSample:
     """The subject with these faces alone. A part without any is no longer there to be found: what moved on it moves on what
     carried it."""
     truth, labels = subject.truth, subject.labels[kept]

@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 from jaxtyping import Float
 
+from anymesh.evaluation.ground_truth import TrueJoint
 from anymesh.evaluation.metrics import opening_side, opens_both_ways, same_motion
-from anymesh.evaluation.truth import TrueJoint
 from anymesh.types import Joint, JointType, Motion, MotionKind
 
 TURNED = np.pi / 6  # [rad] that turning joints are opened by

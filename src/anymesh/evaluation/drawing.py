@@ -9,9 +9,9 @@ import numpy as np
 from jaxtyping import Bool, Float, UInt8
 from PIL import Image, ImageDraw
 
+from anymesh.evaluation.ground_truth import EvalSample, TrueJoint
 from anymesh.evaluation.matching import part_ious
 from anymesh.evaluation.score import JointScore
-from anymesh.evaluation.truth import Subject, TrueJoint
 from anymesh.evaluation.worst import what_is_off
 from anymesh.rendering.axes import axis_line, draw_arrow, ring
 from anymesh.rendering.labels import font
@@ -53,7 +53,7 @@ class _Move:
 
 
 def draw_joint(
-    subject: Subject, segmentation: Segmentation, true: TrueJoint, found: Joint | None, score: JointScore
+    subject: EvalSample, segmentation: Segmentation, true: TrueJoint, found: Joint | None, score: JointScore
 ) -> UInt8[np.ndarray, "H W 3"]:
     """Left the whole object at rest, right the part half way open and near; the truth in green, what was found in vermilion.
 
@@ -114,13 +114,13 @@ def _motion(joint: TrueJoint | Joint, size: float) -> tuple[Motion | None, float
     return motion, HALF_WAY * max(joint.limits, key=abs)
 
 
-def _carried(subject: Subject, name: str) -> list[str]:
+def _carried(subject: EvalSample, name: str) -> list[str]:
     """The parts that move with a part."""
     direct = [j.child for j in subject.truth.joints if j.parent == name]
     return [*direct, *(part for child in direct for part in _carried(subject, child))]
 
 
-def _found_faces(subject: Subject, segmentation: Segmentation, found: Joint | None, true: int) -> Bool[np.ndarray, " F"]:
+def _found_faces(subject: EvalSample, segmentation: Segmentation, found: Joint | None, true: int) -> Bool[np.ndarray, " F"]:
     """The faces of the found part; without a joint, of the part that has most in common with the true one."""
     names = [p.name for p in segmentation.parts]
     if found is not None:

@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 
 from anymesh.errors import InputError
+from anymesh.evaluation.ground_truth import EvalSample
 from anymesh.evaluation.score import ObjectScore
-from anymesh.evaluation.truth import Subject
 from anymesh.export import write_asset
 from anymesh.simulation.mujoco_ import sweep_joints
 from anymesh.types import Asset, Joint, JointType, Mesh, Segmentation, Source
@@ -20,7 +20,9 @@ STEPS = 100  # places along each range
 NAME = "object"
 
 
-def executability(subject: Subject, segmentation: Segmentation, joints: tuple[Joint, ...], found: ObjectScore) -> ObjectScore:
+def executability(
+    subject: EvalSample, segmentation: Segmentation, joints: tuple[Joint, ...], found: ObjectScore
+) -> ObjectScore:
     """The score with what driving every found joint through its range showed.
 
     The rule (see `success.motion_anymesh`) is about the joints that were found: what is missing among them is told by other

@@ -8,10 +8,9 @@ from typing import Any, TypeVar, cast
 
 import numpy as np
 
-from anymesh.evaluation.truth import Subject
+from anymesh.evaluation.ground_truth import EvalSample
 from anymesh.reasoning.asking import Answer, Question, VisualAnswerer
 from anymesh.reasoning.grounding import WhichMarks
-from anymesh.reasoning.knowing import Reference, ReferenceAnswerer, ReferenceJoint
 from anymesh.reasoning.prompting import (
     JointKind,
     KindAnswer,
@@ -23,28 +22,29 @@ from anymesh.reasoning.prompting import (
     WhichMotions,
     WhichPoints,
 )
+from anymesh.reasoning.reference_answerer import Reference, ReferenceAnswerer, ReferenceJoint
 from anymesh.reasoning.vocabulary import recognize
 from anymesh.types import Exchange
 
 Item = TypeVar("Item")
 
 
-def oracle(subject: Subject) -> ReferenceAnswerer:
+def oracle(sample: EvalSample) -> ReferenceAnswerer:
     """Answers each question as a perfect model would."""
-    return ReferenceAnswerer("oracle", lambda: true_reference(subject))
+    return ReferenceAnswerer("oracle", lambda: true_reference(sample))
 
 
-def true_reference(subject: Subject) -> Reference:
+def true_reference(sample: EvalSample) -> Reference:
     """The truth in the asset frame."""
-    truth, mesh = subject.truth, subject.mesh
+    truth, mesh = sample.truth, sample.mesh
     names = [p.name for p in truth.parts]
-    joints = {j.child: subject.joint(j) for j in truth.joints}
+    joints = {j.child: sample.joint(j) for j in truth.joints}
     made = [joints.get(name) for name in names]
     labels = [recognize(p.label) or recognize(p.name) for p in truth.parts]
     return Reference(
         category=truth.category,
         size=float(mesh.extents.max()),
-        face_part=subject.labels,
+        face_part=sample.labels,
         face_area=mesh.face_areas,
         labels=("base", *(word.label if word else "part" for word in labels[1:])),
         parents=tuple(0 if j is None or j.parent not in names else names.index(j.parent) for j in made),

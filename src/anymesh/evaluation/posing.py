@@ -8,11 +8,11 @@ from dataclasses import replace
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.evaluation.truth import Subject, TrueJoint
+from anymesh.evaluation.ground_truth import EvalSample, TrueJoint
 from anymesh.types import JointType, Motion, MotionKind
 
 
-def posed(subject: Subject, positions: Mapping[str, float]) -> Subject:
+def posed(subject: EvalSample, positions: Mapping[str, float]) -> EvalSample:
     """The subject with joints, told by their children's names, at positions in the truth's units; the others stay at rest.
 
     Joints and their limits are told from there on: a door that stands half way open closes to its lower limit.
@@ -29,7 +29,7 @@ def posed(subject: Subject, positions: Mapping[str, float]) -> Subject:
     return replace(subject, truth=replace(subject.truth, joints=joints), mesh=mesh, diagonal=2 * subject.unit)
 
 
-def link_transforms(subject: Subject, positions: Mapping[str, float]) -> dict[str, Float[np.ndarray, "4 4"]]:
+def link_transforms(subject: EvalSample, positions: Mapping[str, float]) -> dict[str, Float[np.ndarray, "4 4"]]:
     """Part name -> transform from rest in the mesh's frame; what is no joint's child stands still."""
     by_child = {j.child: j for j in subject.truth.joints}
     found: dict[str, np.ndarray] = {}
@@ -45,7 +45,7 @@ def link_transforms(subject: Subject, positions: Mapping[str, float]) -> dict[st
     return found
 
 
-def _motion(subject: Subject, joint: TrueJoint, position: float) -> np.ndarray:
+def _motion(subject: EvalSample, joint: TrueJoint, position: float) -> np.ndarray:
     placed = subject.joint(joint)
     slides = joint.type is JointType.PRISMATIC
     scale = float(np.linalg.norm(subject.T[:3, :3] @ joint.axis)) if slides else 1.0

@@ -5,18 +5,18 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Protocol, runtime_checkable
 
+from anymesh.evaluation.ground_truth import EvalSample, GroundTruth
 from anymesh.evaluation.oracle import oracle
 from anymesh.evaluation.score import ObjectScore, score
-from anymesh.evaluation.truth import Subject, Truth
 from anymesh.loading import load_mesh, place_mesh
 from anymesh.reasoning.asking import VisualAnswerer
 from anymesh.types import Joint, Mesh, Segmentation
 
-Change = Callable[[Subject], Subject]  # turned, shaken, fused, and so on
+Change = Callable[[EvalSample], EvalSample]  # turned, shaken, fused, and so on
 
 
 @runtime_checkable
-class Solver(Protocol):
+class EvalSolver(Protocol):
     """Find the parts (unless given) and joints of a placed mesh; answerer_factory: None for geometry."""
 
     def __call__(
@@ -29,25 +29,25 @@ class Solver(Protocol):
 
 
 def evaluate(
-    truth: Truth,
-    solver: Solver,
+    truth: GroundTruth,
+    solver: EvalSolver,
     *,
     given: bool = False,
     change: Change | None = None,
-    knowing: Callable[[VisualAnswerer], VisualAnswerer] | None = None,
+    reference: Callable[[VisualAnswerer], VisualAnswerer] | None = None,
 ) -> ObjectScore:
     """Loads and places the mesh, changes it, lets the solver find its parts (unless given) and joints, and scores them.
 
-    knowing: the oracle answers, or what this function makes of it (see `oracle.Noisy`).
+    reference: the oracle answers, or what this function makes of it (see `oracle.Noisy`).
     """
     subject = prepared(truth, change)
-    answerer_factory = None if knowing is None else (lambda _: knowing(oracle(subject)))
+    answerer_factory = None if reference is None else (lambda _: reference(oracle(subject)))
     segmentation, joints = solver(subject.mesh, subject.segmentation() if given else None, answerer_factory=answerer_factory)
     return score(subject, segmentation, joints)
 
 
-def prepared(truth: Truth, change: Change | None = None) -> Subject:
+def prepared(truth: GroundTruth, change: Change | None = None) -> EvalSample:
     """The truth's mesh loaded, placed, and changed on purpose."""
     placed = place_mesh(load_mesh(truth.mesh))
-    subject = Subject(truth, placed.mesh, truth.labels, placed.T_asset_source)
+    subject = EvalSample(truth, placed.mesh, truth.labels, placed.T_asset_source)
     return change(subject) if change else subject

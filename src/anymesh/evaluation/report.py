@@ -22,7 +22,7 @@ from anymesh.evaluation.worst import what_is_off, worst
 from anymesh.rendering.encode import encode
 
 SHEET = "worst.png"
-MOST = 24  # joints on the contact sheet
+MAX_SHEET_JOINTS = 24  # joints on the contact sheet
 SHEET_COLUMNS, SHEET_WIDTH = 3, 620  # and how wide each is [px]
 
 
@@ -32,7 +32,7 @@ def write_report(records: Sequence[Record], folder: Path, *, title: str, setting
     settings: what the figures hang on (data set, protocol, answerer, seed, versions, date), in the order to show.
     Raises OutputError.
     """
-    drawn = ((o, _pixels(folder / o.picture)) for o in worst(records, MOST))
+    drawn = ((o, _pixels(folder / o.picture)) for o in worst(records, MAX_SHEET_JOINTS))
     shown = [(o, without_caption(pixels)) for o, pixels in drawn if pixels is not None]
     tables = report_tables(records, settings, [o for o, _ in shown])
     rows = "".join(json.dumps(row, allow_nan=False) + "\n" for row in joint_rows(records))

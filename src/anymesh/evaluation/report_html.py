@@ -19,7 +19,7 @@ from anymesh.evaluation.worst import Off, what_is_off
 
 QUALITY = 82  # of the pictures, JPEG: a report with two dozen of them stays near a megabyte
 SHOWN = 40  # rows from which a table is folded
-STRENGTH, LEAST = 0.55, 0.01  # of the shade of the worst cell, and of the weakest that is drawn
+STRENGTH, MIN_SHADE = 0.55, 0.01  # of the shade of the worst cell, and of the weakest that is drawn
 STYLE = """
 body { font: 14px/1.45 system-ui, sans-serif; color: #222; background: #fff }
 body { max-width: 1240px; margin: 0 auto; padding: 0 16px 40px }
@@ -91,7 +91,7 @@ def _kind(cell: Cell) -> str:
 def _cell(cell: Cell) -> str:
     # the root lets small errors be seen beside large ones
     strength = STRENGTH * (cell.shade or 0.0) ** 0.5
-    style = f' style="background:rgba(213,94,0,{strength:.2f})"' if strength > LEAST else ""
+    style = f' style="background:rgba(213,94,0,{strength:.2f})"' if strength > MIN_SHADE else ""
     return f"<td{_kind(cell)}{style}>{escape(cell.text)}</td>"
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from anymesh.evaluation.displacement import displacement
-from anymesh.evaluation.likeness import Likeness, likeness
+from anymesh.evaluation.ground_truth import EvalSample, GroundTruth, TrueJoint
 from anymesh.evaluation.matching import match_parts, part_ious
 from anymesh.evaluation.metrics import (
     angle_error,
@@ -19,11 +19,11 @@ from anymesh.evaluation.metrics import (
     range_iou,
     same_motion,
 )
-from anymesh.evaluation.truth import Subject, TrueJoint, Truth
+from anymesh.evaluation.particulate_metrics import ParticulateMetrics, particulate_metrics
 from anymesh.geometry.sampling import sample_surface
 from anymesh.types import Joint, JointType, Mesh, Segmentation
 
-FOUND = 0.5  # IoU from which a part counts as found
+MIN_MATCH_IOU = 0.5  # IoU from which a part counts as found
 POINTS = 1000  # on a part, that its displacement is the mean of
 
 
@@ -65,11 +65,11 @@ class ObjectScore:
     matched: int
     part_miou: float = 1.0  # over the true movable parts, of the part that was matched with it; 0 where none was
     tree_right: bool = True  # every true joint was found, no other, each with the right parent
-    rest: Likeness | None = None
-    posed: Likeness | None = None  # mean over poses along the range
+    rest: ParticulateMetrics | None = None
+    posed: ParticulateMetrics | None = None  # mean over poses along the range
     executable: bool | None = None  # None: not tried
     faults: tuple[str, ...] = ()  # of joints that were driven
-    opened: Likeness | None = None  # at the upper ends of all ranges
+    opened: ParticulateMetrics | None = None  # at the upper ends of all ranges
 
     @property
     def f1(self) -> float:
@@ -77,21 +77,21 @@ class ObjectScore:
         return 2 * self.matched / (self.predicted + self.true) if self.predicted + self.true else 1.0
 
 
-def score(subject: Subject, segmentation: Segmentation, joints: tuple[Joint, ...]) -> ObjectScore:
+def score(sample: EvalSample, segmentation: Segmentation, joints: tuple[Joint, ...]) -> ObjectScore:
     """Compares what was found on the subject's mesh with the truth."""
-    truth = subject.truth
-    pairs = match_parts(part_ious(segmentation.face_part, subject.labels, subject.mesh.face_areas))
+    truth = sample.truth
+    pairs = match_parts(part_ious(segmentation.face_part, sample.labels, sample.mesh.face_areas))
     by_child = {j.child: j for j in joints}
     matched = {truth.parts[t].name: (segmentation.parts[p].name, iou) for p, t, iou in pairs}
-    found = {true: part for true, (part, iou) in matched.items() if iou >= FOUND}
+    found = {true: part for true, (part, iou) in matched.items() if iou >= MIN_MATCH_IOU}
     parents = {truth.parts[0].name: segmentation.parts[0].name, **found}
     scores = []
     for joint in truth.joints:
         own = by_child.get(found.get(joint.child, ""))
         iou = matched.get(joint.child, ("", 0.0))[1]
-        scores.append(_joint(subject, joint, own, iou, parents.get(joint.parent)))
+        scores.append(_joint(sample, joint, own, iou, parents.get(joint.parent)))
     movable, predicted = len(truth.parts) - 1, len(segmentation.parts) - 1
-    alike = likeness(subject, segmentation, joints)
+    alike = particulate_metrics(sample, segmentation, joints)
     return ObjectScore(
         name=truth.name,
         joints=tuple(scores),
@@ -106,18 +106,18 @@ def score(subject: Subject, segmentation: Segmentation, joints: tuple[Joint, ...
     )
 
 
-def failed(truth: Truth) -> ObjectScore:
+def failed(truth: GroundTruth) -> ObjectScore:
     """The score of an object for which the tool gave nothing: everything is missing."""
     joints = tuple(JointScore(j.child, 0.0, j.type, range_known=j.range_known) for j in truth.joints)
     movable = len(truth.parts) - 1
     return ObjectScore(truth.name, joints, 0, movable, 0, part_miou=0.0 if movable else 1.0, tree_right=False)
 
 
-def _joint(subject: Subject, joint: TrueJoint, found: Joint | None, iou: float, parent: str | None) -> JointScore:
+def _joint(sample: EvalSample, joint: TrueJoint, found: Joint | None, iou: float, parent: str | None) -> JointScore:
     """parent: the found part that is the true joint's parent, None where there is none."""
-    true, mesh, unit = subject.joint(joint), subject.mesh, subject.unit
-    number = next(k for k, p in enumerate(subject.truth.parts) if p.name == joint.child)
-    faces = np.flatnonzero(subject.labels == number)
+    true, mesh, unit = sample.joint(joint), sample.mesh, sample.unit
+    number = next(k for k, p in enumerate(sample.truth.parts) if p.name == joint.child)
+    faces = np.flatnonzero(sample.labels == number)
     size = float(np.linalg.norm(np.ptp(mesh.triangles[faces].reshape(-1, 3), axis=0)))
     if found is None:
         return JointScore(joint.child, iou, joint.type, part_size=size / unit, range_known=joint.range_known)

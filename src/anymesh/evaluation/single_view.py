@@ -18,10 +18,10 @@ from jaxtyping import Int
 from scipy.ndimage import maximum_filter
 
 from anymesh.errors import InputError
+from anymesh.evaluation.ground_truth import EvalSample, GroundTruth, TrueJoint
 from anymesh.evaluation.partial import visible_surface
 from anymesh.evaluation.posing import posed
-from anymesh.evaluation.truth import Subject, TrueJoint, Truth
-from anymesh.geometry.unseen import hidden_base
+from anymesh.geometry.hidden_base import hidden_base
 from anymesh.rendering.raycast_ import RayScene
 from anymesh.rendering.render import View, render
 from anymesh.rendering.viewpoints import orbit_camera
@@ -31,18 +31,18 @@ from anymesh.types.camera import Camera
 SIZE = 256  # [px] both ways
 ASIDE = 60.0  # [deg] most of a camera's azimuth from the front
 ELEVATION = (10.0, 40.0)  # [deg]
-LEAST = 1e-3  # share of the picture that a part covers to be seen
+MIN_PART_SHARE = 1e-3  # share of the picture that a part covers to be seen
 OPEN = (0.1, 1.0)  # share of its range at which an open joint stands
 TRIES = 50  # cameras before an object counts as one that no picture shows
 DIRECTIONS = 24  # among which the front is
 
 
-def observations(subject: Subject, count: int, seed: int) -> list[Subject]:
+def observations(subject: EvalSample, count: int, seed: int) -> list[EvalSample]:
     """The first `count` observations of a subject."""
     return [observation(subject, number, seed) for number in range(count)]
 
 
-def observation(subject: Subject, number: int, seed: int) -> Subject:
+def observation(subject: EvalSample, number: int, seed: int) -> EvalSample:
     """What one picture shows: every even-numbered one at rest, every odd one with one joint part way open.
 
     InputError when no camera sees a movable part.
@@ -60,7 +60,7 @@ def observation(subject: Subject, number: int, seed: int) -> Subject:
     raise InputError(f"{subject.truth.name}: no picture shows a movable part and the base; found none in {TRIES} views")
 
 
-def observed(subject: Subject, camera: Camera, rays: RayScene | None = None) -> Subject | None:
+def observed(subject: EvalSample, camera: Camera, rays: RayScene | None = None) -> EvalSample | None:
     """The part of the subject that a camera sees, with the truth about the parts that it sees, or None where it sees no
     movable part or no base. Lengths of scores stay shares of the whole object's diagonal."""
     view = render(subject.mesh, camera, scene=rays)
@@ -70,7 +70,7 @@ def observed(subject: Subject, camera: Camera, rays: RayScene | None = None) -> 
         mesh, labels = visible_surface(view, np.where(bordering, -1, part))
     except ValueError:
         return None
-    covered = np.bincount(part[part >= 0], minlength=len(subject.truth.parts)) >= LEAST * part.size
+    covered = np.bincount(part[part >= 0], minlength=len(subject.truth.parts)) >= MIN_PART_SHARE * part.size
     covered &= np.isin(np.arange(len(covered)), labels)
     if not covered[0] or not covered[1:].any():
         return None
@@ -99,7 +99,7 @@ def _closed(mesh: Mesh, labels: Int[np.ndarray, " F"], view: View) -> tuple[Mesh
     return closed, np.concatenate([labels, np.zeros(count, np.int64)])
 
 
-def opened(subject: Subject, among: Int[np.ndarray, " k"], rng: np.random.Generator) -> Subject:
+def opened(subject: EvalSample, among: Int[np.ndarray, " k"], rng: np.random.Generator) -> EvalSample:
     """The subject with the joint of one of these parts, drawn at random, part way open; as it is where none has limits."""
     names = {subject.truth.parts[k].name for k in among}
     able = [j for j in subject.truth.joints if j.limits is not None and j.range_known and j.child in names]
@@ -110,7 +110,7 @@ def opened(subject: Subject, among: Int[np.ndarray, " k"], rng: np.random.Genera
     return posed(subject, {joint.child: lower + float(rng.uniform(*OPEN)) * (upper - lower)})
 
 
-def front(subject: Subject) -> tuple[float, Int[np.ndarray, " k"]]:
+def front(subject: EvalSample) -> tuple[float, Int[np.ndarray, " k"]]:
     """The azimuth [rad] from which the movable parts cover most of a picture at rest, and the numbers of those seen there."""
     rays = RayScene(subject.mesh.vertices, subject.mesh.faces)
     high = np.deg2rad(sum(ELEVATION) / 2)
@@ -123,7 +123,7 @@ def front(subject: Subject) -> tuple[float, Int[np.ndarray, " k"]]:
     return best, 1 + np.flatnonzero(most[1:])
 
 
-def _of_parts(truth: Truth, kept: Int[np.ndarray, " k"]) -> tuple[Truth, Int[np.ndarray, " p"]]:
+def _of_parts(truth: GroundTruth, kept: Int[np.ndarray, " k"]) -> tuple[GroundTruth, Int[np.ndarray, " p"]]:
     """The truth about some of the parts (numbers, the base first), and the new number of each old one.
 
     A part that is left out counts as base, and what hangs on it hangs on what it hangs on.

@@ -52,10 +52,10 @@ def motion_anymesh(score: ObjectScore) -> bool | None:
     return score.executable
 
 
-def _within(value: float | None, most: float) -> bool:
-    return value is not None and value <= most
+def _within(value: float | None, limit: float) -> bool:
+    return value is not None and value <= limit
 
 
-def _line(joint: JointScore, value: float | None, most: float) -> bool:
+def _line(joint: JointScore, value: float | None, limit: float) -> bool:
     """A slide has no place that counts."""
-    return joint.type_true is JointType.PRISMATIC or _within(value, most)
+    return joint.type_true is JointType.PRISMATIC or _within(value, limit)

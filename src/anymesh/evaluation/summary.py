@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from statistics import fmean, median
 
-from anymesh.evaluation.likeness import Likeness
+from anymesh.evaluation.particulate_metrics import ParticulateMetrics
 from anymesh.evaluation.record import Record
 from anymesh.evaluation.score import ObjectScore
 from anymesh.evaluation.success import articulate_anything, opd, s2o
@@ -14,7 +14,9 @@ from anymesh.types import JointType
 
 FARTHEST_ANGLE = 90.0  # [deg] that a joint that was not found counts as: no axis is farther from another
 FARTHEST = 1.0  # and its lengths: half the object's diagonal
-UNLIKE = Likeness(-1.0, 0.0, 3**0.5 / 2)  # an object that failed; half the longest diagonal where the longest side is 1
+UNLIKE = ParticulateMetrics(
+    -1.0, 0.0, 3**0.5 / 2
+)  # an object that failed; half the longest diagonal where the longest side is 1
 RULES = {"articulate_anything": articulate_anything, "opd": opd, "s2o": s2o}  # of success, for a joint
 
 
@@ -52,9 +54,9 @@ class Summary:
     part_recall: float | None
     part_f1: float | None
     part_miou: float | None  # over all true parts
-    rest: Likeness | None
-    posed: Likeness | None
-    opened: Likeness | None
+    rest: ParticulateMetrics | None
+    posed: ParticulateMetrics | None
+    opened: ParticulateMetrics | None
     executable: float | None  # share of objects, where it was tried
     seconds: float | None  # an object, median of those without an error
 
@@ -109,14 +111,14 @@ def _mean(values: Sequence[float | None], missing: float) -> Mean:
     return Mean(fmean(every), median(every), _share(v for v in values if v is not None))
 
 
-def _likeness(records: Sequence[Record], of: Callable[[ObjectScore], Likeness | None]) -> Likeness | None:
+def _likeness(records: Sequence[Record], of: Callable[[ObjectScore], ParticulateMetrics | None]) -> ParticulateMetrics | None:
     """The mean over objects, where it was measured; an object that failed is unlike."""
     measured = [of(r.score) for r in records if not r.error]
     known = [m for m in measured if m is not None]
     if not known:
         return None
     known += [UNLIKE for r in records if r.error]
-    return Likeness(*(fmean(getattr(m, name) for m in known) for name in ("giou", "miou", "chamfer")))
+    return ParticulateMetrics(*(fmean(getattr(m, name) for m in known) for name in ("giou", "miou", "chamfer")))
 
 
 def _executable(records: Sequence[Record]) -> float | None:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from operator import itemgetter
 from typing import NamedTuple
 
-from anymesh.evaluation.likeness import Likeness
+from anymesh.evaluation.particulate_metrics import ParticulateMetrics
 from anymesh.evaluation.record import Record
 from anymesh.evaluation.summary import FARTHEST, FARTHEST_ANGLE, UNLIKE, Mean, Summary, of_type, summarize
 from anymesh.evaluation.worst import Off, what_is_off
@@ -59,7 +59,7 @@ def _length(name: str, of: Callable[[Summary], Mean], means: str) -> Column:
     return Column(name, of, f"{means}; missing: {FARTHEST:g}", ".4f", 0.0, FARTHEST)
 
 
-def _alike(name: str, of: Callable[[Summary], Likeness | None], when: str, *, short: bool) -> tuple[Column, ...]:
+def _alike(name: str, of: Callable[[Summary], ParticulateMetrics | None], when: str, *, short: bool) -> tuple[Column, ...]:
     def value(field: str) -> Callable[[Summary], float | None]:
         return lambda s: None if of(s) is None else getattr(of(s), field)
 

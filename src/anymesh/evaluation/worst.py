@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from anymesh.evaluation.record import Record
-from anymesh.evaluation.score import FOUND, JointScore
+from anymesh.evaluation.score import MIN_MATCH_IOU, JointScore
 
 STAYS = 0.25  # of its size: about how far a part that was not found stays behind one that turned by 30 degrees
 
@@ -49,7 +49,7 @@ def worst(records: Sequence[Record], count: int) -> list[Off]:
 def what_is_off(j: JointScore) -> str:
     """The errors of a joint in a line."""
     if j.type_found is None:
-        parts = f"nearest part has IoU {j.iou:.2f}" if j.iou < FOUND else "its part has no joint"
+        parts = f"nearest part has IoU {j.iou:.2f}" if j.iou < MIN_MATCH_IOU else "its part has no joint"
         return f"{j.type_true}, not found: {parts}" if j.iou else f"{j.type_true}, not found"
     told = [f"{j.type_found} instead of {j.type_true}" if not j.type_right else str(j.type_true)]
     told += [] if j.angle is None else [f"angle {j.angle:.1f} deg"]

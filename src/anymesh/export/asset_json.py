@@ -11,7 +11,7 @@ import numpy as np
 
 import anymesh
 from anymesh.export.formats import Format, main_file
-from anymesh.export.model import Body, Model
+from anymesh.export.model import ExportLink, Model
 from anymesh.types import Exchange, Joint, Mesh
 
 SCHEMA_VERSION = "1.2"
@@ -70,7 +70,7 @@ def json_text(record: Mapping[str, Any]) -> str:
     return json.dumps(record, indent=2, allow_nan=False) + "\n"
 
 
-def _part(mesh: Mesh, body: Body, source_face: np.ndarray | None) -> dict[str, Any]:
+def _part(mesh: Mesh, body: ExportLink, source_face: np.ndarray | None) -> dict[str, Any]:
     link, shapes = body.link, [type(shape).__name__.lower() for shape in body.shapes]
     return {
         "name": link.name,

@@ -10,7 +10,7 @@ from anymesh.deadline import Deadline
 from anymesh.export.densities import Substance, substance_of
 from anymesh.export.inertia import link_inertia
 from anymesh.export.links import Link, split_links, with_legal_names
-from anymesh.export.model import Base, Body, Driven, Exclusion, Model
+from anymesh.export.model import Base, Driven, Exclusion, ExportLink, Model
 from anymesh.export.settings import ExportConfig
 from anymesh.types import Asset, Mesh
 
@@ -38,7 +38,7 @@ def build_model(
     collision = collision_shapes(asset, triangles, origins, config.collision, cache, deadline=deadline)
     asset = replace(asset, warnings=tuple(dict.fromkeys((*asset.warnings, *collision.warnings))))
     bodies = tuple(
-        Body(link, link_inertia(triangles[link.name], config, _made_of(asset.mesh, link)), collision.shapes[link.name])
+        ExportLink(link, link_inertia(triangles[link.name], config, _made_of(asset.mesh, link)), collision.shapes[link.name])
         for link in links
     )
     excluded = [Exclusion(a, b, OVERLAP) for a, b in collision.overlapping]

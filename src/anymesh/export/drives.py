@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from anymesh.export.model import Body, Driven, Model
+from anymesh.export.model import Driven, ExportLink, Model
 from anymesh.types import Joint, JointType
 
 GRAVITY = 9.81  # [m/s^2]
@@ -70,7 +70,7 @@ def _is_tilted(model: Model, joint: Joint) -> bool:
     return False
 
 
-def _subtree(model: Model, name: str) -> list[Body]:
+def _subtree(model: Model, name: str) -> list[ExportLink]:
     """A body and all that it carries."""
     found = {name}
     waiting = [name]

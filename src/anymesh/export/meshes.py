@@ -10,8 +10,8 @@ import numpy as np
 
 from anymesh.export.flat import flat_normal, small_box
 from anymesh.export.links import Link, Primitive
-from anymesh.export.looks import write_textures
-from anymesh.export.model import FOLDER, Body, Model
+from anymesh.export.materials import write_textures
+from anymesh.export.model import FOLDER, ExportLink, Model
 from anymesh.export.settings import ExportConfig
 from anymesh.names import legal_names
 from anymesh.types import Hull, Material
@@ -42,7 +42,7 @@ def write_meshes(model: Model, folder: Path, config: ExportConfig) -> None:
         np.save(folder / body.faces_path(), body.source_faces(model.asset.source_face).astype(np.int64), allow_pickle=False)
 
 
-def _write_hulls(body: Body, folder: Path) -> None:
+def _write_hulls(body: ExportLink, folder: Path) -> None:
     for shape, path in zip(body.shapes, body.hull_paths(), strict=True):
         if isinstance(shape, Hull) and path is not None:
             lines = _rows("v %.10g %.10g %.10g\n", shape.vertices), _rows("f %d %d %d\n", shape.faces + 1)

@@ -13,8 +13,8 @@ from anymesh.errors import OutputError
 from anymesh.export.drives import Drive, drives
 from anymesh.export.meshes import material_names
 from anymesh.export.mjcf_digits import with_digits
-from anymesh.export.mjcf_looks import GeomLook, geom_looks, png_textures
-from anymesh.export.model import Base, Body, Driven, Model
+from anymesh.export.mjcf_materials import GeomLook, geom_looks, png_textures
+from anymesh.export.model import Base, Driven, ExportLink, Model
 from anymesh.export.rotations import quaternion
 from anymesh.export.settings import ExportConfig
 from anymesh.mujoco_ import load_mujoco
@@ -56,7 +56,7 @@ def write_mjcf(model: Model, folder: Path, config: ExportConfig) -> None:
     (folder / f"{model.asset.name}.xml").write_text(text, encoding="utf-8", newline="\n")
 
 
-def _parents_first(model: Model) -> list[Body]:
+def _parents_first(model: Model) -> list[ExportLink]:
     """The bodies, each after the one that carries it."""
     parent = {j.child: j.parent for j in model.asset.joints}
 
@@ -98,7 +98,7 @@ def _add_materials(mujoco: Any, spec: Any, mesh: Mesh, folder: Path, looks: Iter
         material.textures = textures
 
 
-def _add_body(model: Model, body: Body, parent: Any) -> Any:
+def _add_body(model: Model, body: ExportLink, parent: Any) -> Any:
     origins = {link.name: link.origin for link in model.links}
     joint = body.link.joint
     place = body.link.origin - (np.zeros(3) if joint is None else origins[joint.parent])
@@ -127,7 +127,7 @@ def _add_joint(mujoco: Any, frame: Any, joint: Joint | None, base: Base) -> None
     added.actfrclimited, added.actfrcrange = 1, [-joint.effort, joint.effort]
 
 
-def _add_geoms(mujoco: Any, spec: Any, frame: Any, body: Body, looks: Iterable[GeomLook], names: Sequence[str]) -> None:
+def _add_geoms(mujoco: Any, spec: Any, frame: Any, body: ExportLink, looks: Iterable[GeomLook], names: Sequence[str]) -> None:
     for look in looks:
         mesh = spec.add_mesh(name=look.name, file=look.path)
         mesh.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL  # a sheet has no volume

@@ -8,7 +8,7 @@ from xml.etree import ElementTree
 import numpy as np
 
 from anymesh.export.drives import Drive
-from anymesh.export.model import Body, Driven, Model
+from anymesh.export.model import Driven, ExportLink, Model
 from anymesh.export.rotations import quaternion
 from anymesh.export.xml_text import moments, number, vector
 from anymesh.types import Box, Cylinder, Hull, Joint
@@ -39,7 +39,7 @@ def with_digits(text: str, model: Model, motors: Mapping[str, Drive]) -> str:
     return ElementTree.tostring(root, encoding="unicode") + "\n"
 
 
-def _inertial(element: ElementTree.Element, body: Body) -> None:
+def _inertial(element: ElementTree.Element, body: ExportLink) -> None:
     inertial = element.find("inertial")
     if inertial is None:
         raise ValueError(f"body {body.name!r} was written without its inertia")
@@ -59,7 +59,7 @@ def _joint(element: ElementTree.Element, joint: Joint) -> None:
         element.set("range", vector(joint.limits))
 
 
-def _geoms(element: ElementTree.Element, body: Body) -> None:
+def _geoms(element: ElementTree.Element, body: ExportLink) -> None:
     """Places and sizes of primitives; meshes lie where their files say."""
     shapes = {f"{body.name}_collision_{i}": shape for i, shape in enumerate(body.shapes)}
     for geom in element.findall("geom"):

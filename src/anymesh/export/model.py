@@ -31,7 +31,7 @@ class Driven(StrEnum):
 
 
 @dataclass(frozen=True, eq=False)
-class Body:
+class ExportLink:
     """A link with what physics needs. shapes: its collision, convex, in the link frame."""
 
     link: Link
@@ -81,7 +81,7 @@ class Model:
     """An asset with legal names, ready to be written. bodies: in the order of the parts, the root first."""
 
     asset: Asset
-    bodies: tuple[Body, ...]
+    bodies: tuple[ExportLink, ...]
     base: Base = Base.FIXED
     exclusions: tuple[Exclusion, ...] = ()
     driven: Driven = Driven.PASSIVE

@@ -9,8 +9,8 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from anymesh.export.looks import display_color, painted, widest
-from anymesh.export.model import Base, Body, Model
+from anymesh.export.materials import display_color, painted, widest
+from anymesh.export.model import Base, ExportLink, Model
 from anymesh.export.rotations import rpy
 from anymesh.export.settings import ExportConfig
 from anymesh.export.xml_text import document, moments, number, vector
@@ -80,7 +80,7 @@ def _leaf(parent: ElementTree.Element, tag: str, text: str) -> ElementTree.Eleme
     return element
 
 
-def _add_link(model: ElementTree.Element, mesh: Mesh, body: Body, origins: Mapping[str, np.ndarray]) -> None:
+def _add_link(model: ElementTree.Element, mesh: Mesh, body: ExportLink, origins: Mapping[str, np.ndarray]) -> None:
     element = ElementTree.SubElement(model, "link", name=body.name)
     joint = body.link.joint
     if joint is not None:
@@ -100,7 +100,7 @@ def _add_link(model: ElementTree.Element, mesh: Mesh, body: Body, origins: Mappi
         _add_shape(ElementTree.SubElement(collision, "geometry"), shape, path)
 
 
-def _add_visual(link: ElementTree.Element, mesh: Mesh, body: Body) -> None:
+def _add_visual(link: ElementTree.Element, mesh: Mesh, body: ExportLink) -> None:
     """The visual OBJ with the materials of its MTL; a colour where it has none."""
     visual = ElementTree.SubElement(link, "visual", name="visual")
     _leaf(ElementTree.SubElement(ElementTree.SubElement(visual, "geometry"), "mesh"), "uri", body.visual_path())

@@ -9,9 +9,9 @@ from xml.etree import ElementTree
 import numpy as np
 
 from anymesh.export.links import Link
-from anymesh.export.looks import display_color, painted, widest
+from anymesh.export.materials import display_color, painted, widest
 from anymesh.export.meshes import material_names
-from anymesh.export.model import Body, Model
+from anymesh.export.model import ExportLink, Model
 from anymesh.export.rotations import rpy
 from anymesh.export.xml_text import document, moments, number, vector
 from anymesh.types import Box, Cylinder, Hull, Joint, JointType, Mesh, Shape
@@ -47,7 +47,7 @@ def _appearance(mesh: Mesh, link: Link, names: Sequence[str]) -> tuple[str, tupl
     return "unassigned" if most.material < 0 else names[most.material], display_color(mesh, most)
 
 
-def _add_link(robot: ElementTree.Element, body: Body, look: tuple[str, tuple[float, ...]]) -> None:
+def _add_link(robot: ElementTree.Element, body: ExportLink, look: tuple[str, tuple[float, ...]]) -> None:
     sub = ElementTree.SubElement
     element = sub(robot, "link", name=body.name)
     inertial = sub(element, "inertial")

@@ -11,11 +11,11 @@ import numpy as np
 
 from anymesh.errors import MissingExtraError
 from anymesh.export.drives import Drive, drives
-from anymesh.export.looks import write_textures
-from anymesh.export.model import FOLDER, Base, Body, Model
+from anymesh.export.materials import write_textures
+from anymesh.export.model import FOLDER, Base, ExportLink, Model
 from anymesh.export.rotations import principal, quaternion, turning_x_to
 from anymesh.export.settings import ExportConfig
-from anymesh.export.usd_looks_ import UsdLooks
+from anymesh.export.usd_materials_ import UsdLooks
 from anymesh.names import legal_names
 from anymesh.types import Box, Cylinder, Hull, Joint, JointType, Shape
 from anymesh.types.mesh import TEXTURE_SLOTS
@@ -82,7 +82,7 @@ def _quat(pxr: Any, rotation: np.ndarray) -> Any:
     return pxr.Gf.Quatf(*(float(v) for v in quaternion(rotation)))
 
 
-def _add_body(pxr: Any, stage: Any, top: str, body: Body, looks: UsdLooks, config: ExportConfig) -> None:
+def _add_body(pxr: Any, stage: Any, top: str, body: ExportLink, looks: UsdLooks, config: ExportConfig) -> None:
     frame = pxr.UsdGeom.Xform.Define(stage, _link(top, body.name))
     frame.AddTranslateOp().Set(pxr.Gf.Vec3d(*(float(v) for v in body.link.origin)))
     prim = frame.GetPrim()

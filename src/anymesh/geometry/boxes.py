@@ -9,8 +9,8 @@ from jaxtyping import Bool, Float, Int
 
 from anymesh.types.triangles import bounds_of
 
-MAX_SIDE_DIFFERENCE_RATIO = 0.03  # of the diagonal: sides of copies differ by less
-MIN_PARALLEL_COSINE = 0.99  # cosine of the axes of copies
+MAX_SIDE_DIFFERENCE_RATIO = 0.03  # largest difference of sides of copies, over the diagonal
+MIN_PARALLEL_COSINE = 0.99  # smallest cosine between axes of copies
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,16 +26,16 @@ class OrientedBox:
         return 2 * float(np.linalg.norm(self.half))
 
     def local(self, points: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 3"]:
-        """Points in the box frame [m], centre at 0."""
+        """Transform points into the box frame [m], centre at 0."""
         return (points - self.center) @ self.axes.T
 
     def world(self, local: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 3"]:
-        """Points given in the box frame, in the frame of the box."""
+        """Transform points from the box frame [m]."""
         return local @ self.axes + self.center
 
 
 def same_box(a: OrientedBox, b: OrientedBox) -> bool:
-    """Whether two boxes have the same sides in the same directions: around copies, mirrored ones too."""
+    """Return whether two boxes have equal sides along equal directions, as those of (mirrored) copies."""
     cosines = np.abs(a.axes @ b.axes.T)
     if cosines.max(1).min() < MIN_PARALLEL_COSINE:
         return False
@@ -52,13 +52,13 @@ def _frame(first: np.ndarray, second: np.ndarray) -> np.ndarray | None:
     return np.array([first, second, (b * z - c * y, c * x - a * z, a * y - b * x)])  # np.cross, without its overhead
 
 
-MIN_FLAT_AREA_RATIO = 0.6  # share of the surface that faces one way from which a box lies along it
+MIN_FLAT_AREA_RATIO = 0.6  # share of the surface facing one way from which the box is aligned with it
 
 
 def dominant_normals(
     normals: Float[np.ndarray, "n 3"], weights: Float[np.ndarray, " n"], count: int = 4
 ) -> Float[np.ndarray, "k 3"]:
-    """The directions (sign-free) that most of the surface faces, the heaviest first, each averaged over its cone."""
+    """Return the sign-free directions that most of the surface faces, by weight, each averaged over its cone."""
     n = normals[weights > 0]
     w = weights[weights > 0].copy()
     flip = np.where(np.abs(n) > 0.5 * np.abs(n).max(1, keepdims=True), np.sign(n), 0)
@@ -81,10 +81,10 @@ def dominant_normals(
 def fit_box(
     points: Float[np.ndarray, "n 3"], normals: Float[np.ndarray, "m 3"], weights: Float[np.ndarray, " m"]
 ) -> OrientedBox:
-    """The smallest of the boxes along the asset axes, the dominant normals, and the principal directions.
+    """Fit the smallest box along the asset axes, the dominant normals, or the principal directions.
 
-    A frame must be clearly smaller (3 %) to be preferred to the asset's own axes. What is flat for the most part gets a box
-    along its face: a smaller one may tilt, where a handle stands out or less than all of the surface is known.
+    A box must be 3 % smaller to be preferred to the axis-aligned one. The box of a mostly flat surface is aligned with it:
+    a smaller one may be tilted by a handle, or where the surface is incomplete.
     """
     frames = [np.eye(3)]
     directions = dominant_normals(normals, weights)
@@ -116,7 +116,7 @@ def fit_box(
 
 
 def box_in_frame(points: Float[np.ndarray, "n 3"], axes: Float[np.ndarray, "3 3"]) -> OrientedBox:
-    """The tight box of points in a given frame (rows of `axes`), sides sorted longest first."""
+    """Return the tight box of points in a frame (rows of `axes`), longest side first."""
     local = points @ axes.T
     low, high = bounds_of(local)
     order = np.argsort(-(high - low), kind="stable")
@@ -133,7 +133,7 @@ def box_in_frame(points: Float[np.ndarray, "n 3"], axes: Float[np.ndarray, "3 3"
 def within(
     points: Float[np.ndarray, "n 3"], low: Float[np.ndarray, " 3"], high: Float[np.ndarray, " 3"]
 ) -> Bool[np.ndarray, " n"]:
-    """Which points lie in an axis-aligned box."""
+    """Return which points lie in an axis-aligned box."""
     x, y, z = points.T
     found = (x >= low[0]) & (x <= high[0])
     for values, a, b in ((y, low[1], high[1]), (z, low[2], high[2])):

@@ -1,4 +1,4 @@
-"""Round outlines: is a shape a wheel, a knob, a dial?"""
+"""Fit circles to outlines, to tell wheels, knobs and dials."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class Outline:
 
 
 def fit_circle(points: Float[np.ndarray, "n 2"]) -> tuple[Float[np.ndarray, " 2"], float]:
-    """Least-squares circle (algebraic, Kasa): centre and radius."""
+    """Fit a circle by algebraic least squares (Kasa); return centre and radius."""
     shift = points.mean(0)
     p = points - shift
     A = np.c_[2 * p, np.ones(len(p))]
@@ -32,7 +32,7 @@ def fit_circle(points: Float[np.ndarray, "n 2"]) -> tuple[Float[np.ndarray, " 2"
 
 
 def outline_about(points: Float[np.ndarray, "n 3"], axis: Float[np.ndarray, " 3"]) -> Outline:
-    """The outline of points seen along `axis`: the largest radius in each of 36 directions about the fitted centre."""
+    """Return the outline of points along `axis`: the largest radius in each of 36 directions about the fitted centre."""
     helper = np.eye(3)[np.abs(axis).argmin()]
     u = np.cross(axis, helper)
     u /= np.linalg.norm(u)
@@ -64,6 +64,6 @@ def outline_about(points: Float[np.ndarray, "n 3"], axis: Float[np.ndarray, " 3"
 
 
 def roundest(points: Float[np.ndarray, "n 3"], axes: Float[np.ndarray, "k 3"]) -> Outline:
-    """The outline that is most nearly a circle among those seen along the given axes (first wins a tie)."""
+    """Return the roundest outline among those along the given axes; the first one at a tie."""
     found = [outline_about(points, axis) for axis in axes]
     return max(found, key=lambda o: o.roundness)

@@ -1,4 +1,4 @@
-"""Concave creases that are soft: rounded, scanned or generated surfaces, where no single edge is sharp."""
+"""Find soft concave creases, on rounded, scanned or generated surfaces without sharp edges."""
 
 from __future__ import annotations
 

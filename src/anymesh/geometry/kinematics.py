@@ -12,7 +12,7 @@ from anymesh.types import Asset, Joint, JointType, Mesh, Motion, MotionKind
 
 
 def joint_transform(joint: Joint, position: float) -> Float[np.ndarray, "4 4"]:
-    """How a joint at `position` [rad or m] moves its child, in the asset frame at rest."""
+    """Return the transform of a joint's child at `position` [rad or m], in the asset frame at rest."""
     if joint.type is JointType.FIXED:
         return np.eye(4)
     kind = MotionKind.PRISMATIC if joint.type is JointType.PRISMATIC else MotionKind.REVOLUTE
@@ -20,7 +20,7 @@ def joint_transform(joint: Joint, position: float) -> Float[np.ndarray, "4 4"]:
 
 
 def link_transforms(asset: Asset, positions: Mapping[str, float]) -> dict[str, Float[np.ndarray, "4 4"]]:
-    """Part name -> transform from rest, for joint positions by name (those not named are at 0)."""
+    """Return the transform from rest of each part, for joint positions by name (0 by default)."""
     by_child = {j.child: j for j in asset.joints}
     found = {asset.segmentation.parts[0].name: np.eye(4)}
 
@@ -47,7 +47,7 @@ def carried_links(asset: Asset, joint: Joint) -> list[str]:
 
 
 def posed(asset: Asset, positions: Mapping[str, float]) -> Mesh:
-    """The mesh with its parts moved; faces keep their numbers, vertices are shared within a part only."""
+    """Return the mesh with its parts moved; face indices stay, vertices are shared within a part only."""
     transforms, mesh, face_part = link_transforms(asset, positions), asset.mesh, asset.segmentation.face_part
     vertices, faces, count = [], np.empty_like(mesh.faces), 0
     normal = None if mesh.corner_normal is None else mesh.corner_normal.copy()

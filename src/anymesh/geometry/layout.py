@@ -1,6 +1,6 @@
-"""Where the borders of fronts run that nothing but their handles tell: a face of a fused cabinet, one front a handle.
+"""Where the borders of panels run that nothing but their handles tell: a face of a fused cabinet, one panel a handle.
 
-Fronts tile a face by cuts from side to side (a guillotine layout, as of facades). A grip sits in the middle of its front
+Panels tile a face by cuts from side to side (a guillotine layout, as of facades). A handle sits in the middle of its panel
 along itself (a drawer, a flap) or next to an edge that it runs along (a door); a knob in the middle or next to an edge.
 """
 
@@ -13,8 +13,8 @@ import numpy as np
 from jaxtyping import Float, Int
 from scipy import ndimage
 
-OFF_CENTER_WEIGHT = 0.25  # what being off the middle across the grip counts, against along it
-MAX_PANEL_ASPECT = 5.0  # sides of a front; what would be longer is no front, but one in a row of controls
+OFF_CENTER_WEIGHT = 0.25  # what being off the middle across the handle counts, against along it
+MAX_PANEL_ASPECT = 5.0  # sides of a panel; what would be longer is no panel, but one in a row of controls
 GRID = 32  # cells along each side of a face, to find the rectangle that it fills
 MIN_FILL_RATIO = 0.9  # share of the cells that it must fill
 MAX_HANDLES = 12  # handles on one face; more of them are no handles
@@ -22,7 +22,7 @@ MAX_HANDLES = 12  # handles on one face; more of them are no handles
 
 @dataclass(frozen=True)
 class PanelRectangle:
-    """A rectangle of the face and the handle in it."""
+    """A rectangle of a face and the index of its handle."""
 
     low: tuple[float, float]
     high: tuple[float, float]
@@ -32,8 +32,10 @@ class PanelRectangle:
 def filled(
     points: Float[np.ndarray, "n 2"], around: Float[np.ndarray, "2 2"]
 ) -> tuple[Float[np.ndarray, " 2"], Float[np.ndarray, " 2"]] | None:
-    """Lower and upper corner of the largest rectangle that the points fill, holes counted in, and that holds `around` (its
-    lower and upper corner); None when there is none."""
+    """Return the corners of the largest rectangle that the points fill and that contains `around`; None when there is none.
+
+    Holes count as filled; around: lower and upper corner.
+    """
     low, high = points.min(0), points.max(0)
     size = np.maximum((high - low) / GRID, 1e-300)
 
@@ -61,7 +63,7 @@ def tile(
     handles: Float[np.ndarray, "h 2 2"],
     along: Int[np.ndarray, " h"],
 ) -> tuple[PanelRectangle, ...]:
-    """The fronts of the likeliest layout of a face, one a handle; none where that is no layout of fronts.
+    """Return the panels of the likeliest layout of a face, one per handle; none where no layout is plausible.
 
     handles: (h, 2, 2) lower and upper corner of each; along: (h,) the axis that each runs along, -1 for a knob.
     """
@@ -71,8 +73,8 @@ def tile(
     @cache
     def best(box: tuple[float, ...], members: tuple[int, ...]) -> tuple[float, tuple[PanelRectangle, ...]]:
         if len(members) == 1:
-            front = PanelRectangle((box[0], box[1]), (box[2], box[3]), members[0])
-            return _layout_cost(front, handles[members[0]], int(along[members[0]])), (front,)
+            panel = PanelRectangle((box[0], box[1]), (box[2], box[3]), members[0])
+            return _layout_cost(panel, handles[members[0]], int(along[members[0]])), (panel,)
         found: tuple[float, tuple[PanelRectangle, ...]] = (np.inf, ())
         for axis in (0, 1):
             for at, before, after in _cuts(box, members, handles, axis):
@@ -82,12 +84,12 @@ def tile(
                     found = (one[0] + two[0], one[1] + two[1])
         return found
 
-    cost, fronts = best((float(low[0]), float(low[1]), float(high[0]), float(high[1])), tuple(range(len(handles))))
-    return fronts if np.isfinite(cost) else ()
+    cost, panels = best((float(low[0]), float(low[1]), float(high[0]), float(high[1])), tuple(range(len(handles))))
+    return panels if np.isfinite(cost) else ()
 
 
 def _layout_cost(panel: PanelRectangle, handle: np.ndarray, along: int) -> float:
-    """How far the handle is from where it would be on such a front: 0 just there; infinite for what is no front."""
+    """How far the handle is from where it would be on such a panel: 0 just there; infinite for what is no panel."""
     low, high = np.array(panel.low), np.array(panel.high)
     sides = high - low
     if sides.max() > MAX_PANEL_ASPECT * sides.min():
@@ -102,7 +104,7 @@ def _cuts(
     box: tuple[float, ...], members: tuple[int, ...], handles: np.ndarray, axis: int
 ) -> list[tuple[float, tuple[int, ...], tuple[int, ...]]]:
     """Places to cut a rectangle across an axis, with the handles on both sides: half way between two handles, and where a
-    handle would be in the middle of its front."""
+    handle would be in the middle of its panel."""
     order = sorted(members, key=lambda h: handles[h, 0, axis])
     found = []
     for k in range(1, len(order)):

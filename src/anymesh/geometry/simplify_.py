@@ -17,10 +17,10 @@ STALLED = 1.25  # times the faces that are wanted, above which quadrics are take
 
 
 def simplify(triangles: Float[np.ndarray, "F 3 3"], max_faces: int) -> Float[np.ndarray, "R 3 3"]:
-    """Return the surface in about `most` triangles, wound as before; the input when it has no more, or would collapse.
+    """Return the surface in about `max_faces` triangles, wound as before; the input when it has no more, or would collapse.
 
     A very dense surface is clustered first: quadrics on millions of faces take minutes where many are slivers. So is one on
-    which quadrics stall short of `most`: on a fine, regular grid they fold what they leave.
+    which quadrics stall short of `max_faces`: on a fine, regular grid they fold what they leave.
     """
     if len(triangles) <= max_faces:
         return triangles
@@ -47,7 +47,7 @@ def simplify(triangles: Float[np.ndarray, "F 3 3"], max_faces: int) -> Float[np.
 def _by_quadrics(
     points: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"], max_faces: int
 ) -> tuple[Float[np.ndarray, "v 3"], Int[np.ndarray, "f 3"]]:
-    """Collapse edges by quadric error, to about `most` faces; the input when it has no more."""
+    """Collapse edges by quadric error, to about `max_faces` faces; the input when it has no more."""
     if len(faces) <= max_faces:
         return points, faces
     from fast_simplification import simplify as quadric
@@ -62,7 +62,7 @@ def _area(points: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"]) -> fl
 def _clustered(
     points: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"], max_faces: int
 ) -> tuple[Float[np.ndarray, "v 3"], Int[np.ndarray, "f 3"]]:
-    """Join the vertices in each cell of a grid that face the same octant (Rossignac and Borrel 1993), to about `most` faces.
+    """Join vertices in each cell of a grid that face the same octant (Rossignac and Borrel 1993), to about `max_faces` faces.
 
     The sharpest vertex stands for its cell, so that creases stay in place; both sides of a thin board stay apart.
     """

@@ -18,7 +18,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Float32, Int
 
 from anymesh.geometry.boxes import OrientedBox
-from anymesh.geometry.shape import FaceSet
+from anymesh.geometry.triangle_set import TriangleSet
 from anymesh.types import Motion, MotionKind, Sweep
 
 CHUNKS = (3, 6, 9, 18)  # steps cast at a time; the last size repeats. Most blocked motions are blocked early
@@ -31,23 +31,25 @@ MARGIN = 1e-5  # added to the target's bounds when segments are tested against t
 
 @dataclass(frozen=True, eq=False)
 class Obstacles:
-    """The rest of the object around a part, with the points used both ways. tolerance: penetration that counts [m];
-    hole: the rest's surface in it is no obstacle."""
+    """The static geometry around a part, with the sample points of both.
 
-    part: FaceSet
-    rest: FaceSet
+    tolerance: penetration at which a motion is stopped [m]; ignored_box: static surface inside it is no obstacle.
+    """
+
+    part: TriangleSet
+    rest: TriangleSet
     tolerance: float
     ignored_box: OrientedBox | None = None
     count: int = 350
 
     @cached_property
     def part_points(self) -> Float[np.ndarray, "n 3"]:
-        """Points of the part, drawn in from the surface by the tolerance where the rest is that near."""
+        """Return sample points of the part."""
         return _spread(self.part, self.count)
 
     @cached_property
     def rest_points(self) -> Float[np.ndarray, "m 3"]:
-        """Points of the rest near enough to matter, the nearest regions denser."""
+        """Return sample points of the static geometry near the part, denser in the nearest regions."""
         low, high = self.part.bounds
         reach = 0.75 * float(np.linalg.norm(high - low))
         center = self.rest.triangles.mean(1)
@@ -58,7 +60,7 @@ class Obstacles:
         return points[~self.is_ignored(points)]
 
     def prepare(self) -> None:
-        """Compute what is kept, so that threads find it."""
+        """Compute the cached values before threads use them."""
         _ = self.part_points, self.rest_points, self.part.scene
         if len(self.rest.triangles):
             _ = self.rest.scene
@@ -66,7 +68,7 @@ class Obstacles:
     def passages(
         self, motions: Sequence[Motion], signed: Float[np.ndarray, "T k"], amounts: Float[np.ndarray, "T k"]
     ) -> list[_Passage]:
-        """The part's points past the rest, and the rest's points, moved the other way, past the part."""
+        """Return the passages of the part's points past the rest, and of the rest's points, moved inversely, past the part."""
         there = np.array([m.transforms(a) for m, a in zip(motions, signed, strict=True)])
         back = np.array([m.transforms(-a) for m, a in zip(motions, signed, strict=True)])
         gone = None if self.ignored_box is None else self.is_ignored
@@ -78,13 +80,13 @@ class Obstacles:
         ]
 
     def is_ignored(self, points: Float[np.ndarray, "n 3"]) -> Bool[np.ndarray, " n"]:
-        """Which points of the rest lie in the hole."""
+        """Return which points of the rest lie in `ignored_box`."""
         if self.ignored_box is None:
             return np.zeros(len(points), bool)
         return np.all(np.abs(self.ignored_box.local(points)) < self.ignored_box.half + self.tolerance, axis=1)
 
 
-def _spread(shape: FaceSet, count: int) -> np.ndarray:
+def _spread(shape: TriangleSet, count: int) -> np.ndarray:
     """Surface points and corners, about `count` of each, a little inside closed surfaces."""
     samples = shape.samples
     step = max(1, len(samples) // count)
@@ -100,13 +102,13 @@ class _Passage:
     """Points that move past a target along T motions, in the unit frame of the target's ray scene.
 
     points: homogeneous; poses: rigid transforms of the points at each of k steps; amounts: of the motions at these steps;
-    gone: tells where the target does not count, in the asset frame.
+    is_ignored: tells where the target does not count, in the asset frame.
     """
 
     points: Float32[np.ndarray, "4 n"]
     poses: Float32[np.ndarray, "3 T k 4"]
     amounts: Float[np.ndarray, "T k"]
-    target: FaceSet
+    target: TriangleSet
     tolerance: float
     is_ignored: Callable[[np.ndarray], np.ndarray] | None
 
@@ -116,7 +118,7 @@ class _Passage:
         points: Float[np.ndarray, "n 3"],
         poses: Float[np.ndarray, "T k 4 4"],
         amounts: Float[np.ndarray, "T k"],
-        target: FaceSet,
+        target: TriangleSet,
         tolerance: float,
         gone: Callable[[np.ndarray], np.ndarray] | None,
     ) -> _Passage:
@@ -226,7 +228,7 @@ def free_amounts(
 ) -> list[tuple[float, bool]]:
     """Compute how far the part moves along each sign * motion before it is stopped, and whether it never was.
 
-    most: the range tested per motion [rad or m]. The motions are independent of each other and are shared out over threads.
+    max_amounts: the range tested per motion [rad or m]. The motions are independent and are distributed over threads.
     """
     if not motions:
         return []
@@ -273,7 +275,7 @@ def free_amount(obstacles: Obstacles, motion: Motion, sign: int, max_amount: flo
 def sweep_all(obstacles: Obstacles, motions: Sequence[Motion], steps: int = 36, max_amount: float | None = None) -> list[Sweep]:
     """Compute the free range both ways of each motion.
 
-    most: the range tested each way [rad or m]; default half a turn, or 2 diagonals of the part.
+    max_amount: the range tested each way [rad or m]; default half a turn, or 2 diagonals of the part.
     """
     slide = 2 * obstacles.part.box.diagonal
     reach = [(np.pi if m.kind is MotionKind.REVOLUTE else slide) if max_amount is None else max_amount for m in motions]

@@ -1,4 +1,4 @@
-"""Which faces hang together: welding, edges, connected components, closed solids."""
+"""Mesh topology: welding, edges, connected components, closed solids."""
 
 from __future__ import annotations
 
@@ -114,7 +114,7 @@ def _across_material(
 
 
 def label_connected(count: int, pairs: Int[np.ndarray, "m 2"]) -> Int[np.ndarray, " n"]:
-    """Connected components of `count` nodes, numbered in the order of their first node."""
+    """Label the connected components of `count` nodes, ordered by first node."""
     graph = coo_array((np.ones(len(pairs), np.int8), (pairs[:, 0], pairs[:, 1])), shape=(count, count))
     _, raw = connected_components(graph, directed=False)
     first = np.unique(raw, return_index=True)[1]
@@ -138,7 +138,7 @@ class Components:
 
 
 def components(vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"]) -> Components:
-    """Connected components after welding, and which of them enclose a volume."""
+    """Find the connected components of the welded mesh, and which of them enclose a volume."""
     edges = edge_pairs(vertices, faces)
     label = label_connected(len(faces), edges.faces)
     count = int(label.max()) + 1

@@ -9,7 +9,7 @@ from pathlib import Path
 from anymesh.errors import InputError
 
 FORMATS = (".glb", ".gltf", ".obj", ".ply", ".stl", ".off", ".dae")
-MOST_FACES = 20_000_000
+MAX_FACES = 20_000_000
 MOST_BYTES = 4 * 1024**3
 SIGNS = {  # what the start of a file of another format looks like
     "GLB": rb"glTF",

@@ -11,7 +11,7 @@ import numpy as np
 from anymesh.errors import InputError
 from anymesh.loading.folder import Folder
 from anymesh.loading.gltf_data import Buffers, parse_json, split_glb
-from anymesh.loading.gltf_looks import Look, read_looks
+from anymesh.loading.gltf_materials import GltfMaterial, read_materials
 from anymesh.loading.join import join, rgba, simple_mesh, unique_names, unit
 from anymesh.types import Mesh, Node
 from anymesh.types.color import to_srgb
@@ -28,7 +28,7 @@ def read_gltf(data: bytes, folder: Folder) -> Mesh:
         data, binary = split_glb(name, data)
     tree = parse_json(name, data)
     buffers = Buffers(tree, binary, folder)
-    looks = read_looks(tree, buffers, folder)
+    looks = read_materials(tree, buffers, folder)
     labels = unique_names(str(m.get("name") or f"mesh_{k}") for k, m in enumerate(tree["meshes"]))
     meshes: dict[int, Mesh | None] = {}
     placed = []
@@ -95,7 +95,7 @@ def _local(node: dict[str, Any]) -> np.ndarray:
     return T
 
 
-def _mesh(folder: Folder, label: str, mesh: dict[str, Any], buffers: Buffers, looks: list[Look]) -> Mesh | None:
+def _mesh(folder: Folder, label: str, mesh: dict[str, Any], buffers: Buffers, looks: list[GltfMaterial]) -> Mesh | None:
     """The triangles of a mesh's primitives, one node; None without any."""
     where = f"{folder.path.name}, {label}"
     primitives = [p for p in mesh["primitives"] if p.get("mode", TRIANGLES) not in LEFT_OUT]
@@ -115,7 +115,7 @@ def _display(color: np.ndarray) -> np.ndarray:
     return np.c_[to_srgb(values[:, :3]), values[:, 3:]]
 
 
-def _primitive(where: str, p: dict[str, Any], buffers: Buffers, looks: list[Look]) -> Mesh | None:
+def _primitive(where: str, p: dict[str, Any], buffers: Buffers, looks: list[GltfMaterial]) -> Mesh | None:
     """The triangles of a primitive; None without any."""
     attributes = p["attributes"]
     if "POSITION" not in attributes:
@@ -139,7 +139,7 @@ def _primitive(where: str, p: dict[str, Any], buffers: Buffers, looks: list[Look
     mesh = simple_mesh(where, "mesh", vertices, faces, look.material if look else None)
     return replace(
         mesh,
-        corner_uv=None if uv is None else (look or Look(None)).place(uv)[faces],  # ty: ignore[invalid-argument-type]
+        corner_uv=None if uv is None else (look or GltfMaterial(None)).place(uv)[faces],  # ty: ignore[invalid-argument-type]
         corner_color=None if color is None else rgba(_display(color))[faces],
         corner_normal=None if normal is None else normal[faces],
     )

@@ -12,7 +12,7 @@ from urllib.parse import unquote_to_bytes
 import numpy as np
 
 from anymesh.errors import InputError
-from anymesh.loading.checks import MOST_FACES
+from anymesh.loading.checks import MAX_FACES
 from anymesh.loading.folder import Folder
 
 TYPES = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
@@ -99,8 +99,8 @@ class Buffers:
         """(count, width) of an accessor; normalized integers become floats. Raises InputError."""
         a = _item(self._tree["accessors"], index)
         count, width, dtype = a["count"], WIDTHS[a["type"]], np.dtype(TYPES[a["componentType"]])
-        if not isinstance(count, int) or not 0 <= count <= 3 * MOST_FACES:
-            raise InputError(f"{self._name}: an accessor tells {count} elements; valid are 0 to {3 * MOST_FACES}")
+        if not isinstance(count, int) or not 0 <= count <= 3 * MAX_FACES:
+            raise InputError(f"{self._name}: an accessor tells {count} elements; valid are 0 to {3 * MAX_FACES}")
         if "bufferView" in a:
             values = self._strided(a["bufferView"], a.get("byteOffset", 0), count, width, dtype)
         else:

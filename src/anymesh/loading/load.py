@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from anymesh.errors import InputError
-from anymesh.loading.checks import MOST_FACES, check_file
+from anymesh.loading.checks import MAX_FACES, check_file
 from anymesh.loading.folder import Folder
 from anymesh.loading.gltf import read_gltf
 from anymesh.loading.obj import read_obj
@@ -65,8 +65,8 @@ def load_mesh(path: str | Path, *, root: str | Path | None = None) -> LoadedMesh
     except Exception as error:  # whatever a broken file makes a reader raise is one thing to the user
         told = " ".join(f"{type(error).__name__}: {error}".split())[:200]
         raise InputError(f"{path.name} is no valid {suffix[1:].upper()} file, it is broken or truncated ({told})") from None
-    if len(mesh.faces) > MOST_FACES:
-        raise InputError(f"{path.name} has {len(mesh.faces)} faces; at most {MOST_FACES} are handled")
+    if len(mesh.faces) > MAX_FACES:
+        raise InputError(f"{path.name} has {len(mesh.faces)} faces; at most {MAX_FACES} are handled")
     _check_numbers(path.name, mesh)
     return LoadedMesh(mesh, str(path), hashlib.sha256(data).hexdigest(), up, unit, tuple(folder.warnings), folder.digest())
 

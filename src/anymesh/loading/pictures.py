@@ -14,7 +14,7 @@ from PIL import Image
 from anymesh.loading.folder import SHOWN, Folder
 from anymesh.types import Texture
 
-MOST_PIXELS = 16384**2
+MAX_PIXELS = 16384**2
 KEPT = {"PNG": "image/png", "JPEG": "image/jpeg"}
 OBJECT = re.compile(r"\s*<[^>]*>")  # how Python names a stream in an error: with an address that differs from run to run
 
@@ -31,7 +31,7 @@ def picture(folder: Folder, data: bytes, name: str) -> Texture | None:
     try:
         with quiet_decoder():
             image = Image.open(io.BytesIO(data))
-        if image.width * image.height > MOST_PIXELS:
+        if image.width * image.height > MAX_PIXELS:
             raise ValueError(f"{image.width} x {image.height} pixels")
         image.load()
         if image.format in KEPT:

@@ -7,7 +7,7 @@ from threading import Lock
 from typing import Protocol, runtime_checkable
 
 from anymesh.errors import BudgetError, OptionError
-from anymesh.models.prices import cost_of, most_input_tokens
+from anymesh.models.prices import cost_of, max_input_tokens
 from anymesh.models.vision import Reply, Request, VisionModel
 
 
@@ -118,7 +118,7 @@ class Budgeted:
 
     def ask(self, request: Request) -> Reply:
         """Raises BudgetError instead of the call."""
-        most = cost_of(self.name, most_input_tokens(self.name, request), request.max_tokens) or 0.0
+        most = cost_of(self.name, max_input_tokens(self.name, request), request.max_tokens) or 0.0
         hold = self.spent.hold(request.kind, most, self._limit)
         try:
             reply = self._model.ask(request)

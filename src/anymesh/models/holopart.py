@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Protocol, runtime_checkable
 
 from anymesh.errors import ModelError, OptionError
-from anymesh.models.hearsay import LONGEST, SECRET
+from anymesh.models.error_redaction import LONGEST, SECRET
 from anymesh.models.retry import persist
 from anymesh.models.web import Call, LostError, exchange, is_web
 
@@ -51,7 +51,7 @@ def open_holopart(where: str, *, timeout: float = 1800.0, seed: int = 0) -> Part
     if where.startswith(("http://", "https://")):
         if not is_web(where, plain=True) or "@" in where:
             raise OptionError(f"--completer: the URL is not valid; valid are {VALID}, without user or password")
-        return Server(where, timeout)
+        return PartServer(where, timeout)
     folder, _, python = where.partition("#")
     root = Path(folder).expanduser()
     script = root.joinpath(*MODULE.split(".")).with_suffix(".py")
@@ -67,7 +67,7 @@ def open_holopart(where: str, *, timeout: float = 1800.0, seed: int = 0) -> Part
 
 
 @dataclass(frozen=True)
-class Server:
+class PartServer:
     """Takes the GLB as the body of a POST and answers with the GLB of the completed parts."""
 
     url: str

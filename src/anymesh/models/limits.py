@@ -22,7 +22,7 @@ MEGABYTE = 1_000_000
 
 
 @dataclass(frozen=True)
-class Limits:
+class RequestLimits:
     """picture [bytes], side [px], pictures [count], request [bytes, pictures in base64]."""
 
     picture: int
@@ -32,11 +32,11 @@ class Limits:
 
 
 LIMITS = {
-    "openai": Limits(20 * MEGABYTE, 2048, 500, 50 * MEGABYTE),
-    "openai-responses": Limits(20 * MEGABYTE, 2048, 500, 50 * MEGABYTE),
-    "anthropic": Limits(5 * MEGABYTE, 2000, 100, 32 * MEGABYTE),  # 8000 px, but 2000 px from 21 pictures on
-    "google": Limits(7 * MEGABYTE, 3072, 900, 20 * MEGABYTE),
-    "openai-compatible": Limits(20 * MEGABYTE, 2048, 100, 50 * MEGABYTE),  # a guess: every server has its own
+    "openai": RequestLimits(20 * MEGABYTE, 2048, 500, 50 * MEGABYTE),
+    "openai-responses": RequestLimits(20 * MEGABYTE, 2048, 500, 50 * MEGABYTE),
+    "anthropic": RequestLimits(5 * MEGABYTE, 2000, 100, 32 * MEGABYTE),  # 8000 px, but 2000 px from 21 pictures on
+    "google": RequestLimits(7 * MEGABYTE, 3072, 900, 20 * MEGABYTE),
+    "openai-compatible": RequestLimits(20 * MEGABYTE, 2048, 100, 50 * MEGABYTE),  # a guess: every server has its own
 }
 
 
@@ -57,7 +57,7 @@ def fit(request: Request, provider: str) -> tuple[Picture, ...]:
     return pictures
 
 
-def _shrunk(picture: Picture, limits: Limits) -> Picture:
+def _shrunk(picture: Picture, limits: RequestLimits) -> Picture:
     width, height = picture.size
     # The bytes count in base64: the services differ in how they count, and this is the stricter way.
     scale = min(1.0, limits.side / max(width, height), (limits.picture / _encoded(picture.png)) ** 0.5)

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from anymesh.errors import ModelError
-from anymesh.models.hearsay import LONGEST, SECRET
+from anymesh.models.error_redaction import LONGEST, SECRET
 from anymesh.models.retry import TransientError
 from anymesh.models.web import Answer, Call, LostError, exchange
 
@@ -76,7 +76,7 @@ def list_tasks(timeout: float) -> list[Task]:
 
 def download_glb(url: str, timeout: float) -> bytes:
     """The bytes of a whole GLB. Raises TransientError for an answer that may become one, ModelError for another content."""
-    answer = exchange(Call("meshy's result", "GET", url, timeout=timeout, most=LARGEST, redirects=True))
+    answer = exchange(Call("meshy's result", "GET", url, timeout=timeout, max_bytes=LARGEST, redirects=True))
     if answer.status != 200:
         raise TransientError(f"meshy's result: HTTP {answer.status}")
     kind, size = answer.headers.get("content-type", "").lower(), len(answer.body)

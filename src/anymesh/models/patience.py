@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from threading import Lock
 
-MOST = 3  # answers in a row that are not valid
+MAX_INVALID_ANSWERS = 3  # answers in a row that are not valid
 
 
 class Patience:
     """Counts answers that are not valid; one that is starts the count anew. Shared by the stages of a run."""
 
-    def __init__(self, most: int = MOST) -> None:
+    def __init__(self, most: int = MAX_INVALID_ANSWERS) -> None:
         self._most, self._bad, self._told, self._lock = most, 0, False, Lock()
 
     def note(self, *, valid: bool) -> None:

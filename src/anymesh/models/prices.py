@@ -98,16 +98,16 @@ def cost_of(model_name: str, input_tokens: int, output_tokens: int) -> float | N
     return (input_tokens * price_in + output_tokens * price_out) / 1e6
 
 
-def most_input_tokens(model_name: str, request: Request) -> int:
+def max_input_tokens(model_name: str, request: Request) -> int:
     """More tokens than the request takes: two bytes of text a token, where English takes about four."""
     texts = [request.system, request.text, json.dumps(request.schema), *(p.caption for p in request.pictures)]
     words = sum(len(text.encode()) for text in texts)
     provider, _, model = model_name.replace("openai-responses:", "openai:", 1).partition(":")
     # 1000 for what the service adds around it: the tool's wrapping, the schema in words.
-    return 1000 + words // 2 + sum(most_picture_tokens(provider, model, *picture.size) for picture in request.pictures)
+    return 1000 + words // 2 + sum(max_picture_tokens(provider, model, *picture.size) for picture in request.pictures)
 
 
-def most_picture_tokens(provider: str, model: str, width: int, height: int) -> int:
+def max_picture_tokens(provider: str, model: str, width: int, height: int) -> int:
     """Of one picture [px], by the providers' formulas as of 2026-11, the dearest where one has several.
 
     OpenAI: tiles of 512 px after the short side is shrunk to 768 px, or, where the model counts so, patches of 32 px with a

@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from anymesh.deadline import CALL_SECONDS
 from anymesh.errors import MissingExtraError, ModelError, OptionError
 from anymesh.models.address import KEYS, Address, parse_address
-from anymesh.models.hearsay import safe_words
+from anymesh.models.error_redaction import redact
 from anymesh.models.limits import fit
 from anymesh.models.pydantic_ai_wire_ import the_message, the_model, the_parameters, the_settings, the_text, unfenced
 from anymesh.models.retry import TransientError
@@ -164,7 +164,7 @@ class Client:
         if status in (401, 403):  # its words are about the key, and often hold parts of it
             message += f", the key in {' or '.join(names)} is missing or refused"
             return _Failure(ModelError(message), status)
-        if words := safe_words(_words(error.body), request, _keys()):
+        if words := redact(_words(error.body), request, _keys()):
             message += f", it says: {words}"
         passing = status in (408, 425, 429) or status >= 500
         if passing and not isinstance(error, ModelQuotaExceededError):

@@ -10,7 +10,7 @@ from threading import Lock
 from typing import Protocol, runtime_checkable
 
 from anymesh.errors import OptionError
-from anymesh.models.prices import most_input_tokens
+from anymesh.models.prices import max_input_tokens
 from anymesh.models.vision import Reply, Request, VisionModel
 
 WINDOW = 60.0  # [s] over which providers count
@@ -91,7 +91,7 @@ class RateLimited:
 
     def ask(self, request: Request) -> Reply:
         """As the model. A request counts with its upper bound until its reply tells what it took."""
-        entry = self._limiter.acquire(most_input_tokens(self.name, request) + request.max_tokens)
+        entry = self._limiter.acquire(max_input_tokens(self.name, request) + request.max_tokens)
         reply = self._model.ask(request)
         self._limiter.correct(entry, reply.input_tokens + reply.output_tokens)
         return reply

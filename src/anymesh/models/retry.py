@@ -60,7 +60,7 @@ class Retrying:
             lambda: self._model.ask(request),
             attempts=self._attempts,
             first=self._first,
-            most=self._most,
+            max_wait=self._most,
             sleep=self._sleep,
             chance=self._chance,
         )
@@ -71,7 +71,7 @@ def persist(
     *,
     attempts: int = 5,
     first: float = 1.0,
-    most: float = 30.0,
+    max_wait: float = 30.0,
     sleep: Callable[[float], None] = time.sleep,
     chance: Callable[[], float] = random.random,
 ) -> T:
@@ -88,7 +88,7 @@ def persist(
             raise UnavailableError(
                 f"{failure}; it asks to wait {failure.retry_after:.0f} s, which is longer than {PATIENCE:.0f} s"
             )
-        wait = max(min(most, first * 2 ** (attempt - 1)) * (1 - chance() / 2), failure.retry_after or 0.0)
+        wait = max(min(max_wait, first * 2 ** (attempt - 1)) * (1 - chance() / 2), failure.retry_after or 0.0)
         log.info("%s; attempt %d of %d in %.1f s", failure, attempt + 1, attempts, wait)
         sleep(wait)
     raise UnavailableError(f"{failure}; gave up after {attempts} attempts")

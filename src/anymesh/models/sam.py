@@ -50,8 +50,8 @@ class AutomaticMasks:
 
     points_per_side: int = 32
     points_per_batch: int = 64
-    least_score: float = 0.88  # expected IoU; 0 switches this filter off
-    least_stability: float = 0.95  # IoU of the masks at both thresholds; 0 switches this filter off
+    min_score: float = 0.88  # expected IoU; 0 switches this filter off
+    min_stability: float = 0.95  # IoU of the masks at both thresholds; 0 switches this filter off
     stability_offset: float = 1.0  # [logit]
     nms_iou: float = 0.7  # of two boxes, above which they are the same mask
     crop_layers: int = 0  # layer i asks again on 2**i x 2**i crops
@@ -132,10 +132,10 @@ def _of_crop(
     for start in range(0, len(points), settings.points_per_batch):
         logits, scores = model.predict(embedding, points[start : start + settings.points_per_batch])
         upscale = model.frame.upscaler(logits.shape[-2:], *size)
-        for k, m in np.argwhere((scores > settings.least_score) | (settings.least_score <= 0)):
+        for k, m in np.argwhere((scores > settings.min_score) | (settings.min_score <= 0)):
             full = upscale(logits[k, m])  # only masks that the score keeps are ever made large, one at a time
             stable = stability(full, settings.stability_offset)
-            if stable < settings.least_stability:
+            if stable < settings.min_stability:
                 continue
             mask = full > 0
             a, b, c, d = mask_box(mask)

@@ -74,13 +74,13 @@ def box_nms(boxes: Float[np.ndarray, "n 4"], scores: Float[np.ndarray, " n"], io
     return order[alive]
 
 
-def without_small_regions(mask: Bool[np.ndarray, "H W"], least: int) -> tuple[Bool[np.ndarray, "H W"], bool]:
-    """Fills holes, then drops islands, of fewer than `least` pixels; the largest island stays. And whether there were any."""
+def without_small_regions(mask: Bool[np.ndarray, "H W"], min_pixels: int) -> tuple[Bool[np.ndarray, "H W"], bool]:
+    """Fill holes and drop islands of fewer than `min_pixels` pixels, but the largest; also return whether there were any."""
     holes, sizes = _regions(~mask)
-    small_holes = sizes < least
+    small_holes = sizes < min_pixels
     filled = mask | np.isin(holes, 1 + np.flatnonzero(small_holes))
     islands, sizes = _regions(filled)
-    small = sizes < least
+    small = sizes < min_pixels
     any_small = bool(small_holes.any() or small.any())
     if len(sizes) and small.all():
         small[np.argmax(sizes)] = False

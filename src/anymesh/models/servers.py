@@ -60,14 +60,14 @@ SERVERS = {
 
 @dataclass(frozen=True)
 class LocalModel:
-    """A model that a server has. name: as for --answerer; sees: whether it accepts pictures, None if unknown."""
+    """A model that a server has. name: as for --answerer; takes_pictures: whether it accepts pictures, None if unknown."""
 
     name: str
-    sees: bool | None
+    takes_pictures: bool | None
 
 
 @dataclass(frozen=True)
-class Found:
+class ServerProbe:
     """What a server said. models: None where it did not answer, with the reason in `note`."""
 
     server: str
@@ -81,29 +81,29 @@ class Found:
         return urlsplit(self.url).hostname in LOOPBACK
 
 
-def probe_servers(timeout: float = 1.0) -> list[Found]:
+def probe_servers(timeout: float = 1.0) -> list[ServerProbe]:
     """Ask all servers at once which models they have, each for at most `timeout` [s] a call."""
     with ThreadPoolExecutor(len(SERVERS)) as pool:
         return list(pool.map(lambda server: _probe(server, timeout), SERVERS.values()))
 
 
-def _probe(server: Server, timeout: float) -> Found:
+def _probe(server: Server, timeout: float) -> ServerProbe:
     try:
         url = server.base_url()
     except OptionError as error:
-        return Found(server.name, "", None, str(error))
+        return ServerProbe(server.name, "", None, str(error))
     try:
         listed = _fetch(server, f"{url}/models", timeout)["data"]
         names = [str(m["id"]) for m in listed]
     except (OSError, http.client.HTTPException):
-        return Found(server.name, url, None, "no answer")
+        return ServerProbe(server.name, url, None, "no answer")
     except (ValueError, LookupError, TypeError):
-        return Found(server.name, url, None, "something answers there, but lists no models")
-    seeing = _seeing(server, url.removesuffix("/v1"), names, timeout)
-    return Found(server.name, url, tuple(LocalModel(f"{server.name}:{name}", seeing.get(name)) for name in names))
+        return ServerProbe(server.name, url, None, "something answers there, but lists no models")
+    seeing = _vision_models(server, url.removesuffix("/v1"), names, timeout)
+    return ServerProbe(server.name, url, tuple(LocalModel(f"{server.name}:{name}", seeing.get(name)) for name in names))
 
 
-def _seeing(server: Server, root: str, names: list[str], timeout: float) -> dict[str, bool]:
+def _vision_models(server: Server, root: str, names: list[str], timeout: float) -> dict[str, bool]:
     """Which models take pictures, as far as the server says."""
     try:
         if server.name == "ollama":
@@ -137,6 +137,6 @@ def _fetch(server: Server, url: str, timeout: float, body: dict[str, Any] | None
     return found
 
 
-def first_seeing(found: list[Found]) -> LocalModel | None:
+def first_vision_model(found: list[ServerProbe]) -> LocalModel | None:
     """Choose the first model on this machine that says that it takes pictures."""
-    return next((m for f in found if f.is_local for m in f.models or () if m.sees), None)
+    return next((m for f in found if f.is_local for m in f.models or () if m.takes_pictures), None)

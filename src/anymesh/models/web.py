@@ -46,7 +46,7 @@ class Call:
     headers: Mapping[str, str] = field(default_factory=dict, repr=False)
     body: bytes | None = field(default=None, repr=False)
     timeout: float = 60.0
-    most: int = 1 << 24
+    max_bytes: int = 1 << 24
     redirects: bool = False
     plain: bool = False
 
@@ -111,8 +111,8 @@ def _read(call: Call, response: http.client.HTTPResponse, headers: Mapping[str, 
     while chunk := response.read1(CHUNK):  # what there is, so that a trickle does not outlast the deadline
         chunks.append(chunk)
         size += len(chunk)
-        if size > call.most:
-            return ModelError(f"{call.name}: the answer is larger than {call.most} bytes, which is the most that is read")
+        if size > call.max_bytes:
+            return ModelError(f"{call.name}: the answer is larger than {call.max_bytes} bytes, which is the most that is read")
         if time.monotonic() > end:
             return LostError(f"{call.name}: the answer was not whole within {call.timeout:g} s")
     told = headers.get("content-length", "")

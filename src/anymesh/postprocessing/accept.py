@@ -16,7 +16,7 @@ from anymesh.rendering.raycast_ import RayScene
 from anymesh.types import Asset
 
 AGREES = 0.01  # of the object's diagonal: what is seen of a part must lie this near to its completed surface
-MOST_OFF = 0.05  # share of the points that may lie further off
+MAX_OFF_SHARE = 0.05  # share of the points that may lie further off
 SAMPLES = 2000  # points a part
 
 
@@ -63,13 +63,13 @@ def disagreement(asset: Asset, seen: np.ndarray, triangles: Float[np.ndarray, "n
         return "it is empty"
     there = sample_surface(asset.mesh.triangles[seen], SAMPLES, 0, at_least=1)
     off = float((distance_to_triangles(there.points, triangles) > limit).mean())
-    if off > MOST_OFF:
+    if off > MAX_OFF_SHARE:
         return f"{off:.0%} of what is seen of the part lies further than {limit:.2g} m from it"
     here = sample_surface(triangles, SAMPLES, 0)
     far = here.take(distance_to_triangles(here.points, asset.mesh.triangles) > limit)
     scene = RayScene(asset.mesh.vertices, asset.mesh.faces)
     out = int(seen_from_outside(scene, far.points, far.normals, asset.mesh.diagonal).sum())
-    if out > MOST_OFF * len(here):
+    if out > MAX_OFF_SHARE * len(here):
         return f"{out / len(here):.0%} of it shows where the object has no surface within {limit:.2g} m"
     return ""
 

@@ -15,11 +15,11 @@ from anymesh.types.triangles import normals_and_areas
 
 
 def with_new_faces(
-    asset: Asset, added: Mapping[int, Float[np.ndarray, "n 3 3"]], looks: Mapping[int, Int[np.ndarray, " m"]]
+    asset: Asset, added: Mapping[int, Float[np.ndarray, "n 3 3"]], materials: Mapping[int, Int[np.ndarray, " m"]]
 ) -> Finished:
     """The asset with triangles (n, 3, 3) [m, asset frame] added to parts, by number; those without area too.
 
-    looks: part -> faces of the asset whose node, material, colour and texture coordinates its new faces take, each from the
+    materials: part -> faces of the asset whose node, material, colour and texture coordinates its new faces take, each from the
     nearest. The faces that were there keep their numbers, vertices and attributes; new ones follow in the order of the parts.
     """
     mesh = asset.mesh
@@ -27,7 +27,7 @@ def with_new_faces(
     if not numbers:
         return Finished(asset, np.arange(len(mesh.faces)))
     triangles = np.concatenate([added[part] for part in numbers])
-    like = np.concatenate([_nearest(mesh, added[part], looks[part]) for part in numbers])
+    like = np.concatenate([_nearest(mesh, added[part], materials[part]) for part in numbers])
     part = np.repeat(numbers, [len(added[part]) for part in numbers])
     joined = replace(
         mesh,

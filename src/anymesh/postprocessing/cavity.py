@@ -10,12 +10,12 @@ from jaxtyping import Float
 
 from anymesh.postprocessing.blocks import board
 from anymesh.postprocessing.free import moves_freely
-from anymesh.postprocessing.fronts import Front
+from anymesh.postprocessing.panels import PanelBox
 from anymesh.postprocessing.scenes import Growing, scene_of
 from anymesh.postprocessing.settings import ShapeConfig
 from anymesh.rendering.raycast_ import RayScene
 
-NEAR = 3.0  # walls: a side of the body that is nearer to the hollow's edge bounds it
+MAX_SIDE_GAP_WALLS = 3.0  # walls: a side of the body that is nearer to the hollow's edge bounds it
 TURNED = 0.05  # difference of the axes of fronts that lie side by side
 INTO = 0.02  # of a wall: how far boards reach into what they end at; no shell is thinner
 INSET = 0.02  # of a board's side: what reaches in no further touches it
@@ -26,111 +26,113 @@ COVERS = 0.3  # share of the body's side that fronts cover where each has a box 
 FIRST = 0.4  # share of the hollow's depth within which the body's face lies
 
 
-def add_walls(front: Front, fronts: Sequence[Front], growing: Growing, config: ShapeConfig) -> None:
+def add_walls(panel: PanelBox, panels: Sequence[PanelBox], growing: Growing, config: ShapeConfig) -> None:
     """Adds boards to the part that carries a front, where the hollow behind it has no side."""
-    parent, standing = growing.scenes.carriers(front.part)[0], growing.triangles(*growing.scenes.carriers(front.part))
+    parent, standing = growing.scenes.carriers(panel.part)[0], growing.triangles(*growing.scenes.carriers(panel.part))
     body, movers = scene_of(standing), scene_of(growing.others(parent))
     wall = config.wall * growing.scenes.diagonal
-    if body is None or movers is None or _covered(front, fronts, standing) < COVERS:
+    if body is None or movers is None or _covered(panel, panels, standing) < COVERS:
         return
     for axis, sign in product((0, 1), (-1.0, 1.0)):
-        if np.isfinite(_side(front, axis, sign, body, wall)):
+        if np.isfinite(_side(panel, axis, sign, body, wall)):
             continue
-        for low, high in _boards(front, fronts, axis, sign, body, wall):
+        for low, high in _boards(panel, panels, axis, sign, body, wall):
             clear = config.clearance * growing.scenes.diagonal
-            for first in (low[2], front.low[2] + clear):  # beside the front, or else behind it
+            for first in (low[2], panel.low[2] + clear):  # beside the front, or else behind it
                 low[2] = first
-                new = board(low, high, front.axes)
-                if not crosses(movers, low, high, front.axes) and moves_freely(front.part, growing, growing, beside=new):
+                new = board(low, high, panel.axes)
+                if not crosses(movers, low, high, panel.axes) and moves_freely(panel.part, growing, growing, beside=new):
                     growing.add(parent, new, ["a wall put beside the hollow of a moving part"])
                     break
 
 
-def _covered(front: Front, fronts: Sequence[Front], standing: Float[np.ndarray, "n 3 3"]) -> float:
+def _covered(panel: PanelBox, panels: Sequence[PanelBox], standing: Float[np.ndarray, "n 3 3"]) -> float:
     """Share of the body's side on which a front lies that it and those beside it cover."""
-    side = np.ptp(standing.reshape(-1, 3) @ front.axes[:2].T, axis=0)
-    alike = [f for f in fronts if _alike(front, f)]
+    side = np.ptp(standing.reshape(-1, 3) @ panel.axes[:2].T, axis=0)
+    alike = [f for f in panels if _alike(panel, f)]
     return float(sum(np.prod((f.high - f.low)[:2]) for f in alike) / max(float(side.prod()), 1e-300))
 
 
-def _alike(front: Front, other: Front) -> bool:
-    return float(np.abs(other.axes - front.axes).max()) < TURNED
+def _alike(panel: PanelBox, other: PanelBox) -> bool:
+    return float(np.abs(other.axes - panel.axes).max()) < TURNED
 
 
-def _side(front: Front, axis: int, sign: float, body: RayScene, wall: float) -> float:
+def _side(panel: PanelBox, axis: int, sign: float, base: RayScene, wall: float) -> float:
     """How far the body's side is beyond an edge of the hollow [m], infinite where there is none near."""
     other = 1 - axis
-    size = front.high - front.low
+    size = panel.high - panel.low
     share = (np.arange(PROBES) + 0.5) / PROBES
-    along, deep = np.meshgrid(front.low[other] + share * size[other], front.low[2] + (0.2 + 0.6 * share) * size[2])
+    along, deep = np.meshgrid(panel.low[other] + share * size[other], panel.low[2] + (0.2 + 0.6 * share) * size[2])
     local = np.zeros((along.size, 3))
-    local[:, axis] = (front.high if sign > 0 else front.low)[axis] - sign * wall
+    local[:, axis] = (panel.high if sign > 0 else panel.low)[axis] - sign * wall
     local[:, other], local[:, 2] = along.reshape(-1), deep.reshape(-1)
-    ways = np.repeat(sign * front.axes[axis][None], len(local), 0)
-    return float(np.median(body.first_hit(local @ front.axes, ways, (NEAR + 1) * wall).distance) - wall)
+    ways = np.repeat(sign * panel.axes[axis][None], len(local), 0)
+    return float(np.median(base.first_hit(local @ panel.axes, ways, (MAX_SIDE_GAP_WALLS + 1) * wall).distance) - wall)
 
 
 def _boards(
-    front: Front, fronts: Sequence[Front], axis: int, sign: float, body: RayScene, wall: float
+    panel: PanelBox, panels: Sequence[PanelBox], axis: int, sign: float, base: RayScene, wall: float
 ) -> Iterator[tuple[Float[np.ndarray, " 3"], Float[np.ndarray, " 3"]]]:
     """Corners of the board at an edge of the hollow: none where the next hollow begins there, unless a rail is between."""
-    edge = float((front.high if sign > 0 else front.low)[axis])
-    beside = [(gap, f) for f in fronts if (gap := _gap(front, f, axis, sign)) is not None and -wall < gap < NEAR * wall]
+    edge = float((panel.high if sign > 0 else panel.low)[axis])
+    beside = [
+        (gap, f) for f in panels if (gap := _gap(panel, f, axis, sign)) is not None and -wall < gap < MAX_SIDE_GAP_WALLS * wall
+    ]
     thick = wall
     if beside:
         thick, neighbour = min(beside, key=lambda found: abs(found[0]))
-        if neighbour.part < front.part or thick < wall / 4:
+        if neighbour.part < panel.part or thick < wall / 4:
             return
-    low, high = front.low.copy(), front.high.copy()
+    low, high = panel.low.copy(), panel.high.copy()
     for side, end in ((-1.0, low), (1.0, high)):  # into the body's sides where they are near, else into the next board
-        far = _side(front, 1 - axis, side, body, wall)
+        far = _side(panel, 1 - axis, side, base, wall)
         end[1 - axis] += side * (far + INTO * wall if np.isfinite(far) else wall / 2)
     low[axis], high[axis] = (edge, edge + thick) if sign > 0 else (edge - thick, edge)
-    face = _face_level(front, low, high, axis, body)
+    face = _face_level(panel, low, high, axis, base)
     if beside and face is None:
         return
-    low[2] = front.low[2] if face is None else face + min(wall, float(front.high[2] - face)) / 2
-    high[2] = _back_level(front, low, high, axis, body) + INTO * wall
+    low[2] = panel.low[2] if face is None else face + min(wall, float(panel.high[2] - face)) / 2
+    high[2] = _back_level(panel, low, high, axis, base) + INTO * wall
     if high[2] > low[2]:
         yield low, high
 
 
-def _back_level(front: Front, low: np.ndarray, high: np.ndarray, axis: int, body: RayScene) -> float:
+def _back_level(panel: PanelBox, low: np.ndarray, high: np.ndarray, axis: int, base: RayScene) -> float:
     """Where the body ends behind a board, along the way in."""
-    local = _along(front, low, high, axis)
-    local[:, 2] = (low[2] + front.high[2]) / 2
-    far = float(front.high[2] - low[2])
-    hits = body.first_hit(local @ front.axes, np.repeat(front.axes[2][None], len(local), 0), far)
+    local = _along(panel, low, high, axis)
+    local[:, 2] = (low[2] + panel.high[2]) / 2
+    far = float(panel.high[2] - low[2])
+    hits = base.first_hit(local @ panel.axes, np.repeat(panel.axes[2][None], len(local), 0), far)
     return float(local[0, 2] + np.median(np.minimum(hits.distance, far)))
 
 
-def _along(front: Front, low: np.ndarray, high: np.ndarray, axis: int) -> Float[np.ndarray, "n 3"]:
+def _along(panel: PanelBox, low: np.ndarray, high: np.ndarray, axis: int) -> Float[np.ndarray, "n 3"]:
     """Points along the middle of a board but for its ends, at no depth."""
     share = np.linspace(0.1, 0.9, PROBES**2)
     local = np.zeros((PROBES**2, 3))
     local[:, axis] = (low + high)[axis] / 2
-    local[:, 1 - axis] = (front.low + share[:, None] * (front.high - front.low))[:, 1 - axis]
+    local[:, 1 - axis] = (panel.low + share[:, None] * (panel.high - panel.low))[:, 1 - axis]
     return local
 
 
-def _gap(front: Front, other: Front, axis: int, sign: float) -> float | None:
+def _gap(panel: PanelBox, other: PanelBox, axis: int, sign: float) -> float | None:
     """How far another front of the same kind is from an edge of a front [m]; None where it does not lie beside it."""
-    if other.part == front.part or not _alike(front, other):
+    if other.part == panel.part or not _alike(panel, other):
         return None
     k = 1 - axis
-    along = min(front.high[k], other.high[k]) - max(front.low[k], other.low[k])
-    if along < ALONG * min(front.high[k] - front.low[k], other.high[k] - other.low[k]):
+    along = min(panel.high[k], other.high[k]) - max(panel.low[k], other.low[k])
+    if along < ALONG * min(panel.high[k] - panel.low[k], other.high[k] - other.low[k]):
         return None
-    gap = other.low[axis] - front.high[axis] if sign > 0 else front.low[axis] - other.high[axis]
+    gap = other.low[axis] - panel.high[axis] if sign > 0 else panel.low[axis] - other.high[axis]
     return float(gap)
 
 
-def _face_level(front: Front, low: np.ndarray, high: np.ndarray, axis: int, body: RayScene) -> float | None:
+def _face_level(panel: PanelBox, low: np.ndarray, high: np.ndarray, axis: int, base: RayScene) -> float | None:
     """Where the body's own face is before a board, along the way in; None where it has none there."""
-    local = _along(front, low, high, axis)
-    depth = float(front.high[2] - front.low[2])
-    local[:, 2] = front.low[2] - depth
-    level = body.first_hit(local @ front.axes, np.repeat(front.axes[2][None], len(local), 0), (1 + FIRST) * depth).distance
+    local = _along(panel, low, high, axis)
+    depth = float(panel.high[2] - panel.low[2])
+    local[:, 2] = panel.low[2] - depth
+    level = base.first_hit(local @ panel.axes, np.repeat(panel.axes[2][None], len(local), 0), (1 + FIRST) * depth).distance
     found = np.isfinite(level)
     return float(np.median(level[found]) + local[0, 2]) if found.mean() > THERE else None
 

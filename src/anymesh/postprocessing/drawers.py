@@ -7,7 +7,7 @@ from jaxtyping import Float
 
 from anymesh.postprocessing.blocks import tray
 from anymesh.postprocessing.free import moves_freely
-from anymesh.postprocessing.fronts import Front
+from anymesh.postprocessing.panels import PanelBox
 from anymesh.postprocessing.scenes import Growing, scene_of
 from anymesh.postprocessing.settings import ShapeConfig
 from anymesh.rendering.raycast_ import RayScene
@@ -21,33 +21,33 @@ THERE = 0.6  # share of the rays to a side of a box that show it is there
 TRIES = (1.0, 2.0, 4.0)  # times the clearance on each side, until the box is free
 
 
-def add_box(front: Front, growing: Growing, config: ShapeConfig) -> None:
+def add_box(panel: PanelBox, growing: Growing, config: ShapeConfig) -> None:
     """Adds a box to a front that slides straight out and has none, unless it would strike something on its way."""
-    joint = growing.scenes.joint[front.part]
-    if joint.type is not JointType.PRISMATIC or joint.limits is None or front.axes[1][2] < UPRIGHT:
+    joint = growing.scenes.joint[panel.part]
+    if joint.type is not JointType.PRISMATIC or joint.limits is None or panel.axes[1][2] < UPRIGHT:
         return
-    travel = -front.inward @ joint.axis * (joint.limits[1] if front.inward @ joint.axis < 0 else joint.limits[0])
-    if abs(front.inward @ joint.axis) < STRAIGHT or travel <= 0:
+    travel = -panel.inward @ joint.axis * (joint.limits[1] if panel.inward @ joint.axis < 0 else joint.limits[0])
+    if abs(panel.inward @ joint.axis) < STRAIGHT or travel <= 0:
         return
-    own, others = scene_of(growing.triangles(front.part)), scene_of(growing.others(front.part))
-    if own is None or others is None or _has_box(front, own):
+    own, others = scene_of(growing.triangles(panel.part)), scene_of(growing.others(panel.part))
+    if own is None or others is None or _has_box(panel, own):
         return
     for more in TRIES:
         clear = more * config.clearance * growing.scenes.diagonal
-        low, high = _inside(front, others, own, clear)
+        low, high = _inside(panel, others, own, clear)
         high[2] = min(high[2], low[2] + max(travel / (1 - config.drawer_keep), 0.0))
         high[1] = low[1] + config.drawer_height * (high[1] - low[1])
         wall = min(config.wall * growing.scenes.diagonal, THIN * float((high - low).min()))
         if wall <= config.sheet * growing.scenes.diagonal:
             continue
-        box = _upwards(low, high, front.axes, wall)
-        if moves_freely(front.part, growing, growing, more=box):
+        box = _upwards(low, high, panel.axes, wall)
+        if moves_freely(panel.part, growing, growing, added=box):
             reach = high[2] - low[2]
             growing.add(
-                front.part, box, [f"a drawer's box put behind its front, {reach:.2g} m deep for a travel of {travel:.2g} m"]
+                panel.part, box, [f"a drawer's box put behind its front, {reach:.2g} m deep for a travel of {travel:.2g} m"]
             )
             return
-    growing.add(front.part, np.zeros((0, 3, 3)), ["no drawer's box: none is free on its way"])
+    growing.add(panel.part, np.zeros((0, 3, 3)), ["no drawer's box: none is free on its way"])
 
 
 def _upwards(low: np.ndarray, high: np.ndarray, axes: np.ndarray, wall: float) -> Float[np.ndarray, "n 3 3"]:
@@ -56,20 +56,20 @@ def _upwards(low: np.ndarray, high: np.ndarray, axes: np.ndarray, wall: float) -
     return tray(low[order], high[order], axes[order], wall)
 
 
-def _inside(front: Front, others: RayScene, own: RayScene, clear: float) -> tuple[np.ndarray, np.ndarray]:
+def _inside(panel: PanelBox, others: RayScene, own: RayScene, clear: float) -> tuple[np.ndarray, np.ndarray]:
     """Corners of the space behind a front that is free at rest, less the clearance on each side but the front's."""
-    low, high = front.low.copy(), front.high.copy()
+    low, high = panel.low.copy(), panel.high.copy()
     low[:2] += clear
     high -= clear
     scenes = (others, own)
     middle = (low + high) / 2
     core = (middle + (low - middle) / 2, middle + (high - middle) / 2)
-    high[2] = min(high[2], low[2] + _way(front.axes, 2, 1.0, low[2], *core, scenes) - clear)
+    high[2] = min(high[2], low[2] + _way(panel.axes, 2, 1.0, low[2], *core, scenes) - clear)
     for axis in (0, 1):
-        down = _way(front.axes, axis, -1.0, middle[axis], low, high, scenes)
-        up = _way(front.axes, axis, 1.0, middle[axis], low, high, scenes)
+        down = _way(panel.axes, axis, -1.0, middle[axis], low, high, scenes)
+        up = _way(panel.axes, axis, 1.0, middle[axis], low, high, scenes)
         low[axis], high[axis] = max(low[axis], middle[axis] - down + clear), min(high[axis], middle[axis] + up - clear)
-    high[2] = min(high[2], low[2] + _way(front.axes, 2, 1.0, low[2], low, high, scenes) - clear)
+    high[2] = min(high[2], low[2] + _way(panel.axes, 2, 1.0, low[2], low, high, scenes) - clear)
     return low, high
 
 
@@ -95,14 +95,14 @@ def _way(
     return min(float(np.minimum(s.first_hit(start, ways, far).distance, far).min()) for s in scenes) + skip
 
 
-def _has_box(front: Front, own: RayScene) -> bool:
+def _has_box(panel: PanelBox, own: RayScene) -> bool:
     """Whether the part has a bottom, two sides and a back of its own in the hollow, as rays from its middle show."""
-    middle, size = (front.low + front.high) / 2, front.high - front.low
+    middle, size = (panel.low + panel.high) / 2, panel.high - panel.low
     for axis, sign in ((0, -1.0), (0, 1.0), (1, -1.0), (2, 1.0)):
         low, high = middle - size / 4, middle + size / 4
-        low[1] = high[1] = front.low[1] + 0.3 * size[1]
-        start = _grid(front.axes, axis, float(low[1] if axis == 1 else middle[axis]), low, high)
-        hits = own.first_hit(start, np.repeat(sign * front.axes[axis][None], len(start), 0), float(size[axis]))
+        low[1] = high[1] = panel.low[1] + 0.3 * size[1]
+        start = _grid(panel.axes, axis, float(low[1] if axis == 1 else middle[axis]), low, high)
+        hits = own.first_hit(start, np.repeat(sign * panel.axes[axis][None], len(start), 0), float(size[axis]))
         if (hits.face >= 0).mean() < THERE:
             return False
     return True

@@ -6,9 +6,9 @@ import numpy as np
 from jaxtyping import Float
 
 from anymesh.config import ArticulationConfig
-from anymesh.geometry.shape import FaceSet
 from anymesh.geometry.sweep import Obstacles, free_amount
 from anymesh.geometry.topology import components
+from anymesh.geometry.triangle_set import TriangleSet
 from anymesh.postprocessing.scenes import Growing
 from anymesh.types import Joint, JointType, Motion, MotionKind
 from anymesh.types.triangles import normals_and_areas
@@ -25,10 +25,10 @@ def moves_freely(
     growing: Growing,
     before: Growing,
     *,
-    more: Float[np.ndarray, "n 3 3"] = NONE,
+    added: Float[np.ndarray, "n 3 3"] = NONE,
     beside: Float[np.ndarray, "m 3 3"] = NONE,
 ) -> bool:
-    """Whether a part, with all that it carries and with `more` triangles, goes as far towards both limits beside the others and
+    """Return whether a part, with its descendants and `added` triangles, goes as far towards both limits beside the others and
     further triangles as it did `before`."""
     joint = growing.scenes.joint[part]
     if joint.type is JointType.FIXED:
@@ -37,7 +37,7 @@ def moves_freely(
     carried = [k for k in scenes.order if k == part or part in scenes.carriers(k)]
     others = [k for k in scenes.order if k not in carried]
     tolerance = ArticulationConfig().penetration * scenes.diagonal
-    own, rest = (np.concatenate([growing.triangles(*k), new]) for k, new in ((carried, more), (others, beside)))
+    own, rest = (np.concatenate([growing.triangles(*k), new]) for k, new in ((carried, added), (others, beside)))
     after = Obstacles(shape_of(own), shape_of(rest), tolerance)
     motion = Motion(
         MotionKind.PRISMATIC if joint.type is JointType.PRISMATIC else MotionKind.REVOLUTE, joint.axis, joint.origin, "joint"
@@ -57,10 +57,12 @@ def limits_of(joint: Joint) -> list[tuple[int, float]]:
     return [(sign, amount) for sign, amount in ((1, float(high)), (-1, -float(low))) if amount > 0]
 
 
-def shape_of(triangles: Float[np.ndarray, "n 3 3"]) -> FaceSet:
+def shape_of(triangles: Float[np.ndarray, "n 3 3"]) -> TriangleSet:
     """Triangles made ready for sweeps: closed components face outwards."""
     corners = triangles.reshape(-1, 3)
     found = components(corners, np.arange(len(corners)).reshape(-1, 3))
     normals = normals_and_areas(triangles)[0]
     flip = found.flip[found.label]
-    return FaceSet(triangles, np.where(flip[:, None], -normals, normals), found.solid[found.label], np.arange(len(triangles)))
+    return TriangleSet(
+        triangles, np.where(flip[:, None], -normals, normals), found.solid[found.label], np.arange(len(triangles))
+    )

@@ -9,7 +9,7 @@ import numpy as np
 from anymesh.geometry.sampling import sample_surface
 from anymesh.postprocessing.closing import backed, cap, covers_itself
 from anymesh.postprocessing.scenes import SKIP, Scenes, room
-from anymesh.postprocessing.seen import Seen
+from anymesh.postprocessing.seen import SheetVisibility
 from anymesh.postprocessing.settings import ShapeConfig
 from anymesh.postprocessing.sheets import Sheet
 
@@ -19,7 +19,7 @@ UNCOVERED = 0.5  # share of a hole's points from which that which covers it move
 AWAY = 0.1  # of the hole's size: how far it moves at least, and two walls
 
 
-def with_caps(seen: Seen, part: int, scenes: Scenes, config: ShapeConfig) -> tuple[Sheet, bool]:
+def with_caps(seen: SheetVisibility, part: int, scenes: Scenes, config: ShapeConfig) -> tuple[Sheet, bool]:
     """The sheet with its flat holes closed that something hides for good, and whether one is left open for what moves away
     from it."""
     sheet = seen.sheet

@@ -20,7 +20,9 @@ from anymesh.types import Asset, Mesh, Node
 
 log = logging.getLogger("anymesh")
 BOX = 0.95  # half the longest side of the whole object as it is sent; the model was trained in -1..1
-LEAST = 0.04  # of its longest side, the thickness of a part as it is sent; the decoder's first grid has cells of .025
+MIN_THICKNESS_RATIO = (
+    0.04  # of its longest side, the thickness of a part as it is sent; the decoder's first grid has cells of .025
+)
 SAMPLES = 400  # points a part to find it again by
 
 
@@ -37,10 +39,10 @@ class HoloPart:
     def complete(self, asset: Asset) -> Mapping[str, PartMesh]:
         """The surface of each open part. ModelError where nothing comes back that can be told apart."""
         try:
-            return self._complete(asset, LEAST)
+            return self._complete(asset, MIN_THICKNESS_RATIO)
         except CrashError as error:
             log.warning("%s; once more with parts twice as thick", error)
-        return self._complete(asset, 2 * LEAST)
+        return self._complete(asset, 2 * MIN_THICKNESS_RATIO)
 
     def _complete(self, asset: Asset, least: float) -> Mapping[str, PartMesh]:
         parts = {
@@ -55,7 +57,7 @@ class HoloPart:
         T = box_transform(asset.mesh)
         glb = self.service.complete(scene_glb({name: _mesh(name, part) for name, part in parts.items()}, T))
         pieces = {name: _moved(mesh, np.linalg.inv(T)) for name, mesh in read_pieces(glb).items()}
-        found = told_apart(pieces, {name: part.mesh for name, part in parts.items()})
+        found = match_pieces(pieces, {name: part.mesh for name, part in parts.items()})
         return {name: found[name] for name, part in parts.items() if not part.closed and name in found}
 
 
@@ -78,7 +80,7 @@ def read_pieces(glb: bytes) -> dict[str, Mesh]:
     return {name: mesh.subset(mesh.face_node == number) for number, name in enumerate(names)}
 
 
-def told_apart(pieces: Mapping[str, PartMesh], parts: Mapping[str, PartMesh]) -> dict[str, PartMesh]:
+def match_pieces(pieces: Mapping[str, PartMesh], parts: Mapping[str, PartMesh]) -> dict[str, PartMesh]:
     """The piece of each part: by name where all are known, else by which lies nearest to the parts that were sent.
 
     Raises ModelError where names are unknown and the numbers differ.

@@ -10,7 +10,7 @@ import numpy as np
 from anymesh.errors import InputError
 from anymesh.postprocessing.bake import Baked, atlas_materials, atlas_uv, check_layout
 from anymesh.postprocessing.protocol import Finished
-from anymesh.postprocessing.retexture_match import MOST_OFF, aligned, has_picture, nearest, same_faces, surface_gap
+from anymesh.postprocessing.retexture_match import MAX_OFF_SHARE, aligned, has_picture, nearest, same_faces, surface_gap
 from anymesh.postprocessing.scene_glb import Y_UP, read_scene, scene_glb
 from anymesh.postprocessing.texture import Painted
 from anymesh.types import Asset, Mesh
@@ -61,7 +61,7 @@ class Remote:
         if same_faces(back, ours):
             return Painted(replace(asset, mesh=_taken_over(back, ours)), (*baked.notes, f"{self.name}: its pictures are used"))
         gap = surface_gap(back, ours)
-        if gap > MOST_OFF:
+        if gap > MAX_OFF_SHARE:
             return self._refused(baked, f"{gap:.0%} of its surface is not that of the object")
         note = f"{self.name}: it has other faces, its colours are used from the nearest place of the same part"
         return Painted(replace(asset, mesh=self._transferred(back, asset)), (*baked.notes, note))

@@ -14,7 +14,7 @@ from anymesh.types import Mesh
 
 SAME = 1e-3  # of the diagonal: corners of the same faces lie this near
 AGREES = 0.01  # of the diagonal: surfaces lie this near to each other
-MOST_OFF = 0.02  # share of either surface that may lie further off
+MAX_OFF_SHARE = 0.02  # share of either surface that may lie further off
 SAMPLES = 4000
 
 

@@ -14,7 +14,7 @@ from anymesh.postprocessing.visible import GRAZE, escapes
 from anymesh.rendering.raycast_ import RayScene
 from anymesh.types import Asset, Joint, JointType
 
-HALF_TURN = np.pi
+HALF_REVOLUTION_RAD = np.pi
 SKIP = 1e-4  # of the diagonal: what is nearer is touched
 FLOOR = 1e-3  # of the diagonal: what lies so near to the ground stands on it
 
@@ -89,7 +89,7 @@ def widest(joint: Joint) -> float:
     """The position furthest from rest [rad or m]; half a turn of what turns endlessly."""
     if joint.type is JointType.FIXED:
         return 0.0
-    return HALF_TURN if joint.limits is None else max(joint.limits[::-1], key=abs)
+    return HALF_REVOLUTION_RAD if joint.limits is None else max(joint.limits[::-1], key=abs)
 
 
 @dataclass(eq=False)
@@ -140,15 +140,15 @@ def room(
     scene: RayScene | None,
     points: Float[np.ndarray, "n 3"],
     ways: Float[np.ndarray, "n 3"],
-    most: float,
+    max_distance: float,
     skip: float,
     *,
     without: Int[np.ndarray, " m"] | None = None,
 ) -> Float[np.ndarray, " n"]:
-    """How far it is from points along unit ways to the first surface [m], `most` where there is none so near, or where it is
+    """Return the distance from points along ways to the first surface [m], `max_distance` where there is none, or where it is
     one of the faces `without`; surfaces nearer than `skip` are touched, not met."""
     if scene is None or len(points) == 0:
-        return np.full(len(points), most)
-    hits = scene.first_hit(points + skip * ways, ways, most)
-    far = np.minimum(hits.distance + skip, most)
-    return far if without is None else np.where(np.isin(hits.face, without), most, far)
+        return np.full(len(points), max_distance)
+    hits = scene.first_hit(points + skip * ways, ways, max_distance)
+    far = np.minimum(hits.distance + skip, max_distance)
+    return far if without is None else np.where(np.isin(hits.face, without), max_distance, far)

@@ -19,7 +19,7 @@ PROBES = 120  # points on a sheet
 
 
 @dataclass(frozen=True, eq=False)
-class Seen:
+class SheetVisibility:
     """A sheet as it is seen. faces_out: its faces are wound to the side that is seen; both: it is seen from both sides."""
 
     sheet: Sheet
@@ -46,15 +46,15 @@ class Seen:
         return bool(self.box.half[2] < most * self.box.half[1])
 
 
-def look_at(sheet: Sheet, scenes: Scenes, config: ShapeConfig) -> Seen:
+def sheet_visibility(sheet: Sheet, scenes: Scenes, config: ShapeConfig) -> SheetVisibility:
     """From which sides a sheet is seen at rest."""
     probe = sample_surface(sheet.triangles, PROBES, 0)
     front, back = scenes.seen(probe.points, probe.normals).mean(0) if len(probe) else (1.0, 0.0)
     inside_out = back > config.shown and back > 2 * front  # what is hardly seen is taken as it is wound
-    return Seen(sheet, probe, not inside_out, bool(min(front, back) > config.shown))
+    return SheetVisibility(sheet, probe, not inside_out, bool(min(front, back) > config.shown))
 
 
-def is_laid_open(seen: Seen, part: int, scenes: Scenes, config: ShapeConfig) -> bool:
+def is_laid_open(seen: SheetVisibility, part: int, scenes: Scenes, config: ShapeConfig) -> bool:
     """Whether the side of a sheet of a part that is not seen at rest is seen when all joints are open."""
     root = scenes.order[0]
     T, probe = scenes.opened(root)[part], seen.probe

@@ -12,7 +12,7 @@ from anymesh.postprocessing.added import with_new_faces
 from anymesh.postprocessing.cavity import add_walls
 from anymesh.postprocessing.drawers import add_box
 from anymesh.postprocessing.free import moves_freely
-from anymesh.postprocessing.fronts import find_front
+from anymesh.postprocessing.panels import find_panel
 from anymesh.postprocessing.protocol import Finished
 from anymesh.postprocessing.scenes import Growing, Scenes
 from anymesh.postprocessing.settings import ShapeConfig
@@ -50,7 +50,7 @@ def complete_shapes(
         return _grown(asset, growing)
     carrier = {k: growing.scenes.carriers(k)[0] for k in growing.scenes.joint}
     near = [k for k in growing.scenes.order if k in touched or carrier.get(k) in touched]
-    fronts = [front for k in near if (front := find_front(k, growing, config)) is not None]
+    fronts = [front for k in near if (front := find_panel(k, growing, config)) is not None]
     for front in fronts:
         if carrier[front.part] in touched:
             add_walls(front, fronts, growing, config)

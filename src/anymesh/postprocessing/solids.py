@@ -13,7 +13,7 @@ from anymesh.geometry.topology import components
 from anymesh.postprocessing.closing import backed, shelled, without_folds
 from anymesh.postprocessing.holes import with_caps
 from anymesh.postprocessing.scenes import SKIP, Growing, Scenes, room, scene_of
-from anymesh.postprocessing.seen import Seen, is_laid_open, look_at
+from anymesh.postprocessing.seen import SheetVisibility, is_laid_open, sheet_visibility
 from anymesh.postprocessing.settings import ShapeConfig
 from anymesh.postprocessing.sheets import Sheet, open_sheets
 from anymesh.rendering.raycast_ import RayScene
@@ -48,7 +48,9 @@ class Around:
         """Thickness of a wall [m]."""
         return self.config.wall * self.scenes.diagonal
 
-    def free(self, seen: Seen, probe: SurfacePoints, ways: Float[np.ndarray, "n 3"], most: float) -> Float[np.ndarray, " n"]:
+    def free(
+        self, seen: SheetVisibility, probe: SurfacePoints, ways: Float[np.ndarray, "n 3"], most: float
+    ) -> Float[np.ndarray, " n"]:
         """How thick a sheet may be at points [m]: up to the other parts but for the clearance, and half way to what else its
         own part has there."""
         skip, gap = SKIP * self.scenes.diagonal, self.config.clearance * self.scenes.diagonal
@@ -64,7 +66,7 @@ def close_part(part: int, growing: Growing, config: ShapeConfig) -> bool:
     """
     mesh, mine, scenes = growing.scenes.asset.mesh, growing.faces(part), growing.scenes
     found = open_sheets(mesh.vertices, mesh.faces[mine])
-    sheets = [look_at(sheet, scenes, config) for sheet in found if not growing.late()]
+    sheets = [sheet_visibility(sheet, scenes, config) for sheet in found if not growing.late()]
     if not config.watertight:
         sheets = [s for s in sheets if s.both or is_laid_open(s, part, scenes, config)]
     around = Around(part, mesh.triangles[mine], scene_of(growing.others(part)), scenes, config)
@@ -90,7 +92,7 @@ def _still_open(mine: np.ndarray, sheets: list[Sheet], made: list[np.ndarray]) -
     return [k for k, faces in enumerate(own) if bad[faces].any()]
 
 
-def closed(seen: Seen, around: Around, share: float = 1.0) -> tuple[Float[np.ndarray, "n 3 3"], list[str]]:
+def closed(seen: SheetVisibility, around: Around, share: float = 1.0) -> tuple[Float[np.ndarray, "n 3 3"], list[str]]:
     """The faces that make a solid of a sheet, and what was done. share: of the thickness that it would get."""
     sheet, config, scenes = seen.sheet, around.config, around.scenes
     capped, opens = with_caps(seen, around.part, scenes, config)
@@ -114,7 +116,7 @@ def _count(number: int, thing: str) -> str:
     return f"{number} {thing}{'' if number == 1 else 's'}"
 
 
-def _plate(seen: Seen, around: Around, draft: float, share: float) -> tuple[Sheet, float]:
+def _plate(seen: SheetVisibility, around: Around, draft: float, share: float) -> tuple[Sheet, float]:
     """A sheet made a plate, and its thickness [m]: down to its own deepest point, or a wall's thickness, as far as there is
     room."""
     inward, sheet, least = seen.inward, seen.sheet, around.config.sheet * around.scenes.diagonal
@@ -131,7 +133,7 @@ def _plate(seen: Seen, around: Around, draft: float, share: float) -> tuple[Shee
     return sheet.with_faces(*back), level - front
 
 
-def _shell_thickness(seen: Seen, around: Around) -> float:
+def _shell_thickness(seen: SheetVisibility, around: Around) -> float:
     """A wall's thickness, less where there is no room [m]."""
     least, wall = around.config.sheet * around.scenes.diagonal, around.wall
     if seen.both or len(seen.probe) == 0:

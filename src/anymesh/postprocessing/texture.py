@@ -15,7 +15,7 @@ from anymesh.postprocessing.texture_points import Spots, barycentric, spots_on
 from anymesh.postprocessing.visible import visible_faces
 from anymesh.types import Asset, Mesh
 
-LEVEL = np.cos(np.deg2rad(20.0))  # new faces that meet at a lesser angle are one patch
+MIN_SAME_CHART_COSINE = np.cos(np.deg2rad(20.0))  # new faces that meet at a lesser angle are one patch
 ON = 0.002  # of the diagonal: new faces that lie this near to the old surface go on with its texture
 ALONG = 0.9  # cosine of the angle between both, there
 
@@ -81,13 +81,13 @@ def paint_new(mesh: Mesh, face_part: Int[np.ndarray, " F"], new: Bool[np.ndarray
         like[faces], weights[faces] = spots.face[chosen], spots.weights[chosen][:, None]
         on = _lies_on(mesh, faces, spots)
         like[faces[on]], weights[faces[on]] = _continued(mesh, faces[on], sources)
-    return _with_looks(mesh, new, like[new], weights[new]), count
+    return _with_materials(mesh, new, like[new], weights[new]), count
 
 
 def _patches(mesh: Mesh, faces: Int[np.ndarray, " n"]) -> Int[np.ndarray, " n"]:
     pairs = edge_pairs(mesh.vertices, mesh.faces[faces]).faces
     normals = mesh.face_normals[faces]
-    level = np.einsum("ij,ij->i", normals[pairs[:, 0]], normals[pairs[:, 1]]) > LEVEL
+    level = np.einsum("ij,ij->i", normals[pairs[:, 0]], normals[pairs[:, 1]]) > MIN_SAME_CHART_COSINE
     return label_connected(len(faces), pairs[level])
 
 
@@ -126,7 +126,7 @@ def _continued(mesh: Mesh, faces: np.ndarray, sources: np.ndarray) -> tuple[np.n
     return like, barycentric(triangles.reshape(-1, 3), corners).reshape(-1, 3, 3)
 
 
-def _with_looks(mesh: Mesh, new: np.ndarray, like: np.ndarray, weights: Float[np.ndarray, "n 3 3"]) -> Mesh:
+def _with_materials(mesh: Mesh, new: np.ndarray, like: np.ndarray, weights: Float[np.ndarray, "n 3 3"]) -> Mesh:
     """New face k looks as face like[k] does where its corners stand, in barycentric coordinates of that face."""
 
     def placed(rows: np.ndarray | None) -> np.ndarray | None:

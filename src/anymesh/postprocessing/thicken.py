@@ -24,8 +24,8 @@ class Thickened:
     added: float
 
 
-def thicken(triangles: Float[np.ndarray, "F 3 3"], least: float) -> Thickened:
-    """A part whose core is at least `least` of its longest side thick.
+def thicken(triangles: Float[np.ndarray, "F 3 3"], min_thickness: float) -> Thickened:
+    """A part whose core is at least `min_thickness` of its longest side thick.
 
     An open surface gets a back and side walls behind it, so that what is seen of it stays where it is; a closed one is
     stretched along its thin direction about its middle.
@@ -38,7 +38,7 @@ def thicken(triangles: Float[np.ndarray, "F 3 3"], least: float) -> Thickened:
     along = (points - middle) @ axes.T
     low, high = np.quantile(along, CORE, axis=0)
     sides = high - low
-    missing = float(least * np.ptp(along, axis=0).max() - sides.min())
+    missing = float(min_thickness * np.ptp(along, axis=0).max() - sides.min())
     if missing <= 0:
         return Thickened(PartMesh(vertices, faces), closed, 0.0)
     if not closed:

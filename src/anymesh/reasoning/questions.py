@@ -1,7 +1,6 @@
-"""The typed questions that the pipeline asks, and the protocol of those who answer.
+"""Motion questions with their facts and candidates, and the protocol of answerers.
 
-A question carries the facts (and, for a model that sees, what pictures can be drawn of), an answer is checked when made.
-The pipeline does not know which answerer it has.
+Answers are validated when constructed. The pipeline does not depend on the kind of answerer.
 """
 
 from __future__ import annotations
@@ -21,17 +20,17 @@ ENDLESS_ANGLE = 3.0  # [rad] free each way from which a turn is endless; the swe
 
 @dataclass(frozen=True, eq=False)
 class PartFacts:
-    """What geometry shows of one part against the rest. Lengths are shares of the object's diagonal unless said."""
+    """Geometric facts of one part. Lengths are shares of the object's diagonal unless stated otherwise."""
 
     name: str
     label: str  # the field's word for it, "part" when unknown
-    extents: tuple[float, float, float]  # of its core box, longest first
-    thinness: float  # shortest side / middle side of the core box
+    extents: tuple[float, float, float]  # of its body OBB, longest first
+    thinness: float  # shortest side / middle side of the body OBB
     roundness: float  # 0..1 of its roundest outline
     flatness: float  # height along that outline's axis over its radius
-    opening_direction: Float[np.ndarray, " 3"]  # the way out of the object, unit
-    visibility: float  # 0..1, share of the part's surface that sees the outside along `outward`
-    insertion_depth: float  # depth within the parent along `outward`, over the smallest side across
+    opening_direction: Float[np.ndarray, " 3"]  # unit
+    visibility: float  # 0..1, share of the part's surface that is visible along the opening direction
+    insertion_depth: float  # depth within the parent along the opening direction, over the smallest side across
     size: float  # its diagonal over the object's
     diagonal: float  # the object's [m]
     horizontal: bool  # its face looks up or down
@@ -47,10 +46,10 @@ class PartFacts:
 
 @dataclass(frozen=True, eq=False)
 class Candidate:
-    """A motion hypothesis and the evidence for it.
+    """A candidate motion and the evidence for it.
 
     role: what the axis is to the part ("edge", "edge_mid", "center", "round", "contact", "bail", "barrel", "slide");
-    opens: +1 when +axis opens, else -1; opening, closing: free amount each way [rad, or share of the diagonal for a slide].
+    opening_sign: +1 when +axis opens, else -1; opening, closing: free amounts [rad, or share of the diagonal for a slide].
     """
 
     motion: Motion
@@ -94,7 +93,7 @@ class Candidate:
 
 @dataclass(frozen=True, eq=False)
 class MotionQuestion:
-    """How does this part move? One of the candidates, or not at all.
+    """Question how a part moves: by one of the candidates, or not at all.
 
     scores: (k,) log-odds that each candidate is right; reasons: the features that decided, in words.
     """
@@ -121,7 +120,7 @@ class MotionAnswer:
 
 @runtime_checkable
 class MotionAnswerer(Protocol):
-    """Whoever answers: geometry alone, a vision-language model, or ground truth."""
+    """Answerer of motion questions: geometry, a vision-language model, or ground truth."""
 
     name: str
 

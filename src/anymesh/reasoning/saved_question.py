@@ -23,6 +23,8 @@ from anymesh.types import Picture
 HOMES = ("anymesh.reasoning.", "anymesh.types.", "anymesh.geometry.")
 RECORD = "record"  # the array with the JSON text
 TAG = "is"  # the field of a tagged value that says what it is
+RENAMED = {("anymesh.types.motion:MotionKind", "TURN"): "REVOLUTE", ("anymesh.types.motion:MotionKind", "SLIDE"): "PRISMATIC"}
+"""Enum members that files of earlier versions hold under another name."""
 
 
 def pack_question(question: Question[Any]) -> bytes:
@@ -95,7 +97,7 @@ def _unpack(value: Any, arrays: Mapping[str, np.ndarray]) -> Any:
         return value
     match value[TAG]:
         case "enum":
-            return _class(value["class"])[value["name"]]
+            return _class(value["class"])[RENAMED.get((value["class"], value["name"]), value["name"])]
         case "array":
             return arrays[value["name"]]
         case "object":

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from anymesh.models.cache import request_key
-from anymesh.models.patience import MOST, Patience
+from anymesh.models.patience import MAX_INVALID_ANSWERS, Patience
 from anymesh.models.vision import Reply, Request, VisionModel
 from anymesh.reasoning.asking import Answer, BadAnswerError, Question, VisualAnswerer
 from anymesh.reasoning.reply_text import reply_object
@@ -63,8 +63,10 @@ class VlmAnswerer:
         other = self._fallback.name
         self._warnings.append(f"{self.name} gave no valid answer to {kind!r} ({why}); {other} answered it")
         if self._patience.first_time():
-            self._warnings.append(f"{self.name} was given up after {MOST} answers in a row that were not valid; {other} "
-                                 "answered the rest")  # fmt: skip
+            self._warnings.append(
+                f"{self.name} was given up after {MAX_INVALID_ANSWERS} answers in a row that were not valid; {other} "
+                "answered the rest"
+            )
         self._exchanges[-1] = replace(self._exchanges[-1], verdict=f"not valid: {why}; {other} {FALLBACK_VERDICT}")
 
     def _try(self, request: Request, question: Question[Answer]) -> Answer | BadAnswerError:

@@ -19,7 +19,7 @@ FONT, WIDTH = 20, 2.0  # [px] font in a picture of 640 px; thickness of an arrow
 VISIBLE = 0.25  # share of the pixels that the part has in its best view; with fewer a view is not chosen
 
 
-def most_distinct_view(
+def clearest_view(
     views: Sequence[View],
     center: Float[np.ndarray, " 3"],
     directions: Float[np.ndarray, "k 3"],

@@ -9,7 +9,7 @@ from anymesh.rendering.materials import base_colors, texels_per_pixel
 from anymesh.rendering.outlines import stroke
 from anymesh.rendering.raycast_ import RayScene
 from anymesh.rendering.render import KEY_LIGHT
-from anymesh.rendering.samples import GRID, Samples, Subject
+from anymesh.rendering.samples import GRID, RenderTarget, Samples
 from anymesh.types import Mesh
 from anymesh.types.camera import Camera
 
@@ -31,16 +31,16 @@ def ground(rows: int, columns: int) -> Float32[np.ndarray, "h w 3"]:
     return np.broadcast_to(shade[:, None, None], (rows, columns, 3))
 
 
-def subject_of(mesh: Mesh, scene: RayScene, groups: Int[np.ndarray, " F"]) -> Subject:
+def render_target(mesh: Mesh, scene: RayScene, groups: Int[np.ndarray, " F"]) -> RenderTarget:
     """A mesh with normals for shading. groups: faces in different groups may be drawn in different colours."""
     key = groups.astype(np.int64) * (len(mesh.materials) + 1) + mesh.face_material + 1
     if mesh.corner_color is not None:
         coarse = (mesh.corner_color[:, 0, :3] >> COLOR_BITS).astype(np.int64)
         key = (key << 24) | (coarse[:, 0] << 16) | (coarse[:, 1] << 8) | coarse[:, 2]
-    return Subject(scene, mesh.corner_normal, key)
+    return RenderTarget(scene, mesh.corner_normal, key)
 
 
-def look_of_materials(mesh: Mesh, samples: Samples) -> Float32[np.ndarray, "n 3"]:
+def material_colors(mesh: Mesh, samples: Samples) -> Float32[np.ndarray, "n 3"]:
     """The base colour (0..255) that each ray meets, textures averaged to the picture's resolution."""
     hits = samples.hits
     seen = np.flatnonzero(hits.face >= 0)
@@ -50,7 +50,7 @@ def look_of_materials(mesh: Mesh, samples: Samples) -> Float32[np.ndarray, "n 3"
     return color
 
 
-def look_of_faces(color: UInt8[np.ndarray, "F 3"], samples: Samples) -> Float32[np.ndarray, "n 3"]:
+def face_colors(color: UInt8[np.ndarray, "F 3"], samples: Samples) -> Float32[np.ndarray, "n 3"]:
     """The colour of the face that each ray meets; anything where none is."""
     return color.astype(np.float32)[samples.hits.face]
 

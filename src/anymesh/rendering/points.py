@@ -14,10 +14,10 @@ from anymesh.rendering.paint import mark_color
 FONT, DOT = 16, 4  # [px] in a picture of 640 px: font; radius of a dot
 
 
-def labels_apart(pixels: Float[np.ndarray, "k 2"], least: float) -> bool:
-    """Whether all points are at least `least` [px] from one another (`PromptConfig.label_apart`)."""
+def labels_apart(pixels: Float[np.ndarray, "k 2"], min_distance: float) -> bool:
+    """Whether all points are at least `min_distance` [px] from one another (`PromptConfig.label_apart`)."""
     gaps = np.linalg.norm(pixels[:, None] - pixels[None], axis=2)
-    return bool((gaps[np.triu_indices(len(pixels), 1)] >= least).all())
+    return bool((gaps[np.triu_indices(len(pixels), 1)] >= min_distance).all())
 
 
 def draw_points(

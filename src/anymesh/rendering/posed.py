@@ -18,7 +18,7 @@ from anymesh.types.camera import Camera
 LIGHTEN = 0.5  # of what stands still
 MARGIN = 2.0  # [px] round the part's box in a picture, in which rays are cast at it
 ONWARD = 1e-5  # share of the diagonal by which a ray goes on behind a face that moves
-MOST_LAYERS = 24  # faces that move, which a ray passes before it counts as lost
+MAX_LAYERS = 24  # faces that move, which a ray passes before it counts as lost
 
 Rays = tuple[np.ndarray, np.ndarray]  # origins and directions, as of `Camera.rays`
 Pose = Float[np.ndarray, "4 4"]
@@ -75,7 +75,7 @@ class Posed:
         hits = self.scene.first_hit(*rays)
         face, distance, u, v = (a.copy() for a in (hits.face, hits.distance, hits.u, hits.v))
         step = ONWARD * self.mesh.diagonal / np.linalg.norm(rays[1], axis=1)
-        for _ in range(MOST_LAYERS):
+        for _ in range(MAX_LAYERS):
             rows = np.flatnonzero(face >= 0)
             rows = rows[self.moving[face[rows]]]
             if len(rows) == 0:

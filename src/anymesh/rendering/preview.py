@@ -13,7 +13,7 @@ from PIL import Image, ImageDraw
 
 from anymesh.geometry.kinematics import posed
 from anymesh.rendering.axes import AxisShape, axis_shapes, draw_axes
-from anymesh.rendering.drawing import draw, ground, light_on, look_of_faces, look_of_materials, subject_of
+from anymesh.rendering.drawing import draw, face_colors, ground, light_on, material_colors, render_target
 from anymesh.rendering.labels import font
 from anymesh.rendering.raycast_ import RayScene
 from anymesh.rendering.samples import Window, sample
@@ -27,10 +27,10 @@ PALETTE = np.array(  # distinct for colour-blind eyes too (after Okabe and Ito, 
      [130, 200, 120], [150, 120, 220], [120, 90, 60]], np.uint8)  # fmt: skip
 BASE = np.array([200, 200, 200], np.uint8)
 SIZE = 620  # [px] of the camera's picture, from which the panels are cut
-MARGIN, LEAST_WIDTH, LEAST_HEIGHT = 18, 500, 240  # [px] round what is drawn; of a panel, so that the legend fits
+MARGIN, MIN_WIDTH, MIN_HEIGHT = 18, 500, 240  # [px] round what is drawn; of a panel, so that the legend fits
 OPEN = 0.75  # share of the range that is shown opened
 LETTERS = 19  # [px] font of the legend
-MOST_NAMED = 18  # joints in the legend
+MAX_LEGEND_JOINTS = 18  # joints in the legend
 AZIMUTHS = (35, -35, 145, -145, 65, -65)  # [deg] of the views to choose from, the preferred ones first
 ELEVATION = 24  # [deg] of all of them
 PREFERRED = 1.05  # a later view must show so many times more of the moving parts than an earlier one
@@ -67,11 +67,11 @@ def render_preview(asset: Asset) -> UInt8[np.ndarray, "H W 3"]:
     behind = ground(*window.shape)
     panels = []
     for pose in (rest, opened):
-        samples = sample(subject_of(pose.mesh, pose.scene, parts), camera, window)
+        samples = sample(render_target(pose.mesh, pose.scene, parts), camera, window)
         light = light_on(samples)
         if not panels:
-            panels.append(draw(samples, look_of_materials(pose.mesh, samples), light, behind))
-        picture = draw(samples, look_of_faces(colors, samples), light, behind)
+            panels.append(draw(samples, material_colors(pose.mesh, samples), light, behind))
+        picture = draw(samples, face_colors(colors, samples), light, behind)
         panels.append(draw_axes(picture, pose.axes, camera, corner=(window.left, window.top)))
     return np.concatenate([np.concatenate(panels, 1), _legend(asset, 3 * panels[0].shape[1])])
 
@@ -81,7 +81,7 @@ def _window(camera: Camera, poses: Sequence[_Pose]) -> Window:
     boxes = [camera.project(points)[0] for pose in poses for points in (pose.mesh.vertices, *(a.points for a in pose.axes))]
     low, high = np.min([b.min(0) for b in boxes], 0), np.max([b.max(0) for b in boxes], 0)
     sides = []
-    for k, least in enumerate((LEAST_WIDTH, LEAST_HEIGHT)):
+    for k, least in enumerate((MIN_WIDTH, MIN_HEIGHT)):
         first, last = max(0, int(np.floor(low[k]))), min(SIZE, int(np.ceil(high[k])))
         spare = max(2 * MARGIN, least - (last - first))
         first = max(0, min(first - spare // 2, SIZE - (last - first) - spare))
@@ -136,9 +136,9 @@ def describe(joint: Joint) -> str:
 
 def _legend(asset: Asset, width: int) -> UInt8[np.ndarray, "h W 3"]:
     letters = font(LETTERS)
-    lines = [describe(j) for j in asset.joints[:MOST_NAMED]]
-    if len(asset.joints) > MOST_NAMED:
-        lines.append(f"and {len(asset.joints) - MOST_NAMED} more")
+    lines = [describe(j) for j in asset.joints[:MAX_LEGEND_JOINTS]]
+    if len(asset.joints) > MAX_LEGEND_JOINTS:
+        lines.append(f"and {len(asset.joints) - MAX_LEGEND_JOINTS} more")
     rows = (max(len(lines), 1) + 2) // 3
     image = Image.new("RGB", (width, 20 + 30 * rows), (255, 255, 255))
     draw = ImageDraw.Draw(image)

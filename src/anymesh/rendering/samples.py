@@ -66,7 +66,7 @@ class Samples:
 
 
 @dataclass(frozen=True, eq=False)
-class Subject:
+class RenderTarget:
     """What rays are cast at. corner_normal: for shading, None where surfaces are flat; face_key: where it changes between
     faces, pixels are split, as the faces do not look alike."""
 
@@ -75,23 +75,23 @@ class Subject:
     face_key: Int[np.ndarray, " F"]
 
 
-def sample(subject: Subject, camera: Camera, window: Window) -> Samples:
+def sample(target: RenderTarget, camera: Camera, window: Window) -> Samples:
     """Cast the rays of a window."""
     height, width = window.shape
     origin, pixel = camera.T_world_camera[:3, 3], 1 / camera.focal
     across, down = _terms(camera, window, 1)
     directions = (down[:, None] + across).reshape(-1, 3)
-    hits = subject.scene.surface_hits(origin, directions)
-    normal = _shading_normals(hits, subject.corner_normal)
-    divided = _split(subject, hits, directions, normal, window.shape, pixel)
+    hits = target.scene.surface_hits(origin, directions)
+    normal = _shading_normals(hits, target.corner_normal)
+    divided = _split(target, hits, directions, normal, window.shape, pixel)
     plain, split = np.flatnonzero((hits.face >= 0) & ~divided), np.flatnonzero(divided)
     place = _places(split, width)
     across, down = _terms(camera, window, GRID)
     row, column = np.divmod(place, width * GRID)
     more = down[row] + across[column]
-    grids = subject.scene.surface_hits(origin, more)
+    grids = target.scene.surface_hits(origin, more)
     joined = SurfaceHits.joined(hits.take(plain), grids)
-    normals = np.concatenate([normal[plain], _shading_normals(grids, subject.corner_normal)])
+    normals = np.concatenate([normal[plain], _shading_normals(grids, target.corner_normal)])
     rows = np.full((height * GRID, width * GRID), -1, np.int32)
     rows.reshape(-1)[place] = np.arange(len(plain), len(plain) + len(place))
     face = np.full(rows.shape, -2, np.int32)
@@ -108,12 +108,12 @@ def _terms(camera: Camera, window: Window, grid: int) -> tuple[np.ndarray, np.nd
 
 
 def _split(
-    subject: Subject, hits: SurfaceHits, directions: np.ndarray, normal: np.ndarray, shape: tuple[int, int], pixel: float
+    target: RenderTarget, hits: SurfaceHits, directions: np.ndarray, normal: np.ndarray, shape: tuple[int, int], pixel: float
 ) -> np.ndarray:
     """Which pixels differ from one beside or above them, as a flat mask."""
     rows = np.arange(len(directions), dtype=np.int32).reshape(shape)
     pairs = changes(hits.face.reshape(shape), rows)
-    key = np.where(hits.face < 0, -1, subject.face_key[hits.face])
+    key = np.where(hits.face < 0, -1, target.face_key[hits.face])
     found = np.zeros(len(directions), bool)
     found[pairs[key[pairs[:, 0]] != key[pairs[:, 1]]]] = True
     found[find_steps(hits, directions, normal, pairs, pixel).pairs] = True

@@ -12,9 +12,9 @@ from anymesh.rendering.labels import font
 from anymesh.types.exchange import Picture
 
 SIDE = 2000  # [px] the longest side of a sheet: what vision models take without shrinking it
-LARGEST_CELL, LEAST_CELL = 900, 240  # [px] of the longer side of one picture; a sheet grows rather than go below
+MAX_CELL, MIN_CELL = 900, 240  # [px] of the longer side of one picture; a sheet grows rather than go below
 TEXT, LINE, GAP = 16, 21, 8  # [px] font, height of a line, room between cells
-MOST_LINES = 3  # of one caption
+MAX_CAPTION_LINES = 3  # of one caption
 
 
 def question_sheet(pictures: Sequence[Picture]) -> Picture:
@@ -56,12 +56,12 @@ def _shrunk(picture: Picture, width: int) -> Image.Image:
 def _layout(sizes: Sequence[tuple[int, int]]) -> tuple[int, int]:
     """Choose the number of columns that shows the pictures largest, and the width of a cell [px]."""
     wide, high = max(w for w, _ in sizes), max(h for _, h in sizes)
-    least = min(1.0, LEAST_CELL / max(wide, high))
+    least = min(1.0, MIN_CELL / max(wide, high))
     options = []
     for columns in range(1, len(sizes) + 1):
         rows = math.ceil(len(sizes) / columns)
-        across, down = (SIDE / columns - GAP) / wide, (SIDE / rows - MOST_LINES * LINE - GAP) / high
-        options.append((max(least, min(across, down, LARGEST_CELL / max(wide, high), 1.0)), -max(rows, columns), columns))
+        across, down = (SIDE / columns - GAP) / wide, (SIDE / rows - MAX_CAPTION_LINES * LINE - GAP) / high
+        options.append((max(least, min(across, down, MAX_CELL / max(wide, high), 1.0)), -max(rows, columns), columns))
     scale, _, columns = max(options)
     return columns, max(1, int(wide * scale))
 
@@ -75,6 +75,6 @@ def _lines(text: str, width: int) -> list[str]:
             lines[-1] = longer
         else:
             lines.append(word)
-    if len(lines) > MOST_LINES:
-        lines = [*lines[: MOST_LINES - 1], f"{lines[MOST_LINES - 1]} ..."]
+    if len(lines) > MAX_CAPTION_LINES:
+        lines = [*lines[: MAX_CAPTION_LINES - 1], f"{lines[MAX_CAPTION_LINES - 1]} ..."]
     return lines

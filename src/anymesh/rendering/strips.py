@@ -22,7 +22,7 @@ PANEL, COLUMNS = 400, 4  # [px] of a panel; panels side by side: 1600 px at most
 MARGIN = 0.35  # round what moves, a share of its diagonal: what it moves against is seen too
 AIR = 0.04  # round that, a share of the picture on each side
 GHOST = 0.3  # strength of the part where something hides it
-AXIS_LEAST, RING = 3.0, 0.1  # what `axis_line` takes for a diagonal; radius of the ring: shares of the part's diagonal
+AXIS_SCALE, RING = 3.0, 0.1  # what `axis_line` takes for a diagonal; radius of the ring: shares of the part's diagonal
 LEGIBLE = 0.5  # of the picture's side: the axis of a smaller part is drawn as if it were so large
 TITLE, WORD = 24, 18  # [px] font of a panel's number, and of what it says of the motion
 WHITE, BLOCKED = (255, 255, 255), (250, 200, 120)  # ground of what a panel says, also of a blocked motion
@@ -30,8 +30,20 @@ STILL_LINE, PART_LINE, LINE = (120, 120, 120), (8, 30, 90), 0.55  # colours of l
 CREASE = 0.82  # cosine (35 degrees) below which a surface bends sharply
 SKETCH = 64  # [px] of the pictures that the camera is chosen with
 DEPTH = 0.02  # share of the diagonal from which a difference in depth counts
-TURNS = {24: 1.0, 55: 0.75, -24: 0.4}  # elevations [deg]; how welcome they are: people know things from a little above
-SIDES = {35: 1.0, -35: 1.0, 0: 0.65, 75: 0.9, -75: 0.9, 145: 0.8, -145: 0.8}  # azimuths [deg]; obliquely, all three sizes show
+ELEVATION_WEIGHTS = {
+    24: 1.0,
+    55: 0.75,
+    -24: 0.4,
+}  # elevations [deg]; how welcome they are: people know things from a little above
+AZIMUTH_WEIGHTS = {
+    35: 1.0,
+    -35: 1.0,
+    0: 0.65,
+    75: 0.9,
+    -75: 0.9,
+    145: 0.8,
+    -145: 0.8,
+}  # azimuths [deg]; obliquely, all three sizes show
 
 
 def moved(mesh: Mesh, moving: Bool[np.ndarray, " F"], T: Float[np.ndarray, "4 4"]) -> Mesh:
@@ -152,7 +164,7 @@ def _axis(
     depth = float(camera.project(corners.mean(0)[None])[1][0])
     size = max(float(np.linalg.norm(np.ptp(corners, axis=0))), LEGIBLE * 2 * depth * float(np.tan(camera.fov / 2)))
     axis, slides = (-motion.axis if amount < 0 else motion.axis), motion.kind is MotionKind.PRISMATIC
-    ends, center = axis_line(corners, motion.origin, axis, slides, AXIS_LEAST * size)
+    ends, center = axis_line(corners, motion.origin, axis, slides, AXIS_SCALE * size)
     return ends, None if slides else ring(center, axis, RING * size)
 
 
@@ -175,11 +187,11 @@ def _best_camera(posed: Posed, poses: Sequence[np.ndarray], motions: Sequence[tu
     focus = np.stack([np.maximum(focus[0] - margin, total[0]), np.minimum(focus[1] + margin, total[1])])
     step = DEPTH * posed.mesh.diagonal
     best, most = None, -1.0
-    for azimuth, elevation in ((a, e) for e in TURNS for a in SIDES):
+    for azimuth, elevation in ((a, e) for e in ELEVATION_WEIGHTS for a in AZIMUTH_WEIGHTS):
         far = orbit_camera(total, np.deg2rad(azimuth), np.deg2rad(elevation), SKETCH)
         near = _framed(far, _corners(focus))
         rays = near.rays()
-        found = _difference(_depths(posed, poses, near, rays), step) * TURNS[elevation] * SIDES[azimuth]
+        found = _difference(_depths(posed, poses, near, rays), step) * ELEVATION_WEIGHTS[elevation] * AZIMUTH_WEIGHTS[azimuth]
         if best is None or found > most:
             best, most = near, found
     assert best is not None
@@ -222,13 +234,13 @@ def _depths(posed: Posed, poses: Sequence[np.ndarray], camera: Camera, rays: Ray
     return found
 
 
-def _difference(depths: Sequence[Float[np.ndarray, " n"]], least: float) -> float:
+def _difference(depths: Sequence[Float[np.ndarray, " n"]], min_difference: float) -> float:
     """How different poses look: the least and (weighed less) the mean share of pixels by which two of them differ.
 
     The rest pose, the first, should show what moves, too.
     """
     clipped = np.minimum(np.array(depths), 1e9)
-    pairs = [(np.abs(a - b) > least).mean() for k, a in enumerate(clipped) for b in clipped[:k]]
+    pairs = [(np.abs(a - b) > min_difference).mean() for k, a in enumerate(clipped) for b in clipped[:k]]
     shown = np.isfinite(depths[0]).mean()
     return float(min(pairs, default=0.0) + 0.2 * np.mean(pairs or [0.0]) + 0.2 * shown)
 

@@ -9,7 +9,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Int, UInt8
 
 from anymesh.config import ViewsConfig
-from anymesh.rendering.drawing import draw, headlight_on, look_of_materials, subject_of
+from anymesh.rendering.drawing import draw, headlight_on, material_colors, render_target
 from anymesh.rendering.raycast_ import RayScene
 from anymesh.rendering.render import BACKGROUND, View
 from anymesh.rendering.samples import Window, sample
@@ -17,7 +17,10 @@ from anymesh.types import Mesh
 from anymesh.types.camera import Camera
 
 SIDES = ("front", "front right", "right", "back right", "back", "back left", "left", "front left")
-LEVEL, STEEP = 0.5, 30.0  # [deg] a view is level below the first, and one from above (or from below) from the second
+MAX_LEVEL_DEG, MIN_STEEP_DEG = (
+    0.5,
+    30.0,
+)  # [deg] a view is level below the first, and one from above (or from below) from the second
 
 
 def views(mesh: Mesh, config: ViewsConfig, *, size: int | None = None, scene: RayScene | None = None) -> list[View]:
@@ -65,20 +68,20 @@ def orbit_camera(bounds: Float[np.ndarray, "2 3"], azimuth: float, elevation: fl
 def caption(azimuth: float, elevation: float, front: float | None = None) -> str:
     """Say where a view is from. front: the azimuth from which the front is seen, None while nobody said; all in [deg]."""
     side = f"turned by {azimuth:.0f} degrees" if front is None else f"from the {SIDES[round((azimuth - front) / 45) % 8]}"
-    if abs(elevation) < LEVEL:
+    if abs(elevation) < MAX_LEVEL_DEG:
         return f"{side}, level"
     way, name = ("up", "above") if elevation > 0 else ("down", "below")
     height = f"{abs(elevation):.0f} degrees {way}"
-    return f"{side}, from {name} ({height})" if abs(elevation) >= STEEP else f"{side}, {height}"
+    return f"{side}, from {name} ({height})" if abs(elevation) >= MIN_STEEP_DEG else f"{side}, {height}"
 
 
 def shown(mesh: Mesh, camera: Camera, scene: RayScene) -> View:
     """A view with outlines and creases, lit from the camera. Colours are smooth at edges; the other buffers are those of one
     ray a pixel. Give the mesh corner normals (`smooth.smoothed`) and curved surfaces look curved."""
     shape = (camera.height, camera.width)
-    samples = sample(subject_of(mesh, scene, np.zeros(len(mesh.faces), np.int64)), camera, Window(0, 0, *shape[::-1]))
+    samples = sample(render_target(mesh, scene, np.zeros(len(mesh.faces), np.int64)), camera, Window(0, 0, *shape[::-1]))
     white = np.full((*shape, 3), BACKGROUND, np.float32)
-    color = draw(samples, look_of_materials(mesh, samples), headlight_on(samples, camera), white)
+    color = draw(samples, material_colors(mesh, samples), headlight_on(samples, camera), white)
     hits = samples.first
     return View(camera, color, hits.depth.reshape(shape), hits.normal.reshape(*shape, 3), hits.face.reshape(shape))
 

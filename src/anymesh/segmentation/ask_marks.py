@@ -12,7 +12,7 @@ from anymesh.reasoning.asking import VisualAnswerer
 from anymesh.reasoning.grounding import MarkedPart, MarksAnswer, WhichMarks, WhichViews
 from anymesh.rendering.marks import draw_marks
 from anymesh.rendering.render import View
-from anymesh.rendering.studio import VisualPrompts
+from anymesh.rendering.visual_prompts import VisualPrompts
 from anymesh.segmentation.mark_pictures import MarkPicture, choose_pictures
 from anymesh.segmentation.propose import Proposal
 from anymesh.segmentation.regions import Marks

@@ -9,7 +9,7 @@ from jaxtyping import Bool, Float, Int, UInt8
 from scipy.spatial import KDTree
 
 from anymesh.config import GroundingConfig
-from anymesh.geometry.pieces import ObjectShape
+from anymesh.geometry.patches import ObjectShape
 from anymesh.geometry.sampling import SurfacePoints, sample_surface
 from anymesh.geometry.superpoints import superpoints
 from anymesh.geometry.topology import label_connected
@@ -141,7 +141,7 @@ def _nearest_alike(s: SurfacePoints, patch: np.ndarray, chosen: np.ndarray) -> I
 
 
 def _absorb_small(label: np.ndarray, weight: np.ndarray, edges: np.ndarray, min_points: int) -> Int[np.ndarray, " n"]:
-    """Superpoints of fewer than `least` points (weight: points a node stands for) join the neighbour that they border most."""
+    """Join superpoints of fewer than `min_points` points (weight: points per node) to the neighbour with the longest border."""
     while True:
         count = int(label.max()) + 1
         small = np.bincount(label, weight, count) < min_points

@@ -1,4 +1,4 @@
-"""Which pieces touch, which are apart by a clearance, and what hangs on what."""
+"""Contacts between patches: which touch, which have a clearance, and which support which."""
 
 from __future__ import annotations
 
@@ -12,45 +12,45 @@ from jaxtyping import Float, Int
 
 from anymesh.config import SegmentationConfig
 from anymesh.geometry.boxes import box_pairs, same_box, within
-from anymesh.geometry.pieces import ObjectShape
-from anymesh.geometry.shape import FaceSet
+from anymesh.geometry.patches import ObjectShape
 from anymesh.geometry.topology import label_connected
+from anymesh.geometry.triangle_set import TriangleSet
 
 MIN_FLATNESS = 0.6  # length of the mean normal of a sheet, with its handle; 1 where it is plane
 MIN_PLATE_ASPECT = 0.3  # width of a plate over its length; planks are narrower
 MIN_ALIGNED_COSINE = 0.95  # cosine
 MAX_CLEARANCE_FACTOR = 2.0  # times the nearest clearance of a body: what is further away is no neighbour
-MAX_SMALL_CLEARANCE_FACTOR = 1.3  # the same of what is small against its nearest piece
-PROBES = 160  # points of a piece that are measured against another
+MAX_SMALL_CLEARANCE_FACTOR = 1.3  # the same of what is small against its nearest patch
+PROBES = 160  # points of a patch that are measured against another
 
 
 @dataclass(frozen=True, eq=False)
 class Contacts:
-    """Pieces and what they touch.
+    """Patches and their contacts.
 
-    shapes: one a piece; touch: (m, 2) pairs that touch or cross; near: (k, 2) pairs of different bodies with a clearance;
-    body: (P,) bodies are pieces that touch, directly or through others.
+    shapes: one a patch; touch: (m, 2) pairs that touch or cross; near: (k, 2) pairs of different components with a clearance;
+    component: (P,) patches that touch, directly or through others, are one component.
     """
 
-    shapes: tuple[FaceSet, ...]
+    shapes: tuple[TriangleSet, ...]
     touch: Int[np.ndarray, "m 2"]
     near: Int[np.ndarray, "k 2"]
     component: Int[np.ndarray, " P"]
-    area: dict[tuple[int, int], float]  # of the first piece that touches the second [m^2]; none for one flat surface
+    area: dict[tuple[int, int], float]  # of the first patch that touches the second [m^2]; none for one flat surface
 
     @cached_property
     def patch_bounds(self) -> Float[np.ndarray, "P 2 3"]:
-        """Axis-aligned bounds of every patch [m]."""
+        """Return the axis-aligned bounds of each patch [m]."""
         return np.array([s.bounds for s in self.shapes])
 
     @cached_property
     def patch_area(self) -> Float[np.ndarray, " P"]:
-        """Area of every patch [m^2]."""
+        """Return the area of each patch [m^2]."""
         return np.array([s.area for s in self.shapes])
 
 
 def find_contacts(whole: ObjectShape, config: SegmentationConfig) -> Contacts:
-    """Measures all pairs of pieces whose boxes are near each other."""
+    """Measures all pairs of patches whose boxes are near each other."""
     order = np.argsort(whole.patch, kind="stable")
     start = np.searchsorted(whole.patch[order], np.arange(int(whole.patch.max()) + 2))
     shapes = tuple(whole.of(order[a:b]) for a, b in itertools.pairwise(start))
@@ -76,7 +76,7 @@ def find_contacts(whole: ObjectShape, config: SegmentationConfig) -> Contacts:
 
 
 def _measured(
-    shapes: tuple[FaceSet, ...], pairs: list[tuple[int, int]], tolerance: float, reach: float
+    shapes: tuple[TriangleSet, ...], pairs: list[tuple[int, int]], tolerance: float, reach: float
 ) -> tuple[list[tuple[int, int]], list[tuple[int, int, float]]]:
     """Of pairs whose boxes meet, those that touch or cross, and the others within reach with the distance between them."""
     touch, near = [], []
@@ -94,13 +94,13 @@ def _neighbours(
     near: list[tuple[int, int, float]],
     beside: list[tuple[float, int, int]],
     component: np.ndarray,
-    shapes: tuple[FaceSet, ...],
+    shapes: tuple[TriangleSet, ...],
     tolerance: float,
     reach: float,
 ) -> np.ndarray:
     """Of the pairs of bodies with a clearance, those that are among the nearest of the smaller body.
 
-    A fit has clearances that differ by a factor of two; what is small against its nearest piece hangs on that alone.
+    A fit has clearances that differ by a factor of two; what is small against its nearest patch hangs on that alone.
     near: with their distance; beside: pairs that are yet to be measured, each behind the least distance that it can have.
     """
     size = [float(np.linalg.norm(s.bounds[1] - s.bounds[0])) for s in shapes]
@@ -131,15 +131,15 @@ def _neighbours(
     return np.array(sorted(kept), np.int64).reshape(-1, 2)
 
 
-def _goes_on(a: FaceSet, b: FaceSet) -> bool:
-    """Whether both are sheets that face the same way."""
+def _goes_on(a: TriangleSet, b: TriangleSet) -> bool:
+    """Return whether both are sheets that face the same way."""
     mean = [s.areas @ s.normals / max(s.area, 1e-300) for s in (a, b)]
     length = [float(np.linalg.norm(m)) for m in mean]
     return min(length) > MIN_FLATNESS and bool(mean[0] @ mean[1] > MIN_ALIGNED_COSINE * length[0] * length[1])
 
 
-def _touching(a: FaceSet, b: FaceSet, tolerance: float) -> float:
-    """Area of a within the tolerance of b [m^2]."""
+def _touching(a: TriangleSet, b: TriangleSet, tolerance: float) -> float:
+    """Return the area of a within the tolerance of b [m^2]."""
     samples = a.samples.points[::3]
     gap = b.tree.distance(samples[within(samples, b.bounds[0] - tolerance, b.bounds[1] + tolerance)])
     return a.area * float((gap < tolerance).sum()) / max(len(samples), 1)
@@ -164,7 +164,7 @@ def coplanar(contacts: Contacts, whole: ObjectShape, tolerance: float) -> list[t
     return found
 
 
-def _gap(a: FaceSet, b: FaceSet, reach: float) -> float:
+def _gap(a: TriangleSet, b: TriangleSet, reach: float) -> float:
     """Smallest distance of a's corners and samples, as far as they lie in b's box, to b [m]."""
     low, high = b.bounds[0] - reach, b.bounds[1] + reach
     points = [p[within(p, low, high)] for p in (a.corners, a.samples.points)]
@@ -173,8 +173,8 @@ def _gap(a: FaceSet, b: FaceSet, reach: float) -> float:
     return float(b.tree.distance(probe).min()) if len(probe) else np.inf
 
 
-def _crosses(a: FaceSet, b: FaceSet) -> bool:
-    """Whether edges of one shape pass through faces of the other."""
+def _crosses(a: TriangleSet, b: TriangleSet) -> bool:
+    """Return whether edges of one shape pass through faces of the other."""
     for one, other in ((a, b), (b, a)):
         start = one.triangles.reshape(-1, 3)
         span = one.triangles[:, [1, 2, 0]].reshape(-1, 3) - start
@@ -188,9 +188,9 @@ def _crosses(a: FaceSet, b: FaceSet) -> bool:
 
 
 def hanging_on(contacts: Contacts, group: Int[np.ndarray, " P"], root: int) -> dict[int, list[int]]:
-    """For every unit, the units that reach the root only through it (itself first): its dominated set.
+    """For every group, the groups that reach the root only through it (itself first): its dominated set.
 
-    Units join pieces that are known to move as one. Bodies that are near nothing hang on the root.
+    Groups join patches that are known to move together. Components that are near nothing hang on the root.
     """
     graph = nx.DiGraph()
     count = int(group.max()) + 1

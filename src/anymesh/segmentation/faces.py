@@ -9,7 +9,7 @@ from jaxtyping import Bool, Int
 from scipy.spatial import KDTree
 
 from anymesh.config import Config
-from anymesh.geometry.pieces import ObjectShape
+from anymesh.geometry.patches import ObjectShape
 from anymesh.segmentation.cloud import Cloud
 from anymesh.segmentation.fuse import Instances
 from anymesh.segmentation.unseen import UNSEEN, StaysFree, join_unseen

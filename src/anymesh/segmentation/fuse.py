@@ -157,7 +157,7 @@ def _groups(cloud: Cloud, counts: Sequence[Counts], mine: np.ndarray, config: Gr
 
 
 def _confirmed(counts: Sequence[Counts], group: np.ndarray, label: str, min_iou: float) -> bool:
-    """Whether some view has a mask of the label where the instance shows: boxes with an IoU above `least`."""
+    """Whether some view has a mask of the label where the instance shows: boxes with an IoU above `min_iou`."""
     for c in counts:
         which = [k for k, name in enumerate(c.labels) if name == label]
         shown = group[c.seen[group] > 0]

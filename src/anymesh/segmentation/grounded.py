@@ -10,14 +10,14 @@ import numpy as np
 from jaxtyping import Bool, Int
 
 from anymesh.config import Config
-from anymesh.geometry.pieces import ObjectShape
+from anymesh.geometry.patches import ObjectShape
 from anymesh.models.sam import PromptedSegmenter, automatic_masks
 from anymesh.progress import Progress, silent
 from anymesh.reasoning.asking import VisualAnswerer
 from anymesh.reasoning.grounding import MarkedPart
 from anymesh.rendering.render import View
-from anymesh.rendering.studio import VisualPrompts
 from anymesh.rendering.viewpoints import normal_picture
+from anymesh.rendering.visual_prompts import VisualPrompts
 from anymesh.segmentation.ask_marks import MarkAnswers, MarkQuestioner, ask_exact, ask_masks
 from anymesh.segmentation.close_ups import close_ups
 from anymesh.segmentation.cloud import Cloud, sample_cloud

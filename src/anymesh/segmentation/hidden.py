@@ -1,4 +1,4 @@
-"""What no view shows: interior parts, which nobody can point at."""
+"""Interior parts that no view shows."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 from jaxtyping import Bool, Float
 
-from anymesh.geometry.pieces import ObjectShape
+from anymesh.geometry.patches import ObjectShape
 from anymesh.rendering.render import View
 from anymesh.segmentation.cloud import Cloud, sight
 from anymesh.segmentation.faces import MIN_SEEN_SHARE
@@ -23,7 +23,7 @@ MIN_RECOGNITION_PATCH_RATIO = (
 
 
 def seen_points(cloud: Cloud, views: Sequence[View]) -> Bool[np.ndarray, " n"]:
-    """Which points of the cloud some view shows."""
+    """Return which points of the cloud some view shows."""
     shown = np.zeros(len(cloud), bool)
     for view in views:
         shown[sight(cloud, view).points] = True
@@ -43,7 +43,7 @@ def inner_faces(
     mesh: Mesh, whole: ObjectShape, cloud: Cloud, shown: Bool[np.ndarray, " n"], min_size: float = MIN_INNER_PATCH_RATIO
 ) -> Bool[np.ndarray, " F"]:
     """Faces of patches that are mostly hidden and large enough to be shown alone and asked about; none where all of them have a
-    diagonal below `least`, a share of the object's."""
+    diagonal below `min_size`, a share of the object's."""
     hidden, size = unseen_patches(whole, cloud, shown, MAX_SEEN_SHARE), patch_sizes(mesh, whole)
     if not (hidden & (size >= min_size)).any():
         return np.zeros(len(whole.mesh_patch), bool)
@@ -51,7 +51,7 @@ def inner_faces(
 
 
 def patch_sizes(mesh: Mesh, whole: ObjectShape) -> Float[np.ndarray, " P"]:
-    """The diagonal of each patch, as a share of the object's."""
+    """Return the diagonal of each patch over that of the object."""
     count = int(whole.mesh_patch.max()) + 1
     low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
     np.minimum.at(low, whole.mesh_patch, mesh.triangles.min(1))

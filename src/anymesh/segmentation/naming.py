@@ -1,4 +1,4 @@
-"""From labelled faces to parts with names."""
+"""Name the parts of labelled faces."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which of the overlapping candidates are the parts: the set of highest total score."""
+"""Choose parts among overlapping candidates: the conflict-free set of highest total score."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def conflicts(overlap: Overlap) -> Bool[np.ndarray, "n n"]:
 
 
 def assign_parts(overlap: Overlap, score: Float[np.ndarray, " n"]) -> list[int]:
-    """Return the candidates that are parts, ascending: no two in conflict, the sum of their scores above LEAST highest.
+    """Return the candidates that are parts, ascending: no two in conflict, the sum of their scores above MIN_SCORE highest.
 
     score: log-odds that a candidate is a part. Exact, by mixed-integer programming.
     """

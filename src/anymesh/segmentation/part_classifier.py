@@ -8,7 +8,7 @@ import numpy as np
 from jaxtyping import Float
 
 from anymesh.reasoning.two_steps import TwoStepClassifier
-from anymesh.segmentation.part_context import context_features
+from anymesh.segmentation.candidate_context import context_features
 from anymesh.segmentation.part_tree import Overlap
 
 

@@ -1,4 +1,4 @@
-"""What geometry shows of a candidate part, as named numbers. Lengths are shares of the object's diagonal, shares are 0..1."""
+"""Features of part candidates, by name. Lengths are over the object's diagonal, shares are 0..1."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 from jaxtyping import Int
 
 from anymesh.config import Config
-from anymesh.geometry.surroundings import PartContext
+from anymesh.geometry.part_context import PartContext
 from anymesh.segmentation.part_fit import enclosed_share, fit_of_rim, has_two_pivots, on_axis, open_behind, touching
 from anymesh.segmentation.part_tree import PartTree
 from anymesh.types import Mesh

@@ -1,18 +1,18 @@
-"""How a candidate part fits into what surrounds it: clearance round its rim, an opening behind it, walls beside it, pivots."""
+"""Fit of a part candidate in its surroundings: clearance at its rim, opening behind it, walls beside it, pivots."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from anymesh.config import SegmentationConfig
-from anymesh.geometry.surroundings import PartContext
+from anymesh.geometry.part_context import PartContext
 
 FACING = 0.5  # cosine between a rim's normal and what faces it across a clearance
 RIM = 0.75  # samples beyond this share of the half side belong to a rim
 
 
 def on_axis(around: PartContext) -> bool:
-    """Whether the rest has something on the axis of the round outline within 5 % of the diagonal of the part."""
+    """Return whether the rest has surface on the axis of the round outline, within 5 % of the part's diagonal."""
     outline = around.outline
     ends = outline.center + np.array([[-0.5], [0.5]]) * outline.height * outline.axis
     rays = np.array([[-1.0], [1.0]]) * outline.axis * 0.05 * around.diagonal
@@ -20,7 +20,7 @@ def on_axis(around: PartContext) -> bool:
 
 
 def touching(around: PartContext, tolerance: float) -> tuple[np.ndarray, np.ndarray]:
-    """Which samples touch the rest, and the rest's normal at the closest point of each."""
+    """Return which samples touch the rest, and the rest's normal at the closest point of each."""
     gap, face = around.nearest
     while (gap < tolerance).sum() < min(8, len(gap)):  # as the connecting area grows in the paper
         tolerance *= 2

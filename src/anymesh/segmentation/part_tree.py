@@ -1,4 +1,4 @@
-"""Candidates for parts: groups of patches that may move as one.
+"""Part candidates: groups of patches that may move together.
 
 Each patch, what hangs on it, and what it holds, seen from each of the likeliest bases; and the groups of a tree that merges
 what touches most. The groups overlap: which of them are parts is decided for all at once (`part_assignment.py`).
@@ -13,9 +13,9 @@ from functools import cached_property
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
-from anymesh.geometry.pieces import ObjectShape
+from anymesh.geometry.patches import ObjectShape
 from anymesh.segmentation.contacts import Contacts
-from anymesh.segmentation.units import RigidGroups, rigid_groups, root_ranking, with_supported
+from anymesh.segmentation.rigid_groups import RigidGroups, rigid_groups, root_ranking, with_supported
 from anymesh.types import Mesh
 
 BASES = 3  # likeliest bases from which hanging is measured
@@ -34,24 +34,24 @@ class Overlap:
 
     @property
     def area(self) -> Float[np.ndarray, " n"]:
-        """Area of every candidate."""
+        """Return the area of each candidate."""
         return np.diag(self.shared)
 
     @cached_property
     def iou(self) -> Float[np.ndarray, "n n"]:
-        """Intersection over union of every two candidates, by area."""
+        """Return the intersection over union of each pair of candidates, by area."""
         return self.shared / np.maximum(self.area[:, None] + self.area[None] - self.shared, 1e-300)
 
     @cached_property
     def meet(self) -> Bool[np.ndarray, "n n"]:
-        """Which candidates overlap another one."""
+        """Return which candidates overlap."""
         found = self.shared > MAX_DISJOINT_SHARE * np.minimum(self.area[:, None], self.area[None])
         np.fill_diagonal(found, False)
         return found
 
     @cached_property
     def nested(self) -> Bool[np.ndarray, "n n"]:
-        """Which candidates lie within another one, or hold it."""
+        """Return which candidates contain one another."""
         return self.meet & (self.shared > MIN_NESTED_SHARE * np.minimum(self.area[:, None], self.area[None]))
 
 
@@ -67,17 +67,17 @@ class PartTree:
 
     @property
     def area(self) -> Float[np.ndarray, " n"]:
-        """Area of every group [m^2]."""
+        """Return the area of each group [m^2]."""
         return self.overlap.area
 
     @cached_property
     def bounds(self) -> Float[np.ndarray, "n 2 3"]:
-        """Axis-aligned bounds of every group [m]."""
+        """Return the axis-aligned bounds of each group [m]."""
         return np.array([_bounds(self.contacts.patch_bounds, m) for m in self.members]).reshape(-1, 2, 3)
 
     @cached_property
     def overlap(self) -> Overlap:
-        """What the groups have in common [m^2]."""
+        """Return the overlap of the groups [m^2]."""
         return Overlap(self.size, (self.members * self.contacts.patch_area) @ self.members.T.astype(float))
 
     def faces(self, group: int) -> Int[np.ndarray, " m"]:
@@ -88,7 +88,7 @@ class PartTree:
 def part_tree(mesh: Mesh, whole: ObjectShape, contacts: Contacts, min_size: float, max_candidates: int) -> PartTree:
     """Return the groups of a mesh that may be parts, without repetition.
 
-    smallest: least diagonal of a group, as a share of the object's; most: number of groups, the largest are taken.
+    min_size: least diagonal of a group, as a share of the object's; max_candidates: number of groups, the largest are taken.
     """
     count = len(contacts.shapes)
     found: dict[bytes, Bool[np.ndarray, " P"]] = {}

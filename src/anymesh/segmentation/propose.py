@@ -45,8 +45,8 @@ def propose_masks(
 
 
 def masks_to_labels(masks: Bool[np.ndarray, "n H W"], min_pixels: float) -> Int[np.ndarray, "H W"]:
-    """A region number (from 1) a pixel, -1 none: masks of `least` pixels or more, small over large, smoothed by a majority
-    filter, split into connected pieces; pieces below `least` are none."""
+    """A region number (from 1) a pixel, -1 none: masks of `min_pixels` pixels or more, small over large, smoothed by a majority
+    filter, split into connected pieces; pieces below `min_pixels` are none."""
     size = masks.sum((1, 2))
     order = np.argsort(-size, kind="stable")
     painted = np.full(masks.shape[1:], -1)

@@ -9,7 +9,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 
 from anymesh.config import GroundingConfig, ViewsConfig
-from anymesh.geometry.pieces import ObjectShape
+from anymesh.geometry.patches import ObjectShape
 from anymesh.geometry.topology import components, label_connected
 from anymesh.rendering.render import View
 from anymesh.segmentation.cloud import Cloud

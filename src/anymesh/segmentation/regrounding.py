@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 from jaxtyping import Int
 
-from anymesh.geometry.pieces import ObjectShape
+from anymesh.geometry.patches import ObjectShape
 from anymesh.reasoning.grounding import MarkedPart
 from anymesh.reasoning.prompting import PartFit
 from anymesh.segmentation.ask_marks import MarkQuestioner, ask_exact

@@ -1,4 +1,4 @@
-"""STAGE A (paper, 3.2) on the embedded default: which parts move, with no name given.
+"""Stage A (paper, 3.2) by geometry: find the movable parts of an unlabelled mesh.
 
 Patches and what touches what, a tree of groups of patches that may be parts, what geometry shows of each, a learned score,
 and the set of groups of highest total score. Groups that nothing lets move are taken out, and the set is chosen again.
@@ -17,7 +17,7 @@ from jaxtyping import Float, Int
 
 from anymesh.config import Config
 from anymesh.deadline import SEGMENT, Deadline
-from anymesh.geometry.pieces import ObjectShape
+from anymesh.geometry.patches import ObjectShape
 from anymesh.progress import Progress, silent
 from anymesh.reasoning.two_steps import confidence_of
 from anymesh.reasoning.vocabulary import TypicalMotion, is_fixed_name, recognize, words_of

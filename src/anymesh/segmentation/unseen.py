@@ -8,7 +8,7 @@ import numpy as np
 from jaxtyping import Bool, Int
 
 from anymesh.config import Config
-from anymesh.geometry.pieces import ObjectShape
+from anymesh.geometry.patches import ObjectShape
 from anymesh.geometry.topology import label_connected
 from anymesh.segmentation.contacts import Contacts, find_contacts, hanging_on
 
@@ -36,20 +36,20 @@ def join_unseen(
 
 
 def _joined(whole: ObjectShape, part: Int[np.ndarray, " P"], config: Config) -> Int[np.ndarray, " P"]:
-    """The part of every piece, those that no view sees included: that of all the seen pieces that it touches, directly or
+    """The part of every patch, those that no view sees included: that of all the seen patches that it touches, directly or
     through others; else the one that it hangs on or touches more than all else, or is near to and nothing else is."""
     if (part >= 0).all() or part.max() <= 0:
         return part
     contacts = find_contacts(whole, config.segmentation)
     reach = config.grounding.join_component * whole.diagonal
     part = _single_part_components(contacts.component, part)
-    for together in (False, True):  # each on its own first; then unseen pieces that touch, a drawer's box, as one
+    for together in (False, True):  # each on its own first; then unseen patches that touch, a drawer's box, as one
         part = np.where(_goes_on(whole, part), 0, _supported_by(contacts, part, together, reach))
     return part
 
 
 def _goes_on(whole: ObjectShape, part: np.ndarray) -> Bool[np.ndarray, " P"]:
-    """Unseen pieces from which a fused surface goes on into the rest: a strip of the floor behind a drawer's front."""
+    """Unseen patches from which a fused surface goes on into the rest: a strip of the floor behind a drawer's front."""
     found = np.zeros(len(part), bool)
     if len(whole.shared):
         a, b = whole.shared.T
@@ -58,7 +58,7 @@ def _goes_on(whole: ObjectShape, part: np.ndarray) -> Bool[np.ndarray, " P"]:
 
 
 def _single_part_components(component: np.ndarray, part: np.ndarray) -> Int[np.ndarray, " P"]:
-    """Unseen pieces of a body of which all that is seen is one part belong to it: nothing else touches it."""
+    """Unseen patches join the only visible part of their component."""
     least, most = np.full(int(component.max()) + 1, np.iinfo(np.int64).max), np.full(int(component.max()) + 1, UNSEEN)
     np.minimum.at(least, component[part >= 0], part[part >= 0])
     np.maximum.at(most, component, part)
@@ -67,7 +67,7 @@ def _single_part_components(component: np.ndarray, part: np.ndarray) -> Int[np.n
 
 
 def _supported_by(contacts: Contacts, part: np.ndarray, together: bool, reach: float) -> Int[np.ndarray, " P"]:
-    """Unseen pieces that hang on a part or touch it more than all else; `together`: those that touch each other as one."""
+    """Unseen patches that hang on a part or touch it more than all else; `together`: those that touch each other as one."""
     unseen = part < 0
     if not unseen.any() or not (part == 0).any():
         return part
@@ -87,11 +87,11 @@ def _supported_by(contacts: Contacts, part: np.ndarray, together: bool, reach: f
 
 
 def _largest_contact(contacts: Contacts, group: np.ndarray, part: np.ndarray) -> Int[np.ndarray, " P"]:
-    """Unseen units that touch one part more than all else belong to it: a drawer's box on a runner. Four rounds settle
-    chains. (As `with_held`, but what is unseen may be larger than the part: a box behind its front.)"""
+    """Unseen groups that touch one part more than all else belong to it: a drawer's box on a runner. Four rounds settle
+    chains. (As `with_supported`, but what is unseen may be larger than the part: a box behind its front.)"""
     found = part.copy()
     for _ in range(4):
-        area = np.zeros((int(group.max()) + 1, int(found.max()) + 2))  # the first column: of other unseen units
+        area = np.zeros((int(group.max()) + 1, int(found.max()) + 2))  # the first column: of other unseen groups
         for (i, j), a in contacts.area.items():
             if found[i] < 0 and group[i] != group[j]:
                 area[group[i], found[j] + 1] += a
@@ -105,7 +105,7 @@ def _largest_contact(contacts: Contacts, group: np.ndarray, part: np.ndarray) ->
 
 
 def _near(contacts: Contacts, patch: int, others: np.ndarray, reach: float) -> bool:
-    """Whether the piece's box is within `reach` of the box of one of the others [m]."""
+    """Whether the patch's box is within `reach` of the box of one of the others [m]."""
     low, high = contacts.shapes[patch].bounds
     boxes = np.array([contacts.shapes[p].bounds for p in others])
     return bool(((boxes[:, 0] <= high + reach) & (boxes[:, 1] >= low - reach)).all(1).any())

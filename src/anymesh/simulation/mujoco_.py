@@ -10,7 +10,7 @@ import numpy as np
 
 from anymesh.errors import InputError
 from anymesh.mujoco_ import load_mujoco
-from anymesh.simulation.mujoco_bench_ import NEAR, Bench, depths, make_bench
+from anymesh.simulation.mujoco_bench_ import NEAR, MujocoBench, depths, make_bench
 from anymesh.simulation.report import JointSweep, SweepReport
 
 DEEP = 0.01  # of the asset's extent: penetration or displacement that counts
@@ -35,7 +35,7 @@ def sweep_joints(path: Path, *, steps: int = 100) -> SweepReport:
     return SweepReport(f"mujoco {mujoco.__version__}", joints, excluded)
 
 
-def _cleared_sweep(bench: Bench, index: int, steps: int) -> JointSweep:
+def _cleared_sweep(bench: MujocoBench, index: int, steps: int) -> JointSweep:
     """The sweep at rest, or if another joint's link is in the way, with that joint at its upper limit."""
     model = bench.model
     posture = np.array(model.qpos0)
@@ -52,7 +52,7 @@ def _cleared_sweep(bench: Bench, index: int, steps: int) -> JointSweep:
     return found
 
 
-def _sweep(bench: Bench, index: int, steps: int, posture: np.ndarray) -> JointSweep:
+def _sweep(bench: MujocoBench, index: int, steps: int, posture: np.ndarray) -> JointSweep:
     model = bench.model
     lower, upper = (float(v) for v in bench.ranges[index])
     turns = model.jnt_type[index] == bench.mujoco.mjtJoint.mjJNT_HINGE
@@ -75,7 +75,7 @@ def _sweep(bench: Bench, index: int, steps: int, posture: np.ndarray) -> JointSw
     return replace(result, faults=_faults(bench, result, driven.blew_up))
 
 
-def _placed(bench: Bench, index: int, positions: np.ndarray, posture: np.ndarray) -> tuple[float, str]:
+def _placed(bench: MujocoBench, index: int, positions: np.ndarray, posture: np.ndarray) -> tuple[float, str]:
     """The deepest that any two links get beyond rest [m] while the joint is placed along its range, and into which."""
     model, data = bench.model, bench.data
     worst, against = 0.0, ""
@@ -109,7 +109,7 @@ class _Drive:
     blew_up: bool
 
 
-def _driven(bench: Bench, index: int, posture: np.ndarray) -> _Drive:
+def _driven(bench: MujocoBench, index: int, posture: np.ndarray) -> _Drive:
     """The joint led by its motor to the upper limit, then the lower, while the others' motors hold them in `posture`."""
     mujoco, model, data = bench.mujoco, bench.model, bench.data
     mujoco.mj_resetData(model, data)
@@ -137,7 +137,7 @@ def _driven(bench: Bench, index: int, posture: np.ndarray) -> _Drive:
     return _Drive(reached[-1.0], reached[1.0], drift, off, bool(blew_up))
 
 
-def _off(bench: Bench, index: int, position: float, places: np.ndarray, geoms: np.ndarray) -> float:
+def _off(bench: MujocoBench, index: int, position: float, places: np.ndarray, geoms: np.ndarray) -> float:
     """How far the link's shapes are from where the joint alone would have put them [m]."""
     axis, anchor, rest = bench.axes[index], bench.anchors[index], bench.places[geoms]
     if bench.model.jnt_type[index] == bench.mujoco.mjtJoint.mjJNT_SLIDE:
@@ -149,7 +149,7 @@ def _off(bench: Bench, index: int, position: float, places: np.ndarray, geoms: n
     return float(np.linalg.norm(places - expected, axis=1).max(initial=0.0))
 
 
-def _faults(bench: Bench, found: JointSweep, blew_up: bool) -> tuple[str, ...]:
+def _faults(bench: MujocoBench, found: JointSweep, blew_up: bool) -> tuple[str, ...]:
     if blew_up or not np.isfinite([found.reached_lower, found.reached_upper, found.off]).all():
         return ("the simulation became unstable",)
     span = found.upper - found.lower

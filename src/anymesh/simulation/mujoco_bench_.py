@@ -43,7 +43,7 @@ def read_spec(mujoco: Any, path: Path) -> Any:
 
 
 @dataclass(frozen=True, eq=False)
-class Bench:
+class MujocoBench:
     """A model with a motor a joint that turns or slides, and its state at rest."""
 
     mujoco: Any
@@ -66,7 +66,7 @@ class Bench:
         return self.model.body(index).name
 
 
-def make_bench(mujoco: Any, path: Path) -> tuple[Bench, tuple[tuple[str, str, str], ...]]:
+def make_bench(mujoco: Any, path: Path) -> tuple[MujocoBench, tuple[tuple[str, str, str], ...]]:
     """The bench, and the pairs of links that it does not test against each other, with the reason."""
     spec = read_spec(mujoco, path)
     _strip(spec, mujoco)
@@ -94,7 +94,7 @@ def make_bench(mujoco: Any, path: Path) -> tuple[Bench, tuple[tuple[str, str, st
     mujoco.mj_forward(model, data)
     rest = (depths(model, data), data.xanchor.copy(), data.xaxis.copy(), data.geom_xpos.copy())
     motors = {joint: number for number, joint in enumerate(joints)}
-    return Bench(mujoco, model, data, joints, motors, ranges, seconds, *rest), tuple(excluded)
+    return MujocoBench(mujoco, model, data, joints, motors, ranges, seconds, *rest), tuple(excluded)
 
 
 def _joined(model: Any) -> list[tuple[int, int]]:

@@ -1,1 +1,1 @@
-"""How results lie on disk, below `run_folder`."""
+"""Saved results on disk, used by `run_folder`."""

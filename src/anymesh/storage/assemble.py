@@ -1,4 +1,4 @@
-"""The asset that saved stages make."""
+"""Assemble an asset from stage results."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def assemble(
     revision: CorrectionResult | None,
     timing: Mapping[str, float],
 ) -> Asset:
-    """The asset of the stages in their order; corrected: by a person before Stage C, revised: after it."""
+    """Assemble the asset; correction: by a person before Stage C, revision: after it."""
     loaded = recognition.sized(loaded)
     asset = Asset(
         name=legal_name(Path(loaded.source.path).stem, fallback="asset"),

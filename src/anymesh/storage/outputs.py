@@ -1,11 +1,11 @@
-"""What tells an output of this program from any other folder, and which outputs may be replaced."""
+"""Recognize outputs of this program, and check which of them may be replaced."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
 from anymesh.errors import OutputError
-from anymesh.storage.hidden import list_files
+from anymesh.storage.atomic_folder import list_files
 from anymesh.storage.stage_files import read_json
 
 GENERATOR = "articulate-anymesh"
@@ -14,19 +14,19 @@ CORRECTIONS = "corrections.json"  # what a person corrected; a new run never tak
 
 
 def atomic_prefix(target: Path, word: str) -> str:
-    """How the hidden folders of an output begin, which lie beside it."""
+    """Return the prefix of the work folders beside an output."""
     return f".{target.name[:100]}.{word}-"
 
 
 def written_files(target: Path) -> list[str] | None:
-    """The files that this program wrote into a folder, None when it is no output."""
+    """Return the files that this program wrote into a folder, None when it is no output."""
     found = read_json(target / MANIFEST)
     files = found.get("files") if found is not None and found.get("generator") == GENERATOR else None
     return files if isinstance(files, list) else None
 
 
 def check_replaceable(target: Path, force: bool) -> None:
-    """OutputError unless a folder that holds anything may be replaced by a new output."""
+    """Raise OutputError unless a non-empty folder may be replaced by a new output."""
     written = written_files(target)
     if not force:
         hint = " (--force replaces an older output)" if written is not None else ""
@@ -41,7 +41,7 @@ def check_replaceable(target: Path, force: bool) -> None:
 
 
 def check_uncorrected(target: Path) -> None:
-    """OutputError when an output holds corrections by hand."""
+    """Raise OutputError when an output holds manual corrections."""
     if (target / CORRECTIONS).exists():
         raise OutputError(f"{target} was corrected by hand, which a new run would lose; choose another folder, or remove "
                           f"{CORRECTIONS} to give the corrections up")  # fmt: skip

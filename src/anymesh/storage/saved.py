@@ -1,4 +1,4 @@
-"""The stages saved in an output, to read: nothing is written."""
+"""Read the stages saved in an output."""
 
 from __future__ import annotations
 
@@ -30,14 +30,14 @@ TIMING = "timing.json"
 
 
 class Saved:
-    """What an output folder holds. `target`: its place."""
+    """The saved stages of an output folder. target: its path."""
 
     def __init__(self, target: Path) -> None:
         self.target = target
 
     @classmethod
     def at(cls, target: Path) -> Saved:
-        """An output that exists. OutputError when there is none."""
+        """Open an existing output. Raises OutputError when there is none."""
         target = Path(target).resolve()
         if written_files(target) is None:
             raise OutputError(f"{target} is no output of anymesh; `anymesh articulate MESH -o {target}` makes one")
@@ -48,21 +48,21 @@ class Saved:
         return [self.target]
 
     def need(self, stage: Stage[Result]) -> Result:
-        """The result of a stage, whatever it was made with. OutputError when this output has none."""
+        """Return the result of a stage. Raises OutputError when this output has none."""
         found = self._find(stage)
         if found is None:
             raise self._missing(stage)
         return found
 
     def recognition(self) -> RecognitionResult:
-        """What was recognized; nothing where nobody who sees was asked."""
+        """Return the recognition result, an empty one where no model was asked."""
         return self._find(RECOGNITION) or RecognitionResult(None, "")
 
     def _find(self, stage: Stage[Result]) -> Result | None:
         return next((found for place in self._places(stage) if (found := read_stage(place, stage, None)) is not None), None)
 
     def key(self, stage: Stage[Any]) -> str:
-        """The key under which the result of a stage was saved. OutputError when this output has none."""
+        """Return the key of the saved result of a stage. Raises OutputError when this output has none."""
         found = self._key(stage)
         if found is None:
             raise self._missing(stage)
@@ -75,11 +75,11 @@ class Saved:
         return OutputError(f"{self.target} has no usable result of the stage {stage.name!r}; run that stage first")
 
     def timing(self) -> dict[str, float]:
-        """Seconds a stage, so far."""
+        """Return the seconds per stage."""
         return next((found for place in self._places(None) if (found := read_json(place / TIMING)) is not None), {})
 
     def asset(self, *, edited: bool = True) -> Asset:
-        """The asset that the saved stages make. OutputError when one is missing. edited: with the last corrections by hand."""
+        """Assemble the asset from the saved stages. Raises OutputError if one is missing. edited: with corrections."""
         last = self.editing()
 
         def found(stage: Stage[Result]) -> Result | None:
@@ -91,16 +91,16 @@ class Saved:
         )  # fmt: skip
 
     def editing(self) -> Stage[CorrectionResult]:
-        """The stage that holds corrections of this output as it is."""
+        """Return the stage that holds the corrections of this output."""
         return CORRECTION if self._key(COMPLETION) is None else REVISION
 
     def corrections(self, stage: Stage[CorrectionResult]) -> tuple[Record, ...]:
-        """The log of corrections in a stage, empty when there are none."""
+        """Return the log of corrections of a stage."""
         found = self._find(stage)
         return () if found is None else found.log
 
     def last_key(self, *, edited: bool = True) -> str:
-        """The key of the last stage that the asset comes from. edited: with the last corrections by hand."""
+        """Return the key of the last stage of the asset. edited: with the last corrections."""
         skipped = None if edited else self.editing()
         made = (k for s in reversed(STAGES) if s is not skipped and (k := self._key(s)) is not None)
         return next(made, "")

@@ -1,4 +1,4 @@
-"""How a stage's result lies on disk: a JSON file that names its key, and beside it the arrays it needs."""
+"""Stage results on disk: a JSON file with the key, and an .npz file with the arrays."""
 
 from __future__ import annotations
 
@@ -22,18 +22,18 @@ EPOCH = (1980, 1, 1, 0, 0, 0)  # the date inside every archive, so that equal re
 
 
 def stage_key(stage: Stage[Any], *, previous: str, config: Mapping[str, object]) -> str:
-    """What a stage's result hangs on: its settings, the version, and the key before (of the source: its sha256)."""
+    """Hash what a stage depends on: its settings, the version, and the previous key (of the source: its sha256)."""
     told = {"stage": stage.name, "previous": previous, "config": config, "version": anymesh.__version__}
     return hashlib.sha256(json.dumps(told, sort_keys=True, allow_nan=False).encode()).hexdigest()
 
 
 def stage_files(stage: Stage[Any]) -> tuple[str, str]:
-    """The file names of a stage, relative to the output folder."""
+    """Return the file names of a stage, relative to the output folder."""
     return f"{FOLDER}/{stage.name}.json", f"{FOLDER}/{stage.name}.npz"
 
 
 def write_stage(folder: Path, stage: Stage[Result], key: str, result: Result) -> None:
-    """Writes the result of a stage; the JSON file comes last and tells the digest of the arrays."""
+    """Write the result of a stage; the JSON file is written last and holds the digest of the arrays."""
     record, arrays = stage.pack(result)
     json_name, npz_name = stage_files(stage)
     (folder / FOLDER).mkdir(exist_ok=True)
@@ -42,7 +42,7 @@ def write_stage(folder: Path, stage: Stage[Result], key: str, result: Result) ->
 
 
 def read_stage(folder: Path, stage: Stage[Result], key: str | None) -> Result | None:
-    """The result of a stage if it is there, whole, and saved under the key (None: any key)."""
+    """Read the result of a stage, None unless it is complete and saved under the key (None: any key)."""
     json_name, npz_name = stage_files(stage)
     header = read_json(folder / json_name)
     if header is None or (key is not None and header.get("key") != key):
@@ -56,18 +56,18 @@ def read_stage(folder: Path, stage: Stage[Result], key: str | None) -> Result | 
 
 
 def saved_key(folder: Path, stage: Stage[Any]) -> str | None:
-    """The key that a stage's result was saved under, None when there is none."""
+    """Return the key of a saved stage, None when there is none."""
     header = read_json(folder / stage_files(stage)[0])
     return None if header is None else header.get("key")
 
 
 def write_json(path: Path, value: Mapping[str, Any]) -> None:
-    """Indented ASCII JSON."""
+    """Write indented ASCII JSON."""
     path.write_text(json.dumps(value, indent=1, allow_nan=False) + "\n", encoding="ascii", newline="\n")
 
 
 def read_json(path: Path) -> dict[str, Any] | None:
-    """The JSON object in a file, None when there is no such file or no object in it."""
+    """Read the JSON object in a file, None when there is none."""
     try:
         found = json.loads(path.read_bytes())
     except (OSError, ValueError):
@@ -76,7 +76,7 @@ def read_json(path: Path) -> dict[str, Any] | None:
 
 
 def _write_arrays(path: Path, arrays: Mapping[str, np.ndarray]) -> str:
-    """An .npz as numpy reads it, with fixed dates; returns its sha256."""
+    """Write an .npz with fixed dates; return its sha256."""
     with zipfile.ZipFile(path, "w") as archive:
         for name, array in arrays.items():
             with archive.open(zipfile.ZipInfo(f"{name}.npy", EPOCH), "w", force_zip64=True) as file:

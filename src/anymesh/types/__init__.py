@@ -1,4 +1,4 @@
-"""The nouns: frozen, numpy only, checked when made."""
+"""Data types of the package: frozen, numpy only, validated when constructed."""
 
 from anymesh.types.asset import Asset, Source
 from anymesh.types.exchange import Exchange, Picture

@@ -98,28 +98,28 @@ class Mesh:
 
     @cached_property
     def triangles(self) -> Float[np.ndarray, "F 3 3"]:
-        """Corner positions of every face."""
+        """Return the corner positions of each face [m]."""
         return self.vertices[self.faces]
 
     @cached_property
     def face_cross(self) -> Float[np.ndarray, "F 3"]:
-        """Twice the area times the unit normal of every face."""
+        """Return twice the area times the unit normal of each face."""
         return face_cross(self.triangles)
 
     @cached_property
     def face_areas(self) -> Float[np.ndarray, " F"]:
-        """Area of every face."""
+        """Return the area of each face [m^2]."""
         return 0.5 * np.linalg.norm(self.face_cross, axis=1)
 
     @cached_property
     def face_normals(self) -> Float[np.ndarray, "F 3"]:
-        """Unit normal of every face; zero where the face has no area."""
+        """Return the unit normal of each face, zero where it has no area."""
         length = np.linalg.norm(self.face_cross, axis=1, keepdims=True)
         return np.divide(self.face_cross, length, out=np.zeros_like(self.face_cross), where=length > 0)
 
     @cached_property
     def bounds(self) -> Float[np.ndarray, "2 3"]:
-        """Lower and upper corner of the axis-aligned box of all vertices in use."""
+        """Return the axis-aligned bounds of all used vertices [m]."""
         used = np.zeros(len(self.vertices), bool)
         used[self.faces] = True
         columns = [axis[used] for axis in self.vertices.T]
@@ -127,16 +127,16 @@ class Mesh:
 
     @property
     def extents(self) -> Float[np.ndarray, " 3"]:
-        """Side lengths of the axis-aligned box."""
+        """Return the side lengths of the axis-aligned box [m]."""
         return self.bounds[1] - self.bounds[0]
 
     @property
     def diagonal(self) -> float:
-        """Length of the axis-aligned box's diagonal."""
+        """Return the diagonal of the axis-aligned box [m]."""
         return float(np.linalg.norm(self.extents))
 
     def transformed(self, T: Float[np.ndarray, "4 4"]) -> Mesh:
-        """The mesh moved by a 4x4 affine transform; a mirroring one also turns the faces round."""
+        """Return the mesh under a 4x4 affine transform; a mirroring one also flips the faces."""
         linear = T[:3, :3]
         mirrored = np.linalg.det(linear) < 0
         order = [0, 2, 1] if mirrored else [0, 1, 2]
@@ -159,7 +159,7 @@ class Mesh:
         )
 
     def subset(self, faces: Int[np.ndarray, " n"] | Bool[np.ndarray, " F"]) -> Mesh:
-        """The mesh of some faces (indices or mask), without unused vertices; nodes and materials stay as they are."""
+        """Return the mesh of some faces (indices or mask), without unused vertices; nodes and materials are kept."""
         chosen = self.faces[faces]
         used, inverse = np.unique(chosen, return_inverse=True)
 

@@ -1,4 +1,4 @@
-"""Motion hypotheses: a candidate rigid motion of a part, and what sweeping it against the rest showed."""
+"""Motion hypotheses: candidate rigid motions of a part, and the results of their sweeps."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from jaxtyping import Float
 
 
 class MotionKind(StrEnum):
-    """How a part may move against its parent."""
+    """Kind of motion of a part relative to its parent."""
 
     REVOLUTE = "turn"
     PRISMATIC = "slide"
@@ -31,11 +31,11 @@ class Motion:
             raise ValueError(f"a motion's axis must be a unit vector, found length {length:.6f}")
 
     def transform(self, amount: float) -> Float[np.ndarray, "4 4"]:
-        """Rigid transform (asset frame) after moving by `amount` [rad for a turn, m for a slide]."""
+        """Return the rigid transform (asset frame) at `amount` [rad for revolute, m for prismatic]."""
         return self.transforms(np.array([amount]))[0]
 
     def transforms(self, amounts: Float[np.ndarray, " k"]) -> Float[np.ndarray, "k 4 4"]:
-        """Rigid transforms for many amounts."""
+        """Return the rigid transforms at several amounts."""
         T = np.tile(np.eye(4), (len(amounts), 1, 1))
         if self.kind is MotionKind.PRISMATIC:
             T[:, :3, 3] = amounts[:, None] * self.axis

@@ -14,7 +14,7 @@ from anymesh.rendering.raycast_ import RayScene
 from anymesh.rendering.viewpoints import away
 from anymesh.types import Mesh, MotionKind
 from anymesh.viewer.ask_marks import SPLIT, MarksForm
-from anymesh.viewer.scene import LEAST, MOST, Color, Surface, color_of
+from anymesh.viewer.scene import LEAST, MAX_DISPLAY_FACES, Color, DisplayMesh, color_of
 
 SAME_SIZE = 0.05  # a part of the mesh's own scale within this has it exactly
 REACH = 0.03  # a click chooses a point whose distance from its ray is below this share of the distance to the eye
@@ -28,13 +28,13 @@ TINT, GOLDEN = (0.24, 0.92), 0.618034  # saturation and value of marks that are 
 NOT_ASKED, DIVIDED = (150, 150, 150), (134, 46, 156)
 
 
-def surface(mesh: Mesh, faces: Int[np.ndarray, " f"], most: int = MOST) -> Surface:
+def surface(mesh: Mesh, faces: Int[np.ndarray, " f"], most: int = MAX_DISPLAY_FACES) -> DisplayMesh:
     """Return some faces as a surface; decimated where the mesh has more than `most`."""
     if len(mesh.faces) <= most:
         piece = mesh.subset(faces)
-        return Surface(piece.vertices, piece.faces)
+        return DisplayMesh(piece.vertices, piece.faces)
     few = simplify(mesh.triangles[faces], max(LEAST, most * len(faces) // len(mesh.faces)))
-    return Surface(few.reshape(-1, 3), np.arange(3 * len(few)).reshape(-1, 3))
+    return DisplayMesh(few.reshape(-1, 3), np.arange(3 * len(few)).reshape(-1, 3))
 
 
 def scale_of(part: PartShown, mesh: Mesh) -> float:

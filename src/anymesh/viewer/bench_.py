@@ -20,7 +20,7 @@ from anymesh.viewer.drop_zone import drop_zone
 from anymesh.viewer.panels import SMALL
 from anymesh.viewer.panels_page import Page
 from anymesh.viewer.uploads import plain_name, receive
-from anymesh.viewer.work import Work
+from anymesh.viewer.work import ArticulationWork
 
 log = logging.getLogger("anymesh")
 TICK, LOOK = 0.05, 0.25  # [s] between poses, and between looks at the work
@@ -30,7 +30,7 @@ BUSY = "one mesh at a time; cancel the work on this one first"
 
 
 @dataclass(frozen=True)
-class Bench:
+class WorkbenchFolders:
     """Where a workbench keeps things. folder: temporary; out: where assets and answers are kept, None for the temporary
     folder; ask: put the questions to the person from the start."""
 
@@ -42,10 +42,10 @@ class Bench:
 class Workbench:
     """Takes one mesh at a time. Callbacks hold the page's lock; a thread of its own follows the work."""
 
-    def __init__(self, page: Page, bench: Bench) -> None:
+    def __init__(self, page: Page, bench: WorkbenchFolders) -> None:
         self._page, self._bench, gui = page, bench, page.gui
         self._numbers = itertools.count(1)
-        self._work: Work | None = None
+        self._work: ArticulationWork | None = None
         self._name = ""
         self._message = ("", False)
         self._shows: bool | None = None
@@ -76,7 +76,7 @@ class Workbench:
         self._name, self._message = mesh.name, ("", False)
         self._page.shut()
         self._desk.begin(questions)
-        self._work = Work(mesh, out, **options)
+        self._work = ArticulationWork(mesh, out, **options)
         self.refresh()
 
     def cancel(self) -> None:

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from anymesh.errors import OutputError
-from anymesh.storage.hidden import locked
+from anymesh.storage.atomic_folder import locked
 from anymesh.storage.outputs import written_files
 from anymesh.storage.stage_files import read_json
 

@@ -13,8 +13,8 @@ from anymesh.correcting import (
     ChooseMotion,
     Correction,
     CorrectionError,
-    Entry,
     History,
+    HistoryEntry,
     Opened,
     apply,
     open_asset,
@@ -52,7 +52,7 @@ class Session:
 
     def __init__(self, folder: Path, author: str, clock: Clock) -> None:
         self._opened: Opened = open_asset(folder)
-        self._saved: tuple[Entry, ...] = self._opened.history.done
+        self._saved: tuple[HistoryEntry, ...] = self._opened.history.done
         self._author, self._clock = author, clock
         self.selected: str | None = None
         self.preview: Correction | None = None
@@ -91,7 +91,7 @@ class Session:
 
     def correct(self, correction: Correction) -> None:
         """Makes a correction. CorrectionError when it makes no sense; then nothing changes."""
-        self._go(self.history.do(Entry(correction, self._clock(), self._author)))
+        self._go(self.history.do(HistoryEntry(correction, self._clock(), self._author)))
 
     def undo(self) -> None:
         self._go(self.history.undo())

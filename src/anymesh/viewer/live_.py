@@ -14,13 +14,13 @@ from anymesh.correcting import Correction
 from anymesh.errors import AnymeshError, MissingExtraError
 from anymesh.export.archive import zip_bytes
 from anymesh.types import Asset
-from anymesh.viewer.bench_ import Bench, Workbench
+from anymesh.viewer.bench_ import Workbench, WorkbenchFolders
 from anymesh.viewer.gallery_ import ReviewPanel
 from anymesh.viewer.live import Clock, Session
 from anymesh.viewer.panels import head
 from anymesh.viewer.panels_correct_ import CorrectPanel
 from anymesh.viewer.panels_play_ import PlayPanel
-from anymesh.viewer.panels_tools_ import Tools
+from anymesh.viewer.panels_tools_ import CorrectionTools
 from anymesh.viewer.scene import swayed
 from anymesh.viewer.scene_ import SceneView
 
@@ -49,7 +49,7 @@ class LivePage:
     """
 
     def __init__(
-        self, server: Any, *, author: str, clock: Clock, review: Path | None = None, bench: Bench | None = None
+        self, server: Any, *, author: str, clock: Clock, review: Path | None = None, bench: WorkbenchFolders | None = None
     ) -> None:
         self.server, self.gui = server, server.gui
         self._author, self._clock = author, clock
@@ -74,7 +74,7 @@ class LivePage:
         self.play = PlayPanel(self, tabs.add_tab("Play"))
         correct = tabs.add_tab("Correct")
         self._panels: list[Any] = [self.play, CorrectPanel(self, correct)]
-        self.tools = Tools(self, correct)
+        self.tools = CorrectionTools(self, correct)
         self._panels.append(self.tools)
         self._keys()
         if review is not None:

@@ -14,7 +14,7 @@ from anymesh import pipeline
 from anymesh.errors import OptionError
 from anymesh.progress import Progress, silent
 from anymesh.storage.outputs import CORRECTIONS, written_files
-from anymesh.viewer.bench_ import Bench
+from anymesh.viewer.bench_ import WorkbenchFolders
 from anymesh.viewer.live import Clock
 from anymesh.viewer.live_ import LivePage, start_server
 
@@ -79,12 +79,12 @@ def serve(
 
 
 @contextlib.contextmanager
-def _bench(out: str | Path | None, ask: bool) -> Generator[tuple[Bench, tuple[str, ...]]]:
+def _bench(out: str | Path | None, ask: bool) -> Generator[tuple[WorkbenchFolders, tuple[str, ...]]]:
     """What a page that takes meshes needs; its temporary folder goes at the end."""
     with tempfile.TemporaryDirectory(prefix="anymesh-view-", ignore_cleanup_errors=True) as temporary:
         kept = None if out is None else Path(out).resolve()
         lost = "Assets are removed at the end: download them from the page, or give --out DIR."
-        yield Bench(Path(temporary).resolve(), kept, ask), (lost if kept is None else f"Assets are kept in {kept}.",)
+        yield WorkbenchFolders(Path(temporary).resolve(), kept, ask), (lost if kept is None else f"Assets are kept in {kept}.",)
 
 
 @contextlib.contextmanager

@@ -41,7 +41,7 @@ TOLD = {
 SNAPS, BRUSHES = (Tool.EDGE, Tool.PLANE, Tool.ROUND), (Tool.PATCH, Tool.BRUSH)
 
 
-class Tools:
+class CorrectionTools:
     """The folders "Axis" and "Faces" of the tab "Correct", and what clicks mean."""
 
     def __init__(self, page: Page, tab: Any) -> None:

@@ -14,7 +14,7 @@ from anymesh.export.animation import tracks
 from anymesh.export.settings import ExportConfig
 from anymesh.geometry.kinematics import posed
 from anymesh.rendering.axes import axis_shapes, draw_axes
-from anymesh.rendering.drawing import draw, ground, light_on, look_of_faces, look_of_materials, subject_of
+from anymesh.rendering.drawing import draw, face_colors, ground, light_on, material_colors, render_target
 from anymesh.rendering.labels import font
 from anymesh.rendering.preview import best_camera, part_colors, shown_position
 from anymesh.rendering.raycast_ import RayScene
@@ -117,9 +117,9 @@ def _drawn(
     asset: Asset, pose: Mesh, camera: Camera, color: UInt8[np.ndarray, "F 3"] | None, scene: RayScene | None = None
 ) -> UInt8[np.ndarray, "H W 3"]:
     """The asset in a pose, in colours per face, or in its materials."""
-    subject = subject_of(pose, scene or RayScene(pose.vertices, pose.faces), asset.segmentation.face_part)
+    subject = render_target(pose, scene or RayScene(pose.vertices, pose.faces), asset.segmentation.face_part)
     samples = sample(subject, camera, Window(0, 0, camera.width, camera.height))
-    look = look_of_materials(pose, samples) if color is None else look_of_faces(color, samples)
+    look = material_colors(pose, samples) if color is None else face_colors(color, samples)
     return draw(samples, look, light_on(samples), ground(camera.height, camera.width))
 
 

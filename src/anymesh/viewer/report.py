@@ -10,7 +10,7 @@ from anymesh.errors import InputError, OutputError
 from anymesh.progress import Progress, silent
 from anymesh.viewer.report_asset import find_assets
 from anymesh.viewer.report_display import FACES
-from anymesh.viewer.report_entry import Entry, folder_entry, within
+from anymesh.viewer.report_entry import ReportEntry, folder_entry, within
 from anymesh.viewer.report_html import html_report
 
 MEGABYTES = 100.0  # of a page that browsers still open at once
@@ -69,5 +69,5 @@ def write_report(
     )
 
 
-def _order(entry: Entry) -> tuple[float, str]:
+def _order(entry: ReportEntry) -> tuple[float, str]:
     return (entry.least, entry.title)

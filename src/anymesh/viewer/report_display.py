@@ -78,7 +78,7 @@ def _decimated(asset: Asset, faces: int) -> Asset:
 
 
 def _clustered(triangles: Float[np.ndarray, "F 3 3"], most: int) -> Float[np.ndarray, "R 3 3"]:
-    """The surface with corners drawn together in the cells of a grid, about `most` triangles where it was finer than that.
+    """The surface with corners drawn together in the cells of a grid, about `max_faces` triangles where it was finer than that.
 
     Far from exact and ten times as fast as edge collapses, which take half a minute for a million faces.
     """

@@ -22,7 +22,7 @@ ASKED_WIDTH, ASKED_QUALITY = 800, 75  # of the pictures that a model was shown
 
 
 @dataclass(frozen=True, eq=False)
-class Entry:
+class ReportEntry:
     """title: where the asset lies, as the page says it; glb: gzipped; pictures: what a model was shown, JPEG by SHA-256."""
 
     title: str
@@ -45,25 +45,25 @@ class Entry:
         return (len(self.glb) + len(self.preview) + sum(map(len, self.pictures.values()))) * 4 // 3
 
 
-def folder_entry(folder: Path, title: str, *, faces: int) -> Entry:
+def folder_entry(folder: Path, title: str, *, faces: int) -> ReportEntry:
     """An asset's folder; one that cannot be read says why instead of ending the report."""
     try:
         asset = read_asset(folder)
     except InputError as error:
-        return Entry(title, None, problem=str(error))
+        return ReportEntry(title, None, problem=str(error))
     shown, notes = displayed(asset, faces=faces)
     glb = display_glb(shown) if notes else glb_path(folder).read_bytes()
     return _entry(title, asset, shown, glb, notes, _preview(folder / PREVIEW))
 
 
-def asset_entry(asset: Asset, *, faces: int) -> Entry:
+def asset_entry(asset: Asset, *, faces: int) -> ReportEntry:
     """An asset in memory; without a preview, which takes longer than all the rest."""
     asset = with_legal_names(asset)
     shown, notes = displayed(asset, faces=faces)
     return _entry(asset.name, asset, shown, display_glb(shown), notes, b"")
 
 
-def within(entries: list[Entry], megabytes: float) -> list[Entry]:
+def within(entries: list[ReportEntry], megabytes: float) -> list[ReportEntry]:
     """The entries without what would make the page larger than this: first go pictures shown to models, then 3D views."""
     left = int(megabytes * 1e6) - sum(len(e.preview) * 4 // 3 for e in entries)
     found = []
@@ -88,9 +88,9 @@ def picture_key(png: bytes) -> str:
     return hashlib.sha256(png).hexdigest()[:16]
 
 
-def _entry(title: str, asset: Asset, shown: Asset, glb: bytes, notes: tuple[str, ...], preview: bytes) -> Entry:
+def _entry(title: str, asset: Asset, shown: Asset, glb: bytes, notes: tuple[str, ...], preview: bytes) -> ReportEntry:
     mesh = asset.mesh
-    return Entry(
+    return ReportEntry(
         title=title,
         asset=asset,
         scene=scene(shown, looks=materials_shown(mesh.materials, mesh.corner_color)),

@@ -10,7 +10,7 @@ from importlib.resources import files
 from typing import Any
 
 from anymesh.types import JointType
-from anymesh.viewer.report_entry import Entry
+from anymesh.viewer.report_entry import ReportEntry
 from anymesh.viewer.report_scene import palette
 from anymesh.viewer.report_words import joint_table, part_table, said, sliders, sure, transcript, warnings
 
@@ -19,7 +19,7 @@ STYLE = "report.css"
 HINT = "drag: turn · right drag: move · wheel: zoom{} · click: select a part · Esc: leave"
 
 
-def html_report(title: str, entries: Sequence[Entry]) -> str:
+def html_report(title: str, entries: Sequence[ReportEntry]) -> str:
     """The page. The same entries give the same text. A browser that keeps its rules can load nothing from outside."""
     scripts = [_static(name) for name in SCRIPTS]
     colors = "".join(f".{name}{{background:{color}}}" for name, color in palette().items())
@@ -59,7 +59,7 @@ def _policy(scripts: Sequence[str], style: str) -> str:
     )
 
 
-def _head(title: str, entries: Sequence[Entry]) -> str:
+def _head(title: str, entries: Sequence[ReportEntry]) -> str:
     joints = sum(len(e.asset.joints) for e in entries if e.asset)
     size = sum(e.size for e in entries) / 1e6
     count = f"{len(entries)} asset{'s' if len(entries) != 1 else ''}, {joints} joint{'s' if joints != 1 else ''}"
@@ -82,7 +82,7 @@ def _head(title: str, entries: Sequence[Entry]) -> str:
     return told + folded
 
 
-def _section(number: int, entry: Entry, *, alone: bool) -> str:
+def _section(number: int, entry: ReportEntry, *, alone: bool) -> str:
     head = "" if alone else f"<h2>{said(entry.title)}</h2>"
     begin = f'<section id="a{number}" data-entry="{number}">{head}'
     if entry.asset is None:
@@ -96,13 +96,13 @@ def _section(number: int, entry: Entry, *, alone: bool) -> str:
     )
 
 
-def _stage(entry: Entry, alone: bool) -> str:
+def _stage(entry: ReportEntry, alone: bool) -> str:
     hint = HINT.format("" if alone else " (after a click)")  # the wheel scrolls a page of many
     told = f'<button class="open">Show in 3D</button><p class="hint">{hint}</p>' if entry.glb else ""
     return f'<div class="stage">{told}<p class="message" role="status"></p></div>'
 
 
-def _tools(entry: Entry) -> str:
+def _tools(entry: ReportEntry) -> str:
     if not entry.glb:
         return ""
     looks = bool(entry.scene and entry.scene["looks"])
@@ -117,7 +117,7 @@ def _tools(entry: Entry) -> str:
     )
 
 
-def _picture(entry: Entry) -> str:
+def _picture(entry: ReportEntry) -> str:
     if not entry.preview:
         return ""
     told = f"{said(entry.title)}: as it looks, parts at rest, parts opened"

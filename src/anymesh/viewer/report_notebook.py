@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 HEIGHT = 620  # [px] of the frame
 
 
-class Shown:
+class NotebookReport:
     """What `show` gives: a notebook displays it."""
 
     def __init__(self, html: str) -> None:
@@ -21,9 +21,9 @@ class Shown:
         return self._html
 
 
-def show(asset: Asset, *, height: int = HEIGHT) -> Shown:
+def show(asset: Asset, *, height: int = HEIGHT) -> NotebookReport:
     """The asset as a notebook displays it: in 3D, a slider a joint, tables. height: of the frame [px]."""
-    return Shown(asset_html(asset, height=height))
+    return NotebookReport(asset_html(asset, height=height))
 
 
 def asset_html(asset: Asset, *, height: int = HEIGHT) -> str:

@@ -8,7 +8,7 @@ from html import escape
 
 from anymesh.rendering.preview import extent
 from anymesh.types import Asset, Exchange, Joint, JointType
-from anymesh.viewer.report_entry import Entry, picture_key
+from anymesh.viewer.report_entry import ReportEntry, picture_key
 from anymesh.viewer.report_scene import color_class
 
 SURE, DOUBTFUL = 0.8, 0.5  # confidence from which a joint is marked sure; below which it is marked doubtful
@@ -25,7 +25,7 @@ def sure(confidence: float) -> str:
     return f'<span class="mark {word}" title="confidence {confidence:.2f}: {word}">{confidence:.2f}</span>'
 
 
-def warnings(entry: Entry) -> str:
+def warnings(entry: ReportEntry) -> str:
     """Warnings of the asset first, then what was done for display."""
     told = entry.asset.warnings if entry.asset else (entry.problem,)
     first = "".join(f"<li>{said(w)}</li>" for w in told)
@@ -78,7 +78,7 @@ def part_table(asset: Asset) -> str:
     return _table("Parts", head, rows)
 
 
-def transcript(entry: Entry) -> str:
+def transcript(entry: ReportEntry) -> str:
     """Every question to a model with its pictures and its answer, folded; "" when none was asked."""
     asked = entry.asset.exchanges if entry.asset else ()
     if not asked:
@@ -89,7 +89,7 @@ def transcript(entry: Entry) -> str:
     return f'<details class="asked"><summary>{said(head)}</summary>{body}</details>'
 
 
-def _question(number: int, exchange: Exchange, entry: Entry) -> str:
+def _question(number: int, exchange: Exchange, entry: ReportEntry) -> str:
     mood = "good" if exchange.verdict == "accepted" else "bad"
     shown = [p for p in exchange.pictures if picture_key(p.png) in entry.pictures]
     pictures = "".join(

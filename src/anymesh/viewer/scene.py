@@ -15,7 +15,7 @@ from anymesh.rendering.axes import axis_line, ring
 from anymesh.rendering.preview import BASE, PALETTE
 from anymesh.types import Asset, Box, Cylinder, Hull, Joint, JointType, Mesh, Shape
 
-MOST = 200_000  # faces drawn; a denser object is decimated for display
+MAX_DISPLAY_FACES = 200_000  # faces drawn; a denser object is decimated for display
 LEAST = 200  # faces that a part keeps, however small its share
 APART = 0.3  # how far a part moves off its parent in the exploded view, a share of the diagonal
 RADIUS = 0.05  # of the ring round an axis, a share of the diagonal
@@ -32,7 +32,7 @@ Color = tuple[int, int, int]
 
 
 @dataclass(frozen=True, eq=False)
-class Surface:
+class DisplayMesh:
     """Triangles to draw [m]."""
 
     vertices: Float[np.ndarray, "V 3"]
@@ -43,11 +43,11 @@ class Surface:
 class Surfaces:
     """The surface that each part is drawn with; one that was decimated once is kept while its mesh and faces are the same."""
 
-    most: int = MOST
+    most: int = MAX_DISPLAY_FACES
     _of: Mesh | None = None
-    _kept: dict[bytes, Surface] = field(default_factory=dict)
+    _kept: dict[bytes, DisplayMesh] = field(default_factory=dict)
 
-    def of(self, asset: Asset) -> dict[str, Surface]:
+    def of(self, asset: Asset) -> dict[str, DisplayMesh]:
         """Part name -> surface in the asset frame at rest."""
         mesh, found, keys = asset.mesh, {}, {}
         if mesh is not self._of:
@@ -60,10 +60,10 @@ class Surfaces:
                 found[part.name] = self._kept[key]
             elif dense:
                 few = simplify(mesh.triangles[faces], max(LEAST, self.most * len(faces) // len(mesh.faces)))
-                found[part.name] = Surface(few.reshape(-1, 3), np.arange(3 * len(few)).reshape(-1, 3))
+                found[part.name] = DisplayMesh(few.reshape(-1, 3), np.arange(3 * len(few)).reshape(-1, 3))
             else:
                 piece = mesh.subset(faces)
-                found[part.name] = Surface(piece.vertices, piece.faces)
+                found[part.name] = DisplayMesh(piece.vertices, piece.faces)
         self._kept |= {keys[name]: surface for name, surface in found.items()}
         return found
 
@@ -156,13 +156,13 @@ def box_lines(points: Float[np.ndarray, "n 3"], wider: float) -> Float[np.ndarra
     return ((low + high) / 2 + BOX * (high - low))[BOX_EDGES]
 
 
-def shape_surface(shape: Shape) -> Surface:
+def shape_surface(shape: Shape) -> DisplayMesh:
     """A collision shape as triangles in its link's frame."""
     match shape:
         case Box():
-            return Surface(shape.center + (BOX * shape.size) @ shape.rotation.T, BOX_FACES)
+            return DisplayMesh(shape.center + (BOX * shape.size) @ shape.rotation.T, BOX_FACES)
         case Hull():
-            return Surface(shape.vertices, shape.faces)
+            return DisplayMesh(shape.vertices, shape.faces)
         case Cylinder():
             t = 2 * np.pi * np.arange(SIDES) / SIDES
             rim = np.c_[shape.radius * np.cos(t), shape.radius * np.sin(t)]
@@ -176,15 +176,15 @@ def shape_surface(shape: Shape) -> Surface:
                 np.c_[n, k, low],
                 np.c_[k + SIDES, n + SIDES, high],
             ]
-            return Surface(shape.center + local @ shape.rotation.T, np.concatenate(sides))
+            return DisplayMesh(shape.center + local @ shape.rotation.T, np.concatenate(sides))
 
 
-def inertia_box(inertia: Inertia) -> Surface:
+def inertia_box(inertia: Inertia) -> DisplayMesh:
     """The box of even density that has this mass and these moments, in the link's frame."""
     moments, axes = np.linalg.eigh(inertia.tensor)
     squares = 6 * (moments.sum() - 2 * moments) / max(inertia.mass, 1e-12)
     size = np.sqrt(np.maximum(squares, 0))
-    return Surface(inertia.center + (BOX * size) @ axes.T, BOX_FACES)
+    return DisplayMesh(inertia.center + (BOX * size) @ axes.T, BOX_FACES)
 
 
 def swayed(joint: Joint, phase: float) -> float:

@@ -19,7 +19,7 @@ from anymesh.rendering.viewpoints import away
 from anymesh.types import Asset, JointType, Mesh, Segmentation
 from anymesh.viewer.live import part_poses
 from anymesh.viewer.report_display import display_glb, displayed
-from anymesh.viewer.scene import Surface, Surfaces, box_lines, color_of, inertia_box, joint_lines, shade_of, shape_surface
+from anymesh.viewer.scene import DisplayMesh, Surfaces, box_lines, color_of, inertia_box, joint_lines, shade_of, shape_surface
 
 AXIS, SENSE, RANGE, SELECTED, CHOSEN = (190, 20, 40), (190, 20, 40), (30, 110, 200), (255, 120, 0), (230, 0, 200)
 INERTIA = (140, 70, 200)
@@ -107,7 +107,7 @@ class SceneView:
         """The name of a new node that goes with a part."""
         return f"{self._frames[part].name}/node{next(self._made)}"
 
-    def _mesh(self, name: str, surface: Surface, color: tuple[int, int, int], opacity: float | None) -> Any:
+    def _mesh(self, name: str, surface: DisplayMesh, color: tuple[int, int, int], opacity: float | None) -> Any:
         return self._scene.add_mesh_simple(
             name, surface.vertices, surface.faces, color=color, opacity=opacity, flat_shading=True, side="double",
             cast_shadow=False, receive_shadow=False,
@@ -155,7 +155,7 @@ class SceneView:
             if len(mine):
                 piece = asset.mesh.subset(mine)
                 lifted = piece.vertices + LIFT * asset.mesh.diagonal * _vertex_normals(piece)
-                self._marks.append(self._mesh(self._below(name), Surface(lifted, piece.faces), CHOSEN, None))
+                self._marks.append(self._mesh(self._below(name), DisplayMesh(lifted, piece.faces), CHOSEN, None))
         if selected in names:
             number = names.index(selected)
             corners = asset.mesh.triangles[asset.segmentation.faces(number)].reshape(-1, 3)
@@ -175,7 +175,7 @@ class SceneView:
             drawn = [(shape_surface(s), shade_of(number, k), None) for k, s in enumerate(shapes)]
             drawn += [(inertia_box(body.inertia), INERTIA, SEE_THROUGH)] if self.inertia else []
             for surface, color, opacity in drawn:
-                placed = Surface(surface.vertices + body.link.origin, surface.faces)
+                placed = DisplayMesh(surface.vertices + body.link.origin, surface.faces)
                 self._overlays.append(self._mesh(self._below(part.name), placed, color, opacity))
 
 

@@ -25,7 +25,7 @@ WORDS = {
 CRASHED = "the work on this mesh ended unexpectedly ({}); it may need more memory than there is, or a library crashed"
 
 
-class Work:
+class ArticulationWork:
     """One run of `articulate`. `mesh`: the placed mesh as soon as it is read; `error`: why it failed, in words; `done`: the
     asset is in the folder `out`."""
 

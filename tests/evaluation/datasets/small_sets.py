@@ -8,12 +8,12 @@ from pathlib import Path
 import numpy as np
 from assets import box, checker
 
-from anymesh.evaluation.truth import TrueJoint, Truth
+from anymesh.evaluation.ground_truth import GroundTruth, TrueJoint
 from anymesh.loading import load_mesh
 from anymesh.types import JointType, Mesh
 
 
-def loaded(truth: Truth) -> Mesh:
+def loaded(truth: GroundTruth) -> Mesh:
     """The truth's mesh, once it is one nameless node and fits the labels and joints."""
     mesh = load_mesh(truth.mesh).mesh
     assert len(mesh.faces) == len(truth.labels)
@@ -30,7 +30,7 @@ def loaded(truth: Truth) -> Mesh:
     return mesh
 
 
-def part_box(truth: Truth, name: str) -> np.ndarray:
+def part_box(truth: GroundTruth, name: str) -> np.ndarray:
     """(2, 3): the box of a part in the file's coordinates (Y up)."""
     number = next(k for k, p in enumerate(truth.parts) if p.name == name)
     corners = loaded(truth).triangles[truth.labels == number].reshape(-1, 3)

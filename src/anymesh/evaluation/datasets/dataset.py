@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Protocol, runtime_checkable
 
-from anymesh.evaluation.truth import Truth
+from anymesh.evaluation.ground_truth import GroundTruth
 
 
 @runtime_checkable
@@ -27,7 +27,7 @@ class Dataset(Protocol):
         """Sorted names of the objects, usable as file names. OptionError for a split that does not exist."""
         ...
 
-    def truth(self, name: str, folder: Path) -> Truth:
+    def truth(self, name: str, folder: Path) -> GroundTruth:
         """Writes the object at rest as one nameless mesh file `folder`/NAME.glb, and returns the truth about it.
 
         InputError where the object's files cannot be used.

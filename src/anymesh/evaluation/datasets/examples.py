@@ -7,7 +7,7 @@ from pathlib import Path
 
 from anymesh.errors import InputError
 from anymesh.evaluation.datasets.splits import check_split
-from anymesh.evaluation.truth import Truth, read_truth
+from anymesh.evaluation.ground_truth import GroundTruth, read_ground_truth
 
 
 @dataclass(frozen=True)
@@ -25,9 +25,9 @@ class Examples:
             raise InputError(f"{self.folder}: found no truth/*.json; the folder examples/ of the repository is expected")
         return found
 
-    def truth(self, name: str, folder: Path) -> Truth:
+    def truth(self, name: str, folder: Path) -> GroundTruth:
         """Its mesh is the one that ships; nothing is written."""
         path = self.folder / "truth" / f"{name}.json"
         if not path.is_file():
             raise InputError(f"{self.folder}: found no object {name!r}; valid are {', '.join(self.objects())}")
-        return read_truth(path, self.folder / "meshes" / f"{name}.glb")
+        return read_ground_truth(path, self.folder / "meshes" / f"{name}.glb")

@@ -14,10 +14,10 @@ from typing import Any
 import numpy as np
 
 from anymesh.errors import InputError
-from anymesh.evaluation.datasets.bodies import Y_UP, Body, Motion, assemble, moved
+from anymesh.evaluation.datasets.links import Y_UP, DatasetJoint, DatasetLink, assemble, moved
 from anymesh.evaluation.datasets.splits import check_split, chosen, listed
 from anymesh.evaluation.datasets.visuals import read_visual
-from anymesh.evaluation.truth import Truth
+from anymesh.evaluation.ground_truth import GroundTruth
 from anymesh.types import JointType, Mesh
 
 RECORD, MESH, LABELS = "gt.json", "rigid.ply", "labels.npy"
@@ -43,7 +43,7 @@ class LabelledFolder:
             raise InputError(f"{self.folder}: found no */{RECORD}; at least one is needed, with {MESH} and {LABELS} beside it")
         return names if split is None else chosen(self.folder, split, names)
 
-    def truth(self, name: str, folder: Path) -> Truth:
+    def truth(self, name: str, folder: Path) -> GroundTruth:
         """Writes the parts to `folder`/NAME.glb without names. InputError for a record that cannot be read."""
         place = self.folder / name
         try:
@@ -58,7 +58,7 @@ class LabelledFolder:
         return assemble(name, bodies, folder / f"{name}.glb", str(record.get("category", "object")))
 
 
-def _bodies(record: dict[str, Any], mesh: Mesh, labels: np.ndarray) -> list[Body]:
+def _bodies(record: dict[str, Any], mesh: Mesh, labels: np.ndarray) -> list[DatasetLink]:
     """A body a part, Y up. Raises ValueError, KeyError or TypeError for what is not as it should be."""
     if labels.shape != (len(mesh.faces),):
         raise ValueError(f"found {labels.shape} labels for {len(mesh.faces)} faces; valid is one a face")
@@ -69,12 +69,12 @@ def _bodies(record: dict[str, Any], mesh: Mesh, labels: np.ndarray) -> list[Body
         joint = joints.get(part)
         motion = None if joint is None else _motion(joint)
         parent = None if part == 0 else f"part_{joint['parent_part'] if joint else 0}"
-        found.append(moved(Body(f"part_{part}", parent, motion, (mesh.subset(labels == part),)), T))
+        found.append(moved(DatasetLink(f"part_{part}", parent, motion, (mesh.subset(labels == part),)), T))
     return found
 
 
-def _motion(joint: dict[str, Any]) -> Motion:
+def _motion(joint: dict[str, Any]) -> DatasetJoint:
     kind = JointType(joint["type"])
     limits = joint["limits"] if kind is not JointType.CONTINUOUS else None
     origin, axis = np.array(joint["origin"], float), np.array(joint["axis"], float)
-    return Motion(kind, origin, axis, None if limits is None else (float(limits[0]), float(limits[1])))
+    return DatasetJoint(kind, origin, axis, None if limits is None else (float(limits[0]), float(limits[1])))

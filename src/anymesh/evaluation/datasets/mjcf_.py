@@ -17,10 +17,10 @@ from typing import Any
 
 import numpy as np
 
-from anymesh.evaluation.datasets.bodies import Y_UP, Body, Motion, assemble, moved
-from anymesh.evaluation.datasets.mjcf_looks_ import Looks
+from anymesh.evaluation.datasets.links import Y_UP, DatasetJoint, DatasetLink, assemble, moved
+from anymesh.evaluation.datasets.mjcf_materials_ import GeomMaterials
 from anymesh.evaluation.datasets.mjcf_reading_ import compile_mjcf
-from anymesh.evaluation.truth import Truth
+from anymesh.evaluation.ground_truth import GroundTruth
 from anymesh.mujoco_ import load_mujoco
 from anymesh.names import legal_name
 from anymesh.types import JointType, Mesh
@@ -33,7 +33,7 @@ ENDLESS = (int(mujoco.mjtGeom.mjGEOM_PLANE), int(mujoco.mjtGeom.mjGEOM_HFIELD)) 
 
 
 @dataclass(frozen=True, eq=False)
-class Scene:
+class MjcfModel:
     """A compiled file at rest. Raises InputError where MuJoCo refuses it."""
 
     path: Path
@@ -49,8 +49,8 @@ class Scene:
         return data
 
     @cached_property
-    def _looks(self) -> Looks:
-        return Looks(self.model)
+    def _looks(self) -> GeomMaterials:
+        return GeomMaterials(self.model)
 
     def objects(self) -> dict[str, list[int]]:
         """Name of each object -> its bodies, the one that stays first."""
@@ -77,7 +77,7 @@ class Scene:
             head[body] = head[int(self.model.body_parentid[body])] if fixed else body
         return len({head[body] for body in tree if self._shown(body)}) > 1
 
-    def truth(self, own: str, folder: Path, name: str) -> Truth:
+    def truth(self, own: str, folder: Path, name: str) -> GroundTruth:
         """Writes the object `own` of this file as `name`.glb under `folder`. Raises InputError."""
         found = self.objects()[own]
         bodies = [moved(self._body(b, b == found[0]), Y_UP) for b in found]
@@ -89,17 +89,17 @@ class Scene:
         own = [j for j in range(first, first + count) if int(self.model.jnt_type[j]) in TYPES]
         return own[-1] if own else None
 
-    def _body(self, body: int, root: bool) -> Body:
+    def _body(self, body: int, root: bool) -> DatasetLink:
         """In the world's frame, Z up."""
         m = self.model
         name, parent = self._name(body), None if root else self._name(int(m.body_parentid[body]))
         joint = None if root else self._joint(body)
-        return Body(name, parent, None if joint is None else self._motion(joint), tuple(self._meshes(body)))
+        return DatasetLink(name, parent, None if joint is None else self._motion(joint), tuple(self._meshes(body)))
 
     def _name(self, body: int) -> str:
         return self.model.body(body).name or f"body{body}"
 
-    def _motion(self, joint: int) -> Motion:
+    def _motion(self, joint: int) -> DatasetJoint:
         m, d = self.model, self.data
         limits, (lower, upper) = None, m.jnt_range[joint]
         if lower < upper:
@@ -108,7 +108,7 @@ class Scene:
         kind = TYPES[int(m.jnt_type[joint])]
         endless = limits is None and kind is JointType.REVOLUTE
         kind = JointType.CONTINUOUS if endless else kind
-        return Motion(kind, d.xanchor[joint].copy(), d.xaxis[joint].copy(), limits, endless or limits is not None)
+        return DatasetJoint(kind, d.xanchor[joint].copy(), d.xaxis[joint].copy(), limits, endless or limits is not None)
 
     def _meshes(self, body: int) -> Iterator[Mesh]:
         for geom in self._shown(body):

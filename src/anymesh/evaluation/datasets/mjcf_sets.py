@@ -12,9 +12,9 @@ from importlib.util import find_spec
 from pathlib import Path
 
 from anymesh.errors import InputError, MissingExtraError
-from anymesh.evaluation.datasets.mjcf_ import Scene, object_stem
+from anymesh.evaluation.datasets.mjcf_ import MjcfModel, object_stem
 from anymesh.evaluation.datasets.splits import check_split, chosen, listed
-from anymesh.evaluation.truth import Truth
+from anymesh.evaluation.ground_truth import GroundTruth
 
 
 @dataclass(frozen=True)
@@ -41,12 +41,12 @@ class MjcfFolder:
             raise InputError(f"{self.folder}: found no MJCF file that MuJoCo can use with a hinge or slide joint in it")
         return names if split is None else chosen(self.folder, split, names)
 
-    def truth(self, name: str, folder: Path) -> Truth:
+    def truth(self, name: str, folder: Path) -> GroundTruth:
         for path, prefix in self._files():
             if name == prefix or name.startswith(f"{prefix}-"):
                 own = self._objects(path, prefix).get(name)
                 if own is not None:
-                    return Scene(path).truth(own, folder, name)
+                    return MjcfModel(path).truth(own, folder, name)
         raise InputError(f"{self.folder.name}: found no object {name!r}; valid are names such as {self.objects()[:3]}")
 
     def _files(self) -> list[tuple[Path, str]]:
@@ -58,7 +58,7 @@ class MjcfFolder:
     def _objects(self, path: Path, prefix: str) -> dict[str, str]:
         """Name of each object of a file -> its name in the file; none where MuJoCo refuses it."""
         try:
-            own = Scene(path).objects()
+            own = MjcfModel(path).objects()
         except InputError:
             return {}
         named = {prefix + name.removeprefix(object_stem(path)): name for name in own}

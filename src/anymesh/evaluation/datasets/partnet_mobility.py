@@ -22,7 +22,7 @@ from anymesh.errors import InputError
 from anymesh.evaluation.datasets.cage import CAGE_CATEGORIES, CAGE_TEST
 from anymesh.evaluation.datasets.splits import check_split, chosen, listed
 from anymesh.evaluation.datasets.urdf_ import flatten_urdf
-from anymesh.evaluation.truth import Truth
+from anymesh.evaluation.ground_truth import GroundTruth
 
 URDFORMER = frozenset({"Oven", "Refrigerator", "StorageFurniture", "WashingMachine", "Dishwasher"})  # in-domain, section 4.1
 MOVING = frozenset({"hinge", "slider", "slider+"})
@@ -30,7 +30,7 @@ SPLITS = ("ID", "OOD", "cage-ID", "cage-OOD", "OneDoor")
 
 
 @dataclass(frozen=True)
-class Entry:
+class ObjectInfo:
     """What is told of an object. links: (name, kind of joint, label) each."""
 
     category: str
@@ -63,7 +63,7 @@ class PartNetMobility:
             return chosen(self.folder, split, names)
         return [name for name in names if _belongs(split, name, self._entries[name])]
 
-    def truth(self, name: str, folder: Path) -> Truth:
+    def truth(self, name: str, folder: Path) -> GroundTruth:
         place = self.folder / name
         if not (place / "mobility.urdf").is_file():
             raise InputError(f"{self.folder.name}: found no object {name!r}; valid are ids such as {self.objects()[:3]}")
@@ -77,7 +77,7 @@ class PartNetMobility:
         return replace(truth, name=name)
 
     @cached_property
-    def _entries(self) -> dict[str, Entry]:
+    def _entries(self) -> dict[str, ObjectInfo]:
         places = [path.parent for path in self.folder.glob("*/mobility.urdf")]
         if not places:
             raise InputError(f"{self.folder}: found no ID/mobility.urdf; a folder with PartNet-Mobility's objects is expected")
@@ -85,7 +85,7 @@ class PartNetMobility:
         return {name: entry for name, entry in entries.items() if entry.moving}
 
 
-def _read(place: Path) -> Entry:
+def _read(place: Path) -> ObjectInfo:
     try:
         category = json.loads((place / "meta.json").read_text(encoding="utf-8"))["model_cat"]
         lines = (place / "semantics.txt").read_text(encoding="utf-8").splitlines()
@@ -95,10 +95,10 @@ def _read(place: Path) -> Entry:
     rows = [line.split() for line in lines if line.strip()]
     if any(len(row) != 3 for row in rows):
         raise InputError(f"{place.name}/semantics.txt: valid is a link, a kind and a label a line, such as `link_0 hinge door`")
-    return Entry(str(category), tuple((link, kind, label) for link, kind, label in rows))
+    return ObjectInfo(str(category), tuple((link, kind, label) for link, kind, label in rows))
 
 
-def _belongs(split: str, name: str, entry: Entry) -> bool:
+def _belongs(split: str, name: str, entry: ObjectInfo) -> bool:
     match split:
         case "ID":
             return entry.category in URDFORMER

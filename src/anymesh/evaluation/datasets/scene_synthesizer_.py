@@ -12,7 +12,7 @@ from pathlib import Path
 from anymesh.errors import InputError
 from anymesh.evaluation.datasets.splits import check_split
 from anymesh.evaluation.datasets.urdf_ import flatten_urdf
-from anymesh.evaluation.truth import Truth
+from anymesh.evaluation.ground_truth import GroundTruth
 
 CLASSES = (
     "BaseCabinet", "WallCabinet", "SinkCabinet", "KitchenIsland", "Dishwasher", "Range", "Refrigerator", "Microwave",
@@ -35,11 +35,11 @@ class SceneSynthesizer:
         check_split(self.name, split, self.splits)
         return sorted(f"{c}-{k}" for c in VARIED for k in range(1, VARIANTS + 1)) if split == "random" else sorted(CLASSES)
 
-    def truth(self, name: str, folder: Path) -> Truth:
+    def truth(self, name: str, folder: Path) -> GroundTruth:
         return synthesize(name, folder)
 
 
-def synthesize(name: str, folder: Path) -> Truth:
+def synthesize(name: str, folder: Path) -> GroundTruth:
     """Builds CLASS (its default form) or CLASS-SEED and writes it under `folder`: NAME/NAME.urdf and NAME.glb, flattened."""
     from scene_synthesizer import procedural_assets
 

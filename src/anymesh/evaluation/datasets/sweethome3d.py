@@ -21,10 +21,10 @@ from pathlib import Path
 import numpy as np
 
 from anymesh.errors import InputError, MissingExtraError
-from anymesh.evaluation.datasets.bodies import Body, Motion, assemble
 from anymesh.evaluation.datasets.debian import member
+from anymesh.evaluation.datasets.links import DatasetJoint, DatasetLink, assemble
 from anymesh.evaluation.datasets.splits import check_split
-from anymesh.evaluation.truth import Truth
+from anymesh.evaluation.ground_truth import GroundTruth
 from anymesh.loading.folder import Folder
 from anymesh.loading.obj import read_obj
 from anymesh.types import JointType, Mesh
@@ -79,7 +79,7 @@ class SweetHome3D:
         check_split(self.name, split, self.splits)
         return sorted(name for name, entry in self._catalog.items() if ON.search(self._model(entry).decode("latin-1")))
 
-    def truth(self, name: str, folder: Path) -> Truth:
+    def truth(self, name: str, folder: Path) -> GroundTruth:
         entry = self._catalog.get(name)
         if entry is None:
             raise InputError(f"{self.source.name}: found no model {name!r}; valid are {', '.join(self.objects())}")
@@ -112,7 +112,7 @@ def _sashes(entry: dict[str, str]) -> list[Sash]:
     return [Sash((x / width, y / depth), (min(a, b), max(a, b))) for x, y, a, b in rows]
 
 
-def _bodies(mesh: Mesh, sashes: list[Sash]) -> list[Body]:
+def _bodies(mesh: Mesh, sashes: list[Sash]) -> list[DatasetLink]:
     """One body for the groups that stay, one for those on each hinge or rail."""
     groups = [node.name for node in mesh.nodes]
     owner = {g: on.group(1, 2) for g in groups if (on := ON.match(g))}
@@ -121,7 +121,7 @@ def _bodies(mesh: Mesh, sashes: list[Sash]) -> list[Body]:
         if found := MARKER.match(g):
             markers.setdefault((found[1] or found[2], found[3]), []).append(g)
     hidden = {g for names in markers.values() for g in names}
-    bodies = [Body("base", meshes=_pieces(mesh, [g for g in groups if g not in owner and g not in hidden]))]
+    bodies = [DatasetLink("base", meshes=_pieces(mesh, [g for g in groups if g not in owner and g not in hidden]))]
     for kind, number in dict.fromkeys(owner.values()):
         pieces = _pieces(mesh, [g for g in groups if owner.get(g) == (kind, number)])
         marker = markers.get((kind, number)) or markers.get((kind, None))
@@ -130,7 +130,7 @@ def _bodies(mesh: Mesh, sashes: list[Sash]) -> list[Body]:
         motion = _motion(TYPES[kind], np.concatenate([p.triangles.reshape(-1, 3) for p in _pieces(mesh, marker)]))
         if kind == "hinge" and sashes and abs(motion.axis[1]) == 1:
             motion = _opened(motion, pieces, sashes, mesh.bounds)
-        bodies.append(Body(f"{kind}_{number}", "base", motion, pieces))
+        bodies.append(DatasetLink(f"{kind}_{number}", "base", motion, pieces))
     return bodies
 
 
@@ -139,13 +139,13 @@ def _pieces(mesh: Mesh, groups: list[str]) -> tuple[Mesh, ...]:
     return tuple(mesh.subset(mesh.face_node == k) for k in numbers if (mesh.face_node == k).any())
 
 
-def _motion(kind: JointType, points: np.ndarray) -> Motion:
+def _motion(kind: JointType, points: np.ndarray) -> DatasetJoint:
     """Along the longest side of the marker's box, through its middle."""
     low, high = points.min(0), points.max(0)
-    return Motion(kind, (low + high) / 2, np.eye(3)[int((high - low).argmax())], None, range_known=False)
+    return DatasetJoint(kind, (low + high) / 2, np.eye(3)[int((high - low).argmax())], None, range_known=False)
 
 
-def _opened(motion: Motion, pieces: tuple[Mesh, ...], sashes: list[Sash], bounds: np.ndarray) -> Motion:
+def _opened(motion: DatasetJoint, pieces: tuple[Mesh, ...], sashes: list[Sash], bounds: np.ndarray) -> DatasetJoint:
     """With the range of the sash that turns nearest to the hinge."""
     low, high = bounds[:, [0, 2]]
     places = np.array([low + np.array(s.at) * (high - low) for s in sashes])

@@ -16,11 +16,11 @@ from yourdfpy import URDF
 from yourdfpy import urdf as parsed
 
 from anymesh.errors import InputError
-from anymesh.evaluation.datasets.bodies import Y_UP, Body, Motion, assemble, moved
+from anymesh.evaluation.datasets.links import Y_UP, DatasetJoint, DatasetLink, assemble, moved
 from anymesh.evaluation.datasets.shapes_ import box, cylinder, ellipsoid
 from anymesh.evaluation.datasets.splits import check_split, chosen, listed
 from anymesh.evaluation.datasets.visuals import find_mesh, read_visual
-from anymesh.evaluation.truth import Truth
+from anymesh.evaluation.ground_truth import GroundTruth
 from anymesh.types import JointType, Material, Mesh
 from anymesh.types.color import to_linear
 
@@ -53,7 +53,7 @@ class UrdfFolder:
             raise InputError(f"{self.folder}: found no .urdf file {wanted} a joint that moves; at least one is needed")
         return names if split is None else chosen(self.folder, split, names)
 
-    def truth(self, name: str, folder: Path) -> Truth:
+    def truth(self, name: str, folder: Path) -> GroundTruth:
         path = self._files().get(name)
         if path is None:
             raise InputError(f"{self.folder.name}: found no object {name!r}; valid are names such as {self.objects()[:3]}")
@@ -66,7 +66,7 @@ class UrdfFolder:
 
 def flatten_urdf(
     urdf: Path, mesh: Path, *, root: Path | None = None, labels: Mapping[str, str] | None = None, category: str = "object"
-) -> Truth:
+) -> GroundTruth:
     """Writes the visuals at rest as one nameless GLB at `mesh`; returns its truth in that file's coordinates.
 
     root: files that the visuals name must lie below it (None: below the URDF's folder); labels: of links. Links that do not
@@ -78,7 +78,7 @@ def flatten_urdf(
         raise InputError(f"{urdf.name}: {error}") from None
 
 
-def read_bodies(urdf: Path, root: Path, labels: Mapping[str, str]) -> list[Body]:
+def read_bodies(urdf: Path, root: Path, labels: Mapping[str, str]) -> list[DatasetLink]:
     """A body a link, Y up. Raises InputError."""
     try:
         robot = URDF.load(str(urdf), build_scene_graph=False, load_meshes=False)
@@ -96,7 +96,7 @@ def read_bodies(urdf: Path, root: Path, labels: Mapping[str, str]) -> list[Body]
         meshes = tuple(m.transformed(T) for m in visuals)
         joint = carrier.get(name)
         motion = _motion(joint, T) if joint is not None and joint.type in MOVING else None
-        body = Body(name, None if joint is None else joint.parent, motion, meshes, labels.get(name, "part"))
+        body = DatasetLink(name, None if joint is None else joint.parent, motion, meshes, labels.get(name, "part"))
         bodies.append(moved(body, Y_UP))
     return bodies
 
@@ -115,21 +115,21 @@ def _rest(link: str, carrier: Mapping[str, parsed.Joint], links: Mapping[str, pa
     raise InputError(f"its joints run in a circle through the link {link!r}; valid is a tree")
 
 
-def _motion(joint: parsed.Joint, T: np.ndarray) -> Motion | None:
+def _motion(joint: parsed.Joint, T: np.ndarray) -> DatasetJoint | None:
     """In the root's frame; None for a joint whose range has no length."""
     axis = np.array([1.0, 0, 0]) if joint.axis is None else np.asarray(joint.axis, float)
     if not (np.isfinite(axis).all() and np.linalg.norm(axis) > 0):
         raise InputError(f"joint {joint.name!r}: found the axis {joint.axis}; valid is a direction")
     axis, origin, kind = T[:3, :3] @ axis, T[:3, 3], JointType(joint.type)
     if kind is JointType.CONTINUOUS:
-        return Motion(kind, origin, axis, None)
+        return DatasetJoint(kind, origin, axis, None)
     lower, upper = (None, None) if joint.limit is None else (joint.limit.lower, joint.limit.upper)
     if lower is None and upper is None:
-        return Motion(kind, origin, axis, None, range_known=False)
+        return DatasetJoint(kind, origin, axis, None, range_known=False)
     limits = (float(lower or 0.0), float(upper or 0.0))
     if not (np.isfinite(limits).all() and limits[0] <= limits[1]):
         raise InputError(f"joint {joint.name!r}: found the limits {limits}; valid are finite ones, the lower first")
-    return Motion(kind, origin, axis, limits) if limits[0] < limits[1] else None
+    return DatasetJoint(kind, origin, axis, limits) if limits[0] < limits[1] else None
 
 
 def _visual(visual: parsed.Visual, folder: Path, root: Path, colors: Mapping) -> Mesh:

@@ -1,0 +1,88 @@
+"""Relations between adjacent panels: pairs of doors meet in the middle, sliding panels overlap when open."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from anymesh.geometry.boxes import OrientedBox
+from anymesh.geometry.part_context import PartContext
+from anymesh.types import Motion
+
+MAX_SIZE_DIFFERENCE = 0.25  # panels whose sides differ by less, relatively, are alike
+MAX_GAP_RATIO = 0.15  # of a panel's side: panels that meet are not further apart, nor shifted against each other
+BEHIND_THICKNESSES = 3.0  # thicknesses: what lies within this of a panel lies right behind it
+FULL_GAIN_RATIO = 0.5  # share of a panel that must come to lie over something when it passes it
+
+
+def adjacent_sides(around: PartContext) -> np.ndarray:
+    """(2, 2) for the face axes and their two signs (-, +): how many panels like the part adjoin it there, in its plane."""
+    core, found = around.body_obb, np.zeros((2, 2))
+    flat = around.face_axes
+    thin = next(k for k in range(3) if k not in flat)
+    for panel in around.siblings:
+        size, offset = _extent(panel.box, core), core.local(panel.box.center[None])[0]
+        mine = 2 * core.half
+        if any(abs(size[k] - mine[k]) > MAX_SIZE_DIFFERENCE * max(size[k], mine[k]) for k in flat):
+            continue
+        if abs(offset[thin]) > max(core.half[thin] + size[thin] / 2, 0.05 * mine[flat].max()) * 0.6:
+            continue
+        for row, (k, other) in enumerate((flat, flat[::-1])):
+            gap = abs(offset[k]) - (mine[k] + size[k]) / 2
+            if abs(gap) < MAX_GAP_RATIO * mine[k] and abs(offset[other]) < MAX_GAP_RATIO * mine[other]:
+                found[row, int(offset[k] > 0)] += 1
+    return found
+
+
+def _extent(box: OrientedBox, frame: OrientedBox) -> np.ndarray:
+    """Return the sides of a box along the axes of another one."""
+    return 2 * np.abs(frame.axes @ box.axes.T) @ box.half
+
+
+def pair_side(around: PartContext, motion: Motion, adjacent: np.ndarray) -> float:
+    """1: panels of a pair meet at the side opposite this hinge; -1: at the hinge; 0: no pair, or in the middle of three."""
+    core, total = around.body_obb, 0.0
+    arm = motion.origin - core.center
+    for axis, sides in zip(around.face_axes, adjacent, strict=True):
+        if abs(core.axes[axis] @ motion.axis) < 0.3:
+            side = float(np.clip(arm @ core.axes[axis] / max(float(core.half[axis]), 1e-9), -1, 1))
+            total -= side * float(np.clip(sides[1] - sides[0], -1, 1))
+    return float(np.clip(total, -1, 1))
+
+
+def outer_side(around: PartContext, motion: Motion) -> float:
+    """1: the line lies at the object's outer side, as a cabinet's hinges do; -1: at its middle; 0: the part is central."""
+    core = around.body_obb
+    arm, away = motion.origin - core.center, core.center - around.center
+    total = 0.0
+    for axis in around.face_axes:
+        direction = core.axes[axis]
+        if abs(direction @ motion.axis) < 0.3:
+            side = float(np.clip(arm @ direction / max(float(core.half[axis]), 1e-9), -1, 1))
+            reach = float(np.abs(around.bounds - around.center).max(0) @ np.abs(direction))
+            total += side * float(np.clip(2 * (away @ direction) / max(reach, 1e-9), -1, 1))
+    return float(np.clip(total, -1, 1))
+
+
+def overlap_gain(around: PartContext, motion: Motion, free: tuple[float, float]) -> float:
+    """Return the gain in overlap when a part has moved by its own width, either way (0..1).
+
+    free: free travel along +axis and -axis [m]. Sashes and sliding doors overlap their neighbours when open.
+    """
+    width = float(np.ptp(around.part.corners @ motion.axis))
+    thin = max(2 * float(around.body_obb.half[2]), 0.004 * around.scale)
+    normal = around.body_obb.axes[2]
+    if abs(float(normal @ motion.axis)) > 0.3:
+        return 0.0
+    points = around.part.samples.points[::6]
+
+    def over(shift: float) -> float:
+        """Return the share of the part with a surface on one side only; with one on both sides it would enter a cavity."""
+        start = points + shift * motion.axis
+        rays = np.repeat(normal[None] * (BEHIND_THICKNESSES + 1) * thin, len(points), 0)
+        front, back = (around.everything.scene.first_hit(start, sign * rays, 1.0).face >= 0 for sign in (1.0, -1.0))
+        return float(max((front & ~back).mean(), (back & ~front).mean()))
+
+    rest = over(0.0)
+    shifts = [sign * 0.9 * width for sign, room in zip((1, -1), free, strict=True) if room > 0.8 * width]
+    gain = max((over(s) - rest for s in shifts), default=0.0)
+    return float(np.clip(gain / FULL_GAIN_RATIO, 0, 1))

@@ -1,0 +1,78 @@
+"""Contact between a part and its parent during a motion: retention, hinge support, and lever arm."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from anymesh.geometry.part_context import PartContext
+from anymesh.types import Motion, MotionKind
+
+LINE_POINTS = 21  # along a hinge line
+MAX_CONTACT_POINTS = 120  # of the contact, sampled
+WATCHED_ANGLE_RAD = np.deg2rad(30)  # [rad] opening of a hinge at which contact is measured
+WATCHED_TRAVEL_RATIO = 0.5  # the same of a slide, over the part's extent along it
+CONTACT_TOLERANCE_FACTOR = 1.5  # contact is retained within this factor of its distance at rest
+CONTACT_RATIO = 0.008  # of the scale: points nearer to the parent are contact
+RIM_RATIO = 0.15  # of the part's reach across a line: surface nearer to the line is its rim
+
+
+def contact_retention(around: PartContext, motions: list[Motion], signs: list[int]) -> np.ndarray:
+    """Return the share of the contact that stays near the parent at a small opening, one per motion; signs: of the opening."""
+    tolerance = max(CONTACT_RATIO * around.scale, CONTACT_TOLERANCE_FACTOR * float(around.gap.min()))
+    contact = around.part.samples.points[around.gap <= tolerance]
+    if len(contact) < 3 or not motions:
+        return np.zeros(len(motions))
+    contact = contact[:: max(1, len(contact) // MAX_CONTACT_POINTS)]
+    moved = []
+    for motion, sign in zip(motions, signs, strict=True):
+        extent = float(np.ptp(around.part.corners @ motion.axis))
+        amount = WATCHED_ANGLE_RAD if motion.kind is MotionKind.REVOLUTE else WATCHED_TRAVEL_RATIO * extent
+        T = motion.transform(sign * amount)
+        moved.append(contact @ T[:3, :3].T + T[:3, 3])
+    off = around.parent.tree.distance(np.concatenate(moved))
+    return (off.reshape(len(motions), -1) < CONTACT_TOLERANCE_FACTOR * tolerance).mean(1)
+
+
+def hinge_support(around: PartContext, motions: list[Motion]) -> np.ndarray:
+    """Return (motions, 3) for each hinge line, as long as the part: the shares of the line near the parent and near another
+    movable part, and the first for the line mirrored at the part's middle (its free side, if there is one)."""
+    if not motions:
+        return np.zeros((0, 3))
+    points, lines = around.part.samples.points, []
+    for motion in motions:
+        along = points @ motion.axis
+        at = np.linspace(along.min(), along.max(), LINE_POINTS) - motion.origin @ motion.axis
+        line = motion.origin + at[:, None] * motion.axis
+        arm = around.body_obb.center - motion.origin
+        lines += [line, line + 2 * (arm - (arm @ motion.axis) * motion.axis)]
+    probe = np.concatenate(lines)
+    reach = around.config.support * around.scale
+    parent = (around.parent.tree.distance(probe) < reach).reshape(len(motions), 2, LINE_POINTS).mean(2)
+    other = np.zeros(len(motions))
+    if around.others is not None:
+        near = around.others.tree.distance(probe) < reach
+        other = near.reshape(len(motions), 2, LINE_POINTS).mean(2)[:, 0]
+    return np.stack([parent[:, 0], other, parent[:, 1]], 1)
+
+
+def lever_arm(around: PartContext, motion: Motion) -> tuple[float, float, float]:
+    """Return three measures of a hinge line.
+
+    log2 of the part's reach across the line over its length along it; proximity of the contact to the line (0..1); thickness
+    of the part at the line over its largest (0..1), as thin edges are free ones.
+    """
+    points = around.part.samples.points
+    arm = points - motion.origin
+    along = arm @ motion.axis
+    across = arm - along[:, None] * motion.axis
+    off = np.linalg.norm(across, axis=1)
+    reach = max(float(off.max()), 1e-9)
+    length = max(float(np.ptp(along)), 1e-9)
+    tolerance = max(CONTACT_RATIO * around.scale, CONTACT_TOLERANCE_FACTOR * float(around.gap.min()))
+    contact = off[around.gap <= tolerance]
+    proximity = 1 - float(np.median(contact)) / reach if len(contact) else 0.0
+    normal = around.body_obb.axes[2]
+    height = points @ normal
+    rim = off < RIM_RATIO * reach
+    thick = float(np.ptp(height[rim])) / max(float(np.ptp(height)), 1e-9) if rim.sum() > 3 else 0.0
+    return float(np.log2(reach / length)), proximity, thick

@@ -1,0 +1,132 @@
+"""One object put to the test: what is given, what is asked, what is kept of it."""
+
+from __future__ import annotations
+
+import logging
+import tempfile
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from enum import StrEnum
+from pathlib import Path
+
+from PIL import Image
+
+from anymesh.errors import InputError, ModelError
+from anymesh.evaluation.changes import changed
+from anymesh.evaluation.datasets.dataset import Dataset
+from anymesh.evaluation.drawing import draw_joint
+from anymesh.evaluation.executability import executability
+from anymesh.evaluation.ground_truth import EvalSample, GroundTruth
+from anymesh.evaluation.protocols import EvalSolver, prepared
+from anymesh.evaluation.record import Record
+from anymesh.evaluation.score import JointScore, ObjectScore, failed, score
+from anymesh.evaluation.single_view import observation
+from anymesh.evaluation.worst import badness
+from anymesh.names import legal_name
+from anymesh.reasoning.asking import VisualAnswerer
+from anymesh.types import Joint, Segmentation
+
+log = logging.getLogger("anymesh")
+PICTURES = "pictures"  # folder, under the report's
+MAX_PICTURES = 3  # of joints that are off, an object
+OFF_ANGLE = 5.0  # [deg] a joint that is further off is drawn
+OFF_LINE = 0.05  # and so is one whose axis is further off at the part; the diagonal is 2
+SampleAnswerer = Callable[[EvalSample], Callable[[VisualAnswerer], VisualAnswerer] | None]  # who answers, None: geometry
+
+
+class EvalProtocol(StrEnum):
+    """What is given, and what is scored."""
+
+    PARTS = "parts"  # the true parts are given; joints are scored (the paper's tables 1, 4 and 5)
+    VIEWS = "views"  # the true parts, as one view shows them (table 3)
+    END_TO_END = "end-to-end"  # the nameless mesh alone
+    EXECUTABILITY = "executability"  # the nameless mesh alone, and every joint is driven in MuJoCo
+
+
+@dataclass(frozen=True)
+class EvalConfig:
+    """How every object is put to the test. views: of each object, for the protocol of that name."""
+
+    protocol: EvalProtocol = EvalProtocol.PARTS
+    changes: tuple[str, ...] = ("none",)
+    views: int = 1
+    seed: int = 0
+
+
+def evaluate_sample(
+    config: EvalConfig, dataset: Dataset, name: str, folder: Path, solver: EvalSolver, answerer_for: SampleAnswerer
+) -> list[Record]:
+    """A record for each change or view; joints that are off are drawn under `folder`.
+
+    What fails is a record with an error. ModelError (no answer can be had, the budget is spent) is raised.
+    """
+    with tempfile.TemporaryDirectory() as work:
+        try:
+            truth = dataset.truth(name, Path(work))
+        except InputError as error:
+            return [Record(ObjectScore(name, (), 0, 0, 0), error=str(error))]
+        if config.protocol is EvalProtocol.VIEWS and not truth.joints:
+            return []  # no picture shows a part that moves
+        return [_record(config, truth, variant, folder, solver, answerer_for) for variant in _variants(config)]
+
+
+def _variants(config: EvalConfig) -> list[tuple[str, int]]:
+    """The change and the number of the view (0: none) of each record."""
+    views = range(1, config.views + 1) if config.protocol is EvalProtocol.VIEWS else (0,)
+    return [(change, view) for change in config.changes for view in views]
+
+
+def _record(
+    config: EvalConfig,
+    truth: GroundTruth,
+    variant: tuple[str, int],
+    folder: Path,
+    solver: EvalSolver,
+    answerer_for: SampleAnswerer,
+) -> Record:
+    change, view = variant
+    label = f"{change}, view {view}" if view else change
+    begin = time.perf_counter()
+    try:
+        subject = changed(change, prepared(truth), config.seed)
+        if view:
+            subject = observation(subject, view - 1, config.seed)
+        given = config.protocol in (EvalProtocol.PARTS, EvalProtocol.VIEWS)
+        begin = time.perf_counter()
+        segmentation, joints = solver(
+            subject.mesh, subject.segmentation() if given else None, answerer_factory=answerer_for(subject)
+        )
+        seconds = time.perf_counter() - begin
+        found = score(subject, segmentation, joints)
+        if config.protocol is EvalProtocol.EXECUTABILITY:
+            found = executability(subject, segmentation, joints, found)
+    except ModelError:
+        raise
+    except Exception as error:  # whatever it is, it is this object's failure and not the end of the others
+        log.exception("%s (%s) failed", truth.name, label)
+        told = f"{type(error).__name__}: {error}"
+        return Record(failed(truth), truth.category, label, time.perf_counter() - begin, error=told)
+    drawn = tuple(_pictures(subject, segmentation, joints, found, folder, label))
+    return Record(found, truth.category, label, seconds, pictures=drawn)
+
+
+def _pictures(
+    subject: EvalSample, segmentation: Segmentation, joints: tuple[Joint, ...], found: ObjectScore, folder: Path, label: str
+) -> Iterator[tuple[str, str]]:
+    """Draws the joints that are off, the worst first; yields each part with the picture's path under `folder`."""
+    by_child = {j.child: j for j in joints}
+    off = sorted((j for j in found.joints if is_off(j)), key=badness, reverse=True)
+    for number, joint in enumerate(off[:MAX_PICTURES], start=1):
+        true = next(j for j in subject.truth.joints if j.child == joint.part)
+        path = Path(PICTURES) / f"{legal_name(subject.truth.name)}-{legal_name(label)}-{number}.png"
+        (folder / PICTURES).mkdir(parents=True, exist_ok=True)
+        drawn = draw_joint(subject, segmentation, subject.joint(true), by_child.get(joint.found), joint)
+        Image.fromarray(drawn).save(folder / path)
+        yield joint.part, path.as_posix()
+
+
+def is_off(j: JointScore) -> bool:
+    """Whether a person would want to see why."""
+    far = (j.angle or 0.0) > OFF_ANGLE or (j.at_part or 0.0) > OFF_LINE
+    return not j.type_right or far or j.opens_right is False or j.parent_right is False

@@ -1,0 +1,48 @@
+"""A model that says what someone else answers: the whole road of a model, pictures and JSON included, without a model."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+from anymesh.models.cache import Cached
+from anymesh.models.prices import cost_of, max_picture_tokens
+from anymesh.models.vision import Reply, Request
+from anymesh.reasoning.answer_json import answer_object
+from anymesh.reasoning.asking import Answer, Question, VisualAnswerer
+from anymesh.reasoning.vlm import VlmAnswerer
+
+LETTERS = 4  # of English and JSON that make a token, about
+
+
+class SimulatedModel:
+    """The model. `question` is what the next request asks. Tokens are estimates, by the price table of model `like`."""
+
+    def __init__(self, answerer: VisualAnswerer, like: str) -> None:
+        self.name, self._seer = like, answerer
+        self.question: Question[Any] | None = None
+
+    def ask(self, request: Request) -> Reply:
+        if self.question is None:
+            raise ValueError("a voice is asked through `Spoken`, which knows the question")
+        text = json.dumps(answer_object(self.question, self._seer.ask(self.question)))
+        words = len(request.system) + len(request.text) + len(json.dumps(request.schema))
+        provider, _, model = self.name.partition(":")
+        shown = sum(max_picture_tokens(provider, model, *p.size) + len(p.caption) // LETTERS for p in request.pictures)
+        tokens = words // LETTERS + shown, len(text) // LETTERS
+        return Reply(text, self.name, *tokens, cost=cost_of(self.name, *tokens))
+
+
+class SimulatedVlm(VlmAnswerer):
+    """The answerer that asks the voice of another seer."""
+
+    def __init__(
+        self, answerer: VisualAnswerer, fallback: VisualAnswerer, like: str = "openai:gpt-4o", cache: Path | None = None
+    ) -> None:
+        self._voice = SimulatedModel(answerer, like)
+        super().__init__(Cached(self._voice, cache) if cache else self._voice, fallback)
+
+    def ask(self, question: Question[Answer]) -> Answer:
+        self._voice.question = question
+        return super().ask(question)

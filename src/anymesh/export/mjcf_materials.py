@@ -1,0 +1,67 @@
+"""Visual meshes and textures in the form that MuJoCo reads: one material a mesh, PNG only."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Collection
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from PIL import Image
+
+from anymesh.export.materials import display_color, painted, texture_files
+from anymesh.export.meshes import material_names, visible, write_obj
+from anymesh.export.model import FOLDER, ExportLink
+from anymesh.export.settings import ExportConfig
+from anymesh.types import Mesh
+
+PIECES = f"{FOLDER}/mjcf"  # a folder of its own: `door_2.obj` in it is the second material of door, not a link door_2
+
+
+@dataclass(frozen=True)
+class GeomLook:
+    """A visual geom. path: relative to the asset folder; material: into the mesh's, None for a colour alone; rgba: sRGB."""
+
+    name: str
+    path: str
+    material: int | None
+    rgba: tuple[float, ...]
+
+
+def geom_looks(mesh: Mesh, body: ExportLink, folder: Path, config: ExportConfig) -> list[GeomLook]:
+    """The visual geoms of a body: its visual OBJ, or where it has several materials, an OBJ each, written here."""
+    primitives = visible(body.link, config)
+    names = material_names(mesh.materials)
+    found = []
+    for number, p in enumerate(primitives):
+        path = body.visual_path()
+        if len(primitives) > 1:
+            (folder / PIECES).mkdir(exist_ok=True)
+            path = f"{PIECES}/{body.name}_{number}.obj"
+            write_obj(folder / path, body.name, None, [replace(p, material=-1)], names)
+        material = None if p.material < 0 or painted(mesh, p) else p.material
+        found.append(GeomLook(f"{body.name}_visual_{number}", path, material, display_color(mesh, p)))
+    return found
+
+
+def png_textures(mesh: Mesh, folder: Path, used: Collection[int], slots: Collection[str]) -> dict[tuple[int, str], str]:
+    """Writes the textures of some materials and slots as PNG beside the others; their paths by material and slot."""
+    files = texture_files(mesh)
+    found: dict[tuple[int, str], str] = {}
+    for index in sorted(used):
+        for slot, texture in mesh.materials[index].textures.items():
+            if slot not in slots or texture.data not in files:
+                continue
+            path = f"{FOLDER}/{Path(files[texture.data]).stem}.png"
+            (folder / path).write_bytes(_png(texture.data))
+            found[index, slot] = path
+    return found
+
+
+def _png(data: bytes) -> bytes:
+    """The bytes of a PNG as they are, another image converted."""
+    if data.startswith(b"\x89PNG"):
+        return data
+    file = io.BytesIO()
+    Image.open(io.BytesIO(data)).convert("RGB").save(file, "PNG")
+    return file.getvalue()

@@ -1,0 +1,147 @@
+"""Find handles on a surface: bars and knobs that protrude from a flat region."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float, Int
+
+from anymesh.geometry.boxes import OrientedBox, fit_box
+from anymesh.geometry.distance_ import distance_to_mesh
+from anymesh.geometry.topology import label_connected
+from anymesh.geometry.triangle_set import MeshSurface
+
+MIN_BAR_ASPECT = 2.0  # length of a bar over its larger width
+MAX_BAR_LENGTH_RATIO = 0.6  # share of the diagonal that a bar may be long
+MAX_KNOB_SIZE_RATIO = 0.08  # share of the diagonal that a knob may have
+MAX_HANDLE_AREA_RATIO = 0.04  # share of the surface that a handle has at most
+MIN_HANDLE_SIZE_RATIO = 0.006  # share of the diagonal that a handle stands out, and is wide, at least
+MIN_HEIGHT_WIDTH_RATIO = 0.4  # of the width that it covers: what stands out less is a moulding
+SHEET = 0.6  # length of its mean normal from which it is a strip: half a ball has a half, a bar on a face a third
+FLAT = 0.5  # length of the mean normal round the foot of a handle; 1 where that is plane
+ALIGNED = 0.94  # cosine from which directions are one
+MIN_MAIN_COMPONENT_RATIO = 0.8  # share of the surface from which one region is nearly all there is
+MAX_HANDLE_GAP_RATIO = 0.02  # share of the diagonal that a handle may be from its host
+TOUCH = 0.003  # share of the diagonal: of a handle that is apart, what is so much further than its nearest point is its foot
+CORNERS = 2000  # of a handle that its box is fitted to
+
+
+@dataclass(frozen=True, eq=False)
+class SurfaceHandle:
+    """A handle on a region of the surface.
+
+    normal, level: the plane that it stands on; axis: direction of a bar, None for a knob; points: its corners [m]; faces: of
+    the handle; foot: faces of the region beside it.
+    """
+
+    region: int
+    normal: Float[np.ndarray, " 3"]
+    level: float
+    axis: Float[np.ndarray, " 3"] | None
+    points: Float[np.ndarray, "n 3"]
+    faces: Int[np.ndarray, " k"]
+    foot: Int[np.ndarray, " m"]
+
+
+def find_handles(whole: MeshSurface, region: Int[np.ndarray, " F"]) -> list[SurfaceHandle]:
+    """Find all handles, ordered by their first region.
+
+    A handle is made of small regions that border on a large one, or that are near the one region that covers almost all of
+    the surface.
+    """
+    area = np.bincount(region, whole.shape.areas)
+    small = (region_sizes(whole, region) < MAX_BAR_LENGTH_RATIO * whole.diagonal) & (area < MAX_HANDLE_AREA_RATIO * area.sum())
+    pairs = whole.components.edges.faces
+    a, b = region[pairs[:, 0]], region[pairs[:, 1]]
+    group = label_connected(len(area), np.unique(np.c_[a, b][small[a] & small[b]], axis=0))
+    mixed = np.flatnonzero(small[a] != small[b])
+    outer = np.where(small[a[mixed]], pairs[mixed, 1], pairs[mixed, 0])  # the large region's face at each border edge
+    borders = _listed(group[np.where(small[a[mixed]], a[mixed], b[mixed])], outer)
+    inside = np.flatnonzero(small[region])
+    main = int(area.argmax())
+    handles = []
+    for g, faces in _listed(group[region[inside]], inside).items():
+        beside = borders.get(g)
+        if beside is not None:
+            host = int(np.bincount(region[beside]).argmax())
+            foot = np.unique(beside[region[beside] == host])
+        elif is_main_component(whole, region, main):
+            host, foot = main, _near(whole, faces, np.flatnonzero(region == main))
+        else:
+            continue
+        handle = _surface_handle(whole, faces, host, foot) if len(foot) else None
+        handles += [handle] if handle is not None else []
+    return handles
+
+
+def _listed(key: np.ndarray, value: np.ndarray) -> dict[int, np.ndarray]:
+    """Return the values of each key, ordered by key."""
+    order = np.argsort(key, kind="stable")
+    keys, start = np.unique(key[order], return_index=True)
+    return {int(k): v for k, v in zip(keys, np.split(value[order], start[1:]), strict=True)} if len(keys) else {}
+
+
+def _near(whole: MeshSurface, faces: np.ndarray, host: np.ndarray) -> Int[np.ndarray, " n"]:
+    """Faces of the host where a separate component comes nearest to it; none when it is far, or too large for a handle."""
+    points = _corners(whole, faces)
+    if np.ptp(points, axis=0).max() > MAX_BAR_LENGTH_RATIO * whole.diagonal:
+        return np.zeros(0, np.int64)
+    corners = whole.shape.triangles[host].reshape(-1, 3)
+    gap, face, _ = distance_to_mesh(points, corners, np.arange(len(corners)).reshape(-1, 3))
+    near = gap < min(float(gap.min()) + TOUCH * whole.diagonal, MAX_HANDLE_GAP_RATIO * whole.diagonal)
+    return np.unique(host[face[near]])
+
+
+def _corners(whole: MeshSurface, faces: np.ndarray) -> np.ndarray:
+    points = whole.shape.triangles[faces].reshape(-1, 3)
+    return points[:: max(1, len(points) // CORNERS)]
+
+
+def _surface_handle(whole: MeshSurface, faces: np.ndarray, host: int, foot: np.ndarray) -> SurfaceHandle | None:
+    """Return the handle that these faces are on the host region, None if they are none."""
+    mean = whole.shape.areas[foot] @ whole.shape.normals[foot]
+    if np.linalg.norm(mean) < FLAT * whole.shape.areas[foot].sum():
+        return None
+    normal = mean / max(float(np.linalg.norm(mean)), 1e-300)
+    level = float(np.median(whole.shape.triangles[foot].mean(1) @ normal))
+    points = _corners(whole, faces)
+    out = float((points @ normal).max()) - level
+    turned = np.linalg.norm(whole.shape.areas[faces] @ whole.shape.normals[faces])
+    if out < MIN_HANDLE_SIZE_RATIO * whole.diagonal or turned > SHEET * whole.shape.areas[faces].sum():
+        return None
+    box = fit_box(points, whole.shape.normals[faces], whole.shape.areas[faces])
+    bar = _is_bar(box, normal)
+    if not bar and box.diagonal > MAX_KNOB_SIZE_RATIO * whole.diagonal:
+        return None
+    width = float(np.ptp(points @ np.cross(box.axes[0], normal))) if bar else 2 * float(box.half[1])
+    if 2 * box.half[1] < MIN_HANDLE_SIZE_RATIO * whole.diagonal or out < MIN_HEIGHT_WIDTH_RATIO * width:
+        return None
+    return SurfaceHandle(host, normal, level, box.axes[0] if bar else None, points, faces, foot)
+
+
+def _is_bar(box: OrientedBox, normal: np.ndarray) -> bool:
+    """Return whether a handle is long and parallel to the face that it is on."""
+    return bool(box.half[0] >= MIN_BAR_ASPECT * box.half[1] and abs(box.axes[0] @ normal) < np.sqrt(1 - ALIGNED**2))
+
+
+def aligned(a: SurfaceHandle, b: SurfaceHandle) -> bool:
+    """Return whether both are knobs, or parallel or perpendicular bars."""
+    if a.axis is None or b.axis is None:
+        return a.axis is b.axis
+    return bool(max(abs(a.axis @ b.axis), abs(a.axis @ np.cross(b.normal, b.axis))) > ALIGNED)
+
+
+def is_main_component(whole: MeshSurface, region: Int[np.ndarray, " F"], number: int) -> bool:
+    """Return whether one region covers almost all of the surface."""
+    return float(whole.shape.areas[region == number].sum()) > MIN_MAIN_COMPONENT_RATIO * whole.shape.area
+
+
+def region_sizes(whole: MeshSurface, region: Int[np.ndarray, " F"]) -> Float[np.ndarray, " n"]:
+    """Return the diagonal of the axis-aligned box of each region [m]."""
+    count = int(region.max()) + 1
+    low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
+    for k in range(3):  # one axis at a time: numpy is ten times as fast on flat arrays
+        np.minimum.at(low[:, k], region, whole.shape.lowest[:, k])
+        np.maximum.at(high[:, k], region, whole.shape.highest[:, k])
+    return np.linalg.norm(high - low, axis=1)

@@ -1,0 +1,173 @@
+"""Split a fused surface into panels by its handles, where the narrow gaps between panels are closed."""
+
+from __future__ import annotations
+
+import numpy as np
+from jaxtyping import Bool, Float, Int
+from scipy.spatial import ConvexHull
+
+from anymesh.geometry.handles import ALIGNED, SurfaceHandle, aligned, find_handles, is_main_component, region_sizes
+from anymesh.geometry.layout import filled, tile
+from anymesh.geometry.sampling import sample_surface
+from anymesh.geometry.topology import label_connected
+from anymesh.geometry.triangle_set import MeshSurface
+
+MAX_BEND_DEG = 40.0  # [deg] a face may bend so far
+MAX_BULGE_RATIO = 0.06  # share of the diagonal that it may bulge
+MIN_FLATNESS = 0.96  # length of its mean normal: .92 is a part of a cylinder that bends so far both ways, 1 is plane
+PLANE_FITS = 3  # of its plane
+MIN_KNOB_FACE_RATIO = 0.3  # share of a side of the object from which a face has panels with knobs
+UPRIGHT = 0.5  # vertical part of a unit normal up to which a face stands upright
+MAX_PANEL_THICKNESS_RATIO = 0.35  # thickness over smaller side of what is a panel as it is
+MAX_TRIANGLE_RATIO = 0.25  # area of the largest triangle over the smallest panel, or none of these has a border
+MAX_CUT_OFF_RATIO = (
+    0.5  # area over the panel's of what goes with a panel that cuts it off: what is larger is a side of the body
+)
+SAMPLES = 20_000  # points on a face, to find the rectangle that it fills
+
+
+def split_panels(whole: MeshSurface, region: Int[np.ndarray, " F"]) -> tuple[Int[np.ndarray, " F"], Bool[np.ndarray, " F"]]:
+    """The regions, those divided whose handles ask for several panels, or for one on a body that is no panel itself; and
+    which faces are such a panel's."""
+    found, count = region.copy(), int(region.max()) + 1
+    for faces, handles in _faces_with_handles(whole, region):
+        new = int(found.max()) + 1
+        if (found[faces] < count).all():
+            _divide(whole, found, faces, handles)
+            _through(whole, found, new)
+    return np.unique(found, return_inverse=True)[1].reshape(-1), found >= count
+
+
+def _faces_with_handles(whole: MeshSurface, region: np.ndarray) -> list[tuple[Int[np.ndarray, " n"], list[SurfaceHandle]]]:
+    """Faces (flat parts of regions) that handles grow out of, each with all handles on it that lie along one another."""
+    found: list[tuple[np.ndarray, list[SurfaceHandle]]] = []
+    for handle in find_handles(whole, region):
+        for faces, others in found:
+            if np.isin(handle.foot, faces).any():
+                others.append(handle)
+                break
+        else:
+            found.append((_face_of(whole, region, handle), [handle]))
+    return [(faces, kept) for faces, handles in found if (kept := _of_a_kind(whole, faces, handles))]
+
+
+def _of_a_kind(whole: MeshSurface, faces: np.ndarray, handles: list[SurfaceHandle]) -> list[SurfaceHandle]:
+    """The bars that run along each other or across; without bars the knobs, if the face is a large one that stands upright:
+    beside bars, and on small panels, knobs are controls, and under an object they are feet. None on what is round."""
+    normal = whole.shape.areas[faces] @ whole.shape.normals[faces]
+    if np.linalg.norm(normal) < MIN_FLATNESS * whole.shape.areas[faces].sum():
+        return []
+    bars = [g for g in handles if g.axis is not None]
+    if bars:
+        return [g for g in bars if aligned(bars[0], g)]
+    across = np.ptp(whole.shape.triangles.reshape(-1, 3), axis=0)
+    side = across.prod() / across * np.abs(normal) / max(float(np.linalg.norm(normal)), 1e-300)
+    upright = abs(normal[2]) < UPRIGHT * np.linalg.norm(normal)
+    return handles if upright and np.linalg.norm(normal) > MIN_KNOB_FACE_RATIO * side.sum() else []
+
+
+def _face_of(whole: MeshSurface, region: np.ndarray, handle: SurfaceHandle) -> Int[np.ndarray, " n"]:
+    """The faces of the handle's region that lie in one plane with its foot, more or less, and hang together with it; the plane
+    is that of the foot first, then that of the face."""
+    pairs = whole.components.edges.faces
+    centers, areas = whole.shape.triangles.mean(1), whole.shape.areas
+    normal, level = handle.normal, handle.level
+    face = np.zeros(0, np.int64)
+    for _ in range(PLANE_FITS):
+        flat = (whole.shape.normals @ normal > np.cos(np.deg2rad(MAX_BEND_DEG))) & (region == handle.region)
+        flat &= np.abs(centers @ normal - level) < MAX_BULGE_RATIO * whole.diagonal
+        label = label_connected(len(flat), pairs[flat[pairs].all(1)])
+        area = np.bincount(label, np.where(flat, areas, 0))
+        mine = np.unique(label[handle.foot])
+        face = np.flatnonzero(flat & (label == mine[area[mine].argmax()]))
+        if len(face) == 0:
+            break
+        mean = areas[face] @ whole.shape.normals[face]
+        normal = mean / max(float(np.linalg.norm(mean)), 1e-300)
+        level = float(np.average(centers[face] @ normal, weights=areas[face]))
+    return face
+
+
+def _smallest_frame(points: Float[np.ndarray, "n 2"]) -> Float[np.ndarray, "2 2"]:
+    """Axes (rows) of the smallest rectangle round the points: one side lies along the hull (Freeman and Shapira 1975)."""
+    hull = points[ConvexHull(points).vertices]
+    sides = np.diff(np.r_[hull, hull[:1]], axis=0)
+    best, least = np.eye(2), np.inf
+    for x, y in sides / np.maximum(np.linalg.norm(sides, axis=1, keepdims=True), 1e-300):
+        frame = np.array([[x, y], [-y, x]])
+        area = float(np.ptp(hull @ frame.T, axis=0).prod())
+        if area < (1 - 1e-9) * least:
+            best, least = frame, area
+    return best
+
+
+def _divide(whole: MeshSurface, region: np.ndarray, faces: np.ndarray, handles: list[SurfaceHandle]) -> None:
+    """Gives each panel of the face a region of its own."""
+    if len(faces) < 2:
+        return
+    number = handles[0].region
+    normal = whole.shape.areas[faces] @ whole.shape.normals[faces]
+    normal /= max(float(np.linalg.norm(normal)), 1e-300)
+    frame = np.linalg.svd(normal[None])[2][1:]
+    frame = _smallest_frame(whole.shape.triangles[faces].reshape(-1, 3) @ frame.T) @ frame
+    sides = np.ptp(whole.shape.triangles[faces].reshape(-1, 3) @ frame.T, axis=0)
+    thickness = np.ptp(whole.shape.triangles[region == number].reshape(-1, 3) @ normal)
+    if thickness < MAX_PANEL_THICKNESS_RATIO * sides.min() and not is_main_component(whole, region, number):
+        return
+    spots = np.array([[(g.points @ frame.T).min(0), (g.points @ frame.T).max(0)] for g in handles])
+    along = np.array([-1 if g.axis is None else int(np.abs(frame @ g.axis).argmax()) for g in handles])
+    samples = sample_surface(whole.shape.triangles[faces], SAMPLES, whole.shape.seed).points @ frame.T
+    rectangle = filled(samples, np.array([spots[:, 0].min(0), spots[:, 1].max(0)]))
+    panels = tile(*rectangle, spots, along) if rectangle is not None else ()
+    least = min((float(np.prod(np.subtract(f.high, f.low))) for f in panels), default=0.0)
+    if len(panels) > 1 and whole.shape.areas[faces].max() > MAX_TRIANGLE_RATIO * least:
+        return  # triangles too large to tell the panels apart
+    middle = whole.shape.triangles[faces].mean(1) @ frame.T
+    new = int(region.max()) + 1
+    for k, panel in enumerate(panels):
+        inside = (middle >= np.array(panel.low)).all(1) & (middle <= np.array(panel.high)).all(1)
+        region[faces[inside]] = new + k
+    for k, panel in enumerate(panels):
+        handle = handles[panel.handle]
+        region[np.r_[handle.faces, np.intersect1d(handle.foot, faces)]] = new + k
+    _hand_over(whole, region, number, new)
+
+
+def _through(whole: MeshSurface, region: np.ndarray, new: int) -> None:
+    """The other side of a thin body belongs to the panel on this side: of a door, not of a cabinet. Numbered from `new`."""
+    panels = np.flatnonzero(region >= new)
+    if not len(panels):
+        return
+    area = np.bincount(region[panels] - new, whole.shape.areas[panels])
+    thin = (
+        MAX_PANEL_THICKNESS_RATIO * area / np.maximum(region_sizes(whole, region)[new:], 1e-300)
+    )  # nearly the shorter side of an oblong
+    back = np.flatnonzero(region < new)
+    rays = -whole.shape.normals[back]
+    start = whole.shape.triangles[back].mean(1) + 1e-5 * whole.diagonal * rays
+    hits = whole.shape.scene.first_hit(start, rays, float(thin.max()))
+    seen = np.flatnonzero(hits.face >= 0)
+    panel = region[hits.face[seen]] - new
+    facing = np.einsum("ij,ij->i", whole.shape.normals[hits.face[seen]], rays[seen]) > ALIGNED
+    mine = (panel >= 0) & facing & (hits.distance[seen] < thin[np.maximum(panel, 0)])
+    region[back[seen[mine]]] = panel[mine] + new
+
+
+def _hand_over(whole: MeshSurface, region: np.ndarray, host: int, new: int) -> None:
+    """What the panels, numbered from `new`, cut off from the rest of their region (the reveal round a pane) goes with them."""
+    pairs = whole.components.edges.faces
+    rest = region == host
+    if not rest.any():
+        return
+    label = label_connected(len(region), pairs[rest[pairs].all(1)])
+    main = np.bincount(label[rest], whole.shape.areas[rest]).argmax()
+    side = region[pairs]
+    for k in (0, 1):
+        cut = (side[:, k] == host) & (label[pairs[:, k]] != main) & (side[:, 1 - k] >= new)
+        region[np.isin(label, label[pairs[cut, k]]) & rest] = -1
+    for c in np.unique(label[region == -1]):
+        at = np.flatnonzero(label == c)
+        beside = np.r_[side[np.isin(pairs[:, 0], at), 1], side[np.isin(pairs[:, 1], at), 0]]
+        panel = int(np.bincount(beside[beside >= new]).argmax())
+        own = whole.shape.areas[at].sum() < MAX_CUT_OFF_RATIO * whole.shape.areas[region == panel].sum()
+        region[at] = panel if own else host

@@ -1,0 +1,178 @@
+"""Sets of triangles with oriented normals, surface samples, a distance tree and a ray caster, each computed on demand."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from jaxtyping import Bool, Float, Int
+
+from anymesh.geometry.boxes import OrientedBox, fit_box
+from anymesh.geometry.distance_ import TriangleTree, winding_number
+from anymesh.geometry.sampling import SurfacePoints, spread_points
+from anymesh.geometry.topology import Components, components
+from anymesh.rendering.raycast_ import RayScene
+from anymesh.types import Mesh
+from anymesh.types.triangles import bounds_of, normals_and_areas
+
+SAMPLES = 3000  # surface points per triangle set; a share of 1 % is 30 points
+
+
+@dataclass(frozen=True, eq=False)
+class KnownFaces:
+    """Data shared by a triangle set and all subsets of it.
+
+    positions: (V, 3) distinct corner positions in lexical order, also of faces that were not taken [m]; corner: (F, 3) the
+    position of each corner; areas: (F,) [m^2].
+    """
+
+    positions: Float[np.ndarray, "V 3"]
+    corner: Int[np.ndarray, "F 3"]
+    areas: Float[np.ndarray, " F"]
+
+    @classmethod
+    def of(cls, triangles: Float[np.ndarray, "F 3 3"]) -> KnownFaces:
+        """Build the data of the faces of an object."""
+        positions, corner = np.unique(triangles.reshape(-1, 3), axis=0, return_inverse=True)
+        return cls(positions, corner.reshape(-1, 3), normals_and_areas(triangles)[1])
+
+    def take(self, index: np.ndarray) -> KnownFaces:
+        """Return the data of some of the faces."""
+        return KnownFaces(self.positions, self.corner[index], self.areas[index])
+
+    @cached_property
+    def compact(self) -> tuple[Float[np.ndarray, "n 3"], Int[np.ndarray, "F 3"]]:
+        """Return the corner positions of these faces in lexical order, and the faces as indices of them."""
+        used = np.zeros(len(self.positions), bool)
+        used[self.corner.reshape(-1)] = True
+        return self.positions[used], (np.cumsum(used) - 1)[self.corner]
+
+
+@dataclass(frozen=True, eq=False)
+class TriangleSet:
+    """Triangles, with outward normals where the surface is closed.
+
+    triangles: (F, 3, 3) [m]; normals: (F, 3) unit, outward for solid faces, else as wound; solid: (F,) the face belongs to
+    a closed component; faces: (F,) the faces' numbers in the mesh.
+    """
+
+    triangles: Float[np.ndarray, "F 3 3"]
+    normals: Float[np.ndarray, "F 3"]
+    solid: Bool[np.ndarray, " F"]
+    faces: Int[np.ndarray, " F"]
+    seed: int = 0
+    known: KnownFaces | None = None
+
+    @cached_property
+    def areas(self) -> Float[np.ndarray, " F"]:
+        """Return the area of each face [m^2]."""
+        return normals_and_areas(self.triangles)[1] if self.known is None else self.known.areas
+
+    @cached_property
+    def lowest(self) -> Float[np.ndarray, "F 3"]:
+        """Return the lower corner of the axis-aligned box of each face [m]."""
+        a, b, c = self.triangles.transpose(1, 0, 2)
+        return np.minimum(np.minimum(a, b), c)
+
+    @cached_property
+    def highest(self) -> Float[np.ndarray, "F 3"]:
+        """Return the upper corner of the axis-aligned box of each face [m]."""
+        a, b, c = self.triangles.transpose(1, 0, 2)
+        return np.maximum(np.maximum(a, b), c)
+
+    @cached_property
+    def tree(self) -> TriangleTree:
+        """Return the tree for exact distances to these triangles."""
+        return TriangleTree(self.triangles)
+
+    @cached_property
+    def scene(self) -> RayScene:
+        """Return the ray caster of these triangles."""
+        if self.known is not None:
+            return RayScene(*self.known.compact)
+        corners = self.triangles.reshape(-1, 3)
+        return RayScene(corners, np.arange(len(corners)).reshape(-1, 3))
+
+    @cached_property
+    def corners(self) -> Float[np.ndarray, "n 3"]:
+        """Return the distinct corner positions [m]."""
+        return np.unique(self.triangles.reshape(-1, 3), axis=0) if self.known is None else self.known.compact[0]
+
+    @cached_property
+    def samples(self) -> SurfacePoints:
+        """Return points sampled evenly by area, with outward normals."""
+        points, faces = spread_points(self.triangles, self.areas, SAMPLES, self.seed)
+        return SurfacePoints(points, self.normals[faces], faces)
+
+    @cached_property
+    def box(self) -> OrientedBox:
+        """Return the oriented bounding box."""
+        return fit_box(self.corners, self.normals, self.areas)
+
+    @cached_property
+    def bounds(self) -> Float[np.ndarray, "2 3"]:
+        """Return the axis-aligned bounds [m]."""
+        return bounds_of(self.triangles.reshape(-1, 3))
+
+    @property
+    def area(self) -> float:
+        """Return the surface area [m^2]."""
+        return float(self.areas.sum())
+
+    @property
+    def slender(self) -> bool:
+        """Return whether the surface is far smaller than that of its box: a bar, a hoop, a frame."""
+        a, b, c = self.box.half
+        return bool(self.area < 0.6 * 8 * (a * b + b * c + a * c))
+
+    def take(self, index: np.ndarray) -> TriangleSet:
+        """Return a subset of the faces (indices or a mask)."""
+        known = None if self.known is None else self.known.take(index)
+        return TriangleSet(self.triangles[index], self.normals[index], self.solid[index], self.faces[index], self.seed, known)
+
+    def prepared(self) -> TriangleSet:
+        """Return the same faces with the data that subsets share."""
+        return replace(self, known=KnownFaces.of(self.triangles))
+
+
+@dataclass(frozen=True, eq=False)
+class MeshSurface:
+    """The faces of an object, and the connected components of its welded surface."""
+
+    shape: TriangleSet
+    components: Components
+    void: Bool[np.ndarray, " c"]  # components that are walls of a closed cavity in another one
+    vertices: Float[np.ndarray, "V 3"]
+    diagonal: float
+
+
+def mesh_surface(mesh: Mesh, seed: int = 0) -> MeshSurface:
+    """Orient the faces of a mesh and find its components; the mesh is not modified."""
+    parts = components(mesh.vertices, mesh.faces)
+    void = _voids(mesh, parts)
+    flip = (parts.flip & ~void)[parts.label]
+    normals = np.where(flip[:, None], -mesh.face_normals, mesh.face_normals)
+    shape = TriangleSet(mesh.triangles, normals, parts.solid[parts.label], np.arange(len(mesh.faces)), seed)
+    return MeshSurface(shape, parts, void, mesh.vertices, mesh.diagonal)
+
+
+def _voids(mesh: Mesh, parts: Components) -> Bool[np.ndarray, " c"]:
+    """Return which components are inverted and lie within a solid one: walls of its cavities."""
+    void = np.zeros(parts.count, bool)
+    solid, inverted = np.flatnonzero(parts.solid & ~parts.flip), np.flatnonzero(parts.flip)
+    if not (len(solid) and len(inverted)):
+        return void
+    order = np.argsort(parts.label, kind="stable")
+    start = np.searchsorted(parts.label[order], np.arange(parts.count + 1))
+    triangles = mesh.triangles[order]
+    low = np.minimum.reduceat(triangles.min(1), start[:-1])[solid]
+    high = np.maximum.reduceat(triangles.max(1), start[:-1])[solid]
+    points = triangles[start[inverted]].mean(1)  # one on each inverted component
+    for c, point in zip(inverted, points, strict=True):
+        for s in solid[((point > low) & (point < high)).all(1)]:
+            faces = mesh.faces[order[start[s] : start[s + 1]]]
+            if winding_number(point[None], mesh.vertices, faces)[0] > 0.5:
+                void[c] = True
+                break
+    return void

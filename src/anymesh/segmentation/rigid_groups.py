@@ -1,0 +1,122 @@
+"""Rigid groups: patches that move together, what each group supports, and which patch is the likeliest base."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from jaxtyping import Float, Int
+
+from anymesh.geometry.patches import ObjectShape
+from anymesh.geometry.topology import label_connected
+from anymesh.reasoning.vocabulary import is_fixed_name, recognize
+from anymesh.segmentation.contacts import Contacts, coplanar, hanging_on
+from anymesh.types import Mesh
+
+MAX_SURFACE_SHARE = 0.5  # share of the object's surface: what is one with more is the object, creases or not
+
+
+@dataclass(frozen=True, eq=False)
+class RigidGroups:
+    """Patches joined into groups that move together, and the groups that each supports."""
+
+    contacts: Contacts
+    group: Int[np.ndarray, " P"]
+    names: list[str]
+    root: int
+    hanging: dict[int, list[int]]
+    surface: Int[np.ndarray, " P"]  # patches of one number are parted by creases only
+
+    @cached_property
+    def touching(self) -> tuple[Int[np.ndarray, "k 2"], Float[np.ndarray, " k"]]:
+        """Return ordered pairs of touching patches of different groups, and the contact area of the first [m^2]."""
+        pairs = np.array(list(self.contacts.area), np.int64).reshape(-1, 2)
+        apart = self.group[pairs[:, 0]] != self.group[pairs[:, 1]]
+        return pairs[apart], np.array(list(self.contacts.area.values()), np.float64)[apart]
+
+
+def rigid_groups(mesh: Mesh, whole: ObjectShape, contacts: Contacts, root_patch: int) -> RigidGroups:
+    """Join the patches of components that touch nothing, and those of nodes with a telling name."""
+    shapes = contacts.shapes
+    key = np.where(
+        contacts.component == contacts.component[root_patch], np.arange(len(shapes)), len(shapes) + contacts.component
+    )
+    same = np.array(coplanar(contacts, whole, 1e-3 * whole.diagonal), np.int64).reshape(-1, 2)
+    key = np.where(key < len(shapes), label_connected(len(shapes), same), key)
+    names = [""] * len(shapes)
+    faces = np.split(np.argsort(whole.mesh_patch, kind="stable"), np.cumsum(np.bincount(whole.mesh_patch))[:-1])
+    common = _most(mesh.face_material[faces[root_patch]])
+    for p, mine in enumerate(faces):
+        node, material = _most(mesh.face_node[mine]), _most(mesh.face_material[mine])
+        name = mesh.nodes[node].name
+        if recognize(name) is not None or is_fixed_name(name):
+            names[p] = name
+            key[p] = 2 * len(shapes) + node
+        elif material not in (-1, common) and recognize(mesh.materials[material].name) is not None:
+            names[p] = mesh.materials[material].name  # tells what a patch is, not that patches move as one
+    _, first, group = np.unique(key, return_index=True, return_inverse=True)
+    group = group.reshape(-1)
+    root = int(group[root_patch])
+    surface = label_connected(len(shapes), np.array(whole.shared, np.int64).reshape(-1, 2))
+    return RigidGroups(contacts, group, [names[p] for p in first], root, hanging_on(contacts, group, root), surface)
+
+
+def _most(numbers: np.ndarray) -> int:
+    """Return the most frequent number; -1 stands for none."""
+    return int(np.bincount(numbers + 1).argmax()) - 1
+
+
+def root_ranking(whole: ObjectShape, contacts: Contacts) -> list[int]:
+    """The patches that the rest may hang on, likeliest first: large, much touched, standing on the ground, reaching
+    far, and no panel."""
+    degree = np.bincount(contacts.touch.reshape(-1), minlength=len(contacts.shapes))
+    bounds = whole.shape.bounds
+    low = bounds[0, 2] + 0.02 * whole.diagonal
+    rank = []
+    for s, d in zip(contacts.shapes, degree, strict=True):
+        size = float(np.linalg.norm(s.bounds[1] - s.bounds[0])) * (1 + 0.1 * min(int(d), 10))
+        samples = s.samples
+        stands = ((samples.points[:, 2] < low) & (samples.normals[:, 2] < -0.7)).mean() if len(samples) else 0.0
+        sides = int((np.abs(s.bounds - bounds) < 0.02 * whole.diagonal).sum())  # of the object: walls reach most of them
+        rank.append(size * (1.3 if stands > 0.05 else 1.0) * (1 + 0.1 * sides))
+    order = np.lexsort((-np.array(rank), np.isin(np.arange(len(rank)), whole.panels)))
+    return [int(i) for i in order]
+
+
+def with_supported(groups: RigidGroups, u: int) -> list[int]:
+    """The group, what hangs on it, and the rest of its surface (the box behind a drawer's front, whatever it stands on); of a
+    group that is a surface by itself, the smaller groups that touch these more than all else (a shelf on a door)."""
+    surface = _of_one_surface(groups, u)
+    members = set(groups.hanging[u]).union(*(groups.hanging[v] for v in surface))
+    if not surface:
+        members = _grown(groups, members)
+    return [u, *sorted(members - {u, groups.root})]
+
+
+def _grown(groups: RigidGroups, members: set[int]) -> set[int]:
+    (first, second), amount = groups.touching[0].T, groups.touching[1]
+    count = len(groups.names)
+    area = np.bincount(groups.group, groups.contacts.patch_area, count)
+    own = groups.contacts.patch_area[np.isin(groups.group, list(members))].sum()
+    for _ in range(4):
+        inside = np.isin(groups.group, list(members))
+        outer = ~inside[first]
+        beside, within = groups.group[first[outer]], inside[second[outer]]
+        here = np.bincount(beside[within], amount[outer][within], count)
+        elsewhere = np.bincount(beside[~within], amount[outer][~within], count)
+        new = [int(v) for v in np.flatnonzero((here > elsewhere) & (area < own)) if v != groups.root]
+        grown = members.union(*(groups.hanging[v] for v in new)) - {groups.root}
+        if grown == members:
+            break
+        members = grown
+    return members
+
+
+def _of_one_surface(groups: RigidGroups, u: int) -> list[int]:
+    """Return the groups separated from this one by creases only, unless their surface is the root's or most of the object."""
+    surface, area = groups.surface, groups.contacts.patch_area
+    own = np.isin(surface, surface[groups.group == u])
+    if own[groups.group == groups.root].any() or area[own].sum() > MAX_SURFACE_SHARE * area.sum():
+        return []
+    return [int(v) for v in np.unique(groups.group[own]) if v != u]

@@ -1,0 +1,121 @@
+"""What copies, levers, buttons and parts that are stuck in the rest tell of their joints."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from assets import box
+from scenes import Piece, Scene, built, case, door, drawer, joints_of, prism
+
+from anymesh.articulation import estimate
+from anymesh.config import Config
+from anymesh.geometry.patches import object_shape
+from anymesh.types import JointType, MotionKind
+
+
+def pair(grips: str) -> Scene:
+    """Two leaves before a case that is open in front, a grip on the left or on both; they meet in the middle."""
+    left, right = (box((x, -0.022, 0.002), (x + 0.297, -0.002, 0.798)) for x in (0.002, 0.301))
+    grip = box((0.25, -0.06, 0.35), (0.265, -0.022, 0.45))
+    other = box((0.335, -0.06, 0.35), (0.35, -0.022, 0.45))
+    return {"base": case(0.8), "left": [left, grip], "right": [right, other] if grips == "both" else [right]}
+
+
+def floorless(count: int) -> Scene:
+    """Drawers one above the other between two walls and below a top; nothing is under the lowest."""
+    high = 0.2 * count
+    walls = [box((x, 0, 0), (x + 0.02, 0.4, high)) for x in (0, 0.58)]
+    scene: Scene = {"base": [*walls, box((0.02, 0.38, 0), (0.58, 0.4, high)), box((0, 0, high), (0.6, 0.4, high + 0.02))]}
+    for k in range(count):
+        z = 0.2 * k
+        front = box((0.022, -0.02, z + 0.002), (0.578, 0, z + 0.198))
+        tray = [box((0.03, 0, z + 0.01), (0.57, 0.37, z + 0.02)), box((0.03, 0.36, z + 0.02), (0.57, 0.37, z + 0.18))]
+        scene[f"drawer_{k}"] = [front, *tray]
+    return scene
+
+
+def test_copies_in_a_row_open_to_the_side_that_is_open_over_all_of_them() -> None:
+    joints = joints_of(floorless(3))
+    assert {j.type for j in joints.values()} == {JointType.PRISMATIC}
+    for joint in joints.values():
+        assert joint.axis == pytest.approx(np.array([0, -1, 0]), abs=1e-3)
+
+
+def test_a_leaf_without_a_grip_does_as_its_copy_with_one() -> None:
+    joints = joints_of(pair("one"))
+    for name, x in (("left", 0.0), ("right", 0.6)):
+        joint = joints[name]
+        assert joint.type is JointType.REVOLUTE
+        assert abs(joint.axis[2]) == pytest.approx(1, abs=1e-6)
+        assert abs(joint.origin[0] - x) < 0.02
+        opened = np.cross(joint.axis, np.array([0.3 - joint.origin[0], 0, 0]))
+        assert opened[1] < 0  # towards who stands in front
+
+
+def test_copies_that_agree_change_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    with_copies = joints_of(pair("both"))
+    monkeypatch.setattr(estimate, "MAX_COPIES", 0)
+    by_themselves = joints_of(pair("both"))
+    for name in ("left", "right"):
+        assert by_themselves[name].axis == pytest.approx(with_copies[name].axis)
+        assert by_themselves[name].origin == pytest.approx(with_copies[name].origin)
+
+
+def test_a_door_that_an_artist_let_sink_into_a_block_still_turns() -> None:
+    scene = door("left")
+    scene["base"] = [box((-0.05, -0.018, -0.05), (0.65, 0.4, 0.85))]
+    joint = joints_of(scene)["leaf"]
+    assert joint.type is JointType.REVOLUTE
+    assert abs(joint.axis[2]) == pytest.approx(1, abs=1e-6)
+    assert abs(joint.origin[0] - 0.6) < 0.03
+    assert joint.limits is not None
+    assert joint.limits[1] > np.deg2rad(60)
+
+
+WALL = [box((-0.3, 0, -0.3), (0.3, 0.02, -0.05)), box((-0.3, 0, 0.05), (0.3, 0.02, 0.3))]
+WALL += [box((-0.3, 0, -0.05), (-0.05, 0.02, 0.05)), box((0.05, 0, -0.05), (0.3, 0.02, 0.05))]
+
+
+def test_a_mark_on_a_round_pin_speaks_for_a_turn() -> None:
+    pin, mark = prism(0.045, (-0.08, 0.015), 0.0, 0.0), box((-0.012, -0.11, 0.0), (0.012, -0.08, 0.044))
+
+    def lead(pieces: list[Piece]) -> float:
+        """Log-odds of the best turn over those of the best slide."""
+        mesh, segmentation = built({"base": WALL, "pin": pieces})
+        whole = object_shape(mesh, 0, labels=segmentation.face_part)
+        _, _, _, question = next(iter(estimate.motion_questions(whole, segmentation, Config())))
+        turns = np.array([c.motion.kind is MotionKind.REVOLUTE for c in question.candidates])
+        return float(question.scores[turns].max() - question.scores[~turns].max())
+
+    assert lead([pin, mark]) > lead([pin])
+    joint = joints_of({"base": WALL, "pin": [pin, mark]})["pin"]
+    assert joint.type is not JointType.PRISMATIC
+    assert abs(joint.axis[1]) == pytest.approx(1, abs=1e-6)
+
+
+def test_a_lever_that_is_free_both_ways_is_pressed_down() -> None:
+    post = [box((-0.2, 0, -0.3), (0.2, 0.05, 0.3)), prism(0.02, (-0.03, 0.001), 0.0, 0.1)]
+    arm = [box((-0.02, -0.06, 0.085), (0.2, -0.03, 0.115))]
+    joint = joints_of({"base": post, "arm": arm})["arm"]
+    assert joint.type is not JointType.PRISMATIC
+    assert abs(joint.axis[1]) == pytest.approx(1, abs=1e-3)
+    assert joint.limits is not None
+    sign = 1 if sum(joint.limits) >= 0 else -1
+    assert sign * np.cross(joint.axis, np.array([0.2, 0, 0.1]) - joint.origin)[2] < 0
+
+
+def test_a_deep_drawer_needs_no_carving() -> None:
+    """A stuck part is set free by ignoring as little as will do: what is free keeps its range."""
+    free = joints_of(drawer())["box"]
+    assert free.limits is not None
+    assert 0.28 < free.limits[1] < 0.35
+
+
+def test_a_hinge_that_opens_to_no_side_is_compared_with_no_other() -> None:
+    mesh, segmentation = built(pair("both"))
+    config = Config()
+    whole = object_shape(mesh, config.seed, config.pieces, segmentation.face_part)
+    _, _, around, question = next(iter(estimate.motion_questions(whole, segmentation, config)))
+    assert around.siblings
+    rims = [replace(c, outward=0.0) for c in question.candidates if c.role == "edge"]
+    assert estimate._clear_of_others(around, rims[0], tuple(rims)) is rims[0]

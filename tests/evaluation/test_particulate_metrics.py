@@ -1,0 +1,118 @@
+"""Particulate's measures against values worked out by hand, on a plate that slides or turns on a block."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from assets import box, cabinet, joint, mesh_of
+
+from anymesh.evaluation.ground_truth import EvalSample, GroundTruth, TrueJoint
+from anymesh.evaluation.particulate_metrics import STATES, PoseMetrics, particulate_metrics
+from anymesh.types import Joint, Part, Segmentation
+
+X, Y, Z = np.eye(3)
+MESH, LABELS = mesh_of([box((0, 0, 0), (1, 1, 0.5)), box((0, 0, 0.5), (1, 1, 0.75))])
+PARTS = (Part("base", "base"), Part("plate", "part"))
+ALL_ONE = Segmentation(np.zeros_like(LABELS), PARTS[:1])
+SLIDE = joint("s", "prismatic", "base", "plate", (0, 0, 0), X, (0.0, 1.0))
+
+
+def subject(joints: tuple[Joint, ...] = (SLIDE,), T=None, range_known: bool = True) -> EvalSample:
+    """On the block, or on one that T took elsewhere, the truth with it."""
+    T = np.eye(4) if T is None else T
+    true = tuple(TrueJoint(j.child, j.parent, j.type, j.origin, j.axis, j.limits, range_known) for j in joints)
+    return EvalSample(GroundTruth("block", Path("x"), PARTS, LABELS, true), MESH.transformed(T), LABELS, T)
+
+
+def alike(joints: tuple[Joint, ...], segmentation: Segmentation | None = None, truth: EvalSample | None = None) -> PoseMetrics:
+    return particulate_metrics(truth or subject(), segmentation or Segmentation(LABELS, PARTS), joints)
+
+
+def test_the_truth_is_alike_at_every_pose() -> None:
+    result = alike((SLIDE,))
+    for found in (result.rest, result.posed, result.opened):
+        assert found is not None
+        assert (found.giou, found.miou, found.chamfer) == pytest.approx((1, 1, 0), abs=1e-9)
+
+
+def test_half_the_travel() -> None:
+    found = alike((joint("s", "prismatic", "base", "plate", (9, 9, 9), X, (0.0, 0.5)),))
+    ious = [(1 - s / 2) / (1 + s / 2) for s in np.linspace(0, 1, STATES)]
+    assert found.opened is not None
+    assert found.posed is not None
+    assert (found.rest.giou, found.rest.miou, found.rest.chamfer) == pytest.approx((1, 1, 0))
+    assert (found.opened.giou, found.opened.miou) == pytest.approx((2 / 3, 2 / 3))  # the base 1, the plate 1 / 3
+    assert (found.posed.giou, found.posed.miou) == pytest.approx(((1 + np.mean(ious)) / 2,) * 2)
+    assert 0 < found.posed.chamfer < found.opened.chamfer < 0.5**2  # no point is further than .5 from the other plate
+
+
+def test_parts_without_partner_count_in_both_directions() -> None:
+    found = alike((), ALL_ONE)
+    giou, miou = (2 / 3 + (2 / 3 - 1) / 2) / 2, (2 / 3 + 1 / 3) / 2  # of one found part, and of two true ones
+    assert (found.rest.giou, found.rest.miou) == pytest.approx((giou, miou))
+    assert found.rest.chamfer > MESH.diagonal / 2 / 4  # a half of what the plate costs, that has no partner
+    whole = EvalSample(GroundTruth("rock", Path("x"), PARTS[:1], ALL_ONE.face_part, ()), MESH, ALL_ONE.face_part, np.eye(4))
+    back = alike((SLIDE,), truth=whole)
+    assert (back.rest.giou, back.rest.miou) == pytest.approx((giou, miou))
+
+
+def test_distances_are_squared_and_taken_both_ways() -> None:
+    sheets = [(np.array([[0, 0, z], [1, 0, z], [1, 1, z], [0, 1, z]]), np.array([[0, 1, 2], [0, 2, 3]])) for z in (0.5, 1.0)]
+    mesh, piece = mesh_of([box((0, 0, 0), (1, 1, 0.5)), *sheets])
+    labels = np.array([0, 1, 0])[piece]  # the upper sheet is the base's, but was taken for the lower one's
+    true = TrueJoint("plate", "base", SLIDE.type, np.zeros(3), Z, (0.0, 0.5))
+    truth = EvalSample(GroundTruth("sheets", Path("x"), PARTS, labels, (true,)), mesh, labels, np.eye(4))
+    slow = joint("s", "prismatic", "base", "plate", (0, 0, 0), Z, (0.0, 0.1))
+    found = particulate_metrics(truth, Segmentation(np.array([0, 1, 1])[piece], PARTS), (slow,)).opened
+    plate = (0.4**2 + 0.1**2) / 2 + 0.1**2  # sheets at .6 and 1.1 to the one at 1, and from there to the nearer
+    base = 0.5**2 / 5  # a fifth of its true surface is the sheet above the block
+    assert found is not None
+    assert found.chamfer == pytest.approx((plate + base) / 2, abs=1e-3)
+
+
+def test_a_plate_that_turns_the_wrong_way_is_unlike_though_its_parts_are_right() -> None:
+    up = joint("t", "revolute", "base", "plate", (0, 0, 0.5), -Y, (0.0, np.pi / 2))
+    down = joint("t", "revolute", "base", "plate", (0, 0, 0.5), Y, (0.0, np.pi / 2))
+    found = alike((down,), truth=subject((up,)))
+    assert found.rest.giou == pytest.approx(1)
+    assert found.opened is not None
+    assert found.posed is not None
+    assert found.opened.giou < 0.5  # the base 1, the plate below 0
+    assert found.opened.giou < found.posed.giou < 1
+
+
+def test_names_and_numbers_of_parts_do_not_matter() -> None:
+    renamed = Segmentation(1 - LABELS, (Part("a", "x"), Part("b", "x")))
+    other = joint("s", "prismatic", "b", "a", (0, 0, 0), X, (0.0, 1.0))
+    found = alike((other,), renamed)
+    assert found.opened is not None
+    assert (found.rest.giou, found.opened.giou) == pytest.approx((1, 1))
+
+
+def test_size_place_and_quarter_turns_do_not_matter() -> None:
+    T = np.array([[0, -7.0, 0, 1], [7, 0, 0, 2], [0, 0, 7, 3], [0, 0, 0, 1]])
+    half = joint("s", "prismatic", "base", "plate", (9, 9, 9), X, (0.0, 0.5))
+    moved = joint("s", "prismatic", "base", "plate", (9, 9, 9), Y, (0.0, 3.5))
+    here, there = alike((half,)), alike((moved,), truth=subject(T=T))
+    for a, b in zip((here.rest, here.posed, here.opened), (there.rest, there.posed, there.opened), strict=True):
+        assert a is not None
+        assert b is not None
+        assert (a.giou, a.miou, a.chamfer) == pytest.approx((b.giou, b.miou, b.chamfer), abs=1e-9)
+
+
+def test_without_known_ranges_there_is_no_motion_to_compare() -> None:
+    found = alike((SLIDE,), truth=subject(range_known=False))
+    assert (found.posed, found.opened) == (None, None)
+    assert found.rest.giou == pytest.approx(1)
+
+
+def test_what_is_carried_moves_with_what_carries_it() -> None:
+    asset = cabinet()
+    true = tuple(TrueJoint(j.child, j.parent, j.type, j.origin, j.axis, j.limits) for j in asset.joints)
+    s = asset.segmentation
+    truth = EvalSample(GroundTruth("c", Path("x"), s.parts, s.face_part, true), asset.mesh, s.face_part, np.eye(4))
+    loose = [joint("turn", "continuous", "base", "knob", (0.3, -0.04, 0.8), (0, -1, 0), None)]
+    found = particulate_metrics(truth, s, (*asset.joints[:2], *loose))  # the knob stays where the drawer leaves it
+    assert found.opened is not None
+    assert found.rest.giou == pytest.approx(1)
+    assert found.opened.giou < (3 + 0) / 4  # the knob is .3 from where it belongs, and .04 long

@@ -1,0 +1,72 @@
+"""On one closed surface without any gap, handles tell the fronts, and what has none stays whole."""
+
+import numpy as np
+import trimesh
+
+from anymesh.geometry.patches import ObjectShape, object_shape
+from anymesh.types import Mesh, Node
+
+SIZE = np.array([1.0, 0.6, 1.2])
+FRONT = -SIZE[1] / 2
+
+
+def solid(*boxes: tuple[list[float], list[float]], size=SIZE) -> Mesh:
+    """A fine box of `size` joined with small ones, (center, sides), into one surface."""
+    parts = [trimesh.creation.box(size), *(trimesh.creation.box(sides).apply_translation(at) for at, sides in boxes)]
+    whole = trimesh.boolean.union(parts)
+    fine = trimesh.Trimesh(*trimesh.remesh.subdivide_to_size(whole.vertices, whole.faces, 0.06))
+    count = len(fine.faces)
+    return Mesh(fine.vertices, fine.faces, np.zeros(count, np.int64), (Node("object"),), np.full(count, -1))
+
+
+def bar(x: float, z: float, along: int) -> tuple[list[float], list[float]]:
+    sides = [0.03, 0.06, 0.03]
+    sides[along] = 0.2
+    return [x, FRONT - 0.02, z], sides
+
+
+def front_boxes(whole: ObjectShape) -> np.ndarray:
+    """Bounds of the fronts found, (k, 2, 3), from left to right and from below."""
+    boxes = np.array([whole.of(np.flatnonzero(whole.patch == p)).bounds for p in whole.panels]).reshape(-1, 2, 3)
+    return boxes[np.lexsort((boxes[:, 0, 2].round(1), boxes[:, 0, 0].round(1)))]
+
+
+def test_two_bars_divide_a_face_into_two_doors() -> None:
+    boxes = front_boxes(object_shape(solid(bar(-0.08, 0.0, 2), bar(0.08, 0.0, 2))))
+    assert len(boxes) == 2
+    assert np.allclose(boxes[0][:, [0, 2]], [[-0.5, -0.6], [0, 0.6]], atol=0.06)
+    assert np.allclose(boxes[1][:, [0, 2]], [[0, -0.6], [0.5, 0.6]], atol=0.06)
+    assert np.allclose(boxes[:, 0, 1], FRONT - 0.05)  # each with its handle
+    assert np.allclose(boxes[:, 1, 1], FRONT)
+
+
+def test_a_face_without_handles_stays_whole() -> None:
+    assert len(object_shape(solid()).panels) == 0
+
+
+def test_feet_and_mouldings_are_no_handles() -> None:
+    feet = [([x, y, -0.62], [0.05, 0.05, 0.08]) for x in (-0.4, 0.4) for y in (-0.2, 0.2)]
+    moulding = ([0, FRONT, 0.4], [0.5, 0.02, 0.1])
+    assert len(object_shape(solid(*feet, moulding)).panels) == 0
+
+
+def test_a_thin_door_is_a_front_on_both_sides_and_a_deep_cabinet_is_not() -> None:
+    for depth, through in ((0.08, True), (0.6, False)):
+        handle = ([0.4, -depth / 2 - 0.02, 0.0], [0.03, 0.06, 0.2])
+        whole = object_shape(solid(handle, size=np.array([1.0, depth, 1.2])))
+        assert len(whole.panels) == 1
+        back = whole.shape.normals[:, 1] > 0.9
+        assert (
+            whole.patch[back & (whole.shape.triangles[:, :, 1].min(1) > depth / 2 - 1e-6)] == whole.panels[0]
+        ).all() == through
+
+
+def test_turning_the_object_turns_its_fronts() -> None:
+    mesh = solid(bar(-0.08, 0.0, 2), bar(0.08, 0.0, 2))
+    c, s = np.cos(0.7), np.sin(0.7)
+    T = np.eye(4)
+    T[:2, :2] = [[c, -s], [s, c]]
+    plain, turned = object_shape(mesh), object_shape(mesh.transformed(T))
+    assert len(turned.panels) == 2
+    same = np.isin(plain.mesh_patch, plain.panels) == np.isin(turned.mesh_patch, turned.panels)
+    assert mesh.face_areas[same].sum() > 0.98 * mesh.face_areas.sum()

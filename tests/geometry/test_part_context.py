@@ -1,0 +1,153 @@
+"""A part among the others."""
+
+import numpy as np
+import pytest
+import trimesh
+from assets import CABINET, box, mesh_of
+from rigid import apply, move, shape_of
+
+from anymesh.config import ArticulationConfig
+from anymesh.geometry.part_context import PartContext, body_obb, find_barrel_candidates
+from anymesh.geometry.patches import object_shape
+from anymesh.geometry.sampling import sample_surface
+
+BASE, DOOR, DRAWER = CABINET["base"], CABINET["door"], CABINET["drawer"]
+GRIP = box((0.05, -0.06, 0.2), (0.07, -0.02, 0.4))  # upright, near the door's left edge
+T_SCALES = [(0, 1.0), (1, 1.0), (2, 0.02)]
+
+
+def surroundings(part, others, T) -> PartContext:
+    everything = np.concatenate([apply(T, v) for v, _ in [*part, *others]])
+    low, high = everything.min(0), everything.max(0)
+    own, rest = shape_of(*part, T=T), shape_of(*others, T=T)
+    diagonal = float(np.linalg.norm(high - low))
+    return PartContext(own, rest, rest, None, rest, (), diagonal, (low + high) / 2, ArticulationConfig())
+
+
+def place(seed, scale=1.0) -> np.ndarray:
+    T = move(seed) if seed else np.eye(4)
+    T[:3] *= scale
+    return T
+
+
+@pytest.mark.parametrize(("seed", "scale"), T_SCALES)
+def test_the_core_of_a_door_is_the_door_without_its_grip(seed, scale):
+    T = place(seed, scale)
+    plain, gripped = shape_of(*DOOR, T=T), shape_of(*DOOR, GRIP, T=T)
+    assert gripped.box.half.prod() > 2 * plain.box.half.prod()
+    np.testing.assert_allclose(body_obb(gripped).half, plain.box.half, rtol=1e-3)
+    np.testing.assert_allclose(body_obb(gripped).center, plain.box.center, atol=1e-3 * scale)
+
+
+@pytest.mark.parametrize(("seed", "scale"), T_SCALES)
+def test_an_open_tray_keeps_its_walls_in_its_core(seed, scale):
+    shape = shape_of(*DRAWER, T=place(seed, scale))
+    np.testing.assert_allclose(body_obb(shape).half, shape.box.half)
+
+
+def test_a_low_rim_all_round_belongs_to_the_core_and_a_ridge_does_not():
+    plate = box((0, 0, 0), (1, 1, 0.04))
+    sides = [(0, 0, 1, 0.02), (0, 0.98, 1, 1), (0, 0.02, 0.02, 0.98), (0.98, 0.02, 1, 0.98)]
+    rim = shape_of(plate, *[box((a, b, 0.04), (c, d, 0.08)) for a, b, c, d in sides])
+    assert body_obb(rim).half[2] == pytest.approx(0.04)
+    ridge = shape_of(plate, box((0, 0.4, 0.04), (1, 0.45, 0.08)))
+    assert body_obb(ridge).half[2] == pytest.approx(0.02)
+
+
+@pytest.mark.parametrize("part", [[*DOOR, GRIP], DRAWER], ids=["door", "drawer"])
+@pytest.mark.parametrize(("seed", "scale"), T_SCALES)
+def test_the_way_out_of_a_case_is_its_front(part, seed, scale):
+    T = place(seed, scale)
+    found = surroundings(part, BASE, T)
+    np.testing.assert_allclose(found.opening_direction, -T[:3, 1] / scale, atol=1e-6)
+    assert found.visibility > 0.95
+    assert found.sees_outside(-found.opening_direction).mean() < 0.1
+
+
+@pytest.mark.parametrize(("seed", "scale"), T_SCALES)
+def test_a_drawer_is_as_deep_in_the_case_as_it_was_built(seed, scale):
+    T = place(seed, scale)
+    drawer, door = surroundings(DRAWER, BASE, T), surroundings(DOOR, BASE, T)
+    assert drawer.depth_in_parent(drawer.opening_direction) == pytest.approx(0.36 * scale, rel=0.02)
+    assert drawer.insertion_depth == pytest.approx(0.36 / 0.3, rel=0.02)
+    assert door.depth_in_parent(door.opening_direction) < 0.002 * scale
+    assert drawer.scale == drawer.diagonal
+    assert drawer.gap.min() >= 0.01 * scale * (1 - 1e-6)  # to the side walls
+
+
+@pytest.mark.parametrize(("seed", "scale"), T_SCALES)
+def test_a_grip_is_found_where_it_is(seed, scale):
+    T = place(seed, scale)
+    found = surroundings([*DOOR, GRIP], BASE, T)
+    assert surroundings(DOOR, BASE, T).handle is None
+    handle = found.handle
+    door_center, door_half = np.array([0.3, -0.01, 0.3125]), np.array([0.295, 0.01, 0.2875])
+    expected = (np.array([0.06, -0.04, 0.3]) - door_center) / door_half
+    signs = [T[:3, i] / scale @ found.body_obb.axes[k] for k, i in zip(found.face_axes, (0, 2), strict=True)]
+    np.testing.assert_allclose(handle.across, expected[[0, 2]] * signs, atol=0.03)
+    assert handle.along == 1  # it runs along the door's shorter side
+    assert handle.size == pytest.approx(0.2 / (2 * np.linalg.norm(door_half)), rel=0.05)
+
+
+def test_the_connecting_area_lies_between_part_and_parent():
+    found = surroundings([box((0, 0, 1), (1, 1, 1.2))], [box((0.4, 0.4, 0), (0.6, 0.6, 1))], np.eye(4))
+    near = found.config.connecting * found.scale
+    assert len(found.contact) > 10
+    np.testing.assert_allclose(found.contact[:, 2], 1, atol=near + 1e-9)
+    assert (np.abs(found.contact[:, :2] - 0.5) < 0.1 + near).all()
+
+
+def test_a_small_part_in_a_large_object_has_its_own_scale():
+    tiny = surroundings([box((0, -0.02, 0.5), (0.01, 0, 0.51))], BASE, np.eye(4))
+    assert tiny.scale == 5 * tiny.part.box.diagonal < tiny.diagonal
+
+
+def test_a_wheel_has_a_round_outline_and_a_door_has_not():
+    solid = trimesh.creation.cylinder(radius=0.2, height=0.05, sections=64)
+    wheel = (solid.vertices[:, [0, 2, 1]], solid.faces[:, ::-1])
+    found = surroundings([wheel], [box((-1, 0.01, -1), (1, 1, 1))], np.eye(4)).outline
+    assert found.roundness == 1
+    np.testing.assert_allclose(np.abs(found.axis), [0, 1, 0], atol=1e-6)
+    assert surroundings(DOOR, BASE, np.eye(4)).outline.roundness < 0.5
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_only_thin_rods_between_part_and_parent_may_be_barrels(seed):
+    barrel = box((-0.004, -0.012, 0.2), (0.004, -0.004, 0.4))  # at the door's edge x = 0.005, on the case's side
+    far = box((0.3, 0.2, 0.2), (0.308, 0.208, 0.4))  # as thin, but away from the door
+    block = box((-0.05, -0.05, 0.45), (0, -0.001, 0.5))
+    post = box((-0.1, -0.1, 0.05), (-0.005, -0.005, 0.55))  # long, but thick
+    mesh, number = mesh_of([*DOOR, barrel, far, block, post, *BASE])
+    whole = object_shape(mesh.transformed(place(seed)))
+    part, parent = whole.of(np.flatnonzero(number == 0)), whole.of(np.flatnonzero(number > 0))
+    assert [set(number[r.faces]) for r in find_barrel_candidates(whole, part, parent)] == [{1}]
+
+
+def test_a_face_that_bulges_has_no_grip_and_a_grip_on_it_is_found():
+    u, v = np.meshgrid(np.linspace(-1, 1, 25), np.linspace(-1, 1, 25), indexing="ij")
+    front = np.stack([0.3 * u, -0.1 * (1 - (u**2 + v**2) / 2), 0.4 * v], -1).reshape(-1, 3)
+    corner = (np.arange(24)[:, None] * 25 + np.arange(24)).reshape(-1)
+    faces = np.concatenate([np.stack([corner, corner + 25, corner + 26], 1), np.stack([corner, corner + 26, corner + 1], 1)])
+    hull = (front, faces)
+    body = box((-0.3, 0.01, -0.4), (0.3, 0.5, 0.4))
+    assert surroundings([hull], [body], np.eye(4)).handle is None
+    grip = box((0.18, -0.13, -0.06), (0.2, -0.05, 0.06))
+    found = surroundings([hull, grip], [body], np.eye(4)).handle
+    assert found is not None
+    assert max(abs(a) for a in found.across) > 0.5
+
+
+def test_a_bar_without_area_is_no_error():
+    board, block = box((-0.5, -0.5, -0.05), (0.5, 0.5, 0)), box((-0.1, -0.1, 0), (0.1, 0.1, 0.1))
+    line = box((0.2, 0.2, -0.04), (0.2, 0.2, 0.06))
+    mesh, number = mesh_of([board, block, line])
+    whole = object_shape(mesh)
+    part, parent = whole.of(np.flatnonzero(number[whole.source] > 0)), whole.of(np.flatnonzero(number[whole.source] == 0))
+    assert isinstance(find_barrel_candidates(whole, part, parent), tuple)
+
+
+def test_samples_of_a_surface_without_area_lie_on_it():
+    points = sample_surface(np.array([[[0.0, 0, 0], [0, 0, 1], [0, 0, 2]]]), 50, 0).points
+    assert len(points) == 50
+    assert (points[:, :2] == 0).all()
+    assert len(sample_surface(np.zeros((0, 3, 3)), 50, 0)) == 0

@@ -1,0 +1,102 @@
+"""Shapes of whole objects: outward normals, cavities, samples and pieces."""
+
+import numpy as np
+import pytest
+import trimesh
+from assets import box, mesh_of
+from rigid import apply, move, shape_of
+
+from anymesh.config import PiecesConfig
+from anymesh.geometry.patches import object_shape
+from anymesh.geometry.triangle_set import TriangleSet, mesh_surface
+from anymesh.types.triangles import normals_and_areas
+
+
+def outwardness(shape) -> np.ndarray:
+    """The normals' component away from the middle of all corners."""
+    return np.einsum("ij,ij->i", shape.normals, shape.triangles.mean(1) - shape.corners.mean(0))
+
+
+def inside_out(low, high):
+    vertices, faces = box(low, high)
+    return vertices, faces[:, ::-1]
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_normals_of_closed_surfaces_point_out_however_they_are_wound(seed):
+    for piece in (box((0, 0, 0), (1, 2, 3)), inside_out((0, 0, 0), (1, 2, 3))):
+        shape = shape_of(piece, T=move(seed, far=50))
+        assert (outwardness(shape) > 0.4).all()
+        assert shape.solid.all()
+    vertices, faces = inside_out((0, 0, 0), (1, 2, 3))
+    opened = shape_of((vertices, faces[1:]))
+    assert (outwardness(opened) < 0).all()
+    assert not opened.solid.any()
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_only_an_inside_out_wall_within_a_solid_is_a_cavity(seed):
+    pieces = [
+        box((0, 0, 0), (4, 4, 4)),
+        inside_out((1, 1, 1), (2, 2, 2)),  # a cavity
+        box((1, 1, 3), (2, 2, 3.5)),  # a thing within
+        inside_out((6, 0, 0), (7, 1, 1)),  # a thing outside, badly wound
+        inside_out((3, 3, 5), (4, 4, 6)),  # likewise, above
+    ]
+    mesh, number = mesh_of(pieces)
+    found = mesh_surface(mesh.transformed(move(seed)))
+    assert found.components.label.tolist() == number.tolist()
+    assert found.void.tolist() == [False, True, False, False, False]
+    for k in range(5):
+        sign = -1 if k == 1 else 1
+        assert (sign * outwardness(found.shape.take(number == k)) > 0).all()
+
+
+def test_a_shape_knows_its_area_bounds_and_corners_and_its_faces_keep_their_numbers():
+    shape = shape_of(box((0, 0, 0), (1, 2, 3)), box((5, 0, 0), (6, 1, 1)))
+    assert shape.area == pytest.approx(22 + 6)
+    second = shape.take(np.arange(24) >= 12).take(np.arange(6))
+    assert second.faces.tolist() == list(range(12, 18))
+    assert second.area == pytest.approx(3)
+    np.testing.assert_array_equal(shape.take(np.arange(12, 24)).bounds, [[5, 0, 0], [6, 1, 1]])
+    assert len(shape.corners) == 16
+
+
+def test_samples_lie_on_the_surface_with_outward_normals():
+    shape = shape_of(inside_out((-1, -1, -1), (1, 1, 1)))
+    s = shape.samples
+    np.testing.assert_allclose(np.abs(s.points).max(1), 1, atol=1e-12)
+    np.testing.assert_allclose(np.einsum("ij,ij->i", s.normals, s.points), 1, atol=1e-12)
+
+
+def test_a_dense_mesh_is_asked_about_in_fewer_faces_of_the_same_pieces():
+    balls = [trimesh.creation.icosphere(subdivisions=4) for _ in range(2)]
+    mesh, number = mesh_of(
+        [(balls[0].vertices, balls[0].faces), (apply(move(2), balls[1].vertices) + 9, balls[1].faces[:, ::-1])]
+    )
+    before = mesh.vertices.copy()
+    found = object_shape(mesh, config=PiecesConfig(most_faces=1000))
+    assert 600 < len(found.patch) <= 1000
+    assert found.mesh_patch.tolist() == number.tolist()
+    np.testing.assert_array_equal(found.mesh_patch[found.source], found.patch)
+    for k in range(2):
+        assert (outwardness(found.of(np.flatnonzero(found.patch == k))) > 0).all()
+    np.testing.assert_array_equal(mesh.vertices, before)
+
+
+def test_shapes_taken_from_a_prepared_one_are_as_if_made_alone() -> None:
+    rng = np.random.default_rng(3)
+    vertices = np.round(rng.random((60, 3)), 2)
+    triangles = vertices[rng.integers(0, 60, (200, 3))]
+    plain = TriangleSet(triangles, normals_and_areas(triangles)[0], np.zeros(200, bool), np.arange(200))
+    ready = plain.prepared()
+    origins, directions = rng.random((500, 3)) * 2 - 0.5, rng.normal(size=(500, 3))
+    for index in (np.arange(200), np.arange(30, 90, 2), np.array([5])):
+        alone, taken = plain.take(index), ready.take(index).take(np.arange(len(index)))
+        for name in ("corners", "areas", "bounds"):
+            np.testing.assert_array_equal(getattr(taken, name), getattr(alone, name))
+        np.testing.assert_array_equal(taken.samples.points, alone.samples.points)
+        np.testing.assert_array_equal(taken.samples.normals, alone.samples.normals)
+        one, other = (s.scene.first_hit(origins, directions) for s in (alone, taken))
+        np.testing.assert_array_equal(other.face, one.face)
+        np.testing.assert_array_equal(other.distance, one.distance)
