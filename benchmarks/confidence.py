@@ -67,17 +67,17 @@ class Swept:
         return tuple(c for key in keys for c in self._known[key])
 
 
-def recognized(subject: EvalSample, wrong: float, rng: np.random.Generator) -> Recognition:
+def recognized(sample: EvalSample, wrong: float, rng: np.random.Generator) -> Recognition:
     """A label for each part, of which the way it moves is wrong with a probability; labels tell nothing else."""
-    moves = [Moves(j.type.value) for j in subject.truth.joints]
+    moves = [Moves(j.type.value) for j in sample.truth.joints]
     told = [list(Moves)[int(rng.integers(3))] if rng.random() < wrong else m for m in moves]
-    names = [f"thing {j.child}" for j in subject.truth.joints]
+    names = [f"thing {j.child}" for j in sample.truth.joints]
     return Recognition("object", None, tuple(RecognizedLabel(n, m, None, None) for n, m in zip(names, told, strict=True)))
 
 
-def samples(subject: EvalSample, rounds: int, rng: np.random.Generator) -> Iterator[Sample]:
+def samples(sample: EvalSample, rounds: int, rng: np.random.Generator) -> Iterator[Sample]:
     """The joints of one object, answered with errors of every probability."""
-    solver, plain = Solver(subject.mesh), subject.segmentation()
+    solver, plain = Solver(sample.mesh), sample.segmentation()
     parts = [replace(p, label=f"thing {p.name}") if k else p for k, p in enumerate(plain.parts)]
     segmentation = replace(plain, parts=tuple(parts))
     offers.hypotheses = Swept()  # ty: ignore[invalid-assignment]
@@ -85,11 +85,11 @@ def samples(subject: EvalSample, rounds: int, rng: np.random.Generator) -> Itera
     numbers = {p.name: k - 1 for k, p in enumerate(parts)}
     for wrong in WRONG:
         for n in range(1 if wrong == 0 else rounds):
-            seer = Random(oracle(subject), rng) if wrong == 1 else Noisy(oracle(subject), wrong, rng)
-            told = recognized(subject, wrong, rng) if n % 2 else None
+            seer = Random(oracle(sample), rng) if wrong == 1 else Noisy(oracle(sample), wrong, rng)
+            told = recognized(sample, wrong, rng) if n % 2 else None
             made = prompt_joints(Questions(solver._visual_prompts, seer, Config(), told), lambda _: whole, segmentation)
             own = [a.own for a in made.agreements]
-            for j in score(subject, segmentation, made.joints).joints:
+            for j in score(sample, segmentation, made.joints).joints:
                 k = numbers[j.part]
                 others = float(np.mean(own[:k] + own[k + 1 :])) if len(own) > 1 else own[k]
                 yield Sample(made.agreements[k], others, right(j), wrong)
@@ -143,8 +143,8 @@ def main() -> None:
         for spec in options.sets:
             dataset = open_dataset(spec)
             for k, name in enumerate(dataset.objects()[:: options.step]):
-                subject = prepared(dataset.truth(name, Path(folder)))
-                halves[k % 2].extend(samples(subject, options.rounds, rng))
+                sample = prepared(dataset.truth(name, Path(folder)))
+                halves[k % 2].extend(samples(sample, options.rounds, rng))
                 print(name, sum(map(len, halves)), flush=True)
     weights = fit(halves[0])
     print(weights)

@@ -36,7 +36,7 @@ def main() -> None:
         for name in names[:: max(1, len(names) // options.most) if options.most else 1]:
             try:
                 with tempfile.TemporaryDirectory() as folder:
-                    subject = prepared(dataset.truth(name, Path(folder)))
+                    sample = prepared(dataset.truth(name, Path(folder)))
             except InputError as error:
                 print(f"{name}: {error}", flush=True)
                 continue
@@ -44,7 +44,7 @@ def main() -> None:
                 begin, done = time.perf_counter(), done + 1
                 try:
                     guesser = Guesser(seed, pictured=options.pictures)
-                    segmentation, joints = solve(subject.mesh, config=QUICK, answerer_factory=lambda _, who=guesser: who)
+                    segmentation, joints = solve(sample.mesh, config=QUICK, answerer_factory=lambda _, who=guesser: who)
                     told = f"{len(segmentation.parts) - 1} parts, {len(joints)} joints"
                 except Exception:
                     crashes += 1

@@ -60,20 +60,20 @@ class MotionRows:
     free: Bool[np.ndarray, " n"]
 
 
-def rows_of(subject: EvalSample, source: str, form: str = "") -> list[MotionRows]:
+def rows_of(sample: EvalSample, source: str, form: str = "") -> list[MotionRows]:
     """Propose, sweep and measure the motions of all parts with a known joint."""
-    config, truth = Config(), subject.truth
-    whole = object_shape(subject.mesh, config.seed, config.pieces, subject.labels)
-    joints = {j.child: subject.joint(j) for j in truth.joints if j.type is not JointType.FIXED}
+    config, truth = Config(), sample.truth
+    whole = object_shape(sample.mesh, config.seed, config.pieces, sample.labels)
+    joints = {j.child: sample.joint(j) for j in truth.joints if j.type is not JointType.FIXED}
     found: list[MotionRows] = []
-    questions = list(motion_questions(whole, subject.segmentation(), config))
-    copies = _copies(whole, subject, questions)
+    questions = list(motion_questions(whole, sample.segmentation(), config))
+    copies = _copies(whole, sample, questions)
     for i, _, around, question in questions:
         name = truth.parts[i].name
         if name not in joints:
             continue
         rows = motion_features(around, question.part, question.candidates)
-        joint, center = joints[name], subject.mesh.triangles[subject.labels == i].reshape(-1, 3).mean(0)
+        joint, center = joints[name], sample.mesh.triangles[sample.labels == i].reshape(-1, 3).mean(0)
         motions = [c.motion for c in question.candidates]
         names = tuple(rows[0])
         found.append(MotionRows(
@@ -81,7 +81,7 @@ def rows_of(subject: EvalSample, source: str, form: str = "") -> list[MotionRows
             copies[i], names,
             np.array([[row[n] for n in names] for row in rows], np.float32),
             np.array([m.axis for m in motions]),
-            np.array([how_right(joint, m, center, subject.unit) for m in motions]),
+            np.array([how_right(joint, m, center, sample.unit) for m in motions]),
             np.array([_opens_right(joint, c.motion.axis * c.opening_sign) for c in question.candidates]),
             np.array([same_joints(question, k) for k in range(len(motions))]),
             np.array([c.is_free for c in question.candidates]),
@@ -89,10 +89,10 @@ def rows_of(subject: EvalSample, source: str, form: str = "") -> list[MotionRows
     return found
 
 
-def _copies(whole: ObjectShape, subject: EvalSample, questions: Sequence[PartMotions]) -> dict[int, tuple[int, ...]]:
+def _copies(whole: ObjectShape, sample: EvalSample, questions: Sequence[PartMotions]) -> dict[int, tuple[int, ...]]:
     """Return the parts that stage B compares each part with: of the same size and parent, in a row with it."""
-    label = subject.labels[whole.source]
-    shapes = [whole.of(np.flatnonzero(label == i)) for i in range(len(subject.truth.parts))]
+    label = sample.labels[whole.source]
+    shapes = [whole.of(np.flatnonzero(label == i)) for i in range(len(sample.truth.parts))]
     parent = {i: over for i, over, _, _ in questions}
     around = {i: a for i, _, a, _ in questions}
     groups = same_size(shapes, [-1, *(parent[i] for i in sorted(parent))])
@@ -146,8 +146,8 @@ def collect(spec: str, source: str, name: str, change: str, folder: str) -> str:
     if path.exists():
         return ""
     with tempfile.TemporaryDirectory() as place:
-        subject = nameless(prepared(open_dataset(spec).truth(name, Path(place))))
-        save(path, rows_of(changed(change, subject) if change else subject, source, change))
+        sample = nameless(prepared(open_dataset(spec).truth(name, Path(place))))
+        save(path, rows_of(changed(change, sample) if change else sample, source, change))
     return f"{source} {name} {change}"
 
 

@@ -79,9 +79,9 @@ def read_rows(folder: Path) -> list[PartRows]:
     return found
 
 
-def rows_of(subject: EvalSample, source: str, form: str = "") -> PartRows:
+def rows_of(sample: EvalSample, source: str, form: str = "") -> PartRows:
     """Find and measure the candidates of an object."""
-    mesh, truth, config = subject.mesh, subject.truth, Config()
+    mesh, truth, config = sample.mesh, sample.truth, Config()
     whole = object_shape(mesh, config.seed, config.pieces)
     contacts = find_contacts(whole, config.segmentation)
     tree = part_tree(mesh, whole, contacts, config.segmentation.smallest, config.segmentation.most_candidates)
@@ -93,7 +93,7 @@ def rows_of(subject: EvalSample, source: str, form: str = "") -> PartRows:
             rows.append(part_features(scene, k, around))
     names = tuple(rows[0]) if rows else ()
     shape = len(contacts.shapes), len(truth.parts)
-    area = np.bincount(whole.mesh_patch * shape[1] + subject.labels, mesh.face_areas, shape[0] * shape[1]).reshape(shape)
+    area = np.bincount(whole.mesh_patch * shape[1] + sample.labels, mesh.face_areas, shape[0] * shape[1]).reshape(shape)
     number = {part.name: k for k, part in enumerate(truth.parts)}
     parent = {number[j.child]: number.get(j.parent, 0) for j in truth.joints}
     return PartRows(
@@ -118,8 +118,8 @@ def collect(spec: str, source: str, name: str, change: str, folder: str) -> str:
     if path.exists():
         return ""
     with tempfile.TemporaryDirectory() as place:
-        subject = nameless(prepared(open_dataset(spec).truth(name, Path(place))))
-        rows_of(changed(change, subject) if change else subject, source, change).save(path)
+        sample = nameless(prepared(open_dataset(spec).truth(name, Path(place))))
+        rows_of(changed(change, sample) if change else sample, source, change).save(path)
     return f"{source} {name} {change}"
 
 

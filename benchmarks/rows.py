@@ -24,12 +24,12 @@ def kind_of(name: str, category: str) -> str:
     return category if category != "object" else name.split("-")[0]
 
 
-def nameless(subject: EvalSample) -> EvalSample:
+def nameless(sample: EvalSample) -> EvalSample:
     """The object without names of nodes and materials."""
-    mesh = subject.mesh
+    mesh = sample.mesh
     nodes = tuple(replace(n, name=f"node{k}") for k, n in enumerate(mesh.nodes))
     materials = tuple(replace(m, name=f"material{k}") for k, m in enumerate(mesh.materials))
-    return replace(subject, mesh=replace(mesh, nodes=nodes, materials=materials))
+    return replace(sample, mesh=replace(mesh, nodes=nodes, materials=materials))
 
 
 def collect_all(description: str, collect: Collect, argv: Sequence[str] | None) -> None:

@@ -70,7 +70,7 @@ class RecordingFactory:
 
     def exchanges(self) -> tuple[Exchange, ...]:
         """Return all calls so far."""
-        return tuple(e for seer in self._made for e in seer.exchanges)
+        return tuple(e for answerer in self._made for e in answerer.exchanges)
 
 
 @dataclass(frozen=True, eq=False)

@@ -56,7 +56,7 @@ class ArticulationConfig:
 
 PAPER_VIEWS = "8@15"
 DEFAULT_VIEWS = f"{PAPER_VIEWS},2@50+30,1@-35+30"
-MOST_VIEWS = 32
+MAX_VIEWS = 32
 RING = re.compile(r"(?P<count>[1-9]\d?)@(?P<elevation>-?\d{1,2}(\.\d+)?)(\+(?P<azimuth>\d{1,3}(\.\d+)?))?")
 
 
@@ -84,10 +84,10 @@ class ViewsConfig:
             rings = [RING.fullmatch(ring) for ring in told.split(",")]
             count = sum(int(ring["count"]) for ring in rings if ring)
             steep = any(abs(float(ring["elevation"])) > 90 for ring in rings if ring)
-            if not all(rings) or not 1 <= count <= MOST_VIEWS or steep:
+            if not all(rings) or not 1 <= count <= MAX_VIEWS or steep:
                 raise OptionError(
                     f"--viewpoints: found {told!r}; valid are COUNT@ELEVATION or COUNT@ELEVATION+AZIMUTH [deg] with commas "
-                    f"between, such as {DEFAULT_VIEWS} or {PAPER_VIEWS} (the paper's), 1 to {MOST_VIEWS} views in all"
+                    f"between, such as {DEFAULT_VIEWS} or {PAPER_VIEWS} (the paper's), 1 to {MAX_VIEWS} views in all"
                 )
 
     @property

@@ -61,15 +61,15 @@ def evaluate(
     (None: one a core). answerer: as for `articulate`, or oracle, or oracle:P (each answer wrong with probability P).
     Raises OptionError, OutputError, MissingExtraError, ModelError; what was done until then is kept.
     """
-    exam = _exam(protocol, changes, views, answering.get("seed", 0))
+    eval_config = _eval_config(protocol, changes, views, answering.get("seed", 0))
     stop = Event()
-    answerer_for, data = _answerer_for(answering, exam.seed, stop), open_dataset(dataset)
+    answerer_for, data = _answerer_for(answering, eval_config.seed, stop), open_dataset(dataset)
     names = _chosen(data, split, only)
-    results = ResultsFolder.open(Path(out), _settings(dataset, split, only, exam, answering), force=force)
+    results = ResultsFolder.open(Path(out), _settings(dataset, split, only, eval_config, answering), force=force)
     left = [name for name in names if not results.has(name)]
     before, total = len(names) - len(left), len(names)
     progress("eval", f"{before} done before" if before else "begins", before, total)
-    work = partial(_examined, dataset, exam, answering, results.folder)
+    work = partial(_examined, dataset, eval_config, answering, results.folder)
     alone = (GEOMETRY.name, ORACLE, *(() if answering.get("wait") else (FILES,)))
     shared = not results.settings["answerer"].startswith(alone)
     waiting: list[OpenQuestionError] = []
@@ -82,7 +82,7 @@ def evaluate(
     if waiting:
         raise _waiting(waiting, total)
     every = [record for name in names for record in results.load(name)]
-    title = f"{data.name}{f' {split}' if split else ''}, {exam.protocol}, {results.settings['answerer']}"
+    title = f"{data.name}{f' {split}' if split else ''}, {eval_config.protocol}, {results.settings['answerer']}"
     settings = {**results.settings, "trained on": trained_note(data.name, names)}
     write_report(every, results.folder, title=title, settings=settings)
     return every
@@ -97,7 +97,7 @@ def _waiting(errors: Sequence[OpenQuestionError], total: int) -> OpenQuestionErr
     )
 
 
-def _exam(protocol: str, changes: Sequence[str], views: int, seed: int) -> EvalConfig:
+def _eval_config(protocol: str, changes: Sequence[str], views: int, seed: int) -> EvalConfig:
     if protocol not in list(EvalProtocol):
         raise OptionError(f"--protocol: found {protocol!r}; valid are {', '.join(EvalProtocol)}")
     unknown = [c for c in changes if c not in CHANGES]
@@ -118,23 +118,25 @@ def _chosen(data: Dataset, split: str | None, only: Sequence[str]) -> list[str]:
     return [n for n in names if not only or n in only]
 
 
-def _settings(dataset: str, split: str | None, only: Sequence[str], exam: EvalConfig, answering: Answering) -> dict[str, str]:
+def _settings(
+    dataset: str, split: str | None, only: Sequence[str], eval_config: EvalConfig, answering: Answering
+) -> dict[str, str]:
     """What an evaluation hangs on, in words, and with what it was made."""
     told = {
         "dataset": dataset,
         "split": split or "all",
-        "protocol": str(exam.protocol),
+        "protocol": str(eval_config.protocol),
         "answerer": answering.get("answerer", GEOMETRY.name),
-        "changes": ", ".join(exam.changes),
-        "seed": str(exam.seed),
+        "changes": ", ".join(eval_config.changes),
+        "seed": str(eval_config.seed),
         "anymesh": __version__,
     }
-    if exam.protocol is EvalProtocol.VIEWS:
-        told["views"] = str(exam.views)
+    if eval_config.protocol is EvalProtocol.VIEWS:
+        told["views"] = str(eval_config.views)
     if only:
         told["only"] = ", ".join(sorted(only))
     told |= {k: str(answering[k]) for k in ("verify", "proposer", "viewpoints") if k in answering}
-    if exam.protocol in (EvalProtocol.END_TO_END, EvalProtocol.EXECUTABILITY):
+    if eval_config.protocol in (EvalProtocol.END_TO_END, EvalProtocol.EXECUTABILITY):
         told["at least"] = str(answering.get("at_least", 0))
     made = {"date": datetime.datetime.now(datetime.UTC).date().isoformat(), "python": platform.python_version()}
     return told | made | {"numpy": np.__version__, "machine": f"{platform.machine()}, {_cores()} cores"}
@@ -145,20 +147,20 @@ def _cores() -> int:
 
 
 def _answerer_for(answering: Answering, seed: int, stop: Event | None = None) -> SampleAnswerer:
-    """Who answers about a subject: geometry, its truth (with errors on purpose where wanted), files, or a model."""
+    """Who answers about a sample: geometry, its truth (with errors on purpose where wanted), files, or a model."""
     name, _, share = answering.get("answerer", GEOMETRY.name).partition(":")
     if name == FILES.removesuffix(":"):
 
-        def asked(subject: EvalSample) -> AnswererFactory | None:
-            place: Answering = {**answering, "answerer": f"{FILES}{Path(share) / legal_name(subject.truth.name)}"}
-            return choose_answerer(place, about=subject.truth.name, stop=stop).factory
+        def asked(sample: EvalSample) -> AnswererFactory | None:
+            place: Answering = {**answering, "answerer": f"{FILES}{Path(share) / legal_name(sample.truth.name)}"}
+            return choose_answerer(place, about=sample.truth.name, stop=stop).factory
 
         one = f"{FILES}{Path(share) / 'object'}" if share else FILES
         _ = choose_answerer({**answering, "answerer": one})  # what is wrong with the options is told before anything is done
         return asked
     if name != ORACLE:
         who = choose_answerer(answering)
-        return lambda subject: who.factory if who.new_factory is None else who.new_factory()
+        return lambda sample: who.factory if who.new_factory is None else who.new_factory()
     try:
         wrong = float(share or 0)
     except ValueError:
@@ -166,22 +168,27 @@ def _answerer_for(answering: Answering, seed: int, stop: Event | None = None) ->
     if not 0 <= wrong <= 1:
         raise OptionError(f"--answerer oracle:P needs a probability P from 0 to 1, found {share!r}")
 
-    def known(subject: EvalSample) -> AnswererFactory:
-        rng = np.random.default_rng((seed, crc32(subject.truth.name.encode())))
-        return lambda instead: Noisy(oracle(subject), wrong, rng) if wrong else oracle(subject)
+    def known(sample: EvalSample) -> AnswererFactory:
+        rng = np.random.default_rng((seed, crc32(sample.truth.name.encode())))
+        return lambda instead: Noisy(oracle(sample), wrong, rng) if wrong else oracle(sample)
 
     return known
 
 
 def _examined(
-    dataset: str, exam: EvalConfig, answering: Answering, folder: Path, name: str, answerer_for: SampleAnswerer | None = None
+    dataset: str,
+    eval_config: EvalConfig,
+    answering: Answering,
+    folder: Path,
+    name: str,
+    answerer_for: SampleAnswerer | None = None,
 ) -> Examined:
     """One object's records; in a process of its own, which opens the data set anew."""
     options: Answering = {**answering, "answerer": GEOMETRY.name, "parts_list": ()}
     solver = partial(solve, config=choose_answerer(options).config)
     try:
         return evaluate_sample(
-            exam, open_dataset(dataset), name, folder, solver, answerer_for or _answerer_for(answering, exam.seed)
+            eval_config, open_dataset(dataset), name, folder, solver, answerer_for or _answerer_for(answering, eval_config.seed)
         )
     except OpenQuestionError as error:
         return error

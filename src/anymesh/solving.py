@@ -107,14 +107,14 @@ class Solver:
         return RecognitionResult(found, answerer.name, scale, note, (*answerer.warnings, *doubt), answerer.exchanges)
 
     def _view_pictures(self) -> tuple[Picture, ...]:
-        seen, studio = self._visual_prompts.views, self._visual_prompts
-        names = studio.names(len(seen))
+        seen, prompts = self._visual_prompts.views, self._visual_prompts
+        names = prompts.names(len(seen))
         inside = inner_faces(self.mesh, self.whole, self._cloud, seen_points(self._cloud, seen), MIN_RECOGNITION_PATCH_RATIO)
         if inside.any():
-            chosen = studio.clearest_inside_views(inside, MAX_INSIDE_VIEWS)
-            seen = [*seen, *(studio.insides(inside)[k] for k in chosen)]
-            names += [studio.inside_names()[k] for k in chosen]
-        return studio.pictures([view.color for view in seen], names)
+            chosen = prompts.clearest_inside_views(inside, MAX_INSIDE_VIEWS)
+            seen = [*seen, *(prompts.insides(inside)[k] for k in chosen)]
+            names += [prompts.inside_names()[k] for k in chosen]
+        return prompts.pictures([view.color for view in seen], names)
 
     def parts(
         self, parts: str = "auto", recognition: Recognition | None = None, progress: Progress = silent

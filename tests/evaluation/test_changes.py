@@ -96,12 +96,12 @@ def test_what_moved_on_a_part_that_is_gone_moves_on_its_carrier() -> None:
     parts = tuple(Part(name, "part") for name in ("base", "a", "b"))
     inside = np.zeros(len(mesh.faces), np.int64)
     inside[-1] = 2
-    subject = EvalSample(
+    sample = EvalSample(
         GroundTruth("x", Path("x.glb"), parts, inside, (joint, replace(joint, child="b", parent="a"))), mesh, inside, np.eye(4)
     )
-    new = changed("noise.0001", subject)
-    assert new.truth is subject.truth  # faces stay
-    left = changed("half-faces", subject).truth
+    new = changed("noise.0001", sample)
+    assert new.truth is sample.truth  # faces stay
+    left = changed("half-faces", sample).truth
     assert [(j.child, j.parent) for j in left.joints] == [("b", "base")]
 
 

@@ -23,10 +23,10 @@ def small(monkeypatch) -> None:
     monkeypatch.setattr("anymesh.evaluation.drawing.PANEL", PANEL)
 
 
-def drawn(part: str, found, segmentation=ASSET.segmentation, subject=SUBJECT) -> np.ndarray:
-    true = next(j for j in subject.truth.joints if j.child == part)
+def drawn(part: str, found, segmentation=ASSET.segmentation, sample=SUBJECT) -> np.ndarray:
+    true = next(j for j in sample.truth.joints if j.child == part)
     score = JointScore(part, 0.9, true.type, found and found.type)
-    return draw_joint(subject, segmentation, subject.joint(true), found, score)
+    return draw_joint(sample, segmentation, sample.joint(true), found, score)
 
 
 def near(image: np.ndarray, color: tuple[int, int, int]) -> np.ndarray:
@@ -73,7 +73,7 @@ def test_the_same_joint_is_the_same_picture() -> None:
 def test_ranges_that_nobody_knows_are_drawn_too(part) -> None:
     joints = tuple(replace(j, limits=None, range_known=False) for j in SUBJECT.truth.joints)
     unknown = replace(SUBJECT, truth=replace(SUBJECT.truth, joints=joints))
-    opened = halves(without_caption(drawn(part, JOINTS[part], subject=unknown)))[1]
+    opened = halves(without_caption(drawn(part, JOINTS[part], sample=unknown)))[1]
     assert near(opened, TRUE).sum() > 100
 
 

@@ -23,7 +23,7 @@ SLIDE = joint("slide", "prismatic", "base", "slider", (0.1, 0, 0), (1, 0, 0), (0
 NOTHING = ObjectScore("block", (), 0, 0, 0)
 
 
-def subject(*joints: TrueJoint) -> EvalSample:
+def sample(*joints: TrueJoint) -> EvalSample:
     return EvalSample(GroundTruth("block", Path("x"), PARTS, LABELS, joints), MESH, LABELS, np.eye(4))
 
 
@@ -35,11 +35,11 @@ def test_a_good_asset_has_no_faults() -> None:
 
 
 def test_a_joint_that_runs_into_another_part_is_told_by_name() -> None:
-    found = executability(subject(TRUE), Segmentation(LABELS, PARTS), (SLIDE, POST), NOTHING)
+    found = executability(sample(TRUE), Segmentation(LABELS, PARTS), (SLIDE, POST), NOTHING)
     assert found.executable is False
     assert any(f.startswith("slide: ") and "'post'" in f for f in found.faults)
     free = replace(SLIDE, limits=(0.0, 0.25))
-    found = executability(subject(TRUE), Segmentation(LABELS, PARTS), (free, POST), NOTHING)
+    found = executability(sample(TRUE), Segmentation(LABELS, PARTS), (free, POST), NOTHING)
     assert (found.executable, found.faults) == (True, ())
 
 
@@ -47,15 +47,14 @@ def test_nothing_that_moves_is_executable_only_where_nothing_should() -> None:
     whole, rigid = Segmentation(np.zeros_like(LABELS), PARTS[:1]), Segmentation(LABELS, PARTS)
     fixed = replace(POST, name="also", child="slider")
     for segmentation, joints in ((whole, ()), (rigid, (POST, fixed))):
-        missing = executability(subject(TRUE), segmentation, joints, NOTHING)
+        missing = executability(sample(TRUE), segmentation, joints, NOTHING)
         assert missing.executable is False
         assert len(missing.faults) == 1
-        assert executability(subject(), segmentation, joints, NOTHING).executable is True
+        assert executability(sample(), segmentation, joints, NOTHING).executable is True
 
 
 def test_the_rest_of_the_score_is_kept() -> None:
     given = ObjectScore("x", (), 3, 2, 1)
     assert (
-        replace(executability(subject(), Segmentation(LABELS, PARTS), (POST, SLIDE), given), executable=None, faults=())
-        == given
+        replace(executability(sample(), Segmentation(LABELS, PARTS), (POST, SLIDE), given), executable=None, faults=()) == given
     )

@@ -31,7 +31,7 @@ ASSET = cabinet()
 TURNED = np.array([[0, -0.01, 0, 1], [0, 0, 0.01, 2], [-0.01, 0, 0, 3], [0, 0, 0, 1]])  # in centimetres, and lying
 
 
-def subject(T_asset_source: np.ndarray, labels=("base", "Door_01", "drawer", "knob")) -> EvalSample:
+def sample(T_asset_source: np.ndarray, labels=("base", "Door_01", "drawer", "knob")) -> EvalSample:
     """The cabinet's truth in the coordinates of a file, on the cabinet."""
     T = np.linalg.inv(T_asset_source)
     scale = float(np.linalg.norm(T[:3, 0]))
@@ -49,7 +49,7 @@ def subject(T_asset_source: np.ndarray, labels=("base", "Door_01", "drawer", "kn
 
 @pytest.mark.parametrize("T", [np.eye(4), TURNED], ids=["same frame", "other frame and unit"])
 def test_the_truth_of_a_file_moves_the_asset_as_it_should(T: np.ndarray) -> None:
-    found = true_reference(subject(T))
+    found = true_reference(sample(T))
     by_child = {j.child: j for j in ASSET.joints}
     for part, joint in zip(ASSET.segmentation.parts[1:], found.joints[1:], strict=True):
         asked = by_child[part.name]
@@ -61,7 +61,7 @@ def test_the_truth_of_a_file_moves_the_asset_as_it_should(T: np.ndarray) -> None
 
 
 def test_the_reference_tells_what_is_where() -> None:
-    found = true_reference(subject(TURNED))
+    found = true_reference(sample(TURNED))
     assert found.labels == ("base", "door", "drawer", "knob")
     assert found.parents == (0, 0, 0, 2)
     assert found.joints[0] is None
@@ -71,14 +71,14 @@ def test_the_reference_tells_what_is_where() -> None:
 
 
 def test_a_part_without_a_word_for_it_is_named_by_its_motion() -> None:
-    made = true_reference(subject(np.eye(4), ("base", "x1", "x2", "x3")))
+    made = true_reference(sample(np.eye(4), ("base", "x1", "x2", "x3")))
     assert made.labels == ("base", "door", "drawer", "knob")  # by the parts' own names
     nameless = GroundTruth("x", Path("x"), tuple(Part(f"x{k}", "?") for k in range(4)), made.face_part, ())
     assert true_reference(EvalSample(nameless, ASSET.mesh, made.face_part, np.eye(4))).kinds[1:] == ("part",) * 3
 
 
 def test_the_oracle_knows_the_truth() -> None:
-    seer = oracle(subject(TURNED))
+    seer = oracle(sample(TURNED))
     assert isinstance(seer, VisualAnswerer)
     assert (seer.name, seer.needs_images) == ("oracle", False)
     faces = np.flatnonzero(ASSET.segmentation.face_part == 2)

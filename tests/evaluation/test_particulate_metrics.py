@@ -17,7 +17,7 @@ ALL_ONE = Segmentation(np.zeros_like(LABELS), PARTS[:1])
 SLIDE = joint("s", "prismatic", "base", "plate", (0, 0, 0), X, (0.0, 1.0))
 
 
-def subject(joints: tuple[Joint, ...] = (SLIDE,), T=None, range_known: bool = True) -> EvalSample:
+def sample(joints: tuple[Joint, ...] = (SLIDE,), T=None, range_known: bool = True) -> EvalSample:
     """On the block, or on one that T took elsewhere, the truth with it."""
     T = np.eye(4) if T is None else T
     true = tuple(TrueJoint(j.child, j.parent, j.type, j.origin, j.axis, j.limits, range_known) for j in joints)
@@ -25,7 +25,7 @@ def subject(joints: tuple[Joint, ...] = (SLIDE,), T=None, range_known: bool = Tr
 
 
 def alike(joints: tuple[Joint, ...], segmentation: Segmentation | None = None, truth: EvalSample | None = None) -> PoseMetrics:
-    return particulate_metrics(truth or subject(), segmentation or Segmentation(LABELS, PARTS), joints)
+    return particulate_metrics(truth or sample(), segmentation or Segmentation(LABELS, PARTS), joints)
 
 
 def test_the_truth_is_alike_at_every_pose() -> None:
@@ -73,7 +73,7 @@ def test_distances_are_squared_and_taken_both_ways() -> None:
 def test_a_plate_that_turns_the_wrong_way_is_unlike_though_its_parts_are_right() -> None:
     up = joint("t", "revolute", "base", "plate", (0, 0, 0.5), -Y, (0.0, np.pi / 2))
     down = joint("t", "revolute", "base", "plate", (0, 0, 0.5), Y, (0.0, np.pi / 2))
-    found = alike((down,), truth=subject((up,)))
+    found = alike((down,), truth=sample((up,)))
     assert found.rest.giou == pytest.approx(1)
     assert found.opened is not None
     assert found.posed is not None
@@ -93,7 +93,7 @@ def test_size_place_and_quarter_turns_do_not_matter() -> None:
     T = np.array([[0, -7.0, 0, 1], [7, 0, 0, 2], [0, 0, 7, 3], [0, 0, 0, 1]])
     half = joint("s", "prismatic", "base", "plate", (9, 9, 9), X, (0.0, 0.5))
     moved = joint("s", "prismatic", "base", "plate", (9, 9, 9), Y, (0.0, 3.5))
-    here, there = alike((half,)), alike((moved,), truth=subject(T=T))
+    here, there = alike((half,)), alike((moved,), truth=sample(T=T))
     for a, b in zip((here.rest, here.posed, here.opened), (there.rest, there.posed, there.opened), strict=True):
         assert a is not None
         assert b is not None
@@ -101,7 +101,7 @@ def test_size_place_and_quarter_turns_do_not_matter() -> None:
 
 
 def test_without_known_ranges_there_is_no_motion_to_compare() -> None:
-    found = alike((SLIDE,), truth=subject(range_known=False))
+    found = alike((SLIDE,), truth=sample(range_known=False))
     assert (found.posed, found.opened) == (None, None)
     assert found.rest.giou == pytest.approx(1)
 

@@ -1,4 +1,4 @@
-"""A subject whose joints are moved, and the truth about it from there on."""
+"""A sample whose joints are moved, and the truth about it from there on."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -15,7 +15,7 @@ ASSET = cabinet()
 TURNED = np.array([[0, -0.01, 0, 1], [0, 0, 0.01, 2], [-0.01, 0, 0, 3], [0, 0, 0, 1]])  # in centimetres, and lying
 
 
-def subject(T: np.ndarray) -> EvalSample:
+def sample(T: np.ndarray) -> EvalSample:
     """The cabinet, its truth in coordinates that T takes to the mesh's."""
     back = np.linalg.inv(T)
     scale = float(np.linalg.norm(back[:3, 0]))
@@ -35,7 +35,7 @@ def subject(T: np.ndarray) -> EvalSample:
 
 @pytest.mark.parametrize("T", [np.eye(4), TURNED], ids=["same frame", "other frame and unit"])
 def test_moving_there_and_back_changes_nothing(T: np.ndarray) -> None:
-    rest = subject(T)
+    rest = sample(T)
     there = {j.child: (0.3 if j.limits is None else 0.4 * j.limits[1]) for j in rest.truth.joints}
     moved = posed(rest, there)
     assert np.abs(moved.mesh.triangles - rest.mesh.triangles).max() > 0.05
@@ -48,14 +48,14 @@ def test_moving_there_and_back_changes_nothing(T: np.ndarray) -> None:
 
 
 def test_lengths_stay_those_of_the_object_at_rest() -> None:
-    rest = subject(np.eye(4))
+    rest = sample(np.eye(4))
     open_door = posed(rest, {"drawer": 0.3})
     assert open_door.mesh.diagonal > rest.mesh.diagonal
     assert open_door.unit == rest.unit
 
 
 def test_a_part_carries_the_joints_on_it() -> None:
-    rest = subject(np.eye(4))
+    rest = sample(np.eye(4))
     carried = posed(rest, {"drawer": 0.2})
     knob = next(j for j in carried.truth.joints if j.child == "knob")
     before = next(j for j in rest.truth.joints if j.child == "knob")
@@ -65,7 +65,7 @@ def test_a_part_carries_the_joints_on_it() -> None:
 
 
 def test_limits_are_told_from_where_the_joint_stands() -> None:
-    rest = subject(np.eye(4))
+    rest = sample(np.eye(4))
     door = next(j for j in rest.truth.joints if j.child == "door")
     assert door.limits is not None
     ajar = next(j for j in posed(rest, {"door": 0.5}).truth.joints if j.child == "door")

@@ -5,7 +5,7 @@ import pytest
 from assets import box, mesh_of
 
 from anymesh.loading import LoadedMesh, place_mesh
-from anymesh.loading.sizes import LONGEST, NEAR, usual_size
+from anymesh.loading.sizes import BELIEVED_FACTOR, LONGEST, usual_size
 
 
 def placed(longest: float, *, path: str = "thing.obj", unit: float | None = None, category: str | None = None):
@@ -48,7 +48,7 @@ def test_where_no_unit_suits_it_gets_the_usual_size_and_says_so():
 
 
 def test_a_unit_in_the_file_counts_for_more_than_its_name_and_less_than_the_category():
-    huge = 2 * NEAR * LONGEST["microwave"]
+    huge = 2 * BELIEVED_FACTOR * LONGEST["microwave"]
     assert placed(huge, path="microwave.glb", unit=1.0).mesh.extents.max() == pytest.approx(huge)
     told = placed(huge, path="thing.glb", unit=1.0, category="microwave oven")
     assert told.mesh.extents.max() == pytest.approx(LONGEST["microwave_oven"])

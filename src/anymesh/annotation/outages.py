@@ -5,13 +5,13 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 
-FIRST, MOST = 5.0, 120.0  # [s] between attempts
+FIRST_WAIT, MAX_WAIT = 5.0, 120.0  # [s] between attempts
 
 
 class Outage:
     """The state of what is asked. patience [s] from the first failure, after which the run ends."""
 
-    def __init__(self, patience: float, *, clock: Callable[[], float] = time.monotonic, first: float = FIRST) -> None:
+    def __init__(self, patience: float, *, clock: Callable[[], float] = time.monotonic, first: float = FIRST_WAIT) -> None:
         self._patience, self._clock, self._first = patience, clock, first
         self._since: float | None = None
         self._next, self._wait = 0.0, first
@@ -31,7 +31,7 @@ class Outage:
         now = self._clock()
         self._since = now if self._since is None else self._since
         if now >= self._next:
-            self._next, self._wait = now + self._wait, min(2 * self._wait, MOST)
+            self._next, self._wait = now + self._wait, min(2 * self._wait, MAX_WAIT)
 
     def reached(self) -> None:
         """Note that somebody answered."""

@@ -132,12 +132,12 @@ def _with_kinds(
     questions: Questions, cases: list[PartCase], whole: ObjectShape, segmentation: Segmentation
 ) -> tuple[list[PartCase], Segmentation]:
     """Ask what kind of joint each part has and, where its label is none of those recognized, which of these it is."""
-    studio, labels = questions.visual_prompts, segmentation.face_part
+    pictures, labels = questions.visual_prompts, segmentation.face_part
     choices = questions.labels if unlabelled(segmentation, questions.labels) else ()
     kinds = ask_each(
         questions.answerer,
         cases,
-        lambda c, title: studio.card(labels, c.number, title, c.shown.contact),
+        lambda c, title: pictures.card(labels, c.number, title, c.shown.contact),
         lambda p, some: WhichKinds(p, tuple(c.shown for c in some), choices, questions.category),
     )
     answered = {n: a.label for n, a in kinds.items() if a.label is not None}
@@ -150,9 +150,9 @@ def _with_kinds(
 
 def _hinges(questions: Questions, cases: list[PartCase], whole: ObjectShape, segmentation: Segmentation) -> dict[int, Motion]:
     """Return the hinges by part number: points are shown, picked, and their line taken."""
-    labels, studio = segmentation.face_part, questions.visual_prompts
+    labels, pictures = segmentation.face_part, questions.visual_prompts
     turning = [c for c in cases if c.kind.is_rotation]
-    shots = {c.number: studio.shot(labels, c.number) for c in turning}
+    shots = {c.number: pictures.shot(labels, c.number) for c in turning}
     tables = {c.number: _points(questions, c, shots[c.number], whole) for c in turning}
     picks = ask_each(
         questions.answerer,
@@ -170,7 +170,7 @@ def _hinges(questions: Questions, cases: list[PartCase], whole: ObjectShape, seg
 
 def _points(questions: Questions, case: PartCase, shot: Shot, whole: ObjectShape) -> PointTable:
     """The candidate points of a part that turns; with the paper's method clusters and superpoints alone."""
-    config, studio = questions.config, questions.visual_prompts
+    config, pictures = questions.config, questions.visual_prompts
     project, prompts = shot.project, config.prompts
     shaped = case.kind is JointKind.HINGE_INTO and config.verify != "off"
     if shaped:
@@ -187,22 +187,22 @@ def _points(questions: Questions, case: PartCase, shot: Shot, whole: ObjectShape
         points = followed(first[shot.is_inside(first)], points, project, prompts)
     if case.kind is JointKind.HINGE_HIDDEN:
         samples = case.around.part.samples
-        colors = studio.face_colors[whole.source[samples.faces]]
+        colors = pictures.face_colors[whole.source[samples.faces]]
         points = with_more(points, shot.inside(superpoint_centres(samples, colors, config.grounding)), project, prompts)
     if len(axes):
         axes = np.concatenate([axes, np.full((len(points) - len(axes), 3), np.nan)])
-    return PointTable(case.shown, points, case.kind, axes if len(axes) else None, studio.hidden(shot, points))
+    return PointTable(case.shown, points, case.kind, axes if len(axes) else None, pictures.hidden(shot, points))
 
 
 def _surface_directions(questions: Questions, cases: list[PartCase], segmentation: Segmentation) -> dict[int, Motion]:
     """Return the slides along the surface by part number: arrows in its plane are shown, and one is picked."""
-    studio, labels = questions.visual_prompts, segmentation.face_part
+    pictures, labels = questions.visual_prompts, segmentation.face_part
     sliding = [c for c in cases if c.kind is JointKind.SLIDE_ALONG]
     tables = {c.number: ArrowTable(c.shown, surface_directions(c.around)) for c in sliding}
     rows = ask_each(
         questions.answerer,
         sliding,
-        lambda c, title: studio.arrows(labels, c.number, title, c.around.part.box.center, tables[c.number].directions),
+        lambda c, title: pictures.arrows(labels, c.number, title, c.around.part.box.center, tables[c.number].directions),
         lambda p, some: WhichArrows(p, tuple(tables[c.number] for c in some), questions.category),
     )
     return {c.number: prismatic(tables[c.number].directions[rows[c.number]], c.around, "arrow picked") for c in sliding}

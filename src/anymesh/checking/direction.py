@@ -23,7 +23,7 @@ STOPPED = 0.5  # of the way to a limit; a link that is stopped before goes into 
 FREER = 2.0  # times as far the other way: the axis is the wrong way round
 STEPS = 24
 FACES = 20_000
-LEAST = 0.02  # of the object's diagonal or of a turn; a shorter way cannot be told
+MIN_MOTION_RATIO = 0.02  # of the object's diagonal or of a turn; a shorter way cannot be told
 
 
 def check_direction(content: Content) -> Iterator[Finding]:
@@ -56,7 +56,7 @@ def _ways(content: Content, joint: RobotJoint, part: TriangleSet, rest: Triangle
     obstacles = Obstacles(part, rest, TOLERANCE * content.diagonal)
     unit = "m" if slides else "rad"
     for sign, most in ((1, joint.range[1]), (-1, -joint.range[0])):
-        if most < LEAST * (content.diagonal if slides else 2 * np.pi):
+        if most < MIN_MOTION_RATIO * (content.diagonal if slides else 2 * np.pi):
             continue
         free = free_amount(obstacles, motion, sign, most, STEPS)[0]
         if free >= STOPPED * most:

@@ -12,7 +12,7 @@ from anymesh.checking.report import Finding, failure, warning
 from anymesh.simulation.robot import Inertial, RobotLink
 
 CHECK = "inertia"
-SLACK = 1e-6  # relative, for numbers that were rounded
+REL_TOLERANCE = 1e-6  # relative, for numbers that were rounded
 LIKE = 0.05  # relative; boxes that differ by less are of one size
 GROWN = 0.1  # of its diagonal; the centre of mass may lie so far out of the link's box
 FAR = 0.5  # of its diagonal; so far out it swings about a place where nothing is
@@ -51,7 +51,7 @@ def _possible(link: str, inertial: Inertial) -> Iterator[Finding]:
     shown = f"its principal moments are {a:.4g}, {b:.4g} and {c:.4g} kg m2"
     if not a > 0:
         yield failure(CHECK, link, f"{shown}; all must be above 0")
-    elif a + b < c * (1 - SLACK):
+    elif a + b < c * (1 - REL_TOLERANCE):
         yield failure(CHECK, link, f"{shown}; no body has one above the sum of the others")
 
 
@@ -88,8 +88,8 @@ def _placeholder(content: Content, given: list[tuple[RobotLink, Inertial]]) -> I
     size = float(np.abs(tensors[0]).max())
     alike = np.allclose(sizes, sizes[0], rtol=LIKE)
     cubes = all(np.ptp(s) <= LIKE * s.max() for s in sizes)
-    same = np.allclose(tensors, tensors[0], rtol=SLACK, atol=0)
-    balls = all(np.allclose(t, t[0, 0] * np.eye(3), rtol=SLACK, atol=SLACK * abs(t[0, 0])) for t in tensors)
+    same = np.allclose(tensors, tensors[0], rtol=REL_TOLERANCE, atol=0)
+    balls = all(np.allclose(t, t[0, 0] * np.eye(3), rtol=REL_TOLERANCE, atol=REL_TOLERANCE * abs(t[0, 0])) for t in tensors)
     if (same and not alike) or (balls and not cubes):
         told = f"all {len(tensors)} links have the tensor of a ball" if balls else f"all {len(tensors)} links have one tensor"
         yield warning(CHECK, "", f"{told} (such as {size:.3g} kg m2): placeholders; valid is each link's own, from its shape")

@@ -10,14 +10,14 @@ from anymesh.names import legal_name
 from anymesh.simulation.robot import Robot
 
 CHECK = "naming"
-KEPT = re.compile(r"[A-Za-z_][A-Za-z0-9_.-]*")
+LEGAL_NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_.-]*")
 
 
 def check_naming(robot: Robot) -> Iterator[Finding]:
     """Letters, digits, underscore, point and hyphen; none that differ by case alone."""
     for word, names in (("link", [b.name for b in robot.links]), ("joint", [j.name for j in robot.joints])):
         for name in names:
-            if name and not KEPT.fullmatch(name):
+            if name and not LEGAL_NAME.fullmatch(name):
                 legal = legal_name(name, fallback=word)
                 yield warning(CHECK, name, f"the name of this {word} is changed or refused by some engines; {legal} is valid")
         seen: dict[str, str] = {}

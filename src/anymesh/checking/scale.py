@@ -8,7 +8,7 @@ from anymesh.checking.content import Content
 from anymesh.checking.report import Finding, failure, warning
 
 CHECK = "scale"
-LEAST, MOST = 0.01, 20.0  # [m] diagonal of things with joints, from a clasp to a gate
+MIN_DIAGONAL, MAX_DIAGONAL = 0.01, 20.0  # [m] diagonal of things with joints, from a clasp to a gate
 BEYOND = 10.0  # times that is other units
 
 
@@ -17,7 +17,7 @@ def check_scale(content: Content) -> Iterator[Finding]:
     diagonal = content.diagonal
     if diagonal == 0:
         yield failure(CHECK, "", "the object has no shape at all; links need visual or collision shapes")
-    elif not LEAST <= diagonal <= MOST:
-        far = not LEAST / BEYOND <= diagonal <= MOST * BEYOND
-        told = f"the object's diagonal is {diagonal:.4g} m; plausible is {LEAST:g} to {MOST:g} m"
+    elif not MIN_DIAGONAL <= diagonal <= MAX_DIAGONAL:
+        far = not MIN_DIAGONAL / BEYOND <= diagonal <= MAX_DIAGONAL * BEYOND
+        told = f"the object's diagonal is {diagonal:.4g} m; plausible is {MIN_DIAGONAL:g} to {MAX_DIAGONAL:g} m"
         yield failure(CHECK, "", f"{told}; are the units metres?") if far else warning(CHECK, "", told)

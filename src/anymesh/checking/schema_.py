@@ -13,7 +13,7 @@ from anymesh.checking.tree import CHECK
 from anymesh.simulation.robot import Robot
 
 NAME = "asset.json"
-MOST = 5  # violations told
+MAX_VIOLATIONS = 5  # violations told
 FIXED = "fixed"  # an MJCF has no names for such joints
 SAME = 1e-6  # numbers of the two files agree to this
 
@@ -29,7 +29,7 @@ def check_asset_json(path: Path, robot: Robot) -> Iterator[Finding]:
         return
     schema = json.loads(resources.files("anymesh.export").joinpath("asset.schema.json").read_text(encoding="utf-8"))
     errors = sorted(jsonschema.Draft202012Validator(schema).iter_errors(record), key=lambda e: [str(p) for p in e.path])
-    for error in errors[:MOST]:
+    for error in errors[:MAX_VIOLATIONS]:
         yield failure(CHECK, NAME, f"{error.json_path}: {error.message[:200]}")
     if not errors:
         yield from _agreement(record, robot)

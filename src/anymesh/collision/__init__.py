@@ -76,8 +76,8 @@ def collision_shapes(
         if deadline.late(COLLISION):
             deadline.leave_out("collision: one convex hull per component")
             return [_one_hull(c, wall) for c in some]
-        fineness = [Resolution(config.gaps[k] * size, wall, config.pieces[k]) for k in levels]
-        divided = decomposer.divide(some, fineness)
+        resolution = [Resolution(config.gaps[k] * size, wall, config.pieces[k]) for k in levels]
+        divided = decomposer.divide(some, resolution)
         fallbacks.update({owner[id(c)]: d.fallback for c, d in zip(some, divided, strict=True) if d.fallback is not None})
         return [d.shapes for d in divided]
 

@@ -22,12 +22,12 @@ from anymesh.types import Shape
 
 MAX_PLANED_RATIO = 0.15  # share of a shape that is planed off rather than its piece refined
 MAX_PLANED_RATIO_LAST = 0.7  # share that is planed off where nothing finer is left
-Refine = Callable[[Sequence[Component], Sequence[int]], list[tuple[Shape, ...]]]  # shapes of components at levels of fineness
+Refine = Callable[[Sequence[Component], Sequence[int]], list[tuple[Shape, ...]]]  # shapes of components at levels of resolution
 
 
 @dataclass(frozen=True, eq=False)
 class ComponentShapes:
-    """A component of a link and its shapes at a level of fineness."""
+    """A component of a link and its shapes at a level of resolution."""
 
     link: str
     component: Component

@@ -50,19 +50,19 @@ class Decomposer:
     seconds: float
     methods: tuple[Method, ...] = tuple(Method)
 
-    def divide(self, components: Sequence[Component], fineness: Sequence[Resolution]) -> list[Divided]:
+    def divide(self, components: Sequence[Component], resolution: Sequence[Resolution]) -> list[Divided]:
         """Return the shapes of each component, in their order. Never raises for what a child process does.
 
         Components that differ by a shift alone are divided once.
         """
         low = [c.triangles.reshape(-1, 3).min(0) for c in components]
         local = [_at_origin(c, corner) for c, corner in zip(components, low, strict=True)]
-        keys = [content_key(c.triangles, c.solid, f.gap, f.wall, f.max_pieces) for c, f in zip(local, fineness, strict=True)]
+        keys = [content_key(c.triangles, c.solid, f.gap, f.wall, f.max_pieces) for c, f in zip(local, resolution, strict=True)]
         found = {key: Divided(shapes) for key in set(keys) if (shapes := load_shapes(self.cache, key)) is not None}
         todo = {key: k for k, key in reversed(list(enumerate(keys))) if key not in found}
         order = sorted(todo.values())
         calls = [
-            [(local[order[n]], fineness[order[n]]) for n in batch]
+            [(local[order[n]], resolution[order[n]]) for n in batch]
             for batch in _batches([len(local[k].triangles) for k in order])
         ]
         with ThreadPoolExecutor(self.pool.size) as threads:
@@ -87,15 +87,15 @@ class Decomposer:
             methods = self.methods[-1:] if slow else self.methods[1:]
             return [self._fall_back(*batch[0], methods, f"{self.methods[0].value}: {error}")]
 
-    def _fall_back(self, component: Component, fineness: Resolution, methods: Sequence[Method], reason: str) -> Divided:
+    def _fall_back(self, component: Component, resolution: Resolution, methods: Sequence[Method], reason: str) -> Divided:
         reasons = [reason]
         for method in methods:
             try:
-                (shapes,) = self._call([(component, fineness)], method)
+                (shapes,) = self._call([(component, resolution)], method)
                 return Divided(shapes, Fallback(tuple(reasons), method.value))
             except ChildError as error:
                 reasons.append(f"{method.value}: {error}")
-        hull = hull_of(component.triangles.reshape(-1, 3), fineness.wall)
+        hull = hull_of(component.triangles.reshape(-1, 3), resolution.wall)
         return Divided(() if hull is None else (hull,), Fallback(tuple(reasons), "one convex hull"))
 
     def _call(self, batch: list[tuple[Component, Resolution]], method: Method) -> list[tuple[Shape, ...]]:
@@ -113,7 +113,7 @@ def _at_origin(component: Component, corner: np.ndarray) -> Component:
 
 def divide_here(batch: list[tuple[Component, Resolution]], method: Method) -> list[tuple[Shape, ...]]:
     """Divide components in this process. The function that children run."""
-    return [component_shapes(component, fineness, method) for component, fineness in batch]
+    return [component_shapes(component, resolution, method) for component, resolution in batch]
 
 
 def _batches(sizes: Sequence[int]) -> list[range]:

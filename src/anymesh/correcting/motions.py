@@ -16,11 +16,11 @@ from anymesh.geometry.simplify_ import simplify
 from anymesh.reasoning.geometry import joint_type, motion_scores, reason
 from anymesh.types import Asset, Joint, JointType, Mesh
 
-MOST = 8
+MAX_MOTIONS = 8
 DENSE = 60_000  # faces of an asset from which its surface is simplified before it is made ready
-LEAST = 500  # faces that a part keeps
+MIN_PART_FACES = 500  # faces that a part keeps
 ALIKE = 0.97  # cosine of axes that are one to a user
-NEAR = 0.02  # of the object's diagonal: hinge lines this near are one to a user
+SAME_AXIS_RATIO = 0.02  # of the object's diagonal: hinge lines this near are one to a user
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,7 +45,7 @@ def made_ready(asset: Asset, config: Config | None = None) -> Ready:
 def _lighter(mesh: Mesh, label: np.ndarray) -> tuple[Mesh, np.ndarray]:
     """The surface in about DENSE triangles, each part for itself, and the part of each triangle."""
     groups = [mesh.triangles[label == k] for k in range(int(label.max()) + 1)]
-    few = [simplify(t, max(LEAST, DENSE * len(t) // len(label))) for t in groups]
+    few = [simplify(t, max(MIN_PART_FACES, DENSE * len(t) // len(label))) for t in groups]
     triangles, count = np.concatenate(few), sum(len(t) for t in few)
     nothing = np.zeros(count, np.int64)
     light = Mesh(triangles.reshape(-1, 3), np.arange(3 * count).reshape(-1, 3), nothing, mesh.nodes[:1], nothing - 1)
@@ -53,7 +53,7 @@ def _lighter(mesh: Mesh, label: np.ndarray) -> tuple[Mesh, np.ndarray]:
 
 
 def ranked_motions(
-    asset: Asset, part: str, *, ready: Ready | None = None, most: int = MOST, config: Config | None = None
+    asset: Asset, part: str, *, ready: Ready | None = None, most: int = MAX_MOTIONS, config: Config | None = None
 ) -> tuple[ChooseMotion, ...]:
     """The motions that the rest leaves free to a part, the likeliest first, each ready to be chosen.
 
@@ -94,4 +94,4 @@ def _alike(a: ChooseMotion, b: ChooseMotion, diagonal: float) -> bool:
     if (a.type is JointType.PRISMATIC) != (b.type is JointType.PRISMATIC) or abs(float(axis @ b.axis)) < ALIKE:
         return False
     apart = np.linalg.norm(np.cross(np.subtract(b.origin, a.origin), axis))
-    return a.type is JointType.PRISMATIC or float(apart) < NEAR * diagonal
+    return a.type is JointType.PRISMATIC or float(apart) < SAME_AXIS_RATIO * diagonal

@@ -25,7 +25,7 @@ from anymesh.names import legal_name
 from anymesh.types import Asset, Joint, JointType, Part, Segmentation
 
 JOINT = "_joint"  # what the name of a joint adds to that of its part
-MOST_COMPONENTS = 40  # a part in more pieces is soup, not parts that were joined by mistake
+MAX_COMPONENTS = 40  # a part in more pieces is soup, not parts that were joined by mistake
 
 
 def merge_parts(asset: Asset, c: MergeParts) -> Asset:
@@ -59,9 +59,9 @@ def split_part(asset: Asset, c: SplitPart) -> Asset:
 
 def split_components(asset: Asset, c: SplitComponents) -> Asset:
     groups = components_of(asset, c.part)
-    if not 2 <= len(groups) <= MOST_COMPONENTS:
+    if not 2 <= len(groups) <= MAX_COMPONENTS:
         raise CorrectionError(
-            f"{c.part!r} has {len(groups)} connected components; 2 to {MOST_COMPONENTS} can be split, choose faces instead"
+            f"{c.part!r} has {len(groups)} connected components; 2 to {MAX_COMPONENTS} can be split, choose faces instead"
         )
     names: list[str] = []
     for _ in groups[1:]:

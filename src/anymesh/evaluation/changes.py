@@ -33,17 +33,17 @@ FINE, COARSE = 256, 128  # cells along the longest side of an object of which on
 FUSED_FACES = 50_000  # of that surface; generated meshes come with about as many
 
 
-def changed(name: str, subject: EvalSample, seed: int = 0) -> EvalSample:
-    """The subject after one of CHANGES; the same for the same seed and subject."""
+def changed(name: str, sample: EvalSample, seed: int = 0) -> EvalSample:
+    """The sample after one of CHANGES; the same for the same seed and sample."""
     if name not in CHANGES:
         raise OptionError(f"change {name!r}; valid are {', '.join(CHANGES)}")
-    return CHANGES[name](subject, np.random.default_rng([seed, *name.encode(), *subject.truth.name.encode()]))
+    return CHANGES[name](sample, np.random.default_rng([seed, *name.encode(), *sample.truth.name.encode()]))
 
 
-def moved(subject: EvalSample, T: Float[np.ndarray, "4 4"]) -> EvalSample:
-    """The subject moved by a rigid motion with a scale; its lengths are told in units of the box that it had before."""
-    size = 2 * subject.unit * float(np.cbrt(np.linalg.det(T[:3, :3])))
-    return replace(subject, mesh=subject.mesh.transformed(T), T=T @ subject.T, diagonal=size)
+def moved(sample: EvalSample, T: Float[np.ndarray, "4 4"]) -> EvalSample:
+    """The sample moved by a rigid motion with a scale; its lengths are told in units of the box that it had before."""
+    size = 2 * sample.unit * float(np.cbrt(np.linalg.det(T[:3, :3])))
+    return replace(sample, mesh=sample.mesh.transformed(T), T=T @ sample.T, diagonal=size)
 
 
 def rotation(axis: Float[np.ndarray, " 3"], angle: float) -> Float[np.ndarray, "4 4"]:
@@ -55,64 +55,64 @@ def rotation(axis: Float[np.ndarray, " 3"], angle: float) -> Float[np.ndarray, "
     return T
 
 
-def _turned(subject: EvalSample, rng: np.random.Generator) -> EvalSample:
-    return moved(subject, rotation(np.array([0, 0, 1.0]), rng.uniform(0, 2 * np.pi)))
+def _turned(sample: EvalSample, rng: np.random.Generator) -> EvalSample:
+    return moved(sample, rotation(np.array([0, 0, 1.0]), rng.uniform(0, 2 * np.pi)))
 
 
-def _tilted(subject: EvalSample, rng: np.random.Generator) -> EvalSample:
+def _tilted(sample: EvalSample, rng: np.random.Generator) -> EvalSample:
     way = rng.uniform(0, 2 * np.pi)
-    return moved(subject, rotation(np.array([np.cos(way), np.sin(way), 0]), np.deg2rad(TILT)))
+    return moved(sample, rotation(np.array([np.cos(way), np.sin(way), 0]), np.deg2rad(TILT)))
 
 
-def _lying(subject: EvalSample, rng: np.random.Generator) -> EvalSample:
+def _lying(sample: EvalSample, rng: np.random.Generator) -> EvalSample:
     """On one of four sides: whoever placed it took another axis for up."""
-    return moved(subject, rotation(np.eye(3)[rng.integers(2)], rng.choice([-1, 1]) * np.pi / 2))
+    return moved(sample, rotation(np.eye(3)[rng.integers(2)], rng.choice([-1, 1]) * np.pi / 2))
 
 
-def _overturned(subject: EvalSample, rng: np.random.Generator) -> EvalSample:
-    return moved(subject, rotation(np.eye(3)[rng.integers(2)], np.pi))
+def _overturned(sample: EvalSample, rng: np.random.Generator) -> EvalSample:
+    return moved(sample, rotation(np.eye(3)[rng.integers(2)], np.pi))
 
 
-def _spun(subject: EvalSample, rng: np.random.Generator) -> EvalSample:
+def _spun(sample: EvalSample, rng: np.random.Generator) -> EvalSample:
     """Turned any way at all, evenly over all rotations."""
     w, x, y, z = (q := rng.normal(size=4)) / np.linalg.norm(q)
     sine = max(float(np.linalg.norm([x, y, z])), 1e-300)
-    return moved(subject, rotation(np.array([x, y, z]) / sine, 2 * np.arctan2(sine, w)))
+    return moved(sample, rotation(np.array([x, y, z]) / sine, 2 * np.arctan2(sine, w)))
 
 
-def _scaled(subject: EvalSample, rng: np.random.Generator, *, factor: float) -> EvalSample:
-    return moved(subject, np.diag([factor, factor, factor, 1.0]))
+def _scaled(sample: EvalSample, rng: np.random.Generator, *, factor: float) -> EvalSample:
+    return moved(sample, np.diag([factor, factor, factor, 1.0]))
 
 
-def _noisy(subject: EvalSample, rng: np.random.Generator, *, share: float) -> EvalSample:
+def _noisy(sample: EvalSample, rng: np.random.Generator, *, share: float) -> EvalSample:
     """Gaussian noise of `share` diagonals on every welded corner, so that no seam opens."""
-    mesh = subject.mesh
+    mesh = sample.mesh
     corner = weld(mesh.vertices)
     shift = rng.normal(size=(int(corner.max()) + 1, 3)) * share * mesh.diagonal
-    return replace(subject, mesh=replace(mesh, vertices=mesh.vertices + shift[corner], corner_normal=None))
+    return replace(sample, mesh=replace(mesh, vertices=mesh.vertices + shift[corner], corner_normal=None))
 
 
-def _decimated(subject: EvalSample, rng: np.random.Generator, *, share: float) -> EvalSample:
+def _decimated(sample: EvalSample, rng: np.random.Generator, *, share: float) -> EvalSample:
     """Every connected component with this share of its faces, by quadric error."""
-    mesh = subject.mesh
+    mesh = sample.mesh
     label = components(mesh.vertices, mesh.faces).label
     made = [
         simplify(mesh.triangles[mine], max(ROUGHEST, round(share * len(mine))))
         for mine in np.split(np.argsort(label, kind="stable"), np.cumsum(np.bincount(label))[:-1])
     ]
     corners = np.concatenate(made).reshape(-1, 3)
-    return resurfaced(subject, corners, np.arange(len(corners)).reshape(-1, 3), nodes=True)
+    return resurfaced(sample, corners, np.arange(len(corners)).reshape(-1, 3), nodes=True)
 
 
-def _unseen_gone(subject: EvalSample, rng: np.random.Generator) -> EvalSample:
+def _unseen_gone(sample: EvalSample, rng: np.random.Generator) -> EvalSample:
     """Without the faces that nobody sees from outside, whatever their winding; a face that shows in part stays."""
-    mesh = subject.mesh
+    mesh = sample.mesh
     s = sample_surface(mesh.triangles, PROBES, int(rng.integers(2**31)), at_least=1)
     middles = SurfacePoints(mesh.triangles.mean(1), mesh.face_normals, np.arange(len(mesh.faces)))
     seen = np.zeros(len(mesh.faces), bool)
     for probe in (middles, s):
         seen[probe.faces[_seen(mesh, probe)]] = True
-    return _only(subject, seen)
+    return _only(sample, seen)
 
 
 def _seen(mesh: Mesh, probe: SurfacePoints) -> Bool[np.ndarray, " n"]:
@@ -128,33 +128,33 @@ def _seen(mesh: Mesh, probe: SurfacePoints) -> Bool[np.ndarray, " n"]:
     return seen
 
 
-def _fused(subject: EvalSample, rng: np.random.Generator, *, cells: int) -> EvalSample:
+def _fused(sample: EvalSample, rng: np.random.Generator, *, cells: int) -> EvalSample:
     """One closed surface round the object, as voxel fusion and generators make it: gaps below two cells become grooves,
     what lies behind them is gone. Colours stay, names do not."""
-    t = subject.mesh.triangles
-    vertices, faces = wrapped(t, float(subject.mesh.extents.max()) / cells)
+    t = sample.mesh.triangles
+    vertices, faces = wrapped(t, float(sample.mesh.extents.max()) / cells)
     few = simplify(vertices[faces], FUSED_FACES)
-    return resurfaced(subject, few.reshape(-1, 3), np.arange(3 * len(few)).reshape(-1, 3))
+    return resurfaced(sample, few.reshape(-1, 3), np.arange(3 * len(few)).reshape(-1, 3))
 
 
-def _joined(subject: EvalSample, rng: np.random.Generator) -> EvalSample:
+def _joined(sample: EvalSample, rng: np.random.Generator) -> EvalSample:
     """The exact union of all closed components, as a CAD export or a boolean makes it; open ones stay as they are."""
-    mesh = subject.mesh
+    mesh = sample.mesh
     found = components(mesh.vertices, mesh.faces)
     flipped = found.flip[found.label]
     triangles = np.where(flipped[:, None, None], mesh.triangles[:, ::-1], mesh.triangles)
     solids = [triangles[found.label == c] for c in np.flatnonzero(found.solid)]
     open_ones = triangles[~found.solid[found.label]]
     corners = np.concatenate([joined(solids), open_ones] if solids else [open_ones]).reshape(-1, 3)
-    return resurfaced(subject, corners, np.arange(len(corners)).reshape(-1, 3))
+    return resurfaced(sample, corners, np.arange(len(corners)).reshape(-1, 3))
 
 
 def resurfaced(
-    subject: EvalSample, vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"], *, nodes: bool = False
+    sample: EvalSample, vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"], *, nodes: bool = False
 ) -> EvalSample:
-    """The subject with another surface, of which each face takes the label, and each corner the colour, of the nearest
+    """The sample with another surface, of which each face takes the label, and each corner the colour, of the nearest
     point of the old one. nodes: the faces stay in their nodes, else all are one."""
-    mesh = subject.mesh
+    mesh = sample.mesh
     _, first, inverse = np.unique(weld(vertices), return_index=True, return_inverse=True)
     vertices, faces = vertices[first], inverse.reshape(-1)[faces]
     faces = faces[normals_and_areas(vertices[faces])[1] > 0]
@@ -170,13 +170,13 @@ def resurfaced(
         face_material=np.full(len(faces), -1),
         corner_color=color[faces],
     )
-    return _only(replace(subject, mesh=made, labels=subject.labels[nearest]), np.ones(len(faces), bool))
+    return _only(replace(sample, mesh=made, labels=sample.labels[nearest]), np.ones(len(faces), bool))
 
 
-def _only(subject: EvalSample, kept: Bool[np.ndarray, " F"]) -> EvalSample:
-    """The subject with these faces alone. A part without any is no longer there to be found: what moved on it moves on what
+def _only(sample: EvalSample, kept: Bool[np.ndarray, " F"]) -> EvalSample:
+    """The sample with these faces alone. A part without any is no longer there to be found: what moved on it moves on what
     carried it."""
-    truth, labels = subject.truth, subject.labels[kept]
+    truth, labels = sample.truth, sample.labels[kept]
     there = np.bincount(labels, minlength=len(truth.parts)) > 0
     there[0] = True
     number = np.cumsum(there) - 1
@@ -191,13 +191,13 @@ def _only(subject: EvalSample, kept: Bool[np.ndarray, " F"]) -> EvalSample:
 
     joints = tuple(replace(j, parent=carrier(j.parent)) for j in truth.joints if j.child in names)
     return replace(
-        subject, truth=replace(truth, parts=parts, joints=joints), mesh=subject.mesh.subset(kept), labels=number[labels]
+        sample, truth=replace(truth, parts=parts, joints=joints), mesh=sample.mesh.subset(kept), labels=number[labels]
     )
 
 
 CHANGES: Mapping[str, Change] = MappingProxyType(
     {
-        "none": lambda subject, rng: subject,
+        "none": lambda sample, rng: sample,
         "turned": _turned,  # about the upright, by any angle
         "tilted": _tilted,
         "lying": _lying,

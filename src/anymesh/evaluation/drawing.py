@@ -31,7 +31,11 @@ GREY = np.array([185, 185, 185], np.uint8)
 PALE = 0.45  # of what stands still
 GHOST = 0.25  # of a part where something hides it
 AIR = 0.06  # round the object, a share of the picture
-LEGIBLE, LEAST, RING = 0.4, 3.0, 0.1  # as in motion strips: the least size of an axis (share of the picture), of its ring
+LEGIBLE, MIN_AXIS_RATIO, RING = (
+    0.4,
+    3.0,
+    0.1,
+)  # as in motion strips: the least size of an axis (share of the picture), of its ring
 RIM = 5  # [px] of outlines, in pictures of twice the size
 AXES = (4.2, 2.0)  # thickness of the true and the found axis
 DENSE = 20_000  # faces from which a mesh is thinned to choose the camera
@@ -53,25 +57,25 @@ class _Move:
 
 
 def draw_joint(
-    subject: EvalSample, segmentation: Segmentation, true: TrueJoint, found: Joint | None, score: JointScore
+    sample: EvalSample, segmentation: Segmentation, true: TrueJoint, found: Joint | None, score: JointScore
 ) -> UInt8[np.ndarray, "H W 3"]:
     """Left the whole object at rest, right the part half way open and near; the truth in green, what was found in vermilion.
 
-    true: in the subject's coordinates; found: the joint of the matched part, None where there is none.
+    true: in the sample's coordinates; found: the joint of the matched part, None where there is none.
     """
-    mesh = subject.mesh
-    numbers = {p.name: k for k, p in enumerate(subject.truth.parts)}
-    mine = subject.labels == numbers[true.child]
+    mesh = sample.mesh
+    numbers = {p.name: k for k, p in enumerate(sample.truth.parts)}
+    mine = sample.labels == numbers[true.child]
     size = float(np.linalg.norm(np.ptp(mesh.triangles[mine].reshape(-1, 3), axis=0)))
-    carried = np.isin(subject.labels, [numbers[name] for name in _carried(subject, true.child)])
-    theirs = _found_faces(subject, segmentation, found, numbers[true.child])
+    carried = np.isin(sample.labels, [numbers[name] for name in _carried(sample, true.child)])
+    theirs = _found_faces(sample, segmentation, found, numbers[true.child])
     right = _Move(mine | carried, *_motion(true, size), TRUE)
     ours = _Move(theirs | (carried if found else False), *(_motion(found, size) if found else (None, 0.0)), FOUND)
     moves = [m for m in (right, ours) if m.motion is not None]
     near = strip_camera(*_sketch(mesh, right.faces), [(m.motion, m.amount) for m in moves if m.motion], 2 * PANEL)
     panels = [_at_rest(mesh, mine, theirs, moves, _whole(near, mesh, mine, right)), _opened(mesh, right, ours, moves, near)]
     drawn = np.concatenate([_half(p) for p in panels], 1)
-    return captioned(drawn, f"{subject.truth.name} / {true.child}", what_is_off(score))
+    return captioned(drawn, f"{sample.truth.name} / {true.child}", what_is_off(score))
 
 
 def captioned(image: UInt8[np.ndarray, "h W 3"], title: str, told: str) -> UInt8[np.ndarray, "H W 3"]:
@@ -114,18 +118,18 @@ def _motion(joint: TrueJoint | Joint, size: float) -> tuple[Motion | None, float
     return motion, HALF_WAY * max(joint.limits, key=abs)
 
 
-def _carried(subject: EvalSample, name: str) -> list[str]:
+def _carried(sample: EvalSample, name: str) -> list[str]:
     """The parts that move with a part."""
-    direct = [j.child for j in subject.truth.joints if j.parent == name]
-    return [*direct, *(part for child in direct for part in _carried(subject, child))]
+    direct = [j.child for j in sample.truth.joints if j.parent == name]
+    return [*direct, *(part for child in direct for part in _carried(sample, child))]
 
 
-def _found_faces(subject: EvalSample, segmentation: Segmentation, found: Joint | None, true: int) -> Bool[np.ndarray, " F"]:
+def _found_faces(sample: EvalSample, segmentation: Segmentation, found: Joint | None, true: int) -> Bool[np.ndarray, " F"]:
     """The faces of the found part; without a joint, of the part that has most in common with the true one."""
     names = [p.name for p in segmentation.parts]
     if found is not None:
         return segmentation.face_part == names.index(found.child)
-    ious = part_ious(segmentation.face_part, subject.labels, subject.mesh.face_areas)
+    ious = part_ious(segmentation.face_part, sample.labels, sample.mesh.face_areas)
     return segmentation.face_part == int(ious[:, true].argmax())
 
 
@@ -181,7 +185,7 @@ def _axis(
     depth = float(camera.project(corners.mean(0)[None])[1][0])
     size = max(float(np.linalg.norm(np.ptp(corners, axis=0))), LEGIBLE * 2 * depth * float(np.tan(camera.fov / 2)))
     axis, slides = (-motion.axis if move.amount < 0 else motion.axis), motion.kind is MotionKind.PRISMATIC
-    ends, center = axis_line(corners, motion.origin, axis, slides, LEAST * size)
+    ends, center = axis_line(corners, motion.origin, axis, slides, MIN_AXIS_RATIO * size)
     return ends, None if slides else ring(center, axis, RING * size * (1 + scale / AXES[0]))
 
 

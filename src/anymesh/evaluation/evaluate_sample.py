@@ -89,39 +89,39 @@ def _record(
     label = f"{change}, view {view}" if view else change
     begin = time.perf_counter()
     try:
-        subject = changed(change, prepared(truth), config.seed)
+        sample = changed(change, prepared(truth), config.seed)
         if view:
-            subject = observation(subject, view - 1, config.seed)
+            sample = observation(sample, view - 1, config.seed)
         given = config.protocol in (EvalProtocol.PARTS, EvalProtocol.VIEWS)
         begin = time.perf_counter()
         segmentation, joints = solver(
-            subject.mesh, subject.segmentation() if given else None, answerer_factory=answerer_for(subject)
+            sample.mesh, sample.segmentation() if given else None, answerer_factory=answerer_for(sample)
         )
         seconds = time.perf_counter() - begin
-        found = score(subject, segmentation, joints)
+        found = score(sample, segmentation, joints)
         if config.protocol is EvalProtocol.EXECUTABILITY:
-            found = executability(subject, segmentation, joints, found)
+            found = executability(sample, segmentation, joints, found)
     except ModelError:
         raise
     except Exception as error:  # whatever it is, it is this object's failure and not the end of the others
         log.exception("%s (%s) failed", truth.name, label)
         told = f"{type(error).__name__}: {error}"
         return Record(failed(truth), truth.category, label, time.perf_counter() - begin, error=told)
-    drawn = tuple(_pictures(subject, segmentation, joints, found, folder, label))
+    drawn = tuple(_pictures(sample, segmentation, joints, found, folder, label))
     return Record(found, truth.category, label, seconds, pictures=drawn)
 
 
 def _pictures(
-    subject: EvalSample, segmentation: Segmentation, joints: tuple[Joint, ...], found: ObjectScore, folder: Path, label: str
+    sample: EvalSample, segmentation: Segmentation, joints: tuple[Joint, ...], found: ObjectScore, folder: Path, label: str
 ) -> Iterator[tuple[str, str]]:
     """Draws the joints that are off, the worst first; yields each part with the picture's path under `folder`."""
     by_child = {j.child: j for j in joints}
     off = sorted((j for j in found.joints if is_off(j)), key=badness, reverse=True)
     for number, joint in enumerate(off[:MAX_PICTURES], start=1):
-        true = next(j for j in subject.truth.joints if j.child == joint.part)
-        path = Path(PICTURES) / f"{legal_name(subject.truth.name)}-{legal_name(label)}-{number}.png"
+        true = next(j for j in sample.truth.joints if j.child == joint.part)
+        path = Path(PICTURES) / f"{legal_name(sample.truth.name)}-{legal_name(label)}-{number}.png"
         (folder / PICTURES).mkdir(parents=True, exist_ok=True)
-        drawn = draw_joint(subject, segmentation, subject.joint(true), by_child.get(joint.found), joint)
+        drawn = draw_joint(sample, segmentation, sample.joint(true), by_child.get(joint.found), joint)
         Image.fromarray(drawn).save(folder / path)
         yield joint.part, path.as_posix()
 

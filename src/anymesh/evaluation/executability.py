@@ -20,16 +20,14 @@ STEPS = 100  # places along each range
 NAME = "object"
 
 
-def executability(
-    subject: EvalSample, segmentation: Segmentation, joints: tuple[Joint, ...], found: ObjectScore
-) -> ObjectScore:
+def executability(sample: EvalSample, segmentation: Segmentation, joints: tuple[Joint, ...], found: ObjectScore) -> ObjectScore:
     """The score with what driving every found joint through its range showed.
 
     The rule (see `success.motion_anymesh`) is about the joints that were found: what is missing among them is told by other
     figures. But an object of which nothing was found that moves, though it does in truth, is not executable.
     """
-    faults = drive(subject.mesh, segmentation, joints)
-    if subject.truth.joints and not _movable(joints):
+    faults = drive(sample.mesh, segmentation, joints)
+    if sample.truth.joints and not _movable(joints):
         faults = ("object: nothing was found that moves",)
     return replace(found, executable=not faults, faults=faults)
 

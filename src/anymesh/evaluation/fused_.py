@@ -16,7 +16,7 @@ from anymesh.types.triangles import normals_and_areas
 
 OFFSET = 0.6  # [cells] of the wrap from the surface; from a half on nothing leaks through a sheet
 BAND = 2  # [cells] from the surface in which distances are measured
-LEAST = 1e-3  # [cells] between the wrap and a corner of a cell, or triangles would have no area
+MIN_WRAP_CELLS = 1e-3  # [cells] between the wrap and a corner of a cell, or triangles would have no area
 DENSITY = 6  # points a cell of surface, to find that band
 
 _CUBE = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]])  # libigl's order
@@ -52,8 +52,8 @@ def _field(triangles: np.ndarray, low: np.ndarray, cell: float) -> np.ndarray:
     field[band] = distance_to_mesh(np.argwhere(band) * cell + low, corners, np.arange(len(corners)).reshape(-1, 3))[0]
     field -= OFFSET * cell
     region = ndimage.label(field >= 0)[0]
-    outside = (field >= LEAST * cell) & (region == region[0, 0, 0])
-    field[~outside] = np.minimum(-np.abs(field[~outside]), -LEAST * cell)  # no corner of a cube lies on the surface
+    outside = (field >= MIN_WRAP_CELLS * cell) & (region == region[0, 0, 0])
+    field[~outside] = np.minimum(-np.abs(field[~outside]), -MIN_WRAP_CELLS * cell)  # no corner of a cube lies on the surface
     return field
 
 

@@ -75,7 +75,7 @@ class EvalSample:
         )
 
     def asset(self) -> Asset:
-        """The subject with its true parts and joints. A range that is not known is a small one; what has no joint is fixed
+        """The sample with its true parts and joints. A range that is not known is a small one; what has no joint is fixed
         to the base."""
         segmentation = self.segmentation()
         names = [part.name for part in segmentation.parts]

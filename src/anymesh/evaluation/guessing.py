@@ -15,7 +15,7 @@ from anymesh.types import Exchange
 from anymesh.types.recognition import BASE
 
 WORDS = ("door", "lid", "drawer", "knob", "wheel", "handle", "arm", "button")
-MOST_KINDS, MOST_PARTS = 4, 6  # of labels, and of parts in an answer about marks
+MAX_KINDS, MAX_PARTS = 4, 6  # of labels, and of parts in an answer about marks
 OWNED = 0.7  # share of the marks that belong to some part
 RARE = 0.1  # of the marks that are unsure, or to be split
 Pools = Mapping[str, list[int]]  # what an integer of a name can be
@@ -90,7 +90,7 @@ class Guesser:
 
     def _recognition(self, question: Recognize) -> dict[str, Any]:
         rng = self._rng
-        labels = [str(w) for w in rng.choice(WORDS, int(rng.integers(1, MOST_KINDS + 1)), replace=False)]
+        labels = [str(w) for w in rng.choice(WORDS, int(rng.integers(1, MAX_KINDS + 1)), replace=False)]
         row = question.schema()["properties"]["parts"]["items"]
         parts = []
         for k, label in enumerate(labels):
@@ -109,9 +109,9 @@ class Guesser:
         every = [int(n) for n in np.unique(np.concatenate([np.zeros(0, int), *present]))]
         parts = []
         for view, marks in enumerate([every] if question.consistent else present, start=1):
-            owner = self._rng.integers(0, MOST_PARTS, len(marks))
+            owner = self._rng.integers(0, MAX_PARTS, len(marks))
             owner[self._rng.random(len(marks)) > OWNED] = -1
-            for k in range(MOST_PARTS):
+            for k in range(MAX_PARTS):
                 at = {} if question.consistent else {"view": view}
                 own = [int(n) for n in np.asarray(marks)[owner == k]]
                 parts.append({"label": question.labels[k % len(question.labels)], "instance": k + 1, **at, "marks": own})

@@ -53,17 +53,17 @@ def true_reference(sample: EvalSample) -> Reference:
 
 
 class Noisy:
-    """Another seer, of whose answers each item is wrong with a probability: another mark, kind, point, arrow or motion."""
+    """Another answerer, of whose answers each item is wrong with a probability: another mark, kind, point, arrow or motion."""
 
     exchanges: tuple[Exchange, ...] = ()
     warnings: tuple[str, ...] = ()
     needs_images = False
 
-    def __init__(self, seer: VisualAnswerer, wrong: float, rng: np.random.Generator) -> None:
-        self.name, self._seer, self._wrong, self._rng = f"noisy {seer.name}", seer, wrong, rng
+    def __init__(self, answerer: VisualAnswerer, wrong: float, rng: np.random.Generator) -> None:
+        self.name, self._answerer, self._wrong, self._rng = f"noisy {answerer.name}", answerer, wrong, rng
 
     def ask(self, question: Question[Answer]) -> Answer:
-        answer: Any = self._seer.ask(question)
+        answer: Any = self._answerer.ask(question)
         match question:
             case WhichMarks():
                 present = [np.unique(r[r >= 0]) for r in question.regions]
@@ -111,8 +111,8 @@ class Random:
     warnings: tuple[str, ...] = ()
     needs_images = False
 
-    def __init__(self, seer: VisualAnswerer, rng: np.random.Generator) -> None:
-        self.name, self._seer, self._rng = "random", seer, rng
+    def __init__(self, answerer: VisualAnswerer, rng: np.random.Generator) -> None:
+        self.name, self._answerer, self._rng = "random", answerer, rng
 
     def ask(self, question: Question[Answer]) -> Answer:
         answer: Any
@@ -127,7 +127,7 @@ class Random:
                 rows = [int(self._rng.integers(-1, len(t.motions))) for t in question.tables]
                 answer = tuple(MotionPick(None if row < 0 else row) for row in rows)
             case _:
-                answer = self._seer.ask(question)
+                answer = self._answerer.ask(question)
         return cast(Answer, answer)
 
     def _coin(self) -> bool:

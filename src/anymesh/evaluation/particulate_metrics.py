@@ -82,12 +82,12 @@ class _Side:
         return np.array([as_box(c) for c in self.corners])
 
 
-def particulate_metrics(subject: EvalSample, segmentation: Segmentation, joints: tuple[Joint, ...]) -> PoseMetrics:
-    """The found parts and joints of the subject's mesh against the true ones."""
-    mesh, truth = subject.mesh, subject.truth
+def particulate_metrics(sample: EvalSample, segmentation: Segmentation, joints: tuple[Joint, ...]) -> PoseMetrics:
+    """The found parts and joints of the sample's mesh against the true ones."""
+    mesh, truth = sample.mesh, sample.truth
     size = float(mesh.extents.max())
-    true_joints = [subject.joint(j) for j in truth.joints]
-    labels = (segmentation.face_part, subject.labels)
+    true_joints = [sample.joint(j) for j in truth.joints]
+    labels = (segmentation.face_part, sample.labels)
     names = [[p.name for p in segmentation.parts], [p.name for p in truth.parts]]
     at = _points(mesh, labels)
     found, true = (

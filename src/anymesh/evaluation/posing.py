@@ -1,4 +1,4 @@
-"""A subject with some of its joints moved."""
+"""A sample with some of its joints moved."""
 
 from __future__ import annotations
 
@@ -12,43 +12,43 @@ from anymesh.evaluation.ground_truth import EvalSample, TrueJoint
 from anymesh.types import JointType, Motion, MotionKind
 
 
-def posed(subject: EvalSample, positions: Mapping[str, float]) -> EvalSample:
-    """The subject with joints, told by their children's names, at positions in the truth's units; the others stay at rest.
+def posed(sample: EvalSample, positions: Mapping[str, float]) -> EvalSample:
+    """The sample with joints, told by their children's names, at positions in the truth's units; the others stay at rest.
 
     Joints and their limits are told from there on: a door that stands half way open closes to its lower limit.
     """
-    T = link_transforms(subject, positions)
-    triangles = subject.mesh.triangles.copy()
-    for number, part in enumerate(subject.truth.parts):
-        mine = subject.labels == number
+    T = link_transforms(sample, positions)
+    triangles = sample.mesh.triangles.copy()
+    for number, part in enumerate(sample.truth.parts):
+        mine = sample.labels == number
         triangles[mine] = triangles[mine] @ T[part.name][:3, :3].T + T[part.name][:3, 3]
     faces = np.arange(3 * len(triangles)).reshape(-1, 3)
-    mesh = replace(subject.mesh, vertices=triangles.reshape(-1, 3), faces=faces, corner_normal=None)
-    back = np.linalg.inv(subject.T)
-    joints = tuple(_moved(j, back @ T[j.parent] @ subject.T, positions.get(j.child, 0.0)) for j in subject.truth.joints)
-    return replace(subject, truth=replace(subject.truth, joints=joints), mesh=mesh, diagonal=2 * subject.unit)
+    mesh = replace(sample.mesh, vertices=triangles.reshape(-1, 3), faces=faces, corner_normal=None)
+    back = np.linalg.inv(sample.T)
+    joints = tuple(_moved(j, back @ T[j.parent] @ sample.T, positions.get(j.child, 0.0)) for j in sample.truth.joints)
+    return replace(sample, truth=replace(sample.truth, joints=joints), mesh=mesh, diagonal=2 * sample.unit)
 
 
-def link_transforms(subject: EvalSample, positions: Mapping[str, float]) -> dict[str, Float[np.ndarray, "4 4"]]:
+def link_transforms(sample: EvalSample, positions: Mapping[str, float]) -> dict[str, Float[np.ndarray, "4 4"]]:
     """Part name -> transform from rest in the mesh's frame; what is no joint's child stands still."""
-    by_child = {j.child: j for j in subject.truth.joints}
+    by_child = {j.child: j for j in sample.truth.joints}
     found: dict[str, np.ndarray] = {}
 
     def of(name: str) -> np.ndarray:
         if name not in found:
             joint = by_child.get(name)
-            found[name] = np.eye(4) if joint is None else of(joint.parent) @ _motion(subject, joint, positions.get(name, 0.0))
+            found[name] = np.eye(4) if joint is None else of(joint.parent) @ _motion(sample, joint, positions.get(name, 0.0))
         return found[name]
 
-    for part in (*subject.truth.parts, *(j.parent for j in subject.truth.joints)):
+    for part in (*sample.truth.parts, *(j.parent for j in sample.truth.joints)):
         of(part if isinstance(part, str) else part.name)
     return found
 
 
-def _motion(subject: EvalSample, joint: TrueJoint, position: float) -> np.ndarray:
-    placed = subject.joint(joint)
+def _motion(sample: EvalSample, joint: TrueJoint, position: float) -> np.ndarray:
+    placed = sample.joint(joint)
     slides = joint.type is JointType.PRISMATIC
-    scale = float(np.linalg.norm(subject.T[:3, :3] @ joint.axis)) if slides else 1.0
+    scale = float(np.linalg.norm(sample.T[:3, :3] @ joint.axis)) if slides else 1.0
     kind = MotionKind.PRISMATIC if slides else MotionKind.REVOLUTE
     return Motion(kind, placed.axis, placed.origin, "true joint").transform(position * scale)
 

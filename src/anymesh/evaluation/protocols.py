@@ -40,14 +40,14 @@ def evaluate(
 
     reference: the oracle answers, or what this function makes of it (see `oracle.Noisy`).
     """
-    subject = prepared(truth, change)
-    answerer_factory = None if reference is None else (lambda _: reference(oracle(subject)))
-    segmentation, joints = solver(subject.mesh, subject.segmentation() if given else None, answerer_factory=answerer_factory)
-    return score(subject, segmentation, joints)
+    sample = prepared(truth, change)
+    answerer_factory = None if reference is None else (lambda _: reference(oracle(sample)))
+    segmentation, joints = solver(sample.mesh, sample.segmentation() if given else None, answerer_factory=answerer_factory)
+    return score(sample, segmentation, joints)
 
 
 def prepared(truth: GroundTruth, change: Change | None = None) -> EvalSample:
     """The truth's mesh loaded, placed, and changed on purpose."""
     placed = place_mesh(load_mesh(truth.mesh))
-    subject = EvalSample(truth, placed.mesh, truth.labels, placed.T_asset_source)
-    return change(subject) if change else subject
+    sample = EvalSample(truth, placed.mesh, truth.labels, placed.T_asset_source)
+    return change(sample) if change else sample

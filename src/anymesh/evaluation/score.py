@@ -78,7 +78,7 @@ class ObjectScore:
 
 
 def score(sample: EvalSample, segmentation: Segmentation, joints: tuple[Joint, ...]) -> ObjectScore:
-    """Compares what was found on the subject's mesh with the truth."""
+    """Compares what was found on the sample's mesh with the truth."""
     truth = sample.truth
     pairs = match_parts(part_ious(segmentation.face_part, sample.labels, sample.mesh.face_areas))
     by_child = {j.child: j for j in joints}

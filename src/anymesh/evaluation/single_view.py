@@ -37,19 +37,19 @@ TRIES = 50  # cameras before an object counts as one that no picture shows
 DIRECTIONS = 24  # among which the front is
 
 
-def observations(subject: EvalSample, count: int, seed: int) -> list[EvalSample]:
-    """The first `count` observations of a subject."""
-    return [observation(subject, number, seed) for number in range(count)]
+def observations(sample: EvalSample, count: int, seed: int) -> list[EvalSample]:
+    """The first `count` observations of a sample."""
+    return [observation(sample, number, seed) for number in range(count)]
 
 
-def observation(subject: EvalSample, number: int, seed: int) -> EvalSample:
+def observation(sample: EvalSample, number: int, seed: int) -> EvalSample:
     """What one picture shows: every even-numbered one at rest, every odd one with one joint part way open.
 
     InputError when no camera sees a movable part.
     """
-    rng = np.random.default_rng([seed, number, zlib.crc32(subject.truth.name.encode())])
-    around, seen = front(subject)
-    scene = opened(subject, seen, rng) if number % 2 else subject
+    rng = np.random.default_rng([seed, number, zlib.crc32(sample.truth.name.encode())])
+    around, seen = front(sample)
+    scene = opened(sample, seen, rng) if number % 2 else sample
     rays = RayScene(scene.mesh.vertices, scene.mesh.faces)
     for _ in range(TRIES):
         azimuth = around + np.deg2rad(rng.uniform(-ASIDE, ASIDE))
@@ -57,27 +57,27 @@ def observation(subject: EvalSample, number: int, seed: int) -> EvalSample:
         found = observed(scene, camera, rays)
         if found is not None:
             return found
-    raise InputError(f"{subject.truth.name}: no picture shows a movable part and the base; found none in {TRIES} views")
+    raise InputError(f"{sample.truth.name}: no picture shows a movable part and the base; found none in {TRIES} views")
 
 
-def observed(subject: EvalSample, camera: Camera, rays: RayScene | None = None) -> EvalSample | None:
-    """The part of the subject that a camera sees, with the truth about the parts that it sees, or None where it sees no
+def observed(sample: EvalSample, camera: Camera, rays: RayScene | None = None) -> EvalSample | None:
+    """The part of the sample that a camera sees, with the truth about the parts that it sees, or None where it sees no
     movable part or no base. Lengths of scores stay shares of the whole object's diagonal."""
-    view = render(subject.mesh, camera, scene=rays)
-    part = np.where(view.face >= 0, subject.labels[view.face], -1)
+    view = render(sample.mesh, camera, scene=rays)
+    part = np.where(view.face >= 0, sample.labels[view.face], -1)
     bordering = (part == 0) & (maximum_filter(part, 3) > 0)  # a pixel of clearance: edges are known no better than that
     try:
         mesh, labels = visible_surface(view, np.where(bordering, -1, part))
     except ValueError:
         return None
-    covered = np.bincount(part[part >= 0], minlength=len(subject.truth.parts)) >= MIN_PART_SHARE * part.size
+    covered = np.bincount(part[part >= 0], minlength=len(sample.truth.parts)) >= MIN_PART_SHARE * part.size
     covered &= np.isin(np.arange(len(covered)), labels)
     if not covered[0] or not covered[1:].any():
         return None
     kept = np.flatnonzero(covered[labels])
-    truth, number = _of_parts(subject.truth, np.flatnonzero(covered))
+    truth, number = _of_parts(sample.truth, np.flatnonzero(covered))
     mesh, labels = _closed(mesh.subset(kept), number[labels[kept]], view)
-    return replace(subject, truth=truth, mesh=mesh, labels=labels, diagonal=2 * subject.unit)
+    return replace(sample, truth=truth, mesh=mesh, labels=labels, diagonal=2 * sample.unit)
 
 
 def _closed(mesh: Mesh, labels: Int[np.ndarray, " F"], view: View) -> tuple[Mesh, Int[np.ndarray, " G"]]:
@@ -99,25 +99,25 @@ def _closed(mesh: Mesh, labels: Int[np.ndarray, " F"], view: View) -> tuple[Mesh
     return closed, np.concatenate([labels, np.zeros(count, np.int64)])
 
 
-def opened(subject: EvalSample, among: Int[np.ndarray, " k"], rng: np.random.Generator) -> EvalSample:
-    """The subject with the joint of one of these parts, drawn at random, part way open; as it is where none has limits."""
-    names = {subject.truth.parts[k].name for k in among}
-    able = [j for j in subject.truth.joints if j.limits is not None and j.range_known and j.child in names]
+def opened(sample: EvalSample, among: Int[np.ndarray, " k"], rng: np.random.Generator) -> EvalSample:
+    """The sample with the joint of one of these parts, drawn at random, part way open; as it is where none has limits."""
+    names = {sample.truth.parts[k].name for k in among}
+    able = [j for j in sample.truth.joints if j.limits is not None and j.range_known and j.child in names]
     if not able:
-        return subject
+        return sample
     joint = able[int(rng.integers(len(able)))]
     lower, upper = joint.limits or (0.0, 0.0)
-    return posed(subject, {joint.child: lower + float(rng.uniform(*OPEN)) * (upper - lower)})
+    return posed(sample, {joint.child: lower + float(rng.uniform(*OPEN)) * (upper - lower)})
 
 
-def front(subject: EvalSample) -> tuple[float, Int[np.ndarray, " k"]]:
+def front(sample: EvalSample) -> tuple[float, Int[np.ndarray, " k"]]:
     """The azimuth [rad] from which the movable parts cover most of a picture at rest, and the numbers of those seen there."""
-    rays = RayScene(subject.mesh.vertices, subject.mesh.faces)
+    rays = RayScene(sample.mesh.vertices, sample.mesh.faces)
     high = np.deg2rad(sum(ELEVATION) / 2)
-    best, most = 0.0, np.zeros(len(subject.truth.parts), np.int64)
+    best, most = 0.0, np.zeros(len(sample.truth.parts), np.int64)
     for azimuth in 2 * np.pi * np.arange(DIRECTIONS) / DIRECTIONS:
-        view = render(subject.mesh, orbit_camera(subject.mesh.bounds, azimuth, high, SIZE // 4), scene=rays)
-        pixels = np.bincount(subject.labels[view.face[view.face >= 0]], minlength=len(most))
+        view = render(sample.mesh, orbit_camera(sample.mesh.bounds, azimuth, high, SIZE // 4), scene=rays)
+        pixels = np.bincount(sample.labels[view.face[view.face >= 0]], minlength=len(most))
         if pixels[1:].sum() > most[1:].sum():
             best, most = float(azimuth), pixels
     return best, 1 + np.flatnonzero(most[1:])

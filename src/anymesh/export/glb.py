@@ -25,7 +25,7 @@ PBR_KEYS = {"base_color": "baseColorTexture", "metallic_roughness": "metallicRou
 def glb_bytes(asset: Asset, links: Sequence[Link], config: ExportConfig) -> bytes:
     """The GLB of an asset with legal names. Nodes are link frames under a root node that turns Z up to Y up."""
     buffer = GlbBuffer()
-    looks = _Looks(asset, buffer)
+    looks = _Materials(asset, buffer)
     meshes = [{"name": link.name, "primitives": [looks.primitive(p) for p in link.primitives]} for link in links]
     document: dict[str, Any] = {
         "asset": {"version": "2.0", "generator": f"articulate-anymesh {anymesh.__version__}"},
@@ -84,7 +84,7 @@ def _animation(asset: Asset, links: Sequence[Link], buffer: GlbBuffer, config: E
     return {"name": "articulation", "channels": channels, "samplers": samplers}
 
 
-class _Looks:
+class _Materials:
     """Materials, textures and images in use, each written once when it is first needed."""
 
     def __init__(self, asset: Asset, buffer: GlbBuffer) -> None:

@@ -18,8 +18,8 @@ from anymesh.types import Hull, Material
 from anymesh.types.color import to_srgb
 from anymesh.types.triangles import face_cross
 
-LEAST_AREA = 1e-12  # [m^2] of a visible primitive; MuJoCo refuses meshes of less
-LEAST_AREA_SHARE = 1e-9  # of the squared diagonal: the area of thinner needles is lost in float32
+MIN_AREA = 1e-12  # [m^2] of a visible primitive; MuJoCo refuses meshes of less
+MIN_AREA_SHARE = 1e-9  # of the squared diagonal: the area of thinner needles is lost in float32
 SHEET = 1e-5  # share of the diagonal; a visual thinner than this gets a back sheet, since MuJoCo refuses flat meshes
 MTL_MAPS = {"base_color": "map_Kd", "emissive": "map_Ke", "normal": "norm"}  # the ones whose channels MTL can name
 
@@ -82,7 +82,7 @@ def visible(link: Link, config: ExportConfig) -> tuple[Primitive, ...]:
     """Return the link's primitives that have an area, with a back sheet where they are flat; a small box if none has."""
     triangles = link.triangles
     size = float(np.linalg.norm(np.ptp(triangles.reshape(-1, 3), axis=0)))
-    least = max(LEAST_AREA, LEAST_AREA_SHARE * size**2)
+    least = max(MIN_AREA, MIN_AREA_SHARE * size**2)
     primitives = tuple(p for p in link.primitives if _area(p) > least)
     if not primitives:
         vertices, faces = small_box(triangles, config)

@@ -13,7 +13,7 @@ from anymesh.errors import OutputError
 from anymesh.export.drives import Drive, drives
 from anymesh.export.meshes import material_names
 from anymesh.export.mjcf_digits import with_digits
-from anymesh.export.mjcf_materials import GeomLook, geom_looks, png_textures
+from anymesh.export.mjcf_materials import GeomMaterial, geom_materials, png_textures
 from anymesh.export.model import Base, Driven, ExportLink, Model
 from anymesh.export.rotations import quaternion
 from anymesh.export.settings import ExportConfig
@@ -21,7 +21,7 @@ from anymesh.mujoco_ import load_mujoco
 from anymesh.types import Box, Cylinder, Hull, Joint, JointType, Mesh, Shape
 
 VISUAL, COLLISION = "visual", "collision"
-LEAST_VOLUME = 1e-12  # [m^3] a mesh of less is refused unless its inertia, which no body takes, is that of a shell
+MIN_VOLUME = 1e-12  # [m^3] a mesh of less is refused unless its inertia, which no body takes, is that of a shell
 DRIVES = 1  # the actuators' group: `actuatorgroupdisable="1"` makes the asset passive
 
 
@@ -33,7 +33,7 @@ def write_mjcf(model: Model, folder: Path, config: ExportConfig) -> None:
     """
     mujoco = load_mujoco()
     spec = _spec(mujoco, model, folder)
-    looks = {body.name: geom_looks(model.asset.mesh, body, folder, config) for body in model.bodies}
+    looks = {body.name: geom_materials(model.asset.mesh, body, folder, config) for body in model.bodies}
     _add_materials(mujoco, spec, model.asset.mesh, folder, [look for found in looks.values() for look in found])
     names = material_names(model.asset.mesh.materials)
     frames: dict[str, Any] = {}
@@ -78,7 +78,7 @@ def _spec(mujoco: Any, model: Model, folder: Path) -> Any:
     return spec
 
 
-def _add_materials(mujoco: Any, spec: Any, mesh: Mesh, folder: Path, looks: Iterable[GeomLook]) -> None:
+def _add_materials(mujoco: Any, spec: Any, mesh: Mesh, folder: Path, looks: Iterable[GeomMaterial]) -> None:
     """Materials and textures that geoms use; MuJoCo's own renderer shows the base colour, others more."""
     roles = mujoco.mjtTextureRole
     slots = {"base_color": roles.mjTEXROLE_RGB, "normal": roles.mjTEXROLE_NORMAL, "emissive": roles.mjTEXROLE_EMISSIVE}
@@ -127,7 +127,9 @@ def _add_joint(mujoco: Any, frame: Any, joint: Joint | None, base: Base) -> None
     added.actfrclimited, added.actfrcrange = 1, [-joint.effort, joint.effort]
 
 
-def _add_geoms(mujoco: Any, spec: Any, frame: Any, body: ExportLink, looks: Iterable[GeomLook], names: Sequence[str]) -> None:
+def _add_geoms(
+    mujoco: Any, spec: Any, frame: Any, body: ExportLink, looks: Iterable[GeomMaterial], names: Sequence[str]
+) -> None:
     for look in looks:
         mesh = spec.add_mesh(name=look.name, file=look.path)
         mesh.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL  # a sheet has no volume
@@ -151,7 +153,7 @@ def _shape(mujoco: Any, spec: Any, geom: Any, shape: Shape, path: str | None) ->
             geom.type, geom.size = mujoco.mjtGeom.mjGEOM_CYLINDER, [shape.radius, shape.length / 2, 0]
         case Hull():
             mesh = spec.add_mesh(name=geom.name, file=path)
-            if volume(shape) < LEAST_VOLUME:
+            if volume(shape) < MIN_VOLUME:
                 mesh.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL
             geom.type, geom.meshname = mujoco.mjtGeom.mjGEOM_MESH, mesh.name
         case _:

@@ -19,7 +19,7 @@ PIECES = f"{FOLDER}/mjcf"  # a folder of its own: `door_2.obj` in it is the seco
 
 
 @dataclass(frozen=True)
-class GeomLook:
+class GeomMaterial:
     """A visual geom. path: relative to the asset folder; material: into the mesh's, None for a colour alone; rgba: sRGB."""
 
     name: str
@@ -28,7 +28,7 @@ class GeomLook:
     rgba: tuple[float, ...]
 
 
-def geom_looks(mesh: Mesh, body: ExportLink, folder: Path, config: ExportConfig) -> list[GeomLook]:
+def geom_materials(mesh: Mesh, body: ExportLink, folder: Path, config: ExportConfig) -> list[GeomMaterial]:
     """The visual geoms of a body: its visual OBJ, or where it has several materials, an OBJ each, written here."""
     primitives = visible(body.link, config)
     names = material_names(mesh.materials)
@@ -40,7 +40,7 @@ def geom_looks(mesh: Mesh, body: ExportLink, folder: Path, config: ExportConfig)
             path = f"{PIECES}/{body.name}_{number}.obj"
             write_obj(folder / path, body.name, None, [replace(p, material=-1)], names)
         material = None if p.material < 0 or painted(mesh, p) else p.material
-        found.append(GeomLook(f"{body.name}_visual_{number}", path, material, display_color(mesh, p)))
+        found.append(GeomMaterial(f"{body.name}_visual_{number}", path, material, display_color(mesh, p)))
     return found
 
 

@@ -15,7 +15,7 @@ from anymesh.export.materials import write_textures
 from anymesh.export.model import FOLDER, Base, ExportLink, Model
 from anymesh.export.rotations import principal, quaternion, turning_x_to
 from anymesh.export.settings import ExportConfig
-from anymesh.export.usd_materials_ import UsdLooks
+from anymesh.export.usd_materials_ import UsdMaterials
 from anymesh.names import legal_names
 from anymesh.types import Box, Cylinder, Hull, Joint, JointType, Shape
 from anymesh.types.mesh import TEXTURE_SLOTS
@@ -57,7 +57,7 @@ def write_usd(model: Model, folder: Path, config: ExportConfig) -> None:
     pxr.UsdPhysics.ArticulationRootAPI.Apply(root)
     for scope in ("links", "joints", "materials"):
         pxr.UsdGeom.Scope.Define(stage, f"{top}/{scope}")
-    looks = UsdLooks(pxr, stage, f"{top}/materials", model.asset.mesh, textures)
+    looks = UsdMaterials(pxr, stage, f"{top}/materials", model.asset.mesh, textures)
     for body in model.bodies:
         _add_body(pxr, stage, top, body, looks, config)
     _add_exclusions(pxr, stage, top, model)
@@ -82,7 +82,7 @@ def _quat(pxr: Any, rotation: np.ndarray) -> Any:
     return pxr.Gf.Quatf(*(float(v) for v in quaternion(rotation)))
 
 
-def _add_body(pxr: Any, stage: Any, top: str, body: ExportLink, looks: UsdLooks, config: ExportConfig) -> None:
+def _add_body(pxr: Any, stage: Any, top: str, body: ExportLink, looks: UsdMaterials, config: ExportConfig) -> None:
     frame = pxr.UsdGeom.Xform.Define(stage, _link(top, body.name))
     frame.AddTranslateOp().Set(pxr.Gf.Vec3d(*(float(v) for v in body.link.origin)))
     prim = frame.GetPrim()

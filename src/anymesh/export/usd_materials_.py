@@ -16,7 +16,7 @@ from anymesh.types import Material, Mesh
 from anymesh.types.color import to_linear
 
 
-class UsdLooks:
+class UsdMaterials:
     """Writes visual meshes, and each material once, when it is first needed."""
 
     def __init__(self, pxr: Any, stage: Any, scope: str, mesh: Mesh, textures: Mapping[bytes, str]) -> None:

@@ -10,7 +10,7 @@ from anymesh.errors import InputError
 
 FORMATS = (".glb", ".gltf", ".obj", ".ply", ".stl", ".off", ".dae")
 MAX_FACES = 20_000_000
-MOST_BYTES = 4 * 1024**3
+MAX_BYTES = 4 * 1024**3
 SIGNS = {  # what the start of a file of another format looks like
     "GLB": rb"glTF",
     "PLY": rb"ply\r?\n",
@@ -38,8 +38,8 @@ def check_file(path: Path) -> bytes:
     size = path.stat().st_size
     if size == 0:
         raise InputError(f"{path.name} is empty (0 bytes); valid is a file with at least one triangle")
-    if size > MOST_BYTES:
-        raise InputError(f"{path.name} has {size} bytes; at most {MOST_BYTES} are read")
+    if size > MAX_BYTES:
+        raise InputError(f"{path.name} has {size} bytes; at most {MAX_BYTES} are read")
     try:
         data = path.read_bytes()
     except OSError as error:

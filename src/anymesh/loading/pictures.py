@@ -15,7 +15,7 @@ from anymesh.loading.folder import SHOWN, Folder
 from anymesh.types import Texture
 
 MAX_PIXELS = 16384**2
-KEPT = {"PNG": "image/png", "JPEG": "image/jpeg"}
+MIME_TYPES = {"PNG": "image/png", "JPEG": "image/jpeg"}
 OBJECT = re.compile(r"\s*<[^>]*>")  # how Python names a stream in an error: with an address that differs from run to run
 
 
@@ -34,8 +34,8 @@ def picture(folder: Folder, data: bytes, name: str) -> Texture | None:
         if image.width * image.height > MAX_PIXELS:
             raise ValueError(f"{image.width} x {image.height} pixels")
         image.load()
-        if image.format in KEPT:
-            return Texture(data, KEPT[image.format], stem)
+        if image.format in MIME_TYPES:
+            return Texture(data, MIME_TYPES[image.format], stem)
         buffer = io.BytesIO()
         image.convert("RGBA" if image.has_transparency_data else "RGB").save(buffer, "PNG")
     except Exception as error:  # whatever a broken picture makes the decoder raise is one thing to the user

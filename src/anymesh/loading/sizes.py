@@ -25,7 +25,7 @@ LONGEST = {
     "washing_machine": 0.85, "wheelchair": 1.05, "window": 1.3,
 }  # fmt: skip
 SMALLER = {"toy", "model", "mini", "miniature", "dollhouse"}  # words that say that the usual size does not hold
-NEAR = 3.0  # a size is believed within this factor of the usual one
+BELIEVED_FACTOR = 3.0  # a size is believed within this factor of the usual one
 
 
 def usual_size(words: str) -> tuple[str, float] | None:
@@ -43,4 +43,4 @@ def usual_size(words: str) -> tuple[str, float] | None:
 
 def is_near(longest: float, usual: float) -> bool:
     """Whether a longest side is one that things of a usual size have."""
-    return usual / NEAR <= longest <= usual * NEAR
+    return usual / BELIEVED_FACTOR <= longest <= usual * BELIEVED_FACTOR

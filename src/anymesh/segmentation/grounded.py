@@ -169,14 +169,14 @@ def shown_views(
 ) -> tuple[list[View], list[str], Bool[np.ndarray, " P"]]:
     """The views to choose pictures from with their names, and the patches that none from outside shows: all sides, close-ups,
     and the inside where there is one."""
-    studio, config = questioner.visual_prompts, questioner.config
-    small = close_ups(region, cloud, studio.views, config.views) if questioner.labels else ()
-    seen = [*studio.views, *(studio.view(camera) for camera in small)]
-    names = studio.names(len(seen), front)
+    prompts, config = questioner.visual_prompts, questioner.config
+    small = close_ups(region, cloud, prompts.views, config.views) if questioner.labels else ()
+    seen = [*prompts.views, *(prompts.view(camera) for camera in small)]
+    names = prompts.names(len(seen), front)
     shown = seen_points(cloud, seen)
     inside = inner_faces(mesh, whole, cloud, shown)
     if questioner.labels and inside.any():
-        seen, names = [*seen, *studio.insides(inside)], [*names, *studio.inside_names(front)]
+        seen, names = [*seen, *prompts.insides(inside)], [*names, *prompts.inside_names(front)]
     return seen, names, unseen_patches(whole, cloud, shown)
 
 

@@ -9,12 +9,12 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.simulation.motors import NEAR, Motor, motors_of
+from anymesh.simulation.motors import REACHED_RATIO, Motor, motors_of
 from anymesh.simulation.report import JointSweep, SweepReport
 from anymesh.simulation.robot import Robot, RobotJoint
 
 STEP = 0.005  # [s] of simulated time
-HELD = 100  # steps that a motor is held at a limit
+HOLD_STEPS = 100  # steps that a motor is held at a limit
 SAME = 1e-4  # limits as read back differ by less [rad or m]
 DEEP = 0.01  # of the asset's extent: displacement that counts
 
@@ -115,7 +115,7 @@ def _swept(
     smooth = _smooth(motors[joint.name].seconds)
     start = 0.0
     for goal in (upper, lower):
-        for command in (*(start + (goal - start) * smooth), *[goal] * HELD):
+        for command in (*(start + (goal - start) * smooth), *[goal] * HOLD_STEPS):
             targets[index] = command
             world.step(targets)
         now = world.positions()
@@ -150,9 +150,9 @@ def _faults(joint: RobotJoint, read: ReadBack, reached: tuple[float, float], off
     if joint.type != "continuous" and (read.limits is None or np.abs(np.subtract(read.limits, joint.range)).max() > SAME):
         faults.append(f"the engine reads the limits {joint.range} as {read.limits}")
     for word, limit, at in (("upper", joint.range[1], reached[1]), ("lower", joint.range[0], reached[0])):
-        if abs(at - limit) > NEAR * span:
+        if abs(at - limit) > REACHED_RATIO * span:
             faults.append(f"a motor brings it to {at:.4g} only, not to its {word} limit {limit:.4g}")
-    if abs(reached[1] - reached[0]) < NEAR * span:
+    if abs(reached[1] - reached[0]) < REACHED_RATIO * span:
         faults.append("it is stuck")
     if off > DEEP * extent:
         faults.append(f"its link is {off:.4g} m from where the joint should hold it")

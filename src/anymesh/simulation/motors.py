@@ -9,7 +9,7 @@ import numpy as np
 from anymesh.errors import InputError
 from anymesh.simulation.robot import Robot, RobotJoint
 
-NEAR = 0.02  # of a joint's range: reached, or not moved
+REACHED_RATIO = 0.02  # of a joint's range: reached, or not moved
 STIFF = 20.0  # [rad/s] natural frequency of the motors
 SETTLED = 10.0  # the least that one way is longer than what a motor takes against the joint's damping
 SLOWEST = 10.0  # [s] a way
@@ -36,7 +36,7 @@ def motors_of(robot: Robot) -> tuple[Motor, ...]:
         span = float(np.ptp(joint.range))
         effort = joint.effort or EFFORT
         seconds = min(max(1.0, np.pi * np.sqrt(inertia * span / effort)), SLOWEST)
-        against = max(4 * joint.friction / max(NEAR * span, 1e-9), SETTLED * joint.damping / seconds)
+        against = max(4 * joint.friction / max(REACHED_RATIO * span, 1e-9), SETTLED * joint.damping / seconds)
         stiffness = max(inertia * STIFF**2, against)
         found.append(Motor(joint.name, stiffness, 2 * float(np.sqrt(stiffness * inertia)), effort, float(seconds)))
     return tuple(found)

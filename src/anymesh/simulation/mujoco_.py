@@ -10,7 +10,7 @@ import numpy as np
 
 from anymesh.errors import InputError
 from anymesh.mujoco_ import load_mujoco
-from anymesh.simulation.mujoco_bench_ import NEAR, MujocoBench, depths, make_bench
+from anymesh.simulation.mujoco_bench_ import REACHED_RATIO, MujocoBench, depths, make_bench
 from anymesh.simulation.report import JointSweep, SweepReport
 
 DEEP = 0.01  # of the asset's extent: penetration or displacement that counts
@@ -158,9 +158,9 @@ def _faults(bench: MujocoBench, found: JointSweep, blew_up: bool) -> tuple[str, 
         ("upper", found.upper, found.reached_upper),
         ("lower", found.lower, found.reached_lower),
     ):
-        if abs(reached - limit) > NEAR * span:
+        if abs(reached - limit) > REACHED_RATIO * span:
             faults.append(f"a motor brings it to {reached:.4g} only, not to its {word} limit {limit:.4g}")
-    if abs(found.reached_upper - found.reached_lower) < NEAR * span:
+    if abs(found.reached_upper - found.reached_lower) < REACHED_RATIO * span:
         faults.append("it is stuck")
     if found.penetration is not None and found.penetration > DEEP * bench.extent:
         faults.append(f"on its way it goes {found.penetration:.4g} m into {found.against!r}")

@@ -12,7 +12,7 @@ from anymesh.errors import InputError
 from anymesh.loading import load_mesh
 from anymesh.simulation.files import find_file
 
-NEAR = 0.02  # of a joint's range: reached, or not moved
+REACHED_RATIO = 0.02  # of a joint's range: reached, or not moved
 TOUCH = 1e-4  # of the asset's extent: bodies deeper in each other than this at rest overlap
 STIFF = 30.0  # [rad/s] natural frequency of the motors
 QUICK = 100.0  # [rad/s] and their highest, for light links with much friction; a rotor's inertia is added to keep it
@@ -127,13 +127,13 @@ def _add_motors(mujoco: Any, spec: Any, model: Any, ranges: np.ndarray, joints: 
     seconds = np.ones(model.njnt)
     for index in joints:
         dof = model.jnt_dofadr[index]
-        tolerance = NEAR * float(np.ptp(ranges[index]))
+        tolerance = REACHED_RATIO * float(np.ptp(ranges[index]))
         inertia = float(model.dof_M0[dof])
         effort = float(model.jnt_actfrcrange[index, 1]) if model.jnt_actfrclimited[index] else np.inf
         needed = np.pi * np.sqrt(inertia * float(np.ptp(ranges[index])) / max(effort, 1e-9))
         seconds[index] = min(max(1.0, needed), SLOWEST)
         kp = max(inertia * (STIFF / seconds[index]) ** 2, 4 * float(model.dof_frictionloss[dof]) / max(tolerance, 1e-9))
-        kp = max(kp, 2 * float(model.jnt_stiffness[index]) / NEAR)  # a spring of the file holds against it
+        kp = max(kp, 2 * float(model.jnt_stiffness[index]) / REACHED_RATIO)  # a spring of the file holds against it
         kp = max(kp, SETTLED * float(model.dof_damping[dof]) / seconds[index])
         joint = spec.joint(model.joint(index).name)
         joint.armature = max(0.0, kp / QUICK**2 - inertia)

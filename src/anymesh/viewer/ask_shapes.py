@@ -14,7 +14,7 @@ from anymesh.rendering.raycast_ import RayScene
 from anymesh.rendering.viewpoints import away
 from anymesh.types import Mesh, MotionKind
 from anymesh.viewer.ask_marks import SPLIT, MarksForm
-from anymesh.viewer.scene import LEAST, MAX_DISPLAY_FACES, Color, DisplayMesh, color_of
+from anymesh.viewer.scene import MAX_DISPLAY_FACES, MIN_PART_FACES, Color, DisplayMesh, color_of
 
 SAME_SIZE = 0.05  # a part of the mesh's own scale within this has it exactly
 REACH = 0.03  # a click chooses a point whose distance from its ray is below this share of the distance to the eye
@@ -33,7 +33,7 @@ def surface(mesh: Mesh, faces: Int[np.ndarray, " f"], most: int = MAX_DISPLAY_FA
     if len(mesh.faces) <= most:
         piece = mesh.subset(faces)
         return DisplayMesh(piece.vertices, piece.faces)
-    few = simplify(mesh.triangles[faces], max(LEAST, most * len(faces) // len(mesh.faces)))
+    few = simplify(mesh.triangles[faces], max(MIN_PART_FACES, most * len(faces) // len(mesh.faces)))
     return DisplayMesh(few.reshape(-1, 3), np.arange(3 * len(few)).reshape(-1, 3))
 
 

@@ -23,7 +23,7 @@ FACES = 60_000  # of an asset, from which it is decimated: about a megabyte of t
 PIXELS = 1024  # longest side of a texture
 COARSE = 4  # times as many faces as wanted are left to the exact decimation
 FINEST = 1e-5  # a cell of that grid, as a share of the part's longest side: cells can be counted
-LEAST = 200  # faces that a part keeps, however small its share
+MIN_PART_FACES = 200  # faces that a part keeps, however small its share
 FORMATS = {"image/png": "PNG", "image/jpeg": "JPEG"}
 COATED = Material("display", (1.0, 1.0, 1.0, 1.0), double_sided=True)  # under vertex colours
 
@@ -58,7 +58,7 @@ def _decimated(asset: Asset, faces: int) -> Asset:
     pieces = []
     for part in range(len(asset.segmentation.parts)):
         mine = mesh.triangles[part_of == part]
-        most = max(LEAST, faces * len(mine) // len(mesh.faces))
+        most = max(MIN_PART_FACES, faces * len(mine) // len(mesh.faces))
         pieces.append(simplify(_clustered(mine, COARSE * most), most))
     triangles = np.concatenate(pieces)
     part = np.repeat(np.arange(len(pieces)), [len(piece) for piece in pieces])

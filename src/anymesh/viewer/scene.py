@@ -16,7 +16,7 @@ from anymesh.rendering.preview import BASE, PALETTE
 from anymesh.types import Asset, Box, Cylinder, Hull, Joint, JointType, Mesh, Shape
 
 MAX_DISPLAY_FACES = 200_000  # faces drawn; a denser object is decimated for display
-LEAST = 200  # faces that a part keeps, however small its share
+MIN_PART_FACES = 200  # faces that a part keeps, however small its share
 APART = 0.3  # how far a part moves off its parent in the exploded view, a share of the diagonal
 RADIUS = 0.05  # of the ring round an axis, a share of the diagonal
 SIDES = 24  # of a drawn cylinder
@@ -59,7 +59,7 @@ class Surfaces:
             if key in self._kept:
                 found[part.name] = self._kept[key]
             elif dense:
-                few = simplify(mesh.triangles[faces], max(LEAST, self.most * len(faces) // len(mesh.faces)))
+                few = simplify(mesh.triangles[faces], max(MIN_PART_FACES, self.most * len(faces) // len(mesh.faces)))
                 found[part.name] = DisplayMesh(few.reshape(-1, 3), np.arange(3 * len(few)).reshape(-1, 3))
             else:
                 piece = mesh.subset(faces)

@@ -43,15 +43,15 @@ def test_parts_and_joints_are_where_they_were(tmp_path: Path) -> None:
     assert list(data.objects()) == ["some_1"]
     out = tmp_path / "out"
     truth = data.truth("some_1", out)
-    subject = prepared(truth)
+    sample = prepared(truth)
     assert truth.category == "case"
     assert "part_1" not in (out / "some_1.glb").read_bytes().decode("latin-1")  # the file gives nothing away
-    door, drawer = (subject.joint(j) for j in truth.joints)
+    door, drawer = (sample.joint(j) for j in truth.joints)
     assert (door.type, drawer.type) == (JointType.REVOLUTE, JointType.PRISMATIC)
     assert np.allclose(door.axis, (0, 0, -1), atol=1e-6)
     assert np.allclose(drawer.axis, (0, -1, 0), atol=1e-6)
     assert drawer.limits == pytest.approx((0, 0.3))
-    corners = subject.mesh.triangles[subject.labels == 1].reshape(-1, 3)
+    corners = sample.mesh.triangles[sample.labels == 1].reshape(-1, 3)
     assert door.origin[0] == pytest.approx(corners[:, 0].min())
 
 

@@ -10,7 +10,7 @@ from assets import checker
 from small_sets import displaced, loaded, part_box
 
 from anymesh.errors import InputError
-from anymesh.evaluation.datasets.links import Y_UP
+from anymesh.evaluation.datasets.dataset_links import Y_UP
 from anymesh.evaluation.datasets.mjcf_sets import MjcfFolder, libero, metaworld
 from anymesh.types import JointType
 from anymesh.types.color import to_linear

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from anymesh.errors import InputError
-from anymesh.evaluation.datasets.links import Y_UP, DatasetJoint, DatasetLink, assemble, moved
+from anymesh.evaluation.datasets.dataset_links import Y_UP, DatasetJoint, DatasetLink, assemble, moved
 from anymesh.evaluation.datasets.splits import check_split, chosen, listed
 from anymesh.evaluation.datasets.visuals import read_visual
 from anymesh.evaluation.ground_truth import GroundTruth

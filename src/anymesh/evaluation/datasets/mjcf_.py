@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 
-from anymesh.evaluation.datasets.links import Y_UP, DatasetJoint, DatasetLink, assemble, moved
+from anymesh.evaluation.datasets.dataset_links import Y_UP, DatasetJoint, DatasetLink, assemble, moved
 from anymesh.evaluation.datasets.mjcf_materials_ import GeomMaterials
 from anymesh.evaluation.datasets.mjcf_reading_ import compile_mjcf
 from anymesh.evaluation.ground_truth import GroundTruth

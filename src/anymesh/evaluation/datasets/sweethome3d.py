@@ -21,8 +21,8 @@ from pathlib import Path
 import numpy as np
 
 from anymesh.errors import InputError, MissingExtraError
+from anymesh.evaluation.datasets.dataset_links import DatasetJoint, DatasetLink, assemble
 from anymesh.evaluation.datasets.debian import member
-from anymesh.evaluation.datasets.links import DatasetJoint, DatasetLink, assemble
 from anymesh.evaluation.datasets.splits import check_split
 from anymesh.evaluation.ground_truth import GroundTruth
 from anymesh.loading.folder import Folder

@@ -16,7 +16,7 @@ from yourdfpy import URDF
 from yourdfpy import urdf as parsed
 
 from anymesh.errors import InputError
-from anymesh.evaluation.datasets.links import Y_UP, DatasetJoint, DatasetLink, assemble, moved
+from anymesh.evaluation.datasets.dataset_links import Y_UP, DatasetJoint, DatasetLink, assemble, moved
 from anymesh.evaluation.datasets.shapes_ import box, cylinder, ellipsoid
 from anymesh.evaluation.datasets.splits import check_split, chosen, listed
 from anymesh.evaluation.datasets.visuals import find_mesh, read_visual
