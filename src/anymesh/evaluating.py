@@ -170,7 +170,7 @@ def _answerer_for(answering: Answering, seed: int, stop: Event | None = None) ->
 
     def known(sample: EvalSample) -> AnswererFactory:
         rng = np.random.default_rng((seed, crc32(sample.truth.name.encode())))
-        return lambda instead: Noisy(oracle(sample), wrong, rng) if wrong else oracle(sample)
+        return lambda fallback: Noisy(oracle(sample), wrong, rng) if wrong else oracle(sample)
 
     return known
 

@@ -28,7 +28,7 @@ MIN_PARALLEL_COSINE = 0.999  # cosine of their axes
 SUFFICIENT_OPENING_RAD = np.deg2rad(110)  # [rad] openings beyond are not compared
 TIGHT_PENETRATION_SCALE = 0.2  # penetration scale for the clearance to neighbours, which is a few millimetres
 MAX_COPIES = 8  # whose motions are compared with those of a part
-ROLES_AFTER_DEADLINE = ("bail", "round", "barrel", "edge_mid", "slide")  # swept after the deadline
+ROLES_AFTER_DEADLINE = ("two_pivot", "round", "barrel", "edge_mid", "slide")  # swept after the deadline
 PartMotions = tuple[int, int, PartContext, MotionQuestion]  # part number, parent number, context, motions
 MIN_OPENING_GAIN_RAD = np.deg2rad(5)  # [rad] minimum gain in opening angle
 
@@ -112,7 +112,7 @@ def _unscored(around: PartContext, name: str, label: str, deadline: Deadline | N
     if deadline is not None and deadline.late(JOINTS):
         deadline.leave_out("joints: only the likeliest motions were swept")
         proposed = [(role, motion) for role, motion in proposed if role in ROLES_AFTER_DEADLINE] or proposed
-    facts = part_facts(around, name, label, any(role == "bail" for role, _ in proposed))
+    facts = part_facts(around, name, label, any(role == "two_pivot" for role, _ in proposed))
     return UnscoredMotions(around, facts, hypotheses(around, proposed))
 
 
@@ -128,10 +128,10 @@ def _clear_of_others(around: PartContext, best: Candidate, candidates: tuple[Can
         return free_amount(near, opening_motion(c), 1, min(c.opening, SUFFICIENT_OPENING_RAD), around.config.sweep_steps)[0]
 
     alike = [c for c in candidates if c is best or (c.role in rims and c.outward * best.outward > 0)]
-    twins = [c for c in alike if _at_one_rim(best, c, thickness)]
-    free = {id(c): opens(c) for c in twins}
+    alternatives = [c for c in alike if _at_one_rim(best, c, thickness)]
+    free = {id(c): opens(c) for c in alternatives}
     most = max(free.values())
-    return best if free[id(best)] > most - MIN_OPENING_GAIN_RAD else next(c for c in twins if free[id(c)] == most)
+    return best if free[id(best)] > most - MIN_OPENING_GAIN_RAD else next(c for c in alternatives if free[id(c)] == most)
 
 
 def _at_one_rim(a: Candidate, b: Candidate, thickness: float) -> bool:

@@ -128,9 +128,9 @@ def propose(around: PartContext) -> list[tuple[str, Motion]]:
         found.insert(
             0, ("round", Motion(MotionKind.REVOLUTE, _unit(outline.axis), outline.center, "axis of its round outline"))
         )
-    bail = two_pivot_line(around)
-    if bail is not None:
-        found.insert(0, ("bail", bail))
+    line = two_pivot_line(around)
+    if line is not None:
+        found.insert(0, ("two_pivot", line))
     if not np.allclose(box.half, core.half, rtol=0.02):
         found += _edges(box, "the part's outer box")
     found += _box_directions(OrientedBox(box.center, np.eye(3), box.half), "the object")

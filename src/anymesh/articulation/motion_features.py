@@ -199,7 +199,7 @@ def _line(around: PartContext, motion: Motion, contact: Float[np.ndarray, "n 3"]
 
 
 def _misfit(around: PartContext, motion: Motion, reach: float) -> float:
-    """Return how far a part is from itself, over its reach, after the turn of TURNS that suits it best: 0 for propellers."""
+    """Return the distance of a part from itself after the best turn of MISFIT_ANGLES_RAD, over its reach: 0 for propellers."""
     points = around.part.samples.points
     points = points[:: max(1, len(points) // MISFIT_POINTS)]
     turned = np.concatenate([points @ T[:3, :3].T + T[:3, 3] for T in motion.transforms(MISFIT_ANGLES_RAD)])

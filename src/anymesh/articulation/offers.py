@@ -25,9 +25,9 @@ MAX_SHOWN_TRAVEL_RATIO = 0.6  # most of a slide in a picture, as a share of the 
 BLOCKED_SHOWN_RATIO = 0.6  # share of these that is shown of a motion that is blocked
 SIMILAR_RATIO = 0.2  # motions that take the part's points to places this near, as a share of the way, are kin:
 MAX_SIMILAR, MAX_SIMILAR_LOSS = 2, 1.0  # so many are in the first picture, and none that is less plausible than another by more
-DUPLICATE_PART_RATIO = 0.01  # near-twins are also those this near, as a share of the part's diagonal: two or three pixels
+DUPLICATE_PART_RATIO = 0.01  # near-duplicates are also those this near, as a share of the part's diagonal: two or three pixels
 DUPLICATE_OBJECT_RATIO = (
-    0.02  # share of the object's diagonal: motions that keep the part's points this near to each other are near-twins,
+    0.02  # share of the object's diagonal: motions that keep the part's points this near to each other are near-duplicates,
 )
 DUPLICATE_MOTION_RATIO = 0.15  # but for a small part no more than this share of the way
 OFF_PART = 0.02  # share of the object's diagonal: a hinge line further from the part's surface is not in the first picture
@@ -96,7 +96,7 @@ def scored_motions(case: PartCase) -> MotionQuestion:
     comes first, even if it repeats one."""
     around = case.around
     proposed = propose(around)
-    facts = part_facts(around, case.label, case.label, any(role == "bail" for role, _ in proposed))
+    facts = part_facts(around, case.label, case.label, any(role == "two_pivot" for role, _ in proposed))
     circles = [("circle", motion) for motion in case.circles]
     proposed = distinct([*proposed, *circles, *pivots(around, case.shown.normal)], around.scale)
     first = [("asked", case.asked)] if case.asked is not None else []
@@ -151,11 +151,11 @@ def _shown(c: Candidate) -> bool:
 def _unlike(
     case: PartCase, candidates: list[Candidate], order: list[int]
 ) -> tuple[list[int], list[float], int | None, list[int]]:
-    """Return those that look different, the likeliest of each group of near-twins, how far they are moved, which of them stands
+    """Return those that look different, the likeliest of each group of duplicates, how far they are moved, which of them stands
     for what was answered, and for each the first that it is like."""
     samples = case.around.part.samples.points
     points = samples[:: max(1, len(samples) // ENOUGH_POINTS)]
-    least, twins = DUPLICATE_PART_RATIO * case.around.part.box.diagonal, DUPLICATE_OBJECT_RATIO * case.around.scale
+    part_limit, object_limit = DUPLICATE_PART_RATIO * case.around.part.box.diagonal, DUPLICATE_OBJECT_RATIO * case.around.scale
     kept: list[int] = []
     amounts: list[float] = []
     first: list[int] = []
@@ -164,7 +164,7 @@ def _unlike(
         amount, own, head = shown_amount(candidates[k], case), len(kept), len(kept)
         for n, other in enumerate(kept):
             apart, way = _apart(points, candidates[k], candidates[other], max(amount, amounts[n], key=abs))
-            if apart <= max(least, min(twins, DUPLICATE_MOTION_RATIO * way)):
+            if apart <= max(part_limit, min(object_limit, DUPLICATE_MOTION_RATIO * way)):
                 own = n
                 break
             if apart <= SIMILAR_RATIO * way:

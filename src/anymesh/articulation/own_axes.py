@@ -17,7 +17,7 @@ from anymesh.types import Motion, MotionKind
 MIN_ROUNDNESS = 0.8  # roundness of a circle that stands for an axis
 MAX_CIRCLES = 4  # round pieces of a part, the largest first
 MAX_PATCHES = 40  # looked at, the largest first
-CENTRAL = ("round", "center", "hub", "circle", "pivot", "pin", "bail", "barrel")  # roles of axes that a part's shape gives
+CENTRAL = ("round", "center", "hub", "circle", "pivot", "pin", "two_pivot", "barrel")  # roles of axes that a part's shape gives
 SAME_DIRECTION = 0.98  # cosine
 MIN_POINTS = 24  # of a contact that may be a ring
 

@@ -6,11 +6,11 @@ from anymesh.geometry.part_context import PartContext
 from anymesh.reasoning.questions import Candidate
 from anymesh.types import MotionKind
 
-MAX_ALONG_COSINE = 0.5  # cosine with the way out below which a slide runs along the surface
+MAX_ALONG_COSINE = 0.5  # cosine with the opening direction below which a slide runs along the surface
 MIN_DRAWER_SIZE_RATIO = 0.15  # of the object's diagonal: what slides in and is smaller is a button
 MIN_WHEEL_SIZE_RATIO = 0.16  # of the object's diagonal: what spins and is smaller is a knob
 MIN_TRAVEL_RATIO = 0.1  # of its size: what is no button and slides by less does not move
-MIN_LID_COSINE = 0.8  # cosine of the way out with the vertical from which a hinged part is a lid
+MIN_LID_COSINE = 0.8  # cosine of the opening direction with the vertical from which a hinged part is a lid
 MIN_OPEN_LID_RISE_RATIO = (
     0.5  # of its height: a part with a level hinge that stands higher above its parent is a lid that is shown open
 )
@@ -30,7 +30,7 @@ def label_of(around: PartContext, best: Candidate) -> str:
         return "drawer" if best.opening * around.scale >= MIN_TRAVEL_RATIO * around.part.box.diagonal else ""
     if best.role == "round":
         return "knob" if size < MIN_WHEEL_SIZE_RATIO else "wheel"
-    if best.role == "bail":
+    if best.role == "two_pivot":
         return "handle" if around.part.slender else "lid"  # a plate on two pivots is a laptop's lid
     low, high = around.part.bounds[:, 2]
     raised = best.vertical < MAX_ALONG_COSINE and high - around.parent.bounds[1, 2] > MIN_OPEN_LID_RISE_RATIO * (high - low)

@@ -15,7 +15,9 @@ from anymesh.geometry.boxes import same_box
 from anymesh.geometry.part_context import PartContext, body_obb
 from anymesh.geometry.triangle_set import TriangleSet
 
-MAX_ROW_OFFSET_RATIO = 0.25  # of the way from one to the other: a row goes across its way out, but for this share
+MAX_ROW_OFFSET_RATIO = (
+    0.25  # component of the offset along the opening direction, over its length, up to which parts are in a row
+)
 
 
 def same_size(shapes: Sequence[TriangleSet], parent: Sequence[int]) -> list[list[int]]:

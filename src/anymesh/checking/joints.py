@@ -12,7 +12,7 @@ from anymesh.simulation.robot import MOVING, Robot, RobotJoint
 CHECK = "joints"
 TYPES = (*MOVING, "fixed", "floating", "planar")
 UNIT = 1e-3  # an axis is unit to this
-TURNS = 4 * np.pi  # [rad] a wider range of a hinge is degrees or a mistake
+MAX_RANGE_RAD = 4 * np.pi  # [rad] a wider range of a hinge is degrees or a mistake
 TRAVEL = 3.0  # of the object's diagonal; a slide that goes further is in other units
 
 
@@ -58,7 +58,7 @@ def _limits(joint: RobotJoint, diagonal: float) -> Iterator[Finding]:
         yield failure(CHECK, joint.name, f"{shown}; a joint that moves needs a range (fixed is a type of its own)")
     elif not lower <= 0 <= upper:
         yield warning(CHECK, joint.name, f"{shown}, without the rest position 0; engines start it outside and jerk it in")
-    most = TURNS if joint.type == "revolute" else TRAVEL * diagonal
+    most = MAX_RANGE_RAD if joint.type == "revolute" else TRAVEL * diagonal
     unit = "rad" if joint.type == "revolute" else "m"
     if upper - lower > most > 0:
         yield warning(CHECK, joint.name, f"{shown} {unit}, a range beyond {most:.3g} {unit}; are the units right?")

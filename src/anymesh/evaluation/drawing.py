@@ -26,7 +26,7 @@ from anymesh.types.camera import Camera
 PANEL = 420  # [px] of each of the two panels
 TEXT, LINE = 17, 24  # [px] font and height of a line of the caption
 CAPTION = 2 * LINE + 10  # [px] its height
-TRUE, FOUND = (0, 150, 110), (213, 94, 0)  # green and vermilion that colour-blind eyes tell apart (Okabe and Ito)
+TRUE_COLOR, FOUND_COLOR = (0, 150, 110), (213, 94, 0)  # green and vermilion that colour-blind eyes tell apart (Okabe and Ito)
 GREY = np.array([185, 185, 185], np.uint8)
 PALE = 0.45  # of what stands still
 GHOST = 0.25  # of a part where something hides it
@@ -69,8 +69,8 @@ def draw_joint(
     size = float(np.linalg.norm(np.ptp(mesh.triangles[mine].reshape(-1, 3), axis=0)))
     carried = np.isin(sample.labels, [numbers[name] for name in _carried(sample, true.child)])
     theirs = _found_faces(sample, segmentation, found, numbers[true.child])
-    right = _Move(mine | carried, *_motion(true, size), TRUE)
-    ours = _Move(theirs | (carried if found else False), *(_motion(found, size) if found else (None, 0.0)), FOUND)
+    right = _Move(mine | carried, *_motion(true, size), TRUE_COLOR)
+    ours = _Move(theirs | (carried if found else False), *(_motion(found, size) if found else (None, 0.0)), FOUND_COLOR)
     moves = [m for m in (right, ours) if m.motion is not None]
     near = strip_camera(*_sketch(mesh, right.faces), [(m.motion, m.amount) for m in moves if m.motion], 2 * PANEL)
     panels = [_at_rest(mesh, mine, theirs, moves, _whole(near, mesh, mine, right)), _opened(mesh, right, ours, moves, near)]
@@ -85,7 +85,7 @@ def captioned(image: UInt8[np.ndarray, "h W 3"], title: str, told: str) -> UInt8
     for k, (text, color) in enumerate(((title, (20, 20, 20)), (told, (90, 90, 90)))):
         plain = text.encode("ascii", "replace").decode()
         draw.text((8, 4 + (k + 0.5) * LINE), plain, fill=color, font=font(TEXT), anchor="lm")
-    for word, color, right in (("found", FOUND, 8), ("true", TRUE, 62)):
+    for word, color, right in (("found", FOUND_COLOR, 8), ("true", TRUE_COLOR, 62)):
         draw.text((bar.width - right, 4 + 0.5 * LINE), word, fill=color, font=font(TEXT), anchor="rm")
     return np.concatenate([image, np.asarray(bar)])
 
@@ -161,17 +161,17 @@ def _at_rest(
     mesh: Mesh, mine: Bool[np.ndarray, " F"], theirs: Bool[np.ndarray, " F"], moves: Sequence[_Move], camera: Camera
 ) -> UInt8[np.ndarray, "H W 3"]:
     """The true part tinted, the found one outlined."""
-    picture = _painted(mesh, camera, TRUE, mine)
-    picture = blend(picture, rim(silhouette(mesh.triangles[theirs], camera), RIM), FOUND, 1.0)
+    picture = _painted(mesh, camera, TRUE_COLOR, mine)
+    picture = blend(picture, rim(silhouette(mesh.triangles[theirs], camera), RIM), FOUND_COLOR, 1.0)
     return _with_axes(picture, mesh, mine, moves, camera)
 
 
 def _opened(mesh: Mesh, right: _Move, ours: _Move, moves: Sequence[_Move], camera: Camera) -> UInt8[np.ndarray, "H W 3"]:
     """The part where the found joint takes it; outlined where it should be."""
     pose = ours.pose(mesh)
-    picture = _painted(pose, camera, FOUND, ours.faces & (ours.motion is not None))
+    picture = _painted(pose, camera, FOUND_COLOR, ours.faces & (ours.motion is not None))
     should = silhouette(right.pose(mesh).triangles[right.faces], camera)
-    picture = blend(picture, rim(should, RIM), TRUE, 1.0)
+    picture = blend(picture, rim(should, RIM), TRUE_COLOR, 1.0)
     return _with_axes(picture, mesh, right.faces, moves, camera)
 
 

@@ -1,4 +1,4 @@
-"""A model that says what someone else answers: the whole road of a model, pictures and JSON included, without a model."""
+"""Simulated vision-language model: answers of another answerer by way of pictures, prompts and JSON."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ class SimulatedModel:
     """The model. `question` is what the next request asks. Tokens are estimates, by the price table of model `like`."""
 
     def __init__(self, answerer: VisualAnswerer, like: str) -> None:
-        self.name, self._seer = like, answerer
+        self.name, self._answerer = like, answerer
         self.question: Question[Any] | None = None
 
     def ask(self, request: Request) -> Reply:
         if self.question is None:
-            raise ValueError("a voice is asked through `Spoken`, which knows the question")
-        text = json.dumps(answer_object(self.question, self._seer.ask(self.question)))
+            raise ValueError("a simulated model is asked through `SimulatedVlm`, which knows the question")
+        text = json.dumps(answer_object(self.question, self._answerer.ask(self.question)))
         words = len(request.system) + len(request.text) + len(json.dumps(request.schema))
         provider, _, model = self.name.partition(":")
         shown = sum(max_picture_tokens(provider, model, *p.size) + len(p.caption) // LETTERS for p in request.pictures)
@@ -35,14 +35,14 @@ class SimulatedModel:
 
 
 class SimulatedVlm(VlmAnswerer):
-    """The answerer that asks the voice of another seer."""
+    """VLM answerer whose model repeats the answers of another answerer."""
 
     def __init__(
         self, answerer: VisualAnswerer, fallback: VisualAnswerer, like: str = "openai:gpt-4o", cache: Path | None = None
     ) -> None:
-        self._voice = SimulatedModel(answerer, like)
-        super().__init__(Cached(self._voice, cache) if cache else self._voice, fallback)
+        self._simulated = SimulatedModel(answerer, like)
+        super().__init__(Cached(self._simulated, cache) if cache else self._simulated, fallback)
 
     def ask(self, question: Question[Answer]) -> Answer:
-        self._voice.question = question
+        self._simulated.question = question
         return super().ask(question)

@@ -86,9 +86,9 @@ def summarize(records: Sequence[Record]) -> Summary:
         part_recall=matched / true if true else None,
         part_f1=2 * matched / (predicted + true) if predicted + true else None,
         part_miou=sum(r.score.part_miou * r.score.true for r in records if not r.error) / true if true else None,
-        rest=_likeness(records, lambda s: s.rest),
-        posed=_likeness(records, lambda s: s.posed),
-        opened=_likeness(records, lambda s: s.opened),
+        rest=_particulate(records, lambda s: s.rest),
+        posed=_particulate(records, lambda s: s.posed),
+        opened=_particulate(records, lambda s: s.opened),
         executable=_executable(records),
         seconds=median(r.seconds for r in records if not r.error) if any(not r.error for r in records) else None,
     )
@@ -111,7 +111,9 @@ def _mean(values: Sequence[float | None], missing: float) -> Mean:
     return Mean(fmean(every), median(every), _share(v for v in values if v is not None))
 
 
-def _likeness(records: Sequence[Record], of: Callable[[ObjectScore], ParticulateMetrics | None]) -> ParticulateMetrics | None:
+def _particulate(
+    records: Sequence[Record], of: Callable[[ObjectScore], ParticulateMetrics | None]
+) -> ParticulateMetrics | None:
     """The mean over objects, where it was measured; an object that failed is unlike."""
     measured = [of(r.score) for r in records if not r.error]
     known = [m for m in measured if m is not None]

@@ -116,12 +116,12 @@ def _primitive(mesh: Mesh, faces: np.ndarray, origin: np.ndarray) -> Primitive:
     )
 
 
-def _unit(normals: np.ndarray, instead: np.ndarray) -> np.ndarray:
+def _unit(normals: np.ndarray, fallback: np.ndarray) -> np.ndarray:
     """Normals made unit; where one is zero or not finite, the face's (or up, when the face has no area)."""
     exact = normals.astype(np.float64)
     length = np.linalg.norm(exact, axis=1, keepdims=True)
     bad = ~(np.isfinite(length) & (length > 1e-6))[:, 0]
-    exact[bad] = instead[bad]
+    exact[bad] = fallback[bad]
     length[bad] = 1
     exact[bad & ~exact.any(1)] = (0, 0, 1)
     return (exact / length).astype(np.float32) + np.float32(0)

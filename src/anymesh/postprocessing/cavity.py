@@ -16,13 +16,13 @@ from anymesh.postprocessing.settings import ShapeConfig
 from anymesh.rendering.raycast_ import RayScene
 
 MAX_SIDE_GAP_WALLS = 3.0  # walls: a side of the body that is nearer to the hollow's edge bounds it
-TURNED = 0.05  # difference of the axes of fronts that lie side by side
+TURNED = 0.05  # difference of the axes of panels that lie side by side
 INTO = 0.02  # of a wall: how far boards reach into what they end at; no shell is thinner
 INSET = 0.02  # of a board's side: what reaches in no further touches it
 PROBES = 8  # rays along each direction of a side
-THERE = 0.6  # share of a strip between two fronts that a rail fills
-ALONG = 0.5  # share of the shorter edge along which fronts that lie side by side run together
-COVERS = 0.3  # share of the body's side that fronts cover where each has a box of its own; less is a flap of a bin
+THERE = 0.6  # share of a strip between two panels that a rail fills
+ALONG = 0.5  # share of the shorter edge along which panels that lie side by side run together
+COVERS = 0.3  # share of the body's side that panels cover where each has a box of its own; less is a flap of a bin
 FIRST = 0.4  # share of the hollow's depth within which the body's face lies
 
 

@@ -31,7 +31,7 @@ def complete_shapes(
     deadline: Deadline | None = None,
 ) -> Finished:
     """The asset with the faces that its parts lack: caps on the holes that others hid, backs of plates, inner skins of shells,
-    walls of the cavities behind doors, boxes behind the fronts of drawers.
+    walls of the cavities behind doors, boxes behind the panels of drawers.
 
     What was there stays as it is, face by face; a part without open borders gets nothing, so that finishing twice changes
     nothing. No part loses more of its range than the sweep of stage B tells apart. parts: names, all if None. The same asset
@@ -50,13 +50,13 @@ def complete_shapes(
         return _grown(asset, growing)
     carrier = {k: growing.scenes.carriers(k)[0] for k in growing.scenes.joint}
     near = [k for k in growing.scenes.order if k in touched or carrier.get(k) in touched]
-    fronts = [front for k in near if (front := find_panel(k, growing, config)) is not None]
-    for front in fronts:
-        if carrier[front.part] in touched:
-            add_walls(front, fronts, growing, config)
-    for front in fronts:
-        if front.part in touched:
-            add_box(front, growing, config)
+    panels = [panel for k in near if (panel := find_panel(k, growing, config)) is not None]
+    for panel in panels:
+        if carrier[panel.part] in touched:
+            add_walls(panel, panels, growing, config)
+    for panel in panels:
+        if panel.part in touched:
+            add_box(panel, growing, config)
     return _grown(asset, growing)
 
 

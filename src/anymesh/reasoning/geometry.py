@@ -10,7 +10,7 @@ from anymesh.reasoning.two_steps import confidence_of
 from anymesh.reasoning.vocabulary import TypicalMotion, typical_motion
 from anymesh.types import JointType, MotionKind
 
-UNSURE = 0.3  # confidence of a joint that no motion speaks for
+NO_MOTION_CONFIDENCE = 0.3  # confidence of a joint that no motion speaks for
 CALIBRATION_SLOPE, OFFSET = (
     0.81,
     0.05,
@@ -21,7 +21,7 @@ BLOCKED = -4.0  # log-odds that a motion loses which the sweep calls blocked
 LABEL_PRIOR = {  # log-odds that a label adds to a hinge, to a turn about the axis of a round outline, to a slide
     TypicalMotion.HINGE: (1.5, -2.5, -2.0),
     TypicalMotion.TWO_PIVOT: (1.5, -2.5, -2.0),
-    TypicalMotion.SLIDE: (-2.0, -2.5, 2.0),
+    TypicalMotion.PRISMATIC: (-2.0, -2.5, 2.0),
     TypicalMotion.PRESS: (-2.0, -2.5, 2.0),
     TypicalMotion.SPIN: (-1.5, 2.5, -2.0),
 }
@@ -38,7 +38,7 @@ class GeometryAnswerer:
         ranking = tuple(int(i) for i in np.argsort(-scores, kind="stable"))
         best = question.candidates[ranking[0]]
         if not best.is_free:
-            return MotionAnswer(ranking, JointType.FIXED, UNSURE, "no candidate motion is free and plausible")
+            return MotionAnswer(ranking, JointType.FIXED, NO_MOTION_CONFIDENCE, "no candidate motion is free and plausible")
         share = np.clip(share_of_best(scores, same_joints(question, ranking[0])), 1e-6, 1 - 1e-6)
         confidence = confidence_of(float(np.log(share / (1 - share))), CALIBRATION_SLOPE, OFFSET)
         why = f"{reason(question.part, best)}; {question.reasons[ranking[0]]}"

@@ -41,7 +41,7 @@ class PartShown:
     label: str
     faces: Int[np.ndarray, " f"]  # of the mesh
     points: Float[np.ndarray, "n 3"]  # on its surface
-    outward: Float[np.ndarray, " 3"]  # the way out of the object
+    outward: Float[np.ndarray, " 3"]  # the opening direction of the object
     normal: Float[np.ndarray, " 3"]  # of the plane of the connecting area
     contact: Float[np.ndarray, "c 3"]  # points of the connecting area
     diagonal: float | None = None

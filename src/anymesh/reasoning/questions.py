@@ -35,7 +35,7 @@ class PartFacts:
     diagonal: float  # the object's [m]
     horizontal: bool  # its face looks up or down
     handle: Handle | None
-    two_pivot: bool  # held by two contacts far apart with free space between (a bail)
+    two_pivot: bool  # held by two contacts far apart with free space between (a bucket handle)
     tall: float  # log2 of its face's height over its width; 0 for a level face
     height: float  # 0..1, of its middle in the object's height
     back_contact: float  # 0..1, share of its back that lies on the parent
@@ -48,7 +48,7 @@ class PartFacts:
 class Candidate:
     """A candidate motion and the evidence for it.
 
-    role: what the axis is to the part ("edge", "edge_mid", "center", "round", "contact", "bail", "barrel", "slide");
+    role: what the axis is to the part ("edge", "edge_mid", "center", "round", "contact", "two_pivot", "barrel", "slide");
     opening_sign: +1 when +axis opens, else -1; opening, closing: free amounts [rad, or share of the diagonal for a slide].
     """
 

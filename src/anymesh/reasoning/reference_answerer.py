@@ -38,7 +38,7 @@ MIN_SPLIT_OVERLAP = 0.02  # share of a mark's pixels from which another part on 
 MAX_AXIS_DISTANCE_RATIO = 0.05  # of the part's size: a contact point this near the axis lies on it
 MIN_HINGE_SPREAD_RATIO = 0.25  # of the part's extent along the axis: near points further apart show a hinge
 MIN_NORMAL_COSINE = np.cos(np.deg2rad(20.0))  # an axis this near the contact plane's normal sticks into the surface
-MIN_OPENING_COSINE = 0.7  # a slide this much along the way out
+MIN_OPENING_COSINE = 0.7  # a slide this much along the opening direction
 MAX_MOTION_ERROR_RATIO = (
     0.5  # a motion is recognized when it takes the part no further than this from where it belongs, as a share of the way
 )

@@ -12,7 +12,7 @@ class TypicalMotion(StrEnum):
     """How a kind of part usually moves."""
 
     HINGE = "hinge"
-    SLIDE = "slide"
+    PRISMATIC = "slide"
     SPIN = "spin"
     TWO_PIVOT = "bail"
     PRESS = "press"
@@ -31,23 +31,55 @@ class Word:
 
 WORDS = (
     Word("door", TypicalMotion.HINGE, ("door", "tuer", "porte", "puerta", "porta", "hatch", "gate", "shutter")),
-    Word("lid", TypicalMotion.HINGE, ("lid", "cover", "hood", "bonnet", "trunk", "tailgate", "cap", "deckel", "screen",
-                                      "display")),
-    Word("flap", TypicalMotion.HINGE, ("flap", "aileron", "elevator", "rudder", "slat", "visor", "tilt", "airbrake",
-                                       "spoiler")),
-    Word("drawer", TypicalMotion.SLIDE, ("drawer", "schublade", "tiroir", "cajon", "tray", "rack", "basket", "bin", "crisper")),
+    Word(
+        "lid",
+        TypicalMotion.HINGE,
+        ("lid", "cover", "hood", "bonnet", "trunk", "tailgate", "cap", "deckel", "screen", "display"),
+    ),
+    Word(
+        "flap", TypicalMotion.HINGE, ("flap", "aileron", "elevator", "rudder", "slat", "visor", "tilt", "airbrake", "spoiler")
+    ),
+    Word(
+        "drawer",
+        TypicalMotion.PRISMATIC,
+        ("drawer", "schublade", "tiroir", "cajon", "tray", "rack", "basket", "bin", "crisper"),
+    ),
     Word("window", TypicalMotion.LEVER, ("window", "sash", "pane")),
-    Word("slider", TypicalMotion.SLIDE, ("slider", "slide", "sliding", "rail", "carriage", "piston", "plunger", "bolt",
-                                         "magazine")),
+    Word(
+        "slider",
+        TypicalMotion.PRISMATIC,
+        ("slider", "slide", "sliding", "rail", "carriage", "piston", "plunger", "bolt", "magazine"),
+    ),
     Word("button", TypicalMotion.PRESS, ("button", "key", "keycap", "trigger", "push")),
     Word("knob", TypicalMotion.SPIN, ("knob", "dial", "valve", "tap", "chuck", "control")),
-    Word("wheel", TypicalMotion.SPIN, ("wheel", "tire", "tyre", "caster", "castor", "roller", "rotor", "propeller", "fan",
-                                       "gear", "steering", "turntable", "blade", "hub", "crank", "pulley", "spinner")),
+    Word(
+        "wheel",
+        TypicalMotion.SPIN,
+        (
+            "wheel",
+            "tire",
+            "tyre",
+            "caster",
+            "castor",
+            "roller",
+            "rotor",
+            "propeller",
+            "fan",
+            "gear",
+            "steering",
+            "turntable",
+            "blade",
+            "hub",
+            "crank",
+            "pulley",
+            "spinner",
+        ),
+    ),
     Word("bail", TypicalMotion.TWO_PIVOT, ("bail", "swing")),
     Word("lever", TypicalMotion.LEVER, ("lever", "switch", "pedal", "arm", "toggle", "latch", "joystick", "stick", "brake")),
     Word("handle", TypicalMotion.LEVER, ("handle", "grip", "griff", "poignee")),
     Word("seat", TypicalMotion.LEVER, ("seat", "backrest", "recliner")),
-)  # fmt: skip
+)
 FIXED = frozenset(
     "base body frame corpus housing case carcass chassis shell panel board wall side back top bottom floor shelf shelves leg "
     "foot feet stand support table plinth fixed static burner hinge screw logo".split()

@@ -101,13 +101,13 @@ def _barycentric(t: np.ndarray, points: np.ndarray) -> np.ndarray:
 def find_superpoints(
     s: SurfacePoints, colors: UInt8[np.ndarray, "n 3"], patch: Int[np.ndarray, " n"], config: GroundingConfig
 ) -> tuple[Int[np.ndarray, " n"], Int[np.ndarray, "m 2"]]:
-    """A superpoint number a point, and which superpoints meet. The cut runs on CUT_POINTS of them within each piece; every
-    point then takes the superpoint of the nearest of these in its piece whose normal is alike."""
+    """A superpoint number a point, and which superpoints meet. The cut runs on CUT_POINTS of them within each patch; every
+    point then takes the superpoint of the nearest of these in its patch whose normal is alike."""
     chosen = np.arange(0, len(s), max(1, len(s) // CUT_POINTS))
     first = np.unique(patch, return_index=True)[1]
-    chosen = np.union1d(chosen, first)  # no piece goes without
+    chosen = np.union1d(chosen, first)  # no patch goes without
     beyond = 10 * float(np.ptp(s.points, axis=0).max())
-    own = np.c_[s.points, beyond * patch][chosen]  # neighbours are of the same piece, however thin a gap is
+    own = np.c_[s.points, beyond * patch][chosen]  # neighbours are of the same patch, however thin a gap is
     near = KDTree(own).query(own, k=min(config.neighbours + 1, len(chosen)), workers=-1)[1]
     near = near.reshape(len(chosen), -1)
     edges = np.sort(np.stack([np.repeat(np.arange(len(chosen)), near.shape[1]), near.reshape(-1)], 1), 1)
@@ -124,13 +124,13 @@ def find_superpoints(
 
 
 def _nearest_alike(s: SurfacePoints, patch: np.ndarray, chosen: np.ndarray) -> Int[np.ndarray, " n"]:
-    """For every point the nearest chosen one (index into these) of the same piece with a like normal."""
+    """For every point the nearest chosen one (index into these) of the same patch with a like normal."""
     gap, nearest = KDTree(s.points[chosen]).query(s.points, workers=-1)
     found = chosen[nearest]
     alike = np.einsum("ij,ij->i", s.normals, s.normals[found]) > SIMILAR
     wrong = np.flatnonzero((patch != patch[found]) | ~alike)
     spacing = float(np.median(gap[gap > 0])) if (gap > 0).any() else 1.0
-    apart = 10 * float(np.ptp(s.points, axis=0).max()) / spacing + 10 * NORMAL_WEIGHT  # further than anything within a piece
+    apart = 10 * float(np.ptp(s.points, axis=0).max()) / spacing + 10 * NORMAL_WEIGHT  # further than anything within a patch
 
     def feature(index: np.ndarray) -> np.ndarray:
         return np.c_[s.points[index] / spacing, NORMAL_WEIGHT * s.normals[index], apart * patch[index]]

@@ -1,4 +1,4 @@
-"""From labelled points to the faces of parts: whole pieces where these are a part's, clean cuts where they are not."""
+"""From labelled points to the faces of parts: whole patches where these are a part's, clean cuts where they are not."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ from anymesh.segmentation.unseen import UNSEEN, StaysFree, join_unseen
 from anymesh.types import Mesh
 
 MIN_COMPONENT_SHARE = 0.5  # a component joins the part of so much of its visible surface (the paper's implementation)
-MIN_SEEN_SHARE = 0.02  # share of a piece's surface; of less, seen through a gap, no view tells what it is
+MIN_SEEN_SHARE = 0.02  # share of a patch's surface; of less, seen through a gap, no view tells what it is
 MIN_SEEN_SHARE_CUTTABLE = (
-    0.85  # the same for a piece that may hold several parts, as it is large or was cut out of a fused surface
+    0.85  # the same for a patch that may hold several parts, as it is large or was cut out of a fused surface
 )
 
 
@@ -32,31 +32,31 @@ def face_parts(
 ) -> Int[np.ndarray, " F"]:
     """A part number a face, 0 = the rest. point_part: of every point of the cloud, 0 the rest, -1 where no view tells.
 
-    A piece goes to one part as a whole; one of several parts is cut along the borders of its superpoints. A piece that no
+    A patch goes to one part as a whole; one of several parts is cut along the borders of its superpoints. A patch that no
     view sees joins the part that holds it, if that stays as free (see `join_unseen`).
     """
     config = config or Config()
     most = int(point_part.max(initial=0)) + 1
-    piece = whole.mesh_patch[cloud.faces]
-    pieces = int(whole.mesh_patch.max()) + 1
+    patch = whole.mesh_patch[cloud.faces]
+    patches = int(whole.mesh_patch.max()) + 1
     known = point_part >= 0
-    votes = np.bincount(piece[known] * most + point_part[known], minlength=pieces * most).reshape(pieces, most)
+    votes = np.bincount(patch[known] * most + point_part[known], minlength=patches * most).reshape(patches, most)
     total = votes.sum(1)
-    told = total > MIN_SEEN_SHARE * np.bincount(piece, minlength=pieces)
+    told = total > MIN_SEEN_SHARE * np.bincount(patch, minlength=patches)
     winner = np.where(told, votes.argmax(1), UNSEEN)
     share = votes.max(1) / np.maximum(total, 1)
     mixed = told & (share <= np.where(_cuttable(mesh, whole, config), MIN_SEEN_SHARE_CUTTABLE, MIN_COMPONENT_SHARE))
     winner = join_unseen(whole, winner, config, stays_free)
     found = winner[whole.mesh_patch]
     for p in np.flatnonzero(mixed):
-        mine = np.flatnonzero(piece == p)
+        mine = np.flatnonzero(patch == p)
         faces, label = _cut(cloud, mine, point_part[mine], most)
         found[faces] = label
     return np.maximum(found, 0)
 
 
 def _cuttable(mesh: Mesh, whole: ObjectShape, config: Config) -> Bool[np.ndarray, " P"]:
-    """Pieces that may hold several parts: parts of a fused surface, and large ones."""
+    """Patches that may hold several parts: parts of a fused surface, and large ones."""
     count = int(whole.mesh_patch.max()) + 1
     low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
     np.minimum.at(low, whole.mesh_patch, mesh.triangles.min(1))
@@ -67,9 +67,9 @@ def _cuttable(mesh: Mesh, whole: ObjectShape, config: Config) -> Bool[np.ndarray
 
 
 def _cut(cloud: Cloud, mine: np.ndarray, part: np.ndarray, max_parts: int) -> tuple[np.ndarray, np.ndarray]:
-    """Faces of one piece and the part of each: its superpoints vote first, so that a border runs where theirs does.
+    """Faces of one patch and the part of each: its superpoints vote first, so that a border runs where theirs does.
 
-    mine: points of the piece; part: of each, -1 unknown.
+    mine: points of the patch; part: of each, -1 unknown.
     """
     names, own = np.unique(cloud.superpoint[mine], return_inverse=True)
     own = own.reshape(-1)
@@ -78,7 +78,7 @@ def _cut(cloud: Cloud, mine: np.ndarray, part: np.ndarray, max_parts: int) -> tu
     best = np.where(votes.sum(1) > 0, votes.argmax(1), UNSEEN)
     label = best[own]
     lost = label < 0
-    if lost.any():  # the nearest point that a view tells about, of the same piece
+    if lost.any():  # the nearest point that a view tells about, of the same patch
         nearest = KDTree(cloud.points[mine[~lost]]).query(cloud.points[mine[lost]], workers=-1)[1]
         label[lost] = label[~lost][nearest]
     faces, where = np.unique(cloud.faces[mine], return_inverse=True)
@@ -107,21 +107,21 @@ def mark_parts(
         part_of[[m for m in marks if m > 0]] = k
     part_of[-1] = UNSEEN
     found = part_of[face_mark]
-    piece = whole.mesh_patch
-    found[(found == 0) & little[piece]] = UNSEEN
-    count = int(piece.max()) + 1
+    patch = whole.mesh_patch
+    found[(found == 0) & little[patch]] = UNSEEN
+    count = int(patch.max()) + 1
     weight = np.maximum(mesh.face_areas, 1e-300)
     known = found >= 0
     most = len(parts) + 1
-    votes = np.bincount(piece[known] * most + found[known], weight[known], count * most).reshape(count, most)
+    votes = np.bincount(patch[known] * most + found[known], weight[known], count * most).reshape(count, most)
     winner = np.where(votes.any(1), votes.argmax(1), UNSEEN)
     joined = join_unseen(whole, winner, config, stays_free)
     mixed = (votes > 0).sum(1) > 1
     lost = np.flatnonzero(~known)
-    found[lost] = joined[piece[lost]]
+    found[lost] = joined[patch[lost]]
     centers = mesh.triangles.mean(1)
-    for p in np.unique(piece[lost][mixed[piece[lost]]]):
-        own, sure = lost[piece[lost] == p], np.flatnonzero(known & (piece == p))
+    for p in np.unique(patch[lost][mixed[patch[lost]]]):
+        own, sure = lost[patch[lost] == p], np.flatnonzero(known & (patch == p))
         found[own] = found[sure[KDTree(centers[sure]).query(centers[own])[1]]]
     return np.maximum(found, 0)
 

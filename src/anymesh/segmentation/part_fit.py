@@ -74,7 +74,7 @@ def open_behind(around: PartContext) -> float:
 
 
 def enclosed_share(around: PartContext) -> float:
-    """Share of the candidate that has the rest on at least three of the four sides across the way out."""
+    """Share of the candidate that has the rest on at least three of the four sides across the opening direction."""
     points = around.part.samples.points[::20]
     hit = np.zeros(len(points), int)
     for axis in around.face_axes:

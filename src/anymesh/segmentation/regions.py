@@ -44,18 +44,18 @@ def min_pixels(view: View, config: GroundingConfig) -> float:
 def face_regions(whole: ObjectShape, cloud: Cloud) -> Int[np.ndarray, " F"]:
     """A region number a face: the patch, or what a change of colour bounds in a large patch of several colours; in a patch
     that is nearly all of the object each large superpoint too."""
-    piece_of = np.zeros(cloud.count, np.int64)
-    piece_of[cloud.superpoint] = whole.mesh_patch[cloud.faces]
+    patch_of = np.zeros(cloud.count, np.int64)
+    patch_of[cloud.superpoint] = whole.mesh_patch[cloud.faces]
     weight = np.bincount(cloud.superpoint, minlength=cloud.count)
-    share = np.bincount(piece_of, weight) / weight.sum()
+    share = np.bincount(patch_of, weight) / weight.sum()
     color = np.stack([np.bincount(cloud.superpoint, c, cloud.count) for c in cloud.colors.T / 255.0], 1) / weight[:, None]
     a, b = cloud.borders.T
     alike = np.linalg.norm(color[a] - color[b], axis=1) < COLOR_STEP
-    split = share[piece_of] >= MIN_COLOR_PATCH_SHARE
-    side = (share[piece_of] >= MIN_DOMINANT_SHARE) & (weight >= MIN_COLOR_PATCH_SHARE * weight.sum())
+    split = share[patch_of] >= MIN_COLOR_PATCH_SHARE
+    side = (share[patch_of] >= MIN_DOMINANT_SHARE) & (weight >= MIN_COLOR_PATCH_SHARE * weight.sum())
     together = ~split[a] | (alike & ~side[a] & ~side[b])
     patch = label_connected(cloud.count, cloud.borders[together])
-    _, first, rank = np.unique(piece_of, return_index=True, return_inverse=True)  # a patch without area has no point
+    _, first, rank = np.unique(patch_of, return_index=True, return_inverse=True)  # a patch without area has no point
     patch = np.where(split, patch, patch[first][rank.reshape(-1)])  # a small one is one region, connected or not
     return _by_majority(patch[cloud.superpoint], cloud.faces, len(whole.mesh_patch))
 

@@ -94,18 +94,18 @@ def _redrawn(
 ) -> Segmentation | None:
     """The parts with these marks. What was asked about and is given to none of them any more joins the base, and with it
     faces without a mark of patches of which no mark is left to the part."""
-    found, piece = segmentation.face_part.copy(), whole.mesh_patch
+    found, patch = segmentation.face_part.copy(), whole.mesh_patch
     open_ = np.isin(asked_about, list(wanted))
     for part, chosen in given.items():
         now = np.isin(marks.face_mark, chosen)
         if not now.any():
             continue
-        marked = np.isin(piece, piece[open_ & (segmentation.face_part == part)])
+        marked = np.isin(patch, patch[open_ & (segmentation.face_part == part)])
         lost = (segmentation.face_part == part) & (open_ | (marked & (marks.face_mark < 0))) & (found == part)
-        found[lost & ~np.isin(piece, piece[now])] = 0
+        found[lost & ~np.isin(patch, patch[now])] = 0
         found[lost & open_ & ~now] = 0
         found[now] = part
-        found[(marks.face_mark < 0) & np.isin(piece, piece[now]) & ~_shared(piece, now, marks.face_mark)] = part
+        found[(marks.face_mark < 0) & np.isin(patch, patch[now]) & ~_shared(patch, now, marks.face_mark)] = part
     same = (found == segmentation.face_part).all()
     lacking = len(np.unique(found)) < len(np.unique(segmentation.face_part))
     return None if same or lacking else Segmentation(found, segmentation.parts)

@@ -85,7 +85,7 @@ def _candidate_features(
     """Return the candidates that were examined, and the features of each."""
     scene = FeatureScene.of(mesh, tree, config)
 
-    def examine(k: int) -> dict[str, float] | None:
+    def features_of(k: int) -> dict[str, float] | None:
         if deadline.late(SEGMENT):
             deadline.leave_out("segmentation: some candidates for parts were not examined")
             return None
@@ -94,7 +94,7 @@ def _candidate_features(
 
     kept, features = [], []
     with ThreadPoolExecutor(os.cpu_count()) as threads:  # rays and distances work outside the interpreter's lock
-        for k, row in enumerate(threads.map(examine, range(len(tree.members)))):
+        for k, row in enumerate(threads.map(features_of, range(len(tree.members)))):
             progress("segment", f"candidate {k}", k, len(tree.members))
             if row is not None:
                 features.append(row)

@@ -80,9 +80,9 @@ class Review:
 
     def chosen(self, filter_: Filter) -> tuple[Item, ...]:
         """The items that a filter lets through."""
-        return tuple(item for item in self.items if self._passes(item, filter_))
+        return tuple(item for item in self.items if self._matches(item, filter_))
 
-    def _passes(self, item: Item, filter_: Filter) -> bool:
+    def _matches(self, item: Item, filter_: Filter) -> bool:
         decision = self.standing(item)
         match filter_:
             case Filter.ALL:

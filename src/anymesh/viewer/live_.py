@@ -26,7 +26,7 @@ from anymesh.viewer.scene_ import SceneView
 
 SECONDS = 4.0  # of a play: there and back
 TICK = 0.05  # [s] between poses
-TOLD = 6.0  # [s] that a message stays
+MESSAGE_SECONDS = 6.0  # [s] that a message stays
 
 
 def start_server(host: str, port: int, label: str) -> Any:
@@ -138,7 +138,7 @@ class LivePage:
         """A message in every tab."""
         for client in self.server.get_clients().values():
             client.add_notification(
-                "Not done" if bad else "Done", text, auto_close_seconds=TOLD, color="red" if bad else "green"
+                "Not done" if bad else "Done", text, auto_close_seconds=MESSAGE_SECONDS, color="red" if bad else "green"
             )
 
     def refresh(self) -> None:

@@ -23,7 +23,7 @@ from anymesh.viewer.panels_page import Page, offer
 
 NONE = "-"  # in a list to choose from
 FIND = "Find other motions"
-FOUND = "find them first"
+NOT_FOUND_YET = "find them first"
 QUIET = "gray"  # of buttons that are not the step expected next
 
 
@@ -45,7 +45,7 @@ class CorrectPanel:
             self._find = gui.add_button(
                 "Find other motions", color=QUIET, hint="Those that the rest leaves free, the likeliest first"
             )
-            self._motion = gui.add_dropdown("Preview", (FOUND,))
+            self._motion = gui.add_dropdown("Preview", (NOT_FOUND_YET,))
             self._use = gui.add_button("Use this motion")
             self._flip = gui.add_button("Flip direction", color=QUIET, hint="Positive the other way")
         self._find.on_click(lambda _: page.act(self._find_motions))
@@ -93,7 +93,7 @@ class CorrectPanel:
             self._low.visible = self._high.visible = self._limits.visible = joint.type is not JointType.FIXED
         if self._motions_of != (session.asset, session.selected):
             self._motions = {}
-            offer(self._motion, (FOUND,), FOUND)
+            offer(self._motion, (NOT_FOUND_YET,), NOT_FOUND_YET)
         self._use.disabled = session.preview is None
 
     def _on(self, control: Any, what: Callable[[], None]) -> None:

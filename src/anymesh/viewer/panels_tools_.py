@@ -31,7 +31,7 @@ class Tool(StrEnum):
     BRUSH = "Brush"
 
 
-TOLD = {
+TOOL_HINTS = {
     Tool.EDGE: "Click near an edge: the axis goes along it. Esc leaves.",
     Tool.PLANE: "Click a flat face: the axis goes along its normal. Esc leaves.",
     Tool.ROUND: "Click a round face: the axis becomes its own. Esc leaves.",
@@ -72,7 +72,7 @@ class CorrectionTools:
     @property
     def told(self) -> str:
         """What the tool in hand is for, "" when it is none."""
-        return TOLD.get(self._tool, "")
+        return TOOL_HINTS.get(self._tool, "")
 
     def leave(self) -> bool:
         """Puts the tool down; False when there was none."""

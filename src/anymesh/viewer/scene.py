@@ -100,13 +100,13 @@ def apart(asset: Asset) -> dict[str, Float[np.ndarray, " 3"]]:
     def of(name: str) -> np.ndarray:
         if name not in found:
             joint = carried[name]
-            found[name] = of(joint.parent) + APART * asset.mesh.diagonal * _way_out(joint, middle)
+            found[name] = of(joint.parent) + APART * asset.mesh.diagonal * _opening_direction(joint, middle)
         return found[name]
 
     return {part.name: of(part.name) for part in asset.segmentation.parts}
 
 
-def _way_out(joint: Joint, middle: dict[str, np.ndarray]) -> np.ndarray:
+def _opening_direction(joint: Joint, middle: dict[str, np.ndarray]) -> np.ndarray:
     if joint.type is JointType.PRISMATIC:
         return joint.axis
     off = middle[joint.child] - middle[joint.parent]

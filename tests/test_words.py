@@ -1,0 +1,76 @@
+"""One word, one meaning: names that the glossary replaced do not come back, and no two classes share a name."""
+
+import ast
+import re
+from collections import defaultdict
+from pathlib import Path
+
+import pytest
+
+SOURCE = Path(__file__).parents[1] / "src" / "anymesh"
+FILES = sorted(SOURCE.rglob("*.py"))
+# Words that no name may contain, neither alone nor joined to others (`find_grips`, `GripConfig`).
+WORDS = frozenset(
+    (
+        "seer knowing seeing blind remark remarks hearsay voice spoken surroundings buried openness hug hugs twin twins "
+        "slim rods bail bails grip grips carved fineness studio exam exams habit habits seated likeness"
+    ).split()
+)
+# Names that are refused as they stand; as part of a longer name they may be right (`contact_support`, `MIN_LEVEL_DEG`).
+NAMES = frozenset(
+    (
+        "instead MOST LEAST NEAR LITTLE MUCH LEVEL SLACK CARVED TOLD TURN SLIDE TURNS SLIDES HELD FOUND GRIP "
+        "FRONT BODY LEAF TWINS INSTEAD core_box way_out ways_out held_by touches_ends is_body mesh_piece surroundings_of "
+        "habit_of examine lever support Placed Recognized Segmented Jointed Completed Corrected Exported Studio Hidden "
+        "Units Piece Front Fronts Grip Look Looks Found Subject Truth Asked Grounded Motions Habit Exam"
+    ).split()
+)
+# One adapter per engine or format, each private to its file.
+SAME_NAME = frozenset("_World _Reader _Embedding".split())
+# Names that saved files hold, by file.
+KEPT = {
+    "config.py": frozenset(["support"]),  # in the key of saved stages
+}
+
+
+def words(name: str) -> set[str]:
+    """Split snake_case and CamelCase into lower-case words."""
+    return set(re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", name).lower().split("_")) - {""}
+
+
+def names(path: Path) -> set[str]:
+    """Return the names of classes, functions, arguments, fields and module constants, and of the file itself."""
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    found = {path.stem}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.ClassDef):
+            found.add(node.name)
+            found |= {b.target.id for b in node.body if isinstance(b, ast.AnnAssign) and isinstance(b.target, ast.Name)}
+        elif isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
+            a = node.args
+            found.add(node.name)
+            found |= {arg.arg for arg in (*a.posonlyargs, *a.args, *a.kwonlyargs)}
+        elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store) and node.id.isupper():
+            found.add(node.id)
+    return found
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda p: str(p.relative_to(SOURCE)))
+def test_replaced_words_do_not_come_back(path: Path) -> None:
+    place = str(path.relative_to(SOURCE))
+    bad = {n for n in names(path) if n.strip("_") in NAMES or words(n) & WORDS}
+    assert not bad - KEPT.get(place, frozenset()), f"{place}: see the glossary for the names to use"
+
+
+def test_kept_names_are_there() -> None:
+    for place, kept in KEPT.items():
+        assert kept <= names(SOURCE / place), place
+
+
+def test_no_two_classes_share_a_name() -> None:
+    places = defaultdict(list)
+    for path in FILES:
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.ClassDef):
+                places[node.name].append(str(path.relative_to(SOURCE)))
+    assert not {name: found for name, found in places.items() if len(found) > 1 and name not in SAME_NAME}
