@@ -122,9 +122,9 @@ def keep(folder: Path) -> None:
         print(f"kept {place.relative_to(RECORDINGS)}: {record_of(done.read_text(encoding='utf-8')).score.name}")
 
 
-def recorded(found: Sequence[Item]) -> list[tuple[Item, EvalProtocol]]:
+def recorded(found: Sequence[Item], protocols: Sequence[EvalProtocol]) -> list[tuple[Item, EvalProtocol]]:
     """What there is a recording of."""
-    return [(i, p) for i in found for p in PROTOCOLS if (RECORDINGS / i.number / p).is_dir()]
+    return [(i, p) for i in found for p in protocols if (RECORDINGS / i.number / p).is_dir()]
 
 
 def row(item: Item, protocol: EvalProtocol, variant: str) -> Row:
@@ -133,9 +133,9 @@ def row(item: Item, protocol: EvalProtocol, variant: str) -> Row:
                     variant)  # fmt: skip
 
 
-def table(found: Sequence[Item], ablation: bool, jobs: int, out: Path) -> None:
+def table(found: Sequence[tuple[Item, EvalProtocol]], ablation: bool, jobs: int, out: Path) -> None:
     variants = VARIANTS if ablation else VARIANTS[:1]
-    tasks = [(i, p, v) for v in variants for i, p in recorded(found)]
+    tasks = [(i, p, v) for v in variants for i, p in found]
     rows: list[Row] = []
     for done in _each(row, tasks, jobs):
         rows.append(done)
@@ -200,9 +200,9 @@ def main() -> None:
     elif options.what == "scores":
         options.markdown.write_text(page(measured(found, options.folder), MEASURED), encoding="utf-8")
     elif options.what == "table":
-        table(found, options.ablation, options.jobs, options.markdown)
+        table(recorded(found, protocols), options.ablation, options.jobs, options.markdown)
     elif options.what == "pictures":
-        for told in _each(pictures, [(i, p, options.folder) for i, p in recorded(found)], options.jobs):
+        for told in _each(pictures, [(i, p, options.folder) for i, p in recorded(found, protocols)], options.jobs):
             print(told, flush=True)
     else:
         after = {EvalProtocol.PARTS: EvalProtocol.END_TO_END} if len(protocols) > 1 else {}

@@ -9,7 +9,7 @@ import trimesh
 from assets import CABINET
 from PIL import Image
 
-from anymesh import __version__, pipeline, solving
+from anymesh import __version__, solving, stages
 from anymesh.cli import run
 from anymesh.errors import MissingExtraError
 
@@ -21,7 +21,7 @@ FACES = 12 * sum(len(pieces) for pieces in CABINET.values())
 def mesh(tmp_path, monkeypatch) -> Path:
     """A cabinet with a node a part, Z up, alone in the working folder."""
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(pipeline, "write_preview", lambda _, path: path.write_bytes(b"drawing takes longest; tested elsewhere"))
+    monkeypatch.setattr(stages, "write_preview", lambda _, path: path.write_bytes(b"drawing takes longest; tested elsewhere"))
     scene = trimesh.Scene()
     for name, pieces in CABINET.items():
         solids = [trimesh.Trimesh(v, f, process=False) for v, f in pieces]

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from anymesh import __version__, pipeline, solving
+from anymesh import __version__, pipeline, solving, stages
 from anymesh.cli import run
 from anymesh.defects import redacted
 from anymesh.errors import InputError
@@ -23,7 +23,7 @@ def folder(tmp_path, monkeypatch) -> Path:
     """A working folder with a mesh, and a key in the environment."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("OPENAI_API_KEY", KEY)
-    monkeypatch.setattr(pipeline, "write_preview", lambda _, path: path.write_bytes(b"drawing takes longest"))
+    monkeypatch.setattr(stages, "write_preview", lambda _, path: path.write_bytes(b"drawing takes longest"))
     trimesh.creation.box().export("my mesh.stl")
     return tmp_path
 
@@ -113,7 +113,7 @@ def test_nothing_stays_where_no_stage_was_finished_or_the_error_is_ours(folder, 
 
     for name, error in (("load_mesh", ValueError("x")), ("write_asset", InputError("x"))):
         with monkeypatch.context() as broken:
-            broken.setattr(pipeline, name, fails(error))
+            broken.setattr(stages, name, fails(error))
             with pytest.raises(type(error)):
                 pipeline.articulate("my mesh.stl", "out")
         assert [p.name for p in folder.iterdir()] == ["my mesh.stl"]

@@ -19,7 +19,7 @@ FLOORS = [
     {"segmentation", "articulation", "postprocessing", "simulation", "evaluation"},
     {"solving", "finishing"},
     {"answering"},
-    {"pipeline", "stopped_run", "evaluating", "checking", "correcting"},
+    {"pipeline", "stages", "stopped_run", "evaluating", "checking", "correcting"},
     {"applications", "viewer", "answers", "batch", "batch_api", "defects"},
     {"annotation"},
     {"agents"},

@@ -67,14 +67,14 @@ def test_children_divide_as_this_process_does_and_keep_the_order():
 
 
 def test_pieces_do_not_depend_on_the_number_of_threads():
-    turn = np.linspace(0, 2 * np.pi, 24, endpoint=False)
+    turn = np.linspace(0, 2 * np.pi, 12, endpoint=False)
     x, y = np.cos(turn), np.sin(turn)
     wall = [(1.0, 0.0), (1.0, 1.0), (0.9, 1.0), (0.9, 0.1)]  # of a cup, radius and height
-    rings = [np.c_[r * x, r * y, np.full(24, h)] for r, h in wall]
-    i, j = np.arange(24), (np.arange(24) + 1) % 24
+    rings = [np.c_[r * x, r * y, np.full(12, h)] for r, h in wall]
+    i, j = np.arange(12), (np.arange(12) + 1) % 12
     sides = [np.concatenate([np.stack([a[i], a[j], b[j]], 1), np.stack([a[i], b[j], b[i]], 1)]) for a, b in pairwise(rings)]
     ends = [
-        np.stack([np.tile([0, 0, h], (24, 1)), ring[a], ring[b]], 1)
+        np.stack([np.tile([0, 0, h], (12, 1)), ring[a], ring[b]], 1)
         for ring, h, a, b in ((rings[0], 0, j, i), (rings[3], 0.1, i, j))
     ]
     cup = Component(np.concatenate([*sides, *ends]), True)

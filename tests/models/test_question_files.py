@@ -20,6 +20,7 @@ from anymesh.evaluation.oracle import oracle
 from anymesh.evaluation.protocols import prepared
 from anymesh.models.question_files import find_questions
 from anymesh.models.replay import Replay
+from anymesh.reasoning import files
 from anymesh.reasoning.answer_json import answer_object
 from anymesh.reasoning.saved_question import unpack_question
 
@@ -149,19 +150,21 @@ def test_a_question_is_left_to_geometry(work: Path, capsys) -> None:
     assert waiting(capsys)["questions"] != [str(folder)]
 
 
-def test_waiting_goes_on_when_the_answer_comes(work: Path, known) -> None:
+def test_waiting_goes_on_when_the_answer_comes(work: Path, known, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(files, "POLL", 0.05)
+    done = threading.Event()
+
     def answers() -> None:
-        for _ in range(600):
+        while not done.is_set():
             for question in find_questions(Path("q")):
                 if question.answer() is None:
                     question.write_answer(known(question.path))
-            if Path("out/asset.json").exists():
-                return
             time.sleep(0.05)
 
     helper = threading.Thread(target=answers)
     helper.start()
     asset = pipeline.articulate("box.glb", "out", answerer="files:q", wait=True, formats="urdf")
+    done.set()
     helper.join()
     assert [(j.child, j.type) for j in asset.joints] == [("lid", "revolute")]
     keys = {json.loads(p.read_text())["key"] for p in Path("out/transcript").glob("*.json")}

@@ -55,11 +55,10 @@ class FileAnswerer:
         wait: bool = False,
         paused: Callable[[], AbstractContextManager[None]] = nullcontext,
         stop: Event | None = None,
-        poll: float = POLL,
         suggest: bool = False,
     ) -> None:
         self.name, self._suggest = NAME, suggest
-        self._store, self._fallback, self._wait, self._paused, self._poll = store, fallback, wait, paused, poll
+        self._store, self._fallback, self._wait, self._paused = store, fallback, wait, paused
         self._stop = stop or Event()
         self._exchanges: list[Exchange] = []
 
@@ -83,7 +82,7 @@ class FileAnswerer:
             with self._paused():
                 if self._suggest and folder.suggestion() is None:
                     folder.write_suggestion(json.dumps(answer_object(question, self._fallback.ask(question))))
-                text = wait_for_answer(folder, text, self._poll, self._stop)
+                text = wait_for_answer(folder, text, POLL, self._stop)
 
     def _accept(
         self, question: Question[Answer], request: Request, folder: QuestionFolder, text: str, seconds: float
