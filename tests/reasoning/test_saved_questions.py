@@ -30,6 +30,19 @@ def test_a_saved_question_checks_as_the_one_that_was_asked(name: str) -> None:
     assert told[0] == told[1]
 
 
+def test_kinds_of_motion_saved_under_their_earlier_names_are_read() -> None:
+    question = next(a.question for name, a in ASKED.items() if name.startswith("motions"))
+    with np.load(io.BytesIO(pack_question(question))) as found:
+        arrays = dict(found)
+    text = arrays["record"].tobytes().decode()
+    assert '"REVOLUTE"' in text
+    earlier = text.replace('"REVOLUTE"', '"TURN"').replace('"PRISMATIC"', '"SLIDE"')
+    buffer = io.BytesIO()
+    np.savez(buffer, **arrays | {"record": np.frombuffer(earlier.encode(), np.uint8)})
+    again = unpack_question(buffer.getvalue(), question.pictures)
+    assert [m.kind for t in again.tables for m in t.motions] == [m.kind for t in question.tables for m in t.motions]
+
+
 @pytest.mark.parametrize(
     "record",
     [
