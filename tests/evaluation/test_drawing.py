@@ -7,7 +7,7 @@ import pytest
 from assets import cabinet
 from test_score import truth_of
 
-from anymesh.evaluation.drawing import FOUND, TRUE, draw_joint, without_caption
+from anymesh.evaluation.drawing import FOUND_COLOR, TRUE_COLOR, draw_joint, without_caption
 from anymesh.evaluation.ground_truth import EvalSample
 from anymesh.evaluation.score import JointScore
 from anymesh.types import Part, Segmentation
@@ -46,16 +46,16 @@ def test_true_and_found_show_in_both_panels(part) -> None:
     assert image.dtype == np.uint8
     assert image.shape[1] == 2 * PANEL
     for panel in halves(without_caption(image)):
-        assert near(panel, TRUE).sum() > 100
-        assert near(panel, FOUND).sum() > 100
+        assert near(panel, TRUE_COLOR).sum() > 100
+        assert near(panel, FOUND_COLOR).sum() > 100
 
 
 def test_nothing_found_leaves_the_opened_panel_to_the_truth() -> None:
     base = Segmentation(np.zeros(len(ASSET.mesh.faces), int), (Part("base", "base"),))
     rest, opened = halves(without_caption(drawn("door", None, base)))
-    assert near(opened, FOUND).sum() == 0
-    assert near(opened, TRUE).sum() > 100
-    assert near(rest, TRUE).sum() > 300
+    assert near(opened, FOUND_COLOR).sum() == 0
+    assert near(opened, TRUE_COLOR).sum() > 100
+    assert near(rest, TRUE_COLOR).sum() > 300
 
 
 def test_a_hinge_on_the_other_side_moves_the_part_elsewhere() -> None:
@@ -74,7 +74,7 @@ def test_ranges_that_nobody_knows_are_drawn_too(part) -> None:
     joints = tuple(replace(j, limits=None, range_known=False) for j in SUBJECT.truth.joints)
     unknown = replace(SUBJECT, truth=replace(SUBJECT.truth, joints=joints))
     opened = halves(without_caption(drawn(part, JOINTS[part], sample=unknown)))[1]
-    assert near(opened, TRUE).sum() > 100
+    assert near(opened, TRUE_COLOR).sum() > 100
 
 
 def test_a_dense_mesh_is_seen_as_the_coarse_one_is(monkeypatch) -> None:
@@ -82,4 +82,4 @@ def test_a_dense_mesh_is_seen_as_the_coarse_one_is(monkeypatch) -> None:
     monkeypatch.setattr("anymesh.evaluation.drawing.DENSE", 100)
     thinned = drawn("door", JOINTS["door"])
     assert thinned.shape == coarse.shape
-    assert near(thinned, TRUE).sum() > 300
+    assert near(thinned, TRUE_COLOR).sum() > 300
