@@ -143,7 +143,7 @@ def test_the_papers_method_offers_clusters_alone_for_an_axis_into_the_surface() 
         _, seer = prompted(wheel(), (KNOWN["wheel"].joint,), verify=verify, changed=into)
         tables[verify] = seer.asked[1].tables[0]
     assert tables["off"].axes is None
-    assert (tables["off"].most, tables["free"].most) == (1, min(2, len(tables["free"].points)))
+    assert (tables["off"].max_points, tables["free"].max_points) == (1, min(2, len(tables["free"].points)))
     assert np.abs(tables["free"].axes[0] @ Y) == pytest.approx(1)
 
 
