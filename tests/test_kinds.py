@@ -20,7 +20,7 @@ from kinds_model import Link, Model, without_hidden  # noqa: E402
 @pytest.fixture(scope="module")
 def models() -> dict[str, Model]:
     """One of each kind, as its artist left it."""
-    return {kind: kinds.build(kind, 7, 0) for kind in kinds.KINDS}
+    return {kind: kinds.build(kind, 7, 0) for kind in kinds.KINDS | kinds.RESERVED}
 
 
 def _opened(mesh: trimesh.Trimesh, joint: Link, share: float) -> trimesh.Trimesh:
