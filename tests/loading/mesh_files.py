@@ -174,7 +174,7 @@ def put(folder, name: str, data: bytes):
     return folder / name
 
 
-def refused(path, *told: str) -> str:
+def assert_refused(path, *told: str) -> str:
     """The message of the one error, which is one line and holds the words told."""
     with pytest.raises(InputError) as caught:
         load_mesh(path)

@@ -4,7 +4,7 @@ import resource
 import struct
 
 import pytest
-from mesh_files import FACES, POINTS, Gltf, all_files, dae, plain_gltf, ply_header, put, refused, rows, stl_binary
+from mesh_files import FACES, POINTS, Gltf, all_files, assert_refused, dae, plain_gltf, ply_header, put, rows, stl_binary
 
 from anymesh.errors import InputError
 from anymesh.loading import load_mesh
@@ -15,20 +15,20 @@ HEAD = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n"
 
 
 def test_what_is_no_file(tmp_path) -> None:
-    refused(tmp_path / "none.glb", "found no file")
+    assert_refused(tmp_path / "none.glb", "found no file")
     (tmp_path / "folder.glb").mkdir()
-    refused(tmp_path / "folder.glb", "is no file", ".glb, .gltf, .obj")
+    assert_refused(tmp_path / "folder.glb", "is no file", ".glb, .gltf, .obj")
 
 
 @pytest.mark.parametrize("ending", [".glb", ".gltf", ".obj", ".ply", ".stl", ".off", ".dae"])
 def test_empty_files(tmp_path, ending) -> None:
-    refused(put(tmp_path, f"empty{ending}", b""), "0 bytes")
-    refused(put(tmp_path, f"blank{ending}", b" \n" * 60), ending[1:].upper())
+    assert_refused(put(tmp_path, f"empty{ending}", b""), "0 bytes")
+    assert_refused(put(tmp_path, f"blank{ending}", b" \n" * 60), ending[1:].upper())
 
 
 @pytest.mark.parametrize("name", ["box.fbx", "box", "box.glb.txt"])
 def test_an_unknown_ending_names_the_valid_ones(tmp_path, name) -> None:
-    refused(put(tmp_path, name, FILES["box.glb"]), "valid are .glb, .gltf, .obj, .ply, .stl, .off, .dae")
+    assert_refused(put(tmp_path, name, FILES["box.glb"]), "valid are .glb, .gltf, .obj, .ply, .stl, .off, .dae")
 
 
 ENDINGS = [".glb", ".gltf", ".obj", ".ply", ".stl", ".off", ".dae"]
@@ -37,7 +37,7 @@ WRONG = [(name, ending) for name in FILES for ending in ENDINGS if not name.ends
 
 @pytest.mark.parametrize(("name", "ending"), WRONG)
 def test_the_content_of_another_format_is_said_to_be_one(tmp_path, name, ending) -> None:
-    refused(put(tmp_path, f"wrong{ending}", FILES[name]), f"no {ending[1:].upper()} file", "extension")
+    assert_refused(put(tmp_path, f"wrong{ending}", FILES[name]), f"no {ending[1:].upper()} file", "extension")
 
 
 def gltf_of(mode: int) -> bytes:
@@ -69,7 +69,7 @@ WITHOUT_TRIANGLES = {
 @pytest.mark.parametrize("name", WITHOUT_TRIANGLES)
 def test_files_without_a_usable_triangle(tmp_path, name) -> None:
     data, told = WITHOUT_TRIANGLES[name]
-    refused(put(tmp_path, name, data), told)
+    assert_refused(put(tmp_path, name, data), told)
 
 
 @pytest.mark.parametrize("name", [name for name in FILES if name != "box.gltf"])  # its numbers lie in the other file
@@ -79,7 +79,7 @@ def test_corners_that_are_not_finite(tmp_path, name, value) -> None:
     low, bad = struct.pack("<f", 3.0), struct.pack("<f", float(value))
     swaps = [(b" 3.0", f" {value}".encode()), (low[::-1], bad[::-1]) if name == "big.ply" else (low, bad)]
     old, new = next((a, b) for a, b in swaps if a in data)
-    refused(put(tmp_path, name, data.replace(old, new)), "finite")
+    assert_refused(put(tmp_path, name, data.replace(old, new)), "finite")
 
 
 @pytest.mark.parametrize("name", FILES)
@@ -94,28 +94,28 @@ def test_truncated_anywhere(tmp_path, name) -> None:
             except InputError:
                 continue
         else:
-            refused(path)
+            assert_refused(path)
 
 
 def test_a_buffer_that_is_short_or_missing(tmp_path) -> None:
     path = put(tmp_path, "box.gltf", FILES["box.gltf"])
     (tmp_path / "box.bin").write_bytes(plain_gltf().bin[:50])
-    refused(path, "truncated", "found 50")
+    assert_refused(path, "truncated", "found 50")
     (tmp_path / "box.bin").unlink()
-    refused(path, "box.bin", "missing")
+    assert_refused(path, "box.bin", "missing")
 
 
 @pytest.mark.parametrize("index", ["0", "9", "-9", "x", "1.5", "99999999999999999999"])
 def test_an_index_that_no_vertex_has(tmp_path, index) -> None:
-    refused(put(tmp_path, "x.obj", (rows("v ", POINTS) + f"f 1 2 {index}\n").encode()))
+    assert_refused(put(tmp_path, "x.obj", (rows("v ", POINTS) + f"f 1 2 {index}\n").encode()))
     if index != "0":
-        refused(put(tmp_path, "x.off", FILES["box.off"].replace(b"\n3 0 1", f"\n3 {index} 1".encode())))
-        refused(put(tmp_path, "x.ply", FILES["ascii.ply"].replace(b"\n3 0 1", f"\n3 {index} 1".encode())))
+        assert_refused(put(tmp_path, "x.off", FILES["box.off"].replace(b"\n3 0 1", f"\n3 {index} 1".encode())))
+        assert_refused(put(tmp_path, "x.ply", FILES["ascii.ply"].replace(b"\n3 0 1", f"\n3 {index} 1".encode())))
     if index == "9":
         g = Gltf()
         g.node(mesh=g.mesh(g.solid(FACES + 2)))
-        refused(put(tmp_path, "x.glb", g.glb()), "vertex 9", "valid are 0 to 7")
-        refused(put(tmp_path, "x.dae", dae().replace(b"<p>0 1 3", b"<p>0 1 9")))
+        assert_refused(put(tmp_path, "x.glb", g.glb()), "vertex 9", "valid are 0 to 7")
+        assert_refused(put(tmp_path, "x.dae", dae().replace(b"<p>0 1 3", b"<p>0 1 9")))
 
 
 def absurd() -> dict[str, bytes]:
@@ -145,24 +145,24 @@ def absurd() -> dict[str, bytes]:
 def test_a_header_that_claims_billions_takes_no_memory(tmp_path, name) -> None:
     path = put(tmp_path, name, absurd()[name])
     before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    refused(path)
+    assert_refused(path)
     assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before < 200_000  # [KiB]
 
 
 def test_what_cannot_be_read_is_named(tmp_path) -> None:
     draco, old, circle = plain_gltf(), plain_gltf(), plain_gltf()
     draco.doc["extensionsRequired"] = ["KHR_draco_mesh_compression"]
-    refused(put(tmp_path, "draco.glb", draco.glb()), "KHR_draco_mesh_compression", "without compression")
+    assert_refused(put(tmp_path, "draco.glb", draco.glb()), "KHR_draco_mesh_compression", "without compression")
     old.doc["asset"]["version"] = "1.0"
-    refused(put(tmp_path, "old.glb", old.glb()), "version 1.0", "valid is 2")
+    assert_refused(put(tmp_path, "old.glb", old.glb()), "version 1.0", "valid is 2")
     circle.doc["nodes"][0]["children"] = [0]
-    refused(put(tmp_path, "circle.glb", circle.glb()), "valid is a tree")
+    assert_refused(put(tmp_path, "circle.glb", circle.glb()), "valid is a tree")
     bomb = b'<?xml version="1.0"?><!DOCTYPE x [<!ENTITY a "aaaa">]><COLLADA>&a;</COLLADA>'
-    refused(put(tmp_path, "bomb.dae", bomb), "document type")
+    assert_refused(put(tmp_path, "bomb.dae", bomb), "document type")
     deep = b'{"meshes": ' + b"[" * 100_000 + b"]" * 100_000 + b"}"
-    refused(put(tmp_path, "deep.gltf", deep))
+    assert_refused(put(tmp_path, "deep.gltf", deep))
 
 
 def test_names_with_spaces_and_texture_indices_out_of_range(tmp_path) -> None:
-    refused(put(tmp_path, "my file.obj", HEAD.replace("3/1", "3/7").encode()), "texture coordinate 7", "1 to 1")
+    assert_refused(put(tmp_path, "my file.obj", HEAD.replace("3/1", "3/7").encode()), "texture coordinate 7", "1 to 1")
     assert len(load_mesh(put(tmp_path, "my file.obj", HEAD.encode())).mesh.faces) == 1

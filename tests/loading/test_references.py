@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from mesh_files import MTL, all_files, dae, obj, plain_gltf, put, refused
+from mesh_files import MTL, all_files, assert_refused, dae, obj, plain_gltf, put
 from PIL import Image
 
 from anymesh.errors import InputError, OptionError
@@ -74,7 +74,7 @@ def test_geometry_that_cannot_be_read_is_an_error(tmp_path, uri) -> None:
     (tmp_path / "inside").mkdir()
     (tmp_path / "secret.png").write_bytes(plain_gltf().bin)
     told = "--root" if uri in OUTSIDE else ""
-    refused(put(tmp_path / "inside", "buffer.gltf", naming(uri)["buffer.gltf"]), "refers to", told)
+    assert_refused(put(tmp_path / "inside", "buffer.gltf", naming(uri)["buffer.gltf"]), "refers to", told)
 
 
 @pytest.mark.parametrize("uri", ["%2e%2e/secret.png", "link.png", "LINK.png", "folder/secret.png", "circle.png"])
