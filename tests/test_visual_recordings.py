@@ -86,10 +86,10 @@ def test_the_tables_count_what_is_missing_and_what_was_found(visual) -> None:
     found = JointScore("a", 0.9, JointType.REVOLUTE, JointType.REVOLUTE, 2.0, 0.01, 0.02)
     other = JointScore("b", 0.0, JointType.PRISMATIC)
     record = Record(ObjectScore("box", (found, other), 1, 2, 1, part_miou=0.45), seconds=12.0)
-    told = page([Row("as recorded", "001", "some", visual.Protocol.PARTS, record, 4)])
+    told = page([Row("as recorded", "001", "some", visual.EvalProtocol.PARTS, record, 4)])
     assert "| some | 1 | 2 | 0.500 | 0.450 | 1.000 | 1.000 | 2.00 | 0.0200 |  | 4.0 | 12 |" in told
     failed = Row(
-        "as recorded", "002", "some", visual.Protocol.PARTS, Record(ObjectScore("x", (), 0, 0, 0), error="no answer"), 0
+        "as recorded", "002", "some", visual.EvalProtocol.PARTS, Record(ObjectScore("x", (), 0, 0, 0), error="no answer"), 0
     )
     assert "- as recorded, 002 parts: no answer" in page([failed])
 
@@ -120,7 +120,7 @@ def test_a_choice_is_found_again_in_another_order_or_the_other_way(visual) -> No
 @pytest.mark.parametrize("number", ["022", *(pytest.param(number, marks=pytest.mark.slow) for number in ("048", "060", "065"))])
 def test_a_recording_of_an_example_replays_without_a_model(visual, number: str) -> None:
     (item,) = visual.items({}, [number])
-    row = visual.row(item, visual.Protocol.END_TO_END, "as recorded")
+    row = visual.row(item, visual.EvalProtocol.END_TO_END, "as recorded")
     assert row.record.error == ""
     assert row.record.score.matched == row.record.score.true == row.record.score.predicted
     assert all(j.type_right and (j.angle or 0.0) < 2 and (j.at_part or 0.0) < 0.04 for j in row.record.score.joints)

@@ -1,0 +1,125 @@
+"""Measure parts and joints on the reserved kinds, which nothing is trained or tuned on (`kinds.RESERVED`).
+
+python benchmarks/held_out.py WORK            all objects: writes held_out.md and the baseline held_out.json
+python benchmarks/held_out.py WORK --check    a sample: exit code 1 if a figure is worse than the baseline
+
+WORK: a folder for objects and results; results that are there are not computed again.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+
+import kinds
+
+from anymesh.evaluating import evaluate
+from anymesh.evaluation.record import Record
+from anymesh.evaluation.report import markdown
+from anymesh.evaluation.summary import Summary, summarize
+from anymesh.evaluation.tables import group_table
+
+HERE = Path(__file__).parent
+SEED, COUNT = 23, 2  # of the objects; COUNT of each kind
+STATIC = ("wine_rack", "picnic_table", "barrel")  # reserved kinds of which nothing moves
+SAMPLE = sorted(set(kinds.RESERVED) - set(STATIC))[::2]  # kinds whose first object is in the sample
+TOLERANCE = 0.05
+Figures = dict[str, float]
+FIGURES: dict[str, Callable[[Summary], float | None]] = {  # larger is better
+    "part F1": lambda s: s.part_f1,
+    "part mIoU": lambda s: s.part_miou,
+    "type": lambda s: s.type_right,
+    "opens": lambda s: s.opens_right,
+    "right": lambda s: s.success["opd"],
+}
+
+
+def objects(work: Path, kind: str, numbers: Sequence[int]) -> list[str]:
+    """Write objects of a kind below `work`, unless they are there, and return their names."""
+    folder = work / ("static" if kind in STATIC else "moving")
+    for number in numbers:
+        if not (folder / f"{kind}-{number:02d}").is_dir():
+            kinds.write(kind, SEED, number, folder)
+    return [f"{kind}-{number:02d}-{kind}-{number:02d}" for number in numbers]  # folder and file, as the data set names them
+
+
+def measure(work: Path, names: Sequence[str], protocol: str, dataset: str = "urdf:moving") -> list[Record]:
+    """Evaluate objects by geometry alone."""
+    form, _, folder = dataset.partition(":")
+    out = work / f"{folder}-{protocol}-{len(names)}"
+    return evaluate(f"{form}:{work / folder}", out, protocol=protocol, only=names, answerer="geometry", force=True)
+
+
+def figures(records: Mapping[str, Sequence[Record]]) -> dict[str, Figures]:
+    """Return the figures of each protocol, rounded."""
+    told = {protocol: summarize(some) for protocol, some in records.items()}
+    return {
+        protocol: {name: round(value, 3) for name, of in FIGURES.items() if (value := of(summary)) is not None}
+        for protocol, summary in told.items()
+    }
+
+
+def worse(found: Mapping[str, Figures], baseline: Mapping[str, Figures]) -> list[str]:
+    """Return in words what is worse than the baseline by more than the tolerance, or missing."""
+    return [
+        f"{protocol}, {name}: {found.get(protocol, {}).get(name)} (baseline {known})"
+        for protocol, row in baseline.items()
+        for name, known in row.items()
+        if found.get(protocol, {}).get(name, 0.0) < known - TOLERANCE
+    ]
+
+
+def check(work: Path) -> int:
+    """Compare the sample with the baseline."""
+    names = [name for kind in SAMPLE for name in objects(work, kind, [0])]
+    found = figures({protocol: measure(work, names, protocol) for protocol in ("end-to-end", "parts")})
+    print(json.dumps(found, indent=1))
+    left = worse(found, json.loads((HERE / "held_out.json").read_text())["sample"])
+    print("\n".join(left) or f"no figure on {len(names)} held-out objects is worse than the baseline by more than {TOLERANCE}")
+    return int(bool(left))
+
+
+def write(work: Path) -> int:
+    """Measure all objects, and write the tables and the baseline."""
+    moving = [name for kind in kinds.RESERVED if kind not in STATIC for name in objects(work, kind, range(COUNT))]
+    still = [name for kind in STATIC for name in objects(work, kind, range(COUNT))]
+    records = {protocol: measure(work, moving, protocol) for protocol in ("end-to-end", "parts")}
+    false = sum(r.score.predicted for r in measure(work, still, "end-to-end", "static:static"))
+    sample = {f"{kind}-00-{kind}-00" for kind in SAMPLE}
+    baseline = {
+        "all": figures(records),
+        "sample": figures({p: [r for r in some if r.score.name in sample] for p, some in records.items()}),
+    }
+    (HERE / "held_out.json").write_text(json.dumps(baseline, indent=1) + "\n")
+    by_kind = {
+        protocol: [
+            (kind, [r for r in some if r.score.name.startswith(f"{kind}-")]) for kind in kinds.RESERVED if kind not in STATIC
+        ]
+        for protocol, some in records.items()
+    }
+    text = [
+        "# Kinds that nothing was trained on", "",
+        f"`python benchmarks/held_out.py WORK`: {len(moving)} objects of {len(moving) // COUNT} kinds that were written after",
+        "the shipped classifiers were trained (`kinds.RESERVED`), nameless and without materials, by geometry alone.",
+        "`.ci/run` measures a sample and compares it with `held_out.json`.", "",
+        f"On {len(still)} objects of {len(STATIC)} kinds of which nothing moves, {false} parts are found.", "",
+    ]  # fmt: skip
+    for protocol, groups in by_kind.items():
+        text += [f"## {protocol}", "", markdown(group_table(protocol, [*groups, ("all", records[protocol])])), ""]
+    (HERE / "held_out.md").write_text("\n".join(text))
+    print(json.dumps(baseline, indent=1))
+    return 0
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description="Parts and joints on kinds that nothing was trained on.")
+    parser.add_argument("work", type=Path, metavar="WORK")
+    parser.add_argument("--check", action="store_true", help="a sample, compared with the baseline")
+    options = parser.parse_args()
+    return (check if options.check else write)(options.work)
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

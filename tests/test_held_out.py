@@ -1,0 +1,51 @@
+"""The figures on reserved kinds are held out, and a figure that gets worse is told."""
+
+import json
+import sys
+from pathlib import Path
+
+import pytest
+
+from anymesh.evaluation.training import trained_objects
+
+BENCHMARKS = Path(__file__).parents[1] / "benchmarks"
+sys.path.insert(0, str(BENCHMARKS))
+
+import held_out  # noqa: E402
+import kinds  # noqa: E402
+
+
+def test_no_shipped_classifier_was_trained_on_a_reserved_kind() -> None:
+    names = {name.partition("/")[2] for name in trained_objects()}
+    assert len(names) > 500
+    assert not set(kinds.RESERVED) & set(kinds.KINDS)
+    assert not [name for name in names for kind in kinds.RESERVED if name.startswith(f"{kind}-")]
+
+
+def test_no_reserved_kind_is_trained_on_by_default(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    written: list[str] = []
+    monkeypatch.setattr(kinds, "write", lambda kind, *_: written.append(kind))
+    for options, expected in (([], kinds.KINDS), (["--reserved"], kinds.RESERVED)):
+        monkeypatch.setattr(sys, "argv", ["kinds.py", str(tmp_path), "--count", "1", *options])
+        written.clear()
+        kinds.main()
+        assert written == list(expected)
+
+
+def test_a_figure_that_gets_worse_or_is_missing_is_told() -> None:
+    baseline = {"end-to-end": {"part F1": 0.7, "opens": 0.5}}
+    within = {"end-to-end": {"part F1": 0.7 - held_out.TOLERANCE / 2, "opens": 0.9}}
+    assert held_out.worse(within, baseline) == []
+    assert held_out.worse({"end-to-end": {"part F1": 0.6, "opens": 0.5}}, baseline) == [
+        "end-to-end, part F1: 0.6 (baseline 0.7)"
+    ]
+    assert len(held_out.worse({}, baseline)) == 2
+
+
+def test_the_baseline_has_a_figure_of_each_kind() -> None:
+    baseline = json.loads((BENCHMARKS / "held_out.json").read_text())
+    for group in ("all", "sample"):
+        assert set(baseline[group]) == {"end-to-end", "parts"}
+        for row in baseline[group].values():
+            assert set(row) == set(held_out.FIGURES)
+            assert all(0 <= value <= 1 for value in row.values())
