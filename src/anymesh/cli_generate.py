@@ -39,7 +39,6 @@ from anymesh.cli_options import (
 from anymesh.cli_output import Shown, cache_of, chosen_answerer, ended_by_signal, plain, split_labels, tell_asset
 from anymesh.config import DEFAULT_VIEWS
 from anymesh.deadline import CALL_SECONDS, DEFAULT_SECONDS
-from anymesh.isolation import AHEAD, shared_pool
 
 if TYPE_CHECKING:
     from anymesh.applications.generate import Explanation
@@ -104,8 +103,6 @@ def generate(
 ) -> None:
     """PROMPT or a picture to a finished articulated asset in DIR: a 3D generator makes the mesh, the pipeline its joints,
     stage C what is inside. A second run goes on where one ended; nothing is paid for twice."""
-    if not dry_run:
-        shared_pool().warm(*AHEAD)  # the children import while this process does
     from anymesh.applications.generate import explain_generation
     from anymesh.applications.generate import generate as run
 

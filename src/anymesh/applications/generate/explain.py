@@ -44,13 +44,15 @@ def explain_generation(
     force: bool = False,
     **options: Unpack[GenerateOptions],
 ) -> Explanation:
-    """The steps of `generate` with these options. Writes nothing, sends nothing, needs no key. Raises OptionError, InputError."""
+    """The steps of `generate` with these options. Nothing is written or sent, and no key is needed.
+
+    Raises OptionError, InputError.
+    """
     job = open_job(prompt, out, image=image, mesh=mesh, generator=generator, time_limit=generator_time_limit, options=options)
     warnings = (job.size.warning,) if job.size.warning else ()
     if not (force or regenerate) and finished_before(job):
-        return Explanation(
-            (Step(f"return {job.out.name} as it is: it was finished by the same call"),), job.size.reason, warnings
-        )
+        done = Step(f"return {job.out.name} as it is: it was finished by the same call")
+        return Explanation((done,), job.size.reason, warnings)
     return Explanation((*_making(job, regenerate), *_following(job)), job.size.reason, warnings)
 
 
@@ -65,18 +67,16 @@ def _following(job: Job) -> tuple[Step, ...]:
     options = job.options
     formats = ", ".join(Exported.parse(options["base"], options["formats"], options["drives"]).formats)
     who = "geometry, without a model" if job.answerer == GEOMETRY.name else f"{job.answerer}; its cost is limited by --max-cost"
-    texture = Step("looks: built in")
-    if options["texture"].startswith("meshy"):
-        texture = Step(
-            f"pay Meshy for {RETEXTURE.name} ({RETEXTURE.path}); the finished object is sent", RETEXTURE.credits, CHECKED
-        )
-    elif options["texture"] != "builtin":
-        texture = Step(f"looks: {options['texture']}")
     return (
         Step(f"find parts and joints, as `anymesh articulate` does; questions are answered by {who}"),
-        Step(
-            f"complete shapes, as `anymesh finish` does (completer {options['completer']}): inner walls, boxes behind drawers"
-        ),
-        texture,
+        Step(f"complete shapes, as `anymesh finish` does (by {options['completer']}): inner walls, boxes behind drawers"),
+        _looks(options["texture"]),
         Step(f"write {formats}, preview.png, asset.json, generation.json to {job.out}"),
     )
+
+
+def _looks(texture: str) -> Step:
+    if texture.startswith("meshy"):
+        told = f"pay Meshy for {RETEXTURE.name} ({RETEXTURE.path}); the finished object is sent"
+        return Step(told, RETEXTURE.credits, CHECKED)
+    return Step("keep the looks of the mesh" if texture == "builtin" else f"put the looks into an atlas ({texture})")

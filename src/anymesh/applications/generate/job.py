@@ -17,8 +17,10 @@ from anymesh.applications.generate.choose import open_generator
 from anymesh.applications.generate.given import GivenMesh
 from anymesh.applications.generate.protocol import Generator3D, MeshRequest
 from anymesh.applications.generate.size import Size, choose_size
+from anymesh.config import DEFAULT_VIEWS
 from anymesh.deadline import DEFAULT_SECONDS, Deadline
 from anymesh.errors import OptionError, OutputError
+from anymesh.export.formats import DEFAULT
 from anymesh.export_options import Exported
 from anymesh.loading import place_mesh
 from anymesh.loading.load import LoadedMesh
@@ -29,8 +31,10 @@ from anymesh.storage.outputs import check_replaceable
 from anymesh.types import Mesh, Node
 
 DEFAULTS: dict[str, Any] = {
-    "up": "auto", "scale": "auto", "base": "fixed", "formats": "urdf,mjcf,sdf,glb", "drives": "passive",
+    "up": "auto", "scale": "auto", "base": "fixed", "formats": ",".join(DEFAULT), "drives": "passive",
     "time_limit": DEFAULT_SECONDS, "completer": "builtin", "texture": "builtin", "watertight": True, "root": None,
+    "answerer": GEOMETRY.name, "category": None, "seed": 0, "parts_list": (), "at_least": 0, "proposer": "exact",
+    "viewpoints": DEFAULT_VIEWS, "verify": "motion",
 }  # fmt: skip
 FINISHING = ("completer", "texture", "watertight", "base", "formats", "drives")  # what the pipeline's result does not hang on
 FREE = ("max_calls", "max_cost", "cache", "timeout", "wait", "suggest", "spent", "limiter")  # what no result hangs on
@@ -76,7 +80,7 @@ class Job:
     @property
     def answerer(self) -> str:
         """Who answers the pipeline's questions."""
-        return str(self.options.get("answerer", GEOMETRY.name))
+        return str(self.options["answerer"])
 
     @property
     def by_files(self) -> bool:
@@ -117,7 +121,7 @@ def open_job(
     """From the words of the options. Raises OptionError, InputError; nobody is asked and nothing is written."""
     unknown = sorted(set(options) - set(GenerateOptions.__annotations__) - set(Answering.__annotations__))
     if unknown:
-        valid = ", ".join({**DEFAULTS, **Answering.__annotations__})
+        valid = ", ".join(dict.fromkeys((*DEFAULTS, *Answering.__annotations__)))
         raise OptionError(f"found the options {unknown}; valid are {valid}")
     if prompt is None and image is None and mesh is None:
         raise OptionError("found neither a prompt nor --image nor --mesh; one of them says what to make")
@@ -126,13 +130,13 @@ def open_job(
     if mesh is None and options.get("root") is not None:
         raise OptionError("--root is for files that a --mesh refers to, and found no --mesh")
     chosen: dict[str, Any] = {**DEFAULTS, **options}
-    request = MeshRequest(prompt, None if image is None else Path(image), int(chosen.get("seed", 0)))
+    request = MeshRequest(prompt, None if image is None else Path(image), chosen["seed"])
     who = open_generator(generator, time_limit=time_limit, max_calls=chosen.get("max_calls"))
     if mesh is not None:
         who = GivenMesh(Path(mesh), chosen["root"])
     who.steps(request)  # raises for a request that it cannot take
     name = request.name if mesh is None else Path(mesh).stem
-    size = choose_size(chosen["scale"], chosen.get("category"), prompt, name, who.unit)
+    size = choose_size(chosen["scale"], chosen["category"], prompt, name, who.unit)
     return Job(request, who, Path(out).resolve(), chosen, size)
 
 

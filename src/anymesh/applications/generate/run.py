@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, Unpack
@@ -141,6 +142,8 @@ def _finish(job: Job, work: WorkFolder, asset: Asset, spent: Account, force: boo
     if options["texture"].startswith("meshy"):
         add_tasks(job.out, retexture_task(job.out.parent / f".{job.out.name}.meshy.json"))
     shutil.rmtree(work.articulated, ignore_errors=True)
+    with suppress(OSError):
+        work.folder.rmdir()  # nothing was made in it
     return _warned(finished, job)
 
 

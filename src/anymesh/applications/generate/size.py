@@ -33,7 +33,8 @@ def choose_size(scale: str, category: str | None, prompt: str | None, name: str,
         usual = f"a {kind[0].replace('_', ' ')} is about {kind[1]:g} m long"
         if unit is Unit.ARBITRARY:
             return Size(f"{kind[1]:g}:longest", known, f"{usual}; the generator knows no size")
-        return Size("auto", known, f"as the mesh file states it, where that suits the kind ({usual})")
+        told = "the generator estimates" if unit is Unit.ESTIMATED else "the mesh file states"
+        return Size("auto", known, f"as {told} it, where that suits the kind ({usual})")
     if unit is Unit.ESTIMATED:
         return Size("auto", known, "as the generator estimated it")
     return Size("auto", known, "as the mesh file states it", f"nothing tells how large the object is; {ADVICE}")
