@@ -66,10 +66,20 @@ def test_text_is_previewed_refined_and_fetched(server, meshy, waits) -> None:
     [preview, refined] = server.tasks
     assert bodies(server) == [
         {"mode": "preview", "prompt": PROMPT, "ai_model": "latest", **shape},
-        {"mode": "refine", "preview_task_id": preview, "enable_pbr": True, "target_formats": ["glb"], **sized, "prompt": PROMPT},
+        {
+            "mode": "refine",
+            "preview_task_id": preview,
+            "enable_pbr": True,
+            "target_formats": ["glb"],
+            **sized,
+            "prompt": PROMPT,
+        },
     ]
     assert {task["path"] for task in server.tasks.values()} == {TEXT}
-    assert [(kind, b.task, b.credits, b.seed) for kind, b in found.tasks] == [(PREVIEW, preview, 20, 7), (REFINE, refined, 10, 7)]
+    assert [(kind, b.task, b.credits, b.seed) for kind, b in found.tasks] == [
+        (PREVIEW, preview, 20, 7),
+        (REFINE, refined, 10, 7),
+    ]
     assert (client.calls, client.credits) == (2, 30)
     assert waits == [2.0, 2.6, 2.0, 2.6]
     assert server.asked == ["list", "create", "look", "look", "look", "list", "create", "look", "look", "look", "look", "file"]

@@ -78,5 +78,5 @@ def _following(job: Job) -> tuple[Step, ...]:
 def _looks(texture: str) -> Step:
     if texture.startswith("meshy"):
         told = f"pay Meshy for {RETEXTURE.name} ({RETEXTURE.path}); the finished object is sent"
-        return Step(told, RETEXTURE.credits, CHECKED)
+        return Step(told, float(RETEXTURE.credits), CHECKED)
     return Step("keep the looks of the mesh" if texture == "builtin" else f"put the looks into an atlas ({texture})")

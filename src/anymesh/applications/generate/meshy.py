@@ -53,7 +53,9 @@ class MeshyGenerator:
         if request.image is not None:
             data_uri(request.image)
         kinds = self._service(Path(), None).kinds(image=request.image is not None)
-        tasks = (Step(f"pay Meshy for {kind.name} ({kind.path}); {sent} is sent", kind.credits, PRICED) for kind in kinds)
+        tasks = (
+            Step(f"pay Meshy for {kind.name} ({kind.path}); {sent} is sent", float(kind.credits), PRICED) for kind in kinds
+        )
         return (*tasks, Step("wait for it, and download the GLB"))
 
     def check(self) -> None:
