@@ -52,11 +52,13 @@ class Row:
     healthy: bool
     size: tuple[float, float]
     seconds: float
+    stages: str
 
     def markdown(self) -> str:
         sizes = f"{self.size[0]:.2f} / {self.size[1]:.2f}"
         cells = (self.name, self.made, f"{self.faces:,}", self.components, f"{self.right} of {self.true}", self.found)
-        return f"| {' | '.join(map(str, cells))} | {sizes} | {'yes' if self.healthy else 'no'} | {self.seconds:.0f} |"
+        last = (sizes, "yes" if self.healthy else "no", f"{self.seconds:.0f}", self.stages)
+        return f"| {' | '.join(map(str, (*cells, *last)))} |"
 
 
 def stand_in(prompt: str) -> tuple[bytes, Subject, np.ndarray]:
@@ -102,6 +104,7 @@ def row(name: str, made: str, work: Path, subject: Subject, T: np.ndarray, **how
     return Row(
         name, made, record["faces"], record["components"], right(result), result.true, len(asset.joints),
         check_asset(out).ok, (float(asset.mesh.extents.max()), true), seconds,
+        ", ".join(f"{stage} {s:.0f}" for stage, s in asset.timing.items()),
     )  # fmt: skip
 
 
@@ -131,8 +134,8 @@ def main() -> None:
         told.write.write_bytes(stand_in(told.stand_in)[0])
         return
     work = told.work or Path(tempfile.mkdtemp())
-    lines = ["| object | mesh from | faces | components | joints right | joints found | longest side / true [m] | check | s |"]
-    lines.append("|---|---|---|---|---|---|---|---|---|")
+    head = "object, mesh from, faces, components, joints right, joints found, longest side / true [m], check, s, of these"
+    lines = [f"| {' | '.join(head.split(', '))} |", "|---" * (head.count(", ") + 1) + "|"]
     for found in rows(work, told.only):
         lines.append(found.markdown())
         print(lines[-1], flush=True)

@@ -121,6 +121,11 @@ def generate(
     with ended_by_signal(), Shown(quiet or json_) as progress:
         asset = run(prompt, out, progress=progress, **options)
     tell_asset(asset, out, json_, quiet)
+    if not (json_ or quiet):
+        from anymesh.applications.generate.record import read_record
+
+        record = read_record(out) or {}
+        typer.echo(f"generation.json: {len(record.get('tasks', ()))} paid tasks, {record.get('credits', 0):g} credits in all")
 
 
 def _tell(found: Explanation, json_: bool) -> None:

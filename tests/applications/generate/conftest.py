@@ -11,6 +11,10 @@ from loopback import guard
 from meshy_wire import KEY, MeshyServer
 
 from anymesh import pipeline
+from anymesh.progress import Progress
+from anymesh.run_folder import RunFolder
+from anymesh.storage.saved import Saved
+from anymesh.types import Asset
 
 BOX = Path(__file__).parents[3] / "examples" / "meshes" / "storage_box.glb"
 PROGRAM = Path(__file__).parent / "small_generator.py"
@@ -45,13 +49,11 @@ def articulations(articulated_box: Path, monkeypatch: pytest.MonkeyPatch) -> lis
     """`articulate` gives the box without computing it; its calls are listed."""
     calls: list[dict] = []
 
-    def articulate(mesh: Path, out: Path, **options: object):
+    def articulate(mesh: Path, out: Path, **options: object) -> Asset:
         assert Path(mesh).is_file()
         calls.append({"mesh": Path(mesh), **options})
         shutil.rmtree(out, ignore_errors=True)
         shutil.copytree(articulated_box, out)
-        from anymesh.storage.saved import Saved
-
         return Saved.at(out).asset()
 
     monkeypatch.setattr(pipeline, "articulate", articulate)
@@ -62,3 +64,18 @@ def articulations(articulated_box: Path, monkeypatch: pytest.MonkeyPatch) -> lis
 def program() -> Callable[..., str]:
     """The name of a generator: the small program, with what it is to do."""
     return lambda *words: " ".join(["command:" + sys.executable, str(PROGRAM), *words])
+
+
+@pytest.fixture
+def quick(articulations: list[dict], monkeypatch: pytest.MonkeyPatch) -> list[dict]:
+    """As `articulations`, and `finish` takes the stages over without computing or writing more."""
+
+    def finish(folder: Path, out: Path, *, force: bool, progress: Progress, **options: object) -> Asset:
+        progress("finish", str(options["completer"]), 0, 1)
+        with RunFolder.create(out, source=folder / "asset.json", force=force) as run:
+            run.take_over(folder)
+            shutil.copyfile(folder / "asset.json", run.folder / "asset.json")
+            return run.asset()
+
+    monkeypatch.setattr(pipeline, "finish", finish)
+    return articulations

@@ -7,6 +7,7 @@ import sys
 import time
 from pathlib import Path
 
+import pytest
 from meshy_wire import refuses
 
 from anymesh.cli import run
@@ -30,14 +31,14 @@ def test_a_dry_run_needs_no_key_and_writes_nothing(tmp_path, capsys, monkeypatch
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_picture_becomes_an_asset(server, articulations, tmp_path, capsys) -> None:
+def test_a_picture_becomes_an_asset(server, quick, tmp_path, capsys) -> None:
     picture = tmp_path / "box.png"
     picture.write_bytes(b"\x89PNG\r\n\x1a\n picture")
     command = ["generate", "--image", str(picture), "-o", str(tmp_path / "out"), "--formats", "urdf", "--completer", "off"]
     assert run([*command, "--up", "y", "--at-least", "1", "--time-limit", "300", "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
     assert [joint["type"] for joint in found["joints"]] == ["revolute"]
-    told = articulations[0]
+    told = quick[0]
     assert {k: told[k] for k in ("up", "at_least", "time_limit", "formats", "answerer")} == {
         "up": "y",
         "at_least": 1,
@@ -48,7 +49,7 @@ def test_a_picture_becomes_an_asset(server, articulations, tmp_path, capsys) -> 
     assert (tmp_path / "out" / "generation.json").is_file()
 
 
-def test_what_goes_wrong_has_an_exit_code(server, articulations, tmp_path, capsys) -> None:
+def test_what_goes_wrong_has_an_exit_code(server, quick, tmp_path, capsys) -> None:
     out = ["-o", str(tmp_path / "out")]
     assert run(["generate", *out]) == 2
     assert run(["generate", "a box", *out, "--scale", "big"]) == 2
@@ -63,6 +64,7 @@ def test_what_goes_wrong_has_an_exit_code(server, articulations, tmp_path, capsy
     assert server.tasks == {}
 
 
+@pytest.mark.slow
 def test_a_signal_ends_the_program_too(tmp_path) -> None:
     """SIGTERM, by which schedulers end a job, reaches what the program started."""
     program = Path(__file__).parent / "small_generator.py"

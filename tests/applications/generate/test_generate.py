@@ -63,18 +63,18 @@ def test_words_become_a_finished_asset(server, tmp_path, caplog) -> None:
         assert not [text for text in told if secret in text]
 
 
-def test_a_second_call_does_nothing(server, articulations, tmp_path) -> None:
+def test_a_second_call_does_nothing(server, quick, tmp_path) -> None:
     first = generate(PROMPT, tmp_path / "box", **FAST)
     asked, before = list(server.asked), files(tmp_path)
     again = generate(PROMPT, tmp_path / "box", **FAST)
     assert server.asked == asked
-    assert len(articulations) == 1
+    assert len(quick) == 1
     assert files(tmp_path) == before
     assert [j.name for j in again.joints] == [j.name for j in first.joints]
     assert again.warnings == first.warnings
 
 
-def test_other_options_use_the_mesh_that_is_paid(server, articulations, tmp_path) -> None:
+def test_other_options_use_the_mesh_that_is_paid(server, quick, tmp_path) -> None:
     out = tmp_path / "box"
     generate(PROMPT, out, **FAST)
     with pytest.raises(OutputError, match="--force replaces"):
@@ -85,10 +85,10 @@ def test_other_options_use_the_mesh_that_is_paid(server, articulations, tmp_path
     generate(PROMPT, out, **FAST, seed=2, force=True, max_calls=0)
     assert server.count("create") == 2
     assert record(out)["credits"] == 30
-    assert len(articulations) == 3
+    assert len(quick) == 3
 
 
-def test_another_mesh_is_paid_for_where_it_is_asked_for(server, articulations, tmp_path) -> None:
+def test_another_mesh_is_paid_for_where_it_is_asked_for(server, quick, tmp_path) -> None:
     out = tmp_path / "box"
     generate(PROMPT, out, **FAST)
     with pytest.raises(OutputError, match="--force replaces"):
@@ -99,7 +99,7 @@ def test_another_mesh_is_paid_for_where_it_is_asked_for(server, articulations, t
 
 
 @pytest.mark.parametrize("stage", ["generate", "finish"])
-def test_a_run_that_was_killed_is_gone_on_with(server, articulations, tmp_path, stage) -> None:
+def test_a_run_that_was_killed_is_gone_on_with(server, quick, tmp_path, stage) -> None:
     server.steps = [{"status": "PENDING"}] if stage == "generate" else []
 
     def kills(told: str, item: str, done: int, total: int) -> None:
@@ -112,11 +112,11 @@ def test_a_run_that_was_killed_is_gone_on_with(server, articulations, tmp_path, 
     server.steps = []
     generate(PROMPT, tmp_path / "box", **FAST)
     assert server.count("create") == 2
-    assert len(articulations) == 1
+    assert len(quick) == 1
     assert not WorkFolder.of(tmp_path / "box").articulated.exists()
 
 
-def test_a_picture_is_sent_and_named(server, articulations, tmp_path) -> None:
+def test_a_picture_is_sent_and_named(server, quick, tmp_path) -> None:
     picture = tmp_path / "My Fridge (2).png"
     picture.write_bytes(b"\x89PNG\r\n\x1a\n picture")
     generate(None, tmp_path / "out", image=picture, generator="meshy:untextured", **FAST)
@@ -127,18 +127,18 @@ def test_a_picture_is_sent_and_named(server, articulations, tmp_path) -> None:
     assert found["request"]["image"]["name"] == picture.name
     assert found["mesh"]["file"] == "generated/My_Fridge_2.glb"
     assert found["credits"] == 20
-    assert articulations[0]["category"] == "fridge"
+    assert quick[0]["category"] == "fridge"
     picture.write_bytes(b"\x89PNG\r\n\x1a\n another")
     generate(None, tmp_path / "out", image=picture, generator="meshy:untextured", **FAST, force=True)
     assert len(server.tasks) == 2
 
 
-def test_a_program_makes_the_mesh_once(articulations, program, tmp_path) -> None:
+def test_a_program_makes_the_mesh_once(quick, program, tmp_path) -> None:
     name = program(f"--prompt {{prompt}} --out {{out}} --seed {{seed}} --notes {tmp_path}/notes.json")
     generate("a microwave", tmp_path / "out", generator=name, **FAST, seed=4)
     assert record(tmp_path / "out")["generator"]["seed"] == 4
     assert record(tmp_path / "out")["credits"] == 0
-    assert articulations[0]["scale"] == "0.5:longest"
+    assert quick[0]["scale"] == "0.5:longest"
     (tmp_path / "notes.json").unlink()
     generate("a microwave", tmp_path / "out", generator=name, **FAST, seed=4, force=True)
     assert not (tmp_path / "notes.json").exists()
@@ -146,18 +146,18 @@ def test_a_program_makes_the_mesh_once(articulations, program, tmp_path) -> None
     assert (tmp_path / "notes.json").exists()
 
 
-def test_a_mesh_file_is_taken_as_it_is(articulations, tmp_path) -> None:
+def test_a_mesh_file_is_taken_as_it_is(quick, tmp_path) -> None:
     mesh = tmp_path / "box.glb"
     shutil.copyfile(BOX, mesh)
     asset = generate(None, tmp_path / "out", mesh=mesh, **FAST)
-    assert articulations[0]["mesh"] == mesh
+    assert quick[0]["mesh"] == mesh
     assert asset.warnings == ()
     found = record(tmp_path / "out")
     assert (found["mesh"]["file"], found["tasks"]) == ("box.glb", [])
     assert not (tmp_path / "out" / "generated").exists()
     assert sorted(p.name for p in tmp_path.iterdir()) == ["box.glb", "out"]
     generate(None, tmp_path / "out", mesh=mesh, **FAST)
-    assert len(articulations) == 1
+    assert len(quick) == 1
     mesh.write_bytes((BOX.parent / "laptop.glb").read_bytes())
     with pytest.raises(OutputError, match="--force replaces"):
         generate(None, tmp_path / "out", mesh=mesh, **FAST)
@@ -178,7 +178,7 @@ def test_where_it_came_from_survives_an_export_and_corrections(articulations, pr
     assert origin <= set(files(tmp_path / "again"))
 
 
-def test_a_warning_tells_that_nothing_tells_the_size(program, tmp_path, articulations) -> None:
+def test_a_warning_tells_that_nothing_tells_the_size(program, tmp_path, quick) -> None:
     asset = generate("a contraption", tmp_path / "out", generator=program("--prompt {prompt} --out {out}"), **FAST)
     assert any("nothing tells how large the object is" in w for w in asset.warnings)
     assert record(tmp_path / "out")["warnings"] == [w for w in asset.warnings if "how large" in w]
@@ -208,15 +208,15 @@ def test_looks_by_meshy_are_counted_in_and_limited(server, articulations, tmp_pa
         ("look", [refuses(400, "oops")], ModelError, "HTTP 400, it says: oops"),
     ],
 )
-def test_a_service_that_refuses_leaves_nothing(server, articulations, tmp_path, what, faults, error, told) -> None:
+def test_a_service_that_refuses_leaves_nothing(server, quick, tmp_path, what, faults, error, told) -> None:
     server.fails(what, *faults)
     with pytest.raises(error, match=told):
         generate(PROMPT, tmp_path / "box", **FAST)
     assert not (tmp_path / "box").exists()
-    assert articulations == []
+    assert quick == []
 
 
-def test_a_result_that_is_no_mesh_is_fetched_again_unpaid(server, articulations, tmp_path) -> None:
+def test_a_result_that_is_no_mesh_is_fetched_again_unpaid(server, quick, tmp_path) -> None:
     good = server.model
     server.model = b"glTF" + (2).to_bytes(4, "little") + (20).to_bytes(4, "little") + b"12345678"
     with pytest.raises(ModelError, match=r"meshy's result is no usable mesh: .*; a rerun fetches it again, unpaid"):
@@ -261,7 +261,7 @@ def test_what_is_wrong_is_told_before_anything_is_paid(server, tmp_path, monkeyp
     assert not (tmp_path / "box").exists()
 
 
-def test_two_runs_do_not_work_on_one_output(server, articulations, tmp_path) -> None:
+def test_two_runs_do_not_work_on_one_output(server, quick, tmp_path) -> None:
     folder = WorkFolder.of(tmp_path / "box").folder
     folder.mkdir()
     with locked(folder) as free:
@@ -271,7 +271,7 @@ def test_two_runs_do_not_work_on_one_output(server, articulations, tmp_path) -> 
     assert server.asked == []
 
 
-def test_a_dry_run_tells_each_step_and_touches_nothing(tmp_path, monkeypatch, server, articulations) -> None:
+def test_a_dry_run_tells_each_step_and_touches_nothing(tmp_path, monkeypatch, server, quick) -> None:
     monkeypatch.delenv("MESHY_API_KEY")
     found = explain_generation(PROMPT, tmp_path / "box", texture="meshy")
     assert [step.credits for step in found.steps] == [20, 10, 0, 0, 0, 10, 0]

@@ -96,6 +96,7 @@ class CommandGenerator:
             load_mesh(out)
         except InputError as error:
             raise ModelError(f"{self.name} wrote a file that is no usable mesh: {error}{log_tail(log)}") from None
+        log.unlink()
         return GeneratedMesh(out)
 
     def _takes(self, placeholder: str) -> bool:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import shutil
+import time
+from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
@@ -17,6 +19,7 @@ from anymesh.applications.generate.work import WorkFolder
 from anymesh.errors import InputError, note_stage
 from anymesh.models.budget import Account, Spent
 from anymesh.progress import Progress, silent
+from anymesh.run_folder import RunFolder
 from anymesh.storage.outputs import GENERATED
 from anymesh.storage.saved import Saved
 from anymesh.types import Asset
@@ -35,7 +38,7 @@ def generate(
     progress: Progress = silent,
     **options: Unpack[GenerateOptions],
 ) -> Asset:
-    """Makes a surface mesh by words or a picture, and of it a finished articulated asset in the folder `out`.
+    """Make a surface mesh by words or a picture, and of it a finished articulated asset in the folder `out`.
 
     generator: meshy (MESHY_API_KEY; paid), meshy:untextured, or command:PROGRAM with {out} and {prompt} or {image} (of at
     most generator_time_limit [s]); mesh: a file to start from instead. options: those of `articulate` (but `parts`) and of
@@ -53,10 +56,12 @@ def generate(
     with work.open():
         if regenerate:
             work.forget()
+        begin = time.perf_counter()
         made = _mesh(job, work, progress, again=regenerate)
+        seconds = time.perf_counter() - begin
         spent = options.get("spent") or Spent(calls=made.calls)
         asset = _articulated(job, work, made, spent, progress)
-        return _finish(job, work, asset, spent, force, progress)
+        return _finish(job, work, asset, spent, seconds, force, progress)
 
 
 def finished_before(job: Job) -> bool:
@@ -123,8 +128,8 @@ def _articulated(job: Job, work: WorkFolder, made: GeneratedMesh, spent: Account
     return asset
 
 
-def _finish(job: Job, work: WorkFolder, asset: Asset, spent: Account, force: bool, progress: Progress) -> Asset:
-    """Stage C, from the work folder to the output."""
+def _finish(job: Job, work: WorkFolder, asset: Asset, spent: Account, seconds: float, force: bool, progress: Progress) -> Asset:
+    """Stage C, from the work folder to the output. seconds: that the mesh took."""
     options, most = job.options, job.options.get("max_calls")
     finished = pipeline.finish(
         work.articulated,
@@ -139,12 +144,21 @@ def _finish(job: Job, work: WorkFolder, asset: Asset, spent: Account, force: boo
         force=force,
         progress=progress,
     )
+    timing = _add_timing(job.out, {"generate": seconds, **Saved.at(work.articulated).timing()})
     if options["texture"].startswith("meshy"):
         add_tasks(job.out, retexture_task(job.out.parent / f".{job.out.name}.meshy.json"))
     shutil.rmtree(work.articulated, ignore_errors=True)
     with suppress(OSError):
         work.folder.rmdir()  # nothing was made in it
-    return _warned(finished, job)
+    return _warned(replace(finished, timing=timing), job)
+
+
+def _add_timing(out: Path, before: Mapping[str, float]) -> Mapping[str, float]:
+    """Add the seconds of the stages before stage C to timing.json of the output."""
+    with RunFolder.open(out) as run:
+        for stage, seconds in before.items():
+            run.add_time("export before stage C" if stage == "export" else stage, seconds)
+        return run.timing()
 
 
 def _added(asset: Asset, job: Job) -> tuple[str, ...]:

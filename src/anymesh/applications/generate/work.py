@@ -73,4 +73,7 @@ class WorkFolder:
     def forget(self) -> None:
         """Remove everything in it, the ids of paid tasks too."""
         for path in self.folder.iterdir():
-            shutil.rmtree(path, ignore_errors=True) if path.is_dir() else path.unlink(missing_ok=True)
+            if path.is_dir():
+                shutil.rmtree(path, ignore_errors=True)
+            else:
+                path.unlink(missing_ok=True)
