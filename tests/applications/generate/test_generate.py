@@ -98,6 +98,23 @@ def test_another_mesh_is_paid_for_where_it_is_asked_for(server, quick, tmp_path)
     assert record(out)["tasks"][0]["id"] == list(server.tasks)[2]
 
 
+def test_another_mesh_that_was_cut_short_is_gone_on_with(server, quick, tmp_path) -> None:
+    out, how = tmp_path / "box", {**FAST, "regenerate": True, "force": True}
+    generate(PROMPT, out, **FAST)
+
+    def kills(told: str, item: str, done: int, total: int) -> None:
+        if told == "finish":
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        generate(PROMPT, out, **how, progress=kills)
+    generate(PROMPT, out, **how)
+    assert server.count("create") == 4
+    assert record(out)["tasks"][0]["id"] == list(server.tasks)[2]
+    generate(PROMPT, out, **how, max_calls=2)
+    assert server.count("create") == 6
+
+
 @pytest.mark.parametrize("stage", ["generate", "finish"])
 def test_a_run_that_was_killed_is_gone_on_with(server, quick, tmp_path, stage) -> None:
     server.steps = [{"status": "PENDING"}] if stage == "generate" else []
@@ -287,6 +304,8 @@ def test_a_dry_run_tells_each_step_and_touches_nothing(tmp_path, monkeypatch, se
     [done] = explain_generation(PROMPT, tmp_path / "box", **FAST).steps
     assert done.what == "return box as it is: it was finished by the same call"
     held = explain_generation(PROMPT, tmp_path / "box", **FAST, seed=3)
+    assert "would end at once" in held.warnings[0]
+    assert explain_generation(PROMPT, tmp_path / "box", **FAST, seed=3, force=True, regenerate=True).credits == 30
     assert held.steps[0].what.startswith("use the mesh that an earlier run made")
     assert held.credits == 0
     assert server.asked == asked

@@ -26,6 +26,11 @@ def test_the_category_counts_for_more_than_the_prompt_and_that_for_more_than_the
     )
 
 
+def test_a_file_s_unit_counts_for_more_than_its_name() -> None:
+    size = choose_size("auto", None, None, "box", Unit.STATED)
+    assert (size.scale, size.category, size.warning) == ("auto", None, "")
+
+
 @pytest.mark.parametrize(("unit", "warned"), [(Unit.ARBITRARY, True), (Unit.STATED, True), (Unit.ESTIMATED, False)])
 def test_where_nothing_tells_the_size_a_warning_says_so(unit, warned) -> None:
     size = choose_size("auto", None, "a toy fridge", "toy_fridge", unit)

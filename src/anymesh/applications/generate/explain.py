@@ -6,11 +6,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Unpack
 
-from anymesh.applications.generate.given import GivenMesh
 from anymesh.applications.generate.job import GenerateOptions, Job, open_job
 from anymesh.applications.generate.protocol import Step
 from anymesh.applications.generate.run import finished_before, mesh_before
 from anymesh.applications.generate.work import WorkFolder
+from anymesh.errors import OutputError
 from anymesh.export_options import Exported
 from anymesh.models.meshy_api import RETEXTURE
 from anymesh.solving import GEOMETRY
@@ -53,12 +53,16 @@ def explain_generation(
     if not (force or regenerate) and finished_before(job):
         done = Step(f"return {job.out.name} as it is: it was finished by the same call")
         return Explanation((done,), job.size.reason, warnings)
+    try:
+        job.check_output(force=force)
+    except OutputError as error:
+        warnings = (*warnings, f"it would end at once: {error}")
     return Explanation((*_making(job, regenerate), *_following(job)), job.size.reason, warnings)
 
 
-def _making(job: Job, again: bool) -> tuple[Step, ...]:
-    held = None if again else mesh_before(job, WorkFolder.of(job.out))
-    if held is None or isinstance(job.generator, GivenMesh):
+def _making(job: Job, anew: bool) -> tuple[Step, ...]:
+    held = mesh_before(job, WorkFolder.of(job.out), anew=anew)
+    if held is None:
         return job.generator.steps(job.request)
     return (Step(f"use the mesh that an earlier run made, {held.path.name}; nothing is paid for it"),)
 

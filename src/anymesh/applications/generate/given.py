@@ -36,7 +36,7 @@ class GivenMesh:
 
     def settings(self, request: MeshRequest) -> Mapping[str, object]:
         """Digests of the file and of those that it refers to. Raises InputError for what is no usable mesh."""
-        return {"name": self.path.name, "sha256": self._loaded.sha256, "references": self._loaded.references}
+        return {"name": self.name, "file": self.path.name, "sha256": self._loaded.sha256, "references": self._loaded.references}
 
     def steps(self, request: MeshRequest) -> tuple[Step, ...]:
         """Read the file."""

@@ -101,7 +101,14 @@ class Job:
         choose_answerer(self.answering())
         open_completer(options["completer"])
         open_retexturer(options["texture"], state=self.out.parent / "none", max_calls=options.get("max_calls"))
-        _check_output(self.out, force)
+        self.check_output(force=force)
+
+    def check_output(self, *, force: bool) -> None:
+        """OutputError where the output may not be written."""
+        if self.out.exists() and not self.out.is_dir():
+            raise OutputError(f"{self.out} is a file; an output is a folder")
+        if self.out.is_dir() and any(not path.name.startswith(OURS) for path in self.out.iterdir()):
+            check_replaceable(self.out, force)
 
     def answering(self) -> Answering:
         """Who answers, of the options."""
@@ -138,13 +145,6 @@ def open_job(
     name = request.name if mesh is None else Path(mesh).stem
     size = choose_size(chosen["scale"], chosen["category"], prompt, name, who.unit)
     return Job(request, who, Path(out).resolve(), chosen, size)
-
-
-def _check_output(out: Path, force: bool) -> None:
-    if out.exists() and not out.is_dir():
-        raise OutputError(f"{out} is a file; an output is a folder")
-    if out.is_dir() and any(not path.name.startswith(OURS) for path in out.iterdir()):
-        check_replaceable(out, force)
 
 
 def _cube() -> LoadedMesh:

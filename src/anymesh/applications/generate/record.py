@@ -13,6 +13,7 @@ from anymesh.applications.generate.given import GivenMesh
 from anymesh.applications.generate.job import FREE, Job
 from anymesh.applications.generate.protocol import GeneratedMesh, PaidTask, file_digest
 from anymesh.defects import redacted
+from anymesh.errors import InputError
 from anymesh.geometry.topology import components
 from anymesh.loading import load_mesh
 from anymesh.models.meshy_api import RETEXTURE
@@ -22,6 +23,7 @@ from anymesh.storage.outputs import GENERATED, GENERATION
 from anymesh.storage.stage_files import read_json, write_json
 
 SCHEMA_VERSION = 1
+WORDS = ("category", "texture")  # options that are words of the user's
 STILL = "no part that moves was found; --at-least 1, an --answerer that sees, or `anymesh view` may help"
 
 
@@ -42,7 +44,7 @@ def generation_record(job: Job, mesh: GeneratedMesh, warnings: Sequence[str]) ->
         },
         **_cost(mesh.tasks),
         "size": {"scale": job.size.scale, "reason": job.size.reason},
-        "options": {name: _plain(value) for name, value in sorted(options.items())},
+        "options": {name: value if name in WORDS else _plain(value) for name, value in sorted(options.items())},
         "versions": {"anymesh": __version__},
         "keys": {
             "mesh": job.mesh_key,
@@ -77,6 +79,19 @@ def read_record(folder: Path) -> Mapping[str, Any] | None:
     """generation.json of an output; None where there is none that can be read."""
     found = read_json(folder / GENERATION)
     return found if found is not None and isinstance(found.get("keys"), dict) else None
+
+
+def recorded_mesh(out: Path, key: str) -> GeneratedMesh | None:
+    """The mesh that an output was made of, where it was generated under a key and is unchanged; None otherwise."""
+    record = read_record(out)
+    if record is None or record["keys"].get("mesh") != key:
+        return None
+    try:
+        path = out / GENERATED / Path(record["mesh"]["file"]).name
+        tasks = (PaidTask(**task) for task in record["tasks"] if task["kind"] != RETEXTURE.type)
+        return GeneratedMesh(path, tuple(tasks)) if file_digest(path) == record["mesh"]["sha256"] else None
+    except (InputError, KeyError, TypeError):
+        return None
 
 
 def retexture_task(state: Path) -> tuple[PaidTask, ...]:

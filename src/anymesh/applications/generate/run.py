@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import shutil
 import time
-from collections.abc import Mapping
-from contextlib import suppress
+from collections.abc import Generator, Mapping
+from contextlib import contextmanager, suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, Unpack
@@ -13,16 +13,15 @@ from typing import Any, Unpack
 from anymesh import pipeline
 from anymesh.applications.generate.given import GivenMesh
 from anymesh.applications.generate.job import GenerateOptions, Job, open_job
-from anymesh.applications.generate.protocol import GeneratedMesh, PaidTask, file_digest
-from anymesh.applications.generate.record import STILL, add_record, add_tasks, read_record, retexture_task
+from anymesh.applications.generate.protocol import GeneratedMesh
+from anymesh.applications.generate.record import STILL, add_record, add_tasks, read_record, recorded_mesh, retexture_task
 from anymesh.applications.generate.work import WorkFolder
-from anymesh.errors import InputError, note_stage
+from anymesh.errors import ModelError, OutputError, note_stage
 from anymesh.models.budget import Account, Spent
 from anymesh.progress import Progress, silent
 from anymesh.run_folder import RunFolder
-from anymesh.storage.outputs import GENERATED
 from anymesh.storage.saved import Saved
-from anymesh.types import Asset
+from anymesh.types import Asset, JointType
 
 
 def generate(
@@ -53,15 +52,28 @@ def generate(
         return done
     job.check(force=force)
     work = WorkFolder.of(job.out)
-    with work.open():
-        if regenerate:
-            work.forget()
+    with work.open(), _anew(work, regenerate):
         begin = time.perf_counter()
-        made = _mesh(job, work, progress, again=regenerate)
+        made = _mesh(job, work, progress, anew=regenerate)
         seconds = time.perf_counter() - begin
         spent = options.get("spent") or Spent(calls=made.calls)
-        asset = _articulated(job, work, made, spent, progress)
-        return _finish(job, work, asset, spent, seconds, force, progress)
+        _articulated(job, work, made, spent, progress)
+        return _finish(job, work, spent, seconds, force, progress)
+
+
+@contextmanager
+def _anew(work: WorkFolder, wanted: bool) -> Generator[None]:
+    """Make another mesh; what a kill or a service cut short is gone on with by the next run that is to."""
+    if wanted:
+        work.begin_anew()
+    try:
+        yield
+    except ModelError:
+        raise
+    except Exception:
+        work.end_anew()
+        raise
+    work.end_anew()
 
 
 def finished_before(job: Job) -> bool:
@@ -70,9 +82,14 @@ def finished_before(job: Job) -> bool:
     return record is not None and record["keys"].get("finished") == job.key(finished=True) and not job.by_files
 
 
-def mesh_before(job: Job, work: WorkFolder) -> GeneratedMesh | None:
-    """The mesh that an earlier run made for this job: that of the work folder, or of the output."""
-    return None if isinstance(job.generator, GivenMesh) else work.made(job.mesh_key) or _of_output(job)
+def mesh_before(job: Job, work: WorkFolder, *, anew: bool) -> GeneratedMesh | None:
+    """The mesh that an earlier run made for this job: that of the work folder, or of the output.
+
+    anew: another than that of the output.
+    """
+    if isinstance(job.generator, GivenMesh) or (anew and not work.anew):
+        return None
+    return work.made(job.mesh_key) or (None if anew else recorded_mesh(job.out, job.mesh_key))
 
 
 def _finished(job: Job) -> Asset | None:
@@ -82,53 +99,45 @@ def _finished(job: Job) -> Asset | None:
     return None if any(e.given_up for e in asset.exchanges) else _warned(asset, job)
 
 
-def _mesh(job: Job, work: WorkFolder, progress: Progress, *, again: bool) -> GeneratedMesh:
+def _mesh(job: Job, work: WorkFolder, progress: Progress, *, anew: bool) -> GeneratedMesh:
     """The mesh of an earlier run, or a new one."""
-    held = None if again else mesh_before(job, work)
-    if held is None:
-        progress("generate", job.generator.name, 0, 1)
-        try:
+    try:
+        held = mesh_before(job, work, anew=anew)
+        if held is None:
+            progress("generate", job.generator.name, 0, 1)
             job.generator.check()
             held = job.generator.make(job.request, work.folder, progress)
-        except Exception as error:
-            note_stage(error, "generate")
-            raise
-    elif held.path.parent != work.folder:
-        held = replace(held, path=Path(shutil.copyfile(held.path, work.folder / held.path.name)))
-    if not isinstance(job.generator, GivenMesh):
-        work.keep(job.mesh_key, held)
-    return held
+        elif held.path.parent != work.folder:
+            held = replace(held, path=Path(shutil.copyfile(held.path, work.folder / held.path.name)))
+        if not isinstance(job.generator, GivenMesh):
+            work.keep(job.mesh_key, held)
+        return held
+    except OSError as error:
+        raise OutputError(f"cannot write {work.folder}: {error.strerror or error}") from error
+    except Exception as error:
+        note_stage(error, "generate")
+        raise
 
 
-def _of_output(job: Job) -> GeneratedMesh | None:
-    """The mesh that the output was made of, where this job asks for the same."""
-    record = read_record(job.out)
-    if record is None or record["keys"].get("mesh") != job.mesh_key:
-        return None
-    path = job.out / GENERATED / Path(record["mesh"]["file"]).name
-    try:
-        same = file_digest(path) == record["mesh"]["sha256"]
-    except InputError:
-        return None
-    return GeneratedMesh(path, tuple(PaidTask(**task) for task in record["tasks"])) if same else None
-
-
-def _articulated(job: Job, work: WorkFolder, made: GeneratedMesh, spent: Account, progress: Progress) -> Asset:
+def _articulated(job: Job, work: WorkFolder, made: GeneratedMesh, spent: Account, progress: Progress) -> None:
     """Stages A and B of the mesh, in the work folder."""
     folder = work.articulated
-    record = read_record(folder)
-    if record is not None and record["keys"].get("articulated") == job.key(finished=False) and not job.by_files:
-        asset = Saved.at(folder).asset()
-        if not any(e.given_up for e in asset.exchanges):
-            return _warned(asset, job)
+    if _articulated_before(job, folder):
+        return
     root = {} if isinstance(job.generator, GivenMesh) else {"root": None}
     how: dict[str, Any] = {**job.articulating(), **root, "spent": spent, "progress": progress}
-    asset = _warned(pipeline.articulate(made.path, folder, force=folder.exists(), **how), job)
+    asset = pipeline.articulate(made.path, folder, force=folder.exists(), **how)
     add_record(folder, job, made, _added(asset, job))
-    return asset
 
 
-def _finish(job: Job, work: WorkFolder, asset: Asset, spent: Account, seconds: float, force: bool, progress: Progress) -> Asset:
+def _articulated_before(job: Job, folder: Path) -> bool:
+    record = read_record(folder)
+    if record is None or record["keys"].get("articulated") != job.key(finished=False) or job.by_files:
+        return False
+    return not any(e.given_up for e in Saved.at(folder).asset().exchanges)
+
+
+def _finish(job: Job, work: WorkFolder, spent: Account, seconds: float, force: bool, progress: Progress) -> Asset:
     """Stage C, from the work folder to the output. seconds: that the mesh took."""
     options, most = job.options, job.options.get("max_calls")
     finished = pipeline.finish(
@@ -164,7 +173,7 @@ def _add_timing(out: Path, before: Mapping[str, float]) -> Mapping[str, float]:
 def _added(asset: Asset, job: Job) -> tuple[str, ...]:
     """What a user should know of the whole, beside the warnings of the stages."""
     size = (job.size.warning,) if job.size.warning else ()
-    return size if asset.joints else (*size, STILL)
+    return size if any(joint.type is not JointType.FIXED for joint in asset.joints) else (*size, STILL)
 
 
 def _warned(asset: Asset, job: Job) -> Asset:

@@ -27,12 +27,16 @@ def choose_size(scale: str, category: str | None, prompt: str | None, name: str,
     """
     kind = usual_size(category or prompt or name)
     known = category or prompt or (None if kind is None else kind[0].replace("_", " "))
+    if unit is Unit.STATED:
+        known = category or prompt  # a unit in the file counts for more than the file's name
     if scale != "auto":
         return Size(scale, known, f"given as {scale}")
     if kind is not None:
         usual = f"a {kind[0].replace('_', ' ')} is about {kind[1]:g} m long"
         if unit is Unit.ARBITRARY:
             return Size(f"{kind[1]:g}:longest", known, f"{usual}; the generator knows no size")
+        if known is None:
+            return Size("auto", None, "as the mesh file states it")
         told = "the generator estimates" if unit is Unit.ESTIMATED else "the mesh file states"
         return Size("auto", known, f"as {told} it, where that suits the kind ({usual})")
     if unit is Unit.ESTIMATED:

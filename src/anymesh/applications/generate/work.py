@@ -16,6 +16,7 @@ from anymesh.storage.hidden import locked
 from anymesh.storage.stage_files import read_json
 
 MADE = "made.json"
+ANEW = "anew"  # there while another mesh than that of the output is made
 ARTICULATED = "articulated"
 
 
@@ -70,8 +71,22 @@ class WorkFolder:
         }
         write_whole(self.folder / MADE, (json.dumps(record, indent=1) + "\n").encode())
 
-    def forget(self) -> None:
-        """Remove everything in it, the ids of paid tasks too."""
+    @property
+    def anew(self) -> bool:
+        """Whether a run that makes another mesh was cut short."""
+        return (self.folder / ANEW).exists()
+
+    def begin_anew(self) -> None:
+        """Forget the mesh and the ids of paid tasks, but for those of a run that did the same and was cut short."""
+        if not self.anew:
+            self._forget()
+            (self.folder / ANEW).touch()
+
+    def end_anew(self) -> None:
+        """Let the next call of `begin_anew` forget what is there."""
+        (self.folder / ANEW).unlink(missing_ok=True)
+
+    def _forget(self) -> None:
         for path in self.folder.iterdir():
             if path.is_dir():
                 shutil.rmtree(path, ignore_errors=True)
