@@ -3,6 +3,7 @@
 import json
 import logging
 import shutil
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
@@ -18,6 +19,7 @@ from anymesh.checking import check_asset
 from anymesh.errors import AnymeshError, BudgetError, InputError, ModelError, OptionError, OutputError
 from anymesh.postprocessing.retexture import Remote
 from anymesh.storage.hidden import locked
+from anymesh.types import JointType
 
 BOX = Path(__file__).parents[3] / "examples" / "meshes" / "storage_box.glb"
 LAPTOP = BOX.with_name("laptop_fused.glb")
@@ -200,6 +202,21 @@ def test_a_warning_tells_that_nothing_tells_the_size(program, tmp_path, quick) -
     assert any("nothing tells how large the object is" in w for w in asset.warnings)
     assert record(tmp_path / "out")["warnings"] == [w for w in asset.warnings if "how large" in w]
     assert STILL not in asset.warnings
+
+
+def test_a_warning_tells_that_nothing_moves(program, tmp_path, quick, monkeypatch) -> None:
+    def still(call):
+        def stilled(*places: object, **options: object):
+            asset = call(*places, **options)
+            return replace(asset, joints=tuple(replace(j, type=JointType.FIXED, limits=None) for j in asset.joints))
+
+        return stilled
+
+    for stage in ("articulate", "finish"):
+        monkeypatch.setattr(pipeline, stage, still(getattr(pipeline, stage)))
+    asset = generate("a box", tmp_path / "out", generator=program("--prompt {prompt} --out {out}"), **FAST)
+    assert asset.warnings[0] == STILL
+    assert record(tmp_path / "out")["warnings"] == [STILL]
 
 
 def test_looks_by_meshy_are_counted_in_and_limited(server, articulations, tmp_path, monkeypatch) -> None:
