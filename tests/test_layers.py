@@ -24,7 +24,8 @@ FLOORS = [
     {"annotation"},
     {"agents"},
     {"cli", "cli_output", "cli_eval", "cli_check", "cli_finish", "cli_view", "cli_report", "cli_options"}
-    | {"cli_annotate", "cli_quiet", "cli_defect", "cli_articulate", "cli_stages", "cli_answer", "cli_models", "cli_mcp"},
+    | {"cli_annotate", "cli_quiet", "cli_defect", "cli_articulate", "cli_stages", "cli_answer", "cli_models", "cli_mcp"}
+    | {"cli_generate"},
 ]
 STAGES = {"segmentation", "articulation", "postprocessing"}
 OUTSIDE = set(

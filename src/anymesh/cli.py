@@ -17,6 +17,7 @@ from anymesh.cli_articulate import articulate
 from anymesh.cli_check import check
 from anymesh.cli_eval import evaluate
 from anymesh.cli_finish import finish
+from anymesh.cli_generate import generate
 from anymesh.cli_mcp import mcp, skill
 from anymesh.cli_models import models
 from anymesh.cli_output import plain
@@ -76,6 +77,7 @@ def _main(
 
 
 _command()(articulate)
+_command()(generate)
 _command()(annotate)
 _command()(segment)
 _command()(joints)

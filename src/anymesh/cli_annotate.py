@@ -3,10 +3,7 @@
 from __future__ import annotations
 
 import json
-import signal
 import sys
-from collections.abc import Generator
-from contextlib import contextmanager
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -37,7 +34,7 @@ from anymesh.cli_options import (
     Verify,
     Viewpoints,
 )
-from anymesh.cli_output import cache_of, chosen_answerer, plain, split_labels
+from anymesh.cli_output import cache_of, chosen_answerer, ended_by_signal, plain, split_labels
 from anymesh.config import DEFAULT_VIEWS
 from anymesh.deadline import CALL_SECONDS, DEFAULT_SECONDS
 from anymesh.errors import InputError, OpenQuestionError, OptionError
@@ -142,7 +139,7 @@ def annotate(
 def _run(source: str, out: Path, speed: Speed, again: bool, options: dict[str, Any], json_: bool, quiet: bool) -> None:
     from anymesh.annotation.annotate import annotate as run
 
-    with _ended_by_signal(), Live(json_ or quiet) as live:
+    with ended_by_signal(), Live(json_ or quiet) as live:
         found = run(source, out, speed=speed, again=again, tell=live.tell, **options)
     ended = found.ended
     if json_:
@@ -178,20 +175,6 @@ def _tell_estimate(source: str, count: int, speed: Speed, options: dict[str, Any
     found = estimate(source, count, speed=speed, **options)
     lines = [json.dumps(asdict(found), indent=2)] if json_ else [plain(line) for line in found.words().splitlines()]
     typer.echo("\n".join(lines))
-
-
-@contextmanager
-def _ended_by_signal() -> Generator[None]:
-    """Let SIGTERM, by which schedulers end a job, end a run as Ctrl-C does."""
-
-    def stop(*_: object) -> None:
-        raise KeyboardInterrupt
-
-    before = signal.signal(signal.SIGTERM, stop)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGTERM, before)
 
 
 class Live:

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import json
+import signal
 import sys
 import time
+from collections.abc import Generator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -126,6 +129,20 @@ def split_labels(told: str) -> tuple[str, ...]:
 def plain(text: str) -> str:
     """Without control characters: a name in a file must not steer the terminal."""
     return "".join(c if c.isprintable() else "?" for c in text)
+
+
+@contextmanager
+def ended_by_signal() -> Generator[None]:
+    """Let SIGTERM, by which schedulers end a job, end a run as Ctrl-C does."""
+
+    def stop(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    before = signal.signal(signal.SIGTERM, stop)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
 
 
 class Shown:

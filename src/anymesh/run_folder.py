@@ -49,6 +49,7 @@ from anymesh.storage.outputs import (
     atomic_prefix,
     check_replaceable,
     check_uncorrected,
+    is_origin,
     written_files,
 )
 from anymesh.storage.saved import TIMING, Saved
@@ -167,9 +168,7 @@ class RunFolder(Saved):
             )
             run._foreign = set(list_files(target)) - ours
             stages = {name for stage in STAGES for name in stage_files(stage)}
-            for name in sorted((ours & (stages | {TIMING})) | run._foreign):
-                (run.folder / name).parent.mkdir(parents=True, exist_ok=True)
-                shutil.copy2(target / name, run.folder / name)
+            run._copy(target, (ours & (stages | {TIMING})) | set(filter(is_origin, ours)) | run._foreign)
         except OSError as error:
             raise OutputError(f"cannot write {target}: {error.strerror or error}") from error
         return run
@@ -210,7 +209,8 @@ class RunFolder(Saved):
 
     def take_over(self, folder: Path) -> None:
         """The stages of another output, up to its joints and their corrections, become this one's. OutputError without any."""
-        if written_files(folder) is None:
+        written = written_files(folder)
+        if written is None:
             raise OutputError(f"{folder} is no output of anymesh; `anymesh articulate MESH -o {folder}` makes one")
         self._earlier = (Path(folder).resolve(), *self._earlier)
         for stage in STAGES[: STAGES.index(COMPLETION)]:
@@ -219,6 +219,13 @@ class RunFolder(Saved):
                 self.load(stage, key)
         for stage in (MESH, SEGMENTATION, JOINTS):
             self.need(stage)
+        self._copy(Path(folder), set(filter(is_origin, written)))
+
+    def _copy(self, folder: Path, names: set[str]) -> None:
+        """Files of another output, so that they become this one's; those that somebody removed are left out."""
+        for name in sorted(name for name in names if os.path.lexists(folder / name)):
+            (self.folder / name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy2(folder / name, self.folder / name)
 
     def _commit(self) -> None:
         """Puts everything written in place."""
@@ -240,7 +247,8 @@ class RunFolder(Saved):
         """Files from before that no longer follow from the stages, or that the final files written now replace."""
         stages = {name for stage in STAGES for name in stage_files(stage)}
         stale = {name for stage in STAGES if stage.name in self._stale for name in stage_files(stage)}
-        final = before - stages - {MANIFEST, TIMING, CORRECTIONS} if self._stale or LAST in new else set()
+        kept = {MANIFEST, TIMING, CORRECTIONS} | set(filter(is_origin, before))
+        final = before - stages - kept if self._stale or LAST in new else set()
         return stale | final
 
     def _write_manifest(self, files: set[str]) -> None:

@@ -135,7 +135,7 @@ def test_a_save_that_fails_or_is_killed_leaves_what_was_there(tmp_path, monkeypa
         "import os, signal, anymesh.correcting.save as s; from anymesh.correcting import *;"
         "s.write_preview = lambda *_: os.kill(os.getpid(), signal.SIGKILL);"
         f"o = open_asset({str(folder)!r});"
-        "s.save_asset(Opened(o.folder, o.history.do(Entry(FlipSign('door'), '', '')), o.version))"
+        "s.save_asset(Opened(o.folder, o.history.do(HistoryEntry(FlipSign('door'), '', '')), o.version))"
     )
     assert subprocess.run([sys.executable, "-c", code], capture_output=True).returncode == -signal.SIGKILL
     assert content(folder) == before

@@ -1,11 +1,11 @@
 """A service on the loopback address, keys that can be found again, and no way out."""
 
 import os
-import socket
 import ssl
 from collections.abc import Callable, Iterator
 
 import pytest
+from loopback import guard
 from wire import DIALECTS, SECRET, Dialect, Service
 
 from anymesh.models.vision import VisionModel
@@ -13,18 +13,7 @@ from anymesh.models.vision import VisionModel
 
 @pytest.fixture
 def loopback_only(monkeypatch: pytest.MonkeyPatch) -> None:
-    real_connect, real_lookup = socket.socket.connect, socket.getaddrinfo
-
-    def connect(self: socket.socket, address: tuple) -> None:
-        assert self.family == socket.AF_UNIX or address[0] in ("127.0.0.1", "::1"), f"a test reaches out to {address}"
-        real_connect(self, address)
-
-    def lookup(host: str | bytes | None, *args: object, **options: object) -> list:
-        assert host in ("127.0.0.1", "localhost", b"127.0.0.1"), f"a test asks for the address of {host!r}"
-        return real_lookup(host, *args, **options)
-
-    monkeypatch.setattr(socket.socket, "connect", connect)
-    monkeypatch.setattr(socket, "getaddrinfo", lookup)
+    guard(monkeypatch)
 
 
 @pytest.fixture

@@ -1,4 +1,9 @@
-"""The wire format of Meshy's retexture service (its pages "Retexture API" and "Errors", 2026-11)."""
+"""The wire format of Meshy's tasks: retexturing, text to 3D and image to 3D.
+
+Sources: its pages "Retexture API", "Text to 3D API", "Image to 3D API" and "Errors" (2026-11); for credits and fields of the
+newest models its own clients, github.com/meshy-dev (meshy-mcp-server, which states the price page of 2026-10-05, and
+meshy-cookbook, recipes 01 and 07 with measured runs of 2026-09).
+"""
 
 from __future__ import annotations
 
@@ -14,11 +19,28 @@ from anymesh.models.retry import TransientError
 from anymesh.models.web import Answer, Call, LostError, exchange
 
 KEY, BASE = "MESHY_API_KEY", "MESHY_BASE_URL"
-PATH = "/openapi/v1/retexture"
-CREDITS = 10  # a task takes, checked on 2026-11-21; what a credit costs depends on the plan
 TASK_ID = re.compile(r"[A-Za-z0-9_-]{1,100}")
 LARGEST = 1 << 29  # [bytes] of a result
 WRITTEN = ("text/", "application/json", "application/xml")  # types of answers that are no model
+
+
+@dataclass(frozen=True)
+class TaskKind:
+    """A kind of paid task. name: with its article, as in messages; path: of its endpoint; credits: what one takes, about
+    (what a credit costs depends on the plan); type: as task objects tell it."""
+
+    name: str
+    path: str
+    credits: int
+    type: str
+
+
+RETEXTURE = TaskKind("a retexture", "/openapi/v1/retexture", 10, "retexture")  # credits checked on 2026-11-21
+PREVIEW = TaskKind("a text-to-3D preview", "/openapi/v2/text-to-3d", 20, "text-to-3d-preview")  # of 2026-10-05, as below
+REFINE = TaskKind("a text-to-3D refinement", "/openapi/v2/text-to-3d", 10, "text-to-3d-refine")
+IMAGE = TaskKind("an image-to-3D task", "/openapi/v1/image-to-3d", 30, "image-to-3d")
+IMAGE_SHAPE = TaskKind("an image-to-3D task without texture", "/openapi/v1/image-to-3d", 20, "image-to-3d")
+PRICED = "2026-10-05, github.com/meshy-dev/meshy-mcp-server"  # when and where the credits of generation were stated
 
 
 class RefusedError(ModelError):
@@ -32,7 +54,8 @@ class RefusedError(ModelError):
 @dataclass(frozen=True)
 class Task:
     """status: PENDING, IN_PROGRESS, SUCCEEDED, FAILED, EXPIRED or CANCELED; error: what the service says of a failure, made
-    safe; url: of the GLB, signed, so it is in no message."""
+    safe; url: of the GLB, signed, so it is in no message; type: empty where it is not told; seed: that the service drew;
+    created: when [s since 1970], 0 where it is not told."""
 
     id: str
     status: str
@@ -41,6 +64,9 @@ class Task:
     error: str
     credits: float
     url: str | None
+    type: str = ""
+    seed: int | None = None
+    created: float = 0.0
 
     def __repr__(self) -> str:
         return f"Task({self.id!r}, {self.status!r})"
@@ -54,22 +80,22 @@ def read_key() -> str:
     return found
 
 
-def create_task(body: bytes, timeout: float) -> str:
+def create_task(kind: TaskKind, body: bytes, timeout: float) -> str:
     """The id of a new, paid task. Raises LostError where it may have been made though no answer came."""
-    made = _said(_call("POST", "", timeout, body)).get("result")
+    made = _said(_call(kind, "POST", "", timeout, body)).get("result")
     if not (isinstance(made, str) and TASK_ID.fullmatch(made)):
         raise LostError("meshy: the service took the task and named no valid id")
     return made
 
 
-def get_task(task: str, timeout: float) -> Task:
+def get_task(kind: TaskKind, task: str, timeout: float) -> Task:
     """How it stands with a task. Raises RefusedError with status 404 where there is none of that id."""
-    return _task(_said(_call("GET", f"/{task}", timeout)), task)
+    return _task(_said(_call(kind, "GET", f"/{task}", timeout)), task)
 
 
-def list_tasks(timeout: float) -> list[Task]:
-    """The latest tasks, the newest first."""
-    told = _call("GET", "?page_num=1&page_size=50&sort_by=-created_at", timeout)
+def list_tasks(kind: TaskKind, timeout: float) -> list[Task]:
+    """The latest tasks of an endpoint, the newest first."""
+    told = _call(kind, "GET", "?page_num=1&page_size=50&sort_by=-created_at", timeout)
     rows = [row for row in told if isinstance(row, dict)] if isinstance(told, list) else []
     return [_task(row, row["id"]) for row in rows if TASK_ID.fullmatch(str(row.get("id")))]
 
@@ -87,19 +113,19 @@ def download_glb(url: str, timeout: float) -> bytes:
     return answer.body
 
 
-def _call(method: str, rest: str, timeout: float, body: bytes | None = None) -> Any:
+def _call(kind: TaskKind, method: str, rest: str, timeout: float, body: bytes | None = None) -> Any:
     base = os.environ.get(BASE, "").strip().rstrip("/") or "https://api.meshy.ai"
     headers = {"Authorization": f"Bearer {read_key()}", "Content-Type": "application/json"}
-    answer = exchange(Call("meshy", method, base + PATH + rest, headers, body, timeout))
+    answer = exchange(Call("meshy", method, base + kind.path + rest, headers, body, timeout))
     if answer.status not in (200, 201, 202):
-        raise _refusal(answer)
+        raise _refusal(kind, answer)
     told = _json(answer)
     if told is None:
         raise LostError("meshy: the answer is no JSON")
     return told
 
 
-def _refusal(answer: Answer) -> ModelError:
+def _refusal(kind: TaskKind, answer: Answer) -> ModelError:
     message, told = f"meshy: HTTP {answer.status}", _json(answer)
     if answer.status in (401, 403):  # its words are about the key, and may hold parts of it
         return RefusedError(f"{message}, the key in {KEY} is missing or refused", answer.status)
@@ -109,7 +135,7 @@ def _refusal(answer: Answer) -> ModelError:
     if answer.status >= 500:  # behind a gateway it may have been carried out all the same
         return LostError(message, answer.retry_after)
     if answer.status == 402:
-        message += f"; the account has too few credits, a retexture takes about {CREDITS}"
+        message += f"; the account has too few credits, {kind.name} takes about {kind.credits}"
     return RefusedError(message, answer.status)
 
 
@@ -123,14 +149,18 @@ def safe(words: object) -> str:
 
 def _task(told: dict[str, Any], task: str) -> Task:
     progress, spent, url = told.get("progress"), told.get("consumed_credits"), _said(told.get("model_urls")).get("glb")
+    seed, created = told.get("seed"), told.get("created_at")
     return Task(
         id=task,
         status=str(told.get("status"))[:40],
         progress=progress if isinstance(progress, int) else 0,
-        prompt=str(told.get("text_style_prompt", "")),
+        prompt=str(told.get("text_style_prompt") or told.get("prompt") or ""),
         error=safe(_said(told.get("task_error")).get("message")),
         credits=float(spent) if isinstance(spent, int | float) else 0.0,
         url=url if isinstance(url, str) else None,
+        type=str(told.get("type") or "")[:40],
+        seed=seed if isinstance(seed, int) else None,
+        created=created / 1000 if isinstance(created, int | float) else 0.0,  # the service tells milliseconds
     )
 
 

@@ -11,11 +11,18 @@ from anymesh.storage.stage_files import read_json
 GENERATOR = "articulate-anymesh"
 MANIFEST = "stages/files.json"  # what was written here; nothing else is ever removed
 CORRECTIONS = "corrections.json"  # what a person corrected; a new run never takes it away
+GENERATION = "generation.json"  # where a generated mesh came from
+GENERATED = "generated"  # the folder of that mesh
 
 
 def atomic_prefix(target: Path, word: str) -> str:
     """Return the prefix of the work folders beside an output."""
     return f".{target.name[:100]}.{word}-"
+
+
+def is_origin(name: str) -> bool:
+    """Whether a file of an output tells where its mesh came from: it goes along with the stages that were made from it."""
+    return name == GENERATION or name.startswith(f"{GENERATED}/")
 
 
 def written_files(target: Path) -> list[str] | None:

@@ -1,0 +1,23 @@
+"""From the name of a generator, as in --generator, to the generator."""
+
+from __future__ import annotations
+
+from anymesh.applications.generate.command import VALID as COMMAND
+from anymesh.applications.generate.command import CommandGenerator
+from anymesh.applications.generate.meshy import SHAPE, TEXTURED, MeshyGenerator
+from anymesh.applications.generate.protocol import Generator3D
+from anymesh.errors import OptionError
+
+PROGRAM = "command:"
+
+
+def open_generator(name: str, *, time_limit: float = 1800.0, max_calls: int | None = None) -> Generator3D:
+    """Whoever makes the mesh. time_limit [s] of a program; max_calls: tasks that may be paid for.
+
+    Raises OptionError for a name that is not valid. Asks nobody and needs no key.
+    """
+    if name in (TEXTURED, SHAPE):
+        return MeshyGenerator(textured=name == TEXTURED, max_calls=max_calls)
+    if name.startswith(PROGRAM):
+        return CommandGenerator.parse(name.removeprefix(PROGRAM), time_limit)
+    raise OptionError(f"--generator: found {name!r}; valid are {TEXTURED}, {SHAPE}, {COMMAND}")

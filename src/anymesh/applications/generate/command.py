@@ -1,0 +1,123 @@
+"""A generator that is a program of the user's: TRELLIS, Hunyuan3D, or anything else that writes a GLB."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import re
+import shlex
+import shutil
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from anymesh.applications.generate.program import log_tail, run_program
+from anymesh.applications.generate.protocol import GeneratedMesh, MeshRequest, Step, Unit
+from anymesh.defects import redacted
+from anymesh.errors import InputError, ModelError, OptionError
+from anymesh.loading import load_mesh
+from anymesh.models.address import KEYS
+from anymesh.models.meshy_api import KEY
+from anymesh.progress import Progress
+
+PLACEHOLDERS = ("prompt", "image", "out", "seed")
+VALID = "command:PROGRAM with {out}, and {prompt} or {image}, such as 'command:python run.py --image {image} --out {out}'"
+LOG = "command.log"
+SECRET_OPTION = re.compile(r"(?i)(--?[\w-]*(?:key|token|secret|password)[\w-]*)(=|\s+)\S+")
+
+
+@dataclass(frozen=True)
+class CommandGenerator:
+    """Runs a command without a shell, once a mesh. words: of the command, with placeholders; timeout [s]."""
+
+    words: tuple[str, ...]
+    timeout: float = 1800.0
+
+    @classmethod
+    def parse(cls, template: str, timeout: float = 1800.0) -> CommandGenerator:
+        """From the words after `command:`, quoted as in a shell. Raises OptionError for a template that is not valid."""
+        try:
+            words = tuple(shlex.split(template))
+        except ValueError as error:
+            raise OptionError(f"--generator: the command cannot be split into words ({error}); valid is {VALID}") from None
+        found = set(re.findall(r"\{([a-z_]+)\}", template))
+        unknown = sorted(found - set(PLACEHOLDERS))
+        if unknown:
+            names = ", ".join(f"{{{name}}}" for name in PLACEHOLDERS)
+            raise OptionError(f"--generator: found the placeholders {unknown}; valid are {names}")
+        if not words or "out" not in found or not found & {"prompt", "image"}:
+            raise OptionError(f"--generator: found the command {redacted(template)!r}; valid is {VALID}")
+        if not timeout > 0:
+            raise OptionError(f"--generator-time-limit must be more than 0 s, found {timeout:g}")
+        return cls(words, timeout)
+
+    @property
+    def name(self) -> str:
+        """The program's name."""
+        return f"command:{Path(self.words[0]).name}"
+
+    @property
+    def unit(self) -> Unit:
+        """Programs write meshes in a box of their own."""
+        return Unit.ARBITRARY
+
+    def settings(self, request: MeshRequest) -> Mapping[str, object]:
+        """The command without folders and keys, the digest of the whole, and the seed where it is passed on."""
+        whole = shlex.join(self.words)
+        seed = {"seed": request.seed} if self._takes("seed") else {}
+        return {"name": self.name, "command": _public(whole), "sha256": hashlib.sha256(whole.encode()).hexdigest(), **seed}
+
+    def steps(self, request: MeshRequest) -> tuple[Step, ...]:
+        """The command as it would be run."""
+        words = self._filled(request, Path(f"{request.name}.glb"))
+        return (Step(f"run a program, for at most {self.timeout:g} s: {shlex.join(words)}"),)
+
+    def check(self) -> None:
+        """ModelError where there is no such program."""
+        if shutil.which(self.words[0]) is None:
+            raise ModelError(f"--generator: found no program {self.words[0]!r}; valid is one on the PATH, or its path")
+
+    def make(self, request: MeshRequest, folder: Path, progress: Progress) -> GeneratedMesh:
+        """The file that the program writes as {out}, once it is a readable mesh."""
+        out, log = folder / f"{request.name}.glb", folder / LOG
+        out.unlink(missing_ok=True)
+        code = run_program(
+            self._filled(request, out.absolute()),
+            log,
+            environment=_keyless(),
+            timeout=self.timeout,
+            tell=lambda seconds: progress("generate", f"{self.name}, {seconds:.0f} s", 0, 1),
+        )
+        if code:
+            raise ModelError(f"{self.name} ended with status {code}{log_tail(log)}")
+        if not out.is_file():
+            raise ModelError(f"{self.name} ended and wrote no file at {{out}}{log_tail(log)}")
+        try:
+            load_mesh(out)
+        except InputError as error:
+            raise ModelError(f"{self.name} wrote a file that is no usable mesh: {error}{log_tail(log)}") from None
+        log.unlink()
+        return GeneratedMesh(out)
+
+    def _takes(self, placeholder: str) -> bool:
+        return any(f"{{{placeholder}}}" in word for word in self.words)
+
+    def _filled(self, request: MeshRequest, out: Path) -> list[str]:
+        """The words with their placeholders filled in, each within its own word."""
+        image = None if request.image is None else str(request.image.absolute())
+        values = {"prompt": request.prompt, "image": image, "out": str(out), "seed": str(request.seed)}
+        for name, value in values.items():
+            if self._takes(name) and value is None:
+                raise OptionError(f"--generator: the command takes {{{name}}}, and none was given")
+        pattern = re.compile(r"\{(" + "|".join(PLACEHOLDERS) + r")\}")
+        return [pattern.sub(lambda match: str(values[match[1]]), word) for word in self.words]
+
+
+def _keyless() -> dict[str, str]:
+    """The environment without the keys that this package uses itself: the program needs none of them."""
+    keys = {KEY, *(name for names in KEYS.values() for name in names)}
+    return {name: value for name, value in os.environ.items() if name not in keys}
+
+
+def _public(command: str) -> str:
+    return redacted(SECRET_OPTION.sub(r"\1\2[removed]", command))

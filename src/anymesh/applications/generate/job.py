@@ -1,0 +1,159 @@
+"""What `anymesh generate` is asked to do, checked before anything is made, paid or written."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from anymesh import __version__
+from anymesh.answering import FILES, Answering, choose_answerer
+from anymesh.applications.generate.choose import open_generator
+from anymesh.applications.generate.given import GivenMesh
+from anymesh.applications.generate.protocol import Generator3D, MeshRequest
+from anymesh.applications.generate.size import Size, choose_size
+from anymesh.config import DEFAULT_VIEWS
+from anymesh.deadline import DEFAULT_SECONDS, Deadline
+from anymesh.errors import OptionError, OutputError
+from anymesh.export.formats import DEFAULT
+from anymesh.export_options import ExportOptions
+from anymesh.loading import place_mesh
+from anymesh.loading.load import LoadedMesh
+from anymesh.postprocessing.outside import open_completer, open_retexturer
+from anymesh.solving import GEOMETRY
+from anymesh.storage.atomic_folder import FOLDER_PREFIX
+from anymesh.storage.outputs import check_replaceable
+from anymesh.types import Mesh, Node
+
+DEFAULTS: dict[str, Any] = {
+    "up": "auto", "scale": "auto", "base": "fixed", "formats": ",".join(DEFAULT), "drives": "passive",
+    "time_limit": DEFAULT_SECONDS, "completer": "builtin", "texture": "builtin", "watertight": True, "root": None,
+    "answerer": GEOMETRY.name, "category": None, "seed": 0, "parts_list": (), "at_least": 0, "proposer": "exact",
+    "viewpoints": DEFAULT_VIEWS, "verify": "motion",
+}  # fmt: skip
+FINISHING = ("completer", "texture", "watertight", "base", "formats", "drives")  # what the pipeline's result does not hang on
+FREE = ("max_calls", "max_cost", "cache", "timeout", "wait", "suggest", "spent", "limiter")  # what no result hangs on
+
+
+class GenerateOptions(Answering, total=False):
+    """Options of `articulate` and `finish`, as they are there; `max_calls` counts paid tasks and calls of a model together."""
+
+    up: str
+    scale: str
+    base: str
+    formats: str
+    drives: str
+    time_limit: float
+    completer: str
+    texture: str
+    watertight: bool
+    root: str | Path | None
+
+
+@dataclass(frozen=True, eq=False)
+class GenerationJob:
+    """One object. options: all, with their defaults; size: --scale and --category for the pipeline."""
+
+    request: MeshRequest
+    generator: Generator3D
+    out: Path
+    options: Mapping[str, Any]
+    size: Size
+
+    @property
+    def mesh_key(self) -> str:
+        """Of the mesh."""
+        return _digest({"request": self.request.as_dict(), "generator": self.generator.settings(self.request)})
+
+    def key(self, *, finished: bool) -> str:
+        """Of what the pipeline makes of the mesh, or of the finished asset."""
+        left_out = FREE if finished else (*FREE, *FINISHING)
+        held = {name: value for name, value in self.options.items() if name not in left_out}
+        size = [self.size.scale, self.size.category]
+        return _digest({"mesh": self.mesh_key, "options": held, "size": size, "finished": finished, "version": __version__})
+
+    @property
+    def answerer(self) -> str:
+        """Who answers the pipeline's questions."""
+        return str(self.options["answerer"])
+
+    @property
+    def by_files(self) -> bool:
+        """Whether somebody writes answers into files, which may change between runs."""
+        return self.answerer.startswith(FILES)
+
+    def articulating(self) -> dict[str, Any]:
+        """Options for `articulate`."""
+        kept = {name: value for name, value in self.options.items() if name not in FINISHING[:3]}
+        return {**kept, "scale": self.size.scale, "category": self.size.category}
+
+    def check(self, *, force: bool) -> None:
+        """Raise now what would come up later: OptionError, OutputError, ModelError (no key), MissingExtraError."""
+        options = self.options
+        ExportOptions.parse(options["base"], options["formats"], options["drives"])
+        Deadline(options["time_limit"])
+        place_mesh(_cube(), up=options["up"], scale=options["scale"])
+        choose_answerer(self.answering())
+        open_completer(options["completer"])
+        open_retexturer(options["texture"], state=self.out.parent / "none", max_calls=options.get("max_calls"))
+        self.check_output(force=force)
+
+    def check_output(self, *, force: bool) -> None:
+        """OutputError where the output may not be written."""
+        if self.out.exists() and not self.out.is_dir():
+            raise OutputError(f"{self.out} is a file; an output is a folder")
+        if self.out.is_dir() and any(not path.name.startswith(FOLDER_PREFIX) for path in self.out.iterdir()):
+            check_replaceable(self.out, force)
+
+    def answering(self) -> Answering:
+        """Who answers, of the options."""
+        return {name: value for name, value in self.options.items() if name in Answering.__annotations__}  # ty: ignore
+
+
+def open_job(
+    prompt: str | None,
+    out: str | Path,
+    *,
+    image: str | Path | None,
+    mesh: str | Path | None,
+    generator: str,
+    time_limit: float,
+    options: GenerateOptions,
+) -> GenerationJob:
+    """From the words of the options. Raises OptionError, InputError; nobody is asked and nothing is written."""
+    unknown = sorted(set(options) - set(GenerateOptions.__annotations__) - set(Answering.__annotations__))
+    if unknown:
+        valid = ", ".join(dict.fromkeys((*DEFAULTS, *Answering.__annotations__)))
+        raise OptionError(f"found the options {unknown}; valid are {valid}")
+    if prompt is None and image is None and mesh is None:
+        raise OptionError("found neither a prompt nor --image nor --mesh; one of them says what to make")
+    if image is not None and mesh is not None:
+        raise OptionError("found --image and --mesh; valid is one of them")
+    if mesh is None and options.get("root") is not None:
+        raise OptionError("--root is for files that a --mesh refers to, and found no --mesh")
+    chosen: dict[str, Any] = {**DEFAULTS, **options}
+    request = MeshRequest(prompt, None if image is None else Path(image), chosen["seed"])
+    who = open_generator(generator, time_limit=time_limit, max_calls=chosen.get("max_calls"))
+    if mesh is not None:
+        who = GivenMesh(Path(mesh), chosen["root"])
+    who.steps(request)  # raises for a request that it cannot take
+    name = request.name if mesh is None else Path(mesh).stem
+    size = choose_size(chosen["scale"], chosen["category"], prompt, name, who.unit)
+    return GenerationJob(request, who, Path(out).resolve(), chosen, size)
+
+
+def _cube() -> LoadedMesh:
+    """A mesh on which the words of --up and --scale are tried."""
+    corners = np.array([[x, y, z] for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 1.0)])
+    faces = np.array([[0, 1, 3], [4, 6, 7], [0, 4, 5]])
+    zero = np.zeros(len(faces), int)
+    return LoadedMesh(Mesh(corners, faces, zero, (Node("cube"),), zero - 1, ()), "cube.glb", "", "y", 1.0, ())
+
+
+def _digest(value: Mapping[str, Any]) -> str:
+    return hashlib.sha256(json.dumps(value, sort_keys=True, default=str).encode()).hexdigest()

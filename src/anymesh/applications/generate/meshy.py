@@ -1,0 +1,90 @@
+"""Meshy as a 3D generator: text to 3D (preview, refinement) and image to 3D."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from anymesh.applications.generate.protocol import GeneratedMesh, MeshRequest, PaidTask, Step, Unit
+from anymesh.errors import InputError, ModelError, OptionError
+from anymesh.loading import load_mesh
+from anymesh.models.cache import write_whole
+from anymesh.models.meshy_api import PRICED, Task, TaskKind, read_key
+from anymesh.models.meshy_generate import FACES, Generated, Meshy3D, check_prompt, data_uri
+from anymesh.progress import Progress
+
+STATE = "meshy.json"
+MODEL = "latest"
+TEXTURED, SHAPE = "meshy", "meshy:untextured"
+
+
+@dataclass(frozen=True)
+class MeshyGenerator:
+    """Asks Meshy. textured: pay for textures too; max_calls: tasks that may be paid for; timeout [s] of one call."""
+
+    textured: bool = True
+    max_calls: int | None = None
+    timeout: float = 60.0
+
+    def __post_init__(self) -> None:
+        if self.max_calls is not None and self.max_calls < 0:
+            raise OptionError(f"--max-calls must be 0 or more, found {self.max_calls}")
+
+    @property
+    def name(self) -> str:
+        """As in --generator."""
+        return TEXTURED if self.textured else SHAPE
+
+    @property
+    def unit(self) -> Unit:
+        """The service is asked to estimate the size."""
+        return Unit.ESTIMATED
+
+    def settings(self, request: MeshRequest) -> Mapping[str, object]:
+        """What is asked for; the service takes no seed."""
+        return {"name": self.name, "model": MODEL, "faces": FACES}
+
+    def steps(self, request: MeshRequest) -> tuple[Step, ...]:
+        """The paid tasks, and the download."""
+        sent = "the prompt" if request.image is None else f"the picture {request.image.name}"
+        if request.prompt is not None:
+            check_prompt(request.prompt)
+        if request.image is not None:
+            data_uri(request.image)
+        kinds = self._service(Path(), None).kinds(image=request.image is not None)
+        tasks = (
+            Step(f"pay Meshy for {kind.name} ({kind.path}); {sent} is sent", float(kind.credits), PRICED) for kind in kinds
+        )
+        return (*tasks, Step("wait for it, and download the GLB"))
+
+    def check(self) -> None:
+        """ModelError without a key."""
+        read_key()
+
+    def make(self, request: MeshRequest, folder: Path, progress: Progress) -> GeneratedMesh:
+        """The GLB of the last task; ids of tasks are kept in `folder`, so that none is paid for twice."""
+        service = self._service(folder, progress)
+        if request.image is not None:
+            found = service.from_image(request.image, request.prompt)
+        else:
+            found = service.from_text(request.prompt or "")
+        path = folder / f"{request.name}.glb"
+        write_whole(path, found.glb)
+        try:
+            load_mesh(path)
+        except InputError as error:
+            path.unlink()
+            raise ModelError(f"meshy's result is no usable mesh: {error}; a rerun fetches it again, unpaid") from None
+        return GeneratedMesh(path, _paid(found), calls=service.calls)
+
+    def _service(self, folder: Path, progress: Progress | None) -> Meshy3D:
+        def watch(kind: TaskKind, task: Task) -> None:
+            if progress is not None:
+                progress("generate", f"{kind.name}: {task.status.lower().replace('_', ' ')} {task.progress} %", 0, 1)
+
+        return Meshy3D(folder / STATE, MODEL, self.max_calls, self.timeout, watch=watch, textured=self.textured)
+
+
+def _paid(found: Generated) -> tuple[PaidTask, ...]:
+    return tuple(PaidTask(kind.type, bought.task, bought.credits, bought.seed) for kind, bought in found.tasks)

@@ -1,0 +1,82 @@
+"""A program run to its end, with a time limit; what it started ends with it."""
+
+from __future__ import annotations
+
+import os
+import re
+import signal
+import subprocess
+import time
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
+from pathlib import Path
+
+from anymesh.errors import ModelError
+from anymesh.models.error_redaction import SECRET
+
+GRACE = 3.0  # [s] between asking a program to end and killing it
+LOOK = 0.2  # [s] between looks at a running program
+TAIL = 4000  # [bytes] at the end of a log, of which a message may quote
+LINES = 6
+LONGEST = 600  # characters
+
+
+def run_program(
+    words: Sequence[str], log: Path, *, environment: Mapping[str, str], timeout: float, tell: Callable[[float], None]
+) -> int:
+    """Run a program without a shell and return its exit status; its output goes to the file `log`.
+
+    timeout [s]; tell: called with the seconds that it has run. Raises ModelError where it cannot be started or takes too
+    long. In that case, when interrupted, and when it fails, its whole process group is ended.
+    """
+    with log.open("wb") as output:
+        try:
+            process = subprocess.Popen(
+                list(words), env=dict(environment), stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT,
+                start_new_session=True,
+            )  # fmt: skip
+        except (OSError, ValueError) as error:
+            raise ModelError(f"{words[0]} cannot be run: {getattr(error, 'strerror', None) or error}") from None
+        code = None
+        try:
+            code = _wait(process, timeout, tell)
+        finally:
+            if code != 0:
+                _end(process)
+    if code is None:
+        raise ModelError(f"{Path(words[0]).name} was ended: it took longer than {timeout:g} s{log_tail(log)}")
+    return code
+
+
+def log_tail(log: Path) -> str:
+    """The last lines that a program wrote, as far as they hold nothing that looks like a key; may be empty."""
+    with log.open("rb") as file:
+        file.seek(max(0, log.stat().st_size - TAIL))
+        text = file.read().decode("utf-8", "replace")
+    lines = [re.sub(r"\s+", " ", line).strip() for line in re.split(r"[\r\n]+", text)]
+    told = " | ".join([line for line in lines if line][-LINES:])
+    return f"; its last words: {SECRET.sub('[removed]', told)[-LONGEST:]}" if told else ""
+
+
+def _wait(process: subprocess.Popen[bytes], timeout: float, tell: Callable[[float], None]) -> int | None:
+    """The exit status; None when it takes too long."""
+    begin = time.monotonic()
+    while (spent := time.monotonic() - begin) < timeout:
+        tell(spent)
+        with suppress(subprocess.TimeoutExpired):
+            return process.wait(min(LOOK, timeout - spent))
+    return None
+
+
+def _end(process: subprocess.Popen[bytes]) -> None:
+    """Ends a program and its group: asked first, killed when that does not help."""
+    if not hasattr(os, "killpg"):
+        process.kill()
+        process.wait()
+        return
+    with suppress(ProcessLookupError, PermissionError):
+        os.killpg(process.pid, signal.SIGTERM)
+        with suppress(subprocess.TimeoutExpired):
+            process.wait(GRACE)
+        os.killpg(process.pid, signal.SIGKILL)  # those that it started, and itself where it ignored the first
+    process.wait()

@@ -1,0 +1,114 @@
+"""generation.json: where the mesh of an asset came from, what was paid for it, and under which keys runs go on from it."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+from anymesh import __version__
+from anymesh.applications.generate.given import GivenMesh
+from anymesh.applications.generate.job import FREE, GenerationJob
+from anymesh.applications.generate.protocol import GeneratedMesh, PaidTask, file_digest
+from anymesh.defects import redacted
+from anymesh.errors import InputError
+from anymesh.geometry.topology import components
+from anymesh.loading import load_mesh
+from anymesh.models.meshy_api import RETEXTURE
+from anymesh.models.meshy_task import Bought
+from anymesh.run_folder import RunFolder
+from anymesh.storage.outputs import GENERATED, GENERATION
+from anymesh.storage.stage_files import read_json, write_json
+
+SCHEMA_VERSION = 1
+WORDS = ("category", "texture")  # options that are words of the user's
+STILL = "no part that moves was found; --at-least 1, an --answerer that sees, or `anymesh view` may help"
+
+
+def generation_record(job: GenerationJob, mesh: GeneratedMesh, warnings: Sequence[str]) -> dict[str, Any]:
+    """The content of generation.json as plain values, without keys, signed addresses and folders."""
+    loaded = load_mesh(mesh.path, root=job.options["root"]).mesh
+    given = isinstance(job.generator, GivenMesh)
+    options = {k: v for k, v in job.options.items() if k not in (*FREE, "root") and v is not None}
+    return {
+        "schema_version": SCHEMA_VERSION,
+        "request": job.request.as_dict(),
+        "generator": dict(job.generator.settings(job.request)),
+        "mesh": {
+            "file": mesh.path.name if given else f"{GENERATED}/{mesh.path.name}",
+            "sha256": file_digest(mesh.path),
+            "faces": len(loaded.faces),
+            "components": int(components(loaded.vertices, loaded.faces).label.max()) + 1,
+        },
+        **_cost(mesh.tasks),
+        "size": {"scale": job.size.scale, "reason": job.size.reason},
+        "options": {name: value if name in WORDS else _plain(value) for name, value in sorted(options.items())},
+        "versions": {"anymesh": __version__},
+        "keys": {
+            "mesh": job.mesh_key,
+            "articulated": job.key(finished=False),
+            "finished": job.key(finished=True),
+        },
+        "warnings": list(warnings),
+    }
+
+
+def add_record(folder: Path, job: GenerationJob, mesh: GeneratedMesh, warnings: Sequence[str]) -> None:
+    """Write generation.json and a generated mesh into an output that exists."""
+    record = generation_record(job, mesh, warnings)
+    with RunFolder.open(folder) as run:
+        if not isinstance(job.generator, GivenMesh):
+            (run.folder / GENERATED).mkdir()
+            (run.folder / GENERATED / mesh.path.name).write_bytes(mesh.path.read_bytes())
+        write_json(run.folder / GENERATION, record)
+
+
+def add_tasks(folder: Path, tasks: Sequence[PaidTask]) -> None:
+    """Add paid tasks to the record in an output."""
+    record = read_record(folder)
+    if record is None or not tasks:
+        return
+    held = [PaidTask(**task) for task in record["tasks"]]
+    with RunFolder.open(folder) as run:
+        write_json(run.folder / GENERATION, {**record, **_cost((*held, *tasks))})
+
+
+def read_record(folder: Path) -> Mapping[str, Any] | None:
+    """generation.json of an output; None where there is none that can be read."""
+    found = read_json(folder / GENERATION)
+    return found if found is not None and isinstance(found.get("keys"), dict) else None
+
+
+def recorded_mesh(out: Path, key: str) -> GeneratedMesh | None:
+    """The mesh that an output was made of, where it was generated under a key and is unchanged; None otherwise."""
+    record = read_record(out)
+    if record is None or record["keys"].get("mesh") != key:
+        return None
+    try:
+        path = out / GENERATED / Path(record["mesh"]["file"]).name
+        tasks = (PaidTask(**task) for task in record["tasks"] if task["kind"] != RETEXTURE.type)
+        return GeneratedMesh(path, tuple(tasks)) if file_digest(path) == record["mesh"]["sha256"] else None
+    except (InputError, KeyError, TypeError):
+        return None
+
+
+def retexture_task(state: Path) -> tuple[PaidTask, ...]:
+    """The paid task of a retexturing, from the file that keeps its id; empty where there is none."""
+    held = read_json(state)
+    bought = None if held is None else held.get("bought")
+    if not isinstance(bought, dict):
+        return ()
+    found = Bought(**bought)
+    return (PaidTask(RETEXTURE.type, found.task, found.credits, found.seed),)
+
+
+def _cost(tasks: Sequence[PaidTask]) -> dict[str, Any]:
+    return {"tasks": [asdict(task) for task in tasks], "credits": sum(task.credits for task in tasks)}
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, bool | int | float):
+        return value
+    return [_plain(v) for v in value] if isinstance(value, list | tuple) else redacted(json.dumps(value).strip('"'))

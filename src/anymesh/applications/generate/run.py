@@ -1,0 +1,180 @@
+"""The paper's figure with a generator before it: words or a picture -> mesh -> parts and joints -> a finished asset."""
+
+from __future__ import annotations
+
+import shutil
+import time
+from collections.abc import Generator, Mapping
+from contextlib import contextmanager, suppress
+from dataclasses import replace
+from pathlib import Path
+from typing import Any, Unpack
+
+from anymesh import pipeline
+from anymesh.applications.generate.given import GivenMesh
+from anymesh.applications.generate.job import GenerateOptions, GenerationJob, open_job
+from anymesh.applications.generate.protocol import GeneratedMesh
+from anymesh.applications.generate.record import STILL, add_record, add_tasks, read_record, recorded_mesh, retexture_task
+from anymesh.applications.generate.work import WorkFolder
+from anymesh.errors import ModelError, OutputError, note_stage
+from anymesh.models.budget import Account, Spent
+from anymesh.progress import Progress, silent
+from anymesh.run_folder import RunFolder
+from anymesh.storage.saved import Saved
+from anymesh.types import Asset, JointType
+
+
+def generate(
+    prompt: str | None,
+    out: str | Path,
+    *,
+    image: str | Path | None = None,
+    mesh: str | Path | None = None,
+    generator: str = "meshy",
+    generator_time_limit: float = 1800.0,
+    regenerate: bool = False,
+    force: bool = False,
+    progress: Progress = silent,
+    **options: Unpack[GenerateOptions],
+) -> Asset:
+    """Make a surface mesh by words or a picture, and of it a finished articulated asset in the folder `out`.
+
+    generator: meshy (MESHY_API_KEY; paid), meshy:untextured, or command:PROGRAM with {out} and {prompt} or {image} (of at
+    most generator_time_limit [s]); mesh: a file to start from instead. options: those of `articulate` (but `parts`) and of
+    `finish`; max_calls counts paid tasks and calls of a model together.
+
+    A mesh is made once: a rerun of the same request uses it, and goes on with a task that an earlier run paid for;
+    regenerate: make, and pay for, another. An output that the same call finished is returned as it is.
+    Raises as `articulate` and `finish`; ModelError where no mesh comes back, BudgetError before what would pass the limit.
+    """
+    job = open_job(prompt, out, image=image, mesh=mesh, generator=generator, time_limit=generator_time_limit, options=options)
+    if not (force or regenerate) and (done := _finished(job)) is not None:
+        return done
+    job.check(force=force)
+    work = WorkFolder.of(job.out)
+    with work.open(), _anew(work, regenerate):
+        begin = time.perf_counter()
+        made = _mesh(job, work, progress, anew=regenerate)
+        seconds = time.perf_counter() - begin
+        spent = options.get("spent") or Spent(calls=made.calls)
+        _articulated(job, work, made, spent, progress)
+        return _finish(job, work, spent, seconds, force, progress)
+
+
+@contextmanager
+def _anew(work: WorkFolder, wanted: bool) -> Generator[None]:
+    """Make another mesh; what a kill or a service cut short is gone on with by the next run that is to."""
+    if wanted:
+        work.begin_anew()
+    try:
+        yield
+    except ModelError:
+        raise
+    except Exception:
+        work.end_anew()
+        raise
+    work.end_anew()
+
+
+def finished_before(job: GenerationJob) -> bool:
+    """Whether the output is what this job makes."""
+    record = read_record(job.out)
+    return record is not None and record["keys"].get("finished") == job.key(finished=True) and not job.by_files
+
+
+def mesh_before(job: GenerationJob, work: WorkFolder, *, anew: bool) -> GeneratedMesh | None:
+    """The mesh that an earlier run made for this job: that of the work folder, or of the output.
+
+    anew: another than that of the output.
+    """
+    if isinstance(job.generator, GivenMesh) or (anew and not work.anew):
+        return None
+    return work.made(job.mesh_key) or (None if anew else recorded_mesh(job.out, job.mesh_key))
+
+
+def _finished(job: GenerationJob) -> Asset | None:
+    if not (finished_before(job) and (job.out / "asset.json").is_file()):
+        return None
+    asset = Saved.at(job.out).asset()
+    return None if any(e.given_up for e in asset.exchanges) else _warned(asset, job)
+
+
+def _mesh(job: GenerationJob, work: WorkFolder, progress: Progress, *, anew: bool) -> GeneratedMesh:
+    """The mesh of an earlier run, or a new one."""
+    try:
+        held = mesh_before(job, work, anew=anew)
+        if held is None:
+            progress("generate", job.generator.name, 0, 1)
+            job.generator.check()
+            held = job.generator.make(job.request, work.folder, progress)
+        elif held.path.parent != work.folder:
+            held = replace(held, path=Path(shutil.copyfile(held.path, work.folder / held.path.name)))
+        if not isinstance(job.generator, GivenMesh):
+            work.keep(job.mesh_key, held)
+        return held
+    except OSError as error:
+        raise OutputError(f"cannot write {work.folder}: {error.strerror or error}") from error
+    except Exception as error:
+        note_stage(error, "generate")
+        raise
+
+
+def _articulated(job: GenerationJob, work: WorkFolder, made: GeneratedMesh, spent: Account, progress: Progress) -> None:
+    """Stages A and B of the mesh, in the work folder."""
+    folder = work.articulated
+    if _articulated_before(job, folder):
+        return
+    root = {} if isinstance(job.generator, GivenMesh) else {"root": None}
+    how: dict[str, Any] = {**job.articulating(), **root, "spent": spent, "progress": progress}
+    asset = pipeline.articulate(made.path, folder, force=folder.exists(), **how)
+    add_record(folder, job, made, _added(asset, job))
+
+
+def _articulated_before(job: GenerationJob, folder: Path) -> bool:
+    record = read_record(folder)
+    if record is None or record["keys"].get("articulated") != job.key(finished=False) or job.by_files:
+        return False
+    return not any(e.given_up for e in Saved.at(folder).asset().exchanges)
+
+
+def _finish(job: GenerationJob, work: WorkFolder, spent: Account, seconds: float, force: bool, progress: Progress) -> Asset:
+    """Stage C, from the work folder to the output. seconds: that the mesh took."""
+    options, most = job.options, job.options.get("max_calls")
+    finished = pipeline.finish(
+        work.articulated,
+        job.out,
+        completer=options["completer"],
+        texture=options["texture"],
+        watertight=options["watertight"],
+        max_calls=None if most is None else max(0, most - spent.calls),
+        base=options["base"],
+        formats=options["formats"],
+        drives=options["drives"],
+        force=force,
+        progress=progress,
+    )
+    timing = _add_timing(job.out, {"generate": seconds, **Saved.at(work.articulated).timing()})
+    if options["texture"].startswith("meshy"):
+        add_tasks(job.out, retexture_task(job.out.parent / f".{job.out.name}.meshy.json"))
+    shutil.rmtree(work.articulated, ignore_errors=True)
+    with suppress(OSError):
+        work.folder.rmdir()  # nothing was made in it
+    return _warned(replace(finished, timing=timing), job)
+
+
+def _add_timing(out: Path, before: Mapping[str, float]) -> Mapping[str, float]:
+    """Add the seconds of the stages before stage C to timing.json of the output."""
+    with RunFolder.open(out) as run:
+        for stage, seconds in before.items():
+            run.add_time("export before stage C" if stage == "export" else stage, seconds)
+        return run.timing()
+
+
+def _added(asset: Asset, job: GenerationJob) -> tuple[str, ...]:
+    """What a user should know of the whole, beside the warnings of the stages."""
+    size = (job.size.warning,) if job.size.warning else ()
+    return size if any(joint.type is not JointType.FIXED for joint in asset.joints) else (*size, STILL)
+
+
+def _warned(asset: Asset, job: GenerationJob) -> Asset:
+    return replace(asset, warnings=(*_added(asset, job), *asset.warnings))

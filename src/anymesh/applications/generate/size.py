@@ -1,0 +1,44 @@
+"""How large a generated object is: generators work in units of their own."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from anymesh.applications.generate.protocol import Unit
+from anymesh.loading.sizes import usual_size
+
+ADVICE = "give --scale METRES:AXIS, such as 0.9:z"
+
+
+@dataclass(frozen=True)
+class Size:
+    """--scale and --category for the pipeline, and in words why; warning: where nothing tells the size."""
+
+    scale: str
+    category: str | None
+    reason: str
+    warning: str = ""
+
+
+def choose_size(scale: str, category: str | None, prompt: str | None, name: str, unit: Unit) -> Size:
+    """What was given; else the usual size of the kind of thing that the category, the prompt or the file's name tells.
+
+    A unit that means something stays where it suits the kind (within a factor of 3), and where no kind is known.
+    """
+    kind = usual_size(category or prompt or name)
+    known = category or prompt or (None if kind is None else kind[0].replace("_", " "))
+    if unit is Unit.STATED:
+        known = category or prompt  # a unit in the file counts for more than the file's name
+    if scale != "auto":
+        return Size(scale, known, f"given as {scale}")
+    if kind is not None:
+        usual = f"a {kind[0].replace('_', ' ')} is about {kind[1]:g} m long"
+        if unit is Unit.ARBITRARY:
+            return Size(f"{kind[1]:g}:longest", known, f"{usual}; the generator knows no size")
+        if known is None:
+            return Size("auto", None, "as the mesh file states it")
+        told = "the generator estimates" if unit is Unit.ESTIMATED else "the mesh file states"
+        return Size("auto", known, f"as {told} it, where that suits the kind ({usual})")
+    if unit is Unit.ESTIMATED:
+        return Size("auto", known, "as the generator estimated it")
+    return Size("auto", known, "as the mesh file states it", f"nothing tells how large the object is; {ADVICE}")

@@ -1,0 +1,194 @@
+"""Paid tasks of Meshy, of whatever kind: made once, waited for, and found again by a rerun."""
+
+from __future__ import annotations
+
+import hashlib
+import logging
+import random
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TypeVar
+
+from anymesh.errors import BudgetError, ModelError, OptionError
+from anymesh.models.meshy_api import RefusedError, Task, TaskKind, create_task, download_glb, get_task, list_tasks
+from anymesh.models.meshy_task import Bought, Pending, read_pending, write_pending
+from anymesh.models.retry import persist
+from anymesh.models.web import LostError
+
+log = logging.getLogger("anymesh")
+T = TypeVar("T")
+OVER = ("FAILED", "EXPIRED", "CANCELED", "CANCELLED")
+AROUND = 900.0  # [s] a task that repeats nothing of its request was made within this of the request
+
+
+@dataclass(frozen=True)
+class Order:
+    """A task to be paid for once. body: of the request, JSON; state: the file that keeps the task's id; prompt: as the task
+    repeats it, None where it repeats nothing by which it could be told from others; seed: of the task that it refines."""
+
+    kind: TaskKind
+    body: bytes = field(repr=False)
+    state: Path
+    prompt: str | None = None
+    seed: int | None = None
+
+    @property
+    def digest(self) -> str:
+        """Of the request."""
+        return hashlib.sha256(self.body).hexdigest()
+
+    def may_be(self, task: Task, asked: float) -> bool:
+        """Whether a listed task can be this one. asked: when it was requested [s since 1970]."""
+        if task.type not in ("", self.kind.type) or (None not in (self.seed, task.seed) and self.seed != task.seed):
+            return False
+        return abs(task.created - asked) < AROUND if self.prompt is None else task.prompt == self.prompt
+
+
+@dataclass
+class PaidTasks:
+    """Makes tasks, waits for them, and fetches their results. Holds no key: it is taken from MESHY_API_KEY at each call.
+
+    state: the file that keeps a task's id; max_calls: tasks that may be paid for; timeout [s] of one call (of a download ten
+    times that), patience [s] for a task. `calls` and `credits` are what was spent by this object.
+    """
+
+    state: Path
+    model: str = "latest"
+    max_calls: int | None = None
+    timeout: float = 60.0
+    patience: float = 3600.0  # the service asks to allow an hour
+    sleep: Callable[[float], None] = field(default=time.sleep, repr=False)
+    chance: Callable[[], float] = field(default=random.random, repr=False)
+    watch: Callable[[TaskKind, Task], None] = field(default=lambda kind, task: None, repr=False)
+    name: str = field(default="meshy", init=False)
+    calls: int = field(default=0, init=False)
+    credits: float = field(default=0.0, init=False)
+
+    def __post_init__(self) -> None:
+        if self.max_calls is not None and self.max_calls < 0:
+            raise OptionError(f"--max-calls must be 0 or more, found {self.max_calls}")
+        if not (self.timeout > 0 and self.patience > 0):
+            raise OptionError(f"time-outs must be more than 0 s, found {self.timeout:g} and {self.patience:g}")
+
+    def held(self, order: Order) -> Pending | None:
+        """What an earlier run knew of this order; None where it was never begun."""
+        return read_pending(order.state, order.digest)
+
+    def run(self, order: Order) -> Bought:
+        """The task of an order when it has succeeded: that of an earlier run, or else a new one.
+
+        Raises ModelError without a key or a result, BudgetError instead of a task too many, OutputError where the task's id
+        cannot be kept.
+        """
+        held, before = self.held(order), self.calls
+        task = held.task if held else None
+        if task is None:
+            task = self._lost(held, order) or self._create(order)
+            write_pending(order.state, Pending(order.digest, task))
+        else:
+            log.info("meshy: going on with task %s", task)
+        found = self._wait(order, task)
+        self.credits += found.credits if self.calls > before else 0.0
+        bought = Bought(task, found.credits, found.seed)
+        write_pending(order.state, Pending(order.digest, task, bought=bought))
+        return bought
+
+    def fetch(self, order: Order, task: str) -> bytes:
+        """The GLB of a task that has succeeded. Its address is asked for each time: it is signed, and valid for a while."""
+
+        def fetch() -> bytes:
+            url = self._look(order, task).url
+            if url is None:
+                raise ModelError(f"meshy: task {task} succeeded and names no GLB")
+            return download_glb(url, 10 * self.timeout)
+
+        return self._persist(fetch)
+
+    def check_budget(self, *kinds: TaskKind) -> None:
+        """BudgetError where paying for a task of each kind would pass the limit."""
+        if self.max_calls is None or self.calls + len(kinds) <= self.max_calls:
+            return
+        credits = sum(kind.credits for kind in kinds)
+        what = f"{kinds[0].name} takes" if len(kinds) == 1 else f"{' and '.join(kind.name for kind in kinds)} take"
+        spent = f"spent so far: {self.calls} tasks, {self.credits:g} credits"
+        raise BudgetError(f"meshy: {what} about {credits} credits and would pass --max-calls {self.max_calls}; {spent}")
+
+    def _create(self, order: Order) -> str:
+        """The id of a new task. One whose id never arrived is looked for before another is made."""
+        self.check_budget(order.kind)
+        before = self._tasks(order.kind)
+        known = None if before is None else tuple(task.id for task in before)
+        pending = Pending(order.digest, None, known, time.time())
+        write_pending(order.state, pending)
+
+        def create() -> str:
+            try:
+                return create_task(order.kind, order.body, self.timeout)
+            except LostError as error:
+                lost = error
+            found = self._lost(pending, order)
+            if found is None and pending.known is None:
+                raise ModelError(f"{lost}; a task may have been made and paid, look at your account before a rerun")
+            if found is None:
+                raise lost
+            return found
+
+        task = self._persist(create)
+        self.calls += 1
+        return task
+
+    def _lost(self, held: Pending | None, order: Order) -> str | None:
+        """The task that was made for this order though its id never arrived, as far as the service lists it."""
+        if held is None or held.known is None:
+            return None
+        new = [task for task in self._tasks(order.kind) or () if task.id not in held.known and order.may_be(task, held.asked)]
+        if len(new) > 1 and order.prompt is None:
+            ids = ", ".join(task.id for task in new)
+            raise ModelError(
+                f"meshy: one of the tasks {ids} may be the one that was paid for, and they cannot be told apart; write its "
+                f'id as "task" into {order.state}, or remove that file to pay for another'
+            )
+        return new[0].id if new else None
+
+    def _tasks(self, kind: TaskKind) -> list[Task] | None:
+        """The latest tasks; None where they cannot be listed."""
+        try:
+            return self._persist(lambda: list_tasks(kind, self.timeout))
+        except ModelError as error:
+            if isinstance(error, RefusedError) and error.status in (401, 403):
+                raise
+            log.warning("%s; tasks cannot be listed, so one whose id is lost cannot be found again", error)
+            return None
+
+    def _wait(self, order: Order, task: str) -> Task:
+        """The task when it has succeeded."""
+        end, pause, kind = time.monotonic() + self.patience, 2.0, order.kind
+        while True:
+            now = self._persist(lambda: self._look(order, task))
+            self.watch(kind, now)
+            if now.status == "SUCCEEDED":
+                return now
+            if now.status in OVER:
+                order.state.unlink(missing_ok=True)
+                again = f"a rerun makes a new one (about {kind.credits} credits)"
+                raise ModelError(f"meshy: task {task} is {now.status}{now.error}; {again}")
+            if time.monotonic() > end:
+                raise ModelError(f"meshy: task {task} is still {now.status} after {self.patience:g} s; a rerun goes on with it")
+            log.info("meshy: task %s is %s, %d %%", task, now.status, now.progress)
+            self.sleep(pause)
+            pause = min(30.0, 1.3 * pause)
+
+    def _look(self, order: Order, task: str) -> Task:
+        try:
+            return get_task(order.kind, task, self.timeout)
+        except RefusedError as error:
+            if error.status != 404:
+                raise
+        order.state.unlink(missing_ok=True)
+        again = f"a rerun makes a new one (about {order.kind.credits} credits)"
+        raise ModelError(f"meshy: the service knows no task {task} any more; {again}")
+
+    def _persist(self, call: Callable[[], T]) -> T:
+        return persist(call, sleep=self.sleep, chance=self.chance)
