@@ -16,7 +16,7 @@ TEXTURE_SLOTS = ("base_color", "metallic_roughness", "normal", "occlusion", "emi
 
 @dataclass(frozen=True)
 class Texture:
-    """An encoded image, kept as the bytes of its file."""
+    """An encoded image, as the bytes of its file."""
 
     data: bytes
     mime: str  # "image/png" or "image/jpeg"
@@ -45,7 +45,7 @@ class Material:
 
 @dataclass(frozen=True)
 class Node:
-    """One placed geometry of the source's scene graph (an instance counts once per placement)."""
+    """One placed geometry of the source's scene graph; each instance counts once per placement."""
 
     name: str  # the node's name in the file; unique within a mesh
     geometry: str = ""  # the geometry's name in the file, shared by instances
@@ -58,7 +58,7 @@ def _check_range(name: str, numbers: np.ndarray, low: int, end: int) -> None:
 
 
 def _cofactors(linear: np.ndarray) -> np.ndarray:
-    """The matrix that normals turn by, up to a factor; a transform that flattens the mesh has one too."""
+    """Return the matrix that transforms normals, up to a factor; it also exists for a transform that flattens the mesh."""
     x, y, z = linear.T
     return np.stack([np.cross(y, z), np.cross(z, x), np.cross(x, y)], 1)
 
