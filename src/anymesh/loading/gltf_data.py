@@ -1,4 +1,4 @@
-"""The numbers of a glTF 2.0 file: its JSON, buffers and accessors (sections 3.6 and 4.4 of the specification)."""
+"""Numeric data of a glTF 2.0 file: its JSON, buffers and accessors (sections 3.6 and 4.4 of the specification)."""
 
 from __future__ import annotations
 
@@ -26,7 +26,10 @@ UNREADABLE = {
 
 
 def split_glb(name: str, data: bytes) -> tuple[bytes, bytes | None]:
-    """The JSON and the binary chunk of a GLB. Raises InputError."""
+    """Return the JSON and the binary chunk of a GLB.
+
+    Raise InputError if it is broken.
+    """
     if len(data) < 20:
         raise InputError(f"{name} is truncated: a GLB header has 20 bytes, found {len(data)}")
     _, version, length = struct.unpack_from("<4sII", data)
@@ -48,7 +51,10 @@ def split_glb(name: str, data: bytes) -> tuple[bytes, bytes | None]:
 
 
 def parse_json(name: str, data: bytes) -> dict[str, Any]:
-    """The document, where it is one that can be read. Raises InputError."""
+    """Return the document.
+
+    Raise InputError if it cannot be read.
+    """
     try:
         tree = json.loads(data.decode("utf-8-sig"))
     except (ValueError, RecursionError):
@@ -66,7 +72,7 @@ def parse_json(name: str, data: bytes) -> dict[str, Any]:
 
 
 class Buffers:
-    """The buffers of a document, each read when it is first needed, and the arrays in them."""
+    """The buffers of a document, each read on first use, and the arrays in them."""
 
     def __init__(self, tree: dict[str, Any], binary: bytes | None, folder: Folder) -> None:
         self._name = folder.path.name
@@ -87,7 +93,10 @@ class Buffers:
         return self._read[number]
 
     def view(self, index: int) -> bytes:
-        """The bytes of a buffer view. Raises InputError."""
+        """Return the bytes of a buffer view.
+
+        Raise InputError if it exceeds its buffer.
+        """
         view = _item(self._tree["bufferViews"], index)
         data = self._buffer(view["buffer"])
         start, length = view.get("byteOffset", 0), view["byteLength"]
@@ -96,7 +105,10 @@ class Buffers:
         return data[start : start + length]
 
     def array(self, index: int) -> np.ndarray:
-        """(count, width) of an accessor; normalized integers become floats. Raises InputError."""
+        """Return the (count, width) array of an accessor; normalized integers become floats.
+
+        Raise InputError if it is not valid.
+        """
         a = _item(self._tree["accessors"], index)
         count, width, dtype = a["count"], WIDTHS[a["type"]], np.dtype(TYPES[a["componentType"]])
         if not isinstance(count, int) or not 0 <= count <= 3 * MAX_FACES:
@@ -127,7 +139,10 @@ class Buffers:
 
 
 def from_uri(uri: str, folder: Folder) -> bytes:
-    """The bytes of a data URI or of a file in the folder. Raises InputError."""
+    """Return the bytes of a data URI or of a file in the folder.
+
+    Raise InputError if they cannot be read.
+    """
     if not uri.startswith("data:"):
         return folder.read(uri)
     head, _, body = uri.partition(",")
