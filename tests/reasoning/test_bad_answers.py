@@ -71,7 +71,7 @@ BAD += [
     ("recognize", whole(category="\ud800"), "category must be"),
     ("recognize", whole(parent="lid"), "parent must be 'base' or one of ['door', 'knob'], found 'lid'"),
     ("recognize", whole(parent=""), "found ''"),
-    ("recognize", whole(parent="knob"), "those of 'door' go in a circle"),
+    ("recognize", whole(parent="knob"), "those of 'door' form a cycle"),
     ("recognize", whole(lower=90, upper=0), "door: valid is lower <= 0 <= upper, not both 0; found 90, 0"),
     ("recognize", whole(lower=10), "found 10, 90"),
     ("recognize", whole(upper=0), "found 0, 0"),

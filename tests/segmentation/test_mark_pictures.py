@@ -132,5 +132,5 @@ def test_views_of_masks_are_numbered_as_the_pictures_are() -> None:
 
 def test_parts_of_one_label_that_are_lost_are_told() -> None:
     marked = [MarkedPart("wheel", k, v, (k,)) for v in (0, 1) for k in (1, 2, 3)] + [MarkedPart("door", 1, 0, (4,))]
-    assert _lost(marked, ["wheel", "wheel", "door"]) == ("3 parts 'wheel' were pointed at in one view, 2 found",)
+    assert _lost(marked, ["wheel", "wheel", "door"]) == ("3 parts 'wheel' were marked in one view, but 2 found",)
     assert _lost(marked, ["wheel"] * 3 + ["door"] * 2) == ()

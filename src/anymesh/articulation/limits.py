@@ -78,7 +78,7 @@ def opening_as_answered(c: Candidate, answered: Range | None) -> Candidate:
 
 
 def _answered_revolute(around: PartContext, c: Candidate, answered: Range) -> Range:
-    """Shorten an answered range to its free part by the sweep; a hinge that the sweep finds blocked keeps the full range."""
+    """Shorten an answered range to what the sweep finds free; a blocked hinge keeps the full range."""
     lower, upper = -answered[0], answered[1]
     if max(c.opening, c.closing) < MIN_ANGLE:
         return (0.0 - lower, upper)
@@ -89,7 +89,7 @@ def _answered_revolute(around: PartContext, c: Candidate, answered: Range) -> Ra
 
 
 def _answered_prismatic(around: PartContext, c: Candidate, answered: Range) -> Range:
-    """Shorten an answered range to its free part by the sweep and, outwards, to the part's depth in its parent.
+    """Shorten an answered range to what the sweep finds free and, outwards, to the part's depth in its parent.
 
     A part that is pressed in keeps its stroke, up to its own height, since its mesh may fill the hole that it moves in.
     """

@@ -83,4 +83,4 @@ def is_binary_stl(data: bytes) -> bool:
 def check_count(name: str, what: str, told: int, room: int) -> None:
     """Raise InputError if a header states more elements than the file has room for."""
     if told < 0 or told > room:
-        raise InputError(f"{name} is truncated or broken: it tells {told} {what}, and has room for at most {max(room, 0)}")
+        raise InputError(f"{name} is truncated or broken: it states {told} {what}, and has room for at most {max(room, 0)}")

@@ -46,7 +46,7 @@ def read_gltf(data: bytes, folder: Folder) -> Mesh:
         if mesh is None:
             continue
         if "skin" in node:
-            folder.warn("a mesh has a skin; it is taken as it stands without it")
+            folder.warn("a mesh has a skin, which is ignored")
         if not np.isfinite(T).all():
             raise InputError(f"{name}: node {index} has a transform that is not finite")
         nodes = (Node(str(node.get("name") or labels[number]), labels[number]),)

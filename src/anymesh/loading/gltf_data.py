@@ -36,13 +36,13 @@ def split_glb(name: str, data: bytes) -> tuple[bytes, bytes | None]:
     if version != 2:
         raise InputError(f"{name}: found glTF version {version}; valid is 2")
     if length > len(data):
-        raise InputError(f"{name} is truncated: its header tells {length} bytes, found {len(data)}")
+        raise InputError(f"{name} is truncated: its header states {length} bytes, found {len(data)}")
     chunks: dict[bytes, bytes] = {}
     at = 12
     while at + 8 <= length:
         size, kind = struct.unpack_from("<I4s", data, at)
         if at + 8 + size > length:
-            raise InputError(f"{name} is truncated: a chunk tells {size} bytes, found {length - at - 8}")
+            raise InputError(f"{name} is truncated: a chunk states {size} bytes, found {length - at - 8}")
         chunks.setdefault(kind, data[at + 8 : at + 8 + size])
         at += 8 + size
     if b"JSON" not in chunks:
@@ -88,7 +88,7 @@ class Buffers:
             data = (self._binary or b"") if uri is None else from_uri(uri, self._folder)
             told = buffer["byteLength"]
             if told > len(data):
-                raise InputError(f"{self._name} is truncated: buffer {number} tells {told} bytes, found {len(data)}")
+                raise InputError(f"{self._name} is truncated: buffer {number} states {told} bytes, found {len(data)}")
             self._read[number] = data
         return self._read[number]
 
@@ -112,7 +112,7 @@ class Buffers:
         a = _item(self._tree["accessors"], index)
         count, width, dtype = a["count"], WIDTHS[a["type"]], np.dtype(TYPES[a["componentType"]])
         if not isinstance(count, int) or not 0 <= count <= 3 * MAX_FACES:
-            raise InputError(f"{self._name}: an accessor tells {count} elements; valid are 0 to {3 * MAX_FACES}")
+            raise InputError(f"{self._name}: an accessor states {count} elements; valid are 0 to {3 * MAX_FACES}")
         if "bufferView" in a:
             values = self._strided(a["bufferView"], a.get("byteOffset", 0), count, width, dtype)
         else:
@@ -132,7 +132,7 @@ class Buffers:
         size = width * dtype.itemsize
         stride = self._tree["bufferViews"][view].get("byteStride", size)
         if start < 0 or stride < size or count < 0 or (count and start + stride * (count - 1) + size > len(data)):
-            raise InputError(f"{self._name}: an accessor tells {count} elements, its view of {len(data)} bytes holds fewer")
+            raise InputError(f"{self._name}: an accessor states {count} elements, its view of {len(data)} bytes holds fewer")
         if count == 0:
             return np.zeros((0, width), dtype)
         return np.ndarray((count, width), dtype, data, start, (stride, dtype.itemsize)).copy()

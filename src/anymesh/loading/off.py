@@ -37,7 +37,7 @@ def read_off(data: bytes, folder: Folder) -> Mesh:
     rows = lines[points + 1 : points + 1 + polygons]
     sizes = np.array([int(row[0]) for row in rows], np.int64)
     if any(len(row) <= size or size < 1 for row, size in zip(rows, sizes, strict=True)):
-        raise InputError(f"{name} is truncated or broken: a face has fewer indices than it tells")
+        raise InputError(f"{name} is truncated or broken: a face has fewer indices than it states")
     corner = np.array([int(i) for row, size in zip(rows, sizes, strict=True) for i in row[1 : size + 1]], np.int64)
     triangles, polygon = fans(sizes)
     simple_mesh(name, folder.path.stem, vertices, corner[triangles])  # checks that the corners can be looked up

@@ -128,7 +128,7 @@ def _check_tree(parent: Mapping[str, str]) -> None:
         seen, at = set[str](), label
         while at != BASE and parent[at] != at:  # a label that is its own parent is a chain of such parts
             if at in seen:
-                raise BadAnswerError(f"parents must lead to {BASE!r}, but those of {label!r} go in a circle")
+                raise BadAnswerError(f"parents must lead to {BASE!r}, but those of {label!r} form a cycle")
             seen.add(at)
             at = parent[at]
 

@@ -105,13 +105,13 @@ def ground_parts(
     if labels and by_user and mesh.face_areas[left].sum() > MIN_SEEN_SHARE * mesh.face_areas[found.unseen].sum():
         parts, inside = add_hidden_parts(parts, by_geometry(), found.unseen, mesh.face_areas)
     missing = [label for label in labels if label not in {p.label for p in parts.parts}]
-    told = {True: "what was pointed at is all of the object, or too little of it", False: f"though {answerer.name} expects one"}
+    told = {True: "the marks cover all of the object, or too little of it", False: f"though {answerer.name} expects one"}
     lost = tuple(f"no {label} was found, {told[label in found.pointed]}" for label in missing)
     return parts, (*found.warnings, *lost, *inside)
 
 
 def _pointed(answerer: VisualAnswerer) -> str:
-    """Return the origin of the parts, from who answered the question about marks."""
+    """Return the origin of the parts: the answerer of the question about marks."""
     if any(e.kind == "marks" and e.given_up for e in answerer.exchanges):
         return f"geometry points at it in place of {answerer.name}"
     return f"pointed at by {answerer.name}"
@@ -227,7 +227,7 @@ def _lost(marked: Sequence[MarkedPart], kept: Sequence[str]) -> tuple[str, ...]:
         for label, count in Counter(label for label, _ in {(p.label, p.instance) for p in marked if p.view == view}).items():
             most[label] = max(most.get(label, 0), count)
     return tuple(
-        f"{count} parts {label!r} were pointed at in one view, {kept.count(label)} found"
+        f"{count} parts {label!r} were marked in one view, but {kept.count(label)} found"
         for label, count in sorted(most.items())
         if 0 < kept.count(label) < count
     )

@@ -91,7 +91,7 @@ class Mesh:
         for name in ("face_node", "face_material", "corner_uv", "corner_color", "corner_normal"):
             value = getattr(self, name)
             if value is not None and len(value) != count:
-                raise ValueError(f"{name} must have one row a face ({count}), found {len(value)}")
+                raise ValueError(f"{name} must have one row per face ({count}), found {len(value)}")
         _check_range("face indices", self.faces, 0, len(self.vertices))
         _check_range("face_node", self.face_node, 0, len(self.nodes))
         _check_range("face_material", self.face_material, -1, len(self.materials))
