@@ -1,4 +1,4 @@
-"""Few pictures show every mark well; crowded views become close-ups; calls go on where pictures are many."""
+"""Test the choice of pictures: few views show every mark well, crowded views give close-ups, many pictures more calls."""
 
 from functools import cache
 
@@ -61,7 +61,7 @@ def test_a_keyboard_is_shown_in_close_ups_with_every_key() -> None:
 
 
 class Points:
-    """Answers that every mark but the first is a key of its own; asks to split what it is told to."""
+    """Answers that every mark but the first is a separate key, and asks to split given marks."""
 
     name, needs_images, exchanges, warnings = "points", False, (), ()
 
