@@ -151,7 +151,7 @@ def _touching(a: TriangleSet, b: TriangleSet, tolerance: float) -> float:
 def coplanar(contacts: Contacts, whole: ObjectShape, tolerance: float) -> list[tuple[int, int]]:
     """Return pairs of touching plates of the same thickness in one plane, such as the boards of a framed door.
 
-    Excludes patches that only a crease separates (drawers of a fused cabinet), and two equal leaves.
+    Excludes patches that only a crease separates (drawers of a fused cabinet), and two equal panels side by side.
     """
     parted = {(int(a), int(b)) for a, b in whole.shared}
     found = []
@@ -163,7 +163,7 @@ def coplanar(contacts: Contacts, whole: ObjectShape, tolerance: float) -> list[t
             continue
         level = abs(float((a.center - b.center) @ a.axes[2]))
         if min(s.half[1] / max(s.half[0], 1e-12) for s in (a, b)) > MIN_PLATE_ASPECT and same_box(a, b):
-            continue  # two leaves of a window
+            continue  # two sashes of a window
         if abs(float(a.axes[2] @ b.axes[2])) > 0.9995 and level < tolerance and abs(a.half[2] - b.half[2]) < tolerance:
             found.append((int(i), int(j)))
     return found
