@@ -1,4 +1,4 @@
-"""The pipeline as a function: it says what it writes, repeats itself, and leaves its input alone."""
+"""Test the pipeline as a function: its outputs, its reproducibility, and its unchanged input."""
 
 import json
 from dataclasses import fields

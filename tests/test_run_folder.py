@@ -1,4 +1,4 @@
-"""The output folder: stages kept by key, whole or not there, and nobody's files lost."""
+"""Test the output folder: stages kept by key, complete or absent outputs, and the protection of other files."""
 
 import os
 import signal
@@ -239,7 +239,7 @@ def test_a_killed_run_leaves_no_output_and_its_stages_are_taken_over(tmp_path, s
     child = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
     assert child.stdout
     assert child.stdout.readline() == "ready\n"
-    with RunFolder.create(out, source=source) as run:  # the other is alive: nothing is taken from it
+    with RunFolder.create(out, source=source) as run:  # the other process is alive: nothing is taken from it
         assert run.load(MESH, "m") is None
         alive = sorted(p.name for p in tmp_path.iterdir() if p.name.startswith(".out.tmp-"))
         assert len(alive) == 2
@@ -274,7 +274,7 @@ def test_adding_a_file_keeps_the_rest(tmp_path, source):
     assert {k: v for k, v in after.items() if k != "stages/files.json"} == {
         k: v for k, v in before.items() if k != "stages/files.json"
     }
-    write_all(tmp_path / "out", source, force=True)  # it is ours, so it may go
+    write_all(tmp_path / "out", source, force=True)  # written by this program, so it may be replaced
 
 
 def test_what_follows_a_stage_that_was_made_anew_is_not_taken_over(tmp_path, source):

@@ -1,4 +1,4 @@
-"""The size that somebody answers: it sets the scale of files without a unit, and is doubted where the file states one."""
+"""Test the answered size: it sets the scale of files without a unit, and gives a warning if it contradicts a unit."""
 
 import numpy as np
 import pytest
@@ -12,7 +12,7 @@ MESH, _ = mesh_of([box((0, 0, 0), (1, 1, 0.5))])
 
 
 class Sees:
-    """Says that the object is a box of some length."""
+    """Answers that the object is a box of some length."""
 
     name, needs_images, exchanges, warnings = "sees", False, (), ()
 
@@ -54,5 +54,5 @@ def test_files_say_whether_they_have_a_unit(tmp_path) -> None:
     shape.apply_scale(1e5)
     shape.export(tmp_path / "b.glb")
     placed = place_mesh(load_mesh(tmp_path / "b.glb"))
-    assert not placed.metric  # its unit was not believed
+    assert not placed.metric  # its unit was implausible
     assert np.linalg.norm(placed.mesh.extents) == pytest.approx(1.0)

@@ -1,4 +1,4 @@
-"""A run that is short of time ends in an asset all the same, and says what was left out."""
+"""Test that a run with a short time limit still gives an asset, and states what was left out."""
 
 from __future__ import annotations
 

@@ -26,17 +26,17 @@ FILES, AUTO = "files:", "auto"
 
 
 class Answering(TypedDict, total=False):
-    """Who answers the questions of both stages, and how. All have defaults.
+    """Options of the answerer of both stages. All have defaults.
 
     answerer: geometry, openai:MODEL, openai-responses:MODEL, anthropic:MODEL, google:MODEL, ollama:MODEL, lmstudio:MODEL,
-    vllm:MODEL, openai-compatible:BASE_URL#MODEL, files:FOLDER, replay:FOLDER, or auto: a local model, else geometry;
-    category: what the object is; seed: from 0 up; parts_list: labels of the parts that move, which a model is then not asked
-    for; at_least: parts that geometry takes however thin the evidence is; proposer: of masks for a model, exact, sam:..., or
+    vllm:MODEL, openai-compatible:BASE_URL#MODEL, files:FOLDER, replay:FOLDER, or auto: a local model, else geometry; category:
+    of the object; seed: from 0 up; parts_list: labels of the movable parts, which a model is then not asked for; at_least:
+    minimum number of parts that geometry selects, even with weak evidence; proposer: of masks for a model, exact, sam:..., or
     exact+sam:...; viewpoints: the cameras whose pictures a model is shown (see `ViewsConfig`); verify: motion, free or off;
-    max_calls, max_cost [USD]: no call is made that would pass them; cache: folder of answers (None: no cache); timeout: of one
-    call [s]; wait: wait for an answer in files; suggest: write what geometry would answer beside each question that is waited
-    for; spent: what counts towards max_calls and max_cost, shared by several runs; limiter: waits where a provider would be
-    asked too much in a minute.
+    max_calls, max_cost [USD]: limits that no call may exceed; cache: folder of answers (None: no cache); timeout: of one call
+    [s]; wait: wait for an answer in files; suggest: write geometry's answer beside each question that is waited for; spent:
+    calls and cost counted towards max_calls and max_cost, shared by several runs; limiter: delays calls above a provider's rate
+    limit.
     """
 
     answerer: str
@@ -75,10 +75,10 @@ class RecordingFactory:
 
 @dataclass(frozen=True, eq=False)
 class AnswererSetup:
-    """The settings of a run, the name of who answers, and what makes the answerer (None: geometry).
+    """The settings of a run, the name of the answerer, and its factory (None: geometry).
 
-    is_current: whether a saved stage still has the answers that it was made with; exchanges: every call to a model in this run;
-    new_factory: the same answerer for another run, with the same model and budget.
+    is_current: returns whether a saved stage still has the answers that it was made with; exchanges: returns every call to a
+    model in this run; new_factory: makes the same answerer for another run, with the same model and budget.
     """
 
     config: Config
@@ -89,17 +89,19 @@ class AnswererSetup:
     new_factory: Callable[[], AnswererFactory] | None = None
 
     def settings(self, *without: str) -> dict[str, object]:
-        """What the result of a stage hangs on, without what that stage does not use."""
+        """Return the settings that the result of a stage depends on, without those that the stage does not use."""
         return {**{k: v for k, v in self.config.as_dict().items() if k not in without}, "answerer": self.name}
 
 
 def choose_answerer(
     options: Answering, *, about: str | None = None, deadline: Deadline | None = None, stop: Event | None = None
 ) -> AnswererSetup:
-    """From the options to who answers. For answers in files, about: the object's name; deadline: paused while waiting for
-    one; stop: ends the waiting.
+    """Return the answerer that the options choose.
 
-    Raises OptionError for what is not valid, ModelError where a model cannot be asked at all (no key).
+    about, deadline, stop: for answers in files, the object's name, the deadline that is paused while waiting for an answer,
+    and the event that ends the waiting.
+
+    Raise OptionError for options that are not valid, ModelError if a model cannot be asked at all (no key).
     """
     unknown = sorted(set(options) - set(Answering.__annotations__))
     if unknown:
@@ -118,11 +120,11 @@ def choose_answerer(
     config = replace(config, views=replace(config.views, around=options.get("viewpoints", DEFAULT_VIEWS)))
     if name == GEOMETRY.name:
         if labels:
-            raise OptionError("--parts-list: geometry cannot find parts by their names; it needs an --answerer that sees")
+            raise OptionError("--parts-list: geometry cannot find parts by name; choose a model or files with --answerer")
         return AnswererSetup(config, name, None)
     if name.startswith(FILES):
         return _from_files(config, name, options, about, deadline or Deadline(), stop)
-    from anymesh.models.connect import open_model  # only those who ask a model wait for its modules
+    from anymesh.models.connect import open_model  # import on use: only runs with a model need these modules
     from anymesh.reasoning.vlm import VlmAnswerer
 
     cache = options["cache"] if "cache" in options else cache_folder()
@@ -131,7 +133,7 @@ def choose_answerer(
         name,
         cache=cache,
         max_calls=options.get("max_calls"),
-        max_cost=None if name.partition(":")[0] in SERVERS else options.get("max_cost"),  # one's own servers cost nothing
+        max_cost=None if name.partition(":")[0] in SERVERS else options.get("max_cost"),  # the user's own servers cost nothing
         timeout=options.get("timeout", CALL_SECONDS),
         spent=options.get("spent"),
         limiter=options.get("limiter"),
@@ -145,13 +147,19 @@ def choose_answerer(
 
 
 def object_name(mesh: str | Path) -> str:
-    """What a mesh is called among others: its folder's name and its own, since many data sets call every file alike."""
+    """Return the name of a mesh among others.
+
+    It consists of the names of its folder and file, since many data sets give every file the same name.
+    """
     path = Path(mesh).absolute()
     return f"{path.parent.name}/{path.name}"
 
 
 def resolve_auto(name: str) -> tuple[str, str]:
-    """From `auto` to the name of who answers, and why, in words; other names stay. Nothing that costs money is taken."""
+    """Resolve `auto` to the name of an answerer, with the reason; return other names unchanged.
+
+    `auto` never chooses an answerer that costs money.
+    """
     if name != AUTO:
         return name, ""
     found = first_vision_model(probe_servers())

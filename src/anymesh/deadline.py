@@ -1,4 +1,4 @@
-"""The time that a run may take, shared out over its stages."""
+"""Time limit of a run, divided among its stages."""
 
 from __future__ import annotations
 
@@ -9,15 +9,15 @@ from contextlib import contextmanager
 
 from anymesh.errors import OptionError
 
-CALL_SECONDS = 120.0  # of `--timeout`: for one call of a model [s]
-DEFAULT_SECONDS = 600.0  # of `--time-limit` [s]
-SEGMENT, JOINTS, COMPLETION, COLLISION = 0.4, 0.7, 0.7, 0.9  # shares of the limit after which each is cut short
+CALL_SECONDS = 120.0  # [s] default of `--timeout`, for one call of a model
+DEFAULT_SECONDS = 600.0  # [s] default of `--time-limit`
+SEGMENT, JOINTS, COMPLETION, COLLISION = 0.4, 0.7, 0.7, 0.9  # shares of the limit after which each stage is cut short
 
 
 class Deadline:
-    """A time limit of a run [s] that begins with its construction, and what was left out to keep it.
+    """A time limit of a run [s] that begins with its construction, and a record of what was left out to keep it.
 
-    Raises OptionError for a limit that is not positive.
+    Raise OptionError for a limit that is not positive.
     """
 
     def __init__(self, seconds: float = math.inf) -> None:
@@ -28,7 +28,7 @@ class Deadline:
         self._left_out: list[str] = []
 
     def late(self, share: float) -> bool:
-        """Tell whether more than a share of the limit is spent."""
+        """Return whether more than a share of the limit is spent."""
         return time.monotonic() - self._begin > share * self.seconds
 
     @contextmanager

@@ -1,6 +1,6 @@
-"""Every error that this package raises on purpose. One family, one subclass per thing a caller may handle.
+"""Errors that this package raises on purpose: one subclass of AnymeshError per case that a caller may handle.
 
-A message says what was found and what would have been valid. `exit_code` is what the command line returns.
+A message says what was found and what would have been valid. `exit_code` is the exit code of the command line.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 DEFECT = 70  # exit code of an internal defect: EX_SOFTWARE of sysexits.h
-STAGE = "in the stage "  # how the note begins that names the stage in which an error came up
+STAGE = "in the stage "  # prefix of the note that names the stage of an error
 
 
 class AnymeshError(Exception):
@@ -40,26 +40,33 @@ class OutputError(AnymeshError):
 
 
 class MissingExtraError(AnymeshError):
-    """An optional dependency is not installed; the message names the extra that brings it."""
+    """An optional dependency is not installed; the message names the extra that provides it."""
 
     exit_code = 5
 
 
 class ModelError(AnymeshError):
-    """An outside model cannot be asked: no key, refused, unreachable after every retry. Holds no key and no header."""
+    """An external model cannot be asked: no key, refused, unreachable after every retry.
+
+    The error holds no key and no header.
+    """
 
     exit_code = 6
 
 
 class BudgetError(ModelError):
-    """The next call would pass --max-calls or --max-cost. What was answered is kept; a rerun goes on from there."""
+    """The next call would exceed --max-calls or --max-cost.
+
+    Earlier answers are kept; a rerun continues from there.
+    """
 
     exit_code = 7
 
 
 class OpenQuestionError(ModelError):
-    """A question waits for an answer that somebody else writes. Finished stages are kept; a rerun goes on from there.
+    """A question has no answer in its folder yet.
 
+    Finished stages are kept; a rerun continues from there.
     folders: of the open questions.
     """
 
@@ -70,15 +77,15 @@ class OpenQuestionError(ModelError):
         self.folders = tuple(folders)
 
     def __reduce__(self) -> tuple[type[OpenQuestionError], tuple[str, tuple[Path, ...]]]:
-        return type(self), (str(self), self.folders)  # evaluations hand it from process to process
+        return type(self), (str(self), self.folders)  # evaluations pass it between processes
 
 
 def note_stage(error: BaseException, stage: str) -> None:
-    """Add to an error's traceback the stage in which it came up."""
+    """Add to an error's traceback the stage in which it was raised."""
     error.add_note(f"{STAGE}{stage}")
 
 
 def failed_stage(error: BaseException) -> str | None:
-    """The stage that was noted on an error."""
+    """Return the stage that was noted on an error, None if there is none."""
     notes = (note for note in getattr(error, "__notes__", ()) if note.startswith(STAGE))
     return next((note.removeprefix(STAGE) for note in notes), None)

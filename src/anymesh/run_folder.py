@@ -1,8 +1,8 @@
-"""The output folder, the only place that knows file names: stages are kept, and it is there whole or not at all.
+"""The output folder. Only this module knows its file names.
 
-Everything is written into a hidden folder beside the output (same file system), which takes its place at the end. A
-process that is killed, or ended by a budget or an internal defect, leaves at most the hidden folder; the next run takes
-over its finished stages and removes it.
+Stages are kept, and an output is either complete or absent. Everything is written into a hidden folder beside the output (on
+the same file system), which replaces the output at the end. A process that is killed, or ended by a budget or an internal
+defect, leaves at most the hidden folder. The next run takes over its finished stages and removes it.
 """
 
 from __future__ import annotations
@@ -76,11 +76,14 @@ __all__ = [
     "stage_key",
 ]
 Result = TypeVar("Result")
-LAST = "asset.json"  # an output that has it is finished
+LAST = "asset.json"  # file that marks a finished output
 
 
 def _existing(target: Path) -> list[str]:
-    """The files that this program wrote into an output, a killed run put right. OutputError when it is none."""
+    """Return the files that this program wrote into an output, after recovery from a killed run.
+
+    Raise OutputError if the folder is no output.
+    """
     recover(target, atomic_prefix(target, "old"))
     written = written_files(target)
     if written is None:
@@ -89,10 +92,11 @@ def _existing(target: Path) -> list[str]:
 
 
 class RunFolder(Saved):
-    """An output folder while it is written. `folder` is where files go; leaving the `with` block puts them in place.
+    """An output folder while it is written.
 
-    An exception inside the block leaves the output as it was; when a budget or an internal defect ends the run, the finished
-    stages stay in the hidden folder, where the next run finds them.
+    Files are written to `folder`. Leaving the `with` block moves them into place. An exception inside the block leaves the
+    output unchanged. If a budget or an internal defect ends the run, the finished stages stay in the hidden folder for the next
+    run.
     """
 
     def __init__(
@@ -102,20 +106,20 @@ class RunFolder(Saved):
         self.folder = hidden.path
         self._hidden = hidden
         self._base = base  # files are added to this folder; None: the whole folder is new
-        self._earlier = tuple(earlier)  # where results of runs before may be taken from
+        self._earlier = tuple(earlier)  # folders from which results of earlier runs may be taken
         self._dead = tuple(dead)
         self._replaces = base is None and target in self._earlier
-        self._resumable = False  # the next run looks for what this one leaves
-        self._foreign: set[str] = set()  # files of others that go along
-        self._stale: set[str] = set()  # stages whose results no longer follow from the ones before
-        self._redone: set[str] = set()  # stages after one that was made anew: those of runs before do not follow from it
+        self._resumable = False  # whether the next run looks for what this one leaves
+        self._foreign: set[str] = set()  # files of others that are copied to the new output
+        self._stale: set[str] = set()  # stages whose results no longer follow from earlier stages
+        self._redone: set[str] = set()  # stages after a recomputed one, for which results of earlier runs are not valid
 
     @classmethod
     def create(cls, target: Path, *, source: Path, force: bool = False) -> RunFolder:
-        """A new output, in place of an older one when `force`; stages of the older one with equal keys are taken over.
+        """Create a new output, in place of an older one if `force`; stages of the older one with equal keys are taken over.
 
-        OutputError when the folder holds anything and `force` is off, holds files that this program did not write,
-        holds the source mesh, or cannot be written.
+        Raise OutputError if the folder is not empty and `force` is off, if it holds the source mesh or files that this program
+        did not write, or if it cannot be written.
         """
         target = Path(target).resolve()
         if source.resolve().is_relative_to(target):
@@ -142,7 +146,10 @@ class RunFolder(Saved):
 
     @classmethod
     def open(cls, target: Path) -> RunFolder:
-        """An output that exists, to add to: another stage, or the final files. OutputError when there is none."""
+        """Open an existing output to add another stage or the final files.
+
+        Raise OutputError if there is none.
+        """
         target = Path(target).resolve()
         try:
             _existing(target)
@@ -154,9 +161,9 @@ class RunFolder(Saved):
 
     @classmethod
     def revise(cls, target: Path) -> RunFolder:
-        """An output that exists, to be replaced at once by one that has its stages and all files that are not ours.
+        """Open an existing output, to be replaced atomically by one with its stages and all files of others.
 
-        OutputError when there is none. A mount point cannot be replaced at once: files are added to it as by `open`.
+        Raise OutputError if there is none. A mount point cannot be replaced atomically, so files are added to it as by `open`.
         """
         target = Path(target).resolve()
         if os.path.ismount(target):
@@ -174,7 +181,7 @@ class RunFolder(Saved):
         return run
 
     def load(self, stage: Stage[Result], key: str) -> Result | None:
-        """The saved result of a stage if it was made under this key; else None. It becomes part of this output."""
+        """Return the saved result of a stage if it was made under this key, else None. It becomes part of this output."""
         earlier = () if stage.name in self._redone else self._earlier
         for place in (*self._places(stage), *earlier):
             found = read_stage(place, stage, key)
@@ -189,7 +196,7 @@ class RunFolder(Saved):
         return None
 
     def save(self, stage: Stage[Result], key: str, result: Result) -> None:
-        """Saves the result of a stage; results of later stages, and final files, no longer follow and go."""
+        """Save the result of a stage; results of later stages and final files are no longer valid and are removed."""
         if self._base is not None and stage not in (CORRECTION, REVISION):
             check_uncorrected(self._base)
         write_stage(self.folder, stage, key, result)
@@ -204,11 +211,14 @@ class RunFolder(Saved):
         return [self.folder] if self._base is None or stale else [self.folder, self._base]
 
     def add_time(self, stage: str, seconds: float) -> None:
-        """Adds to the seconds that each stage took."""
+        """Add to the seconds that each stage took."""
         write_json(self.folder / TIMING, {**self.timing(), stage: round(seconds, 4)})
 
     def take_over(self, folder: Path) -> None:
-        """The stages of another output, up to its joints and their corrections, become this one's. OutputError without any."""
+        """Take over the stages of another output, up to its joints and their corrections.
+
+        Raise OutputError if it has none.
+        """
         written = written_files(folder)
         if written is None:
             raise OutputError(f"{folder} is no output of anymesh; `anymesh articulate MESH -o {folder}` makes one")
@@ -228,7 +238,7 @@ class RunFolder(Saved):
             shutil.copy2(folder / name, self.folder / name)
 
     def _commit(self) -> None:
-        """Puts everything written in place."""
+        """Move everything written into place."""
         new = {*list_files(self.folder), MANIFEST} - self._foreign
         try:
             if self._base is None:
@@ -244,7 +254,7 @@ class RunFolder(Saved):
             raise OutputError(f"cannot write {self.target}: {error.strerror or error}") from error
 
     def _outdated(self, before: set[str], new: set[str]) -> set[str]:
-        """Files from before that no longer follow from the stages, or that the final files written now replace."""
+        """Return the files from before that no longer follow from the stages, or that the final files written now replace."""
         stages = {name for stage in STAGES for name in stage_files(stage)}
         stale = {name for stage in STAGES if stage.name in self._stale for name in stage_files(stage)}
         kept = {MANIFEST, TIMING, CORRECTIONS} | set(filter(is_origin, before))
@@ -273,8 +283,10 @@ class RunFolder(Saved):
                 hidden.discard()
 
     def _resumed_later(self, error: BaseException | None) -> bool:
-        """Whether the finished stages are kept: a budget or an open question ended the run, or a defect after which a rerun
-        may go further."""
+        """Return whether the finished stages are kept for a later run.
+
+        They are kept if a budget or an open question ended the run, or a defect after which a rerun may get further.
+        """
         told = isinstance(error, AnymeshError) or (isinstance(error, OSError) and self._is_mine(error))
         defect = isinstance(error, Exception) and not told
         saved = any((self.folder / stage_files(stage)[0]).exists() for stage in STAGES)

@@ -46,20 +46,21 @@ from anymesh.stage_results import JointResult, RecognitionResult, SegmentationRe
 from anymesh.types import Joint, JointType, Mesh, MotionKind, Picture, Segmentation
 from anymesh.types.recognition import Moves, Recognition
 
-AnswererFactory = Callable[
-    [VisualAnswerer], VisualAnswerer
-]  # an answerer that sees, given who answers in its place where it cannot
-MAX_INSIDE_VIEWS = 2  # pictures of the inside in the question of what the object is
-LOW_CONFIDENCE = 0.4  # joints below this confidence are named in the warnings
-MOTIONS_PER_TYPE = 4  # motions of each kind, likeliest first, of which one is to stay free with what the part gains
-MIN_FREE_RATIO = 0.8  # a part that gains unseen patches opens this much as far as without them
-SUFFICIENT_OPENING = float(np.deg2rad(60))  # [rad, or share of the diagonal] an opening beyond is not compared
+AnswererFactory = Callable[[VisualAnswerer], VisualAnswerer]  # makes a visual answerer with the given fallback
+MAX_INSIDE_VIEWS = 2  # pictures of the inside in the question about the object
+LOW_CONFIDENCE = 0.4  # warnings name joints below this confidence
+MOTIONS_PER_TYPE = 4  # likeliest motions of each kind, one of which must stay free with the gained patches
+MIN_FREE_RATIO = 0.8  # minimum opening of a part with gained patches, relative to its opening without them
+SUFFICIENT_OPENING = float(np.deg2rad(60))  # [rad, or share of the diagonal] larger openings are not compared
 GEOMETRY = GeometryAnswerer()
 
 
 class Solver:
-    """Stage A and Stage B for one placed mesh [m, Z up]. `see` makes the answerer; without it geometry answers. What is left
-    out past the deadline is among the warnings of each stage."""
+    """Stage A and Stage B for one placed mesh [m, Z up].
+
+    `answerer_factory` makes the answerer; without it geometry answers. The warnings of each stage include what was left out
+    after the deadline.
+    """
 
     def __init__(
         self,
@@ -94,12 +95,12 @@ class Solver:
     def recognize(self, *, sized: bool = False, metric: bool = False) -> RecognitionResult:
         """Recognize the object and its movable parts by a visual answerer.
 
-        sized: the answered size sets the scale, unless the file states its unit (metric): then a size that contradicts is a
-        warning.
+        sized: the answered size sets the scale, unless the file states its unit (metric). In that case a contradicting size
+        gives a warning.
         """
         if self._see is None:
             return RecognitionResult(None, GEOMETRY.name)
-        _ = self._segmenter  # weights that cannot be used are better missed before anything is asked
+        _ = self._segmenter  # report unusable weights before anything is asked
         answerer = self._see(ReferenceAnswerer(GEOMETRY.name, lambda: self._geometric_reference))
         azimuths = [azimuth for azimuth, _ in self.config.views.directions]
         found = recognize(self._view_pictures, answerer, self.config.category, self.config.parts_list, azimuths)
@@ -119,7 +120,10 @@ class Solver:
     def parts(
         self, parts: str = "auto", recognition: Recognition | None = None, progress: Progress = silent
     ) -> SegmentationResult:
-        """Stage A. parts: auto, nodes, or a file of face labels."""
+        """Run Stage A.
+
+        parts: auto, nodes, or a file of face labels.
+        """
         if parts != "auto":
             given = parts_from_nodes(self.mesh) if parts == "nodes" else parts_from_file(self.mesh, Path(parts))
             return _segmentation_result(given, GIVEN)
@@ -148,7 +152,10 @@ class Solver:
         progress: Progress = silent,
         grounded: bool = False,
     ) -> JointResult:
-        """Stage B. grounded: the parts were found by `parts`, so answers may call them too much or too little, once."""
+        """Run Stage B.
+
+        grounded: the parts come from `parts`, so that answers may once call them too much or too little.
+        """
         if self._see is None:
             found = estimate_joints(segmentation, self._motions(segmentation, progress), GEOMETRY)
             return _joint_result(found, GEOMETRY.name, None, self.deadline.warnings())
@@ -173,7 +180,7 @@ class Solver:
         return self._by_itself
 
     def _labels(self, segmentation: Segmentation) -> list[str]:
-        """Return a label of each part but the base by how geometry moves it; "" for one that cannot move."""
+        """Return a label of each part but the base from its motion by geometry; "" for a part that cannot move."""
         found = {}
         for i, _, around, question in self._motions(segmentation):
             answer, best = choose_motion(around, question, GEOMETRY)
@@ -181,7 +188,7 @@ class Solver:
         return [found[i] for i in sorted(found)]
 
     def _motions(self, segmentation: Segmentation, progress: Progress = silent) -> list[PartMotions]:
-        """Sweep the motions of all parts; those of the parts that were swept last are kept."""
+        """Sweep the motions of all parts; the last result is cached."""
         faces = segmentation.face_part.tobytes()
         if self._swept is None or self._swept[0] != faces:
             found = motion_questions(self._ready_for(segmentation), segmentation, self.config, self.deadline)
@@ -190,13 +197,14 @@ class Solver:
         return list(_with_progress(relabelled(self._swept[1], segmentation), segmentation, progress))
 
     def stays_free(self, without: np.ndarray, joined: np.ndarray, part: int, moves: Moves | None = None) -> bool:
-        """Tell whether a part opens as far with the unseen patches that it would gain.
+        """Return whether a part opens as far with the unseen patches that it would gain.
 
-        without, joined: the part number of each face of `whole`; moves: the recognized motion of the part, if known.
+        without, joined: part index of each face of `whole`, without and with these patches; moves: the recognized motion of the
+        part, if known.
         """
         alone, gained = self._around(without, part), self._around(joined, part)
         question = motion_question(alone, "candidate", "part")
-        best: dict[int, Candidate] = {}  # of the two ways along each axis
+        best: dict[int, Candidate] = {}  # the better one of the two directions along each axis
         for k in GEOMETRY.which_motion(question).ranking:
             best.setdefault(id(question.candidates[k].motion), question.candidates[k])
         kinds = (
@@ -278,7 +286,7 @@ def solve(
     config: Config | None = None,
     answerer_factory: AnswererFactory | None = None,
 ) -> tuple[Segmentation, tuple[Joint, ...]]:
-    """Run both stages on a mesh in the asset frame; only Stage B where the parts are given."""
+    """Run both stages on a mesh in the asset frame; only Stage B if the parts are given."""
     solver = Solver(mesh, config, answerer_factory)
     if given is not None:
         return given, solver.joints(given).joints

@@ -31,7 +31,7 @@ class LoadResult:
 
 @dataclass(frozen=True, eq=False)
 class RecognitionResult:
-    """The recognized object, where a model was asked; scale: factor on the loaded mesh; note: its reason."""
+    """The recognized object, if a model was asked; scale: factor on the loaded mesh; note: its reason."""
 
     recognition: Recognition | None
     answerer: str
@@ -77,8 +77,11 @@ class JointResult:
 
 @dataclass(frozen=True, eq=False)
 class CompletionResult:
-    """Stage C: the mesh with new faces and materials, the part of each face, its previous index (-1: new), and notes on the
-    changes."""
+    """Stage C: the completed mesh.
+
+    mesh: with new faces and materials; face_part: the part of each face; source_face: its previous index (-1: new); notes: on
+    the changes.
+    """
 
     mesh: Mesh
     face_part: np.ndarray
@@ -290,7 +293,7 @@ MESH = Stage("mesh", _pack_load, _unpack_load)
 RECOGNITION = Stage("recognition", _pack_recognition, _unpack_recognition)
 SEGMENTATION = Stage("segmentation", _pack_segmentation, _unpack_segmentation)
 JOINTS = Stage("joints", _pack_joints, _unpack_joints)
-CORRECTION = Stage("correction", _pack_corrected, _unpack_corrected)  # by a person, of what Stage B gave
+CORRECTION = Stage("correction", _pack_corrected, _unpack_corrected)  # manual correction of Stage B's result
 COMPLETION = Stage("completion", _pack_completed, _unpack_completed)
-REVISION = Stage("revision", _pack_corrected, _unpack_corrected)  # by a person, of what Stage C gave
+REVISION = Stage("revision", _pack_corrected, _unpack_corrected)  # manual correction of Stage C's result
 STAGES = (MESH, RECOGNITION, SEGMENTATION, JOINTS, CORRECTION, COMPLETION, REVISION)

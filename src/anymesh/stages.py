@@ -35,7 +35,7 @@ from anymesh.stage_results import (
 from anymesh.types import Asset, Source
 
 Result = TypeVar("Result", RecognitionResult, SegmentationResult, JointResult)
-ASIDE = 500_000  # faces up to which the preview is drawn beside the files; with more, both together take too much memory
+ASIDE = 500_000  # faces up to which the preview is drawn in parallel with the files; above, both together take too much memory
 
 
 @dataclass(frozen=True)
@@ -54,7 +54,7 @@ def prepare(
     placed, key = place(run, path, how, who.config.category, progress)
     solver = Solver(placed.mesh, who.config, who.factory, deadline)
     if parts != "auto":
-        solver.parts(parts)  # what is wrong with them is better told before anything is asked
+        solver.parts(parts)  # report invalid parts before anything is asked
     recognized, key = recognize(run, solver, key, who, how.scale == "auto", placed.metric)
     sized = recognized.sized(placed)
     return (solver if sized is placed else Solver(sized.mesh, who.config, who.factory, deadline)), recognized, key
@@ -77,7 +77,7 @@ def place(run: RunFolder, path: Path, how: Placement, category: str | None, prog
 
 
 def _answered(found: Result | None, who: AnswererSetup) -> Result | None:
-    """Return a saved stage, or None if geometry stood in for a model there (it is asked again) or its answers have changed."""
+    """Return a saved stage, or None if geometry replaced a model there (it is asked again) or its answers have changed."""
     if found is None or any(e.given_up for e in found.exchanges) or not who.is_current(found.exchanges):
         return None
     return found
@@ -86,7 +86,7 @@ def _answered(found: Result | None, who: AnswererSetup) -> Result | None:
 def recognize(
     run: RunFolder, solver: Solver, previous: str, who: AnswererSetup, sized: bool, metric: bool
 ) -> tuple[RecognitionResult, str]:
-    """Ask a model what the object is and which parts move (paper, 3.1); with geometry alone there is nothing to ask."""
+    """Ask a model what the object is and which parts move (paper, 3.1); geometry alone asks nothing."""
     if who.factory is None:
         return solver.recognize(), previous
     key = stage_key(
@@ -121,7 +121,7 @@ def segment_parts(
 
 
 def _bytes_of_labels(parts: str) -> str:
-    """Return the label file in hex, "" if it cannot be read: the stage then says why."""
+    """Return the label file in hex, "" if it cannot be read; the stage then reports the error."""
     try:
         return Path(parts).read_bytes().hex() if parts not in ("auto", "nodes") and Path(parts).is_file() else ""
     except OSError:
@@ -159,7 +159,7 @@ def write_files(run: RunFolder, how: ExportOptions, deadline: Deadline, progress
         def draw() -> Future[None]:
             return aside.submit(write_preview, asset, run.folder / "preview.png")
 
-        picture = draw() if len(asset.mesh.faces) <= ASIDE else None  # while children divide components
+        picture = draw() if len(asset.mesh.faces) <= ASIDE else None  # while child processes divide components
         model = write_asset(
             asset, run.folder, base=how.base, formats=how.formats, driven=how.driven, cache=cache_folder("shapes"),
             deadline=deadline,

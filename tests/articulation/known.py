@@ -1,4 +1,4 @@
-"""Small scenes with someone who knows their joints, and what became of the joints that were asked for."""
+"""Small scenes with a reference answerer of their joints, and the joints that result."""
 
 from __future__ import annotations
 
@@ -20,9 +20,8 @@ from anymesh.rendering.visual_prompts import VisualPrompts
 from anymesh.types import Exchange, Joint, JointType, Mesh, Segmentation
 
 X, Y, Z = np.eye(3)
-QUICK = Config(
-    views=ViewsConfig(size=320, zoom_size=2048, zoom_below=1250), prompts=PromptConfig(label_apart=17.5)
-)  # half as fine
+# half the resolution
+QUICK = Config(views=ViewsConfig(size=320, zoom_size=2048, zoom_below=1250), prompts=PromptConfig(label_apart=17.5))
 
 
 def known(kind: str, axis, origin=(0.0, 0, 0), limits: tuple[float, float] | None = (0.0, 1.9)) -> ReferenceJoint:
@@ -30,7 +29,7 @@ def known(kind: str, axis, origin=(0.0, 0, 0), limits: tuple[float, float] | Non
 
 
 def open_drawer() -> Scene:
-    """A box of boards in a case, half out: what is near the case are its sides and its floor, and no rim."""
+    """Return a half-open drawer: a box of boards in a case, close to it at its sides and floor but not at its rim."""
     tray = [
         box((0.022, -0.18, 0.025), (0.578, 0.18, 0.033)),
         box((0.022, -0.18, 0.033), (0.032, 0.18, 0.2)),
@@ -42,7 +41,7 @@ def open_drawer() -> Scene:
 
 @dataclass(frozen=True)
 class Known:
-    """A scene and the true joint of its one moving part."""
+    """A scene and the true joint of its only moving part."""
 
     scene: Scene
     joint: ReferenceJoint
@@ -60,7 +59,7 @@ KNOWN = {
 
 
 def row_of(*names: str) -> tuple[Scene, tuple[ReferenceJoint, ...]]:
-    """Some of these beside each other, on one base."""
+    """Return some of these scenes side by side on one base."""
     scene, joints = {"base": []}, []
     for k, name in enumerate(names):
         shift = np.array([1.5 * k, 0, 0])
@@ -76,14 +75,14 @@ def ready(scene: Scene) -> tuple[Mesh, ObjectShape, Segmentation]:
 
 
 def the_case(scene: Scene) -> PartCase:
-    """The one moving part of a scene."""
+    """Return the case of the only moving part of a scene."""
     _, whole, segmentation = ready(scene)
     (found,) = make_cases(whole, segmentation, None, Config())
     return found
 
 
 def knowing(mesh: Mesh, segmentation: Segmentation, joints: tuple[ReferenceJoint, ...]) -> ReferenceAnswerer:
-    """Answers from these joints, one a part after the base, all on the base."""
+    """Return an answerer with these joints, one per part after the base, all mounted on the base."""
     labels = ("base", *(p.label for p in segmentation.parts[1:]))
     made = Reference("object", 1.0, segmentation.face_part, mesh.face_areas, labels, (0,) * len(labels), (None, *joints))
     return ReferenceAnswerer("oracle", lambda: made)
@@ -91,9 +90,10 @@ def knowing(mesh: Mesh, segmentation: Segmentation, joints: tuple[ReferenceJoint
 
 @dataclass
 class Watched:
-    """Another seer, with what it was asked; changed: answers given in its place, of a question, by its kind.
+    """Wrapper that records the questions to another answerer.
 
-    needs_images=True makes the pictures be drawn that a model would see.
+    changed: functions that replace its answers, by the kind of question; needs_images: True draws the pictures that a model
+    would see.
     """
 
     seer: VisualAnswerer
@@ -110,7 +110,7 @@ class Watched:
 
 
 def prompted(scene: Scene, joints: tuple[ReferenceJoint, ...], **options: Any) -> tuple[tuple[Joint, ...], Watched]:
-    """The joints of a scene, asked of someone who knows them; options: of Watched, verify, or recognition."""
+    """Return the joints of a scene as estimated with its reference answerer; options: of Watched, verify, or recognition."""
     mesh, whole, segmentation = ready(scene)
     config = replace(QUICK, verify=options.pop("verify", "motion"))
     recognition = options.pop("recognition", None)

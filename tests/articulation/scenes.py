@@ -13,21 +13,21 @@ Scene = dict[str, list[Piece]]
 
 
 def built(scene: Scene) -> tuple[Mesh, Segmentation]:
-    """The mesh and its true parts, labelled so that no word tells how a part moves."""
+    """Return the mesh and its true parts, with labels that do not indicate their motion."""
     mesh, piece = mesh_of([p for pieces in scene.values() for p in pieces])
     part_of_piece = np.repeat(np.arange(len(scene)), [len(pieces) for pieces in scene.values()])
     return mesh, Segmentation(part_of_piece[piece], tuple(Part(name, "part") for name in scene))
 
 
 def joints_of(scene: Scene, T: np.ndarray | None = None) -> dict[str, Joint]:
-    """The joint of every part, by the part's name; T (4, 4) moves the whole scene first."""
+    """Return the joint of every part, by the part's name; T (4, 4) first moves the whole scene."""
     mesh, segmentation = built(scene)
     mesh = mesh if T is None else mesh.transformed(T)
     return {j.child: j for j in Solver(mesh).joints(segmentation).joints}
 
 
 def similarity(degrees: float, shift=(0.0, 0.0, 0.0), factor: float = 1.0) -> np.ndarray:
-    """Turned about z, scaled, then moved."""
+    """Return a rotation about z, followed by scaling and translation."""
     c, s = np.cos(np.deg2rad(degrees)), np.sin(np.deg2rad(degrees))
     T = np.eye(4)
     T[:3, :3] = factor * np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
@@ -36,13 +36,13 @@ def similarity(degrees: float, shift=(0.0, 0.0, 0.0), factor: float = 1.0) -> np
 
 
 def tilted(pieces: list[Piece], degrees: float) -> list[Piece]:
-    """Turned about x."""
+    """Return pieces rotated about x."""
     c, s = np.cos(np.deg2rad(degrees)), np.sin(np.deg2rad(degrees))
     return [(v @ np.array([[1, 0, 0], [0, c, s], [0, -s, c]]), f) for v, f in pieces]
 
 
 def prism(radius: float, ends: tuple[float, float], x: float, z: float, sides: int = 24) -> Piece:
-    """A solid cylinder along y between two levels."""
+    """Return a solid cylinder along y between two positions."""
     k, n = np.arange(sides), (np.arange(sides) + 1) % sides
     ring = np.c_[np.sin(k * 2 * np.pi / sides), np.zeros(sides), np.cos(k * 2 * np.pi / sides)] * radius + (x, 0, z)
     v = np.concatenate([ring + np.array([0, e, 0]) for e in ends] + [[(x, e, z)] for e in ends])
@@ -53,7 +53,7 @@ def prism(radius: float, ends: tuple[float, float], x: float, z: float, sides: i
 
 
 def case(h: float) -> list[Piece]:
-    """Boards round a space that is open at the front, .6 wide and .4 deep."""
+    """Return boards around a space that is open at the front, 0.6 wide and 0.4 deep."""
     return [
         box((0, 0, 0), (0.6, 0.4, 0.02)),
         box((0, 0, h - 0.02), (0.6, 0.4, h)),
@@ -64,7 +64,7 @@ def case(h: float) -> list[Piece]:
 
 
 def bar(x: tuple[float, float], z: tuple[float, float]) -> list[Piece]:
-    """A grip on two posts in front of y = -.022, along x or z, whichever is longer."""
+    """Return a handle on two posts in front of y = -0.022, along x or z, whichever is longer."""
     upright = z[1] - z[0] > x[1] - x[0]
     low, high = np.array([x[0], -0.06, z[0]]), np.array([x[1], -0.022, z[1]])
     end = np.array([0, 0, z[1] - z[0] - 0.012]) if upright else np.array([x[1] - x[0] - 0.012, 0, 0])
@@ -72,13 +72,13 @@ def bar(x: tuple[float, float], z: tuple[float, float]) -> list[Piece]:
 
 
 def door(grip: str) -> Scene:
-    """A leaf before a case, its grip at the left or the right as seen from the front."""
+    """Return a panel in front of a case, with its handle at the left or the right as seen from the front."""
     x = (0.03, 0.045) if grip == "left" else (0.555, 0.57)
     return {"base": case(0.8), "leaf": [box((0.002, -0.022, 0.002), (0.598, -0.002, 0.798)), *bar(x, (0.3, 0.5))]}
 
 
 def drawer(depth: float = 0.35, degrees: float = 0.0) -> Scene:
-    """A tray with a front and a grip in a low case, all of it tilted."""
+    """Return a tray with a panel and a handle in a low case, all of it tilted."""
     tray = [
         box((0.025, -0.002, 0.025), (0.575, depth, 0.035)),
         box((0.025, -0.002, 0.035), (0.035, depth, 0.2)),
@@ -90,13 +90,13 @@ def drawer(depth: float = 0.35, degrees: float = 0.0) -> Scene:
 
 
 def wheel() -> Scene:
-    """A disc on the end of an axle that stands out of a block."""
+    """Return a disc on the end of an axle that protrudes from a block."""
     axle = prism(0.03, (-0.08, 0.001), 0.0, 0.2)
     return {"base": [box((-0.2, 0, 0.1), (0.2, 0.2, 0.3)), axle], "disc": [prism(0.1, (-0.05, -0.02), 0.0, 0.2)]}
 
 
 def lid() -> Scene:
-    """A plate on an open box, with a grip at the front."""
+    """Return a plate on an open box, with a handle at the front."""
     walls = [box((0, y, 0), (0.6, y + 0.01, 0.3)) for y in (0, 0.39)]
     walls += [box((x, 0.01, 0), (x + 0.01, 0.39, 0.3)) for x in (0, 0.59)]
     plate = [box((0, 0, 0.301), (0.6, 0.4, 0.32)), box((0.26, -0.025, 0.303), (0.34, 0, 0.315))]
@@ -104,7 +104,7 @@ def lid() -> Scene:
 
 
 def slider() -> Scene:
-    """A pane between rails above and below; it fills half of their length, from x = 0."""
+    """Return a pane between rails above and below, half as long as the rails, from x = 0."""
     rails = [box((0, y, z), (1, y + 0.02, z + 0.06)) for y in (0, 0.06) for z in (0, 0.54)]
     webs = [box((0, 0.02, z), (1, 0.06, z + 0.02)) for z in (0, 0.58)]
     ends = [box((x, 0, 0), (x + 0.03, 0.08, 0.6)) for x in (-0.03, 1)]

@@ -1,4 +1,4 @@
-"""Labels reach parts that are given, contradictions are warnings, and confidence follows how far answers agree."""
+"""Test labels of given parts, warnings about contradictions, and confidence from the agreement of answers."""
 
 from dataclasses import replace
 
@@ -118,14 +118,14 @@ def test_a_part_that_is_too_much_is_grounded_again_once() -> None:
     assert calls == [{"leaf": PartFit.TOO_MUCH}]
     first, second = (q for q in seer.asked if q.kind == "motions")
     assert "part_is" in first.schema()["properties"]["parts"]["items"]["properties"]
-    assert "part_is" not in second.schema()["properties"]["parts"]["items"]["properties"]  # once
+    assert "part_is" not in second.schema()["properties"]["parts"]["items"]["properties"]  # only once
     assert found.joints[0].type is JointType.REVOLUTE
     kept = prompt_joints(questions, lambda _: whole, segmentation, lambda wrong: None)
     assert [j.type for j in kept.joints] == [JointType.REVOLUTE]
 
 
 def test_the_papers_method_takes_the_planes_normal_and_the_free_one_what_is_held() -> None:
-    """On an open drawer the connecting area is its sides: the normal of its plane is no way out."""
+    """On an open drawer the connecting area is its sides, so the normal of its plane is no opening direction."""
     _, whole, segmentation = ready(KNOWN["open drawer"].scene)
     (case,) = make_cases(whole, segmentation, None, QUICK)
     assert abs(normal_outwards(case).axis @ case.shown.normal) == pytest.approx(1)
@@ -154,7 +154,7 @@ def test_only_points_that_are_drawn_are_listed_and_hidden_ones_are_told() -> Non
     (table,) = seer.asked[1].tables
     assert table.hidden is not None
     assert len(table.hidden) == len(table.points)
-    assert not table.hidden[0]  # where the axis comes out of the knob's face
+    assert not table.hidden[0]  # where the axis leaves the knob's face
     assert table.hidden[1:].any()  # clusters between the knob and the block
     assert f"points 1..{len(table.points)}" in seer.asked[1].text()
     assert "hidden" in seer.asked[1].text()
@@ -172,7 +172,7 @@ def test_labels_that_were_answered_are_part_of_the_stages_result() -> None:
 
 
 def test_each_axis_goes_with_the_point_where_it_comes_out() -> None:
-    """A blade with two round pins on it: whichever point is picked, the hinge runs through that pin."""
+    """On a blade with two round pins, the hinge runs through the pin whose point is picked."""
     pins = [prism(0.02, (-0.03, -0.001), x, 0.3) for x in (0.1, 0.5)]
     scene = {"base": [box((0, 0, 0), (0.6, 0.4, 0.6))], "blade": [box((0.05, -0.02, 0.25), (0.55, -0.001, 0.35)), *pins]}
     into = {"kinds": lambda q: (KindAnswer(JointKind.HINGE_INTO),)}

@@ -1,4 +1,4 @@
-"""Candidate points: on the surface, as many as can be told apart in the picture, the same every time."""
+"""Test candidate points: on the surface, as many as fit in the picture, and reproducible."""
 
 import warnings
 
@@ -23,12 +23,12 @@ GROUNDING = GroundingConfig()
 
 
 def across(scale: float):
-    """A picture that shows x and z, so many pixels a metre."""
+    """Return a picture of x and z with this many pixels per metre."""
     return lambda points: points[:, [0, 2]] * scale
 
 
 def camera(seed: int):
-    """A view from somewhere round the unit cube."""
+    """Return a random view around the unit cube."""
     rng = np.random.default_rng(seed)
     eye = rng.normal(size=3)
     eye *= rng.uniform(1.5, 6) / np.linalg.norm(eye)
@@ -58,7 +58,7 @@ def test_numbers_keep_apart_and_points_are_middles_of_the_contact(seed: int, cou
 
 @pytest.mark.parametrize(("length", "count"), [(34, 1), (36, 2), (69, 2), (71, 3), (141, 5), (5000, 20)])
 def test_as_many_points_are_kept_as_have_room(length: float, count: int) -> None:
-    """Clusters of a few pixels, evenly along a line: one more would stand too near."""
+    """Clusters of a few pixels are evenly spaced along a line, so that another one would be too close."""
     ends = np.linspace(0, 1, count)
     contact = np.concatenate([np.c_[ends, 0 * ends, d + 0 * ends] for d in (-1e-4, 0, 1e-4)])
     found = cluster_points(contact, across(length), CONFIG)
@@ -123,7 +123,7 @@ def test_more_points_are_added_in_their_order_where_they_have_room() -> None:
     more = np.array([[0.1, 0, 0.1], [0.5, 0, 0], [0.6, 0, 0.1], [0.5, 0, 0.5]])
     found = with_more(first, more, across(100), CONFIG)
     assert len(found) == 4
-    assert np.array_equal(found[2:], more[[1, 3]])  # the others stand too near to one that came before
+    assert np.array_equal(found[2:], more[[1, 3]])  # the others are too close to earlier ones
 
 
 @settings(max_examples=20, deadline=None)
@@ -147,6 +147,7 @@ def test_axes_into_the_surface_are_points_where_they_come_out() -> None:
     hub, off = (Motion(MotionKind.REVOLUTE, Y, np.array([x, 0.3, 0.2]), "hub") for x in (0.0, 0.05))
     along = Motion(MotionKind.REVOLUTE, np.array([1.0, 0, 0]), np.zeros(3), "along")
     points, axes = axis_points(around, [hub, along, off, hub], across(2000), CONFIG)
-    assert points[:, [0, 2]] == pytest.approx(np.array([[0, 0.2], [0.05, 0.2]]))  # neither along the surface, nor one twice
+    # neither one along the surface, nor a duplicate
+    assert points[:, [0, 2]] == pytest.approx(np.array([[0, 0.2], [0.05, 0.2]]))
     assert points[:, 1] == pytest.approx(around.part.bounds[0 if around.opening_direction @ Y < 0 else 1, 1])
     assert np.abs(axes @ Y) == pytest.approx(1)

@@ -1,4 +1,4 @@
-"""Picks become motions: planes among outliers, lines that follow their points, and the way out of a drawer."""
+"""Test the decoding of picks: planes among outliers, lines through their points, and the opening direction of a drawer."""
 
 import numpy as np
 import pytest
@@ -18,7 +18,7 @@ seeds = st.integers(0, 10**6)
 
 
 def between(a: np.ndarray, b: np.ndarray) -> float:
-    """Degrees between two lines."""
+    """Return the angle between two lines [deg]."""
     return float(np.degrees(np.arcsin(min(1.0, float(np.linalg.norm(np.cross(a, b)))))))
 
 
@@ -90,11 +90,11 @@ def test_arrows_lie_in_the_surface_and_point_both_ways() -> None:
     found = surface_directions(case.around)
     assert found @ case.around.opening_direction == pytest.approx(0, abs=1e-9)
     assert found @ found.T == pytest.approx(np.array([[1, -1, 0, 0], [-1, 1, 0, 0], [0, 0, 1, -1], [0, 0, -1, 1]]), abs=1e-9)
-    assert max(found @ X) == pytest.approx(1)  # the way along its rails is among them
+    assert max(found @ X) == pytest.approx(1)  # the direction of its rails is among them
 
 
 def test_the_plane_normal_of_an_open_drawer_leads_sideways_and_the_free_way_out_does_not() -> None:
-    """The paper's rule alone fails on real drawers: what is near the case are the box's sides and its floor."""
+    """The paper's rule alone fails on real drawers, since only the box's sides and floor are near the case."""
     case = the_case(KNOWN["open drawer"].scene)
     assert between(case.shown.normal, Y) > 60
     found = opening_slide(case)
@@ -112,7 +112,7 @@ def test_the_way_out_of_a_shut_drawer_is_its_own_even_when_it_is_tilted(depth: f
 
 @pytest.mark.parametrize("size", [3.0, 0.2])
 def test_the_connecting_area_of_a_small_part_is_as_large_whatever_it_sits_on(size: float) -> None:
-    """On a large block samples lie far apart: next to the plate there may be none."""
+    """On a large block samples are far apart, so that there may be none next to the plate."""
     plate = box((-0.06, -0.02, 0.06), (0.06, -0.002, 0.14))
     case = the_case({"base": [box((-size / 2, 0, 0), (size / 2, size, size))], "plate": [plate]})
     on_part = case.shown.contact[case.shown.contact[:, 1] < -1e-9]
@@ -124,5 +124,5 @@ def test_the_connecting_area_of_a_small_part_is_as_large_whatever_it_sits_on(siz
 
 def test_parts_far_apart_have_a_connecting_area_too() -> None:
     case = the_case({"base": [box((0, 0, 0), (1, 1, 1))], "moon": [box((3, 0.4, 0.4), (3.2, 0.6, 0.6))]})
-    assert case.shown.contact[:, 0].min() <= 3.0  # the side of it that is near, at the least
+    assert case.shown.contact[:, 0].min() <= 3.0  # at least its near side
     assert case.shown.contact[:, 0].max() >= 3.0

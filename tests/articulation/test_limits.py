@@ -1,4 +1,4 @@
-"""Limits of a joint, from what is near its part and from the answered range."""
+"""Test the limits of a joint, from its surroundings and from the answered range."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -33,7 +33,7 @@ def test_an_end_without_samples_is_not_near_and_gives_no_warning(recwarn) -> Non
 
 
 def open_lid() -> Scene:
-    """A lid that stands upright behind an open box: it closes by 90 degrees or more, and opens a little further."""
+    """Return a lid that stands upright behind an open box: it closes by 90 degrees or more, and opens slightly further."""
     walls = [box((0, 0, 0), (0.6, 0.4, 0.02)), box((0, 0, 0.02), (0.6, 0.02, 0.3)), box((0, 0.38, 0.02), (0.6, 0.4, 0.3))]
     sides = [box((0, 0.02, 0.02), (0.02, 0.38, 0.3)), box((0.58, 0.02, 0.02), (0.6, 0.38, 0.3))]
     return {"base": [*walls, *sides], "lid": [box((0, 0.4, 0.302), (0.6, 0.42, 0.7))]}
@@ -54,7 +54,7 @@ def swept(scene: Callable[[], Scene], motion: Motion) -> tuple[PartContext, Cand
 
 
 def answered(scene: Callable[[], Scene], motion: Motion, kind: JointType, told: tuple[float, float]) -> tuple[np.ndarray, ...]:
-    """The limits about the opening axis, and that axis."""
+    """Return the limits about the opening axis, and that axis."""
     around, c = swept(scene, motion)
     c = opening_as_answered(c, told)
     found = limits(around, c, kind, told)
@@ -66,13 +66,13 @@ def test_both_answered_limits_of_a_hinge_are_read() -> None:
     for told in ((0.0, 110 * DEG), (0.0, 70 * DEG)):
         found, axis = answered(lambda: door("left"), HINGE, JointType.REVOLUTE, told)
         assert found == pytest.approx(told, abs=DEG)
-        assert np.cross(axis, [-1, 0, 0])[1] < 0  # the leaf comes to the front
+        assert np.cross(axis, [-1, 0, 0])[1] < 0  # the panel moves to the front
 
 
 def test_a_lid_that_is_shown_open_closes_further_than_it_opens() -> None:
     found, axis = answered(open_lid, LID, JointType.REVOLUTE, (-85 * DEG, 20 * DEG))
     assert found == pytest.approx((-85 * DEG, 20 * DEG), abs=2 * DEG)
-    assert axis == pytest.approx(-X)  # opening swings the top edge backwards
+    assert axis == pytest.approx(-X)  # opening moves the top edge backwards
 
 
 def test_the_opening_direction_follows_the_answer_where_only_that_leaves_the_range_free() -> None:
@@ -86,7 +86,7 @@ def test_the_opening_direction_follows_the_answer_where_only_that_leaves_the_ran
 
 def test_the_sweep_shortens_an_answered_range() -> None:
     found, _ = answered(open_lid, LID, JointType.REVOLUTE, (-150 * DEG, 20 * DEG))
-    assert -115 * DEG < found[0] < -85 * DEG  # it lies on the walls then
+    assert -115 * DEG < found[0] < -85 * DEG  # it then rests on the walls
 
 
 def test_an_answered_stroke_of_a_button_goes_in_and_not_out() -> None:
@@ -104,6 +104,6 @@ def test_a_range_of_another_kind_of_joint_is_not_read() -> None:
     told = RecognizedLabel("door", Moves.REVOLUTE, None, (0.0, 1.5))
     assert answered_range(told, JointType.REVOLUTE) == (0.0, 1.5)
     assert answered_range(told, JointType.PRISMATIC) is None
-    assert answered_range(replace(told, limits=(0.0, 0.01)), JointType.REVOLUTE) is None  # a degree, or none
+    assert answered_range(replace(told, limits=(0.0, 0.01)), JointType.REVOLUTE) is None  # a degree or less
     assert answered_range(replace(told, limits=None), JointType.REVOLUTE) is None
     assert answered_range(None, JointType.REVOLUTE) is None

@@ -1,4 +1,4 @@
-"""How the scores of a part's motions compare with each other, and with those of its copies."""
+"""Test the comparison of motion scores within a part, and with those of its copies."""
 
 import numpy as np
 import pytest
@@ -10,7 +10,7 @@ NAMES = ("prismatic", "balance", "vertical", "outward", "above")
 
 
 def motions(*rows: tuple[np.ndarray, bool, float, float, float]) -> ScoredMotions:
-    """Axis, whether it slides, cosine with the opening direction, place between lowest -1 and highest 1, score of each."""
+    """Build motions from rows: axis, prismatic, cosine with the opening direction, height from -1 to 1, score."""
     table = np.array([[slides, 0.5, abs(axis[2]), outward, above] for axis, slides, outward, above, _ in rows])
     return ScoredMotions.of(NAMES, table, np.array([axis for axis, *_ in rows]), np.array([row[-1] for row in rows]))
 

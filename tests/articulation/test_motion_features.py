@@ -1,4 +1,4 @@
-"""The features of motions on scenes whose values follow by hand, and what they do not depend on."""
+"""Test the features of motions on scenes with known values, and their invariances."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ OUT = Motion(MotionKind.PRISMATIC, -Y, np.zeros(3), "out")
 
 
 def features(scene: Scene, motion: Motion, role: str = "edge", T: np.ndarray | None = None) -> list[dict[str, float]]:
-    """The features of a motion of the scene's one part, opening along its axis and against it."""
+    """Return the features of a motion of the scene's only part, opening along its axis and against it."""
     mesh, segmentation = built(scene)
     whole = object_shape(mesh if T is None else mesh.transformed(T), 0, labels=segmentation.face_part)
     (only,) = make_cases(whole, segmentation, None, Config())
@@ -31,7 +31,7 @@ def features(scene: Scene, motion: Motion, role: str = "edge", T: np.ndarray | N
 
 def test_a_door_about_its_left_edge_and_about_its_free_edge() -> None:
     inwards, outwards = features(door("right"), LEFT_EDGE)
-    assert outwards["opening"] > 0.9 > 0.1 > outwards["closing"]  # half turns
+    assert outwards["opening"] > 0.9 > 0.1 > outwards["closing"]  # in half turns
     assert (inwards["opening"], inwards["closing"]) == (outwards["closing"], outwards["opening"])
     assert outwards["outward"] == pytest.approx(1, abs=0.05)
     assert inwards["outward"] == -outwards["outward"]
@@ -60,7 +60,7 @@ def test_a_lid_about_its_back_edge_rises() -> None:
 def test_a_drawer_slides_out_and_is_held() -> None:
     out, back = features(drawer(), OUT, "slide")
     assert out["prismatic"] == 1
-    assert out["opening"] > 1 > back["opening"]  # of its own size
+    assert out["opening"] > 1 > back["opening"]  # relative to its own size
     assert out["visible ahead"] > 0.95
     assert out["guided"] >= 0.75
     assert out["depth"] > 1
@@ -77,7 +77,7 @@ def test_a_wheel_is_round_about_its_axle_and_has_contact_all_around_it() -> None
     assert found["contact around the axis"] == 1
     assert found["opening"] == found["closing"] == pytest.approx(1)
     rim = Motion(MotionKind.REVOLUTE, Y, np.array([0.1, -0.035, 0.2]), "rim")
-    assert features(wheel(), rim)[0]["rotational misfit"] == MISSING  # far from its middle
+    assert features(wheel(), rim)[0]["rotational misfit"] == MISSING  # far from its center
 
 
 def test_a_square_is_itself_after_a_quarter_turn_and_a_bracket_is_not() -> None:

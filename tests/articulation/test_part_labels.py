@@ -1,4 +1,4 @@
-"""The word for a part follows from its motion, and what hardly moves has none."""
+"""Test the label of a part from its motion; a part that hardly moves has none."""
 
 import numpy as np
 import pytest
@@ -13,7 +13,7 @@ from anymesh.types import Part, Segmentation
 
 
 def chest(stop: bool) -> list:
-    """A case with one drawer and its grip; a bar before it where it is to be stopped."""
+    """Return a case with one drawer and its handle, and optionally a bar in front that stops it."""
     walls = [box((0, 0, 0), (0.6, 0.4, 0.02)), box((0, 0, 0.28), (0.6, 0.4, 0.3)), box((0.02, 0.38, 0.02), (0.58, 0.4, 0.28))]
     walls += [box((x, 0, 0.02), (x + 0.02, 0.4, 0.28)) for x in (0, 0.58)]
     front = [box((0.025, 0, 0.025), (0.575, 0.02, 0.275)), box((0.2, -0.03, 0.14), (0.4, 0, 0.15))]
@@ -23,7 +23,7 @@ def chest(stop: bool) -> list:
 
 
 def label(solids: list, moving: list[int]) -> str:
-    """The label of one part of an object."""
+    """Return the label of one part of an object."""
     mesh, number = mesh_of(solids)
     segmentation = Segmentation(np.isin(number, moving).astype(np.int64), (Part("base", "base"), Part("it", "part")))
     whole = object_shape(mesh, 0, labels=segmentation.face_part)

@@ -1,4 +1,4 @@
-"""What copies, levers, buttons and parts that are stuck in the rest tell of their joints."""
+"""Test joints of repeated parts, levers, buttons and parts that overlap the base."""
 
 from dataclasses import replace
 
@@ -14,7 +14,7 @@ from anymesh.types import JointType, MotionKind
 
 
 def pair(grips: str) -> Scene:
-    """Two leaves before a case that is open in front, a grip on the left or on both; they meet in the middle."""
+    """Return two panels that meet in the middle of a case, open in front, with a handle on the left one or on both."""
     left, right = (box((x, -0.022, 0.002), (x + 0.297, -0.002, 0.798)) for x in (0.002, 0.301))
     grip = box((0.25, -0.06, 0.35), (0.265, -0.022, 0.45))
     other = box((0.335, -0.06, 0.35), (0.35, -0.022, 0.45))
@@ -22,7 +22,7 @@ def pair(grips: str) -> Scene:
 
 
 def floorless(count: int) -> Scene:
-    """Drawers one above the other between two walls and below a top; nothing is under the lowest."""
+    """Return drawers above each other between two walls and below a top, with nothing under the lowest."""
     high = 0.2 * count
     walls = [box((x, 0, 0), (x + 0.02, 0.4, high)) for x in (0, 0.58)]
     scene: Scene = {"base": [*walls, box((0.02, 0.38, 0), (0.58, 0.4, high)), box((0, 0, high), (0.6, 0.4, high + 0.02))]}
@@ -49,7 +49,7 @@ def test_a_leaf_without_a_grip_does_as_its_copy_with_one() -> None:
         assert abs(joint.axis[2]) == pytest.approx(1, abs=1e-6)
         assert abs(joint.origin[0] - x) < 0.02
         opened = np.cross(joint.axis, np.array([0.3 - joint.origin[0], 0, 0]))
-        assert opened[1] < 0  # towards who stands in front
+        assert opened[1] < 0  # towards the front
 
 
 def test_copies_that_agree_change_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -80,7 +80,7 @@ def test_a_mark_on_a_round_pin_speaks_for_a_turn() -> None:
     pin, mark = prism(0.045, (-0.08, 0.015), 0.0, 0.0), box((-0.012, -0.11, 0.0), (0.012, -0.08, 0.044))
 
     def lead(pieces: list[Piece]) -> float:
-        """Log-odds of the best turn over those of the best slide."""
+        """Return the log-odds of the best rotation minus those of the best slide."""
         mesh, segmentation = built({"base": WALL, "pin": pieces})
         whole = object_shape(mesh, 0, labels=segmentation.face_part)
         _, _, _, question = next(iter(estimate.motion_questions(whole, segmentation, Config())))
@@ -105,7 +105,7 @@ def test_a_lever_that_is_free_both_ways_is_pressed_down() -> None:
 
 
 def test_a_deep_drawer_needs_no_carving() -> None:
-    """A stuck part is set free by ignoring as little as will do: what is free keeps its range."""
+    """Static geometry is only ignored as far as necessary, so a free part keeps its range."""
     free = joints_of(drawer())["box"]
     assert free.limits is not None
     assert 0.28 < free.limits[1] < 0.35

@@ -1,4 +1,4 @@
-"""Joints of scenes whose motion is plain: of which type, about which line, which way, how far; and the same in any frame."""
+"""Test joints of scenes with obvious motions: type, line, direction and range, and their invariance to the frame."""
 
 from functools import cache
 
@@ -19,7 +19,7 @@ SCENES = {
     "lid": lid(),
     "slider": slider(),
 }
-THICK = 0.021  # [m] of the plates: which edge of a plate's rim is the hinge cannot be seen
+THICK = 0.021  # [m] thickness of the plates: the hinge may be at either edge of a plate's rim
 
 
 @cache
@@ -42,7 +42,7 @@ def test_a_door_turns_outwards_about_the_side_away_from_its_grip(grip: str, hing
     assert joint.type is JointType.REVOLUTE
     assert abs(joint.axis[2]) == pytest.approx(1, abs=1e-6)
     assert off_line(joint, (hinge_x, -0.012, 0)) < THICK
-    assert after(joint, (0.6 - hinge_x, -0.012, 0.4), 0.3)[1] < -0.1  # towards who stands in front
+    assert after(joint, (0.6 - hinge_x, -0.012, 0.4), 0.3)[1] < -0.1  # towards the front
     assert joint.limits == (0, pytest.approx(np.deg2rad(110), abs=0.05))
 
 
@@ -90,7 +90,7 @@ def test_joints_move_with_the_scene(name: str, T: np.ndarray) -> None:
     at_home, factor = found(name), float(np.linalg.norm(T[:3, 0]))
     (joint,) = joints_of(SCENES[name], T).values()
     axis = T[:3, :3] @ at_home.axis / factor
-    endless = joint.type is JointType.CONTINUOUS  # neither way of turning opens
+    endless = joint.type is JointType.CONTINUOUS  # neither direction opens
     assert joint.type is at_home.type
     assert (abs(joint.axis @ axis) if endless else joint.axis @ axis) > np.cos(np.deg2rad(0.5))
     if joint.type is not JointType.PRISMATIC:
@@ -101,18 +101,18 @@ def test_joints_move_with_the_scene(name: str, T: np.ndarray) -> None:
 
 
 def inside(points: np.ndarray, boxes, margin: float) -> np.ndarray:
-    """Which points lie deeper than the margin in one of the boxes."""
+    """Return which points lie deeper than the margin in one of the boxes."""
     return np.any([((points > v.min(0) + margin) & (points < v.max(0) - margin)).all(1) for v, _ in boxes], axis=0)
 
 
 def grid(pieces) -> np.ndarray:
-    """Points throughout boxes."""
+    """Return points throughout boxes."""
     unit = np.stack(np.meshgrid(*[np.linspace(0, 1, 9)] * 3), -1).reshape(-1, 3)
     return np.concatenate([v.min(0) + unit * np.ptp(v, axis=0) for v, _ in pieces])
 
 
 def stopped_door() -> Scene:
-    """A door with a post that it meets at a right angle."""
+    """Return a door with a post that it hits at a right angle."""
     scene = door("left")
     return {**scene, "base": [*scene["base"], box((0.63, -0.6, 0), (0.66, -0.5, 0.8))]}
 

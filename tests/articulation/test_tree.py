@@ -1,4 +1,4 @@
-"""Who hangs on whom."""
+"""Test the parents of parts."""
 
 import numpy as np
 import pytest
@@ -63,7 +63,7 @@ BESIDE = {
     [
         ([set(), set(), {1}, set()], 1),  # it touches the base as well
         ([set(), set(), {0}, set()], 0),
-        ([set(), set(), {1, 3}, set()], 1),  # the nearest of those that are named
+        ([set(), set(), {1, 3}, set()], 1),  # the nearest of the named ones
         ([set(), set(), {2}, set()], 0),  # not on itself
         ([set(), set(), {3}, set()], 0),  # out of reach: geometry decides
         (None, 0),

@@ -1,4 +1,4 @@
-"""An answer is one more hypothesis: it is shown with the part's own axes and the likeliest motions; no two look alike."""
+"""Test the motions shown for verification: the answer, the part's own axes and the likeliest others, without duplicates."""
 
 from dataclasses import replace
 from functools import cache
@@ -52,7 +52,7 @@ def offers(name: str, asked: Motion | None = None, kind: JointKind = JointKind.H
 
 
 def shown(name: str, asked: Motion | None, kind: JointKind, most: int = MOST) -> list[Candidate]:
-    """The motions of the first picture, likeliest first."""
+    """Return the motions of the first picture, likeliest first."""
     found = offers(name, asked, kind, most)
     return [found.motions[k] for k in sorted(found.first)]
 
@@ -64,7 +64,7 @@ def moved(c: Candidate, case: PartCase, amount: float) -> np.ndarray:
 
 
 def apart(a: Candidate, b: Candidate, case: PartCase) -> float:
-    """How far apart two motions take a part, both as far as the one that is shown further; in units of what is too near."""
+    """Return the distance of a part after two motions by the larger displayed amount, relative to the limit for duplicates."""
     if a.motion.kind is not b.motion.kind:
         return np.inf
     amount = max(shown_amount(a, case), shown_amount(b, case), key=abs)
@@ -103,7 +103,7 @@ def test_the_true_motion_is_among_them_whatever_was_answered(name: str, kind: Jo
 
 @pytest.mark.parametrize("off", [(0, 0.012), (0.01, 0.0), (0.008, -0.008)])
 def test_lines_that_nobody_can_tell_apart_are_one_however_far_each_is_free(off: tuple[float, float]) -> None:
-    """Hinges about a centimetre beside the door's own, one of them inside the case and soon blocked."""
+    """The hinges are about a centimetre beside the door's own, one of them inside the case and soon blocked."""
     asked = turn(Z, (0.002 + off[0], -0.012 + off[1], 0))
     found = offers("left", asked)
     along = [c for c in shown("left", asked, JointKind.HINGE_ALONG) if abs(c.motion.axis @ Z) > 0.99 and c.is_free]
@@ -114,14 +114,14 @@ def test_lines_that_nobody_can_tell_apart_are_one_however_far_each_is_free(off: 
 
 
 def blocked_door() -> Scene:
-    """A door beside a wall at its right."""
+    """Return a door with a wall at its right."""
     scene = door("left")
     return {**scene, "base": [*scene["base"], box((0.602, -0.7, 0), (0.64, 0.4, 0.8))]}
 
 
-GRIP_SIDE = turn(Z, (0.002, -0.012, 0))  # of the door, whose grip is at its left
+GRIP_SIDE = turn(Z, (0.002, -0.012, 0))  # of the door, whose handle is at its left
 FAR_SIDE = turn(Z, (0.598, -0.012, 0))
-THROUGH = turn(Z, (0.3, 0.2, 0))  # in the middle of the case: the leaf would be swung through its sides
+THROUGH = turn(Z, (0.3, 0.2, 0))  # in the middle of the case: the panel would pass through its sides
 BEYOND = turn(Z, (0.7, -0.012, 0))
 BELOW = turn(X, (0.3, -0.022, 0.002))
 TO_THE_RIGHT = Motion(MotionKind.PRISMATIC, X, np.array([0.3, -0.012, 0.4]), "picked")
@@ -141,7 +141,8 @@ def test_an_answer_that_is_blocked_is_shown_and_marked_so(name: str, asked: Moti
     assert found.answered is not None
     assert found.answered in found.first
     assert found.table((found.answered,)).blocked == (True,)
-    assert found.table((found.answered,)).amounts[0] > np.deg2rad(30) * (asked.kind is MotionKind.REVOLUTE)  # enough to be seen
+    # enough to be visible
+    assert found.table((found.answered,)).amounts[0] > np.deg2rad(30) * (asked.kind is MotionKind.REVOLUTE)
 
 
 @pytest.mark.parametrize("name", ["wheel", "left"])
@@ -189,15 +190,15 @@ def test_a_hinge_on_the_side_of_the_grip_comes_behind_the_other_side() -> None:
     assert candidates_of("left", GRIP_SIDE)[0].is_free
     found = shown("left", GRIP_SIDE, JointKind.HINGE_ALONG)
     upright = [c.motion.origin[0] for c in found if c.motion.kind is MotionKind.REVOLUTE and c.vertical > 0.9]
-    assert upright[0] == pytest.approx(0.6, abs=0.03)  # away from the grip
-    assert min(upright) < 0.02  # what was answered can still be chosen
+    assert upright[0] == pytest.approx(0.6, abs=0.03)  # away from the handle
+    assert min(upright) < 0.02  # the answered motion can still be chosen
 
 
 @pytest.mark.parametrize("most", [2, 3, 6])
 @pytest.mark.parametrize("asked", [GRIP_SIDE, FAR_SIDE, BEYOND, BELOW], ids=["grip", "far", "beyond", "below"])
 def test_a_free_answer_or_one_that_looks_like_it_stays_among_them(asked: Motion, most: int) -> None:
     first = candidates_of("left", asked)[0]
-    found = shown("left", asked, JointKind.SLIDE_OUT, most)  # as if the answer went against its own kind
+    found = shown("left", asked, JointKind.SLIDE_OUT, most)  # as if the answer contradicted its own kind
     assert first.is_free
     assert len(found) <= most
     assert any(apart(first, c, case_of("left")) <= 1.3 for c in found)

@@ -1,4 +1,4 @@
-"""What a user does with an asset: put a ball in an opened drawer, reach into an opened cupboard."""
+"""Test typical uses of an asset: a ball in an open drawer, and a hand in an open cupboard."""
 
 from pathlib import Path
 
@@ -13,16 +13,16 @@ from anymesh.rendering.raycast_ import RayScene
 from anymesh.types import Asset, JointType
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
-BALL = 0.03  # of the object's diagonal, its radius
+BALL = 0.03  # of the object's diagonal: radius of the ball
 
 
 def true_asset(name: str) -> Asset:
-    """A shipped example with its true parts and joints."""
+    """Return a shipped example with its true parts and joints."""
     return prepared(read_ground_truth(EXAMPLES / "truth" / f"{name}.json", EXAMPLES / "meshes" / f"{name}.glb")).asset()
 
 
 class World:
-    """A written asset in MuJoCo with a free ball. Some joints are held at their upper limit, others at rest."""
+    """A written asset in MuJoCo with a free ball. Some joints are fixed at their upper limit, others at rest."""
 
     def __init__(self, folder: Path, asset: Asset, opened: set[str]) -> None:
         write_asset(asset, folder)
@@ -48,7 +48,7 @@ class World:
             self.data.joint(name).qpos, self.data.joint(name).qvel = value, 0
 
     def drop(self, point, seconds: float = 1.5) -> np.ndarray:
-        """Where the ball is after it was let go."""
+        """Return the position of the ball after it was dropped."""
         self.place(point)
         for _ in range(round(seconds / self.model.opt.timestep)):
             self._held()
@@ -56,7 +56,7 @@ class World:
         return self.data.body("ball").xpos.copy()
 
     def touched(self, point) -> bool:
-        """Whether the ball, placed there, touches anything."""
+        """Return whether the ball at this point touches anything."""
         self.place(point)
         pairs = self.data.contact.geom[: self.data.ncon]
         return bool((pairs == self.geom).any())
@@ -69,7 +69,7 @@ def box_of(asset: Asset, part: str) -> np.ndarray:
 
 
 def open_place(asset: Asset, low, high, way, radius: float) -> np.ndarray:
-    """The place behind a door, nearest to its middle, from where the body's surface leaves half of `way` free for a ball."""
+    """Return the place behind a door, nearest to its center, from which half of `way` is free of the base for a ball."""
     mesh = asset.mesh.subset(asset.segmentation.face_part == 0)
     scene = RayScene(mesh.vertices, mesh.faces)
     across = [i for i in range(3) if way[i] == 0]
@@ -113,7 +113,7 @@ def test_a_probe_enters_behind_every_opened_door_and_a_ball_stays(name, part, tm
         low, high = box_of(asset, door.child)
         depth = int(np.argmin(high - low))
         way = np.zeros(3)
-        way[depth] = np.sign(body.mean(0)[depth] - (low + high)[depth] / 2)  # from the door into the body
+        way[depth] = np.sign(body.mean(0)[depth] - (low + high)[depth] / 2)  # from the door into the base
         start = open_place(asset, low, high, way * np.ptp(body[:, depth]), world.radius)
         free = [not world.touched(start + way * share * np.ptp(body[:, depth])) for share in np.linspace(-0.3, 0.45, 9)]
         assert all(free), (door.child, free)

@@ -1,4 +1,4 @@
-"""A component whose division fails costs that component its way of division, and the asset says so."""
+"""Test that a failed division of a component falls back to another method for it, with a warning in the asset."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def triangles(*pieces) -> np.ndarray:
 
 
 def bracket() -> Component:
-    """An L of two blocks, 1 x 1 x .2 and 1 x .2 x 1, closed, cut from one outline."""
+    """Return an L of two blocks, 1 x 1 x 0.2 and 1 x 0.2 x 1, closed, extruded from one outline."""
     outline = np.array([[0, 0], [1, 0], [1, 0.2], [0.2, 0.2], [0.2, 1], [0, 1]], float)
     n = len(outline)
     low, high = (np.c_[np.full(n, x), outline] for x in (0.0, 1.0))
@@ -38,7 +38,7 @@ def bracket() -> Component:
 
 
 class FakePool(ChildPool):
-    """Fails for some methods as a child would, and divides here for the others."""
+    """Fails for some methods like a child process, and divides in this process for the others."""
 
     def __init__(self, *failing: Method, failure: Failure = Failure.CRASH) -> None:
         super().__init__(2)
@@ -127,7 +127,7 @@ def test_what_a_fallback_made_is_not_kept(tmp_path):
     for _ in range(2):
         (found,) = Decomposer(pool, tmp_path, 30.0).divide([bracket()], [FINE])
         assert found.fallback is None
-    assert pool.calls == [(Method.CUTS, 1)]  # the second time it comes from the cache
+    assert pool.calls == [(Method.CUTS, 1)]  # the second result comes from the cache
 
 
 def test_copies_are_divided_once():

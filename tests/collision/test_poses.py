@@ -1,4 +1,4 @@
-"""The poses that collision shapes are tried at: as forward kinematics places links, and bounded in number."""
+"""Test the sampled poses of collision shapes: equal to forward kinematics, and limited in number."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from anymesh.types import Asset, Part, Segmentation
 
 
 def row(count: int) -> Asset:
-    """A base and so many blocks that slide, each beside the last."""
+    """Return a base and `count` sliding blocks in a row."""
     pieces = [box((0, 0, 0), (1, 1, 0.1)), *(box((0.1 * k, 1.2, 0), (0.1 * k + 0.05, 1.3, 0.1)) for k in range(count))]
     mesh, part = mesh_of(pieces)
     names = ["base", *(f"block_{k}" for k in range(count))]
@@ -60,7 +60,7 @@ def test_many_joints_get_fewer_places_each():
 
 
 def test_overlaps_are_found_among_all_pairs():
-    """As among the links that one looks at two at a time."""
+    """The result equals that of separate scenes of two links each."""
     rng = np.random.default_rng(0)
     solids = {f"link_{k}": _turned_box(rng) for k in range(12)}
     poses = [{name: np.eye(4) for name in solids}]

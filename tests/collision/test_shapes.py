@@ -1,4 +1,4 @@
-"""Convex shapes of links: near the surface, thin where it is thin, and fitted by what is simpler."""
+"""Test convex shapes of links: close to the surface, thin for thin surfaces, and replaced by primitives that fit."""
 
 from dataclasses import replace
 
@@ -30,7 +30,7 @@ def turned(points, seed=4):
 
 
 def open_box(size=(0.6, 0.4, 0.5)):
-    """Five single-sided walls; the front (-y) is open."""
+    """Return five single-sided walls; the front (-y) is open."""
     v, f = box((0, 0, 0), size)
     t = v[f]
     return t[~(t[:, :, 1] == 0).all(1)]
@@ -43,7 +43,7 @@ def collision_of(asset: Asset, **changes):
 
 
 def inside(shapes, points):
-    """Which points lie in a shape."""
+    """Return which points lie in a shape."""
     found = np.zeros(len(points), bool)
     for shape in shapes:
         hull = as_hull(shape)
@@ -137,7 +137,7 @@ def test_flat_and_empty_links_get_a_thickness():
     (shape,) = component_shapes(component, FINE)
     assert isinstance(shape, Box)
     np.testing.assert_allclose(np.sort(shape.size), [FINE.wall, 1, 1], atol=1e-9)
-    assert shape.center[2] == pytest.approx(-FINE.wall / 2)  # behind the face that is seen
+    assert shape.center[2] == pytest.approx(-FINE.wall / 2)  # behind the visible face
     nothing = smallest_box(np.zeros((1, 3, 3)), 0.002)
     np.testing.assert_allclose(as_hull(nothing).vertices.max(0), [0.001] * 3)
 
@@ -162,7 +162,10 @@ def at(*place):
 
 
 def sliding(gap: float, depth: float = 0.0, wall: float = 0.03) -> Asset:
-    """A solid case with a tight drawer, `gap` [m] of clearance; depth: how far the drawer sticks in the floor [m]."""
+    """Return a solid case with a tight drawer.
+
+    gap: clearance [m]; depth: penetration of the drawer into the floor [m].
+    """
     outer = trimesh.creation.box((0.5, 0.5, 0.3))
     inner = trimesh.creation.box((0.5 - 2 * wall, 0.5, 0.3 - 2 * wall), at(0, -wall, 0))
     case = trimesh.boolean.difference([outer, inner], engine="manifold")
@@ -178,7 +181,7 @@ def sliding(gap: float, depth: float = 0.0, wall: float = 0.03) -> Asset:
 
 def test_a_tight_drawer_is_free_and_open_after_clearing():
     coarse = collision_of(sliding(0.002), gaps=(0.3,), rounds=0)
-    assert coarse.tight == (("case", "tray"),)  # one hull each fills the case, as the test needs it
+    assert coarse.tight == (("case", "tray"),)  # one hull each fills the case, as this test requires
     found = collision_of(sliding(0.002), gaps=(0.3, 0.006))
     assert found.false_before > 0
     assert found.tight == ()

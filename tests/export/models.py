@@ -1,4 +1,4 @@
-"""Models for the writers: test assets with a few collision shapes a link, chosen by hand."""
+"""Models for the writers: test assets with a few collision shapes per link, chosen by hand."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ TURNED = np.array([[2, -2, 1], [1, 2, 2], [-2, -1, 2]]) / 3  # a rotation about 
 
 
 def hull(points: np.ndarray) -> Hull:
-    """The convex hull of points, faces outward."""
+    """Return the convex hull of points, with outward faces."""
     found = ConvexHull(points)
     used, faces = np.unique(found.simplices, return_inverse=True)
     faces = faces.reshape(-1, 3)
@@ -34,7 +34,7 @@ def hull(points: np.ndarray) -> Hull:
 
 
 def shapes_of(link: Link, index: int) -> tuple[Shape, ...]:
-    """One hull for the whole link; the first link two, the second a box and a cylinder beside."""
+    """Return one hull for the whole link; the first link has two, the second also a box and a cylinder."""
     corners = link.triangles.reshape(-1, 3)
     whole = hull(corners)
     low, high = corners.min(0), corners.max(0)
@@ -58,7 +58,7 @@ def model_of(
     like: Model | None = None,
     driven: Driven = Driven.POSITION,
 ) -> Model:
-    """A model of an asset, with its inertia; its shapes are those of `like` where that is given."""
+    """Return a model of an asset, with its inertia; its shapes are those of `like` if given."""
     asset = with_legal_names(asset)
     links = split_links(asset)
     shapes = [shapes_of(link, i) for i, link in enumerate(links)] if like is None else [b.shapes for b in like.bodies]
@@ -67,20 +67,20 @@ def model_of(
 
 
 def with_meshes(model: Model, folder: Path) -> Path:
-    """The folder with the model's meshes, which most writers refer to."""
+    """Write the model's meshes, which most formats refer to; return the folder."""
     write_meshes(model, folder, CONFIG)
     return folder
 
 
 def jpeg() -> bytes:
-    """A JPEG of two greens."""
+    """Return a JPEG of two greens."""
     file = io.BytesIO()
     Image.fromarray(np.indices((16, 16)).sum(0).astype(np.uint8)[..., None] * np.uint8([2, 8, 3])).save(file, "JPEG")
     return file.getvalue()
 
 
 def desk() -> Asset:
-    """Five levels deep with odd numbers, names shared by links and joints, links of several materials, every texture slot."""
+    """Return an asset with five levels, odd numbers, shared names, several materials per link, and every texture slot."""
     pieces = [box((0.37 * i, 0.11 * i, 0.05), (0.37 * i + 0.3, 0.11 * i + 0.2, 0.3)) for i in range(6)]
     part_of = np.repeat(np.arange(6), 12)
     face_material = np.array([0, 1, 2, -1, 3, 0])[part_of]

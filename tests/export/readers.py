@@ -1,4 +1,4 @@
-"""What each format says, read by others than the code that wrote it: yourdfpy, MuJoCo, OpenUSD; SDFormat and GLB here."""
+"""Content of each format, read independently of the writers: yourdfpy, MuJoCo, OpenUSD; SDFormat and GLB here."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ KINDS = {"revolute": "turn", "continuous": "turn", "prismatic": "slide", "fixed"
 
 @dataclass
 class Body:
-    """mass, centre in the link frame, tensor about it along the link frame's axes; collision: supports in the link frame."""
+    """mass, center in the link frame, tensor about it along the link frame's axes; collision: supports in the link frame."""
 
     mass: float
     center: np.ndarray
@@ -31,7 +31,7 @@ class Body:
 
 @dataclass
 class Read:
-    """joints: name -> what is said of it; absent keys are what the format has no word for."""
+    """Content of a file. joints: name -> values; absent keys are those that the format cannot express."""
 
     joints: dict[str, dict]
     bodies: dict[str, Body]
@@ -73,7 +73,7 @@ def obj_points(path: Path) -> np.ndarray:
 
 
 def chain(joints: dict[str, dict], root: str, local: Callable[[dict, float], np.ndarray]) -> Poses:
-    """Poses down a tree of joints; `local` is parent frame to child frame at a position."""
+    """Return poses down a tree of joints; `local` maps parent frame to child frame at a position."""
 
     def poses(positions: dict[str, float]) -> dict[str, np.ndarray]:
         found, waiting = {root: np.eye(4)}, dict(joints)
@@ -281,7 +281,7 @@ def read_usd(folder: Path, name: str) -> Read:
     root = (set(bodies) - {j["child"] for j in joints.values()}).pop()
     move = chain(joints, root, lambda j, q: j["before"] @ motion(KINDS[j["type"]], j["axis"], q) @ j["after"])
     for link, T in move({}).items():
-        np.testing.assert_allclose(placed[link], T, atol=1e-6)  # links stand where the joints hold them
+        np.testing.assert_allclose(placed[link], T, atol=1e-6)  # links are where the joints place them
     return Read(joints, bodies, move, fixed)
 
 
@@ -327,7 +327,7 @@ def read_glb(folder: Path, name: str) -> Read:
             joints[said["name"]]["rest"] = frame(child.get("translation", (0, 0, 0)))
             if said["type"] == "fixed":
                 del joints[said["name"]]["limits"]
-    scene = trimesh.load(folder / f"{name}.glb")  # an outside reader of the tree at rest
+    scene = trimesh.load(folder / f"{name}.glb")  # independent reader of the tree at rest
     up = frame(rotation=Rotation.from_quat(nodes[0]["rotation"]).as_matrix())
     move = chain(joints, nodes[1]["name"], lambda j, q: j["rest"] @ motion(KINDS[j["type"]], j["axis"], q))
     for link, T in move({}).items():

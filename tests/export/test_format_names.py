@@ -1,4 +1,4 @@
-"""The closed set of formats, and its errors."""
+"""Test the set of formats, and its errors."""
 
 import sys
 
@@ -13,7 +13,7 @@ from anymesh.export.formats import DEFAULT, WRITERS, Format, main_file, parse_fo
 def test_formats_are_read_once_each_in_the_order_of_the_set():
     assert parse_formats("glb, URDF,glb") == (Format.URDF, Format.GLB)
     assert parse_formats(",".join(Format)) == tuple(Format)
-    assert Format.USD not in DEFAULT  # it needs the extra
+    assert Format.USD not in DEFAULT  # requires the extra
 
 
 @pytest.mark.parametrize("text", ["", " , ", "urdf,stl", "xml"])

@@ -1,4 +1,4 @@
-"""Every format says the same: joint frames, limits, resistance, drives, poses, inertia, collision, base."""
+"""Test that all formats agree: joint frames, limits, resistance, drives, poses, inertia, collision, base."""
 
 from functools import cache
 from pathlib import Path
@@ -22,7 +22,7 @@ CLOSE = {"atol": 1e-5, "rtol": 1e-6}
 
 @pytest.fixture(scope="module")
 def written(tmp_path_factory):
-    """Writes an asset in all formats, once."""
+    """Write an asset in all formats, once."""
 
     @cache
     def write(name: str, base: Base):
@@ -62,7 +62,8 @@ def test_joints_say_the_same(written, name, kind):
     model, found = read(written, name, kind)
     motors = drives(model)
     rename = joint_names(model) if kind == "sdf" else {}
-    moving = [j for j in model.asset.joints if kind != "mjcf" or j.type is not JointType.FIXED]  # a child is enough there
+    # in MJCF a nested body is enough
+    moving = [j for j in model.asset.joints if kind != "mjcf" or j.type is not JointType.FIXED]
     assert set(found.joints) == {rename.get(j.name, j.name) for j in moving}
     for j in moving:
         said = found.joints[rename.get(j.name, j.name)]
@@ -81,7 +82,7 @@ def test_joints_say_the_same(written, name, kind):
 
 
 def documented_gaps() -> set[tuple[str, str]]:
-    """(format, concept) of the cells that say GAP."""
+    """Return (format, concept) of the cells that say GAP."""
     rows = [line.strip("|\n").split(" | ") for line in DOCS.read_text().splitlines() if line.startswith("|")]
     heads = [cell.strip().lower() for cell in rows[0]]
     return {(heads[i], row[0].strip()) for row in rows[2:] for i, cell in enumerate(row) if cell.strip().startswith("GAP")}
@@ -108,7 +109,7 @@ def test_mass_and_collision_are_the_same(written, name, kind):
 
 
 def reach(shape, d) -> float:
-    """How far a shape reaches in a direction."""
+    """Return the support of a shape in a direction."""
     match shape:
         case Box():
             return float(d @ shape.center + np.abs(d @ shape.rotation) @ shape.size / 2)

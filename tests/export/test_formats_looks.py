@@ -1,4 +1,4 @@
-"""Textures and materials stay with their part in every format."""
+"""Test that textures and materials stay with their part in every format."""
 
 import io
 import json
@@ -18,7 +18,7 @@ from anymesh.types.color import to_srgb
 
 @dataclass
 class Shown:
-    """Some triangles of a link: how many, the pixels of their base colour (None: plain), the display colour."""
+    """Triangles of a link: their number, the pixels of their base colour (None: plain), the display colour."""
 
     count: int
     pixels: np.ndarray | None
@@ -38,7 +38,7 @@ def written(request, tmp_path_factory):
 
 
 def expected(model) -> dict[str, list[Shown]]:
-    """Straight from the asset."""
+    """Return the expected values, directly from the asset."""
     mesh, found = model.asset.mesh, {}
     for index, part in enumerate(model.asset.segmentation.parts):
         faces = model.asset.segmentation.faces(index)

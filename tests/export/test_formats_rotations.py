@@ -1,4 +1,4 @@
-"""Rotations as the formats write them, against SciPy."""
+"""Test the rotations of the formats against SciPy."""
 
 import numpy as np
 import pytest

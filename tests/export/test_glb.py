@@ -1,4 +1,4 @@
-"""The GLB against the glTF 2.0 specification, a small player written for these tests, and trimesh."""
+"""Test the GLB against the glTF 2.0 specification, a small player written for these tests, and trimesh."""
 
 import json
 from dataclasses import replace
@@ -23,7 +23,7 @@ TO_Y_UP = np.array([[1, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1.0]])
 
 
 class Player:
-    """Reads a GLB and evaluates its animation as the specification says."""
+    """Reads a GLB and evaluates its animation according to the specification."""
 
     def __init__(self, raw: bytes) -> None:
         length = int.from_bytes(raw[12:16], "little")
@@ -105,7 +105,7 @@ def test_tracks_show_the_whole_range_and_loop():
         if track.joint.type is not JointType.PRISMATIC:
             assert np.abs(np.diff(track.amounts)).max() <= np.deg2rad(30)
             _, keys = track.values(np.zeros(3))
-            assert (np.einsum("ij,ij->i", keys[1:], keys[:-1]) > 0).all()  # no sign jumps
+            assert (np.einsum("ij,ij->i", keys[1:], keys[:-1]) > 0).all()  # no sign changes
     assert len({float(t.times[-1]) for t in tracks(asset.joints, CONFIG)}) == 1
 
 

@@ -1,4 +1,4 @@
-"""Laws of mass, centre and inertia."""
+"""Test laws of mass, center and inertia."""
 
 import numpy as np
 import pytest
@@ -131,7 +131,7 @@ def test_a_material_by_its_name():
         assert substance_of(name) == steel, name
     assert substance_of("dark wood (matte)") == wood
     assert substance_of("Material.001") is None
-    assert substance_of("steeled") is None  # a word, not a part of one
+    assert substance_of("steeled") is None  # only whole words count
 
 
 def test_substances_have_physical_numbers():

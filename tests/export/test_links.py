@@ -1,4 +1,4 @@
-"""Parts become links: corners merged, nothing lost."""
+"""Test the conversion of parts to links: merged corners, no loss."""
 
 from dataclasses import replace
 

@@ -1,4 +1,4 @@
-"""MJCF in MuJoCo: it compiles, steps, and its drives do what they say."""
+"""Test MJCF in MuJoCo: it compiles and steps, and its drives behave as specified."""
 
 import shutil
 from dataclasses import replace
@@ -32,7 +32,7 @@ def test_it_steps_without_a_warning(make, base, tmp_path):
     assert not any(w.number for w in data.warning)
     assert np.isfinite(data.qpos).all()
     if base is Base.FREE:
-        assert data.qpos[2] < -0.5  # gravity is on and nothing holds it
+        assert data.qpos[2] < -0.5  # it falls under gravity
 
 
 def test_the_file_moves_with_its_folder(tmp_path):
@@ -46,7 +46,7 @@ def test_the_file_moves_with_its_folder(tmp_path):
 
 
 def stronger(asset):
-    """The asset with joints that can carry what hangs on them."""
+    """Return the asset with joints strong enough for their load."""
     return replace(asset, joints=tuple(replace(j, effort=1e5) for j in asset.joints))
 
 
@@ -97,7 +97,7 @@ def test_an_asset_is_passive_unless_position_drives_are_asked_for(tmp_path):
     data = mujoco.MjData(read)
     data.joint("slide").qpos = 0.1
     mujoco.mj_forward(read, data)
-    assert not data.actuator_force.any()  # pulled out, the drawer is left where it is
+    assert not data.actuator_force.any()  # the open drawer is not moved
     data.ctrl[:] = 1e9
     mujoco.mj_forward(read, data)
     np.testing.assert_allclose(np.sort(data.actuator_force), sorted(j.effort for j in cabinet().joints if j.type != "fixed"))

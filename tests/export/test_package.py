@@ -1,4 +1,4 @@
-"""The ROS package and the zip of a written asset."""
+"""Test the ROS package and the zip of a written asset."""
 
 import zipfile
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""What only SDFormat says; poses and limits are compared in test_formats_agree.py."""
+"""Test what is specific to SDFormat; poses and limits are compared in test_formats_agree.py."""
 
 from xml.etree import ElementTree
 
@@ -45,7 +45,7 @@ def test_names_are_unique_among_links_and_joints_together():
 @pytest.mark.parametrize("base", Base)
 def test_no_model_is_static(base):
     root = parsed(model_of(cabinet(), base=base))
-    assert root.find("static") is None  # it would hold the joints too
+    assert root.find("static") is None  # it would also fix the joints
     assert len(root.findall("joint")) == 3 + (base is Base.FIXED)
 
 

@@ -1,4 +1,4 @@
-"""The URDF as two outside readers see it."""
+"""Test the URDF with two independent readers."""
 
 import os
 from dataclasses import replace
@@ -20,7 +20,7 @@ ASSETS = {"cabinet": cabinet, "slanted": slanted, "desk": desk}
 
 
 def write(asset, folder):
-    """Writes the URDF and the meshes; returns the model."""
+    """Write the URDF and the meshes; return the model."""
     model = model_of(asset)
     write_formats(model, with_meshes(model, folder), [Format.URDF], CONFIG)
     return model
@@ -59,7 +59,7 @@ def test_yourdfpy_reads_the_same_joints_and_poses(written):
 
 
 def ordered(triangles):
-    """Triangles sorted by their corners, for an OBJ lists them by material."""
+    """Return triangles sorted by their corners, since an OBJ lists them by material."""
     rows = np.round(triangles.reshape(-1, 9), 3)
     return triangles[np.lexsort(rows.T)]
 

@@ -1,4 +1,4 @@
-"""USD as OpenUSD's own validators see it, and what only USD says."""
+"""Test USD with OpenUSD's own validators, and what is specific to USD."""
 
 from dataclasses import replace
 
@@ -46,7 +46,7 @@ def test_exclusions_filter_pairs_and_only_them(tmp_path):
 
 
 def test_one_articulation_and_no_scene_in_what_others_refer_to(tmp_path):
-    asset = replace(cabinet(), name="physics_scene")  # the name that the scene beside it would have
+    asset = replace(cabinet(), name="physics_scene")  # the name of the scene beside it
     stage = stage_of(model_of(asset), tmp_path)
     root = stage.GetDefaultPrim()
     assert root.GetName() == "physics_scene"

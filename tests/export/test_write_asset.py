@@ -1,4 +1,4 @@
-"""The folder as a whole: the contract, the schema, the same bytes twice, odd names."""
+"""Test the whole folder: the contract, the schema, reproducible bytes, unusual names."""
 
 import importlib.util
 import json
@@ -20,7 +20,7 @@ SHARED = Path(__file__).parents[3] / "shared" / "check_contract.py"
 
 @pytest.fixture
 def output(tmp_path):
-    """A written cabinet with its preview, and its source mesh."""
+    """Return a written cabinet with its preview, and its source mesh."""
     folder = tmp_path / "out"
     folder.mkdir()
     asset = cabinet()

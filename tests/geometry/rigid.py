@@ -1,4 +1,4 @@
-"""Shapes of boxes, and the moves that laws are checked under."""
+"""Shapes of boxes, and rigid transforms for invariance tests."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from anymesh.geometry.triangle_set import TriangleSet, mesh_surface
 
 
 def move(seed: int, far: float = 3.0) -> np.ndarray:
-    """A random rigid move, 4x4."""
+    """Return a random rigid transform (4, 4)."""
     T = np.eye(4)
     T[:3, :3] = Rotation.random(random_state=seed).as_matrix()
     T[:3, 3] = np.random.default_rng(seed).uniform(-far, far, 3)
@@ -22,6 +22,6 @@ def apply(T: np.ndarray, points: np.ndarray) -> np.ndarray:
 
 
 def shape_of(*pieces, T: np.ndarray | None = None) -> TriangleSet:
-    """The shape of (vertices, faces) pieces, moved by T."""
+    """Return the shape of (vertices, faces) pieces, moved by T."""
     mesh, _ = mesh_of(pieces)
     return mesh_surface(mesh if T is None else mesh.transformed(T)).shape

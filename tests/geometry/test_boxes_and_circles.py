@@ -1,4 +1,4 @@
-"""Oriented boxes and round outlines keep with their points."""
+"""Test the equivariance of oriented boxes and round outlines."""
 
 import numpy as np
 import pytest
@@ -72,13 +72,13 @@ def test_a_flat_plate_has_a_flat_box():
 def test_dominant_normals_are_sign_free_and_heaviest_first():
     T = move(4)
     normals = np.repeat(T[:3, :3].T, [2, 6, 4], axis=0)
-    signs = np.r_[1, -1, 1, -1, 1, -1, 1, -1, np.ones(4)][:, None]  # the heaviest only when both signs count
+    signs = np.r_[1, -1, 1, -1, 1, -1, 1, -1, np.ones(4)][:, None]  # the heaviest only if both signs count
     found = dominant_normals(normals * signs, np.ones(12))
     np.testing.assert_allclose(np.abs(found @ T[:3, :3]), np.eye(3)[[1, 2, 0]], atol=1e-9)
     heavier = dominant_normals(normals, np.r_[9, np.ones(11)], count=1)
     np.testing.assert_allclose(np.abs(heavier @ T[:3, 0]), [1], atol=1e-9)
     assert dominant_normals(normals, np.zeros(12)).shape == (0, 3)
-    slopes = np.array([[0.49, -1, 0], [0.51, -1, 0]])  # to either side of where the sign is decided
+    slopes = np.array([[0.49, -1, 0], [0.51, -1, 0]])  # on both sides of the threshold for the sign
     slopes /= np.linalg.norm(slopes, axis=1, keepdims=True)
     np.testing.assert_allclose(np.abs(dominant_normals(slopes, np.ones(2))[0] @ [-2, -1, 0]), 0, atol=1e-3)
 

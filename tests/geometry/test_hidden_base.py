@@ -1,4 +1,4 @@
-"""What a single picture leaves open counts as filled, and nothing else does."""
+"""Test that the space behind a single picture's surfaces counts as filled, and no other."""
 
 import numpy as np
 import pytest
@@ -11,7 +11,7 @@ from anymesh.rendering.viewpoints import orbit_camera
 
 CASE, DOOR = box((0, 0, 0), (1, 1, 2)), box((0, -0.05, 0), (1, -0.01, 2))
 MESH, PART = mesh_of([CASE, DOOR])
-CAMERA = orbit_camera(MESH.bounds, 0.5, 0.4, 128)  # from the right and above: x = 1, z = 2 and the door are seen
+CAMERA = orbit_camera(MESH.bounds, 0.5, 0.4, 128)  # from the right and above: x = 1, z = 2 and the door are visible
 DEPTH = render(MESH, CAMERA).depth
 
 

@@ -1,4 +1,4 @@
-"""Forward kinematics."""
+"""Test forward kinematics."""
 
 from dataclasses import replace
 

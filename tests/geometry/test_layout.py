@@ -1,4 +1,4 @@
-"""Fronts are told from where their handles are."""
+"""Test panels inferred from the positions of their handles."""
 
 import numpy as np
 import pytest

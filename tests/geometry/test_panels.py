@@ -1,4 +1,4 @@
-"""On one closed surface without any gap, handles tell the fronts, and what has none stays whole."""
+"""Test that handles on a closed surface without gaps define panels, and that surfaces without handles stay whole."""
 
 import numpy as np
 import trimesh
@@ -11,7 +11,7 @@ FRONT = -SIZE[1] / 2
 
 
 def solid(*boxes: tuple[list[float], list[float]], size=SIZE) -> Mesh:
-    """A fine box of `size` joined with small ones, (center, sides), into one surface."""
+    """Return a fine box of `size` united with small ones, (center, sides), as one surface."""
     parts = [trimesh.creation.box(size), *(trimesh.creation.box(sides).apply_translation(at) for at, sides in boxes)]
     whole = trimesh.boolean.union(parts)
     fine = trimesh.Trimesh(*trimesh.remesh.subdivide_to_size(whole.vertices, whole.faces, 0.06))
@@ -26,7 +26,7 @@ def bar(x: float, z: float, along: int) -> tuple[list[float], list[float]]:
 
 
 def front_boxes(whole: ObjectShape) -> np.ndarray:
-    """Bounds of the fronts found, (k, 2, 3), from left to right and from below."""
+    """Return the bounds of the panels found, (k, 2, 3), from left to right and from bottom to top."""
     boxes = np.array([whole.of(np.flatnonzero(whole.patch == p)).bounds for p in whole.panels]).reshape(-1, 2, 3)
     return boxes[np.lexsort((boxes[:, 0, 2].round(1), boxes[:, 0, 0].round(1)))]
 

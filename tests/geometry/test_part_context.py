@@ -1,4 +1,4 @@
-"""A part among the others."""
+"""Test the context of a part among the others."""
 
 import numpy as np
 import pytest

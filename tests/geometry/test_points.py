@@ -1,4 +1,4 @@
-"""Sampling, distances, the connecting area and simplification."""
+"""Test sampling, distances, the connecting area and simplification."""
 
 import numpy as np
 import pytest
@@ -16,7 +16,7 @@ from anymesh.geometry.simplify_ import simplify
 
 
 def soup(seed: int, count: int = 12) -> np.ndarray:
-    """Random triangles, the second without area."""
+    """Return random triangles, the second without area."""
     triangles = np.random.default_rng(seed).normal(size=(count, 3, 3))
     triangles[1] = triangles[1, 0]
     return triangles

@@ -1,4 +1,4 @@
-"""What keeps large meshes fast gives the answers of the plain way: box pairs, distance trees, clustering, cavities."""
+"""Test that the fast methods for large meshes equal the direct ones: box pairs, distance trees, clustering, cavities."""
 
 import itertools
 

@@ -1,4 +1,4 @@
-"""Superpoints and the regions that soft creases bound."""
+"""Test superpoints, and regions bounded by soft creases."""
 
 import numpy as np
 import trimesh

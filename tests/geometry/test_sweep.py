@@ -1,4 +1,4 @@
-"""Free ranges that are known beforehand."""
+"""Test free ranges with known values."""
 
 import numpy as np
 import pytest
@@ -8,14 +8,14 @@ from rigid import apply, move, shape_of
 from anymesh.geometry.sweep import Obstacles, free_amount, sweep
 from anymesh.types import Motion, MotionKind
 
-FRAME = [  # an opening 1 x 1 in a wall that is 0.1 thick, front at -y, closed behind by a back
+FRAME = [  # an opening of 1 x 1 in a wall of thickness 0.1 with its front at -y, closed behind by a back
     box((-0.2, 0, -0.2), (-0.002, 0.1, 1.2)),
     box((1.002, 0, -0.2), (1.2, 0.1, 1.2)),
     box((-0.002, 0, -0.2), (1.002, 0.1, -0.002)),
     box((-0.002, 0, 1.002), (1.002, 0.1, 1.2)),
     box((-0.2, 0.1, -0.2), (1.2, 0.12, 1.2)),
 ]
-DOOR = box((0, -0.05, 0), (1, -0.001, 1))  # swings into the opening as far as the back
+DOOR = box((0, -0.05, 0), (1, -0.001, 1))  # rotates into the opening as far as the back
 SIDE_WALL = box((-0.2, -1.5, -0.2), (-0.1, 0, 1.2))
 BLOCK = box((-0.5, -0.4, -0.3), (0.5, 0.4, 0.3))
 TOLERANCE = 0.006
@@ -94,7 +94,7 @@ def test_a_part_that_starts_overlapping_may_leave_but_not_go_deeper():
     found = sweep(around([peg], [wall]), slide((1, 0, 0)), 0.4)
     assert found.clear_backward
     through = sweep(around([peg], [box((0.2, -0.02, -0.02), (0.3, 0.02, 0.02))]), slide((1, 0, 0)), 1.0)
-    assert through.forward == pytest.approx(0.15, abs=2 * TOLERANCE)  # a thin post strikes the peg, not its corners
+    assert through.forward == pytest.approx(0.15, abs=2 * TOLERANCE)  # a thin post hits the peg, but not its corners
 
 
 def test_a_penetration_within_the_tolerance_is_free():
@@ -143,7 +143,7 @@ def test_the_default_range_is_half_a_turn_or_two_diagonals():
 @pytest.mark.parametrize("steps", [10, 40, 300])
 def test_a_wall_right_behind_a_surface_that_is_left_is_met(steps) -> None:
     part = [box((0.06, -0.01, -0.01), (0.09, 0.01, 0.01))]
-    rest = [box((0, -2, -2), (0.1, 2, 2)), box((0.11, -2, -2), (0.5, 2, 2))]  # sunk in one plate, a second one behind
+    rest = [box((0, -2, -2), (0.1, 2, 2)), box((0.11, -2, -2), (0.5, 2, 2))]  # penetrates one plate, with a second one behind
     free, clear = free_amount(around(part, rest), slide((1, 0, 0)), 1, 1.0, steps)
     assert not clear
     assert 0.015 < free < 0.055

@@ -1,4 +1,4 @@
-"""Welding, edges and components."""
+"""Test welding, edges and components."""
 
 from itertools import product
 

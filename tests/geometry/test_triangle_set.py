@@ -1,4 +1,4 @@
-"""Shapes of whole objects: outward normals, cavities, samples and pieces."""
+"""Test shapes of whole objects: outward normals, cavities, samples and subsets."""
 
 import numpy as np
 import pytest
@@ -13,7 +13,7 @@ from anymesh.types.triangles import normals_and_areas
 
 
 def outwardness(shape) -> np.ndarray:
-    """The normals' component away from the middle of all corners."""
+    """Return the normals' component away from the mean of all corners."""
     return np.einsum("ij,ij->i", shape.normals, shape.triangles.mean(1) - shape.corners.mean(0))
 
 
@@ -39,9 +39,9 @@ def test_only_an_inside_out_wall_within_a_solid_is_a_cavity(seed):
     pieces = [
         box((0, 0, 0), (4, 4, 4)),
         inside_out((1, 1, 1), (2, 2, 2)),  # a cavity
-        box((1, 1, 3), (2, 2, 3.5)),  # a thing within
-        inside_out((6, 0, 0), (7, 1, 1)),  # a thing outside, badly wound
-        inside_out((3, 3, 5), (4, 4, 6)),  # likewise, above
+        box((1, 1, 3), (2, 2, 3.5)),  # a solid inside
+        inside_out((6, 0, 0), (7, 1, 1)),  # a solid outside, wound inside out
+        inside_out((3, 3, 5), (4, 4, 6)),  # the same, above
     ]
     mesh, number = mesh_of(pieces)
     found = mesh_surface(mesh.transformed(move(seed)))

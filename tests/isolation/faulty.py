@@ -1,4 +1,4 @@
-"""Functions that children run in the tests: each does on purpose what native code may do."""
+"""Functions for child processes in the tests; each fails on purpose like native code."""
 
 from __future__ import annotations
 

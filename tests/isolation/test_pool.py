@@ -1,4 +1,4 @@
-"""A child process that crashes, hangs or exhausts memory costs its call, and nothing else."""
+"""Test that a child process that crashes, hangs or exhausts memory fails its own call only."""
 
 from __future__ import annotations
 

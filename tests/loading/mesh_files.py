@@ -22,7 +22,7 @@ WIDTHS = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4"}
 
 
 class Gltf:
-    """A glTF document that grows: arrays go in, GLB or glTF comes out."""
+    """Builder of a glTF document from arrays, with GLB or glTF output."""
 
     def __init__(self) -> None:
         self.bin = b""
@@ -151,7 +151,7 @@ DAE_INSTANCE = (
 
 
 def all_files() -> dict[str, bytes]:
-    """File name to content; the folder also needs box.mtl and box.bin."""
+    """Return file contents by name; the folder also needs box.mtl and box.bin."""
     return {
         "box.glb": plain_gltf().glb(),
         "box.gltf": plain_gltf().gltf(),
@@ -167,7 +167,7 @@ def all_files() -> dict[str, bytes]:
 
 
 def put(folder, name: str, data: bytes):
-    """The path of a file that is written, with all that the files above refer to."""
+    """Write a file and those that the files above refer to; return its path."""
     (folder / "box.mtl").write_bytes(MTL)
     (folder / "box.bin").write_bytes(plain_gltf().bin)
     (folder / name).write_bytes(data)
@@ -175,7 +175,7 @@ def put(folder, name: str, data: bytes):
 
 
 def assert_refused(path, *told: str) -> str:
-    """The message of the one error, which is one line and holds the words told."""
+    """Return the message of the InputError, which is one line and contains the given words."""
     with pytest.raises(InputError) as caught:
         load_mesh(path)
     message = str(caught.value)

@@ -1,4 +1,4 @@
-"""Whatever a file holds, the answer is a mesh or one InputError with one line; a reference leads nowhere outside."""
+"""Test that any file content gives a mesh or an InputError of one line, and that references stay within the folder."""
 
 import resource
 import struct
@@ -72,7 +72,7 @@ def test_files_without_a_usable_triangle(tmp_path, name) -> None:
     assert_refused(put(tmp_path, name, data), told)
 
 
-@pytest.mark.parametrize("name", [name for name in FILES if name != "box.gltf"])  # its numbers lie in the other file
+@pytest.mark.parametrize("name", [name for name in FILES if name != "box.gltf"])  # its numbers are in the other file
 @pytest.mark.parametrize("value", ["nan", "inf", "-inf"])
 def test_corners_that_are_not_finite(tmp_path, name, value) -> None:
     data = FILES[name]
@@ -88,7 +88,7 @@ def test_truncated_anywhere(tmp_path, name) -> None:
     whole = 12 if name == "box.obj" else None
     for part in (0.05, 0.3, 0.6, 0.9, 0.97):
         path = put(tmp_path, name, data[: int(len(data) * part)])
-        if whole and part > 0.5:  # an OBJ does not tell where it ends
+        if whole and part > 0.5:  # an OBJ does not state its end
             try:
                 assert 0 < len(load_mesh(path).mesh.faces) < whole
             except InputError:

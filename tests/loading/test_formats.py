@@ -1,4 +1,4 @@
-"""One solid comes out of every format alike, with its looks, and placed as the file says."""
+"""Test that one solid is read alike from every format, with its materials and placement."""
 
 import io
 import warnings
@@ -155,7 +155,7 @@ def test_obj_materials_in_the_order_of_the_file(tmp_path) -> None:
     assert half.emissive[0] == pytest.approx(LINEAR_HALF)
     assert half.alpha_mode == "BLEND"
     assert pic.textures["base_color"].data == checker()
-    assert pic.base_color == (1, 1, 1, 1)  # a picture times black would be black
+    assert pic.base_color == (1, 1, 1, 1)  # a picture multiplied by black would be black
     assert mesh.face_material.tolist() == [k % 2 for k in range(11)] + [-1]
     np.testing.assert_allclose(mesh.triangles, POINTS[FACES])
     np.testing.assert_allclose(mesh.corner_uv, UV[FACES])

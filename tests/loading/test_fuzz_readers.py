@@ -1,4 +1,7 @@
-"""A short run of the readers' fuzzing; `python benchmarks/fuzz_readers.py` does thousands. And bombs, one by one."""
+"""Test a short fuzzing run of the readers, and decompression bombs.
+
+`python benchmarks/fuzz_readers.py` does thousands of runs.
+"""
 
 from __future__ import annotations
 
@@ -43,7 +46,7 @@ def test_the_watch_sees_what_leaves_the_folder(fuzz, tmp_path) -> None:
 
 
 def png_bomb(side: int) -> bytes:
-    """A few kilobytes that are a picture of side x side pixels."""
+    """Return a few kilobytes that are a picture of side x side pixels."""
 
     def chunk(kind: bytes, data: bytes) -> bytes:
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
@@ -71,7 +74,7 @@ def billion_laughs() -> bytes:
 
 
 def disguised_laughs(encoding: str) -> bytes:
-    """Entities in an encoding whose bytes are not those of ASCII, past the check of the first bytes."""
+    """Return entities in an encoding whose bytes are not ASCII, which pass the check of the first bytes."""
     text = billion_laughs().decode().replace("utf-8", encoding)
     if encoding == "utf-16":
         return text.replace("?>", f"?><!--{b'<COLLADA'.decode('utf-16-le')}-->", 1).encode("utf-16")

@@ -1,4 +1,4 @@
-"""glTF: materials as they are written, pictures byte by byte, every way to store triangles."""
+"""Test glTF: unchanged materials and pictures, and every way to store triangles."""
 
 import io
 
@@ -29,7 +29,7 @@ def test_gltf_node_of_two_materials_is_one_node(tmp_path) -> None:
     assert len(mesh.nodes) == 1
     assert mesh.face_material.tolist() == [0] * 6 + [1] * 6
     first, second = mesh.materials
-    assert first.base_color == pytest.approx((0.002, 0.5, 0.25, 0.5))  # linear already
+    assert first.base_color == pytest.approx((0.002, 0.5, 0.25, 0.5))  # already linear
     assert (first.alpha_mode, first.metallic, second.metallic, second.roughness) == ("BLEND", 1, 1, 1)
     assert second.double_sided
     assert second.emissive == (0, 1, 0)

@@ -1,4 +1,4 @@
-"""Placing is a rotation, one factor and a shift: Z up, metres, on the ground, in the middle."""
+"""Test that placement is a rotation, one factor and a shift: Z up, metres, on the ground, centered."""
 
 import numpy as np
 import pytest
@@ -18,7 +18,7 @@ def loaded(mesh: Mesh | None = None, *, path: str = "box.stl", up: str | None = 
 
 
 def stands(mesh: Mesh) -> None:
-    """On the ground, in the middle."""
+    """Assert that a mesh is on the ground and centered."""
     low, high = mesh.bounds
     np.testing.assert_allclose([*(low + high)[:2], low[2]], 0, atol=1e-9 * max(1, mesh.diagonal))
 
@@ -112,7 +112,7 @@ def test_auto_up_prefers_what_the_format_tells_then_what_the_object_stands_on() 
 
 
 def test_far_from_the_origin_the_shape_stays() -> None:
-    shift = np.array([4.5e6, -3e6, 2e6])  # a map's coordinates
+    shift = np.array([4.5e6, -3e6, 2e6])  # coordinates of a map
     near, far = (place_mesh(loaded(mesh_of([box(LOW + s, HIGH + s)])[0]), up="z") for s in (0, shift))
     np.testing.assert_allclose(far.mesh.triangles, near.mesh.triangles, atol=1e-8)
     stands(far.mesh)

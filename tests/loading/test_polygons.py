@@ -1,4 +1,4 @@
-"""Polygons become triangles that cover just what the polygon covers."""
+"""Test that the triangles of a polygon cover exactly the polygon."""
 
 import numpy as np
 import pytest
@@ -9,13 +9,12 @@ from anymesh.loading import load_mesh
 from anymesh.loading.polygons import fans, recut
 
 FRAME = np.array([(0, 0), (1, 0), (1, 0.2), (0.2, 0.2), (0.2, 1.8), (1, 1.8), (1, 2), (0, 2)], float)  # a C
-KEYHOLE = np.array(
-    [(0, 0), (4, 0), (4, 4), (0, 4), (0, 0), (1, 1), (1, 3), (3, 3), (3, 1), (1, 1)], float
-)  # a square with a square hole, cut from corner to corner
+# a square with a square hole, connected by a cut from corner to corner
+KEYHOLE = np.array([(0, 0), (4, 0), (4, 4), (0, 4), (0, 0), (1, 1), (1, 3), (3, 3), (3, 1), (1, 1)], float)
 
 
 def cut(*outlines: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Corners, triangles and their polygons, of flat outlines (n, 2) or (n, 3)."""
+    """Return corners, triangles and their polygons, of flat outlines (n, 2) or (n, 3)."""
     points = np.concatenate([np.pad(o, ((0, 0), (0, 3 - o.shape[1]))) for o in outlines])
     counts = np.array([len(o) for o in outlines])
     triangles, polygon = fans(counts)
@@ -35,7 +34,7 @@ def test_no_triangle_covers_the_hole_of_a_concave_polygon(outline: np.ndarray, a
     areas = signed_areas(points, triangles)
     assert len(triangles) == len(outline) - 2
     assert areas.sum() == pytest.approx(area)
-    assert np.abs(areas).sum() == pytest.approx(abs(area))  # none overlaps another
+    assert np.abs(areas).sum() == pytest.approx(abs(area))  # no two overlap
 
 
 def test_convex_polygons_are_fanned_and_neighbours_stay() -> None:

@@ -1,4 +1,4 @@
-"""What a mesh file refers to is read within one folder; a texture that cannot be read costs a warning, geometry the mesh."""
+"""Test that references are read within one folder; an unreadable texture gives a warning, unreadable geometry an error."""
 
 import json
 import os
@@ -21,7 +21,7 @@ TEXTURED = ["image.glb", "picture.obj", "picture.ply", "picture.dae"]
 
 
 def naming(uri: str) -> dict[str, bytes]:
-    """Files that name another file, each in its own way; picture.obj through other.mtl."""
+    """Return files that refer to another file, each in its own way; picture.obj through other.mtl."""
     g = plain_gltf()
     g.doc["images"] = [{"uri": uri}]
     g.doc["textures"] = [{"source": 0}]
@@ -192,7 +192,7 @@ def test_a_name_in_another_case_is_taken_only_where_it_is_the_only_one(tmp_path)
     write_png(tmp_path / "texture.png")
     assert textures(load_mesh(path)) == 1
     write_png(tmp_path / "TEXTURE.png")
-    if len(list(tmp_path.glob("*.png"))) == 2:  # a file system that tells them apart
+    if len(list(tmp_path.glob("*.png"))) == 2:  # a case-sensitive file system
         assert "missing" in load_mesh(path).warnings[0]
         write_png(tmp_path / "Texture.PNG")
         assert textures(load_mesh(path)) == 1

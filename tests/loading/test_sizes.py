@@ -1,4 +1,4 @@
-"""A scale from what the object is."""
+"""Test the scale from the kind of an object."""
 
 import numpy as np
 import pytest

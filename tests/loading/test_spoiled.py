@@ -1,4 +1,4 @@
-"""Files with a few wrong bytes: a mesh or an InputError comes out, nothing else, and soon."""
+"""Test files with a few wrong bytes: the result is a mesh or an InputError, within a short time."""
 
 import json
 import random
@@ -15,7 +15,7 @@ FILES = all_files()
 
 
 def spoiled(data: bytes, rng: random.Random) -> bytes:
-    """A few bytes changed, cut out, doubled, or the end missing."""
+    """Return data with a few bytes changed, removed, duplicated, or with the end missing."""
     data = bytearray(data)
     for _ in range(rng.randint(1, 4)):
         at = rng.randrange(max(len(data), 1))
@@ -34,7 +34,7 @@ def spoiled(data: bytes, rng: random.Random) -> bytes:
 
 
 def misspelt(data: bytes, rng: random.Random) -> bytes:
-    """A few letters and figures that became others, so that the syntax of text stays whole."""
+    """Return data with a few letters and digits replaced by others, so that the syntax of text stays valid."""
     data = bytearray(data)
     places = [k for k, c in enumerate(data) if chr(c).isalnum()]
     for at in rng.sample(places, rng.randint(1, 3)):

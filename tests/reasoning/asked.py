@@ -1,4 +1,4 @@
-"""One small question of every kind, an answer to it as a model would write it, and what that answer means."""
+"""One small question of every kind, an answer to it as a model would write it, and its parsed value."""
 
 from __future__ import annotations
 
@@ -34,7 +34,10 @@ PICTURE = Picture(checker(), "view 1, from the front")
 
 @dataclass(frozen=True, eq=False)
 class Asked:
-    """found: the object that a good answer is; means: what it is parsed to."""
+    """A question with an answer.
+
+    found: a valid answer object; means: its parsed value.
+    """
 
     question: Question[Any]
     found: dict[str, Any]
@@ -56,13 +59,13 @@ def parts(*rows: dict[str, Any]) -> dict[str, Any]:
 
 
 def marks(*rows: tuple[str, int, int, list[int]], **more: list[int]) -> dict[str, Any]:
-    """label, instance, view (0 where marks are the same in all pictures) and marks of each part."""
+    """Return an answer from label, instance, view (0 if marks are the same in all pictures) and marks of each part."""
     named = [dict(zip(("label", "instance", "view", "marks"), row, strict=True)) for row in rows]
     return {**parts(*({k: v for k, v in row.items() if (k, v) != ("view", 0)} for row in named)), "unsure": [], **more}
 
 
 def picks(name: str, *rows: Any) -> dict[str, Any]:
-    """Part 1 is given the first of these, and so on."""
+    """Return an answer that gives the first row to part 1, and so on."""
     return parts(*({"part": k, name: row} for k, row in enumerate(rows, 1)))
 
 
@@ -101,7 +104,7 @@ ASKED = {
     "marks that can be split": Asked(
         WhichMarks((PICTURE,) * 2, ("door", "knob"), True, REGIONS, FACES, None, (MarkedPart("lid", 1, None, (9,)),), True),
         marks(("door", 1, 0, [4, 1]), split=[1]),
-        MarksAnswer((MarkedPart("door", 1, None, (4,)),), split=(1,)),  # what is split belongs to nothing yet
+        MarksAnswer((MarkedPart("door", 1, None, (4,)),), split=(1,)),  # marks to split belong to no part yet
     ),
     "marks of each view": Asked(
         WhichMarks((PICTURE,) * 2, ("door", "knob"), False, REGIONS, FACES),
@@ -111,7 +114,7 @@ ASKED = {
     "kinds": Asked(
         WhichKinds((PICTURE,) * 2, (part(), part("tray"))),
         parts(
-            {"part": 2, "joint": "slide_in_or_out", "endless": True},  # what slides has no turns
+            {"part": 2, "joint": "slide_in_or_out", "endless": True},  # a slide has no endless rotation
             {"part": 1, "joint": "hinge_into_surface", "endless": True},
         ),
         (KindAnswer(JointKind.HINGE_INTO, True), KindAnswer(JointKind.SLIDE_OUT, False)),
@@ -133,7 +136,7 @@ ASKED = {
 
 
 def satisfying(schema: dict[str, Any]) -> st.SearchStrategy[Any]:
-    """Values that satisfy a schema: small numbers, hostile words."""
+    """Return a strategy of values that satisfy a schema: small numbers, hostile words."""
     match schema["type"]:
         case "object":
             return st.fixed_dictionaries({name: satisfying(s) for name, s in schema["properties"].items()})

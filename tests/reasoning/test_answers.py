@@ -1,4 +1,4 @@
-"""The embedded answerer: how scores and labels make its answer, and that answers are checked."""
+"""Test the geometry answerer: its answers from scores and labels, and their validation."""
 
 from dataclasses import replace
 
@@ -72,10 +72,11 @@ def question(*candidates: Candidate) -> MotionQuestion:
 def test_motions_are_the_same_joint_about_one_line_to_one_side() -> None:
     near = replace(EDGE, motion=Motion(MotionKind.REVOLUTE, Z, 0.01 * X, "nearly the same edge"))
     against = replace(EDGE, opening_sign=-EDGE.opening_sign)
-    slid = replace(PULL, motion=Motion(MotionKind.PRISMATIC, Y, X, "elsewhere"))  # where a slide starts says nothing
+    slid = replace(PULL, motion=Motion(MotionKind.PRISMATIC, Y, X, "elsewhere"))  # the origin of a slide is irrelevant
     assert same_joints(question(EDGE, FAR_EDGE, near, against), 0).tolist() == [True, False, True, False]
     assert same_joints(question(PULL, slid, EDGE), 0).tolist() == [True, True, False]
-    assert same_joints(question(ROUND, replace(ROUND, opening_sign=-1)), 0).tolist() == [True, True]  # turns freely: no side
+    # free both ways, so it has no side
+    assert same_joints(question(ROUND, replace(ROUND, opening_sign=-1)), 0).tolist() == [True, True]
 
 
 def test_the_confidence_grows_with_the_share_of_the_best_motion() -> None:

@@ -1,4 +1,4 @@
-"""Answers that satisfy the schema and are wrong all the same: each is told, with what would be valid."""
+"""Test answers that satisfy the schema but are wrong: the error message says what would be valid."""
 
 from typing import Any
 
@@ -32,7 +32,7 @@ BAD = [
     ("marks", marks(("door", 1, 0, [1]), ("door", 2, 0, [1])), "given to door 1 and door 2"),
     ("marks of each view", marks(("door", 1, 3, [1])), "view must be of 1..2, found [3]"),
     ("marks of each view", marks(("door", 1, -1, [1])), "view must be of 1..2, found [-1]"),
-    ("marks of each view", marks(("door", 1, 2, [1])), "marks must be of [2, 4], found [1]"),  # it is in the other picture
+    ("marks of each view", marks(("door", 1, 2, [1])), "marks must be of [2, 4], found [1]"),  # mark 1 is in the other picture
     ("kinds", joints((1, "fixed")), "each part 1..2 must be answered exactly once, found [1]"),
     ("kinds", joints((1, "fixed"), (1, "fixed"), (2, "fixed")), "exactly once, found [1, 1, 2]"),
     ("kinds", joints((1, "fixed"), (3, "fixed")), "exactly once, found [1, 3]"),
@@ -53,7 +53,7 @@ BAD = [
 
 
 def whole(size: float = 1.0, category: str = "cabinet", **changes: Any) -> dict[str, Any]:
-    """A recognition whose door is changed."""
+    """Return a recognition with a changed door."""
     return {"category": category, "longest_side_m": size, "front": 0, **parts({**DOOR, **changes}, KNOB)}
 
 
@@ -71,7 +71,7 @@ BAD += [
     ("recognize", whole(category="\ud800"), "category must be"),
     ("recognize", whole(parent="lid"), "parent must be 'base' or one of ['door', 'knob'], found 'lid'"),
     ("recognize", whole(parent=""), "found ''"),
-    ("recognize", whole(parent="knob"), "those of 'door' go in a circle"),
+    ("recognize", whole(parent="knob"), "those of 'door' form a cycle"),
     ("recognize", whole(lower=90, upper=0), "door: valid is lower <= 0 <= upper, not both 0; found 90, 0"),
     ("recognize", whole(lower=10), "found 10, 90"),
     ("recognize", whole(upper=0), "found 0, 0"),

@@ -1,4 +1,4 @@
-"""Boosted trees as arrays: hand-made trees give the sums that one reads off, and contributions add up to the score."""
+"""Test boosted trees as arrays: scores of hand-made trees, and contributions that add up to the score."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Answers are checked by their schema: what is wrong is told, and nothing that satisfies a schema is refused."""
+"""Test the schema check of answers: errors are reported, and values that satisfy a schema are accepted."""
 
 import json
 from contextlib import nullcontext
@@ -66,7 +66,7 @@ def test_an_answer_nested_without_end_is_told_not_followed() -> None:
         nested = [nested]
     with pytest.raises(BadAnswerError, match="must be an integer, found"):
         check_schema(nested, INTEGER)
-    while nested:  # or freeing it would go as deep
+    while nested:  # otherwise freeing it would recurse as deep
         nested = nested.pop()
 
 
@@ -85,7 +85,7 @@ values = st.recursive(
 
 
 def plain(value) -> bool:
-    """Whether no integer in it is written as a real number: 1.0 is an integer to JSON, and none to us."""
+    """Return whether no number in it is a whole real: 1.0 is an integer in JSON, but not here."""
     return ".0" not in json.dumps(value)
 
 

@@ -1,4 +1,4 @@
-"""Every question: its schema and its parser go together, and no answer is guessed at or crashes."""
+"""Test that schema and parser of every question match, and that no answer is guessed or causes a crash."""
 
 from collections.abc import Iterator
 from typing import Any
@@ -18,7 +18,7 @@ from anymesh.types.recognition import RecognizedLabel
 
 
 def inside(schema: dict[str, Any]) -> Iterator[dict[str, Any]]:
-    """A schema and all schemas in it."""
+    """Yield a schema and all schemas in it."""
     yield schema
     for part in (*schema.get("properties", {}).values(), *([schema["items"]] if "items" in schema else [])):
         yield from inside(part)

@@ -1,4 +1,4 @@
-"""Someone who knows answers each question from what it shows: marks, points, arrows and motions, as a model would."""
+"""Test the reference answerer on each kind of question: marks, points, arrows and motions."""
 
 from dataclasses import replace
 from typing import Any
@@ -34,7 +34,7 @@ HINGE = ReferenceJoint(JointType.REVOLUTE, Z, np.zeros(3), (0.0, 1.5))
 SLIDE = ReferenceJoint(JointType.PRISMATIC, -2 * Y, np.zeros(3), (0.0, 0.3))
 SPIN = ReferenceJoint(JointType.CONTINUOUS, Y, np.array([0.2, 0, 0.2]), None)
 FIXED = ReferenceJoint(JointType.FIXED, np.zeros(3), np.zeros(3), None)
-# Ten faces a part: the base, two doors, a drawer, a knob on the panel of the second door, that panel.
+# Ten faces per part: the base, two doors, a drawer, a knob on the panel of the second door, that panel.
 LABELS = ("base", "door", "door", "drawer", "knob", "panel")
 KNOWN = Reference(
     "cabinet",
@@ -49,7 +49,7 @@ BASE, DOOR, OTHER, DRAWER, KNOB, PANEL = (10 * k for k in range(6))  # the first
 
 
 def ask(question: Question[Any], known: Reference = KNOWN) -> Any:
-    """The answer; a model that writes it down is understood to mean the same."""
+    """Return the answer, after checking that its JSON form parses to the same."""
     knowing = ReferenceAnswerer("oracle", lambda: known)
     answer = knowing.ask(question)
     reader = VlmAnswerer(ScriptedModel([answer_object(question, answer)]), knowing)
@@ -59,7 +59,7 @@ def ask(question: Question[Any], known: Reference = KNOWN) -> Any:
 
 
 def pixels(*runs: tuple[int, int]) -> np.ndarray:
-    """A picture of 20 x 20 that shows faces, each for a number of pixels, and nothing elsewhere."""
+    """Return a picture of 20 x 20 that shows each face for a number of pixels, and nothing elsewhere."""
     row = np.concatenate([np.full(count, face) for face, count in runs])
     return np.concatenate([row, np.full(400 - len(row), -1)]).reshape(20, 20)
 
@@ -112,14 +112,14 @@ FACE = pixels((DOOR, 100), (OTHER, 26), (BASE, 24), (DOOR, 25), (KNOB, 25), (DRA
 
 
 def marks(consistent: bool, labels=("door", "drawer")) -> tuple[MarkedPart, ...]:
-    mirrored = np.where(REGION >= 0, 6 - REGION, -1)  # in a second view, where all see the same, marks are numbered backwards
+    mirrored = np.where(REGION >= 0, 6 - REGION, -1)  # numbered backwards in a second view if marks are not consistent
     return ask(WhichMarks((), labels, consistent, (REGION, REGION if consistent else mirrored), (FACE, FACE))).parts
 
 
 def test_a_mark_belongs_to_the_part_that_has_most_of_it() -> None:
     assert marks(True) == (
         MarkedPart("door", 1, None, (1,)),
-        MarkedPart("door", 2, None, (2,)),  # 26 of 50 pixels; mark 3 is half a door, and nobody's
+        MarkedPart("door", 2, None, (2,)),  # 26 of 50 pixels; mark 3 is half a door and belongs to none
         MarkedPart("drawer", 1, None, (4,)),  # knobs were not asked for
     )
 
@@ -129,7 +129,8 @@ def test_a_mark_of_two_parts_is_to_be_split_where_it_can_be() -> None:
     region = pixels((1, 100), (2, 150))
     for splittable, split in ((False, ()), (True, ())):
         question = WhichMarks((), ("door",), True, (region,), (face,), None, (), splittable)
-        assert ask(question) == MarksAnswer((MarkedPart("door", 1, None, (1,)),), split=split)  # ten pixels go unnoticed
+        # ten pixels are below the threshold
+        assert ask(question) == MarksAnswer((MarkedPart("door", 1, None, (1,)),), split=split)
     question = WhichMarks((), ("door",), True, (region,), (pixels((DOOR, 160), (BASE, 90)),), None, (), True)
     assert ask(question) == MarksAnswer((MarkedPart("door", 1, None, (1,)),), split=(2,))
 

@@ -1,4 +1,4 @@
-"""Questions written to bytes and read again, and answers in the short form."""
+"""Test questions written to bytes and read again, and answers in the short form."""
 
 import io
 import json

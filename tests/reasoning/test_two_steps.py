@@ -1,4 +1,4 @@
-"""The reasons of a learned score name features that a candidate has."""
+"""Test that the reasons of a learned score name features that a candidate has."""
 
 import numpy as np
 
@@ -7,7 +7,7 @@ from anymesh.reasoning.two_steps import MISSING, TwoStepClassifier
 
 
 def stump(column: int) -> BoostedTrees:
-    """One split at 0: -1 up to it, 1 above, or the other way for a missing value."""
+    """Return a tree with one split at 0: -1 up to it, 1 above, or the opposite for a missing value."""
     up = 1.0 if column != 1 else -1.0
     return BoostedTrees(
         np.array([column, -1, -1], np.int16), np.zeros(3, np.float32), np.array([1, 1, 2], np.int32),

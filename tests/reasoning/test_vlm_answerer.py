@@ -1,4 +1,4 @@
-"""Someone who sees and answers badly: asked again once with what was wrong, then another answers, and it is told."""
+"""Test a model with bad answers: it is asked once more, then the fallback answers, with a warning."""
 
 import json
 from pathlib import Path
@@ -45,7 +45,10 @@ FAULTS = {
 
 
 class Other:
-    """Answers in the place of a model; asked: what it was asked."""
+    """Fallback answerer.
+
+    asked: the questions to it.
+    """
 
     name, needs_images = "geometry", False
     exchanges = warnings = ()
@@ -87,7 +90,7 @@ def test_a_bad_answer_is_asked_again_with_what_was_wrong(fault: str) -> None:
     assert words in seer.exchanges[0].verdict
     assert seer.exchanges[0].verdict.endswith("asked again")
     assert seer.exchanges[1].verdict == "accepted"
-    kept = bad.encode(errors="backslashreplace").decode()  # a file can hold it
+    kept = bad.encode(errors="backslashreplace").decode()  # encodable in a file
     assert [e.answer for e in seer.exchanges] == [kept, json.dumps(GOOD)]
 
 
@@ -121,7 +124,7 @@ def test_exchanges_carry_the_keys_of_what_was_asked_and_no_two_are_alike() -> No
 def test_what_is_kept_of_a_bad_answer_does_not_answer_the_second_time(tmp_path: Path) -> None:
     bad = picks("arrow", 9)  # an object, so that the cache keeps it
     model = ScriptedModel([bad, GOOD])
-    for _ in range(2):  # the second round is all from the cache
+    for _ in range(2):  # the second round uses the cache only
         seer = VlmAnswerer(Cached(model, tmp_path), Other())
         assert (seer.ask(ARROWS), seer.warnings) == ((3,), ())
     assert len(model.requests) == 2
@@ -149,7 +152,7 @@ def test_a_model_is_given_up_after_three_bad_answers_in_a_row_and_that_is_said_o
     assert first.ask(ARROWS) == (2,)  # two bad answers
     assert not patience.lost
     assert [second.ask(ARROWS) for _ in range(3)] == [(2,)] * 3
-    assert len(model.requests) == 5  # the good answer that is left is never asked for
+    assert len(model.requests) == 5  # the remaining good answer is never asked for
     assert sum("given up" in told for told in (*first.warnings, *second.warnings)) == 1
     assert [e.skipped for e in second.exchanges] == [False, True, True]
     assert all(e.given_up for e in second.exchanges)

@@ -1,4 +1,4 @@
-"""Free names: matched by words, in whatever spelling, and silent when they mean nothing."""
+"""Test that free names are matched by words in any spelling, and give nothing without a known word."""
 
 import pytest
 from hypothesis import given
@@ -33,7 +33,7 @@ def test_names_fall_into_words(name: str, words: list[str]) -> None:
     [
         ("door", "door"),
         ("Cabinet_Door.003", "door"),
-        ("doorHandle", "handle"),  # the last telling word counts
+        ("doorHandle", "handle"),  # the last recognized word counts
         ("handle of the door", "door"),
         ("Schublade_2", "drawer"),
         ("steering_wheel", "wheel"),
@@ -43,7 +43,7 @@ def test_names_fall_into_words(name: str, words: list[str]) -> None:
         ("hatches", "door"),
         ("Poignée_2", "handle"),
         ("cajón", "drawer"),
-        ("door_frame", None),  # a frame stays, whatever it frames
+        ("door_frame", None),  # a frame is static
         ("frame_door", "door"),
     ],
 )

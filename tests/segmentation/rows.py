@@ -1,4 +1,4 @@
-"""Small clouds and counts of points in masks, made by hand."""
+"""Small hand-made clouds, and counts of points in masks."""
 
 from collections.abc import Sequence
 
@@ -9,7 +9,7 @@ from anymesh.segmentation.fuse import Counts
 
 
 def row_cloud(places: Sequence[float], each: int = 20, diagonal: float = 1.0) -> Cloud:
-    """A superpoint a place on the x axis: points within .02 of it."""
+    """Return a cloud with one superpoint per place on the x axis, of points within 0.02 of it."""
     points = np.zeros((each * len(places), 3))
     points[:, 0] = np.repeat(places, each) + np.tile(np.linspace(-0.02, 0.02, each), len(places))
     superpoint = np.repeat(np.arange(len(places)), each)
@@ -21,7 +21,10 @@ def row_cloud(places: Sequence[float], each: int = 20, diagonal: float = 1.0) ->
 
 
 def counts_of(top: Sequence[Sequence[int]], labels: Sequence[str], instances: Sequence[int] | None = None) -> Counts:
-    """A view by its visible points a (superpoint, mask), the last column those in no mask; masks do not overlap."""
+    """Return the counts of a view from its visible points per (superpoint, mask), without overlapping masks.
+
+    The last column counts points in no mask.
+    """
     table = np.array(top)
     box = np.full((len(table), 4), np.inf)
     box[:, 2:] = -np.inf

@@ -1,4 +1,4 @@
-"""Points of a surface, their superpoints, and which of them a view sees."""
+"""Test the points of a surface, their superpoints, and their visibility in views."""
 
 import time
 from dataclasses import replace
@@ -93,9 +93,9 @@ def test_a_front_view_sees_the_front_and_nothing_behind_it() -> None:
     front = (cloud.normals[:, 1] < -0.9) & (PIECE[cloud.faces] == 1)
     covered = (np.abs(cloud.points[:, [0, 2]] - 0.5) < 0.06).all(1)
     assert seen[front & ~covered].mean() > 0.97
-    assert not seen[PIECE[cloud.faces] == 0].any()  # the body stands behind the front
+    assert not seen[PIECE[cloud.faces] == 0].any()  # the base stands behind the panel
     assert not seen[cloud.normals[:, 1] > 0.9].any()
-    assert seen[(PIECE[cloud.faces] == 2) & (cloud.normals[:, 1] < -0.9)].mean() > 0.9  # its rim lies in pixels half off it
+    assert seen[(PIECE[cloud.faces] == 2) & (cloud.normals[:, 1] < -0.9)].mean() > 0.9  # its rim is in pixels partly outside it
 
 
 def test_pixels_are_where_the_points_project() -> None:

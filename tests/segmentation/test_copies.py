@@ -1,4 +1,4 @@
-"""Units: leaves stay apart, a surface that creases part moves as one; and what is taken because something must move."""
+"""Test rigid groups: panels stay separate, a creased surface moves as one; and the minimum number of parts."""
 
 import numpy as np
 import pytest
@@ -30,7 +30,7 @@ def test_leaves_that_meet_are_two_and_planks_are_one(width: float, joined: bool)
 
 
 def units(surface: list[int]) -> RigidGroups:
-    """A body, a front, a tray that stands on a shelf of its own and touches the front by a line."""
+    """Return groups of a base, a panel, a tray on a shelf of its own that touches the panel along a line."""
     pieces = [BODY, box((0, -0.02, 0), (1, 0, 0.4)), box((0.1, 0, 0.1), (0.9, 0.3, 0.3)), box((0.1, 0, 0.08), (0.9, 0.3, 0.1))]
     contacts = find_contacts(object_shape(mesh_of(pieces)[0]), SegmentationConfig())
     return RigidGroups(contacts, np.arange(4), [""] * 4, 0, {k: [k] for k in range(4)}, np.array(surface))
@@ -42,12 +42,12 @@ def test_a_surface_that_creases_part_moves_as_one_but_not_with_the_root() -> Non
 
 
 def no_part(overlap: Overlap, features: list[dict[str, float]]) -> tuple[np.ndarray, list[str]]:
-    """Score every candidate as no part, large ones the lowest."""
+    """Score every candidate below the threshold, large ones lowest."""
     return np.array([MIN_SCORE - 0.1 - row["size"] for row in features]), ["nothing"] * len(features)
 
 
 def all_parts(overlap: Overlap, features: list[dict[str, float]]) -> tuple[np.ndarray, list[str]]:
-    """Score every candidate as a part, small ones the highest."""
+    """Score every candidate as a part, small ones highest."""
     return np.array([1 - row["size"] / 10 for row in features]), ["all"] * len(features)
 
 
@@ -68,13 +68,13 @@ def test_something_is_taken_where_something_must_move(monkeypatch: pytest.Monkey
     assert found.faces(1).tolist() == list(range(12, 24))
     assert found.parts[1].confidence < 0.5
     assert "stands out most" in found.parts[1].reason
-    assert len(parts([BODY], at_least=1).parts) == 1  # nothing can
+    assert len(parts([BODY], at_least=1).parts) == 1  # there is no candidate
     with pytest.raises(OptionError, match="--at-least: found -1"):
         SegmentationConfig(at_least=-1)
 
 
 def test_a_candidate_that_is_held_makes_room_for_the_next(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A board nailed through the case scores highest, but cannot move; then the box on top is taken."""
+    """A board nailed through the case scores highest but cannot move; then the box on top is chosen."""
     nail, top = box((0.48, -0.2, 0.48), (0.52, 0.02, 0.52)), box((0.2, 0.1, 1.0), (0.8, 0.4, 1.2))
 
     def by_size(overlap: Overlap, features: list[dict[str, float]]) -> tuple[np.ndarray, list[str]]:
@@ -96,7 +96,7 @@ def test_a_candidate_that_is_held_makes_room_for_the_next(monkeypatch: pytest.Mo
 
 
 def test_names_that_begin_alike_are_one_part() -> None:
-    """The wood and the metal of a drawer, as exporters split a node by material, and those of another one."""
+    """The wood and the metal of a drawer are one part, as exporters split a node by material; other names are not."""
     names = ("drawer_top_metal", "drawer_top_wood", "Door_left_wood", "base_body", "DRAWER_low")
     mesh, _ = mesh_of([box((k, 0, 0), (k + 0.5, 1, 1)) for k in range(5)])
     whole = object_shape(mesh, 0, Config().pieces)

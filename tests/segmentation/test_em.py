@@ -1,4 +1,4 @@
-"""The expectation maximisation of PartSlip++ on counts of points."""
+"""Test the expectation maximisation of PartSlip++ on counts of points."""
 
 from dataclasses import replace
 
@@ -13,7 +13,7 @@ from anymesh.segmentation.fuse import Counts, Instances
 CONFIG = GroundingConfig()
 # Four superpoints: two of part A, one of part B, one of the rest.
 CLEAN = counts_of([[9, 0, 0], [9, 0, 0], [0, 9, 0], [0, 0, 9]], ["door", "lid"])
-NOISY = counts_of([[9, 0, 0], [0, 9, 0], [0, 9, 0], [0, 9, 0]], ["door", "lid"])  # gives half of A and the rest to B
+NOISY = counts_of([[9, 0, 0], [0, 9, 0], [0, 9, 0], [0, 9, 0]], ["door", "lid"])  # assigns half of A and the rest to B
 MERGED = counts_of([[9, 0], [9, 0], [9, 0], [0, 9]], ["door"])
 START = np.array([1, 1, 2, 0])
 
@@ -41,10 +41,14 @@ def test_the_gradient_is_the_losses_by_finite_differences() -> None:
 
 
 def test_a_hand_worked_example() -> None:
-    """Three superpoints of 10 points, two instances. p = softmax: logits (ln 3, 0) are p = (3/4, 1/4).
+    """Check probabilities, matching, loss and gradient for three superpoints of 10 points and two instances.
 
-    View 1 has superpoint 0 in the mask and 1 in the other; 2 is not seen. Instance 0 as the mask: superpoint 0 costs
-    -10 ln 3/4, superpoint 1 (p = 1/4) costs -10 ln 3/4, over 20 points: -ln 3/4 = .2877; instance 1 as the other: the same.
+    p = softmax: logits (ln 3, 0) are p = (3/4, 1/4).
+
+    View 1 has superpoint 0 in the mask and 1 in the other one; 2 is not visible. Instance 0 as the mask: superpoint 0 costs -10
+    ln 3/4, superpoint 1 (p = 1/4) costs -10 ln 3/4, over 20 points: -ln 3/4 = .2877. Instance 1 as the other one gives the
+    same.
+
     View 2 sees superpoints 1 and 2, both in the mask. Instance 1 (p = 3/4, 1/2): (-10 ln 3/4 - 10 ln 1/2) / 20 = .4904;
     instance 0 (p = 1/4, 1/2): (-10 ln 1/4 - 10 ln 1/2) / 20 = 1.0397.
     """
@@ -62,7 +66,7 @@ def test_a_hand_worked_example() -> None:
     mask = match(logits, two[:, :1])
     assert [x.tolist() for x in mask] == [[1], [0]]
     assert loss_and_gradient(logits, two[:, :1], mask)[0] == pytest.approx(0.49041, abs=1e-4)
-    # Together: 0 in the first mask's part; 1 and 2 in another.
+    # Both views together: superpoint 0 belongs to the first mask's part, 1 and 2 to another.
     found = run([counts_of(one, ["door"]), counts_of(two, ["lid"])], [1, 0, 0])
     assert found[1] == found[2] != found[0]
 

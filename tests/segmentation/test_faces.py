@@ -1,4 +1,4 @@
-"""From labelled points to faces: whole pieces, clean cuts, what no view sees, names."""
+"""Test the assignment of faces to parts from labelled points: whole patches, cuts, unseen patches, names."""
 
 from pathlib import Path
 
@@ -23,7 +23,7 @@ from anymesh.segmentation.regions import Marks, face_regions, number_regions
 from anymesh.types.camera import Camera
 
 FEW = GroundingConfig(points=20_000)
-# A body, a drawer's front before it, the drawer's box behind the front and inside the body, a loose block in there.
+# A base, a drawer's panel in front of it, the drawer's box behind the panel and inside the base, a loose block in there.
 SHELL = [box((0, 0, 0), (1, 1, 0.02)), box((0, 0, 0.98), (1, 1, 1)), box((0, 0, 0.02), (0.02, 1, 0.98)),
          box((0.98, 0, 0.02), (1, 1, 0.98)), box((0.02, 0.98, 0.02), (0.98, 1, 0.98))]  # fmt: skip
 FRONT, BIN, BLOCK = (
@@ -34,7 +34,7 @@ FRONT, BIN, BLOCK = (
 
 
 def parts_of(pieces, told: dict[int, int]) -> tuple[np.ndarray, np.ndarray]:
-    """Parts of faces when the points of some pieces are told, and the pieces."""
+    """Return the part of each face when the points of some pieces are known, and the piece of each face."""
     mesh, piece = mesh_of(pieces)
     whole = object_shape(mesh)
     cloud = sample_cloud(mesh, whole, FEW)
@@ -46,11 +46,11 @@ def test_a_box_that_no_view_sees_joins_the_front_that_it_hangs_on() -> None:
     found, piece = parts_of([*SHELL, FRONT, BIN, BLOCK], {0: 0, 1: 0, 2: 0, 3: 0, 4: 0, 5: 1})
     assert (found[(piece == 5) | (piece == 6)] == 1).all()
     assert (found[piece < 5] == 0).all()
-    assert (found[piece == 7] == 0).all()  # nothing holds it
+    assert (found[piece == 7] == 0).all()  # nothing supports it
 
 
 def test_a_box_that_also_touches_the_body_stays_with_what_it_touches_more() -> None:
-    rail = box((0.02, 0.1, 0.2), (0.1, 0.7, 0.22))  # between the drawer's box and the body's side
+    rail = box((0.02, 0.1, 0.2), (0.1, 0.7, 0.22))  # between the drawer's box and the side of the base
     found, piece = parts_of([*SHELL, FRONT, BIN, rail], {0: 0, 1: 0, 2: 0, 3: 0, 4: 0, 5: 1})
     assert (found[piece == 6] == 1).all()
     assert (found[piece < 5] == 0).all()
@@ -75,7 +75,7 @@ def test_a_piece_of_two_parts_is_cut_along_its_superpoints_without_speckles() ->
     rng = np.random.default_rng(0)
     point = np.where(rng.random(len(cloud)) < 0.25, ~top, top).astype(int)
     point[rng.random(len(cloud)) < 0.3] = -1
-    point[cloud.normals[:, 0] > 0.9] = -1  # a side that no view sees
+    point[cloud.normals[:, 0] > 0.9] = -1  # a side that no view shows
     found = face_parts(mesh, whole, cloud, point)
     known = mesh.face_normals[:, 0] < 0.9
     assert (found[known] == (mesh.face_normals[known, 2] > 0.9)).all()
@@ -118,7 +118,7 @@ TRUTHS = {t.name: t for t in example_truths(Path(__file__).parents[2] / "example
 
 
 def grounded(truth: GroundTruth, exact: bool) -> tuple[float, float]:
-    """Mean IoU of the movable parts and IoU of the base when a perfect labeller names the regions."""
+    """Return the mean IoU of the movable parts and the IoU of the base for perfect labels of the regions."""
     mesh = place_mesh(load_mesh(truth.mesh)).mesh
     whole = object_shape(mesh)
     cloud = sample_cloud(mesh, whole, GroundingConfig(points=60_000))
@@ -138,7 +138,7 @@ def grounded(truth: GroundTruth, exact: bool) -> tuple[float, float]:
 
 
 def by_masks(truth: GroundTruth, marks: Marks, cloud: Cloud, views: list[View]) -> Instances:
-    """What PartSlip++ makes of the regions when views need not number parts alike."""
+    """Return the result of PartSlip++ for views that number the parts independently."""
     rng = np.random.default_rng(0)
     counts = []
     for view in views:

@@ -1,4 +1,4 @@
-"""Labels and instances of superpoints from masks."""
+"""Test labels and instances of superpoints from masks."""
 
 import numpy as np
 import pytest

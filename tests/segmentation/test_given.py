@@ -1,4 +1,4 @@
-"""Parts that a user gives: as nodes of the scene, or as a file of face labels."""
+"""Test parts given by a user: nodes of the scene, or a file of face labels."""
 
 import io
 import json

@@ -1,4 +1,4 @@
-"""Stage A with someone who sees, whole: exact regions or masks of a model, what no view shows, labels that nothing bears."""
+"""Test Stage A with a visual answerer: exact regions, masks of a model, unseen parts, labels without parts."""
 
 from pathlib import Path
 from types import SimpleNamespace
@@ -60,7 +60,7 @@ def test_geometry_finds_what_is_inside_where_nobody_was_asked_for_it() -> None:
     "name", ["tilted_drawer", *(pytest.param(n, marks=pytest.mark.slow) for n in ("microwave_fused", "stove"))]
 )
 def test_masks_of_a_model_become_parts_by_partslip(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A model that masks every part in every view, with numbers that mean nothing from view to view."""
+    """The masks cover every part in every view, and their numbers differ between views."""
     truth = TRUTHS[name]
     mesh = place_mesh(load_mesh(truth.mesh)).mesh
     shown, proposed = {}, grounded.propose

@@ -1,4 +1,4 @@
-"""Few pictures show every mark well; crowded views become close-ups; calls go on where pictures are many."""
+"""Test the choice of pictures: few views show every mark well, crowded views give close-ups, many pictures more calls."""
 
 from functools import cache
 
@@ -61,7 +61,7 @@ def test_a_keyboard_is_shown_in_close_ups_with_every_key() -> None:
 
 
 class Points:
-    """Answers that every mark but the first is a key of its own; asks to split what it is told to."""
+    """Answers that every mark but the first is a separate key, and asks to split given marks."""
 
     name, needs_images, exchanges, warnings = "points", False, (), ()
 
@@ -132,5 +132,5 @@ def test_views_of_masks_are_numbered_as_the_pictures_are() -> None:
 
 def test_parts_of_one_label_that_are_lost_are_told() -> None:
     marked = [MarkedPart("wheel", k, v, (k,)) for v in (0, 1) for k in (1, 2, 3)] + [MarkedPart("door", 1, 0, (4,))]
-    assert _lost(marked, ["wheel", "wheel", "door"]) == ("3 parts 'wheel' were pointed at in one view, 2 found",)
+    assert _lost(marked, ["wheel", "wheel", "door"]) == ("3 parts 'wheel' were marked in one view, but 2 found",)
     assert _lost(marked, ["wheel"] * 3 + ["door"] * 2) == ()

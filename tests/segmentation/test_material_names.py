@@ -1,4 +1,4 @@
-"""A material's name tells what a piece is, when it means something and is not that of the whole object."""
+"""Test that a material's name names a piece if it is recognized and not that of the whole object."""
 
 import numpy as np
 import pytest
@@ -14,7 +14,7 @@ WALLS = [
     box((-0.28, 0, 0), (0.28, 0.28, 0.02)),
     box((-0.28, 0, 0.78), (0.28, 0.28, 0.8)),
 ]
-FRONT = box((-0.3, -0.02, 0), (0.3, 0, 0.8))  # a plate that covers the opening, no handle, no clearance
+FRONT = box((-0.3, -0.02, 0), (0.3, 0, 0.8))  # a plate that covers the opening, without handle and clearance
 
 
 @pytest.mark.parametrize(

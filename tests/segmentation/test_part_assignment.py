@@ -1,4 +1,4 @@
-"""The assignment of parts is the best set without conflicts: compared with trying all sets."""
+"""Test the assignment of parts against the best conflict-free set found by trying all sets."""
 
 from itertools import combinations
 
@@ -21,7 +21,7 @@ def overlap(members: np.ndarray, patch: np.ndarray) -> Overlap:
 def test_no_set_without_conflicts_scores_higher(seed: int) -> None:
     rng = np.random.default_rng(seed)
     members = rng.random((9, 6)) < 0.35
-    members[np.arange(9), rng.integers(6, size=9)] = True  # none is empty
+    members[np.arange(9), rng.integers(6, size=9)] = True  # no candidate is empty
     candidates = overlap(members, rng.uniform(0.1, 1, 6))
     score = rng.normal(0.5, 1, 9)
     clash = conflicts(candidates)
@@ -34,7 +34,7 @@ def test_no_set_without_conflicts_scores_higher(seed: int) -> None:
 
 
 def test_a_knob_on_a_door_is_a_part_and_the_door_without_its_trim_is_not() -> None:
-    members = np.array([[1, 1, 1, 0], [1, 0, 0, 0], [0, 1, 1, 0], [0, 0, 1, 1]], bool)  # door, knob, leaf, crossing
+    members = np.array([[1, 1, 1, 0], [1, 0, 0, 0], [0, 1, 1, 0], [0, 0, 1, 1]], bool)  # door, knob, panel, crossing
     candidates = overlap(members, np.array([0.02, 0.1, 1.0, 1.0]))
     clash = conflicts(candidates)
     assert not clash[0, 1]
@@ -46,7 +46,7 @@ def test_a_knob_on_a_door_is_a_part_and_the_door_without_its_trim_is_not() -> No
 
 
 def test_what_only_a_part_holds_goes_with_it() -> None:
-    """A case, a door before it with its handle, a sill that both hold, and a cup on the case."""
+    """The scene is a case, a door in front with its handle, a sill that touches both, and a cup on the case."""
     boxes = [
         box((0, 0.1, 0), (1, 1, 1)), box((0.1, 0.05, 0.1), (0.9, 0.1, 0.9)), box((0.2, 0, 0.4), (0.25, 0.05, 0.6)),
         box((0.3, 0.05, 0.9), (0.6, 0.1, 0.95)), box((0.4, 0.4, 1), (0.5, 0.5, 1.1)),
@@ -62,5 +62,5 @@ def test_what_only_a_part_holds_goes_with_it() -> None:
         return join_floating(given, contacts)[patch].tolist()
 
     assert joined(-1, 7, -1, -1, -1) == [-1, 7, 7, -1, -1]
-    assert joined(7, -1, -1, -1, -1) == [7, -1, -1, -1, 7]  # the door is the largest of what is left
-    assert joined(-1, 7, 8, -1, -1) == [-1, 7, 8, -1, -1]  # a part of its own stays
+    assert joined(7, -1, -1, -1, -1) == [7, -1, -1, -1, 7]  # the door is the largest remaining group
+    assert joined(-1, 7, 8, -1, -1) == [-1, 7, 8, -1, -1]  # a separate part stays

@@ -1,4 +1,4 @@
-"""The shipped classifiers of parts and of motions: small, complete, and said to be trained on what they were trained on."""
+"""Test the shipped classifiers of parts and motions: their size, their completeness, and their training manifests."""
 
 from collections.abc import Callable
 from importlib.resources import files

@@ -1,4 +1,4 @@
-"""Features of candidate parts: right on a scene that one can work out, the same at any scale, place and yaw."""
+"""Test features of candidate parts on a scene with known values, and their invariance to scale, place and yaw."""
 
 import numpy as np
 import pytest
@@ -15,7 +15,7 @@ WALLS = [
     box((0, 0, 0), (1, 0.5, 0.05)), box((0, 0, 0.95), (1, 0.5, 1)), box((0, 0, 0.05), (0.05, 0.5, 0.95)),
     box((0.95, 0, 0.05), (1, 0.5, 0.95)), box((0.05, 0.45, 0.05), (0.95, 0.5, 0.95)),
 ]  # fmt: skip
-DOOR = box((0.055, 0.01, 0.055), (0.945, 0.04, 0.945))  # inset, 5 mm of clearance
+DOOR = box((0.055, 0.01, 0.055), (0.945, 0.04, 0.945))  # inset, with 5 mm of clearance
 KNOB = box((0.85, -0.03, 0.47), (0.89, 0.01, 0.51))
 
 

@@ -1,4 +1,4 @@
-"""Candidates for parts: every part of a cabinet of boards is among them, once, whatever their order in the file."""
+"""Test that the candidates include every part of a cabinet of boards once, whatever their order in the file."""
 
 import numpy as np
 from assets import box, mesh_of
@@ -27,7 +27,7 @@ def test_a_framed_door_with_its_grip_is_a_candidate_and_so_is_the_grip() -> None
     found = sets(candidates([BODY, *LEAF, GRIP]))
     assert frozenset({1, 2, 3, 4}) in found
     assert frozenset({4}) in found
-    assert frozenset(range(5)) not in found  # all of the object is no part
+    assert frozenset(range(5)) not in found  # the whole object is no part
 
 
 def test_no_candidate_is_there_twice_and_the_largest_come_first() -> None:

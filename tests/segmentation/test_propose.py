@@ -1,4 +1,4 @@
-"""What a model's masks become."""
+"""Test regions made from a model's masks."""
 
 import numpy as np
 from assets import box, mesh_of
@@ -27,7 +27,7 @@ def test_small_masks_are_dropped_and_small_lie_over_large() -> None:
     assert labels.max() == 2
     assert labels[10, 10] != labels[30, 30]
     assert labels[56, 56] == -1
-    assert (labels == labels[10, 10]).sum() == 88  # the majority filter takes three pixels of each corner
+    assert (labels == labels[10, 10]).sum() == 88  # the majority filter removes three pixels at each corner
 
 
 def test_speckles_go_and_pieces_apart_get_numbers_of_their_own() -> None:

@@ -1,4 +1,4 @@
-"""Exact regions of the surface with numbers: what is marked, what joins, what is split."""
+"""Test numbered exact regions of the surface: which are marked, merged and split."""
 
 from dataclasses import replace
 
@@ -70,7 +70,7 @@ def test_a_thin_strip_gets_a_close_up_and_plain_panels_none() -> None:
     (camera,) = close_ups(region, cloud, views)
     near = render(mesh, camera)
     across = [(piece[near.face[:, c][near.face[:, c] >= 0]] == 3).sum() for c in range(0, 300, 30)]
-    assert max(across) >= 4  # rows of pixels, one or two before
+    assert max(across) >= 4  # in rows of pixels; one or two rows before
 
 
 def test_a_piece_without_area_is_no_region() -> None:
@@ -90,7 +90,7 @@ def test_a_large_piece_of_two_colours_is_two_regions() -> None:
     two = replace(plain, face_material=color, materials=materials)
     for mesh, count in ((plain, 2), (two, 3)):
         whole, cloud, _ = shown(mesh)
-        # The cube is nearly all of this object, so its sides are told apart: 6 of them and the knob.
+        # The cube is nearly all of this object, so its 6 sides are separate regions besides the knob.
         assert face_regions(whole, cloud).max() + 1 in (count, 7)
     again, _ = mesh_of([BODY, box((2, 0, 0), (3, 1, 1))])
     color = (again.triangles[:, :, 2].min(1) > 0.99).astype(int)
@@ -131,7 +131,7 @@ def test_a_mark_is_split_at_its_edges_and_no_other_is_touched() -> None:
     found = split_marks(marks, [int(first)], mesh, cloud, views, FEW)
     assert (found.face_mark[piece == 1] == second).all()
     sides = {}
-    for normal in ((0, -1, 0), (0, 0, 1), (-1, 0, 0)):  # the views are from the front, a little above
+    for normal in ((0, -1, 0), (0, 0, 1), (-1, 0, 0)):  # the views are from the front, slightly above
         own = set(found.face_mark[(piece == 0) & (mesh.face_normals @ np.array(normal) > 0.9)])
         assert len(own) == 1
         sides[normal] = own.pop()

@@ -1,4 +1,4 @@
-"""A part that proves wrong when it is moved goes back to the marks once, end to end with scripted answers."""
+"""Test end to end, with scripted answers, that a part that proves wrong when moved is grounded once more."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ QUICK = Config(views=ViewsConfig(around="4@15+30,1@50+30", size=240), grounding=
 
 
 class Scripted:
-    """Answers from the truth, but for the first answer about marks, and says once which part is wrong."""
+    """Answers from the truth, except for the first answer about marks, and reports once which part is wrong."""
 
     name, needs_images, exchanges, warnings = "scripted", False, (), ()
 
@@ -35,7 +35,7 @@ class Scripted:
         answer = self.knows.ask(question)
         if question.kind == "marks" and first:
             return self._wrong(answer)
-        if question.kind == "marks":  # under the name that the question tells
+        if question.kind == "marks":  # under the label and instance in the question
             return replace(answer, parts=(replace(answer.parts[0], instance=int(question.again[0].split()[1])),))
         if question.kind == "motions" and first:
             return tuple(
@@ -45,7 +45,7 @@ class Scripted:
         return answer
 
     def _wrong(self, answer: MarksAnswer) -> MarksAnswer:
-        """The left door takes what belongs to the right one's knob, or leaves its own knob out."""
+        """Return an answer in which the left door has the right one's knob, or lacks its own knob."""
         left, right = answer.parts
         if self.fit is PartFit.TOO_LITTLE:
             return replace(answer, parts=(MarkedPart("door", 1, None, left.marks[:1]), right))

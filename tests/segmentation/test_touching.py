@@ -1,4 +1,4 @@
-"""What touches what, where, and what hangs on what."""
+"""Test contacts between patches, and dependent groups."""
 
 import numpy as np
 import pytest
@@ -48,8 +48,8 @@ def test_touching_boxes_are_one_body_that_touches_at_the_face() -> None:
     assert found.touch.tolist() == [[0, 1]]
     assert len(found.near) == 0
     assert found.component[0] == found.component[1]
-    assert found.area[0, 1] == pytest.approx(1, abs=0.1)  # from a thousand points
-    assert found.area[1, 0] == pytest.approx(1, abs=0.1)  # from a thousand points
+    assert found.area[0, 1] == pytest.approx(1, abs=0.1)  # sampled with a thousand points
+    assert found.area[1, 0] == pytest.approx(1, abs=0.1)  # sampled with a thousand points
 
 
 def test_a_clearance_keeps_bodies_apart_and_a_wide_one_makes_them_strangers() -> None:
@@ -66,7 +66,7 @@ def test_boxes_that_cross_touch() -> None:
 
 
 def test_what_reaches_the_root_only_through_a_piece_hangs_on_it() -> None:
-    """A tower 0-1-2, a bridge 3 from the root to 1, and a piece 4 by itself."""
+    """The scene is a tower 0-1-2, a bridge 3 from the root to 1, and a separate piece 4."""
     found = contacts(
         box((0, 0, 0), (3, 1, 1)),
         box((0, 0, 1), (1, 1, 2)),

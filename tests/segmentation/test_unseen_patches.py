@@ -1,4 +1,4 @@
-"""Patches that no view shows: a drawer keeps its box, a door does not take the cavity behind it along."""
+"""Test patches that no view shows: a drawer keeps its box, a door does not gain the cavity behind it."""
 
 import numpy as np
 from assets import box, mesh_of
@@ -12,11 +12,14 @@ from anymesh.types.recognition import Moves
 WALLS = [box((0, 0, 0), (1, 1, 0.02)), box((0, 0, 0.98), (1, 1, 1)), box((0, 0, 0.02), (0.02, 1, 0.98)),
          box((0.98, 0, 0.02), (1, 1, 0.98)), box((0.02, 0.98, 0.02), (0.98, 1, 0.98))]  # fmt: skip
 FRONT = box((0.05, -0.05, 0.05), (0.95, -0.002, 0.95))
-BIN = box((0.1, -0.002, 0.1), (0.9, 0.8, 0.9))  # behind the front, and touching nothing else
+BIN = box((0.1, -0.002, 0.1), (0.9, 0.8, 0.9))  # behind the panel, touching nothing else
 
 
 def pieces(*more) -> tuple[ObjectShape, np.ndarray, Solver]:
-    """The shape, the part of each of its patches (the front is 1, what is behind it is unseen), and who tests what is free."""
+    """Return the shape, the part of each of its patches, and the solver.
+
+    The panel is part 1, and patches behind it are unseen.
+    """
     mesh, piece = mesh_of([*WALLS, FRONT, *more])
     solver = Solver(mesh)
     whole = solver.whole
@@ -46,4 +49,4 @@ def test_a_drawer_slides_as_far_with_its_box_and_a_door_does_not_turn_with_it() 
     joined, alone = np.where(part < 0, 1, part)[whole.patch], np.maximum(part, 0)[whole.patch]
     assert solver.stays_free(alone, joined, 1, Moves.PRISMATIC)
     assert not solver.stays_free(alone, joined, 1, Moves.REVOLUTE)
-    assert solver.stays_free(alone, joined, 1)  # nobody said: a drawer it may be
+    assert solver.stays_free(alone, joined, 1)  # without a recognized motion it may be a drawer

@@ -1,4 +1,4 @@
-"""Motions are rigid; cameras project what they see back to where they see it."""
+"""Test that motions are rigid, and that cameras project points to the pixels that show them."""
 
 from dataclasses import replace
 

@@ -1,4 +1,4 @@
-"""Nouns cannot be wrong, and meshes keep what belongs to them."""
+"""Test that data types validate their values, and that meshes keep their attributes."""
 
 from dataclasses import replace
 
@@ -73,7 +73,7 @@ def test_a_noun_that_is_wrong_is_not_made(name):
 
 @pytest.mark.parametrize("name", ["face_node", "face_material", "corner_uv", "corner_color", "corner_normal"])
 def test_attributes_have_one_row_a_face(name):
-    with pytest.raises((ValueError, TypeError), match=name):  # checked annotations find it first, where they are on
+    with pytest.raises((ValueError, TypeError), match=name):  # type checks of annotations, if enabled, raise first
         replace(MESH, **{name: getattr(MESH, name)[:3]})
 
 
@@ -90,7 +90,7 @@ def test_the_parts_share_out_the_faces():
 
 
 def affine(seed: int, mirrored: bool) -> np.ndarray:
-    """A random affine map: turned, sheared, scaled, moved."""
+    """Return a random affine transform: rotated, sheared, scaled, moved."""
     rng = np.random.default_rng(seed)
     T = np.eye(4)
     shear = np.triu(rng.uniform(-0.5, 0.5, (3, 3)), 1) + np.diag(rng.uniform(0.5, 2, 3) * [-1 if mirrored else 1, 1, 1])

@@ -8,14 +8,17 @@ from anymesh.geometry.boxes import OrientedBox
 from anymesh.geometry.part_context import PartContext
 from anymesh.types import Motion
 
-MAX_SIZE_DIFFERENCE = 0.25  # panels whose sides differ by less, relatively, are alike
-MAX_GAP_RATIO = 0.15  # of a panel's side: panels that meet are not further apart, nor shifted against each other
-BEHIND_THICKNESSES = 3.0  # thicknesses: what lies within this of a panel lies right behind it
-FULL_GAIN_RATIO = 0.5  # share of a panel that must come to lie over something when it passes it
+MAX_SIZE_DIFFERENCE = 0.25  # maximum relative difference of the sides of similar panels
+MAX_GAP_RATIO = 0.15  # of a panel's side: maximum gap between adjacent panels, and maximum offset along the common side
+BEHIND_THICKNESSES = 3.0  # [part thicknesses] surface within this distance of a panel lies directly behind it
+FULL_GAIN_RATIO = 0.5  # share of a panel that must newly overlap another surface for a full gain
 
 
 def adjacent_sides(around: PartContext) -> np.ndarray:
-    """(2, 2) for the face axes and their two signs (-, +): how many panels like the part adjoin it there, in its plane."""
+    """Count the similar panels that adjoin the part in its plane.
+
+    Return an array (2, 2): face axes by signs (-, +).
+    """
     core, found = around.body_obb, np.zeros((2, 2))
     flat = around.face_axes
     thin = next(k for k in range(3) if k not in flat)
@@ -39,7 +42,10 @@ def _extent(box: OrientedBox, frame: OrientedBox) -> np.ndarray:
 
 
 def pair_side(around: PartContext, motion: Motion, adjacent: np.ndarray) -> float:
-    """1: panels of a pair meet at the side opposite this hinge; -1: at the hinge; 0: no pair, or in the middle of three."""
+    """Return 1 if the panels of a pair meet opposite this hinge, -1 if they meet at the hinge.
+
+    Return 0 if there is no pair, or if the part is the middle one of three.
+    """
     core, total = around.body_obb, 0.0
     arm = motion.origin - core.center
     for axis, sides in zip(around.face_axes, adjacent, strict=True):
@@ -50,7 +56,7 @@ def pair_side(around: PartContext, motion: Motion, adjacent: np.ndarray) -> floa
 
 
 def outer_side(around: PartContext, motion: Motion) -> float:
-    """1: the line lies at the object's outer side, as a cabinet's hinges do; -1: at its middle; 0: the part is central."""
+    """Return 1 for a line at the object's outer side, as the hinges of a cabinet, -1 at its middle, 0 for a central part."""
     core = around.body_obb
     arm, away = motion.origin - core.center, core.center - around.center
     total = 0.0
@@ -64,7 +70,7 @@ def outer_side(around: PartContext, motion: Motion) -> float:
 
 
 def overlap_gain(around: PartContext, motion: Motion, free: tuple[float, float]) -> float:
-    """Return the gain in overlap when a part has moved by its own width, either way (0..1).
+    """Return the gain in overlap when a part has moved by its own width, in either direction (0..1).
 
     free: free travel along +axis and -axis [m]. Sashes and sliding doors overlap their neighbours when open.
     """
@@ -76,7 +82,7 @@ def overlap_gain(around: PartContext, motion: Motion, free: tuple[float, float])
     points = around.part.samples.points[::6]
 
     def over(shift: float) -> float:
-        """Return the share of the part with a surface on one side only; with one on both sides it would enter a cavity."""
+        """Return the share of the part with a surface on one side only; surfaces on both sides would mean a cavity."""
         start = points + shift * motion.axis
         rays = np.repeat(normal[None] * (BEHIND_THICKNESSES + 1) * thin, len(points), 0)
         front, back = (around.everything.scene.first_hit(start, sign * rays, 1.0).face >= 0 for sign in (1.0, -1.0))

@@ -1,4 +1,4 @@
-"""Candidate points of a hinge (paper, 3.3): clusters of the connecting area and, where the hinge is hidden, superpoints."""
+"""Candidate points of a hinge (paper, 3.3): clusters of the connecting area, and superpoints if the hinge is hidden."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ from anymesh.geometry.superpoints import superpoints
 from anymesh.rendering.points import labels_apart
 from anymesh.types import Motion
 
-Project = Callable[[Float[np.ndarray, "n 3"]], Float[np.ndarray, "n 2"]]  # points [m] to pixels of the picture that is shown
-MAX_POINTS = 4000  # of a connecting area that are clustered
-MIN_NORMAL_COSINE = 0.7  # cosine with the opening direction from which an axis sticks into the surface
+Project = Callable[[Float[np.ndarray, "n 3"]], Float[np.ndarray, "n 2"]]  # points [m] to pixels of the picture shown
+MAX_POINTS = 4000  # maximum number of points of a connecting area for clustering
+MIN_NORMAL_COSINE = 0.7  # minimum cosine between the opening direction and an axis that enters the surface
 
 
 def cluster_points(contact: Float[np.ndarray, "n 3"], project: Project, config: PromptConfig) -> Float[np.ndarray, "k 3"]:
-    """Return the centres of the connecting area's clusters: as many as keep their numbers apart in the picture."""
-    from scipy.cluster.vq import kmeans2  # takes .1 s to import, and only a model's questions need it
+    """Return the centers of the connecting area's clusters, as many as fit in the picture without overlapping numbers."""
+    from scipy.cluster.vq import kmeans2  # import on use: it takes 0.1 s, and only questions to models need it
 
     points = contact[:: max(1, len(contact) // MAX_POINTS)]
     order = _farthest(points, min(config.most_candidates, len(points)))
@@ -37,9 +37,9 @@ def cluster_points(contact: Float[np.ndarray, "n 3"], project: Project, config: 
 def axis_points(
     around: PartContext, axes: Sequence[Motion], project: Project, config: PromptConfig
 ) -> tuple[Float[np.ndarray, "k 3"], Float[np.ndarray, "k 3"]]:
-    """Return the points where some axes leave the part on its outer side, and the directions of these axes.
+    """Return the points where axes leave the part on its outer side, and the directions of these axes.
 
-    Axes that stick into the surface only; of two whose numbers would cover one another the first stays.
+    Only axes that enter the surface are used. If the numbers of two would overlap, the first is kept.
     """
     points, directions = np.zeros((0, 3)), np.zeros((0, 3))
     for motion in axes:
@@ -56,7 +56,10 @@ def axis_points(
 def superpoint_centres(
     points: SurfacePoints, colors: Float[np.ndarray, "n 3"], config: GroundingConfig
 ) -> Float[np.ndarray, "s 3"]:
-    """The sample nearest to the middle of each superpoint of a part, the largest superpoint first. colors: 0..1 a sample."""
+    """Return the sample nearest to the center of each superpoint of a part, the largest superpoint first.
+
+    colors: 0..1, one per sample.
+    """
     count = len(points)
     nearest = KDTree(points.points).query(points.points, range(1, min(config.neighbours + 1, count) + 1), workers=-1)[1]
     neighbours = nearest[:, 1:]
@@ -75,8 +78,10 @@ def superpoint_centres(
 def with_more(
     first: Float[np.ndarray, "k 3"], more: Float[np.ndarray, "s 3"], project: Project, config: PromptConfig
 ) -> Float[np.ndarray, "m 3"]:
-    """Return the first points, half of the places at most, and as many of the others, in their order, as keep their numbers
-    apart."""
+    """Return some of the first points, and as many others as fit without overlapping numbers, in their order.
+
+    The first points take at most half of the places.
+    """
     few = first[_farthest(first, min(len(first), config.most_candidates // 2))] if len(first) else first
     return followed(few, more, project, config)
 
@@ -84,7 +89,7 @@ def with_more(
 def followed(
     first: Float[np.ndarray, "k 3"], more: Float[np.ndarray, "s 3"], project: Project, config: PromptConfig
 ) -> Float[np.ndarray, "m 3"]:
-    """Return the first points, as they are, and as many of the others, in their order, as keep their numbers apart."""
+    """Return all first points, and as many others as fit without overlapping numbers, in their order."""
     chosen = list(first)
     for point in more:
         if len(chosen) < config.most_candidates and labels_apart(project(np.array([*chosen, point])), config.label_apart):
@@ -93,7 +98,7 @@ def followed(
 
 
 def _farthest(points: np.ndarray, count: int) -> np.ndarray:
-    """Indices of points that are far from each other, the first the farthest from the middle; the order is fixed."""
+    """Return indices of points far from each other, in a fixed order that starts with the point farthest from the center."""
     off = np.linalg.norm(points - points.mean(0), axis=1)
     chosen = [int(off.argmax())]
     nearest = np.linalg.norm(points - points[chosen[0]], axis=1)

@@ -1,4 +1,4 @@
-"""Parts on their way to joints, and questions about all of them at once."""
+"""Parts whose joints are being estimated, and questions about all of them at once."""
 
 from __future__ import annotations
 
@@ -20,15 +20,15 @@ from anymesh.reasoning.prompting import JointKind, KindAnswer, PartShown
 from anymesh.types import Motion, Picture, Segmentation
 from anymesh.types.recognition import BASE, Recognition, RecognizedLabel
 
-MAX_PICTURES = 8  # in one call
+MAX_PICTURES = 8  # pictures per call
 
 
 @dataclass(frozen=True, eq=False)
 class PartCase:
-    """A part on its way to a joint.
+    """A part whose joint is being estimated.
 
-    number: in the segmentation; carried: parts that hang on it; circles: axes of round pieces; recognized: what recognition
-    says of its label; asked: the motion answered.
+    number: index in the segmentation; carried: parts that depend on it; circles: axes of round patches; recognized:
+    recognition of its label; asked: the answered motion.
     """
 
     number: int
@@ -54,7 +54,7 @@ class PartCase:
 def make_cases(
     whole: ObjectShape, segmentation: Segmentation, recognition: Recognition | None, config: Config
 ) -> list[PartCase]:
-    """A case for every part but the root, in the order of the parts."""
+    """Make a case for every part but the root, in the order of the parts."""
     label = segmentation.face_part[whole.source]
     shapes = [whole.of(np.flatnonzero(label == i)) for i in range(len(segmentation.parts))]
     told = {r.label: r for r in recognition.labels} if recognition else {}
@@ -85,9 +85,9 @@ def make_cases(
 
 
 def _answered_parents(segmentation: Segmentation, recognized: Mapping[str, RecognizedLabel]) -> list[set[int]]:
-    """For each part, the indices of its possible parents according to the answers; empty without an answer.
+    """Return the indices of possible parents of each part according to the answers; empty without an answer.
 
-    A label that hangs on itself is that of a chain: such parts hang on each other, the first of them on any other part.
+    A label that names itself as parent marks a chain: such parts depend on each other, and the first of them on any other part.
     """
     numbers = range(len(segmentation.parts))
     found: list[set[int]] = []
@@ -108,7 +108,10 @@ def ask_each(
     picture: Callable[[PartCase, str], Picture],
     question: Callable[[tuple[Picture, ...], Sequence[PartCase]], Question[tuple[Answer, ...]]],
 ) -> dict[int, Answer]:
-    """Asks about all cases, MOST_PICTURES in a call, a picture each that is titled with its place; answers by part number."""
+    """Ask about all cases, MAX_PICTURES per call, and return the answers by part number.
+
+    Each case has one picture, titled with its position in the call.
+    """
     found: dict[int, Answer] = {}
     for begin in range(0, len(cases), MAX_PICTURES):
         some = cases[begin : begin + MAX_PICTURES]

@@ -7,17 +7,20 @@ import numpy as np
 from anymesh.geometry.part_context import PartContext
 from anymesh.types import Motion, MotionKind
 
-LINE_POINTS = 21  # along a hinge line
-MAX_CONTACT_POINTS = 120  # of the contact, sampled
+LINE_POINTS = 21  # sample points along a hinge line
+MAX_CONTACT_POINTS = 120  # sample points of the contact
 WATCHED_ANGLE_RAD = np.deg2rad(30)  # [rad] opening of a hinge at which contact is measured
-WATCHED_TRAVEL_RATIO = 0.5  # the same of a slide, over the part's extent along it
+WATCHED_TRAVEL_RATIO = 0.5  # travel of a slide at which contact is measured, relative to the part's extent along it
 CONTACT_TOLERANCE_FACTOR = 1.5  # contact is retained within this factor of its distance at rest
-CONTACT_RATIO = 0.008  # of the scale: points nearer to the parent are contact
-RIM_RATIO = 0.15  # of the part's reach across a line: surface nearer to the line is its rim
+CONTACT_RATIO = 0.008  # of the scale: points closer to the parent are in contact
+RIM_RATIO = 0.15  # of the part's reach across a line: surface closer to the line is its rim
 
 
 def contact_retention(around: PartContext, motions: list[Motion], signs: list[int]) -> np.ndarray:
-    """Return the share of the contact that stays near the parent at a small opening, one per motion; signs: of the opening."""
+    """Return the share of the contact that stays near the parent at a small opening, one per motion.
+
+    signs: sign of the opening, one per motion.
+    """
     tolerance = max(CONTACT_RATIO * around.scale, CONTACT_TOLERANCE_FACTOR * float(around.gap.min()))
     contact = around.part.samples.points[around.gap <= tolerance]
     if len(contact) < 3 or not motions:
@@ -34,8 +37,11 @@ def contact_retention(around: PartContext, motions: list[Motion], signs: list[in
 
 
 def hinge_support(around: PartContext, motions: list[Motion]) -> np.ndarray:
-    """Return (motions, 3) for each hinge line, as long as the part: the shares of the line near the parent and near another
-    movable part, and the first for the line mirrored at the part's middle (its free side, if there is one)."""
+    """Return the support of each hinge line, as long as the part: an array (motions, 3).
+
+    The columns are the shares of the line near the parent and near another movable part, and the share near the parent of the
+    line mirrored at the part's center (its free side, if there is one).
+    """
     if not motions:
         return np.zeros((0, 3))
     points, lines = around.part.samples.points, []
@@ -58,8 +64,8 @@ def hinge_support(around: PartContext, motions: list[Motion]) -> np.ndarray:
 def lever_arm(around: PartContext, motion: Motion) -> tuple[float, float, float]:
     """Return three measures of a hinge line.
 
-    log2 of the part's reach across the line over its length along it; proximity of the contact to the line (0..1); thickness
-    of the part at the line over its largest (0..1), as thin edges are free ones.
+    log2 of the part's reach across the line over its length along it; proximity of the contact to the line (0..1); thickness of
+    the part at the line over its largest (0..1), since thin edges are free ones.
     """
     points = around.part.samples.points
     arm = points - motion.origin

@@ -1,4 +1,4 @@
-"""Answers about one part that contradict each other, as warnings."""
+"""Warnings about contradictory answers on one part."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ TURNING = (JointType.REVOLUTE, JointType.CONTINUOUS)
 
 
 def contradictions(cases: Sequence[PartCase], joints: Sequence[Joint]) -> tuple[str, ...]:
-    """Return a warning for each part whose answers (recognized, kind of joint, motion) contradict each other."""
+    """Return a warning for each part whose answers (recognition, kind of joint, motion) contradict each other."""
     found = []
     for case, joint in zip(cases, joints, strict=True):
         told = list(_answered_motion(case))

@@ -1,4 +1,7 @@
-"""Decode picks into motions (paper, 3.3): points into a hinge line, a plane normal into an axis, arrows into a slide."""
+"""Decode picked points, normals and arrows into motions (paper, 3.3).
+
+Points give a hinge line, a plane normal gives an axis, and arrows give a slide.
+"""
 
 from __future__ import annotations
 
@@ -32,9 +35,9 @@ def plane_normal(points: Float[np.ndarray, "n 3"], tolerance: float, seed: int) 
 def hinge(
     picked: Float[np.ndarray, "k 3"], normal: Float[np.ndarray, " 3"], axis: Float[np.ndarray, " 3"] | None = None
 ) -> Motion:
-    """Return the line through two or more points, or through one along the axis that it stands for.
+    """Return the line through two or more points, or through one point along its axis.
 
-    axis: None or NaN for a point that stands for none; the normal of the connecting area's plane is taken then.
+    axis: axis of a single picked point. If it is None or NaN, the normal of the connecting area's plane is used.
     """
     if len(picked) == 1:
         own = axis is not None and not np.isnan(axis).any()

@@ -23,18 +23,21 @@ from anymesh.geometry.triangle_set import TriangleSet
 from anymesh.reasoning.questions import Candidate, MotionAnswer, MotionAnswerer, MotionQuestion
 from anymesh.types import Joint, JointType, Motion, MotionKind, Segmentation
 
-MAX_RIM_DISTANCE_RATIO = 0.01  # share of the scale: hinge lines this near, or as near as the part is thick, are at one rim
-MIN_PARALLEL_COSINE = 0.999  # cosine of their axes
-SUFFICIENT_OPENING_RAD = np.deg2rad(110)  # [rad] openings beyond are not compared
+MAX_RIM_DISTANCE_RATIO = 0.01  # of the scale: hinge lines within this distance, or within the part's thickness, are at one rim
+MIN_PARALLEL_COSINE = 0.999  # minimum cosine between the axes of such lines
+SUFFICIENT_OPENING_RAD = np.deg2rad(110)  # [rad] larger openings are not compared
 TIGHT_PENETRATION_SCALE = 0.2  # penetration scale for the clearance to neighbours, which is a few millimetres
-MAX_COPIES = 8  # whose motions are compared with those of a part
-ROLES_AFTER_DEADLINE = ("two_pivot", "round", "barrel", "edge_mid", "slide")  # swept after the deadline
+MAX_COPIES = 8  # maximum number of copies whose motions are compared with those of a part
+ROLES_AFTER_DEADLINE = ("two_pivot", "round", "barrel", "edge_mid", "slide")  # roles that are swept after the deadline
 PartMotions = tuple[int, int, PartContext, MotionQuestion]  # part number, parent number, context, motions
 MIN_OPENING_GAIN_RAD = np.deg2rad(5)  # [rad] minimum gain in opening angle
 
 
 def estimate_joints(segmentation: Segmentation, motions: Iterable[PartMotions], answerer: MotionAnswerer) -> tuple[Joint, ...]:
-    """Return one joint for every part but the root, in the order of the parts. motions: as from `motion_questions`."""
+    """Return one joint for every part but the root, in the order of the parts.
+
+    motions: as from `motion_questions`.
+    """
     parts = segmentation.parts
     joints = {
         i: estimate_joint(around, parts[i].name, parts[over].name, question, answerer) for i, over, around, question in motions
@@ -97,7 +100,7 @@ def part_context(
 
 
 def choose_motion(around: PartContext, question: MotionQuestion, answerer: MotionAnswerer) -> tuple[MotionAnswer, Candidate]:
-    """Return how a part moves: the answer with the candidate chosen."""
+    """Return the answer on how a part moves, and the chosen candidate."""
     answer = answerer.which_motion(question)
     return answer, _clear_of_others(around, question.candidates[answer.ranking[0]], question.candidates)
 
@@ -145,9 +148,8 @@ def estimate_joint(around: PartContext, name: str, parent: str, question: Motion
     answer, best = choose_motion(around, question, answerer)
     if answer.type is not JointType.FIXED:
         return joint_of(around, name, parent, best, answer.type, answer.confidence, answer.reason)
-    kind = (
-        JointType.PRISMATIC if best.motion.kind is MotionKind.PRISMATIC else JointType.REVOLUTE
-    )  # somebody said that it moves
+    # the part is known to move, so a fixed answer is replaced by the best motion
+    kind = JointType.PRISMATIC if best.motion.kind is MotionKind.PRISMATIC else JointType.REVOLUTE
     return joint_of(around, name, parent, best, kind, answer.confidence, f"{answer.reason}; likeliest: {best.motion.source}")
 
 
@@ -161,7 +163,10 @@ def joint_of(
     reason: str,
     answered: tuple[float, float] | None = None,
 ) -> Joint:
-    """Build the joint of a candidate motion: positive opens, limits by the sweep, within the answered range if there is one."""
+    """Build the joint of a candidate motion.
+
+    Positive values open. The limits come from the sweep, within the answered range if there is one.
+    """
     best = opening_as_answered(best, answered)
     motion = opening_motion(best)
     return Joint(
@@ -178,7 +183,7 @@ def joint_of(
 
 
 def _on_part(motion: Motion, around: PartContext) -> np.ndarray:
-    """Return the point of the axis nearest to the middle of the part [m]."""
+    """Return the point of the axis nearest to the center of the part [m]."""
     return motion.origin + ((around.part.box.center - motion.origin) @ motion.axis) * motion.axis
 
 

@@ -13,14 +13,15 @@ from anymesh.geometry.sweep import free_amounts, sweep_all
 from anymesh.reasoning.questions import Candidate, PartFacts
 from anymesh.types import Motion, MotionKind, Sweep
 
-CROSSWISE_HANDLE_WEIGHT = 0.6  # weight of a bar that runs across the line
-PENETRATION_SCALES = (3.0, IGNORE_OVERLAP_SCALE)  # tried in turn where a hinge is blocked
-RIM_ROLES = ("edge", "edge_mid", "barrel")  # hinges at a rim: they may turn although the part overlaps static geometry
-MIN_OUTWARD_COSINE = 0.5  # cosine of a motion with the opening direction
+CROSSWISE_HANDLE_WEIGHT = 0.6  # weight of the side of a bar handle that runs across the line
+PENETRATION_SCALES = (3.0, IGNORE_OVERLAP_SCALE)  # tried in this order if a hinge is blocked
+RIM_ROLES = ("edge", "edge_mid", "barrel")  # hinges at a rim, which may turn although the part overlaps static geometry
+MIN_OUTWARD_COSINE = 0.5  # minimum cosine between an outward motion and the opening direction
 MIN_FREE_ANGLE_RAD = np.deg2rad(12)  # [rad] a hinge that opens less is blocked
-FACING_COSINE = 0.7  # cosine from which a surface faces the opening direction, or away from it
-ASYMMETRY_ANGLES_DEG = (37, 90, 141, 200, 285)  # [deg] about its axis; a body of revolution looks the same after all of them
-GUIDE_STEP_RATIO = 0.02  # a slide is guided where a sideways step of this share of the scale is blocked
+FACING_COSINE = 0.7  # minimum cosine of a surface that faces the opening direction or the opposite one
+# [deg] rotations about its axis; a body of revolution looks the same after all of them
+ASYMMETRY_ANGLES_DEG = (37, 90, 141, 200, 285)
+GUIDE_STEP_RATIO = 0.02  # of the scale: a slide is guided if a sideways step of this length is blocked
 
 
 def part_facts(around: PartContext, name: str, label: str, two_pivot: bool) -> PartFacts:
@@ -81,7 +82,7 @@ def _free_rim(around: PartContext) -> float:
 
 
 def _rotational_asymmetry(around: PartContext) -> float:
-    """Return the distance of a round part from a body of revolution, over its radius: knobs carry marks or grips."""
+    """Return the maximum distance of a round part from its rotated copies, over its radius: knobs have markings or handles."""
     outline, points = around.outline, around.part.samples.points[::4]
     off = 0.0
     for turn in np.deg2rad(ASYMMETRY_ANGLES_DEG):
@@ -106,10 +107,10 @@ def _covers_opening(around: PartContext) -> float:
 
 
 def hypotheses(around: PartContext, proposed: list[tuple[str, Motion]]) -> tuple[Candidate, ...]:
-    """Sweep every motion and measure it: two candidates per motion, opening along its axis and against it, side by side.
+    """Sweep and measure all motions: return two candidates per motion, opening along its axis and against it.
 
-    Part and rest may penetrate each other at rest, as artists leave them: hinges that are blocked are swept again with more
-    penetration allowed, and at last as if the rest made room for the part.
+    Meshes may have parts that penetrate the rest at rest. Blocked hinges are therefore swept again with more allowed
+    penetration, and finally with the overlap at rest ignored.
     """
     motions, steps = [m for _, m in proposed], around.config.sweep_steps
     revolute = [m for m in motions if m.kind is MotionKind.REVOLUTE]
@@ -232,7 +233,7 @@ def _captured(around: PartContext, swept: Sweep) -> bool:
 def _handle_side(around: PartContext, motion: Motion) -> float:
     """Return the side of the handle: 1 opposite the hinge line, -1 at the line, 0 level with it or without a handle.
 
-    A handle that runs across the line counts less: pulls are parallel to the hinge.
+    A handle that runs across the line counts less, since pulls are usually parallel to the hinge.
     """
     handle = around.handle
     if handle is None:
@@ -248,7 +249,7 @@ def _handle_side(around: PartContext, motion: Motion) -> float:
 
 
 def _handle_offset(around: PartContext, motion: Motion) -> float:
-    """Return the offset of the handle from the middle of the hinge line (0..1): small for flaps, large for doors."""
+    """Return the offset of the handle from the center of the hinge line (0..1): small for flaps, large for doors."""
     if around.handle is None:
         return 0.0
     across = zip(around.face_axes, around.handle.across, strict=True)

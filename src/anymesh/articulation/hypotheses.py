@@ -1,7 +1,8 @@
-"""Candidate motions of a part. A joint is chosen among these, never regressed.
+"""Candidate motions of a part. Joints are chosen among these and never regressed.
 
-The paper's (3.3): the line along the connecting area, the normal of the plane fitted to it, directions in that plane.
-Ours: edges, middle lines and directions of the part's boxes, the axis of a round outline, the line through two far contacts.
+From the paper (3.3): the line along the connecting area, the normal of its fitted plane, directions in that plane.
+Added here: edges, center lines and directions of the part's boxes, the axis of a round outline, the line through two far
+contacts.
 """
 
 from __future__ import annotations
@@ -31,7 +32,7 @@ def _edges(box: OrientedBox, what: str) -> list[tuple[str, Motion]]:
 
 
 def _edge_middles(box: OrientedBox, what: str) -> list[tuple[str, Motion]]:
-    """Return the lines half way through the thickness of a plate, along its four rims."""
+    """Return the lines at half the thickness of a plate, along its four rims."""
     found = []
     for k in range(2):
         other = 1 - k
@@ -58,7 +59,7 @@ def _principal(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _from_contact(around: PartContext) -> list[tuple[str, Motion]]:
-    """The paper's: the line along the connecting area, its plane's normal and the directions in the plane."""
+    """Return the paper's candidates: the line along the connecting area, its plane's normal, directions in the plane."""
     contact = around.contact
     if len(contact) < 4:
         return []
@@ -99,7 +100,7 @@ def two_pivot_line(around: PartContext) -> Motion | None:
 
 
 def _two_groups(points: np.ndarray, centers: np.ndarray) -> np.ndarray:
-    """Return 0 or 1 per point: the nearer of two centers, which move to the middle of their points (k-means, 20 rounds)."""
+    """Return 0 or 1 per point: the nearer of two centers, fitted by k-means in 20 rounds."""
     side = np.zeros(len(points), np.int64)
     for _ in range(20):
         side = ((points[:, None] - centers) ** 2).sum(2).argmin(1)
@@ -118,7 +119,7 @@ def barrels(around: PartContext) -> list[tuple[str, Motion]]:
 
 
 def propose(around: PartContext) -> list[tuple[str, Motion]]:
-    """Propose all candidate motions of a part with their roles, without near copies, in a fixed order."""
+    """Propose all candidate motions of a part with their roles, without near-duplicates, in a fixed order."""
     core, box = around.body_obb, around.part.box
     found = _edges(core, "the part") + _edge_middles(core, "the part") + _through(core, "the part")
     found += _box_directions(core, "the part")
@@ -139,7 +140,10 @@ def propose(around: PartContext) -> list[tuple[str, Motion]]:
 
 
 def distinct(found: list[tuple[str, Motion]], diagonal: float) -> list[tuple[str, Motion]]:
-    """Return the motions without near copies of earlier ones. diagonal: the length that tolerances are shares of [m]."""
+    """Return the motions without near-duplicates of earlier ones.
+
+    diagonal: reference length of the tolerances [m].
+    """
     kept: list[tuple[str, Motion]] = []
     for role, motion in found:
         if not any(_same(motion, other, diagonal) for _, other in kept):

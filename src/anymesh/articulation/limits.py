@@ -1,4 +1,4 @@
-"""Compute the limits of a joint from the sweep of its motion."""
+"""Limits of a joint from the sweep of its motion."""
 
 from __future__ import annotations
 
@@ -13,17 +13,15 @@ from anymesh.reasoning.questions import MIN_ANGLE, Candidate
 from anymesh.types import JointType, Motion, MotionKind
 from anymesh.types.recognition import Moves, RecognizedLabel
 
-MIN_DRAWER_DEPTH_RATIO = 0.35  # a slide less deep than this share of its parent is only a front
-MIN_STROKE_RATIO = 0.1  # of its height: a button with less room behind it fills its hole
-STROKE_RATIO = 0.5  # of its height: how far such a button goes in
-MIN_DRAWER_SIZE_RATIO = 0.06  # of the object's diagonal: what is smaller is no front of a hidden box
-MIN_ANGLE_RAD = np.deg2rad(2.0)  # a shorter range of a hinge is an error
-MIN_TRAVEL_RATIO = 0.001  # share of the scale; a shorter range of a slide is an error
-MAX_BLOCKED_RATIO, MIN_REVERSED_FREE_RATIO = (
-    0.5,
-    0.8,
-)  # shares of an answered range that are free before and after the axis is reversed
-MIN_DEPTH_IN_PARENT_RATIO = 0.3  # share of an answered travel: a part inside its parent by less is only a front
+MIN_DRAWER_DEPTH_RATIO = 0.35  # of the parent's depth: a slide that is less deep is only a panel
+MIN_STROKE_RATIO = 0.1  # of its height: a button with less free space behind it fills its hole
+STROKE_RATIO = 0.5  # of its height: stroke of such a button
+MIN_DRAWER_SIZE_RATIO = 0.06  # of the object's diagonal: smaller parts are no panels of a hidden box
+MIN_ANGLE_RAD = np.deg2rad(2.0)  # [rad] a shorter range of a hinge is an error
+MIN_TRAVEL_RATIO = 0.001  # of the scale: a shorter range of a slide is an error
+# free shares of an answered range for reversing the axis: the maximum before, and the minimum after
+MAX_BLOCKED_RATIO, MIN_REVERSED_FREE_RATIO = 0.5, 0.8
+MIN_DEPTH_IN_PARENT_RATIO = 0.3  # of the answered travel: a part less deep inside its parent is only a panel
 
 
 Range = tuple[float, float]  # lower, upper [rad or m], lower <= 0 <= upper
@@ -32,7 +30,7 @@ Range = tuple[float, float]  # lower, upper [rad or m], lower <= 0 <= upper
 def limits(around: PartContext, c: Candidate, kind: JointType, answered: Range | None = None) -> Range | None:
     """Compute (lower, upper) about the opening axis [rad or m]; None for continuous and fixed joints.
 
-    answered: the range about the opening axis that an answerer gave; the sweep only shortens it.
+    answered: the answered range about the opening axis; the sweep only shortens it.
     """
     match kind:
         case JointType.CONTINUOUS | JointType.FIXED:
@@ -53,7 +51,7 @@ def opening_motion(c: Candidate) -> Motion:
 
 
 def answered_range(recognized: RecognizedLabel | None, kind: JointType) -> Range | None:
-    """Return the range [rad or m] that was answered for a joint of this type, None when there is none that helps."""
+    """Return the answered range [rad or m] for a joint of this type, None if there is none or it is unusable."""
     if recognized is None or recognized.limits is None:
         return None
     lower, upper = recognized.limits
@@ -67,8 +65,8 @@ def answered_range(recognized: RecognizedLabel | None, kind: JointType) -> Range
 def opening_as_answered(c: Candidate, answered: Range | None) -> Candidate:
     """Return the candidate with the opening direction that fits an answered range [rad].
 
-    A lid that is shown open closes further than it opens (-105..20 deg). Only then, and only where the sweep leaves more of
-    the range free with the axis reversed, the opening direction that the geometry suggests is reversed.
+    A lid modelled open closes further than it opens (-105..20 deg). The direction suggested by geometry is reversed only in
+    this case, and only if the sweep leaves more of the range free with the axis reversed.
     """
     if answered is None or -answered[0] <= answered[1] or c.motion.kind is MotionKind.PRISMATIC:
         return c
@@ -80,7 +78,7 @@ def opening_as_answered(c: Candidate, answered: Range | None) -> Candidate:
 
 
 def _answered_revolute(around: PartContext, c: Candidate, answered: Range) -> Range:
-    """Shorten an answered range to what the sweep leaves free; a hinge that the sweep calls blocked keeps all of it."""
+    """Shorten an answered range to what the sweep finds free; a blocked hinge keeps the full range."""
     lower, upper = -answered[0], answered[1]
     if max(c.opening, c.closing) < MIN_ANGLE:
         return (0.0 - lower, upper)
@@ -91,9 +89,9 @@ def _answered_revolute(around: PartContext, c: Candidate, answered: Range) -> Ra
 
 
 def _answered_prismatic(around: PartContext, c: Candidate, answered: Range) -> Range:
-    """Shorten an answered range to what the sweep leaves free and, outwards, to the depth at which the part is held.
+    """Shorten an answered range to what the sweep finds free and, outwards, to the part's depth in its parent.
 
-    What is pressed in keeps its stroke, up to its own height: its mesh may fill the hole that it moves in.
+    A part that is pressed in keeps its stroke, up to its own height, since its mesh may fill the hole that it moves in.
     """
     motion, (lower, upper) = opening_motion(c), (-answered[0], answered[1])
     extent = float(np.ptp(around.part.corners @ motion.axis))
@@ -109,7 +107,7 @@ def _answered_prismatic(around: PartContext, c: Candidate, answered: Range) -> R
 
 
 def _free_within(around: PartContext, c: Candidate, lower: float, upper: float, steps: int) -> tuple[float, float]:
-    """Return how far the part is free ahead, up to `upper`, and back, up to `lower` [rad or m]."""
+    """Return the free motion ahead, up to `upper`, and back, up to `lower` [rad or m]."""
     obstacles, motion = around.obstacles(c.penetration_scale), opening_motion(c)
     ahead = free_amount(obstacles, motion, 1, upper, steps)[0] if upper > 0 else 0.0
     back = free_amount(obstacles, motion, -1, lower, steps)[0] if lower > 0 else 0.0
@@ -139,7 +137,10 @@ def _is_closed(around: PartContext) -> bool:
 
 
 def ends_near(along: Float[np.ndarray, " n"], near: Bool[np.ndarray, " n"]) -> int:
-    """Count the ends of a part, of two, that lie near its parent. along: place of each sample, -1 to 1 from end to end."""
+    """Count the ends of a part (0..2) that are near its parent.
+
+    along: position of each sample, -1 to 1 from end to end.
+    """
     return sum(bool(near[end].sum() > 0.2 * end.sum()) for end in (along > 0.8, along < -0.8))
 
 
@@ -171,7 +172,7 @@ def _prismatic(around: PartContext, c: Candidate) -> tuple[float, float]:
         and extent < MIN_DRAWER_DEPTH_RATIO * behind
         and around.body_obb.half[2] < 0.3 * around.body_obb.half[1]
     ):
-        most = around.config.slide_hidden * behind  # a front whose box the surface does not show
+        most = around.config.slide_hidden * behind  # a panel whose box is not in the mesh
     steps = around.config.fine_steps * 2
     upper, _ = free_amount(around.obstacles(c.penetration_scale), motion, 1, most, steps)
     lower, clear = free_amount(around.obstacles(c.penetration_scale), motion, -1, most, steps)
@@ -183,7 +184,7 @@ def _prismatic(around: PartContext, c: Candidate) -> tuple[float, float]:
 
 
 def _stroke(around: PartContext, c: Candidate) -> float:
-    """Return how far a part goes into its parent [m]: up to its own height, half of it where its mesh fills the hole."""
+    """Return the stroke of a part into its parent [m]: up to its own height, half of it if its mesh fills the hole."""
     motion = opening_motion(c)
     extent = float(np.ptp(around.part.corners @ motion.axis))
     free, _ = free_amount(around.obstacles(c.penetration_scale), motion, 1, extent, 2 * around.config.fine_steps)

@@ -1,4 +1,4 @@
-"""The learned score of a part's motions: boosted trees on named features, in two steps (`benchmarks/train_motions.py`)."""
+"""Learned score of a part's motions: boosted trees on named features, in two steps (`benchmarks/train_motions.py`)."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from anymesh.reasoning.two_steps import TwoStepClassifier
 
 
 class UnscoredMotions:
-    """The motions of one part with their features, after the first step."""
+    """Motions of one part with their features, after the first step."""
 
     def __init__(self, around: PartContext, facts: PartFacts, candidates: Sequence[Candidate]) -> None:
         classifier = shipped_classifier()
@@ -26,18 +26,21 @@ class UnscoredMotions:
         self.first = ScoredMotions.of(classifier.names, self.table, axes, classifier.first.score(self.table))
 
     def question(self, copies: Sequence[UnscoredMotions] = ()) -> MotionQuestion:
-        """Return the question with the scores of all motions. copies: parts of the same size in a row with this one."""
+        """Return the question with the scores of all motions.
+
+        copies: parts of the same size in a row with this one.
+        """
         context = context_features(self.first, [copy.first for copy in copies])
         scores, reasons = shipped_classifier().score(self.table, context)
         return MotionQuestion(self.facts, self.candidates, scores, tuple(reasons))
 
 
 def score_motions(around: PartContext, facts: PartFacts, candidates: Sequence[Candidate]) -> Float[np.ndarray, " n"]:
-    """Return the log-odds of each motion of a part, copies of which are not looked at."""
+    """Return the log-odds of each motion of a part, without regard to its copies."""
     return UnscoredMotions(around, facts, candidates).question().scores
 
 
 @cache
 def shipped_classifier() -> TwoStepClassifier:
-    """Read the classifier that is shipped."""
+    """Read the shipped classifier."""
     return TwoStepClassifier.read("anymesh.articulation", "motion_classifier.npz")

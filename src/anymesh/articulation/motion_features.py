@@ -1,7 +1,7 @@
-"""What geometry shows of a motion of a part, as named numbers: the input of the classifier of motions.
+"""Named geometric features of a part's motion: the input of the motion classifier.
 
-Lengths are shares of the part's own size or of the object's diagonal, shares are 0..1, angles are in half turns. A number that
-a motion does not have (the support of a slide) is MISSING.
+Lengths are relative to the part's own size or the object's diagonal, shares are 0..1, angles are in half turns. A feature that
+does not apply to a motion (the support of a slide) is MISSING.
 """
 
 from __future__ import annotations
@@ -18,13 +18,13 @@ from anymesh.reasoning.questions import Candidate, PartFacts
 from anymesh.reasoning.two_steps import MISSING
 from anymesh.types import Motion, MotionKind
 
-MAX_ACROSS_COSINE = 0.7  # cosine below which a direction lies across an axis
-MAX_CENTRAL_RATIO = 0.2  # distance of the middle from an axis, over the reach, below which a turn may be a spin
+MAX_ACROSS_COSINE = 0.7  # maximum cosine between an axis and a direction across it
+MAX_CENTRAL_RATIO = 0.2  # maximum distance of the center from an axis, over the reach, of a rotation about its own center
 MISFIT_ANGLES_RAD = np.deg2rad((60.0, 72.0, 90.0, 120.0, 180.0))
-MISFIT_POINTS = 60  # of the part, that are turned
-SECTORS = 12  # of a full turn
-VIEW_POINTS = 80  # of the part, that look along the opening direction
-MAX_RATIO = 4.0  # lengths over lengths are cut here
+MISFIT_POINTS = 60  # sample points of the part for the rotations
+SECTORS = 12  # angular sectors of a full turn
+VIEW_POINTS = 80  # sample points of the part for visibility rays
+MAX_RATIO = 4.0  # upper limit of ratios of lengths
 
 
 def motion_features(around: PartContext, facts: PartFacts, candidates: Sequence[Candidate]) -> list[dict[str, float]]:
@@ -34,7 +34,7 @@ def motion_features(around: PartContext, facts: PartFacts, candidates: Sequence[
     ways = np.array([_opening_direction(around, c) for c in candidates]).reshape(-1, 3)
     ahead, behind = _visible(around, ways), _visible(around, -ways)
     away = ways @ (around.part.samples.points.mean(0) - around.center) / around.diagonal
-    lines: dict[int, dict[str, float]] = {}  # the same for both ways about an axis
+    lines: dict[int, dict[str, float]] = {}  # shared by both opening directions about an axis
     for c in candidates:
         if id(c.motion) not in lines:
             lines[id(c.motion)] = NO_LINE if c.motion.kind is MotionKind.PRISMATIC else _line(around, c.motion, contact)
@@ -48,13 +48,13 @@ def motion_features(around: PartContext, facts: PartFacts, candidates: Sequence[
 
 
 def _contact_points(around: PartContext) -> Float[np.ndarray, "n 3"]:
-    """Return the part's samples near the parent, the nearest ones where none is [m]."""
+    """Return the part's samples near the parent, or the nearest ones if none is near [m]."""
     gap = around.gap
     return around.part.samples.points[gap <= max(CONTACT_RATIO * around.scale, CONTACT_TOLERANCE_FACTOR * float(gap.min()))]
 
 
 def _opening_direction(around: PartContext, c: Candidate) -> Float[np.ndarray, " 3"]:
-    """Return where the part's middle goes first, unit; it means nothing for a turn about the middle."""
+    """Return the initial unit direction of the part's center; meaningless for a rotation about the center."""
     axis = c.opening_sign * c.motion.axis
     if c.motion.kind is MotionKind.PRISMATIC:
         return axis
@@ -63,7 +63,7 @@ def _opening_direction(around: PartContext, c: Candidate) -> Float[np.ndarray, "
 
 
 def _visible(around: PartContext, ways: Float[np.ndarray, "h 3"]) -> Float[np.ndarray, " h"]:
-    """Return the share of the part's surface that sees nothing of the rest along each direction."""
+    """Return the share of the part's surface with a free view past the rest along each direction."""
     samples = around.part.samples
     points = samples.points[:: max(1, len(samples.points) // VIEW_POINTS)]
     start = (points[None] + 1e-4 * around.diagonal * ways[:, None]).reshape(-1, 3)
@@ -161,13 +161,13 @@ def _values(around: PartContext, facts: PartFacts, c: Candidate) -> dict[str, fl
 
 
 def _rises(around: PartContext, c: Candidate) -> float:
-    """Return the sine of the slope at which the part's middle goes up first; negative: down."""
+    """Return the sine of the initial slope of the center's motion; negative if it goes down."""
     moves = c.opening_sign * np.cross(c.motion.axis, around.part.samples.points.mean(0) - c.motion.origin)
     return float(moves[2] / max(float(np.linalg.norm(moves)), 1e-9))
 
 
 def _line(around: PartContext, motion: Motion, contact: Float[np.ndarray, "n 3"]) -> dict[str, float]:
-    """Return the features of a hinge line that do not depend on the way about it."""
+    """Return the features of a hinge line that are the same for both opening directions."""
     core, points, axis = around.body_obb, around.part.samples.points, motion.axis
     local = np.abs(core.local(motion.origin[None])[0] / np.maximum(core.half, 1e-9))
     local = np.minimum(local, MAX_RATIO) * (np.abs(core.axes @ axis) < MAX_ACROSS_COSINE)
@@ -199,7 +199,7 @@ def _line(around: PartContext, motion: Motion, contact: Float[np.ndarray, "n 3"]
 
 
 def _misfit(around: PartContext, motion: Motion, reach: float) -> float:
-    """Return the distance of a part from itself after the best turn of MISFIT_ANGLES_RAD, over its reach: 0 for propellers."""
+    """Return the smallest distance of a part from itself rotated by MISFIT_ANGLES_RAD, over its reach: 0 for propellers."""
     points = around.part.samples.points
     points = points[:: max(1, len(points) // MISFIT_POINTS)]
     turned = np.concatenate([points @ T[:3, :3].T + T[:3, 3] for T in motion.transforms(MISFIT_ANGLES_RAD)])
@@ -208,7 +208,7 @@ def _misfit(around: PartContext, motion: Motion, reach: float) -> float:
 
 
 def _coverage(points: Float[np.ndarray, "n 3"], motion: Motion) -> float:
-    """Return the share of the directions about an axis in which there are points: 1 for a ring, little for a hinge line."""
+    """Return the share of angular sectors about an axis that contain points: 1 for a ring, small for a hinge line."""
     helper = np.eye(3)[np.abs(motion.axis).argmin()]
     u = np.cross(motion.axis, helper)
     v = np.cross(motion.axis, u)
@@ -218,7 +218,7 @@ def _coverage(points: Float[np.ndarray, "n 3"], motion: Motion) -> float:
 
 
 def _handle_place(around: PartContext, motion: Motion, reach: float) -> dict[str, float]:
-    """Return how far the handle is from a line, over the part's reach, and whether a bar handle runs along it."""
+    """Return the distance of the handle from a line, over the part's reach, and whether a bar handle runs along it."""
     handle = around.handle
     if handle is None:
         return {"handle distance": MISSING, "bar handle along": MISSING}

@@ -1,5 +1,7 @@
-"""Which motions of a part are shown to choose from: what was answered before, the part's own axes, and the likeliest others,
-of those that would look different."""
+"""Choice of the motions of a part that are shown: the answered one, the part's own axes, and the likeliest others.
+
+Only motions that would look different are shown.
+"""
 
 from __future__ import annotations
 
@@ -20,32 +22,33 @@ from anymesh.reasoning.questions import Candidate, MotionQuestion, PartFacts
 from anymesh.types import JointType, MotionKind
 from anymesh.types.recognition import Moves
 
-MAX_SHOWN_ANGLE_RAD = np.deg2rad(60.0)  # most of a turn in a picture
-MAX_SHOWN_TRAVEL_RATIO = 0.6  # most of a slide in a picture, as a share of the part's size
-BLOCKED_SHOWN_RATIO = 0.6  # share of these that is shown of a motion that is blocked
-SIMILAR_RATIO = 0.2  # motions that take the part's points to places this near, as a share of the way, are kin:
-MAX_SIMILAR, MAX_SIMILAR_LOSS = 2, 1.0  # so many are in the first picture, and none that is less plausible than another by more
-DUPLICATE_PART_RATIO = 0.01  # near-duplicates are also those this near, as a share of the part's diagonal: two or three pixels
-DUPLICATE_OBJECT_RATIO = (
-    0.02  # share of the object's diagonal: motions that keep the part's points this near to each other are near-duplicates,
-)
-DUPLICATE_MOTION_RATIO = 0.15  # but for a small part no more than this share of the way
-OFF_PART = 0.02  # share of the object's diagonal: a hinge line further from the part's surface is not in the first picture
-MAX_LOSS = 8.0  # a motion that is less plausible than the best one by more is shown in the second picture, unless few are left
-MIN_FREE_MOTIONS = 3  # free motions that are in the first picture however implausible
-SHAPE_AXES = 3  # axes of the part's own shape that are always in the first picture
-PICKED_POINT_PENALTY = 2.0  # a line through picked points is rougher than one of the part's own that looks like it
-ANSWERED_BONUS = 2.0  # log-odds that a motion gains which is of the kind that was answered
-ENOUGH_POINTS = 200  # of the part, whose places are compared
+MAX_SHOWN_ANGLE_RAD = np.deg2rad(60.0)  # [rad] maximum rotation in a picture
+MAX_SHOWN_TRAVEL_RATIO = 0.6  # of the part's size: maximum travel of a slide in a picture
+BLOCKED_SHOWN_RATIO = 0.6  # share of these maxima at which a blocked motion is shown
+SIMILAR_RATIO = 0.2  # of the travel: motions that take the part's points to places this close are similar
+# limits for similar motions in the first picture: their number, and their loss to the best of them [log-odds]
+MAX_SIMILAR, MAX_SIMILAR_LOSS = 2, 1.0
+DUPLICATE_PART_RATIO = 0.01  # of the part's diagonal: motions this close are near-duplicates; about two or three pixels
+# of the object's diagonal: motions that take the part's points to places this close are near-duplicates
+DUPLICATE_OBJECT_RATIO = 0.02
+DUPLICATE_MOTION_RATIO = 0.15  # of the travel: upper limit of the object-based distance, for small parts
+OFF_PART = 0.02  # of the object's diagonal: hinge lines farther from the part's surface are not in the first picture
+MAX_LOSS = 8.0  # [log-odds] motions that are worse than the best one by more are in the second picture, unless few are left
+MIN_FREE_MOTIONS = 3  # minimum number of free motions in the first picture, even if implausible
+SHAPE_AXES = 3  # number of axes of the part's own shape that are always in the first picture
+# [log-odds] penalty of a line through picked points, which is less exact than a similar one of the part's own
+PICKED_POINT_PENALTY = 2.0
+ANSWERED_BONUS = 2.0  # [log-odds] bonus of a motion of the answered kind
+ENOUGH_POINTS = 200  # sample points of the part for comparing motions
 
 
 @dataclass(frozen=True, eq=False)
 class MotionOffers:
-    """The motions of a part that look different, likeliest first.
+    """Motions of a part that look different, likeliest first.
 
-    shares: (k,) how likely each is by geometry alone; amounts: how far each is moved in a picture [rad or m]; first, second:
-    numbers of those that the first and the second picture show, in the order in which they are drawn; answered: the one that
-    is, or looks like, what was answered before.
+    shares: (k,) share of each by geometry alone; amounts: displacement of each in a picture [rad or m]; first, second: indices
+    of the motions in the first and the second picture, in drawing order; answered: index of the motion that is, or looks like,
+    the answered one.
     """
 
     case: PartCase
@@ -58,7 +61,7 @@ class MotionOffers:
     answered: int | None
 
     def table(self, shown: tuple[int, ...]) -> MotionTable:
-        """The motions with these numbers, in this order."""
+        """Return the motions with these indices, in this order."""
         some = [self.motions[k] for k in shown]
         return MotionTable(
             self.case.shown,
@@ -69,7 +72,10 @@ class MotionOffers:
 
 
 def make_offers(case: PartCase, max_motions: int, seed: int) -> MotionOffers:
-    """Propose, sweep, score and select the motions of a part. max_motions: in a picture; seed: of their order in it."""
+    """Propose, sweep, score and select the motions of a part.
+
+    max_motions: number of motions in a picture; seed: of their order in it.
+    """
     question = scored_motions(case)
     facts, candidates, plain = question.part, list(question.candidates), motion_scores(question).tolist()
     worth = [v + _agrees(c, case) - PICKED_POINT_PENALTY * (c.role == "asked") for v, c in zip(plain, candidates, strict=True)]
@@ -92,8 +98,10 @@ def make_offers(case: PartCase, max_motions: int, seed: int) -> MotionOffers:
 
 
 def scored_motions(case: PartCase) -> MotionQuestion:
-    """Propose, sweep and score the motions of a part, both ways where the part may go both ways; the one that was answered
-    comes first, even if it repeats one."""
+    """Propose, sweep and score the motions of a part, in both opening directions if both are possible.
+
+    The answered motion comes first, even if it repeats another.
+    """
     around = case.around
     proposed = propose(around)
     facts = part_facts(around, case.label, case.label, any(role == "two_pivot" for role, _ in proposed))
@@ -115,19 +123,22 @@ def scored_motions(case: PartCase) -> MotionQuestion:
 
 
 def fits(c: Candidate, kind: JointKind) -> bool:
-    """Return whether a motion is of the kind that was answered."""
+    """Return whether a motion is of the answered kind."""
     if kind.is_rotation or c.motion.kind is MotionKind.REVOLUTE:
         return kind.is_rotation and c.motion.kind is MotionKind.REVOLUTE
     return (abs(c.outward) > 0.7) == (kind is JointKind.SLIDE_OUT)
 
 
 def moves_as(c: Candidate, moves: Moves) -> bool:
-    """Return whether a motion is a turn or a slide as recognition said."""
+    """Return whether a motion is a rotation or a slide as recognized."""
     return (moves is Moves.PRISMATIC) == (c.motion.kind is MotionKind.PRISMATIC)
 
 
 def shown_amount(c: Candidate, case: PartCase) -> float:
-    """Return how far a motion goes in a picture [rad or m]: opening, or into the parent for what is pressed (negative)."""
+    """Return the displacement of a motion in a picture [rad or m].
+
+    It is positive (opening), or negative (into the parent) for a part that is pressed.
+    """
     around = case.around
     if c.motion.kind is MotionKind.REVOLUTE:
         return float(min(c.opening, MAX_SHOWN_ANGLE_RAD) if c.is_free else BLOCKED_SHOWN_RATIO * MAX_SHOWN_ANGLE_RAD)
@@ -138,21 +149,24 @@ def shown_amount(c: Candidate, case: PartCase) -> float:
 
 
 def _agrees(c: Candidate, case: PartCase) -> float:
-    """What it is worth that a motion agrees with the answers about the part and its label."""
+    """Return the bonus of a motion that agrees with the answers about the part and its label."""
     recognized = case.recognized.moves if case.recognized else None
     return ANSWERED_BONUS * fits(c, case.kind) + ANSWERED_BONUS * (recognized is not None and moves_as(c, recognized))
 
 
 def _shown(c: Candidate) -> bool:
-    """Whether a motion may be shown: what is blocked only where it was answered or is an axis of the part's own."""
+    """Return whether a motion may be shown; a blocked one only if it was answered or is an axis of the part's own shape."""
     return c.is_free or c.role == "asked" or c.role in CENTRAL
 
 
 def _unlike(
     case: PartCase, candidates: list[Candidate], order: list[int]
 ) -> tuple[list[int], list[float], int | None, list[int]]:
-    """Return those that look different, the likeliest of each group of duplicates, how far they are moved, which of them stands
-    for what was answered, and for each the first that it is like."""
+    """Select the motions that look different, the likeliest of each group of duplicates.
+
+    Return their indices, their displacements, the position of the one that stands for the answered motion, and for each the
+    first one that it is similar to.
+    """
     samples = case.around.part.samples.points
     points = samples[:: max(1, len(samples) // ENOUGH_POINTS)]
     part_limit, object_limit = DUPLICATE_PART_RATIO * case.around.part.box.diagonal, DUPLICATE_OBJECT_RATIO * case.around.scale
@@ -179,8 +193,10 @@ def _unlike(
 
 
 def _apart(points: Float[np.ndarray, "n 3"], a: Candidate, b: Candidate, amount: float) -> tuple[float, float]:
-    """How far apart two motions, both by up to `amount` [rad or m], take the part's points, and how far they take them [m],
-    means over the points. How far each is free makes no difference."""
+    """Return the distance between the part's points after two motions, and their displacement [m], as means over the points.
+
+    Both motions are by up to `amount` [rad or m], however far each is free.
+    """
     if a.motion.kind is not b.motion.kind:
         return np.inf, 0.0
     apart, way = 0.0, 0.0
@@ -192,8 +208,12 @@ def _apart(points: Float[np.ndarray, "n 3"], a: Candidate, b: Candidate, amount:
 
 
 def _crowding(first: list[int], values: list[float]) -> list[bool]:
-    """Which motions are too like others for the first picture: clearly less plausible than the best of their kin, or the third
-    and later of them. first: for each the first that it is like; values: how plausible each is."""
+    """Return which motions are too similar to others for the first picture.
+
+    They are clearly less plausible than the best of their similar motions, or the third or later of them.
+
+    first: for each motion the first one that it is similar to; values: plausibility of each.
+    """
     found = []
     for k, head in enumerate(first):
         kin = [n for n in range(k) if first[n] == head and not found[n]]
@@ -203,7 +223,7 @@ def _crowding(first: list[int], values: list[float]) -> list[bool]:
 
 
 def _off_part(case: PartCase, c: Candidate) -> bool:
-    """Whether a hinge line passes the part at a distance, as an edge of a box does that a handle stretches."""
+    """Return whether a hinge line is away from the part, like an edge of a box that is enlarged by a handle."""
     if c.motion.kind is not MotionKind.REVOLUTE or c.role not in ("edge", "edge_mid"):
         return False
     off = np.linalg.norm(np.cross(case.around.part.samples.points - c.motion.origin, c.motion.axis), axis=1)
@@ -213,7 +233,7 @@ def _off_part(case: PartCase, c: Candidate) -> bool:
 def _pages(
     motions: list[Candidate], kind: JointKind, likely: list[bool], answered: int | None, max_motions: int
 ) -> tuple[list[int], list[int]]:
-    """Numbers of the motions in the first picture and in the second."""
+    """Return the indices of the motions in the first picture and in the second."""
     own = [k for k, c in enumerate(motions) if c.role in CENTRAL and fits(c, kind)][:SHAPE_AXES]
     must = ([] if answered is None else [answered]) + [k for k in own if k != answered]
     first = must[:max_motions]

@@ -1,6 +1,6 @@
-"""Propose axes from the shape of a part: circles on it or beside it, the ring of its contact, its pivot.
+"""Axes from the shape of a part: circles on it or beside it, the ring of its contact, its pivot.
 
-They come on top of `hypotheses.propose`; only those who see the part are asked about them.
+They complement `hypotheses.propose` and are only used in questions that show the part.
 """
 
 from __future__ import annotations
@@ -14,16 +14,16 @@ from anymesh.geometry.patches import ObjectShape
 from anymesh.geometry.triangle_set import TriangleSet
 from anymesh.types import Motion, MotionKind
 
-MIN_ROUNDNESS = 0.8  # roundness of a circle that stands for an axis
-MAX_CIRCLES = 4  # round pieces of a part, the largest first
-MAX_PATCHES = 40  # looked at, the largest first
-CENTRAL = ("round", "center", "hub", "circle", "pivot", "pin", "two_pivot", "barrel")  # roles of axes that a part's shape gives
-SAME_DIRECTION = 0.98  # cosine
-MIN_POINTS = 24  # of a contact that may be a ring
+MIN_ROUNDNESS = 0.8  # minimum roundness of a circle that gives an axis
+MAX_CIRCLES = 4  # round patches per part, the largest first
+MAX_PATCHES = 40  # patches examined, the largest first
+CENTRAL = ("round", "center", "hub", "circle", "pivot", "pin", "two_pivot", "barrel")  # roles of axes given by a part's shape
+SAME_DIRECTION = 0.98  # minimum cosine between axes with the same direction
+MIN_POINTS = 24  # minimum number of points of a contact ring
 
 
 def round_patches(whole: ObjectShape, part: TriangleSet, parent: TriangleSet) -> tuple[Motion, ...]:
-    """Return the axes of round pieces of a part, and of round pieces of its parent that it encloses or sits on (pins)."""
+    """Return the axes of round patches of a part, and of round patches of its parent that it encloses or sits on (pins)."""
     found: list[tuple[float, Motion]] = []
     low, high = part.bounds
     for own, shape in ((True, part), (False, parent)):
@@ -47,7 +47,10 @@ def round_patches(whole: ObjectShape, part: TriangleSet, parent: TriangleSet) ->
 
 
 def pivots(around: PartContext, normal: Float[np.ndarray, " 3"]) -> list[tuple[str, Motion]]:
-    """Return lines through the middle of the contact, and the axis of its ring. normal: of the contact's plane, unit."""
+    """Return lines through the center of the contact, and the axis of its ring.
+
+    normal: unit normal of the contact's plane.
+    """
     contact = around.contact
     middle = (contact.min(0) + contact.max(0)) / 2
     directions: list[np.ndarray] = []

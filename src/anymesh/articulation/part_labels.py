@@ -1,4 +1,4 @@
-"""Label a part by its motion."""
+"""Label of a part from its motion."""
 
 from __future__ import annotations
 
@@ -6,18 +6,17 @@ from anymesh.geometry.part_context import PartContext
 from anymesh.reasoning.questions import Candidate
 from anymesh.types import MotionKind
 
-MAX_ALONG_COSINE = 0.5  # cosine with the opening direction below which a slide runs along the surface
-MIN_DRAWER_SIZE_RATIO = 0.15  # of the object's diagonal: what slides in and is smaller is a button
-MIN_WHEEL_SIZE_RATIO = 0.16  # of the object's diagonal: what spins and is smaller is a knob
-MIN_TRAVEL_RATIO = 0.1  # of its size: what is no button and slides by less does not move
-MIN_LID_COSINE = 0.8  # cosine of the opening direction with the vertical from which a hinged part is a lid
-MIN_OPEN_LID_RISE_RATIO = (
-    0.5  # of its height: a part with a level hinge that stands higher above its parent is a lid that is shown open
-)
+MAX_ALONG_COSINE = 0.5  # maximum cosine between the opening direction and a slide along the surface
+MIN_DRAWER_SIZE_RATIO = 0.15  # of the object's diagonal: a smaller part that slides in is a button
+MIN_WHEEL_SIZE_RATIO = 0.16  # of the object's diagonal: a smaller part that spins is a knob
+MIN_TRAVEL_RATIO = 0.1  # of its size: minimum travel of a slide, except for buttons
+MIN_LID_COSINE = 0.8  # minimum cosine between the vertical and the opening direction of a hinged lid
+# of its height: a part with a level hinge that rises higher than this above its parent is a lid modelled open
+MIN_OPEN_LID_RISE_RATIO = 0.5
 
 
 def label_of(around: PartContext, best: Candidate) -> str:
-    """Return drawer, button, slider, knob, wheel, handle, lid or door, or "" for what is as good as fixed.
+    """Return drawer, button, slider, knob, wheel, handle, lid or door, or "" for a part that hardly moves.
 
     best: the motion of the part.
     """
@@ -31,7 +30,7 @@ def label_of(around: PartContext, best: Candidate) -> str:
     if best.role == "round":
         return "knob" if size < MIN_WHEEL_SIZE_RATIO else "wheel"
     if best.role == "two_pivot":
-        return "handle" if around.part.slender else "lid"  # a plate on two pivots is a laptop's lid
+        return "handle" if around.part.slender else "lid"  # a plate on two pivots is the lid of a laptop
     low, high = around.part.bounds[:, 2]
     raised = best.vertical < MAX_ALONG_COSINE and high - around.parent.bounds[1, 2] > MIN_OPEN_LID_RISE_RATIO * (high - low)
     return "lid" if around.opening_direction[2] > MIN_LID_COSINE or raised else "door"

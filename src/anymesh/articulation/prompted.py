@@ -1,6 +1,6 @@
-"""STAGE B (paper, 3.3) with someone who sees: kinds of joint, candidate points and arrows, then motions to choose from.
+"""Stage B (paper, 3.3) with a visual answerer: kinds of joint, candidate points and arrows, then motions to choose from.
 
-All parts are asked about together, so that an object takes one call a kind of question.
+All parts are asked about together, so that an object takes one call per kind of question.
 """
 
 from __future__ import annotations
@@ -30,15 +30,18 @@ from anymesh.rendering.visual_prompts import Shot, VisualPrompts
 from anymesh.types import Joint, JointType, Motion, MotionKind, Segmentation
 from anymesh.types.recognition import Recognition
 
-INTO_POINTS = 8  # candidates for an axis into the surface; half of them stand for axes
+INTO_POINTS = 8  # candidates for an axis into the surface, half of which stand for axes
 ShapeOf = Callable[[Segmentation], ObjectShape]
-Reground = Callable[[Mapping[str, PartFit]], Segmentation | None]  # parts by name that are too much or too little
+Reground = Callable[[Mapping[str, PartFit]], Segmentation | None]  # parts by name that have too much or too little surface
 
 
 @dataclass(frozen=True, eq=False)
 class PromptedJoints:
-    """One joint for every part but the root, in the order of the parts. segmentation: with the labels that were answered, and
-    the parts as they were grounded again; warnings: contradictions between answers; agreements: what speaks for each joint."""
+    """One joint for every part but the root, in the order of the parts.
+
+    segmentation: with the answered labels, and the parts as grounded again; warnings: contradictions between answers;
+    agreements: evidence for each joint.
+    """
 
     joints: tuple[Joint, ...]
     segmentation: Segmentation
@@ -48,7 +51,10 @@ class PromptedJoints:
 
 @dataclass(frozen=True, eq=False)
 class Questions:
-    """Who is asked about the joints of one object, with what pictures. recognition: of the object, None without one."""
+    """Settings of the questions about the joints of one object.
+
+    recognition: of the object, None without one.
+    """
 
     visual_prompts: VisualPrompts
     answerer: VisualAnswerer
@@ -58,12 +64,12 @@ class Questions:
 
     @property
     def category(self) -> str:
-        """What the object is."""
+        """Return the category of the object."""
         return self.recognition.category if self.recognition else self.config.category or "object"
 
     @property
     def labels(self) -> tuple[str, ...]:
-        """The recognized kinds of part."""
+        """Return the recognized part labels."""
         return tuple(r.label for r in self.recognition.labels) if self.recognition else ()
 
 
@@ -76,12 +82,12 @@ class _ChosenMotions:
     segmentation: Segmentation
 
     def wrong(self) -> dict[str, PartFit]:
-        """Parts by name that answers call too much or too little."""
+        """Return the parts, by name, that answers call too much or too little."""
         fits = {c.name: self.chosen[c.number].fit for c in self.cases}
         return {name: fit for name, fit in fits.items() if fit is not PartFit.RIGHT}
 
     def with_changed(self, later: _ChosenMotions) -> _ChosenMotions:
-        """The same with what was asked again later, of the same parts by number."""
+        """Return these results updated with those of parts that were asked about again, by number."""
         cases = {c.number: c for c in (*self.cases, *later.cases)}
         return _ChosenMotions([cases[c.number] for c in self.cases], {**self.chosen, **later.chosen}, later.segmentation)
 
@@ -89,11 +95,13 @@ class _ChosenMotions:
 def prompt_joints(
     questions: Questions, shape_of: ShapeOf, segmentation: Segmentation, reground: Reground | None = None
 ) -> PromptedJoints:
-    """Ask how each part moves and build its joint, as `config.verify` says: off, the paper's method; free, which also replaces
-    what cannot move; or motion, which shows motions to choose from.
+    """Ask how each part moves and build its joint, by the method in `config.verify`.
 
-    shape_of: makes the object ready for these parts; reground: grounds parts again that the answers call too much or too
-    little, once, under the same names in the same order, and these alone are asked about again; None keeps the parts.
+    The methods are: off, the paper's method; free, which also replaces motions that are blocked; motion, which shows motions to
+    choose from.
+
+    shape_of: prepares the object for these parts; reground: grounds parts again, once, that the answers call too much or too
+    little, with the same names in the same order. Only these parts are asked about again. None keeps the parts.
     """
     found = _ask(questions, shape_of, labels_by_name(segmentation, questions.labels), fits=reground is not None)
     wrong = found.wrong()
@@ -111,7 +119,10 @@ def prompt_joints(
 def _ask(
     questions: Questions, shape_of: ShapeOf, segmentation: Segmentation, *, fits: bool, only: Collection[str] | None = None
 ) -> _ChosenMotions:
-    """Ask about the parts. fits: also whether the region shown is the part; only: names of parts, None for all."""
+    """Ask about the parts.
+
+    fits: also ask whether the region shown is the part; only: names of parts, None for all.
+    """
     whole, config, progress = shape_of(segmentation), questions.config, questions.progress
     cases = [c for c in make_cases(whole, segmentation, questions.recognition, config) if only is None or c.name in only]
     progress("joints", "kinds", 0, 4)
@@ -131,7 +142,7 @@ def _ask(
 def _with_kinds(
     questions: Questions, cases: list[PartCase], whole: ObjectShape, segmentation: Segmentation
 ) -> tuple[list[PartCase], Segmentation]:
-    """Ask what kind of joint each part has and, where its label is none of those recognized, which of these it is."""
+    """Ask for the kind of joint of each part and, if its label was not recognized, which recognized label it has."""
     pictures, labels = questions.visual_prompts, segmentation.face_part
     choices = questions.labels if unlabelled(segmentation, questions.labels) else ()
     kinds = ask_each(
@@ -149,7 +160,7 @@ def _with_kinds(
 
 
 def _hinges(questions: Questions, cases: list[PartCase], whole: ObjectShape, segmentation: Segmentation) -> dict[int, Motion]:
-    """Return the hinges by part number: points are shown, picked, and their line taken."""
+    """Return the hinges by part number: points are shown and picked, and give a line."""
     labels, pictures = segmentation.face_part, questions.visual_prompts
     turning = [c for c in cases if c.kind.is_rotation]
     shots = {c.number: pictures.shot(labels, c.number) for c in turning}
@@ -169,7 +180,7 @@ def _hinges(questions: Questions, cases: list[PartCase], whole: ObjectShape, seg
 
 
 def _points(questions: Questions, case: PartCase, shot: Shot, whole: ObjectShape) -> PointTable:
-    """The candidate points of a part that turns; with the paper's method clusters and superpoints alone."""
+    """Return the candidate points of a rotating part; the paper's method has clusters and superpoints only."""
     config, pictures = questions.config, questions.visual_prompts
     project, prompts = shot.project, config.prompts
     shaped = case.kind is JointKind.HINGE_INTO and config.verify != "off"

@@ -1,4 +1,4 @@
-"""Labels of parts that were given: what was recognized reaches them by their names, or by an answer."""
+"""Labels of given parts, from the recognized labels by name or by an answer."""
 
 from __future__ import annotations
 
@@ -10,9 +10,10 @@ from anymesh.types import Segmentation
 
 
 def labels_by_name(segmentation: Segmentation, labels: Sequence[str]) -> Segmentation:
-    """Give each part whose label was not recognized the recognized label that its name ends with ("rudder_left": rudder).
+    """Give each part with an unrecognized label the recognized label that its name ends with ("rudder_left": rudder).
 
-    Names are compared here and never shown to anybody; of several labels the one whose last word comes last in the name wins.
+    Names are only compared here and never shown to an answerer. Of several labels, the one whose last word comes last in the
+    name is used.
     """
     found = {}
     for number, part in enumerate(segmentation.parts[1:], start=1):
@@ -26,7 +27,10 @@ def labels_by_name(segmentation: Segmentation, labels: Sequence[str]) -> Segment
 
 
 def relabelled(segmentation: Segmentation, answered: Mapping[int, str], labels: Sequence[str]) -> Segmentation:
-    """Give parts, by number, the answered label where their own was not recognized; the same object where none changes."""
+    """Give parts, by number, the answered label if their own was not recognized.
+
+    Return the same object if no label changes.
+    """
     if not any(segmentation.parts[k].label not in labels for k in answered):
         return segmentation
     parts = [
@@ -37,12 +41,12 @@ def relabelled(segmentation: Segmentation, answered: Mapping[int, str], labels: 
 
 
 def unlabelled(segmentation: Segmentation, labels: Sequence[str]) -> bool:
-    """Return whether a part has a label that was not recognized, though some were."""
+    """Return whether labels were recognized and some part has none of them."""
     return bool(labels) and any(part.label not in labels for part in segmentation.parts[1:])
 
 
 def _last_place(name: Sequence[str], label: Sequence[str]) -> int:
-    """The place in a name of the last word of a label, -1 where not all of its words occur in it."""
+    """Return the index in a name of the last word of a label, -1 if not all of its words occur."""
     if not label or not set(label) <= set(name):
         return -1
     return len(name) - 1 - list(reversed(name)).index(label[-1])

@@ -1,4 +1,4 @@
-"""Repeated parts in a row, as the drawers of a chest or the sashes of a window.
+"""Repeated parts in a row, such as the drawers of a chest or the sashes of a window.
 
 They open to the same side in the same manner, so evidence for one of them is evidence for all.
 """
@@ -15,9 +15,8 @@ from anymesh.geometry.boxes import same_box
 from anymesh.geometry.part_context import PartContext, body_obb
 from anymesh.geometry.triangle_set import TriangleSet
 
-MAX_ROW_OFFSET_RATIO = (
-    0.25  # component of the offset along the opening direction, over its length, up to which parts are in a row
-)
+# maximum component of the offset along the opening direction, over its length, between parts in a row
+MAX_ROW_OFFSET_RATIO = 0.25
 
 
 def same_size(shapes: Sequence[TriangleSet], parent: Sequence[int]) -> list[list[int]]:
@@ -34,7 +33,7 @@ def same_size(shapes: Sequence[TriangleSet], parent: Sequence[int]) -> list[list
 
 
 def share_opening_directions(arounds: Sequence[PartContext]) -> list[PartContext]:
-    """Give repeated parts in a row one opening direction: the most visible one over all of them."""
+    """Give repeated parts in a row a common opening direction: the one with the highest total visibility."""
     if len(arounds) == 1:
         return list(arounds)
     return [_with_row_direction(a, [a, *(b for b in arounds if b is not a and in_a_row(a, b))]) for a in arounds]

@@ -12,7 +12,7 @@ from anymesh.articulation.verify import Choice, words
 from anymesh.reasoning.prompting import JointKind
 from anymesh.types import Motion, MotionKind
 
-MIN_GUIDED_SHARE = 0.4  # share of the ways sideways in which what slides out is held
+MIN_GUIDED_SHARE = 0.4  # minimum share of the sideways directions in which an outward slide is guided
 
 
 def normal_outwards(case: PartCase) -> Motion:
@@ -23,9 +23,9 @@ def normal_outwards(case: PartCase) -> Motion:
 
 
 def opening_slide(case: PartCase) -> Motion:
-    """Return the plane's normal where the part is free and guided along it, else the best guided free direction.
+    """Return the plane's normal if the part is free and guided along it, else the best guided free direction.
 
-    On real drawers the connecting area is rim and sides, and its plane's normal alone may be off by 80 degrees and more.
+    On real drawers the connecting area consists of rim and sides, and its plane's normal may be off by 80 degrees and more.
     """
     around = case.around
     outward = around.opening_direction

@@ -1,4 +1,4 @@
-"""Find the parent of each part."""
+"""Parents of parts."""
 
 from __future__ import annotations
 
@@ -8,15 +8,15 @@ import numpy as np
 
 from anymesh.geometry.triangle_set import TriangleSet
 
-MIN_PARENT_GAIN = (
-    3.0  # a part hangs on another part rather than on the root when it is this much nearer, or touches this much more
-)
+# a part depends on another part instead of the root if it is this many times closer to it, or touches it this much more
+MIN_PARENT_GAIN = 3.0
 
 
 def parents(shapes: list[TriangleSet], diagonal: float, answered: Sequence[set[int]] | None = None) -> list[int]:
-    """Return the parent's index of every part (the root, 0, has -1): the root, unless the part clearly hangs on a larger part.
+    """Return the parent's index of every part (-1 for the root, 0).
 
-    answered: for each part, the indices of possible parents, may be empty; the nearest of them that touches is taken.
+    The parent is the root, unless the part clearly depends on a larger part.
+    answered: the indices of possible parents of each part, which may be empty; the nearest touching one is used.
     """
     size = [float(np.linalg.norm(s.bounds[1] - s.bounds[0])) for s in shapes]
     reach = [0.01 * min(diagonal, 5 * s) for s in size]
@@ -26,7 +26,10 @@ def parents(shapes: list[TriangleSet], diagonal: float, answered: Sequence[set[i
 
 
 def _touching(shapes: list[TriangleSet], i: int, size: Sequence[float], tolerance: float) -> int:
-    """Return the larger part that part i clearly hangs on, the root when there is none. tolerance: of touching [m]."""
+    """Return the larger part on which part i clearly depends, or the root if there is none.
+
+    tolerance: of touching [m].
+    """
     points = shapes[i].samples.points[::6]
     best, best_score = 0, 0.0
     base = shapes[0].tree.distance(points)
@@ -44,10 +47,10 @@ def _touching(shapes: list[TriangleSet], i: int, size: Sequence[float], toleranc
 
 
 def _answered_parents(shapes: list[TriangleSet], answered: Sequence[set[int]], reach: Sequence[float]) -> dict[int, int]:
-    """Return the parents that were named and touch, by part.
+    """Return the answered parents that touch their part, by part.
 
-    Parts that name each other, as the arms of a lamp do, form a chain: those that touch a part outside of it come first, then
-    those that touch them. All others take the nearest part that they name.
+    Parts that name each other, such as the arms of a lamp, form a chain. Those that touch a part outside of it come first, then
+    those that touch them. All other parts take the nearest part that they name.
     """
     found: dict[int, int] = {}
     placed = {j for j in range(len(shapes)) if j == 0 or not answered[j]}
@@ -71,7 +74,7 @@ def _boxes_near(a: TriangleSet, b: TriangleSet, reach: float) -> bool:
 
 
 def _nearest(points: np.ndarray, shapes: list[TriangleSet], among: set[int], reach: float) -> int | None:
-    """Return the part nearest to these points, None when none is within reach [m]."""
+    """Return the part nearest to these points, None if none is within reach [m]."""
     off = {j: float(shapes[j].tree.distance(points).min()) for j in sorted(among)}
     best = min(off, key=lambda j: off[j], default=None)
     return best if best is not None and off[best] < reach else None

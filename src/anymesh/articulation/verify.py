@@ -1,4 +1,7 @@
-"""The step beyond the paper: an answer is one more hypothesis; motions that would look different are shown to choose from."""
+"""Verification of answered motions, beyond the paper.
+
+The answer is one more hypothesis. Motions that would look different are shown to choose from.
+"""
 
 from __future__ import annotations
 
@@ -21,18 +24,21 @@ from anymesh.types import Picture
 
 @dataclass(frozen=True, eq=False)
 class Choice:
-    """The motion of a part, why, what speaks for it, and whether the region shown was the part."""
+    """Chosen motion of a part, with its reason, its evidence, and whether the region shown was the part."""
 
     best: Candidate
     reason: str
     agreement: Agreement
     fit: PartFit = PartFit.RIGHT
-    moves: bool = True  # False: it was said twice that it does not move
+    moves: bool = True  # False if two answers say that it does not move
 
 
 @dataclass(frozen=True, eq=False)
 class MotionQuestioner:
-    """What the motion question is asked with. labels: (F,) the part of each face; category: what the object is."""
+    """Settings of the motion question.
+
+    labels: (F,) part of each face; category: of the object.
+    """
 
     visual_prompts: VisualPrompts
     labels: Int[np.ndarray, " F"]
@@ -41,7 +47,10 @@ class MotionQuestioner:
     ask_fit: bool = False
 
     def picks(self, offers: Mapping[int, MotionOffers], shown: Mapping[int, tuple[int, ...]]) -> dict[int, MotionPick]:
-        """Ask which motion each part makes; shown: the motions in its picture. Picks are numbers of its offers, by part."""
+        """Ask which motion each part makes; return the picked indices of its offers, by part.
+
+        shown: indices of the motions in its picture.
+        """
         tables = {n: self._table(offers[n], shown[n]) for n in shown}
         picked = ask_each(
             self.answerer,
@@ -52,29 +61,31 @@ class MotionQuestioner:
         return {n: MotionPick(None if a.motion is None else shown[n][a.motion], a.part) for n, a in picked.items()}
 
     def _table(self, offers: MotionOffers, shown: tuple[int, ...]) -> MotionTable:
-        """The motions with these numbers, and the faces of the part with what it carries."""
+        """Return the motions with these indices, and the faces of the part with its carried parts."""
         moving = np.isin(self.labels, [offers.case.number, *offers.case.carried])
         return replace(offers.table(shown), moving=np.flatnonzero(moving))
 
     def _strip(self, case: PartCase, title: str, table: MotionTable) -> Picture:
-        """The part with what it carries, at rest and in each motion."""
+        """Draw the part with its carried parts, at rest and in each motion."""
         moving = np.zeros(len(self.labels), bool)
         moving[table.moving] = True
         return self.visual_prompts.strip(moving, title, table.motions, table.amounts, table.blocked)
 
 
 def choose_motions(cases: list[PartCase], asking: MotionQuestioner, max_motions: int, seed: int) -> dict[int, Choice]:
-    """Show the motions of each part and return the one chosen, by part number. max_motions: motions in a picture.
+    """Show the motions of each part and return the chosen one, by part number.
 
-    Where none of those shown is right, the next are shown, once. Where the choice contradicts what geometry and the answers
-    before agree on, it is asked for again in another order and must be the same. seed: of the order in the pictures.
+    If none of those shown is right, the next ones are shown, once. If the choice contradicts what geometry and the earlier
+    answers agree on, it is asked for again in another order and must be the same.
+
+    max_motions: motions in a picture; seed: of the order in the pictures.
     """
     offers = {c.number: make_offers(c, max_motions, seed) for c in cases}
     found = {n: _without_choice(o) for n, o in offers.items() if not _needs_question(o)}
     shown = {n: o.first for n, o in offers.items() if n not in found}
     picks = asking.picks(offers, shown)
     fit = {n: pick.part for n, pick in picks.items()}
-    asking = replace(asking, ask_fit=False)  # once
+    asking = replace(asking, ask_fit=False)  # ask about the fit only once
     later = {n: offers[n].second for n, pick in picks.items() if pick.motion is None and offers[n].second}
     picks |= asking.picks(offers, later)
     doubted = {n: shown[n][::-1] for n, pick in picks.items() if n not in later and _against_all(offers[n], pick.motion)}
@@ -88,13 +99,13 @@ def choose_motions(cases: list[PartCase], asking: MotionQuestioner, max_motions:
 
 
 def _needs_question(o: MotionOffers) -> bool:
-    """Whether there is something to choose between; what two answers call fixed is not asked about again."""
+    """Return whether there is a choice to ask about; a part that two answers call fixed is not asked about again."""
     fixed = o.case.kind is JointKind.FIXED and (o.case.recognized is None or o.case.recognized.moves is None)
     return len(o.first) > 1 and not fixed
 
 
 def _against_all(o: MotionOffers, picked: int | None) -> bool:
-    """Whether the motion picked contradicts what geometry and the answers before agree on."""
+    """Return whether the picked motion contradicts what geometry and the earlier answers agree on."""
     return o.answered == 0 and o.motions[0].is_free and picked != 0 and picked is not None
 
 
@@ -121,12 +132,12 @@ def _chosen(o: MotionOffers, picked: int | None, *, doubted: bool, later: bool, 
 
 
 def _fallback(o: MotionOffers) -> int:
-    """The likeliest motion of the kind that was answered, where none was recognized."""
+    """Return the likeliest motion of the answered kind, used if none was recognized."""
     return next((k for k, c in enumerate(o.motions) if c.is_free and fits(c, o.case.kind)), 0)
 
 
 def agreement(o: MotionOffers, picked: int | None, more: Mapping[str, float]) -> Agreement:
-    """Return what speaks for a motion of a part; None: that it does not move."""
+    """Return the evidence for a motion of a part; None means that it does not move."""
     case = o.case
     moves = case.recognized.moves if case.recognized else None
     if picked is None:

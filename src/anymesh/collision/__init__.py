@@ -1,4 +1,4 @@
-"""Collision shapes of an asset: convex, near the surface, cavities open, moving parts free."""
+"""Collision shapes of an asset: convex, close to the surface, with open cavities and freely moving parts."""
 
 from __future__ import annotations
 
@@ -22,16 +22,19 @@ from anymesh.isolation import ChildPool, shared_pool
 from anymesh.types import Asset, Joint, JointType, Shape
 
 __all__ = ["Collision", "CollisionConfig", "collision_shapes", "joint_poses", "sampled_poses"]
-MAX_CROSSING_FACES = 50_000  # of a link, for the question whether surfaces cross
-MAX_POSES, MIN_POSES = 2000, 3  # that shapes are tried at, in all and per joint
-MIN_COMPONENT_SIZE_RATIO = 0.3  # components smaller than this share of the first gap need no shape beside larger ones
+MAX_CROSSING_FACES = 50_000  # faces of a link for tests of crossing surfaces
+MAX_POSES, MIN_POSES = 2000, 3  # sampled poses: maximum in all, minimum per joint
+MIN_COMPONENT_SIZE_RATIO = 0.3  # of the first gap: smaller components get no shape beside larger ones
 
 
 @dataclass(frozen=True, eq=False)
 class Collision:
-    """Shapes per link, in its frame. overlapping: pairs of links whose surfaces go through each other at rest; false_before:
-    pairs of shapes that touched at a sampled pose though the surfaces do not, before they were planed and refined; tight:
-    pairs of links of which some still do; warnings: per link, what was not done as it should be, and why."""
+    """Collision shapes per link, in its frame.
+
+    overlapping: pairs of links whose surfaces cross at rest; false_before: number of pairs of shapes that touched at a sampled
+    pose although the surfaces do not, before trimming and refinement; tight: pairs of links that still have false contacts;
+    warnings: per link, deviations from the intended method, and why.
+    """
 
     shapes: Mapping[str, tuple[Shape, ...]]
     overlapping: tuple[tuple[str, str], ...]
@@ -50,10 +53,10 @@ def collision_shapes(
     deadline: Deadline | None = None,
     pool: ChildPool | None = None,
 ) -> Collision:
-    """Make shapes for every link. Components that are not convex are divided in child processes.
+    """Make collision shapes for every link. Components that are not convex are divided in child processes.
 
-    triangles: per link, in its frame [m]; origins: where link frames lie at rest [m]; deadline: past it, components get one
-    hull each and false contacts stay; pool: of children, the process's own by default.
+    triangles: per link, in its frame [m]; origins: of link frames at rest [m]; deadline: after it, each component gets one hull
+    and false contacts stay; pool: of child processes, by default the shared one of this process.
     """
     deadline = deadline or Deadline()
     size = asset.mesh.diagonal
@@ -106,7 +109,7 @@ def _one_hull(component: Component, wall: float) -> tuple[Shape, ...]:
 def joint_poses(
     asset: Asset, origins: Mapping[str, Float[np.ndarray, " 3"]], joint: Joint, count: int
 ) -> list[dict[str, Float[np.ndarray, "4 4"]]]:
-    """Return where link frames are at rest, and at `count` places of one joint over its range, the others at rest."""
+    """Return the poses of link frames at rest, and at `count` positions of one joint over its range with the others at rest."""
     rest = _placed(asset, origins, {})
     return [rest, *_alone(asset, rest, joint, count)]
 
@@ -114,10 +117,10 @@ def joint_poses(
 def sampled_poses(
     asset: Asset, origins: Mapping[str, Float[np.ndarray, " 3"]], count: int
 ) -> list[dict[str, Float[np.ndarray, "4 4"]]]:
-    """Return where link frames are at rest, with each joint alone over its range, and with all joints opened.
+    """Return the poses of link frames at rest, with each joint alone over its range, and with all joints open.
 
-    Each joint has `count` places, fewer where that would be more than MOST_POSES in all, but at least LEAST_POSES. Links that
-    a joint does not move share their transform with the rest pose.
+    Each joint has `count` positions, or fewer if the total would exceed MAX_POSES, but at least MIN_POSES. Links that a joint
+    does not move share their transform with the rest pose.
     """
     moving = [j for j in asset.joints if j.type is not JointType.FIXED]
     count = int(np.clip(MAX_POSES // max(len(moving), 1), min(MIN_POSES, count), count))
@@ -130,7 +133,7 @@ def sampled_poses(
 def _alone(
     asset: Asset, rest: dict[str, Float[np.ndarray, "4 4"]], joint: Joint, count: int
 ) -> list[dict[str, Float[np.ndarray, "4 4"]]]:
-    """Poses with one joint at places of its range other than 0."""
+    """Return poses with one joint at positions of its range other than 0."""
     lower, upper = (-np.pi, np.pi) if joint.limits is None else joint.limits
     carried = carried_links(asset, joint)
     moved = [joint_transform(joint, float(v)) for v in np.linspace(lower, upper, count) if v != 0]

@@ -1,8 +1,8 @@
-"""Collision shapes that let every joint move: false contacts are found at sampled poses and refined or planed away.
+"""Collision shapes that let every joint move: false contacts at sampled poses are removed by refinement or trimming.
 
-A contact of shapes is false where the surfaces themselves do not go through each other. First the components at fault are
-decomposed finer; what still stands out is planed off along the contact. Links whose surfaces overlap at rest are excluded from
-contact, and listed; a collision that is there in truth (a tray behind a closed door) stays.
+A contact of shapes is false if the surfaces themselves do not cross. First the components involved are decomposed more finely.
+Remaining protrusions are trimmed along the contact. Links whose surfaces overlap at rest are excluded from contact, and listed.
+Real collisions (a tray behind a closed door) stay.
 """
 
 from __future__ import annotations
@@ -20,9 +20,10 @@ from anymesh.collision.decompose import Component
 from anymesh.collision.primitives import EXACT, as_hull, fitted
 from anymesh.types import Shape
 
-MAX_PLANED_RATIO = 0.15  # share of a shape that is planed off rather than its piece refined
-MAX_PLANED_RATIO_LAST = 0.7  # share that is planed off where nothing finer is left
-Refine = Callable[[Sequence[Component], Sequence[int]], list[tuple[Shape, ...]]]  # shapes of components at levels of resolution
+MAX_PLANED_RATIO = 0.15  # maximum share of a shape that is trimmed before its component is refined instead
+MAX_PLANED_RATIO_LAST = 0.7  # maximum share that is trimmed at the finest resolution
+# returns shapes of components at levels of resolution
+Refine = Callable[[Sequence[Component], Sequence[int]], list[tuple[Shape, ...]]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,18 +38,24 @@ class ComponentShapes:
 
 @dataclass(frozen=True, eq=False)
 class Fault:
-    """A false contact at a pose, between shapes of two pieces: (number of the piece, number of its shape)."""
+    """A false contact at a pose, between shapes of two components.
+
+    first, second: (index of the component, index of its shape).
+    """
 
     first: tuple[int, int]
     second: tuple[int, int]
     depth: float
-    normal: np.ndarray  # from the first to the second, where the pose places them
+    normal: np.ndarray  # from the first to the second, in the frame of the pose
     pose: Pose
 
 
 @dataclass(frozen=True, eq=False)
 class Faults:
-    """The deepest false contact of each pair of shapes, deepest first. poses: numbers of the poses that have any."""
+    """The deepest false contact of each pair of shapes, deepest first.
+
+    poses: indices of the poses with false contacts.
+    """
 
     found: list[Fault]
     poses: tuple[int, ...]
@@ -56,7 +63,7 @@ class Faults:
 
 @dataclass(frozen=True, eq=False)
 class ContactScene:
-    """Surfaces per link in link frames, poses (the first one is rest), and depths that count [m]."""
+    """Surfaces per link in link frames, poses (the first one is rest), and depth thresholds [m]."""
 
     surfaces: dict[str, LinkSurface]
     poses: Sequence[Pose]
@@ -65,7 +72,7 @@ class ContactScene:
 
     @cached_property
     def overlapping(self) -> tuple[tuple[str, str], ...]:
-        """Pairs of links whose surfaces go through each other at rest."""
+        """Return pairs of links whose surfaces cross at rest."""
         names = sorted(self.surfaces)
         low, high = np.stack([placed_bounds(self.surfaces[name], self.poses[0][name]) for name in names], 1)
         near = np.triu((low[:, None] <= high[None]).all(2) & (low[None] <= high[:, None]).all(2), 1)
@@ -76,7 +83,7 @@ class ContactScene:
         return {}
 
     def _cross(self, a: str, b: str, at: int) -> bool:
-        """Whether the surfaces of two links go through each other at a pose. Kept: surfaces do not change."""
+        """Return whether the surfaces of two links cross at a pose; cached, since surfaces do not change."""
         if (a, b, at) not in self._crossings:
             pose = self.poses[at]
             self._crossings[a, b, at] = cross(self.surfaces[a], pose[a], self.surfaces[b], pose[b], self.crossing)
@@ -85,7 +92,7 @@ class ContactScene:
     def faults(
         self, pieces: Sequence[ComponentShapes], at: Sequence[int] | None = None, late: Callable[[], bool] = lambda: False
     ) -> Faults:
-        """Find the false contacts at some poses, None for all; poses that come when it is late are left out."""
+        """Find the false contacts at some poses, None for all; poses after the deadline are left out."""
         owner = {
             link: [(k, n) for k, p in enumerate(pieces) if p.link == link for n in range(len(p.shapes))]
             for link in self.surfaces
@@ -111,7 +118,7 @@ class ContactScene:
 
 @dataclass(frozen=True, eq=False)
 class Cleared:
-    """Pieces after clearing, how many false contacts there were first, and the pairs of links that still have some."""
+    """Components after clearing, the number of false contacts before, and the pairs of links that still have some."""
 
     pieces: list[ComponentShapes]
     before: int
@@ -127,10 +134,12 @@ def clear(
     rounds: int,
     late: Callable[[], bool] = lambda: False,
 ) -> Cleared:
-    """Plane the shapes of false contacts where that costs them little; refine pieces up to the last of `levels` where not.
+    """Remove false contacts by trimming shapes, or by refining components up to the last of `levels`.
 
-    Shapes only shrink, so a round looks at the poses that had false contacts; when these are free, all are looked at again.
-    late: tells that the time is over, after which false contacts stay.
+    Shapes are trimmed if they lose little. Since shapes only shrink, each round checks the poses that had false contacts. Once
+    these are free, all poses are checked again.
+
+    late: returns whether the deadline has passed, after which false contacts stay.
     """
     faults = scene.faults(components, None, late)
     before = len(faults.found)
@@ -147,7 +156,7 @@ def clear(
         components = planed
         again = scene.faults(components, faults.poses, late)
         again = again if again.found else scene.faults(components, None, late)
-        if late():  # not all poses were looked at: what had false contacts before may still have them
+        if late():  # not all poses were checked, so earlier false contacts may remain
             break
         faults = again
     links = [(components[f.first[0]].link, components[f.second[0]].link) for f in faults.found]
@@ -157,8 +166,10 @@ def clear(
 def _planed(
     components: list[ComponentShapes], faults: Sequence[Fault], margin: float, max_ratio: float
 ) -> tuple[list[ComponentShapes], list[Fault]]:
-    """Of each fault, the shape that loses the smaller share of itself is cut back, and the faults that would cost more than
-    the share `max_ratio`."""
+    """Trim the shape of each contact that loses the smaller share.
+
+    Return the shapes, and the contacts for which that share exceeds `max_ratio`.
+    """
     shapes: list[list[Shape | None]] = [list(p.shapes) for p in components]
     costly = []
     for fault in faults:
@@ -167,7 +178,7 @@ def _planed(
             None if shape is None else float((placed_hull(shape, T) @ (sign * fault.normal)).max())
             for (_, _, T, shape), sign in zip(sides, (1.0, -1.0), strict=True)
         ]
-        if reach[0] is None or reach[1] is None or reach[0] + reach[1] <= 0:  # parted by an earlier cut
+        if reach[0] is None or reach[1] is None or reach[0] + reach[1] <= 0:  # separated by an earlier cut
             continue
         depth = reach[0] + reach[1] + margin
         cuts = [
@@ -185,12 +196,12 @@ def _planed(
 
 
 def placed_hull(shape: Shape, T: np.ndarray) -> np.ndarray:
-    """The corners of a shape where a pose has it."""
+    """Return the corners of a shape in a pose."""
     return as_hull(shape).vertices @ T[:3, :3].T + T[:3, 3]
 
 
 def _cut(shape: Shape, T: np.ndarray, normal: np.ndarray, depth: float) -> tuple[float, Shape | None]:
-    """The share that a shape loses, and what is left, when it is cut back by `depth` [m] from where it reaches furthest."""
+    """Return the share that a shape loses and its rest, when it is trimmed by `depth` [m] from its furthest point."""
     hull = as_hull(shape)
     n = T[:3, :3].T @ normal
     left = trimmed(hull, n, float((hull.vertices @ n).max()) - depth)

@@ -1,4 +1,7 @@
-"""Convex decomposition of closed solids, by CoACD (MIT). To be called in a child process: it may crash (docs/decisions.md)."""
+"""Convex decomposition of closed solids, by CoACD (MIT).
+
+Call it in a child process, since it may crash (docs/decisions.md).
+"""
 
 from __future__ import annotations
 
@@ -7,7 +10,8 @@ from jaxtyping import Float, Int
 
 from anymesh.errors import MissingExtraError
 
-SEARCH = {"mcts_iterations": 20, "mcts_nodes": 10, "resolution": 200}  # several times faster than its defaults, as many pieces
+# several times faster than the defaults, with the same number of pieces
+SEARCH = {"mcts_iterations": 20, "mcts_nodes": 10, "resolution": 200}
 
 
 def decompose(
@@ -15,8 +19,8 @@ def decompose(
 ) -> list[Float[np.ndarray, "n 3"]]:
     """Return the corner points of convex pieces of a closed solid.
 
-    concavity: how far a piece may be from the surface, as a share of half the longest side (CoACD's threshold); remesh: first
-    make one closed solid of the input, which thickens thin walls. The same input gives the same pieces.
+    concavity: maximum distance of a piece from the surface, relative to half the longest side (CoACD's threshold); remesh:
+    first make one closed solid of the input, which thickens thin walls. The same input gives the same pieces.
     """
     try:
         import coacd

@@ -1,4 +1,4 @@
-"""Which collision shapes of different links touch at given joint positions, by MuJoCo."""
+"""Contacts between collision shapes of different links at given joint positions, by MuJoCo."""
 
 from __future__ import annotations
 
@@ -13,14 +13,15 @@ from anymesh.collision.primitives import as_hull
 from anymesh.mujoco_ import load_mujoco
 from anymesh.types import Box, Cylinder, Shape
 
-Pose = Mapping[str, Float[np.ndarray, "4 4"]]  # link -> where its frame is
+Pose = Mapping[str, Float[np.ndarray, "4 4"]]  # pose of the frame of each link
 
 
 @dataclass(frozen=True, eq=False)
 class Contact:
-    """The deepest contact of two shapes of different links. first, second: (link, number of its shape); depth [m].
+    """The deepest contact of two shapes of different links.
 
-    normal: unit, from the first to the second, in the frame that poses are given in; point: in it [m].
+    first, second: (link, index of its shape); depth [m]; normal: unit, from the first to the second, in the frame of the poses;
+    point: in the same frame [m].
     """
 
     first: tuple[str, int]
@@ -31,7 +32,7 @@ class Contact:
 
 
 class ContactBench:
-    """The shapes of all links, to be placed anywhere. Every pair of links may touch but those in `excluded`."""
+    """The shapes of all links, at any poses. All pairs of links may touch except those in `excluded`."""
 
     def __init__(self, shapes: Mapping[str, Sequence[Shape]], excluded: Sequence[tuple[str, str]] = ()) -> None:
         mujoco = load_mujoco()
@@ -40,8 +41,9 @@ class ContactBench:
         self._owner: list[tuple[str, int]] = []
         for link, some in shapes.items():
             body = spec.worldbody.add_body(name=link)
-            body.add_freejoint()  # MuJoCo does not look at pairs of bodies that cannot move
-            body.mass, body.inertia, body.explicitinertial = 1.0, np.ones(3), True  # of no effect here; shapes may be too small
+            body.add_freejoint()  # MuJoCo skips pairs of bodies that cannot move
+            # has no effect here, but shapes may be too small for the default
+            body.mass, body.inertia, body.explicitinertial = 1.0, np.ones(3), True
             for number, shape in enumerate(some):
                 _add(mujoco, spec, body, f"{link} {number}", shape)
                 self._owner.append((link, number))
@@ -49,11 +51,11 @@ class ContactBench:
             spec.add_exclude(bodyname1=a, bodyname2=b)
         self._mujoco, self._model = mujoco, spec.compile()
         self._data = mujoco.MjData(self._model)
-        self._placed: dict[str, np.ndarray] = {}  # where each link was placed last; poses share what does not move
+        self._placed: dict[str, np.ndarray] = {}  # last pose of each link; poses share the transforms of static links
         self._address = {link: int(self._model.jnt_qposadr[self._model.body(link).jntadr[0]]) for link in shapes}
 
     def contacts(self, pose: Pose, least: float) -> list[Contact]:
-        """All pairs of shapes that are more than `least` [m] in each other, in the order of the shapes."""
+        """Return all pairs of shapes that penetrate by more than `least` [m], in the order of the shapes."""
         mujoco, model, data = self._mujoco, self._model, self._data
         quat = np.zeros(4)
         for link, k in self._address.items():

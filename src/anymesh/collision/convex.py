@@ -10,17 +10,17 @@ from anymesh.geometry.sampling import spread_directions
 from anymesh.types import Hull
 from anymesh.types.triangles import face_cross
 
-MAX_CORNERS = 64  # corners of a hull; engines on a GPU take no more
-MIN_THICKNESS_RATIO = 1e-4  # thinner than this share of the diagonal: no engine takes the hull
+MAX_CORNERS = 64  # corners of a hull; GPU engines accept no more
+MIN_THICKNESS_RATIO = 1e-4  # of the diagonal: no engine accepts thinner hulls
 
 
 DIRECTIONS = spread_directions(MAX_CORNERS)
 
 
 def hull_of(points: Float[np.ndarray, "n 3"], wall: float = 0.0, inward: np.ndarray | None = None) -> Hull | None:
-    """The convex hull of points; flat ones are made `wall` [m] thick along `inward` (unit; None: evenly both ways).
+    """Return the convex hull of points; flat ones are made `wall` [m] thick along `inward` (unit; None: evenly both ways).
 
-    None where there is nothing to make a hull of: fewer than three points off a line, or flat and no wall.
+    Return None if there are fewer than three points off a line, or if they are flat and `wall` is 0.
     """
     points = np.unique(points + 0.0, axis=0)
     if len(points) < 3:
@@ -35,7 +35,7 @@ def hull_of(points: Float[np.ndarray, "n 3"], wall: float = 0.0, inward: np.ndar
         if wall <= 0:
             return None
         normal = axes[2]
-        flat = points - np.outer((spread @ normal), normal)  # exactly plane, so that Qhull sees two sheets and no more
+        flat = points - np.outer((spread @ normal), normal)  # exactly plane, so that Qhull sees exactly two sheets
         if inward is None:
             points = np.concatenate([flat + normal * wall / 2, flat - normal * wall / 2])
         else:
@@ -52,7 +52,7 @@ def hull_of(points: Float[np.ndarray, "n 3"], wall: float = 0.0, inward: np.ndar
 
 
 def thinned(hull: Hull) -> Hull:
-    """A hull with more than MOST corners keeps those that reach furthest, each in its direction."""
+    """Reduce a hull with more than MAX_CORNERS corners to its furthest corner in each of as many directions."""
     if len(hull.vertices) <= MAX_CORNERS:
         return hull
     furthest = np.unique((hull.vertices @ DIRECTIONS.T).argmax(0))
@@ -60,13 +60,16 @@ def thinned(hull: Hull) -> Hull:
 
 
 def volume(hull: Hull) -> float:
-    """Volume of a hull [m^3]."""
+    """Return the volume of a hull [m^3]."""
     t = hull.vertices[hull.faces] - hull.vertices.mean(0)
     return float(np.einsum("ij,ij->i", t[:, 0], np.cross(t[:, 1], t[:, 2])).sum() / 6)
 
 
 def planes(hull: Hull) -> Float[np.ndarray, "F 4"]:
-    """Outward unit normal and offset of every face: inside is normal . x + offset <= 0. Faces without area are left out."""
+    """Return the outward unit normal and offset of every face: inside is normal . x + offset <= 0.
+
+    Faces without area are left out.
+    """
     cross = face_cross(hull.vertices[hull.faces])
     length = np.linalg.norm(cross, axis=1)
     real = length > 1e-12 * length.max()
@@ -77,7 +80,7 @@ def planes(hull: Hull) -> Float[np.ndarray, "F 4"]:
 def cut(
     triangles: Float[np.ndarray, "n 3 3"], normal: Float[np.ndarray, " 3"], offset: float
 ) -> tuple[Float[np.ndarray, "a 3 3"], Float[np.ndarray, "b 3 3"]]:
-    """The triangles below (normal . x <= offset) and above a plane; those that cross it are divided."""
+    """Return the triangles below (normal . x <= offset) and above a plane; those that cross it are divided."""
     height = triangles @ normal - offset
     slack = 1e-9 * (float(np.abs(height).max(initial=0.0)) + 1e-12)
     height = np.where(np.abs(height) <= slack, 0.0, height)
@@ -92,7 +95,7 @@ def cut(
 
 
 def _clipped(triangle: np.ndarray, height: np.ndarray) -> np.ndarray:
-    """The polygon of a triangle where `height` >= 0."""
+    """Return the polygon of a triangle where `height` >= 0."""
     found = []
     for k in range(3):
         a, b = height[k], height[(k + 1) % 3]
@@ -104,6 +107,6 @@ def _clipped(triangle: np.ndarray, height: np.ndarray) -> np.ndarray:
 
 
 def trimmed(hull: Hull, normal: Float[np.ndarray, " 3"], offset: float) -> Hull | None:
-    """The part of a hull with normal . x <= offset; None where nothing of it is left."""
+    """Return the part of a hull with normal . x <= offset; None if nothing is left."""
     below, _ = cut(hull.vertices[hull.faces], normal, offset)
     return hull_of(below.reshape(-1, 3)) if len(below) else None

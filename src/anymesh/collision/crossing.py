@@ -1,4 +1,4 @@
-"""Whether the surfaces of two links go through each other at a pose: the collision that shapes may show, too."""
+"""Tests whether the surfaces of two links cross at a pose, in which case contacts of their shapes are real."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from anymesh.collision.split import outline
 from anymesh.rendering.raycast_ import RayScene
 from anymesh.types.triangles import normals_and_areas
 
-CORNERS = np.array(list(product((0, 1), repeat=3)))  # of a box: which of its two bounds each takes along x, y, z
+CORNERS = np.array(list(product((0, 1), repeat=3)))  # of a box: index of its lower or upper bound along x, y, z
 
 
 class LinkSurface:
-    """The triangles of a link in its frame, with its edges, ready to be crossed."""
+    """The triangles of a link in its frame with their edges, for tests of crossing."""
 
     def __init__(self, triangles: Float[np.ndarray, "n 3 3"]) -> None:
         self.normals, _ = normals_and_areas(triangles)
@@ -27,14 +27,14 @@ class LinkSurface:
         self._scene: RayScene | None = None
 
     def edges_near(self, bounds: Float[np.ndarray, "2 3"]) -> tuple[Float[np.ndarray, "m 3"], Float[np.ndarray, "m 3"]]:
-        """Both ends of the edges that come within some bounds."""
+        """Return both ends of the edges that come within some bounds."""
         kept = np.arange(len(self._start))
         for low, high, least, most in zip(self._low, self._high, *bounds, strict=True):
             kept = kept[(high[kept] >= least) & (low[kept] <= most)]
         return self._start[kept], self._end[kept]
 
     def crossed_by(self, start: Float[np.ndarray, "m 3"], end: Float[np.ndarray, "m 3"], depth: float) -> bool:
-        """Whether an edge, in this frame, goes through a triangle and ends more than `depth` [m] behind and before it."""
+        """Return whether an edge, in this frame, crosses a triangle and ends more than `depth` [m] away on both sides."""
         if len(start) == 0:
             return False
         if self._scene is None:
@@ -51,7 +51,7 @@ class LinkSurface:
 
 
 def cross(a: LinkSurface, T_a: Float[np.ndarray, "4 4"], b: LinkSurface, T_b: Float[np.ndarray, "4 4"], depth: float) -> bool:
-    """Whether the surfaces of two links, placed by their transforms, go more than `depth` [m] through each other."""
+    """Return whether the surfaces of two links, placed by their transforms, penetrate by more than `depth` [m]."""
     for one, T_one, other, T_other in ((a, T_a, b, T_b), (b, T_b, a, T_a)):
         T = np.linalg.inv(T_other) @ T_one
         back = np.linalg.inv(T)
@@ -62,6 +62,6 @@ def cross(a: LinkSurface, T_a: Float[np.ndarray, "4 4"], b: LinkSurface, T_b: Fl
 
 
 def placed_bounds(surface: LinkSurface, T: Float[np.ndarray, "4 4"]) -> Float[np.ndarray, "2 3"]:
-    """Return the bounds of the surface's own bounds where a transform places them."""
+    """Return the bounds of the transformed bounding box of a surface."""
     corners = np.take_along_axis(surface.bounds, CORNERS, axis=0) @ T[:3, :3].T + T[:3, 3]
     return np.stack([corners.min(0), corners.max(0)])

@@ -1,6 +1,6 @@
-"""Exact convex decomposition of faceted solids: cuts along the planes of faces that meet at concave edges.
+"""Exact convex decomposition of faceted solids by cuts along the planes of faces that meet at concave edges.
 
-A drawer, a frame or a bracket has few such planes, and cuts along them leave convex blocks. Smooth solids have too many; they
+A drawer, a frame or a bracket has few such planes, and cuts along them leave convex blocks. Smooth solids have too many, and
 are left to CoACD.
 """
 
@@ -22,16 +22,16 @@ from anymesh.geometry.topology import edge_pairs
 from anymesh.types import Hull
 from anymesh.types.triangles import normals_and_areas
 
-MIN_CONCAVE_ANGLE_DEG = 10.0  # [deg] of the fold at an edge from which it counts as concave
+MIN_CONCAVE_ANGLE_DEG = 10.0  # [deg] minimum fold at an edge that counts as concave
 MAX_PLANES = 32  # distinct planes at concave edges; a solid with more is not faceted
-PLANES_PER_CUT = 16  # planes per cut, those with the longest concave edges first
-FLAT = 1e-9  # volume of a side, as a share of both, below which a plane does not divide
+PLANES_PER_CUT = 16  # planes tried per cut, those with the longest concave edges first
+FLAT = 1e-9  # share of the volume of both sides below which a plane does not divide
 SAME_PLANE = (0.9999, 1e-4)  # cosine of the normals, and offset as a share of the diagonal
 
 
 @dataclass(frozen=True, eq=False)
 class _Block:
-    """A piece of the solid's surface, its hull, and how far the hull stands off the solid [m]."""
+    """A piece of the solid's surface, its hull, and the maximum distance of the hull from the solid [m]."""
 
     triangles: np.ndarray
     hull: Hull
@@ -39,8 +39,12 @@ class _Block:
 
 
 def cut_solid(triangles: Float[np.ndarray, "n 3 3"], *, gap: float, wall: float, max_pieces: int) -> list[Hull] | None:
-    """Return convex pieces that stand off a closed solid by at most `gap` [m], or None if that takes more than `max_pieces`
-    or the solid is not faceted. wall: least distance of other cutting planes [m]."""
+    """Return convex pieces that are within `gap` [m] of a closed solid.
+
+    Return None if that takes more than `max_pieces` pieces, or if the solid is not faceted.
+
+    wall: minimum spacing of other cutting planes [m].
+    """
     planes = _concave_planes(triangles)
     if not 0 < len(planes) <= MAX_PLANES:
         return None
@@ -71,14 +75,14 @@ def _block(triangles: np.ndarray, solid: tuple[np.ndarray, np.ndarray]) -> _Bloc
     points = np.concatenate([sample_surface(sides, SAMPLES, 0).points, sides.mean(1)])
     off = distance_to_mesh(points, *solid)[0]
     away = np.flatnonzero(off > 0)
-    off[away] *= winding_number(points[away], *solid) < 0.5  # inside the solid the hull stands off nothing
+    off[away] *= winding_number(points[away], *solid) < 0.5  # hull points inside the solid have no distance
     return _Block(triangles, hull, float(off.max()))
 
 
 def _halves(triangles: np.ndarray, planes: Sequence[tuple[np.ndarray, float]], wall: float) -> list[np.ndarray]:
-    """The two sides of the plane that leaves the least volume in both hulls; none where no plane divides.
+    """Return the two sides of the plane that leaves the least volume in both hulls; none if no plane divides.
 
-    Where no concave edge is left, the block is curved: it is cut across the directions that it faces.
+    If no concave edge is left, the block is curved and is cut across the directions that it faces.
     """
     outlined = outline(triangles)
     best = _best(outlined, planes, PLANES_PER_CUT) or _best(outlined, list(cutting_planes(triangles, wall)))
@@ -88,7 +92,7 @@ def _halves(triangles: np.ndarray, planes: Sequence[tuple[np.ndarray, float]], w
 def _best(
     outlined: tuple[np.ndarray, np.ndarray], planes: Sequence[tuple[np.ndarray, float]], max_planes: int | None = None
 ) -> tuple[np.ndarray, float] | None:
-    """Of the first `max_planes` planes that divide an outline, the one that leaves the least volume in both hulls."""
+    """Return, of the first `max_planes` planes that divide an outline, the one that leaves the least volume in both hulls."""
     sides = ([_volume(side) for side in below_and_above(*outlined, *plane)] for plane in planes)
     dividing = ((sum(pair), plane) for pair, plane in zip(sides, planes, strict=True) if min(pair) > FLAT * sum(pair))
     found = min(enumerate(itertools.islice(dividing, max_planes)), key=lambda item: (item[1][0], item[0]), default=None)
@@ -96,7 +100,7 @@ def _best(
 
 
 def _concave_planes(triangles: np.ndarray) -> list[tuple[np.ndarray, float]]:
-    """The distinct planes of faces that meet at concave edges, those with the longest edges first."""
+    """Return the distinct planes of faces that meet at concave edges, those with the longest edges first."""
     corners = triangles.reshape(-1, 3)
     pairs = edge_pairs(corners, np.arange(len(corners)).reshape(-1, 3))
     normals, middle = normals_and_areas(triangles)[0], triangles.mean(1)
@@ -112,7 +116,10 @@ def _concave_planes(triangles: np.ndarray) -> list[tuple[np.ndarray, float]]:
 
 
 def _distinct(normal: np.ndarray, offset: np.ndarray, weight: np.ndarray, size: float) -> list[tuple[np.ndarray, float]]:
-    """Planes without near copies, by the sum of the weights of each and its copies, at most one more than MOST_PLANES."""
+    """Return planes without near-duplicates, at most one more than MAX_PLANES.
+
+    They are ordered by the sum of the weights of each and its duplicates.
+    """
     left = np.argsort(-weight, kind="stable")
     found: list[tuple[float, np.ndarray, float]] = []
     while len(left) and len(found) <= MAX_PLANES:

@@ -1,4 +1,4 @@
-"""The collision shapes of one connected component: a primitive, a hull, or several where it is not convex."""
+"""Collision shapes of one connected component: a primitive, a hull, or several if it is not convex."""
 
 from __future__ import annotations
 
@@ -18,17 +18,17 @@ from anymesh.geometry.topology import components
 from anymesh.types import Hull, Shape
 from anymesh.types.triangles import normals_and_areas
 
-FACES = 3000  # of a component, for questions of shape; more add seconds, not accuracy
-COACD_FACES = 1000  # of a solid that CoACD divides: a third less time than with 3000, as many pieces
-CUTS_SHARE = 2 / 3  # of the most pieces, that exact cuts may make; CoACD needs fewer for what takes more
-AROUND_FACES = 500  # of a hull that is asked what lies in it; more are smooth, and take much memory to ask
-CONCAVITY = (0.01, 1.0)  # lowest and highest threshold that CoACD takes
-CELLS = 4  # per side of a link's bounds: small components that lie in one cell share a hull
-SLIVER = 1e-9  # area of a face, as a share of the squared diagonal, below which cleaning removes it
+FACES = 3000  # faces of a component for its shapes; more take seconds without better accuracy
+COACD_FACES = 1000  # faces of a solid for CoACD; takes a third less time than 3000, with the same number of pieces
+CUTS_SHARE = 2 / 3  # of the maximum number of pieces, for exact cuts; CoACD needs fewer for complex solids
+AROUND_FACES = 500  # maximum faces of a hull that is tested for components inside; larger ones are smooth, and need much memory
+CONCAVITY = (0.01, 1.0)  # range of CoACD's threshold
+CELLS = 4  # cells per side of a link's bounds: small components in one cell share a hull
+SLIVER = 1e-9  # of the squared diagonal: cleaning removes faces with a smaller area
 
 
 class Method(StrEnum):
-    """How a component that is not convex is divided, in the order in which the ways are tried."""
+    """Methods to divide a component that is not convex, in the order in which they are tried."""
 
     CUTS = "cuts along concave edges, else CoACD"
     CLEANED = "CoACD on a cleaned surface"
@@ -37,7 +37,10 @@ class Method(StrEnum):
 
 @dataclass(frozen=True)
 class Resolution:
-    """gap: largest distance of a shape from the surface [m]; wall: thickness of open shells [m]; max_pieces: per component."""
+    """Accuracy of shapes.
+
+    gap: maximum distance of a shape from the surface [m]; wall: thickness of open shells [m]; max_pieces: per component.
+    """
 
     gap: float
     wall: float
@@ -46,7 +49,10 @@ class Resolution:
 
 @dataclass(frozen=True, eq=False)
 class Component:
-    """A connected piece of a link's surface, in the link frame [m]; solid: closed, wound outwards."""
+    """A connected piece of a link's surface, in the link frame [m].
+
+    solid: closed and wound outwards.
+    """
 
     triangles: Float[np.ndarray, "n 3 3"]
     solid: bool
@@ -55,10 +61,10 @@ class Component:
 def split_components(
     triangles: Float[np.ndarray, "n 3 3"], min_size: float, max_components: int | None = None
 ) -> list[Component]:
-    """Return the components of a link that need shapes of their own, largest first.
+    """Return the components of a link that need separate shapes, largest first.
 
-    Omitted are those smaller than `min_size` [m], unless all are; those without a surface; and those in the hull of a convex
-    one. Of more than `max_components`, the smaller ones that lie in one cell of a grid are joined.
+    Omitted are components smaller than `min_size` [m], unless all are, components without a surface, and components inside the
+    hull of a convex one. If there are more than `max_components`, the smaller ones are joined per cell of a grid.
     """
     found = components(triangles.reshape(-1, 3), np.arange(3 * len(triangles)).reshape(-1, 3))
     order = np.argsort(found.label, kind="stable")
@@ -99,7 +105,7 @@ class _Around:
 
 
 def _gathered(pieces: list[np.ndarray]) -> list[Component]:
-    """One component for all the pieces whose middles lie in one cell of a grid."""
+    """Join all pieces whose centers lie in one cell of a grid into one component."""
     if not pieces:
         return []
     middle = np.array([piece.reshape(-1, 3).mean(0) for piece in pieces])
@@ -109,10 +115,11 @@ def _gathered(pieces: list[np.ndarray]) -> list[Component]:
 
 
 def component_shapes(component: Component, resolution: Resolution, method: Method = Method.CUTS) -> tuple[Shape, ...]:
-    """Return one shape where the hull is near enough to the surface, else the shapes of its pieces.
+    """Return one shape if the hull is close enough to the surface, else the shapes of its pieces.
 
-    method: how a solid is divided; an open surface is always cut by planes. Call it in a child process unless the method is
-    SPLIT: CoACD may crash.
+    method: division of a solid; an open surface is always cut by planes.
+
+    Call it in a child process unless the method is SPLIT, since CoACD may crash.
     """
     triangles = simplify(component.triangles, FACES)
     whole = patch_of(triangles, resolution.wall)
@@ -127,7 +134,7 @@ def component_shapes(component: Component, resolution: Resolution, method: Metho
 
 
 def _divided(triangles: np.ndarray, resolution: Resolution, method: Method) -> list[Hull]:
-    """The hulls of a solid's pieces; none where the method has none."""
+    """Return the hulls of a solid's pieces; none if the method finds none."""
     match method:
         case Method.CUTS:
             most = int(CUTS_SHARE * resolution.max_pieces)
@@ -140,7 +147,7 @@ def _divided(triangles: np.ndarray, resolution: Resolution, method: Method) -> l
 
 
 def _by_coacd(triangles: np.ndarray, resolution: Resolution) -> list[Hull]:
-    """The hulls of CoACD's pieces; none where the surface is not closed."""
+    """Return the hulls of CoACD's pieces; none if the surface is not closed."""
     for few in (simplify(triangles, COACD_FACES), triangles):  # simplification may open a surface
         vertices, faces = solid_mesh(few)
         if len(faces) and components(vertices, faces).solid.all():
@@ -153,7 +160,7 @@ def _by_coacd(triangles: np.ndarray, resolution: Resolution) -> list[Hull]:
 
 
 def cleaned(triangles: Float[np.ndarray, "n 3 3"]) -> Float[np.ndarray, "m 3 3"]:
-    """Return a surface without slivers and double faces, its corners moved to a grid of one millionth of the diagonal."""
+    """Return a surface without slivers and duplicate faces, its corners snapped to a grid of one millionth of the diagonal."""
     low = triangles.reshape(-1, 3).min(0)
     size = float(np.linalg.norm(np.ptp(triangles.reshape(-1, 3), axis=0)))
     step = 1e-6 * size
@@ -165,11 +172,11 @@ def cleaned(triangles: Float[np.ndarray, "n 3 3"]) -> Float[np.ndarray, "m 3 3"]
 
 
 def smallest_box(triangles: Float[np.ndarray, "n 3 3"], wall: float) -> Shape:
-    """Return a box round a link that has no extent to make a hull of, `wall` [m] thick at least."""
+    """Return a box around a link without volume, at least `wall` [m] thick."""
     corners = triangles.reshape(-1, 3)
     low, high = corners.min(0), corners.max(0)
     half = np.maximum(high - low, wall) / 2
     signs = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
     hull = hull_of((low + high) / 2 + signs * half)
-    assert hull is not None  # a box with a thickness
+    assert hull is not None  # a box with a thickness has a hull
     return fitted(hull)

@@ -1,4 +1,7 @@
-"""Decomposition in child processes: a crash, hang or memory blow-up costs one component its way of division, not the run."""
+"""Decomposition in child processes.
+
+A crash, hang or excessive memory use affects the method for one component, and not the run.
+"""
 
 from __future__ import annotations
 
@@ -17,16 +20,16 @@ from anymesh.collision.store import content_key, load_shapes, save_shapes
 from anymesh.isolation import DECOMPOSER, ChildError, ChildPool, Failure
 from anymesh.types import Shape
 
-DIGITS = 30  # binary, of the coordinates of a component, so that copies at different places become equal
-TINY = 1e-12  # [m] least size of a component
-BATCH_FACES = 2000  # of small components that one call takes together
-PER_FACE = 2e-5  # [s] added to the limit of a call for every face: simplifying millions takes longer than dividing what is left
-ONE_BY_ONE = 64  # components up to which each has a call of its own, so that the children share the slow ones
+DIGITS = 30  # binary digits of the coordinates of a component, so that copies at different places become equal
+TINY = 1e-12  # [m] minimum size of a component
+BATCH_FACES = 2000  # faces of small components per call
+PER_FACE = 2e-5  # [s] added to the limit of a call per face, since simplifying millions of faces takes longer than the division
+ONE_BY_ONE = 64  # number of components up to which each has its own call, so that the child processes share the slow ones
 
 
 @dataclass(frozen=True)
 class Fallback:
-    """A component whose division failed: what failed and why, and what was done instead."""
+    """A component whose division failed: what failed and why, and the method used instead."""
 
     reasons: tuple[str, ...]
     used: str
@@ -34,7 +37,10 @@ class Fallback:
 
 @dataclass(frozen=True, eq=False)
 class Divided:
-    """The shapes of a component. fallback: None unless the first method failed."""
+    """The shapes of a component.
+
+    fallback: None unless the first method failed.
+    """
 
     shapes: tuple[Shape, ...]
     fallback: Fallback | None = None
@@ -42,8 +48,10 @@ class Divided:
 
 @dataclass(frozen=True, eq=False)
 class Decomposer:
-    """Divides components in the children of a pool; what it found is kept in `cache` by content. seconds: of processor time per
-    call [s], and PER_FACE more for every face."""
+    """Divides components in the child processes of a pool; results are cached in `cache` by content.
+
+    seconds: processor time per call [s], plus PER_FACE for every face.
+    """
 
     pool: ChildPool
     cache: Path | None
@@ -51,9 +59,9 @@ class Decomposer:
     methods: tuple[Method, ...] = tuple(Method)
 
     def divide(self, components: Sequence[Component], resolution: Sequence[Resolution]) -> list[Divided]:
-        """Return the shapes of each component, in their order. Never raises for what a child process does.
+        """Return the shapes of each component, in their order. Failures of child processes never raise.
 
-        Components that differ by a shift alone are divided once.
+        Components that differ by a shift only are divided once.
         """
         low = [c.triangles.reshape(-1, 3).min(0) for c in components]
         local = [_at_origin(c, corner) for c, corner in zip(components, low, strict=True)]
@@ -77,13 +85,13 @@ class Decomposer:
         ]
 
     def _divide_batch(self, batch: list[tuple[Component, Resolution]]) -> list[Divided]:
-        """All of a batch in one call; one by one where that fails, so that one component does not cost the others."""
+        """Divide a batch in one call, or one by one if that fails, so that one component does not affect the others."""
         try:
             return [Divided(shapes) for shapes in self._call(batch, self.methods[0])]
         except ChildError as error:
             if len(batch) > 1:
                 return [d for pair in batch for d in self._divide_batch([pair])]
-            slow = error.failure is Failure.TIME  # cleaning does not help what takes too long
+            slow = error.failure is Failure.TIME  # cleaning does not help if the division takes too long
             methods = self.methods[-1:] if slow else self.methods[1:]
             return [self._fall_back(*batch[0], methods, f"{self.methods[0].value}: {error}")]
 
@@ -105,19 +113,19 @@ class Decomposer:
 
 
 def _at_origin(component: Component, corner: np.ndarray) -> Component:
-    """The component with a corner of its bounds at 0, rounded, so that copies become equal."""
+    """Return the component with a corner of its bounds at 0, rounded, so that copies become equal."""
     moved = component.triangles - corner
     step = float(np.exp2(np.floor(np.log2(max(float(moved.max()), TINY))) - DIGITS))
     return Component(np.round(moved / step) * step, component.solid)
 
 
 def divide_here(batch: list[tuple[Component, Resolution]], method: Method) -> list[tuple[Shape, ...]]:
-    """Divide components in this process. The function that children run."""
+    """Divide components in this process; runs in the child processes."""
     return [component_shapes(component, resolution, method) for component, resolution in batch]
 
 
 def _batches(sizes: Sequence[int]) -> list[range]:
-    """Consecutive numbers whose sizes add up to about BATCH_FACES; a larger one is by itself, and so are few."""
+    """Return consecutive indices whose sizes add up to about BATCH_FACES; larger ones, and few ones, are separate."""
     if len(sizes) <= ONE_BY_ONE:
         return [range(k, k + 1) for k in range(len(sizes))]
     total = np.cumsum(np.minimum(sizes, BATCH_FACES))

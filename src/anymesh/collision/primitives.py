@@ -1,4 +1,4 @@
-"""Boxes and cylinders in the place of hulls that they fit."""
+"""Boxes and cylinders as replacements of hulls that they fit."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from anymesh.geometry.circles import roundest
 from anymesh.types import Box, Cylinder, Hull, Shape
 from anymesh.types.triangles import normals_and_areas
 
-EXACT = 1e-6  # for a hull that was cut: a box in its place must not stand out again
-FIT = 0.02  # a primitive's volume may differ by this share from the hull's ...
-ROUND = 0.97  # ... and this share of a cylinder's outline is round; an octagon is none
-SIDES = 12  # corners that a round outline has at least
+EXACT = 1e-6  # for a trimmed hull, which a box must not exceed again
+FIT = 0.02  # maximum relative difference between the volumes of a primitive and the hull
+ROUND = 0.97  # minimum round share of a cylinder's outline; an octagon has less
+SIDES = 12  # minimum number of corners of a round outline
 
 
 def fitted(hull: Hull, fit: float = FIT) -> Shape:
-    """The box or cylinder that a hull is, within the share `fit` of its volume; else the hull, with few corners."""
+    """Return the box or cylinder that fits a hull within the share `fit` of its volume; else the hull, with few corners."""
     normals, areas = normals_and_areas(hull.vertices[hull.faces])
     exact = volume(hull)
     box = fit_box(hull.vertices, normals, areas)
@@ -50,7 +50,7 @@ def _cylinder(hull: Hull, directions: np.ndarray, exact: float, fit: float) -> C
 
 
 def as_hull(shape: Shape) -> Hull:
-    """Return a shape as a convex polyhedron; a cylinder as the prism of 32 sides that lies in it."""
+    """Return a shape as a convex polyhedron; a cylinder becomes its inscribed prism of 32 sides."""
     match shape:
         case Hull():
             return shape
@@ -63,7 +63,10 @@ def as_hull(shape: Shape) -> Hull:
 
 @cache
 def _unit_hulls() -> tuple[Hull, Hull]:
-    """A cube of side 1 and a prism of radius and length 1, whose faces do not depend on how thin a shape is."""
+    """Return a cube of side 1 and a prism of radius and length 1.
+
+    Scaling them gives faces that do not depend on how thin a shape is.
+    """
     cube = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]) / 2
     angle = np.arange(32) / 32 * 2 * np.pi
     ring = np.c_[np.cos(angle), np.sin(angle)]

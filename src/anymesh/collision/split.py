@@ -1,7 +1,7 @@
-"""Convex decomposition of open surfaces: the surface itself is cut by planes until every piece is near its hull.
+"""Convex decomposition of open surfaces: the surface is cut by planes until every piece is close to its hull.
 
-A voxel remesh, as decomposers of solids need it, would give an open shell thick walls; cut as it is, it stays thin, and what it
-surrounds stays open.
+A voxel remesh, as decomposers of solids need, would give an open shell thick walls. Cut directly, the shell stays thin and its
+cavity stays open.
 """
 
 from __future__ import annotations
@@ -21,13 +21,13 @@ from anymesh.geometry.topology import weld
 from anymesh.types import Hull
 from anymesh.types.triangles import normals_and_areas
 
-SAMPLES = 200  # of a hull, for its distance from the surface
-PLACES = 5  # of a cutting plane along each direction
+SAMPLES = 200  # sample points of a hull for its distance from the surface
+PLACES = 5  # positions of a cutting plane along each direction
 
 
 @dataclass(frozen=True, eq=False)
 class Patch:
-    """A piece of surface, its hull, and how far the hull is from it at most [m]."""
+    """A piece of surface, its hull, and the maximum distance of the hull from it [m]."""
 
     triangles: Float[np.ndarray, "n 3 3"]
     hull: Hull
@@ -35,7 +35,7 @@ class Patch:
 
 
 def patch_of(triangles: Float[np.ndarray, "n 3 3"], wall: float) -> Patch | None:
-    """The patch of some triangles; a flat one gets a hull of `wall` [m] behind it. None where there is no surface."""
+    """Return the patch of some triangles; a flat one gets a hull of `wall` [m] behind it. None if there is no surface."""
     if len(triangles) == 0:
         return None
     normals, areas = normals_and_areas(triangles)
@@ -49,7 +49,10 @@ def patch_of(triangles: Float[np.ndarray, "n 3 3"], wall: float) -> Patch | None
 
 
 def split_surface(triangles: Float[np.ndarray, "n 3 3"], *, gap: float, wall: float, max_pieces: int) -> list[Hull]:
-    """Hulls of pieces that are within `gap` [m] of the surface, or `max_pieces` pieces; thin ones are `wall` [m] thick."""
+    """Return hulls of pieces that are within `gap` [m] of the surface, or of `max_pieces` pieces.
+
+    Thin pieces are `wall` [m] thick.
+    """
     first = patch_of(triangles, wall)
     done, waiting = [], [] if first is None else [first]
     while waiting:
@@ -67,7 +70,7 @@ def split_surface(triangles: Float[np.ndarray, "n 3 3"], *, gap: float, wall: fl
 
 
 def _halves(patch: Patch, wall: float) -> list[Patch]:
-    """The two pieces, by the plane that leaves the least volume in both hulls."""
+    """Return the two pieces of a cut by the plane that leaves the least volume in both hulls."""
     best = None
     points, ends = outline(patch.triangles)
     for normal, offset in cutting_planes(patch.triangles, wall):
@@ -97,8 +100,10 @@ def outline(triangles: Float[np.ndarray, "n 3 3"]) -> tuple[Float[np.ndarray, "V
 
 
 def cutting_planes(triangles: Float[np.ndarray, "n 3 3"], wall: float) -> Iterator[tuple[np.ndarray, float]]:
-    """Yield planes (normal, offset) across the directions that a surface faces and its principal ones, beside and between its
-    corners, `wall` [m] apart at least."""
+    """Yield planes (normal, offset) across the directions that a surface faces and its principal directions.
+
+    They lie beside and between its corners, at least `wall` [m] apart.
+    """
     normals, areas = normals_and_areas(triangles)
     corners = triangles.reshape(-1, 3)
     spread = corners - corners.mean(0)
@@ -123,7 +128,7 @@ def cutting_planes(triangles: Float[np.ndarray, "n 3 3"], wall: float) -> Iterat
 def below_and_above(
     points: Float[np.ndarray, "V 3"], ends: Int[np.ndarray, "E 2"], normal: Float[np.ndarray, " 3"], offset: float
 ) -> tuple[Float[np.ndarray, "a 3"], Float[np.ndarray, "b 3"]]:
-    """Return the corner points of what a plane leaves on each side of an outline, without dividing the triangles."""
+    """Return the corner points on each side of a plane through an outline, without dividing the triangles."""
     height = points @ normal - offset
     a, b = ends[height[ends[:, 0]] * height[ends[:, 1]] < 0].T
     share = (height[a] / (height[a] - height[b]))[:, None]
@@ -132,10 +137,10 @@ def below_and_above(
 
 
 def _thick_volume(points: np.ndarray, wall: float) -> float:
-    """Volume of the hull of some points, at least that of a sheet `wall` [m] thick."""
+    """Return the volume of the hull of some points, at least that of a sheet `wall` [m] thick."""
     if len(points) < 4:
         return 0.0
-    for options in (None, "QJ"):  # joggled, flat points have a hull too
+    for options in (None, "QJ"):  # with joggled input (QJ), flat points have a hull too
         try:
             hull = ConvexHull(points, qhull_options=options)
         except QhullError:

@@ -1,4 +1,4 @@
-"""Decompositions kept by content: the slow step of an export is done once for a surface."""
+"""Cache of decompositions by content: each surface is decomposed once, as that is the slow step of an export."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ import numpy as np
 
 from anymesh.types import Box, Cylinder, Hull, Shape
 
-VERSION = b"6"  # another one where the same surface would give other shapes
+VERSION = b"6"  # change it if the same surface would give other shapes
 
 
 def content_key(*values: np.ndarray | float | int) -> str:
-    """A key over arrays and numbers."""
+    """Return a key over arrays and numbers."""
     digest = hashlib.sha256(VERSION)
     for value in values:
         digest.update(np.ascontiguousarray(value, np.float64).tobytes())
@@ -22,7 +22,7 @@ def content_key(*values: np.ndarray | float | int) -> str:
 
 
 def load_shapes(folder: Path | None, key: str) -> tuple[Shape, ...] | None:
-    """The shapes kept under a key; None when there are none, or the file is not whole."""
+    """Return the shapes stored under a key; None if there are none, or the file is incomplete."""
     if folder is None:
         return None
     try:
@@ -35,7 +35,7 @@ def load_shapes(folder: Path | None, key: str) -> tuple[Shape, ...] | None:
 
 
 def save_shapes(folder: Path | None, key: str, shapes: tuple[Shape, ...]) -> None:
-    """Keeps shapes under a key; a folder that cannot be written is no reason to stop."""
+    """Store shapes under a key; a folder that cannot be written is ignored."""
     if folder is None:
         return
     rows = [_arrays(shape) for shape in shapes]

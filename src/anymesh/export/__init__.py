@@ -1,4 +1,4 @@
-"""Asset to files: URDF, MJCF, USD, SDFormat, animated GLB, meshes, asset.json."""
+"""Export of an asset to files: URDF, MJCF, USD, SDFormat, animated GLB, meshes, asset.json."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from anymesh.export.settings import ExportConfig
 from anymesh.models.transcript import write_transcript
 from anymesh.types import Asset
 
-TRANSCRIPT = "transcript"  # folder of what was asked and answered, browsable and replayable
+TRANSCRIPT = "transcript"  # folder of the questions and answers, browsable and replayable
 
 __all__ = ["Base", "Driven", "ExportConfig", "Format", "parse_formats", "write_asset"]
 
@@ -31,10 +31,12 @@ def write_asset(
     cache: Path | None = None,
     deadline: Deadline | None = None,
 ) -> Model:
-    """Writes each format, meshes/, transcript/, timing.json and, last, asset.json into an existing folder.
+    """Write each format, meshes/, transcript/, timing.json and, last, asset.json into an existing folder.
 
-    Names of the asset, its parts and joints are made legal where they are not (`anymesh.names.legal_names`). cache: a folder
-    that keeps convex decompositions. The same asset gives the same bytes, but for timing.json.
+    Names of the asset, its parts and joints are made legal where necessary (`anymesh.names.legal_names`). The same asset gives
+    the same bytes, except for timing.json.
+
+    cache: folder for convex decompositions.
     """
     built = build_model(asset, base=base, driven=driven, config=config, cache=cache, deadline=deadline)
     model = built.model

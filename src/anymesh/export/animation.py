@@ -1,4 +1,4 @@
-"""The animation of an asset: every joint through its whole range and back, all at once, in a loop."""
+"""Animation of an asset: all joints at once through their whole range and back, in a loop."""
 
 from __future__ import annotations
 
@@ -14,14 +14,17 @@ from anymesh.types import Joint, JointType
 
 @dataclass(frozen=True, eq=False)
 class Track:
-    """Keys of one joint. times [s], rising; amounts [rad or m] at them."""
+    """Keys of one joint.
+
+    times: ascending [s]; amounts: at these times [rad or m].
+    """
 
     joint: Joint
     times: Float32[np.ndarray, " n"]
     amounts: Float[np.ndarray, " n"]
 
     def values(self, rest: Float[np.ndarray, " 3"]) -> tuple[str, Float32[np.ndarray, "n k"]]:
-        """The glTF path and its keys: quaternions xyzw that never jump sign, or translations from `rest` [m]."""
+        """Return the glTF path and its keys: quaternions xyzw without sign changes, or translations from `rest` [m]."""
         if self.joint.type is JointType.PRISMATIC:
             return "translation", (rest + self.amounts[:, None] * self.joint.axis).astype(np.float32)
         half = self.amounts[:, None] / 2
@@ -30,9 +33,10 @@ class Track:
 
 
 def tracks(joints: Sequence[Joint], config: ExportConfig) -> tuple[Track, ...]:
-    """Keys of all joints that move: first up to the upper limits and back, then down to the lower ones and back.
+    """Return keys of all moving joints: first up to the upper limits and back, then down to the lower ones and back.
 
-    A way that no joint has is left out; a joint without it rests meanwhile. Continuous joints turn once, evenly.
+    A direction that no joint has is left out. A joint without it rests in the meantime. Continuous joints rotate once, at
+    constant speed.
     """
     moving = [j for j in joints if j.type is not JointType.FIXED]
     up = any(j.limits is None or j.limits[1] > 0 for j in moving)

@@ -1,4 +1,4 @@
-"""A folder as a zip whose bytes depend on nothing but its content."""
+"""Reproducible zip of a folder, whose bytes depend on its content only."""
 
 from __future__ import annotations
 
@@ -6,14 +6,14 @@ import io
 import zipfile
 from pathlib import Path
 
-EPOCH = (1980, 1, 1, 0, 0, 0)  # the first date that a zip can hold
-PLAIN_FILE = 0o100644 << 16  # a file that all may read, its owner write
+EPOCH = (1980, 1, 1, 0, 0, 0)  # the earliest date that a zip can hold
+PLAIN_FILE = 0o100644 << 16  # a file readable by all and writable by its owner
 
 
 def write_zip(folder: Path, path: Path) -> None:
-    """Zips an asset folder, its own name first, files sorted by name, dates and rights all the same.
+    """Zip an asset folder under its own name, with files sorted by name and fixed dates and permissions.
 
-    Hidden files and saved stages, which no simulator needs, stay out.
+    Hidden files and saved stages, which no simulator needs, are left out.
     """
     partial = path.with_name(f".{path.name}.partial")
     with partial.open("wb") as sink:

@@ -1,4 +1,4 @@
-"""asset.json: the asset in words and numbers; its schema is `asset.schema.json` beside this file."""
+"""Content of asset.json; its schema is `asset.schema.json` beside this file."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from anymesh.export.model import ExportLink, Model
 from anymesh.types import Exchange, Joint, Mesh
 
 SCHEMA_VERSION = "1.2"
-TIMING_FILE = "timing.json"  # apart, so that everything else is the same from run to run
+TIMING_FILE = "timing.json"  # separate, so that everything else is the same in every run
 
 
 def asset_record(model: Model, formats: Sequence[Format]) -> dict[str, Any]:
-    """The content of asset.json as plain values."""
+    """Return the content of asset.json as plain values."""
     asset = model.asset
     source = asset.source
     return {
@@ -48,7 +48,7 @@ def asset_record(model: Model, formats: Sequence[Format]) -> dict[str, Any]:
 
 
 def usage(exchanges: Sequence[Exchange]) -> dict[str, Any]:
-    """What the answers of a model took: calls (of which from a cache or a recording), tokens, and dollars paid."""
+    """Return the usage of a model: calls (and those from a cache or a recording), tokens, and dollars paid."""
     exchanges = [e for e in exchanges if not e.skipped]
     costs = [e.cost for e in exchanges if not e.cached]
     return {
@@ -61,12 +61,12 @@ def usage(exchanges: Sequence[Exchange]) -> dict[str, Any]:
 
 
 def schema() -> dict[str, Any]:
-    """The JSON schema (2020-12) of asset.json."""
+    """Return the JSON schema (2020-12) of asset.json."""
     return json.loads(files("anymesh.export").joinpath("asset.schema.json").read_text(encoding="utf-8"))
 
 
 def json_text(record: Mapping[str, Any]) -> str:
-    """Indented JSON, ASCII, with a final newline."""
+    """Return indented ASCII JSON with a final newline."""
     return json.dumps(record, indent=2, allow_nan=False) + "\n"
 
 
@@ -106,5 +106,5 @@ def _joint(joint: Joint) -> dict[str, Any]:
 
 
 def _round(value: float) -> float:
-    """Ten significant digits, as in the URDF; -0 is 0."""
+    """Round to ten significant digits, as in the URDF; -0 becomes 0."""
     return 0.0 if abs(value) < 1e-12 else float(f"{float(value):.10g}")

@@ -1,4 +1,4 @@
-"""An asset as bodies: links with mass and collision, ready for every format."""
+"""Build the export model of an asset: links with mass and collision, ready for every format."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ TIGHT = "their collision shapes touch where the surfaces do not"
 
 @dataclass(frozen=True, eq=False)
 class Built:
-    """A model, and how its collision shapes came about."""
+    """A model, and the collision result of its shapes."""
 
     model: Model
     collision: Collision
@@ -29,8 +29,10 @@ class Built:
 def build_model(
     asset: Asset, *, base: Base, driven: Driven, config: ExportConfig, cache: Path | None, deadline: Deadline | None = None
 ) -> Built:
-    """The model of an asset, with legal names and the warnings of its collision shapes. cache: folder of decompositions, None
-    for none."""
+    """Build the model of an asset, with legal names and the warnings of its collision shapes.
+
+    cache: folder of decompositions, None for none.
+    """
     asset = with_legal_names(asset)
     links = split_links(asset)
     triangles = {link.name: link.triangles for link in links}
@@ -47,6 +49,6 @@ def build_model(
 
 
 def _made_of(mesh: Mesh, link: Link) -> list[Substance | None]:
-    """The substance of each triangle of a link, by the name of its material."""
+    """Return the substance of each triangle of a link, by the name of its material."""
     named = {p.material: None if p.material < 0 else substance_of(mesh.materials[p.material].name) for p in link.primitives}
     return [named[p.material] for p in link.primitives for _ in range(len(p.triangles))]

@@ -1,9 +1,9 @@
 """Densities by the words of a material's name.
 
-Steel, aluminium, brass, bronze, copper, iron, glass, stone, concrete, rubber, water and oak lie within the ranges of the table
-of mass densities in Gere, Mechanics of Materials (5th edition). The others are usual values, rounded, and vary by a tenth and
-more. How thick a body may be to be solid, and how thick its wall is where it is thicker, are our own estimates from how
-household things are made.
+Steel, aluminium, brass, bronze, copper, iron, glass, stone, concrete, rubber, water and oak are within the ranges of the table
+of mass densities in Gere, Mechanics of Materials (5th edition). The others are rounded typical values, and vary by a tenth and
+more. The maximum thickness of solid components, and the wall thickness of thicker ones, are estimates from typical household
+objects.
 """
 
 from __future__ import annotations
@@ -14,8 +14,11 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Substance:
-    """density [kg/m^3]; a closed body with a mean thickness above `solid_to` [m] is hollow, with walls `sheet` [m] thick;
-    an open shell has walls `sheet` thick."""
+    """Density and wall thickness of a material.
+
+    density [kg/m^3]; solid_to: a closed component with a greater mean thickness [m] is hollow; sheet: thickness of the walls of
+    hollow components and open shells [m].
+    """
 
     density: float
     solid_to: float
@@ -81,7 +84,7 @@ SUBSTANCES = {
 
 
 def substance_of(name: str) -> Substance | None:
-    """What a material's name says it is made of: its last known word ("Black_Steel.001" is steel), else None."""
+    """Return the substance of a material from the last known word of its name ("Black_Steel.001" is steel), else None."""
     words = re.findall(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])", name)
     known = [SUBSTANCES[w.lower()] for w in words if w.lower() in SUBSTANCES]
     return known[-1] if known else None

@@ -1,4 +1,4 @@
-"""The drive of a joint: a spring and a damper towards a commanded position, the same numbers in every format."""
+"""Drive of a joint: a spring and a damper towards a commanded position, with the same values in every format."""
 
 from __future__ import annotations
 
@@ -11,14 +11,17 @@ from anymesh.export.model import Driven, ExportLink, Model
 from anymesh.types import Joint, JointType
 
 GRAVITY = 9.81  # [m/s^2]
-WITHIN = 0.02  # of a joint's range: what a drive carries must not push it further from where it is told to be
+WITHIN = 0.02  # of a joint's range: maximum steady-state error of a drive under its load
 
-UPRIGHT = 0.999  # cosine to the vertical; such a joint tilts nothing that it carries
+UPRIGHT = 0.999  # minimum cosine to the vertical of an upright joint, which tilts nothing that it carries
 
 
 @dataclass(frozen=True)
 class Drive:
-    """stiffness [N m/rad or N/m], damping [N m s/rad or N s/m], effort [N m or N] at most."""
+    """Gains of a drive.
+
+    stiffness [N m/rad or N/m]; damping [N m s/rad or N s/m]; effort: maximum [N m or N].
+    """
 
     stiffness: float
     damping: float
@@ -26,11 +29,11 @@ class Drive:
 
 
 def drives(model: Model) -> Mapping[str, Drive]:
-    """A drive for each joint that moves, by the joint's name. A passive one has neither stiffness nor damping.
+    """Return a drive for each moving joint, by name. A passive one has neither stiffness nor damping.
 
-    Damping over stiffness is the time in which the joint crosses its range at its velocity, so that a drive is led no
-    faster. The stiffness holds friction and the weight carried within a share of the range, and is at least what makes
-    the motion critically damped, so no drive rings or overshoots.
+    Damping over stiffness is the time in which the joint crosses its range at its velocity, which limits the speed of a drive.
+    The stiffness keeps the error due to friction and weight within a share of the range. It is at least that of critical
+    damping, so that no drive oscillates or overshoots.
     """
     moving = [j for j in model.asset.joints if j.type is not JointType.FIXED]
     if model.driven is Driven.PASSIVE:
@@ -47,7 +50,7 @@ def _drive(model: Model, joint: Joint) -> Drive:
 
 
 def _carried(model: Model, joint: Joint) -> tuple[float, float]:
-    """Inertia [kg m^2 or kg] that the joint moves at rest, and the most that gravity can pull at it [N m or N]."""
+    """Return the inertia that the joint moves at rest [kg m^2 or kg], and the maximum load from gravity [N m or N]."""
     bodies = _subtree(model, joint.child)
     masses = np.array([b.inertia.mass for b in bodies])
     along, tilt = (1.0, 1.0) if _is_tilted(model, joint) else (abs(joint.axis[2]), float(np.linalg.norm(joint.axis[:2])))
@@ -60,7 +63,7 @@ def _carried(model: Model, joint: Joint) -> tuple[float, float]:
 
 
 def _is_tilted(model: Model, joint: Joint) -> bool:
-    """Whether a joint before this one can turn its axis towards or away from upright."""
+    """Return whether a joint before this one can tilt its axis."""
     carriers = {j.child: j for j in model.asset.joints}
     at = carriers.get(joint.parent)
     while at is not None:
@@ -71,7 +74,7 @@ def _is_tilted(model: Model, joint: Joint) -> bool:
 
 
 def _subtree(model: Model, name: str) -> list[ExportLink]:
-    """A body and all that it carries."""
+    """Return a link and all links that it carries."""
     found = {name}
     waiting = [name]
     while waiting:

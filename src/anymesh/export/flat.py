@@ -1,4 +1,4 @@
-"""What has no volume, given a little: engines refuse flat meshes."""
+"""Volume for flat meshes and points, which engines refuse."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ from jaxtyping import Float, Int
 
 from anymesh.export.settings import ExportConfig
 
-POINT = 1e-4  # [m] the side of a link that has no size at all
+POINT = 1e-4  # [m] side of a link without any extent
 
 
 def flat_normal(points: Float[np.ndarray, "n 3"], *, share: float) -> Float[np.ndarray, " 3"] | None:
-    """The unit normal of points that lie within `share` of their diagonal of a plane, None when they do not."""
+    """Return the unit normal of points within `share` of their diagonal of a plane, None if they are not plane."""
     spread = points - points.mean(0)
     normal = np.linalg.eigh(spread.T @ spread)[1][:, 0]
     if float(np.ptp(spread @ normal)) > share * float(np.linalg.norm(np.ptp(points, axis=0))):
@@ -22,7 +22,7 @@ def flat_normal(points: Float[np.ndarray, "n 3"], *, share: float) -> Float[np.n
 def small_box(
     triangles: Float[np.ndarray, "n 3 3"], config: ExportConfig
 ) -> tuple[Float[np.ndarray, "8 3"], Int[np.ndarray, "12 3"]]:
-    """The bounding box of points without area, each side as thick as a wall and at least POINT."""
+    """Return the bounding box of points without area, with sides of at least the wall thickness and POINT."""
     corners = triangles.reshape(-1, 3)
     side = max(config.wall(float(np.linalg.norm(np.ptp(corners, axis=0)))), POINT)
     center = (corners.min(0) + corners.max(0)) / 2

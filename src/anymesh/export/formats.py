@@ -1,4 +1,4 @@
-"""The formats that an asset is written in: a closed set, a writer each."""
+"""The export formats, with a writer each."""
 
 from __future__ import annotations
 
@@ -17,21 +17,24 @@ from anymesh.export.usd_ import write_usd
 
 
 class Format(StrEnum):
-    """Names of the formats, as options take them."""
+    """Names of the formats, as used in options."""
 
     URDF = "urdf"
     MJCF = "mjcf"
-    USD = "usd"  # needs the extra
+    USD = "usd"  # requires the extra
     SDF = "sdf"
     GLB = "glb"
 
 
-Writer = Callable[[Model, Path, ExportConfig], None]  # into an asset folder whose meshes/ is there
+Writer = Callable[[Model, Path, ExportConfig], None]  # writes into an asset folder with its meshes/
 DEFAULT = (Format.URDF, Format.MJCF, Format.SDF, Format.GLB)
 
 
 def parse_formats(text: str) -> tuple[Format, ...]:
-    """Formats by name with commas between, each once, in the order of the set. OptionError names what is not known."""
+    """Return the formats of a comma-separated list, each once, in the order of Format.
+
+    Raise OptionError for unknown names.
+    """
     asked = {word.strip().lower() for word in text.split(",") if word.strip()}
     unknown = sorted(asked - set(Format))
     if unknown or not asked:
@@ -41,7 +44,7 @@ def parse_formats(text: str) -> tuple[Format, ...]:
 
 
 def main_file(kind: Format, name: str) -> str:
-    """The file to open of an asset called `name`, relative to its folder."""
+    """Return the main file of an asset called `name`, relative to its folder."""
     return {
         Format.URDF: f"{name}.urdf",
         Format.MJCF: f"{name}.xml",
@@ -52,7 +55,10 @@ def main_file(kind: Format, name: str) -> str:
 
 
 def write_formats(model: Model, folder: Path, formats: Sequence[Format], config: ExportConfig) -> None:
-    """Writes each format into an asset folder whose meshes/ is there. MissingExtraError for one that is not installed."""
+    """Write each format into an asset folder with its meshes/.
+
+    Raise MissingExtraError for one whose extra is not installed.
+    """
     for kind in formats:
         WRITERS[kind](model, folder, config)
 

@@ -1,4 +1,4 @@
-"""GLB: one animated glTF 2.0 file, Y up, a node a link in the kinematic tree, materials and textures inside."""
+"""GLB: one animated glTF 2.0 file, Y up, with a node per link in the kinematic tree, materials and textures inside."""
 
 from __future__ import annotations
 
@@ -16,14 +16,17 @@ from anymesh.names import legal_names
 from anymesh.types import Asset, Joint, Material, Texture
 from anymesh.types.color import to_linear
 
-Y_UP = [-(0.5**0.5), 0.0, 0.0, 0.5**0.5]  # turns +Z to +Y
+Y_UP = [-(0.5**0.5), 0.0, 0.0, 0.5**0.5]  # rotates +Z to +Y
 DEFAULT_SAMPLER = {"magFilter": 9729, "minFilter": 9987, "wrapS": 10497, "wrapT": 10497}
 TEXTURE_KEYS = {"normal": "normalTexture", "occlusion": "occlusionTexture", "emissive": "emissiveTexture"}
 PBR_KEYS = {"base_color": "baseColorTexture", "metallic_roughness": "metallicRoughnessTexture"}
 
 
 def glb_bytes(asset: Asset, links: Sequence[Link], config: ExportConfig) -> bytes:
-    """The GLB of an asset with legal names. Nodes are link frames under a root node that turns Z up to Y up."""
+    """Return the GLB of an asset with legal names.
+
+    Nodes are link frames under a root node that rotates Z up to Y up.
+    """
     buffer = GlbBuffer()
     looks = _Materials(asset, buffer)
     meshes = [{"name": link.name, "primitives": [looks.primitive(p) for p in link.primitives]} for link in links]
@@ -42,7 +45,7 @@ def glb_bytes(asset: Asset, links: Sequence[Link], config: ExportConfig) -> byte
 
 
 def _nodes(asset: Asset, links: Sequence[Link]) -> list[dict[str, Any]]:
-    """Node 0 turns the asset; node i + 1 is link i."""
+    """Return the nodes: node 0 rotates the asset, node i + 1 is link i."""
     number = {link.name: i + 1 for i, link in enumerate(links)}
     origin = {link.name: link.origin for link in links}
     root_name = legal_names([*number, asset.name])[-1]
@@ -61,7 +64,7 @@ def _nodes(asset: Asset, links: Sequence[Link]) -> list[dict[str, Any]]:
 
 
 def _joint(joint: Joint) -> dict[str, Any]:
-    """What glTF has no words for; the axis is in the node's frame, which the root node turns."""
+    """Return the joint's data that glTF cannot express; the axis is in the node's frame, which the root node rotates."""
     return {
         "name": joint.name,
         "type": str(joint.type),
@@ -85,7 +88,7 @@ def _animation(asset: Asset, links: Sequence[Link], buffer: GlbBuffer, config: E
 
 
 class _Materials:
-    """Materials, textures and images in use, each written once when it is first needed."""
+    """Materials, textures and images in use, each written once on first use."""
 
     def __init__(self, asset: Asset, buffer: GlbBuffer) -> None:
         self._mesh, self._buffer = asset.mesh, buffer
@@ -102,7 +105,7 @@ class _Materials:
             flipped = np.stack([p.uv[:, 0], 1 - p.uv[:, 1]], 1).astype(np.float32)
             attributes["TEXCOORD_0"] = buffer.accessor(flipped, target=VERTICES)
         if p.colors is not None:
-            color = np.c_[to_linear(p.colors[:, :3] / 255), p.colors[:, 3:] / 255]  # bytes would band the dark ones
+            color = np.c_[to_linear(p.colors[:, :3] / 255), p.colors[:, 3:] / 255]  # bytes would cause banding in dark colours
             color = np.rint(color * 65535).astype(np.uint16)
             attributes["COLOR_0"] = buffer.accessor(color, target=VERTICES, normalized=True)
         kind = np.uint16 if len(p.positions) < 0xFFFF else np.uint32
@@ -113,7 +116,7 @@ class _Materials:
         return found
 
     def document(self) -> dict[str, Any]:
-        """The top-level entries, without empty ones (glTF forbids them)."""
+        """Return the top-level entries, without empty ones (glTF forbids them)."""
         found: dict[str, Any] = {key: value for key, value in self._entries.items() if value}
         return found | ({"samplers": [DEFAULT_SAMPLER]} if self._textures else {})
 

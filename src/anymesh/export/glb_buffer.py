@@ -26,7 +26,7 @@ class GlbBuffer:
         self.accessors: list[dict[str, Any]] = []
 
     def view(self, data: bytes, target: int | None = None) -> int:
-        """A buffer view of some bytes, starting at a multiple of 4."""
+        """Add a buffer view of some bytes, starting at a multiple of 4."""
         found: dict[str, Any] = {"buffer": 0, "byteOffset": self._length, "byteLength": len(data)}
         if target is not None:
             found["target"] = target
@@ -37,7 +37,7 @@ class GlbBuffer:
         return len(self.views) - 1
 
     def accessor(self, array: np.ndarray, *, target: int | None = None, bounds: bool = False, normalized: bool = False) -> int:
-        """An accessor of a (n,) or (n, k) array; `bounds` states minimum and maximum, as positions and times need."""
+        """Add an accessor of a (n,) or (n, k) array; `bounds` adds its minimum and maximum, as positions and times need."""
         array = np.ascontiguousarray(array)
         data = array.tobytes()
         key = (hashlib.sha256(data).digest(), array.shape, array.dtype.str, target, bounds, normalized)
@@ -59,7 +59,7 @@ class GlbBuffer:
         return self._known[key]
 
     def encode(self, document: Mapping[str, Any]) -> bytes:
-        """The GLB file: header, JSON chunk padded with spaces, binary chunk padded with zeros."""
+        """Return the GLB file: header, JSON chunk padded with spaces, binary chunk padded with zeros."""
         whole = {
             **document,
             "accessors": self.accessors,

@@ -1,4 +1,4 @@
-"""Mass, centre of mass and inertia of a link from its triangles, always physical."""
+"""Mass, center of mass and inertia of a link from its triangles, always physically valid."""
 
 from __future__ import annotations
 
@@ -18,7 +18,10 @@ MadeOf = Sequence[Substance | None]
 
 @dataclass(frozen=True, eq=False)
 class Inertia:
-    """mass [kg]; center: centre of mass [m]; tensor: about it, symmetric [kg m^2]."""
+    """Mass properties of a link.
+
+    mass [kg]; center: center of mass [m]; tensor: about it, symmetric [kg m^2].
+    """
 
     mass: float
     center: Float[np.ndarray, " 3"]
@@ -26,21 +29,24 @@ class Inertia:
 
 
 def link_inertia(triangles: Float[np.ndarray, "n 3 3"], config: ExportConfig, made_of: MadeOf | None = None) -> Inertia:
-    """Mass properties of a link: closed components are solids, open ones shells, overlaps are added.
+    """Return the mass properties of a link: closed components are solids, open ones shells, overlaps are added.
 
-    made_of: what each triangle is made of, None where that is not known. Made physical: a floor for the mass, principal
-    moments positive and each at most the sum of the other two.
+    made_of: the substance of each triangle, None if unknown.
+
+    The result is made physically valid: the mass has a minimum, and principal moments are positive, each at most the sum of the
+    other two.
     """
     return physical(raw_inertia(triangles, config, made_of), config)
 
 
 def raw_inertia(triangles: Float[np.ndarray, "n 3 3"], config: ExportConfig, made_of: MadeOf | None = None) -> Inertia:
-    """The exact integrals over solids (signed tetrahedra; inside out counts as the right way round) and shells.
+    """Return the exact integrals over solids and shells.
 
-    A closed component that is thicker than things of its substance are made in full is taken as hollow.
+    Solids are sums of signed tetrahedra, where inside-out ones count as positive. A closed component that is thicker than solid
+    objects of its substance is treated as hollow.
     """
     corners = triangles.reshape(-1, 3)
-    base = corners.mean(0)  # near the body, so that large coordinates cost no digits
+    base = corners.mean(0)  # near the link, so that large coordinates lose no digits
     t = triangles - base
     cross = face_cross(t)
     volumes = np.einsum("ij,ij->i", t[:, 0], cross) / 6
@@ -75,7 +81,7 @@ def _densities(
     config: ExportConfig,
     made_of: MadeOf | None,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Of each component: density [kg/m^3], what a square metre of its shell weighs [kg/m^2], and whether it is solid."""
+    """Return for each component its density [kg/m^3], the area density of its shell [kg/m^2], and whether it is solid."""
     count = len(volume)
     body, sheet, solid = np.full(count, config.density), np.full(count, config.shell_density * wall), closed.copy()
     if made_of is None or not any(made_of):
@@ -88,18 +94,18 @@ def _densities(
     for k in np.flatnonzero(covered.argmax(1) < len(kinds)):
         substance = kinds[int(covered[k].argmax())]
         body[k], sheet[k] = substance.density, substance.density * min(substance.sheet, wall)
-        if 2 * volume[k] / area[k] > substance.solid_to:  # both faces of the wall are there to be counted
+        if 2 * volume[k] / area[k] > substance.solid_to:  # the area includes both sides of the wall
             solid[k], sheet[k] = False, substance.density * substance.sheet
     return body, sheet, solid
 
 
 def physical(body: Inertia, config: ExportConfig) -> Inertia:
-    """The nearest body that a simulator accepts, with the same centre and principal axes."""
+    """Return the closest mass properties that a simulator accepts, with the same center and principal axes."""
     mass = max(body.mass, config.smallest_mass)
     tensor = body.tensor * (mass / body.mass) if body.mass > 0 else body.tensor
     moments, axes = np.linalg.eigh(tensor)
     moments = np.maximum(moments, max(config.smallest_moment, config.moment_ratio * float(moments.max())))
-    # A flat body just meets the bound; the margin keeps rounding from breaking it.
+    # A flat link just meets the bound; the margin is for rounding.
     short = moments[2] * (1 + 1e-6) - (moments[0] + moments[1])
     if short > 0:
         moments[:2] += short / 2

@@ -1,4 +1,4 @@
-"""Links: the mesh cut by part, placed in link frames, its corners merged where every attribute agrees."""
+"""Links: the mesh cut by part, placed in link frames, with corners merged if all their attributes agree."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from anymesh.types import Asset, Joint, Mesh, Part
 class Primitive:
     """Triangles of one link with one material.
 
-    material: into the mesh's materials, -1 = none; positions: (n, 3) in the link frame [m]; triangles: (m, 3)
-    into them; uv: v up; normals: unit; colors: RGBA 0..255.
+    material: into the mesh's materials, -1 = none; positions: (n, 3) in the link frame [m]; triangles: (m, 3) into them; uv: v
+    up; normals: unit; colors: RGBA 0..255.
     """
 
     material: int
@@ -29,7 +29,7 @@ class Primitive:
 
 @dataclass(frozen=True, eq=False)
 class Link:
-    """A part as a rigid body. Its frame lies at `origin` [m, asset frame], axes parallel to the asset's.
+    """A part as a rigid body, with its frame at `origin` [m, asset frame] and axes parallel to the asset's.
 
     joint: the one that carries it, None for the root; faces: (F',) of the source mesh.
     """
@@ -46,12 +46,12 @@ class Link:
 
     @property
     def triangles(self) -> Float[np.ndarray, "m 3 3"]:
-        """Corner positions of all faces in the link frame [m]."""
+        """Return the corner positions of all faces in the link frame [m]."""
         return np.concatenate([p.positions[p.triangles] for p in self.primitives])
 
 
 def with_legal_names(asset: Asset) -> Asset:
-    """The asset with names that every format and file system takes; one that has them already is returned as it is."""
+    """Return the asset with names that are legal in every format and file system; it is returned unchanged if they are."""
     parts = asset.segmentation.parts
     renamed = dict(zip((p.name for p in parts), legal_names([p.name for p in parts]), strict=True))
     joints = legal_names([j.name for j in asset.joints], fallback="joint")
@@ -70,7 +70,7 @@ def with_legal_names(asset: Asset) -> Asset:
 
 
 def split_links(asset: Asset) -> tuple[Link, ...]:
-    """One link a part, in the order of the parts (the root first)."""
+    """Return one link per part, in the order of the parts (the root first)."""
     mesh, face_part = asset.mesh, asset.segmentation.face_part
     carried = {j.child: j for j in asset.joints}
     order = np.lexsort((mesh.face_material, face_part))
@@ -89,9 +89,9 @@ def split_links(asset: Asset) -> tuple[Link, ...]:
 
 
 def _primitive(mesh: Mesh, faces: np.ndarray, origin: np.ndarray) -> Primitive:
-    """The faces (all of one material) with equal corners merged."""
+    """Return the faces, all of one material, with equal corners merged."""
     corner = mesh.faces[faces].reshape(-1)
-    positions = mesh.vertices[corner] + 0.0  # -0.0 becomes 0.0, so that the two are one
+    positions = mesh.vertices[corner] + 0.0  # -0.0 becomes 0.0, so that the two are equal
 
     def rows(attribute: np.ndarray | None, width: int) -> np.ndarray | None:
         return None if attribute is None else attribute[faces].reshape(-1, width)
@@ -117,7 +117,7 @@ def _primitive(mesh: Mesh, faces: np.ndarray, origin: np.ndarray) -> Primitive:
 
 
 def _unit(normals: np.ndarray, fallback: np.ndarray) -> np.ndarray:
-    """Normals made unit; where one is zero or not finite, the face's (or up, when the face has no area)."""
+    """Return unit normals; a zero or non-finite one becomes that of the face (or up, if the face has no area)."""
     exact = normals.astype(np.float64)
     length = np.linalg.norm(exact, axis=1, keepdims=True)
     bad = ~(np.isfinite(length) & (length > 1e-6))[:, 0]
@@ -128,9 +128,9 @@ def _unit(normals: np.ndarray, fallback: np.ndarray) -> np.ndarray:
 
 
 def unique_rows(columns: list[UInt64[np.ndarray, " n"]]) -> tuple[Int[np.ndarray, " k"], Int[np.ndarray, " n"]]:
-    """The first row of each kind, in order of appearance, and the kind of every row.
+    """Return the first row of each distinct value, in order of appearance, and the index of the value of every row.
 
-    Rows are hashed and the hash is sorted (5 times faster than sorting rows); the result is checked against the rows.
+    Rows are hashed and the hash is sorted, which is 5 times faster than sorting rows. The result is checked against the rows.
     """
     key = np.zeros(len(columns[0]), np.uint64)
     for column in columns:
@@ -147,7 +147,7 @@ def _kinds(key: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     order = np.argsort(key)
     ordered = key[order]
     starts = np.flatnonzero(np.r_[True, ordered[1:] != ordered[:-1]])
-    first = np.minimum.reduceat(order, starts)  # whatever order the sort leaves equal keys in
+    first = np.minimum.reduceat(order, starts)  # independent of the order of equal keys in the sort
     rank = np.empty(len(first), np.int64)
     rank[np.argsort(first)] = np.arange(len(first))
     inverse = np.empty(len(key), np.int64)

@@ -1,4 +1,4 @@
-"""What a primitive shows where a format takes one colour, and the files of the textures."""
+"""Single colour of a primitive, for formats without more, and the files of the textures."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ SUFFIXES = {"image/png": ".png", "image/jpeg": ".jpg"}
 
 
 def painted(mesh: Mesh, p: Primitive) -> bool:
-    """Whether its colours are those of its corners, for no texture says otherwise."""
+    """Return whether a primitive is coloured by its corners, which requires that its material has no texture."""
     return p.colors is not None and (p.material < 0 or not mesh.materials[p.material].textures)
 
 
 def display_color(mesh: Mesh, p: Primitive) -> tuple[float, ...]:
-    """One colour (sRGB and alpha, 0..1) for a primitive; a texture multiplies it."""
+    """Return one colour (sRGB and alpha, 0..1) for a primitive; a texture multiplies it."""
     if p.colors is not None and painted(mesh, p):
         return tuple(float(c) for c in p.colors.mean(0) / 255)
     if p.material < 0:
@@ -34,12 +34,12 @@ def display_color(mesh: Mesh, p: Primitive) -> tuple[float, ...]:
 
 
 def widest(link: Link) -> Primitive:
-    """The primitive that covers most of the link."""
+    """Return the primitive that covers most of the link."""
     return max(link.primitives, key=lambda p: float(np.linalg.norm(face_cross(p.positions[p.triangles]), axis=1).sum()))
 
 
 def texture_files(mesh: Mesh) -> dict[bytes, str]:
-    """The file name of each image in use, by its bytes; stems are unique whatever the suffix."""
+    """Return the file name of each image in use, by its bytes; stems are unique regardless of the suffix."""
     found = {}
     for index in sorted(set(mesh.face_material.tolist()) - {-1}) if mesh.corner_uv is not None else []:
         material = mesh.materials[index]
@@ -54,7 +54,7 @@ def texture_files(mesh: Mesh) -> dict[bytes, str]:
 
 
 def write_textures(mesh: Mesh, folder: Path, slots: Collection[str]) -> Mapping[bytes, str]:
-    """Writes the images of some slots as they are; returns the file names by the bytes."""
+    """Write the images of some slots unchanged; return the file names by their bytes."""
     files = texture_files(mesh)
     for index in sorted(set(mesh.face_material.tolist()) - {-1}):
         for slot, texture in mesh.materials[index].textures.items():

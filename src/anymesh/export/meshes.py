@@ -1,4 +1,4 @@
-"""The meshes folder: a visual OBJ a link with materials and textures, and an OBJ a convex hull of its collision."""
+"""The meshes folder: a visual OBJ per link with materials and textures, and an OBJ per convex hull of its collision."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ from anymesh.types import Hull, Material
 from anymesh.types.color import to_srgb
 from anymesh.types.triangles import face_cross
 
-MIN_AREA = 1e-12  # [m^2] of a visible primitive; MuJoCo refuses meshes of less
+MIN_AREA = 1e-12  # [m^2] minimum area of a visible primitive; MuJoCo refuses smaller meshes
 MIN_AREA_SHARE = 1e-9  # of the squared diagonal: the area of thinner needles is lost in float32
-SHEET = 1e-5  # share of the diagonal; a visual thinner than this gets a back sheet, since MuJoCo refuses flat meshes
-MTL_MAPS = {"base_color": "map_Kd", "emissive": "map_Ke", "normal": "norm"}  # the ones whose channels MTL can name
+SHEET = 1e-5  # of the diagonal: a thinner visual gets a back sheet, since MuJoCo refuses flat meshes
+MTL_MAPS = {"base_color": "map_Kd", "emissive": "map_Ke", "normal": "norm"}  # slots with an equivalent in MTL
 
 
 def write_meshes(model: Model, folder: Path, config: ExportConfig) -> None:
-    """Writes `meshes/` of an asset folder: <link>.obj, .mtl, .faces.npy, a file a hull, and the textures they use."""
+    """Write `meshes/` of an asset folder: <link>.obj, .mtl, .faces.npy, a file per hull, and the textures used."""
     mesh = model.asset.mesh
     (folder / FOLDER).mkdir(exist_ok=True)
     textures = write_textures(mesh, folder / FOLDER, MTL_MAPS)
@@ -50,17 +50,20 @@ def _write_hulls(body: ExportLink, folder: Path) -> None:
 
 
 def write_obj(path: Path, name: str, library: str | None, primitives: Sequence[Primitive], materials: Sequence[str]) -> None:
-    """One OBJ of some primitives; library: the MTL beside it; materials: the names in it, by index."""
+    """Write one OBJ of some primitives.
+
+    library: the MTL beside it; materials: the names in it, by index.
+    """
     _write_lines(path, _visual_lines(name, library, primitives, materials))
 
 
 def material_names(materials: Sequence[Material]) -> list[str]:
-    """Unique legal names in the order of the materials, the same in MTL and URDF."""
+    """Return unique legal names in the order of the materials, the same in MTL and URDF."""
     return legal_names([m.name for m in materials], fallback="material")
 
 
 def _mtl(name: str, material: Material, textures: Mapping[bytes, str]) -> str:
-    """One material; Kd is a display value as OBJ readers take it, Pr and Pm are the common PBR extension."""
+    """Return the MTL of one material; Kd is a display value, as OBJ readers expect, Pr and Pm are the common PBR extension."""
     r, g, b = to_srgb(material.base_color[:3])
     lines = [
         f"newmtl {name}",
@@ -79,7 +82,7 @@ def _mtl(name: str, material: Material, textures: Mapping[bytes, str]) -> str:
 
 
 def visible(link: Link, config: ExportConfig) -> tuple[Primitive, ...]:
-    """Return the link's primitives that have an area, with a back sheet where they are flat; a small box if none has."""
+    """Return the link's primitives that have an area, with a back sheet if they are flat; a small box if there are none."""
     triangles = link.triangles
     size = float(np.linalg.norm(np.ptp(triangles.reshape(-1, 3), axis=0)))
     least = max(MIN_AREA, MIN_AREA_SHARE * size**2)
@@ -99,7 +102,7 @@ def _area(primitive: Primitive) -> float:
 
 
 def _with_back(primitive: Primitive, shift: np.ndarray) -> Primitive:
-    """The faces and, `shift` behind each, the same face seen from its other side."""
+    """Return the faces and, `shift` behind each, the same face with the opposite orientation."""
     t = primitive.positions[primitive.triangles]
     facing = face_cross(t) @ shift > 0
     front = np.where(facing[:, None], primitive.triangles, primitive.triangles[:, ::-1])
@@ -122,7 +125,7 @@ def _with_back(primitive: Primitive, shift: np.ndarray) -> Primitive:
 
 
 def _visual_lines(name: str, library: str | None, primitives: Sequence[Primitive], names: Sequence[str]) -> Iterator[str]:
-    """The text of a visual OBJ; corner k of a primitive has position, uv and normal k."""
+    """Yield the text of a visual OBJ; corner k of a primitive has position, uv and normal k."""
     if library:
         yield f"mtllib {library}\n"
     yield f"o {name}\n"
@@ -154,7 +157,7 @@ def _visual_lines(name: str, library: str | None, primitives: Sequence[Primitive
 
 
 def _rows(pattern: str, rows: np.ndarray) -> Iterator[str]:
-    """Rows of numbers as text, many at a time (8 times faster than one by one)."""
+    """Yield rows of numbers as text, many at a time (8 times faster than one by one)."""
     for start in range(0, len(rows), 65536):
         chunk = rows[start : start + 65536]
         yield (pattern * len(chunk)) % tuple((chunk + 0).reshape(-1).tolist())

@@ -21,15 +21,16 @@ from anymesh.mujoco_ import load_mujoco
 from anymesh.types import Box, Cylinder, Hull, Joint, JointType, Mesh, Shape
 
 VISUAL, COLLISION = "visual", "collision"
-MIN_VOLUME = 1e-12  # [m^3] a mesh of less is refused unless its inertia, which no body takes, is that of a shell
-DRIVES = 1  # the actuators' group: `actuatorgroupdisable="1"` makes the asset passive
+MIN_VOLUME = 1e-12  # [m^3] smaller meshes are refused unless their inertia, which is not used, is that of a shell
+DRIVES = 1  # group of the actuators: `actuatorgroupdisable="1"` makes the asset passive
 
 
 def write_mjcf(model: Model, folder: Path, config: ExportConfig) -> None:
-    """Writes <name>.xml into an asset folder whose meshes/ is there, and what MuJoCo wants otherwise into meshes/mjcf/.
+    """Write <name>.xml into an asset folder with its meshes/, and files specific to MuJoCo into meshes/mjcf/.
 
-    Contacts between a link and the one that carries it count, as with a root that is fixed, unless they are excluded.
-    MissingExtraError without MuJoCo; OutputError when it cannot compile the model.
+    Contacts between a link and its parent count, as with a fixed root, unless they are excluded.
+
+    Raise MissingExtraError without MuJoCo, OutputError if it cannot compile the model.
     """
     mujoco = load_mujoco()
     spec = _spec(mujoco, model, folder)
@@ -57,7 +58,7 @@ def write_mjcf(model: Model, folder: Path, config: ExportConfig) -> None:
 
 
 def _parents_first(model: Model) -> list[ExportLink]:
-    """The bodies, each after the one that carries it."""
+    """Return the bodies, each after its parent."""
     parent = {j.child: j.parent for j in model.asset.joints}
 
     def depth(name: str) -> int:
@@ -70,7 +71,7 @@ def _spec(mujoco: Any, model: Model, folder: Path) -> Any:
     spec = mujoco.MjSpec()
     spec.modelname, spec.modelfiledir = model.asset.name, str(folder)
     spec.compiler.degree = False
-    spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST  # damping of light links stays stable
+    spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST  # keeps the damping of light links stable
     spec.option.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_FILTERPARENT)
     visual = spec.add_default(VISUAL, spec.default).geom
     visual.contype, visual.conaffinity, visual.group = 0, 0, 2
@@ -79,7 +80,7 @@ def _spec(mujoco: Any, model: Model, folder: Path) -> Any:
 
 
 def _add_materials(mujoco: Any, spec: Any, mesh: Mesh, folder: Path, looks: Iterable[GeomMaterial]) -> None:
-    """Materials and textures that geoms use; MuJoCo's own renderer shows the base colour, others more."""
+    """Add the materials and textures that geoms use; MuJoCo's own renderer shows the base colour, others more."""
     roles = mujoco.mjtTextureRole
     slots = {"base_color": roles.mjTEXROLE_RGB, "normal": roles.mjTEXROLE_NORMAL, "emissive": roles.mjTEXROLE_EMISSIVE}
     used = {look.material: look for look in looks if look.material is not None}
@@ -110,7 +111,7 @@ def _add_body(model: Model, body: ExportLink, parent: Any) -> Any:
 
 
 def _add_joint(mujoco: Any, frame: Any, joint: Joint | None, base: Base) -> None:
-    """The joint that carries a body, in its frame; none for a fixed one."""
+    """Add the joint that carries a body, in its frame; none for a fixed one."""
     if joint is None:
         if base is Base.FREE:
             frame.add_freejoint(name=f"{frame.name}_free")

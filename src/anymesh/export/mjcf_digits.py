@@ -1,4 +1,4 @@
-"""Ten digits where MuJoCo writes six, and position actuators in the words of every version."""
+"""Post-processing of MuJoCo's XML: ten digits instead of six, and position actuators in a form that all versions read."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from anymesh.types import Box, Cylinder, Hull, Joint
 
 
 def with_digits(text: str, model: Model, motors: Mapping[str, Drive]) -> str:
-    """The MJCF of a model with its numbers written in full; elements are found by name."""
+    """Return the MJCF of a model with its numbers at full precision; elements are found by name."""
     root = ElementTree.fromstring(text)
     origins = {link.name: link.origin for link in model.links}
     bodies = {element.get("name"): element for element in root.iter("body")}
@@ -31,7 +31,7 @@ def with_digits(text: str, model: Model, motors: Mapping[str, Drive]) -> str:
         if joint.name in joints:
             _joint(joints[joint.name], joint)
     for element in root.iter("texture"):
-        element.attrib.pop("colorspace", None)  # guessed at compile time; older versions do not know the word
+        element.attrib.pop("colorspace", None)  # inferred at compile time; older versions do not know the attribute
     actuators = root.find("actuator")
     if actuators is not None:
         _actuators(actuators, model, motors)
@@ -60,12 +60,12 @@ def _joint(element: ElementTree.Element, joint: Joint) -> None:
 
 
 def _geoms(element: ElementTree.Element, body: ExportLink) -> None:
-    """Places and sizes of primitives; meshes lie where their files say."""
+    """Set positions and sizes of primitives; meshes are placed by their files."""
     shapes = {f"{body.name}_collision_{i}": shape for i, shape in enumerate(body.shapes)}
     for geom in element.findall("geom"):
         shape = shapes.get(str(geom.get("name")))
         if shape is None or isinstance(shape, Hull):
-            geom.attrib.pop("pos", None)  # what the compiler moved a mesh by and back, and its rounding
+            geom.attrib.pop("pos", None)  # the compiler's recentering of a mesh and its inverse, with rounding
             geom.attrib.pop("quat", None)
             continue
         geom.set("pos", vector(shape.center))
@@ -78,7 +78,7 @@ def _geoms(element: ElementTree.Element, body: ExportLink) -> None:
 
 
 def _actuators(actuators: ElementTree.Element, model: Model, motors: Mapping[str, Drive]) -> None:
-    """`general` with its parameters becomes `motor` or `position`, which says the same."""
+    """Replace `general` and its parameters by the equivalent `motor` or `position`."""
     passive = model.driven is Driven.PASSIVE
     joints = {j.name: j for j in model.asset.joints}
     for element in list(actuators):

@@ -1,4 +1,4 @@
-"""Visual meshes and textures in the form that MuJoCo reads: one material a mesh, PNG only."""
+"""Visual meshes and textures in the form that MuJoCo reads: one material per mesh, PNG only."""
 
 from __future__ import annotations
 
@@ -15,12 +15,15 @@ from anymesh.export.model import FOLDER, ExportLink
 from anymesh.export.settings import ExportConfig
 from anymesh.types import Mesh
 
-PIECES = f"{FOLDER}/mjcf"  # a folder of its own: `door_2.obj` in it is the second material of door, not a link door_2
+PIECES = f"{FOLDER}/mjcf"  # separate folder: `door_2.obj` in it is the second material of door, not a link door_2
 
 
 @dataclass(frozen=True)
 class GeomMaterial:
-    """A visual geom. path: relative to the asset folder; material: into the mesh's, None for a colour alone; rgba: sRGB."""
+    """A visual geom.
+
+    path: relative to the asset folder; material: into the mesh's, None for a colour only; rgba: sRGB.
+    """
 
     name: str
     path: str
@@ -29,7 +32,7 @@ class GeomMaterial:
 
 
 def geom_materials(mesh: Mesh, body: ExportLink, folder: Path, config: ExportConfig) -> list[GeomMaterial]:
-    """The visual geoms of a body: its visual OBJ, or where it has several materials, an OBJ each, written here."""
+    """Return the visual geoms of a body: its visual OBJ, or one OBJ per material, written here, if it has several."""
     primitives = visible(body.link, config)
     names = material_names(mesh.materials)
     found = []
@@ -45,7 +48,7 @@ def geom_materials(mesh: Mesh, body: ExportLink, folder: Path, config: ExportCon
 
 
 def png_textures(mesh: Mesh, folder: Path, used: Collection[int], slots: Collection[str]) -> dict[tuple[int, str], str]:
-    """Writes the textures of some materials and slots as PNG beside the others; their paths by material and slot."""
+    """Write the textures of some materials and slots as PNG beside the others; return their paths by material and slot."""
     files = texture_files(mesh)
     found: dict[tuple[int, str], str] = {}
     for index in sorted(used):
@@ -59,7 +62,7 @@ def png_textures(mesh: Mesh, folder: Path, used: Collection[int], slots: Collect
 
 
 def _png(data: bytes) -> bytes:
-    """The bytes of a PNG as they are, another image converted."""
+    """Return the bytes of a PNG unchanged, and another image converted."""
     if data.startswith(b"\x89PNG"):
         return data
     file = io.BytesIO()

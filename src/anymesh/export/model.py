@@ -1,4 +1,4 @@
-"""What every format is written from: links as bodies with inertia and collision shapes, joints, and a base."""
+"""Input of all format writers: links with inertia and collision shapes, joints, and a base."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class Base(StrEnum):
 
 
 class Driven(StrEnum):
-    """Whether drives leave joints to whoever pushes them, or lead them to a commanded position."""
+    """Whether drives leave joints passive, or move them to a commanded position."""
 
     PASSIVE = "passive"
     POSITION = "position"
@@ -32,7 +32,10 @@ class Driven(StrEnum):
 
 @dataclass(frozen=True, eq=False)
 class ExportLink:
-    """A link with what physics needs. shapes: its collision, convex, in the link frame."""
+    """A link with its physical properties.
+
+    shapes: convex collision shapes, in the link frame.
+    """
 
     link: Link
     inertia: Inertia
@@ -43,22 +46,22 @@ class ExportLink:
         return self.link.name
 
     def visual_path(self) -> str:
-        """Relative to the asset folder, with forward slashes."""
+        """Return the path relative to the asset folder, with forward slashes."""
         return f"{FOLDER}/{self.name}.obj"
 
     def faces_path(self) -> str:
-        """Relative to the asset folder: the source's face indices of the link, an int64 .npy."""
+        """Return the path of the link's face indices in the source (an int64 .npy), relative to the asset folder."""
         return f"{FOLDER}/{self.name}.faces.npy"
 
     def source_faces(self, source_face: Int[np.ndarray, " F"] | None) -> Int[np.ndarray, " n"]:
-        """The numbers in the source file of the faces of the link, without those that Stage C added."""
+        """Return the source-file indices of the link's faces, without those added by Stage C."""
         if source_face is None:
             return self.link.faces
         found = source_face[self.link.faces]
         return found[found >= 0]
 
     def hull_paths(self) -> tuple[str | None, ...]:
-        """A path relative to the asset folder for each shape; None for boxes and cylinders, which need no file."""
+        """Return a path relative to the asset folder for each shape; None for boxes and cylinders, which need no file."""
         hulls = sum(isinstance(s, Hull) for s in self.shapes)
         found: list[str | None] = []
         for shape in self.shapes:
@@ -69,7 +72,7 @@ class ExportLink:
 
 @dataclass(frozen=True)
 class Exclusion:
-    """Two links whose contact no engine should look at, and why."""
+    """Two links whose contact engines should ignore, and why."""
 
     a: str
     b: str
@@ -78,7 +81,10 @@ class Exclusion:
 
 @dataclass(frozen=True, eq=False)
 class Model:
-    """An asset with legal names, ready to be written. bodies: in the order of the parts, the root first."""
+    """An asset with legal names, ready for export.
+
+    bodies: in the order of the parts, the root first.
+    """
 
     asset: Asset
     bodies: tuple[ExportLink, ...]

@@ -19,14 +19,15 @@ find_package(ament_cmake REQUIRED)
 install(DIRECTORY urdf meshes DESTINATION share/${{PROJECT_NAME}})
 ament_package()
 """
-SUFFIXES = {".obj", ".mtl", ".png", ".jpg"}  # what a URDF's meshes need; face numbers stay behind
+SUFFIXES = {".obj", ".mtl", ".png", ".jpg"}  # files used by a URDF's meshes; face indices are left out
 
 
 def write_package(folder: Path, into: Path, *, base: Base) -> Path:
-    """Writes a package of the one URDF in an asset folder as a new folder in `into`; returns the package's folder.
+    """Write a package of the one URDF in an asset folder as a new folder in `into`; return the package's folder.
 
-    A fixed base gets the link `world` that ROS and Gazebo hold it by; a free one has none. InputError when the folder
-    has no URDF, OutputError when the package exists.
+    A fixed base gets the link `world` to which ROS and Gazebo fix it; a free one has none.
+
+    Raise InputError if the folder has no URDF, OutputError if the package exists.
     """
     urdfs = sorted(folder.glob("*.urdf"))
     if len(urdfs) != 1:
@@ -51,7 +52,7 @@ def write_package(folder: Path, into: Path, *, base: Base) -> Path:
 
 
 def package_name(name: str) -> str:
-    """A name as ROS asks for: lower case, starting with a letter, no two underscores together, none at the end."""
+    """Return a name that ROS accepts: lower case, starting with a letter, without double underscores or one at the end."""
     return re.sub(r"_+", "_", name.lower()).strip("_")
 
 
@@ -69,7 +70,7 @@ def _manifest(name: str) -> str:
 
 
 def _packaged(text: str, name: str, base: Base) -> str:
-    """The URDF with paths in the package, and with a world to stand in where its base is fixed."""
+    """Return the URDF with paths in the package, and with a world link if its base is fixed."""
     robot = ElementTree.fromstring(text)
     for mesh in robot.iter("mesh"):
         mesh.set("filename", f"package://{name}/{mesh.get('filename')}")

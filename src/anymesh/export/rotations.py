@@ -1,4 +1,4 @@
-"""Rotation matrices as the formats write them."""
+"""Conversions of rotation matrices to the forms of the formats."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from jaxtyping import Float
 
 
 def rpy(rotation: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, " 3"]:
-    """Roll, pitch, yaw [rad] about the fixed x, y, z in this order, as URDF and SDFormat mean them; no roll at the pole."""
+    """Return roll, pitch, yaw [rad] about the fixed x, y, z in this order, as in URDF and SDFormat; no roll at the pole."""
     pitch = float(np.arctan2(-rotation[2, 0], np.hypot(rotation[0, 0], rotation[1, 0])))
     if np.hypot(rotation[0, 0], rotation[1, 0]) < 1e-9:
         return np.array([0.0, pitch, np.arctan2(-rotation[0, 1], rotation[1, 1])])
@@ -15,7 +15,7 @@ def rpy(rotation: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, " 3"]:
 
 
 def quaternion(rotation: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, " 4"]:
-    """w, x, y, z, unit, w >= 0."""
+    """Return w, x, y, z, unit, with w >= 0."""
     (a, b, c), (d, e, f), (g, h, i) = rotation
     squares = np.maximum(0.0, [1 + a + e + i, 1 + a - e - i, 1 - a + e - i, 1 - a - e + i])  # of 2w, 2x, 2y, 2z
     rows = np.array(
@@ -32,7 +32,7 @@ def quaternion(rotation: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, " 4"]:
 
 
 def turning_x_to(axis: Float[np.ndarray, " 3"]) -> Float[np.ndarray, "3 3"]:
-    """A rotation whose first column is a unit axis, the shortest way where there is one."""
+    """Return the smallest rotation whose first column is a unit axis."""
     cosine = float(axis[0])
     if cosine < -1 + 1e-12:
         return np.diag([-1.0, -1.0, 1.0])
@@ -42,7 +42,7 @@ def turning_x_to(axis: Float[np.ndarray, " 3"]) -> Float[np.ndarray, "3 3"]:
 
 
 def principal(tensor: Float[np.ndarray, "3 3"]) -> tuple[Float[np.ndarray, " 3"], Float[np.ndarray, "3 3"]]:
-    """Moments of an inertia, rising, and the right-handed axes they are about, as columns."""
+    """Return the moments of an inertia, ascending, and their right-handed axes as columns."""
     found, axes = np.linalg.eigh(tensor)
     axes = axes * np.sign(axes[np.abs(axes).argmax(0), range(3)])
     axes[:, 2] = np.cross(axes[:, 0], axes[:, 1])

@@ -1,4 +1,4 @@
-"""SDFormat: model.sdf and the model.config that lets Gazebo find it."""
+"""SDFormat: model.sdf, and the model.config that Gazebo needs to find it."""
 
 from __future__ import annotations
 
@@ -22,13 +22,13 @@ FILE, CONFIG_FILE = "model.sdf", "model.config"
 
 
 def write_sdf(model: Model, folder: Path, config: ExportConfig) -> None:
-    """Writes model.sdf and model.config into an asset folder whose meshes/ is there."""
+    """Write model.sdf and model.config into an asset folder with its meshes/."""
     for name, text in ((FILE, sdf_text(model)), (CONFIG_FILE, config_text(model))):
         (folder / name).write_text(text, encoding="utf-8", newline="\n")
 
 
 def config_text(model: Model) -> str:
-    """The model.config of a model."""
+    """Return the model.config of a model."""
     root = ElementTree.Element("model")
     ElementTree.SubElement(root, "name").text = model.asset.name
     ElementTree.SubElement(root, "version").text = "1.0"
@@ -38,10 +38,11 @@ def config_text(model: Model) -> str:
 
 
 def sdf_text(model: Model) -> str:
-    """The SDFormat of a model. A link's frame is also its joint's, so a joint has no pose and its axis stands as it is.
+    """Return the SDFormat of a model.
 
-    A fixed base is a fixed joint to the world: <static> would hold the other joints too. Links of one name with a joint
-    are not allowed in SDFormat: such a joint's name gets a number.
+    A link's frame is also its joint's, so a joint has no pose and its axis is unchanged. A fixed base is a fixed joint to the
+    world, since <static> would also fix the other joints. SDFormat does not allow a link and a joint of the same name, so such
+    a joint's name gets a number.
     """
     asset = model.asset
     root = ElementTree.Element("sdf", version=VERSION)
@@ -62,14 +63,17 @@ def sdf_text(model: Model) -> str:
 
 
 def joint_names(model: Model) -> Mapping[str, str]:
-    """The names of the joints in SDFormat, where no joint may have a link's name."""
+    """Return the names of the joints in SDFormat, where no joint may have a link's name."""
     joints = [j.name for j in model.asset.joints]
     taken = [link.name for link in model.links]
     return dict(zip(joints, legal_names([*taken, *joints])[len(taken) :], strict=True))
 
 
 def _only_neighbours_excluded(model: Model) -> bool:
-    """Links that a joint connects never collide in Gazebo; other pairs can only be excluded all at once."""
+    """Return whether all excluded pairs are connected by a joint.
+
+    Such links never collide in Gazebo. Other pairs can only be excluded all at once.
+    """
     joined = {frozenset((j.parent, j.child)) for j in model.asset.joints}
     return all(frozenset((pair.a, pair.b)) in joined for pair in model.exclusions)
 
@@ -101,7 +105,7 @@ def _add_link(model: ElementTree.Element, mesh: Mesh, body: ExportLink, origins:
 
 
 def _add_visual(link: ElementTree.Element, mesh: Mesh, body: ExportLink) -> None:
-    """The visual OBJ with the materials of its MTL; a colour where it has none."""
+    """Add the visual OBJ with the materials of its MTL, or a colour if it has none."""
     visual = ElementTree.SubElement(link, "visual", name="visual")
     _leaf(ElementTree.SubElement(ElementTree.SubElement(visual, "geometry"), "mesh"), "uri", body.visual_path())
     if all(p.material < 0 or painted(mesh, p) for p in body.link.primitives):

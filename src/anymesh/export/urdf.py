@@ -16,16 +16,15 @@ from anymesh.export.rotations import rpy
 from anymesh.export.xml_text import document, moments, number, vector
 from anymesh.types import Box, Cylinder, Hull, Joint, JointType, Mesh, Shape
 
-# MuJoCo by default drops visuals and folders of mesh names, and fuses links that do not move.
+# By default, MuJoCo drops visuals and folders of mesh names, and fuses static links.
 MUJOCO = {"discardvisual": "false", "fusestatic": "false", "strippath": "false", "balanceinertia": "true"}
 
 
 def urdf_text(model: Model) -> str:
-    """The URDF of a model; mesh paths are relative to its folder.
+    """Return the URDF of a model; mesh paths are relative to its folder.
 
-    Every link frame has the asset's axes, so joint origins are differences and axes stand as they are. Whether the root
-    is fixed is for the simulator to say (PyBullet's `useFixedBase`, Isaac's `fix_base`; MuJoCo fixes it): a `world` link
-    would be one link too many where it is not asked for.
+    Every link frame has the asset's axes, so joint origins are differences and axes are unchanged. The simulator decides
+    whether the root is fixed (PyBullet's `useFixedBase`, Isaac's `fix_base`; MuJoCo fixes it), so there is no `world` link.
     """
     asset = model.asset
     robot = ElementTree.Element("robot", name=asset.name)
@@ -40,7 +39,7 @@ def urdf_text(model: Model) -> str:
 
 
 def _appearance(mesh: Mesh, link: Link, names: Sequence[str]) -> tuple[str, tuple[float, ...]]:
-    """Name and display colour (RGBA 0..1) of the material that covers most of the link."""
+    """Return name and display colour (RGBA 0..1) of the material that covers most of the link."""
     most = widest(link)
     if painted(mesh, most):
         return f"{link.name}_color", display_color(mesh, most)

@@ -1,4 +1,4 @@
-"""USD: one binary stage, Z up, metres and kilograms, with UsdPhysics and what PhysX and Newton add to joints."""
+"""USD: one binary stage, Z up, metres and kilograms, with UsdPhysics and the joint attributes of PhysX and Newton."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from anymesh.names import legal_names
 from anymesh.types import Box, Cylinder, Hull, Joint, JointType, Shape
 from anymesh.types.mesh import TEXTURE_SLOTS
 
-NOISE = 1e-12  # [m, kg m^2] what is smaller is rounding
+NOISE = 1e-12  # [m, kg m^2] smaller values are rounding
 
 
 def _pxr() -> ModuleType:
@@ -39,10 +39,12 @@ def _pxr() -> ModuleType:
 
 
 def write_usd(model: Model, folder: Path, config: ExportConfig) -> None:
-    """Writes <name>.usdc into an asset folder, and into its meshes/ the textures that it refers to.
+    """Write <name>.usdc into an asset folder, and the textures that it refers to into its meshes/.
 
-    Links are siblings under /<name>/links, each at its origin; joints stand under /<name>/joints, materials under
-    /<name>/materials. MissingExtraError without OpenUSD.
+    Links are siblings under /<name>/links, each at its origin; joints are under /<name>/joints, materials under
+    /<name>/materials.
+
+    Raise MissingExtraError without OpenUSD.
     """
     pxr = _pxr()
     (folder / FOLDER).mkdir(exist_ok=True)
@@ -66,7 +68,7 @@ def write_usd(model: Model, folder: Path, config: ExportConfig) -> None:
     for joint in model.asset.joints:
         _add_joint(pxr, stage, top, model, joint, motors)
     scene = legal_names([model.asset.name, "physics_scene"])[-1]
-    pxr.UsdPhysics.Scene.Define(stage, f"/{scene}")  # beside the asset, so that a reference to it brings no second one
+    pxr.UsdPhysics.Scene.Define(stage, f"/{scene}")  # beside the asset, so that a reference to it adds no second scene
     stage.GetRootLayer().Export(str(folder / f"{model.asset.name}.usdc"))
 
 
@@ -143,7 +145,7 @@ def _add_exclusions(pxr: Any, stage: Any, top: str, model: Model) -> None:
 
 
 def _add_root_joint(pxr: Any, stage: Any, top: str, model: Model) -> None:
-    """Holds a fixed root to wherever the asset is placed; its other side is the asset's frame, which is no body."""
+    """Fix the root to the place of the asset; the other side of the joint is the asset's frame, which is no body."""
     if model.base is Base.FREE:
         return
     name = legal_names([*(j.name for j in model.asset.joints), "fixed_base"], fallback="joint")[-1]
@@ -168,7 +170,7 @@ def _add_joint(pxr: Any, stage: Any, top: str, model: Model, joint: Joint, motor
     if joint.type is JointType.FIXED:
         return
     added.CreateAxisAttr(pxr.UsdGeom.Tokens.x)
-    per_unit = 1.0 if joint.type is JointType.PRISMATIC else float(np.pi / 180)  # USD's angles are degrees
+    per_unit = 1.0 if joint.type is JointType.PRISMATIC else float(np.pi / 180)  # USD's angles are in degrees
     if joint.limits is not None:
         added.CreateLowerLimitAttr(joint.limits[0] / per_unit)
         added.CreateUpperLimitAttr(joint.limits[1] / per_unit)
@@ -184,7 +186,7 @@ def _add_joint(pxr: Any, stage: Any, top: str, model: Model, joint: Joint, motor
 
 
 def _add_resistance(pxr: Any, prim: Any, joint: Joint, kind: str, per_unit: float) -> None:
-    """Damping, dry friction and velocity in the words of PhysX and of Newton, for UsdPhysics has none."""
+    """Add damping, dry friction and velocity as attributes of PhysX and of Newton, since UsdPhysics has none."""
     values = {
         f"physxJointAxis:{kind}:maxJointVelocity": joint.velocity / per_unit,
         f"physxJointAxis:{kind}:staticFrictionEffort": joint.friction,

@@ -1,4 +1,4 @@
-"""What a link looks like in USD: one mesh, its materials as UsdPreviewSurface, corner colours as displayColor."""
+"""Appearance of a link in USD: one mesh, its materials as UsdPreviewSurface, corner colours as displayColor."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from anymesh.types.color import to_linear
 
 
 class UsdMaterials:
-    """Writes visual meshes, and each material once, when it is first needed."""
+    """Writes visual meshes, and each material once on first use."""
 
     def __init__(self, pxr: Any, stage: Any, scope: str, mesh: Mesh, textures: Mapping[bytes, str]) -> None:
         self._pxr, self._stage, self._scope, self._mesh, self._textures = pxr, stage, scope, mesh, textures
@@ -25,7 +25,7 @@ class UsdMaterials:
         self._made: dict[int, Any] = {}
 
     def add_visual(self, path: str, link: Link, config: ExportConfig) -> None:
-        """The mesh of a link; several materials are face subsets of it."""
+        """Add the mesh of a link; several materials become face subsets."""
         pxr, primitives = self._pxr, visible(link, config)
         mesh = pxr.UsdGeom.Mesh.Define(self._stage, path)
         points = np.concatenate([p.positions for p in primitives]).astype(np.float32)
@@ -42,7 +42,7 @@ class UsdMaterials:
         self._bind(mesh, primitives)
 
     def _add_primvars(self, mesh: Any, primitives: Sequence[Primitive]) -> None:
-        """Normals, texture coordinates (v up, as USD's) and colours of the corners."""
+        """Add normals, texture coordinates (v up, as in USD) and colours of the corners."""
         pxr, kinds = self._pxr, self._pxr.Sdf.ValueTypeNames
         api, vertex = pxr.UsdGeom.PrimvarsAPI(mesh), pxr.UsdGeom.Tokens.vertex
         normals = [p.normals for p in primitives if p.normals is not None]
@@ -66,7 +66,7 @@ class UsdMaterials:
         for p in primitives:
             at, start = np.arange(start, start + len(p.triangles), dtype=np.int32), start + len(p.triangles)
             if p.material < 0 or painted(self._mesh, p):
-                continue  # displayColor shows
+                continue  # displayColor is used
             prim = mesh.GetPrim()
             if len(primitives) > 1:
                 binding = shade.MaterialBindingAPI.Apply(prim)
@@ -80,7 +80,7 @@ class UsdMaterials:
         return self._made[index]
 
     def _make(self, path: str, m: Material) -> Any:
-        """glTF's metallic-roughness model as UsdPreviewSurface; factors scale the textures."""
+        """Convert glTF's metallic-roughness model to UsdPreviewSurface; factors scale the textures."""
         pxr, kinds = self._pxr, self._pxr.Sdf.ValueTypeNames
         material = pxr.UsdShade.Material.Define(self._stage, path)
         surface = pxr.UsdShade.Shader.Define(self._stage, f"{path}/surface")
@@ -114,7 +114,7 @@ class UsdMaterials:
         return material
 
     def _texture(self, path: str, slot: str, file: str, space: str) -> Any:
-        """A texture shader that reads its coordinates from `st`."""
+        """Add a texture shader that reads its coordinates from `st`."""
         pxr, kinds = self._pxr, self._pxr.Sdf.ValueTypeNames
         reader = pxr.UsdShade.Shader.Define(self._stage, f"{path}/st")
         reader.CreateIdAttr("UsdPrimvarReader_float2")
@@ -139,7 +139,7 @@ def _connect(pxr: Any, surface: Any, shader: Any, outputs: Mapping[str, str]) ->
 
 
 def _colors(p: Primitive) -> np.ndarray:
-    """(n, 4) sRGB and alpha 0..1 of the corners; grey where a primitive has neither colours nor a material."""
+    """Return (n, 4) sRGB and alpha 0..1 of the corners; grey for a primitive without colours and material."""
     if p.colors is not None:
         return p.colors / 255
     return np.tile(np.array(GREY if p.material < 0 else (1.0, 1, 1, 1)), (len(p.positions), 1))

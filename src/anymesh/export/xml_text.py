@@ -1,4 +1,4 @@
-"""Numbers and documents as XML formats want them."""
+"""Formatting of numbers and documents for XML formats."""
 
 from __future__ import annotations
 
@@ -10,23 +10,23 @@ from jaxtyping import Float
 
 
 def number(value: float) -> str:
-    """Ten significant digits; what is zero but for rounding is 0."""
+    """Format with ten significant digits; values that are zero up to rounding become 0."""
     return "0" if abs(value) < 1e-12 else f"{float(value):.10g}"
 
 
 def vector(values: Iterable[float]) -> str:
-    """Numbers with spaces between."""
+    """Format numbers separated by spaces."""
     return " ".join(number(v) for v in values)
 
 
 def moments(tensor: Float[np.ndarray, "3 3"]) -> dict[str, str]:
-    """The six numbers of an inertia [kg m^2]; off-diagonal ones that are rounding are 0."""
+    """Format the six numbers of an inertia [kg m^2]; off-diagonal ones that are rounding become 0."""
     noise = 1e-12 * float(np.trace(tensor))
     places = {"ixx": (0, 0), "ixy": (0, 1), "ixz": (0, 2), "iyy": (1, 1), "iyz": (1, 2), "izz": (2, 2)}
     return {key: f"{tensor[at]:.10g}" if abs(tensor[at]) > noise else "0" for key, at in places.items()}
 
 
 def document(root: ElementTree.Element) -> str:
-    """The indented file, with a final newline."""
+    """Return the indented file, with a final newline."""
     ElementTree.indent(root)
     return '<?xml version="1.0" encoding="utf-8"?>\n' + ElementTree.tostring(root, encoding="unicode") + "\n"

@@ -9,13 +9,16 @@ from jaxtyping import Bool, Float, Int
 
 from anymesh.types.triangles import bounds_of
 
-MAX_SIDE_DIFFERENCE_RATIO = 0.03  # largest difference of sides of copies, over the diagonal
-MIN_PARALLEL_COSINE = 0.99  # smallest cosine between axes of copies
+MAX_SIDE_DIFFERENCE_RATIO = 0.03  # maximum difference of the sides of copies, over the diagonal
+MIN_PARALLEL_COSINE = 0.99  # minimum cosine between the axes of copies
 
 
 @dataclass(frozen=True, eq=False)
 class OrientedBox:
-    """An oriented box. axes: rows are unit, right-handed, longest side first; half: half side lengths in that order [m]."""
+    """An oriented box.
+
+    axes: rows are unit, right-handed, longest side first; half: half side lengths in that order [m].
+    """
 
     center: Float[np.ndarray, " 3"]
     axes: Float[np.ndarray, "3 3"]
@@ -26,7 +29,7 @@ class OrientedBox:
         return 2 * float(np.linalg.norm(self.half))
 
     def local(self, points: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 3"]:
-        """Transform points into the box frame [m], centre at 0."""
+        """Transform points into the box frame [m], with the center at 0."""
         return (points - self.center) @ self.axes.T
 
     def world(self, local: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 3"]:
@@ -49,10 +52,10 @@ def _frame(first: np.ndarray, second: np.ndarray) -> np.ndarray | None:
         return None
     second = second / length
     (a, b, c), (x, y, z) = first, second
-    return np.array([first, second, (b * z - c * y, c * x - a * z, a * y - b * x)])  # np.cross, without its overhead
+    return np.array([first, second, (b * z - c * y, c * x - a * z, a * y - b * x)])  # np.cross without its overhead
 
 
-MIN_FLAT_AREA_RATIO = 0.6  # share of the surface facing one way from which the box is aligned with it
+MIN_FLAT_AREA_RATIO = 0.6  # share of the surface facing one way above which the box is aligned with it
 
 
 def dominant_normals(
@@ -83,8 +86,8 @@ def fit_box(
 ) -> OrientedBox:
     """Fit the smallest box along the asset axes, the dominant normals, or the principal directions.
 
-    A box must be 3 % smaller to be preferred to the axis-aligned one. The box of a mostly flat surface is aligned with it:
-    a smaller one may be tilted by a handle, or where the surface is incomplete.
+    A box must be 3 % smaller to be preferred to the axis-aligned one. The box of a mostly flat surface is aligned with it,
+    since a smaller one may be tilted by a handle or by missing surface.
     """
     frames = [np.eye(3)]
     directions = dominant_normals(normals, weights)
@@ -121,7 +124,7 @@ def box_in_frame(points: Float[np.ndarray, "n 3"], axes: Float[np.ndarray, "3 3"
     low, high = bounds_of(local)
     order = np.argsort(-(high - low), kind="stable")
     sorted_axes = axes[order]
-    for row in sorted_axes:  # a fixed sign: the largest component is positive
+    for row in sorted_axes:  # fix the sign: the largest component is positive
         if row[np.abs(row).argmax()] < 0:
             row *= -1
     center = ((low + high) / 2) @ axes
@@ -143,9 +146,9 @@ def within(
 
 
 def box_pairs(low: Float[np.ndarray, "n 3"], high: Float[np.ndarray, "n 3"], reach: float) -> list[tuple[int, int]]:
-    """Return the pairs (i < j) of axis-aligned boxes that are no further apart than `reach` along any axis, in order.
+    """Return the pairs (i < j) of axis-aligned boxes that are at most `reach` apart along every axis, in order.
 
-    Sorts and sweeps along the axis on which the fewest overlap.
+    Sorts and sweeps along the axis on which the fewest boxes overlap.
     """
     low, high = low - reach / 2, high + reach / 2
     order, end = min((_sorted_overlaps(low[:, k], high[:, k]) for k in range(3)), key=lambda found: int(found[1].sum()))
@@ -159,6 +162,6 @@ def box_pairs(low: Float[np.ndarray, "n 3"], high: Float[np.ndarray, "n 3"], rea
 
 
 def _sorted_overlaps(low: Float[np.ndarray, " n"], high: Float[np.ndarray, " n"]) -> tuple[np.ndarray, Int[np.ndarray, " n"]]:
-    """Return the intervals in the order of their lower ends, and for each the place in that order where overlaps end."""
+    """Return the intervals in the order of their lower ends, and for each the position in that order where overlaps end."""
     order = np.argsort(low, kind="stable")
     return order, np.searchsorted(low[order], high[order], side="right")

@@ -1,4 +1,4 @@
-"""Fit circles to outlines, to tell wheels, knobs and dials."""
+"""Fit circles to outlines, for wheels, knobs and dials."""
 
 from __future__ import annotations
 
@@ -8,22 +8,25 @@ import numpy as np
 from jaxtyping import Float
 
 BINS = 36
-ROUND = 0.06  # a bin's outline radius may differ by this share of the median
+ROUND = 0.06  # maximum deviation of a bin's outline radius, relative to the median
 
 
 @dataclass(frozen=True, eq=False)
 class Outline:
-    """A shape seen along an axis. roundness: 0..1, share of directions in which the outline keeps the median radius."""
+    """A shape seen along an axis.
+
+    roundness: 0..1, share of directions in which the outline keeps the median radius.
+    """
 
     axis: Float[np.ndarray, " 3"]
-    center: Float[np.ndarray, " 3"]  # on the axis, at mid height [m]
+    center: Float[np.ndarray, " 3"]  # on the axis, at half the height [m]
     radius: float  # [m]
     height: float  # extent along the axis [m]
     roundness: float
 
 
 def fit_circle(points: Float[np.ndarray, "n 2"]) -> tuple[Float[np.ndarray, " 2"], float]:
-    """Fit a circle by algebraic least squares (Kasa); return centre and radius."""
+    """Fit a circle by algebraic least squares (Kasa); return center and radius."""
     shift = points.mean(0)
     p = points - shift
     A = np.c_[2 * p, np.ones(len(p))]
@@ -32,7 +35,7 @@ def fit_circle(points: Float[np.ndarray, "n 2"]) -> tuple[Float[np.ndarray, " 2"
 
 
 def outline_about(points: Float[np.ndarray, "n 3"], axis: Float[np.ndarray, " 3"]) -> Outline:
-    """Return the outline of points along `axis`: the largest radius in each of 36 directions about the fitted centre."""
+    """Return the outline of points along `axis`: the largest radius in each of 36 directions about the fitted center."""
     helper = np.eye(3)[np.abs(axis).argmin()]
     u = np.cross(axis, helper)
     u /= np.linalg.norm(u)

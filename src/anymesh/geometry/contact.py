@@ -1,4 +1,4 @@
-"""The connecting area of two parts (paper, section 3.3)."""
+"""Connecting area of two parts (paper, section 3.3)."""
 
 from __future__ import annotations
 
@@ -9,9 +9,13 @@ from jaxtyping import Bool, Float
 def connecting_area(
     gap_a: Float[np.ndarray, " n"], gap_b: Float[np.ndarray, " m"], threshold: float
 ) -> tuple[Bool[np.ndarray, " n"], Bool[np.ndarray, " m"], float]:
-    """Points of each part closer than `threshold` [m] to the other; doubled until there is one (paper, 3.3).
+    """Return the points of each part closer than `threshold` [m] to the other (paper, 3.3).
 
-    gap_a, gap_b: distance of the points of each part to the other [m]. Returns both masks and the threshold that gave them.
+    The threshold is doubled until there is at least one point.
+
+    gap_a, gap_b: distance of the points of each part to the other [m].
+
+    Return both masks and the threshold used.
     """
     if threshold <= 0:
         raise ValueError(f"the threshold of a connecting area must be positive, found {threshold}")

@@ -1,4 +1,4 @@
-"""Find soft concave creases, on rounded, scanned or generated surfaces without sharp edges."""
+"""Find soft concave creases on rounded, scanned or generated surfaces without sharp edges."""
 
 from __future__ import annotations
 
@@ -16,9 +16,12 @@ from anymesh.types.triangles import normals_and_areas
 
 
 def convex_regions(triangles: Float[np.ndarray, "F 3 3"], diagonal: float, config: PiecesConfig) -> Int[np.ndarray, " F"]:
-    """A region a face: superpoints joined across their borders, unless these are concave creases (locally convex patches,
-    Stein et al. 2014), such that long creases outweigh short gaps in them (multicut by greedy contraction, Keuper et al.
-    2015). A crease is judged by the surface within `reach` of it, so that the inside of a bowl stays whole."""
+    """Return a region index per face.
+
+    Regions are superpoints joined across their borders, except for concave creases (locally convex patches, Stein et al. 2014).
+    Long creases outweigh short gaps in them (multicut by greedy contraction, Keuper et al. 2015). A crease is judged by the
+    surface within `reach` of it, so that the inside of a bowl is not split.
+    """
     few = simplify(triangles, config.superpoint_faces)
     corners = few.reshape(-1, 3)
     edges = edge_pairs(corners, np.arange(len(corners)).reshape(-1, 3))
@@ -43,7 +46,10 @@ def _folds_inwards(
     centers: np.ndarray, normals: np.ndarray, weight: np.ndarray, label: np.ndarray, key: np.ndarray, where: np.ndarray,
     middle: np.ndarray, diagonal: float, config: PiecesConfig,
 ) -> np.ndarray:  # fmt: skip
-    """Which borders (pairs of superpoints, by key) fold inwards by more than `config.crease`; middle: of the edges there."""
+    """Return which borders (pairs of superpoints, by key) fold inwards by more than `config.crease`.
+
+    middle: centers of the edges on the borders.
+    """
     count = int(label.max()) + 1
     order = np.argsort(label, kind="stable")
     start = np.searchsorted(label[order], np.arange(count + 1))
@@ -65,7 +71,7 @@ def _folds_inwards(
 
 
 def _contract(count: int, pull: dict[tuple[int, int], float]) -> Int[np.ndarray, " n"]:
-    """Joins the pair that pulls the most, adds up what the joined pull on others, until nothing pulls any more."""
+    """Join the pair with the highest attraction and add up its attractions to others, until none is positive."""
     near: list[dict[int, float]] = [{} for _ in range(count)]
     for (a, b), p in pull.items():
         near[a][b] = near[b][a] = p

@@ -9,7 +9,7 @@ from jaxtyping import Float, Int
 def distance_to_mesh(
     points: Float[np.ndarray, "n 3"], vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"]
 ) -> tuple[Float[np.ndarray, " n"], Int[np.ndarray, " n"], Float[np.ndarray, "n 3"]]:
-    """Distance to the closest triangle [units of the input], that triangle's index, and the closest point on it."""
+    """Return the distance to the closest triangle [units of the input], its index, and the closest point on it."""
     import igl
 
     if len(points) == 0:
@@ -23,7 +23,10 @@ def distance_to_mesh(
 
 
 class TriangleTree:
-    """A bounding box tree over triangles, built once for many questions: the same answers as `distance_to_mesh`."""
+    """A bounding box tree over triangles, built once for many queries.
+
+    The results equal those of `distance_to_mesh`.
+    """
 
     def __init__(self, triangles: Float[np.ndarray, "F 3 3"]) -> None:
         import igl
@@ -36,7 +39,7 @@ class TriangleTree:
     def nearest(
         self, points: Float[np.ndarray, "n 3"]
     ) -> tuple[Float[np.ndarray, " n"], Int[np.ndarray, " n"], Float[np.ndarray, "n 3"]]:
-        """Distance to the closest triangle [units of the input], that triangle's index, and the closest point on it."""
+        """Return the distance to the closest triangle [units of the input], its index, and the closest point on it."""
         if len(points) == 0:
             return np.zeros(0), np.zeros(0, np.int64), np.zeros((0, 3))
         probe = np.ascontiguousarray(points, np.float64)
@@ -44,19 +47,19 @@ class TriangleTree:
         return np.sqrt(np.maximum(np.atleast_1d(squared), 0)), np.atleast_1d(face).astype(np.int64), np.atleast_2d(closest)
 
     def distance(self, points: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, " n"]:
-        """Distance of each point to the closest triangle."""
+        """Return the distance of each point to the closest triangle."""
         return self.nearest(points)[0]
 
 
 def distance_to_triangles(points: Float[np.ndarray, "n 3"], triangles: Float[np.ndarray, "F 3 3"]) -> Float[np.ndarray, " n"]:
-    """Distance of each point to the closest of some triangles."""
+    """Return the distance of each point to the closest of some triangles."""
     return distance_to_mesh(points, triangles.reshape(-1, 3), np.arange(3 * len(triangles)).reshape(-1, 3))[0]
 
 
 def winding_number(
     points: Float[np.ndarray, "n 3"], vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"]
 ) -> Float[np.ndarray, " n"]:
-    """How often the surface winds round each point: 1 inside a closed, outward surface, 0 outside."""
+    """Return the winding number of the surface about each point: 1 inside a closed, outward surface, 0 outside."""
     import igl
 
     found = igl.winding_number(

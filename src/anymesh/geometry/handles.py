@@ -12,27 +12,27 @@ from anymesh.geometry.distance_ import distance_to_mesh
 from anymesh.geometry.topology import label_connected
 from anymesh.geometry.triangle_set import MeshSurface
 
-MIN_BAR_ASPECT = 2.0  # length of a bar over its larger width
-MAX_BAR_LENGTH_RATIO = 0.6  # share of the diagonal that a bar may be long
-MAX_KNOB_SIZE_RATIO = 0.08  # share of the diagonal that a knob may have
-MAX_HANDLE_AREA_RATIO = 0.04  # share of the surface that a handle has at most
-MIN_HANDLE_SIZE_RATIO = 0.006  # share of the diagonal that a handle stands out, and is wide, at least
-MIN_HEIGHT_WIDTH_RATIO = 0.4  # of the width that it covers: what stands out less is a moulding
-SHEET = 0.6  # length of its mean normal from which it is a strip: half a ball has a half, a bar on a face a third
-FLAT = 0.5  # length of the mean normal round the foot of a handle; 1 where that is plane
-ALIGNED = 0.94  # cosine from which directions are one
-MIN_MAIN_COMPONENT_RATIO = 0.8  # share of the surface from which one region is nearly all there is
-MAX_HANDLE_GAP_RATIO = 0.02  # share of the diagonal that a handle may be from its host
-TOUCH = 0.003  # share of the diagonal: of a handle that is apart, what is so much further than its nearest point is its foot
-CORNERS = 2000  # of a handle that its box is fitted to
+MIN_BAR_ASPECT = 2.0  # minimum length of a bar over its larger width
+MAX_BAR_LENGTH_RATIO = 0.6  # of the diagonal: maximum length of a bar
+MAX_KNOB_SIZE_RATIO = 0.08  # of the diagonal: maximum size of a knob
+MAX_HANDLE_AREA_RATIO = 0.04  # maximum share of a handle in the surface
+MIN_HANDLE_SIZE_RATIO = 0.006  # of the diagonal: minimum height and width of a handle
+MIN_HEIGHT_WIDTH_RATIO = 0.4  # of the covered width: minimum height of a handle; flatter protrusions are mouldings
+SHEET = 0.6  # length of its mean normal above which a protrusion is a strip; 1/2 for half a ball, 1/3 for a bar on a face
+FLAT = 0.5  # minimum length of the mean normal around the foot of a handle; 1 is plane
+ALIGNED = 0.94  # minimum cosine between equal directions
+MIN_MAIN_COMPONENT_RATIO = 0.8  # share of the surface above which one region covers almost all of it
+MAX_HANDLE_GAP_RATIO = 0.02  # of the diagonal: maximum distance of a handle from its host
+TOUCH = 0.003  # of the diagonal: the foot of a separate handle is within this distance of its closest point
+CORNERS = 2000  # corners of a handle used to fit its box
 
 
 @dataclass(frozen=True, eq=False)
 class SurfaceHandle:
     """A handle on a region of the surface.
 
-    normal, level: the plane that it stands on; axis: direction of a bar, None for a knob; points: its corners [m]; faces: of
-    the handle; foot: faces of the region beside it.
+    normal, level: plane that it stands on; axis: direction of a bar, None for a knob; points: its corners [m]; faces: of the
+    handle; foot: faces of the region beside it.
     """
 
     region: int
@@ -47,8 +47,8 @@ class SurfaceHandle:
 def find_handles(whole: MeshSurface, region: Int[np.ndarray, " F"]) -> list[SurfaceHandle]:
     """Find all handles, ordered by their first region.
 
-    A handle is made of small regions that border on a large one, or that are near the one region that covers almost all of
-    the surface.
+    A handle consists of small regions that border on a large one, or that are near the one region that covers almost all of the
+    surface.
     """
     area = np.bincount(region, whole.shape.areas)
     small = (region_sizes(whole, region) < MAX_BAR_LENGTH_RATIO * whole.diagonal) & (area < MAX_HANDLE_AREA_RATIO * area.sum())
@@ -83,7 +83,7 @@ def _listed(key: np.ndarray, value: np.ndarray) -> dict[int, np.ndarray]:
 
 
 def _near(whole: MeshSurface, faces: np.ndarray, host: np.ndarray) -> Int[np.ndarray, " n"]:
-    """Faces of the host where a separate component comes nearest to it; none when it is far, or too large for a handle."""
+    """Return the host's faces closest to a separate component; none if it is too far away or too large for a handle."""
     points = _corners(whole, faces)
     if np.ptp(points, axis=0).max() > MAX_BAR_LENGTH_RATIO * whole.diagonal:
         return np.zeros(0, np.int64)
@@ -99,7 +99,7 @@ def _corners(whole: MeshSurface, faces: np.ndarray) -> np.ndarray:
 
 
 def _surface_handle(whole: MeshSurface, faces: np.ndarray, host: int, foot: np.ndarray) -> SurfaceHandle | None:
-    """Return the handle that these faces are on the host region, None if they are none."""
+    """Return these faces as a handle on the host region, None if they are none."""
     mean = whole.shape.areas[foot] @ whole.shape.normals[foot]
     if np.linalg.norm(mean) < FLAT * whole.shape.areas[foot].sum():
         return None

@@ -1,4 +1,4 @@
-"""Complete the base of an object from a single depth image: the space behind visible surfaces counts as filled."""
+"""Complete the base of an object from a single depth image; the space behind visible surfaces counts as filled."""
 
 from __future__ import annotations
 
@@ -12,23 +12,24 @@ from anymesh.geometry.triangle_set import TriangleSet
 from anymesh.types import Mesh
 from anymesh.types.camera import Camera
 
-CELLS = 64  # along the longest side of the body
-UPRIGHT = np.cos(np.deg2rad(10.0))
-MAX_CLOSED_PROTRUSION_RATIO = 0.05  # a part that reaches no further out of the body, as a share of its diagonal, is shut
-MAX_PANEL_THICKNESS_RATIO = 0.35  # thickness over width of a door, drawer front or lid at most
-MIN_PANEL_SIZE_RATIO = 0.15  # a part with less of the body's diagonal sits on something that is seen
-PANEL_INTERIOR_RATIO = 0.8  # share of a plate's face that its rim is no part of
-BACKING_OFFSET_RATIO = 0.005  # how far behind a plate its support is taken to be, as a share of the body's diagonal
+CELLS = 64  # cells along the longest side of the base
+UPRIGHT = np.cos(np.deg2rad(10.0))  # minimum cosine between a box axis and the vertical
+MAX_CLOSED_PROTRUSION_RATIO = 0.05  # of the base's diagonal: a part that protrudes less is closed
+MAX_PANEL_THICKNESS_RATIO = 0.35  # maximum thickness over width of a door, drawer panel or lid
+MIN_PANEL_SIZE_RATIO = 0.15  # of the base's diagonal: smaller parts are mounted on visible surface
+PANEL_INTERIOR_RATIO = 0.8  # share of a plate's face without its rim
+BACKING_OFFSET_RATIO = 0.005  # of the base's diagonal: offset of the support behind a plate
 
 
 def hidden_base(
     mesh: Mesh, face_part: Int[np.ndarray, " F"], camera: Camera, depth: Float[np.ndarray, "H W"]
 ) -> Float[np.ndarray, "G 3 3"]:
-    """Return triangles of the base that the visible surface leaves open: occluded walls of its box, and backings of closed
-    doors.
+    """Return triangles of the base that the visible surface leaves open.
 
-    mesh: the surface seen, up is z; face_part: 0 is the body; depth: of each pixel, inf where nothing is seen. Nothing is
-    added where the picture shows free space (as in space carving, Kutulakos and Seitz 2000).
+    These are the occluded walls of its box, and backings of closed doors. Nothing is added where the picture shows free space
+    (as in space carving, Kutulakos and Seitz 2000).
+
+    mesh: the visible surface, z up; face_part: 0 is the base; depth: per pixel, infinite where nothing is visible.
     """
     shapes = [_shape(mesh, face_part == k) for k in range(int(face_part.max()) + 1)]
     body, shut = _base_box(mesh, [shapes[0].box, *(body_obb(s) for s in shapes[1:])])
@@ -42,8 +43,10 @@ def _shape(mesh: Mesh, faces: Bool[np.ndarray, " F"]) -> TriangleSet:
 
 
 def _base_box(mesh: Mesh, boxes: list[OrientedBox]) -> tuple[OrientedBox, dict[int, OrientedBox]]:
-    """The box of the body as far as it is seen, down to the ground, and of the doors, drawers and lids that are shut; and
-    the boxes of these, by the part's number."""
+    """Return the box of the base, and the boxes of closed parts by number.
+
+    The box covers the visible base down to the ground, and the doors, drawers and lids that are closed.
+    """
     base = boxes[0]
     frame = base.axes
     low, high = base.center @ frame.T - base.half, base.center @ frame.T + base.half
@@ -76,8 +79,10 @@ def _is_plate(core: OrientedBox, base_diagonal: float) -> bool:
 
 
 def _backs(points: np.ndarray, core: OrientedBox, camera: Camera, behind: float) -> Float[np.ndarray, "n 3 3"]:
-    """What a plate lies on: its face moved away from the camera to behind all that is seen of it, and the same within its
-    rim alone, which may be deeper than the plate is thick."""
+    """Return the backing of a plate: its face moved away from the camera, behind all of its visible surface.
+
+    The inner part of the face is added separately, since a rim may be deeper than the plate is thick.
+    """
     away = core.axes[2] * np.sign((core.center - camera.T_world_camera[:3, 3]) @ core.axes[2])
     deep, across = (points - core.center) @ away, np.abs(core.local(points)[:, :2] / core.half[:2]).max(1)
     found = []
@@ -89,7 +94,7 @@ def _backs(points: np.ndarray, core: OrientedBox, camera: Camera, behind: float)
 
 
 def _rectangle(core: OrientedBox, middle: np.ndarray, share: float, away: np.ndarray) -> Float[np.ndarray, "2 3 3"]:
-    """A share of a box's largest side, wound to face against `away`."""
+    """Return a share of a box's largest side, wound to face against `away`."""
     u, v = share * core.half[0] * core.axes[0], share * core.half[1] * core.axes[1]
     u = u if np.cross(u, v) @ away < 0 else -u
     a, b, c, d = middle - u - v, middle + u - v, middle + u + v, middle - u + v
@@ -97,7 +102,7 @@ def _rectangle(core: OrientedBox, middle: np.ndarray, share: float, away: np.nda
 
 
 def occluded_walls(box: OrientedBox, camera: Camera, depth: Float[np.ndarray, "H W"]) -> Float[np.ndarray, "F 3 3"]:
-    """Triangles of the box's far sides, wound outwards, without what the picture shows to be free or shows itself."""
+    """Return triangles of the box's far sides, wound outwards, where the picture shows neither free space nor the sides."""
     step = 2 * float(box.half.max()) / CELLS
     found = []
     for axis in range(3):
@@ -124,6 +129,7 @@ def is_occluded(points: Float[np.ndarray, "n 3"], camera: Camera, depth: Float[n
     pixel = np.floor(at).astype(np.int64)
     inside = ((pixel >= 0) & (pixel < size)).all(1) & (far > 0)
     x, y = np.clip(pixel, 0, size - 1).T
-    shown = maximum_filter(np.where(np.isfinite(depth), depth, 0.0), 3)  # of the neighbours: surfaces slant, edges are ragged
+    # of the neighbours, since surfaces are slanted and edges are ragged
+    shown = maximum_filter(np.where(np.isfinite(depth), depth, 0.0), 3)
     before = shown[y, x]
     return inside & (before > 0) & (far > before + far / camera.focal)

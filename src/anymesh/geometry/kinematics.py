@@ -36,7 +36,7 @@ def link_transforms(asset: Asset, positions: Mapping[str, float]) -> dict[str, F
 
 
 def carried_links(asset: Asset, joint: Joint) -> list[str]:
-    """Return the names of the links that a joint moves: its child and all that hang on it."""
+    """Return the names of the links that a joint moves: its child and all its descendants."""
     children: dict[str, list[str]] = {}
     for j in asset.joints:
         children.setdefault(j.parent, []).append(j.child)

@@ -1,7 +1,8 @@
-"""Where the borders of panels run that nothing but their handles tell: a face of a fused cabinet, one panel a handle.
+"""Layout of panels on a face of a fused cabinet, from its handles: one panel per handle.
 
-Panels tile a face by cuts from side to side (a guillotine layout, as of facades). A handle sits in the middle of its panel
-along itself (a drawer, a flap) or next to an edge that it runs along (a door); a knob in the middle or next to an edge.
+Panels tile a face by cuts from side to side (a guillotine layout, as of facades). Along its own axis, a handle is in the middle
+of its panel (a drawer, a flap). Otherwise it is next to an edge that is parallel to it (a door). A knob is in the middle or
+next to an edge.
 """
 
 from __future__ import annotations
@@ -13,11 +14,11 @@ import numpy as np
 from jaxtyping import Float, Int
 from scipy import ndimage
 
-OFF_CENTER_WEIGHT = 0.25  # what being off the middle across the handle counts, against along it
-MAX_PANEL_ASPECT = 5.0  # sides of a panel; what would be longer is no panel, but one in a row of controls
-GRID = 32  # cells along each side of a face, to find the rectangle that it fills
-MIN_FILL_RATIO = 0.9  # share of the cells that it must fill
-MAX_HANDLES = 12  # handles on one face; more of them are no handles
+OFF_CENTER_WEIGHT = 0.25  # weight of an offset from the middle across the handle, relative to one along it
+MAX_PANEL_ASPECT = 5.0  # maximum aspect ratio of a panel; a longer one belongs to a row of controls
+GRID = 32  # cells along each side of a face, for finding the rectangle that it fills
+MIN_FILL_RATIO = 0.9  # minimum share of filled cells
+MAX_HANDLES = 12  # maximum number of handles on one face; more of them are not handles
 
 
 @dataclass(frozen=True)
@@ -32,9 +33,11 @@ class PanelRectangle:
 def filled(
     points: Float[np.ndarray, "n 2"], around: Float[np.ndarray, "2 2"]
 ) -> tuple[Float[np.ndarray, " 2"], Float[np.ndarray, " 2"]] | None:
-    """Return the corners of the largest rectangle that the points fill and that contains `around`; None when there is none.
+    """Return the corners of the largest rectangle that the points fill and that contains `around`, None if there is none.
 
-    Holes count as filled; around: lower and upper corner.
+    Holes count as filled.
+
+    around: lower and upper corner.
     """
     low, high = points.min(0), points.max(0)
     size = np.maximum((high - low) / GRID, 1e-300)
@@ -63,7 +66,7 @@ def tile(
     handles: Float[np.ndarray, "h 2 2"],
     along: Int[np.ndarray, " h"],
 ) -> tuple[PanelRectangle, ...]:
-    """Return the panels of the likeliest layout of a face, one per handle; none where no layout is plausible.
+    """Return the panels of the likeliest layout of a face, one per handle; none if no layout is plausible.
 
     handles: (h, 2, 2) lower and upper corner of each; along: (h,) the axis that each runs along, -1 for a knob.
     """
@@ -89,12 +92,12 @@ def tile(
 
 
 def _layout_cost(panel: PanelRectangle, handle: np.ndarray, along: int) -> float:
-    """How far the handle is from where it would be on such a panel: 0 just there; infinite for what is no panel."""
+    """Return the deviation of the handle from its expected place on such a panel; infinite if it cannot be a panel."""
     low, high = np.array(panel.low), np.array(panel.high)
     sides = high - low
     if sides.max() > MAX_PANEL_ASPECT * sides.min():
         return np.inf
-    off = np.abs(handle.mean(0) - (low + high) / 2) / sides  # 0 in the middle, .5 at the edge
+    off = np.abs(handle.mean(0) - (low + high) / 2) / sides  # 0 in the middle, 0.5 at the edge
     if along < 0:
         return float(min(off.sum(), 1 - 2 * off.max()))
     return float(min(2 * off[along] + OFF_CENTER_WEIGHT * off[1 - along], 1 - 2 * off[1 - along]))
@@ -103,8 +106,10 @@ def _layout_cost(panel: PanelRectangle, handle: np.ndarray, along: int) -> float
 def _cuts(
     box: tuple[float, ...], members: tuple[int, ...], handles: np.ndarray, axis: int
 ) -> list[tuple[float, tuple[int, ...], tuple[int, ...]]]:
-    """Places to cut a rectangle across an axis, with the handles on both sides: half way between two handles, and where a
-    handle would be in the middle of its panel."""
+    """Return the positions for cuts of a rectangle across an axis, with the handles on both sides.
+
+    Cuts are half way between two handles, and where a handle would be in the middle of its panel.
+    """
     order = sorted(members, key=lambda h: handles[h, 0, axis])
     found = []
     for k in range(1, len(order)):

@@ -1,4 +1,4 @@
-"""Split a fused surface into panels by its handles, where the narrow gaps between panels are closed."""
+"""Split a fused surface into panels by its handles, where the mesh has no gaps between panels."""
 
 from __future__ import annotations
 
@@ -12,23 +12,25 @@ from anymesh.geometry.sampling import sample_surface
 from anymesh.geometry.topology import label_connected
 from anymesh.geometry.triangle_set import MeshSurface
 
-MAX_BEND_DEG = 40.0  # [deg] a face may bend so far
-MAX_BULGE_RATIO = 0.06  # share of the diagonal that it may bulge
-MIN_FLATNESS = 0.96  # length of its mean normal: .92 is a part of a cylinder that bends so far both ways, 1 is plane
-PLANE_FITS = 3  # of its plane
-MIN_KNOB_FACE_RATIO = 0.3  # share of a side of the object from which a face has panels with knobs
-UPRIGHT = 0.5  # vertical part of a unit normal up to which a face stands upright
-MAX_PANEL_THICKNESS_RATIO = 0.35  # thickness over smaller side of what is a panel as it is
-MAX_TRIANGLE_RATIO = 0.25  # area of the largest triangle over the smallest panel, or none of these has a border
-MAX_CUT_OFF_RATIO = (
-    0.5  # area over the panel's of what goes with a panel that cuts it off: what is larger is a side of the body
-)
-SAMPLES = 20_000  # points on a face, to find the rectangle that it fills
+MAX_BEND_DEG = 40.0  # [deg] maximum bend of a face
+MAX_BULGE_RATIO = 0.06  # of the diagonal: maximum bulge of a face
+# minimum length of the mean normal of a face; 0.92 is a part of a cylinder with the maximum bend, 1 is plane
+MIN_FLATNESS = 0.96
+PLANE_FITS = 3  # iterations of the fit of a face's plane
+MIN_KNOB_FACE_RATIO = 0.3  # of a side of the object: minimum size of a face that has panels with knobs
+UPRIGHT = 0.5  # maximum vertical component of the unit normal of an upright face
+MAX_PANEL_THICKNESS_RATIO = 0.35  # maximum thickness over smaller side of a region that is already a panel
+MAX_TRIANGLE_RATIO = 0.25  # maximum area of the largest triangle over the smallest panel; coarser faces cannot show the borders
+# of the panel's area: maximum area of a cut-off region that joins the panel; a larger one is a side of the cabinet
+MAX_CUT_OFF_RATIO = 0.5
+SAMPLES = 20_000  # sample points on a face, for finding the rectangle that it fills
 
 
 def split_panels(whole: MeshSurface, region: Int[np.ndarray, " F"]) -> tuple[Int[np.ndarray, " F"], Bool[np.ndarray, " F"]]:
-    """The regions, those divided whose handles ask for several panels, or for one on a body that is no panel itself; and
-    which faces are such a panel's."""
+    """Split regions into panels by their handles; return the new regions, and which faces belong to such a panel.
+
+    A region is split if its handles imply several panels, or one panel on a region that is no panel itself.
+    """
     found, count = region.copy(), int(region.max()) + 1
     for faces, handles in _faces_with_handles(whole, region):
         new = int(found.max()) + 1
@@ -39,7 +41,7 @@ def split_panels(whole: MeshSurface, region: Int[np.ndarray, " F"]) -> tuple[Int
 
 
 def _faces_with_handles(whole: MeshSurface, region: np.ndarray) -> list[tuple[Int[np.ndarray, " n"], list[SurfaceHandle]]]:
-    """Faces (flat parts of regions) that handles grow out of, each with all handles on it that lie along one another."""
+    """Return the faces (flat parts of regions) with handles, each with all mutually aligned handles on it."""
     found: list[tuple[np.ndarray, list[SurfaceHandle]]] = []
     for handle in find_handles(whole, region):
         for faces, others in found:
@@ -52,8 +54,11 @@ def _faces_with_handles(whole: MeshSurface, region: np.ndarray) -> list[tuple[In
 
 
 def _of_a_kind(whole: MeshSurface, faces: np.ndarray, handles: list[SurfaceHandle]) -> list[SurfaceHandle]:
-    """The bars that run along each other or across; without bars the knobs, if the face is a large one that stands upright:
-    beside bars, and on small panels, knobs are controls, and under an object they are feet. None on what is round."""
+    """Return the handles that imply panels: bars that are parallel or perpendicular to each other, otherwise knobs.
+
+    Knobs count only on a large upright face without bars. Beside bars and on small panels, knobs are controls, and under an
+    object they are feet. Round surfaces have none.
+    """
     normal = whole.shape.areas[faces] @ whole.shape.normals[faces]
     if np.linalg.norm(normal) < MIN_FLATNESS * whole.shape.areas[faces].sum():
         return []
@@ -67,8 +72,10 @@ def _of_a_kind(whole: MeshSurface, faces: np.ndarray, handles: list[SurfaceHandl
 
 
 def _face_of(whole: MeshSurface, region: np.ndarray, handle: SurfaceHandle) -> Int[np.ndarray, " n"]:
-    """The faces of the handle's region that lie in one plane with its foot, more or less, and hang together with it; the plane
-    is that of the foot first, then that of the face."""
+    """Return the connected faces of the handle's region that lie roughly in one plane with its foot.
+
+    The plane is that of the foot first, then that of the faces found.
+    """
     pairs = whole.components.edges.faces
     centers, areas = whole.shape.triangles.mean(1), whole.shape.areas
     normal, level = handle.normal, handle.level
@@ -89,7 +96,10 @@ def _face_of(whole: MeshSurface, region: np.ndarray, handle: SurfaceHandle) -> I
 
 
 def _smallest_frame(points: Float[np.ndarray, "n 2"]) -> Float[np.ndarray, "2 2"]:
-    """Axes (rows) of the smallest rectangle round the points: one side lies along the hull (Freeman and Shapira 1975)."""
+    """Return the axes (rows) of the smallest rectangle around the points.
+
+    One side lies along the hull (Freeman and Shapira 1975).
+    """
     hull = points[ConvexHull(points).vertices]
     sides = np.diff(np.r_[hull, hull[:1]], axis=0)
     best, least = np.eye(2), np.inf
@@ -102,7 +112,7 @@ def _smallest_frame(points: Float[np.ndarray, "n 2"]) -> Float[np.ndarray, "2 2"
 
 
 def _divide(whole: MeshSurface, region: np.ndarray, faces: np.ndarray, handles: list[SurfaceHandle]) -> None:
-    """Gives each panel of the face a region of its own."""
+    """Assign a region of its own to each panel of the face, in place."""
     if len(faces) < 2:
         return
     number = handles[0].region
@@ -121,7 +131,7 @@ def _divide(whole: MeshSurface, region: np.ndarray, faces: np.ndarray, handles: 
     panels = tile(*rectangle, spots, along) if rectangle is not None else ()
     least = min((float(np.prod(np.subtract(f.high, f.low))) for f in panels), default=0.0)
     if len(panels) > 1 and whole.shape.areas[faces].max() > MAX_TRIANGLE_RATIO * least:
-        return  # triangles too large to tell the panels apart
+        return  # triangles too large to separate the panels
     middle = whole.shape.triangles[faces].mean(1) @ frame.T
     new = int(region.max()) + 1
     for k, panel in enumerate(panels):
@@ -134,14 +144,16 @@ def _divide(whole: MeshSurface, region: np.ndarray, faces: np.ndarray, handles: 
 
 
 def _through(whole: MeshSurface, region: np.ndarray, new: int) -> None:
-    """The other side of a thin body belongs to the panel on this side: of a door, not of a cabinet. Numbered from `new`."""
+    """Assign the back of a thin region to the panel in front of it, in place, as for a door but not for a cabinet.
+
+    New panels are numbered from `new`.
+    """
     panels = np.flatnonzero(region >= new)
     if not len(panels):
         return
     area = np.bincount(region[panels] - new, whole.shape.areas[panels])
-    thin = (
-        MAX_PANEL_THICKNESS_RATIO * area / np.maximum(region_sizes(whole, region)[new:], 1e-300)
-    )  # nearly the shorter side of an oblong
+    # area over diagonal, which is nearly the shorter side of an oblong rectangle
+    thin = MAX_PANEL_THICKNESS_RATIO * area / np.maximum(region_sizes(whole, region)[new:], 1e-300)
     back = np.flatnonzero(region < new)
     rays = -whole.shape.normals[back]
     start = whole.shape.triangles[back].mean(1) + 1e-5 * whole.diagonal * rays
@@ -154,7 +166,10 @@ def _through(whole: MeshSurface, region: np.ndarray, new: int) -> None:
 
 
 def _hand_over(whole: MeshSurface, region: np.ndarray, host: int, new: int) -> None:
-    """What the panels, numbered from `new`, cut off from the rest of their region (the reveal round a pane) goes with them."""
+    """Assign what the panels cut off from the rest of their region (the reveal around a pane) to them, in place.
+
+    New panels are numbered from `new`.
+    """
     pairs = whole.components.edges.faces
     rest = region == host
     if not rest.any():

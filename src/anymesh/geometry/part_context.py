@@ -22,14 +22,15 @@ from anymesh.types import Handle
 SIDE_LEVEL_RATIO = 0.12  # share of the surface facing a side that defines the level of that side
 MAX_PROTRUSION_RATIO = 0.25  # upper bound on the share of the surface that protrudes
 IGNORE_OVERLAP_SCALE = 10.0  # penetration scale from which static geometry inside the part's box is ignored
-DOWNWARD_PENALTY = 0.4  # subtracted from the score of a downward direction: most objects stand on something
+DOWNWARD_PENALTY = 0.4  # subtracted from the score of a downward direction, since most objects stand on something
 FACING_COSINE = 0.5  # minimum cosine between a normal and the direction it faces
-MIN_TAB_GAP_RATIO = 0.01  # of the scale: what is nearer to the parent is the barrel of a hinge, not a tab
-MAX_BULGE_RATIO = 0.25  # of the handle's height: the face around a handle is lower; around the top of a bulge it is not
-MIN_HANDLE_GAP_RATIO = 0.002  # of the scale: what is nearer to the parent supports the part and is no handle
-MIN_HANDLE_ASPECT = 0.3  # height of a handle over its smaller width
+MIN_TAB_GAP_RATIO = 0.01  # of the scale: a tab that is closer to the parent is a hinge barrel
+# of the handle's height: maximum height of the face around a handle; around the top of a bulge it is higher
+MAX_BULGE_RATIO = 0.25
+MIN_HANDLE_GAP_RATIO = 0.002  # of the scale: a protrusion closer to the parent supports the part and is no handle
+MIN_HANDLE_ASPECT = 0.3  # minimum height of a handle over its smaller width
 MIN_SCALE_RATIO = 1e-9  # of the diagonal: keeps tolerances positive for a part that is a point
-MIN_HANDLE_HEIGHT_RATIO = 0.012  # height of a handle over the part's diagonal
+MIN_HANDLE_HEIGHT_RATIO = 0.012  # minimum height of a handle over the part's diagonal
 
 
 def body_obb(shape: TriangleSet) -> OrientedBox:
@@ -81,7 +82,7 @@ class PartContext:
     center: Float[np.ndarray, " 3"]
     config: ArticulationConfig
     siblings: tuple[TriangleSet, ...] = ()  # the other movable parts, one each
-    shared_opening_direction: Float[np.ndarray, " 3"] | None = None  # of a row of repeated parts
+    shared_opening_direction: Float[np.ndarray, " 3"] | None = None  # common to a row of repeated parts
 
     @cached_property
     def bounds(self) -> Float[np.ndarray, "2 3"]:
@@ -115,7 +116,7 @@ class PartContext:
     def obstacles(self, penetration_scale: float = 1.0) -> Obstacles:
         """Return the obstacles of the part, cached per penetration scale.
 
-        penetration_scale: factor on the tolerated penetration, for a part that overlaps static geometry; from
+        penetration_scale: factor on the tolerated penetration, for a part that overlaps static geometry. From
         IGNORE_OVERLAP_SCALE on, static geometry inside the part's box is ignored.
         """
         if penetration_scale not in self._obstacles:
@@ -134,7 +135,7 @@ class PartContext:
 
     @cached_property
     def obstacles_at_rest(self) -> Obstacles:
-        """Return the obstacles with the other movable parts at rest: they guide a part sideways."""
+        """Return the obstacles with the other movable parts at rest, which guide a part sideways."""
         return Obstacles(self.part, self.everything, self.penetration)
 
     @cached_property
@@ -158,7 +159,8 @@ class PartContext:
     def contact(self) -> Float[np.ndarray, "n 3"]:
         """Return the points of the connecting area on both surfaces (paper, 3.3) [m].
 
-        Distances are measured to the surface, not to its samples: those of a large parent may all be far from a small part.
+        Distances are measured to the surface and not to its samples, since those of a large parent may all be far from a small
+        part.
         """
         theirs = self.parent.samples.points
         off = self.part.tree.distance(theirs)
@@ -175,7 +177,7 @@ class PartContext:
         return self.rest.scene.first_hit(start, rays, 1.0).face < 0
 
     def _open_face(self, direction: np.ndarray) -> float:
-        """Return the visible share of the surface facing `direction`, or of all of it where hardly any does."""
+        """Return the visible share of the surface facing `direction`, or of the whole surface if hardly any faces it."""
         facing = self.part.samples.normals @ direction
         solid = self.part.solid[self.part.samples.faces]
         faces = np.flatnonzero(np.where(solid, facing, np.abs(facing)) > FACING_COSINE)
@@ -184,7 +186,10 @@ class PartContext:
 
     @cached_property
     def opening_directions(self) -> tuple[Float[np.ndarray, "6 3"], Float[np.ndarray, " 6"]]:
-        """Return both directions of each box axis, and their scores as opening direction: visible, thin, off-centre."""
+        """Return both directions of each box axis, and their scores as opening direction.
+
+        Visible, thin and off-center directions score higher.
+        """
         directions, scores = [], []
         away = self.part.samples.points.mean(0) - self.center
         for k, axis in enumerate(self.body_obb.axes):
@@ -198,7 +203,7 @@ class PartContext:
 
     @cached_property
     def opening_direction(self) -> Float[np.ndarray, " 3"]:
-        """Return the opening direction, unit: the box direction of the highest score, or that of its row."""
+        """Return the opening direction, unit: the box direction with the highest score, or the shared one of its row."""
         if self.shared_opening_direction is not None:
             return self.shared_opening_direction
         directions, scores = self.opening_directions
@@ -211,9 +216,9 @@ class PartContext:
 
     @cached_property
     def handle(self) -> Handle | None:
-        """Find the handle: the highest protrusion of the outer face, or a tab at one rim where there is none.
+        """Find the handle: the highest protrusion of the outer face, or otherwise a tab at one rim.
 
-        It must be small against the face, higher than a raised panel, and in one place; more are controls.
+        It must be small compared to the face, higher than a raised panel, and in one place. Several protrusions are controls.
         """
         return self._face_handle() or self._tab()
 

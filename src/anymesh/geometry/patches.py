@@ -20,18 +20,19 @@ from anymesh.geometry.triangle_set import MeshSurface, TriangleSet, mesh_surface
 from anymesh.types import Mesh
 from anymesh.types.triangles import normals_and_areas
 
-SMALL_PATCH_FACES_RATIO = 3  # times the faces that are kept of a dense mesh, that many small patches may add to them
-MIN_PATCH_FACES = 20  # that a patch of very many keeps
-MAX_SIZE_DIFFERENCE_RATIO = 0.05  # relative: diagonals of copies differ by less
+# maximum number of faces added for small patches, relative to the number of faces kept of a dense mesh
+SMALL_PATCH_FACES_RATIO = 3
+MIN_PATCH_FACES = 20  # minimum number of faces of a patch if there are very many patches
+MAX_SIZE_DIFFERENCE_RATIO = 0.05  # maximum relative difference of the diagonals of copies
 
 
 @dataclass(frozen=True, eq=False)
 class ObjectShape:
-    """The object as both stages use it. Dense meshes are simplified, each patch by itself.
+    """The object as both stages use it. Dense meshes are simplified, each patch separately.
 
-    shape: R faces; patch: (R,) the patch of each, see `split`; source: (R,) for each a face of the mesh in the same patch;
-    mesh_patch: (F,) the patch of every face of the mesh; shared: (k, 2) patches that share edges; panels: patches that nothing
-    but a handle tells (see `panels`); diagonal [m].
+    shape: R faces; patch: (R,) patch of each face, see `split_patches`; source: (R,) for each face a mesh face in the same
+    patch; mesh_patch: (F,) patch of every mesh face; shared: (k, 2) patches that share edges; panels: patches inferred from
+    handles alone (see `panels`); diagonal [m].
     """
 
     shape: TriangleSet
@@ -50,7 +51,10 @@ class ObjectShape:
 def object_shape(
     mesh: Mesh, seed: int = 0, config: PiecesConfig | None = None, labels: Int[np.ndarray, " F"] | None = None
 ) -> ObjectShape:
-    """Orient, split and simplify a mesh; the mesh is not modified. labels: (F,) parts that are kept apart."""
+    """Orient, split and simplify a mesh; the mesh is not modified.
+
+    labels: (F,) parts that are kept apart.
+    """
     config = config or PiecesConfig()
     s = mesh_surface(mesh, seed)
     patch, inferred = split_patches(s, config)
@@ -84,11 +88,12 @@ def _simplified(
 
 
 def split_patches(whole: MeshSurface, config: PiecesConfig) -> tuple[Int[np.ndarray, " F"], Bool[np.ndarray, " F"]]:
-    """A patch number a face, numbered from 0 in the order of the patches' first faces; and the faces that are on a panel that
-    nothing but a handle tells.
+    """Return a patch index per face, and which faces are on panels inferred from handles alone.
 
-    Components are cut along their concave creases, sharp or soft, where they are large enough to hide a fused part; crumbs
-    left by the cut go to the neighbour that they share the longest edge with.
+    Patches are numbered from 0 in the order of their first faces.
+
+    Components that are large enough to contain a fused part are cut along their concave creases, sharp or soft. Crumbs left by
+    the cut join the neighbour with the longest common edge.
     """
     component = whole.components.label
     large = region_sizes(whole, component) > config.fused_size * whole.diagonal
@@ -106,7 +111,7 @@ def split_patches(whole: MeshSurface, config: PiecesConfig) -> tuple[Int[np.ndar
 
 
 def _soft_regions(whole: MeshSurface, component: np.ndarray, large: np.ndarray, config: PiecesConfig) -> np.ndarray:
-    """What soft concave creases bound, on large and dense components; one region a component elsewhere."""
+    """Return regions bounded by soft concave creases on large and dense components; other components are one region each."""
     region = component.copy()
     count = np.bincount(component)
     flip = whole.components.flip & ~whole.void
@@ -123,7 +128,7 @@ def _ends(whole: MeshSurface, which: int) -> np.ndarray:
 
 
 def _concave(whole: MeshSurface, min_angle: float) -> np.ndarray:
-    """Edge pairs that fold inwards by more than `min_angle` [deg]."""
+    """Return which edge pairs fold inwards by more than `min_angle` [deg]."""
     f, g = whole.components.edges.faces.T
     normals, centers = whole.shape.normals, whole.shape.triangles.mean(1)
     inward = np.einsum("ij,ij->i", centers[g] - centers[f], normals[f])
@@ -135,7 +140,7 @@ def _concave(whole: MeshSurface, min_angle: float) -> np.ndarray:
 def _absorb_crumbs(
     whole: MeshSurface, region: np.ndarray, pairs: np.ndarray, length: np.ndarray, config: PiecesConfig
 ) -> np.ndarray:
-    """Joins regions too small to matter to the neighbour with the longest common border; three rounds settle chains."""
+    """Join regions that are too small to the neighbour with the longest common border; three rounds resolve chains."""
     for _ in range(3):
         small = region_sizes(whole, region) < config.crumb * whole.diagonal
         small |= np.bincount(region, whole.shape.areas) < (config.crumb * whole.diagonal) ** 2  # slivers along a groove
@@ -155,7 +160,7 @@ def _absorb_crumbs(
 
 
 def _fill_voids(whole: MeshSurface, region: np.ndarray) -> np.ndarray:
-    """Walls of closed cavities belong to the nearest other region; nothing in there moves."""
+    """Assign the walls of closed cavities to the nearest other region, since nothing inside moves."""
     hidden = whole.void[whole.components.label]
     if not hidden.any():
         return region
@@ -169,7 +174,10 @@ def _fill_voids(whole: MeshSurface, region: np.ndarray) -> np.ndarray:
 
 
 def _limit_count(whole: MeshSurface, region: np.ndarray, max_count: int) -> np.ndarray:
-    """At most about `max_count` patches: the smallest join their nearest larger one, all copies of one size alike."""
+    """Limit the number of patches to about `max_count`: the smallest join their nearest larger one.
+
+    All copies of one size are treated alike.
+    """
     count = int(region.max()) + 1
     if count <= max_count:
         return region

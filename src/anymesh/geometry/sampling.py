@@ -1,4 +1,4 @@
-"""Points on surfaces."""
+"""Sampling of points on surfaces."""
 
 from __future__ import annotations
 
@@ -22,22 +22,22 @@ class SurfacePoints:
         return len(self.points)
 
     def take(self, index: np.ndarray) -> SurfacePoints:
-        """The points chosen by an index array or a mask."""
+        """Return the points chosen by an index array or a mask."""
         return SurfacePoints(self.points[index], self.normals[index], self.faces[index])
 
 
 def spread_directions(count: int) -> Float[np.ndarray, "n 3"]:
-    """Unit vectors spread evenly over the sphere (Fibonacci), from the top down."""
+    """Return unit vectors spread evenly over the sphere (Fibonacci), from the top down."""
     z = 1 - (2 * np.arange(count) + 1) / count
     turn = np.arange(count) * np.pi * (3 - np.sqrt(5))
     return np.stack([np.sqrt(1 - z * z) * np.cos(turn), np.sqrt(1 - z * z) * np.sin(turn), z], 1)
 
 
 def sample_surface(triangles: Float[np.ndarray, "F 3 3"], count: int, seed: int, at_least: int = 0) -> SurfacePoints:
-    """`count` points, as many on a face as its area asks for (systematic sampling: even, and stable for a seed).
+    """Sample `count` points, with a number per face proportional to its area.
 
-    Where no face has an area, all count the same. `at_least` = 1 adds the centroid of every face that got none, so that
-    small faces are seen too.
+    Systematic sampling is even, and stable for a seed. If no face has an area, all count the same. `at_least` = 1 adds the
+    centroid of every face without points, so that small faces are represented.
     """
     normals, areas = normals_and_areas(triangles)
     points, index = spread_points(triangles, areas, count, seed)
@@ -51,7 +51,7 @@ def sample_surface(triangles: Float[np.ndarray, "F 3 3"], count: int, seed: int,
 def spread_points(
     triangles: Float[np.ndarray, "F 3 3"], areas: Float[np.ndarray, " F"], count: int, seed: int
 ) -> tuple[Float[np.ndarray, "n 3"], Int[np.ndarray, " n"]]:
-    """Return the points of `sample_surface` and the face of each, where the areas of the faces are known."""
+    """Return the points of `sample_surface` and the face of each, if the areas of the faces are known."""
     rng = np.random.default_rng(seed)
     weights = areas if (areas > 0).any() else np.ones(len(areas))
     ticks = (np.arange(count if len(areas) else 0) + rng.random()) / count * weights.sum()

@@ -1,4 +1,4 @@
-"""Fewer triangles for the same surface, by fast-simplification (quadric error, MIT)."""
+"""Reduce the number of triangles of a surface, by fast-simplification (quadric error, MIT)."""
 
 from __future__ import annotations
 
@@ -9,26 +9,28 @@ from anymesh.geometry.distance_ import distance_to_mesh
 from anymesh.geometry.topology import weld
 from anymesh.types.triangles import face_cross, normals_and_areas
 
-OFF = 0.1  # a triangle whose middle is further off the surface, as a share of its size, spans what is open
-DENSE = 6  # times the faces that are wanted, from which vertices are clustered first
-FEWEST = 50_000  # faces; quadrics alone are fast enough on fewer
-CLUSTERED = 3  # times the faces that are wanted, that clustering aims at
-STALLED = 1.25  # times the faces that are wanted, above which quadrics are taken to have stalled
+OFF = 0.1  # of its size: a triangle whose center is farther from the surface spans an opening
+DENSE = 6  # times the target number of faces, from which vertices are clustered first
+FEWEST = 50_000  # number of faces up to which quadrics alone are fast enough
+CLUSTERED = 3  # times the target number of faces: target of the clustering
+STALLED = 1.25  # times the target number of faces, above which quadrics count as stalled
 
 
 def simplify(triangles: Float[np.ndarray, "F 3 3"], max_faces: int) -> Float[np.ndarray, "R 3 3"]:
-    """Return the surface in about `max_faces` triangles, wound as before; the input when it has no more, or would collapse.
+    """Return the surface in about `max_faces` triangles, with the same winding.
 
-    A very dense surface is clustered first: quadrics on millions of faces take minutes where many are slivers. So is one on
-    which quadrics stall short of `max_faces`: on a fine, regular grid they fold what they leave.
+    Return the input if it has no more, or would collapse.
+
+    A very dense surface is clustered first, since quadrics on millions of faces with many slivers take minutes. The same
+    applies if quadrics stall above `max_faces`: on a fine, regular grid they fold the remaining faces.
     """
     if len(triangles) <= max_faces:
         return triangles
     corners = triangles.reshape(-1, 3)
-    number = weld(corners)  # without gaps, in the order of the first corners
+    number = weld(corners)  # consecutive, in the order of the first corners
     first = np.empty(int(number.max()) + 1, np.int64)
     first[number[::-1]] = np.arange(len(number))[::-1]
-    center = corners.mean(0)  # float32 inside: near the origin it keeps its digits
+    center = corners.mean(0)  # fast-simplification uses float32, which is more precise near the origin
     before, corner = corners[first] - center, number.reshape(-1, 3)
     if len(corner) > max(DENSE * max_faces, FEWEST):
         points, faces = _by_quadrics(*_clustered(before, corner, CLUSTERED * max_faces), max_faces)
@@ -47,7 +49,7 @@ def simplify(triangles: Float[np.ndarray, "F 3 3"], max_faces: int) -> Float[np.
 def _by_quadrics(
     points: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"], max_faces: int
 ) -> tuple[Float[np.ndarray, "v 3"], Int[np.ndarray, "f 3"]]:
-    """Collapse edges by quadric error, to about `max_faces` faces; the input when it has no more."""
+    """Collapse edges by quadric error, to about `max_faces` faces; return the input if it has no more."""
     if len(faces) <= max_faces:
         return points, faces
     from fast_simplification import simplify as quadric
@@ -64,15 +66,14 @@ def _clustered(
 ) -> tuple[Float[np.ndarray, "v 3"], Int[np.ndarray, "f 3"]]:
     """Join vertices in each cell of a grid that face the same octant (Rossignac and Borrel 1993), to about `max_faces` faces.
 
-    The sharpest vertex stands for its cell, so that creases stay in place; both sides of a thin board stay apart.
+    The sharpest vertex represents its cell, so that creases stay in place. Both sides of a thin board stay separate.
     """
     cross = face_cross(points[faces])
     double = np.linalg.norm(cross, axis=1)
     normal = np.stack([np.bincount(faces.reshape(-1), np.repeat(column, 3), len(points)) for column in cross.T], 1)
     around = np.bincount(faces.reshape(-1), np.repeat(double, 3), len(points))
-    cell = max(
-        np.sqrt(double.sum() / max_faces), 2.0**-20 * float(np.ptp(points, axis=0).max())
-    )  # a cell of area has two faces
+    # a grid cell of the surface has two faces
+    cell = max(np.sqrt(double.sum() / max_faces), 2.0**-20 * float(np.ptp(points, axis=0).max()))
     x, y, z = np.floor((points - points.min(0)) / cell).astype(np.int64).T
     key = (((x << 20) | y) << 20 | z) << 3 | (normal > 0) @ np.array([4, 2, 1])
     sharp = np.linalg.norm(normal, axis=1) / np.maximum(around, 1e-300)
@@ -86,7 +87,7 @@ def _clustered(
 
 
 def _smallest_index_first(faces: Int[np.ndarray, "F 3"]) -> Int[np.ndarray, "F 3"]:
-    """Turn every face so that its smallest corner comes first; the winding stays."""
+    """Rotate the corners of every face so that the smallest index comes first; the winding stays."""
     return np.take_along_axis(faces, (faces.argmin(1)[:, None] + np.arange(3)) % 3, 1)
 
 
@@ -96,6 +97,9 @@ def _has_border(faces: Int[np.ndarray, "F 3"]) -> bool:
 
 
 def _on_surface(found: np.ndarray, vertices: np.ndarray, faces: np.ndarray) -> Bool[np.ndarray, " R"]:
-    """Which triangles lie on the surface. Quadrics know no border: in a plane, a triangle may close a notch or a frame."""
+    """Return which triangles lie on the surface.
+
+    Quadrics ignore borders: in a plane, a triangle may close a notch or a frame.
+    """
     size = np.sqrt(normals_and_areas(found)[1])
     return distance_to_mesh(found.mean(1), vertices, faces)[0] <= OFF * size

@@ -1,4 +1,4 @@
-"""Superpoints: regions of near constant signal, by l0 cut pursuit (Landrieu and Obozinski 2017; paper, 3.2 and 3.3)."""
+"""Superpoints: regions of nearly constant signal, by l0 cut pursuit (Landrieu and Obozinski 2017; paper, 3.2 and 3.3)."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from scipy.sparse.csgraph import breadth_first_order, maximum_flow
 
 from anymesh.geometry.topology import label_connected
 
-ROUNDS = 8  # each splits every superpoint in two at most
-ALTERNATIONS = 3  # of values and borders within a split
-CAPACITY = 1 << 12  # flows are whole numbers: this many to the unit of energy
+ROUNDS = 8  # rounds of the cut; each splits every superpoint in two at most
+ALTERNATIONS = 3  # alternations between values and borders within a split
+CAPACITY = 1 << 12  # flow units per unit of energy, as flows are integers
 
 
 def superpoints(
@@ -21,10 +21,10 @@ def superpoints(
     length: Float[np.ndarray, " m"],
     strength: float,
 ) -> Int[np.ndarray, " n"]:
-    """Return one superpoint index per node: the partition x that lowers sum w |signal - x|^2 + strength * cut length.
+    """Return one superpoint index per node: the partition x that minimizes sum w |signal - x|^2 + strength * cut length.
 
-    weight (area of a face) and length (of an edge) count in units of their means. Deterministic. A superpoint that a round
-    leaves whole is not split again: the result would be the same.
+    weight (area of a face) and length (of an edge) are relative to their means. The result is deterministic. A superpoint that
+    a round leaves unchanged is not split again, since the result would be the same.
     """
     weight = weight / max(float(weight.mean()), 1e-300)
     cost = strength * length / max(float(length.mean()), 1e-300) if len(length) else length
@@ -49,7 +49,7 @@ def _still_active(before: np.ndarray, after: np.ndarray, upper: np.ndarray, acti
     high, size = np.bincount(before, upper, count), np.bincount(before, minlength=count)
     divided = (high > 0) & (high < size)
     first = np.unique(after, return_index=True)[1]
-    origin = before[first]  # of each superpoint, the one that its first node was in
+    origin = before[first]  # for each superpoint, the previous one of its first node
     same = (np.bincount(after) == size[origin]) & (np.bincount(after, before != origin[after]) == 0)
     done = same & ~divided[origin]
     return np.flatnonzero(~done[after])
@@ -58,7 +58,10 @@ def _still_active(before: np.ndarray, after: np.ndarray, upper: np.ndarray, acti
 def _split_some(
     signal: np.ndarray, weight: np.ndarray, label: np.ndarray, edges: np.ndarray, cost: np.ndarray, nodes: np.ndarray
 ) -> np.ndarray:
-    """Return which of some nodes, all those of their superpoints, take the upper value when these are split."""
+    """Return which of the given nodes take the upper value when their superpoints are split.
+
+    nodes: all nodes of some superpoints.
+    """
     number = np.full(len(label), -1)
     number[nodes] = np.arange(len(nodes))
     ends = number[edges]
@@ -68,14 +71,17 @@ def _split_some(
 
 
 def _means(signal: np.ndarray, weight: np.ndarray, label: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
-    """Weighted mean of the signal in every label (count, d), and the labels' weights."""
+    """Return the weighted mean of the signal in every label (count, d), and the labels' weights."""
     total = np.bincount(label, weight, count)
     sums = np.stack([np.bincount(label, weight * column, count) for column in signal.T], 1)
     return sums / np.maximum(total, 1e-300)[:, None], total
 
 
 def _split(signal: np.ndarray, weight: np.ndarray, label: np.ndarray, edges: np.ndarray, cost: np.ndarray) -> np.ndarray:
-    """The best two-valued approximation of every superpoint: which nodes take the upper value. One flow for all of them."""
+    """Return which nodes take the upper value in the best two-valued approximation of every superpoint.
+
+    One maximum flow solves all superpoints.
+    """
     count = int(label.max()) + 1
     mean, _ = _means(signal, weight, label, count)
     off = signal - mean[label]
@@ -89,7 +95,7 @@ def _split(signal: np.ndarray, weight: np.ndarray, label: np.ndarray, edges: np.
         todo = open_labels[label]
         cut = upper.copy()
         cut[todo] = _minimum_cut_of(far_low - far_high, edges, cost, todo)
-        open_labels = np.bincount(label, cut != upper, count) > 0  # the others have settled
+        open_labels = np.bincount(label, cut != upper, count) > 0  # the others have converged
         upper = cut
         if not open_labels.any():
             break
@@ -104,7 +110,7 @@ def _minimum_cut_of(gain: np.ndarray, edges: np.ndarray, cost: np.ndarray, some:
 
 
 def _main_direction(off: np.ndarray, weight: np.ndarray, label: np.ndarray, count: int) -> np.ndarray:
-    """Direction of largest variance of the signal in every label, by its covariance (count, d)."""
+    """Return the direction of largest variance of the signal in every label, by its covariance (count, d)."""
     d = off.shape[1]
     covariance = np.zeros((count, d, d))
     for i in range(d):
@@ -114,7 +120,10 @@ def _main_direction(off: np.ndarray, weight: np.ndarray, label: np.ndarray, coun
 
 
 def _minimum_cut(gain: np.ndarray, edges: np.ndarray, cost: np.ndarray) -> np.ndarray:
-    """The side of every node: True where taking the upper value (it gains `gain`) is worth the edges that are cut."""
+    """Return the side of every node.
+
+    True if taking the upper value, which gains `gain`, outweighs the cost of the cut edges.
+    """
     n = len(gain)
     whole = np.round(gain * CAPACITY).astype(np.int64).clip(-(2**30), 2**30)
     wall = np.maximum(np.round(cost * CAPACITY), 1).astype(np.int64).clip(0, 2**30)
@@ -133,7 +142,7 @@ def _minimum_cut(gain: np.ndarray, edges: np.ndarray, cost: np.ndarray) -> np.nd
 
 
 def _merge(signal: np.ndarray, weight: np.ndarray, label: np.ndarray, edges: np.ndarray, cost: np.ndarray) -> np.ndarray:
-    """Joins neighbours while that lowers the energy, the best pairs first, until none is left."""
+    """Join neighbours while that lowers the energy, the best pairs first."""
     while True:
         count = int(label.max()) + 1
         mean, total = _means(signal, weight, label, count)
@@ -151,7 +160,7 @@ def _merge(signal: np.ndarray, weight: np.ndarray, label: np.ndarray, edges: np.
         order = better[np.argsort(-(saved - lost)[better], kind="stable")]
         taken = np.zeros(count, bool)
         chosen = []
-        for k in order:  # a matching, so that every pair's gain holds
+        for k in order:  # choose a matching, so that every pair's gain holds
             if not taken[a[k]] and not taken[b[k]]:
                 taken[a[k]] = taken[b[k]] = True
                 chosen.append(k)

@@ -1,8 +1,8 @@
-"""Motion against the rest of the object: how far a part is free.
+"""Sweeps of a part against the rest of the object, which give its free range.
 
-A point of the part is stopped where its path crosses the surface of the rest and goes on behind it by more than a
-tolerance; so is a point of the rest whose path, seen from the part, crosses the part. Paths are cut into short segments
-and cast as rays, so open shells, thin boards and bad winding count like solids; leaving a closed solid is free.
+A point of the part is stopped if its path crosses the surface of the rest and continues behind it by more than a tolerance. The
+same applies to a point of the rest whose path, relative to the part, crosses the part. Paths are cut into short segments and
+cast as rays, so open shells, thin boards and bad winding count like solids. Leaving a closed solid is free.
 """
 
 from __future__ import annotations
@@ -21,12 +21,12 @@ from anymesh.geometry.boxes import OrientedBox
 from anymesh.geometry.triangle_set import TriangleSet
 from anymesh.types import Motion, MotionKind, Sweep
 
-CHUNKS = (3, 6, 9, 18)  # steps cast at a time; the last size repeats. Most blocked motions are blocked early
+CHUNKS = (3, 6, 9, 18)  # steps cast at a time, where the last size repeats; most blocked motions are blocked early
 AT_ONCE = 8  # motions swept together; more do not fit into a core's cache
-LOOK_AHEAD = 2  # further steps that tell whether a point goes on behind what it struck
-SHARE_STOPPED = 0.006  # of the points; fewer may be stopped by flaws of the mesh
-ONWARD = np.float32(1e-4)  # share of a segment that the second pass begins behind the first hit
-MARGIN = 1e-5  # added to the target's bounds when segments are tested against them, as a share of its longest side
+LOOK_AHEAD = 2  # further steps used to decide whether a point continues behind a hit surface
+SHARE_STOPPED = 0.006  # minimum share of stopped points; fewer may be stopped by mesh flaws
+ONWARD = np.float32(1e-4)  # share of a segment between the first hit and the start of the second pass
+MARGIN = 1e-5  # of the target's longest side: margin of its bounds in the test of segments
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,7 +87,7 @@ class Obstacles:
 
 
 def _spread(shape: TriangleSet, count: int) -> np.ndarray:
-    """Surface points and corners, about `count` of each, a little inside closed surfaces."""
+    """Return surface points and corners, about `count` of each, slightly inside closed surfaces."""
     samples = shape.samples
     step = max(1, len(samples) // count)
     corners = shape.triangles.reshape(-1, 3)
@@ -102,7 +102,7 @@ class _Passage:
     """Points that move past a target along T motions, in the unit frame of the target's ray scene.
 
     points: homogeneous; poses: rigid transforms of the points at each of k steps; amounts: of the motions at these steps;
-    is_ignored: tells where the target does not count, in the asset frame.
+    is_ignored: returns which points of the target do not count, in the asset frame.
     """
 
     points: Float32[np.ndarray, "4 n"]
@@ -122,7 +122,7 @@ class _Passage:
         tolerance: float,
         gone: Callable[[np.ndarray], np.ndarray] | None,
     ) -> _Passage:
-        """From points and transforms in the asset frame [m]."""
+        """Build the passage from points and transforms in the asset frame [m]."""
         scene = target.scene
         unit = poses[:, :, :3].copy()
         unit[..., 3] = (poses[:, :, :3, :3] @ scene.center + poses[:, :, :3, 3] - scene.center) * scene.scale
@@ -133,21 +133,23 @@ class _Passage:
     def stops(
         self, motions: Int[np.ndarray, " t"], passing: Bool[np.ndarray, "t n"], begin: int, end: int
     ) -> Float[np.ndarray, "t n"]:
-        """The amount at which each point is stopped between two steps of some motions, inf where it is not. Points that are
-        not passing are left out."""
+        """Return the amount at which each point is stopped between two steps of some motions, infinite if it is not.
+
+        Points that are not passing are left out.
+        """
         poses = np.ascontiguousarray(self.poses[:, motions, begin : end + LOOK_AHEAD + 1])
         (count, known), n, steps = poses.shape[1:3], self.points.shape[1], end - begin
-        # not by BLAS, whose own threads would fight with those of the sweeps
+        # not by BLAS, whose own threads would compete with those of the sweeps
         path = np.einsum("rk,kn->rn", poses.reshape(-1, 4), self.points).reshape(3, count, known, n)
         t, k, i = self._near(path, passing, steps)
         path = path.reshape(3, -1)  # column (t * known + k) * n + i: point i at step k of motion t
         live = (t * known + k) * n + i
-        ends = (t * known + known - 1) * n + i  # the last step that is known
+        ends = (t * known + known - 1) * n + i  # the last known step
         start = _rows(path, live)
         span = _rows(path, live + n) - start
-        done = np.zeros(len(live), np.float32)  # share of each segment that has been looked at
+        done = np.zeros(len(live), np.float32)  # share of each segment that is already checked
         stop = np.full((count, n), np.inf)
-        for _ in range(2):  # the second pass looks behind surfaces that were only left
+        for _ in range(2):  # the second pass checks behind surfaces that were only left
             if len(live) == 0:
                 break
             hits = self.target.scene.first_hit_unit(start + span * done[:, None], span * (1 - done)[:, None])
@@ -166,7 +168,7 @@ class _Passage:
         return stop
 
     def _near(self, path: np.ndarray, passing: np.ndarray, steps: int) -> tuple[np.ndarray, ...]:
-        """Which segments come within the target's bounds: motion, step and point of each."""
+        """Return the segments that come within the target's bounds: motion, step and point of each."""
         half = self.target.scene.unit_half + MARGIN
         above, below = path[0] >= -half[0], path[0] <= half[0]
         near = (above[:, :steps] | above[:, 1 : steps + 1]) & (below[:, :steps] | below[:, 1 : steps + 1])
@@ -186,7 +188,10 @@ class _Passage:
         where: np.ndarray,
         face: np.ndarray,
     ) -> np.ndarray:
-        """Which hits stop their point: it enters squarely, and goes on behind the surface by more than the tolerance."""
+        """Return which hits stop their point.
+
+        A point is stopped if it enters squarely and continues behind the surface by more than the tolerance.
+        """
         point = start + span * where[:, None]
         normal = self.target.normals[face].astype(np.float32)
         counts = ~(self.target.solid[face] & (np.einsum("ij,ij->i", span, normal) >= 0))
@@ -200,7 +205,7 @@ class _Passage:
         return counts
 
     def _squarely(self, start: np.ndarray, span: np.ndarray) -> np.ndarray:
-        """Whether paths still strike when moved sideways by the tolerance: a graze along a surface or an edge is no stop."""
+        """Return whether paths still hit when moved sideways by the tolerance; grazing a surface or an edge is no stop."""
         if len(start) == 0:
             return np.zeros(0, bool)
         n = len(start)
@@ -226,9 +231,11 @@ def _rows(path: Float32[np.ndarray, "3 k"], columns: Int[np.ndarray, " m"]) -> F
 def free_amounts(
     obstacles: Obstacles, motions: Sequence[Motion], signs: Sequence[int], max_amounts: Sequence[float], steps: int
 ) -> list[tuple[float, bool]]:
-    """Compute how far the part moves along each sign * motion before it is stopped, and whether it never was.
+    """Compute how far the part moves along each sign * motion before it is stopped, and whether the whole range is free.
 
-    max_amounts: the range tested per motion [rad or m]. The motions are independent and are distributed over threads.
+    max_amounts: the range tested per motion [rad or m].
+
+    The motions are independent and are distributed over threads.
     """
     if not motions:
         return []
@@ -240,7 +247,7 @@ def free_amounts(
     groups = np.array_split(np.arange(len(motions)), -(-len(motions) // AT_ONCE))
     if len(groups) == 1:
         return free(groups[0])
-    with ThreadPoolExecutor(os.cpu_count()) as threads:  # numpy and Embree work outside the interpreter's lock
+    with ThreadPoolExecutor(os.cpu_count()) as threads:  # numpy and Embree release the interpreter lock
         return [found for some in threads.map(free, groups) for found in some]
 
 
@@ -253,7 +260,7 @@ def _free(
     found: list[tuple[float, bool]] = [(far, True) for far in max_amounts]
     stops = [np.full((len(motions), way.points.shape[1]), np.inf) for way in ways]
     live, begin = np.arange(len(motions)), 0
-    for size in itertools.chain(CHUNKS, itertools.repeat(CHUNKS[-1])):  # stops are met in the order of the steps
+    for size in itertools.chain(CHUNKS, itertools.repeat(CHUNKS[-1])):  # stops are found in the order of the steps
         end = min(begin + size, steps)
         for way, stop in zip(ways, stops, strict=True):
             stop[live] = np.minimum(stop[live], way.stops(live, np.isinf(stop[live]), begin, end))
@@ -268,14 +275,14 @@ def _free(
 
 
 def free_amount(obstacles: Obstacles, motion: Motion, sign: int, max_amount: float, steps: int) -> tuple[float, bool]:
-    """`free_amounts` for one motion."""
+    """Compute `free_amounts` for one motion."""
     return free_amounts(obstacles, [motion], [sign], [max_amount], steps)[0]
 
 
 def sweep_all(obstacles: Obstacles, motions: Sequence[Motion], steps: int = 36, max_amount: float | None = None) -> list[Sweep]:
-    """Compute the free range both ways of each motion.
+    """Compute the free range in both directions of each motion.
 
-    max_amount: the range tested each way [rad or m]; default half a turn, or 2 diagonals of the part.
+    max_amount: the range tested in each direction [rad or m]; default half a turn, or 2 diagonals of the part.
     """
     slide = 2 * obstacles.part.box.diagonal
     reach = [(np.pi if m.kind is MotionKind.REVOLUTE else slide) if max_amount is None else max_amount for m in motions]
@@ -285,5 +292,5 @@ def sweep_all(obstacles: Obstacles, motions: Sequence[Motion], steps: int = 36, 
 
 
 def sweep(obstacles: Obstacles, motion: Motion, max_amount: float | None = None, steps: int = 36) -> Sweep:
-    """`sweep_all` for one motion."""
+    """Compute `sweep_all` for one motion."""
     return sweep_all(obstacles, [motion], steps, max_amount)[0]

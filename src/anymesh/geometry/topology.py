@@ -10,13 +10,14 @@ from jaxtyping import Bool, Float, Int
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-MAX_COPLANAR_ANGLE_RAD = 0.05  # [rad] faces at an edge that differ by less lie in one plane, as far as careless exports go
+# [rad] faces at an edge with a smaller angle between them count as coplanar, to allow for imprecise exports
+MAX_COPLANAR_ANGLE_RAD = 0.05
 
 
 def weld(vertices: Float[np.ndarray, "V 3"]) -> Int[np.ndarray, " V"]:
-    """A number a position: vertices nearer than one part in 2**24 of the largest extent share it, wherever they lie.
+    """Return an index per position: vertices closer than one part in 2**24 of the largest extent share it.
 
-    The cells of a grid of 2**20 parts are joined where each has a vertex a sixteenth of a cell or less from their border.
+    The cells of a grid of 2**20 parts are joined if each has a vertex within a sixteenth of a cell of their border.
     """
     low = vertices.min(0)
     extent = float((vertices.max(0) - low).max()) or 1.0
@@ -25,9 +26,9 @@ def weld(vertices: Float[np.ndarray, "V 3"]) -> Int[np.ndarray, " V"]:
     number = np.unique(_grid_key(cell), return_inverse=True)[1].reshape(-1)
     near = np.abs(at - cell) >= 7 / 16
     joined = [np.zeros((0, 2), np.int64)]
-    for axes in list(product([False, True], repeat=3))[1:]:  # on which two vertices may lie on two sides of a border
+    for axes in list(product([False, True], repeat=3))[1:]:  # the axes on which two vertices may lie on two sides of a border
         rows = np.flatnonzero(near[:, axes].all(1))
-        key = _grid_key(np.where(axes, np.floor(at[rows]).astype(np.int64), cell[rows]))  # half a cell aside on those
+        key = _grid_key(np.where(axes, np.floor(at[rows]).astype(np.int64), cell[rows]))  # half a cell aside on those axes
         order = np.argsort(key)
         same = np.diff(key[order]) == 0
         met = number[rows[order]]
@@ -43,8 +44,8 @@ def _grid_key(cell: np.ndarray) -> np.ndarray:
 class EdgePairs:
     """Pairs of faces that bound the same material at a shared edge of the welded mesh.
 
-    faces: (m, 2) face indices; vertices: (m, 2) the edge's end points, indices into the mesh's vertices;
-    aligned: (m,) True where the two faces run the edge in opposite ways; open_faces: faces with an edge left unpaired.
+    faces: (m, 2) face indices; vertices: (m, 2) the edge's end points, indices into the mesh's vertices; aligned: (m,) True if
+    the two faces traverse the edge in opposite directions; open_faces: faces with an unpaired edge.
     """
 
     faces: Int[np.ndarray, "m 2"]
@@ -54,10 +55,10 @@ class EdgePairs:
 
 
 def edge_pairs(vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"]) -> EdgePairs:
-    """All pairs of faces that meet at an edge.
+    """Return all pairs of faces that meet at an edge.
 
-    Where more than two faces share one (bodies that touch along an edge), each is paired with the face across the material
-    between them, so that touching solids stay apart.
+    If more than two faces share an edge (bodies that touch along it), each is paired with the face across the material between
+    them, so that touching solids stay separate.
     """
     welded = weld(vertices)
     f = welded[faces]
@@ -89,8 +90,11 @@ def edge_pairs(vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"]
 def _across_material(
     vertices: np.ndarray, ends: np.ndarray, third: np.ndarray, forward: np.ndarray, owner: np.ndarray
 ) -> tuple[np.ndarray, tuple[np.ndarray, np.ndarray]]:
-    """Pairs (row, (slot, slot)) among the n faces around each of m edges: a face and the next one behind its surface, of
-    several that lie in one plane (bodies that overlap) the nearest in the file."""
+    """Return pairs (row, (slot, slot)) among the n faces around each of m edges.
+
+    A face is paired with the next one behind its surface. Of several in one plane (bodies that overlap), the one with the
+    closest index is used.
+    """
     low = np.where(forward[:, :1, None], vertices[ends[:, :1, 0]], vertices[ends[:, :1, 1]])
     high = np.where(forward[:, :1, None], vertices[ends[:, :1, 1]], vertices[ends[:, :1, 0]])
     edge = high - low
@@ -125,7 +129,10 @@ def label_connected(count: int, pairs: Int[np.ndarray, "m 2"]) -> Int[np.ndarray
 
 @dataclass(frozen=True, eq=False)
 class Components:
-    """Connected components of the welded mesh. label: (F,); solid, flip: (count,) closed and evenly wound, inside out."""
+    """Connected components of the welded mesh.
+
+    label: (F,) component of each face; solid: (count,) closed and consistently wound; flip: (count,) solid but inside out.
+    """
 
     label: Int[np.ndarray, " F"]
     solid: Bool[np.ndarray, " c"]

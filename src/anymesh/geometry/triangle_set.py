@@ -21,10 +21,10 @@ SAMPLES = 3000  # surface points per triangle set; a share of 1 % is 30 points
 
 @dataclass(frozen=True, eq=False)
 class KnownFaces:
-    """Data shared by a triangle set and all subsets of it.
+    """Data shared by a triangle set and all its subsets.
 
-    positions: (V, 3) distinct corner positions in lexical order, also of faces that were not taken [m]; corner: (F, 3) the
-    position of each corner; areas: (F,) [m^2].
+    positions: (V, 3) distinct corner positions in lexical order, including those of faces that were not taken [m]; corner: (F,
+    3) position index of each corner; areas: (F,) [m^2].
     """
 
     positions: Float[np.ndarray, "V 3"]
@@ -53,8 +53,8 @@ class KnownFaces:
 class TriangleSet:
     """Triangles, with outward normals where the surface is closed.
 
-    triangles: (F, 3, 3) [m]; normals: (F, 3) unit, outward for solid faces, else as wound; solid: (F,) the face belongs to
-    a closed component; faces: (F,) the faces' numbers in the mesh.
+    triangles: (F, 3, 3) [m]; normals: (F, 3) unit, outward for solid faces, else as wound; solid: (F,) whether the face belongs
+    to a closed component; faces: (F,) indices in the mesh.
     """
 
     triangles: Float[np.ndarray, "F 3 3"]
@@ -122,7 +122,7 @@ class TriangleSet:
 
     @property
     def slender(self) -> bool:
-        """Return whether the surface is far smaller than that of its box: a bar, a hoop, a frame."""
+        """Return whether the area is far smaller than that of its box, as for a bar, a hoop or a frame."""
         a, b, c = self.box.half
         return bool(self.area < 0.6 * 8 * (a * b + b * c + a * c))
 

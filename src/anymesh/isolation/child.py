@@ -15,8 +15,8 @@ from importlib import import_module
 from typing import IO, Any
 
 LENGTH = 8  # [bytes] of the length before each message
-PATIENCE = 6.0  # wall time per processor time: what takes longer hangs, however busy the machine is
-GRACE = 2.0  # [s] after that, at which a child whose parent is gone ends by itself
+PATIENCE = 6.0  # maximum wall time per processor time; a slower call hangs, even on a busy machine
+GRACE = 2.0  # [s] after the limit, at which a child without a parent ends itself
 
 
 def write_message(stream: IO[bytes], value: Any) -> None:
@@ -27,7 +27,7 @@ def write_message(stream: IO[bytes], value: Any) -> None:
 
 
 def limit_memory(size: int) -> None:
-    """Limit the address space of this process to `size` bytes, where the system can (not on Windows)."""
+    """Limit the address space of this process to `size` bytes, if the system can (not on Windows)."""
     try:
         import resource
 
@@ -37,7 +37,7 @@ def limit_memory(size: int) -> None:
 
 
 def limit_time(seconds: float | None) -> None:
-    """Let this process use so many more seconds of processor time, where the system can; it ends by SIGXCPU after that.
+    """Limit the further processor time of this process [s], if the system can; after it, SIGXCPU ends the process.
 
     None lifts the limit.
     """
@@ -51,10 +51,10 @@ def limit_time(seconds: float | None) -> None:
 
 
 def end_with_parent(lifeline: int) -> None:
-    """End this process at once when the parent is gone, however it ended and whatever native code runs here.
+    """End this process as soon as the parent has ended, in any way and whatever native code runs here.
 
-    lifeline: read end of a pipe that only the parent holds open and never writes to (-1: none). The kernel signals its end;
-    where it cannot (Windows), a child ends at its next call or time limit.
+    lifeline: read end of a pipe that only the parent holds open and never writes to (-1: none). The kernel signals its end. If
+    it cannot (Windows), a child ends at its next call or time limit.
     """
     if lifeline < 0:
         return
@@ -63,16 +63,16 @@ def end_with_parent(lifeline: int) -> None:
 
         fcntl.fcntl(lifeline, fcntl.F_SETOWN, os.getpid())
         fcntl.fcntl(lifeline, fcntl.F_SETFL, os.O_ASYNC | os.O_NONBLOCK)
-        if os.read(lifeline, 1) == b"":  # the parent was gone before
+        if os.read(lifeline, 1) == b"":  # the parent had already ended
             os._exit(1)
     except BlockingIOError:
-        return  # the parent lives
+        return  # the parent is alive
     except (ImportError, AttributeError, OSError):
         return
 
 
 def call(module: str, function: str, arguments: dict[str, Any]) -> tuple[str, Any]:
-    """Run one call: ("done", its result), ("memory", why) or ("error", why)."""
+    """Run one call; return ("done", its result), ("memory", why) or ("error", why)."""
     try:
         return "done", getattr(import_module(module), function)(**arguments)
     except MemoryError as error:
@@ -82,9 +82,9 @@ def call(module: str, function: str, arguments: dict[str, Any]) -> tuple[str, An
 
 
 def main() -> None:
-    """Serve calls until standard input ends. What native code prints goes nowhere.
+    """Serve calls until standard input ends. Output of native code is discarded.
 
-    Arguments of the process: the memory limit [bytes], modules to import at once (with spaces between), and the lifeline.
+    Arguments of the process: the memory limit [bytes], modules to import at once (separated by spaces), and the lifeline.
     """
     end_with_parent(int(sys.argv[3]))
     requests, replies = sys.stdin.buffer, os.fdopen(os.dup(1), "wb")
@@ -93,7 +93,7 @@ def main() -> None:
     os.dup2(nowhere, 2)
     limit_memory(int(sys.argv[1]))
     for module in sys.argv[2].split():
-        with contextlib.suppress(ImportError):  # the call that needs it tells
+        with contextlib.suppress(ImportError):  # the call that needs it reports the error
             import_module(module)
     while head := requests.read(LENGTH):
         module, function, arguments, seconds, wall = pickle.loads(requests.read(int.from_bytes(head, "little")))

@@ -1,4 +1,4 @@
-"""A pool of warm child processes, one call at a time each, with limits on time and memory."""
+"""A pool of warm child processes with limits on time and memory; each runs one call at a time."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ from typing import Any
 
 from anymesh.isolation.child import LENGTH, PATIENCE, write_message
 
-WARM = 2  # children that are started ahead of the first call
-START_AFTER = 0.3  # [s] calls wait in all before another child is started, which takes as much
-THREADS = 2  # most OpenMP threads of a child; CoACD's pieces do not depend on their number (docs/decisions.md)
-ONE_THREAD = ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")  # sums that must not depend on the cores
+WARM = 2  # children that are started before the first call
+START_AFTER = 0.3  # [s] total waiting time of calls before another child is started, which takes about as long
+THREADS = 2  # maximum number of OpenMP threads of a child; CoACD's pieces do not depend on it (docs/decisions.md)
+ONE_THREAD = ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")  # libraries whose sums would depend on the number of cores
 
 
 class Failure(StrEnum):
-    """Why a call gave no result."""
+    """Reason why a call gave no result."""
 
     CRASH = "crash"  # the process ended
     TIME = "time limit"
@@ -35,7 +35,7 @@ class Failure(StrEnum):
 
 
 class ChildError(Exception):
-    """A call that gave no result. The message says why."""
+    """A call that gave no result. The message states the reason."""
 
     def __init__(self, failure: Failure, detail: str = "") -> None:
         super().__init__(f"{failure.value}: {detail}" if detail else failure.value)
@@ -44,8 +44,11 @@ class ChildError(Exception):
 
 @dataclass(frozen=True)
 class ChildLimits:
-    """Limits of one child process. seconds: processor time of one call [s]; wall: elapsed time of one call [s], PATIENCE
-    times its processor time by default; memory: address space [bytes]; calls: after which a child is replaced."""
+    """Limits of one child process.
+
+    seconds: processor time of one call [s]; wall: elapsed time of one call [s], by default PATIENCE times its processor time;
+    memory: address space [bytes]; calls: number of calls after which a child is replaced.
+    """
 
     seconds: float = 60.0
     memory: int = 4 << 30
@@ -56,15 +59,15 @@ class ChildLimits:
 class ChildPool:
     """Child processes that are started on demand, kept warm, and replaced when one fails.
 
-    At most `size` calls run at once; calls from more threads wait. Children end with the pool, with the parent's pipes, or
-    when a call outlasts its time limit.
+    At most `size` calls run at once; calls from more threads wait. Children end with the pool, with the parent's pipes, or when
+    a call exceeds its time limit.
     """
 
     def __init__(self, size: int | None = None, limits: ChildLimits = ChildLimits()) -> None:
         self.size, self.limits = size or os.cpu_count() or 1, limits
         self._idle: list[_Child] = []
         self._room = self.size  # children that may still be started
-        self._waited = 0.0  # [s] by all calls
+        self._waited = 0.0  # [s] total of all calls
         self._changed = threading.Condition()
         self._live: set[_Child] = set()
         self._closed = False
@@ -72,8 +75,9 @@ class ChildPool:
     def run(self, module: str, function: str, arguments: Mapping[str, Any], *, seconds: float | None = None) -> Any:
         """Call a function of a module in a child and return its result.
 
-        arguments: keyword arguments, which are pickled; seconds: processor time for this call [s], at most the pool's. Raises
-        ChildError, after which the next call gets a fresh child.
+        arguments: keyword arguments, which are pickled; seconds: processor time for this call [s], at most the pool's.
+
+        Raise ChildError on failure, after which the next call gets a new child.
         """
         limit = min(self.limits.seconds, seconds) if seconds is not None else self.limits.seconds
         child, kept = self._free_child(), None
@@ -91,7 +95,7 @@ class ChildPool:
         return result
 
     def warm(self, *modules: str) -> None:
-        """Start up to WARM children, if there are none, and let them import modules; does not wait for that."""
+        """Start up to WARM children, if there are none, and make them import modules, without waiting for them."""
         with self._changed:
             if self._room < self.size:
                 return
@@ -99,12 +103,15 @@ class ChildPool:
             self._room -= count
         for _ in range(count):
             child = None
-            with contextlib.suppress(ChildError):  # the next call tries again, and tells
+            with contextlib.suppress(ChildError):  # the next call tries again and reports the error
                 child = self._started(modules)
             self._give_back(child)
 
     def _free_child(self) -> _Child | None:
-        """Wait for an idle child; return None where one is to be started: the first at once, others when calls have waited."""
+        """Wait for an idle child; return None if a new one must be started.
+
+        The first one is started at once, others after calls have waited.
+        """
         with self._changed:
             while not self._idle:
                 if self._room and (self._room == self.size or self._waited >= START_AFTER):
@@ -116,7 +123,7 @@ class ChildPool:
             return self._idle.pop()
 
     def _give_back(self, child: _Child | None) -> None:
-        """Let the next call have a child, or the place of one that ended."""
+        """Release a child, or the place of one that ended, for the next call."""
         with self._changed:
             if child is None:
                 self._room += 1
@@ -125,7 +132,7 @@ class ChildPool:
             self._changed.notify()
 
     def close(self) -> None:
-        """End all children, whatever they are at."""
+        """End all children, even during calls."""
         self._closed = True
         for child in list(self._live):
             self._end(child)
@@ -170,7 +177,10 @@ class _Child:
             _close(theirs)
 
     def call(self, request: tuple[Any, ...], wall: float) -> tuple[str, Any]:
-        """Send a request and wait so long [s] for the answer. Raises ChildError when the process ends or the time is over."""
+        """Send a request and wait for the answer at most `wall` [s].
+
+        Raise ChildError if the process ends or the time is over.
+        """
         self.calls += 1
         late = threading.Event()
         timer = threading.Timer(wall, lambda: (late.set(), self._process.kill()))
@@ -214,12 +224,12 @@ def _close(descriptor: int) -> None:
         os.close(descriptor)
 
 
-SIZE = "ANYMESH_CHILDREN"  # environment: children of the shared pool; one per core when not set
+SIZE = "ANYMESH_CHILDREN"  # environment variable: number of children of the shared pool, by default one per core
 
 
 @cache
 def shared_pool() -> ChildPool:
-    """The pool of this process, one child per core; the environment may set another size."""
+    """Return the pool of this process, with one child per core; the environment may set another size."""
     size = os.environ.get(SIZE, "")
     pool = ChildPool(int(size) if size.isdecimal() and int(size) else None)
     atexit.register(pool.close)

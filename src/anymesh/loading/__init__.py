@@ -1,4 +1,4 @@
-"""Files to meshes: reading, checking, and placing in the asset frame."""
+"""Reading of mesh files, their checks, and placement in the asset frame."""
 
 from anymesh.loading.load import LoadedMesh, load_mesh
 from anymesh.loading.place import PlacedMesh, place_mesh

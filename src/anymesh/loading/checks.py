@@ -1,4 +1,4 @@
-"""What a file says about itself, checked on its raw bytes before a reader takes it apart."""
+"""Checks of a file's own statements on its raw bytes, before a reader parses it."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from anymesh.errors import InputError
 FORMATS = (".glb", ".gltf", ".obj", ".ply", ".stl", ".off", ".dae")
 MAX_FACES = 20_000_000
 MAX_BYTES = 4 * 1024**3
-SIGNS = {  # what the start of a file of another format looks like
+SIGNS = {  # start of files of other formats
     "GLB": rb"glTF",
     "PLY": rb"ply\r?\n",
     "DAE": rb"(?s).{0,2000}<COLLADA",
@@ -27,7 +27,10 @@ SIGNS = {  # what the start of a file of another format looks like
 
 
 def check_file(path: Path) -> bytes:
-    """The bytes of the file, once they are plausible for its format. Raises InputError."""
+    """Return the bytes of the file if they are plausible for its format.
+
+    Raise InputError otherwise.
+    """
     if not path.exists():
         raise InputError(f"found no file {path}")
     if not path.is_file():
@@ -69,7 +72,7 @@ def _plausible(suffix: str, data: bytes) -> bool:
 
 
 def is_binary_stl(data: bytes) -> bool:
-    """Whether bytes that are no ASCII STL could be a binary one, whole or truncated."""
+    """Return whether bytes that are no ASCII STL could be a binary one, complete or truncated."""
     if len(data) < 84:
         return data[:5].lower() == b"solid" or b"\0" in data
     count = struct.unpack_from("<I", data, 80)[0]
@@ -78,6 +81,6 @@ def is_binary_stl(data: bytes) -> bool:
 
 
 def check_count(name: str, what: str, told: int, room: int) -> None:
-    """Raises InputError where a header tells more elements than the file has room for."""
+    """Raise InputError if a header states more elements than the file has room for."""
     if told < 0 or told > room:
-        raise InputError(f"{name} is truncated or broken: it tells {told} {what}, and has room for at most {max(room, 0)}")
+        raise InputError(f"{name} is truncated or broken: it states {told} {what}, and has room for at most {max(room, 0)}")

@@ -1,4 +1,4 @@
-"""Read the files that a mesh file refers to, within its own folder or a given root, and from nowhere else."""
+"""Read the files that a mesh file refers to, only within its own folder or a given root."""
 
 from __future__ import annotations
 
@@ -11,15 +11,16 @@ from pathlib import Path
 from anymesh.errors import InputError, OptionError
 from anymesh.loading.references import OUTSIDE, Unresolved, resolve_reference
 
-SHOWN = 100  # characters of a reference in a message
+SHOWN = 100  # characters of a reference shown in a message
 HINT = "--root FOLDER names the folder within which files may be read"
 
 
 class Folder:
-    """The files around one mesh file, and the warnings that came up while reading what the file refers to.
+    """The files around one mesh file, and the warnings from reading what the file refers to.
 
-    root: the folder within which references may be read, the mesh's own when not given. Raises OptionError when it is not a
-    folder or the mesh does not lie within it.
+    root: the folder within which references may be read, by default the mesh's own.
+
+    Raise OptionError if it is not a folder or the mesh is not inside it.
     """
 
     def __init__(self, path: Path, root: str | Path | None = None) -> None:
@@ -31,25 +32,34 @@ class Folder:
         self._bases: tuple[Path, ...] = (own,)
 
     def beside(self, file: Path) -> Folder:
-        """The same files, but relative references start from the folder of `file` first: those in a material library."""
-        found = copy.copy(self)  # what is kept is shared
+        """Return the same files, but with relative references starting from the folder of `file` first.
+
+        This is used for references in a material library.
+        """
+        found = copy.copy(self)  # caches and warnings are shared
         found._bases = tuple(dict.fromkeys((file.parent, *self._bases)))
         return found
 
     def find(self, uri: str) -> Path | None:
-        """The file that a reference means; None where none may be read."""
+        """Return the file that a reference means; None if none may be read."""
         found = resolve_reference(uri, self._bases, self._root)
         return None if isinstance(found, Unresolved) else found
 
     def read(self, uri: str) -> bytes:
-        """The bytes of a file that the mesh cannot do without. Raises InputError."""
+        """Return the bytes of a file that the mesh requires.
+
+        Raise InputError if it cannot be read.
+        """
         found = self._bytes(uri)
         if isinstance(found, Unresolved):
             raise InputError(f"{self.path.name} refers to {uri[:SHOWN]!r}, which {_told(found)}")
         return found
 
     def read_or_warn(self, uri: str, what: str) -> bytes | None:
-        """The bytes of a file that the mesh can do without; where it cannot be read, None and a warning. what: its role."""
+        """Return the bytes of an optional file; None, with a warning, if it cannot be read.
+
+        what: its role.
+        """
         found = self._bytes(uri)
         if isinstance(found, Unresolved):
             self.warn(f"{what} {uri[:SHOWN]!r} left out: it {_told(found)}")
@@ -68,12 +78,12 @@ class Folder:
         return data
 
     def warn(self, text: str) -> None:
-        """Keep a warning, once."""
+        """Record a warning, once."""
         if text not in self.warnings:
             self.warnings.append(text)
 
     def digest(self) -> str:
-        """What tells apart two loads of the same mesh file: the contents of the other files, and the warnings."""
+        """Return a digest that differs between loads of the same mesh file with other referenced contents or warnings."""
         told = (sorted(self._digests.items()), self.warnings)
         return hashlib.sha256(json.dumps(told).encode()).hexdigest()
 

@@ -1,4 +1,4 @@
-"""glTF 2.0, binary or with files beside it: every node with triangles, placed; instances are copies."""
+"""glTF 2.0, binary or with files beside it: every placed node with triangles; instances are copied."""
 
 from __future__ import annotations
 
@@ -21,7 +21,10 @@ LEFT_OUT = {0: "points", 1: "lines", 2: "lines", 3: "lines"}
 
 
 def read_gltf(data: bytes, folder: Folder) -> Mesh:
-    """The default scene in file coordinates. Raises InputError."""
+    """Return the default scene in file coordinates.
+
+    Raise InputError if it is not valid.
+    """
     name = folder.path.name
     binary = None
     if data[:4] == b"glTF":
@@ -43,7 +46,7 @@ def read_gltf(data: bytes, folder: Folder) -> Mesh:
         if mesh is None:
             continue
         if "skin" in node:
-            folder.warn("a mesh has a skin; it is taken as it stands without it")
+            folder.warn("a mesh has a skin, which is ignored")
         if not np.isfinite(T).all():
             raise InputError(f"{name}: node {index} has a transform that is not finite")
         nodes = (Node(str(node.get("name") or labels[number]), labels[number]),)
@@ -57,7 +60,7 @@ def read_gltf(data: bytes, folder: Folder) -> Mesh:
 
 
 def _placed(name: str, tree: dict[str, Any]) -> Iterator[tuple[int, np.ndarray]]:
-    """Nodes of the scene with their transforms to it: parents first, of siblings the last first (face labels count so)."""
+    """Yield nodes of the scene with their transforms to it: parents first, siblings in reverse (face labels rely on it)."""
     nodes, scenes = tree.get("nodes", []), tree.get("scenes", [])
     if scenes:
         roots = scenes[tree.get("scene", 0)].get("nodes", [])
@@ -96,7 +99,7 @@ def _local(node: dict[str, Any]) -> np.ndarray:
 
 
 def _mesh(folder: Folder, label: str, mesh: dict[str, Any], buffers: Buffers, looks: list[GltfMaterial]) -> Mesh | None:
-    """The triangles of a mesh's primitives, one node; None without any."""
+    """Return the triangles of a mesh's primitives as one node; None if there are none."""
     where = f"{folder.path.name}, {label}"
     primitives = [p for p in mesh["primitives"] if p.get("mode", TRIANGLES) not in LEFT_OUT]
     found = [made for p in primitives if (made := _primitive(where, p, buffers, looks)) is not None]
@@ -109,14 +112,14 @@ def _mesh(folder: Folder, label: str, mesh: dict[str, Any], buffers: Buffers, lo
 
 
 def _display(color: np.ndarray) -> np.ndarray:
-    """COLOR_0, linear, as display values 0..1; alpha as it is."""
+    """Convert COLOR_0 from linear to display values 0..1; alpha is unchanged."""
     full = 1.0 if color.dtype.kind == "f" else float(np.iinfo(color.dtype).max)
     values = np.nan_to_num(color.astype(np.float64) / full, nan=1.0)
     return np.c_[to_srgb(values[:, :3]), values[:, 3:]]
 
 
 def _primitive(where: str, p: dict[str, Any], buffers: Buffers, looks: list[GltfMaterial]) -> Mesh | None:
-    """The triangles of a primitive; None without any."""
+    """Return the triangles of a primitive; None if there are none."""
     attributes = p["attributes"]
     if "POSITION" not in attributes:
         raise InputError(f"{where}: found a primitive without positions, which triangles need")

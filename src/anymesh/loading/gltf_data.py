@@ -1,4 +1,4 @@
-"""The numbers of a glTF 2.0 file: its JSON, buffers and accessors (sections 3.6 and 4.4 of the specification)."""
+"""Numeric data of a glTF 2.0 file: its JSON, buffers and accessors (sections 3.6 and 4.4 of the specification)."""
 
 from __future__ import annotations
 
@@ -26,20 +26,23 @@ UNREADABLE = {
 
 
 def split_glb(name: str, data: bytes) -> tuple[bytes, bytes | None]:
-    """The JSON and the binary chunk of a GLB. Raises InputError."""
+    """Return the JSON and the binary chunk of a GLB.
+
+    Raise InputError if it is broken.
+    """
     if len(data) < 20:
         raise InputError(f"{name} is truncated: a GLB header has 20 bytes, found {len(data)}")
     _, version, length = struct.unpack_from("<4sII", data)
     if version != 2:
         raise InputError(f"{name}: found glTF version {version}; valid is 2")
     if length > len(data):
-        raise InputError(f"{name} is truncated: its header tells {length} bytes, found {len(data)}")
+        raise InputError(f"{name} is truncated: its header states {length} bytes, found {len(data)}")
     chunks: dict[bytes, bytes] = {}
     at = 12
     while at + 8 <= length:
         size, kind = struct.unpack_from("<I4s", data, at)
         if at + 8 + size > length:
-            raise InputError(f"{name} is truncated: a chunk tells {size} bytes, found {length - at - 8}")
+            raise InputError(f"{name} is truncated: a chunk states {size} bytes, found {length - at - 8}")
         chunks.setdefault(kind, data[at + 8 : at + 8 + size])
         at += 8 + size
     if b"JSON" not in chunks:
@@ -48,7 +51,10 @@ def split_glb(name: str, data: bytes) -> tuple[bytes, bytes | None]:
 
 
 def parse_json(name: str, data: bytes) -> dict[str, Any]:
-    """The document, where it is one that can be read. Raises InputError."""
+    """Return the document.
+
+    Raise InputError if it cannot be read.
+    """
     try:
         tree = json.loads(data.decode("utf-8-sig"))
     except (ValueError, RecursionError):
@@ -66,7 +72,7 @@ def parse_json(name: str, data: bytes) -> dict[str, Any]:
 
 
 class Buffers:
-    """The buffers of a document, each read when it is first needed, and the arrays in them."""
+    """The buffers of a document, each read on first use, and the arrays in them."""
 
     def __init__(self, tree: dict[str, Any], binary: bytes | None, folder: Folder) -> None:
         self._name = folder.path.name
@@ -82,12 +88,15 @@ class Buffers:
             data = (self._binary or b"") if uri is None else from_uri(uri, self._folder)
             told = buffer["byteLength"]
             if told > len(data):
-                raise InputError(f"{self._name} is truncated: buffer {number} tells {told} bytes, found {len(data)}")
+                raise InputError(f"{self._name} is truncated: buffer {number} states {told} bytes, found {len(data)}")
             self._read[number] = data
         return self._read[number]
 
     def view(self, index: int) -> bytes:
-        """The bytes of a buffer view. Raises InputError."""
+        """Return the bytes of a buffer view.
+
+        Raise InputError if it exceeds its buffer.
+        """
         view = _item(self._tree["bufferViews"], index)
         data = self._buffer(view["buffer"])
         start, length = view.get("byteOffset", 0), view["byteLength"]
@@ -96,11 +105,14 @@ class Buffers:
         return data[start : start + length]
 
     def array(self, index: int) -> np.ndarray:
-        """(count, width) of an accessor; normalized integers become floats. Raises InputError."""
+        """Return the (count, width) array of an accessor; normalized integers become floats.
+
+        Raise InputError if it is not valid.
+        """
         a = _item(self._tree["accessors"], index)
         count, width, dtype = a["count"], WIDTHS[a["type"]], np.dtype(TYPES[a["componentType"]])
         if not isinstance(count, int) or not 0 <= count <= 3 * MAX_FACES:
-            raise InputError(f"{self._name}: an accessor tells {count} elements; valid are 0 to {3 * MAX_FACES}")
+            raise InputError(f"{self._name}: an accessor states {count} elements; valid are 0 to {3 * MAX_FACES}")
         if "bufferView" in a:
             values = self._strided(a["bufferView"], a.get("byteOffset", 0), count, width, dtype)
         else:
@@ -120,14 +132,17 @@ class Buffers:
         size = width * dtype.itemsize
         stride = self._tree["bufferViews"][view].get("byteStride", size)
         if start < 0 or stride < size or count < 0 or (count and start + stride * (count - 1) + size > len(data)):
-            raise InputError(f"{self._name}: an accessor tells {count} elements, its view of {len(data)} bytes holds fewer")
+            raise InputError(f"{self._name}: an accessor states {count} elements, its view of {len(data)} bytes holds fewer")
         if count == 0:
             return np.zeros((0, width), dtype)
         return np.ndarray((count, width), dtype, data, start, (stride, dtype.itemsize)).copy()
 
 
 def from_uri(uri: str, folder: Folder) -> bytes:
-    """The bytes of a data URI or of a file in the folder. Raises InputError."""
+    """Return the bytes of a data URI or of a file in the folder.
+
+    Raise InputError if they cannot be read.
+    """
     if not uri.startswith("data:"):
         return folder.read(uri)
     head, _, body = uri.partition(",")

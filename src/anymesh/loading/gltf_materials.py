@@ -17,14 +17,14 @@ from anymesh.types import Material, Texture
 
 @dataclass(frozen=True)
 class GltfMaterial:
-    """A material, and which texture coordinates its pictures use."""
+    """A material, and the texture coordinates of its pictures."""
 
     material: Material
     uv_set: int = 0
     transform: dict[str, Any] | None = None  # KHR_texture_transform of the base colour
 
     def place(self, uv: np.ndarray) -> Float32[np.ndarray, "n 2"]:
-        """Texture coordinates with the picture's transform applied, v turned up as in OBJ."""
+        """Return texture coordinates with the picture's transform applied and v upwards as in OBJ."""
         uv = np.nan_to_num(np.asarray(uv, np.float64)[:, :2])
         if self.transform:
             angle = float(self.transform.get("rotation", 0.0))
@@ -34,7 +34,7 @@ class GltfMaterial:
 
 
 def read_materials(tree: dict[str, Any], buffers: Buffers, folder: Folder) -> list[GltfMaterial]:
-    """The materials in the order of the file; a picture that is missing or broken is a warning."""
+    """Return the materials in the order of the file; a missing or broken picture gives a warning."""
     images = [_image(k, image, buffers, folder) for k, image in enumerate(tree.get("images", []))]
     return [_material(k, m, tree.get("textures", []), images) for k, m in enumerate(tree.get("materials", []))]
 
@@ -45,7 +45,7 @@ def _image(number: int, image: dict[str, Any], buffers: Buffers, folder: Folder)
         return picture_file(folder, uri)
     try:
         data = buffers.view(image["bufferView"]) if uri is None else from_uri(uri, folder)
-    except (InputError, LookupError, TypeError) as error:  # a mesh can do without it
+    except (InputError, LookupError, TypeError) as error:  # a picture is optional
         warn_unreadable(folder, name, error)
         return None
     return picture(folder, data, name)
@@ -56,7 +56,7 @@ def _material(number: int, m: dict[str, Any], textures: list[dict[str, Any]], im
     color, base = pbr.get("baseColorFactor"), pbr.get("baseColorTexture")
     metallic, roughness = pbr.get("metallicFactor", 1.0), pbr.get("roughnessFactor", 1.0)
     old = extensions.get("KHR_materials_pbrSpecularGlossiness")
-    if old is not None:  # an extension that is archived; its colour and gloss have a counterpart
+    if old is not None:  # an archived extension; its colour and gloss have counterparts
         color, base = old.get("diffuseFactor", color), old.get("diffuseTexture", base)
         metallic, roughness = 0.0, 1.0 - float(old.get("glossinessFactor", 1.0))
     named = {
@@ -92,7 +92,7 @@ def _texture(info: dict[str, Any], textures: list[dict[str, Any]], images: list[
 
 
 def _factor(values: Any, width: int) -> Any:
-    """Numbers of 0..1; 1 where there are none."""
+    """Return numbers clipped to 0..1; 1 if there are none."""
     if values is None:
         return (1.0,) * width
     v = np.nan_to_num(np.asarray(values, np.float64).reshape(width), nan=1.0)

@@ -1,4 +1,4 @@
-"""Steps that the readers of all formats share: colours to bytes, pieces to one mesh."""
+"""Steps common to the readers of all formats: conversion of colours to bytes, and joining of meshes."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from anymesh.types import Material, Mesh, Node
 
 
 def check_geometry(name: str, vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"]) -> None:
-    """Raises InputError for no triangle, an index that no vertex has, or a corner that is not finite."""
+    """Raise InputError if there is no triangle, an index without a vertex, or a corner that is not finite."""
     if not len(faces):
         raise InputError(f"{name}: found no triangle, only {len(vertices)} points; at least one triangle is needed")
     if faces.min() < 0 or faces.max() >= len(vertices):
@@ -31,11 +31,11 @@ def simple_mesh(
     material: Material | None = None,
     **corners: np.ndarray | None,
 ) -> Mesh:
-    """A checked mesh of one node and at most one material, with corner_uv, corner_color and corner_normal."""
+    """Return a checked mesh of one node and at most one material, with corner_uv, corner_color and corner_normal."""
     vertices = np.array(vertices, np.float64)
     faces = np.asarray(faces, np.int64).reshape(-1, 3)
     check_geometry(name, vertices, faces)
-    vertices[~np.isfinite(vertices)] = 0.0  # of no face
+    vertices[~np.isfinite(vertices)] = 0.0  # vertices of no face
     return Mesh(
         vertices,
         faces,
@@ -48,7 +48,7 @@ def simple_mesh(
 
 
 def rgba(values: np.ndarray) -> UInt8[np.ndarray, "n 4"]:
-    """Colours of 3 or 4 channels as bytes: floats are of 0..1, integers of their type's range."""
+    """Return colours of 3 or 4 channels as bytes: floats are 0..1, integers use the range of their type."""
     values = np.asarray(values)
     if values.dtype.kind == "f":
         values = np.nan_to_num(values, nan=1.0) * 255
@@ -59,7 +59,7 @@ def rgba(values: np.ndarray) -> UInt8[np.ndarray, "n 4"]:
 
 
 def unit(normals: np.ndarray) -> Float32[np.ndarray, "n 3"] | None:
-    """Normals of length 1, zero where there is none; None where they are not finite or all zero."""
+    """Return normals of length 1, zero where there is none; None if they are not finite or all zero."""
     normals = np.asarray(normals, np.float64)
     length = np.linalg.norm(normals, axis=-1, keepdims=True)
     if not np.isfinite(length).all() or not (length > 0).any():
@@ -68,7 +68,7 @@ def unit(normals: np.ndarray) -> Float32[np.ndarray, "n 3"] | None:
 
 
 def unique_names(names: Iterable[str]) -> list[str]:
-    """The names, later ones of the same name numbered."""
+    """Return the names, with repeated names numbered."""
     taken: set[str] = set()
     count: dict[str, int] = {}
     found = []
@@ -83,9 +83,9 @@ def unique_names(names: Iterable[str]) -> list[str]:
 
 
 def join(meshes: list[Mesh]) -> Mesh:
-    """One mesh of many, in their order; node names become unique, equal materials one."""
+    """Join meshes in their order; node names become unique, equal materials become one."""
     materials: list[Material] = []
-    known: dict[int, int] = {}  # by identity first: comparing pictures takes time
+    known: dict[int, int] = {}  # by identity first, since comparing pictures takes time
     face_material = []
     for mesh in meshes:
         for material in mesh.materials:
@@ -123,7 +123,7 @@ def _corners(values: list, meshes: list[Mesh], width: int, dtype: type, fill: in
 
 
 def _normals(meshes: list[Mesh]) -> np.ndarray | None:
-    """Where only some pieces have normals, the others get those of their faces."""
+    """Return corner normals; if only some meshes have normals, the others get those of their faces."""
     if all(m.corner_normal is None for m in meshes):
         return None
     flat = [np.repeat(m.face_normals[:, None], 3, 1) if m.corner_normal is None else m.corner_normal for m in meshes]

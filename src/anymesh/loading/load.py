@@ -1,4 +1,4 @@
-"""Reads a mesh file as it is: every face, node, material and colour, in the coordinates of the file."""
+"""Read a mesh file unchanged: every face, node, material and colour, in the coordinates of the file."""
 
 from __future__ import annotations
 
@@ -30,28 +30,29 @@ READERS: dict[str, Callable[[bytes, Folder], Mesh]] = {
     ".off": read_off,
     ".dae": read_dae,
 }
-FARTHEST = 1e12  # a coordinate beyond this is no length of a thing
+FARTHEST = 1e12  # coordinates above are no plausible lengths
 
 
 @dataclass(frozen=True, eq=False)
 class LoadedMesh:
-    """A mesh in the coordinates of its file, and what the file says of them."""
+    """A mesh in the coordinates of its file, with the axis and unit that the file states."""
 
     mesh: Mesh
     path: str
     sha256: str
-    format_up: str | None  # "y" or "z" or "x" where the format tells
-    unit_in_metres: float | None  # where the format tells
+    format_up: str | None  # "x", "y" or "z" if the format states it
+    unit_in_metres: float | None  # if the format states it
     warnings: tuple[str, ...]
-    references: str = ""  # digest of the other files that it was read from, and of the warnings
+    references: str = ""  # digest of the other files that were read, and of the warnings
 
 
 def load_mesh(path: str | Path, *, root: str | Path | None = None) -> LoadedMesh:
     """Read GLB, glTF, OBJ, PLY, STL, OFF or DAE.
 
-    root: the folder within which the files that the mesh refers to may be read; its own folder when not given. A texture or a
+    root: the folder within which the files that the mesh refers to may be read, by default its own folder. A texture or a
     material library that cannot be read there is left out with a warning.
-    Raises InputError, with one line, for anything that is no usable mesh, and OptionError for a root that is not valid.
+
+    Raise InputError, with one line, for anything that is no usable mesh, and OptionError for a root that is not valid.
     """
     path = Path(path)
     data = check_file(path)
@@ -62,7 +63,7 @@ def load_mesh(path: str | Path, *, root: str | Path | None = None) -> LoadedMesh
         up, unit = _frame(suffix, path.name, data)
     except InputError:
         raise
-    except Exception as error:  # whatever a broken file makes a reader raise is one thing to the user
+    except Exception as error:  # readers raise many types of errors for broken files
         told = " ".join(f"{type(error).__name__}: {error}".split())[:200]
         raise InputError(f"{path.name} is no valid {suffix[1:].upper()} file, it is broken or truncated ({told})") from None
     if len(mesh.faces) > MAX_FACES:
@@ -80,7 +81,7 @@ def _check_numbers(name: str, mesh: Mesh) -> None:
 
 
 def _frame(suffix: str, name: str, data: bytes) -> tuple[str | None, float | None]:
-    """The up axis and the unit that the format or the file tells."""
+    """Return the up axis and the unit that the format or the file states."""
     match suffix:
         case ".glb" | ".gltf":
             return "y", 1.0

@@ -1,4 +1,4 @@
-"""MTL, the materials of OBJ files; its colours are sRGB by convention, ours are linear."""
+"""MTL, the materials of OBJ files. Its colours are sRGB by convention and are converted to linear."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ from anymesh.types import Material, Texture
 from anymesh.types.color import to_linear
 
 SLOTS = {"map_kd": "base_color", "norm": "normal", "map_ke": "emissive"}
-VALUES = {"-mm": 2, "-o": 3, "-s": 3, "-t": 3}  # options of a picture that have more than one value
+VALUES = {"-mm": 2, "-o": 3, "-s": 3, "-t": 3}  # options of a picture with more than one value
 FLAGS = {"-blendu", "-blendv", "-boost", "-bm", "-cc", "-clamp", "-imfchan", "-texres", "-type", "-colorspace"}
 BLACK = 0.02
 
 
 def read_mtl(data: bytes, folder: Folder) -> dict[str, Material]:
-    """Materials by name. A texture that cannot be read is a warning."""
+    """Return materials by name. A texture that cannot be read gives a warning."""
     found: dict[str, dict[str, str]] = {}
     current: dict[str, str] = {}
     for line in data.decode("utf-8-sig", "replace").splitlines():
@@ -37,7 +37,7 @@ def _material(name: str, fields: dict[str, str], folder: Folder) -> Material:
                 textures[SLOTS[key]] = texture
     color = _numbers(fields.get("kd", ""))
     if "base_color" in textures and (len(color) < 3 or max(color[:3]) < BLACK):
-        color = [1.0, 1.0, 1.0]  # a picture times black would be black
+        color = [1.0, 1.0, 1.0]  # a picture multiplied by black would be black
     alpha = _numbers(fields.get("d", "").replace("-halo", ""))
     alpha = alpha or [1 - t for t in _numbers(fields.get("tr", ""))] or [1.0]
     opacity = min(max(alpha[0], 0.0), 1.0)
@@ -56,7 +56,7 @@ def _material(name: str, fields: dict[str, str], folder: Folder) -> Material:
 
 
 def _picture_name(value: str) -> str:
-    """A file name, which may hold spaces, after the options that may stand before it."""
+    """Return the file name, which may contain spaces, after its options."""
     words = value.split(" ")
     while len(words) > 1 and (words[0].lower() in VALUES or words[0].lower() in FLAGS):
         most = VALUES.get(words[0].lower(), 1)
@@ -68,7 +68,7 @@ def _picture_name(value: str) -> str:
 
 
 def _numbers(text: str) -> list[float]:
-    """The numbers at the start of a text."""
+    """Return the numbers at the start of a text."""
     found = []
     for word in text.split():
         try:

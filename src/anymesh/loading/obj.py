@@ -1,4 +1,7 @@
-"""OBJ: polygons with normals and texture coordinates a corner; a node an object, or a group where there are no objects."""
+"""OBJ: polygons with normals and texture coordinates per corner.
+
+Each object is a node, or each group if there are no objects.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +16,10 @@ from anymesh.types import Material, Mesh, Node
 
 
 class _Lines:
-    """What the lines of the file say, in their order. corners: three numbers each, from 0, -1 where there is none."""
+    """The lines of the file by their content, in order.
+
+    corners: three indices each, from 0, -1 for none.
+    """
 
     def __init__(self) -> None:
         self.v: list[list[float]] = []
@@ -26,7 +32,10 @@ class _Lines:
 
 
 def read_obj(data: bytes, folder: Folder) -> Mesh:
-    """The mesh in file coordinates, its faces in the order of the file. Raises InputError."""
+    """Return the mesh in file coordinates, its faces in the order of the file.
+
+    Raise InputError if it is not valid.
+    """
     name = folder.path.name
     lines = _read(name, data.decode("utf-8-sig", "replace"))
     vertices = np.array([row[:3] for row in lines.v], np.float64).reshape(-1, 3)
@@ -34,9 +43,9 @@ def read_obj(data: bytes, folder: Folder) -> Mesh:
     counts = np.array(lines.sizes, np.int64)
     triangles, polygon = fans(counts)
     check_geometry(name, vertices, corners[triangles][:, :, 0])
-    rows = corners[recut(triangles, polygon, counts, vertices, corners[:, 0])]  # (F, 3, 3): vertex, texture, normal a corner
+    rows = corners[recut(triangles, polygon, counts, vertices, corners[:, 0])]  # (F, 3, 3): vertex, texture, normal per corner
     faces = rows[:, :, 0]
-    vertices[~np.isfinite(vertices)] = 0.0  # of no face
+    vertices[~np.isfinite(vertices)] = 0.0  # vertices of no face
     labels = [lines.labels[k] for k in polygon]
     objects = any(label[0] for label in labels)
     face_node, nodes = _numbered([(label[0] if objects else label[1]) or folder.path.stem for label in labels])
@@ -87,7 +96,7 @@ def _read(name: str, text: str) -> _Lines:
 
 
 def _corner(word: str, lines: _Lines) -> tuple[int, int, int]:
-    """The numbers of `v/vt/vn`, counted from 0; negative ones count back from the line on which they stand."""
+    """Return the indices of `v/vt/vn`, from 0; negative ones count back from the line on which they appear."""
     parts = [*word.split("/"), "", ""][:3]
     found = []
     for part, table in zip(parts, (lines.v, lines.vt, lines.vn), strict=True):
@@ -104,7 +113,7 @@ def _corner(word: str, lines: _Lines) -> tuple[int, int, int]:
 
 
 def _numbered(keys: list[str]) -> tuple[np.ndarray, list[str]]:
-    """The keys by number, in the order in which they first come."""
+    """Return the number of each key, and the keys in order of first appearance."""
     order: dict[str, int] = {}
     numbers = np.array([order.setdefault(key, len(order)) for key in keys], np.int64)
     return numbers, list(order)
@@ -122,7 +131,7 @@ def _materials(folder: Folder, libraries: list[str]) -> dict[str, Material]:
 
 
 def _looked_up(name: str, what: str, table: np.ndarray, rows: np.ndarray) -> np.ndarray | None:
-    """Values a corner, zero at corners without; None where no corner has one."""
+    """Return values per corner, zero for corners without; None if no corner has one."""
     if not len(table) or (rows < 0).all():
         return None
     if rows.max() >= len(table):
@@ -131,7 +140,7 @@ def _looked_up(name: str, what: str, table: np.ndarray, rows: np.ndarray) -> np.
 
 
 def _color(v: list[list[float]], faces: np.ndarray) -> np.ndarray | None:
-    """Colours that stand behind the coordinates, where all vertices have them."""
+    """Return the colours after the coordinates, if all vertices have them."""
     if any(len(row) < 6 for row in v):
         return None
     values = np.array([row[3:6] for row in v])

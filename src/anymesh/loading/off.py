@@ -15,7 +15,10 @@ from anymesh.types import Mesh
 
 
 def read_off(data: bytes, folder: Folder) -> Mesh:
-    """The mesh in file coordinates. Raises InputError."""
+    """Return the mesh in file coordinates.
+
+    Raise InputError if it is not valid.
+    """
     name = folder.path.name
     text = data.decode("utf-8", "replace")
     head = re.match(r"\s*(ST)?(C)?(N)?(4)?OFF", text)
@@ -34,10 +37,10 @@ def read_off(data: bytes, folder: Folder) -> Mesh:
     rows = lines[points + 1 : points + 1 + polygons]
     sizes = np.array([int(row[0]) for row in rows], np.int64)
     if any(len(row) <= size or size < 1 for row, size in zip(rows, sizes, strict=True)):
-        raise InputError(f"{name} is truncated or broken: a face has fewer indices than it tells")
+        raise InputError(f"{name} is truncated or broken: a face has fewer indices than it states")
     corner = np.array([int(i) for row, size in zip(rows, sizes, strict=True) for i in row[1 : size + 1]], np.int64)
     triangles, polygon = fans(sizes)
-    simple_mesh(name, folder.path.stem, vertices, corner[triangles])  # the corners can be looked up
+    simple_mesh(name, folder.path.stem, vertices, corner[triangles])  # checks that the corners can be looked up
     faces = corner[recut(triangles, polygon, sizes, vertices, corner)]
     mesh = simple_mesh(name, folder.path.stem, vertices, faces)
     if color is None:
@@ -49,7 +52,7 @@ def read_off(data: bytes, folder: Folder) -> Mesh:
 
 
 def _colors(rows: list[list[str]]) -> np.ndarray | None:
-    """RGBA bytes where every row has 3 or 4 numbers, whole ones of 0..255 or fractions."""
+    """Return RGBA bytes if every row has 3 or 4 numbers, integers of 0..255 or fractions."""
     width = {len(row) for row in rows}
     if len(width) != 1 or width.isdisjoint({3, 4}):
         return None

@@ -1,4 +1,4 @@
-"""Pictures of materials, kept as the bytes of their file, and the colour space of colours."""
+"""Pictures of materials, kept as the bytes of their file."""
 
 from __future__ import annotations
 
@@ -16,17 +16,20 @@ from anymesh.types import Texture
 
 MAX_PIXELS = 16384**2
 MIME_TYPES = {"PNG": "image/png", "JPEG": "image/jpeg"}
-OBJECT = re.compile(r"\s*<[^>]*>")  # how Python names a stream in an error: with an address that differs from run to run
+OBJECT = re.compile(r"\s*<[^>]*>")  # Python's name of a stream in an error, with an address that differs between runs
 
 
 def picture_file(folder: Folder, uri: str) -> Texture | None:
-    """The texture in a file that is named; None, with a warning, where it cannot be read."""
+    """Return the texture in a named file; None, with a warning, if it cannot be read."""
     data = folder.read_or_warn(uri, "texture")
     return None if data is None else picture(folder, data, uri)
 
 
 def picture(folder: Folder, data: bytes, name: str) -> Texture | None:
-    """A texture of encoded bytes: PNG and JPEG as they are, others turned into PNG; None, with a warning, where broken."""
+    """Return a texture of encoded bytes; None, with a warning, if they are broken.
+
+    PNG and JPEG are kept unchanged, other formats are converted to PNG.
+    """
     stem = PurePosixPath(name.replace("\\", "/")).stem
     try:
         with quiet_decoder():
@@ -38,21 +41,21 @@ def picture(folder: Folder, data: bytes, name: str) -> Texture | None:
             return Texture(data, MIME_TYPES[image.format], stem)
         buffer = io.BytesIO()
         image.convert("RGBA" if image.has_transparency_data else "RGB").save(buffer, "PNG")
-    except Exception as error:  # whatever a broken picture makes the decoder raise is one thing to the user
+    except Exception as error:  # decoders raise many types of errors for broken pictures
         warn_unreadable(folder, name, error)
         return None
     return Texture(buffer.getvalue(), "image/png", stem)
 
 
 def warn_unreadable(folder: Folder, name: str, error: Exception) -> None:
-    """Warn of a texture that is there and cannot be read."""
+    """Warn of an existing texture that cannot be read."""
     told = f"{type(error).__name__}: {OBJECT.sub('', str(error))}"[:100]
     folder.warn(f"texture {name[:SHOWN]!r} left out: it cannot be read ({told})")
 
 
 @contextmanager
 def quiet_decoder() -> Generator[None]:
-    """Large pictures are limited here, without the decoder's own warning."""
+    """Suppress the decoder's warning about large pictures, which are limited by MAX_PIXELS."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", Image.DecompressionBombWarning)
         yield

@@ -1,4 +1,4 @@
-"""From the coordinates of a file to the asset frame: Z up, metres, standing on the ground, centred."""
+"""Placement of a mesh in the asset frame: Z up, metres, standing on the ground, centered."""
 
 from __future__ import annotations
 
@@ -19,18 +19,19 @@ TO_Z_UP = {  # rotations: rows are the asset's axes in file coordinates
     "y": np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]]),
     "z": np.eye(3),
 }
-PLAUSIBLE = (0.02, 12.0)  # [m] diagonals of things that are handled, from a knob to a van
-ABSURD = (0.001, 1000.0)  # [m] even a format with units is not believed beyond
-GIVEN = (1e-6, 1e6)  # [m] beyond, masses and inertias in an output would be lost in rounding, or overflow
-USUAL = 0.7  # weight of the format's usual axis; 250 Y-up OBJ files of furniture: .0 65 % right, .25 83 %, .7 91 %
+PLAUSIBLE = (0.02, 12.0)  # [m] diagonals of typical objects, from a knob to a van
+ABSURD = (0.001, 1000.0)  # [m] a format's unit is ignored beyond these diagonals
+GIVEN = (1e-6, 1e6)  # [m] beyond these diagonals, masses and inertias in an output would be lost in rounding, or overflow
+USUAL = 0.7  # weight of the format's usual axis; on 250 Y-up OBJ files of furniture: 0.0 65 % right, 0.25 83 %, 0.7 91 %
 UNITS = (("millimetres", 0.001), ("centimetres", 0.01), ("inches", 0.0254))
 
 
 @dataclass(frozen=True, eq=False)
 class PlacedMesh:
-    """A mesh in the asset frame [m, Z up]; T_asset_source: (4, 4), from file coordinates; notes: how it was found.
+    """A mesh in the asset frame [m, Z up].
 
-    metric: whether the scale is the unit that the file states.
+    T_asset_source: (4, 4), from file coordinates; notes: how it was determined; metric: whether the scale is the unit that the
+    file states.
     """
 
     mesh: Mesh
@@ -42,9 +43,11 @@ class PlacedMesh:
 
 
 def place_mesh(loaded: LoadedMesh, *, up: str = "auto", scale: str = "auto", category: str | None = None) -> PlacedMesh:
-    """Turns, scales and sets the mesh on the ground. category: what the object is, which tells how large it is.
+    """Rotate and scale the mesh, and place it on the ground.
 
-    Raises OptionError for an up or a scale that is not valid.
+    category: of the object, which determines its usual size.
+
+    Raise OptionError for an up or a scale that is not valid.
     """
     axis, up_note = _up(loaded, up)
     R = TO_Z_UP[axis]
@@ -69,7 +72,10 @@ def _up(loaded: LoadedMesh, up: str) -> tuple[str, str]:
 
 
 def infer_up(mesh: Mesh, usual: str) -> tuple[str, str]:
-    """The up axis by what the object would stand on: a flat, wide, downward end, and a low centre; `usual` breaks ties."""
+    """Infer the up axis from the side that the object would stand on.
+
+    It has a flat, wide, downward end and a low center; `usual` breaks ties.
+    """
     score = {}
     low, high = mesh.bounds
     centers, areas, normals = mesh.triangles.mean(1), mesh.face_areas, mesh.face_normals
@@ -102,7 +108,7 @@ def _scale(loaded: LoadedMesh, extents: np.ndarray, scale: str, category: str | 
         return factor, note, ()
     unit = loaded.unit_in_metres
     prior = usual_size(category) if category else usual_size(Path(loaded.path).stem) if unit is None else None
-    if prior is not None:  # a unit in the file counts for more than the file's name, but less than what the user says it is
+    if prior is not None:  # a unit in the file has priority over the file's name, but not over the user's category
         return _scale_of_kind(extents, unit, *prior)
     if unit is not None:
         if ABSURD[0] <= diagonal * unit <= ABSURD[1]:
@@ -119,7 +125,7 @@ def _scale(loaded: LoadedMesh, extents: np.ndarray, scale: str, category: str | 
 
 
 def _scale_of_kind(extents: np.ndarray, unit: float | None, kind: str, usual: float) -> tuple[float, str, tuple[str, ...]]:
-    """The file's unit, or a common one, that makes the object as large as things of its kind are; else their usual size."""
+    """Return the file's unit, or a common one, that gives the object a plausible size for its kind; else the usual size."""
     longest, kind = float(extents.max()), kind.replace("_", " ")
     told = [("the file's unit", unit)] if unit is not None else [("metres", 1.0), *UNITS]
     for name, factor in told:

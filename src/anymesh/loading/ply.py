@@ -19,7 +19,10 @@ UV = (("texture_u", "texture_v"), ("s", "t"), ("u", "v"))
 
 
 def read_ply(data: bytes, folder: Folder) -> Mesh:
-    """The mesh in file coordinates. Raises InputError."""
+    """Return the mesh in file coordinates.
+
+    Raise InputError if it is not valid.
+    """
     name = folder.path.name
     elements, style, comments, body = parse_header(name, data)
     found = read_elements(name, elements, style, body)
@@ -32,10 +35,11 @@ def read_ply(data: bytes, folder: Folder) -> Mesh:
         raise InputError(f"{name}: found {len(points)} points and no faces; at least one triangle is needed")
     indices, counts = lists
     triangles, polygon = fans(counts)
-    if not (np.abs(indices, dtype=np.float64) < 2**53).all() or (indices != np.rint(indices)).any():  # ASCII may hold any
+    # ASCII may hold any number
+    if not (np.abs(indices, dtype=np.float64) < 2**53).all() or (indices != np.rint(indices)).any():
         raise InputError(f"{name}: found a vertex index that is no whole number; valid are 0 to {len(points) - 1}")
     corner = indices.astype(np.int64)
-    simple_mesh(name, folder.path.stem, points, corner[triangles])  # the corners can be looked up
+    simple_mesh(name, folder.path.stem, points, corner[triangles])  # checks that the corners can be looked up
     faces = corner[recut(triangles, polygon, counts, points, corner)]
     normal = _table(vertex, ("nx", "ny", "nz"))
     normal = None if normal is None else unit(normal)
@@ -48,7 +52,7 @@ def read_ply(data: bytes, folder: Folder) -> Mesh:
 
 
 def _table(columns: Columns, keys: tuple[str, ...]) -> np.ndarray | None:
-    """Columns side by side as they are in the file; None where one is missing."""
+    """Return columns side by side, as in the file; None if one is missing."""
     values = [v for key in keys if isinstance(v := columns.get(key), np.ndarray)]
     return np.stack(values, 1) if len(values) == len(keys) else None
 
@@ -58,7 +62,7 @@ def _color(vertex: Columns, face: Columns, faces: np.ndarray, polygon: np.ndarra
         values = _table(columns, ("red", "green", "blue", "alpha"))
         values = _table(columns, ("red", "green", "blue")) if values is None else values
         if values is not None:
-            whole = ascii_ and values.max(initial=0) > 1  # ASCII has lost the type
+            whole = ascii_ and values.max(initial=0) > 1  # ASCII has no types
             return rgba(np.clip(values, 0, 255).astype(np.uint8) if whole else values)[rows]
     return None
 
@@ -76,7 +80,7 @@ def _uv(vertex: Columns, face: Columns, faces: np.ndarray, triangles: np.ndarray
 
 
 def _material(folder: Folder, comments: list[str]) -> Material | None:
-    """The picture that MeshLab and others name in a comment."""
+    """Return the material with the picture that MeshLab and others name in a comment."""
     for comment in comments:
         told = re.match(r"(?i)texturefile\s+(.+?)\s*$", comment)
         if told:

@@ -20,19 +20,25 @@ TYPES = {
 
 @dataclass
 class Element:
-    """One element of the header. properties: name, type, and the type of its count where it is a list."""
+    """One element of the header.
+
+    properties: name, type, and the type of the count if it is a list.
+    """
 
     name: str
     count: int
     properties: list[tuple[str, str, str | None]] = field(default_factory=list)
 
 
-Ragged = tuple[np.ndarray, np.ndarray]  # all numbers of a list property one after another, and how many a row has
+Ragged = tuple[np.ndarray, np.ndarray]  # all numbers of a list property one after another, and the count of each row
 Columns = dict[str, np.ndarray | Ragged]
 
 
 def parse_header(name: str, data: bytes) -> tuple[list[Element], str, list[str], bytes]:
-    """The elements, the format, the comments, and the bytes after the header. Raises InputError."""
+    """Return the elements, the format, the comments, and the bytes after the header.
+
+    Raise InputError if the header is not valid.
+    """
     end = data.find(b"end_header")
     newline = data.find(b"\n", end)
     if end < 0 or newline < 0:
@@ -61,8 +67,11 @@ def parse_header(name: str, data: bytes) -> tuple[list[Element], str, list[str],
 
 
 def read_elements(name: str, elements: list[Element], style: str, body: bytes) -> dict[str, Columns]:
-    """The columns of every element. Raises InputError where the body is shorter than the header tells."""
-    if style == "ascii":  # as if it were binary, all of one wide type
+    """Return the columns of every element.
+
+    Raise InputError if the body is shorter than the header states.
+    """
+    if style == "ascii":  # converted to binary with one wide type
         body = np.array(body.split(), np.float64).tobytes()
         for e in elements:
             e.properties = [(label, "f8", count and "f8") for label, _, count in e.properties]
@@ -77,7 +86,7 @@ def read_elements(name: str, elements: list[Element], style: str, body: bytes) -
 
 
 def _element(name: str, element: Element, order: str, body: bytes, at: int) -> tuple[Columns, int]:
-    """The columns of one element whose bytes start at `at`, and where they end."""
+    """Return the columns of one element whose bytes start at `at`, and their end."""
     lengths = _lengths(element, order, body, at)
     row = np.dtype(_fields(element, order, lengths))
     if element.count and at + row.itemsize * element.count <= len(body):
@@ -92,7 +101,7 @@ def _element(name: str, element: Element, order: str, body: bytes, at: int) -> t
 
 
 def _lengths(element: Element, order: str, body: bytes, at: int) -> dict[str, int]:
-    """How long the lists of the first row are."""
+    """Return the lengths of the lists of the first row."""
     lengths = {}
     for label, kind, count in element.properties:
         if count is not None:
@@ -117,7 +126,7 @@ def _fields(element: Element, order: str, lengths: dict[str, int]) -> list[tuple
 
 
 def _rows(name: str, element: Element, order: str, body: bytes, at: int) -> tuple[Columns, int]:
-    """Row by row, for lists whose lengths differ."""
+    """Read row by row, for lists of different lengths."""
     plain: list[tuple[str, np.dtype, np.dtype | None]]
     plain = [
         (label, np.dtype(order + kind), np.dtype(order + count) if count else None) for label, kind, count in element.properties
@@ -132,7 +141,7 @@ def _rows(name: str, element: Element, order: str, body: bytes, at: int) -> tupl
                     float(np.frombuffer(body[at : at + count.itemsize], count)[0]) if at + count.itemsize <= len(body) else -1
                 )
                 at += count.itemsize
-            if not 0 <= told * kind.itemsize <= len(body) - at:  # also where it is no number
+            if not 0 <= told * kind.itemsize <= len(body) - at:  # also false for NaN
                 raise InputError(f"{name} is truncated: {element.name!r} {row + 1} of {element.count} is not whole")
             end = at + int(told) * kind.itemsize
             found[label].append(body[at:end])

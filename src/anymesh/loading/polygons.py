@@ -1,7 +1,7 @@
-"""Polygons to triangles. Convex ones are fanned; concave ones lose ear after ear, so that no triangle covers a window's hole.
+"""Triangulation of polygons.
 
-Our own, since every corner must stay: the common ear clippers drop corners that lie on a line between others, and with them
-the seams to neighbours.
+Convex polygons become fans. Concave ones are cut by ear clipping, so that no triangle covers a window's hole. Common ear
+clippers drop corners that lie on a line between others, and with them the seams to neighbours. This one keeps every corner.
 """
 
 from __future__ import annotations
@@ -9,11 +9,11 @@ from __future__ import annotations
 import numpy as np
 from jaxtyping import Float, Int
 
-REFLEX = 1e-6  # sine-like, of a corner's cross product over its sides' lengths: a corner that turns in by less is straight
+REFLEX = 1e-6  # sine-like ratio of a corner's cross product to its sides' lengths; a corner that turns in by less is straight
 
 
 def fans(counts: Int[np.ndarray, " n"]) -> tuple[Int[np.ndarray, "F 3"], Int[np.ndarray, " F"]]:
-    """Triangles of polygons that lie one after another: three numbers into all their corners, and the polygon, a triangle."""
+    """Return triangles of polygons that lie one after another, as three indices into all their corners, and their polygons."""
     each = np.maximum(counts - 2, 0)
     polygon = np.repeat(np.arange(len(counts)), each)
     start = (np.cumsum(counts) - counts)[polygon]
@@ -28,9 +28,9 @@ def recut(
     vertices: Float[np.ndarray, "V 3"],
     corners: Int[np.ndarray, " c"],
 ) -> Int[np.ndarray, "F 3"]:
-    """The fans of concave polygons cut anew, by ears; as many triangles as before, in the same places.
+    """Cut the fans of concave polygons again, by ears; the number of triangles and their positions stay the same.
 
-    corners: the vertex of each corner, polygon after polygon; those of polygons with no triangle may be no vertex at all.
+    corners: the vertex of each corner, polygon after polygon; those of polygons without triangles may not be valid vertices.
     """
     big = np.flatnonzero(counts > 3)
     if not len(big):
@@ -57,18 +57,18 @@ def recut(
 
 
 def _flat(points: np.ndarray, normal: np.ndarray) -> np.ndarray:
-    """(n, 2) as seen against the normal, so that the outline runs counterclockwise."""
+    """Return (n, 2) points as seen against the normal, so that the outline runs counterclockwise."""
     k = int(np.abs(normal).argmax())
     axes = [(k + 1) % 3, (k + 2) % 3]
     return points[:, axes if normal[k] > 0 else axes[::-1]]
 
 
 def _ears(p: np.ndarray) -> np.ndarray:
-    """(n - 2, 3) numbers of the corners of a simple counterclockwise polygon (n, 2)."""
+    """Return the (n - 2, 3) corner indices of the triangles of a simple counterclockwise polygon (n, 2)."""
     left, found = list(range(len(p))), []
     while len(left) > 3:
         ear = next((i for i in range(len(left)) if _is_ear(p, left, i)), None)
-        if ear is None:  # it crosses itself: the flattest corner does the least harm
+        if ear is None:  # the polygon crosses itself: the flattest corner does the least harm
             ear = int(np.argmin([abs(_cross(p, *_around(left, i))) for i in range(len(left))]))
         found.append(_around(left, ear))
         del left[ear]
@@ -85,7 +85,7 @@ def _cross(p: np.ndarray, a: int, b: int, c: int) -> float:
 
 
 def _is_ear(p: np.ndarray, left: list[int], i: int) -> bool:
-    """Whether the corner turns out, and no other corner lies in its triangle (one at the same place does not count)."""
+    """Return whether the corner is convex, and no other corner lies in its triangle (one at the same place does not count)."""
     a, b, c = _around(left, i)
     if _cross(p, a, b, c) <= 0:
         return False

@@ -1,4 +1,4 @@
-"""Resolve what a mesh file refers to: paths, file URLs and the packages of ROS and Gazebo, within one permitted folder."""
+"""Resolve references of a mesh file: paths, file URLs and the packages of ROS and Gazebo, within one permitted folder."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from urllib.parse import unquote
 
-SCHEME = re.compile(r"([a-zA-Z][a-zA-Z0-9+.-]+):")  # one letter is a drive of Windows
+SCHEME = re.compile(r"([a-zA-Z][a-zA-Z0-9+.-]+):")  # one letter is a Windows drive
 DRIVE = re.compile(r"[a-zA-Z]:")
 FILE_URL = re.compile(r"(?i)file:(//localhost(?=/)|//)?")
 PACKAGE_URL = re.compile(r"(?i)(?:package|model)://([^/]*)/?(.*)", re.S)
@@ -20,18 +20,19 @@ OUTSIDE = "lies outside the permitted folder"
 
 @dataclass(frozen=True)
 class Unresolved:
-    """Why a reference leads to no file that may be read, as the end of a sentence."""
+    """Reason why a reference leads to no readable file, as the end of a sentence."""
 
     reason: str
 
 
 def resolve_reference(uri: str, bases: Sequence[Path], root: Path) -> Path | Unresolved:
-    """Find the file within `root` that a reference means; nothing outside is read or listed, no URL is followed.
+    """Find the file within `root` that a reference means; nothing outside is read or listed, and no URL is followed.
 
-    bases: the folders that relative paths start from, in order; they and root are resolved, and lie within root. A backslash
-    counts as a slash, percent-encoded names are decoded where the name as written is missing, and where no name has the same
-    case, the only one that differs in case alone is taken. `package://NAME/REST` and `model://NAME/REST` mean REST in a folder
-    NAME between the first base and root, or in the folder NAME of root. Links are followed before anything is judged.
+    bases: the folders that relative paths start from, in order; they and root are resolved, and lie within root.
+
+    A backslash counts as a slash. Percent-encoded names are decoded if the name as written is missing. If no name has the same
+    case, the only one that differs in case is used. `package://NAME/REST` and `model://NAME/REST` mean REST in a folder NAME
+    between the first base and root, or in the folder NAME of root. Links are followed before any check.
     """
     scheme = SCHEME.match(uri)
     kind = scheme[1].lower() if scheme else ""
@@ -51,10 +52,10 @@ def resolve_reference(uri: str, bases: Sequence[Path], root: Path) -> Path | Unr
 
 
 def _path_starts(text: str, bases: Sequence[Path], root: Path) -> Iterator[tuple[Path | None, str]]:
-    """Folders and the paths to walk from them; None for an absolute path that does not lead into root."""
+    """Yield folders and the paths to walk from them; None for an absolute path that does not lead into root."""
     for name in dict.fromkeys(n.replace("\\", "/") for n in (text, unquote(text))):
         drive = name[1:] if DRIVE.match(name[1:]) and name.startswith("/") else name
-        if drive.startswith("//"):  # a server: not even looked for
+        if drive.startswith("//"):  # a server is not searched
             yield None, ""
         elif drive.startswith("/") or DRIVE.match(drive):
             inner = _relative(Path(drive), root) if Path(drive).is_absolute() else None
@@ -81,7 +82,7 @@ def _relative(path: Path, root: Path) -> str | None:
 
 
 def _walk(start: Path, name: str, root: Path) -> Path | None:
-    """The resolved place that a relative path leads to, whether a file is there or not; None outside root."""
+    """Return the resolved path that a relative path leads to, whether a file exists or not; None outside root."""
     here = start
     try:
         for part in name.split("/"):
@@ -95,7 +96,7 @@ def _walk(start: Path, name: str, root: Path) -> Path | None:
 
 
 def _child(folder: Path, name: str, root: Path) -> Path:
-    """The entry of that name, or the only one that differs in case or Unicode form; nothing outside root is listed."""
+    """Return the entry of that name, or the only one that differs in case or Unicode form; nothing outside root is listed."""
     exact = folder / name
     if exact.exists() or not folder.is_relative_to(root) or not folder.is_dir():
         return exact

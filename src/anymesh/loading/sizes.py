@@ -1,8 +1,8 @@
-"""How large things of a kind are: a scale for files that do not tell, or tell what cannot be.
+"""Usual sizes of kinds of objects, as scale for files without a unit or with an implausible one.
 
-Longest side of the closed object [m]; a kind is a word of the category or of the file's name. The values are our estimates of
-common things. Where Sweet Home 3D 7.0.2's catalogue states sizes (26 of the kinds), its medians lie within a factor of 1.5 of
-them for 24, and of 2.5 for a box and a fridge; a size is only believed or not within a factor of 3.
+The sizes are the longest side of the closed object [m]; a kind is a word of the category or of the file's name. The values are
+estimates for common objects. Sweet Home 3D 7.0.2's catalogue states sizes for 26 of the kinds. Its medians are within a factor
+of 1.5 of the values for 24, and of 2.5 for a box and a fridge. A size is accepted within a factor of 3.
 """
 
 from __future__ import annotations
@@ -24,12 +24,12 @@ LONGEST = {
     "toilet": 0.75, "trash": 0.6, "truck": 7.0, "tv": 1.1, "usb": 0.06, "van": 5.0, "wardrobe": 2.1, "washer": 0.85,
     "washing_machine": 0.85, "wheelchair": 1.05, "window": 1.3,
 }  # fmt: skip
-SMALLER = {"toy", "model", "mini", "miniature", "dollhouse"}  # words that say that the usual size does not hold
-BELIEVED_FACTOR = 3.0  # a size is believed within this factor of the usual one
+SMALLER = {"toy", "model", "mini", "miniature", "dollhouse"}  # words that mean that the usual size does not apply
+BELIEVED_FACTOR = 3.0  # a size is accepted within this factor of the usual one
 
 
 def usual_size(words: str) -> tuple[str, float] | None:
-    """The kind that a category or a file's name tells, and its usual longest side [m]; None when no kind is known.
+    """Return the kind named by a category or a file's name, and its usual longest side [m]; None if no kind is known.
 
     The last word that is a kind counts, since a table lamp is a lamp.
     """
@@ -42,5 +42,5 @@ def usual_size(words: str) -> tuple[str, float] | None:
 
 
 def is_near(longest: float, usual: float) -> bool:
-    """Whether a longest side is one that things of a usual size have."""
+    """Return whether a longest side is plausible for objects of a usual size."""
     return usual / BELIEVED_FACTOR <= longest <= usual * BELIEVED_FACTOR

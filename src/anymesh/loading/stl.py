@@ -1,4 +1,4 @@
-"""STL, binary and ASCII: triangles, one node a solid; its normals say no more than the winding does."""
+"""STL, binary and ASCII: triangles, one node per solid; its normals add nothing to the winding and are ignored."""
 
 from __future__ import annotations
 
@@ -21,7 +21,10 @@ SOLID = re.compile(rb"(?mi)^\s*solid\b[ \t]*(.*?)\s*$")
 
 
 def read_stl(data: bytes, folder: Folder) -> Mesh:
-    """The triangles in file coordinates. Raises InputError."""
+    """Return the triangles in file coordinates.
+
+    Raise InputError if they are not valid.
+    """
     name = folder.path.name
     if not ASCII.match(data):
         return _binary(name, data)
@@ -53,5 +56,5 @@ def _solid(name: str, text: bytes) -> Mesh:
 
 
 def _stem(name: str) -> str:
-    """A file's name without its ending."""
+    """Return a file's name without its ending."""
     return name.rsplit(".", 1)[0]

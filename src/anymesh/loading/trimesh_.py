@@ -21,7 +21,10 @@ ENCODINGS = ("utf-8", "us-ascii", "ascii", "iso-8859-1", "iso-8859-15", "windows
 
 
 def read_dae(data: bytes, folder: Folder) -> Mesh:
-    """The scene in file coordinates. Raises InputError."""
+    """Return the scene in file coordinates.
+
+    Raise InputError if it is not valid.
+    """
     name = folder.path.name
     root = parse_dae(name, data)
     _check_positions(name, root)
@@ -41,10 +44,13 @@ def _because(folder: Folder) -> str:
 
 
 def parse_dae(name: str, data: bytes) -> ET.Element:
-    """The document. Raises InputError."""
+    """Return the document.
+
+    Raise InputError if it cannot be read.
+    """
     declared = re.match(rb"""(?:\xef\xbb\xbf)?\s*<\?xml[^>]*?encoding\s*=\s*["']([^"']*)""", data)
     encoding = declared[1].decode("ascii", "replace").lower() if declared else "utf-8"
-    if b"\0" in data or encoding not in ENCODINGS:  # in any other, a document type would be written in other bytes
+    if b"\0" in data or encoding not in ENCODINGS:  # other encodings could hide a document type in other bytes
         raise InputError(
             f"{name}: found the encoding {encoding[:40] if declared else 'UTF-16'}; valid are {', '.join(ENCODINGS)}"
         )
@@ -57,7 +63,10 @@ def parse_dae(name: str, data: bytes) -> ET.Element:
 
 
 def _check_positions(name: str, root: ET.Element) -> None:
-    """pycollada takes NaN for 0, which does for normals but would move a corner."""
+    """Raise InputError for positions that are not finite.
+
+    pycollada reads NaN as 0, which is acceptable for normals but would move a corner.
+    """
     wanted = {n.get("source", "")[1:] for n in root.iter() if n.get("semantic") == "POSITION"}
     for source in (n for n in root.iter() if n.tag.endswith("}source") and n.get("id") in wanted):
         words = " ".join(n.text or "" for n in source.iter() if n.tag.endswith("}float_array")).lower()
@@ -74,13 +83,16 @@ def _pictures(root: ET.Element) -> Iterator[str]:
 
 
 class _Readable:
-    """The textures that can be read, as trimesh asks for them."""
+    """Resolver of the readable textures for trimesh."""
 
     def __init__(self, textures: dict[str, bytes]) -> None:
         self._textures = textures
 
     def get(self, name: str) -> bytes:
-        """The bytes of a texture. Raises KeyError where it is left out, which trimesh passes over."""
+        """Return the bytes of a texture.
+
+        Raise KeyError if it is left out, which trimesh ignores.
+        """
         return self._textures[name.strip()]
 
     __getitem__ = get
@@ -93,7 +105,7 @@ def _geometries(data: bytes, folder: Folder, textures: _Readable) -> Iterator[tu
     with quiet_decoder():
         try:
             scene = read(file_obj=io.BytesIO(data), resolver=textures, ignore_broken=False)
-        except Exception as error:  # pycollada is strict; what it would pass over is often of no matter
+        except Exception as error:  # pycollada is strict, often about irrelevant faults
             scene = read(file_obj=io.BytesIO(data), resolver=textures, ignore_broken=True)
             folder.warn(f"some of the file is broken and left out ({type(error).__name__}: {str(error)[:100]})")
     for entry in scene["graph"]:
@@ -117,7 +129,7 @@ def _mesh(where: str, node: str, geometry: dict[str, Any]) -> Mesh:
 
 
 def _material(material: Any) -> Material:
-    """COLLADA's colours are for display, as sRGB; ours are linear."""
+    """Convert a material; COLLADA's colours are sRGB and are converted to linear."""
     r, g, b, alpha = np.r_[_channels(material.baseColorFactor), 1.0, 1.0, 1.0, 1.0][:4]
     named = {
         "base_color": material.baseColorTexture,
@@ -145,7 +157,7 @@ def _channels(values: Any) -> np.ndarray:
 
 
 def _texture(image: Any) -> Texture | None:
-    """The bytes of an opened picture, where they can be had, else a PNG of it."""
+    """Return an opened picture as PNG."""
     if image is None:
         return None
     buffer = io.BytesIO()

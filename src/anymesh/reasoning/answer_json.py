@@ -1,4 +1,4 @@
-"""Typed answers as the JSON objects that parse to them, so that an answer can be shown and corrected."""
+"""Conversion of typed answers to the JSON objects that parse to them, for display and correction."""
 
 from __future__ import annotations
 
@@ -15,7 +15,10 @@ from anymesh.types.recognition import Moves, Recognition, RecognizedLabel
 
 
 def answer_object(question: Question[Any], answer: Any) -> dict[str, Any]:
-    """Return the object whose parse is this answer. Raises TypeError for a question of another kind."""
+    """Return the object whose parse is this answer.
+
+    Raise TypeError for an unknown kind of question.
+    """
     match question:
         case Recognize():
             return _recognition(question, answer)

@@ -1,7 +1,7 @@
-"""Questions with pictures, and the protocol of those who answer them.
+"""Questions with pictures, and the protocol of their answerers.
 
-A question holds its pictures, the numbers drawn in them and what these stand for, so that an answer is always decoded with
-the very question that was asked. Its text, the schema of the answer and the check of it stand together in one class.
+A question holds its pictures, the numbers drawn in them and what these stand for, so that an answer is always decoded with the
+question that was asked. One class holds the text of a question, the schema of its answer and the check of the answer.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ class BadAnswerError(Exception):
 
 @runtime_checkable
 class Question(Protocol[Answer_co]):
-    """One question about pictures, with an answer of a type of its own."""
+    """One question about pictures, with its own type of answer."""
 
     @property
     def kind(self) -> str: ...
@@ -31,15 +31,18 @@ class Question(Protocol[Answer_co]):
     def pictures(self) -> tuple[Picture, ...]: ...
 
     def text(self) -> str:
-        """What is asked, in words."""
+        """Return the text of the question."""
         ...
 
     def schema(self) -> dict[str, Any]:
-        """The JSON schema of the answer: an object."""
+        """Return the JSON schema of the answer, which is an object."""
         ...
 
     def parse(self, found: Mapping[str, Any]) -> Answer_co:
-        """The answer, from an object that satisfies the schema. Raises BadAnswerError."""
+        """Return the answer from an object that satisfies the schema.
+
+        Raise BadAnswerError if it does not fit the question.
+        """
         ...
 
 
@@ -47,8 +50,8 @@ class Question(Protocol[Answer_co]):
 class VisualAnswerer(Protocol):
     """Answerer of questions with pictures: a model, geometry as its fallback, or ground truth.
 
-    exchanges: every call so far; warnings: what a user should know (which fallback answered, and why); needs_images: False
-    where the other fields of a question are enough, so that its pictures are not rendered.
+    exchanges: every call so far; warnings: messages for the user (which fallback answered, and why); needs_images: False if the
+    other fields of a question are sufficient, so that its pictures are not rendered.
     """
 
     name: str
@@ -64,34 +67,34 @@ class VisualAnswerer(Protocol):
 
 
 def an_object(**properties: dict[str, Any]) -> dict[str, Any]:
-    """The schema of an object that has exactly these properties."""
+    """Return the schema of an object that has exactly these properties."""
     return {"type": "object", "properties": properties, "required": list(properties), "additionalProperties": False}
 
 
-REASON = "reason"  # the property that comes before an answer, so that a model can think; it may be left out
+REASON = "reason"  # optional property before an answer that lets a model reason
 
 
 def an_answer(**properties: dict[str, Any]) -> dict[str, Any]:
-    """The schema of an answer: a short reason first, then these properties."""
+    """Return the schema of an answer: a short reason first, then these properties."""
     return an_object(**{REASON: {"type": "string", "description": "one or two short sentences"}}, **properties)
 
 
 def with_category(category: str | None, text: str) -> str:
-    """The text of a question about an object whose category is known."""
+    """Return the text of a question about an object, with its category if it is known."""
     return f"The object is a {category}. {text}" if category else text
 
 
 def a_list(items: dict[str, Any]) -> dict[str, Any]:
-    """The schema of a list."""
+    """Return the schema of a list."""
     return {"type": "array", "items": items}
 
 
 def one_of(values: tuple[str, ...]) -> dict[str, Any]:
-    """The schema of one of some words."""
+    """Return the schema of a choice between words."""
     return {"type": "string", "enum": list(values)}
 
 
-LARGEST = 1e9  # no answer needs a larger number; one of a thousand digits would fill what is asked next
+LARGEST = 1e9  # limit of numbers in answers; a number of a thousand digits would fill the following questions
 INTEGER, NUMBER, STRING, BOOLEAN = ({"type": t} for t in ("integer", "number", "string", "boolean"))
 _TYPES: dict[str, tuple[type, ...]] = {
     "object": (dict,), "array": (list,), "string": (str,), "boolean": (bool,), "integer": (int,), "number": (int, float),
@@ -99,8 +102,10 @@ _TYPES: dict[str, tuple[type, ...]] = {
 
 
 def check_schema(value: Any, schema: Mapping[str, Any], at: str = "the answer") -> None:
-    """Check a value by a schema made of the functions above; words of a list of words may come in any case, and take that of
-    the list in place. Raises BadAnswerError."""
+    """Check a value by a schema made of the functions above, and raise BadAnswerError if it does not fit.
+
+    Words of a choice are accepted in any case, and replaced in place by the schema's spelling.
+    """
     kind = schema["type"]
     numeric = kind in ("integer", "number")
     wrong = not isinstance(value, _TYPES[kind]) or (isinstance(value, bool) and numeric)
@@ -129,7 +134,7 @@ def _check_names(value: Mapping[str, Any], schema: Mapping[str, Any], at: str) -
 
 
 def _in_case(value: Any, schema: Mapping[str, Any]) -> Any:
-    """The word of the schema's list that differs from the value in case and spaces at most; else the value."""
+    """Return the word of the schema's choice that equals the value up to case and spaces, else the value."""
     words = {word.lower(): word for word in schema.get("enum", ())}
     return words.get(" ".join(value.lower().split()), value) if words and isinstance(value, str) else value
 
@@ -143,11 +148,11 @@ def _short(value: object) -> str:
     return text if len(text) <= 80 else f"{text[:77]}..."
 
 
-_brief = reprlib.Repr()  # goes no deeper and no further than is shown: answers may be nested, or long, without end
+_brief = reprlib.Repr()  # limits depth and length, as answers may be nested or long without end
 _brief.maxlevel, _brief.maxlist, _brief.maxdict, _brief.maxstring = 3, 24, 8, 78
 
 
 def one_each(found: list[int], wanted: int, what: str) -> None:
-    """Raises BadAnswerError unless every number 1..wanted occurs exactly once."""
+    """Raise BadAnswerError unless every number 1..wanted occurs exactly once."""
     if sorted(found) != list(range(1, wanted + 1)):
         raise BadAnswerError(f"each {what} 1..{wanted} must be answered exactly once, found {_short(sorted(found))}")

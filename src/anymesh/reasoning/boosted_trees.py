@@ -1,4 +1,4 @@
-"""Evaluate gradient-boosted decision trees that are stored as arrays; no training library is needed."""
+"""Evaluation of gradient-boosted decision trees stored as arrays; no training library is needed."""
 
 from __future__ import annotations
 
@@ -8,15 +8,15 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float, Float32, Int16, Int32
 
-NO_FEATURE = -1  # in `feature`
+NO_FEATURE = -1  # value in `feature` of a leaf
 
 
 @dataclass(frozen=True, eq=False)
 class BoostedTrees:
-    """Trees with numeric splits. Nodes of all trees stand one after the other; root: first node of each tree.
+    """Trees with numeric splits. Nodes of all trees are concatenated; root: first node of each tree.
 
-    feature: (N,) column that a node splits on, LEAF for a leaf; threshold: (N,) up to and including it a row goes left, NaN
-    goes left too; left, right: (N,) next node; value: (N,) what a leaf adds to the score, of an inner node their mean.
+    feature: (N,) column that a node splits on, NO_FEATURE for a leaf; threshold: (N,) rows up to and including it go left, as
+    does NaN; left, right: (N,) next node; value: (N,) score of a leaf, or the mean of its leaves for an inner node.
     """
 
     feature: Int16[np.ndarray, " N"]
@@ -27,7 +27,7 @@ class BoostedTrees:
     root: Int32[np.ndarray, " T"]
 
     def score(self, rows: Float[np.ndarray, "n k"]) -> Float[np.ndarray, " n"]:
-        """Sum the leaf values that each row reaches: the log-odds of the positive class."""
+        """Return the sum of the leaf values that each row reaches: the log-odds of the positive class."""
         rows = np.asarray(rows, np.float32)
         node = np.repeat(self.root[None], len(rows), 0)
         at = np.arange(len(rows))[:, None]
@@ -38,7 +38,10 @@ class BoostedTrees:
         return self.value[node].astype(np.float64).sum(1)
 
     def contributions(self, rows: Float[np.ndarray, "n k"]) -> Float[np.ndarray, "n k"]:
-        """Return what each feature adds to the score of each row: the changes of value at the splits on it (Saabas, 2014)."""
+        """Return the contribution of each feature to the score of each row.
+
+        These are the changes of value at the splits on the feature (Saabas, 2014).
+        """
         rows = np.asarray(rows, np.float32)
         found = np.zeros(rows.shape)
         node = np.repeat(self.root[None], len(rows), 0)
@@ -51,11 +54,11 @@ class BoostedTrees:
         return found
 
     def arrays(self, name: str) -> dict[str, np.ndarray]:
-        """Return the arrays by the names under which `from_arrays` finds them."""
+        """Return the arrays by the names that `from_arrays` uses."""
         return {f"{name}.{key}": value for key, value in vars(self).items()}
 
     @classmethod
     def from_arrays(cls, name: str, arrays: Mapping[str, np.ndarray]) -> BoostedTrees:
-        """Read what `arrays` returned, for instance from an .npz file."""
+        """Build the trees from the result of `arrays`, for instance from an .npz file."""
         fields = ("feature", "threshold", "left", "right", "value", "root")
         return cls(*(arrays[f"{name}.{key}"] for key in fields))

@@ -32,16 +32,16 @@ from anymesh.reasoning.vlm import SYSTEM, exchange_of
 from anymesh.rendering.sheet import question_sheet
 from anymesh.types import Exchange
 
-LEFT = f"left to {LEAVE}"  # the verdict on a question that was left
-POLL = 1.0  # [s] between two looks for an answer that is waited for
+LEFT = f"left to {LEAVE}"  # verdict on a question left to geometry
+POLL = 1.0  # [s] interval between checks for an answer
 
 
 class FileAnswerer:
-    """Takes answers from folders of files.
+    """Answerer that reads answers from folders of files.
 
-    wait: wait for an answer that is not there, instead of raising OpenQuestionError; paused: entered while waiting, so that
-    a time limit does not count it; stop: ends all waiting; poll: time between two looks [s]; suggest: write the fallback's
-    answer beside each question that is waited for.
+    wait: wait for a missing answer instead of raising OpenQuestionError; paused: context entered while waiting, so that a time
+    limit does not count it; stop: ends all waiting; suggest: write the fallback's answer beside each question that is waited
+    for.
     """
 
     needs_images = True
@@ -67,7 +67,10 @@ class FileAnswerer:
         return tuple(self._exchanges)
 
     def ask(self, question: Question[Answer]) -> Answer:
-        """Raises OpenQuestionError when there is no valid answer yet, OutputError when the folder cannot be written."""
+        """Return the answer in the question's folder.
+
+        Raise OpenQuestionError if there is no valid answer yet, OutputError if the folder cannot be written.
+        """
         request = Request(question.kind, SYSTEM, question.text(), question.pictures, question.schema())
         folder = self._store.put(request, _files(request, question))
         begin, text = time.monotonic(), folder.answer()
@@ -96,14 +99,14 @@ class FileAnswerer:
 
 
 def is_left_to_geometry(text: str) -> bool:
-    """Tell whether an answer leaves its question to geometry."""
+    """Return whether an answer leaves its question to geometry."""
     return text.strip().strip('"') == LEAVE
 
 
 def check_answer(folder: QuestionFolder, text: str) -> bool:
-    """Check an answer by the schema and, where the question was saved whole, by the question itself.
+    """Check an answer by the schema and, if the question was saved completely, by the question itself.
 
-    Returns whether it was. Raises BadAnswerError.
+    Return whether the question was checked. Raise BadAnswerError if the answer is not valid.
     """
     if is_left_to_geometry(text):
         return True
@@ -111,13 +114,13 @@ def check_answer(folder: QuestionFolder, text: str) -> bool:
     try:
         question = unpack_question((folder.path / CHECK).read_bytes(), folder.pictures())
     except (OSError, InputError):
-        return False  # of another version: the run that goes on checks the rest
+        return False  # from another version; the resumed run checks the rest
     question.parse(found)
     return True
 
 
 def open_questions(questions: Sequence[QuestionFolder]) -> list[QuestionFolder]:
-    """Those without a valid answer; a refusal is written beside an answer that is not valid."""
+    """Return the questions without a valid answer; a refusal is written beside an answer that is not valid."""
     return [q for q in questions if not q.outdated and not _answered(q)]
 
 
@@ -135,15 +138,15 @@ def _answered(folder: QuestionFolder) -> bool:
 
 
 def still_answered(store: QuestionStore, exchanges: Sequence[Exchange]) -> bool:
-    """Tell whether the files still hold the answers that a saved stage was made with."""
+    """Return whether the files still hold the answers that a saved stage was made with."""
     asked = {q.key: q for q in store.questions()}
     return all(e.key in asked and asked[e.key].answer() == e.answer for e in exchanges)
 
 
 def _files(request: Request, question: Question[Answer]) -> dict[str, bytes]:
-    """The files beside question.json; without CHECK, `check_answer` goes by the schema alone."""
+    """Return the files beside question.json. Without CHECK, `check_answer` uses the schema alone."""
     files = {WORDS: question_page(request).encode()}
-    with suppress(TypeError):  # a question of somebody else's may hold anything
+    with suppress(TypeError):  # a question from outside this package may hold anything
         files[CHECK] = pack_question(question)
     if request.pictures:
         files[SHEET] = question_sheet(request.pictures).png

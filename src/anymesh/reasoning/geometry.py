@@ -1,4 +1,4 @@
-"""The answerer that needs no model: it ranks motions by the learned score, and by what the part's label says."""
+"""Answerer without a model: ranks motions by the learned score and by the part's label."""
 
 from __future__ import annotations
 
@@ -10,15 +10,13 @@ from anymesh.reasoning.two_steps import confidence_of
 from anymesh.reasoning.vocabulary import TypicalMotion, typical_motion
 from anymesh.types import JointType, MotionKind
 
-NO_MOTION_CONFIDENCE = 0.3  # confidence of a joint that no motion speaks for
-CALIBRATION_SLOPE, OFFSET = (
-    0.81,
-    0.05,
-)  # of the log-odds of a confidence; fitted to kinds left out of training (benchmarks/train_motions.py)
-SAME_AXIS = 0.97  # cosine of axes that are one to a user
-SAME_LINE = 0.1  # and the share of the part's own size that their lines may be apart
-BLOCKED = -4.0  # log-odds that a motion loses which the sweep calls blocked
-LABEL_PRIOR = {  # log-odds that a label adds to a hinge, to a turn about the axis of a round outline, to a slide
+NO_MOTION_CONFIDENCE = 0.3  # confidence of a joint without a plausible motion
+# calibration of the log-odds of a confidence, fitted to kinds left out of training (benchmarks/train_motions.py)
+CALIBRATION_SLOPE, OFFSET = 0.81, 0.05
+SAME_AXIS = 0.97  # minimum cosine between axes that a user sees as one
+SAME_LINE = 0.1  # of the part's size: maximum distance between lines that a user sees as one
+BLOCKED = -4.0  # [log-odds] penalty of a motion that the sweep finds blocked
+LABEL_PRIOR = {  # [log-odds] added by a label to a hinge, to a rotation about the axis of a round outline, to a slide
     TypicalMotion.HINGE: (1.5, -2.5, -2.0),
     TypicalMotion.TWO_PIVOT: (1.5, -2.5, -2.0),
     TypicalMotion.PRISMATIC: (-2.0, -2.5, 2.0),
@@ -28,12 +26,15 @@ LABEL_PRIOR = {  # log-odds that a label adds to a hinge, to a turn about the ax
 
 
 class GeometryAnswerer:
-    """Answers from geometry alone; no key, no network."""
+    """Answers from geometry alone; needs no key and no network."""
 
     name = "geometry"
 
     def which_motion(self, question: MotionQuestion) -> MotionAnswer:
-        """Rank the candidates by score; the confidence comes from the share of those like the best to a user."""
+        """Rank the candidates by score.
+
+        The confidence comes from the probability of the candidates that a user sees as the best one.
+        """
         scores = motion_scores(question)
         ranking = tuple(int(i) for i in np.argsort(-scores, kind="stable"))
         best = question.candidates[ranking[0]]
@@ -46,7 +47,7 @@ class GeometryAnswerer:
 
 
 def motion_scores(question: MotionQuestion) -> Float[np.ndarray, " k"]:
-    """Return the log-odds of each candidate, with what is blocked behind, and what the label says of the usual motion."""
+    """Return the log-odds of each candidate, with a penalty for blocked motions and a prior from the label."""
     scores = question.scores + np.array([0.0 if c.is_free else BLOCKED for c in question.candidates])
     prior = LABEL_PRIOR.get(habit) if (habit := typical_motion(question.part.label)) else None
     if prior is None:
@@ -56,9 +57,9 @@ def motion_scores(question: MotionQuestion) -> Float[np.ndarray, " k"]:
 
 
 def same_joints(question: MotionQuestion, best: int) -> Bool[np.ndarray, " k"]:
-    """Return which candidates a user could not tell from `best`: of its kind, about the same line, opening to the same side.
+    """Return which candidates a user could not distinguish from `best`.
 
-    What turns freely both ways has no side.
+    They are of its kind, about the same line, opening to the same side. A motion that is free both ways has no side.
     """
     motions = [c.motion for c in question.candidates]
     same = np.array([m.kind is motions[best].kind for m in motions])
@@ -72,13 +73,13 @@ def same_joints(question: MotionQuestion, best: int) -> Bool[np.ndarray, " k"]:
 
 
 def share_of_best(scores: Float[np.ndarray, " k"], same: Bool[np.ndarray, " k"]) -> float:
-    """Return the probability of the candidates that are the same joint, as if one of all were right."""
+    """Return the probability of the candidates that are the same joint, if exactly one of all is right."""
     likely = np.exp(scores - scores.max())
     return float(likely[same].sum() / likely.sum())
 
 
 def joint_type(c: Candidate) -> JointType:
-    """Return the type of joint that goes with a candidate."""
+    """Return the type of joint of a candidate."""
     if c.motion.kind is MotionKind.PRISMATIC:
         return JointType.PRISMATIC
     return JointType.CONTINUOUS if c.role == "round" and c.is_endless else JointType.REVOLUTE

@@ -1,4 +1,4 @@
-"""Where are the parts? Set-of-mark grounding (paper, 3.2): which labels show in which view, then which marks are which."""
+"""Set-of-mark grounding (paper, 3.2): which labels are visible in which view, and which marks belong to which part."""
 
 from __future__ import annotations
 
@@ -15,7 +15,10 @@ from anymesh.types import Picture
 
 @dataclass(frozen=True, eq=False)
 class WhichViews:
-    """Which labels show in which view? faces: a face number a pixel of each view, -1 nothing."""
+    """Which labels are visible in which view?
+
+    faces: a face index per pixel of each view, -1 for none.
+    """
 
     pictures: tuple[Picture, ...]
     labels: tuple[str, ...]
@@ -35,7 +38,7 @@ class WhichViews:
         return an_answer(parts=a_list(an_object(label=one_of(self.labels), views=a_list(INTEGER))))
 
     def parse(self, found: Mapping[str, Any]) -> dict[str, tuple[int, ...]]:
-        """Label -> views, counted from 0."""
+        """Return the views of each label, counted from 0."""
         if sorted(p["label"] for p in found["parts"]) != sorted(self.labels):
             raise BadAnswerError(
                 f"each label once: {', '.join(self.labels)}; found {[p['label'] for p in found['parts']][:30]}"
@@ -47,7 +50,10 @@ class WhichViews:
 
 @dataclass(frozen=True)
 class MarkedPart:
-    """Marks that make up one part. view: from 0, None when marks are the same in all views."""
+    """Marks that make up one part.
+
+    view: from 0, None if marks are the same in all views.
+    """
 
     label: str
     instance: int
@@ -57,7 +63,10 @@ class MarkedPart:
 
 @dataclass(frozen=True)
 class MarksAnswer:
-    """Which marks are which parts; unsure: marks that may be wrong; split: marks that lie on more than one part."""
+    """Marks of each part.
+
+    unsure: marks that may be wrong; split: marks that lie on more than one part.
+    """
 
     parts: tuple[MarkedPart, ...]
     unsure: tuple[int, ...] = ()
@@ -66,12 +75,13 @@ class MarksAnswer:
 
 @dataclass(frozen=True, eq=False)
 class WhichMarks:
-    """Which marks make up which part? regions: the mark a pixel of each picture, -1 none; faces: the face number a pixel.
+    """Which marks make up which part?
 
-    consistent: a region of the surface has one number in all pictures; found: parts of earlier pictures; splittable: the
-    answer may ask for marks to be split; inside: some pictures show the inside; again: parts of an earlier answer that proved
-    wrong, in words; face_mark: (F,) the mark of each face of the mesh, 0 none, where marks are the same in all views, for
-    those who point at the surface itself.
+    regions: the mark per pixel of each picture, -1 for none; faces: the face index per pixel; consistent: a region of the
+    surface has the same number in all pictures; found: parts of earlier pictures; splittable: the answer may ask for marks to
+    be split; inside: some pictures show the inside; again: descriptions of parts of an earlier answer that proved wrong;
+    face_mark: (F,) the mark of each face of the mesh, 0 for none, if marks are the same in all views, for answerers that select
+    marks on the surface itself.
     """
 
     pictures: tuple[Picture, ...]
@@ -124,7 +134,7 @@ class WhichMarks:
         return with_category(self.category, " ".join(told))
 
     def _belonging(self) -> str:
-        """What a part is made of; handles are parts of their own where they are asked for."""
+        """Return the text on what belongs to a part; handles are separate parts if they are asked for."""
         own = any("handle" in label for label in self.labels)
         whole = "its trim included" if own else "its handle and trim included"
         return f"A part is made of all the marks that lie on it, {whole}, and of no mark that lies on something else."

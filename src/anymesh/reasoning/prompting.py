@@ -1,4 +1,4 @@
-"""How do the parts move? Geometry-aware visual prompting (paper, 3.3): kinds of joint, candidate points, arrows, motions."""
+"""Geometry-aware visual prompting (paper, 3.3): kinds of joint, candidate points, arrows, motions."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from jaxtyping import Bool, Float, Int
 from anymesh.reasoning.asking import BOOLEAN, INTEGER, BadAnswerError, a_list, an_answer, an_object, one_each, one_of
 from anymesh.types import Motion, MotionKind, Picture
 
-OTHER = "other"  # the label of a part that is none of the recognized kinds
+OTHER = "other"  # label of a part that is none of the recognized kinds
 
 
 class JointKind(StrEnum):
-    """What a joint looks like from outside (paper, 3.3)."""
+    """Appearance of a joint from outside (paper, 3.3)."""
 
-    HINGE_ALONG = "hinge_along_edge"  # two or more points of the axis can be seen where the parts meet
-    HINGE_INTO = "hinge_into_surface"  # the axis sticks into the surface: one point of it can be seen
+    HINGE_ALONG = "hinge_along_edge"  # two or more points of the axis are visible where the parts meet
+    HINGE_INTO = "hinge_into_surface"  # the axis enters the surface: one point of it is visible
     HINGE_HIDDEN = "hinge_hidden"  # the mechanism is under the surface
     SLIDE_OUT = "slide_in_or_out"
     SLIDE_ALONG = "slide_along_surface"
@@ -33,9 +33,9 @@ class JointKind(StrEnum):
 
 @dataclass(frozen=True, eq=False)
 class PartShown:
-    """A part that is asked about. What follows the label is for those who answer without pictures [m].
+    """A part in a question. The fields after the label are for answerers without pictures [m].
 
-    diagonal: of the object's box, which tells the scale that an answered size may have changed; None when it is not known.
+    diagonal: of the object's box, which gives the scale that an answered size may have changed; None if unknown.
     """
 
     label: str
@@ -49,7 +49,10 @@ class PartShown:
 
 @dataclass(frozen=True)
 class KindAnswer:
-    """endless: turns without limits; label: which of the recognized kinds of part it is, None when that was not asked."""
+    """Kind of joint of a part.
+
+    endless: rotates without limits; label: the recognized kind of part, None if it was not asked for.
+    """
 
     kind: JointKind
     endless: bool = False
@@ -58,8 +61,10 @@ class KindAnswer:
 
 @dataclass(frozen=True, eq=False)
 class WhichKinds:
-    """What kind of joint has each part? One picture a part. labels: recognized kinds of part to choose from, where parts are
-    given without such a label; category: what the object is."""
+    """What kind of joint has each part? One picture per part.
+
+    labels: recognized kinds of part to choose from, if parts are given without such a label; category: of the object.
+    """
 
     pictures: tuple[Picture, ...]
     parts: tuple[PartShown, ...]
@@ -84,7 +89,7 @@ class WhichKinds:
         return an_answer(parts=a_list(an_object(part=INTEGER, joint=one_of(tuple(JointKind)), endless=BOOLEAN, **label)))
 
     def parse(self, found: Mapping[str, Any]) -> tuple[KindAnswer, ...]:
-        """In the order of the parts."""
+        """Return the answers in the order of the parts."""
         one_each([p["part"] for p in found["parts"]], len(self.parts), "part")
         by_part = {p["part"]: p for p in found["parts"]}
         return tuple(self._answer(p) for _, p in sorted(by_part.items()))
@@ -96,10 +101,11 @@ class WhichKinds:
 
 @dataclass(frozen=True, eq=False)
 class PointTable:
-    """Numbered candidate points of one part, as drawn: number k is row k - 1; how many are asked for depends on the kind.
+    """Numbered candidate points of one part, as drawn: number k is row k - 1.
 
-    axes: for each point the direction (unit) of the axis that it stands for, NaN where it is a place alone; hidden: points
-    that lie under a surface.
+    The number of points to pick depends on the kind.
+
+    axes: for each point the unit direction of its axis, NaN for a position only; hidden: points that lie under a surface.
     """
 
     part: PartShown
@@ -127,7 +133,7 @@ class PointTable:
 
     @property
     def listed(self) -> str:
-        """The numbers that are drawn, in words."""
+        """Return the numbers that are drawn, in words."""
         hidden = np.zeros(len(self.points), bool) if self.hidden is None else self.hidden
         few = np.flatnonzero(hidden if hidden.mean() <= 0.5 else ~hidden) + 1
         told = f"{'' if hidden.mean() <= 0.5 else 'all but '}{', '.join(map(str, few))}" if len(few) else "all"
@@ -137,7 +143,7 @@ class PointTable:
 
 @dataclass(frozen=True, eq=False)
 class WhichPoints:
-    """Which numbered points lie on the axis? One picture a part."""
+    """Which numbered points lie on the axis? One picture per part."""
 
     pictures: tuple[Picture, ...]
     tables: tuple[PointTable, ...]
@@ -156,7 +162,7 @@ class WhichPoints:
         return an_answer(parts=a_list(an_object(part=INTEGER, points=a_list(INTEGER))))
 
     def parse(self, found: Mapping[str, Any]) -> tuple[tuple[int, ...], ...]:
-        """Rows of each table, in the order of the tables."""
+        """Return the picked rows of each table, in the order of the tables."""
         one_each([p["part"] for p in found["parts"]], len(self.tables), "part")
         by_part = {p["part"]: tuple(dict.fromkeys(p["points"])) for p in found["parts"]}
         for k, table in enumerate(self.tables, 1):
@@ -178,7 +184,7 @@ class ArrowTable:
 
 @dataclass(frozen=True, eq=False)
 class WhichArrows:
-    """Along which arrow does the part open or move from where it is? One picture a part."""
+    """Along which arrow does the part open or move from its position? One picture per part."""
 
     pictures: tuple[Picture, ...]
     tables: tuple[ArrowTable, ...]
@@ -197,16 +203,16 @@ class WhichArrows:
         return an_answer(parts=a_list(an_object(part=INTEGER, arrow=INTEGER)))
 
     def parse(self, found: Mapping[str, Any]) -> tuple[int, ...]:
-        """A row of each table, in the order of the tables."""
+        """Return the picked row of each table, in the order of the tables."""
         return _rows(found["parts"], "arrow", [len(t.directions) for t in self.tables], 1)
 
 
 @dataclass(frozen=True, eq=False)
 class MotionTable:
-    """Numbered motions of one part, as drawn, and how far each was moved [rad or m]: number k is row k - 1.
+    """Numbered motions of one part, as drawn, and the displacement of each [rad or m]: number k is row k - 1.
 
-    blocked: motions during which the part would run into something as modelled; moving: faces of the mesh that move, those of
-    parts that it carries included, None for its own alone.
+    blocked: motions in which the part would hit something as modelled; moving: faces of the mesh that move, including those of
+    carried parts, None for the part's own alone.
     """
 
     part: PartShown
@@ -217,7 +223,7 @@ class MotionTable:
 
     @property
     def listed(self) -> str:
-        """The motions in words."""
+        """Return the motions in words."""
         words = []
         for k, motion in enumerate(self.motions):
             blocked = ", blocked" if k < len(self.blocked) and self.blocked[k] else ""
@@ -235,7 +241,10 @@ class PartFit(StrEnum):
 
 @dataclass(frozen=True)
 class MotionPick:
-    """motion: a row of the table, None for none of them; part: whether the region shown is right."""
+    """Picked motion of a part.
+
+    motion: a row of the table, None for none of them; part: whether the region shown is right.
+    """
 
     motion: int | None
     part: PartFit = PartFit.RIGHT
@@ -243,7 +252,9 @@ class MotionPick:
 
 @dataclass(frozen=True, eq=False)
 class WhichMotions:
-    """Which of the motions shown is the right one? One strip of pictures a part: at rest, then moved by each motion.
+    """Which of the motions shown is the right one?
+
+    One strip of pictures per part: at rest, then moved by each motion.
 
     ask_fit: the answer also says whether the coloured region is the whole part and nothing else.
     """
@@ -273,7 +284,7 @@ class WhichMotions:
         return an_answer(parts=a_list(an_object(part=INTEGER, motion=INTEGER, **fit)))
 
     def parse(self, found: Mapping[str, Any]) -> tuple[MotionPick, ...]:
-        """A pick for each table, in the order of the tables."""
+        """Return a pick for each table, in the order of the tables."""
         rows = _rows(found["parts"], "motion", [len(t.motions) for t in self.tables], 0)
         fits = {p["part"]: PartFit(p.get("part_is", PartFit.RIGHT)) for p in found["parts"]}
         return tuple(MotionPick(None if row < 0 else row, fits[k]) for k, row in enumerate(rows, 1))

@@ -1,4 +1,4 @@
-"""A question in words to read: what is asked, the pictures, where the answer goes, its schema explained, an example."""
+"""Text of a question as a page: the question, the pictures, the place of the answer, its schema explained, an example."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ WORDS = {"integer": "a whole number", "number": "a number", "string": "text", "b
 
 
 def question_page(request: Request) -> str:
-    """Write question.md."""
+    """Return the content of question.md."""
     pictures = "\n".join(
         f"{k}. {p.caption or 'picture'}\n\n   ![{_plain(p.caption)}]({k:02d}.png)\n" for k, p in enumerate(request.pictures, 1)
     )
@@ -52,7 +52,7 @@ def _describe(schema: Mapping[str, Any]) -> str:
 
 
 def example_answer(schema: Mapping[str, Any]) -> Any:
-    """Make a value that satisfies a schema in form."""
+    """Make a value of the schema's form."""
     match schema["type"]:
         case "object":
             return {name: example_answer(part) for name, part in schema["properties"].items()}

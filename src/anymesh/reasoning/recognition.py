@@ -1,4 +1,4 @@
-"""What is this, and which of its parts move? (paper, 3.2 and 4: labels, joint types, parents, limits by the VLM)."""
+"""Recognition of an object and its movable parts (paper, 3.2 and 4: labels, joint types, parents, limits by the VLM)."""
 
 from __future__ import annotations
 
@@ -22,23 +22,23 @@ from anymesh.reasoning.asking import (
 from anymesh.types import Picture
 from anymesh.types.recognition import BASE, Moves, Recognition, RecognizedLabel
 
-MAX_LABELS = 24
-SIZES = (0.002, 200.0)  # [m] of things that this program is for
-ROUGH = 1.5  # an answered size is a guess: the mesh keeps its own when both agree within this factor
-DOUBTFUL = 2.5  # an answered size that differs by more from that of a file with a unit is worth a warning
-FAR = 10.0  # and so is one that differs by more where the file has none
+MAX_LABELS = 24  # kinds of part per answer
+SIZES = (0.002, 200.0)  # [m] range of the size of an object
+ROUGH = 1.5  # an answered size is a guess: the mesh keeps its own size if both agree within this factor
+DOUBTFUL = 2.5  # factor between the answered size and that of a file with a unit above which there is a warning
+FAR = 10.0  # the same for a file without a unit
 WORD = re.compile(r"(?=.{1,40}$)[a-z][a-z0-9]*([ _'-][a-z0-9]+){0,4}")
 
 
 @dataclass(frozen=True, eq=False)
 class Recognize:
-    """What is the object, how large is the real one, where is its front, which parts move and how.
+    """What is the object, how large is the real one, where is its front, which parts move and how?
 
     azimuths: of the pictures [deg].
     """
 
     pictures: tuple[Picture, ...]
-    category: str | None = None  # where the user told it
+    category: str | None = None  # if the user gave it
     azimuths: tuple[float, ...] = ()
     kind: str = "recognize"
 
@@ -60,7 +60,7 @@ class Recognize:
 
     @property
     def _inside(self) -> str:
-        """What is said of pictures of the inside, which come last."""
+        """Return the text on the pictures of the inside, which come last."""
         outside = len(self.azimuths)
         if not 0 < outside < len(self.pictures):
             return ""
@@ -105,7 +105,10 @@ class Recognize:
 
 
 def check_labels(labels: Sequence[str]) -> tuple[str, ...]:
-    """The labels, if each is a plain English noun and none occurs twice. Raises BadAnswerError."""
+    """Return the labels, if each is a plain English noun and none occurs twice.
+
+    Raise BadAnswerError otherwise.
+    """
     for label in labels:
         if not WORD.fullmatch(label) or label == BASE:
             raise BadAnswerError(f"a label is a short English noun in lower case and not {BASE!r}, found {label[:40]!r}")
@@ -115,23 +118,26 @@ def check_labels(labels: Sequence[str]) -> tuple[str, ...]:
 
 
 def _folded(label: str) -> str:
-    """A label in lower case, with single spaces."""
+    """Return a label in lower case, with single spaces."""
     return " ".join(label.lower().split())
 
 
 def _check_tree(parent: Mapping[str, str]) -> None:
-    """Raise BadAnswerError unless the parents lead to the base; a part may hang on another of its own label."""
+    """Raise BadAnswerError unless the parents lead to the base; a part may depend on another one with the same label."""
     for label in parent:
         seen, at = set[str](), label
-        while at != BASE and parent[at] != at:  # a label on itself is a chain of such parts
+        while at != BASE and parent[at] != at:  # a label that is its own parent is a chain of such parts
             if at in seen:
-                raise BadAnswerError(f"parents must lead to {BASE!r}, but those of {label!r} go in a circle")
+                raise BadAnswerError(f"parents must lead to {BASE!r}, but those of {label!r} form a cycle")
             seen.add(at)
             at = parent[at]
 
 
 def parse_labels(labels: Sequence[str]) -> tuple[str, ...]:
-    """The labels that a user gives. Raises OptionError."""
+    """Return the labels given by a user.
+
+    Raise OptionError if they are not valid.
+    """
     try:
         return check_labels([_folded(label) for label in labels])
     except BadAnswerError as error:
@@ -145,15 +151,20 @@ def recognize(
     labels: Sequence[str],
     azimuths: Sequence[float] = (),
 ) -> Recognition:
-    """Asks, unless the labels were told. azimuths: of the pictures [deg]."""
+    """Ask what the object is, unless the labels were given.
+
+    azimuths: of the pictures [deg].
+    """
     if labels:
         return Recognition(category or "object", None, tuple(RecognizedLabel(label, None, None, None) for label in labels))
     return answerer.ask(Recognize(pictures() if answerer.needs_images else (), category, tuple(azimuths)))
 
 
 def answered_scale(found: Recognition, size: float, *, metric: bool) -> tuple[float, str, tuple[str, ...]]:
-    """The factor that an answered size makes, with a note, and warnings. size: longest side of the mesh [m]; metric: its
-    file states a unit, which is kept."""
+    """Return the scale factor from an answered size, with a note, and warnings.
+
+    size: longest side of the mesh [m]; metric: its file states a unit, which is kept.
+    """
     if found.size is None:
         return 1.0, "", ()
     factor = found.size / size

@@ -1,7 +1,7 @@
-"""Answer from a reference with known parts and joints, by the same marks, points and arrows as a model.
+"""Answers from a reference with known parts and joints, by the same marks, points and arrows as a model.
 
-With ground truth it is the oracle (evaluation only): it shows what the geometry half of the method loses. With what the
-geometry answerer found it stands in for a model that gave no valid answer.
+With ground truth as reference it is the oracle (evaluation only), which shows the loss of the geometric half of the method.
+With the geometry answerer's result as reference it is the fallback of a model without a valid answer.
 """
 
 from __future__ import annotations
@@ -32,16 +32,17 @@ from anymesh.reasoning.recognition import Recognize
 from anymesh.types import Exchange, JointType, Motion, MotionKind
 from anymesh.types.recognition import BASE, Moves, Recognition, RecognizedLabel
 
-MIN_VISIBLE_PIXELS = 40  # [px] of a part that a viewer notices
-MIN_MARK_OVERLAP = 0.5  # share of a mark's pixels that lie on the part it is given to
-MIN_SPLIT_OVERLAP = 0.02  # share of a mark's pixels from which another part on it is a reason to split it
-MAX_AXIS_DISTANCE_RATIO = 0.05  # of the part's size: a contact point this near the axis lies on it
-MIN_HINGE_SPREAD_RATIO = 0.25  # of the part's extent along the axis: near points further apart show a hinge
-MIN_NORMAL_COSINE = np.cos(np.deg2rad(20.0))  # an axis this near the contact plane's normal sticks into the surface
-MIN_OPENING_COSINE = 0.7  # a slide this much along the opening direction
-MAX_MOTION_ERROR_RATIO = (
-    0.5  # a motion is recognized when it takes the part no further than this from where it belongs, as a share of the way
-)
+MIN_VISIBLE_PIXELS = 40  # [px] minimum visible size of a part
+MIN_MARK_OVERLAP = 0.5  # minimum share of a mark's pixels on the part that the mark is given to
+MIN_SPLIT_OVERLAP = 0.02  # share of a mark's pixels on another part above which the mark is split
+MAX_AXIS_DISTANCE_RATIO = 0.05  # of the part's size: contact points closer to the axis lie on it
+# of the part's extent along the axis: minimum extent of the points on the axis of a visible hinge
+MIN_HINGE_SPREAD_RATIO = 0.25
+# minimum cosine between the contact plane's normal and an axis that enters the surface
+MIN_NORMAL_COSINE = np.cos(np.deg2rad(20.0))
+MIN_OPENING_COSINE = 0.7  # minimum cosine between the opening direction and a slide out of the object
+# of the displacement: maximum distance of the moved part from its true place for a motion to be recognized
+MAX_MOTION_ERROR_RATIO = 0.5
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,7 +69,10 @@ class ReferenceJoint:
 
 @dataclass(frozen=True, eq=False)
 class Reference:
-    """Known parts and joints. face_part: (F,) part of each face, 0 the base; the other fields per part, base first."""
+    """Known parts and joints.
+
+    face_part: (F,) part of each face, 0 for the base. The other fields have one entry per part, the base first.
+    """
 
     category: str
     size: float  # longest side [m]
@@ -80,7 +84,7 @@ class Reference:
 
     @cached_property
     def kinds(self) -> tuple[str, ...]:
-        """A label a part that also tells how it moves, where parts of one label move in different ways."""
+        """Return a label per part that also states its motion if parts of one label move differently."""
         moves = [None if j is None else j.type for j in self.joints]
         ways = {label: {m for other, m in zip(self.labels, moves, strict=True) if other == label} for label in self.labels}
         word = {JointType.PRISMATIC: "sliding", JointType.CONTINUOUS: "spinning", JointType.REVOLUTE: "hinged"}
@@ -130,12 +134,12 @@ class ReferenceAnswerer:
         for part, (label, joint) in enumerate(zip(known.kinds, known.joints, strict=True)):
             if joint is not None and self._moves(part):
                 parent = self._parent(part)
-                if label not in found or parent == label:  # a part on another of its own label makes it a chain
+                if label not in found or parent == label:  # a part on another one of its own label makes the label a chain
                     found[label] = RecognizedLabel(label, Moves(joint.type.value), parent, joint.range)
         return Recognition(known.category, known.size, tuple(found.values()))
 
     def _parent(self, part: int) -> str:
-        """The label of the movable part that a part is mounted on."""
+        """Return the label of the movable part that a part is mounted on."""
         over = self._known.parents[part]
         while over and not self._moves(over):
             over = self._known.parents[over]
@@ -146,7 +150,7 @@ class ReferenceAnswerer:
         return joint is not None and joint.type is not JointType.FIXED
 
     def _pixels(self, faces: np.ndarray) -> np.ndarray:
-        """The part a pixel, -1 where nothing is."""
+        """Return the part per pixel, -1 for none."""
         return np.where(faces >= 0, self._known.face_part[faces], -1)
 
     def _views(self, question: WhichViews) -> dict[str, tuple[int, ...]]:
@@ -185,7 +189,7 @@ class ReferenceAnswerer:
         return sum(kind == self._known.kinds[part] for kind in self._known.kinds[1 : part + 1])
 
     def _number(self, part: PartShown) -> int:
-        """The known part that this one covers most, 0 where that is fixed."""
+        """Return the known part that this one covers most, 0 if that is fixed."""
         known = self._known
         area = np.bincount(known.face_part[part.faces], known.face_area[part.faces], len(known.labels))
         moving = int(area[1:].argmax()) + 1 if len(area) > 1 and area[1:].max() > 0 else 0
@@ -214,7 +218,10 @@ class ReferenceAnswerer:
         return JointKind.HINGE_INTO if abs(float(axis @ part.normal)) > MIN_NORMAL_COSINE else JointKind.HINGE_HIDDEN
 
     def _points(self, table: PointTable) -> tuple[int, ...]:
-        """The point whose axis is nearest, or the two whose line takes the part nearest to where the joint takes it."""
+        """Return the point with the best axis, or the two points with the best line.
+
+        The best line takes the part closest to where the joint takes it.
+        """
         joint = self._joint(table.part)
         if joint is None:
             return tuple(range(table.min_points))
@@ -261,7 +268,7 @@ def _to_line(points: np.ndarray, joint: ReferenceJoint) -> np.ndarray:
 
 
 def _turned_by(direction: np.ndarray, joint: ReferenceJoint) -> float:
-    """Sine of the angle between a unit direction and the axis."""
+    """Return the sine of the angle between a unit direction and the axis."""
     return float(np.linalg.norm(np.cross(direction, joint.motion.axis)))
 
 

@@ -1,4 +1,4 @@
-"""The text of a reply as the JSON object that it should be."""
+"""Conversion of a reply's text to its JSON object."""
 
 from __future__ import annotations
 
@@ -10,11 +10,14 @@ from anymesh.reasoning.asking import BadAnswerError, check_schema
 
 
 def reply_object(text: str, schema: Mapping[str, Any]) -> dict[str, Any]:
-    """Read an answer as one JSON object that satisfies its schema. Raises BadAnswerError."""
+    """Read an answer as one JSON object that satisfies its schema.
+
+    Raise BadAnswerError otherwise.
+    """
     if not text.strip():
         raise BadAnswerError("it was empty, or a refusal")
     try:
-        text.encode()  # half of a surrogate pair is no text
+        text.encode()  # a lone surrogate cannot be encoded
         found = json.loads(text, parse_constant=_no_constant, object_pairs_hook=_unique)
         json.dumps(found, ensure_ascii=False).encode()
     except (ValueError, RecursionError):
@@ -24,7 +27,7 @@ def reply_object(text: str, schema: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    """Make an object of these; a name that comes twice is an answer that contradicts itself."""
+    """Build an object from pairs; raise BadAnswerError if a name occurs twice."""
     found: dict[str, Any] = {}
     for name, value in pairs:
         if name in found:

@@ -1,7 +1,7 @@
-"""A question as bytes and back, so that an answer can be checked in another process than the one that asked.
+"""Conversion of a question to bytes and back, so that an answer can be checked in another process.
 
-What a question holds besides its pictures (tables, regions, labels) is written as JSON with arrays beside it. Only frozen
-dataclasses and enums of this package's own questions and types are read back: a file can name no other code.
+The fields of a question besides its pictures (tables, regions, labels) are written as JSON with separate arrays. Only frozen
+dataclasses and enums of this package's own questions and types are read back, so a file cannot refer to other code.
 """
 
 from __future__ import annotations
@@ -21,14 +21,17 @@ from anymesh.reasoning.asking import Question
 from anymesh.types import Picture
 
 HOMES = ("anymesh.reasoning.", "anymesh.types.", "anymesh.geometry.")
-RECORD = "record"  # the array with the JSON text
-TAG = "is"  # the field of a tagged value that says what it is
+RECORD = "record"  # name of the array with the JSON text
+TAG = "is"  # field of a tagged value with its type
 RENAMED = {("anymesh.types.motion:MotionKind", "TURN"): "REVOLUTE", ("anymesh.types.motion:MotionKind", "SLIDE"): "PRISMATIC"}
 """Enum members that files of earlier versions hold under another name."""
 
 
 def pack_question(question: Question[Any]) -> bytes:
-    """Write a question without its pictures. Raises TypeError for a field that cannot be written."""
+    """Write a question without its pictures.
+
+    Raise TypeError for a field that cannot be written.
+    """
     arrays: dict[str, np.ndarray] = {}
     values = {f.name: _pack(getattr(question, f.name), arrays) for f in _fields(question) if f.name != "pictures"}
     record = {"class": _name(type(question)), "fields": values}
@@ -39,14 +42,17 @@ def pack_question(question: Question[Any]) -> bytes:
 
 
 def unpack_question(content: bytes, pictures: tuple[Picture, ...]) -> Question[Any]:
-    """Read a question again, with its pictures. Raises InputError for bytes that are none, or of another version."""
+    """Read a question with its pictures.
+
+    Raise InputError for bytes that are no question, or from another version.
+    """
     try:
         with np.load(io.BytesIO(content), allow_pickle=False) as found:
             arrays = dict(found)
         record = json.loads(arrays[RECORD].tobytes())
         values = {name: _unpack(value, arrays) for name, value in record["fields"].items()}
         return _class(record["class"])(**values, pictures=pictures)
-    except Exception as error:  # whatever a file of another version holds
+    except Exception as error:  # files of another version may raise any error
         raise InputError(
             f"the saved question cannot be read ({type(error).__name__}); ask it again with this version"
         ) from None

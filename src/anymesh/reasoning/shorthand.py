@@ -1,8 +1,8 @@
-"""Answers in few characters: `1=2 2=0` for a question whose answer is a list with one entry a part.
+"""Short form of answers: `1=2 2=0` for a question whose answer is a list with one entry per part.
 
-An entry is NAME=VALUE,VALUE,...: the name is the entry's first number or choice (a part's number, or a label), values fill the
-others in their order. A list takes all values of its kind; a boolean is false unless its name is given; text that nobody gave
-is empty. After a name, `#2` gives a number that comes second (`door#2=5,7` with an `instance`).
+An entry is NAME=VALUE,VALUE,... The name is the entry's first number or choice (a part's number, or a label). The values fill
+the other properties in their order. A list takes all values of its kind. A boolean is false unless its name is given. Missing
+text is empty. After a name, `#2` gives a second number (`door#2=5,7` with an `instance`).
 """
 
 from __future__ import annotations
@@ -19,7 +19,10 @@ Schema = Mapping[str, Any]
 
 
 def answer_text(told: str, schema: Schema) -> str:
-    """Turn what a user typed into an answer's JSON; text that is JSON already stays. Raises OptionError."""
+    """Convert a user's input to the JSON of an answer; JSON is returned unchanged.
+
+    Raise OptionError if the input is not valid.
+    """
     told = told.strip()
     if told.startswith(("{", "[", '"')) or not ASSIGNMENT.match(told):
         return told
@@ -38,7 +41,7 @@ def answer_text(told: str, schema: Schema) -> str:
 def _assignment(name: str, number: str | None, told: str, items: Schema) -> dict[str, Any]:
     properties = dict(items["properties"])
     named = (item for item in properties.items() if item[1]["type"] == "integer" or "enum" in item[1])
-    first, part = next(named, next(iter(properties.items())))  # text that explains may come before
+    first, part = next(named, next(iter(properties.items())))  # explanatory text may come before
     entry = {first: _value(name.strip(), part, first)}
     del properties[first]
     integers = [n for n, p in properties.items() if p["type"] == "integer"]
@@ -56,7 +59,10 @@ def _assignment(name: str, number: str | None, told: str, items: Schema) -> dict
 
 
 def _take(name: str, schema: Schema, values: list[str], *, defaults: bool) -> Any:
-    """Take from the values what a property needs. defaults: plain numbers go to the list, so that others get 0 or 1."""
+    """Take from the values those of a property.
+
+    defaults: plain numbers go to a list, so that other properties get 0 or 1.
+    """
     match schema["type"]:
         case "boolean":
             if name in values:

@@ -1,4 +1,4 @@
-"""A learned score in two steps: by a candidate's own features, then also by how the first scores of the others compare."""
+"""Learned score in two steps: by a candidate's own features, then also by the scores of other candidates."""
 
 from __future__ import annotations
 
@@ -12,16 +12,17 @@ from jaxtyping import Float
 
 from anymesh.reasoning.boosted_trees import BoostedTrees
 
-REASONS = 3  # features that are named
-MIN_CONFIDENCE, MAX_CONFIDENCE = 0.05, 0.99  # confidence
-MISSING = -9.0  # value of a feature that a candidate does not have
+REASONS = 3  # number of features named in a reason
+MIN_CONFIDENCE, MAX_CONFIDENCE = 0.05, 0.99  # range of confidences
+MISSING = -9.0  # value of a feature that does not apply to a candidate
 
 
 @dataclass(frozen=True, eq=False)
 class TwoStepClassifier:
-    """names: of the features, in the order of columns; those of the context follow in the second step.
+    """Classifier of candidates in two steps.
 
-    manifest: what it was trained on, and by which settings.
+    names: features in the order of columns; those of the context follow in the second step; manifest: training data and
+    settings.
     """
 
     first: BoostedTrees
@@ -45,7 +46,7 @@ class TwoStepClassifier:
     def score(
         self, own: Float[np.ndarray, "n k"], context: dict[str, Float[np.ndarray, " n"]]
     ) -> tuple[Float[np.ndarray, " n"], list[str]]:
-        """Return the log-odds of each candidate, and the features that raised each the most, in words."""
+        """Return the log-odds of each candidate, and the names of the features that raised each score the most."""
         table = np.concatenate([own, np.stack(list(context.values()), 1)], 1)
         gain = self.second.contributions(table)[:, : len(self.names)]
         return self.second.score(table), [self._reason(row, g) for row, g in zip(own, gain, strict=True)]
@@ -56,5 +57,8 @@ class TwoStepClassifier:
 
 
 def confidence_of(log_odds: float, slope: float, offset: float) -> float:
-    """Return how often a choice with these log-odds is right. slope, offset: fitted to what was left out of training."""
+    """Return the probability that a choice with these log-odds is right.
+
+    slope, offset: calibration, fitted to held-out data.
+    """
     return float(np.clip(1 / (1 + np.exp(-slope * log_odds - offset)), MIN_CONFIDENCE, MAX_CONFIDENCE))

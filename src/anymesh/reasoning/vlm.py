@@ -1,4 +1,7 @@
-"""The answerer that sees: any vision-language model. A bad answer is asked again once, then geometry answers that question."""
+"""Answerer that uses a vision-language model.
+
+The model is asked once more after a bad answer. Then geometry answers that question.
+"""
 
 from __future__ import annotations
 
@@ -20,9 +23,9 @@ SYSTEM = (
 
 
 class VlmAnswerer:
-    """Asks a model; what it cannot answer properly, `fallback` answers, and the warnings say so.
+    """Answerer that asks a model; if its answers are not valid, `fallback` answers, with a warning.
 
-    patience: shared by the answerers of one run; once it is lost the model is not asked any more.
+    patience: shared by the answerers of one run; once it is lost, the model is not asked again.
     """
 
     needs_images = True
@@ -42,7 +45,10 @@ class VlmAnswerer:
         return tuple(self._warnings)
 
     def ask(self, question: Question[Answer]) -> Answer:
-        """Raises ModelError when no reply can be had at all, BudgetError before a call that would pass the budget."""
+        """Ask the model, or the fallback if its answers are not valid.
+
+        Raise ModelError if there is no reply at all, BudgetError before a call that would exceed the budget.
+        """
         request = Request(question.kind, SYSTEM, question.text(), question.pictures, question.schema())
         if self._patience.lost:
             verdict = f"{NOT_ASKED}, {self.name} was given up; {self._fallback.name} {FALLBACK_VERDICT}"
@@ -59,7 +65,7 @@ class VlmAnswerer:
         return self._fallback.ask(question)
 
     def _fall_back(self, kind: str, why: BadAnswerError) -> None:
-        """Note that somebody else answers."""
+        """Record that the fallback answers."""
         other = self._fallback.name
         self._warnings.append(f"{self.name} gave no valid answer to {kind!r} ({why}); {other} answered it")
         if self._patience.first_time():
@@ -83,7 +89,7 @@ class VlmAnswerer:
 
 
 def exchange_of(model: str, request: Request, reply: Reply, verdict: str) -> Exchange:
-    """Record what was asked and answered; the key is that of the model `model`."""
+    """Record a request and its reply; the key is that of the model `model`."""
     return Exchange(
         kind=request.kind,
         key=request_key(model, request),

@@ -1,4 +1,4 @@
-"""Words for parts, and how such parts usually move. Free names are matched by their words, never by substrings."""
+"""Words for parts, and their typical motions. Names are matched by whole words, never by substrings."""
 
 from __future__ import annotations
 
@@ -9,20 +9,23 @@ from enum import StrEnum
 
 
 class TypicalMotion(StrEnum):
-    """How a kind of part usually moves."""
+    """Typical motion of a kind of part."""
 
     HINGE = "hinge"
     PRISMATIC = "slide"
     SPIN = "spin"
     TWO_PIVOT = "bail"
     PRESS = "press"
-    LEVER = "lever"  # a hinge or a slide: geometry decides
-    NONE = "none"  # belongs to what it is fixed to
+    LEVER = "lever"  # a hinge or a slide, decided by geometry
+    NONE = "none"  # fixed to its parent
 
 
 @dataclass(frozen=True)
 class Word:
-    """One kind of part."""
+    """A kind of part.
+
+    names: words that name it.
+    """
 
     label: str
     motion: TypicalMotion
@@ -84,20 +87,24 @@ FIXED = frozenset(
     "base body frame corpus housing case carcass chassis shell panel board wall side back top bottom floor shelf shelves leg "
     "foot feet stand support table plinth fixed static burner hinge screw logo".split()
 )
-PLACES = frozenset("side back top bottom".split())  # a side of the object by themselves, but "drawer_top" is a drawer
+# a side of the object on their own; otherwise only a position: "drawer_top" is a drawer
+PLACES = frozenset("side back top bottom".split())
 _BY_NAME = {name: word for word in WORDS for name in word.names}
-_SIBILANTS = ("ches", "shes", "ses", "xes", "zes")  # their singular lacks "es": "switches"; but not "tapes"
+_SIBILANTS = ("ches", "shes", "ses", "xes", "zes")  # the singular of these lacks "es": "switches"; but not "tapes"
 _SPLIT = re.compile(r"[^A-Za-z]+|(?<=[a-z])(?=[A-Z])")
 
 
 def words_of(name: str) -> list[str]:
-    """The words of a free name, lower case, accents and plural endings off: "LeftDoors_02" gives left, door."""
+    """Return the words of a name, in lower case and without accents and plural endings.
+
+    "LeftDoors_02" gives left, door.
+    """
     plain = "".join(c for c in unicodedata.normalize("NFKD", name) if not unicodedata.combining(c))
     return [_singular(w.lower()) for w in _SPLIT.split(plain) if w]
 
 
 def _singular(word: str) -> str:
-    """A word that is known stays ("chassis"); else the singular that is known, else the likely one."""
+    """Return a known word unchanged ("chassis"); else its known singular, else the likely one."""
     if word in _BY_NAME or word in FIXED or len(word) <= 3 or not word.endswith("s"):
         return word
     singulars = [word[:-1]]
@@ -110,22 +117,22 @@ def _singular(word: str) -> str:
 
 
 def recognize(name: str) -> Word | None:
-    """Return the kind of part that a name speaks of; the last telling word counts (a "door handle" is a handle)."""
+    """Return the kind of part that a name means; the last recognized word counts (a "door handle" is a handle)."""
     return _BY_NAME.get(_telling(name))
 
 
 def is_fixed_name(name: str) -> bool:
-    """Return whether the last telling word names something that does not move."""
+    """Return whether the last recognized word names something that does not move."""
     return _telling(name) in FIXED
 
 
 def _telling(name: str) -> str:
-    """Return the last word that names a part, before those that say where it is; "" for none."""
+    """Return the last word that names a part, ignoring positions if possible; "" for none."""
     told = [word for word in words_of(name) if word in _BY_NAME or word in FIXED]
     return next((word for word in reversed(told) if word not in PLACES), told[-1] if told else "")
 
 
 def typical_motion(label: str) -> TypicalMotion | None:
-    """The usual motion of a label, None when it is unknown."""
+    """Return the typical motion of a label, None if it is unknown."""
     word = recognize(label)
     return None if word is None else word.motion

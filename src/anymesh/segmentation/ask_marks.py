@@ -1,4 +1,7 @@
-"""The questions about marks: which are which part, in as many calls as the pictures need, with one chance to split marks."""
+"""Questions that ask a visual answerer which marks belong to which part.
+
+The pictures are spread over as many calls as needed. The answer may ask once to split marks.
+"""
 
 from __future__ import annotations
 
@@ -18,13 +21,13 @@ from anymesh.segmentation.propose import Proposal
 from anymesh.segmentation.regions import Marks
 from anymesh.types import Picture
 
-INSIDE = "inside"  # how the names of pictures of the inside begin
-MAX_PICTURES = 16  # in one call
+INSIDE = "inside"  # prefix of the names of pictures of the inside
+MAX_PICTURES = 16  # pictures per call
 
 
 @dataclass(frozen=True, eq=False)
 class MarkQuestioner:
-    """Who is asked about which object, and in which words."""
+    """Settings of the questions about one object: answerer, picture style, labels and category."""
 
     answerer: VisualAnswerer
     visual_prompts: VisualPrompts
@@ -33,7 +36,7 @@ class MarkQuestioner:
     config: Config
 
     def pictures(self, shown: Sequence[MarkPicture]) -> tuple[Picture, ...]:
-        """The pictures with their marks drawn; none for who needs none."""
+        """Return the pictures with their marks drawn, or none if the answerer needs no images."""
         if not self.answerer.needs_images:
             return ()
         images = [draw_marks(p.view.color, p.marks, alpha=self.config.grounding.alpha) for p in shown]
@@ -42,7 +45,10 @@ class MarkQuestioner:
 
 @dataclass(frozen=True, eq=False)
 class MarkAnswers:
-    """Which marks are which part. marks: where they are, after splits; unsure: marks that may be wrong."""
+    """Marks of each part.
+
+    marks: marks of the faces, after splits; unsure: marks that may be wrong.
+    """
 
     marks: Marks
     parts: tuple[MarkedPart, ...]
@@ -58,8 +64,11 @@ def ask_exact(
     wanted: Collection[int] | None = None,
     again: tuple[str, ...] = (),
 ) -> MarkAnswers:
-    """Ask about marks that are the same in all views. split: divides some of them; wanted: those asked about, None for all;
-    again: what was wrong with an earlier answer."""
+    """Ask about marks that are the same in all views.
+
+    split: divides the given marks; wanted: marks to ask about, None for all; again: problems of an earlier answer, for a
+    repeated question.
+    """
     numbers = np.unique(marks.face_mark[marks.face_mark > 0]).tolist()
     some = numbers if wanted is None else sorted(wanted)
     first = _in_calls(
@@ -85,7 +94,7 @@ def _in_calls(
     splittable: bool,
     again: tuple[str, ...],
 ) -> MarksAnswer:
-    """The answers about all pictures, MOST_PICTURES in a call; what earlier calls have asked about is not asked again."""
+    """Ask about all pictures, MAX_PICTURES per call, without repeating marks that earlier calls asked about."""
     parts, unsure, split, done = found, set[int](), set[int](), set[int]()
     for begin in range(0, len(shown), MAX_PICTURES):
         some = [p for p in (p.without(done) for p in shown[begin : begin + MAX_PICTURES]) if p.drawn]
@@ -114,7 +123,7 @@ def _in_calls(
 
 
 def _together(first: Sequence[MarkedPart], second: Sequence[MarkedPart]) -> tuple[MarkedPart, ...]:
-    """The parts of two answers; those of one label and instance are one."""
+    """Merge the parts of two answers: parts of the same label and instance become one."""
     found: dict[tuple[str, int], set[int]] = {}
     for p in (*first, *second):
         found.setdefault((p.label, p.instance), set()).update(p.marks)
@@ -124,7 +133,10 @@ def _together(first: Sequence[MarkedPart], second: Sequence[MarkedPart]) -> tupl
 def ask_masks(
     questioner: MarkQuestioner, proposals: Sequence[Proposal], seen: Sequence[View], names: Sequence[str]
 ) -> tuple[MarkedPart, ...]:
-    """Ask about masks that are numbered in each view on its own: which labels show where, then which marks are which."""
+    """Ask about masks that are numbered separately in each view.
+
+    The first question asks which labels each view shows, the second which marks belong to which part.
+    """
     plain = questioner.visual_prompts.pictures([v.color for v in seen], names) if questioner.answerer.needs_images else ()
     seen_in = questioner.answerer.ask(WhichViews(plain, questioner.labels, tuple(v.face for v in seen), questioner.category))
     score = np.array([sum(k in found for found in seen_in.values()) for k in range(len(seen))])

@@ -1,4 +1,4 @@
-"""How the score of a candidate part compares with those of its copies and of the candidates that it overlaps."""
+"""Features that compare the score of a candidate part with those of its copies and of overlapping candidates."""
 
 from __future__ import annotations
 
@@ -7,14 +7,17 @@ from jaxtyping import Bool, Float
 
 from anymesh.segmentation.part_tree import Overlap
 
-NONE = -6.0  # log-odds where there is no such candidate
-MIN_DUPLICATE_IOU = 0.5  # IoU of two candidates that are nearly the same
-SAME_AREA, SAME_SIZE = 0.05, 0.02  # relative: areas and diagonals of copies differ by less
-MIN_PROBABILITY = 0.5  # probability from which a candidate counts as a part
+NONE = -6.0  # [log-odds] value of a feature if there is no such candidate
+MIN_DUPLICATE_IOU = 0.5  # minimum IoU of two candidates that are nearly the same
+SAME_AREA, SAME_SIZE = 0.05, 0.02  # maximum relative difference of the areas and of the diagonals of copies
+MIN_PROBABILITY = 0.5  # minimum probability of a candidate that counts as a part
 
 
 def context_features(overlap: Overlap, score: Float[np.ndarray, " n"]) -> dict[str, Float[np.ndarray, " n"]]:
-    """Return features of all candidates. score: log-odds of each, from its own features alone."""
+    """Return features of all candidates.
+
+    score: log-odds of each candidate, from its own features alone.
+    """
     area, size = np.maximum(overlap.area, 1e-300), overlap.size
     other = ~np.eye(len(score), dtype=bool)
     meet, nested, alike = overlap.meet, overlap.nested, overlap.iou > MIN_DUPLICATE_IOU

@@ -1,4 +1,4 @@
-"""Cameras for what is small or thin in every view: a button on a machine is two pixels of a picture of all of it."""
+"""Cameras for close-ups of regions that are small or thin in every view, such as a button on a machine."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from anymesh.rendering.render import View
 from anymesh.segmentation.cloud import Cloud, sight
 from anymesh.types.camera import Camera
 
-MAX_CLOSE_UPS = 8  # close-ups; each is one more picture in a question
-MIN_AREA_PX, MIN_WIDTH_PX = 250.0, 4.0  # [px, px across] of a 640 px view: regions below cannot be judged there
-LEGIBLE_AREA_PX, LEGIBLE_WIDTH_PX = 1500.0, 12.0  # [px, px across] that a close-up is to show of them
-MIN_ZOOM = 2.0
-MIN_VISIBLE_SHARE = 0.1  # share of a region's surface that views see; less is seen through a gap
-WINDOW = 0.8  # of the close-up's side in which the regions' middles lie
+MAX_CLOSE_UPS = 8  # close-ups per object; each adds a picture to a question
+MIN_AREA_PX, MIN_WIDTH_PX = 250.0, 4.0  # [px, px across] in a 640 px view: regions below either are too small to judge
+LEGIBLE_AREA_PX, LEGIBLE_WIDTH_PX = 1500.0, 12.0  # [px, px across] size that a close-up should give such regions
+MIN_ZOOM = 2.0  # minimum magnification of a close-up
+MIN_VISIBLE_SHARE = 0.1  # share of a region's surface that views must see; less is a glimpse through a gap
+WINDOW = 0.8  # share of the close-up's side that holds the centers of its regions
 
 
 def close_ups(
@@ -27,10 +27,11 @@ def close_ups(
     pictures: ViewsConfig | None = None,
     small: float = MIN_AREA_PX,
 ) -> tuple[Camera, ...]:
-    """At most MOST cameras, none where nothing is small: each from the place of a view, on as many of the small regions as
-    fit, the smallest first.
+    """Return at most MAX_CLOSE_UPS cameras for regions that are too small in every view.
 
-    region: of each face, -1 none; small: the size below which a region is small [px of a 640 px view].
+    The smallest regions come first. Each camera stands where one of the views does and covers as many small regions as fit.
+
+    region: index of each face, -1 for none; small: size below which a region is small [px in a 640 px view].
     """
     pictures = pictures or ViewsConfig()
     size, across, middle = _shown(region, views)
@@ -48,7 +49,7 @@ def close_ups(
         wanted = float(zoom[v, first])
         reach = WINDOW * views[v].camera.height / wanted / 2
         near = open_to & (size[v] > 0) & (np.abs(middle[v] - middle[v, first]) <= reach).all(1)
-        near &= size[v] * wanted**2 >= 0.5 * size.max(0)  # not what another view shows better
+        near &= size[v] * wanted**2 >= 0.5 * size.max(0)  # leave out regions that another view shows better
         low, high = middle[v, near].min(0), middle[v, near].max(0)
         found.append(_camera(views[v], (low + high) / 2, wanted))
         open_to[near] = False
@@ -58,7 +59,7 @@ def close_ups(
 def _shown(
     region: np.ndarray, views: Sequence[View]
 ) -> tuple[Int[np.ndarray, "V R"], Float[np.ndarray, "V R"], Float[np.ndarray, "V R 2"]]:
-    """Pixels of every region in every view, how wide it is across [px], and the middle of its pixels (column, row)."""
+    """Return the pixels, the width [px] and the center (column, row) of every region in every view."""
     count = int(region.max()) + 1
     sizes, widths, middles = [], [], []
     for view in views:
@@ -79,7 +80,7 @@ def _shown(
 
 
 def _open(region: np.ndarray, cloud: Cloud, views: Sequence[View]) -> Bool[np.ndarray, " R"]:
-    """Regions of which views see a good share."""
+    """Return the regions of which the views see at least MIN_VISIBLE_SHARE of the surface."""
     seen = np.zeros(len(cloud), bool)
     for view in views:
         seen[sight(cloud, view).points] = True
@@ -91,7 +92,7 @@ def _open(region: np.ndarray, cloud: Cloud, views: Sequence[View]) -> Bool[np.nd
 
 
 def _camera(view: View, pixel: np.ndarray, zoom: float) -> Camera:
-    """From the same place, `zoom` times nearer, at what lies under a pixel."""
+    """Return a camera at the same place that looks at a pixel of the view with `zoom` times its magnification."""
     camera = view.camera
     local = np.r_[(pixel - np.array([camera.width, camera.height]) / 2) / camera.focal, 1.0]
     eye = camera.T_world_camera[:3, 3]

@@ -1,4 +1,4 @@
-"""Points on an object's surface, the superpoints that they form, and which of them a view sees (paper, 3.2)."""
+"""Points on an object's surface, their superpoints, and which of them a view sees (paper, 3.2)."""
 
 from __future__ import annotations
 
@@ -16,18 +16,19 @@ from anymesh.geometry.topology import label_connected
 from anymesh.rendering.render import View, face_colors
 from anymesh.types import Mesh
 
-CUT_POINTS = 40_000  # the cut runs on so many points; 800k would take 20 s and find the same borders
-FOOTPRINT = 1.5  # [px] a point this near the depth that a pixel shows is seen there, if the surface there faces alike
-MIN_NORMAL_COSINE = 0.7  # cosine for that: the back of a door is not what the rim beside it shows
-SIMILAR = 0.9  # cosine from which two normals count as one surface
-NORMAL_WEIGHT = 4.0  # a normal turned by 60 degrees is as far as so many spacings
+CUT_POINTS = 40_000  # points used for the cut; 800k points would take 20 s and give the same borders
+FOOTPRINT = 1.5  # [px] a point is visible if its depth is this close to that of its pixel and the normals agree
+MIN_NORMAL_COSINE = 0.7  # minimum cosine between these normals: separates the back of a door from the rim beside it
+SIMILAR = 0.9  # minimum cosine between normals of one surface
+NORMAL_WEIGHT = 4.0  # a difference of 60 degrees between normals counts as a distance of this many spacings
 
 
 @dataclass(frozen=True, eq=False)
 class Cloud:
-    """Points on the surface. colors: sRGB; faces: of the mesh; superpoint: a number a point, no superpoint spans two pieces.
+    """Points on the surface of an object.
 
-    borders: (m, 2) superpoints that meet; boxes: (S, 2, 3) bounds of each; diagonal: of the object [m].
+    colors: sRGB; faces: mesh face of each point; superpoint: superpoint index per point, where no superpoint spans two patches;
+    borders: (m, 2) pairs of adjacent superpoints; boxes: (S, 2, 3) bounds of each superpoint; diagonal: of the object [m].
     """
 
     points: Float[np.ndarray, "n 3"]
@@ -41,7 +42,7 @@ class Cloud:
 
     @property
     def count(self) -> int:
-        """How many superpoints there are."""
+        """Return the number of superpoints."""
         return len(self.boxes)
 
     def __len__(self) -> int:
@@ -50,14 +51,20 @@ class Cloud:
 
 @dataclass(frozen=True, eq=False)
 class Sight:
-    """What a view sees of a cloud. points: indices of the points; pixels: row * width + column of each."""
+    """Points of a cloud that a view sees.
+
+    points: indices of the points; pixels: row * width + column of each.
+    """
 
     points: Int[np.ndarray, " k"]
     pixels: Int[np.ndarray, " k"]
 
 
 def sample_cloud(mesh: Mesh, whole: ObjectShape, config: GroundingConfig | None = None, seed: int = 0) -> Cloud:
-    """Points spread evenly by area, one a face at least, with superpoints by l0 cut pursuit on normal and colour."""
+    """Sample points evenly by area, at least one per face, and cut them into superpoints by normal and colour.
+
+    The superpoints come from l0 cut pursuit.
+    """
     config = config or GroundingConfig()
     s = sample_surface(mesh.triangles, config.points, seed, at_least=1)
     colors = point_colors(mesh, s)
@@ -69,7 +76,7 @@ def sample_cloud(mesh: Mesh, whole: ObjectShape, config: GroundingConfig | None 
 
 
 def point_colors(mesh: Mesh, s: SurfacePoints) -> UInt8[np.ndarray, "n 3"]:
-    """The sRGB colour at every point; a textured face is not of one colour."""
+    """Return the sRGB colour at every point, sampled from the texture where a face has one."""
     if mesh.corner_color is None and (mesh.corner_uv is None or not any(m.textures for m in mesh.materials)):
         return face_colors(mesh)[s.faces]
     weights = _barycentric(mesh.triangles[s.faces], s.points)
@@ -81,7 +88,7 @@ def point_colors(mesh: Mesh, s: SurfacePoints) -> UInt8[np.ndarray, "n 3"]:
         value = np.rint(value) if corners.dtype == np.uint8 else value
         return np.repeat(value[:, None], 3, 1).astype(corners.dtype)
 
-    dots = replace(  # a mesh of which every face is one point: its colours are the points'
+    dots = replace(  # a mesh with one degenerate face per point, so that its face colours are those of the points
         mesh, vertices=np.zeros((1, 3)), faces=np.zeros((len(s), 3), np.int64), face_node=mesh.face_node[s.faces],
         face_material=mesh.face_material[s.faces], corner_uv=at_points(mesh.corner_uv),
         corner_color=at_points(mesh.corner_color), corner_normal=None,
@@ -90,7 +97,7 @@ def point_colors(mesh: Mesh, s: SurfacePoints) -> UInt8[np.ndarray, "n 3"]:
 
 
 def _barycentric(t: np.ndarray, points: np.ndarray) -> np.ndarray:
-    """Weights of the three corners (n, 3)."""
+    """Return the barycentric weights of the three corners (n, 3)."""
     a, b, p = t[:, 1] - t[:, 0], t[:, 2] - t[:, 0], points - t[:, 0]
     aa, ab, bb, pa, pb = (np.einsum("ij,ij->i", x, y) for x, y in ((a, a), (a, b), (b, b), (p, a), (p, b)))
     below = np.maximum(aa * bb - ab * ab, 1e-300)
@@ -101,13 +108,16 @@ def _barycentric(t: np.ndarray, points: np.ndarray) -> np.ndarray:
 def find_superpoints(
     s: SurfacePoints, colors: UInt8[np.ndarray, "n 3"], patch: Int[np.ndarray, " n"], config: GroundingConfig
 ) -> tuple[Int[np.ndarray, " n"], Int[np.ndarray, "m 2"]]:
-    """A superpoint number a point, and which superpoints meet. The cut runs on CUT_POINTS of them within each patch; every
-    point then takes the superpoint of the nearest of these in its patch whose normal is alike."""
+    """Return a superpoint index per point, and the pairs of adjacent superpoints.
+
+    The cut runs on CUT_POINTS of the points, within each patch. Every other point takes the superpoint of the nearest of these
+    in its patch that has a similar normal.
+    """
     chosen = np.arange(0, len(s), max(1, len(s) // CUT_POINTS))
     first = np.unique(patch, return_index=True)[1]
-    chosen = np.union1d(chosen, first)  # no patch goes without
+    chosen = np.union1d(chosen, first)  # at least one point per patch
     beyond = 10 * float(np.ptp(s.points, axis=0).max())
-    own = np.c_[s.points, beyond * patch][chosen]  # neighbours are of the same patch, however thin a gap is
+    own = np.c_[s.points, beyond * patch][chosen]  # a coordinate that keeps neighbours within a patch, however thin a gap is
     near = KDTree(own).query(own, k=min(config.neighbours + 1, len(chosen)), workers=-1)[1]
     near = near.reshape(len(chosen), -1)
     edges = np.sort(np.stack([np.repeat(np.arange(len(chosen)), near.shape[1]), near.reshape(-1)], 1), 1)
@@ -124,13 +134,14 @@ def find_superpoints(
 
 
 def _nearest_alike(s: SurfacePoints, patch: np.ndarray, chosen: np.ndarray) -> Int[np.ndarray, " n"]:
-    """For every point the nearest chosen one (index into these) of the same patch with a like normal."""
+    """Return for every point the nearest chosen point of the same patch with a similar normal, as an index into `chosen`."""
     gap, nearest = KDTree(s.points[chosen]).query(s.points, workers=-1)
     found = chosen[nearest]
     alike = np.einsum("ij,ij->i", s.normals, s.normals[found]) > SIMILAR
     wrong = np.flatnonzero((patch != patch[found]) | ~alike)
     spacing = float(np.median(gap[gap > 0])) if (gap > 0).any() else 1.0
-    apart = 10 * float(np.ptp(s.points, axis=0).max()) / spacing + 10 * NORMAL_WEIGHT  # further than anything within a patch
+    # greater than any distance within a patch
+    apart = 10 * float(np.ptp(s.points, axis=0).max()) / spacing + 10 * NORMAL_WEIGHT
 
     def feature(index: np.ndarray) -> np.ndarray:
         return np.c_[s.points[index] / spacing, NORMAL_WEIGHT * s.normals[index], apart * patch[index]]
@@ -157,15 +168,18 @@ def _absorb_small(label: np.ndarray, weight: np.ndarray, edges: np.ndarray, min_
 
 
 def visible(cloud: Cloud, view: View) -> Bool[np.ndarray, " n"]:
-    """Which points the view shows: their pixel shows their face, or their depth."""
+    """Return which points the view shows: those whose pixel shows their face or their depth."""
     found = np.zeros(len(cloud), bool)
     found[sight(cloud, view).points] = True
     return found
 
 
 def sight(cloud: Cloud, view: View) -> Sight:
-    """The points that the view shows and the pixel of each: those on the very face that the pixel shows, and, as faces may be
-    smaller than pixels, those within FOOTPRINT pixels of the depth there on a surface of like direction."""
+    """Return the points that the view shows and the pixel of each.
+
+    A point is visible if its pixel shows its face. Since faces may be smaller than pixels, a point is also visible if its depth
+    is within FOOTPRINT pixels of the depth at its pixel and the normals there agree.
+    """
     camera = view.camera
     pixel, depth = camera.project(cloud.points)
     column, row = pixel.T

@@ -1,4 +1,4 @@
-"""Contacts between patches: which touch, which have a clearance, and which support which."""
+"""Contacts between patches: which touch, which are close with a clearance, and which support which."""
 
 from __future__ import annotations
 
@@ -16,27 +16,28 @@ from anymesh.geometry.patches import ObjectShape
 from anymesh.geometry.topology import label_connected
 from anymesh.geometry.triangle_set import TriangleSet
 
-MIN_FLATNESS = 0.6  # length of the mean normal of a sheet, with its handle; 1 where it is plane
-MIN_PLATE_ASPECT = 0.3  # width of a plate over its length; planks are narrower
-MIN_ALIGNED_COSINE = 0.95  # cosine
-MAX_CLEARANCE_FACTOR = 2.0  # times the nearest clearance of a body: what is further away is no neighbour
-MAX_SMALL_CLEARANCE_FACTOR = 1.3  # the same of what is small against its nearest patch
-PROBES = 160  # points of a patch that are measured against another
+MIN_FLATNESS = 0.6  # minimum length of the mean unit normal of a flat sheet with its handle; 1 is plane
+MIN_PLATE_ASPECT = 0.3  # minimum width over length of a plate; planks are narrower
+MIN_ALIGNED_COSINE = 0.95  # minimum cosine between the normals of sheets that face the same way
+MAX_CLEARANCE_FACTOR = 2.0  # neighbours of a component lie within this many times its smallest clearance
+MAX_SMALL_CLEARANCE_FACTOR = 1.3  # the same for a component that is small compared to its nearest patch
+PROBES = 160  # sample points per patch for the distance to another patch
 
 
 @dataclass(frozen=True, eq=False)
 class Contacts:
     """Patches and their contacts.
 
-    shapes: one a patch; touch: (m, 2) pairs that touch or cross; near: (k, 2) pairs of different components with a clearance;
-    component: (P,) patches that touch, directly or through others, are one component.
+    shapes: one per patch; touch: (m, 2) pairs that touch or cross; near: (k, 2) pairs of different components with a clearance;
+    component: (P,) index of the connected component of each patch, where touching patches are connected.
     """
 
     shapes: tuple[TriangleSet, ...]
     touch: Int[np.ndarray, "m 2"]
     near: Int[np.ndarray, "k 2"]
     component: Int[np.ndarray, " P"]
-    area: dict[tuple[int, int], float]  # of the first patch that touches the second [m^2]; none for one flat surface
+    # contact area of the first patch on the second [m^2]; no entry between parts of one flat surface
+    area: dict[tuple[int, int], float]
 
     @cached_property
     def patch_bounds(self) -> Float[np.ndarray, "P 2 3"]:
@@ -50,7 +51,7 @@ class Contacts:
 
 
 def find_contacts(whole: ObjectShape, config: SegmentationConfig) -> Contacts:
-    """Measures all pairs of patches whose boxes are near each other."""
+    """Measure all pairs of patches whose boxes are near each other."""
     order = np.argsort(whole.patch, kind="stable")
     start = np.searchsorted(whole.patch[order], np.arange(int(whole.patch.max()) + 2))
     shapes = tuple(whole.of(order[a:b]) for a, b in itertools.pairwise(start))
@@ -59,7 +60,7 @@ def find_contacts(whole: ObjectShape, config: SegmentationConfig) -> Contacts:
     low, high = np.array([s.bounds for s in shapes]).transpose(1, 0, 2)
     near = [pair for pair in box_pairs(low, high, reach) if pair not in shared]
     i, j = np.array(near, np.int64).reshape(-1, 2).T
-    apart = np.maximum(np.maximum(low[i] - high[j], low[j] - high[i]), 0).max(1, initial=0)  # at least so far
+    apart = np.maximum(np.maximum(low[i] - high[j], low[j] - high[i]), 0).max(1, initial=0)  # lower bound of the distance
     close = [pair for pair, d in zip(near, apart, strict=True) if d <= tolerance]
     beside = [(d, *pair) for pair, d in zip(near, apart, strict=True) if d > tolerance]
     touch, measured = _measured(shapes, close, tolerance, reach)
@@ -70,7 +71,7 @@ def find_contacts(whole: ObjectShape, config: SegmentationConfig) -> Contacts:
     area = {}
     for i, j in touch:
         if (i, j) in shared and _goes_on(shapes[i], shapes[j]):
-            continue  # fronts side by side hold nothing of each other
+            continue  # panels side by side in one surface do not support each other
         area[i, j], area[j, i] = (_touching(shapes[a], shapes[b], 2 * tolerance) for a, b in ((i, j), (j, i)))
     return Contacts(shapes, pairs, free, body, area)
 
@@ -78,7 +79,7 @@ def find_contacts(whole: ObjectShape, config: SegmentationConfig) -> Contacts:
 def _measured(
     shapes: tuple[TriangleSet, ...], pairs: list[tuple[int, int]], tolerance: float, reach: float
 ) -> tuple[list[tuple[int, int]], list[tuple[int, int, float]]]:
-    """Of pairs whose boxes meet, those that touch or cross, and the others within reach with the distance between them."""
+    """Split pairs whose boxes meet into those that touch or cross, and those within reach, with their distance."""
     touch, near = [], []
     for i, j in pairs:
         gap = _gap(shapes[i], shapes[j], reach)
@@ -98,10 +99,12 @@ def _neighbours(
     tolerance: float,
     reach: float,
 ) -> np.ndarray:
-    """Of the pairs of bodies with a clearance, those that are among the nearest of the smaller body.
+    """Return the pairs of components with a clearance that are among the nearest of the smaller component.
 
-    A fit has clearances that differ by a factor of two; what is small against its nearest patch hangs on that alone.
-    near: with their distance; beside: pairs that are yet to be measured, each behind the least distance that it can have.
+    The clearances around a fitted part differ by up to a factor of two. A component that is small compared to its nearest patch
+    depends on that patch alone.
+
+    near: pairs with their distance; beside: pairs that are not yet measured, each with the lower bound of its distance first.
     """
     size = [float(np.linalg.norm(s.bounds[1] - s.bounds[0])) for s in shapes]
     extent = np.zeros(int(component.max()) + 1)
@@ -146,8 +149,10 @@ def _touching(a: TriangleSet, b: TriangleSet, tolerance: float) -> float:
 
 
 def coplanar(contacts: Contacts, whole: ObjectShape, tolerance: float) -> list[tuple[int, int]]:
-    """Touching plates of one thickness that lie in one plane: the boards of a framed door. Not those that a crease in one
-    surface parts (drawers of a fused cabinet), nor two leaves alike."""
+    """Return pairs of touching plates of the same thickness in one plane, such as the boards of a framed door.
+
+    Excludes patches that only a crease separates (drawers of a fused cabinet), and two equal panels side by side.
+    """
     parted = {(int(a), int(b)) for a, b in whole.shared}
     found = []
     for i, j in contacts.touch:
@@ -158,14 +163,14 @@ def coplanar(contacts: Contacts, whole: ObjectShape, tolerance: float) -> list[t
             continue
         level = abs(float((a.center - b.center) @ a.axes[2]))
         if min(s.half[1] / max(s.half[0], 1e-12) for s in (a, b)) > MIN_PLATE_ASPECT and same_box(a, b):
-            continue  # two leaves of a window
+            continue  # two sashes of a window
         if abs(float(a.axes[2] @ b.axes[2])) > 0.9995 and level < tolerance and abs(a.half[2] - b.half[2]) < tolerance:
             found.append((int(i), int(j)))
     return found
 
 
 def _gap(a: TriangleSet, b: TriangleSet, reach: float) -> float:
-    """Smallest distance of a's corners and samples, as far as they lie in b's box, to b [m]."""
+    """Return the smallest distance from a to b [m], from a's corners and samples within reach of b's box."""
     low, high = b.bounds[0] - reach, b.bounds[1] + reach
     points = [p[within(p, low, high)] for p in (a.corners, a.samples.points)]
     points = [p[:: max(1, len(p) // PROBES)] for p in points]
@@ -182,15 +187,16 @@ def _crosses(a: TriangleSet, b: TriangleSet) -> bool:
         start, span = start[::step], span[::step]
         face = other.scene.first_hit(start, span, 1.0).face
         slope = np.abs(np.einsum("ij,ij->i", span, other.normals[np.maximum(face, 0)]))
-        if ((face >= 0) & (slope > 0.02 * np.linalg.norm(span, axis=1))).any():  # in the plane itself a ray cannot tell
+        # a ray in the plane of a face gives no reliable hit
+        if ((face >= 0) & (slope > 0.02 * np.linalg.norm(span, axis=1))).any():
             return True
     return False
 
 
 def hanging_on(contacts: Contacts, group: Int[np.ndarray, " P"], root: int) -> dict[int, list[int]]:
-    """For every group, the groups that reach the root only through it (itself first): its dominated set.
+    """Return for every group its dominated set: the groups that reach the root only through it, itself first.
 
-    Groups join patches that are known to move together. Components that are near nothing hang on the root.
+    Groups join patches that are known to move together. Components without neighbours depend on the root.
     """
     graph = nx.DiGraph()
     count = int(group.max()) + 1
@@ -201,7 +207,7 @@ def hanging_on(contacts: Contacts, group: Int[np.ndarray, " P"], root: int) -> d
             graph.add_edge(a, b)
             graph.add_edge(b, a)
     for island in list(nx.weakly_connected_components(graph)):
-        if root not in island:  # near nothing: it hangs on the root
+        if root not in island:  # without neighbours, it depends on the root
             graph.add_edges_from((root, node) for node in island)
     parent = nx.immediate_dominators(graph, root)
     children: dict[int, list[int]] = {u: [] for u in range(count)}

@@ -1,7 +1,7 @@
-"""Instances that explain the masks of all views: the expectation maximisation of PartSlip++ (Zhou et al. 2023) on superpoints.
+"""Part instances from the masks of all views, by the expectation maximisation of PartSlip++ (Zhou et al. 2023).
 
-Every superpoint has a logit an instance; a view compares the instances' probabilities with its masks point by point, so counts
-of points a (superpoint, mask) are all that it needs.
+Every superpoint has one logit per instance. Each view compares the instance probabilities with its masks point by point, so
+point counts per (superpoint, mask) are the only input.
 """
 
 from __future__ import annotations
@@ -17,16 +17,16 @@ from anymesh.geometry.topology import label_connected
 from anymesh.segmentation.cloud import Cloud
 from anymesh.segmentation.fuse import Counts, Instances
 
-CERTAIN = 3.0  # logit of the instance that a superpoint starts in; the others start at 0
-MIN_PROBABILITY = 1e-7  # probabilities are kept this far from 0 and 1
-ADAM = (0.9, 0.999, 1e-8)  # Kingma and Ba 2015: decay of the gradient's mean, of its square's, and what is added below
-JOIN_POINTS = 40_000  # of the cloud, that tell which superpoints are near each other
+CERTAIN = 3.0  # initial logit of the instance that a superpoint starts in; the others start at 0
+MIN_PROBABILITY = 1e-7  # distance of probabilities from 0 and 1
+ADAM = (0.9, 0.999, 1e-8)  # Kingma and Ba 2015: decay of the gradient's mean, decay of its square's mean, and epsilon
+JOIN_POINTS = 40_000  # points of the cloud used to find neighbouring superpoints
 
 
 def refine_instances(
     cloud: Cloud, counts: Sequence[Counts], start: Instances, rng: np.random.Generator, config: GroundingConfig | None = None
 ) -> Instances:
-    """The start's instances changed until they explain the masks, split where they are not connected, labelled by majority."""
+    """Refine the initial instances to explain the masks, split unconnected ones, and label each by majority."""
     config = config or GroundingConfig()
     if not any(c.labels for c in counts):
         return start
@@ -39,14 +39,15 @@ def refine_instances(
 def maximise(
     counts: Sequence[Counts], start: Int[np.ndarray, " S"], initial: int, rng: np.random.Generator, config: GroundingConfig
 ) -> Int[np.ndarray, " S"]:
-    """The likeliest instance (0..K - 1) of every superpoint after `em_epochs` passes over the views in random order.
+    """Return the likeliest instance (0..K - 1) of every superpoint after `em_epochs` passes over the views in random order.
 
-    start: as Instances.number; `initial` of them become the first instances, the rest starts in the one after them.
+    start: as `Instances.number`. Its first `initial` parts become the first instances, the other superpoints start in the one
+    after them.
     """
     number = min(initial + config.em_extra, config.em_most)
     first = np.where(start > 0, start - 1, initial)
-    kept = min(initial, number - 1)  # one is left for what is no part
-    if initial > kept:  # the largest stay
+    kept = min(initial, number - 1)  # one instance is reserved for points of no part
+    if initial > kept:  # keep the largest
         size = np.bincount(first, sum(c.seen for c in counts), initial + 1)[:initial]
         rank = np.full(initial + 1, kept)
         rank[np.argsort(-size, kind="stable")[:kept]] = np.arange(kept)
@@ -69,17 +70,17 @@ def maximise(
 
 
 def probabilities(logits: Float[np.ndarray, "S K"]) -> Float[np.ndarray, "S K"]:
-    """Softmax over the instances, kept from 0 and 1."""
+    """Return the softmax over the instances, clipped away from 0 and 1."""
     p = np.exp(logits - logits.max(1, keepdims=True))
     return np.clip(p / p.sum(1, keepdims=True), MIN_PROBABILITY, 1 - MIN_PROBABILITY)
 
 
 def match(logits: Float[np.ndarray, "S K"], target: Int[np.ndarray, "S N"]) -> tuple[np.ndarray, np.ndarray]:
-    """E-step: which instance is which mask, so that the binary cross-entropies of the pairs, one against all, are least."""
+    """Match instances to masks so that the total binary cross-entropy of the pairs is minimal (E-step)."""
     p = probabilities(logits)
     seen = target.sum(1)
     cost = -(np.log(p).T @ target) - np.log1p(-p).T @ (seen[:, None] - target)
-    from scipy.optimize import linear_sum_assignment  # 0.1 s to import, and only models need it
+    from scipy.optimize import linear_sum_assignment  # import on use: it takes 0.1 s, and only runs with a mask model need it
 
     return linear_sum_assignment(cost / max(int(seen.sum()), 1))
 
@@ -87,11 +88,12 @@ def match(logits: Float[np.ndarray, "S K"], target: Int[np.ndarray, "S N"]) -> t
 def loss_and_gradient(
     logits: Float[np.ndarray, "S K"], target: Int[np.ndarray, "S N"], pairs: tuple[np.ndarray, np.ndarray]
 ) -> tuple[float, Float[np.ndarray, "S K"]]:
-    """Sum over the pairs (instance, mask) of the mean binary cross-entropy a visible point, and its gradient by the logits.
+    """Return the loss and its gradient with respect to the logits.
 
-    With c of a superpoint's n visible points in the mask and p the instance's probability, a pair costs
-    -(c log p + (n - c) log(1 - p)); its derivative by p, times p, is u = (n - c) p / (1 - p) - c, and through the softmax the
-    derivative by logit j is u_j - p_j sum_k u_k.
+    The loss is the sum over the pairs (instance, mask) of the mean binary cross-entropy per visible point. With c of a
+    superpoint's n visible points in the mask and p the instance's probability, a pair costs -(c log p + (n - c) log(1 - p)).
+    Its derivative with respect to p, times p, is u = (n - c) p / (1 - p) - c. Through the softmax, the derivative with respect
+    to logit j is u_j - p_j sum_k u_k.
     """
     k, m = pairs
     seen = target.sum(1)
@@ -106,7 +108,7 @@ def loss_and_gradient(
 
 
 def near_superpoints(cloud: Cloud, reach: float) -> Int[np.ndarray, "m 2"]:
-    """Pairs of superpoints of which points are within `reach` [m], and those that meet."""
+    """Return the pairs of superpoints with points within `reach` [m] of each other, and those that are adjacent."""
     chosen = np.arange(0, len(cloud), max(1, len(cloud) // JOIN_POINTS))
     chosen = np.union1d(chosen, np.unique(cloud.superpoint, return_index=True)[1])
     found = KDTree(cloud.points[chosen]).query_pairs(reach, output_type="ndarray")
@@ -117,13 +119,13 @@ def near_superpoints(cloud: Cloud, reach: float) -> Int[np.ndarray, "m 2"]:
 
 
 def _split(chosen: np.ndarray, near: np.ndarray) -> Int[np.ndarray, " S"]:
-    """Instances (from 1) that are connected."""
+    """Split instances into connected ones, numbered from 1."""
     same = chosen[near[:, 0]] == chosen[near[:, 1]]
     return label_connected(len(chosen), near[same]) + 1
 
 
 def _labelled(counts: Sequence[Counts], number: Int[np.ndarray, " S"]) -> Instances:
-    """Every instance takes the label of most of its visible points; where most lie in no mask it is no part."""
+    """Label every instance by most of its visible points; an instance with most points outside all masks is no part."""
     names = sorted({name for c in counts for name in c.labels})
     votes = np.zeros((int(number.max(initial=0)) + 1, len(names) + 1), np.int64)
     kept = number > 0

@@ -1,4 +1,4 @@
-"""From labelled points to the faces of parts: whole patches where these are a part's, clean cuts where they are not."""
+"""Parts of faces from labelled points: patches are assigned as a whole, or cut if they hold several parts."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from anymesh.segmentation.fuse import Instances
 from anymesh.segmentation.unseen import UNSEEN, StaysFree, join_unseen
 from anymesh.types import Mesh
 
-MIN_COMPONENT_SHARE = 0.5  # a component joins the part of so much of its visible surface (the paper's implementation)
-MIN_SEEN_SHARE = 0.02  # share of a patch's surface; of less, seen through a gap, no view tells what it is
-MIN_SEEN_SHARE_CUTTABLE = (
-    0.85  # the same for a patch that may hold several parts, as it is large or was cut out of a fused surface
-)
+MIN_COMPONENT_SHARE = 0.5  # a component joins the part of this share of its visible surface (as in the paper's implementation)
+MIN_SEEN_SHARE = 0.02  # minimum visible share of a patch's surface; less is a glimpse through a gap
+# minimum share of a patch's visible surface in one part for that part to take the whole patch, if the patch may hold several
+# parts because it is large or was cut out of a fused surface
+MIN_SEEN_SHARE_CUTTABLE = 0.85
 
 
 def face_parts(
@@ -30,10 +30,12 @@ def face_parts(
     config: Config | None = None,
     stays_free: StaysFree | None = None,
 ) -> Int[np.ndarray, " F"]:
-    """A part number a face, 0 = the rest. point_part: of every point of the cloud, 0 the rest, -1 where no view tells.
+    """Return a part index per face, 0 for the base.
 
-    A patch goes to one part as a whole; one of several parts is cut along the borders of its superpoints. A patch that no
-    view sees joins the part that holds it, if that stays as free (see `join_unseen`).
+    point_part: part of every point of the cloud, 0 for the base, -1 if unknown.
+
+    A patch joins one part as a whole. A patch with several parts is cut along the borders of its superpoints. An unseen patch
+    joins the part that supports it if that part can still move as far (see `join_unseen`).
     """
     config = config or Config()
     most = int(point_part.max(initial=0)) + 1
@@ -56,7 +58,7 @@ def face_parts(
 
 
 def _cuttable(mesh: Mesh, whole: ObjectShape, config: Config) -> Bool[np.ndarray, " P"]:
-    """Patches that may hold several parts: parts of a fused surface, and large ones."""
+    """Return the patches that may hold several parts: those of a fused surface, and large ones."""
     count = int(whole.mesh_patch.max()) + 1
     low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
     np.minimum.at(low, whole.mesh_patch, mesh.triangles.min(1))
@@ -67,9 +69,11 @@ def _cuttable(mesh: Mesh, whole: ObjectShape, config: Config) -> Bool[np.ndarray
 
 
 def _cut(cloud: Cloud, mine: np.ndarray, part: np.ndarray, max_parts: int) -> tuple[np.ndarray, np.ndarray]:
-    """Faces of one patch and the part of each: its superpoints vote first, so that a border runs where theirs does.
+    """Return the faces of one patch and the part of each.
 
-    mine: points of the patch; part: of each, -1 unknown.
+    The superpoints vote first, so that a border between parts follows one between superpoints.
+
+    mine: points of the patch; part: part of each point, -1 if unknown.
     """
     names, own = np.unique(cloud.superpoint[mine], return_inverse=True)
     own = own.reshape(-1)
@@ -78,7 +82,7 @@ def _cut(cloud: Cloud, mine: np.ndarray, part: np.ndarray, max_parts: int) -> tu
     best = np.where(votes.sum(1) > 0, votes.argmax(1), UNSEEN)
     label = best[own]
     lost = label < 0
-    if lost.any():  # the nearest point that a view tells about, of the same patch
+    if lost.any():  # take the part of the nearest known point of the same patch
         nearest = KDTree(cloud.points[mine[~lost]]).query(cloud.points[mine[lost]], workers=-1)[1]
         label[lost] = label[~lost][nearest]
     faces, where = np.unique(cloud.faces[mine], return_inverse=True)
@@ -95,11 +99,12 @@ def mark_parts(
     config: Config | None = None,
     stays_free: StaysFree | None = None,
 ) -> Int[np.ndarray, " F"]:
-    """A part number a face from exact marks, 0 = the rest. parts: the marks of each; little: patches of which views show
-    too little to tell that they belong to the rest.
+    """Return a part index per face from exact marks, 0 for the base.
 
-    A face without a mark takes the part of the nearest one of its patch that has one; a patch without any joins the part
-    that holds it, if that stays as free.
+    parts: marks of each part; little: patches that views show too little of to assign them to the base.
+
+    A face without a mark takes the part of the nearest marked face of its patch. A patch without marks joins the part that
+    supports it if that part can still move as far.
     """
     config = config or Config()
     part_of = np.zeros(int(face_mark.max(initial=0)) + 2, np.int64)
@@ -127,5 +132,5 @@ def mark_parts(
 
 
 def point_parts(cloud: Cloud, instances: Instances, shown: Bool[np.ndarray, " n"]) -> Int[np.ndarray, " n"]:
-    """The part number of every point that a view shows, as its superpoint's: 0 the rest; -1 of those that none shows."""
+    """Return the part index of each point, from its superpoint: 0 for the base, -1 if no view shows the point."""
     return np.where(shown, instances.number[cloud.superpoint], UNSEEN)

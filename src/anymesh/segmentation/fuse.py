@@ -1,4 +1,4 @@
-"""From masks in views to labels and instances of superpoints (paper, 3.2; PartSlip++)."""
+"""Labels and instances of superpoints from masks in views (paper, 3.2; PartSlip++)."""
 
 from __future__ import annotations
 
@@ -17,7 +17,10 @@ from anymesh.segmentation.propose import Proposal
 
 @dataclass(frozen=True, eq=False)
 class Mask:
-    """What one view shows of one part. instance: tells parts of one label apart, in this view."""
+    """Pixels of one part in one view.
+
+    instance: distinguishes parts of the same label within the view.
+    """
 
     pixels: Bool[np.ndarray, "H W"]
     label: str
@@ -26,11 +29,12 @@ class Mask:
 
 @dataclass(frozen=True, eq=False)
 class Counts:
-    """One view in numbers. seen: visible points of each superpoint; inside: of these in each mask; top: the same where the
-    smallest mask owns a pixel, the last column those in none; points: those that are visible.
+    """Point counts of one view.
 
-    box: least and largest column and row of each superpoint's visible points [px], inf where there are none;
-    mask_box: the same of the masks; labels, instances: of the masks.
+    seen: visible points of each superpoint; inside: how many of these lie in each mask; top: the same with each pixel counted
+    for its smallest mask, where the last column counts points in no mask; points: indices of the visible points; box: least and
+    largest column and row of each superpoint's visible points [px], infinite if there are none; mask_box: the same of each
+    mask; labels, instances: of the masks.
     """
 
     seen: Int[np.ndarray, " S"]
@@ -45,7 +49,10 @@ class Counts:
 
 @dataclass(frozen=True, eq=False)
 class Instances:
-    """Which superpoint is which part. number: k is labels[k - 1], 0 is seen and no part, -1 is seen in no view."""
+    """Part of each superpoint.
+
+    number: k for a part with label `labels[k - 1]`, 0 for a visible superpoint of no part, -1 for one that no view shows.
+    """
 
     number: Int[np.ndarray, " S"]
     labels: tuple[str, ...]
@@ -57,7 +64,7 @@ class Instances:
 
 
 def marked_masks(proposals: Sequence[Proposal], parts: Sequence[MarkedPart]) -> tuple[tuple[Mask, ...], ...]:
-    """The masks of every proposal's view: the regions of a part's marks as one."""
+    """Return the masks of each proposal's view, where the regions of all marks of a part are joined."""
     found = []
     for proposal in proposals:
         here = [p for p in parts if p.view == proposal.view]
@@ -67,8 +74,10 @@ def marked_masks(proposals: Sequence[Proposal], parts: Sequence[MarkedPart]) -> 
 
 
 def count_points(cloud: Cloud, view: View, masks: Sequence[Mask], config: GroundingConfig | None = None) -> Counts:
-    """Counts the visible points of every superpoint in every mask; masks that cover nearly all of the object are left out,
-    as are empty ones."""
+    """Count the visible points of every superpoint in every mask.
+
+    Masks that are empty or cover nearly all of the object are left out.
+    """
     config = config or GroundingConfig()
     found = sight(cloud, view)
     label = cloud.superpoint[found.points]
@@ -101,8 +110,11 @@ def _pixel_box(pixels: np.ndarray) -> tuple[float, float, float, float]:
 
 
 def fuse_masks(cloud: Cloud, counts: Sequence[Counts], config: GroundingConfig | None = None) -> Instances:
-    """Labels of superpoints by coverage over the views that see them, and instances: near superpoints of one label that the
-    masks cover alike. Instances of which no view has a mask where they lie are dropped."""
+    """Return the label and instance of each superpoint.
+
+    Labels come from the coverage over the views that see a superpoint. Nearby superpoints of one label that the masks cover
+    equally form an instance. Instances without a mask of their label in place in any view are dropped.
+    """
     config = config or GroundingConfig()
     number = np.where(sum(c.seen for c in counts) > 0, 0, -1)
     names, label = label_superpoints(counts, config)
@@ -117,8 +129,11 @@ def fuse_masks(cloud: Cloud, counts: Sequence[Counts], config: GroundingConfig |
 
 
 def label_superpoints(counts: Sequence[Counts], config: GroundingConfig) -> tuple[list[str], Int[np.ndarray, " S"]]:
-    """The labels, sorted, and which of them each superpoint has (-1 none): the one whose masks cover the largest share of
-    its visible points over all views that see it, if they cover `config.covered`."""
+    """Return the sorted labels, and the index of the label of each superpoint (-1 for none).
+
+    The label is the one whose masks cover the largest share of the superpoint's visible points over all views, if that share is
+    at least `config.covered`.
+    """
     names = sorted({name for c in counts for name in c.labels})
     seen = np.maximum(sum(c.seen for c in counts), 1)
     share = np.zeros((len(seen), len(names) + 1))
@@ -133,10 +148,10 @@ def label_superpoints(counts: Sequence[Counts], config: GroundingConfig) -> tupl
 
 
 def _groups(cloud: Cloud, counts: Sequence[Counts], mine: np.ndarray, config: GroundingConfig) -> list[np.ndarray]:
-    """Superpoints joined where their boxes are near and no mask covers one much more than the other.
+    """Group superpoints whose boxes are near each other and which no mask covers to different degrees.
 
-    What is seen best is joined first, and groups are compared as a whole: a chain of superpoints that hardly any view sees
-    would join what the masks tell apart.
+    The most visible pairs are joined first, and whole groups are compared. Otherwise a chain of superpoints that are hardly
+    visible would join what the masks separate.
     """
     low, high = cloud.boxes[mine, 0], cloud.boxes[mine, 1] + config.gap * cloud.diagonal
     a, b = np.nonzero(np.triu(((low[:, None] <= high) & (low[None] <= high[:, None])).all(2), 1))
@@ -148,7 +163,7 @@ def _groups(cloud: Cloud, counts: Sequence[Counts], mine: np.ndarray, config: Gr
         g, h = group[a[k]], group[b[k]]
         if g == h:
             continue
-        both = (seen[g] > 0) & (seen[h] > 0)  # a view that does not see both cannot tell
+        both = (seen[g] > 0) & (seen[h] > 0)  # only views that see both can compare them
         if (np.abs(inside[g, both] / seen[g, both] - inside[h, both] / seen[h, both]) < config.alike).all():
             group[group == h] = g
             inside[g] += inside[h]
@@ -157,7 +172,7 @@ def _groups(cloud: Cloud, counts: Sequence[Counts], mine: np.ndarray, config: Gr
 
 
 def _confirmed(counts: Sequence[Counts], group: np.ndarray, label: str, min_iou: float) -> bool:
-    """Whether some view has a mask of the label where the instance shows: boxes with an IoU above `min_iou`."""
+    """Return whether some view has a mask of the label at the instance: boxes with an IoU above `min_iou`."""
     for c in counts:
         which = [k for k, name in enumerate(c.labels) if name == label]
         shown = group[c.seen[group] > 0]
@@ -170,7 +185,7 @@ def _confirmed(counts: Sequence[Counts], group: np.ndarray, label: str, min_iou:
 
 
 def _box_ious(box: np.ndarray, others: np.ndarray) -> Float[np.ndarray, " n"]:
-    """IoU of a box with others [px]; pixels have a width."""
+    """Return the IoU of a box with others [px]; the last pixel belongs to a box."""
     low, high = np.maximum(box[:2], others[:, :2]), np.minimum(box[2:], others[:, 2:]) + 1
     both = np.prod(np.maximum(high - low, 0), axis=1)
     area = np.prod(others[:, 2:] - others[:, :2] + 1, axis=1) + np.prod(box[2:] - box[:2] + 1)

@@ -1,4 +1,4 @@
-"""Parts that are given: the scene's nodes, or a file of face labels (the paper's tables take parts as given)."""
+"""Parts given as input: the scene's nodes, or a file of face labels (as in the paper's tables)."""
 
 from __future__ import annotations
 
@@ -15,20 +15,21 @@ from anymesh.reasoning.vocabulary import recognize
 from anymesh.types import Mesh, Part, Segmentation
 
 GIVEN = "given"
-NPY, ZIP = b"\x93NUMPY", b"PK"  # what a file of the format starts with
+NPY, ZIP = b"\x93NUMPY", b"PK"  # first bytes of a file of the format
 
 
 def parts_from_nodes(mesh: Mesh) -> Segmentation:
-    """The scene's nodes are the parts; the root is the node named "base", else the one with the largest box."""
+    """Return the scene's nodes as parts; the root is the node named "base", else the one with the largest box."""
     present = np.unique(mesh.face_node)
     names = [mesh.nodes[n].name for n in present]
     return _segmentation(mesh, np.searchsorted(present, mesh.face_node), names)
 
 
 def parts_from_file(mesh: Mesh, path: Path) -> Segmentation:
-    """Face labels in the file's face order: a .npy of F integers, or .json with a list, or {"names": [...], "faces": [...]}.
+    """Read face labels in the file's face order.
 
-    Raises OptionError when the file cannot be read as labels of this mesh.
+    The file is a .npy array of F integers, or a .json file with a list or {"names": [...], "faces": [...]}.
+    Raise OptionError if the file cannot be read as labels of this mesh.
     """
     labels, names = _read(path)
     if labels.shape != (len(mesh.faces),) or not np.issubdtype(labels.dtype, np.integer):
@@ -46,7 +47,10 @@ def parts_from_file(mesh: Mesh, path: Path) -> Segmentation:
 
 
 def _read(path: Path) -> tuple[np.ndarray, Any]:
-    """The labels in a file, whatever they are, and the names where it has some. Raises OptionError."""
+    """Return the labels in a file, unchecked, and the names if it has any.
+
+    Raise OptionError if the file cannot be read.
+    """
     try:
         data = path.read_bytes() if path.is_file() else None
     except OSError as error:
@@ -65,14 +69,14 @@ def _npy(name: str, data: bytes) -> np.ndarray:
         found = "a ZIP archive (an .npz?)" if data.startswith(ZIP) else "another format" if data else "an empty file"
     try:
         return np.lib.format.read_array(io.BytesIO(data), allow_pickle=False)
-    except Exception:  # a broken header ends in one of many errors, of the tokenizer too
+    except Exception:  # a broken header raises errors of many types, including those of the tokenizer
         raise OptionError(f"--parts: found {found} in {name}; valid is one .npy array of integers") from None
 
 
 def _json(name: str, data: bytes) -> tuple[np.ndarray, Any]:
     valid = 'valid is a list of integers, or {"names": [...], "faces": [...]}'
     try:
-        record = json.loads(data)  # bytes: in any Unicode encoding, with a byte order mark or without
+        record = json.loads(data)  # from bytes, for any Unicode encoding, with or without a byte order mark
     except RecursionError:
         raise OptionError(f"--parts: found lists nested too deep in {name}; {valid}") from None
     except ValueError as error:
@@ -87,7 +91,7 @@ def _json(name: str, data: bytes) -> tuple[np.ndarray, Any]:
 
 
 def _segmentation(mesh: Mesh, label: np.ndarray, names: list[str]) -> Segmentation:
-    """Renumbers so that the root is part 0."""
+    """Renumber the parts so that the root is part 0."""
     if len(names) == 0:
         raise InputError("the mesh has no nodes with faces")
     root = next((k for k, name in enumerate(names) if name.lower() == "base"), None)

@@ -1,4 +1,4 @@
-"""STAGE A (paper, 3.2) with someone who sees: set-of-mark grounding in views, fused to parts of the surface."""
+"""Stage A (paper, 3.2) with a visual answerer: set-of-mark grounding in views, fused to parts of the surface."""
 
 from __future__ import annotations
 
@@ -39,23 +39,26 @@ from anymesh.segmentation.unseen import StaysFree
 from anymesh.types import Mesh, Segmentation
 from anymesh.types.recognition import Moves, Recognition
 
-SURE, UNSURE = 0.9, 0.6  # that a part which somebody pointed at is one; the same where they were not sure of its marks
+SURE, UNSURE = 0.9, 0.6  # confidence of a part from certain marks, and from uncertain ones
 EXACT = "exact"
-EXACT_POINTS = 120_000  # exact regions need the cloud for superpoints alone, which are cut on fewer
+EXACT_POINTS = 120_000  # exact regions use the cloud for superpoints only, which need fewer points
 MovesFreely = Callable[[Int[np.ndarray, " R"], Int[np.ndarray, " R"], int, Moves | None], bool]  # see `Solver.stays_free`
 
 
 @dataclass(frozen=True, eq=False)
 class GroundedParts:
-    """Parts of the surface. face_part: (F,) 0 the rest; unseen: (F,) faces of patches that no view shows; an entry of the
-    rest a part."""
+    """Parts of the surface found by grounding.
+
+    face_part: (F,) part index per face, 0 for the base; unseen: (F,) faces of patches that no view shows. The other sequences
+    have one entry per part.
+    """
 
     face_part: Int[np.ndarray, " F"]
     unseen: Bool[np.ndarray, " F"]
     labels: tuple[str, ...]
     confidence: tuple[float, ...]
     doubts: tuple[str, ...]
-    pointed: frozenset[str]  # labels that somebody pointed at
+    pointed: frozenset[str]  # labels of the marked parts
     warnings: tuple[str, ...] = ()
 
 
@@ -72,10 +75,10 @@ def ground_parts(
     progress: Progress = silent,
     cloud: Cloud | None = None,
 ) -> tuple[Segmentation, tuple[str, ...]]:
-    """The parts of the labels that recognition gave, and warnings.
+    """Return the parts with the labels given by recognition, and warnings.
 
-    segmenter: proposes masks where `config.proposer` names one; by_geometry: finds what no view shows; stays_free:
-    whether a part opens as far with unseen patches; cloud: of `object_cloud`, where it is at hand.
+    segmenter: proposes masks if `config.proposer` names one; by_geometry: segments by geometry, for parts that no view shows;
+    stays_free: checks whether a part opens as far with unseen patches added; cloud: result of `object_cloud`, if available.
     """
     labels = tuple(r.label for r in recognition.labels)
     asked = MarkQuestioner(answerer, visual_prompts, labels, recognition.category, config)
@@ -95,26 +98,27 @@ def ground_parts(
         found.face_part, found.labels, mesh.face_areas, found.confidence, [f"{reason}{doubt}" for doubt in found.doubts]
     )
     inside: tuple[str, ...] = ()
-    left = found.unseen & (found.face_part == 0)  # by whoever was shown the inside
-    left &= (patch_sizes(mesh, whole) >= MIN_INNER_PATCH_RATIO)[whole.mesh_patch]  # smaller ones are gaps and creases, no parts
-    by_user = recognition.size is None  # told the labels; else somebody was shown the inside and asked what moves in there
+    left = found.unseen & (found.face_part == 0)  # unseen faces left over by an answerer that was shown the inside
+    left &= (patch_sizes(mesh, whole) >= MIN_INNER_PATCH_RATIO)[whole.mesh_patch]  # smaller ones are gaps and creases
+    # the user gave the labels; otherwise the answerer was shown the inside and asked what moves there
+    by_user = recognition.size is None
     if labels and by_user and mesh.face_areas[left].sum() > MIN_SEEN_SHARE * mesh.face_areas[found.unseen].sum():
         parts, inside = add_hidden_parts(parts, by_geometry(), found.unseen, mesh.face_areas)
     missing = [label for label in labels if label not in {p.label for p in parts.parts}]
-    told = {True: "what was pointed at is all of the object, or too little of it", False: f"though {answerer.name} expects one"}
+    told = {True: "the marks cover all of the object, or too little of it", False: f"though {answerer.name} expects one"}
     lost = tuple(f"no {label} was found, {told[label in found.pointed]}" for label in missing)
     return parts, (*found.warnings, *lost, *inside)
 
 
 def _pointed(answerer: VisualAnswerer) -> str:
-    """Who pointed at the parts: whoever answered the question about marks."""
+    """Return the origin of the parts: the answerer of the question about marks."""
     if any(e.kind == "marks" and e.given_up for e in answerer.exchanges):
         return f"geometry points at it in place of {answerer.name}"
     return f"pointed at by {answerer.name}"
 
 
 def object_cloud(mesh: Mesh, whole: ObjectShape, config: Config) -> Cloud:
-    """The points that parts are found with: exact regions need fewer of them than masks."""
+    """Sample the points for finding parts; exact regions need fewer of them than masks."""
     few = min(config.grounding.points, EXACT_POINTS) if config.proposer == EXACT else config.grounding.points
     return sample_cloud(mesh, whole, replace(config.grounding, points=few), config.seed)
 
@@ -129,7 +133,7 @@ def _exactly(
     free: Callable[[Sequence[str]], StaysFree | None],
     progress: Progress,
 ) -> GroundedParts:
-    """Parts from marks on exact regions of the surface."""
+    """Find parts from marks on exact regions of the surface."""
     config = questioner.config
     region = face_regions(whole, cloud)
     seen, names, hidden = shown_views(mesh, whole, questioner, cloud, region, front)
@@ -145,7 +149,7 @@ def _exactly(
     parts, labels = [p.marks for p in answer.parts], tuple(p.label for p in answer.parts)
     named = np.isin(answer.marks.face_mark, [m for marks in parts for m in marks])
     little = hidden
-    if named[hidden[whole.mesh_patch]].any():  # somebody told what is what inside, so what they left belongs to the rest
+    if named[hidden[whole.mesh_patch]].any():  # marks inside were assigned, so those left over belong to the base
         little = unseen_patches(whole, cloud, seen_points(cloud, seen))
     face_part = mark_parts(mesh, whole, answer.marks.face_mark, parts, little, config, free(labels))
     doubts = [sorted(answer.unsure & set(p.marks)) for p in answer.parts]
@@ -167,8 +171,10 @@ def _exactly(
 def shown_views(
     mesh: Mesh, whole: ObjectShape, questioner: MarkQuestioner, cloud: Cloud, region: Int[np.ndarray, " F"], front: float | None
 ) -> tuple[list[View], list[str], Bool[np.ndarray, " P"]]:
-    """The views to choose pictures from with their names, and the patches that none from outside shows: all sides, close-ups,
-    and the inside where there is one."""
+    """Return the views to choose pictures from, their names, and the patches that no outside view shows.
+
+    The views are those from all sides, close-ups, and views of the inside if there is one.
+    """
     prompts, config = questioner.visual_prompts, questioner.config
     small = close_ups(region, cloud, prompts.views, config.views) if questioner.labels else ()
     seen = [*prompts.views, *(prompts.view(camera) for camera in small)]
@@ -190,7 +196,7 @@ def _by_masks(
     free: Callable[[Sequence[str]], StaysFree | None],
     progress: Progress,
 ) -> GroundedParts:
-    """Parts from a model's masks in every view, voted on by PartSlip++."""
+    """Find parts from a model's masks in every view, fused by the vote of PartSlip++."""
     config = questioner.config
     assert segmenter is not None
     region = face_regions(whole, cloud)
@@ -201,7 +207,7 @@ def _by_masks(
     marked = ask_masks(questioner, proposals, seen, names) if questioner.labels else ()
     progress("segment", "fusion", 3, 4)
     masks = marked_masks(proposals, marked)
-    told = [k for k, p in enumerate(proposals) if p.numbers] or range(len(seen))  # a view without masks has no vote
+    told = [k for k, p in enumerate(proposals) if p.numbers] or range(len(seen))  # a view without masks does not vote
     counts = [count_points(cloud, seen[k], masks[k], config.grounding) for k in told]
     start = fuse_masks(cloud, counts, config.grounding)
     found = refine_instances(cloud, counts, start, np.random.default_rng(config.seed), config.grounding)
@@ -215,13 +221,13 @@ def _by_masks(
 
 
 def _lost(marked: Sequence[MarkedPart], kept: Sequence[str]) -> tuple[str, ...]:
-    """Warnings of labels of which fewer parts are left than somebody pointed at in one view."""
+    """Return warnings for labels with fewer parts than were marked in one view."""
     most: dict[str, int] = {}
     for view in {p.view for p in marked}:
         for label, count in Counter(label for label, _ in {(p.label, p.instance) for p in marked if p.view == view}).items():
             most[label] = max(most.get(label, 0), count)
     return tuple(
-        f"{count} parts {label!r} were pointed at in one view, {kept.count(label)} found"
+        f"{count} parts {label!r} were marked in one view, but {kept.count(label)} found"
         for label, count in sorted(most.items())
         if 0 < kept.count(label) < count
     )
@@ -230,7 +236,7 @@ def _lost(marked: Sequence[MarkedPart], kept: Sequence[str]) -> tuple[str, ...]:
 def propose(
     whole: ObjectShape, region: Int[np.ndarray, " F"], seen: Sequence[View], segmenter: PromptedSegmenter, config: Config
 ) -> tuple[Proposal, ...]:
-    """Masks of the segmenter on the colour and the normal picture of each view; with `exact+sam:...` exact regions too."""
+    """Return the segmenter's masks of the colour and normal picture of each view, with exact regions for `exact+sam:...`."""
     marks = number_regions(region, seen, whole.diagonal, config.grounding) if config.proposer.startswith(EXACT) else None
     masks = []
     for view in seen:

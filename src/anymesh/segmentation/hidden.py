@@ -15,11 +15,10 @@ from anymesh.segmentation.faces import MIN_SEEN_SHARE
 from anymesh.segmentation.naming import named_parts
 from anymesh.types import Mesh, Segmentation
 
-MAX_SEEN_SHARE = 0.25  # share of a patch's surface up to which it counts as mostly hidden
-MIN_INNER_PATCH_RATIO = 0.05  # of the diagonal: hidden patches with a smaller diagonal are not shown
-MIN_RECOGNITION_PATCH_RATIO = (
-    0.1  # of the diagonal: with smaller ones alone, nobody is shown the inside to tell what the object is
-)
+MAX_SEEN_SHARE = 0.25  # patches up to this visible share of the surface count as mostly hidden
+MIN_INNER_PATCH_RATIO = 0.05  # of the object's diagonal: hidden patches with a smaller diagonal are not shown
+# of the object's diagonal: minimum size of a hidden patch for the inside to be shown when the object is recognized
+MIN_RECOGNITION_PATCH_RATIO = 0.1
 
 
 def seen_points(cloud: Cloud, views: Sequence[View]) -> Bool[np.ndarray, " n"]:
@@ -33,7 +32,7 @@ def seen_points(cloud: Cloud, views: Sequence[View]) -> Bool[np.ndarray, " n"]:
 def unseen_patches(
     whole: ObjectShape, cloud: Cloud, shown: Bool[np.ndarray, " n"], share: float = MIN_SEEN_SHARE
 ) -> Bool[np.ndarray, " P"]:
-    """Patches that no view shows, or so little of them (a share of the surface) that nobody could name them."""
+    """Return the patches whose visible share of the surface is at most `share`."""
     piece = whole.mesh_patch[cloud.faces]
     total = np.bincount(piece, minlength=int(whole.mesh_patch.max()) + 1)
     return np.bincount(piece, shown, len(total)) <= share * total
@@ -42,8 +41,10 @@ def unseen_patches(
 def inner_faces(
     mesh: Mesh, whole: ObjectShape, cloud: Cloud, shown: Bool[np.ndarray, " n"], min_size: float = MIN_INNER_PATCH_RATIO
 ) -> Bool[np.ndarray, " F"]:
-    """Faces of patches that are mostly hidden and large enough to be shown alone and asked about; none where all of them have a
-    diagonal below `min_size`, a share of the object's."""
+    """Return the faces of mostly hidden patches that are large enough to be shown and asked about.
+
+    Return no faces if no hidden patch has a diagonal of at least `min_size`, a share of the object's.
+    """
     hidden, size = unseen_patches(whole, cloud, shown, MAX_SEEN_SHARE), patch_sizes(mesh, whole)
     if not (hidden & (size >= min_size)).any():
         return np.zeros(len(whole.mesh_patch), bool)
@@ -62,8 +63,10 @@ def patch_sizes(mesh: Mesh, whole: ObjectShape) -> Float[np.ndarray, " P"]:
 def add_hidden_parts(
     found: Segmentation, other: Segmentation, unseen: Bool[np.ndarray, " F"], areas: Float[np.ndarray, " F"]
 ) -> tuple[Segmentation, tuple[str, ...]]:
-    """The parts found and those of another segmentation that no view shows (a turntable behind a closed door), with a
-    warning for each of these."""
+    """Add parts of another segmentation that no view shows, such as a turntable behind a closed door.
+
+    Return the parts and a warning for each added one.
+    """
     face_part = found.face_part.copy()
     parts, warnings = list(found.parts[1:]), []
     for k, part in enumerate(other.parts[1:], start=1):

@@ -1,4 +1,4 @@
-"""Which pictures show the marks: as few views as show every mark well, crowded ones in several close-ups."""
+"""Choice of the pictures that show the marks: as few views as possible, with close-ups of crowded ones."""
 
 from __future__ import annotations
 
@@ -13,17 +13,17 @@ from anymesh.rendering.viewpoints import zoom
 from anymesh.segmentation.regions import Marks
 from anymesh.types.camera import Camera
 
-MAX_MARKS_PER_PICTURE = 40  # marks that can be told apart in one picture
-WELL, HALF = 400.0, 0.5  # a view shows a mark well with so many pixels of a 640 px view, or with this share of the most
-MIN_MARK_PIXELS = 30.0  # [px of a 640 px view] of a mark that is drawn
-MAX_VIEWS_SHOWN_TWICE = 5  # views up to which marks are shown a second time
-TILE_AIR = 0.15  # round the marks of a close-up, a share of their box on each side
-TILES = 4  # times that a crowded view is halved at most: 16 close-ups
+MAX_MARKS_PER_PICTURE = 40  # marks that can be distinguished in one picture
+WELL, HALF = 400.0, 0.5  # a view shows a mark well with this many pixels of a 640 px view, or this share of its maximum
+MIN_MARK_PIXELS = 30.0  # [px of a 640 px view] minimum size of a drawn mark
+MAX_VIEWS_SHOWN_TWICE = 5  # number of views up to which marks are shown a second time
+TILE_AIR = 0.15  # margin around the marks of a close-up, as a share of their box on each side
+TILES = 4  # maximum number of times that a crowded view is halved: 16 close-ups
 
 
 @dataclass(frozen=True, eq=False)
 class MarkPicture:
-    """A view, the mark that each of its pixels is given (-1 none), and what it shows in words."""
+    """A view, the mark of each of its pixels (-1 for none), and its description."""
 
     view: View
     marks: Int[np.ndarray, "H W"]
@@ -31,18 +31,21 @@ class MarkPicture:
 
     @property
     def drawn(self) -> set[int]:
-        """The marks in the picture."""
+        """Return the marks in the picture."""
         return set(np.unique(self.marks[self.marks > 0]).tolist())
 
     def without(self, marks: Collection[int]) -> MarkPicture:
-        """The picture with some marks left out."""
+        """Return the picture without some marks."""
         return MarkPicture(self.view, np.where(np.isin(self.marks, list(marks)), -1, self.marks), self.name)
 
 
 def choose_pictures(
     marks: Marks, wanted: Collection[int], views: Sequence[View], names: Sequence[str], render: Callable[[Camera], View]
 ) -> list[MarkPicture]:
-    """Pictures in which each wanted mark is drawn where it shows well. render: makes the close-ups of crowded views."""
+    """Return pictures in which each wanted mark is drawn where it is well visible.
+
+    render: renders the close-ups of crowded views.
+    """
     numbers = np.array(sorted(wanted), np.int64)
     if len(numbers) == 0:
         return []
@@ -62,8 +65,10 @@ def _count(label: np.ndarray, numbers: np.ndarray) -> Int[np.ndarray, " n"]:
 
 
 def _cover(well: Bool[np.ndarray, "V n"], size: np.ndarray) -> list[tuple[int, np.ndarray]]:
-    """The views to take, in their order, each with the marks (a mask) that it is taken for: every mark is shown well once,
-    and as many as ENOUGH views allow twice."""
+    """Return the chosen views in order, each with a mask of the marks that it is chosen for.
+
+    Every mark is shown well once, and a second time as far as MAX_VIEWS_SHOWN_TWICE views allow.
+    """
     found: dict[int, np.ndarray] = {}
     for most in (len(well), MAX_VIEWS_SHOWN_TWICE):
         left = well.any(0)
@@ -90,7 +95,10 @@ def _drawn(
     render: Callable[[Camera], View],
     marks: Marks,
 ) -> list[MarkPicture]:
-    """One picture with all that it shows, where that is not too much; else with what is new; else close-ups of that."""
+    """Return one picture with all visible marks, or with the new ones only, or else close-ups of the new ones.
+
+    The first of these with at most MAX_MARKS_PER_PICTURE marks is chosen.
+    """
     shown = numbers[size >= MIN_MARK_PIXELS * (view.camera.height / 640) ** 2]
     own = np.union1d(shown, numbers[new])
     if len(own) <= MAX_MARKS_PER_PICTURE:
@@ -103,7 +111,7 @@ def _drawn(
 def _tiles(
     label: np.ndarray, own: np.ndarray, view: View, name: str, render: Callable[[Camera], View], marks: Marks
 ) -> list[MarkPicture]:
-    """Close-ups of a crowded view, each with few enough of its marks."""
+    """Return close-ups of a crowded view, each with a limited number of marks."""
     row, column = np.nonzero(np.isin(label, own))
     where = np.searchsorted(own, label[row, column])
     count = np.maximum(np.bincount(where, minlength=len(own)), 1)
@@ -124,7 +132,7 @@ def _tiles(
 
 
 def _halves(middle: np.ndarray, group: np.ndarray) -> list[np.ndarray]:
-    """A group of marks in two, across the longer side of where they are."""
+    """Split a group of marks in two, across its longer side."""
     if len(group) <= MAX_MARKS_PER_PICTURE:
         return [group]
     axis = int(np.ptp(middle[group], axis=0).argmax())

@@ -18,9 +18,10 @@ def named_parts(
     confidence: Sequence[float],
     reason: Sequence[str],
 ) -> Segmentation:
-    """The parts as links with unique, legal names, the largest first; entry k - 1 of labels, confidence, reason is part k's.
+    """Return the parts as links with unique, legal names, the largest first.
 
-    Parts without faces are left out; when nothing is left for the base, the largest part is taken for it.
+    Entry k - 1 of labels, confidence and reason belongs to part k. Parts without faces are left out. If no face is left for the
+    base, the largest part becomes the base.
     """
     count = len(labels) + 1
     size = np.bincount(face_part, areas, count)

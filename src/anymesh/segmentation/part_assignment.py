@@ -10,28 +10,30 @@ from anymesh.geometry.topology import label_connected
 from anymesh.segmentation.contacts import Contacts
 from anymesh.segmentation.part_tree import Overlap
 
-MIN_SCORE = -0.5  # log-odds from which a candidate may be a part; highest F1 on kinds left out of training
-MIN_DUPLICATE_IOU = 0.3  # IoU from which a candidate within another one is the same part
+MIN_SCORE = -0.5  # [log-odds] minimum score of a part; gives the highest F1 on kinds left out of training
+MIN_DUPLICATE_IOU = 0.3  # minimum IoU at which a candidate within another one is the same part
 
 
 def conflicts(overlap: Overlap) -> Bool[np.ndarray, "n n"]:
-    """Return which pairs of candidates cannot both be parts: they cross, or are nearly the same.
+    """Return which pairs of candidates cannot both be parts because they cross or are nearly the same.
 
-    A part may carry a smaller one (a knob on a door): it keeps the faces that the smaller one does not have.
+    A part may carry a smaller one (a knob on a door). It keeps the faces that the smaller one does not have.
     """
     return overlap.meet & (~overlap.nested | (overlap.iou > MIN_DUPLICATE_IOU))
 
 
 def assign_parts(overlap: Overlap, score: Float[np.ndarray, " n"]) -> list[int]:
-    """Return the candidates that are parts, ascending: no two in conflict, the sum of their scores above MIN_SCORE highest.
+    """Return the indices of the candidates that are parts, in ascending order.
 
-    score: log-odds that a candidate is a part. Exact, by mixed-integer programming.
+    The set has no conflicts and the highest sum of scores above MIN_SCORE. It is exact, by mixed-integer programming.
+
+    score: log-odds that a candidate is a part.
     """
     likely = np.flatnonzero(score > MIN_SCORE)
     first, second = np.nonzero(np.triu(conflicts(overlap)[np.ix_(likely, likely)]))
     if len(first) == 0:
         return [int(k) for k in likely]
-    from scipy.optimize import Bounds, LinearConstraint, milp  # takes 0.1 s to import
+    from scipy.optimize import Bounds, LinearConstraint, milp  # import on use: it takes 0.1 s
 
     row = np.arange(len(first)).repeat(2)
     pairs = csr_array((np.ones(len(row)), (row, np.stack([first, second], 1).reshape(-1))), (len(first), len(likely)))
@@ -45,10 +47,13 @@ def assign_parts(overlap: Overlap, score: Float[np.ndarray, " n"]) -> list[int]:
 
 
 def join_floating(owner: Int[np.ndarray, " P"], contacts: Contacts) -> Int[np.ndarray, " P"]:
-    """Return the part of each patch with what only that part holds joined to it: a handle would float once its door opens.
+    """Return the part of each patch, with patches that only one part supports joined to that part.
 
-    owner: (P,) the part of each patch, -1 for the base. Patches of the base that touch each other go together; a group joins
-    a part when it touches nothing else and is smaller than it. The largest group is the base and stays.
+    Otherwise a handle would float once its door opens.
+    owner: (P,) the part of each patch, -1 for the base.
+
+    Patches of the base that touch each other form a group. A group joins a part if it touches nothing else and is smaller than
+    the part. The largest group stays the base.
     """
     first, second = contacts.touch.T
     inside = (owner[first] < 0) & (owner[second] < 0)

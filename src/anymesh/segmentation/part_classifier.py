@@ -1,4 +1,4 @@
-"""The learned score of candidate parts: boosted trees on named features, in two steps (`benchmarks/train_parts.py`)."""
+"""Learned score of candidate parts: boosted trees on named features, in two steps (`benchmarks/train_parts.py`)."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from anymesh.segmentation.part_tree import Overlap
 
 
 def score_parts(overlap: Overlap, features: list[dict[str, float]]) -> tuple[Float[np.ndarray, " n"], list[str]]:
-    """Return the log-odds that each candidate is a part, and the features that raised each the most, in words."""
+    """Return the log-odds that each candidate is a part, and the names of the features that raised each score the most."""
     if not features:
         return np.zeros(0), []
     classifier = shipped_classifier()
@@ -23,5 +23,5 @@ def score_parts(overlap: Overlap, features: list[dict[str, float]]) -> tuple[Flo
 
 @cache
 def shipped_classifier() -> TwoStepClassifier:
-    """Read the classifier that is shipped."""
+    """Read the shipped classifier."""
     return TwoStepClassifier.read("anymesh.segmentation", "part_classifier.npz")

@@ -1,4 +1,4 @@
-"""Features of part candidates, by name. Lengths are over the object's diagonal, shares are 0..1."""
+"""Named features of part candidates. Lengths are relative to the object's diagonal, shares are 0..1."""
 
 from __future__ import annotations
 
@@ -13,15 +13,18 @@ from anymesh.segmentation.part_fit import enclosed_share, fit_of_rim, has_two_pi
 from anymesh.segmentation.part_tree import PartTree
 from anymesh.types import Mesh
 
-AT_BORDER = 0.02  # of the diagonal: a side of the object's bounds is reached within this
-SAME_SIZE = 0.02  # relative: diagonals of copies differ by less
-IN_LINE = 0.02  # of the diagonal: middles of copies in one row are as level as this
-MAX_RATIO = 8.0  # lengths over lengths are cut here
+AT_BORDER = 0.02  # of the diagonal: a candidate reaches a side of the object's bounds within this distance
+SAME_SIZE = 0.02  # maximum relative difference of the diagonals of copies
+IN_LINE = 0.02  # of the diagonal: maximum offset of the centers of copies in one row
+MAX_RATIO = 8.0  # upper limit of ratios of lengths
 
 
 @dataclass(frozen=True, eq=False)
 class FeatureScene:
-    """What the features of all candidates of an object share. material: (R,) of each face of `tree.whole`."""
+    """Data shared by the features of all candidates of an object.
+
+    material: (R,) material of each face of `tree.whole`.
+    """
 
     tree: PartTree
     config: Config
@@ -29,12 +32,12 @@ class FeatureScene:
 
     @classmethod
     def of(cls, mesh: Mesh, tree: PartTree, config: Config) -> FeatureScene:
-        """Of a mesh and the candidates found in it."""
+        """Build the data of a mesh and its candidates."""
         return cls(tree, config, mesh.face_material[tree.whole.source])
 
 
 def part_context_of(scene: FeatureScene, group: int) -> PartContext | None:
-    """Return a group among all else; None where it has no face, or nothing is left."""
+    """Return a group as a part among the rest of the object; None if it has no face or nothing is left."""
     tree = scene.tree
     moving = tree.members[group][tree.whole.patch]
     if not moving.any() or moving.all():
@@ -134,7 +137,7 @@ def _fit(scene: FeatureScene, around: PartContext) -> dict[str, float]:
 
 
 def _contact_layout(around: PartContext, near: np.ndarray) -> dict[str, float]:
-    """Where the contact lies on the part's face: spread over it, or gathered at one side."""
+    """Return features of the contact's position on the part's face: spread over it, or gathered at one side."""
     if near.sum() < 2:
         return {"contact spread": 0.0, "contact off the middle": 0.0, "contact upright": 0.0}
     local = around.body_obb.local(around.part.samples.points[near]) / np.maximum(around.body_obb.half, 1e-12)
@@ -173,7 +176,7 @@ def _neighbours(scene: FeatureScene, group: int) -> dict[str, float]:
 
 
 def _copies(scene: FeatureScene, group: int, around: PartContext) -> dict[str, float]:
-    """Other groups of the same size that share no patch with this one."""
+    """Return features of other groups of the same size that share no patch with this one."""
     tree = scene.tree
     alike = np.abs(tree.size - tree.size[group]) < SAME_SIZE * tree.size[group]
     alike &= np.abs(tree.area / max(tree.area[group], 1e-300) - 1) < 2 * SAME_SIZE
@@ -192,7 +195,7 @@ def _copies(scene: FeatureScene, group: int, around: PartContext) -> dict[str, f
 
 
 def _material(scene: FeatureScene, group: int, around: PartContext) -> dict[str, float]:
-    """How far the part's commonest material sets it apart from the rest."""
+    """Return how well the part's most frequent material separates it from the rest."""
     whole, count = scene.tree.whole, int(scene.material.max()) + 2
     moving = scene.tree.members[group][whole.patch]
     mine = np.bincount(scene.material[moving] + 1, whole.shape.areas[moving], count)

@@ -7,8 +7,8 @@ import numpy as np
 from anymesh.config import SegmentationConfig
 from anymesh.geometry.part_context import PartContext
 
-FACING = 0.5  # cosine between a rim's normal and what faces it across a clearance
-RIM = 0.75  # samples beyond this share of the half side belong to a rim
+FACING = 0.5  # minimum cosine between a rim's normal and that of the surface across a clearance
+RIM = 0.75  # samples beyond this share of the half extent belong to a rim
 
 
 def on_axis(around: PartContext) -> bool:
@@ -28,19 +28,20 @@ def touching(around: PartContext, tolerance: float) -> tuple[np.ndarray, np.ndar
 
 
 def fit_of_rim(around: PartContext, config: SegmentationConfig) -> tuple[int, float]:
-    """How many of the four rims keep a clearance to what faces them, and the share of the rim that touches it."""
+    """Return how many of the four rims have a clearance to the surface opposite, and the share of the rim that touches it."""
     core = around.body_obb
     samples = around.part.samples
     local = core.local(samples.points) / np.maximum(core.half, 1e-12)
     facing = samples.normals @ core.axes.T
     touch, reach = config.touch * around.diagonal, config.near * around.diagonal
-    start = samples.points - samples.normals * 2 * touch  # from a little inside, or a surface that it lies on is missed
+    # start slightly inside, since a ray that starts on a surface would miss it
+    start = samples.points - samples.normals * 2 * touch
     hits = around.everything.scene.first_hit(start, samples.normals * reach, 1.0)
     gap = hits.distance * reach - 2 * touch
     face = np.maximum(hits.face, 0)
     along = np.einsum("ij,ij->i", samples.normals, around.everything.normals[face])
-    gap[(hits.face >= 0) & around.everything.solid[face] & (along > 0)] = 0  # the rim lies within what it would face
-    gap[(np.abs(along) < FACING) & (gap > touch)] = np.inf  # a slope or a fillet beside the rim is no fit
+    gap[(hits.face >= 0) & around.everything.solid[face] & (along > 0)] = 0  # the rim lies inside the surface opposite
+    gap[(np.abs(along) < FACING) & (gap > touch)] = np.inf  # ignore slopes and fillets beside the rim
     sides, touched, count = 0, 0, 0
     for axis in around.face_axes:
         for sign in (1, -1):
@@ -55,7 +56,10 @@ def fit_of_rim(around: PartContext, config: SegmentationConfig) -> tuple[int, fl
 
 
 def open_behind(around: PartContext) -> float:
-    """Share of the candidate's back with an opening behind it: free for three thicknesses and 3 % of the diagonal."""
+    """Return the share of the candidate's back with an opening behind it.
+
+    An opening is free for three thicknesses and at least 3 % of the diagonal.
+    """
     core = around.body_obb
     k = int(np.abs(core.axes @ around.opening_direction).argmax())
     thick = 2 * core.half[k]
@@ -74,7 +78,7 @@ def open_behind(around: PartContext) -> float:
 
 
 def enclosed_share(around: PartContext) -> float:
-    """Share of the candidate that has the rest on at least three of the four sides across the opening direction."""
+    """Return the share of the candidate with the rest on at least three of the four sides across the opening direction."""
     points = around.part.samples.points[::20]
     hit = np.zeros(len(points), int)
     for axis in around.face_axes:
@@ -85,7 +89,10 @@ def enclosed_share(around: PartContext) -> float:
 
 
 def has_two_pivots(around: PartContext, near: np.ndarray, normals: np.ndarray) -> bool:
-    """Held at two far ends by surfaces that face along the line between them: pivots, not the feet of a fixed grip."""
+    """Return whether the candidate is supported at two far ends by surfaces that face along the line between them.
+
+    Such contacts are pivots, as opposed to the feet of a fixed handle.
+    """
     points = around.part.samples.points
     if near.sum() < 4:
         near = around.gap < max(2 * float(around.gap.min()), 0.004 * around.scale)

@@ -1,7 +1,8 @@
 """Part candidates: groups of patches that may move together.
 
-Each patch, what hangs on it, and what it holds, seen from each of the likeliest bases; and the groups of a tree that merges
-what touches most. The groups overlap: which of them are parts is decided for all at once (`part_assignment.py`).
+Candidates are each patch, the patches that depend on it, and those that it supports, for each of the likeliest bases; and the
+groups of a tree that merges the patches with the most contact. The groups overlap. `part_assignment.py` decides for all at once
+which of them are parts.
 """
 
 from __future__ import annotations
@@ -18,16 +19,18 @@ from anymesh.segmentation.contacts import Contacts
 from anymesh.segmentation.rigid_groups import RigidGroups, rigid_groups, root_ranking, with_supported
 from anymesh.types import Mesh
 
-BASES = 3  # likeliest bases from which hanging is measured
-MIN_NESTED_SHARE = 0.98  # share of the smaller candidate from which it lies within the larger one
-MAX_DISJOINT_SHARE = 1e-3  # share of the smaller candidate below which two do not overlap
-MIN_AREA_RATIO = 1e-12  # share of the surface that counts as area where patches have none
+BASES = 3  # number of base patches for which dependent groups are computed
+MIN_NESTED_SHARE = 0.98  # minimum shared part of the smaller candidate for it to lie within the larger one
+MAX_DISJOINT_SHARE = 1e-3  # maximum shared part of the smaller candidate for two candidates to be disjoint
+MIN_AREA_RATIO = 1e-12  # share of the surface used as the area of patches without area
 
 
 @dataclass(frozen=True, eq=False)
 class Overlap:
-    """Sizes of candidates and what they have in common. size: (n,) any unit; shared: (n, n) area in both, of each on the
-    diagonal."""
+    """Sizes of candidates and their shared areas.
+
+    size: (n,) in any unit; shared: (n, n) area in both candidates, with the area of each on the diagonal.
+    """
 
     size: Float[np.ndarray, " n"]
     shared: Float[np.ndarray, "n n"]
@@ -51,19 +54,22 @@ class Overlap:
 
     @cached_property
     def nested(self) -> Bool[np.ndarray, "n n"]:
-        """Return which candidates contain one another."""
+        """Return which pairs of candidates overlap with the smaller one inside the larger one."""
         return self.meet & (self.shared > MIN_NESTED_SHARE * np.minimum(self.area[:, None], self.area[None]))
 
 
 @dataclass(frozen=True, eq=False)
 class PartTree:
-    """Groups of patches, largest first. members: (n, P) which patches each group has; size: (n,) diagonal over the object's."""
+    """Groups of patches, largest first.
+
+    members: (n, P) which patches each group has; size: (n,) diagonal relative to the object's.
+    """
 
     whole: ObjectShape
     contacts: Contacts
     members: Bool[np.ndarray, "n P"]
     size: Float[np.ndarray, " n"]
-    names: tuple[str, ...]  # (P,) the telling name of each patch's node or material, or ""
+    names: tuple[str, ...]  # (P,) the recognized name of each patch's node or material, or ""
 
     @property
     def area(self) -> Float[np.ndarray, " n"]:
@@ -86,9 +92,10 @@ class PartTree:
 
 
 def part_tree(mesh: Mesh, whole: ObjectShape, contacts: Contacts, min_size: float, max_candidates: int) -> PartTree:
-    """Return the groups of a mesh that may be parts, without repetition.
+    """Return the groups of a mesh that may be parts, without duplicates.
 
-    min_size: least diagonal of a group, as a share of the object's; max_candidates: number of groups, the largest are taken.
+    min_size: minimum diagonal of a group, as a share of the object's; max_candidates: maximum number of groups, of which the
+    largest are kept.
     """
     count = len(contacts.shapes)
     found: dict[bytes, Bool[np.ndarray, " P"]] = {}
@@ -116,7 +123,7 @@ def part_tree(mesh: Mesh, whole: ObjectShape, contacts: Contacts, min_size: floa
 def _largest(
     whole: ObjectShape, contacts: Contacts, masks: list[np.ndarray], min_size: float, max_candidates: int
 ) -> tuple[Bool[np.ndarray, "n P"], Float[np.ndarray, " n"]]:
-    """Return the largest groups and their diagonals over the object's."""
+    """Return the largest groups and their diagonals relative to the object's."""
     bounds = contacts.patch_bounds
     size = np.array([float(np.linalg.norm(np.ptp(_bounds(bounds, m), axis=0))) for m in masks]) / whole.diagonal
     area = contacts.patch_area
@@ -132,9 +139,10 @@ def _bounds(patches: Float[np.ndarray, "P 2 3"], members: Bool[np.ndarray, " P"]
 
 
 def _merges(groups: RigidGroups) -> list[list[int]]:
-    """Merge neighbours until all are one; return the groups on the way.
+    """Merge neighbours until one group is left; return all intermediate groups.
 
-    Those merge first of which the smaller shares most of its contact with the other, small ones before large ones.
+    The pair whose smaller group shares the largest part of its contact with the other merges first. Small groups merge before
+    large ones.
     """
     count = len(groups.names)
     area = np.maximum(

@@ -1,4 +1,4 @@
-"""Masks of a model such as SAM as regions to put numbered marks on."""
+"""Regions for numbered marks from the masks of a model such as SAM."""
 
 from __future__ import annotations
 
@@ -13,12 +13,15 @@ from anymesh.config import GroundingConfig
 from anymesh.rendering.render import View
 from anymesh.segmentation.regions import min_pixels
 
-MAJORITY = 5  # [px] side of the filter that smooths masks
+MAJORITY = 5  # [px] side of the majority filter that smooths masks
 
 
 @dataclass(frozen=True, eq=False)
 class Proposal:
-    """Regions of one view. labels: a region number (from 1) a pixel, -1 none; numbers: those large enough for a mark."""
+    """Regions of one view.
+
+    labels: region number (from 1) per pixel, -1 for none; numbers: regions large enough for a mark.
+    """
 
     view: int
     labels: Int[np.ndarray, "H W"]
@@ -33,7 +36,7 @@ def _large_enough(labels: np.ndarray, min_pixels: float) -> tuple[int, ...]:
 def propose_masks(
     masks: Sequence[Bool[np.ndarray, "_ H W"]], views: Sequence[View], config: GroundingConfig | None = None
 ) -> tuple[Proposal, ...]:
-    """Regions from a model's masks of every view, of its colour and its normal picture together."""
+    """Return regions from a model's masks of every view, of its colour and its normal picture together."""
     config = config or GroundingConfig()
     found = []
     for k, (some, view) in enumerate(zip(masks, views, strict=True)):
@@ -45,8 +48,11 @@ def propose_masks(
 
 
 def masks_to_labels(masks: Bool[np.ndarray, "n H W"], min_pixels: float) -> Int[np.ndarray, "H W"]:
-    """A region number (from 1) a pixel, -1 none: masks of `min_pixels` pixels or more, small over large, smoothed by a majority
-    filter, split into connected pieces; pieces below `min_pixels` are none."""
+    """Return a region number (from 1) per pixel, -1 for none.
+
+    Masks of at least `min_pixels` pixels are painted, small over large, smoothed by a majority filter, and split into connected
+    components. Components below `min_pixels` are dropped.
+    """
     size = masks.sum((1, 2))
     order = np.argsort(-size, kind="stable")
     painted = np.full(masks.shape[1:], -1)
@@ -66,7 +72,7 @@ def masks_to_labels(masks: Bool[np.ndarray, "n H W"], min_pixels: float) -> Int[
 
 
 def _majority(labels: np.ndarray) -> Int[np.ndarray, "H W"]:
-    """Every pixel takes the label of most of the pixels round it; its own where that is among the most."""
+    """Give every pixel the most frequent label around it; its own label wins ties."""
     best, votes = labels.copy(), np.zeros(labels.shape)
     present = np.unique(labels)
     for own in (True, False):

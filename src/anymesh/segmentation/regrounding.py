@@ -1,4 +1,4 @@
-"""Back to the marks, once: parts that, seen moving, turn out to be too much or too little of the surface."""
+"""Second grounding of parts whose motion shows that they have too much or too little of the surface."""
 
 from __future__ import annotations
 
@@ -32,11 +32,12 @@ def ground_again(
     wrong: Mapping[str, PartFit],
     front: float | None,
 ) -> Segmentation | None:
-    """Ask about the marks of some parts again, and return the parts as answered: the same names in the same order.
+    """Ask again about the marks of some parts, and return the parts as answered, with the same names in the same order.
 
-    wrong: what is wrong with which part, by its name; front: the azimuth from which the front is seen [deg], if known. The
-    marks of what is too much are divided first. A part that the answer leaves out, or leaves without a face, stays as it is;
-    None when all do.
+    wrong: the fault of each such part, by name; front: azimuth of the front [deg], if known.
+
+    The marks of parts with too much surface are split first. A part that the answer omits, or leaves without faces, stays
+    unchanged. Return None if all do.
     """
     labels = [p.label for p in segmentation.parts]
     numbers = {p.name: k for k, p in enumerate(segmentation.parts)}
@@ -52,7 +53,7 @@ def ground_again(
     if much:
         marks = split_marks(marks, much, mesh, cloud, seen, config)
         owner = _owners(marks, segmentation, areas)
-    if all(fit is PartFit.TOO_MUCH for fit in wrong.values()):  # nothing else need be asked about
+    if all(fit is PartFit.TOO_MUCH for fit in wrong.values()):  # no other marks need to be asked about
         owner = {m: part for m, part in owner.items() if part in parts.values()}
     told = tuple(
         _problem_text(MarkedPart(label, n, None, _of(owner, k)), wrong, segmentation, k) for (label, n), k in parts.items()
@@ -66,7 +67,7 @@ def ground_again(
 
 
 def _owners(marks: Marks, segmentation: Segmentation, areas: np.ndarray) -> dict[int, int]:
-    """The part that most of each mark's surface belongs to."""
+    """Return the part that most of each mark's surface belongs to."""
     on = marks.face_mark > 0
     count = len(segmentation.parts)
     key = marks.face_mark[on] * count + segmentation.face_part[on]
@@ -79,7 +80,7 @@ def _of(owner: Mapping[int, int], part: int) -> tuple[int, ...]:
 
 
 def _problem_text(part: MarkedPart, wrong: Mapping[str, PartFit], segmentation: Segmentation, number: int) -> str:
-    """What the question says of a part that is wrong."""
+    """Return the text in the question about a wrong part."""
     marks = ", ".join(map(str, part.marks)) or "none"
     return f"{part.label} {part.instance} (marks {marks}) is {WORDS[wrong[segmentation.parts[number].name]]}"
 
@@ -92,8 +93,11 @@ def _redrawn(
     asked_about: Int[np.ndarray, " F"],
     wanted: set[int],
 ) -> Segmentation | None:
-    """The parts with these marks. What was asked about and is given to none of them any more joins the base, and with it
-    faces without a mark of patches of which no mark is left to the part."""
+    """Return the parts with the answered marks.
+
+    Faces that were asked about and now belong to no part join the base. So do unmarked faces of patches in which the part has
+    no marks left.
+    """
     found, patch = segmentation.face_part.copy(), whole.mesh_patch
     open_ = np.isin(asked_about, list(wanted))
     for part, chosen in given.items():
@@ -112,5 +116,5 @@ def _redrawn(
 
 
 def _shared(patch: np.ndarray, now: np.ndarray, face_mark: np.ndarray) -> np.ndarray:
-    """Faces of patches with marks that are, and marks that are not, of the part."""
+    """Return the faces of patches that have marks outside the part."""
     return np.isin(patch, patch[(face_mark > 0) & ~now])

@@ -14,7 +14,7 @@ from anymesh.reasoning.vocabulary import is_fixed_name, recognize
 from anymesh.segmentation.contacts import Contacts, coplanar, hanging_on
 from anymesh.types import Mesh
 
-MAX_SURFACE_SHARE = 0.5  # share of the object's surface: what is one with more is the object, creases or not
+MAX_SURFACE_SHARE = 0.5  # share of the object's surface above which a creased surface is the object itself
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,7 +26,7 @@ class RigidGroups:
     names: list[str]
     root: int
     hanging: dict[int, list[int]]
-    surface: Int[np.ndarray, " P"]  # patches of one number are parted by creases only
+    surface: Int[np.ndarray, " P"]  # patches with the same number are separated by creases only
 
     @cached_property
     def touching(self) -> tuple[Int[np.ndarray, "k 2"], Float[np.ndarray, " k"]]:
@@ -37,7 +37,7 @@ class RigidGroups:
 
 
 def rigid_groups(mesh: Mesh, whole: ObjectShape, contacts: Contacts, root_patch: int) -> RigidGroups:
-    """Join the patches of components that touch nothing, and those of nodes with a telling name."""
+    """Join the patches of components that touch nothing, and those of nodes with a recognized name."""
     shapes = contacts.shapes
     key = np.where(
         contacts.component == contacts.component[root_patch], np.arange(len(shapes)), len(shapes) + contacts.component
@@ -54,7 +54,7 @@ def rigid_groups(mesh: Mesh, whole: ObjectShape, contacts: Contacts, root_patch:
             names[p] = name
             key[p] = 2 * len(shapes) + node
         elif material not in (-1, common) and recognize(mesh.materials[material].name) is not None:
-            names[p] = mesh.materials[material].name  # tells what a patch is, not that patches move as one
+            names[p] = mesh.materials[material].name  # a material names a patch, but does not show that patches move together
     _, first, group = np.unique(key, return_index=True, return_inverse=True)
     group = group.reshape(-1)
     root = int(group[root_patch])
@@ -68,8 +68,10 @@ def _most(numbers: np.ndarray) -> int:
 
 
 def root_ranking(whole: ObjectShape, contacts: Contacts) -> list[int]:
-    """The patches that the rest may hang on, likeliest first: large, much touched, standing on the ground, reaching
-    far, and no panel."""
+    """Return patch indices ranked as possible base, likeliest first.
+
+    Large patches rank higher, with many contacts, standing on the ground and reaching far. Panels rank last.
+    """
     degree = np.bincount(contacts.touch.reshape(-1), minlength=len(contacts.shapes))
     bounds = whole.shape.bounds
     low = bounds[0, 2] + 0.02 * whole.diagonal
@@ -78,15 +80,19 @@ def root_ranking(whole: ObjectShape, contacts: Contacts) -> list[int]:
         size = float(np.linalg.norm(s.bounds[1] - s.bounds[0])) * (1 + 0.1 * min(int(d), 10))
         samples = s.samples
         stands = ((samples.points[:, 2] < low) & (samples.normals[:, 2] < -0.7)).mean() if len(samples) else 0.0
-        sides = int((np.abs(s.bounds - bounds) < 0.02 * whole.diagonal).sum())  # of the object: walls reach most of them
+        # sides of the object that the patch reaches; walls reach most of them
+        sides = int((np.abs(s.bounds - bounds) < 0.02 * whole.diagonal).sum())
         rank.append(size * (1.3 if stands > 0.05 else 1.0) * (1 + 0.1 * sides))
     order = np.lexsort((-np.array(rank), np.isin(np.arange(len(rank)), whole.panels)))
     return [int(i) for i in order]
 
 
 def with_supported(groups: RigidGroups, u: int) -> list[int]:
-    """The group, what hangs on it, and the rest of its surface (the box behind a drawer's front, whatever it stands on); of a
-    group that is a surface by itself, the smaller groups that touch these more than all else (a shelf on a door)."""
+    """Return the group, its dependent groups, and the rest of its surface with theirs.
+
+    The rest of its surface is, for example, the box behind a drawer's panel. If the group is the whole surface, the smaller
+    groups with most of their contact on these members are added (a shelf on a door).
+    """
     surface = _of_one_surface(groups, u)
     members = set(groups.hanging[u]).union(*(groups.hanging[v] for v in surface))
     if not surface:

@@ -1,7 +1,7 @@
 """Stage A (paper, 3.2) by geometry: find the movable parts of an unlabelled mesh.
 
-Patches and what touches what, a tree of groups of patches that may be parts, what geometry shows of each, a learned score,
-and the set of groups of highest total score. Groups that nothing lets move are taken out, and the set is chosen again.
+Steps: patches and their contacts, a tree of candidate groups of patches, geometric features of each, a learned score, and the
+set of groups of highest total score. Groups that cannot move are removed, and the set is chosen again.
 """
 
 from __future__ import annotations
@@ -29,27 +29,23 @@ from anymesh.segmentation.part_features import FeatureScene, part_context_of, pa
 from anymesh.segmentation.part_tree import PartTree, part_tree
 from anymesh.types import Mesh, Segmentation
 
-LabelParts = Callable[[Segmentation], Sequence[str]]  # a label per part but the base by its motion, "" for one without
-MAX_ASSIGNMENTS = 3  # assignments, each without the candidates that turned out to be held
-CALIBRATION_SLOPE, CALIBRATION_OFFSET = (
-    0.80,
-    0.29,
-)  # of the log-odds of a confidence; fitted to kinds left out of training (benchmarks/train_parts.py)
-NAME_SCORE, FIXED_NAME_SCORE, HANDLE_NAME_SCORE = (
-    MIN_SCORE + 4,
-    MIN_SCORE - 4,
-    0.3,
-)  # log-odds that the name of a node or material adds
+LabelParts = Callable[[Segmentation], Sequence[str]]  # label per part except the base from its motion, "" if it cannot move
+MAX_ASSIGNMENTS = 3  # maximum number of assignments, each without the candidates that turned out to be fixed
+# calibration of the log-odds of a confidence, fitted to kinds left out of training (benchmarks/train_parts.py)
+CALIBRATION_SLOPE, CALIBRATION_OFFSET = 0.80, 0.29
+# [log-odds] added to the score for the name of a node or material
+NAME_SCORE, FIXED_NAME_SCORE, HANDLE_NAME_SCORE = MIN_SCORE + 4, MIN_SCORE - 4, 0.3
 
 
 def segment_parts(
     mesh: Mesh, whole: ObjectShape, label_parts: LabelParts, config: Config, progress: Progress = silent,
     deadline: Deadline | None = None,
 ) -> Segmentation:  # fmt: skip
-    """Return the movable parts of a mesh and its base, which is all that is left.
+    """Return the movable parts of a mesh and its base, which is the rest.
 
-    label_parts: stage B's test of how parts move, with "" for a part that cannot. Past the deadline no further candidate is
-    examined.
+    label_parts: stage B's test of how parts move, with "" for a part that cannot.
+
+    After the deadline no further candidate is examined.
     """
     progress("segment", "contacts", 0, 2)
     settings = config.segmentation
@@ -64,7 +60,7 @@ def segment_parts(
     for _ in range(MAX_ASSIGNMENTS):
         chosen = _chosen_at_least(examined, score, assign_parts(examined.overlap, score), settings.at_least)
         face_part, order = _face_part(mesh, examined, chosen)
-        while order and face_part.all():  # something must stay: the largest part is the base
+        while order and face_part.all():  # something must remain: the largest part becomes the base
             face_part, order = _face_part(mesh, examined, [k for k in order if k != order[0]])
         told = [word.label if (word := recognize(words[k])) else "" for k in order]
         confidence = [confidence_of(float(score[k]), CALIBRATION_SLOPE, CALIBRATION_OFFSET) for k in order]
@@ -82,7 +78,7 @@ def segment_parts(
 def _candidate_features(
     mesh: Mesh, tree: PartTree, config: Config, progress: Progress, deadline: Deadline
 ) -> tuple[PartTree, list[dict[str, float]]]:
-    """Return the candidates that were examined, and the features of each."""
+    """Return the examined candidates and the features of each."""
     scene = FeatureScene.of(mesh, tree, config)
 
     def features_of(k: int) -> dict[str, float] | None:
@@ -93,7 +89,7 @@ def _candidate_features(
         return None if around is None else part_features(scene, k, around)
 
     kept, features = [], []
-    with ThreadPoolExecutor(os.cpu_count()) as threads:  # rays and distances work outside the interpreter's lock
+    with ThreadPoolExecutor(os.cpu_count()) as threads:  # ray casts and distances release the interpreter lock
         for k, row in enumerate(threads.map(features_of, range(len(tree.members)))):
             progress("segment", f"candidate {k}", k, len(tree.members))
             if row is not None:
@@ -103,11 +99,12 @@ def _candidate_features(
 
 
 def _name(tree: PartTree, group: int) -> str:
-    """Return the telling name that all patches of a candidate share, or the words that all their names begin with."""
+    """Return the recognized name shared by all patches of a candidate, or the words that all their names begin with."""
     names = {tree.names[p] for p in np.flatnonzero(tree.members[group])}
     if len(names) == 1:
         return names.pop()
-    first, *_, last = sorted(words_of(name) for name in names)  # words that these two begin with, all others begin with too
+    # the common prefix of the first and last name in order is common to all
+    first, *_, last = sorted(words_of(name) for name in names)
     return " ".join(a for a, _ in itertools.takewhile(lambda pair: pair[0] == pair[1], zip(first, last, strict=False)))
 
 
@@ -125,7 +122,7 @@ def _name_score(name: str) -> float:
 
 
 def _chosen_at_least(tree: PartTree, score: Float[np.ndarray, " n"], chosen: list[int], count: int) -> list[int]:
-    """Add the best of the other candidates until there are as many as asked for."""
+    """Add the best other candidates without conflicts until there are at least `count`."""
     if len(chosen) >= count:
         return chosen
     apart = ~conflicts(tree.overlap)
@@ -136,8 +133,10 @@ def _chosen_at_least(tree: PartTree, score: Float[np.ndarray, " n"], chosen: lis
 
 
 def _face_part(mesh: Mesh, tree: PartTree, chosen: list[int]) -> tuple[Int[np.ndarray, " F"], list[int]]:
-    """Return a part index per face, 0 for the base, and the candidates in this order: the largest first, of which a part on
-    a part does not count. Candidates without a face of their own are left out."""
+    """Return a part index per face, 0 for the base, and the candidates in part order.
+
+    The largest come first, without the faces of parts that they carry. Candidates without faces of their own are left out.
+    """
     owner = np.full(len(tree.contacts.shapes), -1)
     for k in sorted(chosen, key=lambda k: (-tree.area[k], k)):
         owner[tree.members[k]] = k

@@ -1,4 +1,4 @@
-"""Patches that no view shows: which part holds them."""
+"""Assignment of patches that no view shows to the parts that support them."""
 
 from __future__ import annotations
 
@@ -14,15 +14,18 @@ from anymesh.segmentation.contacts import Contacts, find_contacts, hanging_on
 
 UNSEEN = -1
 StaysFree = Callable[[Int[np.ndarray, " R"], Int[np.ndarray, " R"], int], bool]
-"""From two part numbers a face of the object's shape, without and with unseen patches, and a part: does it open as far?"""
+"""Return whether a part opens as far with unseen patches as without.
+
+Arguments: the part index per face of the object's shape without and with the unseen patches, and the part.
+"""
 
 
 def join_unseen(
     whole: ObjectShape, part: Int[np.ndarray, " P"], config: Config, stays_free: StaysFree | None = None
 ) -> Int[np.ndarray, " P"]:
-    """Give unseen patches (part -1) to the parts that hold them, the others to the base.
+    """Assign unseen patches (part -1) to the parts that support them, the others to the base.
 
-    A part that would not stay free with what it gains (the walls of a cavity behind its door) does not gain it.
+    A part does not gain patches that would limit its motion, such as the walls of a cavity behind its door.
     """
     joined = np.maximum(_joined(whole, part, config), 0)
     gaining = np.unique(joined[(part < 0) & (joined > 0)])
@@ -36,20 +39,23 @@ def join_unseen(
 
 
 def _joined(whole: ObjectShape, part: Int[np.ndarray, " P"], config: Config) -> Int[np.ndarray, " P"]:
-    """The part of every patch, those that no view sees included: that of all the seen patches that it touches, directly or
-    through others; else the one that it hangs on or touches more than all else, or is near to and nothing else is."""
+    """Return the part of every patch, including unseen ones.
+
+    An unseen patch takes the part of all visible patches that it touches, directly or through others. Otherwise it takes the
+    part on which it depends, that it touches more than all others, or that alone is near.
+    """
     if (part >= 0).all() or part.max() <= 0:
         return part
     contacts = find_contacts(whole, config.segmentation)
     reach = config.grounding.join_component * whole.diagonal
     part = _single_part_components(contacts.component, part)
-    for together in (False, True):  # each on its own first; then unseen patches that touch, a drawer's box, as one
+    for together in (False, True):  # first one by one, then connected patches (a drawer's box) as one
         part = np.where(_goes_on(whole, part), 0, _supported_by(contacts, part, together, reach))
     return part
 
 
 def _goes_on(whole: ObjectShape, part: np.ndarray) -> Bool[np.ndarray, " P"]:
-    """Unseen patches from which a fused surface goes on into the rest: a strip of the floor behind a drawer's front."""
+    """Return unseen patches that continue a fused surface into the base, such as a strip of floor behind a drawer's panel."""
     found = np.zeros(len(part), bool)
     if len(whole.shared):
         a, b = whole.shared.T
@@ -58,7 +64,7 @@ def _goes_on(whole: ObjectShape, part: np.ndarray) -> Bool[np.ndarray, " P"]:
 
 
 def _single_part_components(component: np.ndarray, part: np.ndarray) -> Int[np.ndarray, " P"]:
-    """Unseen patches join the only visible part of their component."""
+    """Assign unseen patches to the only visible part of their component."""
     least, most = np.full(int(component.max()) + 1, np.iinfo(np.int64).max), np.full(int(component.max()) + 1, UNSEEN)
     np.minimum.at(least, component[part >= 0], part[part >= 0])
     np.maximum.at(most, component, part)
@@ -67,7 +73,10 @@ def _single_part_components(component: np.ndarray, part: np.ndarray) -> Int[np.n
 
 
 def _supported_by(contacts: Contacts, part: np.ndarray, together: bool, reach: float) -> Int[np.ndarray, " P"]:
-    """Unseen patches that hang on a part or touch it more than all else; `together`: those that touch each other as one."""
+    """Assign unseen patches that depend on a part or touch it more than all others.
+
+    together: treat unseen patches that touch each other as one.
+    """
     unseen = part < 0
     if not unseen.any() or not (part == 0).any():
         return part
@@ -87,11 +96,14 @@ def _supported_by(contacts: Contacts, part: np.ndarray, together: bool, reach: f
 
 
 def _largest_contact(contacts: Contacts, group: np.ndarray, part: np.ndarray) -> Int[np.ndarray, " P"]:
-    """Unseen groups that touch one part more than all else belong to it: a drawer's box on a runner. Four rounds settle
-    chains. (As `with_supported`, but what is unseen may be larger than the part: a box behind its front.)"""
+    """Assign unseen groups to the part that they touch more than all others, such as a drawer's box on a runner.
+
+    Four rounds resolve chains. Unlike in `with_supported`, an unseen group may be larger than the part: a box behind its panel.
+    """
     found = part.copy()
     for _ in range(4):
-        area = np.zeros((int(group.max()) + 1, int(found.max()) + 2))  # the first column: of other unseen groups
+        # the first column counts contact with other unseen groups
+        area = np.zeros((int(group.max()) + 1, int(found.max()) + 2))
         for (i, j), a in contacts.area.items():
             if found[i] < 0 and group[i] != group[j]:
                 area[group[i], found[j] + 1] += a
@@ -105,7 +117,7 @@ def _largest_contact(contacts: Contacts, group: np.ndarray, part: np.ndarray) ->
 
 
 def _near(contacts: Contacts, patch: int, others: np.ndarray, reach: float) -> bool:
-    """Whether the patch's box is within `reach` of the box of one of the others [m]."""
+    """Return whether the patch's box is within `reach` [m] of the box of one of the others."""
     low, high = contacts.shapes[patch].bounds
     boxes = np.array([contacts.shapes[p].bounds for p in others])
     return bool(((boxes[:, 0] <= high + reach) & (boxes[:, 1] >= low - reach)).all(1).any())

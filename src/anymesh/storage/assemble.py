@@ -29,7 +29,10 @@ def assemble(
     revision: CorrectionResult | None,
     timing: Mapping[str, float],
 ) -> Asset:
-    """Assemble the asset; correction: by a person before Stage C, revision: after it."""
+    """Assemble the asset from stage results.
+
+    correction: manual correction before Stage C; revision: manual correction after it.
+    """
     loaded = recognition.sized(loaded)
     asset = Asset(
         name=legal_name(Path(loaded.source.path).stem, fallback="asset"),

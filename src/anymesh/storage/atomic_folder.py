@@ -12,16 +12,16 @@ from pathlib import Path
 
 try:
     import fcntl
-except ImportError:  # Windows: no folder is taken for dead there
+except ImportError:  # Windows: no folder is recognized as stale there
     fcntl = None
 
-FOLDER_PREFIX = ".anymesh."  # how hidden folders inside an output begin
-IGNORED = frozenset({"Thumbs.db", "desktop.ini", ".DS_Store"})  # put there by file managers
+FOLDER_PREFIX = ".anymesh."  # prefix of hidden folders inside an output
+IGNORED = frozenset({"Thumbs.db", "desktop.ini", ".DS_Store"})  # created by file managers
 
 
 @dataclass(frozen=True)
 class LockedFolder:
-    """A folder and its lock (a file descriptor, -1 where locks are not available)."""
+    """A folder and its lock (a file descriptor, -1 if locks are not available)."""
 
     path: Path
     lock: int
@@ -38,7 +38,7 @@ class LockedFolder:
 
 
 def _locked(path: Path) -> int | None:
-    """Lock a folder; return its descriptor, None when another process holds the lock."""
+    """Lock a folder; return its descriptor, None if another process holds the lock."""
     if fcntl is None:
         return -1
     try:
@@ -55,7 +55,7 @@ def _locked(path: Path) -> int | None:
 
 @contextmanager
 def locked(path: Path) -> Generator[bool]:
-    """Lock an existing folder; yield whether the lock was acquired, always True where locks are not available."""
+    """Lock an existing folder; yield whether the lock was acquired, always True if locks are not available."""
     descriptor = _locked(path)
     try:
         yield descriptor is not None
@@ -75,7 +75,7 @@ def make_locked_folder(parent: Path, prefix: str) -> LockedFolder:
         path = parent / f"{prefix}{secrets.token_hex(4)}"
         path.mkdir()
         lock = _locked(path)
-        if lock is not None and path.is_dir():  # else another process took it for dead in between
+        if lock is not None and path.is_dir():  # otherwise another process recognized it as stale in between
             return LockedFolder(path, lock)
 
 
@@ -132,7 +132,7 @@ def replace_folder(new: Path, target: Path, old: Path | None) -> None:
 
 
 def recover(target: Path, prefix: str) -> None:
-    """Recover from a kill within `replace_folder`: restore the old folder, or remove it when the new one is in place."""
+    """Recover from a kill within `replace_folder`: restore the old folder, or remove it if the new one is in place."""
     for left in stale_folders(target.parent, prefix):
         if target.exists():
             left.discard()
@@ -148,7 +148,7 @@ def move_files(new: Path, target: Path, *, remove: Iterable[str], last: str) -> 
         remove.insert(0, last)
     for name in sorted(remove, key=lambda name: name != last):
         (target / name).unlink(missing_ok=True)
-        with suppress(OSError):  # a folder that holds more stays
+        with suppress(OSError):  # a folder with other files stays
             (target / name).parent.rmdir()
     for name in sorted(files, key=lambda name: name == last):
         (target / name).parent.mkdir(parents=True, exist_ok=True)

@@ -9,8 +9,8 @@ from anymesh.storage.atomic_folder import list_files
 from anymesh.storage.stage_files import read_json
 
 GENERATOR = "articulate-anymesh"
-MANIFEST = "stages/files.json"  # what was written here; nothing else is ever removed
-CORRECTIONS = "corrections.json"  # what a person corrected; a new run never takes it away
+MANIFEST = "stages/files.json"  # list of files written by this program; nothing else is ever removed
+CORRECTIONS = "corrections.json"  # manual corrections; a new run never removes them
 GENERATION = "generation.json"  # where a generated mesh came from
 GENERATED = "generated"  # the folder of that mesh
 
@@ -26,7 +26,7 @@ def is_origin(name: str) -> bool:
 
 
 def written_files(target: Path) -> list[str] | None:
-    """Return the files that this program wrote into a folder, None when it is no output."""
+    """Return the files that this program wrote into a folder, None if it is no output."""
     found = read_json(target / MANIFEST)
     files = found.get("files") if found is not None and found.get("generator") == GENERATOR else None
     return files if isinstance(files, list) else None
@@ -48,7 +48,7 @@ def check_replaceable(target: Path, force: bool) -> None:
 
 
 def check_uncorrected(target: Path) -> None:
-    """Raise OutputError when an output holds manual corrections."""
+    """Raise OutputError if an output holds manual corrections."""
     if (target / CORRECTIONS).exists():
         raise OutputError(f"{target} was corrected by hand, which a new run would lose; choose another folder, or remove "
                           f"{CORRECTIONS} to give the corrections up")  # fmt: skip

@@ -30,39 +30,51 @@ TIMING = "timing.json"
 
 
 class Saved:
-    """The saved stages of an output folder. target: its path."""
+    """The saved stages of an output folder.
+
+    target: its path.
+    """
 
     def __init__(self, target: Path) -> None:
         self.target = target
 
     @classmethod
     def at(cls, target: Path) -> Saved:
-        """Open an existing output. Raises OutputError when there is none."""
+        """Open an existing output.
+
+        Raise OutputError if there is none.
+        """
         target = Path(target).resolve()
         if written_files(target) is None:
             raise OutputError(f"{target} is no output of anymesh; `anymesh articulate MESH -o {target}` makes one")
         return Saved(target)
 
     def _places(self, stage: Stage[Any] | None) -> list[Path]:
-        """Where what belongs to this output may lie: the result of a stage, or (None) a file that is of none."""
+        """Return the folders that may hold the result of a stage, or (None) a file that belongs to no stage."""
         return [self.target]
 
     def need(self, stage: Stage[Result]) -> Result:
-        """Return the result of a stage. Raises OutputError when this output has none."""
+        """Return the result of a stage.
+
+        Raise OutputError if this output has none.
+        """
         found = self._find(stage)
         if found is None:
             raise self._missing(stage)
         return found
 
     def recognition(self) -> RecognitionResult:
-        """Return the recognition result, an empty one where no model was asked."""
+        """Return the recognition result, an empty one if no model was asked."""
         return self._find(RECOGNITION) or RecognitionResult(None, "")
 
     def _find(self, stage: Stage[Result]) -> Result | None:
         return next((found for place in self._places(stage) if (found := read_stage(place, stage, None)) is not None), None)
 
     def key(self, stage: Stage[Any]) -> str:
-        """Return the key of the saved result of a stage. Raises OutputError when this output has none."""
+        """Return the key of the saved result of a stage.
+
+        Raise OutputError if this output has none.
+        """
         found = self._key(stage)
         if found is None:
             raise self._missing(stage)
@@ -79,7 +91,12 @@ class Saved:
         return next((found for place in self._places(None) if (found := read_json(place / TIMING)) is not None), {})
 
     def asset(self, *, edited: bool = True) -> Asset:
-        """Assemble the asset from the saved stages. Raises OutputError if one is missing. edited: with corrections."""
+        """Assemble the asset from the saved stages.
+
+        edited: with corrections.
+
+        Raise OutputError if a stage is missing.
+        """
         last = self.editing()
 
         def found(stage: Stage[Result]) -> Result | None:
@@ -100,7 +117,10 @@ class Saved:
         return () if found is None else found.log
 
     def last_key(self, *, edited: bool = True) -> str:
-        """Return the key of the last stage of the asset. edited: with the last corrections."""
+        """Return the key of the last stage of the asset.
+
+        edited: with the last corrections.
+        """
         skipped = None if edited else self.editing()
         made = (k for s in reversed(STAGES) if s is not skipped and (k := self._key(s)) is not None)
         return next(made, "")

@@ -18,7 +18,7 @@ from anymesh.stage_results import Stage
 log = logging.getLogger("anymesh")
 Result = TypeVar("Result")
 FOLDER = "stages"
-EPOCH = (1980, 1, 1, 0, 0, 0)  # the date inside every archive, so that equal results are equal files
+EPOCH = (1980, 1, 1, 0, 0, 0)  # date inside every archive, so that equal results are equal files
 
 
 def stage_key(stage: Stage[Any], *, previous: str, config: Mapping[str, object]) -> str:
@@ -56,7 +56,7 @@ def read_stage(folder: Path, stage: Stage[Result], key: str | None) -> Result | 
 
 
 def saved_key(folder: Path, stage: Stage[Any]) -> str | None:
-    """Return the key of a saved stage, None when there is none."""
+    """Return the key of a saved stage, None if there is none."""
     header = read_json(folder / stage_files(stage)[0])
     return None if header is None else header.get("key")
 
@@ -67,7 +67,7 @@ def write_json(path: Path, value: Mapping[str, Any]) -> None:
 
 
 def read_json(path: Path) -> dict[str, Any] | None:
-    """Read the JSON object in a file, None when there is none."""
+    """Read the JSON object in a file, None if there is none."""
     try:
         found = json.loads(path.read_bytes())
     except (OSError, ValueError):

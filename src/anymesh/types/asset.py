@@ -1,4 +1,4 @@
-"""The articulated asset: the mesh in the asset frame, its parts, its joints, and where all of it came from."""
+"""The articulated asset: the mesh in the asset frame, its parts, its joints, and their source."""
 
 from __future__ import annotations
 
@@ -16,13 +16,16 @@ from anymesh.types.parts import Segmentation
 
 @dataclass(frozen=True, eq=False)
 class Source:
-    """The file that an asset was made from. T_asset_source: (4, 4), file coordinates as stored to the asset frame [m, Z up]."""
+    """The file that an asset was made from.
+
+    T_asset_source: (4, 4), from file coordinates as stored to the asset frame [m, Z up].
+    """
 
     path: str
     sha256: str
     T_asset_source: Float[np.ndarray, "4 4"]
-    up: str  # "x", "y" or "z", with the way it was found in `notes`
-    notes: tuple[str, ...] = ()  # how up and scale were found, in words
+    up: str  # "x", "y" or "z"
+    notes: tuple[str, ...] = ()  # how up and scale were determined, in words
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,13 +36,13 @@ class Asset:
     source: Source
     mesh: Mesh
     segmentation: Segmentation
-    joints: tuple[Joint, ...]  # one a part but the root; a tree
+    joints: tuple[Joint, ...]  # one per part except the root, forming a tree
     answerer: str
     warnings: tuple[str, ...] = ()
     timing: Mapping[str, float] = field(default_factory=dict)  # stage -> seconds
-    exchanges: tuple[Exchange, ...] = ()  # with a model that sees, in order
-    source_face: Int[np.ndarray, " F"] | None = None  # where Stage C added faces: the number in the source, -1 for those
-    notes: tuple[str, ...] = ()  # what Stage C did, in words
+    exchanges: tuple[Exchange, ...] = ()  # with a model, in order
+    source_face: Int[np.ndarray, " F"] | None = None  # face index in the source, -1 for faces added by Stage C
+    notes: tuple[str, ...] = ()  # changes by Stage C, in words
 
     def __post_init__(self) -> None:
         names = [p.name for p in self.segmentation.parts]

@@ -22,8 +22,8 @@ class JointType(StrEnum):
 class Joint:
     """A joint at rest in the asset frame. Positive motion opens.
 
-    origin: a point on the axis [m]; axis: unit; limits: (lower, upper) [rad or m] holding 0, None exactly when the joint is
-    continuous or fixed. effort [N or N m], velocity [m/s or rad/s], damping [N s/m or N m s/rad], friction [N or N m].
+    origin: a point on the axis [m]; axis: unit; limits: (lower, upper) [rad or m] containing 0, None if and only if the joint
+    is continuous or fixed; effort [N or N m], velocity [m/s or rad/s], damping [N s/m or N m s/rad], friction [N or N m].
     """
 
     name: str
@@ -41,7 +41,7 @@ class Joint:
     friction: float = 0.05
 
     def __post_init__(self) -> None:
-        if not abs(float(np.linalg.norm(self.axis)) - 1) <= 1e-6:  # NaN too
+        if not abs(float(np.linalg.norm(self.axis)) - 1) <= 1e-6:  # also rejects NaN
             raise ValueError(f"joint {self.name!r}: axis must be a unit vector, found {self.axis}")
         if not np.isfinite(self.origin).all():
             raise ValueError(f"joint {self.name!r}: origin must be finite, found {self.origin}")

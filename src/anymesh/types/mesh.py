@@ -16,7 +16,7 @@ TEXTURE_SLOTS = ("base_color", "metallic_roughness", "normal", "occlusion", "emi
 
 @dataclass(frozen=True)
 class Texture:
-    """An encoded image, kept as the bytes of its file."""
+    """An encoded image, as the bytes of its file."""
 
     data: bytes
     mime: str  # "image/png" or "image/jpeg"
@@ -45,7 +45,7 @@ class Material:
 
 @dataclass(frozen=True)
 class Node:
-    """One placed geometry of the source's scene graph (an instance counts once per placement)."""
+    """One placed geometry of the source's scene graph; each instance counts once per placement."""
 
     name: str  # the node's name in the file; unique within a mesh
     geometry: str = ""  # the geometry's name in the file, shared by instances
@@ -58,7 +58,7 @@ def _check_range(name: str, numbers: np.ndarray, low: int, end: int) -> None:
 
 
 def _cofactors(linear: np.ndarray) -> np.ndarray:
-    """The matrix that normals turn by, up to a factor; a transform that flattens the mesh has one too."""
+    """Return the matrix that transforms normals, up to a factor; it also exists for a transform that flattens the mesh."""
     x, y, z = linear.T
     return np.stack([np.cross(y, z), np.cross(z, x), np.cross(x, y)], 1)
 
@@ -91,7 +91,7 @@ class Mesh:
         for name in ("face_node", "face_material", "corner_uv", "corner_color", "corner_normal"):
             value = getattr(self, name)
             if value is not None and len(value) != count:
-                raise ValueError(f"{name} must have one row a face ({count}), found {len(value)}")
+                raise ValueError(f"{name} must have one row per face ({count}), found {len(value)}")
         _check_range("face indices", self.faces, 0, len(self.vertices))
         _check_range("face_node", self.face_node, 0, len(self.nodes))
         _check_range("face_material", self.face_material, -1, len(self.materials))

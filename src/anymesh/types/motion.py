@@ -49,20 +49,20 @@ class Motion:
 
 @dataclass(frozen=True)
 class Sweep:
-    """How far a motion is free of collision each way from rest [rad or m, both >= 0], and how the contact fares."""
+    """Free range of a motion in both directions from rest [rad or m, both >= 0]."""
 
     forward: float  # free amount along +axis
     backward: float  # free amount along -axis
-    clear_forward: bool  # True when the whole tested range was free (no stop was met)
+    clear_forward: bool  # True if the whole tested range is free
     clear_backward: bool
 
 
 @dataclass(frozen=True)
 class Handle:
-    """A grip that stands out of a part's outer face.
+    """A handle that protrudes from a part's outer face.
 
-    across: (2,) where it sits on the face, -1..1 along the face's long and short side; along: which side it runs
-    along (0 long, 1 short, None when it is a knob); size: its length as a share of the part's diagonal.
+    across: (2,) position on the face, -1..1 along the face's long and short side; along: side that it is parallel to (0 long, 1
+    short, None for a knob); size: its length relative to the part's diagonal.
     """
 
     across: tuple[float, float]

@@ -1,4 +1,4 @@
-"""Parts: which faces belong together as one link."""
+"""Parts: faces that belong to one link."""
 
 from __future__ import annotations
 
@@ -10,12 +10,15 @@ from jaxtyping import Int
 
 @dataclass(frozen=True)
 class Part:
-    """One rigid part. `label` is the field's word for it ("door", "knob"), `name` the unique link name."""
+    """One rigid part.
+
+    label: standard term ("door", "knob"); name: unique link name.
+    """
 
     name: str
     label: str
-    confidence: float = 1.0  # 0..1 that this is a part of its own
-    reason: str = ""  # the evidence in words
+    confidence: float = 1.0  # 0..1, that this is a separate part
+    reason: str = ""  # evidence in words
 
     def __post_init__(self) -> None:
         if not self.name:
@@ -26,9 +29,9 @@ class Part:
 
 @dataclass(frozen=True, eq=False)
 class Segmentation:
-    """The result of Stage A: one part number a face. Part 0 is the root (the base), it always exists.
+    """Result of Stage A: one part index per face. Part 0 is the root (the base) and always exists.
 
-    face_part: (F,) into parts.
+    face_part: (F,) index into parts.
     """
 
     face_part: Int[np.ndarray, " F"]
@@ -48,5 +51,5 @@ class Segmentation:
             raise ValueError(f"parts without faces: {missing}")
 
     def faces(self, part: int) -> Int[np.ndarray, " n"]:
-        """Face indices of one part."""
+        """Return the face indices of one part."""
         return np.flatnonzero(self.face_part == part)

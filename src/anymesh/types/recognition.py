@@ -1,15 +1,15 @@
-"""What an object is, and which kinds of its parts move, in the words of someone who sees it."""
+"""Recognized category of an object, and its kinds of movable parts."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import StrEnum
 
-BASE = "base"  # the label of what stands still
+BASE = "base"  # label of the static base
 
 
 class Moves(StrEnum):
-    """How a kind of part moves, as asked before any picture of its joint."""
+    """Motion of a kind of part, as answered before any picture of its joint."""
 
     REVOLUTE = "revolute"
     CONTINUOUS = "continuous"
@@ -18,18 +18,23 @@ class Moves(StrEnum):
 
 @dataclass(frozen=True)
 class RecognizedLabel:
-    """A kind of movable part. limits: (lower, upper) from the pose shown [rad, or m], None when nobody said."""
+    """A kind of movable part.
+
+    limits: (lower, upper) from the pose shown [rad, or m], None if unknown.
+    """
 
     label: str
-    moves: Moves | None  # None when nobody said
-    parent: str | None  # another label, or "base"; None when nobody said
+    moves: Moves | None  # None if unknown
+    parent: str | None  # another label, or "base"; None if unknown
     limits: tuple[float, float] | None
 
 
 @dataclass(frozen=True)
 class Recognition:
-    """The answer. size: longest side of the real thing [m]; front: azimuth of the view that shows the front [deg]; None when
-    nobody said."""
+    """The recognized object.
+
+    size: longest side of the real object [m]; front: azimuth of the view that shows the front [deg]. Both are None if unknown.
+    """
 
     category: str
     size: float | None

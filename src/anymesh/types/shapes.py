@@ -10,7 +10,10 @@ from jaxtyping import Float, Int
 
 @dataclass(frozen=True, eq=False)
 class Box:
-    """center [m]; rotation: columns are the box's axes in the link frame, right-handed; size: whole sides along them [m]."""
+    """A box.
+
+    center [m]; rotation: columns are the box's axes in the link frame, right-handed; size: full side lengths [m].
+    """
 
     center: Float[np.ndarray, " 3"]
     rotation: Float[np.ndarray, "3 3"]
@@ -19,7 +22,10 @@ class Box:
 
 @dataclass(frozen=True, eq=False)
 class Cylinder:
-    """center [m]; rotation: columns are its axes in the link frame, the last one along the cylinder; radius, length [m]."""
+    """A cylinder.
+
+    center [m]; rotation: columns are its axes in the link frame, the last one along the cylinder; radius, length [m].
+    """
 
     center: Float[np.ndarray, " 3"]
     rotation: Float[np.ndarray, "3 3"]
@@ -29,7 +35,10 @@ class Cylinder:
 
 @dataclass(frozen=True, eq=False)
 class Hull:
-    """A convex polyhedron. vertices [m]; faces: outward triangles into them."""
+    """A convex polyhedron.
+
+    vertices [m]; faces: outward triangles into them.
+    """
 
     vertices: Float[np.ndarray, "V 3"]
     faces: Int[np.ndarray, "F 3"]

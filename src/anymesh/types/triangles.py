@@ -7,17 +7,20 @@ from jaxtyping import Float
 
 
 def face_cross(triangles: Float[np.ndarray, "F 3 3"]) -> Float[np.ndarray, "F 3"]:
-    """Twice the area times the unit normal of every triangle."""
+    """Return twice the area times the unit normal of every triangle."""
     return np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
 
 
 def normals_and_areas(triangles: Float[np.ndarray, "F 3 3"]) -> tuple[Float[np.ndarray, "F 3"], Float[np.ndarray, " F"]]:
-    """Unit normals, zero where a triangle has no area, and areas."""
+    """Return the unit normals, zero for triangles without area, and the areas."""
     cross = face_cross(triangles)
     double = np.linalg.norm(cross, axis=1)
     return np.divide(cross, double[:, None], out=np.zeros_like(cross), where=double[:, None] > 0), double / 2
 
 
 def bounds_of(points: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "2 3"]:
-    """Lowest and highest coordinates of points. Column by column: ten times faster than `points.min(0)`."""
+    """Return the lowest and highest coordinates of points.
+
+    Computed column by column, which is ten times faster than `points.min(0)`.
+    """
     return np.array([[points[:, k].min() for k in range(3)], [points[:, k].max() for k in range(3)]])
