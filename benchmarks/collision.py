@@ -1,10 +1,10 @@
-"""Do collision shapes let joints move? Ours against others, true parts and joints given.
+"""Measure whether collision shapes let joints move: ours and others, with true parts and joints given.
 
 python benchmarks/collision.py [--coacd] [SET ...]      writes benchmarks/collision.md; a set as `anymesh eval` names it;
                                                         --coacd: one CoACD a link, too, which takes minutes an object
 
-A joint is free when no two shapes of different links touch deeper than .1 % of the diagonal, at 21 places over its range, where
-the surfaces do not go through each other. Shapes are made without the cache.
+A joint is free if, at 21 positions over its range, no two shapes of different links penetrate by more than .1 % of the
+diagonal where the surfaces do not intersect. Shapes are computed without the cache.
 """
 
 from __future__ import annotations

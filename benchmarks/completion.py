@@ -37,14 +37,16 @@ HEAD = """# Shape completion (paper, 3.4)
 
 `python benchmarks/completion.py --markdown benchmarks/completion.md`, {date}, Python {python}, {packages}.
 
-Objects whose interior is known lose it: `unseen-gone` takes the faces that no view shows at rest, `fused` wraps what is seen in
-one closed surface, as scans and generators make it, which is cut into parts by the true labels. Parts and joints are the true
-ones, so that completion alone is measured. Those that ship fused are left out: their interior is not known.
+The interior of objects whose interior is known is removed: `unseen-gone` removes the faces that no view shows at rest,
+`fused` wraps the visible surface in one closed surface, as scans and generators produce it, and cuts it into parts by the
+true labels. Parts and joints are the true ones, so that only completion is measured. Objects that ship fused are left out:
+their interior is not known.
 
-- Cavity IoU: cells (40 along the longest side) of empty space that is shut in at rest and that the moving parts open onto, of
-  the completed mesh against the true one; objects whose true cavity takes less than 1 % of the grid are told as "-".
-- Moved: how far what is seen at rest lies off, either way, as a share of the diagonal (99th percentile of the points seen).
-- Watertight: parts all of whose surfaces are closed and evenly wound, before and after.
+- Cavity IoU: cells (40 along the longest side) of empty space that is enclosed at rest and that the moving parts open, of the
+  completed mesh against the true one; "-" if the true cavity fills less than 1 % of the grid.
+- Moved: distance between the visible surfaces at rest, in both directions, as a share of the diagonal (99th percentile over the
+  visible points).
+- Watertight: parts all of whose surfaces are closed and consistently wound, before and after.
 - Faults: joints that a motor cannot drive through their range in MuJoCo, before and after.
 """
 

@@ -23,9 +23,9 @@ from anymesh.solving import Solver
 
 HEAD = """# Cost of a model
 
-`python benchmarks/cost.py --markdown benchmarks/cost.md`. Answers are the oracle's, so nothing is asked twice. Tokens
-are estimates as `{like}` counts them, dollars by the table in `models/prices.py`; seconds are this program's, without the
-model's. A second run takes every answer from the cache: no call, no cost.
+`python benchmarks/cost.py --markdown benchmarks/cost.md`. Answers are the oracle's, so no question is repeated. Tokens
+are estimated as `{like}` counts them, dollars by the table in `models/prices.py`; seconds are those of this program, without
+the model. A second run takes every answer from the cache, without calls or cost.
 
 | object | parts | calls | pictures | tokens in | tokens out | USD | seconds cold | seconds cached |
 |---|---|---|---|---|---|---|---|---|

@@ -1,12 +1,12 @@
-"""Ways to divide solids that are not convex: how often each fails, the time it takes, its pieces, its false contacts.
+"""Compare methods that divide non-convex solids: failures, time, number of pieces, false contacts.
 
 python benchmarks/decomposers.py [--path NAME=FOLDER ...] [SET ...]     writes benchmarks/decomposers.md; a set as `anymesh
                                                         eval` names it; --path: another coacd, unpacked in a folder
 
-True parts and joints are given. Each call runs in a child process with limits of 10 s and 4 GiB; what fails gets one hull.
-False contacts are pairs of shapes that touch at a sampled pose where the surfaces do not, before anything is done about
-them. The seconds are wall time in the children. V-HACD is the package vhacdx. manifold3d is not in the table: it joins and
-offsets solids but does not divide them into convex pieces.
+True parts and joints are given. Each call runs in a child process with limits of 10 s and 4 GiB; a solid whose call fails
+gets one hull. False contacts are pairs of shapes that touch at a sampled pose where the surfaces do not, before they are
+cleared. The seconds are wall time in the child processes. V-HACD is the package vhacdx. manifold3d is not in the table: it
+joins and offsets solids but does not divide them into convex pieces.
 """
 
 from __future__ import annotations
@@ -155,7 +155,7 @@ def write_page(tallies: dict[str, Tally], sets: list[str]) -> None:
     packages = ", ".join(f"{p} {version(p)}" for p in ("coacd", "mujoco", "numpy"))
     links = f"{tallies['ours'].links} links of {', '.join(sets)}."
     told = f"{links} {datetime.date.today()}, Python {platform.python_version()}, {packages}."
-    title = "# Convex decomposition, way by way"
+    title = "# Methods of convex decomposition"
     PAGE.write_text("\n\n".join([title, (__doc__ or "").strip(), "\n".join(rows), told]) + "\n", encoding="utf-8")
 
 

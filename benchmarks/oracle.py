@@ -29,10 +29,10 @@ from anymesh.solving import solve
 
 HEAD = """# The oracle
 
-`python benchmarks/oracle.py --noise --markdown benchmarks/oracle.md --plot docs/images/noise.svg`. Each question is
-answered from the truth, by the same marks, points, arrows and motions that a model would see; what is left is the error of
+`python benchmarks/oracle.py --noise --markdown benchmarks/oracle.md --plot docs/images/noise.svg`. Each question is answered
+from the ground truth, with the same marks, points, arrows and motions that a model would see. The remaining error is that of
 the geometry.
-Position: the diagonal is 2; mIoU over the movable parts, a part that is not found counts as 0.
+Position: the diagonal is 2; mIoU is over the movable parts, where a part that is not found counts as 0.
 """
 EXAMPLES = Path(__file__).parents[1] / "examples"
 VERIFY = ("motion", "free", "off")

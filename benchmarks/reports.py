@@ -40,11 +40,11 @@ TABLES = {
 }
 HEAD = """# Reports
 
-Made by `python benchmarks/reports.py WORK`; the command of each report stands above it. Answerer: geometry (no key,
-no network). The columns are told in [docs/evaluation.md](../../docs/evaluation.md); "all" is over all sets together.
+Made by `python benchmarks/reports.py WORK`; each report begins with its command. Answerer: geometry (no key, no network).
+The columns are explained in [docs/evaluation.md](../../docs/evaluation.md); "all" is over all sets together.
 
-The classifiers that are shipped were trained on these sets (each report says on how many of its objects). So these figures say
-that the pieces work together, not how well they do on what is new: for that see [parts.md](../parts.md) and
+The shipped classifiers were trained on these sets (each report says on how many of its objects). These figures therefore show
+that the components work together, not the accuracy on new objects; for that see [parts.md](../parts.md) and
 [motions.md](../motions.md).
 """
 

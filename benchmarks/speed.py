@@ -119,10 +119,11 @@ def write(lines: list[str]) -> None:
         "",
         f"`python benchmarks/speed.py {' '.join(sys.argv[1:])}`, {datetime.date.today()}, "
         f"version {version('articulate-anymesh')}, Python {platform.python_version()}, {os.cpu_count()} cores. Synthetic "
-        "objects of `speed_scenes.py`; size: faces asked for (pot), connected components (the others). Slope: exponent of "
-        "the growth of the processor time with the size, over the largest tenfold. cpu: processor time of the process and its "
-        f"children. Load average of the machine at the end: {os.getloadavg()[1]:.1f}; above the number of cores, others worked "
-        "on it too, and both times are longer than on a quiet one.",
+        "objects of `speed_scenes.py`; size: requested number of faces (pot), connected components (the others). Slope: "
+        "exponent of the growth of the processor time with the size, over the largest tenfold range. cpu: processor time of "
+        "the process and its children. Load average of the machine at the end: "
+        f"{os.getloadavg()[1]:.1f}; above the number of cores, other jobs ran too, and both times are longer than on an idle "
+        "machine.",
         "",
         "| object | size | faces | joints | wall [s] | cpu [s] | peak [GiB] | "
         + " | ".join(f"{stage} [s]" for stage in STAGES)

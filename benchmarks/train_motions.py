@@ -114,11 +114,11 @@ def main(argv: Sequence[str] | None = None) -> None:
     text = [
         "# Motions chosen by the classifier, on objects that it was not trained on", "",
         "`python benchmarks/train_motions.py ROWS`; parts given, no names. Right: within 5 degrees and .08 of half the",
-        "diagonal; right side: it opens the way that the true joint does.", "",
+        "diagonal; right side: it opens in the direction of the true joint.", "",
         "## Trained on all other sources", "", *table(rows, by_source, called), "",
         "## Trained on other kinds (4 folds, a kind in one fold)", "", *table(rows, by_kind, called), "",
         "## Confidence", "",
-        f"Fitted to other kinds, all sources alike: slope {slope:.2f}, offset {offset:.2f} (`reasoning/geometry.py`).",
+        f"Fitted to other kinds, over all sources: slope {slope:.2f}, offset {offset:.2f} (`reasoning/geometry.py`).",
         "", *calibration_table(told, slope, offset), "", "The same on other sources:", "",
         *calibration_table(confidences(rows, by_source), slope, offset), "",
     ]  # fmt: skip

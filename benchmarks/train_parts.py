@@ -111,13 +111,14 @@ def main(argv: Sequence[str] | None = None) -> None:
     slope, offset = fit_confidence(told)
     text = [
         "# Parts found by the classifier, on objects that it was not trained on", "",
-        "`python benchmarks/train_parts.py ROWS`; stage A alone, parts at IoU .5, no names of nodes and materials.", "",
+        "`python benchmarks/train_parts.py ROWS`; stage A only, parts matched at IoU .5, without names of nodes and materials.",
+        "",
         "## Trained on all other sources", "", *table(rows, by_source, called), "",
         f"## Trained on other kinds ({FOLDS} folds, a kind in one fold)", "",
         *table(rows, by_kind, called), "",
-        f"On {len(still)} objects of which nothing moves, {wrong} parts were found.", "",
+        f"On {len(still)} objects without movable parts, {wrong} parts were found.", "",
         "## Confidence", "",
-        f"Fitted to other kinds, all sources alike: slope {slope:.2f}, offset {offset:.2f} (`segmentation/segment.py`).", "",
+        f"Fitted to other kinds, over all sources: slope {slope:.2f}, offset {offset:.2f} (`segmentation/segment.py`).", "",
         *calibration_table(told, slope, offset), "", "The same on other sources:", "",
         *calibration_table(confidences(rows, by_source), slope, offset), "",
     ]  # fmt: skip

@@ -1,4 +1,4 @@
-"""The page that tells what came of recorded answers: by protocol and set, by object, by setting."""
+"""The page of results from recorded answers: by protocol and set, by object, by setting."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ HEAD = """# The visual method, with recorded answers
 {how}
 
 Each question was answered once, from its text and pictures alone, through `--answerer files:FOLDER`, by a general model that
-sees pictures and reads files; no paid API was called. Names and the truth are in none of them, and objects have numbers for
-names. The answerer knew which data sets there are and recognized a few of them; it answered equal keys in one go, and a few
-kinds of motion from the text before it saw the picture.
+accepts pictures and files; no paid API was called. The questions contain neither names nor the ground truth, and objects are
+identified by numbers. The answerer knew which data sets are used and recognized a few of them. It answered questions with equal
+keys together, and a few kinds of motion from the text before it saw the picture.
 
-Recall: true movable parts found with an IoU of .5 or more. mIoU: over the true parts, 0 for one that was not found. Of joints
-that were found: type (turns or slides as it should), exact type (revolute and continuous apart), angle, position at the part
-(the diagonal is 2), whether positive opens. Calls: questions answered, mean over objects.
+Recall: true movable parts found with an IoU of .5 or more. mIoU: over the true parts, 0 for a part that was not found. For
+joints that were found: type (turns or slides, as the true joint does), exact type (revolute and continuous distinguished),
+angle, position at the part (the diagonal is 2), whether positive opens. Calls: questions answered, mean over objects.
 {seconds}
 """
 REPLAYED = {
@@ -56,8 +56,9 @@ def page(rows: Sequence[Row], about: dict[str, str] = REPLAYED) -> str:
 
 
 ABLATION = (
-    "A question that these settings ask in another form has no recorded answer; there the result of the recording answers, "
-    "through the marks, points and motions that are shown. So the rows tell what the settings lose, not what an answerer would."
+    "A question that these settings ask in another form has no recorded answer. It is answered from the result of the "
+    "recording, by the marks, points and motions that are shown. So the rows measure the loss due to the settings, not the "
+    "results that an answerer would reach with them."
 )
 
 
