@@ -20,10 +20,10 @@ from anymesh.correcting.corrections import (
 from anymesh.correcting.finding import box_middle, hanging_on, joint_of_part, part_number, with_joint
 from anymesh.types import Asset, Joint, JointType
 
-BY_HAND = "corrected by hand"  # how the reason of a corrected joint begins
-CERTAIN = 1.0  # confidence of what a person said
-USUAL_TURN = (0.0, float(np.pi / 2))  # [rad] limits of a hinge that had none
-USUAL_SLIDE = 0.5  # of the part's extent along the axis: the travel of a slide that had none
+BY_HAND = "corrected by hand"  # prefix of the reason of a corrected joint
+CERTAIN = 1.0  # confidence of manual corrections
+USUAL_TURN = (0.0, float(np.pi / 2))  # [rad] default limits of a hinge
+USUAL_SLIDE = 0.5  # default travel of a slide, as a share of the part's extent along the axis
 
 
 def change_type(asset: Asset, c: ChangeType) -> Asset:
@@ -110,7 +110,7 @@ def _unit(axis: Vector) -> Float[np.ndarray, " 3"]:
 
 
 def _origin_on_part(asset: Asset, part: str, axis: np.ndarray, point: np.ndarray, type_: JointType) -> Float[np.ndarray, " 3"]:
-    """The point of the axis level with the part's middle; for a slide the middle itself (docs/conventions.md)."""
+    """Return the point of the axis level with the part's centre; for a slide the centre itself (docs/conventions.md)."""
     if not np.isfinite(point).all():
         raise CorrectionError(f"a point on the axis must be finite, found {tuple(point)}")
     middle = box_middle(asset, part)
