@@ -16,10 +16,10 @@ PATH, UID, NAME = "path", "uid", "name"
 
 
 def read_table(path: Path) -> Iterator[ObjectRequest]:
-    """Yield the objects of a table, a row each.
+    """Yield the objects of a table, one per row.
 
-    Columns: `path` (relative to the table's folder) or `uid` (of Objaverse), `name` (the path or id when there is none), and
-    those of OPTIONS, where an empty cell is the default; others are ignored with a warning. Raises InputError.
+    Columns: `path` (relative to the table's folder) or `uid` (of Objaverse), `name` (default: the path or id), and those of
+    OPTIONS, where an empty cell is the default; others are ignored with a warning. Raise InputError for an invalid table.
     """
     rows = _csv_rows(path) if path.suffix.lower() == ".csv" else _parquet_rows(path)
     told = False
