@@ -23,7 +23,7 @@ class Recorded:
     def words(self) -> str:
         """Return the message for the user."""
         rest = "" if self.whole else " (by its schema; the run checks the rest)"
-        more = f"; {self.left} more open" if self.left else "; run the command that asked again, it goes on from here"
+        more = f"; {self.left} more open" if self.left else "; run the command that asked again to resume"
         return f"{self.question.path.name}: the answer is valid{rest}{more}"
 
 

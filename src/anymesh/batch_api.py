@@ -40,7 +40,7 @@ class BatchState:
             case _:
                 told = "".join(f"\n  {line}" for line in self.refused)
                 counts = f"collected {self.answered} valid answers to {self.count} questions"
-                return f"{counts}; go on with the command that asked{told}"
+                return f"{counts}; run the command that asked again to resume{told}"
 
 
 def answer_by_batch(folder: Path, model: str, *, max_cost: float | None = None) -> BatchState:
@@ -55,7 +55,7 @@ def answer_by_batch(folder: Path, model: str, *, max_cost: float | None = None) 
     note = read_json(folder / NOTE)
     if note is not None:
         if not {"model", "jobs", "questions"} <= set(note):
-            raise OutputError(f"{folder / NOTE} is no note of a job that was sent; remove it to send the questions again")
+            raise OutputError(f"{folder / NOTE} is not the record of a job; remove it to send the questions again")
         if note.get("model") != model:
             raise OptionError(f"{folder} waits for a job of {note.get('model')}; collect it first, or remove {NOTE}")
         places = {name: folder / place for name, place in note["questions"].items()}
@@ -72,7 +72,7 @@ def answer_by_batch(folder: Path, model: str, *, max_cost: float | None = None) 
     requests = {q.key[:40]: _request(q) for q in waiting}
     _check_cost(model, requests, max_cost)
     if not folder.is_dir():
-        raise OutputError(f"{folder} is no folder")
+        raise OutputError(f"{folder} is not a folder")
     jobs = submit_batch(connect(model), requests)
     places = {q.key[:40]: str(q.path.relative_to(folder)) for q in waiting}
     write_whole(folder / NOTE, json.dumps({"model": model, "jobs": jobs, "questions": places}, indent=1).encode())

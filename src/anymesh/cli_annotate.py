@@ -156,7 +156,9 @@ def _run(source: str, out: Path, speed: Speed, again: bool, options: dict[str, A
         typer.echo(plain(f"wrote {found.report}"))
     if ended is not None:
         if not json_:
-            typer.echo(plain(f"error: ended early, {ended.error_class}: {ended.error}; the same command goes on"), err=True)
+            typer.echo(
+                plain(f"error: ended early, {ended.error_class}: {ended.error}; run the same command again to resume"), err=True
+            )
         raise typer.Exit(ended.exit_code)
     if found.found.counts["waiting"]:
         raise typer.Exit(OpenQuestionError.exit_code)

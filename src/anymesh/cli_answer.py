@@ -64,7 +64,7 @@ def answer(
     elif found:
         typer.echo(_shown(found))
     else:
-        typer.echo("no question is open; run the command that asks them again, it goes on")
+        typer.echo("no question is open; run the command that asks them again to resume")
 
 
 def _answer_by_batch(folder: Path, model: str, max_cost: float | None, json_: bool, quiet: bool) -> None:

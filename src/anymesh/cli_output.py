@@ -74,7 +74,7 @@ def unsure_hint(asset: Asset) -> str:
         return ""
     joints = "1 joint is" if count == 1 else f"{count} joints are"
     return (
-        f"{joints} unsure; eyes would help: --answerer files:FOLDER (you, or an agent, answer from pictures), "
+        f"{joints} unsure; better answers: --answerer files:FOLDER (you, or an agent, answer from pictures), "
         "--answerer auto (a local model; `anymesh models`), or correct it in `anymesh view`"
     )
 

@@ -230,4 +230,4 @@ def _alone(name: str, work: partial[Examined]) -> Examined:
         try:
             return pool.submit(work, name).result()
         except BrokenProcessPool:
-            return [Record(ObjectScore(name, (), 0, 0, 0), error="its process ended without a word (out of memory?)")]
+            return [Record(ObjectScore(name, (), 0, 0, 0), error="its process ended unexpectedly (out of memory?)")]

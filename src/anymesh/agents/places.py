@@ -16,7 +16,7 @@ class Places:
             raise OptionError("name at least one folder that the tools may work in")
         for folder in folders:
             if not Path(folder).is_dir():
-                raise InputError(f"{folder} is no folder")
+                raise InputError(f"{folder} is not a folder")
         self.folders = tuple(Path(folder).resolve() for folder in folders)
 
     def inside(self, path: str, *, below: bool = False) -> Path:
@@ -27,7 +27,7 @@ class Places:
         try:
             found = (self.folders[0] / path).resolve()
         except (OSError, RuntimeError, ValueError):  # a cycle of links, a null byte
-            raise OptionError(f"{path!r} is no path") from None
+            raise OptionError(f"{path!r} is not a path") from None
         if not any(found.is_relative_to(folder) for folder in self.folders):
             raise OptionError(f"{path!r} lies outside of the folders of this server: {', '.join(map(str, self.folders))}")
 

@@ -96,7 +96,7 @@ class AgentTools:
         """Check and write an answer to an open question."""
         folder = self._places.inside(question)
         if not (folder / "question.json").is_file():
-            raise OptionError(f"{question!r} is no question; `open_questions` lists them")
+            raise OptionError(f"{question!r} is not a question; `open_questions` lists them")
         told = record_answer(folder, answer if isinstance(answer, str) else json.dumps(answer))
         return ToolResult(
             {"answered": self._places.shown(folder), "checked_whole": told.whole, "next": "call `articulate` again"}

@@ -33,7 +33,7 @@ def read_rows(path: Path) -> Iterator[Mapping[str, str]]:
             for row in batch.to_pylist():
                 yield {name: "" if value is None else str(value) for name, value in row.items()}
     except (arrow.ArrowException, OSError) as error:
-        raise InputError(f"{path.name} is no valid Parquet table: {' '.join(str(error).split())[:200]}") from None
+        raise InputError(f"{path.name} is not a valid Parquet table: {' '.join(str(error).split())[:200]}") from None
 
 
 def write_rows(path: Path, columns: Mapping[str, str], batches: Iterator[Sequence[Sequence[Any]]]) -> None:

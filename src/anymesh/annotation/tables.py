@@ -36,7 +36,7 @@ def _csv_rows(path: Path) -> Iterator[Mapping[str, str]]:
             for row in csv.DictReader(file, restkey=None):
                 yield {str(k).strip(): v or "" for k, v in row.items() if k is not None and not isinstance(v, list)}
     except (csv.Error, UnicodeDecodeError) as error:
-        raise InputError(f"{path.name} is no valid CSV table in UTF-8: {error}") from None
+        raise InputError(f"{path.name} is not a valid CSV table in UTF-8: {error}") from None
 
 
 def _parquet_rows(path: Path) -> Iterator[Mapping[str, str]]:

@@ -27,7 +27,7 @@ def check_inertia(content: Content) -> Iterator[Finding]:
     for link in content.robot.links:
         shaped = bool(link.visuals or link.collisions)
         if link.inertial is None and shaped and link.name in moved:
-            yield failure(CHECK, link.name, "it moves and has no inertia; engines refuse it or put their own in its place")
+            yield failure(CHECK, link.name, "it moves and has no inertia; engines reject it or use their own")
         elif link.inertial is None and shaped and content.robot.format == "URDF":  # in an MJCF it belongs to the world
             yield warning(CHECK, link.name, "it has no inertia; engines that let the base move need one")
     groups = rigid_groups(content.robot)

@@ -60,7 +60,9 @@ def _limits(joint: RobotJoint, diagonal: float) -> Iterator[Finding]:
     elif lower == upper:
         yield failure(CHECK, joint.name, f"{shown}; a joint that moves needs a range (fixed is a type of its own)")
     elif not lower <= 0 <= upper:
-        yield warning(CHECK, joint.name, f"{shown}, without the rest position 0; engines start it outside and jerk it in")
+        yield warning(
+            CHECK, joint.name, f"{shown}, without the rest position 0; engines start it outside its limits, which causes a jerk"
+        )
     most = MAX_RANGE_RAD if joint.type == "revolute" else TRAVEL * diagonal
     unit = "rad" if joint.type == "revolute" else "m"
     if upper - lower > most > 0:
@@ -70,6 +72,6 @@ def _limits(joint: RobotJoint, diagonal: float) -> Iterator[Finding]:
 def _strength(joint: RobotJoint) -> Iterator[Finding]:
     for word, value in (("effort", joint.effort), ("velocity", joint.velocity)):
         if value is None and joint.type != "continuous":
-            yield warning(CHECK, joint.name, f"it has no {word} limit; engines put 0 or their own in its place")
+            yield warning(CHECK, joint.name, f"it has no {word} limit; engines use 0 or their own")
         elif value is not None and value <= 0:
-            yield warning(CHECK, joint.name, f"its {word} limit is {value:.4g}; no motor may move it, so above 0 is needed")
+            yield warning(CHECK, joint.name, f"its {word} limit is {value:.4g}; no motor can move it; it must be above 0")

@@ -16,7 +16,7 @@ def check_scale(content: Content) -> Iterator[Finding]:
     """Check that the diagonal at rest is plausible in metres."""
     diagonal = content.diagonal
     if diagonal == 0:
-        yield failure(CHECK, "", "the object has no shape at all; links need visual or collision shapes")
+        yield failure(CHECK, "", "the object has no shape; links need visual or collision shapes")
     elif not MIN_DIAGONAL <= diagonal <= MAX_DIAGONAL:
         far = not MIN_DIAGONAL / BEYOND <= diagonal <= MAX_DIAGONAL * BEYOND
         told = f"the object's diagonal is {diagonal:.4g} m; plausible is {MIN_DIAGONAL:g} to {MAX_DIAGONAL:g} m"

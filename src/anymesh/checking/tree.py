@@ -38,7 +38,7 @@ def check_tree(robot: Robot) -> Iterator[Finding]:
         yield failure(CHECK, "", f"the links that no joint carries are: {told}; valid is one")
     elif len(robot.carried(robot.roots[0])) < len(known):
         lost = sorted(known - robot.carried(robot.roots[0]))
-        yield failure(CHECK, lost[0], f"the links {lost} do not hang on the root {robot.roots[0]!r}; valid is a tree")
+        yield failure(CHECK, lost[0], f"the links {lost} are not connected to the root {robot.roots[0]!r}; valid is a tree")
 
 
 def check_files(content: Content) -> Iterator[Finding]:

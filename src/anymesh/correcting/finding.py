@@ -24,7 +24,7 @@ def part_number(asset: Asset, name: str) -> int:
 def joint_of_part(asset: Asset, name: str) -> Joint:
     """Return the joint that carries a part. Raise CorrectionError for the root."""
     if part_number(asset, name) == 0:
-        raise CorrectionError(f"{name!r} is the root, which has no joint; choose one of the parts that hang on it")
+        raise CorrectionError(f"{name!r} is the root, which has no joint; choose one of its child parts")
     return next(j for j in asset.joints if j.child == name)
 
 

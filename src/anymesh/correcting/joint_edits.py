@@ -80,7 +80,7 @@ def set_limits(asset: Asset, c: SetLimits) -> Asset:
     if joint.type is JointType.FIXED:
         raise CorrectionError(f"the joint of {c.part!r} is fixed and has no limits; change its type first")
     if not c.lower <= 0 <= c.upper:
-        raise CorrectionError(f"limits must hold the rest pose 0, found {c.lower:g}..{c.upper:g}")
+        raise CorrectionError(f"limits must include the rest pose 0, found {c.lower:g}..{c.upper:g}")
     type_ = JointType.REVOLUTE if joint.type is JointType.CONTINUOUS else joint.type
     return with_joint(asset, replace(joint, type=type_, limits=(float(c.lower), float(c.upper)), **_said("limits")))
 
@@ -91,10 +91,10 @@ def change_parent(asset: Asset, c: ChangeParent) -> Asset:
     below = hanging_on(asset, c.part)
     if c.parent == c.part or c.parent in below:
         free = [p.name for p in asset.segmentation.parts if p.name != c.part and p.name not in below]
-        raise CorrectionError(f"{c.part!r} cannot hang on {c.parent!r}, which it carries; valid are {', '.join(free)}")
+        raise CorrectionError(f"{c.part!r} cannot be a child of {c.parent!r}, which it carries; valid are {', '.join(free)}")
     if c.parent == joint.parent:
-        raise CorrectionError(f"{c.part!r} hangs on {c.parent!r} already")
-    return with_joint(asset, replace(joint, parent=c.parent, **_said(f"hangs on {c.parent}")))
+        raise CorrectionError(f"{c.part!r} is already a child of {c.parent!r}")
+    return with_joint(asset, replace(joint, parent=c.parent, **_said(f"parent {c.parent}")))
 
 
 def _said(what: str) -> dict[str, object]:

@@ -101,7 +101,7 @@ def describe(c: Correction) -> str:
         case SplitComponents():
             return f"{c.part} split by its components"
         case ChangeParent():
-            return f"{c.part} hangs on {c.parent}"
+            return f"{c.part} becomes a child of {c.parent}"
         case ChangeType():
             return f"{c.part} becomes {c.type}"
         case ChooseMotion():

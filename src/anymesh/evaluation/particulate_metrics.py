@@ -14,7 +14,7 @@ state, which is the one in the authors' tables.
 
 Our choices, where the original is unspecified or misleading:
 - The enclosing box of gIoU for two moved boxes is aligned with either of them in their moved poses. The original encloses the
-boxes at rest, so that a door with a wrong motion scores up to 1.
+  boxes at rest, so that a door with a wrong motion scores up to 1.
 - The IoU of rotated boxes is computed at fixed points of both boxes instead of random ones.
 - Both objects are the same mesh and are sampled at the same points, so a perfect result has distance 0.
 - Boxes enclose the parts' corners, not points on them, and are at least THIN thick, so that a sheet equals itself.

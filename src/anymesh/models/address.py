@@ -68,7 +68,7 @@ def parse_address(name: str) -> Address:
         raise OptionError(f"--answerer: found {name!r}; valid are geometry, {VALID}")
     if provider in SERVERS:
         if not rest.strip():
-            raise OptionError(f"{name!r} names no model; `anymesh models` lists those that answer")
+            raise OptionError(f"{name!r} names no model; `anymesh models` lists those available")
         return Address("openai-compatible", rest.strip(), SERVERS[provider].base_url(), provider)
     if provider != "openai-compatible":
         if not re.fullmatch(r"[\w.:/@-]+", rest):

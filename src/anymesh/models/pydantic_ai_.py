@@ -147,7 +147,7 @@ class Client:
             return _Failure(TransientError(f"{self.name}: the reply could not be read ({type(error).__name__})"))
         if isinstance(error, AttributeError | LookupError | TypeError | ValueError):
             return _Failure(TransientError(f"{self.name}: the reply could not be read ({type(error).__name__})"))
-        return _Failure(ModelError(f"{self.name}: cannot be asked ({type(error).__name__})"))
+        return _Failure(ModelError(f"{self.name}: the request failed ({type(error).__name__})"))
 
     def failure_of(self, error: Exception) -> ModelError:
         """Convert an error of the libraries to a ModelError that quotes nothing of the request."""

@@ -21,7 +21,7 @@ class Replay:
 
     def __init__(self, folder: Path) -> None:
         if not folder.is_dir():
-            raise OptionError(f"no recording to replay: {folder} is no folder")
+            raise OptionError(f"no recording to replay: {folder} is not a folder")
         found = [record for path in sorted(folder.glob("*.json")) if (record := read_answer(path)) is not None]
         found += [_answered(question, text) for question in find_questions(folder) if (text := question.answer()) is not None]
         if not found:

@@ -50,4 +50,4 @@ def _library() -> ModuleType:
 
 def _told(hub_id: str, commit: str, error: Exception) -> str:
     reason = " ".join(str(error).split())[:200]
-    return f"{hub_id}@{commit}: the weights cannot be had ({type(error).__name__}: {reason})"
+    return f"{hub_id}@{commit}: the weights cannot be fetched ({type(error).__name__}: {reason})"

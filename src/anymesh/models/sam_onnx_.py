@@ -209,7 +209,7 @@ def _export(encoder: Any, decoder: Any, encoder_path: Path, decoder_path: Path) 
     valid = "; ".join(f"{e.title}: {sorted(e.inputs)} -> {e.masks}, {e.scores}" for e in EXPORTS)
     shown = [f"{p.name} {p.type} {p.shape}" for p in pixels]
     raise ModelError(
-        f"{encoder_path.name} and {decoder_path.name} are no pair of a SAM encoder and decoder: the encoder takes {shown} "
+        f"{encoder_path.name} and {decoder_path.name} are not a pair of a SAM encoder and decoder: the encoder takes {shown} "
         f"and gives {sorted(made)}, the decoder takes {sorted(inputs)} and gives {sorted(outputs)}; valid is one picture "
         f"(1, 3, S, S) or (H, W, 3), and decoders of {valid}"
     )

@@ -47,7 +47,7 @@ def add_box(panel: PanelBox, growing: Growing, config: ShapeConfig) -> None:
                 panel.part, box, [f"a drawer's box put behind its front, {reach:.2g} m deep for a travel of {travel:.2g} m"]
             )
             return
-    growing.add(panel.part, np.zeros((0, 3, 3)), ["no drawer's box: none is free on its way"])
+    growing.add(panel.part, np.zeros((0, 3, 3)), ["no drawer box added: none moves without collision"])
 
 
 def _upwards(low: np.ndarray, high: np.ndarray, axes: np.ndarray, wall: float) -> Float[np.ndarray, "n 3 3"]:

@@ -55,7 +55,7 @@ def read_scene(glb: bytes, name: str) -> Mesh:
     except InputError:
         raise
     except Exception as error:  # the reader raises many types of errors for a broken file
-        raise InputError(f"{name} is no readable GLB ({type(error).__name__})") from None
+        raise InputError(f"{name} is not a readable GLB ({type(error).__name__})") from None
 
 
 def _primitive(mesh: Mesh, buffer: GlbBuffer) -> dict[str, Any]:

@@ -75,7 +75,7 @@ def _free_again(part: int, touched: set[int], growing: Growing, config: ShapeCon
             growing.undo(k)
             close_part(k, growing, replace(config, wall=share * config.wall))
     if both and not moves_freely(part, growing, Growing(growing.scenes)):
-        growing.notes.setdefault(part, []).append("fits its hole so closely that what was added may strike on its way")
+        growing.notes.setdefault(part, []).append("fits its hole so closely that added faces may collide during its motion")
 
 
 def _grown(asset: Asset, growing: Growing) -> Finished:

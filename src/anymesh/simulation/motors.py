@@ -66,7 +66,7 @@ def readable(robot: Robot) -> Robot:
     names = {link.name for link in robot.links}
     lost = [j.name for j in robot.joints if not {j.parent, j.child} <= names]
     if lost or len(robot.roots) != 1 or any(not np.linalg.norm(j.axis) > 0 for j in robot.moving):
-        raise InputError(f"{robot.path.name} is no tree of joints with one root and axes of some length")
+        raise InputError(f"{robot.path.name} is not a tree of joints with one root and nonzero axes")
     try:
         robot.placements({})
     except ValueError as error:

@@ -128,7 +128,7 @@ class Robot:
         while waiting:
             ready = [j for j in waiting if j.parent in found]
             if not ready:
-                raise ValueError(f"joints {[j.name for j in waiting]} do not hang on a root; a tree is needed")
+                raise ValueError(f"joints {[j.name for j in waiting]} are not connected to a root; a tree is needed")
             for j in ready:
                 found[j.child] = found[j.parent] @ j.transform(positions.get(j.name, 0.0))
             waiting = [j for j in waiting if j.child not in found]

@@ -151,7 +151,7 @@ def _read_decisions(folder: Path) -> dict[str, tuple[Decision, ...]]:
         told: dict[str, list[dict[str, Any]]] = (found or {}).get("decisions", {})
         return {key: tuple(Decision(**{**d, "verdict": Verdict(d["verdict"])}) for d in made) for key, made in told.items()}
     except (TypeError, ValueError, KeyError, AttributeError) as error:
-        raise OutputError(f"{path} is no review ({error}); move it away to begin a new one") from error
+        raise OutputError(f"{path} is not a review ({error}); move it away to begin a new one") from error
 
 
 def _write(folder: Path, decisions: dict[str, tuple[Decision, ...]]) -> None:

@@ -69,7 +69,7 @@ def selection(asset: Asset, name: str | None) -> str:
     joint = next((j for j in asset.joints if j.child == name), None)
     if joint is None:
         return f"<div {SMALL}>{told}<br>The root: it carries the others and has no joint.</div>"
-    return f"<div {SMALL}>{told}{_row(number, joint)}hangs on {escape(joint.parent)}</div>"
+    return f"<div {SMALL}>{told}{_row(number, joint)}parent: {escape(joint.parent)}</div>"
 
 
 def scale_of(joint: Joint) -> tuple[float, str]:

@@ -54,7 +54,7 @@ class CorrectPanel:
         self._flip.on_click(lambda _: page.act(lambda: page.correct(FlipSign(self._name()))))
         with self._joint_folder:
             self._type = gui.add_dropdown("Type", tuple(str(t) for t in JointType))
-            self._parent = gui.add_dropdown("Hangs on", (NONE,))
+            self._parent = gui.add_dropdown("Parent", (NONE,))
             self._low, self._high = gui.add_number("Lower", 0.0), gui.add_number("Upper", 0.0)
             self._limits = gui.add_button("Set limits", color=QUIET)
         self._on(self._type, lambda: page.correct(ChangeType(self._name(), JointType(self._type.value))))

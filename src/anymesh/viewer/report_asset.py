@@ -98,7 +98,7 @@ def _face_part(mesh: Mesh, parts: Sequence[Part]) -> np.ndarray:
     number = {part.name: k for k, part in enumerate(parts)}
     unknown = [node.name for node in mesh.nodes if node.name not in number]
     if unknown:
-        raise ValueError(f"the GLB has nodes {unknown[:5]} that are no parts; parts are {list(number)[:20]}")
+        raise ValueError(f"the GLB has nodes {unknown[:5]} that are not parts; parts are {list(number)[:20]}")
     return np.array([number[node.name] for node in mesh.nodes])[mesh.face_node]
 
 

@@ -85,7 +85,7 @@ def read_bodies(urdf: Path, root: Path, labels: Mapping[str, str]) -> list[Datas
         carrier = {j.child: j for j in robot.joint_map.values()}
         roots = [link for link in robot.link_map if link not in carrier]
     except Exception as error:  # the reader raises many types of errors for a broken file
-        raise InputError(f"it is no valid URDF ({type(error).__name__}: {' '.join(str(error).split())[:150]})") from None
+        raise InputError(f"it is not a valid URDF ({type(error).__name__}: {' '.join(str(error).split())[:150]})") from None
     if len(roots) != 1:
         raise InputError(f"found the root links {sorted(roots)}; valid is a tree with one")
     colors = {m.name: m.color for m in robot.robot.materials if m.color is not None}
