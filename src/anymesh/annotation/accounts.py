@@ -31,7 +31,7 @@ class LedgerAccount:
         return spent(self._ledger)[1]
 
     def hold(self, kind: str, most: float, limit: Limit) -> int:
-        """Reserve a call of at most `most` [USD] and return the reservation's number. Raise BudgetError if none is left."""
+        """Reserve a call of at most `most` [USD] and return the reservation's number. Raise BudgetError beyond the limit."""
         with self._ledger.writing() as connection:
             calls, cost = connection.execute("SELECT calls, cost FROM account").fetchone()
             waiting, held = connection.execute("SELECT count(*), total(most) FROM holds").fetchone()

@@ -129,7 +129,7 @@ class RemoteMeter:
         return self._ask("spent")[1]
 
     def hold(self, kind: str, most: float, limit: Limit) -> int:
-        """Reserve a call of at most `most` [USD] and return the reservation's number. Raise BudgetError if none is left."""
+        """Reserve a call of at most `most` [USD] and return the reservation's number. Raise BudgetError beyond the limit."""
         found = self._ask("hold", self._name, self._token, kind, most, limit)
         if isinstance(found, str):
             raise BudgetError(found)

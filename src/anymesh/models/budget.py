@@ -41,7 +41,7 @@ class Account(Protocol):
     def cost(self) -> float: ...
 
     def hold(self, kind: str, most: float, limit: Limit) -> int:
-        """Reserve a call of at most `most` [USD] and return the reservation's number. Raise BudgetError if none is left."""
+        """Reserve a call of at most `most` [USD] and return the reservation's number. Raise BudgetError beyond the limit."""
         ...
 
     def settle(self, hold: int, cost: float | None) -> None:
@@ -60,7 +60,7 @@ class Spent:
     _last: int = field(default=0, repr=False)
 
     def hold(self, kind: str, most: float, limit: Limit) -> int:
-        """Reserve a call, so that threads cannot exceed the limit together. Raise BudgetError if none is left."""
+        """Reserve a call, so that threads cannot exceed the limit together. Raise BudgetError beyond the limit."""
         with self._lock:
             spent = spent_words(self.calls, self.cost)
             limit.check(kind, self.calls + len(self._held), self.cost + sum(self._held.values()), most, spent)

@@ -22,7 +22,7 @@ INSET = 0.02  # share of a board's side: what extends in no further only touches
 PROBES = 8  # rays along each direction of a side
 THERE = 0.6  # minimum share of a strip between two panels that a rail fills
 ALONG = 0.5  # minimum overlap of adjacent panels, as a share of the shorter edge
-COVERS = 0.3  # minimum share of the body's side covered by panels; with less, a panel is the flap of a bin
+COVERS = 0.3  # minimum share of the body's side covered by panels with separate cavities; less is the flap of a bin
 FIRST = 0.4  # share of the cavity's depth within which the body's face lies
 
 
