@@ -1,9 +1,9 @@
-"""Any rigid 3D mesh in, a simulation-ready articulated asset out.
+"""Convert any rigid 3D mesh to a simulation-ready articulated asset.
 
     import anymesh
     asset = anymesh.articulate("cabinet.glb", "out/cabinet")
 
-Functions and nouns load what they need on first use, so that importing this package costs next to nothing.
+Functions and classes are loaded on first use, so that importing this package is fast.
 """
 
 import sys
@@ -58,4 +58,4 @@ def __getattr__(name: str) -> object:
 
 
 if "IPython" in sys.modules and (_shell := sys.modules["IPython"].get_ipython()) is not None:
-    import_module("anymesh.viewer.report_notebook").register(_shell)  # in a notebook, assets display themselves
+    import_module("anymesh.viewer.report_notebook").register(_shell)  # assets display themselves in notebooks

@@ -1,4 +1,4 @@
-"""Open questions in folders, found, shown and answered: what `anymesh answer` and an agent's tools stand on."""
+"""Listing and answering of open questions in folders, for `anymesh answer` and the tools of agents."""
 
 from __future__ import annotations
 
@@ -14,23 +14,23 @@ from anymesh.reasoning.shorthand import answer_text
 
 @dataclass(frozen=True)
 class Recorded:
-    """An answer that was written. whole: checked by the question itself, not by its schema alone; left: still open."""
+    """A recorded answer. whole: checked by the question itself, not only by its schema; left: number of open questions."""
 
     question: QuestionFolder
     whole: bool
     left: int
 
     def words(self) -> str:
-        """What a user is told."""
+        """Return the message for the user."""
         rest = "" if self.whole else " (by its schema; the run checks the rest)"
-        more = f"; {self.left} more open" if self.left else "; run the command that asked again, it goes on from here"
+        more = f"; {self.left} more open" if self.left else "; run the command that asked again to resume"
         return f"{self.question.path.name}: the answer is valid{rest}{more}"
 
 
 def open_in(folder: Path) -> list[QuestionFolder]:
-    """Find the open questions in a folder: one question's, one object's, or one with those of many objects.
+    """Find the open questions in a folder of one question, one object, or many objects.
 
-    Raises OptionError when there is no question at all, open or answered.
+    Raise OptionError if there is no question at all, open or answered.
     """
     found = find_questions(folder)
     if not found:
@@ -41,8 +41,8 @@ def open_in(folder: Path) -> list[QuestionFolder]:
 def record_answer(folder: Path, told: str) -> Recorded:
     """Check an answer (JSON, the short form, or the word geometry) to the open question in a folder, and write it.
 
-    A folder of one question that is answered gets another answer. Raises OptionError for an answer that is not valid, which
-    is not written, when no question is open, or when several are.
+    In the folder of a single answered question, the answer is replaced. Raise OptionError if the answer is not valid, and is
+    then not written, or if no question or several are open.
     """
     found = open_in(folder)
     here = [q for q in find_questions(folder) if q.path == folder]

@@ -1,4 +1,4 @@
-"""Many meshes in one run: what stops one object, a question or a fault, does not stop the others."""
+"""Articulation of many meshes in one run; an open question or an error of one object does not stop the others."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ from anymesh.models.question_files import NAME
 from anymesh.progress import Progress, silent
 from anymesh.storage.stage_files import read_json
 
-ENDING = (BudgetError, MissingExtraError, OptionError)  # would come up again for every other object
+ENDING = (BudgetError, MissingExtraError, OptionError)  # errors that would recur for every other object
 
 
 @dataclass(frozen=True)
 class MeshOutcome:
-    """What became of one mesh. error: what stopped it, None when its asset is written."""
+    """Result for one mesh. error: what stopped it, None if its asset is written."""
 
     mesh: Path
     out: Path
@@ -30,7 +30,7 @@ class MeshOutcome:
 
     @property
     def state(self) -> str:
-        """done, open (a question waits) or failed."""
+        """done, open (a question is unanswered) or failed."""
         if self.error is None:
             return "done"
         return "open" if isinstance(self.error, OpenQuestionError) else "failed"
@@ -39,11 +39,11 @@ class MeshOutcome:
 def articulate_many(
     meshes: Sequence[str | Path], out: str | Path, *, progress: Progress = silent, **options: Any
 ) -> list[MeshOutcome]:
-    """Articulate each mesh into a folder of its own name in `out`; outputs that are there for the same mesh stay.
+    """Articulate each mesh into a folder with its name in `out`; existing outputs of the same mesh are kept.
 
-    meshes: files, or folders with files; options: as for `articulate`. With `files:FOLDER`, the questions of an object lie in
-    the folder of its name in FOLDER. Raises OptionError for meshes that cannot be told apart by name, BudgetError when the
-    budget of all is spent.
+    meshes: files, or folders with files; options: as for `articulate`. With `files:FOLDER`, the questions of an object are in a
+    folder with its name in FOLDER.
+    Raise OptionError for meshes with the same name, BudgetError if the common budget is exceeded.
     """
     found = mesh_files(meshes)
     answerer, spent = str(options.pop("answerer", "geometry")), Spent()
@@ -64,7 +64,7 @@ def articulate_many(
 
 
 def mesh_files(meshes: Sequence[str | Path]) -> dict[str, Path]:
-    """Find the mesh files by name, those directly in a folder included. Raises InputError, OptionError."""
+    """Find the mesh files by name, including those directly in a folder. Raise InputError or OptionError."""
     found: dict[str, Path] = {}
     for given in map(Path, meshes):
         inside = sorted(p for p in given.iterdir() if p.suffix.lower() in FORMATS) if given.is_dir() else [given]
@@ -78,7 +78,7 @@ def mesh_files(meshes: Sequence[str | Path]) -> dict[str, Path]:
 
 
 def _is_done(mesh: Path, target: Path, answerer: str, *, force: bool) -> bool:
-    """Tell whether the asset is there. Raises OutputError when it was made from another mesh or by another answerer."""
+    """Return whether the asset exists. Raise OutputError if it was made from another mesh or by another answerer."""
     asset = None if force else read_json(target / "asset.json")
     if asset is None:
         return False

@@ -1,4 +1,4 @@
-"""Open questions of many objects answered by a provider's batch API: sent as one job, collected when it is done."""
+"""Answers to the open questions of many objects by a provider's batch API: sent as one job, collected later."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ SHARE = 0.5  # of the price of single calls
 
 @dataclass(frozen=True)
 class BatchState:
-    """What a call did. state: sent, waiting or collected; count: of the questions in the job; answered, refused: of those."""
+    """Result of a call. state: sent, waiting or collected; count: questions in the job; answered, refused: of those."""
 
     state: str
     count: int
@@ -31,7 +31,7 @@ class BatchState:
     refused: tuple[str, ...] = ()
 
     def words(self) -> str:
-        """What a user is told."""
+        """Return the message for the user."""
         match self.state:
             case "sent":
                 return f"sent {self.count} questions as one job; the same command collects the answers when it is done"
@@ -40,13 +40,14 @@ class BatchState:
             case _:
                 told = "".join(f"\n  {line}" for line in self.refused)
                 counts = f"collected {self.answered} valid answers to {self.count} questions"
-                return f"{counts}; go on with the command that asked{told}"
+                return f"{counts}; run the command that asked again to resume{told}"
 
 
 def answer_by_batch(folder: Path, model: str, *, max_cost: float | None = None) -> BatchState:
-    """Collect the job that was sent from a folder of questions, or send its open questions as one.
+    """Collect the job that was sent from a folder of questions, or send its open questions as a job.
 
-    Raises OptionError when no question is open, BudgetError when the job may cost more than max_cost [USD], ModelError.
+    Raise OptionError if no question is open, BudgetError if the job may cost more than max_cost [USD], ModelError if the
+    provider fails.
     """
     from anymesh.models.pydantic_ai_ import connect
     from anymesh.models.pydantic_ai_batch_ import collect_batch, submit_batch
@@ -54,7 +55,7 @@ def answer_by_batch(folder: Path, model: str, *, max_cost: float | None = None) 
     note = read_json(folder / NOTE)
     if note is not None:
         if not {"model", "jobs", "questions"} <= set(note):
-            raise OutputError(f"{folder / NOTE} is no note of a job that was sent; remove it to send the questions again")
+            raise OutputError(f"{folder / NOTE} is not the record of a job; remove it to send the questions again")
         if note.get("model") != model:
             raise OptionError(f"{folder} waits for a job of {note.get('model')}; collect it first, or remove {NOTE}")
         places = {name: folder / place for name, place in note["questions"].items()}
@@ -71,7 +72,7 @@ def answer_by_batch(folder: Path, model: str, *, max_cost: float | None = None) 
     requests = {q.key[:40]: _request(q) for q in waiting}
     _check_cost(model, requests, max_cost)
     if not folder.is_dir():
-        raise OutputError(f"{folder} is no folder")
+        raise OutputError(f"{folder} is not a folder")
     jobs = submit_batch(connect(model), requests)
     places = {q.key[:40]: str(q.path.relative_to(folder)) for q in waiting}
     write_whole(folder / NOTE, json.dumps({"model": model, "jobs": jobs, "questions": places}, indent=1).encode())
@@ -79,7 +80,7 @@ def answer_by_batch(folder: Path, model: str, *, max_cost: float | None = None) 
 
 
 def _request(question: QuestionFolder) -> Request:
-    """The request of a question; one whose answer was refused is told why."""
+    """Return the request of a question, with the reason if an earlier answer was refused."""
     record, refusal, last = question.record, question.refusal(), question.answer()
     why = "" if refusal is None else f"\n\nAn earlier answer to this was not valid: {last}\n{refusal}"
     return Request(question.kind, str(record["system"]), f"{record['text']}{why}", question.pictures(), question.schema)
@@ -97,7 +98,7 @@ def _check_cost(model: str, requests: Mapping[str, Request], max_cost: float | N
 
 
 def _write(asked: Mapping[str, QuestionFolder], found: Mapping[str, Any]) -> BatchState:
-    """Write the answers, but over none that somebody gave since; those that are not valid stay open."""
+    """Write the answers without replacing later ones; invalid ones stay open."""
     notes = []
     for name, question in asked.items():
         if question.answer() is not None and question.refusal() is None:

@@ -1,4 +1,4 @@
-"""The command line. Everything heavy is imported inside the commands, so that help and completion come at once."""
+"""The command line. Heavy modules are imported inside the commands, so that help and completion are fast."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ EXIT_CODES = (
 
 
 class _Command(TyperCommand):
-    """Hands on errors that are not ours with the call they came up in; the library turns two of them into others of its own."""
+    """Command that wraps unexpected errors with their command and options, before the library converts two of them."""
 
     def invoke(self, ctx: Any) -> Any:
         try:
@@ -95,12 +95,12 @@ _command("eval")(evaluate)
 
 
 def main(arguments: list[str] | None = None) -> None:
-    """Runs the command line and ends the process with its exit code."""
+    """Run the command line and end the process with its exit code."""
     sys.exit(run(sys.argv[1:] if arguments is None else arguments))
 
 
 def run(arguments: list[str]) -> int:
-    """Runs the command line; returns the exit code."""
+    """Run the command line; return the exit code."""
     with quiet_libraries():
         return _run(arguments)
 
@@ -127,7 +127,7 @@ def _run(arguments: list[str]) -> int:
 
 
 def _defect(arguments: list[str], handed: _HandedError) -> int:
-    """Tells of an error that should not be, and where its report is."""
+    """Report an unexpected error, and the location of its report."""
     from anymesh.cli_defect import write_defect
 
     error = handed.error

@@ -48,32 +48,35 @@ Source = Annotated[
     typer.Argument(metavar="INPUT", help="A folder, a pattern, a table (.csv, .parquet), objaverse:IDS or objaverse:FILE."),
 ]
 Out = Annotated[Path | None, typer.Option("--out", "-o", metavar="OUT", help="Folder of the ledger, assets and report.")]
-Status = Annotated[Path | None, typer.Option("--status", metavar="OUT", help="Tell where an output stands, and end.")]
+Status = Annotated[Path | None, typer.Option("--status", metavar="OUT", help="Print the progress of an output, and exit.")]
 Export = Annotated[
     Path | None,
     typer.Option("--export", metavar="FILE", help="With --status: write the ledger as Parquet (extra parquet)."),
 ]
-Workers = Annotated[int | None, typer.Option("--workers", "-j", help="Objects at a time; one a core when not given.")]
+Workers = Annotated[int | None, typer.Option("--workers", "-j", help="Parallel objects; one per core by default.")]
 Memory = Annotated[
     float | None,
     typer.Option("--memory", metavar="GIB", help="Address space of one object; default: a share of the machine's."),
 ]
 KillAfter = Annotated[
-    float | None, typer.Option("--kill-after", metavar="SECONDS", help="Processor time of one object; 4 times --time-limit.")
+    float | None,
+    typer.Option("--kill-after", metavar="SECONDS", help="Processor time of one object; default: 4 times --time-limit."),
 ]
-Attempts = Annotated[int, typer.Option(help="Of an object that crashes, hangs or eats memory, before it is quarantined.")]
+Attempts = Annotated[int, typer.Option(help="Attempts before an object that crashes, hangs or exceeds memory is quarantined.")]
 Again = Annotated[bool, typer.Option("--retry-quarantined", help="Try quarantined objects again.")]
-Requests = Annotated[int | None, typer.Option("--requests-per-minute", help="Of all workers, to a model.")]
-Tokens = Annotated[int | None, typer.Option("--tokens-per-minute", help="Of all workers, of a model's input and output.")]
+Requests = Annotated[int | None, typer.Option("--requests-per-minute", help="Limit of requests to a model, over all workers.")]
+Tokens = Annotated[
+    int | None, typer.Option("--tokens-per-minute", help="Limit of a model's input and output tokens, over all workers.")
+]
 Patience = Annotated[
-    float, typer.Option("--patience", metavar="SECONDS", help="To wait for a model or hub that cannot be reached.")
+    float, typer.Option("--patience", metavar="SECONDS", help="How long to wait for an unreachable model or hub.")
 ]
 Ray = Annotated[
     str | None,
-    typer.Option("--ray", metavar="ADDRESS", help="Of a Ray cluster: auto or HOST:PORT (extra ray)."),
+    typer.Option("--ray", metavar="ADDRESS", help="Address of a Ray cluster: auto or HOST:PORT (extra ray)."),
 ]
 DryRun = Annotated[
-    int, typer.Option("--dry-run", metavar="N", help="Estimate time and cost from so many objects; nothing is paid or kept.")
+    int, typer.Option("--dry-run", metavar="N", help="Estimate time and cost from N objects; nothing is paid or kept.")
 ]
 
 
@@ -114,7 +117,7 @@ def annotate(
     json_: Json = False,
     quiet: Quiet = False,
 ) -> None:
-    """A whole collection: every object of INPUT to an asset in OUT. A second run goes on where one ended, however it did."""
+    """Articulate every object of a collection INPUT into OUT. Run it again to resume after any interruption."""
     if status is not None:
         _tell_status(status, export, json_)
         return
@@ -150,7 +153,9 @@ def _run(source: str, out: Path, speed: Speed, again: bool, options: dict[str, A
         typer.echo(plain(f"wrote {found.report}"))
     if ended is not None:
         if not json_:
-            typer.echo(plain(f"error: ended early, {ended.error_class}: {ended.error}; the same command goes on"), err=True)
+            typer.echo(
+                plain(f"error: ended early, {ended.error_class}: {ended.error}; run the same command again to resume"), err=True
+            )
         raise typer.Exit(ended.exit_code)
     if found.found.counts["waiting"]:
         raise typer.Exit(OpenQuestionError.exit_code)
@@ -178,7 +183,7 @@ def _tell_estimate(source: str, count: int, speed: Speed, options: dict[str, Any
 
 
 class Live:
-    """Progress on stderr: one line that changes on a terminal, else one line a minute."""
+    """Progress on stderr: an updated line on a terminal, else one line per minute."""
 
     EVERY = 60.0  # [s]
 
@@ -194,7 +199,7 @@ class Live:
         return self
 
     def tell(self, found: Tally) -> None:
-        """Show where the collection stands."""
+        """Show the progress of the collection."""
         import time
 
         if self._status is not None:

@@ -22,7 +22,7 @@ QuestionsPath = Annotated[
 Value = Annotated[
     str | None,
     typer.Argument(
-        metavar="VALUE", help="JSON; short, such as '1=2 2=0'; geometry, to leave it; @FILE; or - for standard input."
+        metavar="VALUE", help="JSON; short, such as '1=2 2=0'; geometry to leave it; @FILE; or - for standard input."
     ),
 ]
 
@@ -43,7 +43,7 @@ def answer(
     json_: Json = False,
     quiet: Quiet = False,
 ) -> None:
-    """Shows the open question in FOLDER, or answers it with VALUE, checked at once."""
+    """Show the open question in FOLDER, or answer it with VALUE, which is checked immediately."""
     from anymesh.answers import open_in, record_answer
 
     if batch_api is not None:
@@ -64,7 +64,7 @@ def answer(
     elif found:
         typer.echo(_shown(found))
     else:
-        typer.echo("no question is open; run the command that asks them again, it goes on")
+        typer.echo("no question is open; run the command that asks them again to resume")
 
 
 def _answer_by_batch(folder: Path, model: str, max_cost: float | None, json_: bool, quiet: bool) -> None:
@@ -80,7 +80,7 @@ def _answer_by_batch(folder: Path, model: str, max_cost: float | None, json_: bo
 
 
 def question_record(question: QuestionFolder) -> dict[str, Any]:
-    """Everything that an agent needs to answer one question."""
+    """Return everything that an agent needs to answer a question."""
     from anymesh.models.question_files import SHEET
 
     pictures = [{"path": str(question.path / p["file"]), "caption": p["caption"]} for p in question.record["pictures"]]

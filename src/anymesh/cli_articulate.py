@@ -45,7 +45,7 @@ Meshes = Annotated[
     list[Path], typer.Argument(metavar="MESH", help="GLB, glTF, OBJ, PLY, STL, OFF or DAE; several with --batch.")
 ]
 Batch = Annotated[
-    bool, typer.Option("--batch", help="Several meshes, or folders of them; one that stops does not stop the others.")
+    bool, typer.Option("--batch", help="Several meshes, or folders of them; a failure of one does not stop the others.")
 ]
 
 
@@ -78,8 +78,8 @@ def articulate(
     json_: Json = False,
     quiet: Quiet = False,
 ) -> None:
-    """The whole job: MESH to an articulated asset in DIR; with --batch, each of many to a folder of its name in DIR."""
-    shared_pool().warm(*AHEAD)  # the children import while this process does
+    """Turn MESH into an articulated asset in DIR; with --batch, each of many meshes into a folder with its name in DIR."""
+    shared_pool().warm(*AHEAD)  # the child processes import while this process does
     from anymesh import pipeline
 
     answerer = chosen_answerer(answerer, quiet or json_)
@@ -117,7 +117,7 @@ def _articulate_many(meshes: list[Path], out: Path, options: dict[str, Any], jso
 
 
 def _note(error: AnymeshError | None) -> str:
-    """What stopped an object: the folder of its question, or the message."""
+    """Return what stopped an object: the folder of its question, or the message."""
     if isinstance(error, OpenQuestionError):
         return ", ".join(map(str, error.folders))
     return "" if error is None else str(error)

@@ -10,7 +10,7 @@ import typer
 
 from anymesh.cli_output import plain
 
-NOT_IN_ORDER = 8  # the exit code when a check fails
+NOT_IN_ORDER = 8  # exit code if a check fails
 
 AssetPath = Annotated[
     Path,
@@ -20,18 +20,18 @@ Engines = Annotated[
     list[str],
     typer.Option(
         "--engine",
-        help="Where every joint is driven; may be repeated: mujoco, pybullet, sapien, drake, pinocchio, newton, genesis.",
+        help="Engine that drives every joint; may be repeated: mujoco, pybullet, sapien, drake, pinocchio, newton, genesis.",
     ),
 ]
 
 
 def check(
     asset: AssetPath,
-    engine: Engines = ["mujoco"],  # noqa: B006, the command line's way to give a list
+    engine: Engines = ["mujoco"],  # noqa: B006, as required by the command line library
     json_: Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")] = False,
-    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="No report; the exit code tells.")] = False,
+    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="No report, only the exit code.")] = False,
 ) -> None:
-    """Does ASSET hold what a simulator needs? Exit code 8 when a check fails."""
+    """Check that ASSET is complete and valid for simulators. Exit code 8 if a check fails."""
     from anymesh.checking import check_asset
 
     report = check_asset(asset, engines=engine)

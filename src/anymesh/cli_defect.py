@@ -1,4 +1,4 @@
-"""The report of an internal defect, written for the user to send."""
+"""The report of an internal error, written for the user to send."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from anymesh.defects import defect_record
 
 
 def write_defect(error: BaseException, command: str, options: Mapping[str, Any]) -> Path | None:
-    """Write the report next to the command's output, else into the folder for temporary files; None where neither works."""
+    """Write the report beside the command's output, else to the temporary folder; return None if both fail."""
     text = json.dumps(defect_record(error, command, options), indent=2) + "\n"
     for path in _places(command, options):
         try:

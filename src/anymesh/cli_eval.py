@@ -21,17 +21,19 @@ DatasetName = Annotated[
         "with its folder: urdf:DIR.",
     ),
 ]
-ReportOut = Annotated[Path, typer.Option("--out", "-o", metavar="DIR", help="Folder of the report; a stopped one goes on.")]
-ProtocolName = Annotated[str, typer.Option(help="parts (given), views (parts given in one view), end-to-end, executability.")]
+ReportOut = Annotated[
+    Path, typer.Option("--out", "-o", metavar="DIR", help="Folder of the report; a stopped evaluation is resumed.")
+]
+ProtocolName = Annotated[str, typer.Option(help="parts (given), views (parts given, in one view), end-to-end, executability.")]
 Split = Annotated[str | None, typer.Option(help="A subset of the data set, such as ID, OOD or OneDoor.")]
 Changes = Annotated[
-    str, typer.Option("--changes", metavar="NAMES", help="What is done to each mesh, such as none,turned,noise,fused; or all.")
+    str, typer.Option("--changes", metavar="NAMES", help="Changes of each mesh, such as none,turned,noise.001,fused; or all.")
 ]
-Views = Annotated[int, typer.Option(help="Of each object, for the protocol of that name.")]
+Views = Annotated[int, typer.Option(help="Views per object, for the protocol views.")]
 Only = Annotated[str, typer.Option(metavar="NAMES", help="Only these objects.")]
-Jobs = Annotated[int | None, typer.Option("--jobs", "-j", help="Objects at a time; one a core when not given.")]
+Jobs = Annotated[int | None, typer.Option("--jobs", "-j", help="Parallel objects; one per core by default.")]
 EvalAnswerer = Annotated[
-    str, typer.Option("--answerer", help="As for articulate; or oracle (the truth), or oracle:P (wrong with probability P).")
+    str, typer.Option("--answerer", help="As for articulate; or oracle (ground truth), or oracle:P (wrong with probability P).")
 ]
 
 SHOWN = ("change", "objects", "joints", "type", "angle", "line", "at part", "opens", "range", "part F1", "part mIoU", "runs")
@@ -47,25 +49,27 @@ def evaluate(
     views: Views = 1,
     only: Only = "",
     jobs: Jobs = None,
-    proposer: Annotated[str, typer.Option(help="Of masks for a model: exact, sam:WEIGHTS or exact+sam:WEIGHTS.")] = "exact",
+    proposer: Annotated[
+        str, typer.Option(help="Source of masks for a model: exact, sam:WEIGHTS or exact+sam:WEIGHTS.")
+    ] = "exact",
     viewpoints: Annotated[
         str, typer.Option(help="For a model: cameras as COUNT@ELEVATION[+AZIMUTH],... [deg].")
     ] = DEFAULT_VIEWS,
-    verify: Annotated[str, typer.Option(help="motion, free, or off: the paper's method as it is.")] = "motion",
+    verify: Annotated[str, typer.Option(help="motion, free, or off (the paper's method unchanged).")] = "motion",
     at_least: Annotated[
-        int, typer.Option("--at-least", metavar="N", help="Parts that geometry takes however thin the evidence is.")
+        int, typer.Option("--at-least", metavar="N", help="Parts that geometry accepts regardless of evidence.")
     ] = 0,
     timeout: Timeout = CALL_SECONDS,
     wait: Wait = False,
-    max_calls: Annotated[int | None, typer.Option("--max-calls", help="No call of a model beyond so many.")] = None,
-    max_cost: Annotated[float | None, typer.Option("--max-cost", metavar="USD", help="No call that could pass it.")] = None,
-    cache: Annotated[str, typer.Option(metavar="DIR", help="Answers of models: auto, off, or a folder.")] = "auto",
+    max_calls: Annotated[int | None, typer.Option("--max-calls", help="Maximum number of model calls.")] = None,
+    max_cost: Annotated[float | None, typer.Option("--max-cost", metavar="USD", help="Maximum cost of model calls.")] = None,
+    cache: Annotated[str, typer.Option(metavar="DIR", help="Cache of model answers: auto, off, or a folder.")] = "auto",
     seed: Annotated[int, typer.Option(help="From 0 up.")] = 0,
-    force: Annotated[bool, typer.Option("--force", help="Begin anew.")] = False,
+    force: Annotated[bool, typer.Option("--force", help="Start again.")] = False,
     json_: Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")] = False,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="No progress, no summary.")] = False,
 ) -> None:
-    """Puts every object of a data set with known joints to the test; writes tables, pictures of the worst, a line a joint."""
+    """Evaluate all objects of a data set with known joints; write tables, pictures of the worst joints, a line per joint."""
     from anymesh import evaluating
     from anymesh.evaluation.changes import CHANGES
     from anymesh.evaluation.summary import summarize

@@ -12,9 +12,9 @@ from anymesh.cli_output import Shown, tell_asset
 from anymesh.deadline import DEFAULT_SECONDS
 
 Asset = Annotated[Path, typer.Argument(metavar="DIR", help="An output of `anymesh articulate`.")]
-Completer = Annotated[str, typer.Option(help="Of shapes: builtin, off, holopart:FOLDER(#PYTHON) or holopart:URL.")]
+Completer = Annotated[str, typer.Option(help="Completer of shapes: builtin, off, holopart:FOLDER(#PYTHON) or holopart:URL.")]
 Texture = Annotated[str, typer.Option(help="builtin, bake or bake:PIXELS (one atlas), meshy or meshy:PROMPT (paid).")]
-Watertight = Annotated[bool, typer.Option(help="Also close what no motion ever lays open.")]
+Watertight = Annotated[bool, typer.Option(help="Also close surfaces that no motion uncovers.")]
 
 
 def finish(
@@ -32,7 +32,7 @@ def finish(
     json_: Json = False,
     quiet: Quiet = False,
 ) -> None:
-    """Completes shapes and looks of the asset in DIR: inner walls, drawer boxes, thickness, textures of new faces."""
+    """Complete shapes and textures of the asset in DIR: inner walls, drawer boxes, thickness, textures of new faces."""
     from anymesh import pipeline
 
     with Shown(quiet or json_) as progress:

@@ -13,12 +13,12 @@ from anymesh.errors import MissingExtraError, OptionError
 LOOPBACK = ("127.0.0.1", "localhost", "::1")
 Folders = Annotated[list[Path], typer.Argument(metavar="FOLDER", help="Folders that the tools may read and write.")]
 Http = Annotated[bool, typer.Option("--http", help="Streamable HTTP at http://HOST:PORT/mcp instead of stdio.")]
-Host = Annotated[str, typer.Option(help="An address of this machine alone: 127.0.0.1, localhost or ::1.")]
-Port = Annotated[int, typer.Option(min=1, max=65535, help="For --http.")]
+Host = Annotated[str, typer.Option(help="A loopback address: 127.0.0.1, localhost or ::1.")]
+Port = Annotated[int, typer.Option(min=1, max=65535, help="Port for --http.")]
 
 
 def mcp(folders: Folders, http: Http = False, host: Host = "127.0.0.1", port: Port = 8765) -> None:
-    """Serves the Model Context Protocol, so that an agent articulates, answers, inspects, corrects, checks and exports."""
+    """Serve the Model Context Protocol, so that agents can articulate, answer, inspect, correct, check and export."""
     if host not in LOOPBACK:
         raise OptionError(f"--host: found {host!r}; valid are {', '.join(LOOPBACK)}: there is no password")
     if find_spec("mcp") is None:
@@ -34,7 +34,7 @@ def mcp(folders: Folders, http: Http = False, host: Host = "127.0.0.1", port: Po
 
 
 def skill() -> None:
-    """Prints the skill file for agents: how to take a mesh to a checked asset."""
+    """Print the skill file for agents: how to get from a mesh to a checked asset."""
     from anymesh.agents.tools import skill_text
 
     typer.echo(skill_text(), nl=False)

@@ -13,7 +13,7 @@ from anymesh.cli_output import plain
 
 
 def models(json_: Json = False) -> None:
-    """Which models answer on this machine, and which keys are set (never what they are)."""
+    """List the models available on this machine, and which keys are set (without their values)."""
     from anymesh.models.address import KEYS
     from anymesh.models.servers import SERVERS, first_vision_model, probe_servers
 

@@ -1,4 +1,4 @@
-"""What the command line shows: tables, one JSON object, progress on a terminal."""
+"""Output of the command line: tables, one JSON object, progress on a terminal."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ def tell_asset(asset: Asset, out: Path, json_: bool, quiet: bool) -> None:
 
 
 def unsure_hint(asset: Asset) -> str:
-    """What would help where geometry answered alone and is not sure of a joint; empty where nothing is to say."""
+    """Return advice if geometry alone answered and is unsure of a joint; empty otherwise."""
     from anymesh.solving import GEOMETRY, LOW_CONFIDENCE
 
     count = sum(j.confidence < LOW_CONFIDENCE for j in asset.joints)
@@ -77,13 +77,13 @@ def unsure_hint(asset: Asset) -> str:
         return ""
     joints = "1 joint is" if count == 1 else f"{count} joints are"
     return (
-        f"{joints} unsure; eyes would help: --answerer files:FOLDER (you, or an agent, answer from pictures), "
+        f"{joints} unsure; better answers: --answerer files:FOLDER (you, or an agent, answer from pictures), "
         "--answerer auto (a local model; `anymesh models`), or correct it in `anymesh view`"
     )
 
 
 def chosen_answerer(name: str, hidden: bool) -> str:
-    """The name of who answers; of `auto`, whom it takes, which is shown."""
+    """Return the answerer's name; for `auto`, the chosen one, which is also printed."""
     if name != "auto":
         return name
     from anymesh.answering import resolve_auto
@@ -117,17 +117,17 @@ def tell(record: dict[str, Any], rows: list[dict[str, Any]], columns: tuple[str,
 
 
 def cache_of(told: str) -> dict[str, Any]:
-    """The option `cache` of whoever answers; auto: as `Answering` has it."""
+    """Return the option `cache` for `Answering`; auto: its default."""
     return {} if told == "auto" else {"cache": None if told == "off" else Path(told)}
 
 
 def split_labels(told: str) -> tuple[str, ...]:
-    """The labels of an option, with commas between."""
+    """Split an option with comma-separated labels."""
     return tuple(label for label in told.split(",") if label.strip())
 
 
 def plain(text: str) -> str:
-    """Without control characters: a name in a file must not steer the terminal."""
+    """Replace control characters, so that names from files cannot control the terminal."""
     return "".join(c if c.isprintable() else "?" for c in text)
 
 
@@ -146,7 +146,7 @@ def ended_by_signal() -> Generator[None]:
 
 
 class Shown:
-    """Progress on stderr (stage, what it is at, seconds), only where someone looks."""
+    """Progress on stderr (stage, item, seconds), only on a terminal."""
 
     def __init__(self, hidden: bool) -> None:
         self._status: Any = None

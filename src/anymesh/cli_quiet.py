@@ -1,4 +1,4 @@
-"""What libraries say is kept off the terminal of the command line; what this package logs is shown, each message once."""
+"""Suppression of library output on the command line; log messages of this package are shown, each once."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from contextlib import contextmanager
 from anymesh.cli_output import plain
 
 OWN = "anymesh"
-VARIABLE = "PYTHONWARNINGS"  # how Python's child processes are told what to do with warnings
+VARIABLE = "PYTHONWARNINGS"  # passes the warning filter to Python child processes
 
 
 class _Once(logging.Handler):
-    """Writes each warning of this package to stderr, as one line, the first time that it comes up."""
+    """Handler that writes each warning of this package to stderr, as one line, the first time that it occurs."""
 
     def __init__(self) -> None:
         super().__init__(logging.WARNING)
@@ -31,12 +31,12 @@ class _Once(logging.Handler):
 
 @contextmanager
 def quiet_libraries() -> Generator[None]:
-    """Silence Python warnings, of child processes too, and log records of libraries; for the command line alone.
+    """Silence Python warnings, also of child processes, and log records of libraries; for the command line only.
 
-    Warnings that a user asked for (`python -W`, PYTHONWARNINGS) stay as asked.
+    Warnings that the user requested (`python -W`, PYTHONWARNINGS) are kept.
     """
     root, own = logging.getLogger(), logging.getLogger(OWN)
-    sink, handler = logging.NullHandler(), _Once()  # a record that finds no handler at all would go to stderr
+    sink, handler = logging.NullHandler(), _Once()  # records without any handler would go to stderr
     asked, before = bool(sys.warnoptions), os.environ.get(VARIABLE)
     root.addHandler(sink)
     own.addHandler(handler)

@@ -16,7 +16,7 @@ FolderPath = Annotated[
     Path, typer.Argument(metavar="FOLDER", help="An output of `anymesh articulate`, or a folder with several of them.")
 ]
 Page = Annotated[
-    Path | None, typer.Option("--out", "-o", metavar="FILE", help="The HTML file; FOLDER_report.html beside it when not given.")
+    Path | None, typer.Option("--out", "-o", metavar="FILE", help="The HTML file; default: FOLDER_report.html beside FOLDER.")
 ]
 File = Annotated[
     Path, typer.Option("--out", "-o", metavar="FILE", help=".gif or .mp4: a turntable of the motion; .png: a contact sheet.")
@@ -26,12 +26,16 @@ File = Annotated[
 def report(
     folder: FolderPath,
     out: Page = None,
-    faces: Annotated[int, typer.Option(min=1000, help="Assets of more faces are decimated for display.")] = 60_000,
-    megabytes: Annotated[float, typer.Option(min=1, help="What would make the page larger is left out, and said so.")] = 100.0,
+    faces: Annotated[
+        int, typer.Option(min=1000, help="Number of faces above which an asset is decimated for display.")
+    ] = 60_000,
+    megabytes: Annotated[
+        float, typer.Option(min=1, help="Maximum size of the page; content beyond it is left out with a note.")
+    ] = 100.0,
     json_: Json = False,
     quiet: Quiet = False,
 ) -> None:
-    """One HTML file of every asset in FOLDER: 3D with its joints moving, warnings, tables. It needs no server, no network."""
+    """Write one HTML file of every asset in FOLDER: 3D view with moving joints, warnings, tables. It works offline."""
     from anymesh.viewer.report import write_report
 
     with Shown(quiet or json_) as progress:
@@ -48,14 +52,16 @@ def report(
 def picture(
     folder: FolderPath,
     out: File,
-    size: Annotated[int, typer.Option(help="Pixels across, of a turntable.")] = 400,
-    rate: Annotated[float, typer.Option(help="Frames a second.")] = 12.5,
-    turn: Annotated[float, typer.Option(help="Degrees; less than 360 swings round the front.")] = 360.0,
-    materials: Annotated[bool, typer.Option("--materials", help="As it looks, instead of a colour a part.")] = False,
-    columns: Annotated[int, typer.Option(help="Of a contact sheet.")] = 4,
+    size: Annotated[int, typer.Option(help="Width of a turntable in pixels.")] = 400,
+    rate: Annotated[float, typer.Option(help="Frames per second.")] = 12.5,
+    turn: Annotated[float, typer.Option(help="Degrees; less than 360 swings around the front.")] = 360.0,
+    materials: Annotated[
+        bool, typer.Option("--materials", help="Use the object's materials instead of a colour per part.")
+    ] = False,
+    columns: Annotated[int, typer.Option(help="Columns of a contact sheet.")] = 4,
     quiet: Quiet = False,
 ) -> None:
-    """A turntable of the motion of the asset in FOLDER (.gif, .mp4), or a contact sheet of all assets in it (.png)."""
+    """Make a turntable of the motion of the asset in FOLDER (.gif, .mp4), or a contact sheet of all assets in it (.png)."""
     from anymesh.viewer.pictures_write import write_picture
 
     with Shown(quiet) as progress:

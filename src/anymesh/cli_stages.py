@@ -63,7 +63,7 @@ def segment(
     json_: Json = False,
     quiet: Quiet = False,
 ) -> None:
-    """Stage A alone: which parts move. `anymesh joints DIR` goes on from there."""
+    """Run only Stage A: find the parts. Continue with `anymesh joints DIR`."""
     from anymesh import pipeline
 
     answerer = chosen_answerer(answerer, quiet or json_)
@@ -96,7 +96,7 @@ def joints(
     json_: Json = False,
     quiet: Quiet = False,
 ) -> None:
-    """Stage B alone: the joints of the parts in DIR. `anymesh export DIR` goes on from there."""
+    """Run only Stage B: find the joints of the parts in DIR. Continue with `anymesh export DIR`."""
     from anymesh import pipeline
 
     answerer = chosen_answerer(answerer, quiet or json_)
@@ -121,7 +121,7 @@ def export(
     json_: Json = False,
     quiet: Quiet = False,
 ) -> None:
-    """Writes the files of the asset whose stages are in DIR."""
+    """Write the files of the asset whose stages are in DIR."""
     from anymesh import pipeline
 
     with Shown(quiet or json_) as progress:

@@ -19,21 +19,24 @@ Target = Annotated[
     Path | None,
     typer.Argument(
         metavar="[ASSET|MESH|FOLDER]",
-        help="An output of anymesh, a mesh (articulated first), or a folder of outputs; without one, the page takes meshes.",
+        help="An output of anymesh, a mesh (articulated first), or a folder of outputs; by default, the page accepts meshes.",
     ),
 ]
 Ask = Annotated[bool, typer.Option("--ask", help="Answer the questions about MESH yourself, by clicks on the page.")]
 Kept = Annotated[
     Path | None,
     typer.Option(
-        "--out", "-o", metavar="DIR", help="A page that takes meshes keeps assets and answers here; else it removes them."
+        "--out",
+        "-o",
+        metavar="DIR",
+        help="Folder for the assets and answers of a page that accepts meshes; else they are removed.",
     ),
 ]
-Host = Annotated[str, typer.Option(help="Address to listen on; the default is reached from this machine alone.")]
-Port = Annotated[int, typer.Option(help="A port that is taken moves on to the next.")]
+Host = Annotated[str, typer.Option(help="Address to listen on; the default is only reachable from this machine.")]
+Port = Annotated[int, typer.Option(help="If the port is taken, the next one is used.")]
 NoBrowser = Annotated[bool, typer.Option("--no-browser", help="Do not open a browser.")]
 Reviewer = Annotated[
-    str, typer.Option(metavar="NAME", help="Who corrects and decides, for the logs; the user's name by default.")
+    str, typer.Option(metavar="NAME", help="Name in the logs of corrections and decisions; the user's name by default.")
 ]
 
 
@@ -47,7 +50,7 @@ def view(
     reviewer: Reviewer = "",
     root: Root = None,
 ) -> None:
-    """See, play, correct and review in the browser, until Ctrl-C."""
+    """View, animate, correct and review assets in the browser, until Ctrl-C."""
     from anymesh.viewer.live_serve_ import serve
 
     with ExitStack() as stack:

@@ -1,4 +1,4 @@
-"""Write the report of an internal defect: what is needed to find it, without the user's data, keys or folders."""
+"""The report of an internal error: what is needed to locate it, without the user's data, keys or folders."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ from anymesh.models.error_redaction import SECRET
 
 LIBRARIES = "numpy scipy trimesh embreex mujoco coacd manifold3d libigl fast-simplification pillow pycollada typer".split()
 PATH = re.compile(r"(?:(?<!\w)[A-Za-z]:)?[^\s:#'\"(),=<>]*[\\/]([^\\/\s:#'\"(),=<>]*)")
-QUOTED = re.compile(r"(['\"])[^'\"]*[\\/]([^'\"\\/]*)\1")  # a path with spaces, as Python shows it
+QUOTED = re.compile(r"(['\"])[^'\"]*[\\/]([^'\"\\/]*)\1")  # a path with spaces, as Python prints it
 ADDRESS = re.compile(r"\b\w[\w+.-]*://[^\s#'\"]*")
-LONGEST = 500  # characters of a message or an option
+LONGEST = 500  # maximum number of characters of a message or an option
 
 
 def defect_record(error: BaseException, command: str, options: Mapping[str, Any]) -> dict[str, Any]:
-    """Versions, options, stage and traceback as JSON values. Of paths only the last name stays, of addresses nothing."""
+    """Return versions, options, stage and traceback as JSON values; paths are reduced to their last name, addresses removed."""
     return {
         "command": command,
         "options": {name: _option(value) for name, value in options.items()},
@@ -37,7 +37,7 @@ def defect_record(error: BaseException, command: str, options: Mapping[str, Any]
 
 
 def redacted(text: str) -> str:
-    """Text without addresses, folders, and whatever looks like a key or like data."""
+    """Remove addresses, folders, and everything that looks like a key or like data."""
     text = ADDRESS.sub("[address]", " ".join(text.split()))
     text = PATH.sub(r"\1", QUOTED.sub(r"\1\2\1", text))
     return SECRET.sub("[removed]", text)[:LONGEST]
@@ -59,7 +59,7 @@ def _version(name: str) -> str | None:
 
 
 def _chain(error: BaseException) -> list[BaseException]:
-    """The error and those that led to it, the first one first."""
+    """Return the error and its causes, the first cause first."""
     found: list[BaseException] = []
     here: BaseException | None = error
     while here is not None and here not in found:
@@ -75,7 +75,7 @@ def _lines(error: BaseException) -> Iterator[str]:
 
 
 def _place(file: str) -> str:
-    """A source file as it lies within its package or Python's library; of any other, the name."""
+    """Return the path of a source file within its package or Python's library; of any other file, the name."""
     path = Path(file)
     homes = (Path(__file__).parents[1], *(Path(p) for p in sorted(sys.path, key=len, reverse=True) if Path(p).is_absolute()))
     home = next((home for home in homes if path.is_relative_to(home)), path.parent)

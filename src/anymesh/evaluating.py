@@ -1,4 +1,4 @@
-"""`anymesh eval`: every object of a data set put to the test; in parallel, resumable, with a report at the end."""
+"""`anymesh eval`: evaluation of all objects of a data set, in parallel and resumable, with a report."""
 
 from __future__ import annotations
 
@@ -54,12 +54,13 @@ def evaluate(
     progress: Progress = silent,
     **answering: Unpack[Answering],
 ) -> list[Record]:
-    """Puts each object of a data set to the test and writes the report to the folder `out`; goes on where it was stopped.
+    """Evaluate each object of a data set and write the report to the folder `out`; resume a stopped evaluation.
 
     dataset: see `open_dataset`; protocol: parts, views, end-to-end or executability; changes: see `evaluation.changes`;
-    views: observations of each object, for the protocol of that name; only: names of objects; jobs: objects at a time
-    (None: one a core). answerer: as for `articulate`, or oracle, or oracle:P (each answer wrong with probability P).
-    Raises OptionError, OutputError, MissingExtraError, ModelError; what was done until then is kept.
+    views: observations per object, for the views protocol; only: names of objects; jobs: objects in parallel (None: one per
+    core).
+    answerer: as for `articulate`, or oracle, or oracle:P (each answer wrong with probability P).
+    Raise OptionError, OutputError, MissingExtraError or ModelError; earlier results are kept.
     """
     eval_config = _eval_config(protocol, changes, views, answering.get("seed", 0))
     stop = Event()
@@ -121,7 +122,7 @@ def _chosen(data: Dataset, split: str | None, only: Sequence[str]) -> list[str]:
 def _settings(
     dataset: str, split: str | None, only: Sequence[str], eval_config: EvalConfig, answering: Answering
 ) -> dict[str, str]:
-    """What an evaluation hangs on, in words, and with what it was made."""
+    """Return the settings that determine an evaluation, and the environment in which it runs, in words."""
     told = {
         "dataset": dataset,
         "split": split or "all",
@@ -147,7 +148,10 @@ def _cores() -> int:
 
 
 def _answerer_for(answering: Answering, seed: int, stop: Event | None = None) -> SampleAnswerer:
-    """Who answers about a sample: geometry, its truth (with errors on purpose where wanted), files, or a model."""
+    """Return the function that chooses the answerer of a sample.
+
+    It is geometry, the sample's ground truth (optionally with errors), files, or a model.
+    """
     name, _, share = answering.get("answerer", GEOMETRY.name).partition(":")
     if name == FILES.removesuffix(":"):
 
@@ -156,7 +160,7 @@ def _answerer_for(answering: Answering, seed: int, stop: Event | None = None) ->
             return choose_answerer(place, about=sample.truth.name, stop=stop).factory
 
         one = f"{FILES}{Path(share) / 'object'}" if share else FILES
-        _ = choose_answerer({**answering, "answerer": one})  # what is wrong with the options is told before anything is done
+        _ = choose_answerer({**answering, "answerer": one})  # report invalid options before any work is done
         return asked
     if name != ORACLE:
         who = choose_answerer(answering)
@@ -183,7 +187,7 @@ def _examined(
     name: str,
     answerer_for: SampleAnswerer | None = None,
 ) -> Examined:
-    """One object's records; in a process of its own, which opens the data set anew."""
+    """Evaluate one object in its own process, which opens the data set again."""
     options: Answering = {**answering, "answerer": GEOMETRY.name, "parts_list": ()}
     solver = partial(solve, config=choose_answerer(options).config)
     try:
@@ -197,8 +201,11 @@ def _examined(
 def _all(
     names: Sequence[str], work: partial[Examined], answerer_for: SampleAnswerer, shared: bool, jobs: int, stop: Event
 ) -> Done:
-    """The records of each object as they come. shared: a model and its budget, so in threads; else in processes. stop: set
-    at the end, for threads that wait for answers."""
+    """Yield the records of each object as they complete.
+
+    shared: use threads, which share a model and its budget; else processes. stop: set at the end, for threads that wait for
+    answers.
+    """
     if jobs == 1 or len(names) < 2:
         yield from ((name, work(name, answerer_for)) for name in names)
         return
@@ -214,7 +221,7 @@ def _all(
     finally:
         stop.set()
         pool.shutdown(cancel_futures=True)
-    for name in lost:  # one of them ended its process and with it the others
+    for name in lost:  # one of them ended its process, and with it the others
         yield name, _alone(name, work)
 
 
@@ -223,4 +230,4 @@ def _alone(name: str, work: partial[Examined]) -> Examined:
         try:
             return pool.submit(work, name).result()
         except BrokenProcessPool:
-            return [Record(ObjectScore(name, (), 0, 0, 0), error="its process ended without a word (out of memory?)")]
+            return [Record(ObjectScore(name, (), 0, 0, 0), error="its process ended unexpectedly (out of memory?)")]

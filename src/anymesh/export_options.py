@@ -1,4 +1,4 @@
-"""How an asset is written, from the words of the options."""
+"""Export settings, parsed from command line options."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from anymesh.export import Base, Driven, Format, parse_formats
 
 @dataclass(frozen=True)
 class ExportOptions:
-    """How an asset is written."""
+    """Base, formats and drives of an exported asset."""
 
     base: Base
     formats: tuple[Format, ...]
@@ -18,7 +18,7 @@ class ExportOptions:
 
     @classmethod
     def parse(cls, base: str, formats: str, drives: str) -> ExportOptions:
-        """From the words of an option; OptionError names what would have been valid."""
+        """Parse the option values. Raise OptionError, which lists the valid ones."""
         if base not in set(Base):
             raise OptionError(f"--base: found {base!r}; valid are {', '.join(Base)}")
         if drives not in set(Driven):

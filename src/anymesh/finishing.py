@@ -1,4 +1,4 @@
-"""Stage C on one asset, whoever completes its shapes and makes its looks (paper, 3.4)."""
+"""Stage C on one asset, with any completer and retexturer (paper, 3.4)."""
 
 from __future__ import annotations
 
@@ -26,10 +26,10 @@ def finish_asset(
     config: ShapeConfig,
     deadline: Deadline | None = None,
 ) -> CompletionResult:
-    """The mesh of an asset with completed shapes and looks.
+    """Return the mesh of an asset with completed shapes and textures.
 
-    shapes: off leaves shapes as they are. completer: is asked first, None for nobody; the built-in completer does the parts
-    that it does not give, or gives so that they disagree with what is seen. deadline: past it, further surfaces stay open.
+    shapes: if False, shapes stay unchanged. completer: used first, None for none; the built-in completer handles the parts that
+    it omits or that disagree with the visible surface. deadline: past it, further surfaces stay open.
     """
     deadline = deadline or Deadline()
     finished = Finished(asset, np.arange(len(asset.mesh.faces)))

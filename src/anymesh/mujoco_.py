@@ -1,4 +1,4 @@
-"""The one place that brings MuJoCo in."""
+"""The only module that imports MuJoCo."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ log = logging.getLogger("anymesh")
 
 
 def load_mujoco() -> Any:
-    """MuJoCo, with its warnings in our log: left alone, it writes a file into the folder that a user works in."""
+    """Import MuJoCo, and redirect its warnings to our log, since by default it writes a file to the working folder."""
     try:
         import mujoco as untyped
     except ImportError:

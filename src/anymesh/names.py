@@ -6,13 +6,13 @@ import re
 import unicodedata
 from collections.abc import Sequence
 
-LONGEST = 80  # characters; leaves room for suffixes within the 255 bytes of common file systems
-# Taken by a format or a system: MuJoCo's root body, URDF parsers' base names, the device names of Windows.
+LONGEST = 80  # characters; leaves space for suffixes within the 255 bytes of common file systems
+# Reserved by a format or a system: MuJoCo's root body, URDF parsers' base names, the device names of Windows.
 RESERVED = frozenset({"world", "con", "prn", "aux", "nul"} | {f"{port}{i}" for port in ("com", "lpt") for i in range(10)})
 
 
 def legal_name(name: str, *, fallback: str = "part") -> str:
-    """One name as `[A-Za-z][A-Za-z0-9_]*`, accents dropped; `fallback` when nothing legal is left."""
+    """Convert a name to `[A-Za-z][A-Za-z0-9_]*`, without accents; return `fallback` if nothing legal is left."""
     plain = unicodedata.normalize("NFKD", name).encode("ascii", "ignore").decode()
     plain = re.sub(r"[^A-Za-z0-9_]+", "_", plain)
     plain = plain.strip("_") if plain != name else plain
@@ -21,14 +21,14 @@ def legal_name(name: str, *, fallback: str = "part") -> str:
     if not plain[0].isalpha():
         plain = f"{fallback}_{plain.lstrip('_')}"
     plain = plain[:LONGEST]
-    # `door` writes door_collision.obj and door_collision_1.obj, so no link may be called that.
+    # `door` has the files door_collision.obj and door_collision_1.obj, so no link may have such a name.
     if plain.lower() in RESERVED or re.search(r"_collision(_\d+)?$", plain.lower()):
         plain = f"{plain[: LONGEST - 5]}_{fallback}"
     return plain
 
 
 def legal_names(names: Sequence[str], *, fallback: str = "part") -> list[str]:
-    """Legal names in the same order, unique whatever the case; names that are legal and unique stay as they are."""
+    """Return legal names in the same order, unique ignoring case; names that are legal and unique are unchanged."""
     plain = [legal_name(name, fallback=fallback) for name in names]
     taken = {p.lower() for name, p in zip(names, plain, strict=True) if p == name}
     kept: set[str] = set()

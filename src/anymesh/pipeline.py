@@ -1,4 +1,4 @@
-"""The paper's figure: mesh -> parts -> joints -> asset -> files."""
+"""The pipeline of the paper's overview figure: mesh -> parts -> joints -> asset -> files."""
 
 from __future__ import annotations
 
@@ -39,14 +39,16 @@ def articulate(
     progress: Progress = silent,
     **answering: Unpack[Answering],
 ) -> Asset:
-    """Turns a rigid mesh into an articulated asset and writes it to the folder `out`.
+    """Turn a rigid mesh into an articulated asset and write it to the folder `out`.
 
-    parts: "auto", "nodes" (the scene's nodes) or a file of face labels; up: auto, x, y, z; scale: auto, a factor (file units
-    to metres) or METRES:AXIS; root: the folder within which files that the mesh refers to may be read (default: the mesh's
-    own); base: fixed or free; formats: of urdf, mjcf, usd, sdf, glb, with commas between;
-    drives: passive, or position (joints are led to a commanded position); time_limit: [s], past a share of which each stage
-    cuts its work short and says so in the warnings. Raises InputError, OptionError, OutputError, ModelError; then nothing is
-    written. OpenQuestionError and BudgetError: what is finished is kept for the next call.
+    parts: "auto", "nodes" (the scene's nodes) or a file of face labels; up: auto, x, y, z; scale: auto, a factor (file units to
+    metres) or METRES:AXIS;
+    root: folder within which files that the mesh refers to may be read (default: the mesh's own); base: fixed or free; formats:
+    comma-separated, of urdf, mjcf, usd, sdf, glb;
+    drives: passive, or position (joints follow a commanded position); time_limit: [s], past a share of which each stage
+    shortens its work, with a warning.
+    Raise InputError, OptionError, OutputError or ModelError; then nothing is written. After OpenQuestionError and BudgetError,
+    finished stages are kept for the next call.
     """
     how, deadline = ExportOptions.parse(base, formats, drives), Deadline(time_limit)
     who = choose_answerer(answering, about=object_name(mesh_path), deadline=deadline)
@@ -71,7 +73,7 @@ def segment(
     progress: Progress = silent,
     **answering: Unpack[Answering],
 ) -> Segmentation:
-    """Stage A alone: the parts of a mesh, saved in `out` for `joints`. Options as for `articulate`."""
+    """Run only Stage A: save the parts of a mesh in `out` for `joints`. Options as for `articulate`."""
     deadline = Deadline(time_limit)
     who = choose_answerer(answering, about=object_name(mesh_path), deadline=deadline)
     with RunFolder.create(Path(out), source=Path(mesh_path), force=force) as run, kept_transcript(run, who):
@@ -86,7 +88,7 @@ def joints(
     progress: Progress = silent,
     **answering: Unpack[Answering],
 ) -> tuple[Joint, ...]:
-    """Stage B alone, on the parts that `segment` saved in `folder`. Options as for `articulate`."""
+    """Run only Stage B, on the parts that `segment` saved in `folder`. Options as for `articulate`."""
     deadline = Deadline(time_limit)
     who = choose_answerer(answering, deadline=deadline)
     with RunFolder.open(Path(folder)) as run, kept_transcript(run, who):
@@ -106,9 +108,9 @@ def export(
     time_limit: float = DEFAULT_SECONDS,
     progress: Progress = silent,
 ) -> Asset:
-    """Writes the files of the asset that `segment` and `joints` saved in `folder`. Options as for `articulate`.
+    """Write the files of the asset that `segment` and `joints` saved in `folder`. Options as for `articulate`.
 
-    package: a folder that gets a ROS 2 package of the URDF; archive: a zip file of the asset.
+    package: folder for a ROS 2 package of the URDF; archive: a zip file of the asset.
     """
     how, deadline = ExportOptions.parse(base, formats, drives), Deadline(time_limit)
     if package is not None and Format.URDF not in how.formats:
@@ -137,12 +139,12 @@ def finish(
     time_limit: float = DEFAULT_SECONDS,
     progress: Progress = silent,
 ) -> Asset:
-    """Stage C: completes shapes and looks of the asset in `folder`, an output of `articulate`, and writes it to `out`.
+    """Run Stage C: complete shapes and textures of the asset in `folder`, an output of `articulate`, and write it to `out`.
 
     completer: builtin, off, holopart:FOLDER[#PYTHON] or holopart:URL; texture: builtin, bake, bake:PIXELS, meshy or
-    meshy:PROMPT, with at most `max_calls` paid tasks; watertight: also close what no motion lays open; time_limit: [s], as
-    for `articulate`. Raises OptionError, OutputError, ModelError, BudgetError; a paid task that was begun is resumed by the
-    next run.
+    meshy:PROMPT, with at most `max_calls` paid tasks; watertight: also close surfaces that no motion uncovers; time_limit: [s],
+    as for `articulate`.
+    Raise OptionError, OutputError, ModelError or BudgetError; a paid task that was started is resumed by the next run.
     """
     from anymesh.finishing import finish_asset
     from anymesh.postprocessing.outside import open_completer, open_retexturer

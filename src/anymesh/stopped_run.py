@@ -1,4 +1,4 @@
-"""What is left to read of a run that a budget or a fault ended: its questions and answers until then."""
+"""Transcript of a run that a budget or an error ended: its questions and answers until then."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ log = logging.getLogger("anymesh")
 
 @contextmanager
 def kept_transcript(run: RunFolder, who: AnswererSetup) -> Generator[None]:
-    """Write OUT.transcript beside the output when the run ends early, and remove that of an earlier run when it does not."""
+    """Write OUT.transcript beside the output if the run ends early, else remove that of an earlier run."""
     folder = run.target.parent / f"{run.target.name}.transcript"
     try:
         yield
     except OpenQuestionError:
-        raise  # the folders of its questions are there to read
+        raise  # the folders of its questions contain them
     except BaseException:
         _write(run, who, folder)
         raise
@@ -39,7 +39,7 @@ def _write(run: RunFolder, who: AnswererSetup, folder: Path) -> None:
         try:
             write_transcript(exchanges, folder)
             log.warning("what was asked and answered until then: %s", folder / "index.html")
-        except OSError as error:  # what ended the run is what matters
+        except OSError as error:  # the error that ended the run is more important
             log.warning("the transcript cannot be written to %s: %s", folder, error.strerror or error)
 
 

@@ -110,8 +110,8 @@ def test_a_table_gives_each_object_its_options(tmp_path, caplog) -> None:
         ("file\na.glb\n", "must be `path` or `uid`"),
         ("path,seed\na.glb,many\n", "row 2: found seed 'many'; valid is an integer"),
         ("path,name\n,x\n", "neither a path nor a uid"),
-        ("path\n\xff\n", "no valid CSV table in UTF-8"),
-        ("path\n" + "x" * 200_000 + "\n", "no valid CSV"),
+        ("path\n\xff\n", "not a valid CSV table in UTF-8"),
+        ("path\n" + "x" * 200_000 + "\n", "not a valid CSV"),
     ],
 )
 def test_a_table_that_is_not_valid_is_one_error(tmp_path, text, told) -> None:
@@ -130,7 +130,7 @@ def test_a_parquet_table_is_read_as_a_csv_is(tmp_path) -> None:
     first, second = found(tmp_path / "list.parquet")
     assert (first.size, dict(first.options), dict(second.options)) == (1, {"seed": 4}, {"category": "fridge"})
     (tmp_path / "bad.parquet").write_bytes(b"PAR1 not")
-    with pytest.raises(InputError, match="no valid Parquet"):
+    with pytest.raises(InputError, match="not a valid Parquet"):
         found(tmp_path / "bad.parquet")
 
 

@@ -87,7 +87,7 @@ def test_what_is_not_in_the_recording_is_named(tmp_path: Path) -> None:
 
 
 def test_a_folder_without_a_recording(tmp_path: Path) -> None:
-    with pytest.raises(OptionError, match="is no folder"):
+    with pytest.raises(OptionError, match="is not a folder"):
         Replay(tmp_path / "missing")
     (tmp_path / "package.json").write_text("{}")
     with pytest.raises(OptionError, match="holds no recorded answer"):

@@ -167,9 +167,9 @@ def test_a_name_is_downloaded_at_its_commit_and_checked(hub, monkeypatch):
 
 def test_a_hub_that_lacks_it_is_one_error(hub):
     place, _ = hub
-    with pytest.raises(ModelError, match="cannot be had"):
+    with pytest.raises(ModelError, match="cannot be fetched"):
         resolve(f"sam:own/other@{COMMIT}", hub=place)
-    with pytest.raises(ModelError, match="cannot be had"):
+    with pytest.raises(ModelError, match="cannot be fetched"):
         place.fetch("own/sam", COMMIT, ["missing.onnx"])
 
 

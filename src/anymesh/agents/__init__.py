@@ -1,1 +1,1 @@
-"""Coding agents at work: the project's commands as tools of the Model Context Protocol, and a skill file that says how."""
+"""Interfaces for coding agents: the project's commands as tools of the Model Context Protocol, and a skill file."""

@@ -1,4 +1,4 @@
-"""The folders that an agent may read and write, and nothing else."""
+"""The folders that an agent may read and write."""
 
 from __future__ import annotations
 
@@ -9,25 +9,25 @@ from anymesh.errors import InputError, OptionError
 
 
 class Places:
-    """Folders, their links followed. Raises InputError for one that does not exist."""
+    """Allowed folders, with resolved links. Raises InputError for one that does not exist."""
 
     def __init__(self, folders: Sequence[str | Path]) -> None:
         if not folders:
             raise OptionError("name at least one folder that the tools may work in")
         for folder in folders:
             if not Path(folder).is_dir():
-                raise InputError(f"{folder} is no folder")
+                raise InputError(f"{folder} is not a folder")
         self.folders = tuple(Path(folder).resolve() for folder in folders)
 
     def inside(self, path: str, *, below: bool = False) -> Path:
-        """Resolve a path: relative to the first folder, links followed. Raises OptionError when it lies outside of all.
+        """Resolve a path relative to the first folder, following links. Raise OptionError if it is outside all folders.
 
-        below: it must not be one of the folders itself, since files are written beside it.
+        below: the path must not be one of the folders themselves, since files are written beside it.
         """
         try:
             found = (self.folders[0] / path).resolve()
-        except (OSError, RuntimeError, ValueError):  # a circle of links, a null byte
-            raise OptionError(f"{path!r} is no path") from None
+        except (OSError, RuntimeError, ValueError):  # a cycle of links, a null byte
+            raise OptionError(f"{path!r} is not a path") from None
         if not any(found.is_relative_to(folder) for folder in self.folders):
             raise OptionError(f"{path!r} lies outside of the folders of this server: {', '.join(map(str, self.folders))}")
 
@@ -36,6 +36,6 @@ class Places:
         return found
 
     def shown(self, path: Path) -> str:
-        """A path as `inside` takes it again: relative to the first folder where it lies there."""
+        """Return a path in the form that `inside` accepts: relative to the first folder if it is there."""
         first = self.folders[0]
         return path.relative_to(first).as_posix() if path.is_relative_to(first) else str(path)

@@ -34,7 +34,7 @@ CORRECTIONS = (
 
 
 class ToolRunner:
-    """Runs the tools in threads, one at a time, with progress."""
+    """Runner of the tools in threads, one at a time, with progress reports."""
 
     def __init__(self, tools: AgentTools) -> None:
         self.tools, self._lock = tools, threading.Lock()
@@ -42,7 +42,7 @@ class ToolRunner:
     async def run(
         self, ctx: Context, tool: Callable[..., ToolResult], *arguments: Any, long: bool = False, **options: Any
     ) -> Content:
-        """Raises ToolError for every error of this package."""
+        """Run a tool. Raise ToolError for every error of this package."""
         count = 0
 
         def tell(stage: str, item: str, done: int, total: int) -> None:
@@ -65,10 +65,10 @@ class ToolRunner:
 
 
 def make_server(folders: Sequence[str]) -> MCPServer[Any]:
-    """Make the server. Raises InputError for a folder that does not exist."""
+    """Create the server. Raise InputError for a folder that does not exist."""
     work = ToolRunner(AgentTools(Places(folders)))
     tools = [Tool.from_function(tool, structured_output=False) for tool in (*_making(work), *_looking(work))]
-    for tool in tools:  # an argument that a tool does not have is an error, not silence
+    for tool in tools:  # reject unknown arguments instead of ignoring them
         model = tool.fn_metadata.arg_model
         model.model_config = ConfigDict(**{**model.model_config, "extra": "forbid"})
         model.model_rebuild(force=True)
@@ -167,5 +167,5 @@ def serve_stdio(folders: Sequence[str]) -> None:
 
 
 def serve_http(folders: Sequence[str], host: str, port: int) -> None:
-    """Serve `http://HOST:PORT/mcp` until interrupted; the Host and Origin of requests must be this machine's."""
+    """Serve `http://HOST:PORT/mcp` until interrupted; Host and Origin of requests must be this machine's."""
     anyio.run(partial(make_server(folders).run_streamable_http_async, host=host, port=port))

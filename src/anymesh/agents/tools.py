@@ -1,4 +1,4 @@
-"""What an agent can do, as plain functions: each takes and gives JSON values, and pictures beside them."""
+"""Tools for agents, as plain functions with JSON values, and pictures."""
 
 from __future__ import annotations
 
@@ -25,21 +25,21 @@ from anymesh.progress import Progress, silent
 from anymesh.storage.stage_files import read_json
 
 AUTHOR = "agent"  # in the log of corrections
-QUESTIONS = ".questions"  # how the folder of an output's questions ends, which lies beside it
-ANSWERERS = ("files", "geometry", "auto")  # nothing that costs money
-SHEET_FROM = 5  # so many pictures are shown as one sheet unless all are asked for
+QUESTIONS = ".questions"  # suffix of the folder with an output's questions, beside the output
+ANSWERERS = ("files", "geometry", "auto")  # only answerers that cost nothing
+SHEET_FROM = 5  # number of pictures from which they are shown as one sheet by default
 
 
 @dataclass(frozen=True)
 class ToolResult:
-    """What a tool gives back: JSON values, and PNG pictures with captions."""
+    """Result of a tool: JSON values, and PNG pictures with captions."""
 
     record: dict[str, Any]
     pictures: tuple[tuple[str, bytes], ...] = ()
 
 
 class AgentTools:
-    """The tools over some folders. Every path that comes in is checked, every path that goes out can come in again."""
+    """The tools for some folders. Input paths are checked, and output paths are valid as input."""
 
     def __init__(self, places: Places) -> None:
         self._places = places
@@ -59,7 +59,7 @@ class AgentTools:
         time_limit: float = DEFAULT_SECONDS,
         progress: Progress = silent,
     ) -> ToolResult:
-        """Work on a mesh until its asset is written or a question is open."""
+        """Articulate a mesh until its asset is written or a question is open."""
         source, target = self._places.inside(mesh), self._places.inside(out, below=True)
         if answerer not in ANSWERERS:
             raise OptionError(f"answerer must be one of {', '.join(ANSWERERS)}, found {answerer!r}")
@@ -81,7 +81,7 @@ class AgentTools:
         return ToolResult({"state": "done", "answerer": asset.answerer, **shown.record}, shown.pictures)
 
     def open_questions(self, folder: str | None = None, *, pictures: str = "auto") -> ToolResult:
-        """List open questions; the first one with its pictures. pictures: auto, all (each at full size) or none."""
+        """List open questions, the first one with its pictures. pictures: auto, all (each at full size) or none."""
         if pictures not in ("auto", "all", "none"):
             raise OptionError(f"pictures must be auto, all or none, found {pictures!r}")
         roots = self._places.folders if folder is None else (self._places.inside(folder),)
@@ -96,14 +96,14 @@ class AgentTools:
         """Check and write an answer to an open question."""
         folder = self._places.inside(question)
         if not (folder / "question.json").is_file():
-            raise OptionError(f"{question!r} is no question; `open_questions` lists them")
+            raise OptionError(f"{question!r} is not a question; `open_questions` lists them")
         told = record_answer(folder, answer if isinstance(answer, str) else json.dumps(answer))
         return ToolResult(
             {"answered": self._places.shown(folder), "checked_whole": told.whole, "next": "call `articulate` again"}
         )
 
     def inspect(self, asset: str, *, motions_of: str | None = None) -> ToolResult:
-        """Tell the parts, joints, confidence and warnings of an asset, with its preview; of one part, its free motions too."""
+        """Return parts, joints, confidence and warnings of an asset, with its preview; optionally a part's free motions."""
         folder = self._places.inside(asset)
         record = read_json(folder / "asset.json")
         if record is None:
@@ -142,7 +142,7 @@ class AgentTools:
         return self.inspect(asset)
 
     def check(self, asset: str, engines: Sequence[str] = ("mujoco",)) -> ToolResult:
-        """Check what a simulator needs of an asset, and drive every joint."""
+        """Check an asset for use in simulators, and drive every joint."""
         report = check_asset(self._places.inside(asset), engines=engines)
         return ToolResult(report.as_json() | {"path": self._places.shown(self._places.inside(asset))})
 
@@ -157,7 +157,7 @@ class AgentTools:
         archive: str | None = None,
         progress: Progress = silent,
     ) -> ToolResult:
-        """Write the files of an asset anew in other formats; package: folder for a ROS 2 package; archive: a zip file."""
+        """Write the files of an asset in other formats; package: folder for a ROS 2 package; archive: a zip file."""
         folder = self._places.inside(asset, below=True)
         places = [None if path is None else self._places.inside(path) for path in (package, archive)]
         pipeline.export(
@@ -193,5 +193,5 @@ def _packed(motion: Any) -> dict[str, Any]:
 
 
 def skill_text() -> str:
-    """Read the skill file that is shipped."""
+    """Read the shipped skill file."""
     return (Path(__file__).parent / "SKILL.md").read_text(encoding="utf-8")

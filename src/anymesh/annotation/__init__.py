@@ -1,1 +1,1 @@
-"""Annotation of whole collections of meshes: many objects, many processes, one ledger."""
+"""Annotation of whole collections of meshes: many objects and processes, with one ledger."""

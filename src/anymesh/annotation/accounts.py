@@ -1,4 +1,4 @@
-"""A budget and a provider's rate limit that all processes of an output share, in its ledger."""
+"""Budget and rate limit shared by all processes of an output, stored in its ledger."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from anymesh.models.rates import WINDOW, Rate
 
 
 class LedgerAccount:
-    """Calls and their cost [USD] over all runs of an output. name, token: the object that is worked on, and its claim.
+    """Calls and their cost [USD] over all runs of an output. name, token: object in progress, and its claim.
 
-    A call in progress holds its upper bound; when its process ends without a word, that counts as spent.
+    A call in progress reserves its upper bound; if its process ends unexpectedly, that bound counts as spent.
     """
 
     def __init__(self, ledger: Ledger, name: str, token: str) -> None:
@@ -22,16 +22,16 @@ class LedgerAccount:
 
     @property
     def calls(self) -> int:
-        """Calls answered so far."""
+        """Number of calls answered so far."""
         return spent(self._ledger)[0]
 
     @property
     def cost(self) -> float:
-        """What they cost [USD], of known prices."""
+        """Their cost [USD, of known prices]."""
         return spent(self._ledger)[1]
 
     def hold(self, kind: str, most: float, limit: Limit) -> int:
-        """Reserve a call of at most `most` [USD] and return the number of the hold. Raises BudgetError."""
+        """Reserve a call of at most `most` [USD] and return the reservation's number. Raise BudgetError beyond the limit."""
         with self._ledger.writing() as connection:
             calls, cost = connection.execute("SELECT calls, cost FROM account").fetchone()
             waiting, held = connection.execute("SELECT count(*), total(most) FROM holds").fetchone()
@@ -40,7 +40,7 @@ class LedgerAccount:
             return int(connection.execute("INSERT INTO holds(token, name, most) VALUES(?,?,?)", values).lastrowid or 0)
 
     def settle(self, hold: int, cost: float | None) -> None:
-        """Replace a hold by what the call cost; None: it was not answered, and not billed."""
+        """Replace a reservation by the cost of the call; None for a call that failed and was not billed."""
         with self._ledger.writing() as connection:
             there = connection.execute("DELETE FROM holds WHERE id = ?", (hold,)).rowcount
             if cost is not None and there:  # else it was charged when the claim was lost
@@ -50,7 +50,7 @@ class LedgerAccount:
 
 
 class LedgerLimiter:
-    """Requests and tokens of the last minute over all processes of an output; the clock knows no date, so none can jump."""
+    """Requests and tokens of the last minute over all processes of an output, by a monotonic clock."""
 
     def __init__(
         self,
@@ -63,7 +63,7 @@ class LedgerLimiter:
         self._ledger, self._rate, self._clock, self._sleep = ledger, rate, clock, sleep
 
     def acquire(self, tokens: int) -> int:
-        """Wait until a request of so many tokens may be sent; return the number of its entry."""
+        """Wait until a request of this many tokens may be sent; return the number of its entry."""
         while True:
             entry, wait = self.attempt(tokens)
             if entry is not None:
@@ -71,10 +71,11 @@ class LedgerLimiter:
             self._sleep(wait)
 
     def attempt(self, tokens: int) -> tuple[int | None, float]:
-        """The number of the entry of a request that may be sent now; else None, and how long to wait [s]."""
+        """Return the entry's number if a request may be sent now; else None, and the time to wait [s]."""
         with self._ledger.writing() as connection:
             now = self._clock()
-            connection.execute("DELETE FROM rates WHERE at <= ? OR at > ?", (now - WINDOW, now))  # after: an earlier boot's
+            # later times are from before a restart of the machine
+            connection.execute("DELETE FROM rates WHERE at <= ? OR at > ?", (now - WINDOW, now))
             count, used, first = connection.execute("SELECT count(*), total(tokens), min(at) FROM rates").fetchone()
             if self._rate.allows(count, int(used), tokens):
                 return connection.execute("INSERT INTO rates(at, tokens) VALUES(?,?)", (now, tokens)).lastrowid, 0.0
@@ -87,12 +88,12 @@ class LedgerLimiter:
 
 
 def spent(ledger: Ledger) -> tuple[int, float]:
-    """Calls and their cost [USD] over all runs of an output."""
+    """Return calls and their cost [USD] over all runs of an output."""
     calls, cost = ledger.rows("SELECT calls, cost FROM account")[0]
     return int(calls), float(cost)
 
 
 def open_account(out: Path, name: str, token: str, rate: Rate | None) -> tuple[LedgerAccount, LedgerLimiter | None]:
-    """The account and the limiter of an output, for one object in a worker process."""
+    """Open the account and the limiter of an output, for one object in a worker process."""
     ledger = Ledger.open(out)
     return LedgerAccount(ledger, name, token), None if rate is None else LedgerLimiter(ledger, rate)

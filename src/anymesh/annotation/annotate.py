@@ -1,4 +1,4 @@
-"""`anymesh annotate`: every object of a collection to an asset in a folder of its own, with a ledger that says how it went."""
+"""`anymesh annotate`: articulation of all objects of a collection, each in its own folder, with a ledger."""
 
 from __future__ import annotations
 
@@ -30,16 +30,19 @@ from anymesh.models.rates import Rate
 from anymesh.solving import GEOMETRY
 
 PARQUET = "ledger.parquet"
-UNPINNED = ("max_calls", "max_cost", "cache", "timeout")  # what runs on one output may have different
-KILL = 4.0  # times the time limit that an object may take
-PATIENCE = 3600.0  # [s] that a run waits for a model that cannot be reached
+UNPINNED = ("max_calls", "max_cost", "cache", "timeout")  # options that may differ between runs on one output
+KILL = 4.0  # maximum duration of an object, as a multiple of its time limit
+PATIENCE = 3600.0  # [s] for which a run waits for an unreachable model
 
 
 @dataclass(frozen=True)
 class Speed:
-    """How many objects at a time, and what each may take. workers: None: one a core; memory: address space [GiB]; kill_after
-    [s]: processor time after which an object is ended, 4 times its time limit by default; attempts: before quarantine;
-    requests, tokens: of a model in a minute; patience [s] with one that cannot be reached; ray: address of a cluster."""
+    """Number of parallel objects, and their limits.
+
+    workers: None for one per core; memory: address space [GiB]; kill_after: [s] processor time after which an object is ended,
+    4 times its time limit by default; attempts: before quarantine;
+    requests, tokens: of a model per minute; patience: [s] with an unreachable model; ray: address of a cluster.
+    """
 
     workers: int | None = None
     memory: float | None = None
@@ -53,7 +56,7 @@ class Speed:
 
 @dataclass(frozen=True)
 class Annotated:
-    """What a run left. ended: what ended it before all was done; report: the page."""
+    """Result of a run. ended: what ended it early, None if all was done; report: path of the page."""
 
     found: Tally
     ended: AttemptOutcome | None
@@ -70,12 +73,12 @@ def annotate(
     work: Workers | None = None,
     **options: Any,
 ) -> Annotated:
-    """Annotate every object of a collection that is not finished, and write the report.
+    """Annotate every unfinished object of a collection, and write the report.
 
-    source: a folder, a pattern, a table (.csv, .parquet), or `objaverse:` with ids or a file of them; again: also what is
-    quarantined; options: as for `articulate`, for all objects; work: who works, processes on this machine when not given.
-    A KeyboardInterrupt ends the workers at once, and nothing that finished is lost. Raises InputError, OptionError,
-    OutputError, MissingExtraError, ModelError before anything begins.
+    source: a folder, a pattern, a table (.csv, .parquet), or `objaverse:` with ids or a file of them; again: include
+    quarantined objects; options: as for `articulate`, for all objects; work: workers, local processes by default.
+    A KeyboardInterrupt ends the workers immediately, and finished results are kept.
+    Raise InputError, OptionError, OutputError, MissingExtraError or ModelError before the work starts.
     """
     out = Path(out).absolute()
     who = checked(options)
@@ -101,9 +104,9 @@ def annotate(
 
 
 def checked(options: Mapping[str, Any]) -> str:
-    """Check the options that hold for all objects; return who answers: geometry, files:, or a model's name.
+    """Check the options common to all objects; return the answerer: geometry, files:, or a model's name.
 
-    Raises OptionError, ModelError (no key), MissingExtraError.
+    Raise OptionError, ModelError (no key) or MissingExtraError.
     """
     answering: Answering = {k: v for k, v in options.items() if k in Answering.__annotations__}  # ty: ignore[invalid-assignment]
     ExportOptions.parse(
@@ -114,7 +117,7 @@ def checked(options: Mapping[str, Any]) -> str:
 
 
 def _pin(ledger: Ledger, options: Mapping[str, Any]) -> None:
-    """What an output was begun with holds for all of it. Raises OptionError."""
+    """Store the options of an output, or compare them with the stored ones. Raise OptionError if they differ."""
     told = json.dumps({k: str(v) for k, v in sorted(options.items()) if k not in UNPINNED})
     kept = ledger.setting("options", told)
     if kept != told:
@@ -125,7 +128,7 @@ def _pin(ledger: Ledger, options: Mapping[str, Any]) -> None:
 
 
 def _open_again(ledger: Ledger, again: bool) -> None:
-    """Questions may have been answered since; quarantined objects get another chance when that is wanted."""
+    """Set waiting objects to pending, since their questions may be answered; with `again`, also quarantined ones."""
     with ledger.writing() as connection:
         connection.execute("UPDATE objects SET state = 'pending' WHERE state = 'waiting'")
         if again:
@@ -152,7 +155,7 @@ def _workers(speed: Speed, options: Mapping[str, Any], plan: Plan, given: Worker
 
 
 def export_ledger(ledger: Ledger, path: Path) -> None:
-    """Write the table of objects as Parquet. Raises MissingExtraError, OutputError."""
+    """Write the table of objects as Parquet. Raise MissingExtraError or OutputError."""
     from anymesh.annotation.ledger_schema import OBJECTS
     from anymesh.annotation.parquet_ import write_rows
     from anymesh.errors import OutputError
@@ -164,6 +167,6 @@ def export_ledger(ledger: Ledger, path: Path) -> None:
 
 
 def collection_status(out: str | Path) -> Tally:
-    """Where a collection stands, also while runs work on it. Raises OutputError when there is none."""
+    """Return the progress of a collection, also while runs work on it. Raise OutputError if there is none."""
     with Ledger.open(Path(out)) as ledger:
         return tally(ledger)

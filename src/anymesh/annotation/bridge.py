@@ -1,4 +1,4 @@
-"""The account of an output for a process that cannot open its ledger: on another machine, through the task that started it."""
+"""Access to an output's account from processes that cannot open its ledger, such as on other machines."""
 
 from __future__ import annotations
 
@@ -25,30 +25,30 @@ CLOSING = 5.0  # [s] to wait for the thread of a bridge
 
 
 class Meter:
-    """Keeps the account and the limiter of an output, one call after the other. rate: requests and tokens a minute."""
+    """The account and the limiter of an output, called sequentially. rate: requests and tokens per minute."""
 
     def __init__(self, collection: str, rate: tuple[int | None, int | None]) -> None:
         self._ledger = Ledger.open(Path(collection))
         self._limiter = LedgerLimiter(self._ledger, Rate(*rate))
 
     def spent(self) -> tuple[int, float]:
-        """Calls, and their cost [USD]."""
+        """Return the calls and their cost [USD]."""
         account = LedgerAccount(self._ledger, "", "")
         return account.calls, account.cost
 
     def hold(self, name: str, token: str, kind: str, most: float, limit: Limit) -> int | str:
-        """The number of the hold, or in words why there is none: errors do not travel whole."""
+        """Return the number of a reservation, or an error text, since exceptions do not survive the transport."""
         try:
             return LedgerAccount(self._ledger, name, token).hold(kind, most, limit)
         except BudgetError as error:
             return str(error)
 
     def settle(self, name: str, token: str, hold: int, cost: float | None) -> None:
-        """Replace a hold by what the call cost."""
+        """Replace a reservation by the cost of the call."""
         LedgerAccount(self._ledger, name, token).settle(hold, cost)
 
     def attempt(self, tokens: int) -> tuple[int | None, float]:
-        """The entry of a request that may be sent now, or how long to wait [s]."""
+        """Return the entry of a request that may be sent now, or the time to wait [s]."""
         return self._limiter.attempt(tokens)
 
     def correct(self, entry: int, tokens: int) -> None:
@@ -57,9 +57,9 @@ class Meter:
 
 
 class Bridge:
-    """A socket in a folder that only this user can read, on which a child process reaches a Meter. Gives the address.
+    """A socket through which a child process reaches a Meter, in a folder readable only by this user.
 
-    ask: calls a method of the meter by its name. The address holds the word that a client must know.
+    ask: calls a method of the meter by name. Entering the context returns the address, which contains the secret of clients.
     """
 
     def __init__(self, ask: Ask) -> None:
@@ -76,7 +76,7 @@ class Bridge:
     def __exit__(self, *_: object) -> None:
         self._closed = True
         with suppress(OSError), socket.socket(socket.AF_UNIX) as waking:
-            waking.connect(self._path)  # wakes the thread that waits for a client; without a word it is a stranger
+            waking.connect(self._path)  # wakes the thread that waits for a client; without the secret it is rejected
         self._thread.join(CLOSING)
         self._listener.close()
         self._folder.cleanup()
@@ -86,7 +86,7 @@ class Bridge:
             try:
                 connection = self._listener.accept()
             except (AuthenticationError, OSError, EOFError):
-                continue  # a stranger, or one who went away
+                continue  # a client without the secret, or one that disconnected
             with connection, suppress(OSError, EOFError):
                 self._answer(connection)
 
@@ -120,27 +120,27 @@ class RemoteMeter:
 
     @property
     def calls(self) -> int:
-        """Calls answered so far, of all objects."""
+        """Number of calls answered so far, of all objects."""
         return self._ask("spent")[0]
 
     @property
     def cost(self) -> float:
-        """What they cost [USD], of known prices."""
+        """Their cost [USD, of known prices]."""
         return self._ask("spent")[1]
 
     def hold(self, kind: str, most: float, limit: Limit) -> int:
-        """Reserve a call of at most `most` [USD] and return the number of the hold. Raises BudgetError."""
+        """Reserve a call of at most `most` [USD] and return the reservation's number. Raise BudgetError beyond the limit."""
         found = self._ask("hold", self._name, self._token, kind, most, limit)
         if isinstance(found, str):
             raise BudgetError(found)
         return found
 
     def settle(self, hold: int, cost: float | None) -> None:
-        """Replace a hold by what the call cost; None: it was not answered, and not billed."""
+        """Replace a reservation by the cost of the call; None for a call that failed and was not billed."""
         self._ask("settle", self._name, self._token, hold, cost)
 
     def acquire(self, tokens: int) -> int:
-        """Wait until a request of so many tokens may be sent; return the number of its entry."""
+        """Wait until a request of this many tokens may be sent; return the number of its entry."""
         while True:
             entry, wait = self._ask("attempt", tokens)
             if entry is not None:

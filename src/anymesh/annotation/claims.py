@@ -1,7 +1,7 @@
-"""Claims: which run works on which object. A claim of a run that is gone is free again, and its late result is not taken.
+"""Claims of objects by runs. Claims of a dead run are freed, and its late results are rejected.
 
-A run is alive while it holds the lock on its file in `runs/`, which the system frees when the process ends, however it does,
-and while it renews its beat, by a clock that no change of the date touches. So nothing depends on the time of day.
+A run is alive while it holds the lock on its file in `runs/`, which the system frees when the process ends for any reason, and
+while it renews its beat, by a monotonic clock. So nothing depends on the time of day.
 """
 
 from __future__ import annotations
@@ -23,8 +23,8 @@ from anymesh.errors import OutputError
 from anymesh.storage.atomic_folder import locked, locks_known
 
 RUNS = "runs"  # folder of the lock files
-LEASE = 120.0  # [s] without a beat, after which a run that holds its lock is taken for stuck
-LOSSES = 20  # times that a run may be killed while it works on an object, before that is quarantined
+LEASE = 120.0  # [s] without a beat after which a run that holds its lock counts as stuck
+LOSSES = 20  # number of killed runs while working on an object, after which it is quarantined
 RUNNING = f"state = '{State.RUNNING}' AND run = ?"
 CLAIM = f"""
 UPDATE objects SET state = 'running', run = ?, token = ? || '.' || seq || '.' || losses || '.' || attempts || '.' || ?
@@ -38,7 +38,7 @@ UPDATE objects SET state = ?, attempts = attempts + ?, losses = losses + ?, erro
 
 
 def boot_id() -> str:
-    """What tells the machine's starts apart; the clock of the beats begins anew with each."""
+    """Return an id of this boot of the machine; the clock of the beats restarts with each boot."""
     with suppress(OSError):
         return Path("/proc/sys/kernel/random/boot_id").read_text().strip()
     return socket.gethostname()
@@ -46,7 +46,7 @@ def boot_id() -> str:
 
 @contextmanager
 def begun_run(ledger: Ledger, workers: int) -> Generator[str]:
-    """Enter a run and hold its lock; give its name. At the end, what it has claimed is pending again."""
+    """Register a run and hold its lock; yield its name. At the end, its claims become pending again."""
     run = secrets.token_hex(6)
     lock = ledger.out / RUNS / f"{run}.lock"
     try:
@@ -82,7 +82,7 @@ def renew(ledger: Ledger, run: str) -> None:
 
 
 def claim(ledger: Ledger, run: str, count: int) -> list[Claim]:
-    """Claim up to `count` pending objects, those that failed or were lost before after the others."""
+    """Claim up to `count` pending objects; those that failed or were lost before come last."""
     if count < 1:
         return []
     with ledger.writing() as connection:
@@ -91,7 +91,7 @@ def claim(ledger: Ledger, run: str, count: int) -> list[Claim]:
 
 
 def finish(ledger: Ledger, taken: Claim, outcome: AttemptOutcome, *, most: int) -> State | None:
-    """Enter what became of a claimed object; return its state, None when the claim was no longer held.
+    """Record the outcome of a claimed object; return its state, None if the claim was no longer valid.
 
     most: attempts after which a failing object is quarantined.
     """
@@ -116,7 +116,7 @@ def finish(ledger: Ledger, taken: Claim, outcome: AttemptOutcome, *, most: int) 
 
 
 def _charge_holds(connection: sqlite3.Connection, taken: Claim) -> None:
-    """Count calls that were in progress when their process ended at their upper bound: they may have been billed."""
+    """Charge calls that were in progress when their process ended at their upper bound, since they may be billed."""
     execute = connection.execute
     count, cost = execute("SELECT count(*), total(most) FROM holds WHERE token = ?", (taken.token,)).fetchone()
     if count:
@@ -142,13 +142,13 @@ def _next_state(outcome: AttemptOutcome, attempts: int, losses: int, most: int) 
 
 
 def free_lost(ledger: Ledger, run: str) -> int:
-    """Free what runs that are gone have claimed; return how many objects."""
+    """Free the claims of dead runs; return the number of objects."""
     freed = 0
     for other in _open_runs(ledger, run):
         if _is_alive(ledger, other):
             continue
         for seq, name, token in ledger.rows(f"SELECT seq, name, token FROM objects WHERE {RUNNING}", (other,)):
-            told = f"the run that worked on it ended {LOSSES} times without a word (killed, out of memory, power?)"
+            told = f"the run that worked on it ended {LOSSES} times unexpectedly (killed, out of memory, power failure?)"
             lost = AttemptOutcome(Result.LOST, "LostError", told)
             freed += finish(ledger, Claim(seq, name, "", {}, "", token, False), lost, most=1) is not None
         _end(ledger, other)
@@ -160,7 +160,7 @@ def _open_runs(ledger: Ledger, run: str) -> list[str]:
 
 
 def live_runs(ledger: Ledger, run: str) -> int:
-    """How many other runs work on this output."""
+    """Count the other runs that work on this output."""
     return sum(_is_alive(ledger, other) for other in _open_runs(ledger, run))
 
 

@@ -1,4 +1,4 @@
-"""Objects are entered into the ledger, by every run anew."""
+"""Registration of objects in the ledger, repeated by every run."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ ON CONFLICT(name) DO UPDATE SET source = excluded.source, options = excluded.opt
   error = excluded.error, redo = redo OR (finished IS NOT NULL AND (options != excluded.options OR source != excluded.source))
 WHERE state != 'running' AND excluded.state = 'pending' AND (options != excluded.options OR source != excluded.source
   OR size != excluded.size OR modified != excluded.modified)
-"""  # an object that is worked on is left alone; the next run enters its change
+"""  # an object in progress is not changed; the next run registers its change
 
 
 def enter_objects(ledger: Ledger, requests: Iterable[ObjectRequest]) -> int:
-    """Enter objects; return how many were named.
+    """Register objects; return their number.
 
-    What is entered stays as it is, but for a changed file or changed options, after which the object is pending again.
-    Raises InputError for two objects of one name.
+    Registered objects are unchanged unless their file or options changed; then they become pending again. Raise InputError for
+    two objects with the same name.
     """
     names: set[int] = set()
     waiting, count = iter(requests), 0

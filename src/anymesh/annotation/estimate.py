@@ -1,4 +1,4 @@
-"""What a collection will take, from a sample of it, before anything is paid."""
+"""Estimate of the resources for a collection from a sample of it, before anything is paid."""
 
 from __future__ import annotations
 
@@ -34,15 +34,18 @@ class Figure:
 
     @classmethod
     def of(cls, values: list[float]) -> Figure:
-        """From the values of the sample."""
+        """Compute the figure from the values of the sample."""
         half = QUANTILE * statistics.stdev(values) / len(values) ** 0.5 if len(values) > 1 else 0.0
         return cls(statistics.fmean(values) if values else 0.0, half)
 
 
 @dataclass(frozen=True)
 class Estimate:
-    """What `total` objects will take. sample: objects tried, of which `failed` gave no asset; seconds, cost [USD], calls,
-    tokens and bytes: of one object; hours: of the collection on `workers` workers, without waiting for the model."""
+    """Estimated resources for `total` objects.
+
+    sample: objects tried, of which `failed` gave no asset; seconds, cost [USD], calls, tokens and bytes: per object; hours: for
+    the collection on `workers` workers, without waiting for the model.
+    """
 
     total: int
     sample: int
@@ -56,7 +59,7 @@ class Estimate:
     hours: float
 
     def words(self) -> str:
-        """For people."""
+        """Format the estimate as text."""
         n, size = self.total, self.bytes
         most = f"95 % interval over {self.sample} objects tried, {self.failed} of them without an asset"
         lines = [
@@ -76,10 +79,10 @@ class Estimate:
 
 
 def estimate(source: str, count: int, *, speed: Speed, **options: Any) -> Estimate:
-    """Try `count` objects, drawn at random by the seed, in a temporary folder; with a model, geometry answers in its place.
+    """Process `count` random objects (by the seed) in a temporary folder; geometry answers in place of a model.
 
-    So a model's questions are asked and counted, with their pictures, and none is sent; bad answers that are asked again are
-    not in the count. Raises as `annotate`.
+    The questions for a model are created and counted, with their pictures, but not sent; repeated questions after invalid
+    answers are not counted. Raises errors as `annotate` does.
     """
     if count < 1:
         raise OptionError(f"--dry-run: found {count}; valid are integers from 1 up")

@@ -20,9 +20,9 @@ ANY_FOLDERS = "(?:[^/]+/)*"  # `**/` as a regular expression
 
 
 def find_objects(spec: str, *, without: Path) -> Iterator[ObjectRequest]:
-    """Yield the objects that INPUT names, in a fixed order; a folder is never read twice, and `without` (the output) never.
+    """Yield the objects that INPUT names, in a fixed order, without the folder `without` (the output).
 
-    Raises InputError when nothing is found or a table is not valid, OptionError for ids that are none.
+    Each folder is read once. Raise InputError if nothing is found or a table is not valid, OptionError for invalid ids.
     """
     if spec.startswith(OBJAVERSE):
         yield from _objaverse(spec.removeprefix(OBJAVERSE))
@@ -45,9 +45,9 @@ def find_objects(spec: str, *, without: Path) -> Iterator[ObjectRequest]:
 
 
 def walk(base: Path, without: Path | None = None) -> Iterator[Path]:
-    """Yield all files below a folder in the order of their names; linked folders too, each real folder once.
+    """Yield all files below a folder in the order of their names, including linked folders, each real folder once.
 
-    A folder that cannot be read is left out with a warning; so are links in a circle. `without`: a folder left out.
+    Unreadable folders and cyclic links are skipped with a warning. `without`: a folder to skip.
     """
     left_out = None if without is None else without.resolve()
     seen: set[tuple[int, int]] = set()
@@ -76,13 +76,13 @@ def walk(base: Path, without: Path | None = None) -> Iterator[Path]:
 
 
 def _files(base: Path, paths: Iterable[Path]) -> Iterator[ObjectRequest]:
-    """Files as objects, named by their path below the base."""
+    """Return files as objects, named by their path relative to the base."""
     for path in paths:
         yield _with_file(ObjectRequest(path.relative_to(base).as_posix(), str(path.absolute())))
 
 
 def _with_file(request: ObjectRequest) -> ObjectRequest:
-    """The request with the file's size and time; refused when its name is no text or there is no file."""
+    """Add the file's size and time to the request; mark it as refused if its name is not valid text or there is no file."""
     try:
         f"{request.name}{request.source}".encode()
     except UnicodeEncodeError:
@@ -99,7 +99,7 @@ def _with_file(request: ObjectRequest) -> ObjectRequest:
 
 
 def _matches(pattern: str, without: Path) -> tuple[Path, Iterator[Path]]:
-    """The folder where a pattern begins to be wild, and the files below it that match; `**` stands for any folders."""
+    """Return the folder before the first wildcard, and the matching files below it; `**` matches any folders."""
     parts = Path(pattern).parts
     fixed = next(k for k, part in enumerate(parts) if WILD.search(part))
     base = Path(*parts[:fixed]) if fixed else Path()
@@ -135,7 +135,7 @@ def _token_regex(token: str) -> str:
 
 
 def _objaverse(text: str) -> Iterator[ObjectRequest]:
-    """Ids with commas between, or in a text file, one a line; their meshes are fetched when their turn comes."""
+    """Yield objects by ids, separated by commas or one per line in a text file; meshes are fetched when processed."""
     path = Path(text)
     is_file = len(text) < 4096 and path.is_file()
     ids = [line.strip() for line in (path.read_text(encoding="utf-8").splitlines() if is_file else text.split(","))]

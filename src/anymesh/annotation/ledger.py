@@ -1,7 +1,7 @@
-"""The ledger of an output: an SQLite file in WAL mode, the single truth about every object.
+"""The ledger of an output: an SQLite file in WAL mode, the only record of all objects.
 
-Whoever opens it must be on one machine: WAL shares memory between processes. A process that is killed loses nothing that was
-written; after a loss of power the last entries may be missing, and the objects' folders then tell what was finished.
+All processes that open it must be on one machine, since WAL uses shared memory. A killed process loses nothing that was
+written. After a power failure the last entries may be missing; the objects' folders then show what was finished.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from anymesh.errors import OutputError
 
 NAME = "ledger.sqlite"
 BUSY = 60.0  # [s] to wait for another process that writes
-BATCH = 2000  # rows of a transaction
+BATCH = 2000  # rows per transaction
 
 
 class CorruptLedgerError(OutputError):
@@ -26,9 +26,9 @@ class CorruptLedgerError(OutputError):
 
 
 class Ledger:
-    """The open ledger of the output folder `out`. For one thread.
+    """The open ledger of the output folder `out`. For use by one thread.
 
-    seconds: spent in the ledger so far, reading and writing [s].
+    seconds: total time of reading and writing so far [s].
     """
 
     def __init__(self, out: Path, connection: sqlite3.Connection) -> None:
@@ -37,9 +37,10 @@ class Ledger:
 
     @classmethod
     def open(cls, out: Path, *, create: bool = False, check: bool = False) -> Ledger:
-        """Open the ledger in a folder; check: read all of it first.
+        """Open the ledger in a folder; check: verify its integrity first.
 
-        Raises OutputError when there is none, it cannot be written, or it is of another version; CorruptLedgerError.
+        Raise OutputError if there is none, it cannot be written, or it has another version; CorruptLedgerError if it is
+        damaged.
         """
         path = out / NAME
         if not create and not path.is_file():
@@ -67,12 +68,12 @@ class Ledger:
             version = self._connection.execute("PRAGMA user_version").fetchone()[0]
             if version not in (0, VERSION):
                 raise OutputError(f"{self.out / NAME} has version {version}; valid is {VERSION}: use the anymesh that made it")
-            self._connection.execute("PRAGMA synchronous = NORMAL")  # in WAL a kill loses nothing
+            self._connection.execute("PRAGMA synchronous = NORMAL")  # in WAL mode a kill loses nothing
             if version == 0:
                 self._create()
 
     def _create(self) -> None:
-        """Make the tables; another process may be at the same, and SQLite does not wait for a change of the journal."""
+        """Create the tables, retrying because SQLite does not wait for other processes when the journal mode changes."""
         end = time.monotonic() + BUSY
         while True:
             try:
@@ -88,7 +89,7 @@ class Ledger:
 
     @contextmanager
     def guarded(self) -> Generator[None]:
-        """Turn what SQLite raises into our errors, and count the time."""
+        """Convert SQLite's errors to errors of this package, and measure the time."""
         begin = time.perf_counter()
         try:
             yield
@@ -103,7 +104,7 @@ class Ledger:
 
     @contextmanager
     def writing(self) -> Generator[sqlite3.Connection]:
-        """A transaction: all of it is written, or nothing."""
+        """Open a transaction, which is committed completely or not at all."""
         with self.guarded():
             self._connection.execute("BEGIN IMMEDIATE")
             try:
@@ -115,12 +116,12 @@ class Ledger:
                 raise
 
     def rows(self, query: str, values: Sequence[Any] = ()) -> list[tuple[Any, ...]]:
-        """All rows of a query."""
+        """Return all rows of a query."""
         with self.guarded():
             return self._connection.execute(query, values).fetchall()
 
     def close(self) -> None:
-        """Close the file; what was written stays."""
+        """Close the file."""
         self._connection.close()
 
     def __enter__(self) -> Ledger:
@@ -130,7 +131,7 @@ class Ledger:
         self.close()
 
     def setting(self, key: str, value: str | None = None) -> str | None:
-        """The value kept under a key; with `value`, that is kept when there was none."""
+        """Return the value stored under a key; with `value`, store it first if there was none."""
         if value is not None:
             with self.writing() as connection:
                 connection.execute("INSERT OR IGNORE INTO meta VALUES(?, ?)", (key, value))
@@ -138,7 +139,7 @@ class Ledger:
         return found[0][0] if found else None
 
     def export_rows(self) -> Iterator[list[tuple[Any, ...]]]:
-        """All objects in batches, with the columns of OBJECTS."""
+        """Yield all objects in batches, with the columns of OBJECTS."""
         last, columns = 0, ", ".join(OBJECTS)
         while found := self.rows(f"SELECT seq, {columns} FROM objects WHERE seq > ? ORDER BY seq LIMIT {BATCH}", (last,)):
             last = found[-1][0]

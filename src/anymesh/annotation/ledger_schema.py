@@ -1,25 +1,25 @@
-"""The tables of the ledger."""
+"""Tables of the ledger."""
 
 from __future__ import annotations
 
 VERSION = 1  # of these tables, in the file's `user_version`
-OBJECTS = {  # a column of the table of objects, and of its export
+OBJECTS = {  # columns of the table of objects, and of its export
     "name": "TEXT",  # unique in the collection
     "source": "TEXT",  # path of the mesh, or objaverse:UID
     "options": "TEXT",  # of this object, JSON
     "folder": "TEXT",  # relative to the output
     "state": "TEXT",  # pending, running, done, waiting or quarantined
-    "attempts": "INTEGER",  # that counted against it
-    "losses": "INTEGER",  # how often its run was killed while it was worked on
-    "run": "TEXT",  # that has it, or had it last
-    "token": "TEXT",  # of the claim; a result under another token is not taken
+    "attempts": "INTEGER",  # attempts that count towards quarantine
+    "losses": "INTEGER",  # number of killed runs while it was in progress
+    "run": "TEXT",  # current or last run
+    "token": "TEXT",  # of the claim; results under another token are rejected
     "error_class": "TEXT",
     "error": "TEXT",  # one line
-    "stage": "TEXT",  # in which the error came up
+    "stage": "TEXT",  # in which the error occurred
     "seconds": "REAL",  # of the last attempt
     "stage_seconds": "TEXT",  # of its stages, JSON
     "memory": "INTEGER",  # peak resident [bytes] of the last attempt
-    "calls": "INTEGER",  # of a model, over all attempts, cached ones not counted
+    "calls": "INTEGER",  # of a model, over all attempts, without cached ones
     "cost": "REAL",  # [USD] over all attempts
     "confidence": "REAL",  # lowest of its joints; null without joints
     "parts": "INTEGER",
@@ -31,7 +31,7 @@ OBJECTS = {  # a column of the table of objects, and of its export
     "version": "TEXT",  # of anymesh
     "size": "INTEGER",  # of the mesh [bytes]
     "modified": "INTEGER",  # time of the mesh [ns]
-    "redo": "INTEGER",  # 1: an asset that is there was made with other options
+    "redo": "INTEGER",  # 1: the existing asset was made with other options
     "finished": "REAL",  # [s] since 1970
 }
 ZERO = ("attempts", "losses", "calls", "size", "modified", "redo")

@@ -1,4 +1,4 @@
-"""Meshes of Objaverse by their id, by the package `objaverse` (the extra of that name)."""
+"""Meshes of Objaverse by id, by the package `objaverse` (the extra of that name)."""
 
 from __future__ import annotations
 
@@ -21,16 +21,16 @@ except ImportError:  # Windows
 
 
 class HubError(UnavailableError):
-    """The hub that meshes are fetched from cannot be reached, or broke off."""
+    """The hub of the meshes cannot be reached, or the connection broke."""
 
 
-SECONDS = 60.0  # [s] without a byte, after which a connection is given up
+SECONDS = 60.0  # [s] without data after which a connection is closed
 
 
 def fetch(uid: str) -> Path:
-    """Return the local file of an object, fetched when it is not there; it appears whole or not at all.
+    """Return the local file of an object, fetched atomically if it is missing.
 
-    Raises InputError for an id that the hub does not know, HubError when it cannot be reached, MissingExtraError.
+    Raise InputError for an unknown id, HubError if the hub cannot be reached, MissingExtraError without the package.
     """
     try:
         import objaverse
@@ -54,7 +54,10 @@ def fetch(uid: str) -> Path:
 
 
 def _index(objaverse: Any, home: Path) -> dict[str, str]:
-    """The place of each object on the hub; read by one process at a time, and an index that is cut off is fetched anew."""
+    """Return the path of each object on the hub.
+
+    It is read by one process at a time, and a truncated index is fetched again.
+    """
     home.mkdir(parents=True, exist_ok=True)
     with (home / ".anymesh.lock").open("w") as lock:
         if fcntl is not None:

@@ -9,7 +9,7 @@ from typing import Any
 
 from anymesh.errors import InputError, MissingExtraError
 
-ROWS = 10_000  # that are in memory at a time
+ROWS = 10_000  # rows per batch in memory
 
 
 def _pyarrow() -> Any:
@@ -23,18 +23,21 @@ def _pyarrow() -> Any:
 
 
 def read_rows(path: Path) -> Iterator[Mapping[str, str]]:
-    """Yield the rows of a table as text; null is "". Raises InputError, MissingExtraError."""
+    """Yield the rows of a table as text; null is "".
+
+    Raise InputError for an invalid table, MissingExtraError without pyarrow.
+    """
     arrow = _pyarrow()
     try:
         for batch in arrow.parquet.ParquetFile(path).iter_batches(ROWS):
             for row in batch.to_pylist():
                 yield {name: "" if value is None else str(value) for name, value in row.items()}
     except (arrow.ArrowException, OSError) as error:
-        raise InputError(f"{path.name} is no valid Parquet table: {' '.join(str(error).split())[:200]}") from None
+        raise InputError(f"{path.name} is not a valid Parquet table: {' '.join(str(error).split())[:200]}") from None
 
 
 def write_rows(path: Path, columns: Mapping[str, str], batches: Iterator[Sequence[Sequence[Any]]]) -> None:
-    """Write a table whose columns have the SQLite types TEXT, INTEGER or REAL. Raises MissingExtraError, OSError."""
+    """Write a table whose columns have the SQLite types TEXT, INTEGER or REAL. Raise MissingExtraError or OSError."""
     arrow = _pyarrow()
     kinds = {"TEXT": arrow.string(), "INTEGER": arrow.int64(), "REAL": arrow.float64()}
     schema = arrow.schema([(name, kinds[kind]) for name, kind in columns.items()])

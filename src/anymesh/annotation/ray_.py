@@ -1,8 +1,9 @@
-"""Workers on a Ray cluster (the extra `ray`): a task an object, with resources; the ledger stays with the process that drives.
+"""Workers on a Ray cluster (the extra `ray`): one task per object; the ledger stays with the driver process.
 
-INPUT and OUT must be on a file system that all nodes share; what a task returns is small. A task runs its object in a child
-process, as on one machine, so that a crash or a limit costs the object and not the node. Ray starts a task anew on another node
-when its node is lost; when it gives up, the object is pending again, and the loss is counted.
+INPUT and OUT must be on a file system shared by all nodes; the results of tasks are small. A task runs its object in a child
+process, as on one machine, so that a crash or a limit affects the object and not the node.
+Ray restarts a task on another node if its node is lost. If it gives up, the object becomes pending again, and the loss is
+counted.
 """
 
 from __future__ import annotations
@@ -23,9 +24,9 @@ from anymesh.annotation.workers import TARGET, ObjectLimits, as_outcome, child_f
 from anymesh.errors import MissingExtraError, OptionError
 from anymesh.isolation import ChildError, ChildLimits, ChildPool
 
-RETRIES = 3  # times that Ray starts a task anew whose node is lost
-REACH = 5.0  # [s] for a connection to the cluster
-AHEAD = 2  # tasks a core that are handed to the cluster, so that no core waits for the driver
+RETRIES = 3  # maximum number of restarts of a task whose node is lost
+REACH = 5.0  # [s] time-out of the connection to the cluster
+AHEAD = 2  # tasks per core submitted to the cluster, so that no core waits for the driver
 
 
 def _ray() -> Any:
@@ -37,7 +38,7 @@ def _ray() -> Any:
 
 
 class RayWorkers:
-    """Tasks of the cluster at an address. most: tasks at a time, two a core of the cluster by default."""
+    """Tasks on the cluster at an address. most: number of parallel tasks, two per core of the cluster by default."""
 
     def __init__(self, address: str, limits: ObjectLimits, most: int | None = None, target: tuple[str, str] = TARGET) -> None:
         self._ray = ray = _ray()
@@ -59,20 +60,20 @@ class RayWorkers:
 
     @property
     def free(self) -> int:
-        """How many more jobs can be taken; follows the nodes that come and go."""
+        """Number of further jobs that can be accepted; it follows changes of the nodes."""
         if self._closed:
             return 0
         most = self._most or AHEAD * max(int(self._ray.cluster_resources().get("CPU", 1)), 1)
         return max(most - len(self._running), 0)
 
     def submit(self, claim: Claim, job: Job) -> None:
-        """Hand a job to the cluster."""
+        """Submit a job to the cluster."""
         meter = self._meter(job) if job.metered else None
         reference = self._task.remote(self._target, job.as_dict(), self._limits, meter)
         self._running[reference] = claim
 
     def _meter(self, job: Job) -> Any:
-        """The actor that keeps the account, on the driver's machine, where the ledger is."""
+        """Return the actor with the account, on the driver's machine, where the ledger is."""
         if job.collection not in self._meters:
             here = importlib.import_module("ray.util.scheduling_strategies").NodeAffinitySchedulingStrategy(
                 self._ray.get_runtime_context().get_node_id(), soft=False
@@ -82,7 +83,7 @@ class RayWorkers:
         return self._meters[job.collection]
 
     def collect(self, timeout: float) -> Iterator[tuple[Claim, AttemptOutcome]]:
-        """Yield what is finished; wait for so long [s] when nothing is."""
+        """Yield finished jobs; wait up to `timeout` [s] if there are none."""
         if not self._running:
             return
         done, _ = self._ray.wait(list(self._running), num_returns=len(self._running), timeout=timeout)
@@ -93,13 +94,13 @@ class RayWorkers:
     def _outcome(self, reference: Any) -> AttemptOutcome:
         try:
             return as_outcome(self._ray.get(reference))
-        except self._ray.exceptions.RayTaskError as error:  # of the task itself: nothing that the object did
+        except self._ray.exceptions.RayTaskError as error:  # error of the task itself, not of the object
             return AttemptOutcome(Result.FAILED, "RayTaskError", " ".join(str(error.cause).split())[:300])
         except self._ray.exceptions.RayError as error:
             return AttemptOutcome(Result.LOST, type(error).__name__, "the node that worked on it was lost")
 
     def close(self) -> None:
-        """End all tasks at once."""
+        """End all tasks immediately."""
         for reference in self._running:
             self._ray.cancel(reference, force=True)
         for meter in self._meters.values():
@@ -110,10 +111,10 @@ class RayWorkers:
 
 
 def _check_address(address: str) -> None:
-    """Check that a cluster answers at an address, since Ray itself tries for minutes. Raises OptionError."""
+    """Check that a cluster is reachable at an address, since Ray itself retries for minutes. Raise OptionError if not."""
     host, _, port = address.removeprefix("ray://").rpartition(":")
     if not (host and port.isdecimal()):
-        return  # `auto`, or what Ray itself judges
+        return  # `auto`, or an address that Ray validates itself
     try:
         socket.create_connection((host, int(port)), REACH).close()
     except (OSError, OverflowError) as error:
@@ -122,13 +123,13 @@ def _check_address(address: str) -> None:
 
 
 def _environment() -> dict[str, Any]:
-    """What tasks need of this process's environment: where this package is found."""
+    """Return the environment variables that tasks need to import this package."""
     paths = [str(Path(__file__).parents[2]), os.environ.get("PYTHONPATH", "")]
     return {"env_vars": {"PYTHONPATH": os.pathsep.join(filter(None, paths))}}
 
 
 def _task(target: tuple[str, str], job: dict[str, Any], limits: ObjectLimits, meter: Any) -> dict[str, Any]:
-    """One object, in a child process of the task's; what that asks of the account goes through a socket."""
+    """Run one object in a child process of the task; its requests to the account pass through a socket."""
     how = ChildLimits(seconds=limits.seconds, memory=limits.memory, wall=limits.wall)
     with ExitStack() as stack:
         pool = stack.enter_context(ChildPool(1, how))

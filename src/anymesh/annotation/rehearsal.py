@@ -1,4 +1,4 @@
-"""One object of a dry run: as `work`, but geometry answers in the place of a model, through the same pictures and words."""
+"""Dry run of one object: as `work`, but geometry answers in place of a model, with the same pictures and prompts."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from anymesh.solving import GEOMETRY, Solver
 
 
 def rehearse_object(job: dict[str, Any]) -> dict[str, Any]:
-    """Annotate an object without asking anybody; return an Outcome as a dictionary, its record with what would be asked."""
+    """Annotate an object without a model; return an AttemptOutcome as a dictionary, with the estimated usage in its record."""
     what = Job(**job)
     answerer = str(what.options.get("answerer", GEOMETRY.name))
     free = {k: v for k, v in what.options.items() if k not in ("parts_list", "max_calls", "max_cost", "cache")}
@@ -38,9 +38,9 @@ def rehearse_object(job: dict[str, Any]) -> dict[str, Any]:
 
 
 def asked_of_a_model(job: Job, like: str) -> Mapping[str, Any]:
-    """Calls, tokens and cost [USD] of both stages, as a model of that name would be asked and billed; nothing is sent.
+    """Return calls, tokens and cost [USD] of both stages for a model of that name; nothing is sent.
 
-    Answers are as short as the schema allows: a model's reasons and its thinking come on top.
+    Answers are as short as the schema allows; a model's reasons and reasoning tokens are not included.
     """
     options: Answering = {k: v for k, v in job.options.items() if k in Answering.__annotations__}  # ty: ignore[invalid-assignment]
     config = choose_answerer({**options, "answerer": GEOMETRY.name, "parts_list": (), "max_cost": None}).config

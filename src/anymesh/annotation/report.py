@@ -1,4 +1,4 @@
-"""The report of a collection: counts, failures by cause, and the least confident objects with their pictures, in one file."""
+"""Report of a collection in one file: counts, failures by cause, and the least confident objects with pictures."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ from anymesh.viewer.report_display import jpeg
 from anymesh.viewer.report_words import said, sure
 
 REPORT = "report.html"
-GALLERY, EXAMPLES, LISTED = 24, 3, 200  # pictures, names a cause, rows of the list of failures
-WIDTH, QUALITY = 560, 80  # [px] of a picture, its JPEG quality
+GALLERY, EXAMPLES, LISTED = 24, 3, 200  # number of pictures, of names per cause, and of rows in the list of failures
+WIDTH, QUALITY = 560, 80  # [px] width of a picture, and its JPEG quality
 BINS = 10  # of the confidence
 STYLE = """
 body{font:14px/1.45 system-ui,sans-serif;color:#222;background:#fff;max-width:1240px;margin:0 auto;padding:0 16px 40px}
@@ -36,7 +36,7 @@ meter{width:160px}
 
 
 def write_report(ledger: Ledger) -> Path:
-    """Write OUT/report.html, whole or not at all; return its path. Raises OutputError."""
+    """Write OUT/report.html atomically; return its path. Raise OutputError if it cannot be written."""
     path = ledger.out / REPORT
     try:
         write_whole(path, report_page(ledger).encode())
@@ -47,7 +47,7 @@ def write_report(ledger: Ledger) -> Path:
 
 
 def report_page(ledger: Ledger) -> str:
-    """The page. Names and messages come from files and are escaped; nothing is loaded from outside."""
+    """Return the page. Names and messages come from files and are escaped; nothing is loaded from outside."""
     title = said(ledger.out.name)
     body = [f"<h1>{title}</h1>", _counts(ledger), _figures(ledger), _causes(ledger), _confidence(ledger), _gallery(ledger)]
     body.append(_failures(ledger))
@@ -140,7 +140,7 @@ def _failures(ledger: Ledger) -> str:
 
 
 def _table(title: str, head: Sequence[str], rows: Sequence[Sequence[Any]], numbers: Sequence[int] = ()) -> str:
-    """A table of cells that are HTML already; nothing for no rows."""
+    """Return a table of cells that are already HTML; empty without rows."""
     if not rows:
         return ""
 

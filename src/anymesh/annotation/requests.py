@@ -1,4 +1,4 @@
-"""One object of a collection that is to be annotated: what it is called, where its mesh is, and its own options."""
+"""An object of a collection to annotate: its name, the location of its mesh, and its own options."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from typing import Any
 
 from anymesh.errors import InputError
 
-OBJAVERSE = "objaverse:"  # how the source of an object begins that is fetched by its id
-READABLE = 60  # characters of a name that stay readable in its folder's name
-DIGEST = 12  # hex digits that tell folders apart; with 48 bits, two of a million names agree with probability .002
-# Options of single objects, and what makes them of the text in a table.
+OBJAVERSE = "objaverse:"  # prefix of the source of an object that is fetched by id
+READABLE = 60  # characters of a name that are kept in its folder's name
+DIGEST = 12  # hex digits that distinguish folders; with 48 bits, two of a million names collide with probability .002
+# Options of single objects, and the types of their values in a table.
 OPTIONS: dict[str, type] = {
     "parts": str, "up": str, "scale": str, "root": str, "base": str, "formats": str, "drives": str, "category": str,
     "parts_list": str, "at_least": int, "seed": int, "time_limit": float,
@@ -26,7 +26,7 @@ OPTIONS: dict[str, type] = {
 class ObjectRequest:
     """An object. name: unique in its collection; source: path of the mesh, or `objaverse:UID`; options: its own, of OPTIONS.
 
-    refusal: why it cannot be attempted, "" where it can; size [bytes] and modified [ns] tell whether the file has changed.
+    refusal: why it cannot be attempted, "" if it can; size: [bytes] and modified: [ns], to detect changes of the file.
     """
 
     name: str
@@ -38,24 +38,24 @@ class ObjectRequest:
 
     @property
     def folder(self) -> str:
-        """The object's folder in the output, relative: readable, legal on every system, and told apart by a digest."""
+        """Relative folder of the object in the output: readable, legal on every system, and unique by a digest."""
         return object_folder(self.name)
 
     @property
     def options_text(self) -> str:
-        """The options as JSON, the same for equal options."""
+        """The options as JSON, identical for equal options."""
         return json.dumps(dict(self.options), sort_keys=True)
 
 
 def object_folder(name: str) -> str:
-    """Relative folder of an object's output, in one of 256 folders, so that none has a million entries."""
+    """Return the relative folder of an object's output, in one of 256 folders to limit their sizes."""
     digest = hashlib.sha256(name.encode("utf-8", "surrogateescape")).hexdigest()[:DIGEST]
     readable = re.sub(r"[^A-Za-z0-9_-]+", "_", PurePosixPath(name).stem).strip("_-")[:READABLE] or "object"
     return f"objects/{digest[:2]}/{readable}-{digest}"
 
 
 def parse_option(name: str, text: str, where: str) -> Any:
-    """The value of an option in a table's cell. Raises InputError."""
+    """Parse the value of an option in a table's cell. Raise InputError if it is not valid."""
     try:
         return OPTIONS[name](text)
     except ValueError:

@@ -1,4 +1,4 @@
-"""What the ledger keeps of an asset, read from its folder."""
+"""Columns of the ledger, read from an asset's folder."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from anymesh.storage.stage_files import read_json
 
 
 def asset_columns(folder: Path) -> dict[str, Any] | None:
-    """Columns of the ledger for a finished asset; None when there is none, or not a whole one."""
+    """Return the columns of the ledger for a finished asset; None if there is none, or if it is incomplete."""
     asset = read_json(folder / "asset.json")
     if asset is None:
         return None

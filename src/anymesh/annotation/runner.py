@@ -1,4 +1,4 @@
-"""The loop of a run: claim objects, hand them to workers, enter what became of them."""
+"""Loop of a run: claim objects, submit them to workers, record their outcomes."""
 
 from __future__ import annotations
 
@@ -19,16 +19,19 @@ from anymesh.annotation.workers import Workers
 from anymesh.errors import ModelError, OutputError
 
 log = logging.getLogger("anymesh")
-TICK, BEAT = 2.0, 15.0  # [s] between metrics, and between beats with a look for runs that are gone
+TICK, BEAT = 2.0, 15.0  # [s] between metrics, and between beats with a check for dead runs
 POLL = 0.25  # [s]
-SAME = 5  # errors of a model in a row, of one kind and without a success, that end the run
-FREE = 256 << 20  # [bytes] of disk below which nothing is begun
+SAME = 5  # consecutive model errors of one kind, without a success, that end the run
+FREE = 256 << 20  # [bytes] of free disk space below which no object is started
 
 
 @dataclass(frozen=True)
 class Plan:
-    """How objects are worked on. options: of `articulate`, for all; attempts: before quarantine; rate: requests and tokens
-    of a model a minute; metered: whether a model is asked."""
+    """Settings of a run.
+
+    options: of `articulate`, for all objects; attempts: before quarantine; rate: requests and tokens of a model per minute;
+    metered: whether a model is used.
+    """
 
     options: Mapping[str, Any]
     attempts: int = 3
@@ -38,7 +41,7 @@ class Plan:
 
 @dataclass
 class Runner:
-    """One run over the pending objects of a ledger. ended: what ended it before all were done."""
+    """One run over the pending objects of a ledger. ended: what ended it early, None if all was done."""
 
     ledger: Ledger
     run: str
@@ -56,7 +59,7 @@ class Runner:
     _last_beat: float = 0.0
 
     def loop(self) -> None:
-        """Work until nothing is pending, or something ends the run. Raises OutputError when the ledger cannot be written."""
+        """Work until nothing is pending, or something ends the run. Raise OutputError if the ledger cannot be written."""
         while True:
             self._beat()
             claimed = self._begin_some()
@@ -107,7 +110,7 @@ class Runner:
         self._note_same(outcome)
 
     def _note_same(self, outcome: AttemptOutcome) -> None:
-        """End the run when a model refuses object after object: a wrong key, weights that are not the pinned ones."""
+        """End the run if a model fails for object after object, as with a wrong key or wrong weights."""
         if outcome.result is Result.DONE:
             self._same = []
         elif outcome.exit_code == ModelError.exit_code and outcome.result is Result.FAILED:

@@ -1,4 +1,4 @@
-"""A damaged ledger is put aside, and what can be read of it is entered into a new one; the objects' folders tell the rest."""
+"""Recovery of a damaged ledger: it is moved away, and its readable content is copied to a new one."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from anymesh.annotation.ledger_schema import OBJECTS
 from anymesh.errors import OutputError
 
 log = logging.getLogger("anymesh")
-STEP = 500  # rows that are read at a time, and skipped where they cannot be
+STEP = 500  # rows read at a time
 
 
 def open_ledger(out: Path) -> Ledger:
-    """Open the ledger of an output, or a new one in the place of a damaged one. Raises OutputError.
+    """Open the ledger of an output, or a new one in place of a damaged one. Raise OutputError if this fails.
 
-    Objects that cannot be read are entered anew with the collection; an asset that is in its folder is not made again.
+    Unreadable objects are registered again with the collection; an asset that exists in its folder is not made again.
     """
     try:
         return Ledger.open(out, create=True, check=True)
@@ -36,7 +36,7 @@ def _put_aside(out: Path) -> Path:
     number = 1 + sum(1 for _ in out.glob("ledger.damaged-*.sqlite"))
     aside = out / f"ledger.damaged-{number}.sqlite"
     try:
-        for ending in ("-wal", "-shm", ""):  # the log belongs to the file: it may hold what the file lacks
+        for ending in ("-wal", "-shm", ""):  # the write-ahead log may hold content that the file lacks
             with suppress(FileNotFoundError):
                 (out / f"{NAME}{ending}").rename(f"{aside}{ending}")
     except OSError as error:
@@ -76,7 +76,7 @@ def _last_row(damaged: sqlite3.Connection) -> int:
 
 
 def _readable(damaged: sqlite3.Connection, names: list[str], first: int, last: int) -> list[tuple[Any, ...]]:
-    """The rows from first to last that can be read: halves of what cannot, down to single rows."""
+    """Return the readable rows from first to last, bisecting unreadable ranges down to single rows."""
     query = f"SELECT {', '.join(names)} FROM objects NOT INDEXED WHERE seq BETWEEN ? AND ?"
     try:
         rows = damaged.execute(query, (first, last)).fetchall()

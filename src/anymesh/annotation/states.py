@@ -1,4 +1,4 @@
-"""The states of an object, what may become of an attempt, and the claim under which one is made."""
+"""States of an object, results of an attempt, and claims."""
 
 from __future__ import annotations
 
@@ -9,35 +9,35 @@ from typing import Any
 
 
 class State(StrEnum):
-    """Of an object in the ledger."""
+    """State of an object in the ledger."""
 
     PENDING = "pending"
     RUNNING = "running"
     DONE = "done"
-    WAITING = "waiting"  # for an answer that somebody else writes
+    WAITING = "waiting"  # for an answer written by someone else
     QUARANTINED = "quarantined"
 
 
 class Result(StrEnum):
-    """What became of an attempt."""
+    """Result of an attempt."""
 
     DONE = "done"
-    REFUSED = "refused"  # the mesh or its options cannot be used; another attempt would tell the same
-    FAILED = "failed"  # a crash, a limit or a defect; tried again, then quarantined
+    REFUSED = "refused"  # the mesh or its options are unusable; another attempt would fail as well
+    FAILED = "failed"  # a crash, a limit or a bug; tried again, then quarantined
     LOST = "lost"  # the machine or the run that worked on it is gone
     WAITING = "waiting"  # a question is open
-    OUTAGE = "outage"  # a model or a hub cannot be reached
-    STORAGE = "storage"  # the output cannot be written: full, read-only, gone
-    BUDGET = "budget"  # the next call would pass the budget
+    OUTAGE = "outage"  # a model or a hub is unreachable
+    STORAGE = "storage"  # the output cannot be written: full, read-only, missing
+    BUDGET = "budget"  # the next call could exceed the budget
     STOPPED = "stopped"  # an option or an extra is wrong for every object, or the run was interrupted
 
 
-ENDING = (Result.STORAGE, Result.BUDGET, Result.STOPPED)  # after which a run claims nothing more
+ENDING = (Result.STORAGE, Result.BUDGET, Result.STOPPED)  # results after which a run claims no more objects
 
 
 @dataclass(frozen=True)
 class Claim:
-    """The right to work on an object; token: under which its result is taken."""
+    """The right to work on an object; token: required for recording its result."""
 
     seq: int
     name: str
@@ -50,7 +50,7 @@ class Claim:
 
 @dataclass(frozen=True)
 class AttemptOutcome:
-    """What became of an attempt: error in one line, with its class; record: columns of the ledger for what was found."""
+    """Outcome of an attempt. error: one line, with its class; record: columns of the ledger."""
 
     result: Result
     error_class: str = ""
@@ -59,4 +59,4 @@ class AttemptOutcome:
     seconds: float = 0.0  # elapsed [s]
     memory: int = 0  # peak resident [bytes]
     record: Mapping[str, Any] = field(default_factory=dict)
-    exit_code: int = 0  # of the command line, for what ends a run
+    exit_code: int = 0  # of the command line, for results that end a run

@@ -16,10 +16,10 @@ PATH, UID, NAME = "path", "uid", "name"
 
 
 def read_table(path: Path) -> Iterator[ObjectRequest]:
-    """Yield the objects of a table, a row each.
+    """Yield the objects of a table, one per row.
 
-    Columns: `path` (relative to the table's folder) or `uid` (of Objaverse), `name` (the path or id when there is none), and
-    those of OPTIONS, where an empty cell is the default; others are ignored with a warning. Raises InputError.
+    Columns: `path` (relative to the table's folder) or `uid` (of Objaverse), `name` (default: the path or id), and those of
+    OPTIONS, where an empty cell is the default; others are ignored with a warning. Raise InputError for an invalid table.
     """
     rows = _csv_rows(path) if path.suffix.lower() == ".csv" else _parquet_rows(path)
     told = False
@@ -36,7 +36,7 @@ def _csv_rows(path: Path) -> Iterator[Mapping[str, str]]:
             for row in csv.DictReader(file, restkey=None):
                 yield {str(k).strip(): v or "" for k, v in row.items() if k is not None and not isinstance(v, list)}
     except (csv.Error, UnicodeDecodeError) as error:
-        raise InputError(f"{path.name} is no valid CSV table in UTF-8: {error}") from None
+        raise InputError(f"{path.name} is not a valid CSV table in UTF-8: {error}") from None
 
 
 def _parquet_rows(path: Path) -> Iterator[Mapping[str, str]]:

@@ -1,4 +1,4 @@
-"""Where a collection stands: counts, rate, time left, cost; for people, and for dashboards."""
+"""Progress of a collection: counts, rate, remaining time and cost, as text and as metrics."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ METRICS = "metrics.prom"
 
 @dataclass(frozen=True)
 class Tally:
-    """counts: objects a state; rate: finished in an hour; left: time left [s], None when not known; cost [USD]."""
+    """counts: objects by state; rate: finished per hour; left: remaining time [s], None if unknown; cost [USD]."""
 
     counts: dict[str, int]
     calls: int
@@ -28,11 +28,11 @@ class Tally:
 
     @property
     def total(self) -> int:
-        """All objects."""
+        """Number of all objects."""
         return sum(self.counts.values())
 
     def words(self) -> str:
-        """One line for people."""
+        """Format the progress in one line."""
         told = [f"{self.counts[s]} {s}" for s in State if self.counts[s] or s is State.DONE]
         rate = f", {self.rate:.0f} an hour" if self.rate else ""
         left = f", {duration(self.left)} left" if self.left is not None else ""
@@ -41,7 +41,7 @@ class Tally:
 
 
 def tally(ledger: Ledger, *, finished: int = 0, seconds: float = 0.0, workers: int = 0, note: str = "") -> Tally:
-    """Count; finished, seconds: objects that this run has finished in so long [s], for the rate."""
+    """Count objects by state; finished, seconds: objects finished by this run and its duration [s], for the rate."""
     counts = dict.fromkeys(map(str, State), 0) | dict(ledger.rows("SELECT state, count(*) FROM objects GROUP BY state"))
     calls, cost = spent(ledger)
     rate = finished / seconds * 3600 if finished and seconds > 0 else 0.0
@@ -50,7 +50,7 @@ def tally(ledger: Ledger, *, finished: int = 0, seconds: float = 0.0, workers: i
 
 
 def duration(seconds: float) -> str:
-    """A time in words: 50 s, 12 min, 3.4 h, 2.1 days."""
+    """Format a duration: 50 s, 12 min, 3.4 h, 2.1 days."""
     if seconds < 100:
         return f"{seconds:.0f} s"
     if seconds < 6000:
@@ -59,7 +59,7 @@ def duration(seconds: float) -> str:
 
 
 def write_metrics(out: Path, found: Tally, ledger_seconds: float) -> None:
-    """Write the metrics in Prometheus' text format, whole or not at all. Raises OutputError."""
+    """Write the metrics in Prometheus' text format, atomically. Raise OutputError if this fails."""
     metrics = {
         "anymesh_annotate_rate_per_hour": ("gauge", "Objects finished in an hour, in this run.", found.rate),
         "anymesh_annotate_seconds_left": ("gauge", "Time left; -1 when not known.", -1 if found.left is None else found.left),

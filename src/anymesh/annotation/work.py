@@ -1,4 +1,4 @@
-"""One object in a worker process: from its mesh to its folder, and what became of it as plain values."""
+"""Annotation of one object in a worker process, with its outcome as plain values."""
 
 from __future__ import annotations
 
@@ -28,16 +28,16 @@ from anymesh.models.retry import UnavailableError
 
 STORAGE = {getattr(errno, name, errno.ENOSPC) for name in "ENOSPC EROFS EDQUOT EIO ENODEV ESTALE EACCES EPERM".split()}
 FILES = "files:"
-LONGEST = 500  # characters of an error
+LONGEST = 500  # maximum number of characters of an error
 
 
 @dataclass(frozen=True)
 class Job:
     """An object for a worker. out: its folder; collection: the output with the ledger; options: of `articulate`.
 
-    rate: requests and tokens a minute; known: digest of the mesh that its asset was made from, None when there is none;
-    core: that the process keeps to, None for any; metered: whether a model's calls are counted in the ledger; bridge: socket
-    of who keeps the ledger, where that is another process.
+    rate: requests and tokens per minute; core: that the process is pinned to, None for any; metered: whether a model's calls
+    are counted in the ledger;
+    bridge: socket of the process with the ledger, None if it is opened directly.
     """
 
     name: str
@@ -53,12 +53,15 @@ class Job:
     bridge: str | None = None
 
     def as_dict(self) -> dict[str, Any]:
-        """Plain values, for another process."""
+        """Return plain values, for another process."""
         return asdict(self)
 
 
 def annotate_object(job: dict[str, Any]) -> dict[str, Any]:
-    """Annotate an object; return an Outcome as a dictionary. Raises only MemoryError, which the worker's limit stands for."""
+    """Annotate an object; return an AttemptOutcome as a dictionary.
+
+    Only MemoryError is raised, which the worker handles as a limit.
+    """
     what, begin = Job(**job), time.perf_counter()
     _prepare(what)
     try:
@@ -107,7 +110,7 @@ def _metered(job: Job) -> dict[str, Any]:
 
 
 def local_mesh(source: str) -> Path:
-    """The file of a mesh, fetched where it is not on this machine. Raises InputError, UnavailableError."""
+    """Return the file of a mesh, fetched if it is not on this machine. Raise InputError or UnavailableError."""
     if not source.startswith(OBJAVERSE):
         return Path(source)
     from anymesh.annotation.objaverse_ import fetch
@@ -123,7 +126,7 @@ def _digest(mesh: Path) -> str:
 
 
 def failure(error: Exception) -> AttemptOutcome:
-    """What an error makes of an attempt, in one line without keys."""
+    """Convert an error to the outcome of an attempt, in one line without keys."""
     from anymesh.defects import redacted
 
     name, code = type(error).__name__, getattr(error, "exit_code", 0)
@@ -163,16 +166,16 @@ def _line(error: BaseException) -> str:
 
 
 def _prepare(job: Job) -> None:
-    """Keep to one core, and measure the memory of this object alone, where the system can."""
+    """Pin the process to one core, and reset the memory peak, where the system supports it."""
     if job.core is not None and hasattr(os, "sched_setaffinity"):
         with suppress(OSError):
             os.sched_setaffinity(0, {job.core})
     with suppress(OSError):
-        Path("/proc/self/clear_refs").write_text("5")  # the peak begins anew
+        Path("/proc/self/clear_refs").write_text("5")  # resets the peak
 
 
 def _peak_memory() -> int:
-    """Peak resident memory [bytes]; 0 where the system does not tell."""
+    """Return the peak resident memory [bytes]; 0 if unknown."""
     with suppress(OSError, StopIteration, ValueError):
         lines = Path("/proc/self/status").read_text().splitlines()
         return int(next(line for line in lines if line.startswith("VmHWM")).split()[1]) * 1024

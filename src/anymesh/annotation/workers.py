@@ -1,4 +1,4 @@
-"""Worker processes on this machine: one object a core, each with limits on memory and time."""
+"""Worker processes on this machine: one object per core, each with limits on memory and time."""
 
 from __future__ import annotations
 
@@ -17,16 +17,18 @@ from anymesh.errors import OptionError
 from anymesh.isolation import ChildError, ChildLimits, ChildPool, Failure
 
 TARGET = ("anymesh.annotation.work", "annotate_object")
-RENEWED = 100  # objects after which a worker process is replaced, so that nothing it leaks adds up
+RENEWED = 100  # number of objects after which a worker process is replaced, to limit leaks
 GIB = 1 << 30
-MIN_GIB = 1.5  # of address space, that the libraries alone take
-WAITING = 10.0  # times the processor time that an object may take while it waits for a model
+MIN_GIB = 1.5  # of address space, needed by the libraries alone
+WAITING = 10.0  # maximum elapsed time over processor time for an object that waits for a model
 
 
 @dataclass(frozen=True)
 class ObjectLimits:
-    """Of one object. memory: address space of its process [bytes]; seconds, wall: processor time and elapsed time [s] after
-    which it is ended."""
+    """Limits of one object.
+
+    memory: address space of its process [bytes]; seconds, wall: processor time and elapsed time [s] after which it is ended.
+    """
 
     memory: int
     seconds: float
@@ -34,8 +36,11 @@ class ObjectLimits:
 
     @classmethod
     def default(cls, workers: int, memory: float | None, seconds: float, *, waits: bool = False) -> ObjectLimits:
-        """memory [GiB]; None: an equal share of nine tenths of what the machine has, 2 to 16 GiB. waits: for a model, which
-        takes elapsed time but no processor time."""
+        """Return the limits for a number of workers.
+
+        memory: [GiB], None for an equal share of nine tenths of the machine's memory, 2 to 16 GiB; waits: whether it waits for
+        a model, which takes elapsed time but no processor time.
+        """
         if memory is not None and not memory >= MIN_GIB:
             raise OptionError(f"--memory: found {memory:g}; valid are numbers from {MIN_GIB:g} GiB up")
         if not seconds > 0:
@@ -47,21 +52,21 @@ class ObjectLimits:
 
 @runtime_checkable
 class Workers(Protocol):
-    """Who works on jobs: processes here, or tasks of a cluster."""
+    """Protocol of workers: processes on this machine, or tasks of a cluster."""
 
     @property
     def free(self) -> int:
-        """How many more jobs can be taken."""
+        """Number of further jobs that can be accepted."""
         ...
 
     def submit(self, claim: Claim, job: Job) -> None: ...
 
     def collect(self, timeout: float) -> Iterator[tuple[Claim, AttemptOutcome]]:
-        """Yield what is finished; wait for so long [s] when nothing is."""
+        """Yield finished jobs; wait up to `timeout` [s] if there are none."""
         ...
 
     def close(self) -> None:
-        """End all work at once."""
+        """End all work immediately."""
         ...
 
 
@@ -80,11 +85,11 @@ class LocalWorkers:
 
     @property
     def free(self) -> int:
-        """How many more jobs can be taken."""
+        """Number of further jobs that can be accepted."""
         return self._count - len(self._running)
 
     def submit(self, claim: Claim, job: Job) -> None:
-        """Begin a job."""
+        """Start a job."""
         core = self._cores.popleft()
         future = self._threads.submit(self._run, replace(job, core=core))
         self._running[future], self._on_core[future] = claim, core
@@ -96,32 +101,32 @@ class LocalWorkers:
             return child_failure(error)
 
     def collect(self, timeout: float) -> Iterator[tuple[Claim, AttemptOutcome]]:
-        """Yield what is finished; wait for so long [s] when nothing is."""
+        """Yield finished jobs; wait up to `timeout` [s] if there are none."""
         done, _ = wait(self._running, timeout, FIRST_COMPLETED)
         for future in done:
             self._cores.append(self._on_core.pop(future))
             yield self._running.pop(future), future.result()
 
     def close(self) -> None:
-        """End all processes at once."""
+        """End all processes immediately."""
         self._pool.close()
         self._threads.shutdown(wait=True, cancel_futures=True)
 
 
 def child_failure(error: ChildError) -> AttemptOutcome:
-    """What a process that gave no result makes of an attempt."""
+    """Convert the failure of a process without a result to an outcome."""
     names = {Failure.CRASH: "CrashError", Failure.TIME: "TimeLimitError", Failure.MEMORY: "MemoryLimitError"}
     return AttemptOutcome(Result.FAILED, names.get(error.failure, "ChildError"), str(error)[:500])
 
 
 def as_outcome(values: Mapping[str, Any]) -> AttemptOutcome:
-    """The outcome that a worker returned as a dictionary."""
+    """Restore the outcome that a worker returned as a dictionary."""
     rest: dict[str, Any] = {k: v for k, v in values.items() if k != "result"}
     return AttemptOutcome(Result(values["result"]), **rest)
 
 
 def machine_memory() -> int:
-    """Memory of this machine, or of its container [bytes]; 8 GiB where the system does not tell."""
+    """Return the memory of this machine, or of its container [bytes]; 8 GiB if unknown."""
     found = [8 * GIB]
     with suppress(AttributeError, ValueError, OSError):
         found = [os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")]
@@ -131,5 +136,5 @@ def machine_memory() -> int:
 
 
 def machine_cores() -> int:
-    """Cores that this process may use."""
+    """Return the number of cores that this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1

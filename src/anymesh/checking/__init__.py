@@ -1,4 +1,4 @@
-"""Does an asset hold what a simulator needs? `check_asset` tells, of ours and of anyone's."""
+"""Checks of an asset for use in simulators. `check_asset` accepts assets of this project and of others."""
 
 from anymesh.checking.check import check_asset
 from anymesh.checking.report import CheckReport, Finding, Severity

@@ -1,4 +1,4 @@
-"""All checks on one asset."""
+"""All checks of one asset."""
 
 from __future__ import annotations
 
@@ -29,11 +29,12 @@ from anymesh.simulation.urdf import read_urdf
 
 
 def check_asset(path: str | Path, *, engines: Sequence[str] = ("mujoco",)) -> CheckReport:
-    """Everything a simulator needs of an asset, looked at: our output folder, any URDF or MJCF, or a folder with one.
+    """Check an asset for everything that a simulator needs: an output folder, any URDF or MJCF, or a folder with one.
 
-    engines: names of `simulation.engines.ENGINES` in which every joint is driven; none for what can be told without. What is
-    wrong with the asset is a finding; InputError is raised where there is nothing to check, OptionError for an engine that
-    does not exist, MissingExtraError for an MJCF without MuJoCo.
+    engines: names of `simulation.engines.ENGINES` in which every joint is driven; empty for static checks only. Problems of the
+    asset are findings.
+    Raise InputError if there is nothing to check, OptionError for an unknown engine, MissingExtraError for an MJCF without
+    MuJoCo.
     """
     chosen = tuple(dict.fromkeys(check_engine(name) for name in engines))
     file = find_description(Path(path))
@@ -57,7 +58,7 @@ def check_asset(path: str | Path, *, engines: Sequence[str] = ("mujoco",)) -> Ch
 
 
 def _still(content: Content) -> Iterator[Finding]:
-    """What can be told without driving a joint; a check that found nothing says what it looked at."""
+    """Yield the findings of checks without simulation; a check without problems reports what it checked."""
     robot = content.robot
     beside = robot.path.parent / NAME
     ours = beside.is_file()
@@ -89,7 +90,7 @@ def _masses(robot: Robot) -> str:
 
 
 def _contacts(robot: Robot) -> dict[tuple[str, str], float] | None:
-    """None without MuJoCo, or when it refuses the file, which the check of motion tells."""
+    """Return the contact depths at rest; None without MuJoCo, or if it rejects the file, which the motion check reports."""
     try:
         return rest_contacts(robot.path)
     except (InputError, MissingExtraError):

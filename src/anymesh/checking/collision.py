@@ -1,4 +1,4 @@
-"""Check "collision": what moves can be touched, cavities are open, and nothing is pushed apart at the start."""
+"""Check "collision": moving links have collision shapes, cavities are open, and nothing overlaps at rest."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ from anymesh.geometry.distance_ import distance_to_triangles, winding_number
 from anymesh.geometry.simplify_ import simplify
 
 CHECK = "collision"
-DEEP = 0.01  # of the object's diagonal; engines push apart what is deeper in each other at rest
-GRID = 16  # places a side of the box that cavities are looked for at
-HOLLOW = 0.1  # of the hull of what is seen; less empty space than this is no cavity
-FILLED = 0.5  # of the empty space; a collision that takes more closes the cavity
-FACES = 10_000  # of the visible surface, for this question
+DEEP = 0.01  # share of the object's diagonal; engines push apart links that overlap by more at rest
+GRID = 16  # points per side of the grid on which cavities are searched
+HOLLOW = 0.1  # minimum share of empty space in the convex hull of the visuals for a cavity
+FILLED = 0.5  # share of the empty space; collision shapes that fill more close the cavity
+FACES = 10_000  # maximum number of faces of the visible surface, for this check
 
 
 def check_collision(content: Content, contacts: Mapping[tuple[str, str], float] | None) -> Iterator[Finding]:
-    """contacts: depth of each pair of links in contact at rest [m], None when no engine could tell."""
+    """Check collision shapes. contacts: depth of each pair of links in contact at rest [m], None if unknown."""
     robot = content.robot
     groups = rigid_groups(robot)
     for joint in robot.moving:
@@ -75,7 +75,7 @@ def _cavity(content: Content, link: str) -> Iterator[Finding]:
 
 
 def _in_hull(points: Float[np.ndarray, "n 3"], asked: Float[np.ndarray, "m 3"]) -> Bool[np.ndarray, " m"]:
-    """Which of the points asked for lie in the convex hull; none where the hull is flat."""
+    """Return which query points lie in the convex hull; none if the hull is flat."""
     try:
         planes = ConvexHull(points).equations
     except QhullError:

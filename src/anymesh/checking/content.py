@@ -1,4 +1,4 @@
-"""The meshes that a robot description refers to, read; what could not be read is kept as words."""
+"""Meshes that a robot description refers to, and errors of those that could not be read."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class Solid:
 
 @dataclass(frozen=True, eq=False)
 class Content:
-    """A robot with the shapes of its links. missing, unread: (link, file, why) of files that are not there or not usable."""
+    """A robot with the shapes of its links. missing, unread: (link, file or error) of files that are missing or unusable."""
 
     robot: Robot
     visuals: Mapping[str, tuple[Solid, ...]]
@@ -46,16 +46,16 @@ class Content:
 
     @cached_property
     def places(self) -> dict[str, Float[np.ndarray, "4 4"]]:
-        """Links at rest, in the root's frame."""
+        """Poses of the links at rest, in the root's frame."""
         return self.robot.placements({})
 
     def shown(self, link: str) -> Float[np.ndarray, "F 3 3"]:
-        """The visible surface of a link in its frame, else its collision shapes; empty when it has none [m]."""
+        """Return the visible surface of a link in its frame, else its collision shapes; empty if it has none [m]."""
         solids = self.visuals[link] or self.collisions[link]
         return np.concatenate([np.zeros((0, 3, 3)), *(s.triangles for s in solids)])
 
     def at_rest(self, links: frozenset[str]) -> Float[np.ndarray, "F 3 3"]:
-        """The surface of several links in the root's frame [m]."""
+        """Return the surface of several links in the root's frame [m]."""
         found = [np.zeros((0, 3, 3))]
         for link in sorted(links):
             T = self.places[link]
@@ -64,13 +64,13 @@ class Content:
 
     @cached_property
     def diagonal(self) -> float:
-        """Of the whole object's box at rest [m]; 0 when it has no shape."""
+        """Diagonal of the whole object's box at rest [m]; 0 if it has no shape."""
         points = self.at_rest(frozenset(link.name for link in self.robot.links)).reshape(-1, 3)
         return float(np.linalg.norm(np.ptp(points, axis=0))) if len(points) else 0.0
 
 
 def read_content(robot: Robot) -> Content:
-    """Reads every mesh once. References may lead anywhere below the description's folder, or above it for package://."""
+    """Read every mesh once. References may lead anywhere below the description's folder, or above it for package://."""
     missing: list[tuple[str, str]] = []
     unread: list[tuple[str, str]] = []
     known: dict[str, tuple[Mesh, tuple[str, ...]] | None] = {}
@@ -112,6 +112,6 @@ def _read(path: Path, folder: Path) -> tuple[Mesh, tuple[str, ...]]:
         mesh = READERS[path.suffix.lower()](data, files)
     except InputError:
         raise
-    except Exception as error:  # whatever a broken file makes a reader raise is one thing to the user
+    except Exception as error:  # readers raise many types of errors for a broken file
         raise InputError(f"{path.name} is broken or truncated ({type(error).__name__}: {error})") from None
     return mesh, tuple(files.warnings)

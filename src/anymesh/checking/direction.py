@@ -1,4 +1,4 @@
-"""Check "direction": a joint does not drive its link into what carries it, as one with its axis reversed does."""
+"""Check "direction": a joint does not drive its link into its parent, as one with a reversed axis does."""
 
 from __future__ import annotations
 
@@ -18,16 +18,16 @@ from anymesh.types import Motion, MotionKind
 from anymesh.types.triangles import normals_and_areas
 
 CHECK = "direction"
-TOLERANCE = 0.01  # of the object's diagonal; how far a surface may go behind another
-STOPPED = 0.5  # of the way to a limit; a link that is stopped before goes into its parent
-FREER = 2.0  # times as far the other way: the axis is the wrong way round
+TOLERANCE = 0.01  # share of the object's diagonal: allowed penetration
+STOPPED = 0.5  # share of the distance to a limit; a link that stops earlier penetrates its parent
+FREER = 2.0  # ratio of the free distances from which the axis counts as reversed
 STEPS = 24
 FACES = 20_000
-MIN_MOTION_RATIO = 0.02  # of the object's diagonal or of a turn; a shorter way cannot be told
+MIN_MOTION_RATIO = 0.02  # share of the object's diagonal or of a turn; shorter motions are not checked
 
 
 def check_direction(content: Content) -> Iterator[Finding]:
-    """Each way that the limits allow is free of the parent, by the visible surfaces at rest."""
+    """Check that each direction within the limits is free of the parent, by the visible surfaces at rest."""
     groups = rigid_groups(content.robot)
     for joint in content.robot.moving:
         length = float(np.linalg.norm(joint.axis))
@@ -39,7 +39,7 @@ def check_direction(content: Content) -> Iterator[Finding]:
 
 
 def _shape(triangles: np.ndarray) -> TriangleSet:
-    """With outward normals where it is closed."""
+    """Convert triangles to a set for sweeps, with outward normals where closed."""
     triangles = simplify(triangles, FACES)
     corners = triangles.reshape(-1, 3)
     found = components(corners, np.arange(len(corners)).reshape(-1, 3))

@@ -1,4 +1,4 @@
-"""Which file of an asset is checked."""
+"""Selection of the file of an asset to check."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ OPENING = re.compile(rb"<(robot|mujoco)[\s>/]")
 
 
 def find_description(path: Path) -> Path:
-    """The URDF or MJCF that `path` is, or that lies in the folder `path`: the one asset.json names, else the only one.
+    """Find the URDF or MJCF at `path`, or in the folder `path`: the one named by asset.json, else the only one.
 
-    A URDF goes before an MJCF beside it. InputError when there is none, or several and no asset.json to choose.
+    A URDF takes precedence over an MJCF. Raise InputError if there is none, or several without an asset.json.
     """
     path = Path(path)
     if path.is_file():
@@ -38,7 +38,7 @@ def find_description(path: Path) -> Path:
 
 
 def kind_of(path: Path) -> str | None:
-    """URDF or MJCF by what a file holds, whatever its name ends in; a file with .urdf is a URDF, broken or not."""
+    """Return URDF or MJCF by the content of a file, or None; a file with the suffix .urdf is a URDF, valid or not."""
     if path.suffix.lower() == URDF:
         return URDF
     try:

@@ -1,4 +1,4 @@
-"""Links that fixed joints make one body."""
+"""Groups of links that are connected by fixed joints."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from anymesh.simulation.robot import Robot
 
 
 def rigid_groups(robot: Robot) -> dict[str, frozenset[str]]:
-    """Each link -> the links that are one body with it, itself among them."""
+    """Map each link to the links that are rigidly connected to it, including itself."""
     group = {link.name: {link.name} for link in robot.links}
     for joint in robot.joints:
         if joint.type == "fixed":
@@ -17,7 +17,7 @@ def rigid_groups(robot: Robot) -> dict[str, frozenset[str]]:
 
 
 def joined(robot: Robot) -> frozenset[frozenset[str]]:
-    """Pairs of links of two bodies that a joint connects, or of one body."""
+    """Return the pairs of links that are in the same rigid group, or whose groups are connected by a joint."""
     group = rigid_groups(robot)
     found = {frozenset((a, b)) for names in group.values() for a in names for b in names}
     for joint in robot.joints:

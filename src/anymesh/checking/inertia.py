@@ -1,4 +1,4 @@
-"""Check "inertia": masses and tensors that a body of this shape can have."""
+"""Check "inertia": masses and inertia tensors that are possible for the shapes."""
 
 from __future__ import annotations
 
@@ -12,22 +12,22 @@ from anymesh.checking.report import Finding, failure, warning
 from anymesh.simulation.robot import Inertial, RobotLink
 
 CHECK = "inertia"
-REL_TOLERANCE = 1e-6  # relative, for numbers that were rounded
-LIKE = 0.05  # relative; boxes that differ by less are of one size
-GROWN = 0.1  # of its diagonal; the centre of mass may lie so far out of the link's box
-FAR = 0.5  # of its diagonal; so far out it swings about a place where nothing is
+REL_TOLERANCE = 1e-6  # relative, for rounded numbers
+LIKE = 0.05  # relative; boxes that differ by less have the same size
+GROWN = 0.1  # share of its diagonal; maximum distance of the centre of mass from the link's box
+FAR = 0.5  # share of its diagonal; a centre of mass further out is a failure
 LIGHTEST, HEAVIEST = 0.5, 22_600.0  # [kg/m3] of the link's box: a frame of thin sheet; osmium
-SMALL, LARGE = 0.15, 1.1  # root mean square distance from the centre of mass, over the farthest corner's distance
+SMALL, LARGE = 0.15, 1.1  # root mean square distance from the centre of mass, over the distance of the furthest corner
 
 
 def check_inertia(content: Content) -> Iterator[Finding]:
-    """Mass above 0, tensor positive definite and possible, centre of mass in the link, magnitudes of this shape."""
+    """Check that masses are positive, tensors are possible, centres of mass are in the link, and magnitudes fit the shape."""
     given = [(b, b.inertial) for b in content.robot.links if b.inertial is not None]
     moved = {link for j in content.robot.moving for link in content.robot.carried(j.child)}
     for link in content.robot.links:
         shaped = bool(link.visuals or link.collisions)
         if link.inertial is None and shaped and link.name in moved:
-            yield failure(CHECK, link.name, "it moves and has no inertia; engines refuse it or put their own in its place")
+            yield failure(CHECK, link.name, "it moves and has no inertia; engines reject it or use their own")
         elif link.inertial is None and shaped and content.robot.format == "URDF":  # in an MJCF it belongs to the world
             yield warning(CHECK, link.name, "it has no inertia; engines that let the base move need one")
     groups = rigid_groups(content.robot)
@@ -80,7 +80,7 @@ def _fitting(content: Content, link: RobotLink, inertial: Inertial) -> Iterator[
 
 
 def _placeholder(content: Content, given: list[tuple[RobotLink, Inertial]]) -> Iterator[Finding]:
-    """One tensor for boxes of several sizes, or balls for boxes that are no cubes, was not computed from the shapes."""
+    """Detect placeholder tensors: one tensor for boxes of several sizes, or tensors of balls for boxes that are not cubes."""
     known = [(i.tensor, np.ptp(content.shown(b.name).reshape(-1, 3), axis=0)) for b, i in given if len(content.shown(b.name))]
     if len(known) < 2:
         return

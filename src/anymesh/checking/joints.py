@@ -1,4 +1,4 @@
-"""Check "joints": what the file says of each joint makes sense."""
+"""Check "joints": types, axes, limits and strengths of joints are valid."""
 
 from __future__ import annotations
 
@@ -11,20 +11,23 @@ from anymesh.simulation.robot import MOVING, Robot, RobotJoint
 
 CHECK = "joints"
 TYPES = (*MOVING, "fixed", "floating", "planar")
-UNIT = 1e-3  # an axis is unit to this
-MAX_RANGE_RAD = 4 * np.pi  # [rad] a wider range of a hinge is degrees or a mistake
-TRAVEL = 3.0  # of the object's diagonal; a slide that goes further is in other units
+UNIT = 1e-3  # tolerance of the length of an axis
+MAX_RANGE_RAD = 4 * np.pi  # [rad] a wider range of a hinge is probably in degrees, or a mistake
+TRAVEL = 3.0  # share of the object's diagonal; a longer slide is probably in other units
 
 
 def check_joints(robot: Robot, diagonal: float) -> Iterator[Finding]:
-    """Types known, axes with a direction, limits in order and around rest, effort and velocity given. diagonal [m]."""
+    """Check that types are known, axes have a direction, limits are ordered and include 0, effort and velocity are given.
+
+    diagonal: of the object [m].
+    """
     for joint in robot.joints:
         if joint.type not in TYPES:
             yield failure(CHECK, joint.name, f"its type is {joint.type!r}; valid are {', '.join(TYPES)}")
         elif joint.moves:
             yield from _axis(joint)
             yield from _limits(joint, diagonal)
-            if robot.format == "URDF":  # an MJCF says this of motors, not of joints
+            if robot.format == "URDF":  # in an MJCF they belong to motors, not to joints
                 yield from _strength(joint)
         elif joint.type != "fixed":
             yield warning(CHECK, joint.name, f"its type {joint.type} has several freedoms; it is not driven here")
@@ -57,7 +60,9 @@ def _limits(joint: RobotJoint, diagonal: float) -> Iterator[Finding]:
     elif lower == upper:
         yield failure(CHECK, joint.name, f"{shown}; a joint that moves needs a range (fixed is a type of its own)")
     elif not lower <= 0 <= upper:
-        yield warning(CHECK, joint.name, f"{shown}, without the rest position 0; engines start it outside and jerk it in")
+        yield warning(
+            CHECK, joint.name, f"{shown}, without the rest position 0; engines start it outside its limits, which causes a jerk"
+        )
     most = MAX_RANGE_RAD if joint.type == "revolute" else TRAVEL * diagonal
     unit = "rad" if joint.type == "revolute" else "m"
     if upper - lower > most > 0:
@@ -67,6 +72,6 @@ def _limits(joint: RobotJoint, diagonal: float) -> Iterator[Finding]:
 def _strength(joint: RobotJoint) -> Iterator[Finding]:
     for word, value in (("effort", joint.effort), ("velocity", joint.velocity)):
         if value is None and joint.type != "continuous":
-            yield warning(CHECK, joint.name, f"it has no {word} limit; engines put 0 or their own in its place")
+            yield warning(CHECK, joint.name, f"it has no {word} limit; engines use 0 or their own")
         elif value is not None and value <= 0:
-            yield warning(CHECK, joint.name, f"its {word} limit is {value:.4g}; no motor may move it, so above 0 is needed")
+            yield warning(CHECK, joint.name, f"its {word} limit is {value:.4g}; no motor can move it; it must be above 0")

@@ -1,4 +1,4 @@
-"""Check "meshes": what is drawn and what collides are usable surfaces."""
+"""Check "meshes": visual and collision meshes are usable surfaces."""
 
 from __future__ import annotations
 
@@ -12,17 +12,17 @@ from anymesh.geometry.topology import components
 from anymesh.types.triangles import normals_and_areas
 
 CHECK = "meshes"
-NOTHING = 1e-12  # of a mesh's squared diagonal; a smaller face has no area
-MANY = 0.05  # of a mesh's faces without area are worth a word
-CLOSED = 0.5  # of a link's surface; when less belongs to closed bodies, volume and inertia cannot be told from it
-TINY, HUGE = 1e-4, 1e2  # [m] diagonal of a link
-APART = 0.25  # of the link's diagonal; how far collision may lie outside what is seen
-UNITS = 10.0  # times larger or smaller: other units
-LARGE = 200_000  # faces of a collision mesh; engines take long, and hulls need few
+NOTHING = 1e-12  # share of a mesh's squared diagonal, below which a face has no area
+MANY = 0.05  # share of a mesh's faces without area above which a warning is given
+CLOSED = 0.5  # share of a link's surface that must belong to closed bodies for volume and inertia to be computable
+TINY, HUGE = 1e-4, 1e2  # [m] plausible diagonals of a link
+APART = 0.25  # share of the link's diagonal by which collision may extend outside the visual
+UNITS = 10.0  # ratio of sizes that indicates different units
+LARGE = 200_000  # maximum number of faces of a mesh; engines are slow with more, and hulls need few
 
 
 def check_meshes(content: Content) -> Iterator[Finding]:
-    """Read, not empty, not degenerate, closed, of sensible size, and collision where the visible surface is."""
+    """Check that meshes are readable, not empty or degenerate, closed, of plausible size, and that collision fits visuals."""
     for link, text in content.unread:
         yield failure(CHECK, link, text)
     for link in content.robot.links:
@@ -49,7 +49,7 @@ def _faces(link: str, solid: Solid) -> Iterator[Finding]:
 
 
 def closed_share(solid: Solid) -> float:
-    """The share of a surface that belongs to closed, evenly wound bodies."""
+    """Compute the share of a surface that belongs to closed, consistently wound bodies."""
     triangles = solid.triangles
     if solid.mesh is None or not np.isfinite(triangles).all():
         return 1.0

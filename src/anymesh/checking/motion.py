@@ -1,4 +1,4 @@
-"""Check "motion": every joint driven over its range in the engines chosen."""
+"""Check "motion": every joint is driven over its range in the chosen engines."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ CHECK = "motion"
 
 
 def sweep_all(path: Path, engines: Sequence[str]) -> Iterator[tuple[str, SweepReport | InputError | MissingExtraError]]:
-    """Each engine and what it told, or why it told nothing."""
+    """Yield each engine with its report, or with the error that prevented it."""
     for engine in engines:
         try:
             yield engine, sweep_in(engine, path)
@@ -23,7 +23,7 @@ def sweep_all(path: Path, engines: Sequence[str]) -> Iterator[tuple[str, SweepRe
 
 
 def motion_findings(engine: str, told: SweepReport | InputError | MissingExtraError) -> Iterator[Finding]:
-    """A failure for each fault of a joint and for a file that the engine cannot load; an engine not installed is a warning."""
+    """Yield a failure for each fault of a joint, or if the engine cannot load the file; a warning if it is not installed."""
     if isinstance(told, MissingExtraError):
         yield warning(CHECK, engine, str(told))
         return

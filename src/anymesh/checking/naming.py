@@ -1,4 +1,4 @@
-"""Check "naming": names that every format and engine keeps as they are."""
+"""Check "naming": names are preserved by every format and engine."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ LEGAL_NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_.-]*")
 
 
 def check_naming(robot: Robot) -> Iterator[Finding]:
-    """Letters, digits, underscore, point and hyphen; none that differ by case alone."""
+    """Check that names have only letters, digits, underscore, point and hyphen, and differ by more than case."""
     for word, names in (("link", [b.name for b in robot.links]), ("joint", [j.name for j in robot.joints])):
         for name in names:
             if name and not LEGAL_NAME.fullmatch(name):

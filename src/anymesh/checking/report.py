@@ -1,4 +1,4 @@
-"""What a check found: a list of findings, as JSON and as lines to read."""
+"""Report of a check: a list of findings, as JSON and as text."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from anymesh.simulation.report import SweepReport, as_record
 
 
 class Severity(StrEnum):
-    """failure: an engine refuses it or it does not work; warning: it works less well than it could."""
+    """Severity of a finding. failure: an engine rejects the asset, or it does not work; warning: it works with limitations."""
 
     OK = "ok"
     WARNING = "warning"
@@ -19,7 +19,7 @@ class Severity(StrEnum):
 
 @dataclass(frozen=True)
 class Finding:
-    """check: its name; subject: the link, joint or file, empty for the whole; text: what was found and what would be valid."""
+    """A finding. check: its name; subject: link, joint or file, empty for the whole; text: what was found and what is valid."""
 
     check: str
     severity: Severity
@@ -33,7 +33,7 @@ class Finding:
 
 @dataclass(frozen=True)
 class CheckReport:
-    """All findings on one file. sweeps: what each engine that could be asked told, in the order asked for."""
+    """All findings on one file. sweeps: reports of the available engines, in the requested order."""
 
     path: str
     findings: tuple[Finding, ...]
@@ -44,11 +44,11 @@ class CheckReport:
         return not self.count(Severity.FAILURE)
 
     def count(self, severity: Severity) -> int:
-        """How many findings are of this severity."""
+        """Count the findings of this severity."""
         return sum(f.severity is severity for f in self.findings)
 
     def as_json(self) -> dict[str, Any]:
-        """Plain values, as docs/check.md describes them."""
+        """Return plain values, as described in docs/check.md."""
         return {
             "path": self.path,
             "ok": self.ok,
@@ -59,7 +59,7 @@ class CheckReport:
         }
 
     def lines(self) -> tuple[str, ...]:
-        """To read: failures first, then warnings, then what is in order; the verdict last."""
+        """Return lines of text: failures, then warnings, then passed checks; the verdict is last."""
         order = (Severity.FAILURE, Severity.WARNING, Severity.OK)
         told = [str(f) for severity in order for f in self.findings if f.severity is severity]
         counts = f"{self.count(Severity.FAILURE)} failures, {self.count(Severity.WARNING)} warnings"
@@ -67,10 +67,10 @@ class CheckReport:
 
 
 def failure(check: str, subject: str, text: str) -> Finding:
-    """A finding that fails the asset."""
+    """Return a finding that fails the asset."""
     return Finding(check, Severity.FAILURE, subject, text)
 
 
 def warning(check: str, subject: str, text: str) -> Finding:
-    """A finding that does not fail the asset."""
+    """Return a finding that does not fail the asset."""
     return Finding(check, Severity.WARNING, subject, text)

@@ -1,4 +1,4 @@
-"""asset.json against the schema that this package ships."""
+"""Check of asset.json against the schema shipped with this package."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from anymesh.checking.tree import CHECK
 from anymesh.simulation.robot import Robot
 
 NAME = "asset.json"
-MAX_VIOLATIONS = 5  # violations told
+MAX_VIOLATIONS = 5  # maximum number of reported violations
 FIXED = "fixed"  # an MJCF has no names for such joints
-SAME = 1e-6  # numbers of the two files agree to this
+SAME = 1e-6  # tolerance between the numbers of the two files
 
 
 def check_asset_json(path: Path, robot: Robot) -> Iterator[Finding]:
-    """The file keeps its schema, and its links, joints and limits are those of the description."""
+    """Check that the file follows its schema, and that its links, joints and limits are those of the description."""
     import jsonschema
 
     try:

@@ -1,4 +1,4 @@
-"""Check "texture": looks that the files promise are there."""
+"""Check "texture": material files and textures that are referred to exist."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from anymesh.checking.report import Finding, failure, warning
 from anymesh.simulation.files import find_file
 
 CHECK = "texture"
-MESHES = "meshes"  # the folder of an asset of ours
+MESHES = "meshes"  # mesh folder of an asset of this project
 PICTURES = (".png", ".jpg", ".jpeg")
 
 
 def check_texture(content: Content, *, ours: bool) -> Iterator[Finding]:
-    """Material files and pictures are there and can be read; of ours, none lies there unused. ours: made by anymesh.
+    """Check that material files and textures exist and can be read. ours: made by anymesh; then unused textures are reported.
 
-    What a mesh file of anyone else lacks is a warning, since it is shown in one colour instead.
+    Missing materials in mesh files of other sources are a warning, since such meshes are shown in one colour.
     """
     for link in content.robot.links:
         told = [text for solid in content.visuals[link.name] for text in solid.warnings]

@@ -1,4 +1,4 @@
-"""Check "schema": the file is a tree of joints, and all it refers to is there."""
+"""Check "schema": the joints form a tree, and all files that it refers to exist."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ CHECK = "schema"
 
 
 def check_tree(robot: Robot) -> Iterator[Finding]:
-    """Unique names, links that exist, one root, no cycle. Without these nothing else can be looked at."""
+    """Check for unique names, existing links, one root and no cycle, which all other checks require."""
     for subject, text in robot.problems:
         yield failure(CHECK, subject, text)
     if not robot.links:
@@ -38,11 +38,11 @@ def check_tree(robot: Robot) -> Iterator[Finding]:
         yield failure(CHECK, "", f"the links that no joint carries are: {told}; valid is one")
     elif len(robot.carried(robot.roots[0])) < len(known):
         lost = sorted(known - robot.carried(robot.roots[0]))
-        yield failure(CHECK, lost[0], f"the links {lost} do not hang on the root {robot.roots[0]!r}; valid is a tree")
+        yield failure(CHECK, lost[0], f"the links {lost} are not connected to the root {robot.roots[0]!r}; valid is a tree")
 
 
 def check_files(content: Content) -> Iterator[Finding]:
-    """Meshes are there, by a path that holds wherever the folder is put."""
+    """Check that mesh files exist, and that their paths are portable."""
     for link, file in content.missing:
         yield failure(CHECK, link, f"the mesh {file} is not there")
     for link in content.robot.links:

@@ -1,4 +1,4 @@
-"""A person corrects an asset: typed corrections, a history with undo, a log that replays, and a save that loses nothing."""
+"""Manual corrections of an asset: typed corrections, a history with undo, a replayable log, and safe saving."""
 
 from anymesh.correcting.apply import apply
 from anymesh.correcting.corrections import (

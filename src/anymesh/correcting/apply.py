@@ -1,4 +1,4 @@
-"""One correction on one asset. The asset given is not changed; what comes back is a tree again, or an error is raised."""
+"""Application of one correction to an asset. The given asset is not changed; the result is a valid tree."""
 
 from __future__ import annotations
 
@@ -26,10 +26,10 @@ from anymesh.types import Asset
 
 
 def apply(asset: Asset, correction: Correction) -> Asset:
-    """The asset with one correction made. CorrectionError says what makes no sense and what would."""
+    """Return the asset with one correction applied. Raise CorrectionError, with valid values, if it is not applicable."""
     try:
         return _apply(asset, correction)
-    except ValueError as error:  # a noun that cannot be so
+    except ValueError as error:  # an invalid value in a data class
         raise CorrectionError(str(error)) from error
 
 

@@ -1,4 +1,4 @@
-"""What a person corrects: each kind of correction is one frozen value that says all it needs, so that a log replays."""
+"""Kinds of manual corrections. Each is a frozen, self-contained value, so that a log can be replayed."""
 
 from __future__ import annotations
 
@@ -15,24 +15,24 @@ Vector = tuple[float, float, float]
 
 
 def vector(values: Float[np.ndarray, " 3"]) -> Vector:
-    """Three numbers of an array."""
+    """Convert an array to three numbers."""
     x, y, z = (float(v) for v in values)
     return x, y, z
 
 
 class CorrectionError(OptionError):
-    """A correction makes no sense for this asset: no such part, a circle, an empty part, limits without the rest pose."""
+    """A correction is not applicable to this asset: unknown part, cycle, empty part, or limits without the rest pose."""
 
 
 @dataclass(frozen=True)
 class FaceSet:
-    """Face numbers as runs (first, one after the last), ascending and apart; equal sets are equal values."""
+    """Face indices as runs (first, one after the last), ascending and disjoint; equal sets are equal values."""
 
     runs: tuple[tuple[int, int], ...]
 
     @classmethod
     def of(cls, faces: Int[np.ndarray, " n"] | Iterable[int]) -> FaceSet:
-        """The set of some face numbers, in any order."""
+        """Return the set of some face indices, in any order."""
         numbers = np.unique(np.fromiter(faces, np.int64) if not isinstance(faces, np.ndarray) else faces.astype(np.int64))
         if len(numbers) == 0:
             return cls(())
@@ -42,13 +42,13 @@ class FaceSet:
 
     @property
     def numbers(self) -> Int[np.ndarray, " n"]:
-        """The face numbers, ascending."""
+        """The face indices, ascending."""
         return np.concatenate([np.zeros(0, np.int64), *(np.arange(a, b) for a, b in self.runs)])
 
 
 @dataclass(frozen=True)
 class ChangeType:
-    """The joint that carries `part` becomes another type; limits that do not go with it become the usual ones."""
+    """Change the type of the joint that carries `part`; incompatible limits are replaced by the usual ones."""
 
     part: str
     type: JointType
@@ -56,20 +56,23 @@ class ChangeType:
 
 @dataclass(frozen=True)
 class ChooseMotion:
-    """The joint that carries `part` becomes another of its free motions. axis, origin [m], limits [rad or m]: asset frame."""
+    """Replace the joint that carries `part` by another of its free motions.
+
+    axis, origin [m], limits [rad or m]: asset frame.
+    """
 
     part: str
     type: JointType
     axis: Vector
     origin: Vector
     limits: tuple[float, float] | None
-    confidence: float  # that the finder gave it
+    confidence: float  # as computed for this motion
     reason: str
 
 
 @dataclass(frozen=True)
 class SetAxis:
-    """The joint's axis and a point on it [m], asset frame. `how`: in words, such as what on the mesh it was snapped to."""
+    """Set the joint's axis and a point on it [m], asset frame. `how`: in words, such as the snapped mesh feature."""
 
     part: str
     axis: Vector
@@ -79,14 +82,14 @@ class SetAxis:
 
 @dataclass(frozen=True)
 class FlipSign:
-    """Positive goes the other way; the limits keep their numbers."""
+    """Reverse the positive direction; the limits keep their numbers."""
 
     part: str
 
 
 @dataclass(frozen=True)
 class SetLimits:
-    """(lower, upper) [rad or m] that hold the rest pose 0; a continuous joint becomes a revolute one."""
+    """Set (lower, upper) [rad or m], which include the rest pose 0; a continuous joint becomes revolute."""
 
     part: str
     lower: float
@@ -95,7 +98,7 @@ class SetLimits:
 
 @dataclass(frozen=True)
 class ChangeParent:
-    """`part` hangs on another part; its motion stays as it is."""
+    """Attach `part` to another part; its motion is unchanged."""
 
     part: str
     parent: str
@@ -103,7 +106,7 @@ class ChangeParent:
 
 @dataclass(frozen=True)
 class MergeParts:
-    """`part` becomes one with `into`, which keeps its name and joint; what hung on `part` hangs on `into`."""
+    """Merge `part` into `into`, which keeps its name and joint; children of `part` become children of `into`."""
 
     part: str
     into: str
@@ -111,7 +114,7 @@ class MergeParts:
 
 @dataclass(frozen=True)
 class SplitPart:
-    """Some faces of `part` become a part of their own, fixed to it until someone says how it moves."""
+    """Split some faces of `part` into a new part, which is fixed to it until a motion is chosen."""
 
     part: str
     faces: FaceSet
@@ -121,14 +124,14 @@ class SplitPart:
 
 @dataclass(frozen=True)
 class SplitComponents:
-    """Each connected component of `part` but the largest becomes a part of its own, fixed to it."""
+    """Split each connected component of `part` except the largest into a new part, fixed to it."""
 
     part: str
 
 
 @dataclass(frozen=True)
 class MoveFaces:
-    """Some faces, of whichever parts, become faces of `into`."""
+    """Move some faces, of any parts, to `into`."""
 
     faces: FaceSet
     into: str
@@ -136,7 +139,7 @@ class MoveFaces:
 
 @dataclass(frozen=True)
 class Relabel:
-    """The field's word for `part`."""
+    """Set the label of `part`."""
 
     part: str
     label: str
@@ -144,7 +147,7 @@ class Relabel:
 
 @dataclass(frozen=True)
 class Rename:
-    """The link name of `part`."""
+    """Set the link name of `part`."""
 
     part: str
     name: str

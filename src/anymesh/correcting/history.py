@@ -1,4 +1,4 @@
-"""What was corrected, in order, with undo and redo. Values: every step gives a new history."""
+"""History of corrections with undo and redo. It is immutable: every step returns a new history."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from anymesh.types import Asset
 
 @dataclass(frozen=True)
 class HistoryEntry:
-    """A correction, when it was made (ISO 8601), and by whom."""
+    """A correction, its time (ISO 8601), and its author."""
 
     correction: Correction
     time: str
@@ -20,7 +20,7 @@ class HistoryEntry:
 
 @dataclass(frozen=True, eq=False)
 class History:
-    """states: the asset before the first correction and after each; done: one entry a correction; undone: latest last."""
+    """states: the asset before the first correction and after each; done: one entry per correction; undone: latest last."""
 
     states: tuple[Asset, ...]
     done: tuple[HistoryEntry, ...] = ()
@@ -32,7 +32,7 @@ class History:
 
     @classmethod
     def of(cls, original: Asset, log: tuple[HistoryEntry, ...] = ()) -> History:
-        """The history that a log makes of an asset. CorrectionError when it is the log of another asset."""
+        """Apply a log to an asset. Raise CorrectionError if it is the log of another asset."""
         found = cls((original,))
         for entry in log:
             found = found.do(entry)
@@ -45,21 +45,21 @@ class History:
 
     @property
     def asset(self) -> Asset:
-        """The asset as it is now."""
+        """The current asset."""
         return self.states[-1]
 
     def do(self, entry: HistoryEntry) -> History:
-        """One correction more; what was undone is gone. CorrectionError when it makes no sense."""
+        """Apply one more correction, and drop undone ones. Raise CorrectionError if it is not applicable."""
         return History((*self.states, apply(self.asset, entry.correction)), (*self.done, entry))
 
     def undo(self) -> History:
-        """Without the last correction, which can be made again."""
+        """Undo the last correction, which can be redone."""
         if not self.done:
             raise CorrectionError("there is nothing to undo")
         return History(self.states[:-1], self.done[:-1], (*self.undone, self.done[-1]))
 
     def redo(self) -> History:
-        """With the correction that was undone last."""
+        """Redo the correction that was undone last."""
         if not self.undone:
             raise CorrectionError("there is nothing to redo")
         return replace(self.do(self.undone[-1]), undone=self.undone[:-1])

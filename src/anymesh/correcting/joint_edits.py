@@ -20,10 +20,10 @@ from anymesh.correcting.corrections import (
 from anymesh.correcting.finding import box_middle, hanging_on, joint_of_part, part_number, with_joint
 from anymesh.types import Asset, Joint, JointType
 
-BY_HAND = "corrected by hand"  # how the reason of a corrected joint begins
-CERTAIN = 1.0  # confidence of what a person said
-USUAL_TURN = (0.0, float(np.pi / 2))  # [rad] limits of a hinge that had none
-USUAL_SLIDE = 0.5  # of the part's extent along the axis: the travel of a slide that had none
+BY_HAND = "corrected by hand"  # prefix of the reason of a corrected joint
+CERTAIN = 1.0  # confidence of manual corrections
+USUAL_TURN = (0.0, float(np.pi / 2))  # [rad] default limits of a hinge
+USUAL_SLIDE = 0.5  # default travel of a slide, as a share of the part's extent along the axis
 
 
 def change_type(asset: Asset, c: ChangeType) -> Asset:
@@ -80,7 +80,7 @@ def set_limits(asset: Asset, c: SetLimits) -> Asset:
     if joint.type is JointType.FIXED:
         raise CorrectionError(f"the joint of {c.part!r} is fixed and has no limits; change its type first")
     if not c.lower <= 0 <= c.upper:
-        raise CorrectionError(f"limits must hold the rest pose 0, found {c.lower:g}..{c.upper:g}")
+        raise CorrectionError(f"limits must include the rest pose 0, found {c.lower:g}..{c.upper:g}")
     type_ = JointType.REVOLUTE if joint.type is JointType.CONTINUOUS else joint.type
     return with_joint(asset, replace(joint, type=type_, limits=(float(c.lower), float(c.upper)), **_said("limits")))
 
@@ -91,10 +91,10 @@ def change_parent(asset: Asset, c: ChangeParent) -> Asset:
     below = hanging_on(asset, c.part)
     if c.parent == c.part or c.parent in below:
         free = [p.name for p in asset.segmentation.parts if p.name != c.part and p.name not in below]
-        raise CorrectionError(f"{c.part!r} cannot hang on {c.parent!r}, which it carries; valid are {', '.join(free)}")
+        raise CorrectionError(f"{c.part!r} cannot be a child of {c.parent!r}, which it carries; valid are {', '.join(free)}")
     if c.parent == joint.parent:
-        raise CorrectionError(f"{c.part!r} hangs on {c.parent!r} already")
-    return with_joint(asset, replace(joint, parent=c.parent, **_said(f"hangs on {c.parent}")))
+        raise CorrectionError(f"{c.part!r} is already a child of {c.parent!r}")
+    return with_joint(asset, replace(joint, parent=c.parent, **_said(f"parent {c.parent}")))
 
 
 def _said(what: str) -> dict[str, object]:
@@ -110,7 +110,7 @@ def _unit(axis: Vector) -> Float[np.ndarray, " 3"]:
 
 
 def _origin_on_part(asset: Asset, part: str, axis: np.ndarray, point: np.ndarray, type_: JointType) -> Float[np.ndarray, " 3"]:
-    """The point of the axis level with the part's middle; for a slide the middle itself (docs/conventions.md)."""
+    """Return the point of the axis level with the part's centre; for a slide the centre itself (docs/conventions.md)."""
     if not np.isfinite(point).all():
         raise CorrectionError(f"a point on the axis must be finite, found {tuple(point)}")
     middle = box_middle(asset, part)

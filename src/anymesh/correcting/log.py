@@ -1,4 +1,4 @@
-"""A log of corrections as JSON values, and back."""
+"""Conversion of a log of corrections to and from JSON values."""
 
 from __future__ import annotations
 
@@ -44,7 +44,10 @@ NAMES = {kind: name for name, kind in KINDS.items()}
 
 
 def pack_log(log: Sequence[HistoryEntry]) -> list[dict[str, Any]]:
-    """One object an entry: `correction` (the kind), its fields, `time` and `author`. Face sets are runs [first, after last]."""
+    """Return one object per entry: `correction` (the kind), its fields, `time` and `author`.
+
+    Face sets are runs [first, one after the last].
+    """
     return [pack_entry(entry) for entry in log]
 
 
@@ -63,7 +66,7 @@ def _plain(value: Any) -> Any:
 
 
 def unpack_log(records: Sequence[Mapping[str, Any]]) -> tuple[HistoryEntry, ...]:
-    """The entries of a log. CorrectionError for one that this version does not know."""
+    """Parse the entries of a log. Raise CorrectionError for one that this version does not know."""
     return tuple(_entry(record) for record in records)
 
 
@@ -87,7 +90,7 @@ def _typed(name: str, value: Any) -> Any:
 
 
 def describe(c: Correction) -> str:
-    """A correction in a few words."""
+    """Describe a correction in a few words."""
     match c:
         case MergeParts():
             return f"{c.part} merged into {c.into}"
@@ -98,7 +101,7 @@ def describe(c: Correction) -> str:
         case SplitComponents():
             return f"{c.part} split by its components"
         case ChangeParent():
-            return f"{c.part} hangs on {c.parent}"
+            return f"{c.part} becomes a child of {c.parent}"
         case ChangeType():
             return f"{c.part} becomes {c.type}"
         case ChooseMotion():

@@ -1,4 +1,4 @@
-"""The ranked free motions of one part: what Stage B weighed, found again on demand."""
+"""Ranked free motions of one part, computed again as in Stage B."""
 
 from __future__ import annotations
 
@@ -17,33 +17,33 @@ from anymesh.reasoning.geometry import joint_type, motion_scores, reason
 from anymesh.types import Asset, Joint, JointType, Mesh
 
 MAX_MOTIONS = 8
-DENSE = 60_000  # faces of an asset from which its surface is simplified before it is made ready
-MIN_PART_FACES = 500  # faces that a part keeps
-ALIKE = 0.97  # cosine of axes that are one to a user
-SAME_AXIS_RATIO = 0.02  # of the object's diagonal: hinge lines this near are one to a user
+DENSE = 60_000  # number of faces above which an asset's surface is simplified first
+MIN_PART_FACES = 500  # minimum number of faces of a simplified part
+ALIKE = 0.97  # cosine between axes that are equal for a user
+SAME_AXIS_RATIO = 0.02  # share of the object's diagonal: distance of hinge lines that are equal for a user
 
 
 @dataclass(frozen=True, eq=False)
 class Ready:
-    """The mesh of an asset made ready for both stages, in pieces that each belong to one part; part: of each triangle."""
+    """An asset's mesh prepared for both stages, in patches that belong to one part each; part: of each triangle."""
 
     whole: ObjectShape
     part: Int[np.ndarray, " n"]
 
 
 def made_ready(asset: Asset, config: Config | None = None) -> Ready:
-    """What `ranked_motions` needs of all parts as they are; the slow half. Dense parts are simplified first."""
+    """Prepare all current parts for `ranked_motions`, which is the slow step. Dense parts are simplified first."""
     settings = config or Config()
     mesh, label, pieces = asset.mesh, asset.segmentation.face_part, settings.pieces
     if len(mesh.faces) > DENSE:
         mesh, label = _lighter(mesh, label)
-        pieces = replace(pieces, soft_faces=len(mesh.faces))  # parts are known: soft creases are not looked for again
+        pieces = replace(pieces, soft_faces=len(mesh.faces))  # parts are known: soft creases are not searched again
     whole = object_shape(mesh, settings.seed, pieces, label)
     return Ready(whole, label[whole.source])
 
 
 def _lighter(mesh: Mesh, label: np.ndarray) -> tuple[Mesh, np.ndarray]:
-    """The surface in about DENSE triangles, each part for itself, and the part of each triangle."""
+    """Simplify the surface to about DENSE triangles, part by part, and return the part of each triangle."""
     groups = [mesh.triangles[label == k] for k in range(int(label.max()) + 1)]
     few = [simplify(t, max(MIN_PART_FACES, DENSE * len(t) // len(label))) for t in groups]
     triangles, count = np.concatenate(few), sum(len(t) for t in few)
@@ -55,10 +55,11 @@ def _lighter(mesh: Mesh, label: np.ndarray) -> tuple[Mesh, np.ndarray]:
 def ranked_motions(
     asset: Asset, part: str, *, ready: Ready | None = None, most: int = MAX_MOTIONS, config: Config | None = None
 ) -> tuple[ChooseMotion, ...]:
-    """The motions that the rest leaves free to a part, the likeliest first, each ready to be chosen.
+    """Return the free motions of a part, most likely first, as corrections.
 
-    Swept against the other parts as they hang now. confidence: its share of the likelihood of all free motions; limits by the
-    sweep; reason: the evidence in words. Motions that a user could not tell apart are given once. CorrectionError for the root.
+    They are swept against the other parts in the current tree. confidence: share of the likelihood of all free motions; limits:
+    from the sweep; reason: the evidence in words. Motions that a user could not distinguish are returned once.
+    Raise CorrectionError for the root.
     """
     settings = config or Config()
     joint_of_part(asset, part)

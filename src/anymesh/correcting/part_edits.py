@@ -1,4 +1,4 @@
-"""Corrections of which faces are which part."""
+"""Corrections of the assignment of faces to parts."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ from anymesh.geometry.topology import components
 from anymesh.names import legal_name
 from anymesh.types import Asset, Joint, JointType, Part, Segmentation
 
-JOINT = "_joint"  # what the name of a joint adds to that of its part
-MAX_COMPONENTS = 40  # a part in more pieces is soup, not parts that were joined by mistake
+JOINT = "_joint"  # suffix of a joint's name after that of its part
+MAX_COMPONENTS = 40  # a part with more components is a triangle soup, not parts that were joined by mistake
 
 
 def merge_parts(asset: Asset, c: MergeParts) -> Asset:
@@ -71,7 +71,7 @@ def split_components(asset: Asset, c: SplitComponents) -> Asset:
 
 
 def components_of(asset: Asset, part: str) -> list[Int[np.ndarray, " n"]]:
-    """Face numbers of each connected component of a part, the largest surface first."""
+    """Return the face indices of each connected component of a part, largest surface first."""
     faces = asset.segmentation.faces(part_number(asset, part))
     label = components(asset.mesh.vertices, asset.mesh.faces[faces]).label
     area = np.bincount(label, asset.mesh.face_areas[faces])
@@ -120,7 +120,7 @@ def _renamed(joints: tuple[Joint, ...], new: Mapping[str, str]) -> tuple[Joint, 
 
 
 def _with_new_parts(asset: Asset, of: str, groups: list[np.ndarray], names: list[str], label: str) -> Asset:
-    """Groups of faces of one part as parts of their own, at the end of the list, fixed to it."""
+    """Make groups of faces of one part into new parts, at the end of the list, fixed to it."""
     face_part, parts = asset.segmentation.face_part.copy(), list(asset.segmentation.parts)
     for faces, name in zip(groups, names, strict=True):
         face_part[faces] = len(parts)
@@ -136,7 +136,7 @@ def _fixed(names: list[str], parent: str) -> tuple[Joint, ...]:
 
 
 def _new_name(asset: Asset, wanted: str, also: Sequence[str] = ()) -> str:
-    """A legal name that no part has and whose joint's name is free."""
+    """Return an unused legal name for a part, whose joint's name is unused as well."""
     taken = {p.name.lower() for p in asset.segmentation.parts} | {name.lower() for name in also}
     taken |= {j.name.lower()[: -len(JOINT)] for j in asset.joints if j.name.lower().endswith(JOINT)}
     plain = legal_name(wanted)

@@ -1,4 +1,4 @@
-"""What a click on the mesh means: the edge, the plane, the round surface or the patch that was meant."""
+"""Geometric features at a click on the mesh: edge, plane, round surface or patch."""
 
 from __future__ import annotations
 
@@ -13,19 +13,19 @@ from anymesh.geometry.superpoints import superpoints
 from anymesh.geometry.topology import EdgePairs, edge_pairs, label_connected
 from anymesh.types import Asset
 
-FLAT = np.deg2rad(5)  # faces of one plane differ by less
-SMOOTH = np.deg2rad(40)  # neighbours on a round surface differ by less
-STRAIGHT = np.cos(np.deg2rad(3))  # cosine of edges that are one line
-ON_LINE = 0.002  # of the diagonal: how far off a line its edges may be
-ROUND = 0.4  # least roundness of an outline with an axis
-BENT = 0.05  # least spread of the normals of a round surface, 0 flat .. 0.5
-DENSE = 40_000  # faces of a part from which patches end at creases alone
-STRENGTH = 0.05  # of l0 cut pursuit on normals (config.PiecesConfig.superpoint_strength)
+FLAT = np.deg2rad(5)  # [rad] maximum angle between faces of one plane
+SMOOTH = np.deg2rad(40)  # [rad] maximum angle between neighbours on a round surface
+STRAIGHT = np.cos(np.deg2rad(3))  # minimum cosine between edges of one line
+ON_LINE = 0.002  # share of the diagonal: maximum distance of a line's edges from it
+ROUND = 0.4  # minimum roundness of an outline with an axis
+BENT = 0.05  # minimum spread of the normals of a round surface, 0 flat .. 0.5
+DENSE = 40_000  # number of a part's faces above which patches end only at creases
+STRENGTH = 0.05  # strength of l0 cut pursuit on normals (config.PiecesConfig.superpoint_strength)
 
 
 @dataclass(frozen=True, eq=False)
 class Line:
-    """A line snapped to. axis: unit; origin [m], asset frame; how: in words."""
+    """A snapped line. axis: unit; origin [m], asset frame; how: in words."""
 
     axis: Float[np.ndarray, " 3"]
     origin: Float[np.ndarray, " 3"]
@@ -33,7 +33,7 @@ class Line:
 
 
 class PickedPart:
-    """The part that a picked face belongs to, made ready for questions about the click."""
+    """The part of a picked face, prepared for queries about the click."""
 
     def __init__(self, asset: Asset, face: int) -> None:
         number = int(asset.segmentation.face_part[face])
@@ -45,7 +45,7 @@ class PickedPart:
         self._pairs: EdgePairs = edge_pairs(asset.mesh.vertices, asset.mesh.faces[self.faces])
 
     def edge(self, point: Float[np.ndarray, " 3"]) -> Line:
-        """The straight border of the plane that was picked, nearest to the point [m]."""
+        """Return the straight border of the picked plane nearest to the point [m]."""
         ends = self._border(self._region(FLAT, of_first=True))
         if len(ends) == 0:
             raise CorrectionError("the surface picked has no edge; pick a flat face, or snap to its round axis")
@@ -61,7 +61,7 @@ class PickedPart:
         return Line(_signed(axis), start + (reach.min() + reach.max()) / 2 * axis, "snapped to an edge")
 
     def normal(self, point: Float[np.ndarray, " 3"]) -> Line:
-        """The normal of the plane that was picked, through the point [m]."""
+        """Return the normal of the picked plane, through the point [m]."""
         plane = self.faces[self._region(FLAT, of_first=True)]
         total = self._mesh.face_cross[plane].sum(0)
         if np.linalg.norm(total) == 0:
@@ -69,7 +69,7 @@ class PickedPart:
         return Line(total / np.linalg.norm(total), point, "snapped to a plane's normal")
 
     def symmetry(self) -> Line:
-        """The axis of the round surface that was picked (a barrel, a rim, a knob)."""
+        """Return the axis of the picked round surface (a barrel, a rim, a knob)."""
         patch = self._region(SMOOTH)
         corners = self._mesh.triangles[self.faces[patch]].reshape(-1, 3)
         normals, area = self._normals[patch], self._mesh.face_areas[self.faces[patch]]
@@ -83,7 +83,7 @@ class PickedPart:
         return Line(_signed(seen.axis), seen.center, "snapped to a symmetry axis")
 
     def patch(self) -> Int[np.ndarray, " n"]:
-        """Face numbers of the superpoint that was picked; of the surface up to its creases where the part is dense."""
+        """Return the face indices of the picked superpoint; if the part is dense, of the surface up to its creases."""
         if len(self.faces) > DENSE:
             return self.faces[self._region(SMOOTH)]
         ends = self._mesh.vertices[self._mesh.faces[self.faces]].reshape(-1, 3, 3)
@@ -95,9 +95,9 @@ class PickedPart:
         return self.faces[label == label[self._at]]
 
     def _region(self, most: float, *, of_first: bool = False) -> np.ndarray:
-        """Which faces hang together with the picked one across edges that bend less than `most` [rad].
+        """Return which faces are connected to the picked one across edges that bend by less than `most` [rad].
 
-        of_first: and whose normals differ from the picked one's by less, so that a plane does not run round a corner.
+        of_first: also require normals within `most` of the picked face's, so that a plane does not continue around a corner.
         """
         a, b = self._pairs.faces.T
         level = np.einsum("ij,ij->i", self._normals[a], self._normals[b]) > np.cos(most)
@@ -109,7 +109,7 @@ class PickedPart:
         return label == label[self._at]
 
     def _border(self, region: np.ndarray) -> np.ndarray:
-        """End points (m, 2, 3) of the edges between a region and what is not of it."""
+        """Return the end points (m, 2, 3) of the edges between a region and its complement."""
         corners = self._mesh.faces[self.faces[region]]
         sides = np.concatenate([corners[:, [0, 1]], corners[:, [1, 2]], corners[:, [2, 0]]])
         inner = self._pairs.vertices[region[self._pairs.faces].all(1)]
@@ -119,7 +119,7 @@ class PickedPart:
 
 
 def _key(ends: np.ndarray) -> np.ndarray:
-    """A value an edge that does not hang on its direction, nor on which of several equal vertices it runs between."""
+    """Return a key per edge, independent of its direction and of which of several equal vertices it uses."""
     flat = np.round(ends, 9) + 0.0
     order = np.lexsort(flat.transpose(2, 0, 1)[::-1], axis=1) if len(flat) else np.zeros((0, 2), int)
     ordered = np.ascontiguousarray(np.take_along_axis(flat, order[:, :, None], 1).reshape(len(flat), 6))
@@ -127,5 +127,5 @@ def _key(ends: np.ndarray) -> np.ndarray:
 
 
 def _signed(axis: np.ndarray) -> np.ndarray:
-    """The direction whose largest component is positive."""
+    """Flip the direction so that its largest component is positive."""
     return (-axis if axis[np.abs(axis).argmax()] < 0 else axis) + 0.0

@@ -1,4 +1,4 @@
-"""An output opened for corrections, and saved again: whole or not at all, and never over what somebody else saved since."""
+"""Opening of an output for corrections, and atomic saving that never overwrites someone else's changes."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ from anymesh.storage.stage_files import read_json, write_json
 
 
 class StaleError(OutputError):
-    """Somebody saved this asset after it was opened; saving now would lose what they did."""
+    """The asset was saved by another process after it was opened; saving now would lose its changes."""
 
 
 @dataclass(frozen=True, eq=False)
 class Opened:
-    """An asset under correction. version: of the saved state that its history continues."""
+    """An asset under correction. version: of the saved state on which its history is based."""
 
     folder: Path
     history: History
@@ -37,7 +37,7 @@ class Opened:
 
 
 def open_asset(folder: str | Path) -> Opened:
-    """An output with the corrections that it has. OutputError when the folder is none, or lacks a stage."""
+    """Open an output with its corrections. Raise OutputError if the folder is not an output, or lacks a stage."""
     saved = Saved.at(Path(folder))
     version = saved.last_key()
     log = unpack_log(saved.corrections(saved.editing()))
@@ -45,9 +45,9 @@ def open_asset(folder: str | Path) -> Opened:
 
 
 def save_asset(opened: Opened) -> Opened:
-    """Saves the corrections and writes all files again; the stages before stay, so that the original can be had again.
+    """Save the corrections and write all files again; earlier stages are kept, so that the original stays available.
 
-    StaleError when another process saved, or is saving, this asset since it was opened; then nothing is written.
+    Raise StaleError if another process saved, or is saving, this asset since it was opened; then nothing is written.
     """
     with locked(opened.folder) as mine:
         if not mine:

@@ -1,4 +1,4 @@
-"""What scans, generators and careless exports do to a mesh, done on purpose: the truth is carried over."""
+"""Deliberate changes to a mesh, as made by scans, generators and careless exports, with ground truth carried over."""
 
 from __future__ import annotations
 
@@ -24,30 +24,30 @@ from anymesh.types.triangles import normals_and_areas
 
 Change = Callable[[EvalSample, np.random.Generator], EvalSample]
 
-TILT = 5.0  # [deg] off level, as of a scan
-SCALES = (0.01, 100.0)  # centimetres and metres taken for each other, either way
-ROUGHEST = 60  # faces of a component that are left alone when a mesh is decimated: a box has 12, and no more to give
-PROBES = 20_000  # points on the surface that decide which faces can be seen, besides the middle of every face
-DIRECTIONS = 128  # from which each is looked at
-FINE, COARSE = 256, 128  # cells along the longest side of an object of which one surface is made
-FUSED_FACES = 50_000  # of that surface; generated meshes come with about as many
+TILT = 5.0  # [deg] tilt from level, as in a scan
+SCALES = (0.01, 100.0)  # confusion of centimetres and metres, in both directions
+ROUGHEST = 60  # minimum number of faces of a decimated component; a box has 12 and cannot be reduced
+PROBES = 20_000  # points on the surface that determine which faces are visible, besides the centroid of every face
+DIRECTIONS = 128  # directions from which each point is viewed
+FINE, COARSE = 256, 128  # cells along the longest side of an object that is fused to one surface
+FUSED_FACES = 50_000  # of that surface; generated meshes have about as many
 
 
 def changed(name: str, sample: EvalSample, seed: int = 0) -> EvalSample:
-    """The sample after one of CHANGES; the same for the same seed and sample."""
+    """Apply one of CHANGES to the sample; equal seeds and samples give equal results."""
     if name not in CHANGES:
         raise OptionError(f"change {name!r}; valid are {', '.join(CHANGES)}")
     return CHANGES[name](sample, np.random.default_rng([seed, *name.encode(), *sample.truth.name.encode()]))
 
 
 def moved(sample: EvalSample, T: Float[np.ndarray, "4 4"]) -> EvalSample:
-    """The sample moved by a rigid motion with a scale; its lengths are told in units of the box that it had before."""
+    """Move the sample by a rigid motion with a scale; its lengths remain relative to the size of its original box."""
     size = 2 * sample.unit * float(np.cbrt(np.linalg.det(T[:3, :3])))
     return replace(sample, mesh=sample.mesh.transformed(T), T=T @ sample.T, diagonal=size)
 
 
 def rotation(axis: Float[np.ndarray, " 3"], angle: float) -> Float[np.ndarray, "4 4"]:
-    """A turn by `angle` [rad] about a unit axis through the origin (Rodrigues)."""
+    """Return the rotation by `angle` [rad] about a unit axis through the origin (Rodrigues)."""
     x, y, z = axis
     K = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
     T = np.eye(4)
@@ -65,7 +65,7 @@ def _tilted(sample: EvalSample, rng: np.random.Generator) -> EvalSample:
 
 
 def _lying(sample: EvalSample, rng: np.random.Generator) -> EvalSample:
-    """On one of four sides: whoever placed it took another axis for up."""
+    """Lay the object on one of four sides, as if another axis had been taken for up."""
     return moved(sample, rotation(np.eye(3)[rng.integers(2)], rng.choice([-1, 1]) * np.pi / 2))
 
 
@@ -74,7 +74,7 @@ def _overturned(sample: EvalSample, rng: np.random.Generator) -> EvalSample:
 
 
 def _spun(sample: EvalSample, rng: np.random.Generator) -> EvalSample:
-    """Turned any way at all, evenly over all rotations."""
+    """Rotate the sample uniformly over all rotations."""
     w, x, y, z = (q := rng.normal(size=4)) / np.linalg.norm(q)
     sine = max(float(np.linalg.norm([x, y, z])), 1e-300)
     return moved(sample, rotation(np.array([x, y, z]) / sine, 2 * np.arctan2(sine, w)))
@@ -85,7 +85,7 @@ def _scaled(sample: EvalSample, rng: np.random.Generator, *, factor: float) -> E
 
 
 def _noisy(sample: EvalSample, rng: np.random.Generator, *, share: float) -> EvalSample:
-    """Gaussian noise of `share` diagonals on every welded corner, so that no seam opens."""
+    """Add Gaussian noise of `share` diagonals to every welded corner, so that no seam opens."""
     mesh = sample.mesh
     corner = weld(mesh.vertices)
     shift = rng.normal(size=(int(corner.max()) + 1, 3)) * share * mesh.diagonal
@@ -93,7 +93,7 @@ def _noisy(sample: EvalSample, rng: np.random.Generator, *, share: float) -> Eva
 
 
 def _decimated(sample: EvalSample, rng: np.random.Generator, *, share: float) -> EvalSample:
-    """Every connected component with this share of its faces, by quadric error."""
+    """Decimate every connected component to this share of its faces, by quadric error."""
     mesh = sample.mesh
     label = components(mesh.vertices, mesh.faces).label
     made = [
@@ -105,7 +105,7 @@ def _decimated(sample: EvalSample, rng: np.random.Generator, *, share: float) ->
 
 
 def _unseen_gone(sample: EvalSample, rng: np.random.Generator) -> EvalSample:
-    """Without the faces that nobody sees from outside, whatever their winding; a face that shows in part stays."""
+    """Remove the faces that are invisible from outside, for any winding; partly visible faces stay."""
     mesh = sample.mesh
     s = sample_surface(mesh.triangles, PROBES, int(rng.integers(2**31)), at_least=1)
     middles = SurfacePoints(mesh.triangles.mean(1), mesh.face_normals, np.arange(len(mesh.faces)))
@@ -116,7 +116,7 @@ def _unseen_gone(sample: EvalSample, rng: np.random.Generator) -> EvalSample:
 
 
 def _seen(mesh: Mesh, probe: SurfacePoints) -> Bool[np.ndarray, " n"]:
-    """Which points are in sight from far away, in one of DIRECTIONS."""
+    """Return which points are visible from far away, in one of DIRECTIONS."""
     scene = RayScene(mesh.vertices, mesh.faces)
     seen = np.zeros(len(probe), bool)
     for way in spread_directions(DIRECTIONS):
@@ -129,8 +129,10 @@ def _seen(mesh: Mesh, probe: SurfacePoints) -> Bool[np.ndarray, " n"]:
 
 
 def _fused(sample: EvalSample, rng: np.random.Generator, *, cells: int) -> EvalSample:
-    """One closed surface round the object, as voxel fusion and generators make it: gaps below two cells become grooves,
-    what lies behind them is gone. Colours stay, names do not."""
+    """Replace the object by one closed surface around it, as from voxel fusion and generators.
+
+    Gaps below two cells become grooves, and what lies behind them is removed. Colours are kept, names are not.
+    """
     t = sample.mesh.triangles
     vertices, faces = wrapped(t, float(sample.mesh.extents.max()) / cells)
     few = simplify(vertices[faces], FUSED_FACES)
@@ -138,7 +140,7 @@ def _fused(sample: EvalSample, rng: np.random.Generator, *, cells: int) -> EvalS
 
 
 def _joined(sample: EvalSample, rng: np.random.Generator) -> EvalSample:
-    """The exact union of all closed components, as a CAD export or a boolean makes it; open ones stay as they are."""
+    """Return the exact union of all closed components, as from a CAD export or a boolean; open ones stay unchanged."""
     mesh = sample.mesh
     found = components(mesh.vertices, mesh.faces)
     flipped = found.flip[found.label]
@@ -152,8 +154,11 @@ def _joined(sample: EvalSample, rng: np.random.Generator) -> EvalSample:
 def resurfaced(
     sample: EvalSample, vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"], *, nodes: bool = False
 ) -> EvalSample:
-    """The sample with another surface, of which each face takes the label, and each corner the colour, of the nearest
-    point of the old one. nodes: the faces stay in their nodes, else all are one."""
+    """Replace the surface of the sample.
+
+    Each face takes the label, and each corner the colour, of the nearest point of the old surface. nodes: whether the faces
+    keep their nodes; else they form one node.
+    """
     mesh = sample.mesh
     _, first, inverse = np.unique(weld(vertices), return_index=True, return_inverse=True)
     vertices, faces = vertices[first], inverse.reshape(-1)[faces]
@@ -174,8 +179,10 @@ def resurfaced(
 
 
 def _only(sample: EvalSample, kept: Bool[np.ndarray, " F"]) -> EvalSample:
-    """The sample with these faces alone. A part without any is no longer there to be found: what moved on it moves on what
-    carried it."""
+    """Return the sample with only these faces.
+
+    Parts without faces are removed from the ground truth; their child parts get the nearest remaining ancestor as parent.
+    """
     truth, labels = sample.truth, sample.labels[kept]
     there = np.bincount(labels, minlength=len(truth.parts)) > 0
     there[0] = True
@@ -198,7 +205,7 @@ def _only(sample: EvalSample, kept: Bool[np.ndarray, " F"]) -> EvalSample:
 CHANGES: Mapping[str, Change] = MappingProxyType(
     {
         "none": lambda sample, rng: sample,
-        "turned": _turned,  # about the upright, by any angle
+        "turned": _turned,  # about the vertical, by any angle
         "tilted": _tilted,
         "lying": _lying,
         "overturned": _overturned,

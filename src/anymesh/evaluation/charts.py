@@ -1,4 +1,4 @@
-"""Error distributions as SVG."""
+"""Error distributions as SVG charts."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from anymesh.types import JointType
 
 COLORS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#785a3c", "#7f7f7f")  # after Okabe and Ito
 WIDTH, HEIGHT = 400, 250
-LEFT, RIGHT, TOP, BOTTOM = 40, 10, 12, 36  # [px] round the plot
+LEFT, RIGHT, TOP, BOTTOM = 40, 10, 12, 36  # [px] margins of the plot
 SHARES = (0.0, 0.25, 0.5, 0.75, 1.0)
 
 
 @dataclass(frozen=True)
 class Error:
-    """An error that joints have: name, value, the decades [low, high] shown, and the types it is told of."""
+    """A joint error: name, field, displayed range [low, high], and the joint types that have it."""
 
     name: str
     of: str  # field of JointScore
@@ -27,7 +27,7 @@ class Error:
     types: tuple[JointType, ...] = tuple(JointType)
 
     def values(self, joints: Sequence[JointScore]) -> list[float | None]:
-        """None: missing."""
+        """Return the errors of the joints; None if missing."""
         return [getattr(j, self.of) for j in joints if j.type_true in self.types]
 
 
@@ -40,7 +40,7 @@ ERRORS = (
 
 
 def error_charts(groups: Mapping[str, Sequence[JointScore]]) -> list[str]:
-    """A chart an error: the share of each group's joints whose error is at most so large."""
+    """Draw a chart per error: the share of each group's joints whose error is at most x."""
     found = ((error, {name: error.values(joints) for name, joints in groups.items()}) for error in ERRORS)
     return [
         cumulative(error.name, {k: v for k, v in curves.items() if v}, error.low, error.high)
@@ -50,7 +50,7 @@ def error_charts(groups: Mapping[str, Sequence[JointScore]]) -> list[str]:
 
 
 def cumulative(name: str, curves: Mapping[str, Sequence[float | None]], low: float, high: float) -> str:
-    """Share of values up to x, on a logarithmic x from low to high. None is missing: its curve does not come to 1."""
+    """Draw the share of values up to x, on a logarithmic axis from low to high. Curves with None values stay below 1."""
     inner = WIDTH - LEFT - RIGHT, HEIGHT - TOP - BOTTOM
 
     def x(value: float) -> float:

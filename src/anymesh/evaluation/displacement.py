@@ -1,4 +1,4 @@
-"""How far a joint takes its part from where it belongs: type, axis, origin and opening side in one length."""
+"""Distance by which a joint misplaces its part: type, axis, origin and opening side in one length."""
 
 from __future__ import annotations
 
@@ -11,17 +11,18 @@ from anymesh.evaluation.ground_truth import TrueJoint
 from anymesh.evaluation.metrics import opening_side, opens_both_ways, same_motion
 from anymesh.types import Joint, JointType, Motion, MotionKind
 
-TURNED = np.pi / 6  # [rad] that turning joints are opened by
-TRAVEL = 0.5  # share of their travel that slides are opened by
+TURNED = np.pi / 6  # [rad] by which rotating joints are opened
+TRAVEL = 0.5  # share of the travel by which slides are opened
 
 
 def displacement(points: Float[np.ndarray, "N 3"], found: Joint, true: TrueJoint, size: float) -> float:
-    """Mean distance of the true part's points between where the found and the true joint take them.
+    """Compute the mean distance of the true part's points between the poses of the found and the true joint.
 
-    Turns are opened by 30 degrees, slides by half the true travel, each joint towards its own opening side, so that a wrong
-    side shows. A found joint of another type moves as its own kind does: by 30 degrees, or half its own travel. Where the
-    truth opens both ways, turns endlessly, or has no known range, the better of both ways counts. `size` of the part stands
-    for a travel that is not known. `true`: in the frame of the points, its axis a unit vector.
+    Hinges are opened by 30 degrees, slides by half the true travel, each joint towards its own opening side, so that a wrong
+    side adds to the distance.
+    A found joint of another type moves by 30 degrees, or half its own travel. If the true joint opens both ways, is continuous,
+    or has no known range, the better of both directions counts.
+    `size` of the part replaces an unknown travel. `true`: in the frame of the points, with a unit axis.
     """
     true = true if true.range_known else replace(true, limits=None)
     sides = (1, -1) if opens_both_ways(true.limits) else (opening_side(true.limits),)
@@ -37,7 +38,7 @@ def _apart(points: Float[np.ndarray, "N 3"], found: Joint, true: TrueJoint, side
 
 
 def _amount(joint: Joint | TrueJoint, side: int, size: float) -> float:
-    """How far a joint is opened [rad or m], without sign."""
+    """Return the amount by which a joint is opened [rad or m], without sign."""
     if joint.type is not JointType.PRISMATIC:
         return TURNED
     return TRAVEL * (size if joint.limits is None else side * joint.limits[0 if side < 0 else 1])

@@ -1,4 +1,4 @@
-"""The picture of a joint that is off: found and true, at rest and half way open."""
+"""Picture of a joint with errors: found and true, at rest and half open."""
 
 from __future__ import annotations
 
@@ -23,29 +23,30 @@ from anymesh.rendering.viewpoints import zoom
 from anymesh.types import Joint, JointType, Mesh, Motion, MotionKind, Segmentation
 from anymesh.types.camera import Camera
 
-PANEL = 420  # [px] of each of the two panels
-TEXT, LINE = 17, 24  # [px] font and height of a line of the caption
-CAPTION = 2 * LINE + 10  # [px] its height
-TRUE_COLOR, FOUND_COLOR = (0, 150, 110), (213, 94, 0)  # green and vermilion that colour-blind eyes tell apart (Okabe and Ito)
+PANEL = 420  # [px] size of each of the two panels
+TEXT, LINE = 17, 24  # [px] font size and line height of the caption
+CAPTION = 2 * LINE + 10  # [px] height of the caption
+# green and vermilion, distinguishable with colour vision deficiencies (Okabe and Ito)
+TRUE_COLOR, FOUND_COLOR = (0, 150, 110), (213, 94, 0)
 GREY = np.array([185, 185, 185], np.uint8)
-PALE = 0.45  # of what stands still
-GHOST = 0.25  # of a part where something hides it
-AIR = 0.06  # round the object, a share of the picture
+PALE = 0.45  # share by which the colours of static parts are moved towards white
+GHOST = 0.25  # opacity of a part where it is hidden
+AIR = 0.06  # margin around the object, as a share of the picture
 LEGIBLE, MIN_AXIS_RATIO, RING = (
     0.4,
     3.0,
     0.1,
-)  # as in motion strips: the least size of an axis (share of the picture), of its ring
-RIM = 5  # [px] of outlines, in pictures of twice the size
-AXES = (4.2, 2.0)  # thickness of the true and the found axis
-DENSE = 20_000  # faces from which a mesh is thinned to choose the camera
+)  # as in motion strips: minimum size of an axis (share of the picture), and size of its ring
+RIM = 5  # [px] width of outlines, in pictures of twice the size
+AXES = (4.2, 2.0)  # line widths of the true and the found axis
+DENSE = 20_000  # number of faces above which a mesh is thinned to choose the camera
 HALF_WAY = 0.5  # share of the range
-TURNED, TRAVEL = np.pi / 4, 0.5  # [rad], share of the part's size: where a range is endless or not known
+TURNED, TRAVEL = np.pi / 4, 0.5  # [rad] and share of the part's size, for joints whose range is endless or unknown
 
 
 @dataclass(frozen=True, eq=False)
 class _Move:
-    """Faces, and the motion that the truth or the finding gives them. `motion` None: it stays."""
+    """Faces, and their motion by the true or the found joint. `motion` is None if they are static."""
 
     faces: Bool[np.ndarray, " F"]
     motion: Motion | None
@@ -59,9 +60,9 @@ class _Move:
 def draw_joint(
     sample: EvalSample, segmentation: Segmentation, true: TrueJoint, found: Joint | None, score: JointScore
 ) -> UInt8[np.ndarray, "H W 3"]:
-    """Left the whole object at rest, right the part half way open and near; the truth in green, what was found in vermilion.
+    """Draw the whole object at rest on the left, and the part half open on the right; true in green, found in vermilion.
 
-    true: in the sample's coordinates; found: the joint of the matched part, None where there is none.
+    true: in the sample's coordinates; found: the joint of the matched part, None if there is none.
     """
     mesh = sample.mesh
     numbers = {p.name: k for k, p in enumerate(sample.truth.parts)}
@@ -79,7 +80,7 @@ def draw_joint(
 
 
 def captioned(image: UInt8[np.ndarray, "h W 3"], title: str, told: str) -> UInt8[np.ndarray, "H W 3"]:
-    """The picture above two lines; what the font lacks becomes a question mark."""
+    """Put the picture above a caption of two lines; characters that the font lacks become question marks."""
     bar = Image.new("RGB", (image.shape[1], CAPTION), (255, 255, 255))
     draw = ImageDraw.Draw(bar)
     for k, (text, color) in enumerate(((title, (20, 20, 20)), (told, (90, 90, 90)))):
@@ -91,12 +92,12 @@ def captioned(image: UInt8[np.ndarray, "h W 3"], title: str, told: str) -> UInt8
 
 
 def without_caption(image: UInt8[np.ndarray, "H W 3"]) -> UInt8[np.ndarray, "h W 3"]:
-    """The picture that `captioned` was given."""
+    """Remove the caption added by `captioned`."""
     return image[:-CAPTION]
 
 
 def contact_sheet(pictures: Sequence[UInt8[np.ndarray, "h w 3"]], columns: int, width: int) -> UInt8[np.ndarray, "H W 3"]:
-    """Pictures in rows, each shrunk to one width [px]."""
+    """Arrange pictures in rows, each resized to one width [px]."""
     small = [
         Image.fromarray(p).resize((width, round(p.shape[0] * width / p.shape[1])), Image.Resampling.LANCZOS) for p in pictures
     ]
@@ -108,7 +109,7 @@ def contact_sheet(pictures: Sequence[UInt8[np.ndarray, "h w 3"]], columns: int, 
 
 
 def _motion(joint: TrueJoint | Joint, size: float) -> tuple[Motion | None, float]:
-    """What a joint does, and how far half way is; size: of its part [m]."""
+    """Return a joint's motion and the amount of half its range; size: of its part [m]."""
     if joint.type is JointType.FIXED:
         return None, 0.0
     slides = joint.type is JointType.PRISMATIC
@@ -119,13 +120,13 @@ def _motion(joint: TrueJoint | Joint, size: float) -> tuple[Motion | None, float
 
 
 def _carried(sample: EvalSample, name: str) -> list[str]:
-    """The parts that move with a part."""
+    """Return the descendants of a part."""
     direct = [j.child for j in sample.truth.joints if j.parent == name]
     return [*direct, *(part for child in direct for part in _carried(sample, child))]
 
 
 def _found_faces(sample: EvalSample, segmentation: Segmentation, found: Joint | None, true: int) -> Bool[np.ndarray, " F"]:
-    """The faces of the found part; without a joint, of the part that has most in common with the true one."""
+    """Return the faces of the found part; without a joint, of the found part with the largest IoU."""
     names = [p.name for p in segmentation.parts]
     if found is not None:
         return segmentation.face_part == names.index(found.child)
@@ -134,7 +135,7 @@ def _found_faces(sample: EvalSample, segmentation: Segmentation, found: Joint | 
 
 
 def _sketch(mesh: Mesh, faces: Bool[np.ndarray, " F"]) -> tuple[Mesh, Bool[np.ndarray, " n"]]:
-    """Of a dense mesh every so many faces, enlarged to cover as much: good enough to choose a camera by."""
+    """Thin a dense mesh to every n-th face, enlarged to cover the same area, to choose a camera quickly."""
     step = -(-len(mesh.faces) // DENSE)
     if step == 1 or not faces[::step].any():
         return mesh, faces
@@ -146,7 +147,7 @@ def _sketch(mesh: Mesh, faces: Bool[np.ndarray, " F"]) -> tuple[Mesh, Bool[np.nd
 
 
 def _whole(near: Camera, mesh: Mesh, mine: Bool[np.ndarray, " F"], right: _Move) -> Camera:
-    """From the same place, turned at the whole object, and at the true axis as it is drawn then."""
+    """Return a camera at the same place that frames the whole object and the true axis."""
     camera = _turned(near, mesh.vertices)
     ends = [_axis(mesh, mine, right, camera, AXES[0])[0]] if right.motion else []
     return _turned(near, np.concatenate([mesh.vertices, *ends]))
@@ -160,14 +161,14 @@ def _turned(camera: Camera, points: Float[np.ndarray, "n 3"]) -> Camera:
 def _at_rest(
     mesh: Mesh, mine: Bool[np.ndarray, " F"], theirs: Bool[np.ndarray, " F"], moves: Sequence[_Move], camera: Camera
 ) -> UInt8[np.ndarray, "H W 3"]:
-    """The true part tinted, the found one outlined."""
+    """Draw the true part tinted, and the outline of the found one."""
     picture = _painted(mesh, camera, TRUE_COLOR, mine)
     picture = blend(picture, rim(silhouette(mesh.triangles[theirs], camera), RIM), FOUND_COLOR, 1.0)
     return _with_axes(picture, mesh, mine, moves, camera)
 
 
 def _opened(mesh: Mesh, right: _Move, ours: _Move, moves: Sequence[_Move], camera: Camera) -> UInt8[np.ndarray, "H W 3"]:
-    """The part where the found joint takes it; outlined where it should be."""
+    """Draw the part as moved by the found joint, and the outline of its true position."""
     pose = ours.pose(mesh)
     picture = _painted(pose, camera, FOUND_COLOR, ours.faces & (ours.motion is not None))
     should = silhouette(right.pose(mesh).triangles[right.faces], camera)
@@ -178,7 +179,7 @@ def _opened(mesh: Mesh, right: _Move, ours: _Move, moves: Sequence[_Move], camer
 def _axis(
     mesh: Mesh, faces: Bool[np.ndarray, " F"], move: _Move, camera: Camera, scale: float
 ) -> tuple[Float[np.ndarray, "2 3"], Float[np.ndarray, "k 3"] | None]:
-    """The arrow along the axis, the way that the part opens, and the ring of a turn."""
+    """Return the arrow along the axis in the opening direction, and the ring of a rotation."""
     motion = move.motion
     assert motion is not None
     corners = mesh.triangles[faces].reshape(-1, 3)
@@ -190,7 +191,7 @@ def _axis(
 
 
 def _painted(mesh: Mesh, camera: Camera, color: Color, faces: Bool[np.ndarray, " F"]) -> UInt8[np.ndarray, "H W 3"]:
-    """The object pale and grey, some faces in colour, and shining through where something hides them."""
+    """Draw the object light grey, with some faces in colour, blended over what hides them."""
     scene = RayScene(mesh.vertices, mesh.faces)
     view = render(mesh, camera, face_color=np.tile(GREY, (len(mesh.faces), 1)), scene=scene)
     picture = lighten(view.color, PALE)
@@ -204,7 +205,7 @@ def _painted(mesh: Mesh, camera: Camera, color: Color, faces: Bool[np.ndarray, "
 def _with_axes(
     picture: UInt8[np.ndarray, "H W 3"], mesh: Mesh, faces: Bool[np.ndarray, " F"], moves: Sequence[_Move], camera: Camera
 ) -> UInt8[np.ndarray, "H W 3"]:
-    """The true axis thick, the found one thinner on top of it: where they agree both are seen."""
+    """Draw the true axis thick and the found one thinner on top, so that both are visible where they agree."""
     drawn = Image.fromarray(picture)
     draw = ImageDraw.Draw(drawn)
     for move, scale in zip(moves, AXES, strict=False):

@@ -1,4 +1,4 @@
-"""One object put to the test: what is given, what is asked, what is kept of it."""
+"""Evaluation of one object: preparation by protocol, solution, scores and pictures."""
 
 from __future__ import annotations
 
@@ -28,25 +28,26 @@ from anymesh.reasoning.asking import VisualAnswerer
 from anymesh.types import Joint, Segmentation
 
 log = logging.getLogger("anymesh")
-PICTURES = "pictures"  # folder, under the report's
-MAX_PICTURES = 3  # of joints that are off, an object
-OFF_ANGLE = 5.0  # [deg] a joint that is further off is drawn
-OFF_LINE = 0.05  # and so is one whose axis is further off at the part; the diagonal is 2
-SampleAnswerer = Callable[[EvalSample], Callable[[VisualAnswerer], VisualAnswerer] | None]  # who answers, None: geometry
+PICTURES = "pictures"  # folder in the report's folder
+MAX_PICTURES = 3  # of joints with errors, per object
+OFF_ANGLE = 5.0  # [deg] angle error above which a joint is drawn
+OFF_LINE = 0.05  # the same for the distance of the axis at the part; the diagonal is 2
+# returns the answerer factory of a sample, None for geometry
+SampleAnswerer = Callable[[EvalSample], Callable[[VisualAnswerer], VisualAnswerer] | None]
 
 
 class EvalProtocol(StrEnum):
-    """What is given, and what is scored."""
+    """What is given to the solver, and what is scored."""
 
     PARTS = "parts"  # the true parts are given; joints are scored (the paper's tables 1, 4 and 5)
-    VIEWS = "views"  # the true parts, as one view shows them (table 3)
-    END_TO_END = "end-to-end"  # the nameless mesh alone
-    EXECUTABILITY = "executability"  # the nameless mesh alone, and every joint is driven in MuJoCo
+    VIEWS = "views"  # the true parts, as visible in one view (table 3)
+    END_TO_END = "end-to-end"  # only the mesh without names
+    EXECUTABILITY = "executability"  # only the mesh without names, and every joint is driven in MuJoCo
 
 
 @dataclass(frozen=True)
 class EvalConfig:
-    """How every object is put to the test. views: of each object, for the protocol of that name."""
+    """Settings of an evaluation. views: per object, for the views protocol."""
 
     protocol: EvalProtocol = EvalProtocol.PARTS
     changes: tuple[str, ...] = ("none",)
@@ -57,9 +58,9 @@ class EvalConfig:
 def evaluate_sample(
     config: EvalConfig, dataset: Dataset, name: str, folder: Path, solver: EvalSolver, answerer_for: SampleAnswerer
 ) -> list[Record]:
-    """A record for each change or view; joints that are off are drawn under `folder`.
+    """Return a record for each change or view; draw joints with errors to `folder`.
 
-    What fails is a record with an error. ModelError (no answer can be had, the budget is spent) is raised.
+    Failures become records with an error, except ModelError (no answer available, or budget exceeded), which is raised.
     """
     with tempfile.TemporaryDirectory() as work:
         try:
@@ -67,12 +68,12 @@ def evaluate_sample(
         except InputError as error:
             return [Record(ObjectScore(name, (), 0, 0, 0), error=str(error))]
         if config.protocol is EvalProtocol.VIEWS and not truth.joints:
-            return []  # no picture shows a part that moves
+            return []  # no picture shows a moving part
         return [_record(config, truth, variant, folder, solver, answerer_for) for variant in _variants(config)]
 
 
 def _variants(config: EvalConfig) -> list[tuple[str, int]]:
-    """The change and the number of the view (0: none) of each record."""
+    """Return the change and the number of the view (0: none) of each record."""
     views = range(1, config.views + 1) if config.protocol is EvalProtocol.VIEWS else (0,)
     return [(change, view) for change in config.changes for view in views]
 
@@ -103,7 +104,7 @@ def _record(
             found = executability(sample, segmentation, joints, found)
     except ModelError:
         raise
-    except Exception as error:  # whatever it is, it is this object's failure and not the end of the others
+    except Exception as error:  # any failure is limited to this object
         log.exception("%s (%s) failed", truth.name, label)
         told = f"{type(error).__name__}: {error}"
         return Record(failed(truth), truth.category, label, time.perf_counter() - begin, error=told)
@@ -114,7 +115,7 @@ def _record(
 def _pictures(
     sample: EvalSample, segmentation: Segmentation, joints: tuple[Joint, ...], found: ObjectScore, folder: Path, label: str
 ) -> Iterator[tuple[str, str]]:
-    """Draws the joints that are off, the worst first; yields each part with the picture's path under `folder`."""
+    """Draw the joints with errors, the worst first; yield each part with the picture's path relative to `folder`."""
     by_child = {j.child: j for j in joints}
     off = sorted((j for j in found.joints if is_off(j)), key=badness, reverse=True)
     for number, joint in enumerate(off[:MAX_PICTURES], start=1):
@@ -127,6 +128,6 @@ def _pictures(
 
 
 def is_off(j: JointScore) -> bool:
-    """Whether a person would want to see why."""
+    """Return whether the errors of a joint are large enough to draw it."""
     far = (j.angle or 0.0) > OFF_ANGLE or (j.at_part or 0.0) > OFF_LINE
     return not j.type_right or far or j.opens_right is False or j.parent_right is False

@@ -1,4 +1,4 @@
-"""Whether what was found works in a simulator (MuJoCo), as the files that a user would get."""
+"""Executability of found joints in a simulator (MuJoCo), from the exported files."""
 
 from __future__ import annotations
 
@@ -16,15 +16,15 @@ from anymesh.export import write_asset
 from anymesh.simulation.mujoco_ import sweep_joints
 from anymesh.types import Asset, Joint, JointType, Mesh, Segmentation, Source
 
-STEPS = 100  # places along each range
+STEPS = 100  # positions along each range
 NAME = "object"
 
 
 def executability(sample: EvalSample, segmentation: Segmentation, joints: tuple[Joint, ...], found: ObjectScore) -> ObjectScore:
-    """The score with what driving every found joint through its range showed.
+    """Add to the score the faults found when driving every joint through its range.
 
-    The rule (see `success.motion_anymesh`) is about the joints that were found: what is missing among them is told by other
-    figures. But an object of which nothing was found that moves, though it does in truth, is not executable.
+    The rule (see `success.motion_anymesh`) covers only found joints; missing ones affect other figures. An object that has true
+    joints, but no movable found joint, is not executable.
     """
     faults = drive(sample.mesh, segmentation, joints)
     if sample.truth.joints and not _movable(joints):
@@ -33,9 +33,9 @@ def executability(sample: EvalSample, segmentation: Segmentation, joints: tuple[
 
 
 def drive(mesh: Mesh, segmentation: Segmentation, joints: tuple[Joint, ...], steps: int = STEPS) -> tuple[str, ...]:
-    """Writes the asset's files, drives every joint through its range in MuJoCo; what is wrong, as "joint: fault".
+    """Export the asset, drive every joint through its range in MuJoCo, and return faults as "joint: fault".
 
-    mesh: [m, Z up]. MissingExtraError without MuJoCo.
+    mesh: [m, Z up]. Raise MissingExtraError without MuJoCo.
     """
     if not _movable(joints):
         return ()

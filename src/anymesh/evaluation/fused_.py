@@ -14,18 +14,19 @@ from anymesh.geometry.sampling import sample_surface
 from anymesh.geometry.topology import weld
 from anymesh.types.triangles import normals_and_areas
 
-OFFSET = 0.6  # [cells] of the wrap from the surface; from a half on nothing leaks through a sheet
-BAND = 2  # [cells] from the surface in which distances are measured
-MIN_WRAP_CELLS = 1e-3  # [cells] between the wrap and a corner of a cell, or triangles would have no area
-DENSITY = 6  # points a cell of surface, to find that band
+OFFSET = 0.6  # [cells] offset of the wrap; from 0.5 on, sheets have no leaks
+BAND = 2  # [cells] distance from the surface within which distances are computed
+MIN_WRAP_CELLS = 1e-3  # [cells] minimum distance between the wrap and a grid node, to avoid degenerate triangles
+DENSITY = 6  # points per cell of surface area, to find that band
 
 _CUBE = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]])  # libigl's order
 
 
 def wrapped(triangles: Float[np.ndarray, "F 3 3"], cell: float) -> tuple[Float[np.ndarray, "V 3"], Int[np.ndarray, "R 3"]]:
-    """The closed surface at OFFSET cells round the triangles, as seen from outside: open or closed, they need no winding.
+    """Compute the closed surface at OFFSET cells around the triangles, as seen from outside.
 
-    Gaps narrower than twice the offset close; what they shut off is gone.
+    The triangles may be open and need no consistent winding. Gaps narrower than twice the offset close, and what they enclose
+    is removed.
     """
     import igl
 
@@ -40,7 +41,10 @@ def wrapped(triangles: Float[np.ndarray, "F 3 3"], cell: float) -> tuple[Float[n
 
 
 def _field(triangles: np.ndarray, low: np.ndarray, cell: float) -> np.ndarray:
-    """Distance from the wrap at the nodes of a grid [m], negative inside; only its sign is right further off than BAND."""
+    """Compute the signed distance to the wrap at the nodes of a grid [m], negative inside.
+
+    Beyond BAND only its sign is valid.
+    """
     shape = tuple(np.ceil((triangles.max((0, 1)) - low) / cell).astype(int) + BAND + 3)
     count = int(DENSITY * normals_and_areas(triangles)[1].sum() / cell**2) + 1
     at = np.rint((sample_surface(triangles, count, 0, at_least=1).points - low) / cell).astype(int)
@@ -53,21 +57,21 @@ def _field(triangles: np.ndarray, low: np.ndarray, cell: float) -> np.ndarray:
     field -= OFFSET * cell
     region = ndimage.label(field >= 0)[0]
     outside = (field >= MIN_WRAP_CELLS * cell) & (region == region[0, 0, 0])
-    field[~outside] = np.minimum(-np.abs(field[~outside]), -MIN_WRAP_CELLS * cell)  # no corner of a cube lies on the surface
+    field[~outside] = np.minimum(-np.abs(field[~outside]), -MIN_WRAP_CELLS * cell)  # no grid node lies on the surface
     return field
 
 
 def _on_both_sides(field: np.ndarray) -> np.ndarray:
-    """Cubes that the surface passes through, by their first corner."""
+    """Return the cubes that the surface passes through, by their first corner."""
     x, y, z = (n - 1 for n in field.shape)
     inside = np.sum([field[i : x + i, j : y + j, k : z + k] < 0 for i, j, k in _CUBE], 0)
     return (inside > 0) & (inside < 8)
 
 
 def joined(solids: Sequence[np.ndarray]) -> Float[np.ndarray, "R 3 3"]:
-    """The union of closed, outward surfaces (n, 3, 3). What touches grows together; one that is no manifold stays as it is.
+    """Compute the union of closed, outward surfaces (n, 3, 3). Touching bodies are merged; non-manifold ones stay unchanged.
 
-    MissingExtraError without manifold3d.
+    Raise MissingExtraError without manifold3d.
     """
     try:
         from manifold3d import Error, Manifold, OpType

@@ -1,4 +1,4 @@
-"""Objects whose parts and joints are known."""
+"""Objects with known parts and joints."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from anymesh.types import Asset, Joint, JointType, Mesh, Part, Segmentation, Sou
 
 @dataclass(frozen=True, eq=False)
 class TrueJoint:
-    """A joint in the coordinates of the mesh file; positive opens.
+    """A true joint in the coordinates of the mesh file; its positive direction opens.
 
-    limits: (lower, upper) [rad or lengths of the file]; None for a joint that turns endlessly, or whose range is not known:
-    then `range_known` is False, the axis' sign means nothing, and neither opening side nor range is scored.
+    limits: (lower, upper) [rad or lengths of the file]; None if the joint is continuous or its range is unknown. If it is
+    unknown, `range_known` is False, the sign of the axis has no meaning, and neither opening side nor range is scored.
     """
 
     child: str
@@ -31,22 +31,22 @@ class TrueJoint:
 
 @dataclass(frozen=True, eq=False)
 class GroundTruth:
-    """An object: its mesh file, its parts (0 is the base), a part number a face of the file, its joints."""
+    """An object: its mesh file, its parts (0 is the base), a part index per face of the file, and its joints."""
 
     name: str
     mesh: Path
     parts: tuple[Part, ...]
     labels: Int[np.ndarray, " F"]
     joints: tuple[TrueJoint, ...]
-    category: str = "object"  # what the object is, where the data set says it
+    category: str = "object"  # category of the object, if given by the data set
 
 
 @dataclass(frozen=True, eq=False)
 class EvalSample:
-    """A truth on the mesh that is put to the test: placed, and perhaps changed on purpose.
+    """Ground truth on the evaluated mesh, which is placed and possibly changed.
 
-    labels: (F,) true part numbers of the mesh's faces; T: (4, 4) takes the truth's coordinates to the mesh's; diagonal: of
-    the whole object at rest [m], where the mesh is not that.
+    labels: (F,) true part indices of the mesh's faces; T: (4, 4) from the truth's coordinates to the mesh's; diagonal: of the
+    whole object at rest [m], None if the mesh is the whole object at rest.
     """
 
     truth: GroundTruth
@@ -57,11 +57,11 @@ class EvalSample:
 
     @property
     def unit(self) -> float:
-        """Length that the field's position errors are told in [m]: the diagonal is 2 (see docs/paper_tables.md)."""
+        """Unit of position errors [m]: half the diagonal, so that the diagonal is 2 (see docs/paper_tables.md)."""
         return (self.diagonal or self.mesh.diagonal) / 2
 
     def joint(self, true: TrueJoint) -> TrueJoint:
-        """The true joint in the mesh's coordinates, its axis a unit vector."""
+        """Return the true joint in the mesh's coordinates, with a unit axis."""
         axis = self.T[:3, :3] @ true.axis
         scale = float(np.linalg.norm(axis))
         factor = scale if true.type is JointType.PRISMATIC else 1.0
@@ -69,14 +69,16 @@ class EvalSample:
         return replace(true, axis=axis / scale, origin=self.T[:3, :3] @ true.origin + self.T[:3, 3], limits=limits)
 
     def segmentation(self) -> Segmentation:
-        """The true parts, for the protocol in which parts are given; labels are not told."""
+        """Return the true parts without their labels, for protocols in which parts are given."""
         return Segmentation(
             self.labels, tuple(Part(p.name, "base" if k == 0 else "part") for k, p in enumerate(self.truth.parts))
         )
 
     def asset(self) -> Asset:
-        """The sample with its true parts and joints. A range that is not known is a small one; what has no joint is fixed
-        to the base."""
+        """Return the sample as an asset with its true parts and joints.
+
+        Unknown ranges are replaced by small ones. Parts without a joint are fixed to the base.
+        """
         segmentation = self.segmentation()
         names = [part.name for part in segmentation.parts]
         joints = [self._known(true) for true in self.truth.joints]
@@ -96,7 +98,7 @@ class EvalSample:
 
 
 def read_ground_truth(path: Path, mesh: Path) -> GroundTruth:
-    """Reads NAME.json and NAME.npy (see examples/build.py)."""
+    """Read NAME.json and NAME.npy (see examples/build.py)."""
     record = json.loads(path.read_text(encoding="utf-8"))
     joints = tuple(
         TrueJoint(
@@ -114,6 +116,6 @@ def read_ground_truth(path: Path, mesh: Path) -> GroundTruth:
 
 
 def example_truths(folder: Path) -> list[GroundTruth]:
-    """All objects of the folder `examples/`."""
+    """Read all objects of the folder `examples/`."""
     found = sorted((folder / "truth").glob("*.json"))
     return [read_ground_truth(path, folder / "meshes" / f"{path.stem}.glb") for path in found]

@@ -1,4 +1,4 @@
-"""Answers drawn at random, each one valid: what the visual method makes of them must be a result, never a crash."""
+"""Random valid answers, for testing that the visual method turns any answers into a result without crashing."""
 
 from __future__ import annotations
 
@@ -15,16 +15,16 @@ from anymesh.types import Exchange
 from anymesh.types.recognition import BASE
 
 WORDS = ("door", "lid", "drawer", "knob", "wheel", "handle", "arm", "button")
-MAX_KINDS, MAX_PARTS = 4, 6  # of labels, and of parts in an answer about marks
-OWNED = 0.7  # share of the marks that belong to some part
-RARE = 0.1  # of the marks that are unsure, or to be split
-Pools = Mapping[str, list[int]]  # what an integer of a name can be
+MAX_KINDS, MAX_PARTS = 4, 6  # maximum number of labels, and of parts in an answer about marks
+OWNED = 0.7  # share of the marks that belong to a part
+RARE = 0.1  # share of the marks that are unsure, or to be split
+Pools = Mapping[str, list[int]]  # allowed values of integers, by name
 
 
 class Guesser:
-    """Draws an answer from each question's schema and the numbers that its pictures show.
+    """Answerer that draws random answers from each question's schema and the numbers in its pictures.
 
-    pictured: whether pictures are drawn for it, as they are for a model.
+    pictured: whether pictures are rendered for it, as for a model.
     """
 
     exchanges: tuple[Exchange, ...] = ()
@@ -35,7 +35,7 @@ class Guesser:
         self._rng = np.random.default_rng(seed)
 
     def ask(self, question: Question[Answer]) -> Answer:
-        """Raises BadAnswerError if what was drawn is not valid, which is a fault of this class."""
+        """Return a random answer. Raise BadAnswerError if it is not valid, which is a bug of this class."""
         found = self._found(question)
         check_schema(found, question.schema())
         return question.parse(found)
@@ -67,7 +67,7 @@ class Guesser:
         }
 
     def _drawn(self, schema: Mapping[str, Any], pools: Pools, name: str = "") -> Any:
-        """A value that satisfies a schema. pools: for an integer those to draw from, for a list of integers the list."""
+        """Draw a value that satisfies a schema. pools: values for an integer, or the whole value of a list of integers."""
         kind, rng = schema["type"], self._rng
         if kind == "object":
             return {key: self._drawn(part, pools, key) for key, part in schema["properties"].items()}

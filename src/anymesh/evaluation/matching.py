@@ -1,4 +1,4 @@
-"""Which predicted part is which true one."""
+"""Matching of predicted and true parts."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from scipy.optimize import linear_sum_assignment
 def part_ious(
     predicted: Int[np.ndarray, " F"], true: Int[np.ndarray, " F"], areas: Float[np.ndarray, " F"]
 ) -> Float[np.ndarray, "P T"]:
-    """IoU by surface area of every predicted part (rows) with every true one (columns), the bases (0) included."""
+    """Compute the IoU by surface area of predicted (rows) and true parts (columns), including the bases (0)."""
     inside = np.zeros((int(predicted.max()) + 1, int(true.max()) + 1))
     np.add.at(inside, (predicted, true), areas)
     union = inside.sum(1, keepdims=True) + inside.sum(0, keepdims=True) - inside
@@ -18,8 +18,7 @@ def part_ious(
 
 
 def match_parts(ious: Float[np.ndarray, "P T"]) -> list[tuple[int, int, float]]:
-    """The pairing of movable parts (predicted, true, IoU) with the largest sum of IoUs (Hungarian); pairs without overlap
-    are left out."""
+    """Match movable parts (predicted, true, IoU) to maximize the sum of IoUs (Hungarian); omit pairs without overlap."""
     rows, columns = linear_sum_assignment(-ious[1:, 1:])
     return [
         (int(r) + 1, int(c) + 1, float(ious[r + 1, c + 1]))

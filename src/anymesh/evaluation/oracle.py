@@ -1,4 +1,4 @@
-"""Ground truth in the place of a model, with errors on purpose where wanted: what the geometry half of the method loses."""
+"""Answers from ground truth, optionally with errors, to measure the errors of the geometric half of the method."""
 
 from __future__ import annotations
 
@@ -30,12 +30,12 @@ Item = TypeVar("Item")
 
 
 def oracle(sample: EvalSample) -> ReferenceAnswerer:
-    """Answers each question as a perfect model would."""
+    """Return an answerer that answers each question as a perfect model would."""
     return ReferenceAnswerer("oracle", lambda: true_reference(sample))
 
 
 def true_reference(sample: EvalSample) -> Reference:
-    """The truth in the asset frame."""
+    """Return the ground truth in the asset frame."""
     truth, mesh = sample.truth, sample.mesh
     names = [p.name for p in truth.parts]
     joints = {j.child: sample.joint(j) for j in truth.joints}
@@ -53,7 +53,7 @@ def true_reference(sample: EvalSample) -> Reference:
 
 
 class Noisy:
-    """Another answerer, of whose answers each item is wrong with a probability: another mark, kind, point, arrow or motion."""
+    """Wrapper that replaces each item of an answer by a wrong one with a probability: mark, kind, point, arrow or motion."""
 
     exchanges: tuple[Exchange, ...] = ()
     warnings: tuple[str, ...] = ()
@@ -92,12 +92,12 @@ class Noisy:
         return cast(Answer, answer)
 
     def _other(self, right: Item, among: Sequence[Item]) -> Item:
-        """The right one, or with the probability any other of these."""
+        """Return the right item, or with the error probability another one."""
         others = [n for n in among if n != right]
         return others[int(self._rng.integers(len(others)))] if others and self._rng.random() < self._wrong else right
 
     def _others(self, right: tuple[int, ...], among: range | np.ndarray) -> tuple[int, ...]:
-        """Each of these that are right together, or with the probability one that is not: none of them, and none twice."""
+        """Replace each item with the error probability by a wrong one; none is used twice."""
         spare = [int(n) for n in among if n not in right]
         return tuple(
             spare.pop(int(self._rng.integers(len(spare)))) if spare and self._rng.random() < self._wrong else n for n in right
@@ -105,7 +105,7 @@ class Noisy:
 
 
 class Random:
-    """Answers the questions about joints at random, with valid answers; another answerer answers the rest."""
+    """Answerer with random valid answers to the questions about joints; another answerer handles the rest."""
 
     exchanges: tuple[Exchange, ...] = ()
     warnings: tuple[str, ...] = ()

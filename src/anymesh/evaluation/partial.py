@@ -1,4 +1,4 @@
-"""What one picture with depth shows of an object: pixels become points, and neighbouring pixels of one surface are joined."""
+"""Surface visible in one depth image: pixels become points, and neighbouring pixels of one surface are connected."""
 
 from __future__ import annotations
 
@@ -8,14 +8,15 @@ from jaxtyping import Bool, Float, Int
 from anymesh.rendering.render import View
 from anymesh.types import Mesh, Node
 
-STEEP = 6.0  # neighbours that differ more in depth, in widths of a pixel there, lie on one surface only where it goes on so
+# maximum depth difference of neighbours, in pixel widths at that depth, unless the surface continues at the same slant
+STEEP = 6.0
 
 
 def visible_surface(view: View, part: Int[np.ndarray, "H W"]) -> tuple[Mesh, Int[np.ndarray, " F"]]:
-    """The surface that a picture shows, coloured as it is, and the part of each of its faces.
+    """Return the surface visible in a picture, with its colours, and the part of each face.
 
-    part: of each pixel, -1 where nothing is seen. Faces join pixels of one part only, look at the camera, and none spans a
-    jump in depth. ValueError when no three pixels can be joined.
+    part: per pixel, -1 where nothing is visible. Faces connect pixels of one part only, face the camera, and do not span jumps
+    in depth. Raise ValueError if no three pixels can be connected.
     """
     origins, directions = view.camera.rays()
     depth = view.depth.reshape(-1)
@@ -38,7 +39,10 @@ def visible_surface(view: View, part: Int[np.ndarray, "H W"]) -> tuple[Mesh, Int
 
 
 def _triangles(view: View, part: np.ndarray) -> Int[np.ndarray, "F 3"]:
-    """Pixel numbers of every face: each square of four neighbours is cut along the diagonal that keeps more of it."""
+    """Return the pixel indices of every face.
+
+    Each square of four neighbours is cut along the diagonal that keeps more of it.
+    """
     z, focal = view.depth, view.camera.focal
     across, down = joined(z, part, focal), joined(z.T, part.T, focal).T
     number = np.arange(z.size).reshape(z.shape)
@@ -55,9 +59,9 @@ def _triangles(view: View, part: np.ndarray) -> Int[np.ndarray, "F 3"]:
 
 
 def joined(z: Float[np.ndarray, "H W"], part: Int[np.ndarray, "H W"], focal: float) -> Bool[np.ndarray, "H w"]:
-    """Whether each pixel and the one to its right show the same surface: both of a part, and no jump in depth between.
+    """Return whether each pixel and its right neighbour show the same surface: the same part, without a jump in depth.
 
-    One over the depth of a plane is linear in the picture, so that a plane seen at any slant goes on as it came.
+    The inverse depth of a plane is linear in the picture, so that a plane at any slant continues.
     """
     with np.errstate(invalid="ignore"):
         step = np.abs(np.diff(z, axis=1))
@@ -68,6 +72,6 @@ def joined(z: Float[np.ndarray, "H W"], part: Int[np.ndarray, "H W"], focal: flo
     same = part[:, 1:] == part[:, :-1]
     of_one = bend & same[:, 1:] & same[:, :-1]
     goes_on = np.zeros_like(near)
-    goes_on[:, 1:] |= of_one  # with the one before
-    goes_on[:, :-1] |= of_one  # with the one after
+    goes_on[:, 1:] |= of_one  # with the previous one
+    goes_on[:, :-1] |= of_one  # with the next one
     return (part[:, 1:] >= 0) & same & (near | goes_on)

@@ -1,24 +1,24 @@
-"""How alike two articulated objects are at rest and in motion: the measures of Particulate (Li et al., arXiv 2512.11798).
+"""Similarity of two articulated objects at rest and in motion: the measures of Particulate (Li et al., arXiv 2512.11798).
 
-As in the authors' released evaluation: lengths are told with the object's longest side as 1. Parts, the base among them, are
-paired one to one so that the distances of their centroids sum to the least (Hungarian). Each measure is the mean over the
-found parts, and the mean over the true parts, and of these two the mean; so parts too many cost as much as parts too few.
+As in the authors' released evaluation, lengths are relative to the object's longest side. Parts, including the base, are paired
+one to one with the smallest sum of distances of their centroids (Hungarian). Each measure is the average of its mean over the
+found parts and its mean over the true parts, so that surplus and missing parts cost the same.
 
-- gIoU: of the parts' boxes (axis-aligned at rest, carried along in motion), -1 for a part without partner.
-- mIoU: IoU of axis-aligned boxes, at each pose anew; 0 without partner.
-- Chamfer: mean squared distance of a part's points to the nearest of its partner's, the sum of both ways; half the object's
-  diagonal without partner.
+- gIoU: of the parts' boxes (axis-aligned at rest, moved with the part), -1 for an unpaired part.
+- mIoU: IoU of axis-aligned boxes, computed at each pose; 0 if unpaired.
+- Chamfer: mean squared distance of a part's points to the nearest of its partner's, summed over both directions; half the
+  object's diagonal if unpaired.
 
-Joints stand at five states, evenly from lower to upper limit, all together. `posed` is the mean over the states, `opened` the
-last state, which their tables show.
+Joints take five states, evenly from lower to upper limit, all together. `posed` is the mean over the states, `opened` the last
+state, which is the one in the authors' tables.
 
-Our reading, where theirs is not told or leads astray:
-- The box round two moved boxes, of gIoU, is round where they are, along either of them; theirs is round where they were at
-  rest, by which a door that turns quite elsewhere than it should scores up to 1.
-- IoU of boxes that are turned against each other is taken at fixed points of both boxes instead of random ones.
-- Both objects are the same mesh, so both are seen at the same points: what is perfect has distance 0.
-- Boxes are of the parts' corners, not of points on them, and thin ones are THIN thick, so that a sheet is like itself.
-- Joints that turn endlessly make half a turn. Without known ranges there is no motion to compare.
+Our choices, where the original is unspecified or misleading:
+- The enclosing box of gIoU for two moved boxes is aligned with either of them in their moved poses. The original encloses the
+  boxes at rest, so that a door with a wrong motion scores up to 1.
+- The IoU of rotated boxes is computed at fixed points of both boxes instead of random ones.
+- Both objects are the same mesh and are sampled at the same points, so a perfect result has distance 0.
+- Boxes enclose the parts' corners, not points on them, and are at least THIN thick, so that a sheet equals itself.
+- Continuous joints make half a turn. Without known ranges, motion is not compared.
 """
 
 from __future__ import annotations
@@ -37,15 +37,15 @@ from anymesh.evaluation.ground_truth import EvalSample, TrueJoint
 from anymesh.geometry.sampling import sample_surface
 from anymesh.types import Joint, JointType, Mesh, Motion, MotionKind, Segmentation
 
-POINTS = 10_000  # on the surface, that distances are taken at
-FEW = 16  # points at least on each part
+POINTS = 10_000  # number of surface points for distances
+FEW = 16  # minimum number of points on each part
 STATES = 5
-ENDLESS = (0.0, np.pi)  # [rad] range of a joint that turns endlessly
+ENDLESS = (0.0, np.pi)  # [rad] range used for continuous joints
 
 
 @dataclass(frozen=True)
 class ParticulateMetrics:
-    """How alike two sets of parts are: gIoU of their boxes (-1..1), IoU of their boxes, Chamfer distance."""
+    """Similarity of two sets of parts: gIoU of their boxes (-1..1), IoU of their boxes, Chamfer distance."""
 
     giou: float
     miou: float
@@ -54,7 +54,7 @@ class ParticulateMetrics:
 
 @dataclass(frozen=True)
 class PoseMetrics:
-    """opened: at the upper ends of all ranges; posed, opened: None where the true ranges are not known."""
+    """Metrics by pose. opened: at the upper ends of all ranges; posed, opened: None if the true ranges are unknown."""
 
     rest: ParticulateMetrics
     posed: ParticulateMetrics | None
@@ -83,7 +83,7 @@ class _Side:
 
 
 def particulate_metrics(sample: EvalSample, segmentation: Segmentation, joints: tuple[Joint, ...]) -> PoseMetrics:
-    """The found parts and joints of the sample's mesh against the true ones."""
+    """Compare the found parts and joints of the sample's mesh with the true ones."""
     mesh, truth = sample.mesh, sample.truth
     size = float(mesh.extents.max())
     true_joints = [sample.joint(j) for j in truth.joints]
@@ -104,7 +104,7 @@ def particulate_metrics(sample: EvalSample, segmentation: Segmentation, joints: 
 
 
 def _points(mesh: Mesh, labels: tuple[Int[np.ndarray, " F"], ...]) -> tuple[np.ndarray, np.ndarray]:
-    """Points (n, 3) on the surface and their faces; some on every part of either side."""
+    """Sample points (n, 3) on the surface, with their faces; every part of either side gets some."""
     spread = sample_surface(mesh.triangles, POINTS, 0)
     points, faces = [spread.points], [spread.faces]
     for label in labels:
@@ -130,7 +130,7 @@ def _side(mesh: Mesh, labels: np.ndarray, at: tuple[np.ndarray, np.ndarray], T: 
 
 
 def _corners(mesh: Mesh, faces: Bool[np.ndarray, " F"]) -> Float[np.ndarray, "c 3"]:
-    """The corners of faces; of solids those alone that can touch a box round them, for speed."""
+    """Return the corners of faces; for solids only those on the convex hull, for speed."""
     used = np.zeros(len(mesh.vertices), bool)
     used[mesh.faces[faces]] = True
     corners = mesh.vertices[used]
@@ -141,7 +141,7 @@ def _corners(mesh: Mesh, faces: Bool[np.ndarray, " F"]) -> Float[np.ndarray, "c 
 
 
 def _poses(names: Sequence[str], joints: Sequence[Joint] | Sequence[TrueJoint]) -> Float[np.ndarray, "S P 4 4"]:
-    """Where each part is: at rest, then at each state. A part without a joint stays."""
+    """Return the pose of each part: at rest, then at each state. Parts without a joint are static."""
     by_child = {j.child: j for j in joints}
     shares = np.linspace(0, 1, STATES)
     found: dict[str, np.ndarray] = {}

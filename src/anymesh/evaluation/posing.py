@@ -1,4 +1,4 @@
-"""A sample with some of its joints moved."""
+"""Samples with some of their joints moved."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from anymesh.types import JointType, Motion, MotionKind
 
 
 def posed(sample: EvalSample, positions: Mapping[str, float]) -> EvalSample:
-    """The sample with joints, told by their children's names, at positions in the truth's units; the others stay at rest.
+    """Move joints, given by the names of their children, to positions in the truth's units; the others stay at rest.
 
-    Joints and their limits are told from there on: a door that stands half way open closes to its lower limit.
+    The new pose becomes the rest pose of joints and limits: a half open door closes to its lower limit.
     """
     T = link_transforms(sample, positions)
     triangles = sample.mesh.triangles.copy()
@@ -30,7 +30,7 @@ def posed(sample: EvalSample, positions: Mapping[str, float]) -> EvalSample:
 
 
 def link_transforms(sample: EvalSample, positions: Mapping[str, float]) -> dict[str, Float[np.ndarray, "4 4"]]:
-    """Part name -> transform from rest in the mesh's frame; what is no joint's child stands still."""
+    """Return part name -> transform from rest in the mesh's frame; parts that are not a joint's child are static."""
     by_child = {j.child: j for j in sample.truth.joints}
     found: dict[str, np.ndarray] = {}
 
@@ -54,6 +54,6 @@ def _motion(sample: EvalSample, joint: TrueJoint, position: float) -> np.ndarray
 
 
 def _moved(joint: TrueJoint, T: np.ndarray, position: float) -> TrueJoint:
-    """The joint carried along by its parent (T in the truth's coordinates), told from where it stands."""
+    """Return the joint moved with its parent (T in the truth's coordinates), with limits relative to its position."""
     limits = None if joint.limits is None else (joint.limits[0] - position, joint.limits[1] - position)
     return replace(joint, origin=T[:3, :3] @ joint.origin + T[:3, 3], axis=T[:3, :3] @ joint.axis, limits=limits)

@@ -1,4 +1,4 @@
-"""How an object is put to the test: end to end from its mesh, or with its parts given (the paper's tables)."""
+"""Evaluation of an object: end to end from its mesh, or with its parts given (the paper's tables)."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from anymesh.loading import load_mesh, place_mesh
 from anymesh.reasoning.asking import VisualAnswerer
 from anymesh.types import Joint, Mesh, Segmentation
 
-Change = Callable[[EvalSample], EvalSample]  # turned, shaken, fused, and so on
+Change = Callable[[EvalSample], EvalSample]  # rotates, adds noise, fuses, and so on
 
 
 @runtime_checkable
 class EvalSolver(Protocol):
-    """Find the parts (unless given) and joints of a placed mesh; answerer_factory: None for geometry."""
+    """Protocol of a solver: finds the parts (unless given) and joints of a placed mesh; answerer_factory: None for geometry."""
 
     def __call__(
         self,
@@ -36,9 +36,9 @@ def evaluate(
     change: Change | None = None,
     reference: Callable[[VisualAnswerer], VisualAnswerer] | None = None,
 ) -> ObjectScore:
-    """Loads and places the mesh, changes it, lets the solver find its parts (unless given) and joints, and scores them.
+    """Load, place and change the mesh, solve it for parts (unless given) and joints, and score the result.
 
-    reference: the oracle answers, or what this function makes of it (see `oracle.Noisy`).
+    reference: wraps the oracle, which then answers (see `oracle.Noisy`); None for geometry.
     """
     sample = prepared(truth, change)
     answerer_factory = None if reference is None else (lambda _: reference(oracle(sample)))
@@ -47,7 +47,7 @@ def evaluate(
 
 
 def prepared(truth: GroundTruth, change: Change | None = None) -> EvalSample:
-    """The truth's mesh loaded, placed, and changed on purpose."""
+    """Load the truth's mesh, place it, and apply a change."""
     placed = place_mesh(load_mesh(truth.mesh))
     sample = EvalSample(truth, placed.mesh, truth.labels, placed.T_asset_source)
     return change(sample) if change else sample

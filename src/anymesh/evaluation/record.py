@@ -1,4 +1,4 @@
-"""What is kept of one object that was put to the test, as JSON there and back."""
+"""Records of evaluated objects, stored as JSON."""
 
 from __future__ import annotations
 
@@ -13,33 +13,33 @@ from anymesh.evaluation.score import ObjectScore
 
 @dataclass(frozen=True)
 class Record:
-    """One object under one change. With an `error`, nothing was found: the score counts every joint as missing."""
+    """Result of one object under one change. With an `error`, the score counts every joint as missing."""
 
     score: ObjectScore
     category: str = "object"
     change: str = "none"
-    seconds: float = 0.0  # that both stages took
+    seconds: float = 0.0  # of both stages
     error: str = ""
-    pictures: tuple[tuple[str, str], ...] = ()  # (part, path under the report's folder) of joints that are off
+    pictures: tuple[tuple[str, str], ...] = ()  # (part, path relative to the report's folder) of joints with errors
 
     @property
     def title(self) -> str:
-        """The object and what was changed."""
+        """The object and the change."""
         return self.score.name if self.change == "none" else f"{self.score.name} ({self.change})"
 
 
 def record_text(record: Record) -> str:
-    """One line of JSON. ValueError for a number that is not finite."""
+    """Convert a record to one line of JSON. Raise ValueError for numbers that are not finite."""
     return json.dumps(asdict(record), allow_nan=False)
 
 
 def record_of(text: str) -> Record:
-    """The record that `record_text` wrote. ValueError where the text holds anything else."""
+    """Parse the text of `record_text`. Raise ValueError if it is not valid."""
     return _read(Record, json.loads(text, parse_constant=_refuse), "record")
 
 
 def _read(kind: Any, value: Any, where: str) -> Any:
-    """A JSON value as what the annotation says: a dataclass, tuple, enum, plain value or one of several."""
+    """Convert a JSON value to its annotated type: a dataclass, tuple, enum, plain value or a union."""
     if is_dataclass(kind) and isinstance(kind, type):
         return _read_fields(kind, value, where)
     if get_origin(kind) is tuple:

@@ -1,4 +1,4 @@
-"""The report of an evaluation: joints.jsonl, report.md, report.html and worst.png."""
+"""Report of an evaluation: joints.jsonl, report.md, report.html and worst.png."""
 
 from __future__ import annotations
 
@@ -22,15 +22,15 @@ from anymesh.evaluation.worst import what_is_off, worst
 from anymesh.rendering.encode import encode
 
 SHEET = "worst.png"
-MAX_SHEET_JOINTS = 24  # joints on the contact sheet
-SHEET_COLUMNS, SHEET_WIDTH = 3, 620  # and how wide each is [px]
+MAX_SHEET_JOINTS = 24  # maximum number of joints on the contact sheet
+SHEET_COLUMNS, SHEET_WIDTH = 3, 620  # number of columns and their width [px]
 
 
 def write_report(records: Sequence[Record], folder: Path, *, title: str, settings: Mapping[str, str]) -> None:
-    """Writes the files into the folder, each whole or not at all; worst.png only where a joint was drawn.
+    """Write the report atomically, file by file, to the folder; worst.png only if a joint was drawn.
 
-    settings: what the figures hang on (data set, protocol, answerer, seed, versions, date), in the order to show.
-    Raises OutputError.
+    settings: what determines the figures (data set, protocol, answerer, seed, versions, date), in display order.
+    Raise OutputError if a file cannot be written.
     """
     drawn = ((o, _pixels(folder / o.picture)) for o in worst(records, MAX_SHEET_JOINTS))
     shown = [(o, without_caption(pixels)) for o, pixels in drawn if pixels is not None]
@@ -50,7 +50,7 @@ def write_report(records: Sequence[Record], folder: Path, *, title: str, setting
 
 
 def joint_rows(records: Sequence[Record]) -> Iterator[dict[str, Any]]:
-    """A flat JSON object for each true joint: where it belongs, all of its scores, and the field's rules of success."""
+    """Yield a flat JSON object per true joint: its identity, all scores, and the published success rules."""
     for r in records:
         for j in r.score.joints:
             where = {"object": r.score.name, "category": r.category, "change": r.change}
@@ -59,7 +59,7 @@ def joint_rows(records: Sequence[Record]) -> Iterator[dict[str, Any]]:
 
 
 def markdown_report(title: str, tables: Sequence[Table], *, sheet: str = "") -> str:
-    """The report as Markdown. sheet: path of the contact sheet, if any."""
+    """Return the report as Markdown. sheet: path of the contact sheet, if any."""
     parts = [f"# {_plain(title)}"]
     for table in tables:
         parts += [f"## {table.title}", *([table.note] if table.note else []), markdown(table)]
@@ -68,20 +68,20 @@ def markdown_report(title: str, tables: Sequence[Table], *, sheet: str = "") -> 
 
 
 def markdown(table: Table) -> str:
-    """The table as Markdown."""
+    """Return the table as Markdown."""
     lines = [[*table.head], ["---"] * len(table.head), *([c.text for c in row] for row in table.rows)]
     return "\n".join("| " + " | ".join(_plain(text) for text in line) + " |" for line in lines)
 
 
 def _plain(text: str) -> str:
-    """In a line, with nothing that Markdown or HTML would read as its own."""
+    """Escape Markdown and HTML, and join the text to one line."""
     for sign, told in (("&", "&amp;"), ("<", "&lt;"), ("\\", "\\\\"), ("|", "\\|"), ("`", "\\`"), ("*", "\\*"), ("_", "\\_")):
         text = text.replace(sign, told)
     return " ".join(text.split())
 
 
 def _pixels(path: Path) -> UInt8[np.ndarray, "H W 3"] | None:
-    """None where there is no such picture."""
+    """Read a picture; None if there is none."""
     try:
         with Image.open(path) as image:
             return np.asarray(image.convert("RGB"))

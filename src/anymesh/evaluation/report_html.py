@@ -1,4 +1,4 @@
-"""The report as one HTML file that needs nothing else."""
+"""The report as one self-contained HTML file."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ from anymesh.evaluation.score import JointScore
 from anymesh.evaluation.tables import Cell, Table
 from anymesh.evaluation.worst import Off, what_is_off
 
-QUALITY = 82  # of the pictures, JPEG: a report with two dozen of them stays near a megabyte
-SHOWN = 40  # rows from which a table is folded
-STRENGTH, MIN_SHADE = 0.55, 0.01  # of the shade of the worst cell, and of the weakest that is drawn
+QUALITY = 82  # JPEG quality: a report with two dozen pictures has about a megabyte
+SHOWN = 40  # number of rows above which a table is collapsed
+STRENGTH, MIN_SHADE = 0.55, 0.01  # opacity of the shade of the worst cell, and the weakest that is drawn
 STYLE = """
 body { font: 14px/1.45 system-ui, sans-serif; color: #222; background: #fff }
 body { max-width: 1240px; margin: 0 auto; padding: 0 16px 40px }
@@ -44,7 +44,7 @@ def html_report(
     tables: Sequence[Table],
     worst: Sequence[tuple[Off, UInt8[np.ndarray, "H W 3"]]],
 ) -> str:
-    """The tables of the report, the distributions of the errors, and the worst joints with their pictures."""
+    """Return the report with its tables, the error distributions, and the worst joints with their pictures."""
     sections = {table.title: html_table(table) for table in tables if table.title not in ("Settings", "The worst")}
     summary = sections.pop("Summary")
     charts = "".join(f"<figure>{svg}</figure>" for svg in error_charts(curves(records)))
@@ -63,7 +63,7 @@ def html_report(
 
 
 def curves(records: Sequence[Record]) -> dict[str, list[JointScore]]:
-    """The joints by change where there are several, else by their true type."""
+    """Group the joints by change if there are several, else by their true type."""
     several = len({r.change for r in records}) > 1
     found: dict[str, list[JointScore]] = {}
     for record in records:
@@ -73,7 +73,7 @@ def curves(records: Sequence[Record]) -> dict[str, list[JointScore]]:
 
 
 def html_table(table: Table) -> str:
-    """The table under its title; a long one is folded."""
+    """Return the table under its title; a long one is collapsed."""
     kinds = [_kind(cell) for cell in table.rows[0]]
     head = "".join(f"<th{kind}>{escape(name)}</th>" for kind, name in zip(kinds, table.head, strict=True))
     rows = "\n".join("<tr>" + "".join(map(_cell, row)) + "</tr>" for row in table.rows)
@@ -89,7 +89,7 @@ def _kind(cell: Cell) -> str:
 
 
 def _cell(cell: Cell) -> str:
-    # the root lets small errors be seen beside large ones
+    # The square root makes small errors visible beside large ones.
     strength = STRENGTH * (cell.shade or 0.0) ** 0.5
     style = f' style="background:rgba(213,94,0,{strength:.2f})"' if strength > MIN_SHADE else ""
     return f"<td{_kind(cell)}{style}>{escape(cell.text)}</td>"

@@ -1,4 +1,4 @@
-"""The folder of an evaluation: what was done is kept object by object, so that a stopped one goes on."""
+"""Folder of an evaluation, with results per object, so that a stopped evaluation can be resumed."""
 
 from __future__ import annotations
 
@@ -12,23 +12,23 @@ from anymesh.evaluation.record import Record, record_of, record_text
 from anymesh.storage.stage_files import read_json, write_json
 
 SETTINGS = "eval.json"
-OBJECTS = "objects"  # folder of a file an object, a line a record
+OBJECTS = "objects"  # folder with one file per object and one line per record
 GENERATOR = "articulate-anymesh eval"
-NEW = ("date", "python", "numpy", "machine")  # may differ when an evaluation goes on
+NEW = ("date", "python", "numpy", "machine")  # settings that may differ when an evaluation is resumed
 
 
 @dataclass(frozen=True)
 class ResultsFolder:
-    """Records by object. `settings` are those that the evaluation began with."""
+    """Records by object. `settings` are those with which the evaluation started."""
 
     folder: Path
     settings: Mapping[str, str]
 
     @classmethod
     def open(cls, folder: Path, settings: Mapping[str, str], *, force: bool = False) -> ResultsFolder:
-        """A new one, or one that was begun with the same settings; `force` begins anew.
+        """Open a new folder, or one started with the same settings; `force` starts again.
 
-        OutputError when the folder holds anything else, or an evaluation with other settings.
+        Raise OutputError if the folder holds anything else, or an evaluation with other settings.
         """
         try:
             return cls._open(Path(folder), settings, force)
@@ -55,21 +55,21 @@ class ResultsFolder:
         return cls(folder, dict(settings))
 
     def save(self, name: str, records: Sequence[Record]) -> None:
-        """Keeps all records of an object at once."""
+        """Write all records of an object atomically."""
         path = self._path(name)
         part = path.with_suffix(".part")
         part.write_text("".join(f"{record_text(r)}\n" for r in records), encoding="utf-8")
         part.replace(path)
 
     def load(self, name: str) -> list[Record]:
-        """All records of an object; none when it was not evaluated yet, or its file is broken."""
+        """Read all records of an object; none if it was not evaluated yet, or if its file is damaged."""
         try:
             return [record_of(line) for line in self._path(name).read_text(encoding="utf-8").splitlines()]
         except (OSError, ValueError):
             return []
 
     def has(self, name: str) -> bool:
-        """Whether an object was evaluated without an error; one with an error is tried again."""
+        """Return whether an object was evaluated without an error; objects with errors are evaluated again."""
         found = self.load(name)
         return bool(found) and not any(r.error for r in found)
 

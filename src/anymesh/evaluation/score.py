@@ -1,4 +1,4 @@
-"""An asset against the truth. What is missing counts as a failure. Lengths as the field has them: the diagonal is 2."""
+"""Scores of an asset against ground truth. Missing parts count as failures. Lengths are relative to a diagonal of 2."""
 
 from __future__ import annotations
 
@@ -24,61 +24,61 @@ from anymesh.geometry.sampling import sample_surface
 from anymesh.types import Joint, JointType, Mesh, Segmentation
 
 MIN_MATCH_IOU = 0.5  # IoU from which a part counts as found
-POINTS = 1000  # on a part, that its displacement is the mean of
+POINTS = 1000  # points per part for the mean displacement
 
 
 @dataclass(frozen=True)
 class JointScore:
-    """One true joint. iou 0 and the rest None when no part was found for it. Lengths in units of half the diagonal."""
+    """Score of one true joint. If no part was found, the fields that need one are None. Lengths in half diagonals."""
 
     part: str
     iou: float
     type_true: JointType
     type_found: JointType | None = None
-    angle: float | None = None  # [deg], whatever the axis' sign
-    line_distance: float | None = None  # of the two axes; None unless both joints turn
-    at_part: float | None = None  # of the found axis from the true one, level with the part
-    displacement: float | None = None  # mean distance of the part's points from where they belong, half way open
-    opens_right: bool | None = None  # None for a joint that turns endlessly, or whose range is not known
-    range_iou: float | None = None  # None where the range is not known
+    angle: float | None = None  # [deg], ignoring the sign of the axis
+    line_distance: float | None = None  # distance of the two axes; None unless both joints rotate
+    at_part: float | None = None  # distance of the found axis from the true one, level with the part
+    displacement: float | None = None  # mean distance of the part's points from their true positions, half open
+    opens_right: bool | None = None  # None for a continuous joint, or if the range is unknown
+    range_iou: float | None = None  # None if the range is unknown
     parent_right: bool | None = None
-    confidence: float | None = None  # that the joint itself tells
+    confidence: float | None = None  # reported by the found joint
     part_size: float = 0.0  # diagonal of the true part
-    origin: float | None = None  # of the found joint's own origin from the true axis; None unless both joints turn
-    range_known: bool = True  # without it, neither opening side nor range is scored
-    found: str = field(default="", compare=False)  # the part of the found joint, by its own name
+    origin: float | None = None  # distance of the found joint's origin from the true axis; None unless both joints rotate
+    range_known: bool = True  # if False, neither opening side nor range is scored
+    found: str = field(default="", compare=False)  # name of the found part
 
     @property
     def type_right(self) -> bool:
-        """Whether the joint was found and moves in the right way."""
+        """Whether the joint was found and has the right kind of motion."""
         return self.type_found is not None and same_motion(self.type_true, self.type_found)
 
 
 @dataclass(frozen=True)
 class ObjectScore:
-    """One object: its joints, and how many parts were predicted, are true, and match with an IoU of at least a half."""
+    """Score of one object: its joints, and the counts of predicted, true and matched parts (IoU of at least 0.5)."""
 
     name: str
     joints: tuple[JointScore, ...]
     predicted: int
     true: int
     matched: int
-    part_miou: float = 1.0  # over the true movable parts, of the part that was matched with it; 0 where none was
-    tree_right: bool = True  # every true joint was found, no other, each with the right parent
+    part_miou: float = 1.0  # mean over the true movable parts of the IoU with the matched part; 0 if unmatched
+    tree_right: bool = True  # all true joints were found, no others, each with the right parent
     rest: ParticulateMetrics | None = None
     posed: ParticulateMetrics | None = None  # mean over poses along the range
-    executable: bool | None = None  # None: not tried
+    executable: bool | None = None  # None if not tested
     faults: tuple[str, ...] = ()  # of joints that were driven
     opened: ParticulateMetrics | None = None  # at the upper ends of all ranges
 
     @property
     def f1(self) -> float:
-        """Of the movable parts at IoU .5; 1 when nothing moves and nothing was found."""
+        """F1 score of the movable parts at IoU .5; 1 if nothing moves and nothing was found."""
         return 2 * self.matched / (self.predicted + self.true) if self.predicted + self.true else 1.0
 
 
 def score(sample: EvalSample, segmentation: Segmentation, joints: tuple[Joint, ...]) -> ObjectScore:
-    """Compares what was found on the sample's mesh with the truth."""
+    """Compare the result on the sample's mesh with the ground truth."""
     truth = sample.truth
     pairs = match_parts(part_ious(segmentation.face_part, sample.labels, sample.mesh.face_areas))
     by_child = {j.child: j for j in joints}
@@ -107,14 +107,14 @@ def score(sample: EvalSample, segmentation: Segmentation, joints: tuple[Joint, .
 
 
 def failed(truth: GroundTruth) -> ObjectScore:
-    """The score of an object for which the tool gave nothing: everything is missing."""
+    """Return the score of an object without a result: everything is missing."""
     joints = tuple(JointScore(j.child, 0.0, j.type, range_known=j.range_known) for j in truth.joints)
     movable = len(truth.parts) - 1
     return ObjectScore(truth.name, joints, 0, movable, 0, part_miou=0.0 if movable else 1.0, tree_right=False)
 
 
 def _joint(sample: EvalSample, joint: TrueJoint, found: Joint | None, iou: float, parent: str | None) -> JointScore:
-    """parent: the found part that is the true joint's parent, None where there is none."""
+    """Score one joint. parent: found part that corresponds to the true joint's parent, None if there is none."""
     true, mesh, unit = sample.joint(joint), sample.mesh, sample.unit
     number = next(k for k, p in enumerate(sample.truth.parts) if p.name == joint.child)
     faces = np.flatnonzero(sample.labels == number)
@@ -148,7 +148,7 @@ def _joint(sample: EvalSample, joint: TrueJoint, found: Joint | None, iou: float
 
 
 def _points(mesh: Mesh, faces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Points on some faces, and the middle of their surface; of their corners where they have no area."""
+    """Sample points on faces, and return them with the centroid; without area, of the corners."""
     triangles, areas = mesh.triangles[faces], mesh.face_areas[faces]
     if areas.sum() <= 0:
         corners = triangles.reshape(-1, 3)
@@ -157,7 +157,7 @@ def _points(mesh: Mesh, faces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _opens_alike(found: Joint, true: TrueJoint) -> bool | None:
-    """Whether both open towards the same side. None where the truth has none: it turns endlessly, or it is not known."""
+    """Return whether both joints open to the same side; None if the true joint is continuous or its range is unknown."""
     if true.limits is None or not true.range_known:
         return None
     if not same_motion(true.type, found.type) or found.limits is None:

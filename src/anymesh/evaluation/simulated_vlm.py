@@ -1,4 +1,4 @@
-"""Simulated vision-language model: answers of another answerer by way of pictures, prompts and JSON."""
+"""Simulated vision-language model: another answerer's answers, passed through pictures, prompts and JSON."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from anymesh.reasoning.answer_json import answer_object
 from anymesh.reasoning.asking import Answer, Question, VisualAnswerer
 from anymesh.reasoning.vlm import VlmAnswerer
 
-LETTERS = 4  # of English and JSON that make a token, about
+LETTERS = 4  # approximate letters per token of English and JSON
 
 
 class SimulatedModel:
-    """The model. `question` is what the next request asks. Tokens are estimates, by the price table of model `like`."""
+    """The simulated model. `question` is that of the next request. Tokens are estimated with the prices of model `like`."""
 
     def __init__(self, answerer: VisualAnswerer, like: str) -> None:
         self.name, self._answerer = like, answerer
@@ -35,7 +35,7 @@ class SimulatedModel:
 
 
 class SimulatedVlm(VlmAnswerer):
-    """VLM answerer whose model repeats the answers of another answerer."""
+    """VLM answerer whose model returns the answers of another answerer."""
 
     def __init__(
         self, answerer: VisualAnswerer, fallback: VisualAnswerer, like: str = "openai:gpt-4o", cache: Path | None = None

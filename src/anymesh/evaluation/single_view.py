@@ -1,11 +1,11 @@
-"""The paper's single-observation setting (appendix A, table 3): one picture with depth, its parts told by the segmentation
-of that picture, is all there is for the joints.
+"""The paper's single-observation setting (appendix A, table 3): joints from one depth image with segmented parts.
 
-Like OPDSynth's, pictures are 256 pixels wide, and one part stands part way open in some. Ours, where the paper does not say:
-- The masks are the true parts' (the paper's come from SAM and a vision-language model).
-- Cameras look from the side on which most of the movable parts is seen, up to 60 degrees aside and 10 to 40 above.
+As in OPDSynth, pictures are 256 pixels wide, and in some of them one part is partly open. Our choices where the paper is
+unspecified:
+- The masks are those of the true parts (the paper's come from SAM and a vision-language model).
+- Cameras look from the side that shows most of the movable parts, up to 60 degrees aside and 10 to 40 above.
 - Every other picture shows the object at rest.
-- What the picture leaves open is filled before the joints are asked for (see `geometry.unseen`); the truth has no say in that.
+- The unseen surface is filled before joints are estimated (see `geometry.unseen`), without ground truth.
 """
 
 from __future__ import annotations
@@ -28,24 +28,24 @@ from anymesh.rendering.viewpoints import orbit_camera
 from anymesh.types import Mesh
 from anymesh.types.camera import Camera
 
-SIZE = 256  # [px] both ways
-ASIDE = 60.0  # [deg] most of a camera's azimuth from the front
-ELEVATION = (10.0, 40.0)  # [deg]
-MIN_PART_SHARE = 1e-3  # share of the picture that a part covers to be seen
-OPEN = (0.1, 1.0)  # share of its range at which an open joint stands
-TRIES = 50  # cameras before an object counts as one that no picture shows
-DIRECTIONS = 24  # among which the front is
+SIZE = 256  # [px] per side
+ASIDE = 60.0  # [deg] maximum azimuth of a camera from the front
+ELEVATION = (10.0, 40.0)  # [deg] range
+MIN_PART_SHARE = 1e-3  # minimum share of the picture for a part to count as visible
+OPEN = (0.1, 1.0)  # range of positions of an open joint, as shares of its range
+TRIES = 50  # number of cameras tried before the object is rejected
+DIRECTIONS = 24  # number of azimuths tried for the front
 
 
 def observations(sample: EvalSample, count: int, seed: int) -> list[EvalSample]:
-    """The first `count` observations of a sample."""
+    """Return the first `count` observations of a sample."""
     return [observation(sample, number, seed) for number in range(count)]
 
 
 def observation(sample: EvalSample, number: int, seed: int) -> EvalSample:
-    """What one picture shows: every even-numbered one at rest, every odd one with one joint part way open.
+    """Return the surface visible in one picture: even numbers at rest, odd ones with one joint partly open.
 
-    InputError when no camera sees a movable part.
+    Raise InputError if no camera sees a movable part and the base.
     """
     rng = np.random.default_rng([seed, number, zlib.crc32(sample.truth.name.encode())])
     around, seen = front(sample)
@@ -61,11 +61,13 @@ def observation(sample: EvalSample, number: int, seed: int) -> EvalSample:
 
 
 def observed(sample: EvalSample, camera: Camera, rays: RayScene | None = None) -> EvalSample | None:
-    """The part of the sample that a camera sees, with the truth about the parts that it sees, or None where it sees no
-    movable part or no base. Lengths of scores stay shares of the whole object's diagonal."""
+    """Return the part of the sample visible to a camera, with the ground truth of the visible parts.
+
+    None if no movable part or no base is visible. Lengths of scores stay relative to the whole object's diagonal.
+    """
     view = render(sample.mesh, camera, scene=rays)
     part = np.where(view.face >= 0, sample.labels[view.face], -1)
-    bordering = (part == 0) & (maximum_filter(part, 3) > 0)  # a pixel of clearance: edges are known no better than that
+    bordering = (part == 0) & (maximum_filter(part, 3) > 0)  # one pixel of clearance, since edges are not known more precisely
     try:
         mesh, labels = visible_surface(view, np.where(bordering, -1, part))
     except ValueError:
@@ -81,7 +83,7 @@ def observed(sample: EvalSample, camera: Camera, rays: RayScene | None = None) -
 
 
 def _closed(mesh: Mesh, labels: Int[np.ndarray, " F"], view: View) -> tuple[Mesh, Int[np.ndarray, " G"]]:
-    """The surface with the unseen walls of its box behind it, as base."""
+    """Add the unseen walls of the object's box behind the surface, as base."""
     walls = hidden_base(mesh, labels, view.camera, view.depth)
     count, first = len(walls), len(mesh.vertices)
     if not count:
@@ -100,7 +102,7 @@ def _closed(mesh: Mesh, labels: Int[np.ndarray, " F"], view: View) -> tuple[Mesh
 
 
 def opened(sample: EvalSample, among: Int[np.ndarray, " k"], rng: np.random.Generator) -> EvalSample:
-    """The sample with the joint of one of these parts, drawn at random, part way open; as it is where none has limits."""
+    """Partly open the joint of one random part among these; return the sample unchanged if none has limits."""
     names = {sample.truth.parts[k].name for k in among}
     able = [j for j in sample.truth.joints if j.limits is not None and j.range_known and j.child in names]
     if not able:
@@ -111,7 +113,7 @@ def opened(sample: EvalSample, among: Int[np.ndarray, " k"], rng: np.random.Gene
 
 
 def front(sample: EvalSample) -> tuple[float, Int[np.ndarray, " k"]]:
-    """The azimuth [rad] from which the movable parts cover most of a picture at rest, and the numbers of those seen there."""
+    """Return the azimuth [rad] with most pixels of movable parts at rest, and the indices of the parts visible there."""
     rays = RayScene(sample.mesh.vertices, sample.mesh.faces)
     high = np.deg2rad(sum(ELEVATION) / 2)
     best, most = 0.0, np.zeros(len(sample.truth.parts), np.int64)
@@ -124,9 +126,9 @@ def front(sample: EvalSample) -> tuple[float, Int[np.ndarray, " k"]]:
 
 
 def _of_parts(truth: GroundTruth, kept: Int[np.ndarray, " k"]) -> tuple[GroundTruth, Int[np.ndarray, " p"]]:
-    """The truth about some of the parts (numbers, the base first), and the new number of each old one.
+    """Return the ground truth of some parts (indices, base first), and the new index of each old part.
 
-    A part that is left out counts as base, and what hangs on it hangs on what it hangs on.
+    Omitted parts become base, and their children get the nearest remaining ancestor as parent.
     """
     number = np.zeros(len(truth.parts), np.int64)
     number[kept] = np.arange(len(kept))

@@ -1,4 +1,4 @@
-"""The figures of a group of records. What is missing counts as a failure, never as nothing."""
+"""Summary figures of a group of records. Missing joints and parts count as failures and are never left out."""
 
 from __future__ import annotations
 
@@ -12,29 +12,29 @@ from anymesh.evaluation.score import ObjectScore
 from anymesh.evaluation.success import articulate_anything, opd, s2o
 from anymesh.types import JointType
 
-FARTHEST_ANGLE = 90.0  # [deg] that a joint that was not found counts as: no axis is farther from another
-FARTHEST = 1.0  # and its lengths: half the object's diagonal
+FARTHEST_ANGLE = 90.0  # [deg] angle error of a joint that was not found: the maximum between axes
+FARTHEST = 1.0  # its length errors: half the object's diagonal
 UNLIKE = ParticulateMetrics(
     -1.0, 0.0, 3**0.5 / 2
-)  # an object that failed; half the longest diagonal where the longest side is 1
-RULES = {"articulate_anything": articulate_anything, "opd": opd, "s2o": s2o}  # of success, for a joint
+)  # values of a failed object; half the longest possible diagonal if the longest side is 1
+RULES = {"articulate_anything": articulate_anything, "opd": opd, "s2o": s2o}  # success criteria of a joint
 
 
 @dataclass(frozen=True)
 class Mean:
-    """Over all that should be there, the missing counted as `FARTHEST_ANGLE` or `FARTHEST`, and over the found alone.
+    """Mean over all true joints, with missing ones counted as `FARTHEST_ANGLE` or `FARTHEST`, and over the found ones.
 
-    None where there is nothing to take a mean of.
+    None if there are no values.
     """
 
     all: float | None = None
-    median: float | None = None  # of all
+    median: float | None = None  # median of all
     found: float | None = None
 
 
 @dataclass(frozen=True)
 class Summary:
-    """Figures of a group of records; None where there is nothing to score. Shares are 0..1, lengths have the diagonal 2."""
+    """Figures of a group of records; None without values. Shares are 0..1; lengths are relative to a diagonal of 2."""
 
     objects: int
     joints: int
@@ -42,13 +42,13 @@ class Summary:
     found: float | None  # share of joints whose part was found and has a joint
     type_right: float | None
     angle: Mean  # [deg]
-    line_distance: Mean  # of the joints that truly turn
-    at_part: Mean  # of the same
+    line_distance: Mean  # of true rotating joints
+    at_part: Mean  # of the same joints
     displacement: Mean
-    opens_right: float | None  # of the joints whose true range is known and not endless
-    range_iou: float | None  # of those whose true range is known
+    opens_right: float | None  # of joints whose true range is known and not endless
+    range_iou: float | None  # of joints whose true range is known
     parent_right: float | None
-    success: Mapping[str, float | None]  # share of joints that succeed, by the names of RULES
+    success: Mapping[str, float | None]  # share of successful joints, by the names of RULES
     tree_right: float | None  # share of objects
     part_precision: float | None
     part_recall: float | None
@@ -57,12 +57,12 @@ class Summary:
     rest: ParticulateMetrics | None
     posed: ParticulateMetrics | None
     opened: ParticulateMetrics | None
-    executable: float | None  # share of objects, where it was tried
-    seconds: float | None  # an object, median of those without an error
+    executable: float | None  # share of tested objects
+    seconds: float | None  # median per object, without errors
 
 
 def summarize(records: Sequence[Record]) -> Summary:
-    """The figures over all joints, or all objects, of these records."""
+    """Compute the figures over all joints, or all objects, of these records."""
     joints = [j for r in records for j in r.score.joints]
     turning = [j for j in joints if j.type_true is not JointType.PRISMATIC]
     ranged = [j for j in joints if j.range_known]
@@ -95,7 +95,7 @@ def summarize(records: Sequence[Record]) -> Summary:
 
 
 def of_type(records: Iterable[Record], kind: JointType) -> list[Record]:
-    """The records with the joints of one true type alone; what is told of whole objects stays."""
+    """Return the records with only the joints of one true type; figures of whole objects stay."""
     return [replace(r, score=replace(r.score, joints=tuple(j for j in r.score.joints if j.type_true is kind))) for r in records]
 
 
@@ -114,7 +114,7 @@ def _mean(values: Sequence[float | None], missing: float) -> Mean:
 def _particulate(
     records: Sequence[Record], of: Callable[[ObjectScore], ParticulateMetrics | None]
 ) -> ParticulateMetrics | None:
-    """The mean over objects, where it was measured; an object that failed is unlike."""
+    """Compute the mean over measured objects; failed objects count as `UNLIKE`."""
     measured = [of(r.score) for r in records if not r.error]
     known = [m for m in measured if m is not None]
     if not known:
@@ -124,7 +124,7 @@ def _particulate(
 
 
 def _executable(records: Sequence[Record]) -> float | None:
-    """An object that failed before it could be driven is not executable, where others of the group were driven."""
+    """Compute the share of executable objects; failed objects count as not executable if others of the group were tested."""
     if all(r.score.executable is None for r in records):
         return None
     return _share(bool(r.score.executable) for r in records if r.error or r.score.executable is not None)

@@ -1,4 +1,4 @@
-"""The tables of a report, as text that both Markdown and HTML show."""
+"""Tables of a report, as text for Markdown and HTML."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from anymesh.types import JointType
 
 
 class Cell(NamedTuple):
-    """shade: of a figure, 0 (right, or neither) to 1 (as wrong as can be); None for words."""
+    """Cell of a table. shade: of a figure, 0 (right, or neutral) to 1 (worst); None for words."""
 
     text: str
     shade: float | None = None
@@ -23,7 +23,7 @@ class Cell(NamedTuple):
 
 @dataclass(frozen=True)
 class Table:
-    """`note`: in words, below the title."""
+    """A table. `note`: text below the title."""
 
     title: str
     head: tuple[str, ...]
@@ -33,7 +33,7 @@ class Table:
 
 @dataclass(frozen=True)
 class Column:
-    """A figure of a summary. best, worst: between which its cells are shaded, None: never; short: in every table."""
+    """A figure of a summary. best, worst: range over which its cells are shaded, None for no shade; short: in every table."""
 
     name: str
     of: Callable[[Summary], float | Mean | None]
@@ -42,7 +42,7 @@ class Column:
     best: float | None = 1.0
     worst: float = 0.0
     short: bool = True
-    whole: bool = False  # told of objects, not of their joints
+    whole: bool = False  # belongs to objects, not to their joints
 
     def cell(self, value: float | None) -> Cell:
         if value is None:
@@ -103,7 +103,7 @@ COLUMNS = (
 
 
 def report_tables(records: Sequence[Record], settings: Mapping[str, str], off: Sequence[Off]) -> list[Table]:
-    """All tables of a report, the most telling first; those with nothing to tell are left out."""
+    """Return all tables of a report, most informative first; empty ones are left out."""
     kinds = [(str(kind), of_type(records, kind)) for kind in JointType]
     by = (
         group_table("By change", grouped(records, lambda r: r.change)),
@@ -122,12 +122,12 @@ def report_tables(records: Sequence[Record], settings: Mapping[str, str], off: S
 
 
 def grouped(records: Sequence[Record], of: Callable[[Record], str]) -> list[tuple[str, list[Record]]]:
-    """In the order in which the groups come first."""
+    """Group records, in the order of first appearance."""
     return [(name, [r for r in records if of(r) == name]) for name in dict.fromkeys(map(of, records))]
 
 
 def _summary_table(summary: Summary) -> Table:
-    """A row a figure."""
+    """Return a table with one row per figure."""
     rows = []
     for column in COLUMNS:
         found = column.of(summary)
@@ -140,7 +140,7 @@ def _summary_table(summary: Summary) -> Table:
 
 
 def group_table(title: str, groups: Sequence[tuple[str, Sequence[Record]]], *, whole: bool = True) -> Table:
-    """A row a group. whole: figures of objects, too."""
+    """Return a table with one row per group. whole: include figures of objects."""
     summaries = [summarize(some) for _, some in groups]
     columns = [c for c in COLUMNS if c.short and (whole or not c.whole) and _tells(c, summaries)]
     rows = ((Cell(name), *(c.cell(c.value(s)) for c in columns)) for (name, _), s in zip(groups, summaries, strict=True))
@@ -148,6 +148,6 @@ def group_table(title: str, groups: Sequence[tuple[str, Sequence[Record]]], *, w
 
 
 def _tells(column: Column, summaries: Sequence[Summary]) -> bool:
-    """Whether some row has such a figure; a count of objects or errors that is the least possible everywhere tells nothing."""
+    """Return whether any row has an informative value; counts of objects or errors at their minimum everywhere are not."""
     nothing = {"objects": 1.0, "errors": 0.0}.get(column.name)
     return any(column.value(s) not in (None, nothing) for s in summaries)

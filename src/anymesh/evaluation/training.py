@@ -1,4 +1,4 @@
-"""Which objects the shipped classifiers were trained on: figures on those are not held out."""
+"""Objects on which the shipped classifiers were trained; figures on those are not held out."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from functools import cache
 from anymesh.articulation import motion_classifier
 from anymesh.segmentation import part_classifier
 
-FOLDERS = ("urdf", "static", "labelled", "mjcf", "partnet-mobility")  # kinds of data sets, whose objects have any source
+FOLDERS = ("urdf", "static", "labelled", "mjcf", "partnet-mobility")  # kinds of data sets whose objects may have any source
 
 
 @cache
@@ -19,7 +19,7 @@ def trained_objects() -> frozenset[str]:
 
 
 def trained_on(dataset: str, names: Sequence[str]) -> int:
-    """Count the objects of a data set that were trained on; those of a folder are found by their names alone."""
+    """Count the objects of a data set that were used for training; in data sets of kind FOLDERS by their names alone."""
     known = trained_objects()
     if dataset in FOLDERS:
         plain = {name.partition("/")[2] for name in known}
@@ -28,7 +28,7 @@ def trained_on(dataset: str, names: Sequence[str]) -> int:
 
 
 def trained_note(dataset: str, names: Sequence[str]) -> str:
-    """Say in a report whether its figures are held out."""
+    """Describe for a report whether its figures are held out."""
     count = trained_on(dataset, names)
     if count:
         return f"{count} of {len(names)} objects: figures on them are not held out"

@@ -1,4 +1,4 @@
-"""The joints that a person should look at first, and in words what is off with each."""
+"""The joints with the largest errors, and descriptions of their errors."""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ from dataclasses import dataclass
 from anymesh.evaluation.record import Record
 from anymesh.evaluation.score import MIN_MATCH_IOU, JointScore
 
-STAYS = 0.25  # of its size: about how far a part that was not found stays behind one that turned by 30 degrees
+STAYS = 0.25  # share of its size: approximate displacement of a missing part at an opening of 30 degrees
 
 
 @dataclass(frozen=True)
 class Off:
-    """A joint that is off, and its picture."""
+    """A joint with errors, and its picture."""
 
     record: Record
     joint: JointScore
-    picture: str  # path under the report's folder
+    picture: str  # path relative to the report's folder
 
     @property
     def title(self) -> str:
@@ -27,15 +27,15 @@ class Off:
 
 
 def badness(joint: JointScore) -> float:
-    """How far the part's points are from where they belong, opened; of one that was not found, about."""
+    """Return the displacement of the part's points when opened, or an estimate if it was not found."""
     return STAYS * joint.part_size if joint.displacement is None else joint.displacement
 
 
 def worst(records: Sequence[Record], count: int) -> list[Off]:
-    """The worst of the joints that were drawn.
+    """Return the worst joints among those that were drawn.
 
-    The same joint under another change, and other joints that were not found of the same object, come after all others:
-    they seldom show anything new.
+    The same joint under another change, and further missing joints of the same object, come last, since they seldom show
+    anything new.
     """
     seen: Counter[tuple[str, str]] = Counter()
     ranked = []
@@ -47,7 +47,7 @@ def worst(records: Sequence[Record], count: int) -> list[Off]:
 
 
 def what_is_off(j: JointScore) -> str:
-    """The errors of a joint in a line."""
+    """Describe the errors of a joint in one line."""
     if j.type_found is None:
         parts = f"nearest part has IoU {j.iou:.2f}" if j.iou < MIN_MATCH_IOU else "its part has no joint"
         return f"{j.type_true}, not found: {parts}" if j.iou else f"{j.type_true}, not found"

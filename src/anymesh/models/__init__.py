@@ -1,1 +1,1 @@
-"""Outside models: vision-language models and mask proposers, each behind one small protocol."""
+"""External models: vision-language models and mask proposers, each behind a small protocol."""

@@ -1,4 +1,4 @@
-"""The name of a model: which provider, which model there, and where its key is."""
+"""Names of vision-language models: the provider, the model, and the environment variables of the key."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ VALID = (
     "openai:MODEL, openai-responses:MODEL, anthropic:MODEL, google:MODEL, ollama:MODEL, lmstudio:MODEL, vllm:MODEL, "
     "openai-compatible:BASE_URL#MODEL, files:FOLDER, auto or replay:FOLDER"
 )
-KEYS = {  # the environment variables that may hold the key; the first that is set counts
+KEYS = {  # environment variables that may hold the key; the first one that is set is used
     "openai": ("OPENAI_API_KEY",),
-    "openai-responses": ("OPENAI_API_KEY",),  # the same models by the newer of OpenAI's two interfaces
+    "openai-responses": ("OPENAI_API_KEY",),  # the same models through the newer of OpenAI's two interfaces
     "anthropic": ("ANTHROPIC_API_KEY",),
     "google": ("GOOGLE_API_KEY", "GEMINI_API_KEY"),
-    "openai-compatible": ("ANYMESH_API_KEY",),  # never OpenAI's: it must not reach a server of somebody else
+    "openai-compatible": ("ANYMESH_API_KEY",),  # never OpenAI's key: it must not be sent to another operator's server
     **{name: server.keys for name, server in SERVERS.items()},
 }
 BASES = {
@@ -28,12 +28,15 @@ BASES = {
     "anthropic": "ANTHROPIC_BASE_URL",
     "google": "GOOGLE_GEMINI_BASE_URL",
 }
-NO_KEY = "no-key"  # what a server that needs none is sent, since the client insists on one
+NO_KEY = "no-key"  # placeholder sent to servers that need no key, since the client requires one
 
 
 @dataclass(frozen=True)
 class Address:
-    """provider: whose client is used. base_url: None for the provider's own. service: whose key is sent, a name of KEYS."""
+    """A model at a provider.
+
+    provider: whose client is used; base_url: None for the provider's own; service: whose key is sent, a name of KEYS.
+    """
 
     provider: str
     model: str
@@ -42,11 +45,11 @@ class Address:
 
     @property
     def keys(self) -> tuple[str, ...]:
-        """The environment variables that may hold the key."""
+        """Environment variables that may hold the key."""
         return KEYS[self.service or self.provider]
 
     def key(self) -> str:
-        """From the environment, at each call. Raises ModelError when there is none."""
+        """Read the key from the environment, at each call. Raise ModelError if there is none."""
         names = self.keys
         found = next((value for name in names if (value := os.environ.get(name, "").strip())), "")
         if not found and self.provider != "openai-compatible":
@@ -54,18 +57,18 @@ class Address:
         return found or NO_KEY
 
     def url(self) -> str | None:
-        """Where to send requests; None for where the provider's client sends them by itself."""
+        """Return the base URL of requests; None for the default of the provider's client."""
         return self.base_url or os.environ.get(BASES[self.provider], "").strip() or None
 
 
 def parse_address(name: str) -> Address:
-    """Raises OptionError for a name that is not valid."""
+    """Parse the name of a model. Raise OptionError if it is not valid."""
     provider, _, rest = name.partition(":")
     if provider not in KEYS:
         raise OptionError(f"--answerer: found {name!r}; valid are geometry, {VALID}")
     if provider in SERVERS:
         if not rest.strip():
-            raise OptionError(f"{name!r} names no model; `anymesh models` lists those that answer")
+            raise OptionError(f"{name!r} names no model; `anymesh models` lists those available")
         return Address("openai-compatible", rest.strip(), SERVERS[provider].base_url(), provider)
     if provider != "openai-compatible":
         if not re.fullmatch(r"[\w.:/@-]+", rest):
@@ -75,9 +78,9 @@ def parse_address(name: str) -> Address:
     try:
         url = urlsplit(base)
         host, _ = url.hostname, url.port
-    except ValueError:  # a port that is no number
+    except ValueError:  # a port that is not a number
         host, url = None, urlsplit("")
-    if "@" in base or url.query:  # not shown, and not only told apart: it may hold a password
+    if "@" in base or url.query:  # The URL is not repeated in the message, since it may hold a password.
         raise OptionError("a base URL must hold no user, password or query; a key is taken from ANYMESH_API_KEY")
     if url.scheme not in ("http", "https") or not host or not model.strip():
         raise OptionError(f"{name!r} must look like openai-compatible:http://localhost:8000/v1#MODEL")

@@ -1,4 +1,4 @@
-"""A limit to what is asked and what it costs."""
+"""Limits of the number of model calls and of their cost."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ from anymesh.models.vision import Reply, Request, VisionModel
 
 @dataclass(frozen=True)
 class Limit:
-    """What may be spent: calls, and their cost [USD]; None: without limit."""
+    """Maximum number of calls, and maximum cost [USD]; None for no limit."""
 
     calls: int | None = None
     cost: float | None = None
 
     def check(self, kind: str, calls: int, cost: float, most: float, spent: str) -> None:
-        """Raise BudgetError when one more call of at most `most` [USD] could pass the limit.
+        """Raise BudgetError if one more call of at most `most` [USD] could exceed the limit.
 
-        calls, cost: spent and held so far; kind: which question; spent: both in words.
+        calls, cost: spent and reserved so far; kind: kind of the question; spent: both in words.
         """
         if self.calls is not None and calls >= self.calls:
             raise BudgetError(f"{kind}: call {calls + 1} would pass --max-calls {self.calls}; {spent}")
@@ -32,7 +32,7 @@ class Limit:
 
 @runtime_checkable
 class Account(Protocol):
-    """Counts calls and their cost [USD] over everything that shares it, also over processes."""
+    """Protocol of a counter of calls and their cost [USD], shared by threads or by processes."""
 
     @property
     def calls(self) -> int: ...
@@ -41,17 +41,17 @@ class Account(Protocol):
     def cost(self) -> float: ...
 
     def hold(self, kind: str, most: float, limit: Limit) -> int:
-        """Reserve a call of at most `most` [USD] and return the number of the hold. Raises BudgetError."""
+        """Reserve a call of at most `most` [USD] and return the reservation's number. Raise BudgetError beyond the limit."""
         ...
 
     def settle(self, hold: int, cost: float | None) -> None:
-        """Replace a hold by what the call cost; None: it was not answered, and not billed."""
+        """Replace a reservation by the cost of the call; None for a call that failed and was not billed."""
         ...
 
 
 @dataclass
 class Spent:
-    """Calls and their cost [USD, of known prices] so far; shared by the runs of a batch, and by threads."""
+    """Calls and their cost [USD, of known prices] so far; shared by threads and by the runs of a batch."""
 
     calls: int = 0
     cost: float = 0.0
@@ -60,7 +60,7 @@ class Spent:
     _last: int = field(default=0, repr=False)
 
     def hold(self, kind: str, most: float, limit: Limit) -> int:
-        """Reserve a call, so that threads cannot pass the limit together. Raises BudgetError."""
+        """Reserve a call, so that threads cannot exceed the limit together. Raise BudgetError beyond the limit."""
         with self._lock:
             spent = spent_words(self.calls, self.cost)
             limit.check(kind, self.calls + len(self._held), self.cost + sum(self._held.values()), most, spent)
@@ -69,7 +69,7 @@ class Spent:
             return self._last
 
     def settle(self, hold: int, cost: float | None) -> None:
-        """Count a call that was answered; forget one that was not."""
+        """Count an answered call; drop the reservation of a failed one."""
         with self._lock:
             del self._held[hold]
             self.calls += cost is not None
@@ -77,15 +77,16 @@ class Spent:
 
 
 def spent_words(calls: int, cost: float) -> str:
-    """Calls and cost [USD] in words."""
+    """Describe calls and cost [USD] in words."""
     return f"spent so far: {calls} calls, {cost:.4f} USD"
 
 
 class Budgeted:
-    """Stops before the call that could pass a limit: max_calls, or max_cost [USD]. Fills in each reply's cost.
+    """Wrapper that stops before a call that could exceed a limit: max_calls, or max_cost [USD].
 
-    A call counts when it is answered: one that failed was not billed. `spent` counts them, and may be shared with models
-    before and after, and in other processes. A call in progress holds its upper bound.
+    It sets the cost of each reply. Only answered calls count: a failed call is not billed. A call in progress reserves its
+    upper bound.
+    `spent` holds the counts, and may be shared with earlier and later models, and with other processes.
     """
 
     def __init__(
@@ -108,16 +109,16 @@ class Budgeted:
 
     @property
     def calls(self) -> int:
-        """Calls answered so far."""
+        """Number of calls answered so far."""
         return self.spent.calls
 
     @property
     def cost(self) -> float:
-        """What they cost [USD], of known prices."""
+        """Their cost [USD, of known prices]."""
         return self.spent.cost
 
     def ask(self, request: Request) -> Reply:
-        """Raises BudgetError instead of the call."""
+        """Ask the model. Raise BudgetError if the call could exceed a limit."""
         most = cost_of(self.name, max_input_tokens(self.name, request), request.max_tokens) or 0.0
         hold = self.spent.hold(request.kind, most, self._limit)
         try:

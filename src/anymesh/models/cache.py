@@ -1,4 +1,4 @@
-"""Answers kept on disk by what was asked, so that the same question is paid once."""
+"""Cache of answers on disk, keyed by the request, so that the same question is paid only once."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from typing import Any
 from anymesh.models.vision import Reply, Request, VisionModel
 
 log = logging.getLogger("anymesh")
-FORMAT = "anymesh-answer-1"  # in the key, so that a change of what is sent forgets the old answers
+FORMAT = "anymesh-answer-1"  # part of the key; change it when the contents of requests change, to invalidate old answers
 
 
 def request_key(model_name: str, request: Request) -> str:
-    """SHA-256 over all that changes the answer: the model, the words, the schema, the pictures and the most tokens.
+    """Compute the SHA-256 of everything that affects the answer: model, texts, schema, pictures and token limit.
 
-    The question's kind does not: it is for people who read.
+    The kind of the question is not included, since it is for readers only.
     """
     pictures = [[picture.caption, hashlib.sha256(picture.png).hexdigest()] for picture in request.pictures]
     parts = [FORMAT, model_name, request.system, request.text, request.schema, pictures, request.max_tokens]
@@ -28,9 +28,9 @@ def request_key(model_name: str, request: Request) -> str:
 
 
 def cache_folder(kind: str = "answers") -> Path:
-    """Where a kind of thing is kept, in $ANYMESH_CACHE or where this system's programs keep what they can do without.
+    """Return the folder of one kind of cached data, in $ANYMESH_CACHE or in the system's cache folder.
 
-    Not created.
+    The folder is not created.
     """
     if own := os.environ.get("ANYMESH_CACHE"):
         return Path(own) / kind
@@ -44,11 +44,11 @@ def cache_folder(kind: str = "answers") -> Path:
 
 
 class Cached:
-    """Answers from `folder` where it can, else from the model, and keeps that: one file per question.
+    """Wrapper that returns cached answers from `folder`, or asks the model and stores its answer; one file per question.
 
-    A hit costs nothing; its tokens are those of the first time. Kept is only an answer that is a JSON object: an empty,
-    refused or truncated one must not be the answer for ever. A file that cannot be read is as good as none, and processes
-    may share the folder: a file appears whole or not at all.
+    A hit costs nothing; its token counts are those of the original call. Only answers that are JSON objects are stored, so that
+    an empty, refused or truncated answer is not repeated forever.
+    Unreadable files are ignored. Processes may share the folder, since files are written atomically.
     """
 
     def __init__(self, model: VisionModel, folder: Path) -> None:
@@ -78,12 +78,12 @@ class Cached:
         try:
             self._folder.mkdir(parents=True, exist_ok=True)
             write_whole(path, json.dumps(record, indent=1).encode())
-        except OSError as error:  # a full disk must not lose an answer that is paid
+        except OSError as error:  # a full disk must not lose an answer that is already paid
             log.warning("the answer to %r is not kept in %s: %s", kind, self._folder, error.strerror)
 
 
 def read_answer(path: Path) -> dict[str, Any] | None:
-    """The record of one answer, of the cache or of a transcript; None when it is missing or not one."""
+    """Read the record of one answer from the cache or a transcript; None if it is missing or invalid."""
     try:
         found = json.loads(path.read_bytes())
     except (OSError, ValueError, RecursionError):
@@ -95,12 +95,12 @@ def read_answer(path: Path) -> dict[str, Any] | None:
 
 
 def kept_reply(kept: dict[str, Any]) -> Reply:
-    """A record as the reply that it is now."""
+    """Return the reply of a stored record, marked as cached and free of cost."""
     return Reply(kept["answer"], kept["model"], kept["input_tokens"], kept["output_tokens"], cost=0.0, cached=True)
 
 
 def write_whole(path: Path, content: bytes) -> None:
-    """Writes a file so that others see it whole or not at all."""
+    """Write a file atomically."""
     handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.stem[:20]}-", suffix=".part")
     try:
         with os.fdopen(handle, "wb") as file:

@@ -1,4 +1,4 @@
-"""From a model's name to a model with everything around it."""
+"""Opening of models by name, with cache, budget, retries and rate limits."""
 
 from __future__ import annotations
 
@@ -25,11 +25,12 @@ def open_model(
     limiter: Limiter | None = None,
     timeout: float = CALL_SECONDS,
 ) -> VisionModel:
-    """The model of that name, or a recording of one (`replay:FOLDER`); cache: the folder, None for none.
+    """Open the model of that name, or a recording of one (`replay:FOLDER`); cache: folder, None for no cache.
 
-    The cache stands outermost, so a hit takes nothing from the budget; retries inside, so only answers do. `timeout` [s]
-    holds for one attempt, before which the limiter may wait. Raises OptionError for a name or a budget that is not valid,
-    ModelError without a key, MissingExtraError without the libraries.
+    The cache is the outermost wrapper, so hits do not count towards the budget. Retries are inside the budget, so only answers
+    count.
+    `timeout` [s] applies to one attempt; waiting for the limiter is not included.
+    Raise OptionError for an invalid name or budget, ModelError without a key, MissingExtraError without the libraries.
     """
     kind, _, folder = name.partition(":")
     if kind == "replay":

@@ -1,4 +1,4 @@
-"""What a service said about a failed call, made safe to repeat: no key, no header, nothing of what it was sent."""
+"""Redaction of services' error messages: no keys, no headers, and nothing of the request."""
 
 from __future__ import annotations
 
@@ -8,13 +8,16 @@ from collections.abc import Iterable
 
 from anymesh.models.vision import Request
 
-LONGEST = 200  # characters
-RUN = 24  # characters in common with the request: less is a word or two, this much is a quote
+LONGEST = 200  # maximum number of characters of a message
+RUN = 24  # number of characters in common with the request from which a text counts as a quote
 SECRET = re.compile(r"[A-Za-z0-9+/=_-]{32,}|\S*\*{3,}\S*|\b(?:sk-|AIza|Bearer )\S+")
 
 
 def redact(words: str, request: Request, secrets: Iterable[str]) -> str:
-    """One short line, or "" where the words quote the request. Whatever looks like a key or like data is cut out."""
+    """Return the message as one short line, or "" if it quotes the request.
+
+    Given secrets, and everything that looks like a key or like data, are replaced.
+    """
     line = " ".join(words.split())
     for secret in secrets:
         line = line.replace(secret, "[removed]")

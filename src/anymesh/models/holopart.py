@@ -1,7 +1,7 @@
-"""HoloPart (Yang et al. 2025), which completes the parts of a scene: run in a checkout of its own, or asked over HTTP.
+"""HoloPart (Yang et al. 2025), which completes the parts of a scene: run in its own checkout, or over HTTP.
 
-Both take a GLB with a geometry a part and give one with the completed parts. The checkout is the authors' released code, which
-needs a GPU and an environment of its own, so it is a process with a command line and never imported.
+Both take a GLB with one geometry per part and return one with the completed parts. The checkout is the authors' released code.
+It needs a GPU and its own environment, so it runs as a separate process and is never imported.
 """
 
 from __future__ import annotations
@@ -25,26 +25,31 @@ log = logging.getLogger("anymesh")
 VALID = "holopart:FOLDER, holopart:FOLDER#PYTHON or holopart:URL"
 MODULE = "scripts.inference_holopart"
 RESULT = "output.glb"
-LARGEST = 1 << 29  # [bytes] of a result
+LARGEST = 1 << 29  # [bytes] maximum size of a result
 
 
 class CrashError(ModelError):
-    """It ran and ended with an error of its own."""
+    """HoloPart ran and failed."""
 
 
 @runtime_checkable
 class PartService(Protocol):
-    """Whoever completes the parts of a scene."""
+    """Protocol of a service that completes the parts of a scene."""
 
     def complete(self, glb: bytes) -> bytes:
-        """The GLB of the completed parts. CrashError where it fails on this scene, ModelError where it cannot be asked."""
+        """Return the GLB of the completed parts.
+
+        Raise CrashError if the service fails on this scene, ModelError if it cannot be used.
+        """
         ...
 
 
 def open_holopart(where: str, *, timeout: float = 1800.0, seed: int = 0) -> PartService:
-    """The checkout in a folder, run by the Python after `#` (else that of its .venv, else `python`), or the server at a URL.
+    """Open a HoloPart checkout or server.
 
-    timeout: [s] for all parts together. Raises OptionError where there is none.
+    where: URL of a server, or a folder with the checkout, which is run by the Python after `#` (else that of its .venv, else
+    `python`);
+    timeout: [s] for all parts together. Raise OptionError if there is no such checkout, program or valid URL.
     """
     if not timeout > 0:
         raise OptionError(f"a time-out must be more than 0 s, found {timeout:g}")
@@ -68,7 +73,7 @@ def open_holopart(where: str, *, timeout: float = 1800.0, seed: int = 0) -> Part
 
 @dataclass(frozen=True)
 class PartServer:
-    """Takes the GLB as the body of a POST and answers with the GLB of the completed parts."""
+    """HoloPart server: receives the GLB as the body of a POST and returns the GLB of the completed parts."""
 
     url: str
     timeout: float
@@ -80,7 +85,7 @@ class PartServer:
         def ask() -> bytes:
             try:
                 answer = exchange(call)
-            except LostError as error:  # it may still be at work: asked again it would do all of it twice
+            except LostError as error:  # it may still be working: another request would repeat all of the work
                 raise ModelError(str(error)) from None
             if answer.status == 200:
                 return answer.body
@@ -93,7 +98,7 @@ class PartServer:
 
 @dataclass(frozen=True)
 class Checkout:
-    """Runs the released script. folder, python: absolute paths; timeout [s]."""
+    """Checkout of the released code. folder, python: absolute paths; timeout: [s]."""
 
     folder: Path
     python: str
@@ -137,7 +142,7 @@ class Checkout:
 
 
 def _stop(process: subprocess.Popen[bytes]) -> None:
-    """Ends it and what it started, if it has not ended."""
+    """Kill the process and its children if it is still running."""
     if process.poll() is not None:
         return
     if hasattr(os, "killpg"):
@@ -148,7 +153,7 @@ def _stop(process: subprocess.Popen[bytes]) -> None:
 
 
 def _last_words(path: Path) -> str:
-    """The last line that it wrote, as far as it holds nothing that looks like a key."""
+    """Return the last line of its log, with anything that looks like a key removed."""
     with path.open("rb") as file:
         file.seek(max(0, path.stat().st_size - 4000))
         lines = [line.strip() for line in file.read().decode("utf-8", "replace").splitlines() if line.strip()]

@@ -1,7 +1,7 @@
-"""What each service takes in one request, and pictures made to fit.
+"""Limits of each service for one request, and downscaling of pictures to fit them.
 
-Checked on 2026-11-21 against the services' pages on image input. Where models of one service differ, the row holds the
-least; where a service shrinks a picture by itself, the row holds the side to which it does, since more is only traffic.
+Checked on 2026-11-21 against the services' pages on image input. If the models of a service differ, the row holds the lowest
+limit. If a service downscales pictures itself, the row holds the resulting side, since larger pictures only cost traffic.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ MEGABYTE = 1_000_000
 
 @dataclass(frozen=True)
 class RequestLimits:
-    """picture [bytes], side [px], pictures [count], request [bytes, pictures in base64]."""
+    """picture [bytes], side [px], pictures [count], request [bytes, with pictures in base64]."""
 
     picture: int
     side: int
@@ -36,12 +36,13 @@ LIMITS = {
     "openai-responses": RequestLimits(20 * MEGABYTE, 2048, 500, 50 * MEGABYTE),
     "anthropic": RequestLimits(5 * MEGABYTE, 2000, 100, 32 * MEGABYTE),  # 8000 px, but 2000 px from 21 pictures on
     "google": RequestLimits(7 * MEGABYTE, 3072, 900, 20 * MEGABYTE),
-    "openai-compatible": RequestLimits(20 * MEGABYTE, 2048, 100, 50 * MEGABYTE),  # a guess: every server has its own
+    # an assumption: every server has its own limits
+    "openai-compatible": RequestLimits(20 * MEGABYTE, 2048, 100, 50 * MEGABYTE),
 }
 
 
 def fit(request: Request, provider: str) -> tuple[Picture, ...]:
-    """The request's pictures, those that are too large made smaller. Raises ModelError when they are too many."""
+    """Return the request's pictures, downscaled where needed. Raise ModelError if they are too many or too large in total."""
     limits = LIMITS[provider]
     if len(request.pictures) > limits.pictures:
         raise ModelError(
@@ -59,7 +60,7 @@ def fit(request: Request, provider: str) -> tuple[Picture, ...]:
 
 def _shrunk(picture: Picture, limits: RequestLimits) -> Picture:
     width, height = picture.size
-    # The bytes count in base64: the services differ in how they count, and this is the stricter way.
+    # Sizes are compared in base64: services differ in what they count, and this is the stricter choice.
     scale = min(1.0, limits.side / max(width, height), (limits.picture / _encoded(picture.png)) ** 0.5)
     small = picture
     while scale < 1:
@@ -67,7 +68,7 @@ def _shrunk(picture: Picture, limits: RequestLimits) -> Picture:
         if _encoded(small.png) <= limits.picture:
             log.info("a picture of %dx%d px is sent as %dx%d px", width, height, *small.size)
             break
-        scale *= 0.8  # how well a PNG packs is only known afterwards
+        scale *= 0.8  # the size of a PNG is only known after compression
     return small
 
 

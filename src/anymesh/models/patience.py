@@ -1,14 +1,14 @@
-"""How often in a row a model may answer nonsense before it is given up for the rest of a run."""
+"""Limit of consecutive invalid answers, after which a model is not asked again in a run."""
 
 from __future__ import annotations
 
 from threading import Lock
 
-MAX_INVALID_ANSWERS = 3  # answers in a row that are not valid
+MAX_INVALID_ANSWERS = 3  # maximum number of consecutive invalid answers
 
 
 class Patience:
-    """Counts answers that are not valid; one that is starts the count anew. Shared by the stages of a run."""
+    """Counter of consecutive invalid answers; a valid one resets it. Shared by the stages of a run."""
 
     def __init__(self, most: int = MAX_INVALID_ANSWERS) -> None:
         self._most, self._bad, self._told, self._lock = most, 0, False, Lock()
@@ -21,11 +21,11 @@ class Patience:
 
     @property
     def lost(self) -> bool:
-        """Whether the model is given up."""
+        """Whether the model is no longer asked."""
         return self._bad >= self._most
 
     def first_time(self) -> bool:
-        """Tell once that it is given up, so that it is said once."""
+        """Return True once after the model is given up, so that it is reported only once."""
         with self._lock:
             first, self._told = self.lost and not self._told, self._told or self.lost
         return first

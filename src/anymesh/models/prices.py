@@ -1,8 +1,9 @@
-"""What a call costs: one table, and how many tokens a request can take at most.
+"""Prices of model calls, and upper bounds of the tokens of a request.
 
-USD for a million tokens of (input, output), standard service, without the discounts for batches and repeated input, so a
-bill is never more than is said here. From genai-prices 0.2.3 on 2026-11-21; a price that is announced to end before
-February 2027 is left out in favour of what follows it. A test compares the rows with that package.
+Prices are in USD per million tokens of (input, output), for standard service without discounts for batches and repeated input,
+so a bill is never higher than stated here.
+From genai-prices 0.2.3 on 2026-11-21. Prices that are announced to end before February 2027 are replaced by their successors. A
+test compares the rows with that package.
 """
 
 from __future__ import annotations
@@ -67,7 +68,7 @@ PRICES: dict[str, tuple[float, float]] = {
     "google:gemini-3.8-flash": (1.5, 7.5),
     "google:gemini-4-argon": (4, 20),
 }
-# Above so many input tokens, all tokens of the request at these prices.
+# Number of input tokens above which all tokens of the request have these prices.
 LONG: dict[str, tuple[int, float, float]] = {
     "openai:gpt-5.4": (272_000, 5, 22.5),
     "openai:gpt-5.5": (272_000, 10, 45),
@@ -84,12 +85,12 @@ LONG: dict[str, tuple[int, float, float]] = {
     "google:gemini-2.5-pro": (200_000, 2.5, 15),
     "google:gemini-3.1-pro-preview": (200_000, 4, 18),
 }
-SNAPSHOT = re.compile(r"-(\d{4}-\d\d-\d\d|\d{8}|\d{3}|latest)$")  # of the same model at the same price
+SNAPSHOT = re.compile(r"-(\d{4}-\d\d-\d\d|\d{8}|\d{3}|latest)$")  # suffix of a snapshot, which has the price of its model
 
 
 def cost_of(model_name: str, input_tokens: int, output_tokens: int) -> float | None:
-    """[USD]; None when the price is not known, as for every server of one's own."""
-    model_name = model_name.replace("openai-responses:", "openai:", 1)  # both interfaces bill alike
+    """Return the cost [USD] of a call; None if the price is not known, as for local servers."""
+    model_name = model_name.replace("openai-responses:", "openai:", 1)  # both interfaces have the same prices
     row = model_name if model_name in PRICES else SNAPSHOT.sub("", model_name)
     if row not in PRICES:
         return None
@@ -99,19 +100,20 @@ def cost_of(model_name: str, input_tokens: int, output_tokens: int) -> float | N
 
 
 def max_input_tokens(model_name: str, request: Request) -> int:
-    """More tokens than the request takes: two bytes of text a token, where English takes about four."""
+    """Return an upper bound of the request's input tokens, at two bytes of text per token; English has about four."""
     texts = [request.system, request.text, json.dumps(request.schema), *(p.caption for p in request.pictures)]
     words = sum(len(text.encode()) for text in texts)
     provider, _, model = model_name.replace("openai-responses:", "openai:", 1).partition(":")
-    # 1000 for what the service adds around it: the tool's wrapping, the schema in words.
+    # 1000 tokens for what the service adds: the wrapping of the tool, and the schema in words.
     return 1000 + words // 2 + sum(max_picture_tokens(provider, model, *picture.size) for picture in request.pictures)
 
 
 def max_picture_tokens(provider: str, model: str, width: int, height: int) -> int:
-    """Of one picture [px], by the providers' formulas as of 2026-11, the dearest where one has several.
+    """Return an upper bound of the tokens of one picture [px], by the providers' formulas as of 2026-11.
 
-    OpenAI: tiles of 512 px after the short side is shrunk to 768 px, or, where the model counts so, patches of 32 px with a
-    model's factor. Anthropic: pixels by 750 up to what the largest side gives. Google: a fixed number, or tiles.
+    The most expensive formula is used if a provider has several.
+    OpenAI: tiles of 512 px after downscaling the short side to 768 px, or, for some models, patches of 32 px times a factor of
+    the model. Anthropic: pixels divided by 750, up to the value of the largest side. Google: a fixed number, or tiles.
     """
     match provider:
         case "openai" if re.match(r"gpt-4o-mini", model):
@@ -126,7 +128,7 @@ def max_picture_tokens(provider: str, model: str, width: int, height: int) -> in
             unit = min(768, max(256, int(min(width, height) / 1.5)))
             return max(1120, 258 * ceil(width / unit) * ceil(height / unit))
         case _:
-            return ceil(width / 14) * ceil(height / 14)  # the smallest patch of the models that people run
+            return ceil(width / 14) * ceil(height / 14)  # the smallest patch size of common local models
 
 
 def _tiles(width: int, height: int) -> int:

@@ -1,7 +1,7 @@
-"""Vision-language models over HTTP: OpenAI, Anthropic, Google, and every server that speaks OpenAI's format.
+"""Vision-language models over HTTP: OpenAI, Anthropic, Google, and every server with OpenAI's format.
 
-The key and the libraries' errors, which may hold headers and whole requests, stay in the thread that makes the call: what
-leaves it is a reply, or a ModelError in words of our own.
+Keys and library errors, which may hold headers and whole requests, do not leave the thread that makes the call. It returns a
+reply or a ModelError with its own message.
 """
 
 from __future__ import annotations
@@ -37,9 +37,9 @@ TALKATIVE = ("openai", "anthropic", "google_genai", "httpx", "httpx2", "httpcore
 
 
 def connect(name: str, *, timeout: float = CALL_SECONDS) -> Client:
-    """The model of that name; `timeout` [s] holds for a whole call.
+    """Create the client of a model; `timeout` [s] applies to a whole call.
 
-    Raises OptionError for a name that is not valid, MissingExtraError without the libraries, ModelError without a key.
+    Raise OptionError for an invalid name, MissingExtraError without the libraries, ModelError without a key.
     """
     if not timeout > 0:
         raise OptionError(f"--timeout must be more than 0 s, found {timeout:g}")
@@ -50,38 +50,39 @@ def connect(name: str, *, timeout: float = CALL_SECONDS) -> Client:
         raise MissingExtraError(
             f"the client of {address.provider} is not installed; `pip install articulate-anymesh[vlm]` brings it"
         ) from None
-    address.key()  # better missed now than after the rendering
+    address.key()  # fail now rather than after the rendering
     return Client(name, address, timeout)
 
 
 @dataclass(frozen=True)
 class _Failure:
-    """Handed over as a value: raised where the library's error is caught, it would carry that along as its context."""
+    """A failed call, returned as a value: an exception raised while handling the library's error would carry it as context."""
 
     error: ModelError
-    status: int | None = None  # of HTTP
+    status: int | None = None  # HTTP status
 
 
 @dataclass
 class Client:
-    """Asks over HTTP: one request, one attempt. Holds no key."""
+    """Client over HTTP: one request, one attempt. It stores no key."""
 
     name: str
     address: Address
     timeout: float  # [s]
-    takes_schema: bool = field(default=True, init=False)  # until the server says otherwise
+    takes_schema: bool = field(default=True, init=False)  # until the server refuses it
 
     def ask(self, request: Request) -> Reply:
-        """Raises TransientError where asking again may help, another ModelError elsewhere.
+        """Ask the model once.
 
-        A truncated, refused or empty answer is a reply: its text is what there is, the refusal's words, or "".
+        Raise TransientError if another attempt may succeed, another ModelError otherwise. A truncated, refused or empty answer
+        is a reply: its text is the part received, the refusal's words, or "".
         """
         pictures = fit(request, self.address.provider)
         found = self._attempt(request, pictures, schema=self.takes_schema)
         if isinstance(found, _Failure) and found.status in (400, 422) and self._may_lack_schemas():
             log.info("%s: refused (HTTP %d), so it is asked without a JSON schema, with that in words", self.name, found.status)
             found = self._attempt(request, pictures, schema=False)
-            self.takes_schema = isinstance(found, _Failure)  # then the schema was not the trouble
+            self.takes_schema = isinstance(found, _Failure)  # refused again: the schema was not the cause
         if isinstance(found, _Failure):
             raise found.error
         return found
@@ -94,7 +95,7 @@ class Client:
 
         async def attempt() -> ModelResponse | _Failure:
             try:
-                # the libraries' own limit holds between two bytes, and an answer may drip for ever
+                # The libraries' own limit applies between two bytes, and an answer may arrive slowly forever.
                 return await asyncio.wait_for(self._exchange(request, pictures, schema=schema), self.timeout)
             except Exception as error:
                 return self._failure(error, request)
@@ -117,7 +118,7 @@ class Client:
         import httpx2
         from pydantic_ai.direct import model_request
 
-        for name in TALKATIVE:  # their debug lines hold headers and whole requests
+        for name in TALKATIVE:  # their debug messages contain headers and whole requests
             if logging.getLogger(name).getEffectiveLevel() < logging.INFO:
                 logging.getLogger(name).setLevel(logging.INFO)
         async with httpx2.AsyncClient(timeout=self.timeout) as http:
@@ -146,10 +147,10 @@ class Client:
             return _Failure(TransientError(f"{self.name}: the reply could not be read ({type(error).__name__})"))
         if isinstance(error, AttributeError | LookupError | TypeError | ValueError):
             return _Failure(TransientError(f"{self.name}: the reply could not be read ({type(error).__name__})"))
-        return _Failure(ModelError(f"{self.name}: cannot be asked ({type(error).__name__})"))
+        return _Failure(ModelError(f"{self.name}: the request failed ({type(error).__name__})"))
 
     def failure_of(self, error: Exception) -> ModelError:
-        """An error of the libraries in words of our own, which quote nothing of what was sent."""
+        """Convert an error of the libraries to a ModelError that quotes nothing of the request."""
         from pydantic_ai.exceptions import ModelHTTPError
 
         if isinstance(error, ModelHTTPError):
@@ -161,7 +162,7 @@ class Client:
 
         status, names = error.status_code, self.address.keys
         message = f"{self.name}: HTTP {status}"
-        if status in (401, 403):  # its words are about the key, and often hold parts of it
+        if status in (401, 403):  # its message is about the key, and often contains parts of it
             message += f", the key in {' or '.join(names)} is missing or refused"
             return _Failure(ModelError(message), status)
         if words := redact(_words(error.body), request, _keys()):
@@ -173,21 +174,21 @@ class Client:
 
 
 def _keys() -> list[str]:
-    """Every key in the environment."""
+    """Return all keys in the environment."""
     return [value for group in KEYS.values() for n in group if (value := os.environ.get(n, "").strip())]
 
 
 def without_keys(text: str) -> str:
-    """A server may say the key that it was sent; an answer is kept in files."""
-    for key in (k for k in _keys() if len(k) >= 8):  # what is shorter is no key, and may be a word
+    """Remove keys from an answer before it is stored, since a server may repeat the key that it received."""
+    for key in (k for k in _keys() if len(k) >= 8):  # shorter values are not keys, and may be words
         text = text.replace(key, "[removed]")
     return text
 
 
 def in_thread(work: Callable[[], Coroutine[Any, Any, T]]) -> T:
-    """Runs it in an event loop of its own: the caller may stand in a running one, as in a notebook.
+    """Run a coroutine in its own event loop, since the caller may be in a running one, as in a notebook.
 
-    The thread is a daemon so that Ctrl-C ends the program rather than wait for the service.
+    The thread is a daemon, so that Ctrl-C ends the program without waiting for the service.
     """
     result: Future[T] = Future()
 
@@ -202,7 +203,7 @@ def in_thread(work: Callable[[], Coroutine[Any, Any, T]]) -> T:
 
 
 def _words(body: object) -> str:
-    """The message in an error's body, wherever the service puts it."""
+    """Return the message in an error's body; services put it in different places."""
     if isinstance(body, list):
         body = body[0] if body else None
     if isinstance(body, dict):

@@ -1,4 +1,4 @@
-"""Many questions in one job of a provider's batch API: about half the price, an answer within a day."""
+"""Jobs of a provider's batch API: many questions at about half the price, answered within a day."""
 
 from __future__ import annotations
 
@@ -23,16 +23,16 @@ T = TypeVar("T")
 
 @dataclass(frozen=True)
 class BatchAnswer:
-    """One answer of a job. text: None where the provider gave none, with the reason in `note`."""
+    """One answer of a job. text: None if the provider gave none, with the reason in `note`."""
 
     text: str | None
     note: str = ""
 
 
 def submit_batch(client: Client, requests: Mapping[str, Request]) -> list[dict[str, Any]]:
-    """Send requests as jobs, each under its name; the handles of the jobs are plain values.
+    """Send requests as jobs, each under its name; return the handles of the jobs as plain values.
 
-    Raises ModelError, also for a provider without a batch API. A job that fails to be made is not sent again.
+    Raise ModelError if this fails or the provider has no batch API. A job that cannot be created is not sent again.
     """
 
     async def work(model: Model) -> list[dict[str, Any]]:
@@ -50,7 +50,7 @@ def submit_batch(client: Client, requests: Mapping[str, Request]) -> list[dict[s
 def collect_batch(
     client: Client, handles: list[dict[str, Any]], requests: Mapping[str, Request]
 ) -> dict[str, BatchAnswer] | None:
-    """Fetch the answers of jobs by their requests' names; None while one is not finished. Raises ModelError."""
+    """Fetch the answers of jobs by the names of their requests; None while a job is unfinished. Raise ModelError on failure."""
 
     async def work(model: Model) -> dict[str, BatchAnswer] | None:
         from pydantic_ai.exceptions import ModelAPIError
@@ -87,7 +87,7 @@ def _encoded(address: Address, model: Model, name: str, request: Request) -> Bat
 
 
 def _run(client: Client, work: Callable[[Model], Coroutine[Any, Any, T]]) -> T:
-    """Do the work with the provider's client; its errors, which may hold headers, stay in the thread."""
+    """Run the work with the provider's client; its errors, which may hold headers, do not leave the thread."""
 
     async def attempt() -> T | ModelError:
         import httpx2

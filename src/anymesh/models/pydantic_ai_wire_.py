@@ -1,4 +1,4 @@
-"""What a request looks like in pydantic-ai's terms, and how its response reads."""
+"""Conversion of requests to pydantic-ai, and of its responses to text."""
 
 from __future__ import annotations
 
@@ -54,11 +54,11 @@ def _compatible(model: str, base: str, key: str, http: AsyncClient) -> Model:
 
     profile = OpenAIModelProfile(
         supports_json_schema_output=True,
-        # Azure takes the new name of the limit alone, many small servers the old one alone.
+        # Azure accepts only the new name of the limit, many small servers only the old one.
         openai_chat_supports_max_completion_tokens=(urlsplit(base).hostname or "").endswith(".azure.com"),
     )
     provider = OpenAICompatibleProvider("openai-compatible", base_url=base, api_key=key, http_client=http, profile=profile)
-    # The client has read OpenAI's account from the environment, and each copy, as for a number of retries, reads it again.
+    # The client has read OpenAI's account from the environment, and each copy, such as one with other retries, reads it again.
     provider.client.organization = provider.client.project = None
     provider.client.max_retries = 0
     return OpenAIChatModel(model, provider=provider)
@@ -67,7 +67,7 @@ def _compatible(model: str, base: str, key: str, http: AsyncClient) -> Model:
 def the_message(address: Address, request: Request, pictures: tuple[Picture, ...], *, schema: bool) -> ModelRequest:
     from pydantic_ai.messages import BinaryContent, ModelRequest, UserPromptPart
 
-    # OpenAI's own: left to itself it may look at a thumbnail. Google's client takes offence at it.
+    # OpenAI may use a thumbnail unless the detail is set. Google's client refuses the setting.
     detail = {"detail": "high"} if address.provider.startswith("openai") else None
     content: list[UserContent] = []
     for picture in pictures:
@@ -90,7 +90,10 @@ def the_settings(address: Address, model: Model, max_tokens: int, timeout: float
 
 
 def _takes_temperature(address: Address, model: Model) -> bool:
-    """Reasoning models of OpenAI and the latest of Anthropic refuse one; Google advises against it from Gemini 3 on."""
+    """Return whether the model accepts a temperature.
+
+    Reasoning models of OpenAI and the latest of Anthropic refuse one; Google advises against it from Gemini 3 on.
+    """
     profile: Any = model.profile
     match address.provider:
         case "anthropic":
@@ -102,7 +105,7 @@ def _takes_temperature(address: Address, model: Model) -> bool:
 
 
 def the_parameters(address: Address, model: Model, request: Request, *, schema: bool) -> ModelRequestParameters:
-    """By the provider's own means where there is one, else by the one tool that the model is told to call."""
+    """Request the schema by the provider's native output where supported, else by a single tool that the model must call."""
     from pydantic_ai.models import ModelRequestParameters
     from pydantic_ai.output import OutputObjectDefinition
     from pydantic_ai.tools import ToolDefinition
@@ -120,7 +123,7 @@ def the_parameters(address: Address, model: Model, request: Request, *, schema: 
 
 
 def the_text(response: ModelResponse) -> str:
-    """The answer's text or the call's arguments; a refusal's words where there is no more."""
+    """Return the answer's text or the tool call's arguments; the refusal's words if there is nothing else."""
     from pydantic_ai.messages import TextPart, ToolCallPart
 
     calls = [part.args_as_json_str() for part in response.parts if isinstance(part, ToolCallPart)]
@@ -130,6 +133,6 @@ def the_text(response: ModelResponse) -> str:
 
 
 def unfenced(text: str) -> str:
-    """Without the code fence that a model which was asked for JSON in words likes to put around it."""
+    """Remove the code fence that models often put around JSON when asked for it in words."""
     found = re.fullmatch(r"\s*```(?:json)?\s*\n(.*?)\n?\s*```\s*", text, re.DOTALL)
     return found[1] if found else text

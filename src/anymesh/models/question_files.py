@@ -1,8 +1,8 @@
-"""Questions as folders of files, which anyone may answer: a person, a coding agent, a script.
+"""Questions as folders of files, which a person, a coding agent or a script may answer.
 
-FOLDER/NN-kind/ holds question.md, sheet.png (all pictures), 01.png and so on, schema.json and question.json; whoever answers
-writes answer.json beside them. What is wrong with an answer is written to refused.md. A question is found again by its key,
-which hangs on its words and the bytes of its pictures, not by its number.
+FOLDER/NN-kind/ holds question.md, sheet.png (all pictures), 01.png and so on, schema.json and question.json. The answer is
+written to answer.json beside them, and errors in it are reported in refused.md.
+A question is identified by its key, which depends on its words and the bytes of its pictures, not by its number.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from anymesh.models.cache import request_key, write_whole
 from anymesh.models.vision import Request
 from anymesh.types.exchange import Picture
 
-NAME = "files"  # of whoever answers, in keys and transcripts: the same in every folder
+NAME = "files"  # model name in keys and transcripts, the same for every folder
 FORMAT = "anymesh-question-1"
 QUESTION, ANSWER, REFUSED, SCHEMA, WORDS = "question.json", "answer.json", "refused.md", "schema.json", "question.md"
 SHEET, CHECK, OWNER, SUGGESTION = "sheet.png", "check.npz", "object.json", "suggestion.json"
@@ -34,7 +34,7 @@ LARGEST_ANSWER = 1_000_000  # [bytes]
 
 @dataclass(frozen=True)
 class QuestionFolder:
-    """One question as files. `record` is its question.json."""
+    """One question as files. `record` is the content of its question.json."""
 
     path: Path
     record: Mapping[str, Any]
@@ -49,7 +49,7 @@ class QuestionFolder:
 
     @property
     def outdated(self) -> bool:
-        """Whether a later run asked something else in its place."""
+        """Whether a later run asked another question in its place."""
         return bool(self.record.get("outdated"))
 
     @property
@@ -57,14 +57,14 @@ class QuestionFolder:
         return dict(self.record["schema"])
 
     def pictures(self) -> tuple[Picture, ...]:
-        """Read the single pictures. Raises OutputError when one is missing."""
+        """Read the pictures. Raise OutputError if one is missing."""
         try:
             return tuple(Picture((self.path / p["file"]).read_bytes(), p["caption"]) for p in self.record["pictures"])
         except (OSError, ValueError) as error:
             raise OutputError(f"{self.path} lacks pictures of its question; run the command that asked it again") from error
 
     def answer(self) -> str | None:
-        """Read answer.json as it stands; None when there is none, or it is not yet whole (empty)."""
+        """Read answer.json unparsed; None if there is none, or if it is empty because it is still being written."""
         path = self.path / ANSWER
         try:
             if path.stat().st_size > LARGEST_ANSWER:
@@ -74,25 +74,25 @@ class QuestionFolder:
             return None
 
     def write_answer(self, text: str) -> None:
-        """Write answer.json; a refusal of an earlier one goes."""
+        """Write answer.json, and remove the refusal of an earlier answer."""
         with _writing(self.path):
             write_whole(self.path / ANSWER, (text + "\n").encode())
         self.accept()
 
     def suggestion(self) -> str | None:
-        """Read what geometry would answer; None when that is not written."""
+        """Read the answer suggested by geometry; None if there is none."""
         try:
             return (self.path / SUGGESTION).read_text(encoding="utf-8")
         except OSError:
             return None
 
     def write_suggestion(self, text: str) -> None:
-        """Write what geometry would answer."""
+        """Write the answer suggested by geometry."""
         with _writing(self.path):
             write_whole(self.path / SUGGESTION, text.encode())
 
     def refuse(self, reason: str) -> None:
-        """Write beside the answer why it is not valid."""
+        """Write the reason why the answer is not valid to refused.md."""
         text = (
             f"# Refused\n\n{ANSWER} is not a valid answer: {reason}\n\nThe question stays open: correct {ANSWER}; "
             f"{WORDS} says what is asked, {SCHEMA} what it must satisfy.\n"
@@ -102,7 +102,7 @@ class QuestionFolder:
                 write_whole(self.path / REFUSED, text.encode(errors="backslashreplace"))
 
     def refusal(self) -> str | None:
-        """Read why the answer was refused; None when it was not."""
+        """Read why the answer was refused; None if it was not."""
         try:
             return (self.path / REFUSED).read_text(encoding="utf-8")
         except OSError:
@@ -113,7 +113,7 @@ class QuestionFolder:
         (self.path / REFUSED).unlink(missing_ok=True)
 
     def mark(self, *, outdated: bool) -> QuestionFolder:
-        """Note whether this is still asked."""
+        """Record whether the question is still open."""
         if self.outdated == outdated:
             return self
         record = {**self.record, "outdated": outdated}
@@ -123,7 +123,7 @@ class QuestionFolder:
 
 
 def read_question(path: Path) -> QuestionFolder | None:
-    """Read the folder of one question; None when it is none."""
+    """Read the folder of one question; None if it is not one."""
     try:
         record = json.loads((path / QUESTION).read_bytes())
     except (OSError, ValueError, RecursionError):
@@ -135,15 +135,15 @@ def read_question(path: Path) -> QuestionFolder | None:
 
 
 def find_questions(folder: Path) -> list[QuestionFolder]:
-    """Find all questions in a folder: it may be a question's own, an object's, or one that holds those of many objects."""
+    """Find all questions in a folder, which may be that of a question, of an object, or of many objects."""
     found = (read_question(path.parent) for path in sorted(folder.rglob(QUESTION)))
     return [q for q in found if q is not None and not q.path.name.startswith(".")]
 
 
 class QuestionStore:
-    """The questions about one object, in a folder of their own. Nothing is written before the first question.
+    """The questions about one object, in their own folder. Nothing is written before the first question.
 
-    about: the object's name; a folder that holds another object's questions is an OptionError. None: not checked.
+    about: name of the object, None if it is not checked. Raise OptionError if the folder holds the questions of other objects.
     """
 
     def __init__(self, folder: Path, about: str | None = None) -> None:
@@ -161,7 +161,7 @@ class QuestionStore:
             raise OptionError(f"files:{folder} holds the questions of several objects (--batch); name another folder")
 
     def owner(self) -> str | None:
-        """The object that the questions are about; None when that is not noted."""
+        """Return the name of the object that the questions are about; None if it is not recorded."""
         try:
             found = json.loads((self.folder / OWNER).read_bytes())["object"]
         except (OSError, ValueError, KeyError, TypeError):
@@ -169,18 +169,18 @@ class QuestionStore:
         return found if isinstance(found, str) else None
 
     def questions(self) -> Iterator[QuestionFolder]:
-        """Each question in the order of their numbers."""
+        """Iterate over the questions in the order of their numbers."""
         paths = sorted(self.folder.iterdir()) if self.folder.is_dir() else []
         return (q for p in paths if not p.name.startswith(".") and (q := read_question(p)) is not None)
 
     def find(self, key: str) -> QuestionFolder | None:
-        """Find the question with this key."""
+        """Return the question with this key; None if there is none."""
         return next((q for q in self.questions() if q.key == key), None)
 
     def put(self, request: Request, files: Mapping[str, bytes]) -> QuestionFolder:
-        """Find the folder of a question, or write it; others without an answer are no longer asked and marked so.
+        """Return the folder of a question, writing it if needed; mark other unanswered questions as outdated.
 
-        files: further files of the folder, by name. Raises OutputError when the folder cannot be written.
+        files: further files of the folder, by name. Raise OutputError if the folder cannot be written.
         """
         key = request_key(NAME, request)
         found = self.find(key)
@@ -223,7 +223,7 @@ class QuestionStore:
 
 
 def _move(hidden: Path, folder: Path, kind: str) -> Path:
-    """Rename a finished folder to the next number that is free."""
+    """Rename a finished folder to the next free number."""
     while True:
         taken = [int(m[0]) for p in folder.iterdir() if (m := re.match(r"\d+(?=-)", p.name))]
         path = folder / f"{max(taken, default=0) + 1:02d}-{kind}"
@@ -242,7 +242,7 @@ def _umask() -> int:
 
 @contextmanager
 def _writing(folder: Path) -> Generator[None]:
-    """Turn what goes wrong with files into an OutputError."""
+    """Convert file errors to OutputError."""
     try:
         yield
     except OSError as error:
@@ -250,7 +250,7 @@ def _writing(folder: Path) -> Generator[None]:
 
 
 def wait_for_answer(question: QuestionFolder, seen: str | None, every: float, stop: Event | None = None) -> str | None:
-    """Wait for an answer.json that differs from what was seen, looking each `every` [s]; None once `stop` is set."""
+    """Wait for an answer.json that differs from `seen`, checking every `every` [s]; return None once `stop` is set."""
     pause = stop or Event()
     while not pause.wait(every):
         found = question.answer()

@@ -1,4 +1,4 @@
-"""A limit to how much is asked of a provider in a minute."""
+"""Limits of the requests and tokens sent to a provider per minute."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from anymesh.errors import OptionError
 from anymesh.models.prices import max_input_tokens
 from anymesh.models.vision import Reply, Request, VisionModel
 
-WINDOW = 60.0  # [s] over which providers count
+WINDOW = 60.0  # [s] window over which providers count
 
 
 @dataclass(frozen=True)
 class Rate:
-    """What a provider takes in a minute: requests, and tokens of input and output; None: without limit."""
+    """Requests, and tokens of input and output, that a provider accepts per minute; None for no limit."""
 
     requests: int | None = None
     tokens: int | None = None
@@ -29,9 +29,9 @@ class Rate:
                 raise OptionError(f"--{name}-per-minute: found {value}; valid are integers from 1 up")
 
     def allows(self, requests: int, used: int, tokens: int) -> bool:
-        """Tell whether a request of so many tokens fits beside those of the last minute.
+        """Return whether a request of this many tokens fits beside those of the last minute.
 
-        A request that is larger than the whole limit fits when nothing else was asked in that time.
+        A request larger than the whole limit fits if no tokens were used in the last minute.
         """
         fits = self.tokens is None or used + tokens <= self.tokens or used == 0
         return fits and (self.requests is None or requests < self.requests)
@@ -39,10 +39,10 @@ class Rate:
 
 @runtime_checkable
 class Limiter(Protocol):
-    """Counts requests and tokens of the last minute over everything that shares it, also over processes."""
+    """Protocol of a counter of requests and tokens of the last minute, shared by threads or by processes."""
 
     def acquire(self, tokens: int) -> int:
-        """Wait until a request of so many tokens may be sent; return the number of its entry."""
+        """Wait until a request of this many tokens may be sent; return the number of its entry."""
         ...
 
     def correct(self, entry: int, tokens: int) -> None:
@@ -51,7 +51,7 @@ class Limiter(Protocol):
 
 
 class WindowLimiter:
-    """The limiter of one process: entries of the last 60 s."""
+    """Limiter of one process: holds the entries of the last 60 s."""
 
     def __init__(
         self, rate: Rate, *, clock: Callable[[], float] = time.monotonic, sleep: Callable[[float], None] = time.sleep
@@ -61,7 +61,7 @@ class WindowLimiter:
         self._last, self._lock = 0, Lock()
 
     def acquire(self, tokens: int) -> int:
-        """Wait until a request of so many tokens may be sent; return the number of its entry."""
+        """Wait until a request of this many tokens may be sent; return the number of its entry."""
         while True:
             with self._lock:
                 now = self._clock()
@@ -83,14 +83,14 @@ class WindowLimiter:
 
 
 class RateLimited:
-    """Waits before a request that would pass the provider's limit; retries wait as well."""
+    """Wrapper that waits before a request that would exceed the provider's limit; retries wait as well."""
 
     def __init__(self, model: VisionModel, limiter: Limiter) -> None:
         self.name = model.name
         self._model, self._limiter = model, limiter
 
     def ask(self, request: Request) -> Reply:
-        """As the model. A request counts with its upper bound until its reply tells what it took."""
+        """Ask the model. A request counts with its upper bound until its reply gives the actual tokens."""
         entry = self._limiter.acquire(max_input_tokens(self.name, request) + request.max_tokens)
         reply = self._model.ask(request)
         self._limiter.correct(entry, reply.input_tokens + reply.output_tokens)

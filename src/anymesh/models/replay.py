@@ -1,4 +1,4 @@
-"""Answers from a recording: a transcript's folder, a cache's, or questions answered in files."""
+"""Answers from a recording: the folder of a transcript or a cache, or questions answered in files."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ from anymesh.models.vision import Reply, Request
 
 
 class Replay:
-    """Answers each recorded question as it was answered then, without network, key or cost.
+    """Model that returns the recorded answer of each question, without network, key or cost.
 
-    `name` is the recorded model's, since the questions are found by it; of several, the one that answered most. Of a
-    question that was recorded more than once the first answer counts. Raises OptionError when the folder holds none.
+    `name` is the recorded model's name, since it is part of the keys; of several models, the one with most answers. If a
+    question was recorded more than once, the first answer is used. Raise OptionError if the folder holds no answers.
     """
 
     def __init__(self, folder: Path) -> None:
         if not folder.is_dir():
-            raise OptionError(f"no recording to replay: {folder} is no folder")
+            raise OptionError(f"no recording to replay: {folder} is not a folder")
         found = [record for path in sorted(folder.glob("*.json")) if (record := read_answer(path)) is not None]
         found += [_answered(question, text) for question in find_questions(folder) if (text := question.answer()) is not None]
         if not found:
@@ -34,7 +34,7 @@ class Replay:
         self.name: str = self._names[0]
 
     def ask(self, request: Request) -> Reply:
-        """Raises ModelError for a question that was not recorded."""
+        """Return the recorded reply. Raise ModelError if the question was not recorded."""
         for name in self._names:
             if (record := self._records.get(request_key(name, request))) is not None:
                 return kept_reply(record)
@@ -45,6 +45,6 @@ class Replay:
 
 
 def _answered(question: QuestionFolder, answer: str) -> dict[str, Any]:
-    """Make the record of a transcript from a question's folder."""
+    """Convert an answered question's folder to the record of a transcript."""
     record = {"kind": question.kind, "key": question.key, "model": NAME, "answer": answer}
     return {**record, "input_tokens": 0, "output_tokens": 0}

@@ -1,4 +1,4 @@
-"""Asking again after a failure that may pass: the one place of retries (the services' own clients do none)."""
+"""Retries after transient failures. All retries are made here; the services' own clients do none."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from anymesh.models.vision import Reply, Request, VisionModel
 
 log = logging.getLogger("anymesh")
 T = TypeVar("T")
-PATIENCE = 120.0  # [s]; a service that asks for a longer wait than this is not waited for
+PATIENCE = 120.0  # [s] longest wait requested by a service that is accepted
 
 
 class TransientError(ModelError):
-    """A call that failed in a way that may pass: too many requests, a server's fault, a time-out, a broken connection.
+    """A failure that may be temporary: too many requests, a server error, a time-out, a broken connection.
 
-    retry_after: how long the service asked to wait [s], None when it did not say.
+    retry_after: wait requested by the service [s], None if it gave none.
     """
 
     def __init__(self, message: str, retry_after: float | None = None) -> None:
@@ -28,15 +28,15 @@ class TransientError(ModelError):
 
 
 class UnavailableError(ModelError):
-    """A service that did not answer at any attempt; it may be back later."""
+    """A service that answered no attempt; it may be available later."""
 
 
 class Retrying:
-    """Asks up to `attempts` times, waiting `first` [s], then twice that, and so on up to `most`, each shortened by chance.
+    """Wrapper that asks up to `attempts` times, with exponential backoff from `first` to `most` [s] and random jitter.
 
-    The chance (`chance` gives numbers in [0, 1)) keeps processes that failed together from coming back together. A wait
-    that the service asked for is kept. Raises ModelError when the last attempt failed too, or the failure is not one that
-    may pass.
+    The jitter (`chance` returns numbers in [0, 1)) prevents processes that failed together from retrying together. A longer
+    wait requested by the service is respected.
+    Raise ModelError if the last attempt fails, or if the failure is not transient.
     """
 
     def __init__(
@@ -75,7 +75,10 @@ def persist(
     sleep: Callable[[float], None] = time.sleep,
     chance: Callable[[], float] = random.random,
 ) -> T:
-    """What `call` gives, called again after a TransientError, with the waits of `Retrying`. Raises ModelError as that does."""
+    """Return the result of `call`, repeated after a TransientError, with the waits of `Retrying`.
+
+    Raise ModelError as `Retrying` does.
+    """
     failure = TransientError("nothing was tried")
     for attempt in range(1, attempts + 1):
         try:

@@ -1,6 +1,7 @@
-"""Mask proposals of a picture by a SAM model: a grid of points is asked, the masks that hold are kept once.
+"""Mask proposals for a picture by a SAM model, prompted with a grid of points.
 
-The procedure of SamAutomaticMaskGenerator (segment-anything 1.0), in numpy, for any model behind `PromptedSegmenter`.
+This is the procedure of SamAutomaticMaskGenerator (segment-anything 1.0), in numpy, for any model behind `PromptedSegmenter`.
+Masks are filtered, and duplicates are suppressed.
 """
 
 from __future__ import annotations
@@ -27,37 +28,40 @@ from anymesh.models.sam_masks import (
 
 @runtime_checkable
 class PromptedSegmenter(Protocol):
-    """A model that turns a point in a picture into masks. `frame` says how it sees the picture."""
+    """Protocol of a model that predicts masks from points in a picture. `frame` maps pictures to its input."""
 
     name: str
     frame: Frame
 
     def embed(self, image: UInt8[np.ndarray, "H W 3"]) -> Any:
-        """What the model knows of the picture; only its own `predict` reads it."""
+        """Compute the model's embedding of the picture, which only its own `predict` can read."""
         ...
 
     def predict(
         self, embedding: Any, points: Float[np.ndarray, "n 2"]
     ) -> tuple[Float[np.ndarray, "n m h w"], Float[np.ndarray, "n m"]]:
-        """For each point (x, y) [px of the picture]: logits of m masks over the model's whole square input, at any
-        resolution, above 0 inside; and the IoU that the model expects of each."""
+        """Predict m masks per point (x, y) [px of the picture].
+
+        Return the masks' logits over the model's whole square input, at any resolution, positive inside; and the IoU predicted
+        by the model for each mask.
+        """
         ...
 
 
 @dataclass(frozen=True)
 class AutomaticMasks:
-    """Settings of `automatic_masks`; the defaults are the reference's, chosen for ViT-H."""
+    """Settings of `automatic_masks`; the defaults are those of the reference, chosen for ViT-H."""
 
     points_per_side: int = 32
     points_per_batch: int = 64
-    min_score: float = 0.88  # expected IoU; 0 switches this filter off
-    min_stability: float = 0.95  # IoU of the masks at both thresholds; 0 switches this filter off
+    min_score: float = 0.88  # predicted IoU; 0 disables this filter
+    min_stability: float = 0.95  # IoU of the masks at both thresholds; 0 disables this filter
     stability_offset: float = 1.0  # [logit]
-    nms_iou: float = 0.7  # of two boxes, above which they are the same mask
-    crop_layers: int = 0  # layer i asks again on 2**i x 2**i crops
-    crop_overlap: float = 512 / 1500  # of the shorter side
-    crop_points_divisor: int = 1  # of points_per_side, for each layer
-    smallest_region: int = 0  # [px] smaller islands are dropped and smaller holes filled; 0 leaves all
+    nms_iou: float = 0.7  # IoU of two boxes above which they count as the same mask
+    crop_layers: int = 0  # layer i repeats the prediction on 2**i x 2**i crops
+    crop_overlap: float = 512 / 1500  # share of the shorter side
+    crop_points_divisor: int = 1  # divides points_per_side, for each layer
+    smallest_region: int = 0  # [px] smaller islands are removed and smaller holes filled; 0 disables this
 
     def __post_init__(self) -> None:
         whole = {"points_per_side": 1, "points_per_batch": 1, "crop_layers": 0, "crop_points_divisor": 1, "smallest_region": 0}
@@ -73,7 +77,7 @@ class AutomaticMasks:
 
 @dataclass(frozen=True, eq=False)
 class ProposedMask:
-    """mask: (H, W); score: the IoU that the model expects; box: (x0, y0, x1, y1) of its outermost pixels [px]."""
+    """mask: (H, W); score: IoU predicted by the model; box: (x0, y0, x1, y1) of its outermost pixels [px]."""
 
     mask: Bool[np.ndarray, "H W"]
     score: float
@@ -83,7 +87,8 @@ class ProposedMask:
 
 @dataclass(frozen=True, eq=False)
 class _Candidate:
-    bits: UInt8[np.ndarray, " k"]  # the mask within its crop, packed: a thousand of them may wait for the suppression
+    # packed mask within its crop, since about a thousand candidates are held until the suppression
+    bits: UInt8[np.ndarray, " k"]
     crop: tuple[int, int, int, int]
     box: tuple[int, int, int, int]  # [px of the picture]
     score: float
@@ -103,7 +108,10 @@ class _Candidate:
 def automatic_masks(
     model: PromptedSegmenter, image: UInt8[np.ndarray, "H W 3"], *, settings: AutomaticMasks | None = None
 ) -> list[ProposedMask]:
-    """All masks of a picture (sRGB colours or normals as colours), best first. OptionError for settings that cannot be."""
+    """Compute all masks of a picture (sRGB colours or normals as colours), best first.
+
+    Raise OptionError for invalid settings.
+    """
     settings = settings or AutomaticMasks()
     height, width = image.shape[:2]
     found: list[_Candidate] = []
@@ -112,7 +120,7 @@ def automatic_masks(
         points = point_grid(max(1, settings.points_per_side // settings.crop_points_divisor**layer))
         here = list(_of_crop(model, image, crop, points, settings))
         found += _suppressed(here, [c.score for c in here], settings.nms_iou)
-    if len(crops) > 1:  # a smaller crop saw the mask in more detail
+    if len(crops) > 1:  # prefer masks of smaller crops, which have more detail
         found = _suppressed(found, [1 / c.crop_area for c in found], settings.nms_iou)
     proposals = [c.proposed(height, width) for c in found]
     return _cleaned(proposals, settings) if settings.smallest_region else proposals
@@ -133,7 +141,7 @@ def _of_crop(
         logits, scores = model.predict(embedding, points[start : start + settings.points_per_batch])
         upscale = model.frame.upscaler(logits.shape[-2:], *size)
         for k, m in np.argwhere((scores > settings.min_score) | (settings.min_score <= 0)):
-            full = upscale(logits[k, m])  # only masks that the score keeps are ever made large, one at a time
+            full = upscale(logits[k, m])  # only masks that pass the score filter are upscaled, one at a time
             stable = stability(full, settings.stability_offset)
             if stable < settings.min_stability:
                 continue
@@ -150,7 +158,7 @@ def _suppressed(found: list[_Candidate], priority: list[float], iou: float) -> l
 
 
 def _cleaned(found: list[ProposedMask], settings: AutomaticMasks) -> list[ProposedMask]:
-    """Without small islands and holes, and without duplicates that this made; masks that needed no change win."""
+    """Remove small islands and holes, and the duplicates that result; unchanged masks take precedence."""
     cleaned = []
     for proposal in found:
         mask, changed = without_small_regions(proposal.mask, settings.smallest_region)

@@ -1,4 +1,4 @@
-"""Weights from a Hugging Face hub, by huggingface_hub; a commit that is in its cache already needs no network."""
+"""Weights from a Hugging Face hub, by huggingface_hub; a commit in its cache needs no network."""
 
 from __future__ import annotations
 
@@ -13,24 +13,24 @@ from anymesh.errors import MissingExtraError, ModelError
 
 @dataclass(frozen=True)
 class Hub:
-    """endpoint, cache: None for huggingface_hub's own (HF_ENDPOINT, HF_HOME)."""
+    """A Hugging Face hub. endpoint, cache: None for huggingface_hub's own (HF_ENDPOINT, HF_HOME)."""
 
     endpoint: str | None = None
     cache: Path | None = None
 
     def fetch(self, hub_id: str, commit: str, names: Iterable[str]) -> list[Path]:
-        """Local paths of files of a repository at a commit. ModelError when one cannot be had."""
+        """Return local paths of files of a repository at a commit. Raise ModelError if one cannot be fetched."""
         hub = _library()
         try:
             return [
                 Path(hub.hf_hub_download(hub_id, name, revision=commit, endpoint=self.endpoint, cache_dir=self.cache))
                 for name in names
             ]
-        except Exception as error:  # the library's errors, those of HTTP and those of the disk are one thing to the user
+        except Exception as error:  # errors of the library, of HTTP and of the disk are reported alike
             raise ModelError(_told(hub_id, commit, error)) from None
 
     def names(self, hub_id: str, commit: str) -> list[str]:
-        """All file names of a repository at a commit. ModelError when the hub cannot be asked."""
+        """List all file names of a repository at a commit. Raise ModelError if the hub cannot be reached."""
         hub = _library()
         try:
             return hub.HfApi(endpoint=self.endpoint).list_repo_files(hub_id, revision=commit)
@@ -39,7 +39,7 @@ class Hub:
 
 
 def _library() -> ModuleType:
-    try:  # by name: the library is not installed everywhere that types are checked
+    try:  # imported by name, because type checks also run without the library
         return importlib.import_module("huggingface_hub")
     except ImportError as error:
         raise MissingExtraError(
@@ -50,4 +50,4 @@ def _library() -> ModuleType:
 
 def _told(hub_id: str, commit: str, error: Exception) -> str:
     reason = " ".join(str(error).split())[:200]
-    return f"{hub_id}@{commit}: the weights cannot be had ({type(error).__name__}: {reason})"
+    return f"{hub_id}@{commit}: the weights cannot be fetched ({type(error).__name__}: {reason})"

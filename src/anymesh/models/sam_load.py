@@ -1,4 +1,4 @@
-"""From `--proposer sam:...` to a model that can be asked."""
+"""Loading of the model given by `--proposer sam:...`."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ from anymesh.models.weights import resolve
 def load_sam(
     spec: str, *, sha256: Mapping[str, str] | None = None, device: str | None = None, hub: Hub | None = None
 ) -> PromptedSegmenter:
-    """`sam:NAME`, `sam:FOLDER` or `sam:HUB_ID@COMMIT`; see `weights.resolve` for what is valid and what is raised.
+    """Load `sam:NAME`, `sam:FOLDER` or `sam:HUB_ID@COMMIT`; see `weights.resolve` for valid names and for errors.
 
-    device: for PyTorch weights only, "cpu" or "cuda"; None takes CUDA where there is one.
+    device: for PyTorch weights only, "cpu" or "cuda"; None uses CUDA if available.
     """
     weights = resolve(spec, sha256=sha256, hub=hub)
     if weights.onnx:

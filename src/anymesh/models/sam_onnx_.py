@@ -1,8 +1,9 @@
-"""SAM, MobileSAM and SAM 2 as two ONNX files, by ONNX Runtime: an encoder of the picture and a decoder of prompts.
+"""SAM, MobileSAM and SAM 2 as two ONNX files, by ONNX Runtime: an image encoder and a prompt decoder.
 
-Four widespread exports are told apart by the names of the decoder's inputs (`EXPORTS`). What the encoder is fed depends
-on its one input: four dimensions (1, 3, S, S), float: the square, normalised and padded here; three dimensions (H, W, 3):
-the resized picture as it is, 0..255, for such graphs normalise and pad themselves.
+Four common exports are distinguished by the names of the decoder's inputs (`EXPORTS`). The encoder's input depends on its
+dimensions:
+for (1, 3, S, S), float, it is the square, normalised and padded here; for (H, W, 3), it is the resized picture, 0..255, since
+such graphs normalise and pad themselves.
 """
 
 from __future__ import annotations
@@ -27,14 +28,14 @@ TYPES = {
     "tensor(int64)": np.int64,
     "tensor(int32)": np.int32,
 }
-SIDE = 1024  # [px] of every published model; where the graph leaves it open
-LOW = 4  # the square's side over that of the decoder's mask input
-SAME = 1e-2  # [logit] a batch and single prompts agree within this
+SIDE = 1024  # [px] input side of every published model, used if the graph leaves it open
+LOW = 4  # ratio of the square's side to that of the decoder's mask input
+SAME = 1e-2  # [logit] tolerance between the results of a batch and of single prompts
 
 
 @dataclass(frozen=True)
 class Export:
-    """One way to cut a SAM model in two. features: the encoder's outputs that the decoder takes."""
+    """One way to split a SAM model into two graphs. features: the encoder's outputs that the decoder takes."""
 
     title: str
     features: tuple[str, ...]
@@ -42,7 +43,7 @@ class Export:
     masks: str
     scores: str
     padded: bool
-    end_point: bool = False  # the graph expects a last point labelled -1, "no box follows"
+    end_point: bool = False  # the graph expects a final point labelled -1, "no box follows"
 
     @property
     def inputs(self) -> set[str]:
@@ -51,7 +52,7 @@ class Export:
 
 POINTS = ("point_coords", "point_labels", "mask_input", "has_mask_input")
 EXPORTS = (
-    # low_res_masks, not masks: those are resized in the graph for the picture's shape that the export was traced with
+    # low_res_masks, not masks: those are resized in the graph to the picture shape that was used for the export
     Export("SAM", ("image_embeddings",), (*POINTS, "orig_im_size"), "low_res_masks", "iou_predictions", True, end_point=True),
     Export("SAM 2", ("image_embed", "high_res_feats_0", "high_res_feats_1"), POINTS, "masks", "iou_predictions", False),
     Export(
@@ -80,7 +81,7 @@ class _Embedding:
 
 
 class OnnxSam:
-    """A `PromptedSegmenter` of two ONNX files. ModelError for files that are no such pair."""
+    """A `PromptedSegmenter` of two ONNX files. Raise ModelError if they are not such a pair."""
 
     def __init__(self, encoder: Path, decoder: Path, *, name: str = "") -> None:
         self.name = name or encoder.parent.name
@@ -94,7 +95,7 @@ class OnnxSam:
         self._tried = False
 
     def embed(self, image: UInt8[np.ndarray, "H W 3"]) -> _Embedding:
-        """Runs the encoder once."""
+        """Run the encoder once."""
         if len(self._pixels.shape) == 4:
             pixels = self.frame.normalized(image)
         else:
@@ -105,14 +106,14 @@ class OnnxSam:
                 pixels = square
         outputs = _run(self._encoder, None, {self._pixels.name: pixels.astype(TYPES[self._pixels.type])})
         named = dict(zip([o.name for o in self._encoder.get_outputs()], outputs, strict=True))
-        if len(self._export.features) == 1:  # exporters call the only output as they like
+        if len(self._export.features) == 1:  # exporters name the only output in different ways
             named = {self._export.features[0]: outputs[0]}
         return _Embedding({name: named[name] for name in self._export.features}, image.shape[:2])
 
     def predict(
         self, embedding: _Embedding, points: Float[np.ndarray, "n 2"]
     ) -> tuple[Float[np.ndarray, "n m h w"], Float[np.ndarray, "n m"]]:
-        """Runs the decoder: once for all points where its graph takes several prompts, else once a point."""
+        """Run the decoder: once for all points if its graph takes several prompts, else once per point."""
         at = self.frame.points(points, *embedding.size)
         if self._batched and not self._tried and len(at) > 1:
             self._tried, self._batched = True, self._batch_holds(embedding, at[:2])
@@ -122,7 +123,7 @@ class OnnxSam:
         return np.concatenate([masks for masks, _ in answers]), np.concatenate([scores for _, scores in answers])
 
     def _batch_holds(self, embedding: _Embedding, at: Float[np.ndarray, "2 2"]) -> bool:
-        """Whether two prompts at once are answered as one by one; exports exist that declare it and cannot."""
+        """Return whether two prompts in one batch give the same result as one by one; some exports declare batches and fail."""
         single = np.concatenate([self._ask(embedding, at[k : k + 1])[0] for k in range(2)])
         try:
             both = self._ask(embedding, at)[0]
@@ -141,7 +142,7 @@ class OnnxSam:
         masks, scores = _run(self._decoder, [self._export.masks, self._export.scores], typed)
         scores = scores.reshape(len(at), -1).astype(np.float32, copy=False)
         masks = masks.reshape(*scores.shape, *masks.shape[-2:]).astype(np.float32, copy=False)
-        # of four masks the first is the answer to several prompts of one object, which the reference leaves out here
+        # The first of four masks is for several prompts per object; the reference omits it here.
         return (masks[:, 1:], scores[:, 1:]) if scores.shape[1] == 4 else (masks, scores)
 
     def _prompt(self, name: str, at: Float[np.ndarray, "n 2"]) -> np.ndarray:
@@ -162,7 +163,7 @@ class OnnxSam:
                 return np.zeros((count, 1, low, low))
             case "has_mask_input":
                 return np.zeros(1)
-            case _:  # orig_im_size, of masks that are not read: small, for the graph computes them all the same
+            case _:  # orig_im_size, of masks that are not read: small, because the graph computes them anyway
                 return np.array([self.frame.side // LOW] * 2)
 
     def _side(self) -> int:
@@ -172,7 +173,7 @@ class OnnxSam:
 
 
 def _session(path: Path) -> Any:
-    try:  # by name: the library is not installed everywhere that types are checked
+    try:  # imported by name, because type checks also run without the library
         runtime = importlib.import_module("onnxruntime")
     except ImportError as error:
         raise MissingExtraError("ONNX Runtime is not installed; `pip install articulate-anymesh[sam]` brings it") from error
@@ -208,7 +209,7 @@ def _export(encoder: Any, decoder: Any, encoder_path: Path, decoder_path: Path) 
     valid = "; ".join(f"{e.title}: {sorted(e.inputs)} -> {e.masks}, {e.scores}" for e in EXPORTS)
     shown = [f"{p.name} {p.type} {p.shape}" for p in pixels]
     raise ModelError(
-        f"{encoder_path.name} and {decoder_path.name} are no pair of a SAM encoder and decoder: the encoder takes {shown} "
+        f"{encoder_path.name} and {decoder_path.name} are not a pair of a SAM encoder and decoder: the encoder takes {shown} "
         f"and gives {sorted(made)}, the decoder takes {sorted(inputs)} and gives {sorted(outputs)}; valid is one picture "
         f"(1, 3, S, S) or (H, W, 3), and decoders of {valid}"
     )

@@ -18,7 +18,7 @@ from anymesh.models.sam_frame import Frame
 MODELS = {  # model_type of config.json -> class of Transformers, and whether it pads
     "sam": ("SamModel", True),
     "sam2": ("Sam2Model", False),
-    "sam2_video": ("Sam2Model", False),  # published SAM 2 weights say this; the tracker's tensors are left out
+    "sam2_video": ("Sam2Model", False),  # used by published SAM 2 weights; the tracker's tensors are ignored
 }
 
 
@@ -29,29 +29,29 @@ class _Embedding:
 
 
 class TorchSam:
-    """A `PromptedSegmenter` of a folder. device: "cpu", "cuda", ...; None takes CUDA where there is one."""
+    """A `PromptedSegmenter` from a folder. device: "cpu", "cuda", ...; None uses CUDA if available."""
 
     def __init__(self, folder: Path, *, name: str = "", device: str | None = None) -> None:
         self.name = name or folder.name
         kind, padded = _kind(folder)
         self._torch, transformers = _library("torch"), _library("transformers")
         self._device = _device(self._torch, device)
-        transformers.utils.logging.disable_progress_bar()  # it would write across ours
+        transformers.utils.logging.disable_progress_bar()  # it would interfere with our own progress output
         try:
             model, told = getattr(transformers, kind).from_pretrained(
                 folder, local_files_only=True, use_safetensors=True, output_loading_info=True
             )
-        except Exception as error:  # whatever a wrong folder makes Transformers raise is one thing to the user
+        except Exception as error:  # Transformers raises many types of errors for a wrong folder
             reason = " ".join(f"{type(error).__name__}: {error}".split())[:300]
             raise ModelError(f"{folder}: Transformers cannot load {kind} ({reason})") from None
-        if told["missing_keys"]:  # they would be random numbers
+        if told["missing_keys"]:  # they would be initialized at random
             missing = sorted(told["missing_keys"])
             raise ModelError(f"{folder}: model.safetensors lacks {len(missing)} tensors of {kind}, among them {missing[:3]}")
         self._model = model.eval().to(self._device)
         self.frame = Frame(int(model.config.prompt_encoder_config.image_size), padded)
 
     def embed(self, image: UInt8[np.ndarray, "H W 3"]) -> _Embedding:
-        """Runs the image encoder once."""
+        """Run the image encoder once."""
         pixels = self._torch.from_numpy(self.frame.normalized(image)).to(self._device)
         with self._torch.inference_mode():
             return _Embedding(self._model.get_image_embeddings(pixels), image.shape[:2])
@@ -59,7 +59,7 @@ class TorchSam:
     def predict(
         self, embedding: _Embedding, points: Float[np.ndarray, "n 2"]
     ) -> tuple[Float[np.ndarray, "n m h w"], Float[np.ndarray, "n m"]]:
-        """Runs prompt encoder and mask decoder for all points at once."""
+        """Run the prompt encoder and the mask decoder for all points at once."""
         at = self.frame.points(points, *embedding.size).astype(np.float32)
         prompts = self._torch.from_numpy(at)[None, :, None].to(self._device)
         labels = self._torch.ones(prompts.shape[:3], dtype=self._torch.int64, device=self._device)
@@ -90,7 +90,7 @@ def _device(torch: ModuleType, wanted: str | None) -> Any:
 
 
 def _library(name: str) -> ModuleType:
-    try:  # by name: the library is not installed everywhere that types are checked
+    try:  # imported by name, because type checks also run without the library
         return importlib.import_module(name)
     except ImportError as error:
         raise MissingExtraError(

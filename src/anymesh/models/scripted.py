@@ -1,4 +1,4 @@
-"""A model that answers from a script, for tests and examples."""
+"""A model with scripted answers, for tests and examples."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from typing import Any
 from anymesh.errors import ModelError
 from anymesh.models.vision import Reply, Request
 
-Answer = str | Mapping[str, Any] | Exception  # the text, an object to write as JSON, or what to raise
+Answer = str | Mapping[str, Any] | Exception  # the text, an object that is written as JSON, or an exception to raise
 
 
 class ScriptedModel:
-    """Gives the answers in their order, or those of a function of the request. `requests` holds what it was asked."""
+    """Model that returns answers in order, or those of a function of the request. `requests` holds the requests received."""
 
     def __init__(self, answers: Iterable[Answer] | Callable[[Request], Answer], *, name: str = "scripted") -> None:
         self.name = name
@@ -22,7 +22,7 @@ class ScriptedModel:
         self._in_turn: Iterator[Answer] = iter(()) if callable(answers) else iter(answers)
 
     def ask(self, request: Request) -> Reply:
-        """Raises ModelError when the script is over."""
+        """Return the next answer. Raise ModelError if there is none left."""
         self.requests.append(request)
         answer = self._by_rule(request) if self._by_rule else next(self._in_turn, None)
         if answer is None:

@@ -1,4 +1,4 @@
-"""Model servers that run on one's own machine: where they listen, and which models they have."""
+"""Local model servers: their addresses and their models."""
 
 from __future__ import annotations
 
@@ -13,14 +13,15 @@ from urllib.parse import urlsplit
 from anymesh.errors import OptionError
 
 LOOPBACK = ("localhost", "127.0.0.1", "::1")
-LONGEST = 4_000_000  # [bytes] of a list of models
+LONGEST = 4_000_000  # [bytes] maximum size of a list of models
 
 
 @dataclass(frozen=True)
 class Server:
-    """A kind of server. port: its usual one; variables: of the environment, that say where it is; keys: that hold its key.
+    """A kind of server.
 
-    details: the path that lists which models take pictures, where there is one.
+    port: its default; variables: environment variables that may hold its address; keys: those that may hold its key;
+    details: path that lists which models accept pictures, "" if there is none.
     """
 
     name: str
@@ -30,7 +31,7 @@ class Server:
     details: str = ""
 
     def base_url(self) -> str:
-        """The address of its OpenAI-compatible interface. Raises OptionError for a variable that holds no address."""
+        """Return the address of its OpenAI-compatible interface. Raise OptionError if a variable holds no valid address."""
         told = ((v, value) for v in self.variables if (value := os.environ.get(v, "").strip()))
         variable, value = next(told, ("", f"http://127.0.0.1:{self.port}"))
         url = value if "://" in value else f"http://{value}"
@@ -41,7 +42,8 @@ class Server:
             host, port, parts = None, None, urlsplit("")
         if not host or parts.scheme not in ("http", "https") or "@" in value or parts.query:
             raise OptionError(f"{variable} must hold an address such as http://127.0.0.1:{self.port}, without user or password")
-        host = {"0.0.0.0": "127.0.0.1", "::": "::1"}.get(host, host)  # where a server listens everywhere, it is here as well
+        # a server that listens on all interfaces also listens on the loopback
+        host = {"0.0.0.0": "127.0.0.1", "::": "::1"}.get(host, host)
         shown = f"[{host}]" if ":" in host else host
         port = port or (self.port if parts.scheme == "http" else 443)
         path = parts.path.rstrip("/")
@@ -60,7 +62,7 @@ SERVERS = {
 
 @dataclass(frozen=True)
 class LocalModel:
-    """A model that a server has. name: as for --answerer; takes_pictures: whether it accepts pictures, None if unknown."""
+    """A model of a server. name: as for --answerer; takes_pictures: whether it accepts pictures, None if unknown."""
 
     name: str
     takes_pictures: bool | None
@@ -68,7 +70,7 @@ class LocalModel:
 
 @dataclass(frozen=True)
 class ServerProbe:
-    """What a server said. models: None where it did not answer, with the reason in `note`."""
+    """Result of asking a server for its models. models: None if it did not answer, with the reason in `note`."""
 
     server: str
     url: str
@@ -77,12 +79,12 @@ class ServerProbe:
 
     @property
     def is_local(self) -> bool:
-        """Whether it runs on this machine."""
+        """Whether the server runs on this machine."""
         return urlsplit(self.url).hostname in LOOPBACK
 
 
 def probe_servers(timeout: float = 1.0) -> list[ServerProbe]:
-    """Ask all servers at once which models they have, each for at most `timeout` [s] a call."""
+    """Ask all servers concurrently for their models, each with a time-out of `timeout` [s] per call."""
     with ThreadPoolExecutor(len(SERVERS)) as pool:
         return list(pool.map(lambda server: _probe(server, timeout), SERVERS.values()))
 
@@ -104,7 +106,7 @@ def _probe(server: Server, timeout: float) -> ServerProbe:
 
 
 def _vision_models(server: Server, root: str, names: list[str], timeout: float) -> dict[str, bool]:
-    """Which models take pictures, as far as the server says."""
+    """Return which models accept pictures, as far as the server states it."""
     try:
         if server.name == "ollama":
             shown = {n: _fetch(server, root + server.details, timeout, {"model": n}).get("capabilities") for n in names[:32]}
@@ -113,15 +115,15 @@ def _vision_models(server: Server, root: str, names: list[str], timeout: float) 
             listed = _fetch(server, root + server.details, timeout)["data"]
             return {str(m["id"]): m.get("type") == "vlm" for m in listed}
     except (OSError, http.client.HTTPException, ValueError, LookupError, TypeError, AttributeError):
-        pass  # an older server does not state it
+        pass  # older servers do not state it
     return {}
 
 
 def _fetch(server: Server, url: str, timeout: float, body: dict[str, Any] | None = None) -> dict[str, Any]:
-    """The JSON object at an address. Raises OSError, HTTPException, ValueError."""
+    """Fetch a JSON object. Raise OSError, HTTPException or ValueError on failure."""
     parts = urlsplit(url)
     kind = http.client.HTTPSConnection if parts.scheme == "https" else http.client.HTTPConnection
-    connection = kind(parts.hostname or "", parts.port, timeout=timeout)  # no proxy: these are one's own machines
+    connection = kind(parts.hostname or "", parts.port, timeout=timeout)  # no proxy, since these are local machines
     headers = {"content-type": "application/json"}
     if key := next((value for name in server.keys if (value := os.environ.get(name, "").strip())), ""):
         headers["authorization"] = f"Bearer {key}"
@@ -138,5 +140,5 @@ def _fetch(server: Server, url: str, timeout: float, body: dict[str, Any] | None
 
 
 def first_vision_model(found: list[ServerProbe]) -> LocalModel | None:
-    """Choose the first model on this machine that says that it takes pictures."""
+    """Return the first model on this machine that is known to accept pictures; None if there is none."""
     return next((m for f in found if f.is_local for m in f.models or () if m.takes_pictures), None)

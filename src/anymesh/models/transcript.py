@@ -1,4 +1,4 @@
-"""All questions and answers of a run as a page to read, and as a recording to replay."""
+"""Questions and answers of a run as an HTML page, and as a recording to replay."""
 
 from __future__ import annotations
 
@@ -28,9 +28,9 @@ table { border-collapse: collapse } td, th { padding: .1rem .8rem .1rem 0; text-
 
 
 def write_transcript(exchanges: Sequence[Exchange], folder: Path) -> None:
-    """Writes `index.html`, each picture once as `SHA256.png`, and `NNN_KIND.json` for each call, which Replay reads.
+    """Write `index.html`, each picture once as `SHA256.png`, and `NNN_KIND.json` for each call, which Replay reads.
 
-    What an earlier transcript left in the folder is removed, nothing else. The pictures must be there for the page.
+    Files of an earlier transcript in the folder are removed, nothing else. The page refers to the picture files.
     """
     folder.mkdir(parents=True, exist_ok=True)
     _clear(folder)
@@ -43,7 +43,7 @@ def write_transcript(exchanges: Sequence[Exchange], folder: Path) -> None:
 
 
 def remove_transcript(folder: Path) -> None:
-    """Remove a transcript, and its folder where that holds nothing else. Raises OSError."""
+    """Remove a transcript, and its folder if that is then empty. Raise OSError on failure."""
     if (folder / "index.html").is_file():
         _clear(folder)
         if not any(folder.iterdir()):

@@ -1,4 +1,4 @@
-"""The protocol of a vision-language model: one request, one reply. Wrappers (cache, budget, retry) speak it too."""
+"""Protocol of a vision-language model: one request, one reply. Wrappers (cache, budget, retry) implement it too."""
 
 from __future__ import annotations
 
@@ -11,32 +11,32 @@ from anymesh.types.exchange import Picture
 
 @dataclass(frozen=True)
 class Request:
-    """One question. `schema` is the JSON schema (an object) that the answer must satisfy; pictures come with captions."""
+    """One question. `schema` is the JSON schema (an object) that the answer must satisfy; pictures have captions."""
 
-    kind: str  # which question, for logs and transcripts: "recognize", "marks", ...
+    kind: str  # kind of question, for logs and transcripts: "recognize", "marks", ...
     system: str
     text: str
     pictures: tuple[Picture, ...]
     schema: Mapping[str, Any]
-    max_tokens: int = 8000  # of the answer, thinking included
+    max_tokens: int = 8000  # of the answer, including reasoning tokens
 
 
 @dataclass(frozen=True)
 class Reply:
-    """What came back. `text` is as the model wrote it, and may be anything: whoever asked checks it."""
+    """Answer of a model. `text` is the model's output, unchecked; the caller validates it."""
 
     text: str
     model: str
     input_tokens: int
     output_tokens: int
-    cost: float | None = None  # [USD], None when the price is not known
+    cost: float | None = None  # [USD], None if the price is not known
     cached: bool = False
     seconds: float = 0.0
 
 
 @runtime_checkable
 class VisionModel(Protocol):
-    """Asks once. Raises ModelError when no reply could be had."""
+    """A vision-language model. `ask` makes one call, and raises ModelError if it gets no reply."""
 
     name: str
 

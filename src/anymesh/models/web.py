@@ -1,4 +1,4 @@
-"""One HTTP call with the standard library: a deadline, a limit of size, errors without secrets; and calling again."""
+"""One HTTP call with the standard library, with a deadline, a size limit, and errors without secrets."""
 
 from __future__ import annotations
 
@@ -32,13 +32,17 @@ CHUNK = 1 << 16  # [bytes]
 
 
 class LostError(TransientError):
-    """The request went out and no whole answer came back: it may have been carried out."""
+    """The request was sent and no complete answer was received: it may have been carried out."""
 
 
 @dataclass(frozen=True)
 class Call:
-    """What to send. `name` stands for the address in messages, since addresses may be signed; timeout [s] is for all of
-    it; most [bytes]; redirects are followed only where asked, and never with a key; plain: http to other machines too."""
+    """An HTTP call.
+
+    name: replaces the address in messages, since addresses may be signed; timeout: [s] for the whole call; max_bytes: of the
+    answer;
+    redirects: whether redirects are followed, but never with a key; plain: allow http also to other machines.
+    """
 
     name: str
     method: str
@@ -53,7 +57,7 @@ class Call:
 
 @dataclass(frozen=True)
 class Answer:
-    """What came back, whatever its status. headers: names in lower case."""
+    """Response with any status. headers: names in lower case."""
 
     status: int
     headers: Mapping[str, str]
@@ -61,13 +65,13 @@ class Answer:
 
     @property
     def retry_after(self) -> float | None:
-        """How long the server asks to wait [s]; None when it says nothing, or a date."""
+        """Wait requested by the server [s]; None if there is none, or if it is a date."""
         told = self.headers.get("retry-after", "").strip()
         return float(told) if told.isdecimal() else None
 
 
 def is_web(url: str, *, plain: bool = False) -> bool:
-    """Whether an address is https, or http of this machine; with `plain`, http of any."""
+    """Return whether an address is https, or http on this machine; with `plain`, http on any machine."""
     try:
         parts = urlsplit(url)
         host = parts.hostname
@@ -77,12 +81,15 @@ def is_web(url: str, *, plain: bool = False) -> bool:
 
 
 def exchange(call: Call) -> Answer:
-    """Raises TransientError where the request did not get through, LostError where its answer did not, ModelError for an
-    address that is neither https nor local, or an answer that is too large."""
+    """Make the call and return the answer.
+
+    Raise TransientError if the request was not delivered, LostError if its answer was not received, ModelError for an address
+    that is neither https nor local, or an answer that is too large.
+    """
     if not is_web(call.url, plain=call.plain):
         raise ModelError(f"{call.name}: the address must be https, or http on this machine")
     found = _exchange(call)
-    if isinstance(found, ModelError):  # raised here, where the library's error, which may hold the request, is gone
+    if isinstance(found, ModelError):  # raised here, outside the handler, since the library's error may hold the request
         raise found
     return found
 
@@ -102,13 +109,13 @@ def _exchange(call: Call) -> Answer | ModelError:
         return LostError(f"{call.name}: no answer within {call.timeout:g} s")
     except (OSError, http.client.HTTPException):
         return LostError(f"{call.name}: the connection broke off")
-    except ValueError:  # a header with a line break, a host that is none
+    except ValueError:  # a header with a line break, or an invalid host
         return ModelError(f"{call.name}: the address or a header is not valid")
 
 
 def _read(call: Call, response: http.client.HTTPResponse, headers: Mapping[str, str], end: float) -> Answer | ModelError:
     chunks, size = [], 0
-    while chunk := response.read1(CHUNK):  # what there is, so that a trickle does not outlast the deadline
+    while chunk := response.read1(CHUNK):  # read what is available, so that a slow answer cannot outlast the deadline
         chunks.append(chunk)
         size += len(chunk)
         if size > call.max_bytes:
@@ -122,7 +129,7 @@ def _read(call: Call, response: http.client.HTTPResponse, headers: Mapping[str, 
 
 
 def _opener(call: Call) -> OpenerDirector:
-    """Of http and https alone: an address that a server names must not open a file."""
+    """Return an opener for http and https only: an address given by a server must not open a file."""
     opener = OpenerDirector()
     handlers: list[BaseHandler] = [ProxyHandler(), HTTPHandler(), HTTPSHandler()]
     if call.redirects and "authorization" not in {name.lower() for name in call.headers}:

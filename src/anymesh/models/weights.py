@@ -1,4 +1,4 @@
-"""Where the weights of mask proposers come from: named, a hub id with its commit, or a folder; checked by sha256."""
+"""Weights of mask proposers: a registered name, a hub id with its commit, or a folder; checked by sha256."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from pathlib import Path
 from anymesh.errors import ModelError, OptionError
 from anymesh.models.sam_hub_ import Hub
 
-SUMS = "SHA256SUMS"  # of a folder, as `sha256sum` writes it
+SUMS = "SHA256SUMS"  # digests in a folder, in the format of `sha256sum`
 PICKLES = (".pth", ".pt", ".bin", ".pkl", ".ckpt")
 HUB_ID = re.compile(r"[\w.-]+/[\w.-]+")
 COMMIT = re.compile(r"[0-9a-f]{40}")
@@ -20,15 +20,18 @@ QUANTIZED = re.compile(r"_(fp16|bnb4|int8|uint8|q4f16|q4|q8|quantized)\.onnx$")
 
 @dataclass(frozen=True)
 class Published:
-    """Weights on the hub. revision: a commit; files: path in the repository -> sha256, None where the commit alone pins."""
+    """Weights on the hub.
+
+    revision: a commit; files: path in the repository -> sha256, None if pinned by the commit only.
+    """
 
     hub_id: str
     revision: str
     files: Mapping[str, str | None]
 
 
-# The machine this was written on reaches no hub: commits and digests are those that at least two independent public
-# records give. A wrong one would refuse good weights, never accept bad ones.
+# Commits and digests are those that at least two independent public records state; they were not verified by a download. A
+# wrong one would refuse good weights, never accept bad ones.
 REGISTRY: dict[str, Published] = {
     "sam-vit-h": Published(
         "facebook/sam-vit-huge",
@@ -81,9 +84,9 @@ REGISTRY: dict[str, Published] = {
 
 @dataclass(frozen=True)
 class Weights:
-    """Checked local files. onnx: (encoder, decoder), or None where `folder` holds config.json and safetensors.
+    """Checked local files. onnx: (encoder, decoder), or None if `folder` holds config.json and safetensors.
 
-    name: what a result says of them: a short name or hub id with its commit, or the path of a folder.
+    name: identifies the weights in results: a short name or hub id with its commit, or the path of a folder.
     """
 
     name: str
@@ -92,11 +95,11 @@ class Weights:
 
 
 def resolve(spec: str, *, sha256: Mapping[str, str] | None = None, hub: Hub | None = None) -> Weights:
-    """`sam:NAME`, `sam:FOLDER` or `sam:HUB_ID@COMMIT` as local files, downloaded if they must be.
+    """Resolve `sam:NAME`, `sam:FOLDER` or `sam:HUB_ID@COMMIT` to local files, downloading them if needed.
 
-    sha256: file name -> digest that it must have, beside those of the registry and of a folder's SHA256SUMS.
-    OptionError for a spec that names nothing or is not pinned, ModelError for files that are missing, pickles, or not
-    the ones that the digests say, MissingExtraError where the download needs an extra.
+    sha256: file name -> required digest, in addition to those of the registry and of a folder's SHA256SUMS.
+    Raise OptionError for a spec that is invalid or not pinned, ModelError for files that are missing, pickles, or do not match
+    their digests, MissingExtraError if the download needs an extra.
     """
     place = spec.removeprefix("sam:")
     given = dict(sha256 or {})
@@ -127,7 +130,7 @@ def resolve(spec: str, *, sha256: Mapping[str, str] | None = None, hub: Hub | No
 
 
 def choose(names: Iterable[str], place: str) -> tuple[str, ...]:
-    """Of the files of a folder or repository those that make a model; first of a pair the encoder. ModelError if none do."""
+    """Select the files that make up a model; the first of an ONNX pair is the encoder. Raise ModelError if there are none."""
     names = sorted(names)
     if {"config.json", "model.safetensors"} <= set(names):
         return ("config.json", "model.safetensors")
@@ -137,7 +140,7 @@ def choose(names: Iterable[str], place: str) -> tuple[str, ...]:
     encoders = [n for n in graphs if "enc" in Path(n).name.lower() and n not in decoders]
     if len(encoders) == len(decoders) == 1:
         pair = (encoders[0], decoders[0])
-        # weights beyond 2 GB, or by choice, lie beside the graph, which refers to them by name
+        # Weights above 2 GB, or stored separately by choice, are in files beside the graph, which refers to them by name.
         beside = [n for n in names if n not in pair and (n.startswith(pair) or n.endswith((".data", "_data.bin", ".weights")))]
         return (*pair, *beside)
     pickles = [n for n in names if n.endswith(PICKLES)]

@@ -1,1 +1,1 @@
-"""Stage C (3.4): shapes completed, textures made; asset to asset."""
+"""Stage C (paper, 3.4): completion of shapes and creation of textures, from asset to asset."""

@@ -1,4 +1,4 @@
-"""What someone else completed joins the asset where it agrees with what is seen of the part."""
+"""Acceptance of externally completed parts that agree with the visible surface of the asset."""
 
 from __future__ import annotations
 
@@ -15,18 +15,20 @@ from anymesh.postprocessing.visible import seen_from_outside, visible_faces
 from anymesh.rendering.raycast_ import RayScene
 from anymesh.types import Asset
 
-AGREES = 0.01  # of the object's diagonal: what is seen of a part must lie this near to its completed surface
-MAX_OFF_SHARE = 0.05  # share of the points that may lie further off
-SAMPLES = 2000  # points a part
+AGREES = 0.01  # share of the object's diagonal: maximum distance of a part's visible surface from its completed surface
+MAX_OFF_SHARE = 0.05  # share of the points that may lie further away
+SAMPLES = 2000  # sample points per part
 
 
 def accept(asset: Asset, made: Mapping[str, PartMesh], *, who: str, tolerance: float = AGREES) -> Finished:
-    """The asset with the new faces of each part whose completed surface agrees with it.
+    """Add the new faces of each part whose completed surface agrees with the asset.
 
-    It agrees when what is seen of the part lies on it, and when it shows nowhere that the object does not: both within
-    `tolerance` diagonals. The part keeps its faces, and gets those of the completed surface that lie further from them.
-    `notes` says of each part of `made` whether it was accepted, or why not: the built-in completer is for those, and for the
-    parts that are not in `made`. ValueError for a part that the asset does not have.
+    A surface agrees if the visible surface of the part lies on it, and if none of it is visible where the object has no
+    surface, both within `tolerance` diagonals.
+    The part keeps its faces, and gets those of the completed surface that lie further away from them.
+    `notes` states for each part of `made` whether it was accepted, or why not. The built-in completer handles rejected parts
+    and those not in `made`.
+    Raise ValueError for a part that the asset does not have.
     """
     names = [part.name for part in asset.segmentation.parts]
     unknown = sorted(set(made) - set(names))
@@ -53,12 +55,12 @@ def accept(asset: Asset, made: Mapping[str, PartMesh], *, who: str, tolerance: f
 
 
 def accepted(finished: Finished, who: str) -> tuple[str, ...]:
-    """Names of the parts that `accept` took from `who`."""
+    """Return the names of the parts that `accept` took from `who`."""
     return tuple(name for name, notes in finished.notes.items() if any(n.startswith(f"{who}: accepted") for n in notes))
 
 
 def disagreement(asset: Asset, seen: np.ndarray, triangles: Float[np.ndarray, "n 3 3"], limit: float) -> str:
-    """Why a completed surface is not that of the part whose faces `seen` are; empty when it is. limit: [m]"""
+    """Describe why a completed surface is not that of the part with visible faces `seen`; empty if it is. limit: [m]"""
     if len(triangles) == 0:
         return "it is empty"
     there = sample_surface(asset.mesh.triangles[seen], SAMPLES, 0, at_least=1)
@@ -75,7 +77,7 @@ def disagreement(asset: Asset, seen: np.ndarray, triangles: Float[np.ndarray, "n
 
 
 def _beyond(triangles: np.ndarray, surface: np.ndarray, limit: float) -> np.ndarray:
-    """Those triangles that do not lie on a surface with all of their corners and their middle."""
+    """Return the triangles with at least one corner or the centroid off a surface."""
     points = np.concatenate([triangles, triangles.mean(1, keepdims=True)], axis=1)
     off = distance_to_triangles(points.reshape(-1, 3), surface).reshape(-1, 4)
     return triangles[(off > limit).any(1)]

@@ -1,4 +1,4 @@
-"""New faces join an asset: they look like the nearest face of their part that was there before."""
+"""Addition of new faces to an asset, with attributes copied from the nearest existing face of their part."""
 
 from __future__ import annotations
 
@@ -17,10 +17,11 @@ from anymesh.types.triangles import normals_and_areas
 def with_new_faces(
     asset: Asset, added: Mapping[int, Float[np.ndarray, "n 3 3"]], materials: Mapping[int, Int[np.ndarray, " m"]]
 ) -> Finished:
-    """The asset with triangles (n, 3, 3) [m, asset frame] added to parts, by number; those without area too.
+    """Add triangles (n, 3, 3) [m, asset frame] to parts, by number, including triangles without area.
 
-    materials: part -> faces of the asset whose node, material, colour and texture coordinates its new faces take, each from the
-    nearest. The faces that were there keep their numbers, vertices and attributes; new ones follow in the order of the parts.
+    materials: part -> faces of the asset from which its new faces take node, material, colour and texture coordinates, each
+    from the nearest one.
+    Existing faces keep their numbers, vertices and attributes; new ones follow in the order of the parts.
     """
     mesh = asset.mesh
     numbers = [part for part in sorted(added) if len(added[part])]
@@ -45,12 +46,12 @@ def with_new_faces(
 
 
 def _nearest(mesh: Mesh, triangles: np.ndarray, faces: np.ndarray) -> Int[np.ndarray, " n"]:
-    """The one of some faces that lies nearest to the middle of each triangle."""
+    """Return for each triangle the nearest of some faces to its centroid."""
     return faces[distance_to_mesh(triangles.mean(1), mesh.vertices, mesh.faces[faces])[1]]
 
 
 def _nearest_corner(mesh: Mesh, triangles: np.ndarray, like: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Face and corner whose attributes a new face takes at all of its corners: one colour, no smear of the texture."""
+    """Return the face and corner whose attributes a new face takes at all its corners, so that it has a single colour."""
     off = np.linalg.norm(mesh.triangles[like] - triangles.mean(1)[:, None], axis=2)
     return like, off.argmin(1)
 

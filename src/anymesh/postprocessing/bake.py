@@ -1,4 +1,4 @@
-"""All looks of a mesh in one picture: new texture coordinates, one material."""
+"""Baking of a mesh's materials into one atlas: new texture coordinates, one material."""
 
 from __future__ import annotations
 
@@ -17,16 +17,16 @@ from anymesh.postprocessing.texture import Carried, Painted
 from anymesh.rendering.raycast_ import RayScene
 from anymesh.types import Material, Mesh, Texture
 
-SIZES = (16, 16384)  # [px]
-RAYS = 2  # a texel is the mean of this many squared places on it
-BAND = 1 << 18  # texels at a time
+SIZES = (16, 16384)  # [px] minimum and maximum
+RAYS = 2  # samples per side of a texel
+BAND = 1 << 18  # texels per batch
 Sample = Callable[[np.ndarray, np.ndarray], np.ndarray]  # faces and weights of their corners -> channels
 Place = Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]
 
 
 @dataclass(frozen=True)
 class Baked:
-    """The built-in looks, baked to an atlas of size x size px; charts keep `padding` px to each side."""
+    """Retexturer that bakes the built-in textures into an atlas of size x size px; charts have `padding` px on each side."""
 
     size: int = 1024
     padding: int = 2
@@ -39,11 +39,11 @@ class Baked:
 
 
 def bake(mesh: Mesh, *, size: int = 1024, padding: int = 2) -> tuple[Mesh, tuple[str, ...]]:
-    """The mesh with its looks in one picture of size x size px, and notes on what that picture cannot hold.
+    """Bake the materials of a mesh into one picture of size x size px; also return notes on what it cannot hold.
 
-    One material, and a second one with the same picture for the faces that are seen through. Metal, roughness and light of
-    its own are baked to pictures of the same layout where they differ. Raises OptionError for a size that is not valid, or
-    too small for the charts.
+    The result has one material, and a second one with the same picture for transparent faces. Metallic, roughness and emission
+    are baked to pictures of the same layout if they vary.
+    Raise OptionError for an invalid size, or one too small for the charts.
     """
     layout = check_layout(mesh, size, padding)
     seen = see_through(mesh)
@@ -63,7 +63,7 @@ def bake(mesh: Mesh, *, size: int = 1024, padding: int = 2) -> tuple[Mesh, tuple
 
 
 def check_layout(mesh: Mesh, size: int, padding: int) -> Layout:
-    """`lay_out` for a size and a padding that a user gave."""
+    """Compute the layout for a size and a padding given by the user. Raise OptionError if they are not valid."""
     if not SIZES[0] <= size <= SIZES[1] or not 1 <= padding <= size // 4:
         told = f"found {size} px and a padding of {padding} px"
         raise OptionError(f"an atlas has {SIZES[0]} to {SIZES[1]} px and a padding of 1 px to a quarter of that; {told}")
@@ -71,14 +71,17 @@ def check_layout(mesh: Mesh, size: int, padding: int) -> Layout:
 
 
 def atlas_uv(layout: Layout) -> Float32[np.ndarray, "F 3 2"]:
-    """Texture coordinates of every corner, v up."""
+    """Return the texture coordinates of every corner, with v upwards."""
     uv = layout.corners / layout.size
     return np.stack([uv[..., 0], 1 - uv[..., 1]], 2).astype(np.float32)
 
 
 def paint(layout: Layout, sample: Sample, channels: int) -> UInt8[np.ndarray, "S S k"]:
-    """The atlas of what `sample` says of places (face, weights of its corners). A texel is the mean of RAYS squared places;
-    a face that none of these meets has the texel of its middle; texels of no face are like the nearest that are."""
+    """Paint the atlas from the values of `sample` at points (face, weights of its corners).
+
+    A texel is the mean of RAYS squared points. A face without any of these points gets one texel at its centroid. Texels
+    without a face copy the nearest texel with one.
+    """
     size, corners = layout.size, layout.corners
     flat = np.concatenate([corners, np.zeros((len(corners), 3, 1))], 2).reshape(-1, 3)
     scene = RayScene(flat, np.arange(len(flat)).reshape(-1, 3))
@@ -111,9 +114,9 @@ def paint(layout: Layout, sample: Sample, channels: int) -> UInt8[np.ndarray, "S
 def atlas_materials(
     layout: Layout, mesh: Mesh, name: str, *, clear: bool = False, place: Place | None = None
 ) -> tuple[Material, ...]:
-    """The material of an atlas that shows the looks of a mesh, and with `clear` the one of what is seen through.
+    """Return the atlas material of a mesh, and with `clear` also the one of its transparent faces.
 
-    place: from places on the mesh that is laid out to places on the one whose looks it gets; None where these are the same.
+    place: maps points on the unwrapped mesh to points on the mesh with the materials; None if both are the same.
     """
     read = sampler(mesh)
     at = place or (lambda face, weights: (face, weights))

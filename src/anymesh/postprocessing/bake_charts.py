@@ -1,4 +1,4 @@
-"""A surface cut into charts that lie flat side by side in a square (box unwrapping, shelf packing)."""
+"""Unwrapping of a surface into flat charts in a square (box unwrapping, shelf packing)."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from anymesh.geometry.topology import edge_pairs, label_connected
 from anymesh.rendering.raycast_ import RayScene
 from anymesh.types import Mesh
 
-ACROSS = np.array([[1, 2], [2, 0], [0, 1]])  # the axes of the plane that an axis is normal to
-ROUNDS = 8  # of cutting charts that lie over themselves; then each covered face is a chart
-STEPS = 24  # of the search for the scale
+ACROSS = np.array([[1, 2], [2, 0], [0, 1]])  # axes of the plane normal to each axis
+ROUNDS = 8  # iterations of cutting charts that overlap themselves; then each covered face becomes a chart
+STEPS = 24  # iterations of the search for the scale
 
 
 @dataclass(frozen=True, eq=False)
 class Layout:
-    """Where every face corner lies in a square picture. corners: (F, 3, 2) [px], right and down; scale: [px/m]."""
+    """Position of every face corner in a square picture. corners: (F, 3, 2) [px], right and down; scale: [px/m]."""
 
     size: int
     corners: Float[np.ndarray, "F 3 2"]
@@ -28,10 +28,10 @@ class Layout:
 
 
 def lay_out(mesh: Mesh, size: int, padding: int) -> Layout:
-    """No two faces lie over each other; charts are `padding` px from each other and from the border.
+    """Lay out the faces without overlap; charts are `padding` px from each other and from the border.
 
-    A chart is a connected patch whose faces look along one axis the most, seen along that axis, so nothing is stretched to
-    more than 1.8 times its length. Raises OptionError where the charts do not fit.
+    A chart is a connected set of faces with the same dominant axis, projected along that axis, so no length shrinks by more
+    than a factor of 1.8. Raise OptionError if the charts do not fit.
     """
     direction = 2 * np.abs(mesh.face_cross).argmax(1)
     direction += np.take_along_axis(mesh.face_cross, direction[:, None] // 2, 1)[:, 0] < 0
@@ -50,7 +50,7 @@ def lay_out(mesh: Mesh, size: int, padding: int) -> Layout:
 
 
 def _flattened(mesh: Mesh, direction: np.ndarray) -> tuple[Float[np.ndarray, "F 3 2"], Float[np.ndarray, "F 3"]]:
-    """Corners [m] as seen along each face's direction, not mirrored, and their height towards whoever looks."""
+    """Project corners [m] along each face's direction, without mirroring; also return their height towards the viewer."""
     axis, back = direction // 2, direction % 2 == 1
     rows = np.arange(len(direction))[:, None]
     right, up = (mesh.triangles[rows, np.arange(3), ACROSS[axis, k][:, None]] for k in (0, 1))
@@ -60,7 +60,7 @@ def _flattened(mesh: Mesh, direction: np.ndarray) -> tuple[Float[np.ndarray, "F 
 
 
 def _packed(flat: np.ndarray, chart: np.ndarray, size: int, padding: int) -> Layout:
-    """The largest scale at which the charts fit, found by halving."""
+    """Find the largest scale at which the charts fit, by bisection."""
     count = int(chart.max()) + 1
     low, high = np.full((count, 2), np.inf), np.full((count, 2), -np.inf)
     np.minimum.at(low, chart, flat.min(1))
@@ -83,7 +83,7 @@ def _pixels(extent: np.ndarray, scale: float, padding: int) -> Int[np.ndarray, "
 
 
 def _shelves(boxes: Int[np.ndarray, "c 2"], size: int) -> Int[np.ndarray, "c 2"] | None:
-    """Corners of boxes set side by side on shelves, the highest first; None where they do not fit."""
+    """Place boxes side by side on shelves, tallest first, and return their corners; None if they do not fit."""
     if (boxes > size).any() or boxes.prod(1).sum() > size * size:
         return None
     at = np.zeros_like(boxes)
@@ -100,7 +100,7 @@ def _shelves(boxes: Int[np.ndarray, "c 2"], size: int) -> Int[np.ndarray, "c 2"]
 
 
 def _covered(found: Layout, depth: np.ndarray, chart: np.ndarray) -> np.ndarray:
-    """Which faces have their middle under another face of their chart."""
+    """Return which faces have their centroid below another face of their chart."""
     corners = np.concatenate([found.corners, (depth * found.scale)[:, :, None]], axis=2)
     scene = RayScene(corners.reshape(-1, 3), np.arange(3 * len(corners)).reshape(-1, 3))
     middle = corners.mean(1)

@@ -1,4 +1,4 @@
-"""What a mesh looks like at places on it, slot by slot: colour, opacity, metal and roughness, light of its own."""
+"""Material values at points on a mesh, by slot: colour, opacity, metallic and roughness, emission."""
 
 from __future__ import annotations
 
@@ -19,8 +19,10 @@ WIDTH = {BASE: 3, ALPHA: 1, METAL: 2, LIGHT: 3}  # channels of each slot; METAL:
 
 @dataclass(frozen=True, eq=False)
 class Sampler:
-    """Reads the slots of a mesh that differ from place to place. Each slot is read as the colour of a mesh of its own, so that
-    all pictures are looked up in one way, that of `rendering.render`."""
+    """Reader of the slots that vary over a mesh.
+
+    Each slot is stored as the colour of a separate mesh, so that all textures are looked up as in `rendering.render`.
+    """
 
     meshes: dict[str, Mesh]
 
@@ -29,7 +31,7 @@ class Sampler:
         return tuple(self.meshes)
 
     def __call__(self, face: Int[np.ndarray, " n"], weights: Float[np.ndarray, "n 3"]) -> UInt8[np.ndarray, "n k"]:
-        """The channels of all slots, side by side."""
+        """Return the channels of all slots, side by side."""
         return np.concatenate([self._read(slot, face, weights) for slot in self.meshes], axis=1)
 
     def _read(self, slot: str, face: np.ndarray, weights: np.ndarray) -> np.ndarray:
@@ -42,9 +44,9 @@ class Sampler:
 
 
 def sampler(mesh: Mesh) -> Sampler:
-    """Of the slots that the mesh needs: base_color always."""
+    """Return the sampler of the slots that the mesh needs; base_color is always included."""
     plain = replace(mesh, materials=(*mesh.materials, Material()), corner_color=None)
-    if mesh.corner_uv is None:  # pictures of one texel need a place all the same
+    if mesh.corner_uv is None:  # textures of one texel also need coordinates
         plain = replace(plain, corner_uv=np.zeros((len(mesh.faces), 3, 2), np.float32))
     plain = replace(plain, face_material=np.where(mesh.face_material < 0, len(mesh.materials), mesh.face_material))
     used = [plain.materials[k] for k in np.unique(plain.face_material)]
@@ -59,19 +61,19 @@ def sampler(mesh: Mesh) -> Sampler:
 
 
 def see_through(mesh: Mesh) -> Bool[np.ndarray, " F"]:
-    """Faces whose material has holes or lets light through."""
+    """Return the faces whose material is transparent or has holes."""
     clear = np.array([*(m.alpha_mode != "OPAQUE" for m in mesh.materials), False])
     return clear[mesh.face_material]
 
 
 def _shown(material: Material, color: tuple[float, ...], slot: str) -> Material:
-    """A material that shows one slot as its colour."""
+    """Return a material that shows one slot as its colour."""
     textures = {BASE: material.textures[slot]} if slot in material.textures else {}
     return replace(material, base_color=color, textures=textures)
 
 
 def _opacity(material: Material) -> Material:
-    """The same for opacity; a factor is a grey that reads as itself once it is shown."""
+    """Return a material that shows opacity as its colour, with the opacity factor stored as a grey texture."""
     share = material.base_color[3] if material.alpha_mode != "OPAQUE" else 1.0
     texture = material.textures.get(BASE)
     with_holes = texture is not None and material.alpha_mode != "OPAQUE"
@@ -84,7 +86,7 @@ def _opacity(material: Material) -> Material:
 
 
 def png(pixels: UInt8[np.ndarray, ...]) -> bytes:
-    """The bytes of a PNG file."""
+    """Encode pixels as PNG."""
     file = io.BytesIO()
     Image.fromarray(pixels).save(file, "PNG")
     return file.getvalue()

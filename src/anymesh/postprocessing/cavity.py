@@ -1,4 +1,4 @@
-"""The hollow behind a front gets walls where the body's own shell is far off: a microwave's cavity ends beside its controls."""
+"""Walls for the cavity behind a panel where the body's own shell is far away, as beside a microwave's controls."""
 
 from __future__ import annotations
 
@@ -15,19 +15,19 @@ from anymesh.postprocessing.scenes import Growing, scene_of
 from anymesh.postprocessing.settings import ShapeConfig
 from anymesh.rendering.raycast_ import RayScene
 
-MAX_SIDE_GAP_WALLS = 3.0  # walls: a side of the body that is nearer to the hollow's edge bounds it
-TURNED = 0.05  # difference of the axes of panels that lie side by side
-INTO = 0.02  # of a wall: how far boards reach into what they end at; no shell is thinner
-INSET = 0.02  # of a board's side: what reaches in no further touches it
+MAX_SIDE_GAP_WALLS = 3.0  # in wall thicknesses: a side of the body nearer than this to the cavity's edge bounds it
+TURNED = 0.05  # maximum difference between the axes of adjacent panels
+INTO = 0.02  # share of a wall by which boards extend into what they end at; no shell is thinner
+INSET = 0.02  # share of a board's side: what extends in no further only touches it
 PROBES = 8  # rays along each direction of a side
-THERE = 0.6  # share of a strip between two panels that a rail fills
-ALONG = 0.5  # share of the shorter edge along which panels that lie side by side run together
-COVERS = 0.3  # share of the body's side that panels cover where each has a box of its own; less is a flap of a bin
-FIRST = 0.4  # share of the hollow's depth within which the body's face lies
+THERE = 0.6  # minimum share of a strip between two panels that a rail fills
+ALONG = 0.5  # minimum overlap of adjacent panels, as a share of the shorter edge
+COVERS = 0.3  # minimum share of the body's side covered by panels with separate cavities; less is the flap of a bin
+FIRST = 0.4  # share of the cavity's depth within which the body's face lies
 
 
 def add_walls(panel: PanelBox, panels: Sequence[PanelBox], growing: Growing, config: ShapeConfig) -> None:
-    """Adds boards to the part that carries a front, where the hollow behind it has no side."""
+    """Add boards to the part that carries a panel, where the cavity behind it has no side."""
     parent, standing = growing.scenes.carriers(panel.part)[0], growing.triangles(*growing.scenes.carriers(panel.part))
     body, movers = scene_of(standing), scene_of(growing.others(parent))
     wall = config.wall * growing.scenes.diagonal
@@ -38,7 +38,7 @@ def add_walls(panel: PanelBox, panels: Sequence[PanelBox], growing: Growing, con
             continue
         for low, high in _boards(panel, panels, axis, sign, body, wall):
             clear = config.clearance * growing.scenes.diagonal
-            for first in (low[2], panel.low[2] + clear):  # beside the front, or else behind it
+            for first in (low[2], panel.low[2] + clear):  # beside the panel, or else behind it
                 low[2] = first
                 new = board(low, high, panel.axes)
                 if not crosses(movers, low, high, panel.axes) and moves_freely(panel.part, growing, growing, beside=new):
@@ -47,7 +47,7 @@ def add_walls(panel: PanelBox, panels: Sequence[PanelBox], growing: Growing, con
 
 
 def _covered(panel: PanelBox, panels: Sequence[PanelBox], standing: Float[np.ndarray, "n 3 3"]) -> float:
-    """Share of the body's side on which a front lies that it and those beside it cover."""
+    """Compute the share of the body's side that a panel and those parallel to it cover."""
     side = np.ptp(standing.reshape(-1, 3) @ panel.axes[:2].T, axis=0)
     alike = [f for f in panels if _alike(panel, f)]
     return float(sum(np.prod((f.high - f.low)[:2]) for f in alike) / max(float(side.prod()), 1e-300))
@@ -58,7 +58,7 @@ def _alike(panel: PanelBox, other: PanelBox) -> bool:
 
 
 def _side(panel: PanelBox, axis: int, sign: float, base: RayScene, wall: float) -> float:
-    """How far the body's side is beyond an edge of the hollow [m], infinite where there is none near."""
+    """Compute the distance from an edge of the cavity to the body's side beyond it [m]; infinite if there is none nearby."""
     other = 1 - axis
     size = panel.high - panel.low
     share = (np.arange(PROBES) + 0.5) / PROBES
@@ -73,7 +73,10 @@ def _side(panel: PanelBox, axis: int, sign: float, base: RayScene, wall: float) 
 def _boards(
     panel: PanelBox, panels: Sequence[PanelBox], axis: int, sign: float, base: RayScene, wall: float
 ) -> Iterator[tuple[Float[np.ndarray, " 3"], Float[np.ndarray, " 3"]]]:
-    """Corners of the board at an edge of the hollow: none where the next hollow begins there, unless a rail is between."""
+    """Yield the corners of the board at an edge of the cavity.
+
+    There is none where the next cavity begins, unless a rail separates them.
+    """
     edge = float((panel.high if sign > 0 else panel.low)[axis])
     beside = [
         (gap, f) for f in panels if (gap := _gap(panel, f, axis, sign)) is not None and -wall < gap < MAX_SIDE_GAP_WALLS * wall
@@ -84,7 +87,7 @@ def _boards(
         if neighbour.part < panel.part or thick < wall / 4:
             return
     low, high = panel.low.copy(), panel.high.copy()
-    for side, end in ((-1.0, low), (1.0, high)):  # into the body's sides where they are near, else into the next board
+    for side, end in ((-1.0, low), (1.0, high)):  # into the body's sides if they are near, else into the next board
         far = _side(panel, 1 - axis, side, base, wall)
         end[1 - axis] += side * (far + INTO * wall if np.isfinite(far) else wall / 2)
     low[axis], high[axis] = (edge, edge + thick) if sign > 0 else (edge - thick, edge)
@@ -98,7 +101,7 @@ def _boards(
 
 
 def _back_level(panel: PanelBox, low: np.ndarray, high: np.ndarray, axis: int, base: RayScene) -> float:
-    """Where the body ends behind a board, along the way in."""
+    """Return where the body ends behind a board, along the inward direction."""
     local = _along(panel, low, high, axis)
     local[:, 2] = (low[2] + panel.high[2]) / 2
     far = float(panel.high[2] - low[2])
@@ -107,7 +110,7 @@ def _back_level(panel: PanelBox, low: np.ndarray, high: np.ndarray, axis: int, b
 
 
 def _along(panel: PanelBox, low: np.ndarray, high: np.ndarray, axis: int) -> Float[np.ndarray, "n 3"]:
-    """Points along the middle of a board but for its ends, at no depth."""
+    """Return points along the centre line of a board without its ends, at depth 0."""
     share = np.linspace(0.1, 0.9, PROBES**2)
     local = np.zeros((PROBES**2, 3))
     local[:, axis] = (low + high)[axis] / 2
@@ -116,7 +119,7 @@ def _along(panel: PanelBox, low: np.ndarray, high: np.ndarray, axis: int) -> Flo
 
 
 def _gap(panel: PanelBox, other: PanelBox, axis: int, sign: float) -> float | None:
-    """How far another front of the same kind is from an edge of a front [m]; None where it does not lie beside it."""
+    """Compute the distance of another parallel panel from an edge of a panel [m]; None if it is not beside it."""
     if other.part == panel.part or not _alike(panel, other):
         return None
     k = 1 - axis
@@ -128,7 +131,7 @@ def _gap(panel: PanelBox, other: PanelBox, axis: int, sign: float) -> float | No
 
 
 def _face_level(panel: PanelBox, low: np.ndarray, high: np.ndarray, axis: int, base: RayScene) -> float | None:
-    """Where the body's own face is before a board, along the way in; None where it has none there."""
+    """Return where the body's own face is before a board, along the inward direction; None if it has none there."""
     local = _along(panel, low, high, axis)
     depth = float(panel.high[2] - panel.low[2])
     local[:, 2] = panel.low[2] - depth
@@ -140,7 +143,7 @@ def _face_level(panel: PanelBox, low: np.ndarray, high: np.ndarray, axis: int, b
 def crosses(
     scene: RayScene, low: Float[np.ndarray, " 3"], high: Float[np.ndarray, " 3"], axes: Float[np.ndarray, "3 3"]
 ) -> bool:
-    """Whether a box between two corners told along axes (rows) has any surface of a scene in it."""
+    """Return whether a box between two corners in the frame of `axes` (rows) contains any surface of a scene."""
     share = (np.arange(PROBES) + 0.5) / PROBES
     low, high = low + INSET * (high - low), high - INSET * (high - low)
     for k in range(3):

@@ -1,4 +1,4 @@
-"""Sheets closed to solids: a cap on a hole, a flat back behind a plate, a second skin within a shell."""
+"""Closing of sheets to solids: a cap for a hole, a flat back for a plate, an inner skin for a shell."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from anymesh.geometry.topology import weld
 from anymesh.postprocessing.sheets import Sheet
 from anymesh.postprocessing.triangulate_ import triangulate
 
-MITER = 2.5  # times its thickness a skin may lie off a corner
-STIFF = 0.03  # share of the largest moment of the normals round a vertex below which they leave a direction free
+MITER = 2.5  # maximum offset of a skin at a corner, as a multiple of its thickness
+STIFF = 0.03  # share of the largest eigenvalue of the normals' moment at a vertex, below which a direction is unconstrained
 
 
 def frame(normal: Float[np.ndarray, " 3"]) -> tuple[Float[np.ndarray, " 3"], Float[np.ndarray, " 3"]]:
-    """Unit u, v with u x v = normal."""
+    """Return unit vectors u, v with u x v = normal."""
     u = np.cross(normal, np.eye(3)[np.abs(normal).argmin()])
     u /= np.linalg.norm(u)
     return u, np.cross(normal, u)
@@ -25,9 +25,9 @@ def frame(normal: Float[np.ndarray, " 3"]) -> tuple[Float[np.ndarray, " 3"], Flo
 def cap(
     points: Float[np.ndarray, "V 3"], loops: Sequence[Int[np.ndarray, " n"]], normal: Float[np.ndarray, " 3"]
 ) -> Int[np.ndarray, "m 3"]:
-    """Faces over the vertices of borders that close them; a border within another is a hole.
+    """Return faces over the vertices of borders that close them; a border within another is a hole.
 
-    loops: in the direction of the faces along them, as in `Sheet`; normal: the way that the new faces are to face, unit.
+    loops: in the direction of the faces along them, as in `Sheet`; normal: unit normal of the new faces.
     """
     u, v = frame(normal)
     back = [loop[::-1] for loop in loops]
@@ -37,10 +37,10 @@ def cap(
 def backed(
     sheet: Sheet, inward: Float[np.ndarray, " 3"], level: float, *, faces_out: bool, draft: float = 0.0
 ) -> tuple[Float[np.ndarray, "k 3"], Int[np.ndarray, "m 3"]]:
-    """What makes a sheet a solid with a flat back, at `level` [m] along `inward`: further points, and faces over the sheet's
-    points and these, walls from its borders and the back.
+    """Return points and faces that make a sheet a solid with a flat back at `level` [m] along `inward`.
 
-    faces_out: the sheet's faces are wound to the side that is seen; draft: [m] by which the back is drawn in on each side.
+    The faces refer to the sheet's points followed by the new ones, and consist of walls from its borders and the back.
+    faces_out: whether the sheet's faces are wound to the visible side; draft: [m] by which the back is narrowed on each side.
     """
     border = np.concatenate(sheet.loops)
     foot = sheet.points[border] + np.outer(level - sheet.points[border] @ inward, inward)
@@ -55,8 +55,10 @@ def backed(
 
 
 def shelled(sheet: Sheet, thickness: float, *, faces_out: bool) -> tuple[Float[np.ndarray, "V 3"], Int[np.ndarray, "m 3"]]:
-    """What makes a sheet a shell of a thickness [m], as `backed` tells it: a skin on the side that is not seen, and walls at
-    its borders."""
+    """Return points and faces that make a sheet a shell of a thickness [m], in the form of `backed`.
+
+    The shell has a skin on the hidden side, and walls at its borders.
+    """
     foot = sheet.points + _offsets(sheet) * (-thickness if faces_out else thickness)
     count = len(sheet.points)
     walls = _walls(sheet.loops, [loop + count for loop in sheet.loops])
@@ -64,20 +66,20 @@ def shelled(sheet: Sheet, thickness: float, *, faces_out: bool) -> tuple[Float[n
 
 
 def _walls(loops: Sequence[np.ndarray], copies: Sequence[np.ndarray]) -> Int[np.ndarray, "m 3"]:
-    """From each border edge to the same edge of its copy."""
+    """Return walls from each border edge to the same edge of its copy."""
     a, p = (np.concatenate(list(chains)) for chains in (loops, copies))
     b, q = (np.concatenate([np.roll(x, -1) for x in chains]) for chains in (loops, copies))
     return np.concatenate([np.stack([b, a, p], 1), np.stack([b, p, q], 1)])
 
 
 def covers_itself(faces: Int[np.ndarray, "F 3"], new: Int[np.ndarray, "m 3"]) -> bool:
-    """Whether a new face lies on the back of one of the others: the two would bound nothing."""
+    """Return whether a new face coincides with an existing one, so that the two would enclose nothing."""
     known = {tuple(sorted(f)) for f in faces.tolist()}
     return any(tuple(sorted(f)) in known for f in new.tolist())
 
 
 def _offsets(sheet: Sheet) -> Float[np.ndarray, "V 3"]:
-    """A unit's way along the normals at every vertex: to where the planes of all faces round it, moved by 1, meet."""
+    """Return the offset per unit thickness at every vertex: to where the planes of all adjacent faces, moved by 1, meet."""
     t = sheet.triangles
     side = np.roll(t, -1, axis=1) - t
     back = -np.roll(side, 1, axis=1)
@@ -98,9 +100,10 @@ def _offsets(sheet: Sheet) -> Float[np.ndarray, "V 3"]:
 
 
 def without_folds(new: Float[np.ndarray, "n 3 3"], beside: Float[np.ndarray, "m 3 3"]) -> Float[np.ndarray, "k 3 3"]:
-    """New faces without those that bound nothing: two corners in one place, or one face on the back of another.
+    """Remove new faces that enclose nothing: those with two corners in one place, or in pairs of opposite faces.
 
-    beside: what they join on to, which tells what one place is. What was closed stays so: each edge loses its faces in pairs.
+    beside: adjacent faces, which determine the weld tolerance. Closed surfaces stay closed, because each edge loses its faces
+    in pairs.
     """
     number = weld(np.concatenate([beside, new]).reshape(-1, 3))[3 * len(beside) :].reshape(-1, 3)
     whole = (number != np.roll(number, 1, axis=1)).all(1)

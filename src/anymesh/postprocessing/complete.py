@@ -1,4 +1,4 @@
-"""Shapes completed by someone else where that agrees with what is seen, by geometry where it does not."""
+"""Completion of shapes by an external completer where its result agrees with the asset, by geometry elsewhere."""
 
 from __future__ import annotations
 
@@ -19,8 +19,11 @@ def complete(
     completer: Completer | None = None,
     deadline: Deadline | None = None,
 ) -> Finished:
-    """The asset with the shapes of its parts completed: those that `completer` makes and `accept` takes, the others by
-    `complete_shapes`, until the deadline. Errors of the completer are passed on."""
+    """Complete the shapes of the asset's parts.
+
+    Parts that `completer` returns and `accept` takes are used; the others are completed by `complete_shapes`, until the
+    deadline. Errors of the completer are passed on.
+    """
     if completer is None:
         return complete_shapes(asset, config, deadline=deadline)
     first = accept(asset, completer.complete(asset), who=completer.name)

@@ -1,4 +1,4 @@
-"""A drawer's front that slides gets a box behind it, which fits the hollow that it slides in."""
+"""Boxes for sliding drawer fronts, which fit the cavity that they slide in."""
 
 from __future__ import annotations
 
@@ -13,16 +13,16 @@ from anymesh.postprocessing.settings import ShapeConfig
 from anymesh.rendering.raycast_ import RayScene
 from anymesh.types import JointType
 
-STRAIGHT = 0.95  # cosine from which a slide goes straight out of the hollow
-UPRIGHT = 0.5  # vertical part of a box's up direction at least
+STRAIGHT = 0.95  # minimum cosine between the slide and the cavity's direction
+UPRIGHT = 0.5  # minimum vertical component of a box's up direction
 PROBES = 12  # rays along each direction
-THIN = 0.08  # of its smallest side: no wall of a box is thicker
-THERE = 0.6  # share of the rays to a side of a box that show it is there
-TRIES = (1.0, 2.0, 4.0)  # times the clearance on each side, until the box is free
+THIN = 0.08  # maximum thickness of a box's wall, as a share of its smallest side
+THERE = 0.6  # minimum share of the rays that hit a side of an existing box
+TRIES = (1.0, 2.0, 4.0)  # multiples of the clearance on each side, tried until the box moves freely
 
 
 def add_box(panel: PanelBox, growing: Growing, config: ShapeConfig) -> None:
-    """Adds a box to a front that slides straight out and has none, unless it would strike something on its way."""
+    """Add a box to a panel that slides straight out and has none, unless it would collide on its way."""
     joint = growing.scenes.joint[panel.part]
     if joint.type is not JointType.PRISMATIC or joint.limits is None or panel.axes[1][2] < UPRIGHT:
         return
@@ -47,17 +47,17 @@ def add_box(panel: PanelBox, growing: Growing, config: ShapeConfig) -> None:
                 panel.part, box, [f"a drawer's box put behind its front, {reach:.2g} m deep for a travel of {travel:.2g} m"]
             )
             return
-    growing.add(panel.part, np.zeros((0, 3, 3)), ["no drawer's box: none is free on its way"])
+    growing.add(panel.part, np.zeros((0, 3, 3)), ["no drawer box added: none moves without collision"])
 
 
 def _upwards(low: np.ndarray, high: np.ndarray, axes: np.ndarray, wall: float) -> Float[np.ndarray, "n 3 3"]:
-    """A tray that is open along the second of the axes."""
+    """Return a tray that is open along the second of the axes."""
     order = [2, 0, 1]
     return tray(low[order], high[order], axes[order], wall)
 
 
 def _inside(panel: PanelBox, others: RayScene, own: RayScene, clear: float) -> tuple[np.ndarray, np.ndarray]:
-    """Corners of the space behind a front that is free at rest, less the clearance on each side but the front's."""
+    """Return the corners of the space behind a panel that is free at rest, less the clearance on all sides but the panel's."""
     low, high = panel.low.copy(), panel.high.copy()
     low[:2] += clear
     high -= clear
@@ -74,7 +74,7 @@ def _inside(panel: PanelBox, others: RayScene, own: RayScene, clear: float) -> t
 
 
 def _grid(axes: np.ndarray, axis: int, level: float, low: np.ndarray, high: np.ndarray) -> Float[np.ndarray, "n 3"]:
-    """Points spread over a section of a box, at a level along one of its axes, away from its edges."""
+    """Return points over a section of a box, at a level along one of its axes, away from its edges."""
     share = (np.arange(PROBES) + 0.5) / PROBES
     share[0], share[-1] = 0.02, 0.98
     at = np.stack(np.meshgrid(share, share, indexing="ij"), -1).reshape(-1, 2)
@@ -87,7 +87,7 @@ def _grid(axes: np.ndarray, axis: int, level: float, low: np.ndarray, high: np.n
 def _way(
     axes: np.ndarray, axis: int, sign: float, level: float, low: np.ndarray, high: np.ndarray, scenes: tuple[RayScene, ...]
 ) -> float:
-    """How far it is from a section of a box to the first surface along one of its axes [m]."""
+    """Compute the distance from a section of a box to the first surface along one of its axes [m]."""
     skip = 1e-3 * float((high - low)[axis])
     start = _grid(axes, axis, level + sign * skip, low, high)
     ways = np.repeat(sign * axes[axis][None], len(start), 0)
@@ -96,7 +96,7 @@ def _way(
 
 
 def _has_box(panel: PanelBox, own: RayScene) -> bool:
-    """Whether the part has a bottom, two sides and a back of its own in the hollow, as rays from its middle show."""
+    """Return whether the part has its own bottom, two sides and back in the cavity, by rays from its centre."""
     middle, size = (panel.low + panel.high) / 2, panel.high - panel.low
     for axis, sign in ((0, -1.0), (0, 1.0), (1, -1.0), (2, 1.0)):
         low, high = middle - size / 4, middle + size / 4

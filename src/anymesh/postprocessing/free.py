@@ -1,4 +1,4 @@
-"""Whether a part that grew still moves as far as before."""
+"""Check whether a completed part still moves as far as before."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from anymesh.postprocessing.scenes import Growing
 from anymesh.types import Joint, JointType, Motion, MotionKind
 from anymesh.types.triangles import normals_and_areas
 
-STEPS = 24  # of a sweep from rest to a limit
+STEPS = 24  # steps of a sweep from rest to a limit
 LOSS = 0.02  # share of its range that a joint may lose
 
 
@@ -28,8 +28,10 @@ def moves_freely(
     added: Float[np.ndarray, "n 3 3"] = NONE,
     beside: Float[np.ndarray, "m 3 3"] = NONE,
 ) -> bool:
-    """Return whether a part, with its descendants and `added` triangles, goes as far towards both limits beside the others and
-    further triangles as it did `before`."""
+    """Return whether a part still moves as far towards both limits as it did `before`.
+
+    The part moves with its descendants and the triangles `added`, among the other parts and the triangles `beside`.
+    """
     joint = growing.scenes.joint[part]
     if joint.type is JointType.FIXED:
         return True
@@ -52,13 +54,13 @@ def moves_freely(
 
 
 def limits_of(joint: Joint) -> list[tuple[int, float]]:
-    """Sign and length of the way to each limit that is not at rest [rad or m]; half a turn each way where there is none."""
+    """Return sign and distance to each limit that is not at rest [rad or m]; half a turn each way without limits."""
     low, high = (-np.pi, np.pi) if joint.limits is None else joint.limits
     return [(sign, amount) for sign, amount in ((1, float(high)), (-1, -float(low))) if amount > 0]
 
 
 def shape_of(triangles: Float[np.ndarray, "n 3 3"]) -> TriangleSet:
-    """Triangles made ready for sweeps: closed components face outwards."""
+    """Convert triangles to a set for sweeps; closed components are oriented outwards."""
     corners = triangles.reshape(-1, 3)
     found = components(corners, np.arange(len(corners)).reshape(-1, 3))
     normals = normals_and_areas(triangles)[0]

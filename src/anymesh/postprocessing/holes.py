@@ -1,4 +1,4 @@
-"""Flat holes that others hid: those that nothing ever uncovers get a cap, what moves away from the others opens a cavity."""
+"""Flat holes covered by other parts: permanently covered ones get a cap; others open a cavity when the cover moves."""
 
 from __future__ import annotations
 
@@ -13,15 +13,17 @@ from anymesh.postprocessing.seen import SheetVisibility
 from anymesh.postprocessing.settings import ShapeConfig
 from anymesh.postprocessing.sheets import Sheet
 
-PROBES = 120  # points on a cap
-PARALLEL = 0.99  # cosine from which borders lie in one plane
-UNCOVERED = 0.5  # share of a hole's points from which that which covers it moves away
-AWAY = 0.1  # of the hole's size: how far it moves at least, and two walls
+PROBES = 120  # sample points on a cap
+PARALLEL = 0.99  # minimum cosine between the normals of borders in one plane
+UNCOVERED = 0.5  # minimum share of a hole's points uncovered by motion
+AWAY = 0.1  # minimum distance by which the cover must move, as a share of the hole's size; at least two walls
 
 
 def with_caps(seen: SheetVisibility, part: int, scenes: Scenes, config: ShapeConfig) -> tuple[Sheet, bool]:
-    """The sheet with its flat holes closed that something hides for good, and whether one is left open for what moves away
-    from it."""
+    """Close the flat holes of a sheet that are permanently covered.
+
+    Also return whether a hole stays open because its cover moves away.
+    """
     sheet = seen.sheet
     done, found, opens = [], sheet, False
     for normal, numbers in _flat_holes(sheet, config):
@@ -30,7 +32,7 @@ def with_caps(seen: SheetVisibility, part: int, scenes: Scenes, config: ShapeCon
         opens |= opened
         if not hidden or opened:
             continue
-        if covers_itself(sheet.faces, faces):  # then the cap lies a little before the hole
+        if covers_itself(sheet.faces, faces):  # then the cap is placed slightly in front of the hole
             rim, out = replace(found, loops=tuple(sheet.loops[k] for k in numbers)), seen.sign * normal
             level = float((sheet.points[np.concatenate(rim.loops)] @ out).max()) + config.sheet * scenes.diagonal / 2
             points, faces = backed(rim, out, level, faces_out=seen.faces_out)
@@ -40,7 +42,7 @@ def with_caps(seen: SheetVisibility, part: int, scenes: Scenes, config: ShapeCon
 
 
 def _flat_holes(sheet: Sheet, config: ShapeConfig) -> list[tuple[np.ndarray, list[int]]]:
-    """Normals of the flat holes of a body, and the numbers of the borders that lie in the plane of each."""
+    """Return the normals of a sheet's flat holes, and the indices of the borders in the plane of each."""
     groups: list[tuple[np.ndarray, np.ndarray, list[int]]] = []
     for k, loop in enumerate(sheet.loops):
         flat = _flat_hole(sheet, loop, config)
@@ -56,8 +58,10 @@ def _flat_holes(sheet: Sheet, config: ShapeConfig) -> list[tuple[np.ndarray, lis
 
 
 def _flat_hole(sheet: Sheet, loop: np.ndarray, config: ShapeConfig) -> tuple[np.ndarray, np.ndarray] | None:
-    """Normal (as a cap of the loop is wound) and middle of the plane of a border, None where it is no flat hole of a body:
-    it leaves the plane, or the body lies in it."""
+    """Return normal (as a cap of the loop is wound) and centre of a border's plane.
+
+    None if it is not a flat hole of a body: the border leaves the plane, or the body lies in it.
+    """
     points = sheet.points[loop]
     middle = (points.min(0) + points.max(0)) / 2
     size = float(np.linalg.norm(np.ptp(points, axis=0)))
@@ -73,7 +77,7 @@ def _flat_hole(sheet: Sheet, loop: np.ndarray, config: ShapeConfig) -> tuple[np.
 
 
 def _covered(triangles: np.ndarray, outward: np.ndarray, part: int, scenes: Scenes, config: ShapeConfig) -> tuple[bool, bool]:
-    """Whether a hole is out of sight at rest, and whether what covers it moves away."""
+    """Return whether a hole is hidden at rest, and whether its cover moves away."""
     probe = sample_surface(triangles, PROBES, 0)
     if len(probe) == 0:
         return True, False

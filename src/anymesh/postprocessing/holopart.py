@@ -1,4 +1,4 @@
-"""Parts completed by HoloPart: sent in a box of its size, thick enough, and found again in what comes back (paper, 3.4)."""
+"""Completion of parts by HoloPart: the parts are scaled, thickened and sent, and matched in the result (paper, 3.4)."""
 
 from __future__ import annotations
 
@@ -21,23 +21,23 @@ from anymesh.types import Asset, Mesh, Node
 log = logging.getLogger("anymesh")
 BOX = 0.95  # half the longest side of the whole object as it is sent; the model was trained in -1..1
 MIN_THICKNESS_RATIO = (
-    0.04  # of its longest side, the thickness of a part as it is sent; the decoder's first grid has cells of .025
+    0.04  # minimum thickness of a part as it is sent, over its longest side; the decoder's first grid has cells of .025
 )
-SAMPLES = 400  # points a part to find it again by
+SAMPLES = 400  # sample points per part for matching
 
 
 @dataclass(frozen=True)
 class HoloPart:
-    """A completer. Closed parts are sent, since the others are completed in their light, and stay as they are.
+    """Completer by HoloPart. Closed parts are sent as context for the others, but stay unchanged.
 
-    A crash is answered once with twice the thickness: thin parts are what it is known to crash on.
+    After a crash it is called once more with twice the thickness, since thin parts are a known cause of crashes.
     """
 
     service: PartService
     name: str = "holopart"
 
     def complete(self, asset: Asset) -> Mapping[str, PartMesh]:
-        """The surface of each open part. ModelError where nothing comes back that can be told apart."""
+        """Return the surface of each open part. Raise ModelError if the result cannot be matched to the parts."""
         try:
             return self._complete(asset, MIN_THICKNESS_RATIO)
         except CrashError as error:
@@ -62,7 +62,7 @@ class HoloPart:
 
 
 def box_transform(mesh: Mesh) -> Float[np.ndarray, "4 4"]:
-    """T_box_asset: centred, Y up, the longest side 2 * BOX long."""
+    """Return T_box_asset: centred, Y up, with a longest side of 2 * BOX."""
     T = np.eye(4)
     T[:3, :3] = Y_UP * (2 * BOX / mesh.extents.max())
     T[:3, 3] = -T[:3, :3] @ mesh.bounds.mean(0)
@@ -70,7 +70,7 @@ def box_transform(mesh: Mesh) -> Float[np.ndarray, "4 4"]:
 
 
 def read_pieces(glb: bytes) -> dict[str, Mesh]:
-    """The nodes of a GLB by their geometry's name. Raises ModelError for one that cannot be read."""
+    """Return the nodes of a GLB by the names of their geometries. Raise ModelError if it cannot be read."""
     try:
         mesh = read_scene(glb, "output.glb")
     except InputError as error:
@@ -81,9 +81,9 @@ def read_pieces(glb: bytes) -> dict[str, Mesh]:
 
 
 def match_pieces(pieces: Mapping[str, PartMesh], parts: Mapping[str, PartMesh]) -> dict[str, PartMesh]:
-    """The piece of each part: by name where all are known, else by which lies nearest to the parts that were sent.
+    """Match pieces to parts: by name if all names are known, else by distance to the parts that were sent.
 
-    Raises ModelError where names are unknown and the numbers differ.
+    Raise ModelError if names are unknown and the counts differ.
     """
     if set(pieces) <= set(parts):
         return {name: piece for name, piece in pieces.items() if len(piece.faces)}
@@ -108,7 +108,7 @@ def _mesh(name: str, part: Thickened) -> Mesh:
 
 
 def _moved(mesh: Mesh, T: Float[np.ndarray, "4 4"]) -> PartMesh:
-    """In the asset frame, wound outwards."""
+    """Transform the mesh to the asset frame, wound outwards."""
     moved = mesh.transformed(T)
     t = moved.triangles - moved.triangles.mean((0, 1))
     inward = np.einsum("ij,ij->i", t[:, 0], np.cross(t[:, 1], t[:, 2])).sum() < 0

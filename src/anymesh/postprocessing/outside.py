@@ -1,4 +1,4 @@
-"""From the names of the command line to whoever completes shapes and makes textures."""
+"""Selection of completers and retexturers by their command line names."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ TEXTURES = "builtin, bake, bake:PIXELS, meshy or meshy:PROMPT"
 
 
 def open_completer(name: str, *, timeout: float = 1800.0) -> Completer | None:
-    """Who is asked before the built-in completer: HoloPart, or None for `builtin` and `off`. timeout: [s].
+    """Open the completer to use before the built-in one: HoloPart, or None for `builtin` and `off`. timeout: [s].
 
-    Raises OptionError for a name that is not valid, or a checkout that is none.
+    Raise OptionError for an invalid name or checkout.
     """
     kind, _, where = name.partition(":")
     if name in ("builtin", "off"):
@@ -33,9 +33,9 @@ def open_completer(name: str, *, timeout: float = 1800.0) -> Completer | None:
 def open_retexturer(
     name: str, *, state: Path, max_calls: int | None = None, max_cost: float | None = None, timeout: float = 60.0
 ) -> Retexturer:
-    """Who makes the looks. state: the file that keeps a paid task's id; timeout [s] of one call.
+    """Open the retexturer. state: file that stores the id of a paid task; timeout: [s] of one call.
 
-    Raises OptionError for a name or a limit that is not valid, ModelError without a key.
+    Raise OptionError for an invalid name or limit, ModelError without a key.
     """
     kind, colon, rest = name.partition(":")
     match kind:
@@ -48,7 +48,7 @@ def open_retexturer(
         case "meshy" if rest.strip() or not colon:
             if max_cost is not None:
                 raise OptionError("--max-cost needs a known price, and Meshy counts in credits: use --max-calls")
-            read_key()  # better missed now than after the shapes
+            read_key()  # fail now rather than after the shapes
             prompt = check_prompt(rest) if colon else None
             return Remote(Meshy(state, max_calls=max_calls, timeout=timeout), prompt)
         case _:

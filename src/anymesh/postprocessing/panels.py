@@ -1,4 +1,4 @@
-"""Fronts: parts that shut a hollow of the body that carries them, and how far that hollow reaches behind them."""
+"""Panels: parts that close a cavity of the body that carries them, and the depth of that cavity."""
 
 from __future__ import annotations
 
@@ -15,18 +15,21 @@ from anymesh.postprocessing.scenes import Growing, Scenes, scene_of, widest
 from anymesh.postprocessing.settings import ShapeConfig
 from anymesh.types import JointType
 
-FACING = 0.9  # cosine from which a face belongs to a front's face
-FILLED = 0.6  # share of its rectangle that a front's face fills at least
-CELLS = 64  # rays along each side of a front
-SMALL = 4.0  # walls: a front, and the hollow behind it, is larger than these
-DEEP = 0.5  # share of the deepest from which a cell of the front lies over the hollow
-MOVES = 2.0  # walls: a front goes further than these
+FACING = 0.9  # minimum cosine between a face's normal and its panel's
+FILLED = 0.6  # minimum share of its bounding rectangle that a panel's face fills
+CELLS = 64  # rays along each side of a panel
+SMALL = 4.0  # in wall thicknesses: minimum size of a panel and of the cavity behind it
+DEEP = 0.5  # share of the maximum depth above which a cell of the panel lies over the cavity
+MOVES = 2.0  # in wall thicknesses: minimum distance that a panel moves
 
 
 @dataclass(frozen=True, eq=False)
 class PanelBox:
-    """A part that shuts a hollow. axes: rows, right-handed: along the front (2), and into the body; low, high: corners of the
-    hollow along them [m, asset frame], from the back of the front to the first surface behind it."""
+    """A part that closes a cavity.
+
+    axes: rows, right-handed: along the panel (2), and into the body; low, high: corners of the cavity along them [m, asset
+    frame], from the back of the panel to the first surface behind it.
+    """
 
     part: int
     axes: Float[np.ndarray, "3 3"]
@@ -39,7 +42,7 @@ class PanelBox:
 
 
 def find_panel(part: int, growing: Growing, config: ShapeConfig) -> PanelBox | None:
-    """The hollow behind a part that moves away from it; None where there is none, or it is no larger than the walls."""
+    """Find the cavity behind a part that moves away from it; None if there is none, or if it is too small."""
     scenes, joint = growing.scenes, growing.scenes.joint.get(part)
     if joint is None or joint.type in (JointType.FIXED, JointType.CONTINUOUS):
         return None
@@ -57,7 +60,7 @@ def find_panel(part: int, growing: Growing, config: ShapeConfig) -> PanelBox | N
 
 
 def _face(part: int, scenes: Scenes) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:
-    """Axes and bounds of the face that a part shows: the side of its box that most of what is seen of it looks to."""
+    """Return axes and bounds of a part's visible face: the side of its box that most of its visible surface faces."""
     mesh, faces = scenes.asset.mesh, scenes.asset.segmentation.faces(part)
     shape = TriangleSet(mesh.triangles[faces], mesh.face_normals[faces], np.zeros(len(faces), bool), faces)
     box, s = body_obb(shape), shape.samples
@@ -77,7 +80,7 @@ def _face(part: int, scenes: Scenes) -> tuple[np.ndarray, np.ndarray, np.ndarray
 
 
 def _upright(box: OrientedBox, inward: np.ndarray) -> Float[np.ndarray, "3 3"]:
-    """A box's axes with the last one inward, and of the others the second as upright as can be, upwards."""
+    """Return a box's axes with the last one inward, and the second as vertical as possible, pointing up."""
     others = [a for a in box.axes if abs(a @ inward) < 0.5]
     up = max(others, key=lambda a: (round(abs(float(a[2])), 9), round(abs(float(a[1])), 9), round(abs(float(a[0])), 9)))
     up = up if tuple(np.round(up, 9)[::-1]) > (0.0, 0.0, 0.0) else -up
@@ -87,7 +90,7 @@ def _upright(box: OrientedBox, inward: np.ndarray) -> Float[np.ndarray, "3 3"]:
 def _hollow(
     part: int, axes: np.ndarray, low: np.ndarray, high: np.ndarray, growing: Growing, min_depth: float
 ) -> PanelBox | None:
-    """The front with the bounds of what is hollow behind its face, as the rest of the object shows it."""
+    """Return the panel with the bounds of the cavity behind its face."""
     body, own = scene_of(growing.triangles(*growing.scenes.carriers(part))), scene_of(growing.triangles(part))
     if body is None or own is None:
         return None
@@ -117,7 +120,7 @@ def _hollow(
 
 
 def _back(own, axes: np.ndarray, low: np.ndarray, high: np.ndarray) -> float:
-    """How far in a part reaches at its middle, seen from within the hollow."""
+    """Return how far a part extends inward at its centre, measured from within the cavity."""
     middle = (low + high) / 2
     start = np.array([[middle[0], middle[1], high[2]]]) @ axes
     hit = own.first_hit(start, -axes[2][None], float(high[2] - low[2]))

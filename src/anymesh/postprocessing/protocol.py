@@ -1,4 +1,4 @@
-"""What Stage C takes from whoever completes shapes, and what it gives."""
+"""Interface between Stage C and completers."""
 
 from __future__ import annotations
 
@@ -36,22 +36,25 @@ class PartMesh:
 
 @runtime_checkable
 class Completer(Protocol):
-    """Whoever completes the shapes of an asset's parts, such as a generative model."""
+    """Protocol of a completer of an asset's parts, such as a generative model."""
 
     @property
     def name(self) -> str:
-        """As in notes and reports."""
+        """Name in notes and reports."""
         ...
 
     def complete(self, asset: Asset) -> Mapping[str, PartMesh]:
-        """Part name -> its whole surface; a part that is left out stays as it is. AnymeshError where nothing comes back."""
+        """Return part name -> its whole surface; omitted parts stay as they are. Raise AnymeshError without a result."""
         ...
 
 
 @dataclass(frozen=True, eq=False)
 class Finished:
-    """An asset with new faces. source_face: (F,) the face's number before, -1 where it is new; notes: part name -> what was
-    done, in words; a part without notes was left as it was."""
+    """An asset with new faces.
+
+    source_face: (F,) index of the face before, -1 for new faces; notes: part name -> what was done, in words. A part without
+    notes is unchanged.
+    """
 
     asset: Asset
     source_face: Int[np.ndarray, " F"]

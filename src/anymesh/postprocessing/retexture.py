@@ -1,4 +1,4 @@
-"""Looks by an outside service: the finished asset goes out with an atlas, and comes back with another picture on it."""
+"""Textures by an external service: the asset is sent with an atlas, and its result is transferred back."""
 
 from __future__ import annotations
 
@@ -20,22 +20,23 @@ T_SCENE = np.block([[Y_UP, np.zeros((3, 1))], [np.zeros((1, 3)), np.ones((1, 1))
 
 @runtime_checkable
 class TextureService(Protocol):
-    """Whoever makes textures, such as `models.meshy.Meshy`."""
+    """Protocol of a texture service, such as `models.meshy.Meshy`."""
 
     name: str
 
     def retexture(self, glb: bytes, prompt: str) -> bytes:
-        """The GLB with new textures, on the texture coordinates that it has."""
+        """Return the GLB with new textures, on its texture coordinates."""
         ...
 
 
 @dataclass(frozen=True)
 class Remote:
-    """Looks by a service. prompt: what it should look like, None to name the object and its parts; size [px] of the atlas.
+    """Retexturer by a service.
 
-    What comes back is used where it is the surface that was sent: its pictures as they are where it has our faces, else their
-    colours part by part from the nearest place. Otherwise the baked built-in looks stay, and a note says why. Faces that are
-    seen through keep theirs in any case: the service knows no glass.
+    prompt: desired appearance, None to name the object and its parts; size: [px] of the atlas.
+    The result is used if its surface is the one that was sent. If it has the same faces, its textures are used directly, else
+    their colours are transferred part by part from the nearest point. Otherwise the baked built-in textures stay, with a note.
+    Transparent faces always keep theirs, since the service does not support glass.
     """
 
     service: TextureService
@@ -77,7 +78,7 @@ class Remote:
 
 
 def described(asset: Asset) -> str:
-    """A prompt of what is known: the object's name and the labels of its parts."""
+    """Return a prompt with the object's name and the labels of its parts."""
     labels = dict.fromkeys(part.label for part in asset.segmentation.parts[1:] if part.label)
     what = asset.name.replace("_", " ")
     told = f"a {what} with {', '.join(labels)}" if labels else f"a {what}"
@@ -85,7 +86,7 @@ def described(asset: Asset) -> str:
 
 
 def _taken_over(back: Mesh, ours: Mesh) -> Mesh:
-    """Our mesh with the materials and texture coordinates that came back, but for faces that are seen through."""
+    """Return our mesh with the materials and texture coordinates of the result, except for transparent faces."""
     clear, count = ours.face_material > 0, len(back.materials)
     uv = np.zeros((len(clear), 3, 2), np.float32)
     for mesh, rows in ((ours, clear), (back, ~clear)):

@@ -1,4 +1,4 @@
-"""Meshes as outside models take them: a GLB, a node and a geometry a mesh, nothing placed by a transform; and what returns."""
+"""Exchange of meshes with external models as GLB: one node and one geometry per mesh, without node transforms."""
 
 from __future__ import annotations
 
@@ -21,8 +21,11 @@ SAMPLER = {"magFilter": 9729, "minFilter": 9987, "wrapS": 10497, "wrapT": 10497}
 
 
 def scene_glb(meshes: Mapping[str, Mesh], T_scene_asset: Float[np.ndarray, "4 4"]) -> bytes:
-    """Named meshes, moved by a transform. One primitive each, faces in their order, with the first material's base colour
-    where a mesh has texture coordinates: readers that make a geometry of each primitive must find one geometry a part."""
+    """Encode named meshes, moved by a transform.
+
+    Each has one primitive, with faces in their order, and the first material's base colour if the mesh has texture coordinates.
+    Readers that make a geometry of each primitive thus find one geometry per part.
+    """
     buffer = GlbBuffer()
     entries: dict[str, list[Any]] = {"nodes": [], "meshes": [], "materials": [], "textures": [], "images": []}
     for name, mesh in meshes.items():
@@ -43,16 +46,16 @@ def scene_glb(meshes: Mapping[str, Mesh], T_scene_asset: Float[np.ndarray, "4 4"
 
 
 def read_scene(glb: bytes, name: str) -> Mesh:
-    """A GLB that came back, in its own coordinates; it has no folder, so textures in other files are left out.
+    """Read a returned GLB, in its own coordinates; textures in other files are left out, since it has no folder.
 
-    Raises InputError for anything that is no usable mesh.
+    Raise InputError if it is not a usable mesh.
     """
     try:
         return read_gltf(glb, Folder(Path("of-no-folder") / name))
     except InputError:
         raise
-    except Exception as error:  # whatever a broken file makes the reader raise is one thing to the user
-        raise InputError(f"{name} is no readable GLB ({type(error).__name__})") from None
+    except Exception as error:  # the reader raises many types of errors for a broken file
+        raise InputError(f"{name} is not a readable GLB ({type(error).__name__})") from None
 
 
 def _primitive(mesh: Mesh, buffer: GlbBuffer) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""An asset at rest and with its joints open, to cast rays at; parts grow while they are completed."""
+"""An asset at rest and with open joints, for ray casting, and its parts as they grow during completion."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ from anymesh.rendering.raycast_ import RayScene
 from anymesh.types import Asset, Joint, JointType
 
 HALF_REVOLUTION_RAD = np.pi
-SKIP = 1e-4  # of the diagonal: what is nearer is touched
-FLOOR = 1e-3  # of the diagonal: what lies so near to the ground stands on it
+SKIP = 1e-4  # share of the diagonal: nearer surfaces are in contact
+FLOOR = 1e-3  # share of the diagonal: points within this distance of the ground stand on it
 
 
 @dataclass(frozen=True, eq=False)
 class Scenes:
-    """The surface that was there. Part numbers are those of the asset's segmentation."""
+    """The original surface. Part numbers are those of the asset's segmentation."""
 
     asset: Asset
 
@@ -45,18 +45,18 @@ class Scenes:
 
     @cached_property
     def order(self) -> tuple[int, ...]:
-        """Part numbers, each after the one that carries it."""
+        """Part numbers, each after its parent."""
         return tuple(sorted(range(len(self.number)), key=lambda k: (len(self.carriers(k)), k)))
 
     def carriers(self, part: int) -> tuple[int, ...]:
-        """The parts that carry a part, the nearest first."""
+        """Return the ancestors of a part, nearest first."""
         found: list[int] = []
         while (joint := self.joint.get(found[-1] if found else part)) is not None:
             found.append(self.number[joint.parent])
         return tuple(found)
 
     def opened(self, part: int) -> Float[np.ndarray, "p 4 4"]:
-        """Where each part goes when all that `part` carries is moved as far as it goes, seen from `part`."""
+        """Return the transform of each part, relative to `part`, with all descendants of `part` at their widest positions."""
         wide = {j.name: widest(j) for k, j in self.joint.items() if part in self.carriers(k)}
         moved = link_transforms(self.asset, wide)
         return np.stack([moved[p.name] for p in self.asset.segmentation.parts])
@@ -66,7 +66,7 @@ class Scenes:
         return {}
 
     def scene_opened(self, part: int) -> RayScene:
-        """The surface with all that `part` carries moved as far as it goes."""
+        """Return the surface with all descendants of `part` at their widest positions."""
         if part not in self._opened_scenes:
             self._opened_scenes[part] = self._scene_opened(part)
         return self._opened_scenes[part]
@@ -77,16 +77,16 @@ class Scenes:
         return RayScene(t.reshape(-1, 3), np.arange(3 * len(t)).reshape(-1, 3))
 
     def seen(self, points: Float[np.ndarray, "n 3"], normals: Float[np.ndarray, "n 3"]) -> Bool[np.ndarray, "n 2"]:
-        """Which points are in sight at rest from the side of their normals, and which from the other."""
+        """Return which points are visible at rest from the side of their normals, and which from the other side."""
         return escapes(self.rest, points, normals, self.diagonal) >= GRAZE
 
     def on_the_ground(self, points: Float[np.ndarray, "n 3"]) -> bool:
-        """Whether points lie in the plane that the object stands on."""
+        """Return whether points lie in the ground plane of the object."""
         return bool((points[:, 2] < self.asset.mesh.bounds[0, 2] + FLOOR * self.diagonal).all())
 
 
 def widest(joint: Joint) -> float:
-    """The position furthest from rest [rad or m]; half a turn of what turns endlessly."""
+    """Return the position furthest from rest [rad or m]; half a turn for continuous joints."""
     if joint.type is JointType.FIXED:
         return 0.0
     return HALF_REVOLUTION_RAD if joint.limits is None else max(joint.limits[::-1], key=abs)
@@ -94,9 +94,9 @@ def widest(joint: Joint) -> float:
 
 @dataclass(eq=False)
 class Growing:
-    """The parts while they are completed: what was there and what was added, with what was done, in words.
+    """The parts during completion: original surface, added triangles, and notes on what was done.
 
-    late: whether the time that completion may take is over.
+    late: returns whether the time for completion is over.
     """
 
     scenes: Scenes
@@ -105,7 +105,7 @@ class Growing:
     notes: dict[int, list[str]] = field(default_factory=dict)
 
     def undo(self, part: int) -> None:
-        """Takes back all that was added to a part."""
+        """Remove all that was added to a part."""
         self.added.pop(part, None)
         self.notes.pop(part, None)
 
@@ -119,18 +119,18 @@ class Growing:
         return self.scenes.asset.segmentation.faces(part)
 
     def triangles(self, *parts: int) -> Float[np.ndarray, "n 3 3"]:
-        """All that these parts are made of by now."""
+        """Return the current triangles of these parts."""
         old = [self.scenes.asset.mesh.triangles[self.faces(k)] for k in parts]
         return np.concatenate([*old, *(t for k in parts for t in self.added.get(k, []))])
 
     def others(self, part: int) -> Float[np.ndarray, "n 3 3"]:
-        """All that the other parts are made of by now."""
+        """Return the current triangles of the other parts."""
         rest = [k for k in self.scenes.order if k != part]
         return self.triangles(*rest) if rest else np.zeros((0, 3, 3))
 
 
 def scene_of(triangles: Float[np.ndarray, "n 3 3"]) -> RayScene | None:
-    """Triangles to cast rays at; None without any."""
+    """Return a ray scene of triangles; None without any."""
     if len(triangles) == 0:
         return None
     return RayScene(triangles.reshape(-1, 3), np.arange(3 * len(triangles)).reshape(-1, 3))
@@ -145,8 +145,11 @@ def room(
     *,
     without: Int[np.ndarray, " m"] | None = None,
 ) -> Float[np.ndarray, " n"]:
-    """Return the distance from points along ways to the first surface [m], `max_distance` where there is none, or where it is
-    one of the faces `without`; surfaces nearer than `skip` are touched, not met."""
+    """Return the distance from points along directions to the first surface [m].
+
+    It is `max_distance` if there is none, or if it is one of the faces `without`. Surfaces nearer than `skip` are in contact,
+    and are ignored.
+    """
     if scene is None or len(points) == 0:
         return np.full(len(points), max_distance)
     hits = scene.first_hit(points + skip * ways, ways, max_distance)

@@ -1,4 +1,4 @@
-"""An open sheet as it is seen at rest: from which side, and whether it is a plate."""
+"""Visibility of an open sheet at rest: from which side it is seen, and whether it is a plate."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from anymesh.postprocessing.settings import ShapeConfig
 from anymesh.postprocessing.sheets import Sheet
 from anymesh.postprocessing.visible import GRAZE, escapes
 
-PROBES = 120  # points on a sheet
+PROBES = 120  # sample points on a sheet
 
 
 @dataclass(frozen=True, eq=False)
 class SheetVisibility:
-    """A sheet as it is seen. faces_out: its faces are wound to the side that is seen; both: it is seen from both sides."""
+    """Visibility of a sheet. faces_out: whether its faces are wound to the visible side; both: both sides are visible."""
 
     sheet: Sheet
     probe: SurfacePoints
@@ -37,7 +37,7 @@ class SheetVisibility:
 
     @property
     def inward(self) -> Float[np.ndarray, " 3"]:
-        """The thin direction of its box, away from the side that is seen."""
+        """Thin direction of its box, away from the visible side."""
         axis = self.box.axes[2]
         mean = self.sign * self.sheet.areas @ self.sheet.normals
         return -axis if mean @ axis > 0 else axis
@@ -47,15 +47,15 @@ class SheetVisibility:
 
 
 def sheet_visibility(sheet: Sheet, scenes: Scenes, config: ShapeConfig) -> SheetVisibility:
-    """From which sides a sheet is seen at rest."""
+    """Determine from which sides a sheet is visible at rest."""
     probe = sample_surface(sheet.triangles, PROBES, 0)
     front, back = scenes.seen(probe.points, probe.normals).mean(0) if len(probe) else (1.0, 0.0)
-    inside_out = back > config.shown and back > 2 * front  # what is hardly seen is taken as it is wound
+    inside_out = back > config.shown and back > 2 * front  # a sheet that is hardly visible keeps its winding
     return SheetVisibility(sheet, probe, not inside_out, bool(min(front, back) > config.shown))
 
 
 def is_laid_open(seen: SheetVisibility, part: int, scenes: Scenes, config: ShapeConfig) -> bool:
-    """Whether the side of a sheet of a part that is not seen at rest is seen when all joints are open."""
+    """Return whether the side of a sheet that is hidden at rest is visible when all joints are open."""
     root = scenes.order[0]
     T, probe = scenes.opened(root)[part], seen.probe
     points, normals = probe.points @ T[:3, :3].T + T[:3, 3], probe.normals @ T[:3, :3].T

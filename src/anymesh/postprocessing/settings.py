@@ -1,4 +1,4 @@
-"""Numbers of Stage C's shape completion, once, with their units."""
+"""Settings of Stage C's shape completion, with their units."""
 
 from __future__ import annotations
 
@@ -7,14 +7,14 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class ShapeConfig:
-    """The built-in shape completer (paper, 3.4). Lengths are shares of the object's diagonal unless said."""
+    """Settings of the built-in shape completer (paper, 3.4). Lengths are shares of the object's diagonal unless stated."""
 
-    watertight: bool = True  # also close what no motion ever lays open
-    wall: float = 0.02  # thickness given to open shells, inwards; boards of furniture have 1.5 %, walls of appliances 2 to 4 %
-    sheet: float = 0.001  # the same where both sides are seen: the surface that is seen must not move
+    watertight: bool = True  # also close surfaces that no motion uncovers
+    wall: float = 0.02  # thickness given to open shells, inwards; furniture boards have 1.5 %, appliance walls 2 to 4 %
+    sheet: float = 0.001  # the same if both sides are visible: the visible surface must not move
     clearance: float = 0.002  # left between parts that move against each other
-    plate: float = 0.35  # thickness over width of a door, drawer front, lid or board at most; others are shells
+    plate: float = 0.35  # maximum thickness over width of a door, drawer front, lid or board; others are shells
     flat: float = 0.02  # share of its size by which a hole's border may leave a plane
-    shown: float = 0.1  # share of its points in sight from which a side, or the cover of a hole, is seen
-    drawer_height: float = 0.8  # of a drawer's box, as a share of the height that is free behind its front
-    drawer_keep: float = 0.1  # share of a drawer's depth that stays in when it is out
+    shown: float = 0.1  # minimum share of visible points for a side, or for the cover of a hole, to count as visible
+    drawer_height: float = 0.8  # of a drawer's box, as a share of the free height behind its front
+    drawer_keep: float = 0.1  # share of a drawer's depth that stays inside when it is open

@@ -1,4 +1,4 @@
-"""The built-in completer of Stage C: what a surface mesh lacks of its parts is added, by geometry alone (paper, 3.4)."""
+"""Built-in completer of Stage C: missing surfaces of the parts are added by geometry alone (paper, 3.4)."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from anymesh.postprocessing.solids import close_part
 from anymesh.postprocessing.visible import visible_faces
 from anymesh.types import Asset
 
-THINNER = (0.5,)  # of a wall, tried on a part that would strike something with a whole one
+THINNER = (0.5,)  # shares of the wall thickness tried for a part that would collide with the full one
 
 
 def complete_shapes(
@@ -30,13 +30,13 @@ def complete_shapes(
     parts: Collection[str] | None = None,
     deadline: Deadline | None = None,
 ) -> Finished:
-    """The asset with the faces that its parts lack: caps on the holes that others hid, backs of plates, inner skins of shells,
-    walls of the cavities behind doors, boxes behind the panels of drawers.
+    """Add the faces that parts lack: caps, backs of plates, inner skins of shells, cavity walls and drawer boxes.
 
-    What was there stays as it is, face by face; a part without open borders gets nothing, so that finishing twice changes
-    nothing. No part loses more of its range than the sweep of stage B tells apart. parts: names, all if None. The same asset
-    gives the same faces. Past the deadline further surfaces stay open, and what was added and not swept is taken back.
-    MissingExtraError without manifold3d.
+    Existing faces stay unchanged. A part without open borders gets nothing, so finishing twice changes nothing. No part loses
+    more of its range than the sweep of stage B can distinguish.
+    parts: names, all if None. The same asset gives the same faces. Past the deadline, further surfaces stay open, and added
+    faces that were not checked by a sweep are removed.
+    Raise MissingExtraError without manifold3d.
     """
     deadline = deadline or Deadline()
     growing = Growing(Scenes(asset), lambda: deadline.late(COMPLETION))
@@ -61,25 +61,25 @@ def complete_shapes(
 
 
 def _free_again(part: int, touched: set[int], growing: Growing, config: ShapeConfig) -> None:
-    """Makes what was added to a part, and to its carrier, thinner where the part moves as far as it did only then."""
+    """Make the additions to a part and to its carrier thinner if only then the part moves as far as before."""
     joint = growing.scenes.joint.get(part)
     both = [] if joint is None else [k for k in (part, growing.scenes.number[joint.parent]) if k in touched]
     if both and growing.late():
         for k in both:
             growing.undo(k)
         return
-    for share in (*THINNER, 1.0):  # whole again where the part fits its hole so closely that no thickness frees it
+    for share in (*THINNER, 1.0):  # full thickness again if the part fits its hole so closely that no thickness frees it
         if not both or moves_freely(part, growing, Growing(growing.scenes)):
             return
         for k in both:
             growing.undo(k)
             close_part(k, growing, replace(config, wall=share * config.wall))
     if both and not moves_freely(part, growing, Growing(growing.scenes)):
-        growing.notes.setdefault(part, []).append("fits its hole so closely that what was added may strike on its way")
+        growing.notes.setdefault(part, []).append("fits its hole so closely that added faces may collide during its motion")
 
 
 def _grown(asset: Asset, growing: Growing) -> Finished:
-    """The asset with all that was added, which looks like what is seen of its part."""
+    """Return the asset with all additions, which get the materials of their part's visible surface."""
     visible = visible_faces(asset.mesh)
     looks = {}
     for part in growing.added:

@@ -1,4 +1,4 @@
-"""The open sheets of a part: surfaces with borders, evenly wound, each vertex on one border at most."""
+"""Open sheets of a part: consistently wound surfaces with borders, each vertex on at most one border."""
 
 from __future__ import annotations
 
@@ -15,8 +15,11 @@ from anymesh.types.triangles import normals_and_areas
 
 @dataclass(frozen=True, eq=False)
 class Sheet:
-    """A connected surface with a border. points: (V, 3) [m]; faces: (F, 3) into them, as wound; own: (F,) their numbers in
-    what it was cut from; loops: each border's vertices, in the direction in which the faces along it run."""
+    """A connected surface with a border.
+
+    points: (V, 3) [m]; faces: (F, 3) into them, as wound; own: (F,) indices of the source faces; loops: vertices of each
+    border, in the direction of the adjacent faces.
+    """
 
     points: Float[np.ndarray, "V 3"]
     faces: Int[np.ndarray, "F 3"]
@@ -29,7 +32,7 @@ class Sheet:
 
     @cached_property
     def normals(self) -> Float[np.ndarray, "F 3"]:
-        """Unit, as wound; zero where a face has no area."""
+        """Unit normals as wound; zero for faces without area."""
         return normals_and_areas(self.triangles)[0]
 
     @cached_property
@@ -42,20 +45,20 @@ class Sheet:
         return float(np.linalg.norm(np.ptp(self.points, axis=0)))
 
     def with_faces(self, points: Float[np.ndarray, "k 3"], faces: Int[np.ndarray, "m 3"]) -> Sheet:
-        """The sheet with further points, and with faces over its points and these; new faces have the number -1."""
+        """Return the sheet with further points, and with faces over all points; new faces have the index -1."""
         own = np.concatenate([self.own, np.full(len(faces), -1)])
         return Sheet(np.concatenate([self.points, points]), np.concatenate([self.faces, faces]), own, self.loops)
 
     def without(self, loops: Collection[int]) -> Sheet:
-        """The sheet whose loops of these numbers have been closed."""
+        """Return the sheet without these loops, which have been closed."""
         return replace(self, loops=tuple(loop for k, loop in enumerate(self.loops) if k not in loops))
 
 
 def open_sheets(vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"]) -> list[Sheet]:
-    """All sheets among some faces, in the order of their first face; closed, evenly wound surfaces are none.
+    """Return all sheets among some faces, in the order of their first face; closed, consistently wound surfaces are excluded.
 
-    Surfaces are cut where their winding changes sides, and vertices are split where surfaces only meet in a point.
-    Faces with two corners in one place bound nothing and are left out.
+    Surfaces are cut where their winding flips, and vertices are split where surfaces only meet in a point. Faces with two
+    corners in one place enclose nothing and are left out.
     """
     number = weld(vertices)
     kept = np.flatnonzero((number[faces] != np.roll(number[faces], -1, axis=1)).all(1))
@@ -80,7 +83,7 @@ def open_sheets(vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"
 
 
 def _joined_halves(welded: np.ndarray, number: np.ndarray, pairs: EdgePairs) -> tuple[np.ndarray, np.ndarray]:
-    """Half edges (3 * face + the corner that it starts from) that are joined where the winding agrees."""
+    """Return pairs of half edges (3 * face + index of the first corner) joined with consistent winding."""
     ends = number[pairs.vertices[pairs.aligned]]
     left, right = pairs.faces[pairs.aligned].T
     return tuple(
@@ -89,7 +92,7 @@ def _joined_halves(welded: np.ndarray, number: np.ndarray, pairs: EdgePairs) -> 
 
 
 def _corners(count: int, half: np.ndarray, mate: np.ndarray) -> Int[np.ndarray, "F 3"]:
-    """A vertex a corner: corners are one where faces that hang together round it share it."""
+    """Return a vertex per corner; corners are merged where the faces around them are connected."""
 
     def end(h: np.ndarray) -> np.ndarray:
         return h - h % 3 + (h % 3 + 1) % 3
@@ -99,7 +102,7 @@ def _corners(count: int, half: np.ndarray, mate: np.ndarray) -> Int[np.ndarray, 
 
 
 def _loops(start: np.ndarray, end: np.ndarray) -> tuple[Int[np.ndarray, " n"], ...]:
-    """Closed chains of border edges, each from its first vertex in the file."""
+    """Return closed chains of border edges, each from its first vertex in the file."""
     follows = dict(zip(start.tolist(), end.tolist(), strict=True))
     found = []
     for vertex in sorted(follows):

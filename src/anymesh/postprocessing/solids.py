@@ -1,4 +1,4 @@
-"""What becomes of the open sheets of a part: a hole gets a cap, a plate a flat back, a shell a second skin."""
+"""Closing of a part's open sheets: caps for holes, flat backs for plates, second skins for shells."""
 
 from __future__ import annotations
 
@@ -18,15 +18,15 @@ from anymesh.postprocessing.settings import ShapeConfig
 from anymesh.postprocessing.sheets import Sheet, open_sheets
 from anymesh.rendering.raycast_ import RayScene
 
-FACING = 0.7  # cosine from which a face lies along a plate
-SHARES = (0.93, 0.87, 0.8)  # of a thickness, tried until a solid is told from those that it lies in
-SHELL = 0.9  # below this share plates are made shells: a back may lie in the face of another sheet
-OWN = 0.4  # share of the way to its other side that a shell may be thick
+FACING = 0.7  # minimum cosine between a face's normal and its plate's
+SHARES = (0.93, 0.87, 0.8)  # shares of the thickness, tried until a solid is separated from those that it lies in
+SHELL = 0.9  # below this share, plates become shells, because a back may lie in the face of another sheet
+OWN = 0.4  # maximum thickness of a shell, as a share of the distance to its other side
 
 
 @dataclass(frozen=True, eq=False)
 class Around:
-    """A part that is completed, and the others as they are by now. own: (n, 3, 3) its faces as they were [m]."""
+    """A part being completed, and the current state of the others. own: (n, 3, 3) its original faces [m]."""
 
     part: int
     own: Float[np.ndarray, "n 3 3"]
@@ -40,7 +40,7 @@ class Around:
 
     @cached_property
     def bounds(self) -> Float[np.ndarray, "2 3"]:
-        """Lowest and highest corner of the part's box [m]."""
+        """Bounds of the part [m]."""
         return np.stack([self.own.min((0, 1)), self.own.max((0, 1))])
 
     @property
@@ -51,8 +51,10 @@ class Around:
     def free(
         self, seen: SheetVisibility, probe: SurfacePoints, ways: Float[np.ndarray, "n 3"], most: float
     ) -> Float[np.ndarray, " n"]:
-        """How thick a sheet may be at points [m]: up to the other parts but for the clearance, and half way to what else its
-        own part has there."""
+        """Compute the maximum thickness of a sheet at points [m].
+
+        It is limited by the other parts less the clearance, and by half the distance to other surfaces of the same part.
+        """
         skip, gap = SKIP * self.scenes.diagonal, self.config.clearance * self.scenes.diagonal
         others = room(self.others, probe.points, ways, most + gap, skip) - gap
         own = room(self.own_scene, probe.points, ways, 2 * most, skip, without=seen.sheet.own) / 2
@@ -60,9 +62,9 @@ class Around:
 
 
 def close_part(part: int, growing: Growing, config: ShapeConfig) -> bool:
-    """Adds what makes solids of the open sheets of a part, with notes; whether there was anything to add.
+    """Close the open sheets of a part to solids, with notes; return whether anything was added.
 
-    Bodies that share an edge and lie in each other may not be told apart: their sheets are closed again, slightly thinner.
+    Bodies that share an edge and overlap may be inseparable; their sheets are closed again, slightly thinner.
     """
     mesh, mine, scenes = growing.scenes.asset.mesh, growing.faces(part), growing.scenes
     found = open_sheets(mesh.vertices, mesh.faces[mine])
@@ -83,7 +85,7 @@ def close_part(part: int, growing: Growing, config: ShapeConfig) -> bool:
 
 
 def _still_open(mine: np.ndarray, sheets: list[Sheet], made: list[np.ndarray]) -> list[int]:
-    """The sheets of which any face is not part of a closed, evenly wound surface, though all have been closed."""
+    """Return the closed sheets of which any face is not part of a closed, consistently wound surface."""
     corners = np.concatenate([mine, *made]).reshape(-1, 3)
     found = components(corners, np.arange(len(corners)).reshape(-1, 3))
     bad = ~found.solid[found.label]
@@ -93,7 +95,7 @@ def _still_open(mine: np.ndarray, sheets: list[Sheet], made: list[np.ndarray]) -
 
 
 def closed(seen: SheetVisibility, around: Around, share: float = 1.0) -> tuple[Float[np.ndarray, "n 3 3"], list[str]]:
-    """The faces that make a solid of a sheet, and what was done. share: of the thickness that it would get."""
+    """Return the faces that make a sheet a solid, and notes. share: of the thickness that it would get."""
     sheet, config, scenes = seen.sheet, around.config, around.scenes
     capped, opens = with_caps(seen, around.part, scenes, config)
     notes = []
@@ -108,7 +110,8 @@ def closed(seen: SheetVisibility, around: Around, share: float = 1.0) -> tuple[F
             thickness = share * _shell_thickness(seen, around)
             capped = capped.with_faces(*shelled(capped, thickness, faces_out=seen.faces_out))
         notes.append(f"a {'plate given a back' if plate else 'shell given an inner skin'}, {thickness:.2g} m thick")
-    beside = np.concatenate([sheet.triangles, around.bounds[None, [0, 1, 1]]])  # the bounds, so that all weld to one grid
+    # the bounds ensure that all are welded on one grid
+    beside = np.concatenate([sheet.triangles, around.bounds[None, [0, 1, 1]]])
     return without_folds(capped.triangles[capped.own < 0], beside), notes
 
 
@@ -117,8 +120,10 @@ def _count(number: int, thing: str) -> str:
 
 
 def _plate(seen: SheetVisibility, around: Around, draft: float, share: float) -> tuple[Sheet, float]:
-    """A sheet made a plate, and its thickness [m]: down to its own deepest point, or a wall's thickness, as far as there is
-    room."""
+    """Make a sheet a plate, and return it with its thickness [m].
+
+    The back is at the sheet's deepest point, or at a wall's thickness, limited by the available space.
+    """
     inward, sheet, least = seen.inward, seen.sheet, around.config.sheet * around.scenes.diagonal
     along = sheet.points @ inward
     facing = seen.probe.take(seen.sign * (seen.probe.normals @ inward) < -FACING)
@@ -134,7 +139,7 @@ def _plate(seen: SheetVisibility, around: Around, draft: float, share: float) ->
 
 
 def _shell_thickness(seen: SheetVisibility, around: Around) -> float:
-    """A wall's thickness, less where there is no room [m]."""
+    """Return a wall's thickness, or less if there is no space [m]."""
     least, wall = around.config.sheet * around.scenes.diagonal, around.wall
     if seen.both or len(seen.probe) == 0:
         return least

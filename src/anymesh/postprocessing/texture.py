@@ -1,4 +1,4 @@
-"""Looks of new faces: of the nearest surface of their part that was there, and is seen; everything else is carried."""
+"""Textures of new faces, copied from the nearest visible old surface of their part; old faces are unchanged."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ from anymesh.postprocessing.texture_points import Spots, barycentric, spots_on
 from anymesh.postprocessing.visible import visible_faces
 from anymesh.types import Asset, Mesh
 
-MIN_SAME_CHART_COSINE = np.cos(np.deg2rad(20.0))  # new faces that meet at a lesser angle are one patch
-ON = 0.002  # of the diagonal: new faces that lie this near to the old surface go on with its texture
-ALONG = 0.9  # cosine of the angle between both, there
+MIN_SAME_CHART_COSINE = np.cos(np.deg2rad(20.0))  # new faces that meet at a smaller angle form one patch
+ON = 0.002  # share of the diagonal: new faces this near to the old surface continue its texture
+ALONG = 0.9  # minimum cosine between their normals
 
 
 @dataclass(frozen=True, eq=False)
 class Painted:
-    """An asset with other looks: shape, parts and joints as they were. notes: what was done and what was not, in words."""
+    """An asset with new textures; shape, parts and joints are unchanged. notes: what was done and what was not, in words."""
 
     asset: Asset
     notes: tuple[str, ...] = ()
@@ -30,21 +30,24 @@ class Painted:
 
 @runtime_checkable
 class Retexturer(Protocol):
-    """Whoever gives the faces of a finished asset their looks."""
+    """Protocol of a creator of textures for finished assets."""
 
     @property
     def name(self) -> str:
-        """As in notes and reports."""
+        """Name in notes and reports."""
         ...
 
     def retexture(self, finished: Finished) -> Painted:
-        """AnymeshError where it cannot be asked; a result that cannot be used is a note, and the built-in looks instead."""
+        """Return the asset with textures. Raise AnymeshError if a service cannot be used.
+
+        An unusable result leads to a note, and the built-in textures are used.
+        """
         ...
 
 
 @dataclass(frozen=True)
 class Carried:
-    """The built-in: what was there keeps its looks, new faces take those of the nearest visible surface of their part."""
+    """Built-in retexturer: old faces keep their textures, new ones take those of their part's nearest visible surface."""
 
     name: str = "builtin"
 
@@ -58,12 +61,12 @@ class Carried:
 
 
 def paint_new(mesh: Mesh, face_part: Int[np.ndarray, " F"], new: Bool[np.ndarray, " F"]) -> tuple[Mesh, int]:
-    """The mesh with looks for its new faces, and how many patches these make.
+    """Assign materials to the new faces; also return the number of patches.
 
-    Level new faces that hang together are a patch and look alike: the material that most of the patch is nearest to, and of
-    the places on it the one with the middle colour, so that a spot or a seam is not spread over a wall. New faces that lie on
-    the old surface, as those of a remeshed part do, go on with its texture instead. A part that is all new takes the looks of
-    the nearest other one.
+    Connected, nearly coplanar new faces form a patch with one appearance: the nearest material of most of the patch, at the
+    point with the median colour, so that a spot or seam is not spread over a wall.
+    New faces on the old surface, such as those of a remeshed part, continue its texture. A part with only new faces takes the
+    appearance of the nearest other part.
     """
     visible = np.zeros(len(mesh.faces), bool)
     old = np.flatnonzero(~new)
@@ -92,7 +95,7 @@ def _patches(mesh: Mesh, faces: Int[np.ndarray, " n"]) -> Int[np.ndarray, " n"]:
 
 
 def _chosen(mesh: Mesh, patch: np.ndarray, spots: Spots) -> Int[np.ndarray, " n"]:
-    """The spot that each face's patch looks like: of its commonest material, and nearest to the middle colour of those."""
+    """Return the spot used by each face's patch: of its most common material, nearest to the median colour."""
     group, found = patch[spots.owner], np.zeros(int(patch.max()) + 1, np.int64)
     material, color = mesh.face_material[spots.face], spots.colors(mesh).astype(float)
     order = np.argsort(group, kind="stable")
@@ -105,21 +108,21 @@ def _chosen(mesh: Mesh, patch: np.ndarray, spots: Spots) -> Int[np.ndarray, " n"
 
 
 def _middle(colors: Float[np.ndarray, "n 3"], weights: Float[np.ndarray, " n"]) -> Float[np.ndarray, " 3"]:
-    """The weighted median of each channel."""
+    """Compute the weighted median of each channel."""
     order = np.argsort(colors, axis=0, kind="stable")
     half = np.cumsum(weights[order], axis=0) >= weights.sum() / 2
     return np.take_along_axis(colors, order, 0)[half.argmax(0), np.arange(3)]
 
 
 def _lies_on(mesh: Mesh, faces: np.ndarray, spots: Spots) -> Bool[np.ndarray, " n"]:
-    """Which faces lie on the old surface with all of their spots, and face the way it does."""
+    """Return which faces lie on the old surface with all their spots, with similar normals."""
     along = np.einsum("ij,ij->i", mesh.face_normals[faces][spots.owner], mesh.face_normals[spots.face])
     off = (spots.distance > ON * mesh.diagonal) | (along < ALONG)
     return np.bincount(spots.owner, off, len(faces)) == 0
 
 
 def _continued(mesh: Mesh, faces: np.ndarray, sources: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The old face nearest to the middle of each new one, and the new one's corners in its barycentric coordinates."""
+    """Return the old face nearest to the centroid of each new one, and the new corners in its barycentric coordinates."""
     triangles = mesh.triangles[faces]
     like = sources[distance_to_mesh(triangles.mean(1), mesh.vertices, mesh.faces[sources])[1]] if len(faces) else faces
     corners = np.repeat(mesh.triangles[like], 3, axis=0)
@@ -127,7 +130,7 @@ def _continued(mesh: Mesh, faces: np.ndarray, sources: np.ndarray) -> tuple[np.n
 
 
 def _with_materials(mesh: Mesh, new: np.ndarray, like: np.ndarray, weights: Float[np.ndarray, "n 3 3"]) -> Mesh:
-    """New face k looks as face like[k] does where its corners stand, in barycentric coordinates of that face."""
+    """Give new face k the attributes of face like[k] at barycentric coordinates of that face."""
 
     def placed(rows: np.ndarray | None) -> np.ndarray | None:
         if rows is None:

@@ -1,4 +1,4 @@
-"""Places on a surface: which face, where on it, and what colour is there."""
+"""Points on a surface: face, position on it, and colour."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from anymesh.geometry.distance_ import distance_to_mesh
 from anymesh.rendering.render import face_colors
 from anymesh.types import Mesh
 
-FINE = 4  # a face is probed in the middles of the FINE squared like triangles that it is cut into
+FINE = 4  # a face is sampled at the centroids of FINE squared similar triangles
 
 
 def _probes() -> Float[np.ndarray, "p 3"]:
-    """Barycentric weights of those middles."""
+    """Return the barycentric weights of these centroids."""
     n, ticks = 3 * FINE, range(FINE)
     upright = [(3 * i + 1, 3 * j + 1) for i in ticks for j in ticks if i + j < FINE]
     turned = [(3 * i + 2, 3 * j + 2) for i in ticks for j in ticks if i + j < FINE - 1]
@@ -27,8 +27,11 @@ PROBES = _probes()
 
 @dataclass(frozen=True, eq=False)
 class Spots:
-    """Where points of some faces (`owner`, by their place in the list) are nearest to a surface: its face, the barycentric
-    weights of that face's corners there, the distance [m], and the area that a point stands for [m2]."""
+    """Nearest points on a surface to points of some faces.
+
+    owner: index into the list of these faces; face: of the surface; weights: barycentric weights of its corners; distance: [m];
+    area: represented by a point [m2].
+    """
 
     owner: Int[np.ndarray, " n"]
     face: Int[np.ndarray, " n"]
@@ -37,12 +40,12 @@ class Spots:
     area: Float[np.ndarray, " n"]
 
     def colors(self, mesh: Mesh) -> UInt8[np.ndarray, "n 3"]:
-        """sRGB colour of the mesh there."""
+        """Return the sRGB colours of the mesh at the spots."""
         return colors_at(mesh, self.face, self.weights)
 
 
 def spots_on(mesh: Mesh, faces: Int[np.ndarray, " n"], sources: Int[np.ndarray, " m"]) -> Spots:
-    """The places on `sources` (faces of the mesh, by number) nearest to points spread over `faces`."""
+    """Return the points on `sources` (face indices) nearest to points spread over `faces`."""
     points = np.einsum("pk,nkd->npd", PROBES, mesh.triangles[faces]).reshape(-1, 3)
     distance, near, closest = distance_to_mesh(points, mesh.vertices, mesh.faces[sources])
     face = sources[near]
@@ -52,8 +55,7 @@ def spots_on(mesh: Mesh, faces: Int[np.ndarray, " n"], sources: Int[np.ndarray, 
 
 
 def barycentric(points: Float[np.ndarray, "n 3"], triangles: Float[np.ndarray, "n 3 3"]) -> Float[np.ndarray, "n 3"]:
-    """Weights of each triangle's corners that give the point, or its foot on the triangle's plane; thirds where a triangle
-    has no area."""
+    """Compute the barycentric weights of points, projected onto their triangles' planes; 1/3 if a triangle has no area."""
     a, b, c = (triangles[:, k] for k in range(3))
     normal = np.cross(b - a, c - a)
     square = np.einsum("ij,ij->i", normal, normal)
@@ -67,18 +69,18 @@ def barycentric(points: Float[np.ndarray, "n 3"], triangles: Float[np.ndarray, "
 
 
 def inside(weights: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 3"]:
-    """Barycentric weights without what rounding puts outside the triangle."""
+    """Clip barycentric weights to the triangle, to correct rounding."""
     kept = np.clip(weights, 0, 1)
     return kept / kept.sum(1, keepdims=True)
 
 
 def colors_at(mesh: Mesh, face: Int[np.ndarray, " n"], weights: Float[np.ndarray, "n 3"]) -> UInt8[np.ndarray, "n 3"]:
-    """The sRGB colour at places on a mesh, as all our pictures show it."""
+    """Return sRGB colours at points on a mesh, as in all rendered pictures."""
     return face_colors(points_mesh(mesh, face, weights))
 
 
 def points_mesh(mesh: Mesh, face: Int[np.ndarray, " n"], weights: Float[np.ndarray, "n 3"]) -> Mesh:
-    """A mesh with a face a place, all of it looking as that place does."""
+    """Return a mesh with one face per point, whose attributes are constant over the face."""
 
     def at(rows: np.ndarray | None) -> np.ndarray | None:
         if rows is None:

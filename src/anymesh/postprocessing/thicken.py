@@ -1,4 +1,4 @@
-"""Parts given enough thickness for a model that fails on thin ones."""
+"""Thickening of parts for a model that fails on thin ones."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from anymesh.geometry.sampling import sample_surface
 from anymesh.geometry.topology import components, weld
 from anymesh.postprocessing.protocol import PartMesh
 
-CORE = (0.05, 0.95)  # quantiles of the surface that count for how thick a part is: a handle does not make a door thick
+CORE = (0.05, 0.95)  # quantiles of the surface used to measure thickness, so that a handle does not make a door thick
 SAMPLES = 4000
 
 
 @dataclass(frozen=True, eq=False)
 class Thickened:
-    """mesh: welded; closed: whether it was a solid before; added: [m] how much thicker it was made, 0 where it was enough."""
+    """mesh: welded; closed: whether it was a solid before; added: [m] by which it was thickened, 0 if not needed."""
 
     mesh: PartMesh
     closed: bool
@@ -25,10 +25,10 @@ class Thickened:
 
 
 def thicken(triangles: Float[np.ndarray, "F 3 3"], min_thickness: float) -> Thickened:
-    """A part whose core is at least `min_thickness` of its longest side thick.
+    """Thicken a part whose core is thinner than `min_thickness` of its longest side.
 
-    An open surface gets a back and side walls behind it, so that what is seen of it stays where it is; a closed one is
-    stretched along its thin direction about its middle.
+    An open surface gets a back and side walls behind it, so that its visible surface does not move. A closed one is stretched
+    along its thin direction about its centre.
     """
     vertices, faces = _welded(triangles)
     closed = bool(components(vertices, faces).solid.all())
@@ -58,7 +58,7 @@ def _welded(triangles: np.ndarray) -> tuple[Float[np.ndarray, "V 3"], Int[np.nda
 
 
 def _solid(vertices: np.ndarray, faces: np.ndarray, depth: float) -> PartMesh:
-    """An open surface, the same `depth` [m] behind it, and walls along its border."""
+    """Return an open surface with a copy `depth` [m] behind it, and walls along its border."""
     t = vertices[faces]
     cross = np.cross(t[:, 1] - t[:, 0], t[:, 2] - t[:, 0])
     normal = np.zeros_like(vertices)

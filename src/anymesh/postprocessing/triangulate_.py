@@ -1,4 +1,4 @@
-"""Triangles of outlines with holes, by manifold3d (Apache-2.0)."""
+"""Triangulation of outlines with holes, by manifold3d (Apache-2.0)."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from anymesh.errors import MissingExtraError
 
 
 def triangulate(outlines: Sequence[Float[np.ndarray, "n 2"]]) -> Int[np.ndarray, "m 3"]:
-    """Triangles, counterclockwise, into the outlines' points one after another; no point is added or left out.
+    """Return counterclockwise triangles over the concatenated points of outlines; no points are added or omitted.
 
-    outlines: counterclockwise, holes clockwise. Whatever their shape, each of their edges bounds one triangle, and each edge
-    within two. MissingExtraError without manifold3d.
+    outlines: counterclockwise, holes clockwise. Each of their edges bounds one triangle, and each inner edge two, for any
+    shape. Raise MissingExtraError without manifold3d.
     """
     try:
         from manifold3d import triangulate as cut

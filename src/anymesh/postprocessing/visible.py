@@ -1,4 +1,4 @@
-"""What of a mesh is seen from outside at rest."""
+"""Visibility of a mesh from outside at rest."""
 
 from __future__ import annotations
 
@@ -9,25 +9,24 @@ from anymesh.geometry.sampling import SurfacePoints, sample_surface, spread_dire
 from anymesh.rendering.raycast_ import RayScene
 from anymesh.types import Mesh
 
-PROBES = 20_000  # points on the surface, besides the middle of every face
-DIRECTIONS = 96  # from which each is looked at
-GRAZE = 0.02  # share of them in which a point must be in sight to count as seen from a side: less is through a gap
-RAYS = 50_000  # cast at a time
-OFF = 1e-5  # of the diagonal: how far off the surface rays begin
+PROBES = 20_000  # points on the surface, besides the centroid of every face
+DIRECTIONS = 96  # directions from which each point is viewed
+GRAZE = 0.02  # minimum share of directions in which a point must be visible from a side; less is through a gap
+RAYS = 50_000  # rays per batch
+OFF = 1e-5  # share of the diagonal: distance of ray origins from the surface
 
 
 def seen_from_outside(
     scene: RayScene, points: Float[np.ndarray, "n 3"], normals: Float[np.ndarray, "n 3"], diagonal: float
 ) -> Bool[np.ndarray, " n"]:
-    """Which points are in sight from far away, from either side of their surface. diagonal: of all that the scene holds."""
+    """Return which points are visible from far away, from either side. diagonal: of the whole scene."""
     return (escapes(scene, points, normals, diagonal) != 0).any(1)
 
 
 def escapes(
     scene: RayScene, points: Float[np.ndarray, "n 3"], normals: Float[np.ndarray, "n 3"], diagonal: float
 ) -> Float[np.ndarray, "n 2"]:
-    """Share of all directions in which nothing stands between a point and far away: on the side its normal points to, and
-    on the other."""
+    """Compute the share of all directions in which a point is unobstructed, on the side of its normal and on the other."""
     found = np.zeros((len(points), 2))
     directions = spread_directions(DIRECTIONS)
     for ways in np.array_split(directions, min(len(directions), 1 + len(points) * len(directions) // RAYS)):
@@ -41,7 +40,7 @@ def escapes(
 
 
 def visible_faces(mesh: Mesh) -> Bool[np.ndarray, " F"]:
-    """Which faces are seen from outside, in part at least, whatever their winding."""
+    """Return which faces are at least partly visible from outside, for any winding."""
     scene = RayScene(mesh.vertices, mesh.faces)
     middles = SurfacePoints(mesh.triangles.mean(1), mesh.face_normals, np.arange(len(mesh.faces)))
     seen = np.zeros(len(mesh.faces), bool)

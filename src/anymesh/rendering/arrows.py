@@ -1,4 +1,4 @@
-"""Numbered arrows along directions in space, and the view that tells them apart best (paper, 3.3: surface sliding)."""
+"""Numbered arrows along directions in space, and the choice of the view in which they differ most (paper, 3.3)."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from anymesh.rendering.render import View
 from anymesh.rendering.viewpoints import visible_pixels
 from anymesh.types.camera import Camera
 
-FONT, WIDTH = 20, 2.0  # [px] font in a picture of 640 px; thickness of an arrow, as `draw_arrow` takes it
-VISIBLE = 0.25  # share of the pixels that the part has in its best view; with fewer a view is not chosen
+FONT, WIDTH = 20, 2.0  # [px] font size in a picture of 640 px; line width of an arrow, in the unit of `draw_arrow`
+VISIBLE = 0.25  # minimum share of the part's pixels in its best view; views with fewer are not chosen
 
 
 def clearest_view(
@@ -26,9 +26,9 @@ def clearest_view(
     face_part: Int[np.ndarray, " F"],
     part: int,
 ) -> int:
-    """The number of the view in which arrows from `center` are most distinct, among those that show the part well.
+    """Return the index of the view in which arrows from `center` are most distinct.
 
-    Distinct: the smallest angle between two drawn arrows, times the length of the one most foreshortened.
+    Only views that show enough of the part (`VISIBLE`) are considered. See `distinctness` for the score.
     """
     seen = np.array([visible_pixels(v, face_part, part) for v in views])
     score = [distinctness(v.camera, center, directions) for v in views]
@@ -36,7 +36,7 @@ def clearest_view(
 
 
 def distinctness(camera: Camera, center: Float[np.ndarray, " 3"], directions: Float[np.ndarray, "k 3"]) -> float:
-    """Smallest angle [rad] between the arrows as seen, times the smallest share of length seen; 0 to pi."""
+    """Multiply the smallest angle [rad] between projected arrows by the smallest projected share of their length (0..pi)."""
     ray = center - camera.T_world_camera[:3, 3]
     ray = ray / np.linalg.norm(ray)
     flat = directions / np.linalg.norm(directions, axis=1, keepdims=True)
@@ -55,7 +55,7 @@ def draw_arrows(
     numbers: Sequence[int],
     length: float,
 ) -> UInt8[np.ndarray, "H W 3"]:
-    """The picture with arrows of one length [m] from `center` along the directions (unit), each with its number at its tip."""
+    """Draw arrows of one length [m] from `center` along unit directions, each with its number at its tip."""
     height, width = image.shape[:2]
     scale = max(1.0, height / 640)
     start = camera.project(center[None])[0][0]

@@ -1,4 +1,4 @@
-"""Joint axes in pictures: an arrow along the axis, and a ring round it when the joint turns."""
+"""Joint axes in pictures: an arrow along the axis, and a ring around it for joints that rotate."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from anymesh.types.camera import Camera
 
 AXIS_COLOR = (190, 20, 40)
 WHITE = (255, 255, 255)
-RING_RADIUS = 0.04  # of the ring, as a share of the object's diagonal
-HEAD = 12  # [px] at scale 1 that arrow heads and lines reach beyond their points
-FINE = 3  # pixels each way, of those that are drawn on, to a pixel of a picture
+RING_RADIUS = 0.04  # radius of the ring, as a share of the object's diagonal
+HEAD = 12  # [px] margin at scale 1 by which arrow heads and lines extend beyond their points
+FINE = 3  # supersampling factor per side with which axes are drawn
 
 
 def axis_line(
@@ -27,10 +27,11 @@ def axis_line(
     slides: bool,
     diagonal: float,
 ) -> tuple[Float[np.ndarray, "2 3"], Float[np.ndarray, " 3"]]:
-    """Both ends of the arrow that shows the axis of a part with these points, and the middle of its ring.
+    """Return both ends of the arrow that shows the axis of a part with these points, and the centre of its ring.
 
-    A hinge is drawn on its axis, as long as the part and a little more; a slide from the part's middle outwards.
-    diagonal: of the object [m].
+    For a hinge, the arrow lies on its axis and is slightly longer than the part. For a slide, it starts at the centre of the
+    part.
+    diagonal: diagonal of the object [m].
     """
     along = (points - origin) @ axis
     reach = max(0.6 * float(np.ptp(along)), 0.06 * diagonal)
@@ -40,7 +41,7 @@ def axis_line(
 
 
 def ring(center: Float[np.ndarray, " 3"], axis: Float[np.ndarray, " 3"], radius: float) -> Float[np.ndarray, "40 3"]:
-    """Three quarters of a circle about an axis, in the sense of the positive turn."""
+    """Return three quarters of a circle about an axis, in the direction of positive rotation."""
     u = np.cross(axis, np.eye(3)[np.abs(axis).argmin()])
     u /= np.linalg.norm(u)
     v = np.cross(axis, u)
@@ -51,7 +52,7 @@ def ring(center: Float[np.ndarray, " 3"], axis: Float[np.ndarray, " 3"], radius:
 def draw_arrow(
     draw: ImageDraw.ImageDraw, ends: Float[np.ndarray, "2 2"], color: tuple[int, int, int] = AXIS_COLOR, scale: float = 1.0
 ) -> None:
-    """An arrow between two pixels with a white rim; `scale` 1 is 3 px wide."""
+    """Draw an arrow with a white rim between two pixels; it is 3 px wide at `scale` 1."""
     (x0, y0), (x1, y1) = ends
     draw.line([x0, y0, x1, y1], fill=WHITE, width=round(6 * scale))
     draw.line([x0, y0, x1, y1], fill=color, width=round(3 * scale))
@@ -64,7 +65,7 @@ def draw_arrow(
 
 
 def draw_ring(draw: ImageDraw.ImageDraw, pixels: Float[np.ndarray, "n 2"], scale: float = 1.0) -> None:
-    """The points of `ring`, seen by a camera, as a curve that ends in an arrow head."""
+    """Draw the projected points of `ring` as a curve that ends in an arrow head."""
     draw.line([tuple(p) for p in pixels], fill=WHITE, width=round(5 * scale), joint="curve")
     draw.line([tuple(p) for p in pixels], fill=AXIS_COLOR, width=round(2 * scale), joint="curve")
     draw_arrow(draw, pixels[[-4, -1]], scale=scale)
@@ -72,19 +73,22 @@ def draw_ring(draw: ImageDraw.ImageDraw, pixels: Float[np.ndarray, "n 2"], scale
 
 @dataclass(frozen=True, eq=False)
 class AxisShape:
-    """What is drawn of a joint [m]. arrow: its two ends; ring: a curve about the axis, None where the joint does not turn."""
+    """Geometry drawn for one joint [m].
+
+    arrow: its two ends; ring: a curve about the axis, None if the joint does not rotate.
+    """
 
     arrow: Float[np.ndarray, "2 3"]
     ring: Float[np.ndarray, "40 3"] | None
 
     @property
     def points(self) -> Float[np.ndarray, "n 3"]:
-        """All points."""
+        """All points of the arrow and the ring."""
         return self.arrow if self.ring is None else np.concatenate([self.arrow, self.ring])
 
 
 def axis_shapes(asset: Asset, positions: Mapping[str, float]) -> list[AxisShape]:
-    """Arrow and ring of every joint that moves, where it is in this pose."""
+    """Return arrow and ring of every movable joint, placed in this pose."""
     transforms = link_transforms(asset, positions)
     number = {part.name: k for k, part in enumerate(asset.segmentation.parts)}
     shapes = []
@@ -107,9 +111,9 @@ def draw_axes(
     corner: tuple[int, int] = (0, 0),
     scale: float = 1.0,
 ) -> UInt8[np.ndarray, "h w 3"]:
-    """The picture with these axes drawn over it, smoothly.
+    """Draw axes over the picture, with antialiasing.
 
-    corner: of the picture in that of the camera, x and y [px]; scale: of the lines' width.
+    corner: x and y [px] of the picture's top left corner in the camera's picture; scale: factor of the line width.
     """
     if not shapes:
         return image

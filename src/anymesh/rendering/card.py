@@ -1,4 +1,4 @@
-"""One picture that says which part is meant: the whole object with the part marked, and a close-up when it is small."""
+"""A picture that identifies a part: the whole object with the part highlighted, and a close-up if it is small."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ from anymesh.rendering.strips import silhouette
 from anymesh.rendering.viewpoints import best_view, close_up, hidden_points, part_pixels, visible_pixels
 from anymesh.types import Mesh
 
-TITLE = 22  # [px] font in a picture of 640 px
-BAR = 34  # [px] height of the title
-WELL = 0.5  # share of the pixels that a part has in its best view: with as many it is shown well
-CONTACT_POINTS = 300  # of the contact, that are looked at in each view
-UNDER = 0.02  # share of the contact's extent: points that lie deeper under a surface are not seen
+TITLE = 22  # [px] font size in a picture of 640 px
+BAR = 34  # [px] height of the title bar
+WELL = 0.5  # minimum share of the part's pixels in its best view, for a view to be considered
+CONTACT_POINTS = 300  # maximum number of contact points checked in each view
+UNDER = 0.02  # share of the contact's extent: points deeper than this below a surface count as hidden
 
 
 def part_card(
@@ -34,10 +34,11 @@ def part_card(
     scene: RayScene,
     contact: Float[np.ndarray, "c 3"] | None = None,
 ) -> UInt8[np.ndarray, "H W 3"]:
-    """The part in the view that shows most of it; beside that the close-up, if any; above them the title.
+    """Draw the part in its best view, the close-up (if any) beside it, and the title above.
 
-    views: of this mesh; scene: its rays; contact: points where the part meets the rest [m]; of the views that show the part
-    well, the one that shows most of these is taken. A part that is hidden in every view shines through, and the title says so.
+    views: of this mesh; scene: its rays; contact: points where the part meets the rest [m]. Of the views that show the part
+    well, the one that shows most of these points is used.
+    A part that is hidden in every view is drawn through what covers it, and the title says so.
     """
     view = views[_card_view(views, face_part, part, scene, contact)]
     mask = part_pixels(view, face_part, part)
@@ -59,7 +60,7 @@ def _card_view(
     scene: RayScene,
     contact: Float[np.ndarray, "c 3"] | None,
 ) -> int:
-    """The number of the view that shows most of the contact, of those that show the part well."""
+    """Return the index of the view that shows most of the contact, among those that show the part well."""
     if contact is None or len(contact) == 0:
         return best_view(views, face_part, part)
     few = contact[:: max(1, len(contact) // CONTACT_POINTS)]
@@ -70,7 +71,7 @@ def _card_view(
 
 
 def _framed(image: UInt8[np.ndarray, "H W 3"], view: View, near: View) -> UInt8[np.ndarray, "H W 3"]:
-    """The whole object with a frame round what the close-up shows."""
+    """Draw a frame in the picture of the whole object around the region of the close-up."""
     size = near.camera.width
     corners = np.array([[0, 0], [size, 0], [size, size], [0, size]]) - size / 2
     T = near.camera.T_world_camera
@@ -91,7 +92,7 @@ def _edged(image: UInt8[np.ndarray, "H W 3"]) -> UInt8[np.ndarray, "H W 3"]:
 
 
 def titled(image: UInt8[np.ndarray, "H W 3"], title: str) -> UInt8[np.ndarray, "h W 3"]:
-    """The picture under a bar with a title; what the font lacks becomes a question mark."""
+    """Put a bar with a title above the picture; characters that the font lacks become question marks."""
     scale = max(1.0, image.shape[0] / 640)
     bar = Image.new("RGB", (image.shape[1], round(BAR * scale)), (255, 255, 255))
     text = title.encode("ascii", "replace").decode()

@@ -1,4 +1,4 @@
-"""Pictures of an object for people: lit surfaces with outlines and creases on a grey ground."""
+"""Rendered pictures for people: lit surfaces with outlines and creases on a grey background."""
 
 from __future__ import annotations
 
@@ -13,26 +13,26 @@ from anymesh.rendering.samples import GRID, RenderTarget, Samples
 from anymesh.types import Mesh
 from anymesh.types.camera import Camera
 
-GROUND = (222.0, 190.0)  # grey of the ground (0..255), at its top and at its bottom
-SHEEN = 30.0  # brightness (0..255) of a black surface in full light, so that its shape can be seen
+GROUND = (222.0, 190.0)  # grey of the background (0..255), at its top and at its bottom
+SHEEN = 30.0  # brightness (0..255) of a black surface in full light, so that its shape remains visible
 DARK, LIGHT = (38.0, 40.0, 46.0), (176.0, 178.0, 184.0)  # colours of lines on bright and on dark surfaces
-DARK_SURFACE = 78.0  # brightness (0..255) below which lines are light
+DARK_SURFACE = 78.0  # brightness (0..255) below which lines are drawn light
 OUTLINE, CREASE = 0.9, 0.6  # opacity of lines
-COLOR_BITS = 4  # of vertex colours that are dropped: smaller differences need no smoothing
-LINE_WIDTH = 1  # [px of the finer grid] of lines, beyond the two rays between which they lie
-AMBIENT, KEY, SKY = 0.48, 0.4, 0.18  # light from everywhere, from one side, from above; a surface that faces up gets 0.96
-HEAD_AMBIENT, HEAD, SHOULDER, HEAD_SKY = 0.36, 0.22, 0.30, 0.16  # the same for pictures whose light moves with the camera
+COLOR_BITS = 4  # low bits of vertex colours that are ignored: smaller differences need no antialiasing
+LINE_WIDTH = 1  # [px of the finer grid] width of a line beyond the two rays between which it lies
+AMBIENT, KEY, SKY = 0.48, 0.4, 0.18  # strength of ambient, directional and sky light; a surface that faces up gets 0.96
+HEAD_AMBIENT, HEAD, SHOULDER, HEAD_SKY = 0.36, 0.22, 0.30, 0.16  # the same for light that moves with the camera
 BRIGHTNESS = np.array([0.299, 0.587, 0.114], np.float32)  # weights of red, green, blue (ITU-R BT.601)
 
 
 def ground(rows: int, columns: int) -> Float32[np.ndarray, "h w 3"]:
-    """The grey that pictures are drawn on, darker towards the bottom."""
+    """Return the grey background of pictures, darker towards the bottom."""
     shade = np.linspace(*GROUND, rows, dtype=np.float32)
     return np.broadcast_to(shade[:, None, None], (rows, columns, 3))
 
 
 def render_target(mesh: Mesh, scene: RayScene, groups: Int[np.ndarray, " F"]) -> RenderTarget:
-    """A mesh with normals for shading. groups: faces in different groups may be drawn in different colours."""
+    """Return a mesh with normals for shading. groups: faces in different groups may be drawn in different colours."""
     key = groups.astype(np.int64) * (len(mesh.materials) + 1) + mesh.face_material + 1
     if mesh.corner_color is not None:
         coarse = (mesh.corner_color[:, 0, :3] >> COLOR_BITS).astype(np.int64)
@@ -41,7 +41,7 @@ def render_target(mesh: Mesh, scene: RayScene, groups: Int[np.ndarray, " F"]) ->
 
 
 def material_colors(mesh: Mesh, samples: Samples) -> Float32[np.ndarray, "n 3"]:
-    """The base colour (0..255) that each ray meets, textures averaged to the picture's resolution."""
+    """Return the base colour (0..255) at the hit of each ray, with textures averaged to the picture's resolution."""
     hits = samples.hits
     seen = np.flatnonzero(hits.face >= 0)
     color = np.zeros((len(hits.face), 3), np.float32)
@@ -51,12 +51,12 @@ def material_colors(mesh: Mesh, samples: Samples) -> Float32[np.ndarray, "n 3"]:
 
 
 def face_colors(color: UInt8[np.ndarray, "F 3"], samples: Samples) -> Float32[np.ndarray, "n 3"]:
-    """The colour of the face that each ray meets; anything where none is."""
+    """Return the colour of the face that each ray hits; undefined for rays without a hit."""
     return color.astype(np.float32)[samples.hits.face]
 
 
 def light_on(samples: Samples) -> Float32[np.ndarray, " n"]:
-    """How brightly each ray's surface is lit."""
+    """Return the brightness of the surface at each ray's hit."""
     light = samples.normal @ KEY_LIGHT.astype(np.float32)
     np.maximum(light, 0, out=light)
     light *= KEY
@@ -65,8 +65,11 @@ def light_on(samples: Samples) -> Float32[np.ndarray, " n"]:
 
 
 def headlight_on(samples: Samples, camera: Camera) -> Float32[np.ndarray, " n"]:
-    """How brightly each ray's surface is lit by a lamp at the camera, one above its left shoulder, and the sky: no visible
-    side is dark, and sides of different directions differ."""
+    """Return the brightness of each ray's surface under light that moves with the camera.
+
+    One lamp is at the camera and one above its left shoulder; the sky adds the rest. No visible side is dark, and sides of
+    different directions differ in brightness.
+    """
     right, down, ahead = camera.T_world_camera[:3, :3].T.astype(np.float32)
     shoulder = -ahead - np.float32(0.9) * down - np.float32(0.7) * right
     light = np.full(len(samples.normal), HEAD_AMBIENT + HEAD_SKY / 2, np.float32)
@@ -81,7 +84,7 @@ def draw(
     light: Float32[np.ndarray, " n"],
     behind: Float32[np.ndarray, "h w 3"],
 ) -> UInt8[np.ndarray, "h w 3"]:
-    """The picture of surfaces in these colours under this light, with lines, over what is behind."""
+    """Shade the surfaces, draw the lines, and put the result over the background `behind`."""
     color = base + (SHEEN - SHEEN / 255 * np.maximum(np.maximum(base[:, 0], base[:, 1]), base[:, 2]))[:, None]
     color *= light[:, None]
     nothing = np.flatnonzero(samples.hits.face < 0)
@@ -92,7 +95,7 @@ def draw(
 
 
 def _draw_lines(samples: Samples, color: Float32[np.ndarray, "n 3"]) -> None:
-    """Draw lines over the colours of the rays, in place: dark ones on bright surfaces and light ones on dark."""
+    """Draw lines over the colours of the rays, in place: dark on bright surfaces, light on dark ones."""
     steps, first = samples.steps, len(samples.plain)
     height, width = samples.window.shape
     bright = (color[steps.pairs] @ BRIGHTNESS).max(1) > DARK_SURFACE

@@ -1,4 +1,4 @@
-"""Pixels to the bytes of a PNG file."""
+"""Encoding of pixels as PNG."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from anymesh.types.exchange import Picture
 
 
 def encode(image: UInt8[np.ndarray, "H W 3"], caption: str = "") -> Picture:
-    """The picture as PNG bytes, the same for the same pixels."""
+    """Encode the image as PNG; equal pixels give equal bytes."""
     buffer = io.BytesIO()
     Image.fromarray(image).save(buffer, "PNG", optimize=False)
     return Picture(buffer.getvalue(), caption)

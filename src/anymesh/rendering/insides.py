@@ -1,4 +1,4 @@
-"""Pictures of what no view from outside shows, the rest of the object as a ghost behind it."""
+"""Pictures of faces that no outside view shows, with the rest of the object as a ghost behind them."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from anymesh.rendering.viewpoints import shown
 from anymesh.types import Mesh
 from anymesh.types.camera import Camera
 
-GHOST = 0.75  # how much nearer to white the rest is drawn
+GHOST = 0.75  # share by which the colours of the rest are moved towards white
 
 
 def inside_views(mesh: Mesh, inside: Bool[np.ndarray, " F"], cameras: Sequence[Camera], scene: RayScene) -> list[View]:
-    """What each camera sees when only the faces `inside` are there. scene: of the whole mesh, which is drawn as a ghost."""
+    """Render only the faces `inside` from each camera. scene: of the whole mesh, which is drawn as a ghost."""
     own = np.flatnonzero(inside)
     part = mesh.subset(inside)
     rays = RayScene(part.vertices, part.faces)

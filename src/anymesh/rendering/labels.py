@@ -1,4 +1,4 @@
-"""Number plates in pictures: what they look like, and where they find room without covering one another."""
+"""Number plates in pictures: their drawing, and their placement without overlap."""
 
 from __future__ import annotations
 
@@ -11,48 +11,48 @@ from PIL import ImageDraw, ImageFont
 
 from anymesh.rendering.paint import Color, contrast
 
-PAD = 3  # [px] of the plate round its text
-STEP = 3  # [px] of the grid of places that are tried
-TRIES = 400  # places tried for a leader that crosses no plate
+PAD = 3  # [px] padding of a plate around its text
+STEP = 3  # [px] spacing of the grid of positions that are tried
+TRIES = 400  # number of positions tried for a leader that crosses no plate
 BLOCKED = 1e6  # cost of a pixel that must not be covered: above all distances, yet sums over a picture stay exact
 
 
 @dataclass(frozen=True)
 class Plate:
-    """A number on a plate. box: x0, y0, x1, y1 [px], the latter exclusive; anchor: the pixel x, y that it tells about."""
+    """A number on a plate. box: x0, y0, x1, y1 [px], x1 and y1 exclusive; anchor: the pixel x, y that it labels."""
 
     text: str
     box: tuple[int, int, int, int]
     anchor: tuple[int, int]
-    size: int  # of the font [px]
+    size: int  # font size [px]
 
     @property
     def led(self) -> bool:
-        """Whether a leader goes from the plate to its anchor, which then lies outside it."""
+        """Whether a leader connects the plate to its anchor, which then lies outside the plate."""
         (x0, y0, x1, y1), (x, y) = self.box, self.anchor
         return not (x0 <= x < x1 and y0 <= y < y1)
 
     @property
     def end(self) -> tuple[int, int]:
-        """The point of the plate that is nearest to the anchor."""
+        """The point of the plate nearest to the anchor."""
         (x0, y0, x1, y1), (x, y) = self.box, self.anchor
         return min(max(x, x0), x1 - 1), min(max(y, y0), y1 - 1)
 
 
 @lru_cache(maxsize=16)
 def font(size: int) -> ImageFont.FreeTypeFont | ImageFont.ImageFont:
-    """Pillow's own font: the same on every machine."""
+    """Return Pillow's built-in font, which is the same on every machine."""
     return ImageFont.load_default(size=size)
 
 
 def plate_size(text: str, size: int) -> tuple[int, int]:
-    """Width and height of a plate [px]; the height does not depend on the digits."""
+    """Return width and height of a plate [px]; the height does not depend on the digits."""
     left, _, right, _ = font(size).getbbox(text)
     return round(right - left) + 2 * PAD, round(0.74 * size) + 2 * PAD
 
 
 def draw_leader(draw: ImageDraw.ImageDraw, plate: Plate, color: Color) -> None:
-    """The line from a plate to its anchor, with a white rim. Leaders are drawn before plates, which they may cross."""
+    """Draw the line from a plate to its anchor, with a white rim. Draw leaders before plates, since they may cross."""
     x, y = plate.anchor
     line, dark = [plate.anchor, plate.end], tuple(c // 2 for c in color)
     draw.line(line, fill=(255, 255, 255), width=4)
@@ -61,7 +61,7 @@ def draw_leader(draw: ImageDraw.ImageDraw, plate: Plate, color: Color) -> None:
 
 
 def draw_plate(draw: ImageDraw.ImageDraw, plate: Plate, color: Color) -> None:
-    """The number in black or white on its plate."""
+    """Draw the number in black or white on its plate."""
     x0, y0, x1, y1 = plate.box
     draw.rectangle([x0, y0, x1 - 1, y1 - 1], fill=color, outline=contrast(color))
     middle = ((x0 + x1 - 1) / 2, y1 - PAD)
@@ -69,7 +69,7 @@ def draw_plate(draw: ImageDraw.ImageDraw, plate: Plate, color: Color) -> None:
 
 
 def window_sums(weights: Float[np.ndarray, "H W"], width: int, height: int) -> Float[np.ndarray, "h w"]:
-    """Sums over all windows of a size; the entry [y, x] is that of the window whose first pixel is there."""
+    """Compute the sums over all windows of a size; entry [y, x] belongs to the window whose top left pixel is there."""
     total = np.zeros((weights.shape[0] + 1, weights.shape[1] + 1))
     total[1:, 1:] = weights.cumsum(0).cumsum(1)
     h, w = max(weights.shape[0] - height + 1, 0), max(weights.shape[1] - width + 1, 0)
@@ -79,10 +79,11 @@ def window_sums(weights: Float[np.ndarray, "H W"], width: int, height: int) -> F
 def beside(
     text: str, size: int, anchor: tuple[int, int], used: Bool[np.ndarray, "H W"], cost: Float[np.ndarray, "H W"], gap: int
 ) -> Plate:
-    """The plate nearest to its anchor that covers no used pixel and whose leader crosses none.
+    """Place the plate nearest to its anchor that covers no used pixel and whose leader crosses none.
 
-    cost: of each covered pixel, as a distance [px]; gap: least distance between plate and anchor [px]. When there is no
-    such place, a leader may cross plates; when there is none at all, the plate covers as few used pixels as possible.
+    cost: of each covered pixel, as a distance [px]; gap: minimum distance between plate and anchor [px].
+    If there is no such position, the leader may cross plates. If every position covers used pixels, as few as possible are
+    covered.
     """
     width, height = plate_size(text, size)
     sums = window_sums(cost + BLOCKED * used, width, height)[::STEP, ::STEP]
@@ -91,7 +92,7 @@ def beside(
     dy = np.maximum(np.maximum(y0 - anchor[1], anchor[1] - (y0 + height - 1)), 0)
     near = np.hypot(dx, dy)
     centering = np.hypot(x0 + width / 2 - anchor[0], y0 + height / 2 - anchor[1])
-    # of places equally near, the one that points at the anchor
+    # Among positions at the same distance, prefer the one whose centre is nearest to the anchor.
     total = sums + near + 0.05 * centering + BLOCKED * (near < gap)
     order = np.argsort(total, axis=None, kind="stable")
     free = int((total < BLOCKED / 2).sum())
@@ -108,7 +109,7 @@ def _plate_at(text: str, size: int, anchor: tuple[int, int], cell: tuple[int, in
 
 
 def line_pixels(plate: Plate) -> tuple[np.ndarray, np.ndarray]:
-    """Rows and columns of the leader, for indexing."""
+    """Return rows and columns of the leader's pixels, for indexing."""
     (x0, y0), (x1, y1) = plate.anchor, plate.end
     t = np.linspace(0, 1, 2 * max(abs(x1 - x0), abs(y1 - y0)) + 1)
     return np.round(y0 + t * (y1 - y0)).astype(int), np.round(x0 + t * (x1 - x0)).astype(int)
@@ -116,14 +117,14 @@ def line_pixels(plate: Plate) -> tuple[np.ndarray, np.ndarray]:
 
 def _crosses(plate: Plate, used: Bool[np.ndarray, "H W"]) -> bool:
     rows, columns = line_pixels(plate)
-    # what is used next to the anchor is the anchor's own dot
+    # Used pixels next to the anchor belong to the anchor's own dot.
     far = np.hypot(rows - plate.anchor[1], columns - plate.anchor[0]) > 9
     return bool(used[rows[far], columns[far]].any())
 
 
 def take(used: Bool[np.ndarray, "H W"], plate: Plate) -> None:
-    """Marks, in place, what a plate and its leader cover."""
+    """Mark the pixels of a plate and its leader as used, in place."""
     x0, y0, x1, y1 = plate.box
-    used[max(y0 - 1, 0) : y1 + 1, max(x0 - 1, 0) : x1 + 1] = True  # one pixel between plates
+    used[max(y0 - 1, 0) : y1 + 1, max(x0 - 1, 0) : x1 + 1] = True  # one pixel of space between plates
     if plate.led:
         used[line_pixels(plate)] = True

@@ -12,17 +12,18 @@ from scipy import ndimage
 from anymesh.rendering.labels import Plate, beside, draw_leader, draw_plate, plate_size, take
 from anymesh.rendering.paint import blend, mark_color
 
-LARGE, SMALL = 19, 15  # [px] fonts in a picture of 640 px: where the region has room, and elsewhere
-OVERHANG = 0.3  # share of a plate that may stand out of its region
-MIDDLE = 0.02  # pull of the region's centroid, so that a number sits in the middle of a long region, not at its end
+LARGE, SMALL = 19, 15  # [px] font sizes in a picture of 640 px: for regions with enough space, and for the others
+OVERHANG = 0.3  # share of a plate that may extend beyond its region
+MIDDLE = 0.02  # weight of the distance to the region's centroid, which keeps a number near the middle of a long region
 FOREIGN, HIDDEN = 40.0, 300.0  # [px] cost of covering other marks with a whole plate; of hiding a whole mark
 
 
 def mark_positions(labels: Int[np.ndarray, "H W"], numbers: Sequence[int] | None = None) -> dict[int, Plate]:
-    """A plate for each region, small regions first; no two overlap.
+    """Place a plate for each region without overlap, small regions first.
 
-    labels: the region a pixel, -1 none; numbers: the regions that get a plate, all if None. A plate sits at the maximum of
-    the distance transform of what is left of its region; where it does not fit, it is beside, its anchor being that maximum.
+    labels: region index per pixel, -1 for none; numbers: the regions that get a plate, all if None.
+    A plate is placed at the maximum of the distance transform of its region's free pixels. If it does not fit, it is placed
+    beside the region, and that maximum is its anchor.
     """
     areas = {int(n): int(a) for n, a in zip(*np.unique(labels[labels >= 0], return_counts=True), strict=True)}
     wanted = [n for n in areas if numbers is None or n in numbers]
@@ -39,7 +40,7 @@ def mark_positions(labels: Int[np.ndarray, "H W"], numbers: Sequence[int] | None
         else:
             plates[number] = plate
             take(used, plate)
-    for number, anchor in waiting:  # after the others, as they have the choice where to be
+    for number, anchor in waiting:  # last, because their position can vary
         size = max(SMALL, round(scale * SMALL))
         width, height = plate_size(str(number), size)
         cost = weight + FOREIGN / (width * height) * (labels >= 0)
@@ -49,7 +50,7 @@ def mark_positions(labels: Int[np.ndarray, "H W"], numbers: Sequence[int] | None
 
 
 def _keep(used: Bool[np.ndarray, "H W"], anchor: tuple[int, int]) -> None:
-    """Keeps plates off the end of a leader."""
+    """Mark the pixels around the end of a leader as used, in place."""
     x, y = anchor
     used[max(y - 3, 0) : y + 4, max(x - 3, 0) : x + 4] = True
 
@@ -57,7 +58,7 @@ def _keep(used: Bool[np.ndarray, "H W"], anchor: tuple[int, int]) -> None:
 def _inside(
     region: Bool[np.ndarray, "H W"], box: tuple[slice, slice], used: Bool[np.ndarray, "H W"], number: int, scale: float
 ) -> tuple[tuple[int, int], Plate | None]:
-    """The middle of a region, and its plate there if it has the room."""
+    """Return the middle of a region, and its plate there if it fits."""
     free = (region & ~used)[box]
     free = free if free.any() else region[box]
     middle = _middle(free)
@@ -75,7 +76,7 @@ def _inside(
 
 
 def _middle(region: Bool[np.ndarray, "h w"]) -> Int[np.ndarray, " 2"]:
-    """The pixel x, y furthest from the region's outside."""
+    """Return the pixel x, y furthest from the region's border."""
     depth: Float[np.ndarray, "h w"] = ndimage.distance_transform_edt(np.pad(region, 1))[1:-1, 1:-1]
     y, x = np.nonzero(region)
     score = depth[y, x] - MIDDLE * np.hypot(y - y.mean(), x - x.mean())
@@ -86,9 +87,9 @@ def _middle(region: Bool[np.ndarray, "h w"]) -> Int[np.ndarray, " 2"]:
 def draw_marks(
     image: UInt8[np.ndarray, "H W 3"], regions: Int[np.ndarray, "H W"], numbers: Sequence[int] | None = None, *, alpha: float
 ) -> UInt8[np.ndarray, "H W 3"]:
-    """The picture with its regions filled, outlined and numbered by their own numbers.
+    """Fill, outline and number the regions of the picture.
 
-    regions: the number a pixel, -1 none; numbers: those that are drawn, all if None; alpha: of the fill
+    regions: region number per pixel, -1 for none; numbers: the regions to draw, all if None; alpha: opacity of the fill
     (`GroundingConfig.alpha`). A number has the same colour in every picture.
     """
     plates = mark_positions(regions, numbers)
@@ -107,6 +108,6 @@ def draw_marks(
 
 
 def _outline(region: Bool[np.ndarray, "H W"]) -> Bool[np.ndarray, "H W"]:
-    """The region's border, inside it; one pixel wide where two would hide what it shows."""
+    """Return the inner border of the region; small regions get a border of one pixel, so that they are not hidden."""
     width = max(1, round(region.shape[0] / 320)) if region.sum() > 400 else 1
     return region & ~ndimage.binary_erosion(region, iterations=width)

@@ -13,9 +13,9 @@ from anymesh.types import Material, Mesh
 from anymesh.types.color import to_linear, to_srgb
 
 PLAIN = 0.45  # linear grey of faces without a material
-MEASURED = 2000  # pairs of hits from which the scale of a texture is taken
+MEASURED = 2000  # maximum number of pairs of hits used to measure the scale of a texture
 CHANNELS = np.arange(3)
-LINEAR = to_linear(np.arange(256) / 255.0)  # of an 8-bit sRGB channel
+LINEAR = to_linear(np.arange(256) / 255.0)  # linear value of each 8-bit sRGB level
 
 
 def base_colors(
@@ -25,9 +25,9 @@ def base_colors(
     v: Float[np.ndarray, " n"],
     reduce: Mapping[int, int] | None = None,
 ) -> Float[np.ndarray, "n 3"]:
-    """sRGB base colours (0..255) at points of faces, the corners weighing (1 - u - v, u, v).
+    """Compute sRGB base colours (0..255) at points of faces, given by the weights (1 - u - v, u, v) of the corners.
 
-    reduce: by material, how many texels each way are averaged into one before they are looked up (1 where not given).
+    reduce: by material, how many texels per side are averaged into one before the lookup (1 if not given).
     """
     factor = np.array([(PLAIN,) * 3, *(m.base_color[:3] for m in mesh.materials)])
     weights = np.stack([1 - u - v, u, v], 1)
@@ -37,7 +37,7 @@ def base_colors(
         for number, rows, texel in texels:
             color[rows] = (255 * to_srgb(factor[number + 1] * LINEAR[:, None]))[texel, CHANNELS]
         return color
-    factor[0] = 1.0  # a face without a material has the colour of its corners
+    factor[0] = 1.0  # A face without a material has the colour of its corners.
     linear = factor[mesh.face_material[face] + 1]
     for _, rows, texel in texels:
         linear[rows] *= LINEAR[texel]
@@ -48,7 +48,7 @@ def base_colors(
 def _texels(
     mesh: Mesh, face: np.ndarray, weights: np.ndarray, reduce: Mapping[int, int]
 ) -> Iterator[tuple[int, np.ndarray, np.ndarray]]:
-    """Of every material with a texture: its number, the rows of its points, and the 8-bit texel of each."""
+    """Yield the index of each textured material, the rows of its points, and the 8-bit texel of each point."""
     if mesh.corner_uv is None:
         return
     for number, material in enumerate(mesh.materials):
@@ -59,7 +59,7 @@ def _texels(
 
 
 def texels_per_pixel(mesh: Mesh, hits: SurfaceHits, beside: Int[np.ndarray, "m 2"]) -> dict[int, int]:
-    """How many texels of its texture a pixel covers each way, by material: the median over pairs of hits one pixel apart."""
+    """Return by material how many texels per side one pixel covers: the median over pairs of hits one pixel apart."""
     found = {}
     for number, material in enumerate(mesh.materials):
         if mesh.corner_uv is None or "base_color" not in material.textures:
@@ -75,7 +75,7 @@ def texels_per_pixel(mesh: Mesh, hits: SurfaceHits, beside: Int[np.ndarray, "m 2
 
 
 def texture(material: Material, reduce: int = 1) -> UInt8[np.ndarray, "H W 3"]:
-    """The picture of a material's base colour, each way `reduce` times smaller."""
+    """Return the base colour image of a material, reduced by a factor per side."""
     from PIL import Image
 
     with Image.open(io.BytesIO(material.textures["base_color"].data)) as image:

@@ -1,4 +1,4 @@
-"""Where lines of a drawing are: outlines (steps in depth, and the background) and creases (steps in the normal)."""
+"""Lines of a drawing: outlines (steps in depth, and the background) and creases (steps in the normal)."""
 
 from __future__ import annotations
 
@@ -10,8 +10,9 @@ from jaxtyping import Float32, Int, UInt8
 from anymesh.rendering.raycast_ import SurfaceHits
 from anymesh.rendering.smooth import CREASE_ANGLE
 
-STEP = (0.6, 1.6)  # [px] how far one surface lies behind the plane of its neighbour: line begins, line is full
-FULL_CREASE = float(np.deg2rad(50))  # [rad] angle of faces from which the line of a crease, begun at CREASE_ANGLE, is full
+# [px] distance of a surface behind its neighbour's plane at which a line begins, and at which it has full strength
+STEP = (0.6, 1.6)
+FULL_CREASE = float(np.deg2rad(50))  # [rad] angle between faces at which a crease has full strength; it begins at CREASE_ANGLE
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,7 +28,7 @@ class Steps:
 
 
 def changes(value: Int[np.ndarray, "H W"], row: Int[np.ndarray, "H W"]) -> Int[np.ndarray, "m 2"]:
-    """Rows of the pixels side by side, or above each other, whose values differ; pixels whose row is -1 do not count."""
+    """Return the rows of horizontal and vertical neighbours with different values; pixels whose row is -1 are ignored."""
     found = []
     for near, far in (((slice(None), slice(None, -1)), (slice(None), slice(1, None))), (slice(None, -1), slice(1, None))):
         at = np.flatnonzero(value[near] != value[far])
@@ -43,10 +44,10 @@ def find_steps(
     pairs: Int[np.ndarray, "m 2"],
     pixel: float,
 ) -> Steps:
-    """The lines between neighbouring rays that meet different faces; pairs without one are left out.
+    """Find the lines between neighbouring rays that hit different faces; pairs without a line are left out.
 
-    directions: of the rays, which have one origin; normal: for shading; pixel: the size of a pixel at depth 1.
-    Two hits lie on one surface where either lies near the other's tangent plane, however oblique that is.
+    directions: of the rays, which share one origin; normal: for shading; pixel: size of a pixel at depth 1.
+    Two hits lie on one surface if either is near the other's tangent plane, even at grazing angles.
     """
     outline = (hits.face[pairs] < 0).any(1).astype(np.float32)
     crease = np.zeros(len(pairs), np.float32)
@@ -65,9 +66,9 @@ def find_steps(
 def stroke(
     shape: tuple[int, int], at: Int[np.ndarray, " n"], strength: UInt8[np.ndarray, " n"], width: int
 ) -> UInt8[np.ndarray, "H W"]:
-    """A picture of lines through some pixels (flat indices), `width` pixels wide on either side of them."""
+    """Draw lines through pixels (flat indices), widened by `width` pixels on either side."""
     drawn = np.zeros(shape, np.uint8)
-    order = np.argsort(strength, kind="stable")  # where lines meet, the strongest counts
+    order = np.argsort(strength, kind="stable")  # where lines meet, the strongest one counts
     drawn.reshape(-1)[at[order]] = strength[order]
     for _ in range(width):
         grown = drawn.copy()

@@ -1,4 +1,4 @@
-"""Numbered candidate points (paper, 3.3): dots, each with its number, over the part that is asked about."""
+"""Numbered candidate points (paper, 3.3): dots, each with its number, over the part in question."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from PIL import Image, ImageDraw
 from anymesh.rendering.labels import beside, draw_leader, draw_plate, take
 from anymesh.rendering.paint import mark_color
 
-FONT, DOT = 16, 4  # [px] in a picture of 640 px: font; radius of a dot
+FONT, DOT = 16, 4  # [px] in a picture of 640 px: font size; radius of a dot
 
 
 def labels_apart(pixels: Float[np.ndarray, "k 2"], min_distance: float) -> bool:
-    """Whether all points are at least `min_distance` [px] from one another (`PromptConfig.label_apart`)."""
+    """Return whether all points are at least `min_distance` [px] apart (`PromptConfig.label_apart`)."""
     gaps = np.linalg.norm(pixels[:, None] - pixels[None], axis=2)
     return bool((gaps[np.triu_indices(len(pixels), 1)] >= min_distance).all())
 

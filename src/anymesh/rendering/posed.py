@@ -1,4 +1,4 @@
-"""An object with one part in many poses, cast at without building it anew: the rays move instead of the part."""
+"""Rendering of one part in many poses without rebuilding the ray scene: rays are transformed instead of the part."""
 
 from __future__ import annotations
 
@@ -15,19 +15,21 @@ from anymesh.rendering.render import lit, shade
 from anymesh.types import Mesh
 from anymesh.types.camera import Camera
 
-LIGHTEN = 0.5  # of what stands still
-MARGIN = 2.0  # [px] round the part's box in a picture, in which rays are cast at it
-ONWARD = 1e-5  # share of the diagonal by which a ray goes on behind a face that moves
-MAX_LAYERS = 24  # faces that move, which a ray passes before it counts as lost
+LIGHTEN = 0.5  # share by which the colours of static faces are moved towards white
+MARGIN = 2.0  # [px] margin around the part's box within which rays are cast
+ONWARD = 1e-5  # share of the diagonal by which a ray continues behind a moving face
+MAX_LAYERS = 24  # maximum number of moving faces that a ray passes before it counts as lost
 
-Rays = tuple[np.ndarray, np.ndarray]  # origins and directions, as of `Camera.rays`
+Rays = tuple[np.ndarray, np.ndarray]  # origins and directions, as returned by `Camera.rays`
 Pose = Float[np.ndarray, "4 4"]
 
 
 @dataclass(frozen=True, eq=False)
 class PartPixels:
-    """The pixels that a part alone would cover: their numbers, row by row, the distance of each in lengths of its ray, and its
-    normal, towards the camera."""
+    """Pixels that the part alone would cover.
+
+    pixel: flat indices in row-major order; distance: in lengths of the pixel's ray; normal: turned towards the camera.
+    """
 
     pixel: Int[np.ndarray, " k"]
     distance: Float[np.ndarray, " k"]
@@ -36,7 +38,7 @@ class PartPixels:
 
 @dataclass(frozen=True, eq=False)
 class Still:
-    """What stands still in a picture: lit and lightened colour, distance (inf: nothing) and normal of each pixel."""
+    """Static faces in a picture: shaded and lightened colour, distance (inf: nothing) and normal of each pixel."""
 
     color: UInt8[np.ndarray, "n 3"]
     distance: Float[np.ndarray, " n"]
@@ -45,7 +47,7 @@ class Still:
 
 @dataclass(frozen=True, eq=False)
 class Posed:
-    """The object as modelled, its rays, and the faces that move. Poses are rigid transforms of these from where they are."""
+    """The object as modelled, its ray scene, and its moving faces. Poses are rigid transforms of these from their rest pose."""
 
     mesh: Mesh
     moving: Bool[np.ndarray, " F"]
@@ -53,7 +55,7 @@ class Posed:
 
     @cached_property
     def part(self) -> Mesh:
-        """The faces that move, at rest."""
+        """The moving faces, at rest."""
         return self.mesh.subset(self.moving)
 
     @cached_property
@@ -62,16 +64,16 @@ class Posed:
 
     @cached_property
     def corners(self) -> Float[np.ndarray, "n 3"]:
-        """Vertices of the faces that move, at rest."""
+        """Vertices of the moving faces, at rest."""
         return self.part.vertices
 
     @cached_property
     def _box(self) -> Float[np.ndarray, "8 3"]:
-        """The corners of the box round the faces that move, at rest."""
+        """Corners of the bounding box of the moving faces, at rest."""
         return np.stack(np.meshgrid(*bounds_of([self.corners]).T, indexing="ij"), -1).reshape(-1, 3)
 
     def still_hits(self, rays: Rays) -> Hits:
-        """The first hits of what stands still: rays go on behind faces that move."""
+        """Return the first hits on static faces; rays continue behind moving faces."""
         hits = self.scene.first_hit(*rays)
         face, distance, u, v = (a.copy() for a in (hits.face, hits.distance, hits.u, hits.v))
         step = ONWARD * self.mesh.diagonal / np.linalg.norm(rays[1], axis=1)
@@ -88,13 +90,13 @@ class Posed:
         return Hits(face, distance, u, v)
 
     def still_picture(self, rays: Rays) -> Still:
-        """What a picture shows of what stands still."""
+        """Render the static faces."""
         hits = self.still_hits(rays)
         color, normal = shade(self.mesh, hits, rays[1])
         return Still(lighten(color, LIGHTEN), hits.distance, normal)
 
     def part_pixels(self, T: Pose, camera: Camera) -> PartPixels:
-        """The pixels that the part alone would cover in a pose: rays are cast at it from where it sees the camera."""
+        """Return the pixels that the part alone would cover in a pose, by casting rays in the frame of the part."""
         columns, rows = self._box_pixels(T, camera)
         R, t = T[:3, :3], T[:3, 3]
         across, along = (terms @ R.astype(np.float32) for terms in camera.ray_grid(columns + 0.5, rows + 0.5))
@@ -105,7 +107,7 @@ class Posed:
         return PartPixels(pixel, hits.depth[seen].astype(float), (hits.normal[seen] @ R.T.astype(np.float32)).astype(float))
 
     def _box_pixels(self, T: Pose, camera: Camera) -> tuple[Int[np.ndarray, " w"], Int[np.ndarray, " h"]]:
-        """The columns and rows of the box of the part's pose."""
+        """Return the columns and rows of the bounding box of the part in a pose."""
         pixel, depth = camera.project(self._box @ T[:3, :3].T + T[:3, 3])
         if (depth <= 0).any():
             return np.arange(camera.width), np.arange(camera.height)
@@ -116,10 +118,10 @@ class Posed:
 
 
 def part_color(normal: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 3"]:
-    """The lit colour (0..255) of a part that is asked about."""
+    """Return the shaded colour (0..255) of the highlighted part."""
     return lit(np.tile(np.array(HIGHLIGHT, float), (len(normal), 1)), normal)
 
 
 def bounds_of(boxes: Sequence[np.ndarray]) -> Float[np.ndarray, "2 3"]:
-    """The box (2, 3) round some boxes or points (n, 3)."""
+    """Return the bounds (2, 3) of several boxes or point sets (n, 3)."""
     return np.stack([np.min([b.min(0) for b in boxes], axis=0), np.max([b.max(0) for b in boxes], axis=0)])

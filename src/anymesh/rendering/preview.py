@@ -1,4 +1,4 @@
-"""The picture of a result: at rest and opened, parts in colours, joint axes drawn, a legend."""
+"""Preview picture of a result: the object at rest and opened, with parts in colours, joint axes and a legend."""
 
 from __future__ import annotations
 
@@ -22,25 +22,25 @@ from anymesh.rendering.viewpoints import orbit_camera
 from anymesh.types import Asset, Joint, JointType, Mesh
 from anymesh.types.camera import Camera
 
-PALETTE = np.array(  # distinct for colour-blind eyes too (after Okabe and Ito, and lighter mixes)
+PALETTE = np.array(  # distinguishable with colour vision deficiencies (after Okabe and Ito, and lighter mixes)
     [[230, 159, 0], [86, 180, 233], [0, 158, 115], [240, 228, 66], [0, 114, 178], [213, 94, 0], [204, 121, 167],
      [130, 200, 120], [150, 120, 220], [120, 90, 60]], np.uint8)  # fmt: skip
 BASE = np.array([200, 200, 200], np.uint8)
-SIZE = 620  # [px] of the camera's picture, from which the panels are cut
-MARGIN, MIN_WIDTH, MIN_HEIGHT = 18, 500, 240  # [px] round what is drawn; of a panel, so that the legend fits
-OPEN = 0.75  # share of the range that is shown opened
-LETTERS = 19  # [px] font of the legend
-MAX_LEGEND_JOINTS = 18  # joints in the legend
-AZIMUTHS = (35, -35, 145, -145, 65, -65)  # [deg] of the views to choose from, the preferred ones first
-ELEVATION = 24  # [deg] of all of them
-PREFERRED = 1.05  # a later view must show so many times more of the moving parts than an earlier one
-SKETCH = 64  # [px] of the pictures that the view is chosen with
-COMPRESSION = 3  # of zlib, 0..9: higher levels take twice the time for 7 % less
+SIZE = 620  # [px] size of the camera's picture, from which the panels are cut
+MARGIN, MIN_WIDTH, MIN_HEIGHT = 18, 500, 240  # [px] margin around the drawing; minimum size of a panel, so that the legend fits
+OPEN = 0.75  # share of the range by which joints are opened
+LETTERS = 19  # [px] font size of the legend
+MAX_LEGEND_JOINTS = 18  # maximum number of joints in the legend
+AZIMUTHS = (35, -35, 145, -145, 65, -65)  # [deg] candidate views, in order of preference
+ELEVATION = 24  # [deg] elevation of all candidate views
+PREFERRED = 1.05  # factor by which a later view must show more of the moving parts than an earlier one
+SKETCH = 64  # [px] size of the pictures used to choose the view
+COMPRESSION = 3  # zlib level, 0..9: higher levels take twice the time for 7 % less
 
 
 @dataclass(frozen=True, eq=False)
 class _Pose:
-    """The object with its joints at some positions."""
+    """The object with its joints at given positions."""
 
     mesh: Mesh
     axes: list[AxisShape]
@@ -51,12 +51,12 @@ class _Pose:
 
 
 def write_preview(asset: Asset, path: Path) -> None:
-    """Write the picture as PNG."""
+    """Write the preview picture as PNG."""
     Image.fromarray(render_preview(asset)).save(path, "PNG", compress_level=COMPRESSION)
 
 
 def render_preview(asset: Asset) -> UInt8[np.ndarray, "H W 3"]:
-    """Draw the object as it looks, its parts at rest, and its parts opened, side by side; below them the legend."""
+    """Draw the object with its materials, with coloured parts at rest, and opened, side by side; the legend is below."""
     asset = replace(asset, mesh=smoothed(asset.mesh))
     at = {j.name: shown_position(j) for j in asset.joints}
     rest = _Pose(asset.mesh, axis_shapes(asset, {}))
@@ -77,7 +77,7 @@ def render_preview(asset: Asset) -> UInt8[np.ndarray, "H W 3"]:
 
 
 def _window(camera: Camera, poses: Sequence[_Pose]) -> Window:
-    """What the panels show of the camera's picture: all poses with their axes, and a margin."""
+    """Return the region of the camera's picture that contains all poses with their axes, and a margin."""
     boxes = [camera.project(points)[0] for pose in poses for points in (pose.mesh.vertices, *(a.points for a in pose.axes))]
     low, high = np.min([b.min(0) for b in boxes], 0), np.max([b.max(0) for b in boxes], 0)
     sides = []
@@ -90,7 +90,7 @@ def _window(camera: Camera, poses: Sequence[_Pose]) -> Window:
 
 
 def shown_position(joint: Joint) -> float:
-    """Where a joint is in the opened panel [rad or m]."""
+    """Return the position of a joint in the opened panel [rad or m]."""
     if joint.type is JointType.FIXED:
         return 0.0
     if joint.limits is None:
@@ -99,14 +99,14 @@ def shown_position(joint: Joint) -> float:
 
 
 def part_colors(asset: Asset) -> UInt8[np.ndarray, "F 3"]:
-    """A colour a face by its part; the base is light grey."""
+    """Return a colour per face according to its part; the base is light grey."""
     count = len(asset.segmentation.parts)
     table = np.concatenate([BASE[None], PALETTE[np.arange(max(count - 1, 0)) % len(PALETTE)]])
     return table[asset.segmentation.face_part]
 
 
 def best_camera(asset: Asset, opened: Mesh, scenes: Sequence[RayScene]) -> Camera:
-    """The view in which the moving parts show most, at rest and opened alike."""
+    """Choose the view that shows most of the moving parts, at rest and opened together."""
     bounds = np.array([np.minimum(asset.mesh.bounds[0], opened.bounds[0]), np.maximum(asset.mesh.bounds[1], opened.bounds[1])])
     moving = asset.segmentation.face_part > 0
     best, most = AZIMUTHS[0], -1.0
@@ -121,7 +121,7 @@ def best_camera(asset: Asset, opened: Mesh, scenes: Sequence[RayScene]) -> Camer
 
 
 def extent(joint: Joint) -> str:
-    """The range of a joint in degrees or centimetres."""
+    """Format the range of a joint in degrees or centimetres."""
     if joint.limits is None:
         return "" if joint.type is JointType.FIXED else "endless"
     if joint.type is JointType.PRISMATIC:
@@ -130,7 +130,7 @@ def extent(joint: Joint) -> str:
 
 
 def describe(joint: Joint) -> str:
-    """A joint in a line: type, range, confidence."""
+    """Describe a joint in one line: type, range, confidence."""
     return f"{joint.child}: {joint.type.value} {extent(joint)}, confidence {joint.confidence:.2f}"
 
 

@@ -1,4 +1,4 @@
-"""Ray casting on the CPU, by Embree."""
+"""Ray casting on the CPU with Embree."""
 
 from __future__ import annotations
 
@@ -12,15 +12,15 @@ from jaxtyping import Float, Float32, Int, Int32
 from anymesh.errors import MissingExtraError
 from anymesh.types.triangles import bounds_of
 
-FAR = 1e30  # distance that stands for endless, in lengths of the ray's direction
+FAR = 1e30  # distance that stands for infinity, in lengths of the ray's direction
 
 
 @dataclass(frozen=True, eq=False)
 class Hits:
-    """First hits, so that hit = origin + distance * direction.
+    """First hits, such that hit = origin + distance * direction.
 
     face: (n,) -1 where nothing is hit; distance: (n,) in lengths of the ray's direction, inf where nothing is hit;
-    u, v: (n,) barycentric, the corners weigh (1 - u - v, u, v).
+    u, v: (n,) barycentric coordinates, for corner weights (1 - u - v, u, v).
     """
 
     face: Int[np.ndarray, " n"]
@@ -34,7 +34,7 @@ class SurfaceHits:
     """First hits in single precision, with the surface normal, for pictures.
 
     face, u, v: (n,) as in `Hits`; depth: (n,) in lengths of the ray's direction, inf where nothing is hit;
-    normal: (n, 3) unit normal of the face, turned toward the ray's origin, zero where nothing is hit.
+    normal: (n, 3) unit normal of the face, turned towards the ray's origin, zero where nothing is hit.
     """
 
     face: Int32[np.ndarray, " n"]
@@ -44,26 +44,26 @@ class SurfaceHits:
     normal: Float32[np.ndarray, "n 3"]
 
     def take(self, rows: Int[np.ndarray, " m"]) -> SurfaceHits:
-        """Some of the hits."""
+        """Return the hits of these rows."""
         return SurfaceHits(*(getattr(self, f.name)[rows] for f in fields(self)))
 
     @staticmethod
     def joined(first: SurfaceHits, second: SurfaceHits) -> SurfaceHits:
-        """The hits of both, the first ones first."""
+        """Concatenate two sets of hits."""
         pairs = ((getattr(first, f.name), getattr(second, f.name)) for f in fields(SurfaceHits))
         return SurfaceHits(*(np.concatenate(pair) for pair in pairs))
 
 
 @cache
 def _device() -> Any:
-    """One for all scenes: each takes a key of the process, of which there are about a thousand."""
+    """Return the device shared by all scenes: each device takes one of about a thousand keys per process."""
     from embreex.rtcore import EmbreeDevice  # ty: ignore[import-not-found]
 
     return EmbreeDevice()
 
 
 class RayScene:
-    """Triangles to cast rays at. Embree counts in float32, so geometry is centred and scaled to keep its precision."""
+    """Triangles to cast rays at. Embree uses float32, so geometry is centred and scaled to keep its precision."""
 
     def __init__(self, vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"]) -> None:
         try:
@@ -73,7 +73,7 @@ class RayScene:
             raise MissingExtraError("embreex is missing; it comes with articulate-anymesh, install that again") from None
         low, high = bounds_of(vertices)
         self.center, self.scale = (low + high) / 2, 1.0 / (float((high - low).max()) or 1.0)
-        self.unit_half = ((high - low) / 2 * self.scale).astype(np.float32)  # half sides of the bounds in the unit frame
+        self.unit_half = ((high - low) / 2 * self.scale).astype(np.float32)  # half extents of the bounds in the unit frame
         self._scene = EmbreeScene(_device())
         inside = self.to_unit(vertices)
         self._mesh = TriangleMesh(self._scene, inside, np.ascontiguousarray(faces, np.int32))
@@ -85,7 +85,7 @@ class RayScene:
         directions: Float[np.ndarray, "n 3"],
         max_distance: float | None = None,
     ) -> Hits:
-        """The first triangle that each ray hits within `max_distance` lengths of its direction."""
+        """Return the first triangle that each ray hits within `max_distance` lengths of its direction."""
         if len(origins) == 0:
             nothing = np.zeros(0)
             return Hits(np.zeros(0, np.int64), nothing, nothing, nothing)
@@ -94,24 +94,24 @@ class RayScene:
         return Hits(found.face, *(v.astype(np.float64) for v in (found.distance, found.u, found.v)))
 
     def to_unit(self, points: Float[np.ndarray, "n 3"]) -> Float32[np.ndarray, "n 3"]:
-        """Points in the frame in which the longest side of the bounds is 1 and their middle 0."""
+        """Transform points to the unit frame, where the longest side of the bounds is 1 and their centre 0."""
         return ((points - self.center) * self.scale).astype(np.float32)
 
     def from_unit(self, points: Float32[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 3"]:
-        """The inverse of `to_unit`."""
+        """Transform points from the unit frame; inverse of `to_unit`."""
         return points / self.scale + self.center
 
     def first_hit_unit(
         self, origins: Float32[np.ndarray, "n 3"], directions: Float32[np.ndarray, "n 3"], max_distance: float = 1.0
     ) -> Hits:
-        """`first_hit` for rays in the unit frame; distances come as float32."""
+        """Return the first hits for rays in the unit frame; distances are float32."""
         far = np.full(len(origins), min(max_distance, FAR), np.float32)
         out = self._scene.run(origins, directions, dists=far, output=1)
         face = out["primID"].astype(np.int64)
         return Hits(face, np.where(face >= 0, out["tfar"], np.float32(np.inf)), out["u"], out["v"])
 
     def surface_hits(self, origin: Float[np.ndarray, " 3"], directions: Float32[np.ndarray, "n 3"]) -> SurfaceHits:
-        """The first surface that each ray from one origin meets, for pictures: without conversions to double precision."""
+        """Return the first surface that each ray from one origin hits, in single precision, for pictures."""
         count = len(directions)
         if count == 0:
             none = np.zeros(0, np.float32)

@@ -1,4 +1,4 @@
-"""Pictures of a mesh with exact buffers: which face each pixel shows, its depth, normal and colour."""
+"""Rendering of a mesh with exact buffers: face, depth, normal and colour of each pixel."""
 
 from __future__ import annotations
 
@@ -18,7 +18,10 @@ BACKGROUND = 255
 
 @dataclass(frozen=True, eq=False)
 class View:
-    """What a camera sees. color: (H, W, 3); depth: (H, W) inf where nothing is; normal: (H, W, 3); face: (H, W), -1 nothing."""
+    """Buffers of a camera's view.
+
+    color: (H, W, 3); depth: (H, W), inf where nothing is hit; normal: (H, W, 3); face: (H, W), -1 where nothing is hit.
+    """
 
     camera: Camera
     color: UInt8[np.ndarray, "H W 3"]
@@ -30,7 +33,10 @@ class View:
 def render(
     mesh: Mesh, camera: Camera, *, face_color: UInt8[np.ndarray, "F 3"] | None = None, scene: RayScene | None = None
 ) -> View:
-    """Casts a ray a pixel. face_color overrides the materials (sRGB); scene may be given when it is cast at again."""
+    """Render a mesh with one ray per pixel.
+
+    face_color: sRGB colours that replace the materials; scene: the mesh's ray scene, if it already exists.
+    """
     scene = scene or RayScene(mesh.vertices, mesh.faces)
     origins, directions = camera.rays()
     hits = scene.first_hit(origins, directions)
@@ -48,7 +54,10 @@ def render(
 def shade(
     mesh: Mesh, hits: Hits, directions: Float[np.ndarray, "n 3"], face_color: UInt8[np.ndarray, "F 3"] | None = None
 ) -> tuple[UInt8[np.ndarray, "n 3"], Float[np.ndarray, "n 3"]]:
-    """The lit colour of hits, and their normals, turned to face the rays; background and (0, 0, 0) where nothing is hit."""
+    """Return the shaded colour of each hit, and its normal turned towards the ray.
+
+    Where nothing is hit, the colour is the background and the normal (0, 0, 0).
+    """
     seen = np.flatnonzero(hits.face >= 0)
     normal = np.zeros((len(directions), 3))
     normal[seen] = mesh.face_normals[hits.face[seen]]
@@ -65,13 +74,13 @@ def shade(
 
 
 def lit(base: Float[np.ndarray, "n 3"], normal: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 3"]:
-    """Base colours (0..255) under the light of all our pictures."""
+    """Shade base colours (0..255) under the common light of all pictures."""
     light = 0.42 + 0.38 * np.clip(normal @ KEY_LIGHT, 0, 1) + 0.2 * (0.5 + 0.5 * normal[:, 2])
     return np.clip(base * light[:, None] * 1.12, 0, 255)
 
 
 def face_colors(mesh: Mesh) -> UInt8[np.ndarray, "F 3"]:
-    """The sRGB colour at the middle of every face: material times texture times vertex colour."""
+    """Return the sRGB colour at the centre of each face: material times texture times vertex colour."""
     count = len(mesh.faces)
     third = np.full(count, 1 / 3)
     return np.clip(base_colors(mesh, np.arange(count), third, third) + 0.5, 0, 255).astype(np.uint8)

@@ -1,4 +1,4 @@
-"""Rays for smooth pictures: one per pixel, and a grid of rays in pixels where the surface changes."""
+"""Rays for antialiased pictures: one per pixel, and a grid of rays in pixels where the surface changes."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from anymesh.rendering.outlines import Steps, changes, find_steps
 from anymesh.rendering.raycast_ import RayScene, SurfaceHits
 from anymesh.types.camera import Camera
 
-GRID = 3  # rays per pixel each way where the surface changes
-FLAT = 1e-4  # corner normals whose cosine to the face's normal is this near to 1 are not interpolated
-MEAN = np.tile(np.eye(3, dtype=np.float32), (GRID**2, 1)) / GRID**2  # the rays' colours of a pixel to its colour
+GRID = 3  # rays per side of a pixel where the surface changes
+FLAT = 1e-4  # tolerance of the cosine between corner normals and face normal, below which normals are not interpolated
+MEAN = np.tile(np.eye(3, dtype=np.float32), (GRID**2, 1)) / GRID**2  # averages the colours of a pixel's rays
 
 
 @dataclass(frozen=True, eq=False)
 class Window:
-    """A rectangle of a camera's picture [px]; the last row and column are exclusive."""
+    """A rectangle of a camera's picture [px]; right and bottom are exclusive."""
 
     left: int
     top: int
@@ -27,18 +27,19 @@ class Window:
 
     @property
     def shape(self) -> tuple[int, int]:
-        """Rows and columns."""
+        """Number of rows and columns."""
         return self.bottom - self.top, self.right - self.left
 
 
 @dataclass(frozen=True, eq=False)
 class Samples:
-    """What the rays of a window meet, and the lines between them.
+    """Hits of the rays of a window, and the lines between them.
 
-    first: of one ray through the middle of every pixel; plain: (p,) pixels (flat indices into the window) with one ray, that
-    hits; split: (k,) pixels with GRID x GRID rays; hits, normal (for shading): of all p + k * GRID**2 rays, the plain ones
-    first; steps: between rays of split pixels; place: (k * GRID**2,) where those rays are in a picture of the window that is
-    GRID times finer (flat indices).
+    first: hits of one ray through the centre of every pixel; plain: (p,) pixels (flat indices into the window) with a single
+    ray that hits;
+    split: (k,) pixels with GRID x GRID rays; hits, normal (for shading): of all p + k * GRID**2 rays, the plain ones first;
+    steps: lines between rays of split pixels; place: (k * GRID**2,) flat indices of those rays in a picture of the window with
+    GRID times the resolution.
     """
 
     window: Window
@@ -51,13 +52,13 @@ class Samples:
     place: Int[np.ndarray, " m"]
 
     def pairs_beside(self) -> Int[np.ndarray, "m 2"]:
-        """Rows of rays of plain pixels side by side that meet the same face."""
+        """Return the rows of rays of horizontally adjacent plain pixels that hit the same face."""
         face = self.hits.face[: len(self.plain)]
         left = np.flatnonzero((np.diff(self.plain) == 1) & (face[1:] == face[:-1]))
         return np.stack([left, left + 1], 1)
 
     def resolve(self, color: Float32[np.ndarray, "n 3"], ground: Float32[np.ndarray, "h w 3"]) -> Float32[np.ndarray, "h w 3"]:
-        """The picture of the rays' colours over a ground."""
+        """Combine the rays' colours into a picture over a background."""
         picture = ground.reshape(-1, 3).copy()
         count = len(self.plain)
         picture[self.plain] = color[:count]
@@ -67,8 +68,11 @@ class Samples:
 
 @dataclass(frozen=True, eq=False)
 class RenderTarget:
-    """What rays are cast at. corner_normal: for shading, None where surfaces are flat; face_key: where it changes between
-    faces, pixels are split, as the faces do not look alike."""
+    """A mesh to cast rays at.
+
+    corner_normal: for shading, None where surfaces are flat; face_key: pixels are split where the key changes between faces,
+    since these faces look different.
+    """
 
     scene: RayScene
     corner_normal: Float32[np.ndarray, "F 3 3"] | None
@@ -101,7 +105,7 @@ def sample(target: RenderTarget, camera: Camera, window: Window) -> Samples:
 
 
 def _terms(camera: Camera, window: Window, grid: int) -> tuple[np.ndarray, np.ndarray]:
-    """Terms of the directions of grid x grid rays per pixel of a window (`Camera.ray_grid`)."""
+    """Return the terms of the directions of grid x grid rays per pixel of a window (`Camera.ray_grid`)."""
     inside = (np.arange(grid) + 0.5) / grid
     x, y = np.arange(window.left, window.right), np.arange(window.top, window.bottom)
     return camera.ray_grid((x[:, None] + inside).reshape(-1), (y[:, None] + inside).reshape(-1))
@@ -110,7 +114,7 @@ def _terms(camera: Camera, window: Window, grid: int) -> tuple[np.ndarray, np.nd
 def _split(
     target: RenderTarget, hits: SurfaceHits, directions: np.ndarray, normal: np.ndarray, shape: tuple[int, int], pixel: float
 ) -> np.ndarray:
-    """Which pixels differ from one beside or above them, as a flat mask."""
+    """Return a flat mask of the pixels that differ from a horizontal or vertical neighbour."""
     rows = np.arange(len(directions), dtype=np.int32).reshape(shape)
     pairs = changes(hits.face.reshape(shape), rows)
     key = np.where(hits.face < 0, -1, target.face_key[hits.face])
@@ -121,7 +125,7 @@ def _split(
 
 
 def _places(split: Int[np.ndarray, " k"], width: int) -> Int[np.ndarray, " m"]:
-    """Where the grids of some pixels are in the finer picture, as flat indices."""
+    """Return the flat indices of the ray grids of these pixels in the finer picture."""
     row, column = np.divmod(split, width)
     first = row * GRID * width * GRID + column * GRID
     grid = np.arange(GRID)[:, None] * width * GRID + np.arange(GRID)
@@ -129,7 +133,7 @@ def _places(split: Int[np.ndarray, " k"], width: int) -> Int[np.ndarray, " m"]:
 
 
 def _shading_normals(hits: SurfaceHits, corner_normal: Float32[np.ndarray, "F 3 3"] | None) -> Float32[np.ndarray, "n 3"]:
-    """Corner normals interpolated where there are any, turned toward the camera; the faces' own elsewhere."""
+    """Interpolate corner normals where present, turned towards the camera; use face normals elsewhere."""
     if corner_normal is None:
         return hits.normal
     rows = np.flatnonzero(hits.face >= 0)

@@ -1,4 +1,4 @@
-"""A contact sheet of the pictures of a question, each under its caption, for whoever looks at one file only."""
+"""Contact sheet of a question's pictures with their captions, for viewers that open a single file."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from PIL import Image, ImageDraw
 from anymesh.rendering.labels import font
 from anymesh.types.exchange import Picture
 
-SIDE = 2000  # [px] the longest side of a sheet: what vision models take without shrinking it
-MAX_CELL, MIN_CELL = 900, 240  # [px] of the longer side of one picture; a sheet grows rather than go below
-TEXT, LINE, GAP = 16, 21, 8  # [px] font, height of a line, room between cells
-MAX_CAPTION_LINES = 3  # of one caption
+SIDE = 2000  # [px] longest side of a sheet, which vision models accept without downscaling
+MAX_CELL, MIN_CELL = 900, 240  # [px] maximum and minimum of the longer side of one picture; the sheet grows to keep the minimum
+TEXT, LINE, GAP = 16, 21, 8  # [px] font size, line height, space between cells
+MAX_CAPTION_LINES = 3  # maximum number of lines per caption
 
 
 def question_sheet(pictures: Sequence[Picture]) -> Picture:
-    """Lay out pictures in rows, numbered 1.. with their captions. Raises ValueError without pictures."""
+    """Lay out pictures in rows, numbered from 1, with their captions. Raise ValueError without pictures."""
     if not pictures:
         raise ValueError("a contact sheet needs at least one picture")
     columns, width = _layout([p.size for p in pictures])
@@ -67,7 +67,7 @@ def _layout(sizes: Sequence[tuple[int, int]]) -> tuple[int, int]:
 
 
 def _lines(text: str, width: int) -> list[str]:
-    """Break a caption into lines that fit [px]; what does not fit MOST_LINES ends in an ellipsis."""
+    """Break a caption into lines of at most `width` [px]; after MAX_CAPTION_LINES lines it ends in an ellipsis."""
     lines, letters = [""], font(TEXT)
     for word in text.split():
         longer = f"{lines[-1]} {word}".strip()

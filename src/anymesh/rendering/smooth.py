@@ -1,4 +1,4 @@
-"""Vertex normals for shading: smooth across flat edges, sharp across creases."""
+"""Corner normals for shading: smooth across flat edges, sharp across creases."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from anymesh.geometry.topology import edge_pairs, label_connected, weld
 from anymesh.types import Mesh
 
 CREASE_ANGLE = float(np.deg2rad(35))  # [rad] faces that meet at a larger angle form a crease; wheels of 11 sides are round
-COPLANAR = 1 - 1e-6  # cosine between faces that lie in one plane, so that their normals need no average
-SMOOTHED_FACES = 20_000  # above this, facets are too small to be seen and flat shading is enough
+COPLANAR = 1 - 1e-6  # cosine between faces in one plane, whose normals need no averaging
+SMOOTHED_FACES = 20_000  # above this number of faces, facets are too small to be seen and flat shading is enough
 
 
 def smoothed(mesh: Mesh) -> Mesh:
-    """The mesh with corner normals for shading: those of the file, or averages over smooth edges.
+    """Return the mesh with corner normals for shading: those of the file, or averages over smooth edges.
 
-    None are added where flat shading is enough: to meshes of many faces, and where no edge is smooth.
+    No normals are added where flat shading is enough: to meshes with many faces, and to meshes without smooth edges.
     """
     if mesh.corner_normal is not None or len(mesh.faces) > SMOOTHED_FACES:
         return mesh

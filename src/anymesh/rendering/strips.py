@@ -1,4 +1,4 @@
-"""Motions to choose from: the object at rest and with a part moved by each candidate, in one picture."""
+"""Candidate motions in one picture: the object at rest, and with a part moved by each candidate."""
 
 from __future__ import annotations
 
@@ -18,23 +18,23 @@ from anymesh.rendering.viewpoints import box_of, orbit_camera, zoom
 from anymesh.types import Mesh, Motion, MotionKind
 from anymesh.types.camera import Camera
 
-PANEL, COLUMNS = 400, 4  # [px] of a panel; panels side by side: 1600 px at most
-MARGIN = 0.35  # round what moves, a share of its diagonal: what it moves against is seen too
-AIR = 0.04  # round that, a share of the picture on each side
-GHOST = 0.3  # strength of the part where something hides it
-AXIS_SCALE, RING = 3.0, 0.1  # what `axis_line` takes for a diagonal; radius of the ring: shares of the part's diagonal
-LEGIBLE = 0.5  # of the picture's side: the axis of a smaller part is drawn as if it were so large
-TITLE, WORD = 24, 18  # [px] font of a panel's number, and of what it says of the motion
-WHITE, BLOCKED = (255, 255, 255), (250, 200, 120)  # ground of what a panel says, also of a blocked motion
+PANEL, COLUMNS = 400, 4  # [px] size of a panel; number of panels side by side (1600 px at most)
+MARGIN = 0.35  # margin around the moving part, as a share of its diagonal, so that its neighbours are visible
+AIR = 0.04  # further margin on each side, as a share of the picture
+GHOST = 0.3  # opacity of the part where it is hidden
+AXIS_SCALE, RING = 3.0, 0.1  # shares of the part's diagonal: diagonal passed to `axis_line`; radius of the ring
+LEGIBLE = 0.5  # minimum size of the axis, as a share of the picture's side
+TITLE, WORD = 24, 18  # [px] font size of a panel's number, and of its motion label
+WHITE, BLOCKED = (255, 255, 255), (250, 200, 120)  # background of the motion label, and of that of a blocked motion
 STILL_LINE, PART_LINE, LINE = (120, 120, 120), (8, 30, 90), 0.55  # colours of lines along creases, and their opacity
-CREASE = 0.82  # cosine (35 degrees) below which a surface bends sharply
-SKETCH = 64  # [px] of the pictures that the camera is chosen with
-DEPTH = 0.02  # share of the diagonal from which a difference in depth counts
+CREASE = 0.82  # cosine (of 35 degrees) between normals below which a line is drawn
+SKETCH = 64  # [px] size of the pictures used to choose the camera
+DEPTH = 0.02  # share of the diagonal above which a difference in depth counts
 ELEVATION_WEIGHTS = {
     24: 1.0,
     55: 0.75,
     -24: 0.4,
-}  # elevations [deg]; how welcome they are: people know things from a little above
+}  # elevations [deg] and their weights: people usually see objects from slightly above
 AZIMUTH_WEIGHTS = {
     35: 1.0,
     -35: 1.0,
@@ -43,11 +43,11 @@ AZIMUTH_WEIGHTS = {
     -75: 0.9,
     145: 0.8,
     -145: 0.8,
-}  # azimuths [deg]; obliquely, all three sizes show
+}  # azimuths [deg] and their weights: oblique views show all three dimensions
 
 
 def moved(mesh: Mesh, moving: Bool[np.ndarray, " F"], T: Float[np.ndarray, "4 4"]) -> Mesh:
-    """The mesh with some faces moved; faces keep their numbers, vertices are no longer shared."""
+    """Return the mesh with some faces moved. Faces keep their indices; vertices are no longer shared."""
     triangles = mesh.triangles.copy()
     triangles[moving] = triangles[moving] @ T[:3, :3].T + T[:3, 3]
     faces = np.arange(3 * len(triangles)).reshape(-1, 3)
@@ -64,11 +64,12 @@ def motion_strip(
     camera: Camera | None = None,
     scene: RayScene | None = None,
 ) -> UInt8[np.ndarray, "H W 3"]:
-    """Draw panels in rows: the rest pose, then the part moved by each motion, with its axis and the outline of its rest pose.
+    """Draw panels in rows: the rest pose, then each motion with its axis and the outline of the rest pose.
 
-    moving: the part's faces, and those of whatever it carries; motions: each with the amount [rad or m] that is shown;
-    numbers: the panels' titles, 1, 2, ... if None; blocked: motions whose titles say so; camera: `strip_camera` if None;
-    scene: the mesh's rays, if they are at hand. Raises ValueError when nothing moves.
+    moving: faces of the part and of everything it carries; motions: each with the amount [rad or m] that is shown;
+    numbers: titles of the panels, 1, 2, ... if None; blocked: motions that are labelled as blocked; camera: `strip_camera` if
+    None;
+    scene: the mesh's ray scene, if it already exists. Raise ValueError if nothing moves.
     """
     posed, poses = _poses(mesh, moving, motions, scene)
     camera = camera or _best_camera(posed, poses, motions, PANEL)
@@ -95,7 +96,7 @@ def motion_strip(
 def strip_camera(
     mesh: Mesh, moving: Bool[np.ndarray, " F"], motions: Sequence[tuple[Motion, float]], size: int = PANEL
 ) -> Camera:
-    """Return the camera in which the least different two of the poses differ most; it frames what moves, in every pose."""
+    """Choose the camera that maximizes the smallest difference between any two poses; it frames the part in every pose."""
     posed, poses = _poses(mesh, moving, motions)
     return _best_camera(posed, poses, motions, size)
 
@@ -103,7 +104,7 @@ def strip_camera(
 def _poses(
     mesh: Mesh, moving: Bool[np.ndarray, " F"], motions: Sequence[tuple[Motion, float]], scene: RayScene | None = None
 ) -> tuple[Posed, list[np.ndarray]]:
-    """The object, and the transforms of its part: at rest and moved."""
+    """Return the object, and the transforms of its part: at rest and moved. Raise ValueError if nothing moves."""
     if not moving.any():
         raise ValueError("a motion needs faces that move, found none")
     posed = Posed(mesh, moving, scene or RayScene(mesh.vertices, mesh.faces))
@@ -111,9 +112,9 @@ def _poses(
 
 
 def _painted(still: Still, lines: Bool[np.ndarray, "H W"], part: PartPixels) -> UInt8[np.ndarray, "H W 3"]:
-    """The picture of a pose, with lines along creases and borders. Where something hides the part, it shines through.
+    """Draw a pose with lines along creases and borders; the part is blended over what hides it.
 
-    lines: of what stands still.
+    lines: those of the static faces.
     """
     shape = lines.shape
     before = part.distance < still.distance[part.pixel]
@@ -137,7 +138,7 @@ def _painted(still: Still, lines: Bool[np.ndarray, "H W"], part: PartPixels) -> 
 def _lines(
     depth: Float[np.ndarray, "H W"], normal: Float[np.ndarray, "H W 3"], seen: Bool[np.ndarray, "H W"]
 ) -> Bool[np.ndarray, "H W"]:
-    """Pixels before whose right or lower neighbour the surface ends, bends sharply, or becomes another."""
+    """Mark pixels whose right or lower neighbour is background, another part, or differs sharply in its normal."""
     found = np.zeros(depth.shape, bool)
     for axis in (0, 1):
         before, after = ((slice(None),) * axis + (s,) for s in (slice(None, -1), slice(1, None)))
@@ -149,7 +150,7 @@ def _lines(
 
 
 def silhouette(triangles: Float[np.ndarray, "n 3 3"], camera: Camera, rays: Rays | None = None) -> Bool[np.ndarray, "H W"]:
-    """The pixels that would show these triangles if nothing else were there. rays: the camera's, if they are at hand."""
+    """Return the pixels that would show these triangles alone. rays: the camera's, if already computed."""
     scene = RayScene(triangles.reshape(-1, 3), np.arange(3 * len(triangles)).reshape(-1, 3))
     return (scene.first_hit(*(rays or camera.rays())).face >= 0).reshape(camera.height, camera.width)
 
@@ -157,9 +158,10 @@ def silhouette(triangles: Float[np.ndarray, "n 3 3"], camera: Camera, rays: Rays
 def _axis(
     corners: Float[np.ndarray, "n 3"], motion: Motion, amount: float, camera: Camera
 ) -> tuple[Float[np.ndarray, "2 3"], Float[np.ndarray, "k 3"] | None]:
-    """The arrow along the axis, the way that this motion goes, and the ring of a turn.
+    """Return the arrow along the axis in the direction of the motion, and the ring if it rotates.
 
-    Their size follows the part at rest, which has these corners, but they can be seen in this camera's picture.
+    corners: vertices of the part at rest, which determine the size; the result is at least large enough to be visible in this
+    camera's picture.
     """
     depth = float(camera.project(corners.mean(0)[None])[1][0])
     size = max(float(np.linalg.norm(np.ptp(corners, axis=0))), LEGIBLE * 2 * depth * float(np.tan(camera.fov / 2)))
@@ -202,7 +204,7 @@ def _best_camera(posed: Posed, poses: Sequence[np.ndarray], motions: Sequence[tu
 def _tightened(
     camera: Camera, posed: Posed, places: Sequence[Float[np.ndarray, "k 3"]], points: Float[np.ndarray, "n 3"], size: int
 ) -> Camera:
-    """Turned at the part in every pose, at these points, and at as much round them as MARGIN says, where something is."""
+    """Frame the part in every pose, these points, and a margin of MARGIN where the object fills it."""
     still = np.isfinite(posed.still_hits(camera.rays()).distance).reshape(camera.height, camera.width)
     moving = camera.project(np.concatenate([*places, points]))[0]
     low, high = moving.min(0), moving.max(0)
@@ -217,13 +219,13 @@ def _corners(bounds: Float[np.ndarray, "2 3"]) -> Float[np.ndarray, "8 3"]:
 
 
 def _framed(camera: Camera, points: Float[np.ndarray, "n 3"]) -> Camera:
-    """Turned at some points, with a little air round them."""
+    """Frame some points, with a small margin around them."""
     pixel = camera.project(points)[0]
     return zoom(camera, np.concatenate([pixel.min(0), pixel.max(0)]), AIR, camera.height)
 
 
 def _depths(posed: Posed, poses: Sequence[np.ndarray], camera: Camera, rays: Rays) -> list[Float[np.ndarray, " n"]]:
-    """Depth where a picture of each pose shows what moves, in lengths of the rays; inf elsewhere."""
+    """Return the depth of the visible moving part for each pose, in lengths of the rays; inf elsewhere."""
     before = posed.still_hits(rays).distance
     found = []
     for T in poses:
@@ -235,9 +237,9 @@ def _depths(posed: Posed, poses: Sequence[np.ndarray], camera: Camera, rays: Ray
 
 
 def _difference(depths: Sequence[Float[np.ndarray, " n"]], min_difference: float) -> float:
-    """How different poses look: the least and (weighed less) the mean share of pixels by which two of them differ.
+    """Score how different the poses look: the minimum plus 0.2 times the mean share of pixels that differ between two poses.
 
-    The rest pose, the first, should show what moves, too.
+    The share of pixels that show the part in the first pose, at rest, is added with weight 0.2.
     """
     clipped = np.minimum(np.array(depths), 1e9)
     pairs = [(np.abs(a - b) > min_difference).mean() for k, a in enumerate(clipped) for b in clipped[:k]]
@@ -251,7 +253,7 @@ def _half(picture: UInt8[np.ndarray, "H W 3"]) -> UInt8[np.ndarray, "h w 3"]:
 
 
 def _titled(panel: UInt8[np.ndarray, "H W 3"], title: str, word: str = "") -> UInt8[np.ndarray, "H W 3"]:
-    """The panel with its number in a corner, how the part moves beside it, and a frame."""
+    """Draw the panel's number in a corner, its motion label beside it, and a frame."""
     drawn = Image.fromarray(panel)
     draw = ImageDraw.Draw(drawn)
     draw.rectangle([0, 0, panel.shape[1] - 1, panel.shape[0] - 1], outline=(150, 150, 150))
@@ -266,7 +268,7 @@ def _titled(panel: UInt8[np.ndarray, "H W 3"], title: str, word: str = "") -> UI
 
 
 def grid(panels: Sequence[UInt8[np.ndarray, "h w 3"]]) -> UInt8[np.ndarray, "H W 3"]:
-    """Panels of one size in as few rows as `COLUMNS` allows, the rows as even as can be; empty cells are white."""
+    """Arrange panels of one size in at most `COLUMNS` columns, with rows as even as possible; empty cells are white."""
     rows = -(-len(panels) // COLUMNS)
     columns = -(-len(panels) // rows)
     cells = [*panels, *[np.full_like(panels[0], 255)] * (rows * columns - len(panels))]

@@ -1,4 +1,4 @@
-"""The views that a model is shown (paper, 3.2 and 3.3): cameras round the object, the best view of a part, close-ups."""
+"""Views that are shown to a model (paper, 3.2 and 3.3): cameras around the object, the best view of a part, close-ups."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ SIDES = ("front", "front right", "right", "back right", "back", "back left", "le
 MAX_LEVEL_DEG, MIN_STEEP_DEG = (
     0.5,
     30.0,
-)  # [deg] a view is level below the first, and one from above (or from below) from the second
+)  # [deg] elevation below which a view is level; from which it is described as from above or below
 
 
 def views(mesh: Mesh, config: ViewsConfig, *, size: int | None = None, scene: RayScene | None = None) -> list[View]:
-    """The views round the object, in the order of `config.directions`.
+    """Render the views around the object, in the order of `config.directions`.
 
-    size: [px] both ways, `config.size` if None; scene: of this very mesh, when it is cast at again.
+    size: [px] per side, `config.size` if None; scene: the ray scene of this mesh, if it already exists.
     """
     scene = scene or RayScene(mesh.vertices, mesh.faces)
     return [shown(mesh, camera, scene) for camera in cameras(mesh, config, size or config.size)]
@@ -35,7 +35,7 @@ def views(mesh: Mesh, config: ViewsConfig, *, size: int | None = None, scene: Ra
 def cameras(
     mesh: Mesh, config: ViewsConfig, size: int, directions: Sequence[tuple[float, float]] | None = None
 ) -> list[Camera]:
-    """The cameras of `views`: at the paper's distance, each turned and zoomed until the object fills its picture.
+    """Return the cameras of `views`: at the paper's distance, each turned and zoomed until the object fills its picture.
 
     directions: azimuth and elevation of each [deg], `config.directions` if None.
     """
@@ -45,7 +45,7 @@ def cameras(
     for azimuth, elevation in config.directions if directions is None else directions:
         eye = center + distance * away(np.deg2rad(azimuth), np.deg2rad(elevation))
         camera = Camera.looking_at(eye, center, float(np.deg2rad(config.fov)), size, size)
-        for _ in range(2):  # a camera that is turned sees the object's outline a little otherwise
+        for _ in range(2):  # turning the camera changes the object's outline slightly
             pixel = camera.project(used)[0]
             camera = zoom(camera, np.concatenate([pixel.min(0), pixel.max(0)]), config.air, size)
         found.append(camera)
@@ -53,12 +53,12 @@ def cameras(
 
 
 def away(azimuth: float, elevation: float) -> Float[np.ndarray, " 3"]:
-    """Unit vector from the object to the camera; azimuth 0 looks along +y, 90 degrees along -x."""
+    """Return the unit vector from the object to the camera; azimuth 0 looks along +y, 90 degrees along -x."""
     return np.array([np.sin(azimuth) * np.cos(elevation), -np.cos(azimuth) * np.cos(elevation), np.sin(elevation)])
 
 
 def orbit_camera(bounds: Float[np.ndarray, "2 3"], azimuth: float, elevation: float, size: int) -> Camera:
-    """A camera that sees the whole box, from an azimuth (0 looks along +y) and an elevation [rad]."""
+    """Return a camera that sees the whole box, from an azimuth (0 looks along +y) and an elevation [rad]."""
     center = bounds.mean(0)
     radius = 0.5 * float(np.linalg.norm(bounds[1] - bounds[0]))
     fov = np.deg2rad(32)
@@ -66,7 +66,7 @@ def orbit_camera(bounds: Float[np.ndarray, "2 3"], azimuth: float, elevation: fl
 
 
 def caption(azimuth: float, elevation: float, front: float | None = None) -> str:
-    """Say where a view is from. front: the azimuth from which the front is seen, None while nobody said; all in [deg]."""
+    """Describe the direction of a view in words. front: azimuth from which the front is seen, None if unknown; all in [deg]."""
     side = f"turned by {azimuth:.0f} degrees" if front is None else f"from the {SIDES[round((azimuth - front) / 45) % 8]}"
     if abs(elevation) < MAX_LEVEL_DEG:
         return f"{side}, level"
@@ -76,8 +76,11 @@ def caption(azimuth: float, elevation: float, front: float | None = None) -> str
 
 
 def shown(mesh: Mesh, camera: Camera, scene: RayScene) -> View:
-    """A view with outlines and creases, lit from the camera. Colours are smooth at edges; the other buffers are those of one
-    ray a pixel. Give the mesh corner normals (`smooth.smoothed`) and curved surfaces look curved."""
+    """Render a view with outlines and creases, lit from the camera.
+
+    Colours are antialiased; the other buffers hold one ray per pixel. With corner normals (`smooth.smoothed`), curved surfaces
+    look curved.
+    """
     shape = (camera.height, camera.width)
     samples = sample(render_target(mesh, scene, np.zeros(len(mesh.faces), np.int64)), camera, Window(0, 0, *shape[::-1]))
     white = np.full((*shape, 3), BACKGROUND, np.float32)
@@ -87,29 +90,29 @@ def shown(mesh: Mesh, camera: Camera, scene: RayScene) -> View:
 
 
 def normal_picture(view: View) -> UInt8[np.ndarray, "H W 3"]:
-    """Normals as colours, x y z of the asset frame to red green blue; the background as in `View.color`."""
+    """Return normals as colours: x, y, z of the asset frame as red, green, blue; the background is as in `View.color`."""
     color = np.round(127.5 * (view.normal + 1))
     color[view.face < 0] = BACKGROUND
     return color.astype(np.uint8)
 
 
 def part_pixels(view: View, face_part: Int[np.ndarray, " F"], part: int) -> Bool[np.ndarray, "H W"]:
-    """Where a view shows a part: pixels whose first hit is one of its faces."""
+    """Return the pixels that show a part: those whose first hit is one of its faces."""
     return (view.face >= 0) & (face_part[view.face] == part)
 
 
 def visible_pixels(view: View, face_part: Int[np.ndarray, " F"], part: int) -> int:
-    """How many pixels show a part, what hides it taken into account."""
+    """Count the pixels that show a part, considering occlusion."""
     return int(part_pixels(view, face_part, part).sum())
 
 
 def best_view(views: Sequence[View], face_part: Int[np.ndarray, " F"], part: int) -> int:
-    """The number of the view with most pixels of a part (paper, 3.3); the first of those that have as many."""
+    """Return the index of the view with most pixels of a part (paper, 3.3); the first one in case of a tie."""
     return int(np.argmax([visible_pixels(v, face_part, part) for v in views]))
 
 
 def hidden_points(scene: RayScene, camera: Camera, points: Float[np.ndarray, "k 3"], depth: float) -> Bool[np.ndarray, " k"]:
-    """Which points lie behind a surface by more than `depth` [m], as the camera sees them."""
+    """Return which points lie more than `depth` [m] behind a surface, as seen by the camera."""
     eye = camera.T_world_camera[:3, 3]
     rays = points - eye
     hits = scene.first_hit(np.broadcast_to(eye, rays.shape).copy(), rays, 1.0)
@@ -117,7 +120,7 @@ def hidden_points(scene: RayScene, camera: Camera, points: Float[np.ndarray, "k 
 
 
 def box_of(mask: Bool[np.ndarray, "H W"]) -> Float[np.ndarray, " 4"]:
-    """The pixels' bounding box x0, y0, x1, y1, pixel (0, 0) being 0..1. Raises ValueError when there is none."""
+    """Return the bounding box x0, y0, x1, y1 of the pixels; pixel (0, 0) spans 0..1. Raise ValueError if there is none."""
     if not mask.any():
         raise ValueError("a box needs at least one pixel, found none")
     columns, rows = np.flatnonzero(mask.any(0)), np.flatnonzero(mask.any(1))
@@ -125,9 +128,10 @@ def box_of(mask: Bool[np.ndarray, "H W"]) -> Float[np.ndarray, " 4"]:
 
 
 def zoom(camera: Camera, box: Float[np.ndarray, " 4"], margin: float, size: int) -> Camera:
-    """A camera at the same place that is turned at a box of the picture (x0, y0, x1, y1 [px]) and sees just that.
+    """Return a camera at the same place that is turned and zoomed to a box of the picture (x0, y0, x1, y1 [px]).
 
-    margin: added on each side, a share of the box. Nothing is cut from a finer picture: rays are exact at any fineness.
+    margin: added on each side, as a share of the box. The view is rendered again, not cropped, so it is exact at any
+    resolution.
     """
     low, high = box[:2] - margin * (box[2:] - box[:2]), box[2:] + margin * (box[2:] - box[:2])
     corners = np.array([[low[0], low[1]], [high[0], low[1]], [low[0], high[1]], [high[0], high[1]], (low + high) / 2])
@@ -135,14 +139,15 @@ def zoom(camera: Camera, box: Float[np.ndarray, " 4"], margin: float, size: int)
     eye = camera.T_world_camera[:3, 3]
     points = eye + np.concatenate([flat, np.ones((5, 1))], 1) @ camera.T_world_camera[:3, :3].T
     turned = Camera.looking_at(eye, points[4], np.pi / 2, size, size)
-    half = np.abs(turned.project(points[:4])[0] / (size / 2) - 1).max()  # the tangent, as 45 degrees have 1
+    # tangent of half the field of view: at 45 degrees it is 1
+    half = np.abs(turned.project(points[:4])[0] / (size / 2) - 1).max()
     return replace(turned, fov=float(2 * np.arctan(half)))
 
 
 def close_up(
     mesh: Mesh, view: View, face_part: Int[np.ndarray, " F"], part: int, config: ViewsConfig, scene: RayScene
 ) -> View | None:
-    """A close-up of a part that covers too little of a view; None when it covers enough, or nothing.
+    """Return a close-up of a part that covers too few pixels of a view; None if it covers enough, or none.
 
     `config.zoom_below` counts pixels of a picture of `config.size`.
     """

@@ -1,4 +1,4 @@
-"""The pictures that questions are asked with: one object, with its parts, seen from the paper's views."""
+"""Pictures for questions: an object with its parts, seen from the paper's views."""
 
 from __future__ import annotations
 
@@ -25,27 +25,27 @@ from anymesh.types import Mesh, Motion, Picture
 from anymesh.types.camera import Camera
 
 ARROW = 0.35  # length of an arrow, as a share of the part's size
-UNDER = 0.003  # share of the diagonal: a point that lies deeper under a surface is hidden
+UNDER = 0.003  # share of the diagonal: points deeper than this below a surface count as hidden
 
 
 @dataclass(frozen=True, eq=False)
 class Shot:
-    """A part in the view that shows most of it, close up when it is small there."""
+    """A part in its best view, in close-up if it is small there."""
 
     view: View
-    mask: np.ndarray  # (H, W) where the part is
+    mask: np.ndarray  # (H, W) pixels of the part
 
     def project(self, points: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 2"]:
-        """Pixels of points [m] in the picture, before its title is put above it."""
+        """Project points [m] to pixels of the picture, without the title bar."""
         return self.view.camera.project(points)[0]
 
     def is_inside(self, points: Float[np.ndarray, "n 3"]) -> Bool[np.ndarray, " n"]:
-        """Which points [m] lie inside the picture, so that they can be drawn."""
+        """Return which points [m] lie inside the picture, so that they can be drawn."""
         pixels, camera = self.project(points), self.view.camera
         return np.all((pixels >= 0) & (pixels < [camera.width, camera.height]), axis=1)
 
     def inside(self, points: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "k 3"]:
-        """The points [m] inside the picture; where there is none, the one nearest to its middle."""
+        """Return the points [m] inside the picture; if there are none, the one nearest to its centre."""
         if len(points) == 0 or (kept := self.is_inside(points)).any():
             return points[kept] if len(points) else points
         middle = np.array([self.view.camera.width, self.view.camera.height]) / 2
@@ -54,13 +54,13 @@ class Shot:
     def with_points(
         self, points: Float[np.ndarray, "k 3"], title: str, hidden: Bool[np.ndarray, " k"] | None = None
     ) -> Picture:
-        """The picture with numbered points, 1, 2, ...; hidden: those that are drawn hollow."""
+        """Draw the picture with points numbered 1, 2, ...; hidden: points that are drawn hollow."""
         image = draw_points(highlight(self.view.color, self.mask), self.project(points), range(1, len(points) + 1), hidden)
         return encode(titled(image, title))
 
 
 class VisualPrompts:
-    """Draws one object, with its parts where they are known (face_part: (F,) the part of each face)."""
+    """Draws the pictures of one object, and of its parts (face_part: (F,) part index per face)."""
 
     def __init__(self, mesh: Mesh, config: Config) -> None:
         self._mesh, self._config = smoothed(mesh), config
@@ -68,25 +68,25 @@ class VisualPrompts:
 
     @cached_property
     def scene(self) -> RayScene:
-        """The mesh's rays."""
+        """Ray scene of the mesh."""
         return RayScene(self._mesh.vertices, self._mesh.faces)
 
     @cached_property
     def views(self) -> list[View]:
-        """The object from all sides."""
+        """Views of the object from all sides."""
         return views(self._mesh, self._config.views, scene=self.scene)
 
     @cached_property
     def face_colors(self) -> Float[np.ndarray, "F 3"]:
-        """sRGB colour of every face, 0..1."""
+        """sRGB colour of each face, 0..1."""
         return face_colors(self._mesh) / 255.0
 
     def view(self, camera: Camera) -> View:
-        """What one more camera sees."""
+        """Render the view of another camera."""
         return shown(self._mesh, camera, self.scene)
 
     def insides(self, inside: Bool[np.ndarray, " F"]) -> list[View]:
-        """Some faces alone, the rest as a ghost, from `config.views.inside`."""
+        """Render some faces alone, with the rest as a ghost, from `config.views.inside_directions`."""
         config, key = self._config.views, inside.tobytes()
         if self._inside is None or self._inside[0] != key:
             eyes = cameras(self._mesh, config, config.size, config.inside_directions)
@@ -94,41 +94,41 @@ class VisualPrompts:
         return self._inside[1]
 
     def clearest_inside_views(self, inside: Bool[np.ndarray, " F"], most: int) -> list[int]:
-        """Numbers of the views of `insides` that show most of the faces, `most` of them at most, in their order."""
+        """Return the indices, in ascending order, of at most `most` views of `insides` with most pixels of the faces."""
         pixels = [int((view.face >= 0).sum()) for view in self.insides(inside)]
         return sorted(sorted(range(len(pixels)), key=lambda k: -pixels[k])[:most])
 
     def inside_names(self, front: float | None = None) -> list[str]:
-        """What each of these shows, in words."""
+        """Return the captions of the views of `insides`."""
         ways = self._config.views.inside_directions
         return [f"inside the object, {caption(*way, front)}; the rest is shown as a ghost" for way in ways]
 
     def pictures(
         self, images: Sequence[UInt8[np.ndarray, "H W 3"]], names: Sequence[str], note: str = ""
     ) -> tuple[Picture, ...]:
-        """Images with captions that number them from 1, as answers do."""
+        """Encode images with captions that number them from 1, as answers refer to them."""
         return tuple(
             encode(im, f"picture {k}: {name}{note}") for k, (im, name) in enumerate(zip(images, names, strict=True), 1)
         )
 
     def names(self, count: int, front: float | None = None) -> list[str]:
-        """What each view shows, in words: those from all sides, then close-ups, `count` in all. front: see `caption`."""
+        """Return `count` captions: of the views from all sides, then of close-ups. front: see `caption`."""
         found = [caption(*way, front) for way in self._config.views.directions]
         return (found + ["a close-up"] * (count - len(found)))[:count]
 
     def card(
         self, face_part: Int[np.ndarray, " F"], part: int, title: str, contact: Float[np.ndarray, "c 3"] | None = None
     ) -> Picture:
-        """The whole object with the part marked, and a close-up when it is small; contact: points that should be seen [m]."""
+        """Draw the highlighted part, and a close-up if it is small; contact: points [m] that should be visible."""
         return encode(part_card(self._mesh, self.views, face_part, part, title, self._config.views, self.scene, contact))
 
     def shot(self, face_part: Int[np.ndarray, " F"], part: int) -> Shot:
-        """The part in its best view."""
+        """Return the part in its best view."""
         view = self._near(self.views[best_view(self.views, face_part, part)], face_part, part)
         return Shot(view, self._mask(view, face_part, part))
 
     def hidden(self, shot: Shot, points: Float[np.ndarray, "k 3"]) -> Bool[np.ndarray, " k"]:
-        """Which points [m] lie under a surface, as the shot's camera sees them."""
+        """Return which points [m] lie below a surface, as seen by the shot's camera."""
         return hidden_points(self.scene, shot.view.camera, points, UNDER * self._mesh.diagonal)
 
     def arrows(
@@ -139,7 +139,7 @@ class VisualPrompts:
         center: Float[np.ndarray, " 3"],
         directions: Float[np.ndarray, "k 3"],
     ) -> Picture:
-        """The part with numbered arrows, in the view where they are most distinct."""
+        """Draw the part with numbered arrows, in the view where they are most distinct."""
         view = self.views[clearest_view(self.views, center, directions, face_part, part)]
         view = self._near(view, face_part, part)
         length = ARROW * float(np.linalg.norm(np.ptp(self._mesh.triangles[face_part == part].reshape(-1, 3), axis=0)))
@@ -155,15 +155,15 @@ class VisualPrompts:
         amounts: Sequence[float],
         blocked: Sequence[bool] = (),
     ) -> Picture:
-        """A part, with what it carries, at rest and moved by the amount of each motion [rad or m]. blocked: marked so."""
+        """Draw a part and what it carries, at rest and moved by each amount [rad or m]. blocked: motions labelled so."""
         shown = list(zip(motions, amounts, strict=True))
         return encode(titled(motion_strip(self._mesh, moving, shown, blocked=blocked, scene=self.scene), title))
 
     def _near(self, view: View, face_part: np.ndarray, part: int) -> View:
-        """A close-up where the part is small in the view."""
+        """Return a close-up if the part is small in the view, else the view."""
         return close_up(self._mesh, view, face_part, part, self._config.views, self.scene) or view
 
     def _mask(self, view: View, face_part: np.ndarray, part: int) -> np.ndarray:
-        """Where the part is; the shape that shines through when nothing of it is seen."""
+        """Return the pixels of the part, or its full silhouette if nothing of it is visible."""
         mask = part_pixels(view, face_part, part)
         return mask if mask.any() else silhouette(self._mesh.triangles[face_part == part], view.camera)

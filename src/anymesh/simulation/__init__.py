@@ -1,1 +1,1 @@
-"""Does the asset move in a simulator? One file per engine, one report for all."""
+"""Tests of an asset's motion in simulators: one file per engine, one report format for all."""

@@ -1,4 +1,4 @@
-"""How deep links are in each other at rest, as MuJoCo collides them: by the convex hulls of their collision shapes."""
+"""Penetration depths of links at rest in MuJoCo, which collides the convex hulls of their collision shapes."""
 
 from __future__ import annotations
 
@@ -8,13 +8,14 @@ from anymesh.errors import InputError
 from anymesh.mujoco_ import load_mujoco
 from anymesh.simulation.mujoco_bench_ import depths, read_spec
 
-LIGHT = 1e-9  # [kg, kg m2] for links that the file gives no inertia; they only stand here
+LIGHT = 1e-9  # [kg, kg m2] for links without inertia in the file; only the rest pose is used
 
 
 def rest_contacts(path: Path) -> dict[tuple[str, str], float]:
-    """Deepest penetration [m] of each pair of links in contact, with the joint-connected ones, without those excluded.
+    """Return the deepest penetration [m] of each pair of links in contact.
 
-    InputError when MuJoCo cannot load the file, MissingExtraError without MuJoCo.
+    Pairs connected by a joint are included, pairs excluded by the file are not. Raise InputError if MuJoCo cannot load the
+    file, MissingExtraError without MuJoCo.
     """
     mujoco = load_mujoco()
     try:

@@ -1,4 +1,4 @@
-"""Drake: a URDF parsed into a multibody plant with implicit motors; its own convex hulls of the collision meshes."""
+"""Drake: a URDF parsed into a multibody plant with implicit motors, and Drake's convex hulls of the collision meshes."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from anymesh.simulation.urdf import read_urdf
 
 
 def sweep_joints(path: Path) -> SweepReport:
-    """Drives every joint of a URDF over its range. InputError when Drake cannot load it, MissingExtraError without it."""
+    """Drive every joint of a URDF over its range. Raise InputError if Drake cannot load it, MissingExtraError without Drake."""
     drake = load_engine("pydrake.all", shown="Drake", extra="drake")
     robot = readable(read_urdf(path))
     return drive(_World(drake, Path(path), motors_of(robot), robot.roots[0]), robot)
@@ -30,7 +30,7 @@ class _World:
         plant, _ = drake.AddMultibodyPlantSceneGraph(builder, time_step=STEP)
         try:
             (model,) = drake.Parser(plant).AddModels(str(path))
-        except Exception as error:  # its parser tells faults as RuntimeError and others
+        except Exception as error:  # its parser raises RuntimeError and others
             raise InputError(f"Drake cannot load {path}: {error}") from error
         self.plant, self.model = plant, model
         base = self._body(root)
@@ -74,7 +74,7 @@ class _World:
         return self.plant.GetPositions(self.context)[self.order]
 
     def _body(self, link: str) -> Any:
-        """A link called world is Drake's own world."""
+        """Return the body of a link; a link called world is Drake's own world."""
         known = self.plant.HasBodyNamed(link, self.model)
         return self.plant.GetBodyByName(link, self.model) if known else self.plant.world_body()
 

@@ -1,4 +1,4 @@
-"""Every joint driven through its range by a motor: the loop that is the same for all engines but MuJoCo."""
+"""Driving of every joint through its range by a motor: the loop shared by all engines except MuJoCo."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ from anymesh.simulation.motors import REACHED_RATIO, Motor, motors_of
 from anymesh.simulation.report import JointSweep, SweepReport
 from anymesh.simulation.robot import Robot, RobotJoint
 
-STEP = 0.005  # [s] of simulated time
-HOLD_STEPS = 100  # steps that a motor is held at a limit
-SAME = 1e-4  # limits as read back differ by less [rad or m]
-DEEP = 0.01  # of the asset's extent: displacement that counts
+STEP = 0.005  # [s] simulated time step
+HOLD_STEPS = 100  # steps for which a motor is held at a limit
+SAME = 1e-4  # tolerance of limits as read by the engine [rad or m]
+DEEP = 0.01  # share of the asset's extent: displacement that counts as a fault
 
 
 @dataclass(frozen=True)
 class ReadBack:
-    """A joint as an engine read it; limits are None where it knows none."""
+    """A joint as read by an engine; limits are None if it has none."""
 
     name: str
     child: str
@@ -30,35 +30,35 @@ class ReadBack:
 
 @runtime_checkable
 class World(Protocol):
-    """One asset in one engine: root fixed, no gravity, a motor a joint."""
+    """Protocol of one asset in one engine: root fixed, no gravity, one motor per joint."""
 
-    engine: str  # its name and version
+    engine: str  # name and version
 
     @property
     def joints(self) -> Sequence[ReadBack]:
-        """Those that move."""
+        """Moving joints."""
 
     def reset(self) -> None:
-        """All joints to 0, at rest."""
+        """Set all joints to 0, at rest."""
 
     def step(self, targets: Float[np.ndarray, " n"]) -> None:
-        """STEP seconds on, the motors led to targets [rad or m], in the order of `joints`."""
+        """Advance by STEP seconds, with motor targets [rad or m], in the order of `joints`."""
 
     def positions(self) -> Float[np.ndarray, " n"]:
-        """Of the joints, in the order of `joints`."""
+        """Return the positions of the joints, in the order of `joints`."""
 
     def origin(self, link: str) -> Float[np.ndarray, " 3"]:
-        """Of a link's frame, in the root's [m]."""
+        """Return the origin of a link's frame, in the root's frame [m]."""
 
     def turned(self, link: str) -> Float[np.ndarray, "3 3"]:
-        """A link's axes in the root's frame."""
+        """Return the rotation of a link's axes in the root's frame."""
 
 
 def drive(world: World, robot: Robot) -> SweepReport:
-    """Leads every joint to its upper limit, then its lower, the others held at rest; tells how it went.
+    """Drive every joint to its upper limit, then to its lower one, with the others held at rest; return the report.
 
-    A joint that does not come through is tried again with others opened (a drawer behind a door), which the report says.
-    A joint that the engine does not know is a fault, and so are limits that it reads otherwise than the file has them.
+    A joint that fails is tried again with others opened (such as a drawer behind a door), which the report states. A joint that
+    the engine does not know is a fault, and so are limits that differ from the file.
     """
     known = {j.name: k for k, j in enumerate(world.joints)}
     motors = {m.joint: m for m in motors_of(robot)}
@@ -75,7 +75,7 @@ def drive(world: World, robot: Robot) -> SweepReport:
 
 
 def _extent(robot: Robot) -> float:
-    """A length that displacements are judged by: the spread of the links' centres of mass and frames [m]."""
+    """Return a reference length for displacements: the spread of the links' centres of mass and frames [m]."""
     at = robot.placements({})
     points = [at[link.name][:3, 3] for link in robot.links]
     points += [(at[b.name] @ np.r_[b.inertial.center, 1])[:3] for b in robot.links if b.inertial is not None]
@@ -83,7 +83,7 @@ def _extent(robot: Robot) -> float:
 
 
 def _cleared(world: World, robot: Robot, joint: RobotJoint, motors: Mapping[str, Motor], extent: float) -> JointSweep:
-    """The sweep at rest; if that fails, with another joint opened that may be in the way, or with all of those."""
+    """Sweep a joint at rest; if that fails, with one other joint opened that may be in the way, or with all of those."""
     found = _swept(world, robot, joint, motors, extent, ())
     related = robot.carried(joint.child)
     known = {j.name for j in world.joints}
@@ -128,12 +128,12 @@ def _swept(
 
 
 def _smooth(seconds: float) -> Float[np.ndarray, " n"]:
-    """Shares of a way, from 0 to 1, a step each."""
+    """Return shares of a smooth motion from 0 to 1, one per step."""
     return (1 - np.cos(np.linspace(0, np.pi, round(seconds / STEP)))) / 2
 
 
 def _off(world: World, robot: Robot, joint: RobotJoint, positions: np.ndarray) -> float:
-    """How far the link's centre of mass is from where the file's joints put it at the positions reached [m]."""
+    """Compute the distance of the link's centre of mass from its position by the file's joints [m]."""
     at = robot.placements(dict(zip((j.name for j in world.joints), positions.tolist(), strict=True)))
     T = np.linalg.inv(at[robot.roots[0]]) @ at[joint.child]
     link = next(b for b in robot.links if b.name == joint.child)

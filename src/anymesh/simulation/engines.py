@@ -1,4 +1,4 @@
-"""The engines by name. Each but MuJoCo runs in a process of its own, since some end the process where others raise."""
+"""Engines by name. Each except MuJoCo runs in its own process, since some end the process instead of raising."""
 
 from __future__ import annotations
 
@@ -19,17 +19,18 @@ KINDS: dict[str, type[AnymeshError]] = {kind.__name__: kind for kind in (InputEr
 
 
 def check_engine(name: str) -> str:
-    """The name, if there is such an engine. OptionError when not."""
+    """Return the name of an engine. Raise OptionError if it does not exist."""
     if name not in ENGINES:
         raise OptionError(f"found the engine {name!r}; valid are {', '.join(ENGINES)}")
     return name
 
 
 def sweep_in(engine: str, path: Path, *, apart: bool | None = None, python: str = sys.executable) -> SweepReport:
-    """Every joint of a URDF (or MJCF, which MuJoCo alone reads) driven over its range in an engine.
+    """Drive every joint of a URDF (or MJCF, for MuJoCo only) over its range in an engine.
 
-    apart: in a process of its own, for all but MuJoCo when None; python: the interpreter of that process. InputError when
-    the engine cannot load the file, ends the process, or takes longer than PATIENCE; MissingExtraError without the engine.
+    apart: run in a separate process; None for all engines except MuJoCo; python: interpreter of that process.
+    Raise InputError if the engine cannot load the file, ends the process, or takes longer than PATIENCE; MissingExtraError
+    without the engine.
     """
     check_engine(engine)
     if apart if apart is not None else engine != "mujoco":
@@ -56,7 +57,7 @@ def _apart(engine: str, path: Path, python: str) -> SweepReport:
 
 
 def _answer(engine: str, path: Path, answer: Path) -> None:
-    """What the process does: the report or the error as JSON, written at once and last."""
+    """Write the report or the error as JSON, atomically; main function of the process."""
     try:
         told = as_record(sweep_in(engine, path, apart=False))
     except Exception as error:

@@ -1,4 +1,4 @@
-"""Where a mesh or picture that a robot description names lies."""
+"""Location of meshes and textures named by robot descriptions."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ PACKAGE = "package://"
 
 
 def find_file(reference: str, folder: Path) -> Path | None:
-    """The file that `reference` names, seen from the description's folder; None where there is none.
+    """Return the file that `reference` names, relative to the description's folder; None if there is none.
 
-    package://NAME/REST is looked for as NAME/REST and as REST in the folder and all above it, as ROS packages lie; a
-    backslash counts as a slash.
+    package://NAME/REST is searched as NAME/REST and as REST in the folder and all its parents, as in ROS packages. Backslashes
+    count as slashes.
     """
     reference = reference.replace("\\", "/")
     if reference.startswith(PACKAGE):

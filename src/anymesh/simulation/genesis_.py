@@ -1,4 +1,4 @@
-"""Genesis on the CPU: a URDF with its own convex hulls of the collision meshes (its kernels are compiled at first use)."""
+"""Genesis on the CPU: a URDF with Genesis' convex hulls of the collision meshes (kernels are compiled at first use)."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ from anymesh.simulation.urdf import read_urdf
 
 
 def sweep_joints(path: Path) -> SweepReport:
-    """Drives every joint of a URDF over its range. InputError when Genesis cannot load it, MissingExtraError without it.
+    """Drive every joint of a URDF over its range. Raise InputError if Genesis cannot load it, MissingExtraError without it.
 
-    Genesis is set up once a process, so this is meant for a process of its own.
+    Genesis is initialized once per process, so this should run in its own process.
     """
     genesis = load_engine("genesis", shown="Genesis", extra="genesis")
     robot = readable(read_urdf(path))
@@ -33,11 +33,11 @@ class _World:
         options = genesis.options.SimOptions(dt=STEP, gravity=(0.0, 0.0, 0.0))
         self.scene = genesis.Scene(show_viewer=False, sim_options=options)
         try:
-            # it adds a rotor's inertia of 0.1 to every joint, which the file does not have, and merges fixed links
+            # By default it adds a rotor inertia of 0.1 to every joint and merges fixed links.
             shape = genesis.morphs.URDF(file=str(path), fixed=True, default_armature=0.0, merge_fixed_links=False)
             self.body = self.scene.add_entity(shape)
             self.scene.build()
-        except Exception as error:  # its reader, trimesh and its own checks let errors of many kinds through
+        except Exception as error:  # its reader, trimesh and its own checks raise many types of errors
             raise InputError(f"Genesis cannot load {path}: {type(error).__name__}: {error}") from error
         by_name = {m.joint: m for m in motors}
         found = [j for j in self.body.joints if j.n_dofs == 1 and j.name in by_name]
@@ -66,7 +66,7 @@ class _World:
         return np.asarray(self.body.get_dofs_position(self.order).cpu(), float).reshape(-1)
 
     def _placed(self, link: str) -> Float[np.ndarray, "4 4"]:
-        """A root called world is no link of its own."""
+        """Return the pose of a link in the root's frame; a root called world has no link."""
         root = _matrix(self.links[self.root]) if self.root in self.links else np.eye(4)
         return np.linalg.inv(root) @ _matrix(self.links[link])
 

@@ -1,7 +1,7 @@
-"""MJCF as links and joints, from the model that MuJoCo compiles.
+"""MJCF files as links and joints, from the model compiled by MuJoCo.
 
-A link's frame lies at the anchor of its joint, its axes are the body's at rest; several joints of one body make links without
-shape between. Positions count from the rest that the file gives (its `ref`).
+A link's frame is at the anchor of its joint, with the axes of the body at rest. Several joints of one body become links without
+shapes between them. Positions are relative to the rest pose of the file (its `ref`).
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from anymesh.simulation.robot import Geometry, Inertial, Robot, RobotJoint, Robo
 
 
 def read_mjcf(path: Path) -> Robot:
-    """The links and joints of an MJCF. InputError when MuJoCo refuses it, MissingExtraError without MuJoCo."""
+    """Read the links and joints of an MJCF. Raise InputError if MuJoCo rejects it, MissingExtraError without MuJoCo."""
     mujoco = load_mujoco()
     path = Path(path)
     try:
@@ -68,7 +68,7 @@ class _Reader:
         return Robot(path, name, tuple(links), tuple(joints), excluded, pictures=pictures, format="MJCF")
 
     def _world_counts(self) -> bool:
-        """Whether the world is a link: it has shapes, several bodies, or one that moves against it by joints."""
+        """Return whether the world is a link: it has shapes, several bodies, or a body with joints to it."""
         tops = [b for b in range(1, self.model.nbody) if self.model.body_parentid[b] == 0]
         held = [self._kind(j) for b in tops for j in self._of(b)]
         return len(tops) != 1 or bool(self.model.body_geomnum[0]) or any(kind != "floating" for kind in held)
@@ -84,7 +84,7 @@ class _Reader:
         return self.kinds[int(self.model.jnt_type[joint])]
 
     def _frame(self, body: int, joint: int | None = None) -> Float[np.ndarray, "4 4"]:
-        """Of a link in the world at rest."""
+        """Return the pose of a link in the world at rest."""
         own = [j for j in self._of(body) if self._kind(j) != "floating"]
         chosen = joint if joint is not None else (own[-1] if own else None)
         T = np.eye(4)
@@ -121,7 +121,7 @@ class _Reader:
         return Inertial(mass, center, turn @ np.diag(self.model.body_inertia[body]) @ turn.T)
 
     def _shapes(self, body: int) -> tuple[tuple[Geometry, ...], tuple[Geometry, ...]]:
-        """Visual and collision; where nothing is only to be seen, what collides is seen."""
+        """Return visual and collision shapes; without visual-only shapes, the collision shapes are the visuals."""
         first, count = int(self.model.body_geomadr[body]), int(self.model.body_geomnum[body])
         shown, met = [], []
         for geom in range(first, first + count) if count else ():
@@ -132,7 +132,7 @@ class _Reader:
         return tuple(shown or met), tuple(met)
 
     def _shape(self, geom: int, T_link_world: np.ndarray) -> Geometry | None:
-        """None for a plane and a height field, which have no surface of their own."""
+        """Return a shape; None for planes and height fields, which have no finite surface."""
         kinds, kind = self.mujoco.mjtGeom, int(self.model.geom_type[geom])
         T = np.eye(4)
         T[:3, :3], T[:3, 3] = self.data.geom_xmat[geom].reshape(3, 3), self.data.geom_xpos[geom]

@@ -1,4 +1,4 @@
-"""The motors that drive an asset's joints, as strong as what they carry needs."""
+"""Motors that drive an asset's joints, with a strength that fits their loads."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ import numpy as np
 from anymesh.errors import InputError
 from anymesh.simulation.robot import Robot, RobotJoint
 
-REACHED_RATIO = 0.02  # of a joint's range: reached, or not moved
+REACHED_RATIO = 0.02  # share of a joint's range: tolerance for a limit being reached, and for a joint being stuck
 STIFF = 20.0  # [rad/s] natural frequency of the motors
-SETTLED = 10.0  # the least that one way is longer than what a motor takes against the joint's damping
-SLOWEST = 10.0  # [s] a way
-EFFORT = 1000.0  # [N or N m] of a motor where the file gives none
+SETTLED = 10.0  # minimum ratio of the duration of a motion to the time constant of the joint's damping
+SLOWEST = 10.0  # [s] maximum duration of a motion
+EFFORT = 1000.0  # [N or N m] default effort of a motor
 
 
 @dataclass(frozen=True)
@@ -24,11 +24,11 @@ class Motor:
     stiffness: float
     damping: float
     effort: float
-    seconds: float  # for one way
+    seconds: float  # duration of a motion from limit to limit
 
 
 def motors_of(robot: Robot) -> tuple[Motor, ...]:
-    """A critically damped motor for each joint that moves, by the inertia that it carries at rest and its friction."""
+    """Return a critically damped motor for each moving joint, from its inertia at rest and its friction."""
     found = []
     at = robot.placements({})
     for joint in robot.moving:
@@ -43,7 +43,7 @@ def motors_of(robot: Robot) -> tuple[Motor, ...]:
 
 
 def _inertia(robot: Robot, joint: RobotJoint, at: dict[str, np.ndarray]) -> float:
-    """What a motor of the joint has to move, at rest [kg or kg m2]."""
+    """Compute the inertia that a motor of the joint moves, at rest [kg or kg m2]."""
     carried = robot.carried(joint.child)
     T = at[joint.child]
     axis = T[:3, :3] @ joint.axis / np.linalg.norm(joint.axis)
@@ -62,11 +62,11 @@ def _inertia(robot: Robot, joint: RobotJoint, at: dict[str, np.ndarray]) -> floa
 
 
 def readable(robot: Robot) -> Robot:
-    """The robot when an engine can be tried on it. InputError when its joints are no tree, or one has no direction."""
+    """Return the robot if engines can load it. Raise InputError if its joints do not form a tree, or an axis is zero."""
     names = {link.name for link in robot.links}
     lost = [j.name for j in robot.joints if not {j.parent, j.child} <= names]
     if lost or len(robot.roots) != 1 or any(not np.linalg.norm(j.axis) > 0 for j in robot.moving):
-        raise InputError(f"{robot.path.name} is no tree of joints with one root and axes of some length")
+        raise InputError(f"{robot.path.name} is not a tree of joints with one root and nonzero axes")
     try:
         robot.placements({})
     except ValueError as error:

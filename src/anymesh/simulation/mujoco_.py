@@ -1,4 +1,4 @@
-"""MuJoCo: load a URDF or MJCF as it is, move every joint through its range, report what happens."""
+"""MuJoCo: load a URDF or MJCF unchanged, move every joint through its range, and report faults."""
 
 from __future__ import annotations
 
@@ -13,18 +13,19 @@ from anymesh.mujoco_ import load_mujoco
 from anymesh.simulation.mujoco_bench_ import REACHED_RATIO, MujocoBench, depths, make_bench
 from anymesh.simulation.report import JointSweep, SweepReport
 
-DEEP = 0.01  # of the asset's extent: penetration or displacement that counts
-LEGS = (1.0, 1.0, -1.0, -1.0)  # where the motor is led, a way's time each: +1 upper limit, -1 lower, twice means held
+DEEP = 0.01  # share of the asset's extent: penetration or displacement that counts as a fault
+LEGS = (1.0, 1.0, -1.0, -1.0)  # sequence of motor targets: +1 upper limit, -1 lower; a repeated one holds the position
 
 
 def sweep_joints(path: Path, *, steps: int = 100) -> SweepReport:
-    """Moves every joint of a URDF or MJCF through its range, first placed in `steps` positions, then driven by a motor.
+    """Move every joint of a URDF or MJCF through its range, first placed at `steps` positions, then driven by a motor.
 
-    No gravity; a free joint of an MJCF's root is held. Links collide as the convex hulls of their collision meshes, so links
-    that a joint connects, and links that overlap at rest, are not tested against each other; the report lists them.
-    Continuous joints make half a turn each way. A joint that another link blocks (a tray behind a door) is tried again with
-    that link's joint opened, which the report says. InputError when MuJoCo cannot load the file, MissingExtraError without
-    MuJoCo.
+    There is no gravity; a free joint of an MJCF's root is removed. Links collide as the convex hulls of their collision meshes,
+    so links that are connected by a joint, and links that overlap at rest, are not tested against each other; the report lists
+    them.
+    Continuous joints make half a turn each way. A joint that is blocked by another link (such as a tray behind a door) is tried
+    again with that link's joint opened, which the report states.
+    Raise InputError if MuJoCo cannot load the file, MissingExtraError without MuJoCo.
     """
     mujoco = load_mujoco()
     try:
@@ -36,7 +37,7 @@ def sweep_joints(path: Path, *, steps: int = 100) -> SweepReport:
 
 
 def _cleared_sweep(bench: MujocoBench, index: int, steps: int) -> JointSweep:
-    """The sweep at rest, or if another joint's link is in the way, with that joint at its upper limit."""
+    """Sweep a joint at rest, or if another joint's link is in the way, with that joint at its upper limit."""
     model = bench.model
     posture = np.array(model.qpos0)
     opened: list[str] = []
@@ -76,7 +77,7 @@ def _sweep(bench: MujocoBench, index: int, steps: int, posture: np.ndarray) -> J
 
 
 def _placed(bench: MujocoBench, index: int, positions: np.ndarray, posture: np.ndarray) -> tuple[float, str]:
-    """The deepest that any two links get beyond rest [m] while the joint is placed along its range, and into which."""
+    """Return the maximum penetration beyond that at rest [m] along the joint's range, and the other link."""
     model, data = bench.model, bench.data
     worst, against = 0.0, ""
     moved = _carried(model, int(model.jnt_bodyid[index]))
@@ -93,7 +94,7 @@ def _placed(bench: MujocoBench, index: int, positions: np.ndarray, posture: np.n
 
 
 def _carried(model: Any, body: int) -> np.ndarray:
-    """(bodies,) True for a body and all that it carries."""
+    """Return (bodies,) True for a body and all its descendants."""
     found = np.zeros(model.nbody, bool)
     for b in range(model.nbody):
         found[b] = b == body or (b > 0 and found[model.body_parentid[b]])
@@ -110,7 +111,7 @@ class _Drive:
 
 
 def _driven(bench: MujocoBench, index: int, posture: np.ndarray) -> _Drive:
-    """The joint led by its motor to the upper limit, then the lower, while the others' motors hold them in `posture`."""
+    """Drive the joint to the upper limit, then to the lower one, while motors hold the other joints in `posture`."""
     mujoco, model, data = bench.mujoco, bench.model, bench.data
     mujoco.mj_resetData(model, data)
     data.qpos[:] = posture
@@ -138,7 +139,7 @@ def _driven(bench: MujocoBench, index: int, posture: np.ndarray) -> _Drive:
 
 
 def _off(bench: MujocoBench, index: int, position: float, places: np.ndarray, geoms: np.ndarray) -> float:
-    """How far the link's shapes are from where the joint alone would have put them [m]."""
+    """Compute the distance of the link's shapes from their positions by the joint alone [m]."""
     axis, anchor, rest = bench.axes[index], bench.anchors[index], bench.places[geoms]
     if bench.model.jnt_type[index] == bench.mujoco.mjtJoint.mjJNT_SLIDE:
         expected = rest + position * axis

@@ -1,4 +1,4 @@
-"""MuJoCo: a URDF or MJCF as a model with a motor a joint, at rest, without gravity."""
+"""MuJoCo: a URDF or MJCF as a model with one motor per joint, at rest, without gravity."""
 
 from __future__ import annotations
 
@@ -12,19 +12,19 @@ from anymesh.errors import InputError
 from anymesh.loading import load_mesh
 from anymesh.simulation.files import find_file
 
-REACHED_RATIO = 0.02  # of a joint's range: reached, or not moved
-TOUCH = 1e-4  # of the asset's extent: bodies deeper in each other than this at rest overlap
+REACHED_RATIO = 0.02  # share of a joint's range: tolerance for a limit being reached, and for a joint being stuck
+TOUCH = 1e-4  # share of the asset's extent: bodies with deeper penetration at rest overlap
 STIFF = 30.0  # [rad/s] natural frequency of the motors
-QUICK = 100.0  # [rad/s] and their highest, for light links with much friction; a rotor's inertia is added to keep it
-SETTLED = 10.0  # the least that one way is longer than what a motor takes against the joint's damping
-SLOWEST = 20.0  # [s] a way; heavy links with little effort need their time
-READ = (".obj", ".stl", ".msh")  # mesh files that MuJoCo reads
+QUICK = 100.0  # [rad/s] maximum natural frequency, for light links with much friction; rotor inertia is added to keep it
+SETTLED = 10.0  # minimum ratio of the duration of a motion to the time constant of the joint's damping
+SLOWEST = 20.0  # [s] maximum duration of a motion; heavy links with little effort are slow
+READ = (".obj", ".stl", ".msh")  # mesh formats that MuJoCo reads
 
 
 def read_spec(mujoco: Any, path: Path) -> Any:
-    """The file as an editable model: package:// resolved, meshes of formats that MuJoCo does not read put in as data.
+    """Read the file as an editable model, with package:// resolved, and meshes of other formats inserted as data.
 
-    ValueError or InputError when it cannot be read.
+    Raise ValueError or InputError if it cannot be read.
     """
     spec = mujoco.MjSpec.from_file(str(path))
     folder = path.parent / spec.meshdir
@@ -44,15 +44,15 @@ def read_spec(mujoco: Any, path: Path) -> Any:
 
 @dataclass(frozen=True, eq=False)
 class MujocoBench:
-    """A model with a motor a joint that turns or slides, and its state at rest."""
+    """A model with a motor for each hinge and slide joint, and its state at rest."""
 
     mujoco: Any
     model: Any
     data: Any
-    joints: tuple[int, ...]  # those that turn or slide
+    joints: tuple[int, ...]  # hinges and slides
     motors: dict[int, int]  # joint -> actuator
     ranges: np.ndarray  # (all joints, 2) [rad or m]
-    seconds: np.ndarray  # (all joints,) for one way
+    seconds: np.ndarray  # (all joints,) duration of a motion from limit to limit
     rest_depth: dict[tuple[int, int], float]  # pair of bodies -> penetration at rest [m]
     anchors: np.ndarray  # (all joints, 3) at rest
     axes: np.ndarray  # (all joints, 3) at rest
@@ -67,7 +67,7 @@ class MujocoBench:
 
 
 def make_bench(mujoco: Any, path: Path) -> tuple[MujocoBench, tuple[tuple[str, str, str], ...]]:
-    """The bench, and the pairs of links that it does not test against each other, with the reason."""
+    """Create the bench, and the pairs of links that are not tested against each other, with the reason."""
     spec = read_spec(mujoco, path)
     _strip(spec, mujoco)
     spec.compiler.fusestatic = False  # links keep their names and their neighbours
@@ -98,7 +98,7 @@ def make_bench(mujoco: Any, path: Path) -> tuple[MujocoBench, tuple[tuple[str, s
 
 
 def _joined(model: Any) -> list[tuple[int, int]]:
-    """Each body with its parent, then, as MuJoCo does by itself, with what is fixed to a parent that moves."""
+    """Return each body with its parent, and with bodies fixed to a moving parent, as MuJoCo filters contacts."""
     direct = [(int(model.body_parentid[b]), b) for b in range(1, model.nbody) if model.body_parentid[b] > 0]
     held = {b: int(model.body_weldid[model.body_parentid[model.body_weldid[b]]]) for b in range(1, model.nbody)}
     moving = [b for b in held if model.body_weldid[b] > 0 and held[b] > 0]
@@ -107,7 +107,7 @@ def _joined(model: Any) -> list[tuple[int, int]]:
 
 
 def _strip(spec: Any, mujoco: Any) -> None:
-    """Takes out what drives or frees the asset in an MJCF, and names what has no name."""
+    """Remove actuators, sensors, keyframes and free joints, and name unnamed elements."""
     for things in (spec.keys, spec.sensors, spec.actuators):
         for thing in list(things):
             spec.delete(thing)
@@ -120,9 +120,9 @@ def _strip(spec: Any, mujoco: Any) -> None:
 
 
 def _add_motors(mujoco: Any, spec: Any, model: Any, ranges: np.ndarray, joints: tuple[int, ...]) -> np.ndarray:
-    """A critically damped position motor a joint, strong enough to overcome its dry friction within tolerance.
+    """Add a critically damped position motor per joint, strong enough to overcome dry friction within tolerance.
 
-    Returns the seconds that each needs for one way with half its effort, smoothly.
+    Return the seconds that each needs for a smooth motion with half its effort.
     """
     seconds = np.ones(model.njnt)
     for index in joints:
@@ -133,7 +133,7 @@ def _add_motors(mujoco: Any, spec: Any, model: Any, ranges: np.ndarray, joints: 
         needed = np.pi * np.sqrt(inertia * float(np.ptp(ranges[index])) / max(effort, 1e-9))
         seconds[index] = min(max(1.0, needed), SLOWEST)
         kp = max(inertia * (STIFF / seconds[index]) ** 2, 4 * float(model.dof_frictionloss[dof]) / max(tolerance, 1e-9))
-        kp = max(kp, 2 * float(model.jnt_stiffness[index]) / REACHED_RATIO)  # a spring of the file holds against it
+        kp = max(kp, 2 * float(model.jnt_stiffness[index]) / REACHED_RATIO)  # a spring of the file counteracts it
         kp = max(kp, SETTLED * float(model.dof_damping[dof]) / seconds[index])
         joint = spec.joint(model.joint(index).name)
         joint.armature = max(0.0, kp / QUICK**2 - inertia)
@@ -145,7 +145,7 @@ def _add_motors(mujoco: Any, spec: Any, model: Any, ranges: np.ndarray, joints: 
 
 
 def depths(model: Any, data: Any) -> dict[tuple[int, int], float]:
-    """Deepest penetration [m] of each pair of bodies in contact."""
+    """Return the deepest penetration [m] of each pair of bodies in contact."""
     found: dict[tuple[int, int], float] = {}
     for contact in data.contact[: data.ncon]:
         a, b = sorted(int(model.geom_bodyid[g]) for g in contact.geom)

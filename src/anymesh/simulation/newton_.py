@@ -1,4 +1,4 @@
-"""Newton: a URDF read by its builder, solved by its MuJoCo solver on the CPU (its kernels are compiled at first use)."""
+"""Newton: a URDF read by its builder, solved by its MuJoCo solver on the CPU (kernels are compiled at first use)."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from anymesh.simulation.outside import engine_version, load_engine
 from anymesh.simulation.report import SweepReport
 from anymesh.simulation.urdf import read_urdf
 
-UNLIMITED = 1e6  # beyond this a limit is its way to say that there is none
+UNLIMITED = 1e6  # limits beyond this mean that there is no limit
 
 
 def sweep_joints(path: Path) -> SweepReport:
-    """Drives every joint of a URDF over its range. InputError when Newton cannot load it, MissingExtraError without it."""
+    """Drive every joint of a URDF over its range. Raise InputError if Newton cannot load it, MissingExtraError without it."""
     newton, warp = (load_engine(name, shown="Newton", extra="newton") for name in ("newton", "warp"))
     warp.config.quiet = True
     robot = readable(read_urdf(path))
@@ -33,11 +33,11 @@ class _World:
         builder = newton.ModelBuilder(gravity=(0.0, 0.0, 0.0))
         try:
             builder.add_urdf(str(path), floating=False, hide_visuals=True)
-        except Exception as error:  # its reader and trimesh let errors of many kinds through
+        except Exception as error:  # its reader and trimesh raise many types of errors
             raise InputError(f"Newton cannot load {path}: {type(error).__name__}: {error}") from error
         by_name = {m.joint: m for m in motors}
         self.joints: list[ReadBack] = []
-        self.order: list[int] = []  # of coordinates
+        self.order: list[int] = []  # indices of coordinates
         self.bodies = {_last(label): k for k, label in enumerate(builder.body_label)}
         for k, label in enumerate(builder.joint_label):
             if _last(label) not in by_name:
@@ -86,12 +86,12 @@ class _World:
 
 
 def _last(label: str) -> str:
-    """Its labels are robot/link."""
+    """Return the name in a label of the form robot/link."""
     return label.rsplit("/", 1)[-1]
 
 
 def _matrix(row: np.ndarray) -> Float[np.ndarray, "4 4"]:
-    """From position and quaternion (x, y, z, w)."""
+    """Convert a position and quaternion (x, y, z, w) to a matrix."""
     from scipy.spatial.transform import Rotation
 
     T = np.eye(4)

@@ -1,4 +1,4 @@
-"""An engine's library, imported when it is asked for."""
+"""Import of engine libraries on demand."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from anymesh.errors import MissingExtraError
 
 
 def load_engine(module: str, *, shown: str, extra: str) -> ModuleType:
-    """The module. MissingExtraError, with the extra that brings it, when it is not installed or cannot be loaded."""
+    """Import an engine's module. Raise MissingExtraError, naming the extra, if it cannot be imported."""
     try:
         return import_module(module)
     except ImportError as error:
@@ -19,5 +19,5 @@ def load_engine(module: str, *, shown: str, extra: str) -> ModuleType:
 
 
 def engine_version(distribution: str, shown: str) -> str:
-    """Name and version, as a report gives them."""
+    """Return name and version, as in reports."""
     return f"{shown} {version(distribution)}"

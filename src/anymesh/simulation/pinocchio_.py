@@ -1,4 +1,4 @@
-"""Pinocchio: rigid-body dynamics of a URDF without contact; the motors' forces are integrated here, implicitly."""
+"""Pinocchio: rigid-body dynamics of a URDF without contact; motor forces are integrated implicitly by this module."""
 
 from __future__ import annotations
 
@@ -17,7 +17,10 @@ from anymesh.simulation.urdf import read_urdf
 
 
 def sweep_joints(path: Path) -> SweepReport:
-    """Drives every joint of a URDF over its range. InputError when Pinocchio cannot load it, MissingExtraError without it."""
+    """Drive every joint of a URDF over its range. Raise InputError if Pinocchio cannot load it.
+
+    Raise MissingExtraError without Pinocchio.
+    """
     pinocchio = load_engine("pinocchio", shown="Pinocchio", extra="pinocchio")
     robot = readable(read_urdf(path))
     return drive(_World(pinocchio, Path(path), motors_of(robot)), robot)
@@ -29,7 +32,7 @@ class _World:
         self.pin = pinocchio
         try:
             self.model = pinocchio.buildModelFromUrdf(str(path))
-        except Exception as error:  # ValueError, RuntimeError and ArgumentError, by what is wrong
+        except Exception as error:  # ValueError, RuntimeError or ArgumentError, depending on the fault
             raise InputError(f"Pinocchio cannot load {path}: {error}") from error
         self.model.gravity.setZero()
         self.data = self.model.createData()
@@ -57,7 +60,7 @@ class _World:
         self.q, self.v, self.at = self.pin.neutral(self.model), np.zeros(self.model.nv), np.zeros(self.model.nv)
 
     def step(self, targets: Float[np.ndarray, " n"]) -> None:
-        """One implicit Euler step of M dv = force * dt, the motor's force taken at the end of the step."""
+        """Make one implicit Euler step of M dv = force * dt, with the motor's force at the end of the step."""
         mass = self.pin.crba(self.model, self.data, self.q)
         bias = self.pin.nonLinearEffects(self.model, self.data, self.q, self.v)
         gain = self.stiffness * STEP + self.damping
@@ -69,7 +72,7 @@ class _World:
         self.at = self.at + STEP * self.v
 
     def positions(self) -> Float[np.ndarray, " n"]:
-        """Summed up here, since a continuous joint is kept as cosine and sine."""
+        """Return the integrated velocities, since a continuous joint is stored as cosine and sine."""
         return self.at
 
     def _placed(self, link: str) -> Any:

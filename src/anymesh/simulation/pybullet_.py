@@ -1,4 +1,4 @@
-"""PyBullet: a URDF loaded as it is, links collide with all but the links that they hang on."""
+"""PyBullet: a URDF loaded unchanged; links collide with all links except their parents."""
 
 from __future__ import annotations
 
@@ -17,7 +17,10 @@ from anymesh.simulation.urdf import read_urdf
 
 
 def sweep_joints(path: Path) -> SweepReport:
-    """Drives every joint of a URDF over its range. InputError when PyBullet cannot load it, MissingExtraError without it."""
+    """Drive every joint of a URDF over its range. Raise InputError if PyBullet cannot load it.
+
+    Raise MissingExtraError without PyBullet.
+    """
     bullet = load_engine("pybullet", shown="PyBullet", extra="pybullet")
     robot = readable(read_urdf(path))
     world = _World(bullet, Path(path), motors_of(robot))

@@ -1,4 +1,4 @@
-"""What a simulator says of an asset, the same whichever engine it was."""
+"""Reports of simulations, in the same form for every engine."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from typing import Any
 
 @dataclass(frozen=True)
 class JointSweep:
-    """One joint through its range. Positions [rad or m]; `reached_*` is how far a motor within the joint's effort came.
+    """Motion of one joint through its range. Positions [rad or m]; `reached_*`: reached by a motor within the joint's effort.
 
-    penetration: how much deeper it went into others than at rest, on its path [m], None where the engine was not asked;
-    against: the link it went deepest into, empty when none; drift: the most that any other joint moved meanwhile [rad or m];
-    off: the most that its link was away from where the joint says [m]; faults: what is wrong, in words.
+    penetration: increase over that at rest, along the path [m], None if not tested; against: link with the deepest penetration,
+    empty if none; drift: maximum motion of any other joint [rad or m];
+    off: maximum distance of its link from the position given by the joint [m]; faults: in words.
     """
 
     name: str
@@ -27,7 +27,7 @@ class JointSweep:
     drift: float
     off: float
     faults: tuple[str, ...]
-    opened: tuple[str, ...] = ()  # joints that had to be opened first, for what they carry was in the way
+    opened: tuple[str, ...] = ()  # joints that were opened first, because their links were in the way
 
     @property
     def ok(self) -> bool:
@@ -36,7 +36,7 @@ class JointSweep:
 
 @dataclass(frozen=True)
 class SweepReport:
-    """All joints of an asset in one engine. excluded: pairs of links whose contact was not looked at, and why."""
+    """All joints of an asset in one engine. excluded: pairs of links whose contact was not tested, and why."""
 
     engine: str
     joints: tuple[JointSweep, ...]
@@ -48,12 +48,12 @@ class SweepReport:
 
 
 def as_record(report: SweepReport) -> dict[str, Any]:
-    """As plain values for JSON."""
+    """Convert the report to plain values for JSON."""
     return asdict(report)
 
 
 def from_record(record: Mapping[str, Any]) -> SweepReport:
-    """The report that `as_record` was given."""
+    """Restore the report from the values of `as_record`."""
     lists: list[dict[str, Any]] = [dict(j, faults=tuple(j["faults"]), opened=tuple(j["opened"])) for j in record["joints"]]
     joints = tuple(JointSweep(**values) for values in lists)
     return SweepReport(record["engine"], joints, tuple((a, b, why) for a, b, why in record["excluded"]))

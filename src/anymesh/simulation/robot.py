@@ -1,4 +1,4 @@
-"""What a robot description file says, whichever format: links, joints, shapes, as found, right or wrong."""
+"""Content of a robot description file of any format: links, joints and shapes, unchecked."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ MOVING = ("revolute", "continuous", "prismatic")
 
 @dataclass(frozen=True, eq=False)
 class Geometry:
-    """A shape of a link. kind: box (whole sides), sphere (radius), cylinder and capsule (radius, length along z), mesh.
+    """A shape of a link. kind: box (full sides), sphere (radius), cylinder and capsule (radius, length along z), mesh.
 
-    T_link_shape: (4, 4); size: as `kind` tells [m]; file: of a mesh, as written; scale: of its coordinates;
-    triangles: (F, 3, 3) in the link frame [m] where the format's reader gave them, None where the file has to be read.
+    T_link_shape: (4, 4); size: as stated for `kind` [m]; file: of a mesh, as written; scale: of its coordinates;
+    triangles: (F, 3, 3) in the link frame [m] if given by the format's reader, None if the file must be read.
     """
 
     kind: str
@@ -41,7 +41,7 @@ class Inertial:
 
 @dataclass(frozen=True, eq=False)
 class RobotLink:
-    """A rigid body; inertial is None where the file gives none."""
+    """A rigid body; inertial is None if the file gives none."""
 
     name: str
     visuals: tuple[Geometry, ...] = ()
@@ -53,8 +53,8 @@ class RobotLink:
 class RobotJoint:
     """A joint as written. T_parent_joint: (4, 4) at position 0; axis: in the joint frame, any length.
 
-    limits [rad or m], effort [N m or N], velocity [rad/s or m/s]: None where the file gives none; friction [N m or N], damping
-    [N m s/rad or N s/m]: 0 where it gives none.
+    limits [rad or m], effort [N m or N], velocity [rad/s or m/s]: None if not given; friction [N m or N], damping [N m s/rad or
+    N s/m]: 0 if not given.
     """
 
     name: str
@@ -75,11 +75,11 @@ class RobotJoint:
 
     @property
     def range(self) -> tuple[float, float]:
-        """The limits; half a turn each way where there are none."""
+        """The limits; half a turn each way if there are none."""
         return (-np.pi, np.pi) if self.type == "continuous" or self.limits is None else self.limits
 
     def transform(self, position: float) -> Float[np.ndarray, "4 4"]:
-        """From the child's frame to the parent's, at a position [rad or m]."""
+        """Return the transform from the child's frame to the parent's, at a position [rad or m]."""
         if not self.moves or position == 0:
             return self.T_parent_joint
         kind = MotionKind.PRISMATIC if self.type == "prismatic" else MotionKind.REVOLUTE
@@ -89,8 +89,11 @@ class RobotJoint:
 
 @dataclass(frozen=True, eq=False)
 class Robot:
-    """A file's content. excluded: pairs of links that the file says do not collide; problems: (subject, what is wrong);
-    pictures: texture files that the description itself names."""
+    """Content of a robot description file.
+
+    excluded: pairs of links that do not collide according to the file; problems: (subject, fault); pictures: texture files
+    named by the description itself.
+    """
 
     path: Path
     name: str
@@ -111,7 +114,7 @@ class Robot:
         return tuple(link.name for link in self.links if link.name not in children)
 
     def carried(self, link: str) -> frozenset[str]:
-        """A link and all that it carries."""
+        """Return a link and all its descendants."""
         found, fresh = {link}, {link}
         while fresh:
             fresh = {j.child for j in self.joints if j.parent in fresh} - found
@@ -119,13 +122,13 @@ class Robot:
         return frozenset(found)
 
     def placements(self, positions: Mapping[str, float]) -> dict[str, Float[np.ndarray, "4 4"]]:
-        """From each link's frame to the root's, joints that are not named at 0. The file must hold a tree."""
+        """Return transforms from each link's frame to the root's, with unnamed joints at 0. The file must hold a tree."""
         found = {name: np.eye(4) for name in self.roots}
         waiting = list(self.joints)
         while waiting:
             ready = [j for j in waiting if j.parent in found]
             if not ready:
-                raise ValueError(f"joints {[j.name for j in waiting]} do not hang on a root; a tree is needed")
+                raise ValueError(f"joints {[j.name for j in waiting]} are not connected to a root; a tree is needed")
             for j in ready:
                 found[j.child] = found[j.parent] @ j.transform(positions.get(j.name, 0.0))
             waiting = [j for j in waiting if j.child not in found]
@@ -133,7 +136,7 @@ class Robot:
 
 
 def shape_triangles(shape: Geometry) -> Float[np.ndarray, "F 3 3"]:
-    """The surface of a box, sphere, cylinder or capsule in the link frame [m]; round ones as polyhedra."""
+    """Return the surface of a box, sphere, cylinder or capsule in the link frame [m]; round ones as polyhedra."""
     if shape.kind == "box":
         vertices, faces = _lathe([(1.0, -0.5), (1.0, 0.5)], 4, reach=0.5, turned=np.pi / 4)
         vertices = vertices * [*(np.asarray(shape.size[:2]) / np.sqrt(2)), shape.size[2]]
@@ -152,7 +155,7 @@ def shape_triangles(shape: Geometry) -> Float[np.ndarray, "F 3 3"]:
 def _lathe(
     profile: list[tuple[float, float]], count: int, *, reach: float, turned: float = 0.0
 ) -> tuple[Float[np.ndarray, "n 3"], Int[np.ndarray, "m 3"]]:
-    """A closed surface of revolution about z through (radius, height), in `count` segments, its ends at z = -reach, reach."""
+    """Return a closed surface of revolution about z through (radius, height) in `count` segments, ends at z = -reach, reach."""
     angle = np.arange(count) * 2 * np.pi / count + turned
     ring = np.stack([np.cos(angle), np.sin(angle)], 1)
     rings = [np.column_stack([ring * radius, np.full(count, height)]) for radius, height in profile]

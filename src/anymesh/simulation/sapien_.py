@@ -1,4 +1,4 @@
-"""SAPIEN 3 (PhysX on the CPU). It needs a graphics device for visuals, so they are left out of what it is given."""
+"""SAPIEN 3 (PhysX on the CPU). Visuals are removed from its input, because they need a graphics device."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ from anymesh.simulation.urdf import read_urdf
 
 
 def sweep_joints(path: Path) -> SweepReport:
-    """Drives every joint of a URDF over its range. InputError when SAPIEN cannot load it, MissingExtraError without it."""
+    """Drive every joint of a URDF over its range. Raise InputError if SAPIEN cannot load it, MissingExtraError without it."""
     sapien = load_engine("sapien", shown="SAPIEN", extra="sapien")
     robot = readable(read_urdf(path))
     return drive(_World(sapien, Path(path), motors_of(robot)), robot)
 
 
 def without_visuals(path: Path) -> str:
-    """The text of a URDF with its collision meshes by absolute path and no visual."""
+    """Return the text of a URDF without visuals, and with absolute paths of collision meshes."""
     root = ElementTree.fromstring(path.read_bytes())
     for link in root.iter("link"):
         for visual in link.findall("visual"):
@@ -52,7 +52,7 @@ class _World:
             bare.write_text(without_visuals(path), encoding="utf-8")
             try:
                 self.body = loader.load(str(bare))
-            except Exception as error:  # it lets its parsers' own errors through, of many kinds
+            except Exception as error:  # it passes on many types of errors of its parsers
                 raise InputError(f"SAPIEN cannot load {path}: {type(error).__name__}: {error}") from error
         for link in self.body.links:
             link.disable_gravity = True

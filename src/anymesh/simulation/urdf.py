@@ -1,4 +1,4 @@
-"""URDF as it is: whatever can be read is kept, and what is wrong is noted, so that a check can tell all of it."""
+"""Tolerant reading of URDF files: readable content is kept, and all faults are recorded for a check."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ Element = ElementTree.Element
 
 
 def read_urdf(path: Path) -> Robot:
-    """The links and joints of a URDF. InputError when it is no XML with a <robot>."""
+    """Read the links and joints of a URDF. Raise InputError if it is not XML with a <robot>."""
     path = Path(path)
     try:
         root = ElementTree.fromstring(path.read_bytes())
@@ -32,7 +32,7 @@ def read_urdf(path: Path) -> Robot:
 
 
 class _Reader:
-    """Reads elements; a value that is not what it should be is noted and replaced by the default."""
+    """Reader of elements; invalid values are recorded and replaced by the default."""
 
     def __init__(self) -> None:
         self.problems: list[tuple[str, str]] = []
@@ -116,7 +116,7 @@ class _Reader:
         return T
 
     def numbers(self, text: str | None, default: tuple[float, ...], what: str) -> tuple[float, ...]:
-        """Finite numbers, as many as the default has; a missing scale is the default."""
+        """Parse finite numbers, as many as the default has; a missing scale gets the default."""
         if text is None and what == "scale":
             return default
         try:
@@ -133,7 +133,7 @@ class _Reader:
 
 
 def _rotation(roll: float, pitch: float, yaw: float) -> Float[np.ndarray, "3 3"]:
-    """About the fixed axes x, y, z in turn (URDF's rpy) [rad]."""
+    """Return the rotation about the fixed axes x, y, z in turn (URDF's rpy) [rad]."""
     (cr, sr), (cp, sp), (cy, sy) = ((np.cos(a), np.sin(a)) for a in (roll, pitch, yaw))
     about_x = np.array([[1, 0, 0], [0, cr, -sr], [0, sr, cr]])
     about_y = np.array([[cp, 0, sp], [0, 1, 0], [-sp, 0, cp]])

@@ -1,1 +1,1 @@
-"""What people look at: the interactive viewer, the report, pictures."""
+"""Interactive viewer, reports and pictures."""

@@ -1,4 +1,4 @@
-"""Questions on the live page: the panel, the scene and the clicks of the one that is open."""
+"""Questions on the live page: panel, scene and clicks of the open question."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from anymesh.viewer.panels_page import Page
 
 
 class AskDesk:
-    """Asks a person the questions of one folder after the other; every call holds the page's lock."""
+    """Presents the questions of a folder to a person, one after the other; every call holds the page's lock."""
 
     def __init__(self, page: Page) -> None:
         self._page = page
@@ -36,18 +36,18 @@ class AskDesk:
         return self._asked is not None
 
     def begin(self, folder: Path) -> None:
-        """Take up the questions of a run, which it writes to a folder."""
+        """Start with the questions that a run writes to a folder."""
         self.end()
         self._folder, self._count, self._leave_rest = folder, 0, False
 
     def end(self) -> None:
-        """Take everything off the page."""
+        """Remove everything from the page."""
         self._asked, self._mesh = None, None
         self._panel.close()
         self._scene.clear()
 
     def show_mesh(self, mesh: Mesh) -> bool:
-        """Draw the mesh that is worked on; returns whether it is new."""
+        """Draw the mesh of the run; return whether it is new."""
         new = self._mesh is not mesh
         if new:
             self._mesh = mesh
@@ -55,7 +55,7 @@ class AskDesk:
         return new
 
     def look(self) -> None:
-        """Take up a new question, or geometry's suggestion for the one that is open."""
+        """Show a new question, or apply geometry's suggestion to the open one."""
         if self._mesh is None:
             return
         if self._asked is None:
@@ -64,14 +64,14 @@ class AskDesk:
             self._show()
 
     def tick(self) -> None:
-        """Move what plays."""
+        """Advance the playing motion."""
         if self._asked is not None:
             self._scene.tick(self._asked.form, time.monotonic() - self._began)
 
     def _take_up(self) -> None:
         """Show the question that the run waits for.
 
-        Geometry gets those that cannot be asked on the object, and all of them after "Leave all".
+        Questions that cannot be asked on the object, and all questions after "Leave all", are left to geometry.
         """
         folder = find_open_question(self._folder)
         if folder is None:
@@ -99,13 +99,13 @@ class AskDesk:
             self._panel.show(self._asked.form, self._count, self._asked.note, choices)
 
     def _follow_form(self) -> None:
-        """Draw what the form asks about, as it is now."""
+        """Draw the current state of the form."""
         if self._asked is not None and self._mesh is not None:
             self._began = time.monotonic()
             self._scene.show(self._asked.form, self._mesh)
 
     def _look_at(self, closer: bool) -> None:
-        """Turn the cameras to the part that is asked about, or to the whole object."""
+        """Turn the cameras to the part in question, or to the whole object."""
         if self._asked is None or self._mesh is None or not isinstance(self._asked.form, PartsForm):
             return
         if not closer:

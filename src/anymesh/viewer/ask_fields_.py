@@ -1,4 +1,4 @@
-"""The fields of one question on the page (viser); what is clicked in the scene shows here too."""
+"""Fields of one question on the page (viser); clicks in the scene update them."""
 
 from __future__ import annotations
 
@@ -30,9 +30,11 @@ NO_FRONT = "none"
 
 @dataclass(frozen=True)
 class Choices:
-    """What a person does with a question, each called with the page's lock held. changed: the scene must follow the form;
-    again: the panel must, too; look: at the part alone (True) or the whole object; azimuth: from which a tab looks [deg], given
-    the event of its click."""
+    """Callbacks for a person's actions on a question, called with the page's lock held.
+
+    changed: the scene must follow the form; again: the panel must be rebuilt as well; look: at the part (True) or the whole
+    object; azimuth: returns the azimuth of a tab's camera [deg], given the event of its click.
+    """
 
     answer: Callable[[], None]
     leave: Callable[[], None]
@@ -44,11 +46,11 @@ class Choices:
 
 
 class Fields:
-    """The fields of a form, added to the container that is open."""
+    """The fields of a form, added to the open container."""
 
     def __init__(self, gui: Any, act: Callable[[Callable[[], None]], None], form: Form, choices: Choices) -> None:
         self._gui, self._act, self._choices = gui, act, choices
-        self.follow: Callable[[], None] = lambda: None  # shows what clicks in the scene changed
+        self.follow: Callable[[], None] = lambda: None  # shows changes by clicks in the scene
         match form:
             case RecognizeForm():
                 self._recognize(form)
@@ -76,7 +78,7 @@ class Fields:
         box.on_update(lambda event: self._act(lambda: put(box.value)) if event.client is not None else None)
 
     def _bound(self, form: Form, handle: Any, store: Callable[[Any], None]) -> Any:
-        """Store what a person puts into a field."""
+        """Store a person's input to a field in the form."""
 
         def changed(event: Any) -> None:
             if event.client is not None:
@@ -209,7 +211,7 @@ class Fields:
             self._bound(form, fit, lambda v: form.fits.__setitem__(form.step, FITS[v].value))
 
     def _numbers(self, form: ArrowsForm | MotionsForm, name: str, names: list[str], describe: Callable[[], str]) -> None:
-        """Add buttons with numbers, of which one is chosen."""
+        """Add numbered buttons, one of which is chosen."""
         buttons = self._gui.add_button_group(name, names)
 
         def line() -> str:
@@ -226,6 +228,6 @@ class Fields:
 
 
 def azimuth_of(camera: Any) -> float:
-    """Return the azimuth [deg] from which a tab's camera looks; as in `viewpoints.away`."""
+    """Return the azimuth [deg] of a tab's camera, as in `viewpoints.away`."""
     x, y, _ = np.asarray(camera.position, float) - np.asarray(camera.look_at, float)
     return float(np.rad2deg(np.arctan2(x, -y)))

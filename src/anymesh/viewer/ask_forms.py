@@ -1,4 +1,4 @@
-"""What a person has put in so far for one question, whatever shows it. Each form becomes the JSON object that is checked."""
+"""A person's input to one question, independent of its display. Each form becomes the JSON object that is checked."""
 
 from __future__ import annotations
 
@@ -29,22 +29,22 @@ UNNAMED = "part"
 
 @runtime_checkable
 class Form(Protocol):
-    """One question with what is answered so far. touched: by the person, so that no suggestion may replace it."""
+    """Protocol of one question with its current answers. touched: edited by the person, so suggestions may not replace it."""
 
     touched: bool
 
     def fill(self, answer: Mapping[str, Any]) -> None:
-        """Take over an answer, such as the one that geometry suggests."""
+        """Take over an answer, such as geometry's suggestion."""
         ...
 
     def answer(self) -> dict[str, Any]:
-        """Make the object that the question checks."""
+        """Return the object that the question checks."""
         ...
 
 
 @dataclass
 class LabelRow:
-    """One kind of part that moves; limits in degrees or centimetres."""
+    """One kind of moving part; limits in degrees or centimetres."""
 
     label: str = UNNAMED
     moves: str = Moves.REVOLUTE.value
@@ -55,8 +55,10 @@ class LabelRow:
 
 @dataclass
 class RecognizeForm:
-    """What the object is and which kinds of part move. front: number of a picture, 0 for none; open_row: the entry that is
-    worked on, -1 for none."""
+    """The object, and its kinds of moving parts.
+
+    front: number of a picture, 0 for none; open_row: the expanded entry, -1 for none.
+    """
 
     question: Recognize
     category: str = ""
@@ -77,15 +79,17 @@ class RecognizeForm:
         return {"category": self.category, "longest_side_m": self.longest, "front": self.front, "parts": rows}
 
     def look_from(self, azimuth: float) -> None:
-        """Take the picture whose azimuth [deg] is nearest as the one that shows the front."""
+        """Choose the picture with the nearest azimuth [deg] as the one that shows the front."""
         off = [abs((a - azimuth + 180) % 360 - 180) for a in self.question.azimuths]
         self.front, self.touched = (off.index(min(off)) + 1 if off else 0), True
 
 
 @dataclass
 class PartsForm:
-    """Base of the forms that ask the same of several parts, one after the other. see_through: parts for which the rest of the
-    object is drawn so."""
+    """Base of forms that ask the same question about several parts in turn.
+
+    see_through: parts for which the rest of the object is drawn transparent.
+    """
 
     parts: tuple[PartShown, ...]
     step: int = 0
@@ -104,7 +108,7 @@ class PartsForm:
 
 @dataclass
 class KindRow:
-    """How one part is attached."""
+    """Attachment of one part."""
 
     joint: str = JointKind.HINGE_ALONG.value
     endless: bool = False
@@ -112,7 +116,7 @@ class KindRow:
 
 
 class KindsForm(PartsForm):
-    """How each part is attached. labels: to choose from, empty where that is not asked."""
+    """Attachment of each part. labels: options, empty if labels are not asked for."""
 
     def __init__(self, question: WhichKinds) -> None:
         super().__init__(question.parts)
@@ -133,7 +137,7 @@ class KindsForm(PartsForm):
 
 
 class PointsForm(PartsForm):
-    """Which points lie on each axis."""
+    """Points on the axis of each part."""
 
     def __init__(self, question: WhichPoints) -> None:
         super().__init__(tuple(t.part for t in question.tables))
@@ -146,7 +150,7 @@ class PointsForm(PartsForm):
         return self.tables[self.step]
 
     def toggle(self, number: int) -> None:
-        """Choose a point of the part that is shown, or let go of it; of too many, the one chosen first goes."""
+        """Select or deselect a point of the part that is shown; beyond the maximum, the oldest is deselected."""
         now = self.chosen[self.step]
         now = [n for n in now if n != number] if number in now else [*now, number]
         self.chosen[self.step], self.touched = now[-self.table.max_points :], True
@@ -160,7 +164,7 @@ class PointsForm(PartsForm):
 
 
 class ArrowsForm(PartsForm):
-    """Along which arrow each part slides."""
+    """Slide direction of each part, by arrow."""
 
     def __init__(self, question: WhichArrows) -> None:
         super().__init__(tuple(t.part for t in question.tables))
@@ -168,7 +172,7 @@ class ArrowsForm(PartsForm):
         self.chosen = [1] * len(question.tables)
 
     def choose(self, number: int) -> None:
-        """Take an arrow for the part that is shown."""
+        """Choose an arrow for the part that is shown."""
         self.chosen[self.step], self.touched = number, True
 
     def fill(self, answer: Mapping[str, Any]) -> None:
@@ -180,7 +184,7 @@ class ArrowsForm(PartsForm):
 
 
 class MotionsForm(PartsForm):
-    """Which motion each part makes, 0 for none of those shown."""
+    """Motion of each part, 0 for none of those shown."""
 
     def __init__(self, question: WhichMotions) -> None:
         super().__init__(tuple(t.part for t in question.tables))
@@ -194,7 +198,7 @@ class MotionsForm(PartsForm):
         return self.tables[self.step]
 
     def choose(self, number: int) -> None:
-        """Take a motion for the part that is shown."""
+        """Choose a motion for the part that is shown."""
         self.chosen[self.step], self.touched = number, True
 
     def fill(self, answer: Mapping[str, Any]) -> None:
@@ -211,7 +215,7 @@ class MotionsForm(PartsForm):
 
 
 def form_of(question: Question[Any]) -> Form | None:
-    """Make the empty form of a question; None for one that cannot be answered on the object itself."""
+    """Return the empty form of a question; None if it cannot be answered on the object itself."""
     match question:
         case Recognize():
             return RecognizeForm(question)

@@ -1,4 +1,4 @@
-"""Which marks of the surface a person has given to which part."""
+"""A person's assignment of surface marks to parts."""
 
 from __future__ import annotations
 
@@ -16,8 +16,10 @@ Group = tuple[str, int]  # label and instance of a part
 
 
 class MarksForm:
-    """Marks by part; each mark belongs to one group at most. current: the group that clicks are for;
-    hide_given: marks of other groups are not shown, so that those behind can be clicked."""
+    """Marks by part; each mark belongs to at most one group.
+
+    current: the group that clicks apply to; hide_given: hide marks of other groups, so that those behind can be clicked.
+    """
 
     def __init__(self, question: WhichMarks, face_mark: Int[np.ndarray, " F"]) -> None:
         self.question, self.face_mark = question, face_mark
@@ -36,7 +38,7 @@ class MarksForm:
         return set[int]().union(*(marks for group, marks in self.groups.items() if group != self.current)) & self.asked
 
     def _add_missing(self) -> None:
-        """Offer each label at least once, and marks to be divided where the question takes that."""
+        """Add each label at least once, and a group of marks to be divided if the question accepts them."""
         for label in self.question.labels:
             if not any(group[0] == label for group in self.groups):
                 self.groups[label, 1] = set()
@@ -45,14 +47,14 @@ class MarksForm:
         self.groups = dict(sorted(self.groups.items(), key=lambda item: (self._label_rank.get(item[0][0], 99), item[0][1])))
 
     def add(self, label: str) -> None:
-        """Offer one more part of a label, and take it up."""
+        """Add one more part of a label, and make it current."""
         instance = 1 + max((k for name, k in self.groups if name == label), default=0)
         self.groups[label, instance] = set()
         self._add_missing()
         self.current, self.touched = (label, instance), True
 
     def toggle(self, mark: int) -> bool:
-        """Give a mark to the current group, or take it back; False for one that is not asked about."""
+        """Add a mark to the current group, or remove it; return False if the question does not include it."""
         if mark not in self.asked:
             return False
         self.touched = True
@@ -64,7 +66,7 @@ class MarksForm:
         return True
 
     def set_marks(self, text: str) -> list[int]:
-        """Give the current group the marks of a typed list; returns the numbers that are not asked about."""
+        """Set the marks of the current group from typed text; return the numbers that the question does not include."""
         numbers = {int(n) for n in re.findall(r"\d{1,9}", text)}
         self.groups[self.current] = set()
         for mark in numbers & self.asked:
@@ -73,7 +75,7 @@ class MarksForm:
         return sorted(numbers - self.asked)
 
     def group_of(self, mark: int) -> Group | None:
-        """The group that a mark is given to."""
+        """Return the group of a mark."""
         return next((group for group, marks in self.groups.items() if mark in marks), None)
 
     def fill(self, answer: Mapping[str, Any]) -> None:

@@ -1,4 +1,4 @@
-"""The panel in which a person answers one question: what to do, fields, answer or leave to geometry."""
+"""Panel for answering one question: instructions, fields, and buttons to answer or to leave it to geometry."""
 
 from __future__ import annotations
 
@@ -27,13 +27,13 @@ class AskPanel:
         self._fields: Fields | None = None
 
     def close(self) -> None:
-        """Take the question off the page."""
+        """Remove the question from the page."""
         if self._inner is not None:
             self._inner.remove()
         self._inner = self._fields = None
 
     def show(self, form: Form, number: int, note: str, choices: Choices) -> None:
-        """Show a form as it is now. number: of the question; note: what to know about it."""
+        """Show the current state of a form. number: of the question; note: information about it."""
         self.close()
         gui = self._gui
         with self._outer:
@@ -52,17 +52,17 @@ class AskPanel:
         leave.on_click(lambda event: self._act(ways[event.target.value]))
 
     def follow(self) -> None:
-        """Follow what clicks in the scene changed."""
+        """Update the fields after clicks in the scene."""
         if self._fields is not None:
             self._fields.follow()
 
     def refuse(self, why: str) -> None:
-        """Say why an answer is not taken."""
+        """Show why an answer is not accepted."""
         if self._note is not None:
             self._note.content = _line(f"Not yet: {why}", REFUSED)
 
     def _add_steps(self, form: PartsForm, choices: Choices) -> None:
-        """Which part is asked about, and the way to the others."""
+        """Add the current part, and the navigation to the others."""
         self._gui.add_html(f"<div {SMALL}><b>{escape(place(form))}</b></div>")
         look = self._gui.add_button_group("Look at", (CLOSE, WHOLE))
         look.on_click(lambda event: self._act(lambda: choices.look(event.target.value == CLOSE)))

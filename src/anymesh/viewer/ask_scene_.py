@@ -1,4 +1,4 @@
-"""The 3D scene while a question is answered (viser): marks to click, points to click, arrows, motions that play."""
+"""3D scene of a question (viser): clickable marks and points, arrows, playing motions."""
 
 from __future__ import annotations
 
@@ -31,12 +31,12 @@ from anymesh.viewer.scene import Color, color_of
 
 REST, PART, AXIS = (205, 205, 210), color_of(1), (190, 20, 40)
 POINT, HIDDEN_POINT, CHOSEN = (40, 90, 200), (150, 180, 235), (230, 0, 200)
-GHOST, SEE_INTO = 0.15, 0.3  # opacity of the rest and of the part while points on it are chosen
-SECONDS = 2.5  # of a motion's play, there and back
+GHOST, SEE_INTO = 0.15, 0.3  # opacity of the rest of the object, and of the part while its points are chosen
+SECONDS = 2.5  # duration of a motion's play, there and back
 
 
 class QuestionScene:
-    """Draws one mesh with what a form asks about; every tab sees the same."""
+    """Draws a mesh with the contents of a form, the same in every tab."""
 
     def __init__(self, server: Any) -> None:
         self._server, self._scene = server, server.scene
@@ -49,13 +49,13 @@ class QuestionScene:
         self._shown: Form | None = None
 
     def clear(self) -> None:
-        """Take everything out of the scene."""
+        """Remove everything from the scene."""
         while self._nodes:
             self._nodes.pop().remove()
         self._marks, self._moving, self._shown = {}, None, None
 
     def show_mesh(self, mesh: Mesh) -> None:
-        """Draw the mesh alone."""
+        """Draw only the mesh."""
         self._take(mesh)
         self.clear()
         self._add(mesh, np.arange(len(mesh.faces)), REST)
@@ -65,7 +65,7 @@ class QuestionScene:
             self._mesh, self._rays = mesh, None
 
     def show(self, form: Form, mesh: Mesh) -> None:
-        """Draw what a form asks about."""
+        """Draw the contents of a form."""
         self._take(mesh)
         match form:
             case MarksForm() if form is self._shown:
@@ -85,7 +85,7 @@ class QuestionScene:
         self._shown = form
 
     def _recolor(self, form: MarksForm) -> None:
-        """Follow which marks are given to which part."""
+        """Update the colours of marks after a change of their groups."""
         hidden = form.hidden()
         with self._server.atomic():
             for mark, node in self._marks.items():
@@ -96,7 +96,7 @@ class QuestionScene:
                     node.visible = visible
 
     def clicked(self, form: Form, origin: np.ndarray, direction: np.ndarray) -> bool:
-        """Do what a click along a ray means for a form; returns whether it changed."""
+        """Apply a click along a ray to a form; return whether it changed."""
         mesh = self._mesh
         if mesh is None:
             return False
@@ -111,7 +111,7 @@ class QuestionScene:
         return False
 
     def tick(self, form: Form | None, now: float) -> None:
-        """Move what plays to where it is at a time [s]."""
+        """Move the playing parts to their pose at a time [s]."""
         if self._moving is None or self._mesh is None or not isinstance(form, MotionsForm):
             return
         chosen = form.chosen[form.step]
@@ -120,7 +120,7 @@ class QuestionScene:
             self._moving.wxyz, self._moving.position = quaternion(T[:3, :3]), T[:3, 3]
 
     def _mark_at(self, form: MarksForm, mesh: Mesh, origin: np.ndarray, direction: np.ndarray) -> int | None:
-        """Return the mark of the first face on a ray, None for none; hidden marks do not stop it."""
+        """Return the mark of the first face on a ray, None if there is none; hidden marks are ignored."""
         hidden = form.hidden()
         rays, numbers = self._ray_scene(mesh), np.arange(len(mesh.faces))
         if hidden:
@@ -152,7 +152,7 @@ class QuestionScene:
         return GHOST if form.see_through[form.step] else None
 
     def _show_part(self, form: PartsForm, mesh: Mesh, part: float | None = None) -> None:
-        """Draw the part that is asked about, coloured, and the rest."""
+        """Draw the part in question in colour, and the rest."""
         self.clear()
         rest = self._rest_opacity(form, mesh)
         other = np.setdiff1d(np.arange(len(mesh.faces)), form.part.faces)
@@ -219,4 +219,4 @@ class QuestionScene:
             self._name(below), drawn.vertices, drawn.faces, color=color, opacity=opacity, flat_shading=True, side="double",
             cast_shadow=False, receive_shadow=False,
         )  # fmt: skip
-        return node if below else self._keep(node)  # what hangs on a frame goes with it
+        return node if below else self._keep(node)  # children of a frame are removed with it

@@ -1,4 +1,4 @@
-"""What the numbers of a question are on the mesh that is shown: faces of marks, places of points, poses of motions."""
+"""Geometry of a question's numbers on the displayed mesh: faces of marks, positions of points, poses of motions."""
 
 from __future__ import annotations
 
@@ -16,20 +16,22 @@ from anymesh.types import Mesh, MotionKind
 from anymesh.viewer.ask_marks import SPLIT, MarksForm
 from anymesh.viewer.scene import MAX_DISPLAY_FACES, MIN_PART_FACES, Color, DisplayMesh, color_of
 
-SAME_SIZE = 0.05  # a part of the mesh's own scale within this has it exactly
-REACH = 0.03  # a click chooses a point whose distance from its ray is below this share of the distance to the eye
-MARKER, ON_PART = 0.014, 0.05  # radius of a point's marker at most: shares of the object's diagonal and of the part's
-CROWDED = 0.4  # the same as a share of the gap to the next point
+SAME_SIZE = 0.05  # tolerance of the ratio of sizes, below which a part has the scale of the mesh
+REACH = 0.03  # maximum distance of a clicked point from the ray, as a share of its distance from the eye
+MARKER, ON_PART = 0.014, 0.05  # maximum radius of a point's marker, as shares of the object's diagonal and of the part's
+CROWDED = 0.4  # the same, as a share of the distance to the nearest point
 ARROW = 0.6  # length of an arrow, as a share of the part's size
-SAMPLES, LIFT, IN_SIGHT = 200, 1e-4, 0.1  # points of a part, [share of the diagonal] off its surface, share that is in sight
-CLOSEST = 0.12  # least size that fills the picture, as a share of the diagonal
-ASLANT, ASIDE, RAISED = 0.3, 20.0, 24.0  # level part of a direction that has a side; [deg] the camera is beside and above it
-TINT, GOLDEN = (0.24, 0.92), 0.618034  # saturation and value of marks that are not given, step between their hues
+# points sampled on a part; their offset from the surface (share of the diagonal); minimum visible share
+SAMPLES, LIFT, IN_SIGHT = 200, 1e-4, 0.1
+CLOSEST = 0.12  # minimum size that fills the picture, as a share of the diagonal
+# minimum horizontal component of a direction that has a side; [deg] offsets of the camera to the side and upwards
+ASLANT, ASIDE, RAISED = 0.3, 20.0, 24.0
+TINT, GOLDEN = (0.24, 0.92), 0.618034  # saturation and value of unassigned marks, and the step between their hues
 NOT_ASKED, DIVIDED = (150, 150, 150), (134, 46, 156)
 
 
 def surface(mesh: Mesh, faces: Int[np.ndarray, " f"], most: int = MAX_DISPLAY_FACES) -> DisplayMesh:
-    """Return some faces as a surface; decimated where the mesh has more than `most`."""
+    """Return some faces as a surface, decimated if the mesh has more than `most` faces."""
     if len(mesh.faces) <= most:
         piece = mesh.subset(faces)
         return DisplayMesh(piece.vertices, piece.faces)
@@ -38,7 +40,7 @@ def surface(mesh: Mesh, faces: Int[np.ndarray, " f"], most: int = MAX_DISPLAY_FA
 
 
 def scale_of(part: PartShown, mesh: Mesh) -> float:
-    """Return the length [m] in a question of one unit of the mesh shown; an answered size may have changed it."""
+    """Return the length [m] in a question of one unit of the displayed mesh; an answer may have changed its scale."""
     if part.diagonal is None:
         return 1.0
     scale = part.diagonal / mesh.diagonal
@@ -46,7 +48,7 @@ def scale_of(part: PartShown, mesh: Mesh) -> float:
 
 
 def is_enclosed(part: PartShown, mesh: Mesh, rays: RayScene) -> bool:
-    """Return whether a part can hardly be seen from outside: from no side are many of its points in sight."""
+    """Return whether a part is hardly visible from outside, from any side."""
     points = part.points[:: max(1, len(part.points) // SAMPLES)] / scale_of(part, mesh)
     ways = np.array([away(np.deg2rad(a), np.deg2rad(e)) for e in (20, 60) for a in range(0, 360, 45)])
     origins, directions = np.repeat(points, len(ways), 0), np.tile(ways, (len(points), 1))
@@ -55,7 +57,7 @@ def is_enclosed(part: PartShown, mesh: Mesh, rays: RayScene) -> bool:
 
 
 def closer_view(part: PartShown, mesh: Mesh) -> tuple[Float[np.ndarray, " 3"], float]:
-    """Return where to look at a part from (unit, from it to the camera) and the size that fills the picture [m]."""
+    """Return the direction to the camera (unit) for a part, and the size that fills the picture [m]."""
     corners = mesh.triangles[part.faces].reshape(-1, 3)
     size = max(float(np.linalg.norm(np.ptp(corners, axis=0))), CLOSEST * mesh.diagonal)
     level = np.array([*part.outward[:2], 0.0])
@@ -64,12 +66,12 @@ def closer_view(part: PartShown, mesh: Mesh) -> tuple[Float[np.ndarray, " 3"], f
 
 
 def asked_faces(form: MarksForm) -> dict[int, Int[np.ndarray, " f"]]:
-    """Return the faces of each mark that is asked about."""
+    """Return the faces of each mark of the question."""
     return {mark: faces for mark in sorted(form.asked) if len(faces := np.flatnonzero(form.face_mark == mark))}
 
 
 def mark_color(form: MarksForm, mark: int) -> Color:
-    """Return the colour of a mark: that of the part it is given to, else a tint that tells it from its neighbours."""
+    """Return the colour of a mark: that of its part, else a tint that differs from its neighbours."""
     group = form.group_of(mark)
     if group is None:
         r, g, b = colorsys.hsv_to_rgb(mark * GOLDEN % 1, *TINT)
@@ -78,17 +80,17 @@ def mark_color(form: MarksForm, mark: int) -> Color:
 
 
 def group_color(form: MarksForm, group: tuple[str, int]) -> Color:
-    """Return the colour of a part that marks are given to."""
+    """Return the colour of a group of marks."""
     return DIVIDED if group == SPLIT else color_of(1 + list(form.groups).index(group))
 
 
 def point_places(table: PointTable, mesh: Mesh) -> Float[np.ndarray, "k 3"]:
-    """Return where the points of a part are on the mesh shown."""
+    """Return the positions of a part's points on the displayed mesh."""
     return table.points / scale_of(table.part, mesh)
 
 
 def marker_radius(table: PointTable, mesh: Mesh) -> float:
-    """Return the radius of the markers of points, small enough for their part and to tell neighbours apart."""
+    """Return the radius of the points' markers, small enough for their part and to separate neighbours."""
     places, size = point_places(table, mesh), np.ptp(mesh.triangles[table.part.faces].reshape(-1, 3), axis=0)
     radius = min(MARKER * mesh.diagonal, ON_PART * float(np.linalg.norm(size)))
     if len(places) < 2:
@@ -100,7 +102,7 @@ def marker_radius(table: PointTable, mesh: Mesh) -> float:
 def nearest_point(
     places: Float[np.ndarray, "k 3"], origin: Float[np.ndarray, " 3"], direction: Float[np.ndarray, " 3"]
 ) -> int | None:
-    """Return the number (from 1) of the point that a click's ray passes nearest to, None when it passes all at a distance."""
+    """Return the number (from 1) of the point nearest to a click's ray; None if none is near."""
     if len(places) == 0:
         return None
     way = direction / np.linalg.norm(direction)
@@ -112,24 +114,24 @@ def nearest_point(
 
 
 def hidden_points(table: PointTable) -> Bool[np.ndarray, " k"]:
-    """Return which points lie under a surface."""
+    """Return which points lie below a surface."""
     return np.zeros(len(table.points), bool) if table.hidden is None else table.hidden
 
 
 def arrow_ends(table: ArrowTable, mesh: Mesh) -> Float[np.ndarray, "k 2 3"]:
-    """Return the ends of the arrows of a part on the mesh shown."""
+    """Return the ends of a part's arrows on the displayed mesh."""
     corners = mesh.triangles[table.part.faces].reshape(-1, 3)
     middle, length = (corners.min(0) + corners.max(0)) / 2, ARROW * float(np.linalg.norm(np.ptp(corners, axis=0)))
     return np.stack([np.tile(middle, (len(table.directions), 1)), middle + length * table.directions], 1)
 
 
 def moving_faces(table: MotionTable) -> Int[np.ndarray, " f"]:
-    """Return the faces that move: those of the part and of what it carries."""
+    """Return the faces that move: those of the part and of everything it carries."""
     return table.part.faces if table.moving is None else table.moving
 
 
 def motion_axis(table: MotionTable, row: int, mesh: Mesh) -> Float[np.ndarray, "2 3"]:
-    """Return the ends of the arrow along a motion's axis, on the mesh shown."""
+    """Return the ends of the arrow along a motion's axis, on the displayed mesh."""
     motion, corners = table.motions[row], mesh.triangles[table.part.faces].reshape(-1, 3)
     origin = motion.origin / scale_of(table.part, mesh)
     slides = motion.kind is MotionKind.PRISMATIC
@@ -138,7 +140,7 @@ def motion_axis(table: MotionTable, row: int, mesh: Mesh) -> Float[np.ndarray, "
 
 
 def motion_pose(table: MotionTable, row: int, phase: float, mesh: Mesh) -> Float[np.ndarray, "4 4"]:
-    """Return where the moving faces are at a phase 0..1 of a motion's play, there and back, on the mesh shown."""
+    """Return the pose of the moving faces at a phase 0..1 of a motion's play, there and back, on the displayed mesh."""
     T = table.motions[row].transform(table.amounts[row] * (1 - np.cos(2 * np.pi * phase)) / 2)
     T[:3, 3] /= scale_of(table.part, mesh)
     return T

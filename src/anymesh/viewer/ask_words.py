@@ -1,4 +1,4 @@
-"""What a page says about a question: a title, what to do, what is answered so far. For people, so shorter than for a model."""
+"""Texts of a page about a question: title, instructions and current answers, shorter than those for models."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ NONE_OF_THESE = "None"
 
 
 def title(form: Form) -> str:
-    """Return what is asked, in a line."""
+    """Return a one-line title of the question."""
     match form:
         case RecognizeForm():
             return "What is this, and what moves?"
@@ -48,7 +48,7 @@ def title(form: Form) -> str:
 
 
 def guide(form: Form) -> str:
-    """Return what to do."""
+    """Return the instructions."""
     match form:
         case RecognizeForm():
             return "Name the object and give one entry for each kind of part that moves; click an entry to change it."
@@ -69,12 +69,12 @@ def guide(form: Form) -> str:
 
 
 def place(form: PartsForm) -> str:
-    """Return which of several parts is asked about."""
+    """Return which of several parts is in question."""
     return f"Part {form.step + 1} of {len(form.parts)}: {form.part.label}"
 
 
 def label_words(row: LabelRow) -> str:
-    """Return a kind of part in a line."""
+    """Describe a kind of part in one line."""
     moves = Moves(row.moves)
     words = next(k for k, v in MOVES.items() if v is moves)
     unit = "cm" if moves is Moves.PRISMATIC else "°"
@@ -83,12 +83,12 @@ def label_words(row: LabelRow) -> str:
 
 
 def group_name(group: Group) -> str:
-    """Return the name of a part that marks are given to."""
+    """Return the name of a group of marks."""
     return group[0] if group == SPLIT else f"{group[0]} {group[1]}"
 
 
 def marks_table(form: MarksForm) -> str:
-    """Return each part with its colour and marks."""
+    """Return a table of the parts with their colours and marks, as HTML."""
     rows = []
     for group, marks in form.groups.items():
         r, g, b = group_color(form, group)
@@ -103,12 +103,12 @@ def marks_table(form: MarksForm) -> str:
 
 
 def chosen_points(form: PointsForm) -> str:
-    """Return the points chosen on the part that is shown."""
+    """Return the chosen points of the part that is shown."""
     return ", ".join(map(str, form.chosen[form.step]))
 
 
 def motion_words(table: MotionTable, number: int) -> str:
-    """Return what a motion is, in words; 0: none of them."""
+    """Describe a motion in words; 0 is none of them."""
     if number == 0:
         return "None of these: the next ones are shown, if there are any."
     motion = table.motions[number - 1]

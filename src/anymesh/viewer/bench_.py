@@ -1,4 +1,4 @@
-"""The workbench of the live page: a mesh is handed over, worked on in the background, and becomes the asset that is shown."""
+"""Workbench of the live page: articulates an uploaded mesh in the background, and shows the resulting asset."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from anymesh.viewer.uploads import plain_name, receive
 from anymesh.viewer.work import ArticulationWork
 
 log = logging.getLogger("anymesh")
-TICK, LOOK = 0.05, 0.25  # [s] between poses, and between looks at the work
+TICK, LOOK = 0.05, 0.25  # [s] between poses, and between checks of the work
 ALONE, MYSELF = "are left to geometry", "are put to me"
 UPS = ("auto", "x", "y", "z")
 BUSY = "one mesh at a time; cancel the work on this one first"
@@ -31,8 +31,11 @@ BUSY = "one mesh at a time; cancel the work on this one first"
 
 @dataclass(frozen=True)
 class WorkbenchFolders:
-    """Where a workbench keeps things. folder: temporary; out: where assets and answers are kept, None for the temporary
-    folder; ask: put the questions to the person from the start."""
+    """Folders of a workbench.
+
+    folder: temporary; out: where assets and answers are stored, None for the temporary folder; ask: put questions to the person
+    by default.
+    """
 
     folder: Path
     out: Path | None = None
@@ -40,7 +43,7 @@ class WorkbenchFolders:
 
 
 class Workbench:
-    """Takes one mesh at a time. Callbacks hold the page's lock; a thread of its own follows the work."""
+    """Articulates one mesh at a time. Callbacks hold the page's lock; a separate thread follows the work."""
 
     def __init__(self, page: Page, bench: WorkbenchFolders) -> None:
         self._page, self._bench, gui = page, bench, page.gui
@@ -63,7 +66,7 @@ class Workbench:
         self._follower.start()
 
     def start(self, mesh: Path, root: str | Path | None) -> None:
-        """Begin to work on a mesh. CorrectionError while another is worked on, or when corrections would be lost."""
+        """Start the work on a mesh. Raise CorrectionError if another is in progress, or if corrections would be lost."""
         if self._work is not None:
             raise CorrectionError(BUSY)
         if self._page.session is not None and self._page.session.unsaved:
@@ -80,13 +83,13 @@ class Workbench:
         self.refresh()
 
     def cancel(self) -> None:
-        """End the work on a mesh; the page is ready for the next."""
+        """Cancel the work on a mesh; the page then accepts the next one."""
         if self._work is not None:
             self._work.cancel()
             self._finish(f"The work on {self._name} was cancelled.")
 
     def close(self) -> None:
-        """End the work and the thread."""
+        """Stop the work and the thread."""
         self._ended.set()
         self._follower.join()
         if self._work is not None:
@@ -95,7 +98,7 @@ class Workbench:
     def refresh(self) -> None:
         """Show the upload controls, or the progress of the work."""
         work = self._work
-        if work is None or work.begun:  # until then the browser may still be at the end of its upload
+        if work is None or work.begun:  # before that, the browser may not have finished its upload
             self._show_intake(None if work is not None else self._page.session is not None)
         self._bar.visible = work is not None and not self._desk.busy
         self._cancel.visible = work is not None
@@ -107,7 +110,7 @@ class Workbench:
         _put(self._words, f"<div {SMALL}>{line}</div>" if text else "")
 
     def _show_intake(self, again: bool | None) -> None:
-        """Show the upload controls; again: folded up, above the asset that is shown; None: not at all."""
+        """Show the upload controls; again: collapsed, above the displayed asset; None: hide them."""
         if self._shows == again and (self._inner is not None) == (again is not None):
             return
         if self._inner is not None:
@@ -132,14 +135,14 @@ class Workbench:
         up.on_update(lambda _: self._page.act(set_options))
 
     def _place(self, name: str) -> Path:
-        """Return a folder for an asset that does not exist yet."""
+        """Return a new folder for an asset."""
         if self._bench.out is None:
             return self._bench.folder / f"asset-{next(self._numbers)}" / name
         names = itertools.chain([name], (f"{name}-{k}" for k in itertools.count(2)))
         return next(path for path in (self._bench.out / n for n in names) if not path.exists())
 
     def _questions(self, mesh: Path, out: Path) -> Path:
-        """Return the folder of the questions about a mesh; with `out`, the same mesh has the same folder in a later run."""
+        """Return the folder of the questions about a mesh; with `out`, later runs on the same mesh use the same folder."""
         if self._bench.out is None:
             return out.with_name("questions")
         content = mesh.read_bytes() if mesh.is_file() else b""
@@ -166,13 +169,13 @@ class Workbench:
                 if self._work is not None and time.monotonic() - looked > LOOK:
                     self._page.act(self._look)
                     looked = time.monotonic()
-            except Exception as error:  # a defect must not leave a page that stands still
+            except Exception as error:  # a bug must not leave an unresponsive page
                 log.exception("the work on %s could not be followed", self._name)
                 message = f"The work on {self._name} was ended by an internal defect, {type(error).__name__}: {error}"
                 self._page.act(lambda message=message: self._give_up(message))
 
     def _look(self) -> None:
-        """Follow the work: its stage, its mesh, its questions, its end."""
+        """Follow the work: its stage, mesh, questions and end."""
         work = self._work
         if work is None:
             return
@@ -200,6 +203,6 @@ class Workbench:
 
 
 def _put(html: Any, content: str) -> None:
-    """Set the content of an element, sent only when it changes."""
+    """Set the content of an element, only if it changes."""
     if html.content != content:
         html.content = content

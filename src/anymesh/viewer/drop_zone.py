@@ -1,7 +1,7 @@
-"""The place on the page where a mesh is dropped, as HTML. A file dropped anywhere goes the way of the upload button.
+"""Drop zone for meshes on the page, as HTML. A file dropped anywhere is passed to the upload button.
 
-The script runs when its (empty) picture loads, which is how HTML that is put into a page later can run one. It also keeps the
-browser from leaving the page for a file that is dropped beside the place, and files that are too large from being sent.
+The script runs when its (empty) picture loads, because scripts in HTML that is added later do not run. It also prevents the
+browser from leaving the page when a file is dropped outside the zone, and from sending files that are too large.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ if (!window.anymeshDrop) {
 
 
 def drop_zone(*, small: bool) -> str:
-    """Return the place to drop a mesh; small: one line, once an asset is shown."""
+    """Return the drop zone; small: one line, used once an asset is shown."""
     formats = ", ".join(suffix[1:].upper() for suffix in READERS)
     script = escape(SCRIPT.replace("MOST", str(MAX_UPLOAD_BYTES), 1), quote=True)
     runs = f'<img src="{EMPTY_PICTURE}" alt="" style="display:none" onload="{script}">'

@@ -1,4 +1,4 @@
-"""Review of many: the outputs in a folder, the least sure first, and what people decided about them (review.json)."""
+"""Review of many assets: the outputs in a folder, least confident first, and decisions about them (review.json)."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ from anymesh.storage.outputs import written_files
 from anymesh.storage.stage_files import read_json
 
 REVIEW = "review.json"
-DEEP = 3  # folders down to which outputs are looked for
-PATIENCE, PAUSE = 5.0, 0.02  # [s] for another process that writes a decision
+DEEP = 3  # maximum depth of folders that are searched for outputs
+PATIENCE, PAUSE = 5.0, 0.02  # [s] to wait for another process that writes a decision
 UNSURE = 0.4  # an item below this confidence is unsure
 
 
 class Verdict(StrEnum):
-    """What a reviewer said of an asset."""
+    """A reviewer's verdict on an asset."""
 
     ACCEPTED = "accepted"
     REJECTED = "rejected"
@@ -32,7 +32,7 @@ class Verdict(StrEnum):
 
 
 class Filter(StrEnum):
-    """Which items are gone through."""
+    """Filter of the items to review."""
 
     ALL = "all"
     UNDECIDED = "undecided"
@@ -45,19 +45,19 @@ class Filter(StrEnum):
 
 @dataclass(frozen=True)
 class Item:
-    """An output. key: its path below the folder; confidence: of its least sure joint, 0 when nothing moves."""
+    """An output. key: its path below the folder; confidence: of its least confident joint, 0 if nothing moves."""
 
     key: str
     folder: Path
     name: str
     confidence: float
     warnings: tuple[str, ...]
-    version: str  # digest of asset.json: a decision is about one version
+    version: str  # digest of asset.json: a decision applies to one version
 
 
 @dataclass(frozen=True)
 class Decision:
-    """What was said, by whom, when (ISO 8601), and of which version of the asset."""
+    """A verdict with its reviewer, time (ISO 8601) and version of the asset."""
 
     verdict: Verdict
     reviewer: str
@@ -67,19 +67,19 @@ class Decision:
 
 @dataclass(frozen=True)
 class Review:
-    """The items of a folder, the least sure first, and every decision about them, in order."""
+    """The items of a folder, least confident first, and all decisions about them, in order."""
 
     folder: Path
     items: tuple[Item, ...]
     decisions: dict[str, tuple[Decision, ...]]
 
     def standing(self, item: Item) -> Decision | None:
-        """The last decision about an item, None when there is none or the asset was changed since."""
+        """Return the last decision about an item; None if there is none or the asset has changed since."""
         last = self.decisions.get(item.key, ())[-1:]
         return last[0] if last and last[0].version == item.version else None
 
     def chosen(self, filter_: Filter) -> tuple[Item, ...]:
-        """The items that a filter lets through."""
+        """Return the items that pass a filter."""
         return tuple(item for item in self.items if self._matches(item, filter_))
 
     def _matches(self, item: Item, filter_: Filter) -> bool:
@@ -98,7 +98,7 @@ class Review:
 
 
 def read_review(folder: Path) -> Review:
-    """The outputs below a folder and the decisions beside them. OutputError when there is no output."""
+    """Read the outputs below a folder and the decisions beside them. Raise OutputError if there is no output."""
     folder = Path(folder).resolve()
     items = [item for path in _outputs(folder, DEEP) if (item := _item(folder, path)) is not None]
     if not items:
@@ -108,7 +108,7 @@ def read_review(folder: Path) -> Review:
 
 
 def decide(folder: Path, key: str, decision: Decision) -> None:
-    """Adds a decision to review.json, whatever others added meanwhile. OutputError when it cannot be written."""
+    """Add a decision to review.json, keeping concurrent ones. Raise OutputError if it cannot be written."""
     end = time.monotonic() + PATIENCE
     while True:
         with locked(folder) as mine:
@@ -130,7 +130,7 @@ def _outputs(folder: Path, deep: int) -> Sequence[Path]:
 
 
 def _item(folder: Path, path: Path) -> Item | None:
-    """None for an output without final files."""
+    """Return an output as an item; None without final files."""
     record = read_json(path / "asset.json")
     if record is None:
         return None
@@ -151,7 +151,7 @@ def _read_decisions(folder: Path) -> dict[str, tuple[Decision, ...]]:
         told: dict[str, list[dict[str, Any]]] = (found or {}).get("decisions", {})
         return {key: tuple(Decision(**{**d, "verdict": Verdict(d["verdict"])}) for d in made) for key, made in told.items()}
     except (TypeError, ValueError, KeyError, AttributeError) as error:
-        raise OutputError(f"{path} is no review ({error}); move it away to begin a new one") from error
+        raise OutputError(f"{path} is not a review ({error}); move it away to begin a new one") from error
 
 
 def _write(folder: Path, decisions: dict[str, tuple[Decision, ...]]) -> None:

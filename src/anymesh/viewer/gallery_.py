@@ -1,4 +1,4 @@
-"""The tab "Review" of the live page: one output after the other, judged by a key."""
+"""The tab "Review" of the live page: verdicts on one output after the other, by keys."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ EMPTY = "none"
 
 
 class ReviewPanel:
-    """A folder of outputs, gone through with keys: A accept, R reject, C to correct, arrows right and left."""
+    """Review of a folder of outputs with keys: A accept, R reject, C to correct, right and left arrows."""
 
     def __init__(
         self, page: Page, tab: Any, folder: Path, *, reviewer: str, clock: Clock, open_: Callable[[Path], None]
@@ -46,7 +46,7 @@ class ReviewPanel:
         self._filtered()
 
     def refresh(self, session: Session) -> None:
-        """Follows the asset that is shown, and what others decided."""
+        """Update the panel for the displayed asset, and for decisions of others."""
         self._why.content = joint_table(session.shown)
         self._tell()
 
@@ -55,7 +55,7 @@ class ReviewPanel:
         return {f"{k}. {item.confidence:.2f} {item.key}": item for k, item in enumerate(chosen, 1)}
 
     def _filtered(self) -> None:
-        """The first item that passes the filter, unless the one shown does."""
+        """Show the first item that passes the filter, unless the displayed one does."""
         self._review = read_review(self._folder)
         labels = self._labels()
         offer(self._list, tuple(labels) or (EMPTY,), next(iter(labels), EMPTY))
@@ -95,7 +95,7 @@ class ReviewPanel:
             self.refresh(self._page.session)
 
     def _decide(self, verdict: Verdict) -> None:
-        """Writes the verdict and goes on to the next item, but stays with one that is to be corrected."""
+        """Write the verdict and show the next item, or stay if the item is to be corrected."""
         if self._at is None:
             return
         if verdict is not Verdict.CORRECT:

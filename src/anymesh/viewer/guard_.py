@@ -1,7 +1,7 @@
-"""Who may speak to the live page: browsers at its own address only, so that no other web page reaches it.
+"""Access control of the live page: only browsers at its own address are served.
 
-A page elsewhere that a person visits may send requests to the loopback address: its Origin gives it away. A name that was
-made to point to the loopback address (DNS rebinding) is another Host than the page's.
+Another web page that a person visits may send requests to the loopback address, which is detected by their Origin. A host name
+that points to the loopback address (DNS rebinding) is detected by a different Host.
 """
 
 from __future__ import annotations
@@ -17,9 +17,9 @@ REFUSAL = b"this page answers at its own address only\n"
 
 
 def is_permitted(host: str | None, origin: str | None, *, bound: str) -> bool:
-    """Tell whether a request with these headers may be answered. bound: the address that the server listens at.
+    """Return whether a request with these headers may be served. bound: the address that the server listens at.
 
-    At a loopback address, Host must be one; Origin, where a browser sends it, must be the page's own everywhere.
+    At a loopback address, Host must be a loopback address. Origin, if sent, must always be that of the page.
     """
     if not host or (_is_loopback(bound) and not _is_loopback(_name(f"//{host}"))):
         return False
@@ -44,7 +44,7 @@ def _is_loopback(name: str) -> bool:
 
 @contextmanager
 def guarded_server(bound: str) -> Generator[None]:
-    """Let a server that is started inside refuse what is not permitted, before its own handlers see it."""
+    """Make a server that is started in this context reject unpermitted requests before its own handlers."""
     import websockets.asyncio.server as library
     from websockets.datastructures import Headers, MultipleValuesError
     from websockets.http11 import Response

@@ -1,4 +1,4 @@
-"""A person at work on one asset: what is selected, previewed, corrected and saved. No page here; every tab shares one."""
+"""Session of a person with one asset: selection, preview, corrections and saving. It is shared by all tabs of a page."""
 
 from __future__ import annotations
 
@@ -27,12 +27,12 @@ from anymesh.rendering.raycast_ import RayScene
 from anymesh.types import Asset, Joint, Segmentation
 from anymesh.viewer.scene import apart
 
-Clock = Callable[[], str]  # the time now, ISO 8601
+Clock = Callable[[], str]  # the current time, ISO 8601
 
 
 @dataclass(frozen=True, eq=False)
 class Hit:
-    """What a ray met: a face, its part's number, and the point on it [m] where that is at rest."""
+    """Hit of a ray: a face, the index of its part, and the point on it [m] in the rest pose."""
 
     face: int
     part: int
@@ -40,7 +40,7 @@ class Hit:
 
 
 def part_poses(asset: Asset, positions: Mapping[str, float], explode: float) -> dict[str, Float[np.ndarray, "4 4"]]:
-    """Part name -> where it is shown, from rest; explode: 0 in place .. 1 apart."""
+    """Return part name -> displayed pose relative to rest; explode: 0 in place .. 1 apart."""
     found = link_transforms(asset, positions)
     for name, off in (apart(asset) if explode else {}).items():
         found[name][:3, 3] += explode * off
@@ -48,7 +48,7 @@ def part_poses(asset: Asset, positions: Mapping[str, float], explode: float) -> 
 
 
 class Session:
-    """An asset opened by someone. positions: joint name -> [rad or m]; chosen: faces picked for a move or a split."""
+    """An open asset. positions: joint name -> [rad or m]; chosen: faces picked for a move or a split."""
 
     def __init__(self, folder: Path, author: str, clock: Clock) -> None:
         self._opened: Opened = open_asset(folder)
@@ -77,20 +77,20 @@ class Session:
 
     @property
     def shown(self) -> Asset:
-        """The asset with the correction that is only previewed."""
+        """The asset with the previewed correction."""
         return self.asset if self.preview is None else apply(self.asset, self.preview)
 
     @property
     def unsaved(self) -> bool:
-        """Whether a save would change anything."""
+        """Whether there are unsaved changes."""
         return self.history.done != self._saved
 
     def joint(self) -> Joint | None:
-        """The joint that carries the selected part, as it is (not as previewed)."""
+        """Return the joint that carries the selected part, without the preview."""
         return next((j for j in self.asset.joints if j.child == self.selected), None)
 
     def correct(self, correction: Correction) -> None:
-        """Makes a correction. CorrectionError when it makes no sense; then nothing changes."""
+        """Apply a correction. Raise CorrectionError if it is not applicable; then nothing changes."""
         self._go(self.history.do(HistoryEntry(correction, self._clock(), self._author)))
 
     def undo(self) -> None:
@@ -100,12 +100,12 @@ class Session:
         self._go(self.history.redo())
 
     def save(self) -> None:
-        """Writes the asset again with its corrections. StaleError when somebody else saved it since."""
+        """Write the asset with its corrections. Raise StaleError if someone else saved it since."""
         self._opened = save_asset(self._opened)
         self._saved = self.history.done
 
     def reload(self) -> None:
-        """Takes what is saved, without what is not."""
+        """Load the saved state, dropping unsaved changes."""
         self._opened = open_asset(self.folder)
         self._saved = self.history.done
         self._settle()
@@ -115,7 +115,7 @@ class Session:
         self._settle()
 
     def _settle(self) -> None:
-        """What no longer belongs to the asset goes."""
+        """Reset state that no longer fits the asset."""
         self.preview, self.chosen = None, np.zeros(0, np.int64)
         if self.selected not in {p.name for p in self.asset.segmentation.parts}:
             self.selected = None
@@ -126,7 +126,7 @@ class Session:
         return at if joint.limits is None else float(np.clip(at, *joint.limits))
 
     def motions(self) -> tuple[ChooseMotion, ...]:
-        """The ranked free motions of the selected part. CorrectionError for the root, or when nothing is selected."""
+        """Return the ranked free motions of the selected part. Raise CorrectionError for the root, or without a selection."""
         if self.selected is None:
             raise CorrectionError("select a part first")
         if self._ready is None or self._ready[0] is not self.asset.segmentation:
@@ -134,11 +134,11 @@ class Session:
         return ranked_motions(self.asset, self.selected, ready=self._ready[1])
 
     def hit(self, origin: Float[np.ndarray, " 3"], direction: Float[np.ndarray, " 3"]) -> Hit | None:
-        """What a ray meets first, in the pose and the exploded view that are shown; None for nothing."""
+        """Return the first hit of a ray, in the displayed pose and exploded view; None if there is none."""
         return self.hits(origin[None], direction[None])[0]
 
     def hits(self, origins: Float[np.ndarray, "n 3"], directions: Float[np.ndarray, "n 3"]) -> list[Hit | None]:
-        """As `hit`, of many rays."""
+        """Return the hits of many rays, as `hit` does."""
         nearest = np.full(len(origins), np.inf)
         what: list[Hit | None] = [None] * len(origins)
         poses = part_poses(self.asset, self.positions, self.explode)

@@ -1,4 +1,4 @@
-"""The live page (viser): one asset, shared by every tab, with what a person can do to it."""
+"""The live page (viser): one asset, shared by every tab, with its controls."""
 
 from __future__ import annotations
 
@@ -24,13 +24,13 @@ from anymesh.viewer.panels_tools_ import CorrectionTools
 from anymesh.viewer.scene import swayed
 from anymesh.viewer.scene_ import SceneView
 
-SECONDS = 4.0  # of a play: there and back
+SECONDS = 4.0  # duration of a play, there and back
 TICK = 0.05  # [s] between poses
-MESSAGE_SECONDS = 6.0  # [s] that a message stays
+MESSAGE_SECONDS = 6.0  # [s] for which a message is shown
 
 
 def start_server(host: str, port: int, label: str) -> Any:
-    """A viser server that answers at its own address only. MissingExtraError without the package."""
+    """Start a viser server that answers at its own address only. Raise MissingExtraError without the package."""
     try:
         import viser
     except ImportError:
@@ -42,10 +42,10 @@ def start_server(host: str, port: int, label: str) -> Any:
 
 
 class LivePage:
-    """Everything of one page. Callbacks of the server come from many threads; `act` lets one at a time do its work.
+    """State and controls of one page. Callbacks of the server come from many threads; `act` serializes them.
 
-    review: a folder of outputs to go through, None for a page of one asset; bench: what a workbench needs, on a page that
-    takes meshes.
+    review: folder of outputs to review, None for a page of one asset; bench: settings of the workbench, for a page that accepts
+    meshes.
     """
 
     def __init__(
@@ -56,7 +56,7 @@ class LivePage:
         self._lock, self._ended = threading.RLock(), threading.Event()
         self.view = SceneView(server)
         self.session: Session | None = None
-        self.playing: str | None = None  # a joint's name, "" for all, None for a pose that stands still
+        self.playing: str | None = None  # a joint's name, "" for all, None for a static pose
         self._began = 0.0
         self.gui.main_panel.dock_right()
         self.gui.main_panel.set_width(390)
@@ -69,7 +69,7 @@ class LivePage:
         self._download = self.gui.add_button("Download zip", hint="The asset with all its files; saves corrections first")
         self._download.on_click(lambda event: self.act(lambda: self.download(event.client)))
         tabs = self.gui.add_tab_group()
-        self._of_asset = (self._buttons, self._download, tabs)  # there is nothing to do with these before there is an asset
+        self._of_asset = (self._buttons, self._download, tabs)  # hidden while there is no asset
         first = None if review is None else tabs.add_tab("Review")
         self.play = PlayPanel(self, tabs.add_tab("Play"))
         correct = tabs.add_tab("Correct")
@@ -84,7 +84,7 @@ class LivePage:
         self._player.start()
 
     def open(self, folder: Path) -> None:
-        """Shows the asset of an output folder. OutputError when there is none."""
+        """Show the asset of an output folder. Raise OutputError if there is none."""
         with self._lock:
             self.session = Session(folder, self._author, self._clock)
             self.playing = None
@@ -93,7 +93,7 @@ class LivePage:
             self._show_controls()
 
     def shut(self) -> None:
-        """Take the asset off the page."""
+        """Remove the asset from the page."""
         with self._lock:
             self.session = self.playing = None
             self.view.clear()
@@ -114,7 +114,7 @@ class LivePage:
         client.send_file_download(f"{folder.name}.zip", zip_bytes(folder), save_immediately=True)
 
     def close(self) -> None:
-        """Ends the play and the server."""
+        """Stop the play and the server."""
         if self.bench is not None:
             self.bench.close()
         self._ended.set()
@@ -123,11 +123,11 @@ class LivePage:
 
     @property
     def asset(self) -> Asset | None:
-        """What is shown, with the correction that is previewed."""
+        """The displayed asset, with the previewed correction."""
         return None if self.session is None else self.session.shown
 
     def act(self, what: Callable[[], None]) -> None:
-        """Does something for a person; what makes no sense is told, and nothing changes."""
+        """Run a person's action under the lock; errors are shown, and nothing changes then."""
         with self._lock:
             try:
                 what()
@@ -135,14 +135,14 @@ class LivePage:
                 self.tell(str(error), bad=True)
 
     def tell(self, text: str, *, bad: bool = False) -> None:
-        """A message in every tab."""
+        """Show a message in every tab."""
         for client in self.server.get_clients().values():
             client.add_notification(
                 "Not done" if bad else "Done", text, auto_close_seconds=MESSAGE_SECONDS, color="red" if bad else "green"
             )
 
     def refresh(self) -> None:
-        """Draws everything anew from the session."""
+        """Draw everything from the session."""
         if self.session is None:
             return
         shown = self.session.shown
@@ -154,13 +154,13 @@ class LivePage:
         self.tell_head()
 
     def tell_head(self) -> None:
-        """The top of the page."""
+        """Update the head of the page."""
         if self.session is not None:
             unsaved = max(len(self.session.history.done), 1) if self.session.unsaved else 0
             self._head.content = head(self.session.asset, unsaved=unsaved, note=self.view.note(), tool=self.tools.told)
 
     def correct(self, correction: Correction) -> None:
-        """Makes a correction on the asset shown."""
+        """Apply a correction to the displayed asset."""
         if self.session is not None:
             self.session.correct(correction)
             self.playing = None
@@ -183,7 +183,7 @@ class LivePage:
             self.tell(f"saved to {self.session.folder}")
 
     def escape(self) -> None:
-        """Leaves what is under way: a tool, a preview, the faces chosen; then the selection."""
+        """Leave the current tool, preview and chosen faces; if there are none, clear the selection."""
         if self.session is None:
             return
         busy = self.tools.leave() or self.session.preview is not None or len(self.session.chosen) > 0
@@ -194,13 +194,13 @@ class LivePage:
         self.refresh()
 
     def select(self, name: str | None) -> None:
-        """Makes a part the one that corrections are about."""
+        """Select the part to correct."""
         if self.session is not None and name != self.session.selected:
             self.session.selected, self.session.preview = name, None
             self.refresh()
 
     def play_joint(self, joint: str | None) -> None:
-        """Moves a joint to and fro ("" for all, None for none) from now on."""
+        """Move a joint back and forth ("" for all, None to stop)."""
         self.playing, self._began = joint, time.monotonic()
         if joint is None and self.session is not None:
             self.view.pose(self.session.positions, self.session.explode)
@@ -227,5 +227,5 @@ class LivePage:
             self.key(label, key, what, modifier)
 
     def key(self, label: str, key: str, what: Callable[[], None], modifier: str | None = None) -> None:
-        """A key of the page; also in its list of commands (Ctrl-K)."""
+        """Add a keyboard shortcut to the page, and to its list of commands (Ctrl-K)."""
         self.gui.add_command(label, hotkey=key, modifier=modifier).on_trigger(lambda _: self.act(what))

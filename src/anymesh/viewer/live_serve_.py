@@ -1,4 +1,4 @@
-"""Opens the live page on whatever a person points at: an output, a mesh, or a folder of outputs."""
+"""Opening of the live page for an output, a mesh, or a folder of outputs."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from anymesh.viewer.live_ import LivePage, start_server
 
 @dataclass(frozen=True)
 class Serving:
-    """A page that is there. url: to open; told: what a person should know, in sentences."""
+    """A running page. url: its address; told: information for the person, in sentences."""
 
     page: LivePage
     url: str
@@ -41,12 +41,12 @@ def serve(
     out: str | Path | None = None,
     progress: Progress = silent,
 ) -> Generator[Serving]:
-    """The live page of a target, for as long as the `with` block lasts.
+    """Serve the live page of a target within the `with` block.
 
-    A mesh is articulated first, into a temporary folder that stays when corrections were saved in it. None: a page that takes
-    meshes. ask: the page takes this mesh and puts the questions about it to the person. out: a folder in which a page that
-    takes meshes keeps assets, and answers for a later run. A port that is taken moves on to the next. root: as for
-    `articulate`. Raises InputError, OptionError, OutputError, MissingExtraError.
+    A mesh is articulated first, into a temporary folder that is kept if corrections were saved in it. None: a page that accepts
+    meshes. ask: the page articulates this mesh and puts its questions to the person. out: folder in which a page that accepts
+    meshes stores assets, and answers for later runs. If the port is taken, the next one is used. root: as for `articulate`.
+    Raise InputError, OptionError, OutputError or MissingExtraError.
     """
     place = None if target is None else Path(target)
     if ask and (place is None or not place.is_file()):
@@ -63,7 +63,7 @@ def serve(
         else:
             folder, told = stack.enter_context(_articulated(place, root, progress))
         one = folder is not None and written_files(folder) is not None
-        with contextlib.redirect_stdout(io.StringIO()):  # of the library's own banner
+        with contextlib.redirect_stdout(io.StringIO()):  # the library's own banner
             server = start_server(host, port, "anymesh" if place is None else f"anymesh: {place.name}")
         try:
             page = LivePage(server, author=author, clock=clock, review=None if one else folder, bench=bench)
@@ -80,7 +80,7 @@ def serve(
 
 @contextlib.contextmanager
 def _bench(out: str | Path | None, ask: bool) -> Generator[tuple[WorkbenchFolders, tuple[str, ...]]]:
-    """What a page that takes meshes needs; its temporary folder goes at the end."""
+    """Provide the folders of a page that accepts meshes; its temporary folder is removed at the end."""
     with tempfile.TemporaryDirectory(prefix="anymesh-view-", ignore_cleanup_errors=True) as temporary:
         kept = None if out is None else Path(out).resolve()
         lost = "Assets are removed at the end: download them from the page, or give --out DIR."
@@ -89,7 +89,7 @@ def _bench(out: str | Path | None, ask: bool) -> Generator[tuple[WorkbenchFolder
 
 @contextlib.contextmanager
 def _articulated(mesh: Path, root: str | Path | None, progress: Progress) -> Generator[tuple[Path, tuple[str, ...]]]:
-    """A mesh as an output in a temporary folder."""
+    """Articulate a mesh into a temporary folder."""
     temporary = Path(tempfile.mkdtemp(prefix="anymesh-view-"))
     folder = temporary / "asset"
     try:

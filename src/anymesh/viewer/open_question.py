@@ -1,4 +1,4 @@
-"""One open question of a folder of questions, with what a person has answered so far."""
+"""An open question of a folder, with a person's current answers."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ SUGGESTED = "Filled in as geometry would answer; change what is wrong."
 
 
 def find_open_question(folder: Path) -> QuestionFolder | None:
-    """Find the question that a run waits for: the last one without an answer, or whose answer was refused."""
+    """Return the question that a run waits for: the last one without an answer, or with a refused one."""
     if not folder.is_dir():
         return None
     asked = [q for q in QuestionStore(folder).questions() if not q.outdated]
@@ -28,7 +28,7 @@ def find_open_question(folder: Path) -> QuestionFolder | None:
 
 @dataclass
 class OpenQuestion:
-    """A question with its form. note: what the person should know about it."""
+    """A question with its form. note: information for the person."""
 
     folder: QuestionFolder
     form: Form
@@ -37,7 +37,7 @@ class OpenQuestion:
 
     @classmethod
     def of(cls, folder: QuestionFolder) -> OpenQuestion | None:
-        """Open a question; None for one that cannot be answered on the object itself."""
+        """Open a question; None if it cannot be answered on the object itself."""
         try:
             question = unpack_question((folder.path / CHECK).read_bytes(), folder.pictures())
         except (OSError, InputError):
@@ -53,7 +53,7 @@ class OpenQuestion:
         return asked
 
     def take_suggestion(self) -> bool:
-        """Fill in what geometry would answer, once it is there and unless the person has begun; returns whether it was."""
+        """Fill in geometry's suggestion once available, unless the person has started; return whether it became available."""
         text = None if self._suggested else self.folder.suggestion()
         if text is None:
             return False
@@ -66,7 +66,7 @@ class OpenQuestion:
         return True
 
     def submit(self) -> str:
-        """Record the answer if it is valid; returns why it is not, empty when it is recorded."""
+        """Record the answer if it is valid; return why it is not, or an empty string."""
         text = json.dumps(self.form.answer())
         try:
             check_answer(self.folder, text)

@@ -1,4 +1,4 @@
-"""What the live page says in words. Every name from a file is escaped: a page must not run what a mesh is called."""
+"""Texts of the live page, as HTML. Names from files are escaped, so that they cannot inject code."""
 
 from __future__ import annotations
 
@@ -11,23 +11,23 @@ from anymesh.rendering.preview import extent
 from anymesh.types import Asset, Joint, JointType
 from anymesh.viewer.scene import color_of
 
-SURE, UNSURE = 0.7, 0.4  # confidence from which a joint is shown green, and below which red
+SURE, UNSURE = 0.7, 0.4  # confidence from which a joint is green, and below which it is red
 SMALL = 'style="font-size:0.8em;line-height:1.35;padding:0 0.8em 0.4em;overflow-wrap:anywhere"'
 
 
 def color_of_confidence(value: float) -> str:
-    """Green, amber or red, dark enough for white text."""
+    """Return green, amber or red, dark enough for white text."""
     return "#2b8a3e" if value >= SURE else "#b35c00" if value >= UNSURE else "#c92a2a"
 
 
 def badge(value: float) -> str:
-    """A confidence as a coloured field."""
+    """Return a confidence as a coloured label."""
     style = f"background:{color_of_confidence(value)};color:#fff;border-radius:3px;padding:0 0.35em"
     return f'<span style="{style}">{value:.2f}</span>'
 
 
 def head(asset: Asset, *, unsaved: int, note: str, tool: str) -> str:
-    """The top of the page: what needs a look comes first."""
+    """Return the head of the page, with warnings first."""
     lines = [_line("#c92a2a", w) for w in asset.warnings]
     lines += [_line("#1864ab", note)] if note else []
     lines += [_line("#862e9c", tool)] if tool else []
@@ -46,7 +46,7 @@ def _line(color: str, text: str) -> str:
 
 
 def joint_table(asset: Asset) -> str:
-    """Every joint with its range, confidence and reason, the least sure first."""
+    """Return a table of joints with range, confidence and reason, least confident first."""
     number = {p.name: k for k, p in enumerate(asset.segmentation.parts)}
     rows = [_row(number[j.child], j) for j in sorted(asset.joints, key=lambda j: j.confidence)]
     return f"<div {SMALL}>{''.join(rows) or 'Nothing moves.'}</div>"
@@ -60,7 +60,7 @@ def _row(number: int, joint: Joint) -> str:
 
 
 def selection(asset: Asset, name: str | None) -> str:
-    """The selected part: what it is, how it moves, and why."""
+    """Describe the selected part: its label, its motion, and the reasons."""
     if name is None:
         return f"<div {SMALL}>Click a part to select it.</div>"
     number, part = next((k, p) for k, p in enumerate(asset.segmentation.parts) if p.name == name)
@@ -69,19 +69,19 @@ def selection(asset: Asset, name: str | None) -> str:
     joint = next((j for j in asset.joints if j.child == name), None)
     if joint is None:
         return f"<div {SMALL}>{told}<br>The root: it carries the others and has no joint.</div>"
-    return f"<div {SMALL}>{told}{_row(number, joint)}hangs on {escape(joint.parent)}</div>"
+    return f"<div {SMALL}>{told}{_row(number, joint)}parent: {escape(joint.parent)}</div>"
 
 
 def scale_of(joint: Joint) -> tuple[float, str]:
-    """What a joint's positions are multiplied by to be shown, and the unit: degrees or centimetres."""
+    """Return the display factor of a joint's positions, and its unit: degrees or centimetres."""
     return (100.0, "cm") if joint.type is JointType.PRISMATIC else (float(np.rad2deg(1)), "°")
 
 
 def shortened(text: str, most: int = 60) -> str:
-    """A text for a list to choose from."""
+    """Shorten a text for a dropdown list."""
     return text if len(text) <= most else f"{text[: most - 1]}…"
 
 
 def distinct(labels: Sequence[str]) -> list[str]:
-    """The same labels, with a number before each, so that no two are equal."""
+    """Number the labels, so that no two are equal."""
     return [f"{k}. {label}" for k, label in enumerate(labels, 1)]

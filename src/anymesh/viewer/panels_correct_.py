@@ -1,4 +1,4 @@
-"""The tab "Correct" of the live page: the selected part and everything that can be changed about it."""
+"""The tab "Correct" of the live page: the selected part and all its corrections."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ from anymesh.viewer.live import Session
 from anymesh.viewer.panels import distinct, scale_of, selection, shortened
 from anymesh.viewer.panels_page import Page, offer
 
-NONE = "-"  # in a list to choose from
+NONE = "-"  # in dropdown lists
 FIND = "Find other motions"
 NOT_FOUND_YET = "find them first"
-QUIET = "gray"  # of buttons that are not the step expected next
+QUIET = "gray"  # colour of buttons that are not the expected next step
 
 
 class CorrectPanel:
-    """Controls follow the selection. Lists act when a person chooses; numbers when their button is pressed."""
+    """Controls for corrections, which follow the selection. Lists act when changed, numbers when their button is pressed."""
 
     def __init__(self, page: Page, tab: Any) -> None:
         self._page, gui = page, page.gui
@@ -54,7 +54,7 @@ class CorrectPanel:
         self._flip.on_click(lambda _: page.act(lambda: page.correct(FlipSign(self._name()))))
         with self._joint_folder:
             self._type = gui.add_dropdown("Type", tuple(str(t) for t in JointType))
-            self._parent = gui.add_dropdown("Hangs on", (NONE,))
+            self._parent = gui.add_dropdown("Parent", (NONE,))
             self._low, self._high = gui.add_number("Lower", 0.0), gui.add_number("Upper", 0.0)
             self._limits = gui.add_button("Set limits", color=QUIET)
         self._on(self._type, lambda: page.correct(ChangeType(self._name(), JointType(self._type.value))))
@@ -71,7 +71,7 @@ class CorrectPanel:
         self._split.on_click(lambda _: page.act(lambda: page.correct(SplitComponents(self._name()))))
 
     def refresh(self, session: Session) -> None:
-        """Follows the selection and the asset."""
+        """Update the controls for the selection and the asset."""
         names = [p.name for p in session.asset.segmentation.parts]
         self._told.content = selection(session.asset, session.selected)
         offer(self._part, (NONE, *names), session.selected or NONE)
@@ -97,7 +97,7 @@ class CorrectPanel:
         self._use.disabled = session.preview is None
 
     def _on(self, control: Any, what: Callable[[], None]) -> None:
-        """Does something when a person changes a control; refused, the control shows again what is."""
+        """Call a function when a person changes a control; if it is refused, the control is reset."""
 
         def done(event: Any) -> None:
             if event.client is not None:

@@ -1,4 +1,4 @@
-"""What the panels need of the page that they are on."""
+"""Protocol of a page, as used by its panels."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from anymesh.viewer.live import Session
 
 @runtime_checkable
 class Page(Protocol):
-    """A page with at most one asset. server, gui, view: the outside library's, and what draws."""
+    """A page with at most one asset. server, gui: of the viewer library; view: draws the scene."""
 
     server: Any
     gui: Any
@@ -20,44 +20,44 @@ class Page(Protocol):
     session: Session | None
 
     def act(self, what: Callable[[], None]) -> None:
-        """Does something for a person; what makes no sense is told, and nothing changes."""
+        """Run a person's action under the lock; errors are shown, and nothing changes then."""
         ...
 
     def open(self, folder: Path) -> None:
-        """Shows the asset of an output folder. OutputError when there is none."""
+        """Show the asset of an output folder. Raise OutputError if there is none."""
         ...
 
     def shut(self) -> None:
-        """Take the asset off the page."""
+        """Remove the asset from the page."""
         ...
 
     def refresh(self) -> None:
-        """Draws everything anew from the session."""
+        """Draw everything from the session."""
         ...
 
     def tell_head(self) -> None:
-        """The top of the page."""
+        """Update the head of the page."""
         ...
 
     def correct(self, correction: Correction) -> None:
-        """Makes a correction on the asset shown."""
+        """Apply a correction to the displayed asset."""
         ...
 
     def select(self, name: str | None) -> None:
-        """Makes a part the one that corrections are about."""
+        """Select the part to correct."""
         ...
 
     def play_joint(self, joint: str | None) -> None:
-        """Moves a joint to and fro ("" for all, None for none) from now on."""
+        """Move a joint back and forth ("" for all, None to stop)."""
         ...
 
     def key(self, label: str, key: str, what: Callable[[], None], modifier: str | None = None) -> None:
-        """A key of the page; also in its list of commands (Ctrl-K)."""
+        """Add a keyboard shortcut to the page, and to its list of commands (Ctrl-K)."""
         ...
 
 
 def offer(dropdown: Any, options: tuple[str, ...], value: str) -> None:
-    """A list with one of its options chosen; sent only when it changes."""
+    """Set the options and value of a dropdown list, only if they change."""
     if tuple(dropdown.options) != options:
         dropdown.options = options
     if dropdown.value != value:

@@ -1,4 +1,4 @@
-"""The tab "Play" of the live page: a slider a joint, and what is drawn."""
+"""The tab "Play" of the live page: a slider per joint, and display options."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from anymesh.viewer.live import Session
 from anymesh.viewer.panels import joint_table, scale_of
 from anymesh.viewer.panels_page import Page
 
-STEPS = 200  # of a slider from limit to limit
+STEPS = 200  # steps of a slider from limit to limit
 
 
 class PlayPanel:
-    """Sliders are made anew when joints change, and only then: a slider that is dragged must stay."""
+    """Controls for motion. Sliders are rebuilt only when joints change, so that a dragged slider persists."""
 
     def __init__(self, page: Page, tab: Any) -> None:
         self._page, gui = page, page.gui
@@ -40,7 +40,7 @@ class PlayPanel:
                 self._why = gui.add_html("")
 
     def refresh(self, session: Session) -> None:
-        """Follows the joints of what is shown."""
+        """Update the sliders for the joints of the displayed asset."""
         asset = session.shown
         made = [(j.name, j.child, j.type, j.limits) for j in asset.joints]
         if made != self._made:
@@ -52,7 +52,7 @@ class PlayPanel:
         self._why.content = joint_table(asset)
 
     def tell_playing(self, playing: bool) -> None:
-        """Whether all joints play, when that began elsewhere (a key)."""
+        """Update the checkbox after all joints were started or stopped elsewhere (by a key)."""
         if self._all.value != playing:
             self._all.value = playing
 
@@ -94,5 +94,5 @@ class PlayPanel:
 
 
 def _by_hand(what: Any) -> Any:
-    """A callback for what a person changed; what the program sets says nothing."""
+    """Wrap a callback to ignore changes made by the program."""
     return lambda event: what() if event.client is not None else None

@@ -1,4 +1,4 @@
-"""Tools of the live page that work on the mesh: click to select, snap an axis, drag it, choose faces."""
+"""Mesh tools of the live page: select by click, snap an axis, drag it, choose faces."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ from anymesh.viewer.panels_correct_ import NONE
 from anymesh.viewer.panels_page import Page, offer
 from anymesh.viewer.scene_ import ray_through
 
-GIZMO = 0.25  # of the diagonal
+GIZMO = 0.25  # size of the handles, as a share of the diagonal
 
 
 class Tool(StrEnum):
-    """What the next click on the mesh does."""
+    """Action of the next click on the mesh."""
 
     SELECT = "Select"
     EDGE = "Edge"
@@ -42,7 +42,7 @@ SNAPS, BRUSHES = (Tool.EDGE, Tool.PLANE, Tool.ROUND), (Tool.PATCH, Tool.BRUSH)
 
 
 class CorrectionTools:
-    """The folders "Axis" and "Faces" of the tab "Correct", and what clicks mean."""
+    """The folders "Axis" and "Faces" of the tab "Correct", and the handling of clicks."""
 
     def __init__(self, page: Page, tab: Any) -> None:
         self._page, gui = page, page.gui
@@ -71,17 +71,17 @@ class CorrectionTools:
 
     @property
     def told(self) -> str:
-        """What the tool in hand is for, "" when it is none."""
+        """Hint for the current tool, "" if there is none."""
         return TOOL_HINTS.get(self._tool, "")
 
     def leave(self) -> bool:
-        """Puts the tool down; False when there was none."""
+        """Leave the current tool; return False if there was none."""
         busy = self._tool is not Tool.SELECT or self._drag.value
         self._tool, self._drag.value = Tool.SELECT, False
         return busy
 
     def refresh(self, session: Session) -> None:
-        """Follows the selection."""
+        """Update the tools for the selection."""
         joint = session.joint()
         self._axis_folder.visible = joint is not None
         self._count.value = f"{len(session.chosen):,} faces"
@@ -116,7 +116,7 @@ class CorrectionTools:
         line = _line(self._tool, PickedPart(session.asset, hit.face), hit.point)
         self._tool = Tool.SELECT
         joint = session.joint()
-        axis = line.axis if joint is None or line.axis @ joint.axis >= 0 else -line.axis  # opens the way that it did
+        axis = line.axis if joint is None or line.axis @ joint.axis >= 0 else -line.axis  # keep the opening direction
         self._page.correct(SetAxis(part, vector(axis), vector(line.origin), line.how))
 
     def _brushed(self, event: Any) -> None:
@@ -154,7 +154,7 @@ class CorrectionTools:
             self._page.correct(SplitPart(part, FaceSet.of(session.chosen), self._name.value))
 
     def _add_gizmo(self, session: Session, joint: Joint) -> None:
-        """Handles at the joint; its red arrow is the axis. Let go, they are a correction."""
+        """Show handles at the joint, with its axis as the red arrow; releasing them makes a correction."""
         self._gizmo = self._page.server.scene.add_transform_controls(
             "/gizmo", scale=GIZMO * session.asset.mesh.diagonal, depth_test=False,
             wxyz=quaternion(turning_x_to(joint.axis)), position=joint.origin,

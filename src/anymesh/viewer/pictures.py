@@ -1,4 +1,4 @@
-"""Pictures for people, from the project's own renderer: a turntable of the motion, and a contact sheet of many assets."""
+"""Pictures by the project's own renderer: a turntable of the motion, and a contact sheet of many assets."""
 
 from __future__ import annotations
 
@@ -24,23 +24,26 @@ from anymesh.rendering.viewpoints import away
 from anymesh.types import Asset, JointType, Mesh
 from anymesh.types.camera import Camera
 
-ELEVATION = 20.0  # [deg] of the turntable's camera
-LOOPS = 3  # times that every joint goes through its range in a turn: open at 60 and 300 degrees, where the front is seen
+ELEVATION = 20.0  # [deg] elevation of the turntable's camera
+LOOPS = 3  # number of motions through every joint's range per turn: open at 60 and 300 degrees, where the front is visible
 COLORS = 256  # of a GIF
-CELL = 300  # [px] of a contact sheet
-BAR = 44  # [px] of text under a cell
-ROOM = 1.12  # round what is seen, with its outline
-REACHED = 5  # places of a range, from limit to limit, that must be in the picture
+CELL = 300  # [px] size of a cell of a contact sheet
+BAR = 44  # [px] height of the text under a cell
+ROOM = 1.12  # factor of the margin around the object, with its outline
+REACHED = 5  # number of positions along a range, from limit to limit, that must be in the picture
 
 
 @dataclass(frozen=True)
 class Turntable:
-    """How the motion is filmed. size [px]; rate: frames a second; turn [deg]: a full one, or less to swing round the front."""
+    """Settings of a turntable.
+
+    size [px]; rate: frames per second; turn [deg]: a full one, or less to swing around the front.
+    """
 
     size: int = 400
     rate: float = 12.5
     turn: float = 360.0
-    materials: bool = False  # as the object looks, instead of a colour a part
+    materials: bool = False  # use the object's materials instead of a colour per part
 
     def __post_init__(self) -> None:
         if not 16 <= self.size <= 4096:
@@ -52,7 +55,7 @@ class Turntable:
 
 
 def film(asset: Asset, how: Turntable) -> Iterator[UInt8[np.ndarray, "H W 3"]]:
-    """Frames of a loop: the camera goes round while every joint goes through its range and back, as in the GLB's animation."""
+    """Yield the frames of a loop: the camera turns while every joint moves through its range and back, as in the GLB."""
     moving = tracks(asset.joints, ExportConfig())
     length = LOOPS * float(max((t.times[-1] for t in moving), default=4.0))
     count = max(2, round(length * how.rate))
@@ -73,7 +76,7 @@ def film(asset: Asset, how: Turntable) -> Iterator[UInt8[np.ndarray, "H W 3"]]:
 
 
 def gif_bytes(frames: Sequence[UInt8[np.ndarray, "H W 3"]], rate: float) -> bytes:
-    """A GIF that loops for ever, its colours those of all frames together, so that nothing flickers."""
+    """Encode a looping GIF with one palette for all frames, to avoid flicker."""
     height = frames[0].shape[0]
     some = np.concatenate([f[:: max(1, height // 100), :: max(1, height // 100)] for f in frames])
     palette = Image.fromarray(some).quantize(COLORS, dither=Image.Dither.NONE)
@@ -84,9 +87,9 @@ def gif_bytes(frames: Sequence[UInt8[np.ndarray, "H W 3"]], rate: float) -> byte
 
 
 def contact_sheet(assets: Sequence[tuple[str, Asset | None]], *, columns: int = 4) -> UInt8[np.ndarray, "H W 3"]:
-    """A cell an asset: its parts in colours, opened, with the axes; under it title, joints, and the lowest confidence.
+    """Draw a cell per asset: opened, with coloured parts and axes; below it title, joints and the lowest confidence.
 
-    None: an asset that cannot be read; its cell says so.
+    None: an asset that cannot be read, which its cell states.
     """
     if not assets or columns < 1:
         raise ValueError(f"a sheet needs assets and columns, found {len(assets)} and {columns}")
@@ -116,7 +119,7 @@ def _opened(asset: Asset) -> UInt8[np.ndarray, "h w 3"]:
 def _drawn(
     asset: Asset, pose: Mesh, camera: Camera, color: UInt8[np.ndarray, "F 3"] | None, scene: RayScene | None = None
 ) -> UInt8[np.ndarray, "H W 3"]:
-    """The asset in a pose, in colours per face, or in its materials."""
+    """Draw the asset in a pose, with colours per face, or with its materials."""
     subject = render_target(pose, scene or RayScene(pose.vertices, pose.faces), asset.segmentation.face_part)
     samples = sample(subject, camera, Window(0, 0, camera.width, camera.height))
     look = material_colors(pose, samples) if color is None else face_colors(color, samples)
@@ -124,7 +127,7 @@ def _drawn(
 
 
 def _camera(points: np.ndarray, azimuth: float, size: int) -> Camera:
-    """One distance and one middle for all azimuths, so that nothing jumps."""
+    """Return a camera with the same distance and centre for all azimuths."""
     center = (points.min(0) + points.max(0)) / 2
     around = float(np.linalg.norm(points[:, :2] - center[:2], axis=1).max())
     radius = float(np.hypot(around, np.ptp(points[:, 2]) / 2)) * ROOM
@@ -134,7 +137,7 @@ def _camera(points: np.ndarray, azimuth: float, size: int) -> Camera:
 
 
 def _reach(asset: Asset) -> Iterator[np.ndarray]:
-    """Where parts come to: the corners with all joints at some places of their ranges."""
+    """Yield the vertices with all joints at several positions of their ranges."""
     for share in np.linspace(0, 1, REACHED):
         at = {j.name: float(np.interp(share, (0, 1), j.limits or (-np.pi, np.pi))) for j in asset.joints}
         yield posed(asset, at).vertices

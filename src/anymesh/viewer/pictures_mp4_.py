@@ -1,4 +1,4 @@
-"""Frames as an MP4 (H.264), by the ffmpeg that imageio-ffmpeg brings (BSD-2; the binary GPL)."""
+"""Encoding of frames as MP4 (H.264), by the ffmpeg of imageio-ffmpeg (BSD-2; the binary GPL)."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from anymesh.errors import MissingExtraError
 
 
 def write_mp4(frames: Iterable[UInt8[np.ndarray, "H W 3"]], path: Path, rate: float) -> None:
-    """Writes the film as every browser and phone plays it. rate: frames a second. Raises MissingExtraError."""
+    """Write a widely playable MP4. rate: frames per second. Raise MissingExtraError without the package."""
     try:
         from imageio_ffmpeg import write_frames
     except ImportError as error:

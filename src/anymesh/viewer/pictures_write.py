@@ -1,4 +1,4 @@
-"""`anymesh picture`: the kind of picture follows from the name of the file."""
+"""`anymesh picture`: the suffix of the file determines the kind of picture."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from anymesh.viewer.pictures_mp4_ import write_mp4
 from anymesh.viewer.report_asset import find_assets, read_asset
 from anymesh.viewer.report_display import displayed
 
-FACES = 200_000  # from which an asset is decimated before it is drawn
+FACES = 200_000  # number of faces above which an asset is decimated before it is drawn
 KINDS = ".gif or .mp4 (a turntable of one asset), .png (a contact sheet)"
 
 
@@ -30,10 +30,11 @@ def write_picture(
     columns: int = 4,
     progress: Progress = silent,
 ) -> Path:
-    """A turntable of the asset in `folder` (out: .gif or .mp4), or a contact sheet of the assets below it (out: .png).
+    """Write a turntable of the asset in `folder` (out: .gif or .mp4), or a contact sheet of those below it (out: .png).
 
-    size [px], rate [frames a second], turn [deg] and materials: as in `Turntable`. Raises InputError, OptionError,
-    OutputError, MissingExtraError. The same folder gives the same bytes of a GIF or PNG.
+    size [px], rate [frames per second], turn [deg] and materials: as in `Turntable`. The same folder gives the same bytes of a
+    GIF or PNG.
+    Raise InputError, OptionError, OutputError or MissingExtraError.
     """
     folder, out = Path(folder), Path(out)
     if not folder.is_dir():

@@ -1,4 +1,4 @@
-"""`anymesh report`: what lies in a folder, as one page."""
+"""`anymesh report`: the assets of a folder as one page."""
 
 from __future__ import annotations
 
@@ -13,16 +13,16 @@ from anymesh.viewer.report_display import FACES
 from anymesh.viewer.report_entry import ReportEntry, folder_entry, within
 from anymesh.viewer.report_html import html_report
 
-MEGABYTES = 100.0  # of a page that browsers still open at once
+MEGABYTES = 100.0  # maximum size of a page that browsers open quickly
 
 
 @dataclass(frozen=True)
 class Reported:
-    """What a report shows."""
+    """Contents of a written report."""
 
     path: Path
     assets: int
-    unreadable: tuple[str, ...]  # folders, with the reason in the page
+    unreadable: tuple[str, ...]  # folders; the page states the reasons
     notes: tuple[str, ...]  # what was decimated or left out
     size: int  # [bytes] of the file
 
@@ -35,11 +35,11 @@ def write_report(
     megabytes: float = MEGABYTES,
     progress: Progress = silent,
 ) -> Reported:
-    """Writes one HTML file of the asset in `folder`, or of all assets below it, the least sure first.
+    """Write one HTML file of the asset in `folder`, or of all assets below it, least confident first.
 
-    out: FOLDER_report.html beside the folder when None; replaced when it is there. faces: from which an asset is decimated
-    for display; megabytes: what would make the file larger is left out, and said so. Raises InputError when there is no
-    asset at all, OutputError when the file cannot be written.
+    out: FOLDER_report.html beside the folder if None; an existing file is replaced. faces: number above which an asset is
+    decimated for display; megabytes: maximum size of the file, beyond which content is left out with a note.
+    Raise InputError if there is no asset, OutputError if the file cannot be written.
     """
     folder = Path(folder)
     if not folder.is_dir():
@@ -55,7 +55,7 @@ def write_report(
     entries = within(sorted(entries, key=_order), megabytes)
     data = html_report(whole.name, entries).encode()
     try:
-        temporary = out.with_name(f".{out.name}.part")  # a page is there whole or not at all
+        temporary = out.with_name(f".{out.name}.part")  # so that the page is written atomically
         temporary.write_bytes(data)
         temporary.replace(out)
     except OSError as error:

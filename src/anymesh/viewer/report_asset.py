@@ -1,4 +1,4 @@
-"""An asset as its folder holds it: asset.json, the GLB, the transcript. What the stages saved is not needed."""
+"""Reading of an asset from its folder: asset.json, the GLB, the transcript. Saved stages are not needed."""
 
 from __future__ import annotations
 
@@ -26,9 +26,9 @@ FROM_Y_UP = np.array([[1, 0, 0, 0], [0, 0, -1, 0], [0, 1, 0, 0], [0, 0, 0, 1.0]]
 
 
 def find_assets(folder: Path) -> list[Path]:
-    """The folder itself when it is an asset's, else all folders below that are, in order of their paths.
+    """Return the folder itself if it is an asset's, else all asset folders below it, in order of their paths.
 
-    Hidden folders are passed over. InputError when there is none.
+    Hidden folders are skipped. Raise InputError if there is none.
     """
     if (folder / RECORD).is_file():
         return [folder]
@@ -40,7 +40,7 @@ def find_assets(folder: Path) -> list[Path]:
 
 
 def glb_path(folder: Path) -> Path:
-    """The GLB of an asset. InputError when it has none."""
+    """Return the path of an asset's GLB. Raise InputError if it has none."""
     named = main_file(Format.GLB, str(_record(folder).get("name")))
     if Path(named).name != named or not (folder / named).is_file():
         raise InputError(f"{folder} has no GLB; `anymesh export {folder} --formats urdf,glb` writes one")
@@ -48,7 +48,7 @@ def glb_path(folder: Path) -> Path:
 
 
 def read_asset(folder: Path) -> Asset:
-    """The asset of a folder. InputError when it is none, or when asset.json and the GLB do not go together."""
+    """Read the asset of a folder. Raise InputError if it is not an asset, or if asset.json and the GLB do not match."""
     record = _record(folder)
     mesh = load_mesh(glb_path(folder)).mesh.transformed(FROM_Y_UP)
     try:
@@ -76,7 +76,7 @@ def read_asset(folder: Path) -> Asset:
 
 
 def read_transcript(folder: Path) -> tuple[Exchange, ...]:
-    """The questions and answers in a transcript, in order; those that cannot be read are left out."""
+    """Read the questions and answers of a transcript, in order; unreadable ones are left out."""
     if not folder.is_dir():
         return ()
     found = (_exchange(folder, path) for path in sorted(folder.iterdir()) if ASKED.fullmatch(path.name))
@@ -94,11 +94,11 @@ def _record(folder: Path) -> Mapping[str, Any]:
 
 
 def _face_part(mesh: Mesh, parts: Sequence[Part]) -> np.ndarray:
-    """Each link is a node of its name."""
+    """Return the part of each face; each link is a node with its name."""
     number = {part.name: k for k, part in enumerate(parts)}
     unknown = [node.name for node in mesh.nodes if node.name not in number]
     if unknown:
-        raise ValueError(f"the GLB has nodes {unknown[:5]} that are no parts; parts are {list(number)[:20]}")
+        raise ValueError(f"the GLB has nodes {unknown[:5]} that are not parts; parts are {list(number)[:20]}")
     return np.array([number[node.name] for node in mesh.nodes])[mesh.face_node]
 
 

@@ -1,4 +1,4 @@
-"""An asset light enough to be shown many a page: fewer faces, smaller textures, and words that say so."""
+"""Reduction of an asset for display on pages with many: fewer faces and smaller textures, with notes."""
 
 from __future__ import annotations
 
@@ -19,19 +19,19 @@ from anymesh.rendering.render import face_colors
 from anymesh.types import Asset, Material, Mesh, Segmentation, Texture
 from anymesh.types.triangles import normals_and_areas
 
-FACES = 60_000  # of an asset, from which it is decimated: about a megabyte of the page
+FACES = 60_000  # number of faces above which an asset is decimated: about a megabyte of the page
 PIXELS = 1024  # longest side of a texture
-COARSE = 4  # times as many faces as wanted are left to the exact decimation
-FINEST = 1e-5  # a cell of that grid, as a share of the part's longest side: cells can be counted
-MIN_PART_FACES = 200  # faces that a part keeps, however small its share
+COARSE = 4  # multiple of the wanted faces that the clustering keeps for the exact decimation
+FINEST = 1e-5  # minimum cell size of the clustering, as a share of the part's longest side, to limit the number of cells
+MIN_PART_FACES = 200  # minimum number of faces of a part
 FORMATS = {"image/png": "PNG", "image/jpeg": "JPEG"}
-COATED = Material("display", (1.0, 1.0, 1.0, 1.0), double_sided=True)  # under vertex colours
+COATED = Material("display", (1.0, 1.0, 1.0, 1.0), double_sided=True)  # used with vertex colours
 
 
 def displayed(asset: Asset, *, faces: int = FACES, pixels: int = PIXELS) -> tuple[Asset, tuple[str, ...]]:
-    """The asset with about as many faces and textures of at most so many pixels, and what was done in words, () for nothing.
+    """Reduce the asset to about `faces` faces and textures of at most `pixels`; also return notes, () if unchanged.
 
-    Parts, joints and names stay as they are. Decimated parts lose their textures; vertices keep the colours instead.
+    Parts, joints and names are unchanged. Decimated parts lose their textures; vertices have the colours instead.
     """
     count = len(asset.mesh.faces)
     if count > faces:
@@ -49,7 +49,7 @@ def displayed(asset: Asset, *, faces: int = FACES, pixels: int = PIXELS) -> tupl
 
 
 def display_glb(asset: Asset) -> bytes:
-    """The GLB of an asset with legal names."""
+    """Return the GLB of an asset with legal names."""
     return glb_bytes(asset, split_links(asset), ExportConfig())
 
 
@@ -78,14 +78,14 @@ def _decimated(asset: Asset, faces: int) -> Asset:
 
 
 def _clustered(triangles: Float[np.ndarray, "F 3 3"], most: int) -> Float[np.ndarray, "R 3 3"]:
-    """The surface with corners drawn together in the cells of a grid, about `max_faces` triangles where it was finer than that.
+    """Merge the corners in each cell of a grid, for about `most` triangles if the surface has more.
 
-    Far from exact and ten times as fast as edge collapses, which take half a minute for a million faces.
+    This is inexact, but ten times as fast as edge collapses, which take half a minute for a million faces.
     """
     if len(triangles) <= most:
         return triangles
     corners = triangles.reshape(-1, 3)
-    cell = float(np.sqrt(2 * normals_and_areas(triangles)[1].sum() / most))  # two triangles a cell of the surface
+    cell = float(np.sqrt(2 * normals_and_areas(triangles)[1].sum() / most))  # two triangles per cell of the surface
     cell = max(cell, FINEST * float(np.ptp(corners, axis=0).max()))
     if not cell > 0:
         return triangles
@@ -100,7 +100,7 @@ def _clustered(triangles: Float[np.ndarray, "F 3 3"], most: int) -> Float[np.nda
 
 
 def _smaller(texture: Texture, pixels: int) -> tuple[Texture, int]:
-    """The texture, and the longest side that it had [px]; one that cannot be read stays as it is."""
+    """Return the reduced texture, and its original longest side [px]; an unreadable one is unchanged."""
     try:
         with Image.open(io.BytesIO(texture.data)) as image:
             longest = max(image.size)
@@ -116,7 +116,7 @@ def _smaller(texture: Texture, pixels: int) -> tuple[Texture, int]:
 
 
 def jpeg(picture: bytes, width: int, quality: int) -> bytes:
-    """A picture's file as JPEG of at most so many pixels across; its transparent places become white."""
+    """Convert a picture file to JPEG of at most this width; transparent pixels become white."""
     with Image.open(io.BytesIO(picture)) as image:
         flat = Image.new("RGB", image.size, (255, 255, 255))
         flat.paste(image, mask=image.getchannel("A") if image.mode in ("RGBA", "LA") else None)
@@ -127,7 +127,7 @@ def jpeg(picture: bytes, width: int, quality: int) -> bytes:
 
 
 def materials_shown(materials: tuple[Material, ...], colors: np.ndarray | None) -> bool:
-    """Whether there is a look to see beside the colours of parts."""
+    """Return whether the materials have visible colours or textures."""
     return colors is not None or any(_has_look(m.textures, m.base_color) for m in materials)
 
 

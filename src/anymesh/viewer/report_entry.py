@@ -1,4 +1,4 @@
-"""One asset of a report: what is told of it, and the data that its 3D view needs."""
+"""One asset of a report: its texts, and the data of its 3D view."""
 
 from __future__ import annotations
 
@@ -17,36 +17,36 @@ from anymesh.viewer.report_display import display_glb, displayed, jpeg, material
 from anymesh.viewer.report_scene import scene
 
 PREVIEW = "preview.png"
-WIDTH, QUALITY = 1280, 82  # [px] of the preview, its JPEG quality
-ASKED_WIDTH, ASKED_QUALITY = 800, 75  # of the pictures that a model was shown
+WIDTH, QUALITY = 1280, 82  # [px] width of the preview, and its JPEG quality
+ASKED_WIDTH, ASKED_QUALITY = 800, 75  # of the pictures shown to a model
 
 
 @dataclass(frozen=True, eq=False)
 class ReportEntry:
-    """title: where the asset lies, as the page says it; glb: gzipped; pictures: what a model was shown, JPEG by SHA-256."""
+    """An asset of a report. title: its location; glb: gzipped; pictures: those shown to a model, as JPEG by SHA-256."""
 
     title: str
-    asset: Asset | None  # None when it cannot be read
-    problem: str = ""  # why not
+    asset: Asset | None  # None if it cannot be read
+    problem: str = ""  # the reason
     scene: Mapping[str, Any] | None = None
     glb: bytes = b""
     preview: bytes = b""  # JPEG
     pictures: Mapping[str, bytes] = field(default_factory=dict)
-    notes: tuple[str, ...] = ()  # what was done for display
+    notes: tuple[str, ...] = ()  # reductions for display
 
     @property
     def least(self) -> float:
-        """The lowest confidence of a joint; 1 when nothing moves."""
+        """The lowest confidence of a joint; 1 if nothing moves."""
         return min((j.confidence for j in self.asset.joints), default=1.0) if self.asset else 0.0
 
     @property
     def size(self) -> int:
-        """Bytes of the page that this asset takes, about: base64 makes 4 of 3."""
+        """Approximate bytes of this asset in the page: base64 makes 4 of 3."""
         return (len(self.glb) + len(self.preview) + sum(map(len, self.pictures.values()))) * 4 // 3
 
 
 def folder_entry(folder: Path, title: str, *, faces: int) -> ReportEntry:
-    """An asset's folder; one that cannot be read says why instead of ending the report."""
+    """Return the entry of an asset's folder; if it cannot be read, the entry states the reason."""
     try:
         asset = read_asset(folder)
     except InputError as error:
@@ -57,14 +57,14 @@ def folder_entry(folder: Path, title: str, *, faces: int) -> ReportEntry:
 
 
 def asset_entry(asset: Asset, *, faces: int) -> ReportEntry:
-    """An asset in memory; without a preview, which takes longer than all the rest."""
+    """Return the entry of an asset in memory, without a preview, which would take longest."""
     asset = with_legal_names(asset)
     shown, notes = displayed(asset, faces=faces)
     return _entry(asset.name, asset, shown, display_glb(shown), notes, b"")
 
 
 def within(entries: list[ReportEntry], megabytes: float) -> list[ReportEntry]:
-    """The entries without what would make the page larger than this: first go pictures shown to models, then 3D views."""
+    """Limit the size of the page, leaving out pictures of questions first, then 3D views."""
     left = int(megabytes * 1e6) - sum(len(e.preview) * 4 // 3 for e in entries)
     found = []
     for entry in entries:
@@ -84,7 +84,7 @@ def within(entries: list[ReportEntry], megabytes: float) -> list[ReportEntry]:
 
 
 def picture_key(png: bytes) -> str:
-    """The name of a picture that a model was shown."""
+    """Return the key of a picture that was shown to a model."""
     return hashlib.sha256(png).hexdigest()[:16]
 
 
@@ -115,7 +115,7 @@ def _preview(path: Path) -> bytes:
 
 
 def _jpeg(picture: bytes, width: int, quality: int) -> bytes:
-    """Nothing for a file that is no picture."""
+    """Convert a picture to JPEG; empty if it is not a picture."""
     try:
         return jpeg(picture, width, quality)
     except (OSError, ValueError, SyntaxError):

@@ -1,4 +1,4 @@
-"""A report as one HTML file that needs nothing else: no server, no network."""
+"""A report as one self-contained HTML file: no server, no network."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ HINT = "drag: turn · right drag: move · wheel: zoom{} · click: select a part 
 
 
 def html_report(title: str, entries: Sequence[ReportEntry]) -> str:
-    """The page. The same entries give the same text. A browser that keeps its rules can load nothing from outside."""
+    """Return the page, the same for the same entries. Its security policy prevents loading anything from outside."""
     scripts = [_static(name) for name in SCRIPTS]
     colors = "".join(f".{name}{{background:{color}}}" for name, color in palette().items())
     style = _static(STYLE) + colors
@@ -48,7 +48,7 @@ def _static(name: str) -> str:
 
 
 def _policy(scripts: Sequence[str], style: str) -> str:
-    """Only these scripts and this style; pictures from the page itself; textures are read as blobs."""
+    """Allow only these scripts and this style, pictures of the page itself, and textures as blobs."""
 
     def allowed(text: str) -> str:
         return f"'sha256-{_text(hashlib.sha256(text.encode()).digest())}'"
@@ -97,7 +97,7 @@ def _section(number: int, entry: ReportEntry, *, alone: bool) -> str:
 
 
 def _stage(entry: ReportEntry, alone: bool) -> str:
-    hint = HINT.format("" if alone else " (after a click)")  # the wheel scrolls a page of many
+    hint = HINT.format("" if alone else " (after a click)")  # the wheel scrolls a page of many assets
     told = f'<button class="open">Show in 3D</button><p class="hint">{hint}</p>' if entry.glb else ""
     return f'<div class="stage">{told}<p class="message" role="status"></p></div>'
 
@@ -125,7 +125,7 @@ def _picture(entry: ReportEntry) -> str:
 
 
 def _data(name: str, values: Any) -> str:
-    """JSON in the page; no text in it can end the element."""
+    """Embed JSON in the page, escaped so that it cannot end the element."""
     text = json.dumps(values, separators=(",", ":"), allow_nan=False)
     return f'<script type="application/json" id="{name}">{text.replace("<", chr(92) + "u003c")}</script>'
 

@@ -1,4 +1,4 @@
-"""An asset in a notebook: its page in a frame of its own, which nothing of the notebook can reach, nor it the notebook."""
+"""Display of an asset in a notebook, as a page in an isolated frame."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from anymesh.types import Asset
 
-HEIGHT = 620  # [px] of the frame
+HEIGHT = 620  # [px] height of the frame
 
 
 class NotebookReport:
-    """What `show` gives: a notebook displays it."""
+    """Result of `show`, which a notebook displays."""
 
     def __init__(self, html: str) -> None:
         self._html = html
@@ -22,12 +22,12 @@ class NotebookReport:
 
 
 def show(asset: Asset, *, height: int = HEIGHT) -> NotebookReport:
-    """The asset as a notebook displays it: in 3D, a slider a joint, tables. height: of the frame [px]."""
+    """Return the asset for display in a notebook: 3D view, a slider per joint, tables. height: of the frame [px]."""
     return NotebookReport(asset_html(asset, height=height))
 
 
 def asset_html(asset: Asset, *, height: int = HEIGHT) -> str:
-    """The report's page of an asset, as a frame that may run its own scripts and nothing else."""
+    """Return the report of an asset in a frame that may only run its own scripts."""
     from anymesh.viewer.report_display import FACES
     from anymesh.viewer.report_entry import asset_entry
     from anymesh.viewer.report_html import html_report
@@ -40,5 +40,5 @@ def asset_html(asset: Asset, *, height: int = HEIGHT) -> str:
 
 
 def register(shell: Any) -> None:
-    """Tells an IPython shell how an asset is displayed; the class is told by name, so nothing is imported before one is."""
+    """Register the display of assets in an IPython shell, by class name, so that nothing is imported early."""
     shell.display_formatter.formatters["text/html"].for_type_by_name("anymesh.types.asset", "Asset", asset_html)

@@ -1,4 +1,4 @@
-"""What the 3D view of a page needs beside the GLB: where axes are drawn, how parts come apart, where the camera begins."""
+"""Data for the 3D view of a page besides the GLB: axes, exploded view, initial camera."""
 
 from __future__ import annotations
 
@@ -12,23 +12,23 @@ from anymesh.rendering.preview import BASE, PALETTE, best_camera, shown_position
 from anymesh.rendering.raycast_ import RayScene
 from anymesh.types import Asset, Joint, JointType
 
-APART = 0.35  # how far a part moves when the view is exploded, a share of the diagonal
-RING = 0.04  # radius of the ring round an axis, a share of the diagonal; as in the preview
+APART = 0.35  # maximum distance of a part in the exploded view, as a share of the diagonal
+RING = 0.04  # radius of the ring around an axis, as a share of the diagonal; as in the preview
 
 
 def color_class(part: int) -> str:
-    """The style of a part's colour."""
+    """Return the CSS class of a part's colour."""
     return "base" if part == 0 else f"c{(part - 1) % len(PALETTE)}"
 
 
 def palette() -> dict[str, str]:
-    """Style -> colour, the colours of the preview."""
+    """Return CSS class -> colour, with the colours of the preview."""
     rows = {"base": BASE} | {f"c{k}": color for k, color in enumerate(PALETTE)}
     return {name: "#{:02x}{:02x}{:02x}".format(*(int(v) for v in color)) for name, color in rows.items()}
 
 
 def scene(asset: Asset, *, looks: bool) -> dict[str, Any]:
-    """Plain values, lengths [m] in the asset frame at rest; parts are told by their numbers. looks: begin with materials."""
+    """Return plain values, lengths [m] in the asset frame at rest, parts by index. looks: start with materials."""
     number = {part.name: k for k, part in enumerate(asset.segmentation.parts)}
     carried = {joint.child: joint for joint in asset.joints}
     corners = {name: asset.mesh.triangles[asset.segmentation.face_part == k].reshape(-1, 3) for name, k in number.items()}
@@ -66,7 +66,7 @@ def _joint(asset: Asset, joint: Joint, number: dict[str, int], corners: np.ndarr
 
 
 def _away(joint: Joint, middle: dict[str, np.ndarray]) -> np.ndarray:
-    """Which way a part leaves its parent: a slide the way it opens, others from middle to middle."""
+    """Return the direction in which a part leaves its parent: a slide opens, others go from centre to centre."""
     if joint.type is JointType.PRISMATIC:
         assert joint.limits is not None
         return joint.axis if joint.limits[1] >= -joint.limits[0] else -joint.axis
@@ -76,11 +76,11 @@ def _away(joint: Joint, middle: dict[str, np.ndarray]) -> np.ndarray:
 
 
 def _view(asset: Asset) -> dict[str, Any]:
-    """The preview's view: from where, and the box that holds the asset at rest and opened."""
+    """Return the view of the preview: its direction, and the box of the asset at rest and opened."""
     opened = posed(asset, {joint.name: shown_position(joint) for joint in asset.joints})
     camera = best_camera(asset, opened, [RayScene(m.vertices, m.faces) for m in (asset.mesh, opened)])
     return {
-        "toward": _list(-camera.T_world_camera[:3, 2]),  # from what is seen to the eye
+        "toward": _list(-camera.T_world_camera[:3, 2]),  # from the object to the eye
         "low": _list(np.minimum(asset.mesh.bounds[0], opened.bounds[0])),
         "high": _list(np.maximum(asset.mesh.bounds[1], opened.bounds[1])),
     }

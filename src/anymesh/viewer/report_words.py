@@ -1,4 +1,4 @@
-"""The words of a report as HTML: warnings, joints, parts, and what a model was asked. Everything told is escaped here."""
+"""Texts of a report as HTML: warnings, joints, parts, and questions to a model. All texts are escaped here."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ SURE, DOUBTFUL = 0.8, 0.5  # confidence from which a joint is marked sure; below
 
 
 def said(told: object) -> str:
-    """Text that may stand anywhere in the page; characters that steer the reader's eye or nothing at all become U+FFFD."""
+    """Escape a text for any place in the page; unprintable and direction-changing characters become U+FFFD."""
     return escape("".join(c if c.isprintable() or c in "\n\t" else "\ufffd" for c in str(told)))
 
 
 def sure(confidence: float) -> str:
-    """A confidence with a mark of its height."""
+    """Return a confidence with a coloured mark."""
     word = "sure" if confidence >= SURE else "fair" if confidence >= DOUBTFUL else "doubtful"
     return f'<span class="mark {word}" title="confidence {confidence:.2f}: {word}">{confidence:.2f}</span>'
 
 
 def warnings(entry: ReportEntry) -> str:
-    """Warnings of the asset first, then what was done for display."""
+    """Return the warnings of the asset, then the notes on its display."""
     told = entry.asset.warnings if entry.asset else (entry.problem,)
     first = "".join(f"<li>{said(w)}</li>" for w in told)
     notes = "".join(f"<p>{said(n)}</p>" for n in entry.notes)
@@ -34,14 +34,17 @@ def warnings(entry: ReportEntry) -> str:
 
 
 def sliders(asset: Asset) -> str:
-    """A row a joint: play, colour, name, type, confidence, slider. Values in rad or m; the script shows degrees and cm."""
+    """Return a row per joint: play, colour, name, type, confidence, slider.
+
+    Values are in rad or m; the script shows degrees and cm.
+    """
     number = _numbers(asset)
     rows = [_slider(k, joint, color_class(number[joint.child])) for k, joint in enumerate(asset.joints)]
     return f'<ol class="joints">{"".join(rows)}</ol>' if rows else '<p class="none">Nothing moves.</p>'
 
 
 def joint_table(asset: Asset) -> str:
-    """Joints with the reason for each."""
+    """Return a table of joints with the reason for each."""
     number = _numbers(asset)
     head = ("", "joint", "type", "parent → child", "range", "confidence", "reason")
     rows = [
@@ -60,7 +63,7 @@ def joint_table(asset: Asset) -> str:
 
 
 def part_table(asset: Asset) -> str:
-    """Parts with the reason for each."""
+    """Return a table of parts with the reason for each."""
     areas, part_of = asset.mesh.face_areas, asset.segmentation.face_part
     head = ("", "part", "label", "faces", "area [m²]", "confidence", "reason")
     rows = [
@@ -79,7 +82,7 @@ def part_table(asset: Asset) -> str:
 
 
 def transcript(entry: ReportEntry) -> str:
-    """Every question to a model with its pictures and its answer, folded; "" when none was asked."""
+    """Return every question to a model with its pictures and answer, collapsed; "" if there were none."""
     asked = entry.asset.exchanges if entry.asset else ()
     if not asked:
         return ""
@@ -129,7 +132,7 @@ def _numbers(asset: Asset) -> dict[str, int]:
 
 
 def _table(title: str, head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    """Cells are HTML already."""
+    """Return a table of cells that are already HTML."""
     if not rows:
         return ""
     names = "".join(f"<th>{said(name)}</th>" for name in head)

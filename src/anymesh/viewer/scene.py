@@ -1,4 +1,4 @@
-"""What the live page draws of an asset, as plain arrays: parts light enough to stay interactive, axes, limits, inertia."""
+"""Drawings of an asset on the live page, as plain arrays: simplified parts, axes, limits, inertia."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from anymesh.rendering.axes import axis_line, ring
 from anymesh.rendering.preview import BASE, PALETTE
 from anymesh.types import Asset, Box, Cylinder, Hull, Joint, JointType, Mesh, Shape
 
-MAX_DISPLAY_FACES = 200_000  # faces drawn; a denser object is decimated for display
-MIN_PART_FACES = 200  # faces that a part keeps, however small its share
-APART = 0.3  # how far a part moves off its parent in the exploded view, a share of the diagonal
-RADIUS = 0.05  # of the ring round an axis, a share of the diagonal
+MAX_DISPLAY_FACES = 200_000  # maximum number of faces drawn; a denser object is decimated for display
+MIN_PART_FACES = 200  # minimum number of faces of a part
+APART = 0.3  # distance of a part from its parent in the exploded view, as a share of the diagonal
+RADIUS = 0.05  # radius of the ring around an axis, as a share of the diagonal
 SIDES = 24  # of a drawn cylinder
-FADED = 0.65  # share of white in the colour of parts that are not selected
+FADED = 0.65  # share of white in the colour of unselected parts
 SHADES = (1.0, 0.78, 0.9, 0.68)  # of the collision shapes of one part
 BOX = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float) / 2
 BOX_FACES = np.array([
@@ -41,14 +41,14 @@ class DisplayMesh:
 
 @dataclass
 class Surfaces:
-    """The surface that each part is drawn with; one that was decimated once is kept while its mesh and faces are the same."""
+    """Display surfaces of the parts. Decimated ones are cached while their mesh and faces are unchanged."""
 
     most: int = MAX_DISPLAY_FACES
     _of: Mesh | None = None
     _kept: dict[bytes, DisplayMesh] = field(default_factory=dict)
 
     def of(self, asset: Asset) -> dict[str, DisplayMesh]:
-        """Part name -> surface in the asset frame at rest."""
+        """Return part name -> surface in the asset frame at rest."""
         mesh, found, keys = asset.mesh, {}, {}
         if mesh is not self._of:
             self._of, self._kept = mesh, {}
@@ -68,7 +68,7 @@ class Surfaces:
         return found
 
     def note(self, asset: Asset) -> str:
-        """What a person should know about what is drawn, "" for nothing."""
+        """Return a note on the displayed surface, "" if it is exact."""
         count = len(asset.mesh.faces)
         if count <= self.most:
             return ""
@@ -76,21 +76,21 @@ class Surfaces:
 
 
 def color_of(number: int, *, faded: bool = False) -> Color:
-    """The colour of a part, as in the preview."""
+    """Return the colour of a part, as in the preview."""
     r, g, b = (float(v) for v in (BASE if number == 0 else PALETTE[(number - 1) % len(PALETTE)]))
     share = FADED if faded else 0.0
     return round(r + share * (255 - r)), round(g + share * (255 - g)), round(b + share * (255 - b))
 
 
 def shade_of(number: int, shape: int) -> Color:
-    """The colour of a collision shape of a part: that of the part, in shades that tell neighbours apart."""
+    """Return the colour of a part's collision shape: that of the part, in shades that distinguish neighbours."""
     r, g, b = color_of(number)
     share = SHADES[shape % len(SHADES)]
     return round(share * r), round(share * g), round(share * b)
 
 
 def apart(asset: Asset) -> dict[str, Float[np.ndarray, " 3"]]:
-    """Part name -> how far it lies from its place in the exploded view [m]: off its parent, the way that it opens."""
+    """Return part name -> offset in the exploded view [m]: away from its parent, in its opening direction."""
     middle, found = {}, {asset.segmentation.parts[0].name: np.zeros(3)}
     for number, part in enumerate(asset.segmentation.parts):
         corners = asset.mesh.triangles[asset.segmentation.faces(number)].reshape(-1, 3)
@@ -116,15 +116,15 @@ def _opening_direction(joint: Joint, middle: dict[str, np.ndarray]) -> np.ndarra
 
 @dataclass(frozen=True, eq=False)
 class JointLines:
-    """A joint at rest: an arrow along its axis (its two ends), the sense of a turn, and the way that its limits leave."""
+    """Lines of a joint at rest: an arrow along its axis (two ends), the positive rotation, and the path between its limits."""
 
     arrow: Float[np.ndarray, "2 3"]
     sense: Float[np.ndarray, "k 2 3"]  # segments
-    range: Float[np.ndarray, "m 2 3"]  # segments: the path of the part's farthest point from limit to limit
+    range: Float[np.ndarray, "m 2 3"]  # segments: path of the part's furthest point from limit to limit
 
 
 def joint_lines(asset: Asset, joint: Joint) -> JointLines:
-    """The lines that show a joint, in the asset frame at rest [m]."""
+    """Return the lines that show a joint, in the asset frame at rest [m]."""
     number = next(k for k, p in enumerate(asset.segmentation.parts) if p.name == joint.child)
     corners, diagonal = asset.mesh.triangles[asset.segmentation.faces(number)].reshape(-1, 3), asset.mesh.diagonal
     slides = joint.type is JointType.PRISMATIC
@@ -151,13 +151,13 @@ def _segments(points: np.ndarray) -> Float[np.ndarray, "k 2 3"]:
 
 
 def box_lines(points: Float[np.ndarray, "n 3"], wider: float) -> Float[np.ndarray, "12 2 3"]:
-    """The edges of the axis-aligned box of points, `wider` [m] on each side."""
+    """Return the edges of the axis-aligned box of points, enlarged by `wider` [m] on each side."""
     low, high = points.min(0) - wider, points.max(0) + wider
     return ((low + high) / 2 + BOX * (high - low))[BOX_EDGES]
 
 
 def shape_surface(shape: Shape) -> DisplayMesh:
-    """A collision shape as triangles in its link's frame."""
+    """Return a collision shape as triangles in its link's frame."""
     match shape:
         case Box():
             return DisplayMesh(shape.center + (BOX * shape.size) @ shape.rotation.T, BOX_FACES)
@@ -180,7 +180,7 @@ def shape_surface(shape: Shape) -> DisplayMesh:
 
 
 def inertia_box(inertia: Inertia) -> DisplayMesh:
-    """The box of even density that has this mass and these moments, in the link's frame."""
+    """Return the box of uniform density with this mass and these moments, in the link's frame."""
     moments, axes = np.linalg.eigh(inertia.tensor)
     squares = 6 * (moments.sum() - 2 * moments) / max(inertia.mass, 1e-12)
     size = np.sqrt(np.maximum(squares, 0))
@@ -188,7 +188,7 @@ def inertia_box(inertia: Inertia) -> DisplayMesh:
 
 
 def swayed(joint: Joint, phase: float) -> float:
-    """Where a joint is [rad or m] at a phase 0..1 of its play: rest, one limit, rest, the other limit where there is one."""
+    """Return the position of a joint [rad or m] at a phase 0..1 of its play: rest, one limit, rest, the other limit."""
     if joint.type is JointType.FIXED:
         return 0.0
     if joint.limits is None:

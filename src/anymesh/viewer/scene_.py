@@ -1,4 +1,4 @@
-"""The 3D scene of the live page (viser): parts, axes, limits, overlays. Nodes are named by number, never by a part's name."""
+"""3D scene of the live page (viser): parts, axes, limits, overlays. Nodes are named by number, not by part."""
 
 from __future__ import annotations
 
@@ -23,16 +23,16 @@ from anymesh.viewer.scene import DisplayMesh, Surfaces, box_lines, color_of, ine
 
 AXIS, SENSE, RANGE, SELECTED, CHOSEN = (190, 20, 40), (190, 20, 40), (30, 110, 200), (255, 120, 0), (230, 0, 200)
 INERTIA = (140, 70, 200)
-THIN, THICK = 2.0, 3.0  # [px] of lines
+THIN, THICK = 2.0, 3.0  # [px] line widths
 SEE_THROUGH = 0.35  # opacity of overlays
 FROM_Y_UP = (0.5**0.5, 0.5**0.5, 0.0, 0.0)  # wxyz; a GLB has Y up
-DISTANCE, FOV = 2.3, np.deg2rad(35)  # of the first view: diagonals off, vertical
-LIFT = 1e-3  # of chosen faces off the surface, a share of the diagonal
-PIXELS = 2048  # of a texture, longest side
+DISTANCE, FOV = 2.3, np.deg2rad(35)  # of the first view: distance in diagonals; vertical field of view
+LIFT = 1e-3  # offset of chosen faces from the surface, as a share of the diagonal
+PIXELS = 2048  # longest side of a texture
 
 
 class SceneView:
-    """Draws one asset on a viser server; every tab sees the same."""
+    """Draws one asset on a viser server, the same in every tab."""
 
     def __init__(self, server: Any) -> None:
         self._server, self._scene = server, server.scene
@@ -40,11 +40,11 @@ class SceneView:
         self._asset: Asset | None = None
         self._drawn: tuple[Segmentation, bool] | None = None
         self._frames: dict[str, Any] = {}  # part name -> frame
-        self._meshes: dict[str, Any] = {}  # part name -> mesh, when parts are coloured
+        self._meshes: dict[str, Any] = {}  # part name -> mesh, if parts are coloured
         self._looks: list[Any] = []  # the same, or their GLBs
-        self._axes: list[tuple[str, Any]] = []  # the part that each joint's frame goes with
+        self._axes: list[tuple[str, Any]] = []  # the part that each joint's frame moves with
         self._overlays: list[Any] = []
-        self._made = count()  # in every name: a tab keeps the place of a node that is gone for the next of that name
+        self._made = count()  # part of every name: a tab reuses the pose of a removed node for a new one with the same name
         self._built: tuple[Asset, Model] | None = None
         self._marks: list[Any] = []
         self.textured, self.axes, self.collision, self.inertia = False, True, False, False
@@ -53,11 +53,11 @@ class SceneView:
         server.gui.configure_theme(show_logo=False, show_share_button=False, control_width="large", brand_color=(190, 60, 20))
 
     def note(self) -> str:
-        """What a person should know about what is drawn."""
+        """Return a note on the displayed surface."""
         return "" if self._asset is None else self._surfaces.note(self._asset)
 
     def look_at(self, mesh: Mesh) -> None:
-        """The first view, for tabs that open from now on and those that are open."""
+        """Set the initial view, for open and future tabs."""
         self.look_from(mesh, away(np.deg2rad(35), np.deg2rad(24)), mesh.diagonal)
 
     def look_from(self, mesh: Mesh, direction: Float[np.ndarray, " 3"], size: float) -> None:
@@ -69,7 +69,7 @@ class SceneView:
             camera.near, camera.far = 0.01 * diagonal, 100 * diagonal
 
     def show(self, asset: Asset) -> None:
-        """Draws an asset; parts whose faces are as before are kept."""
+        """Draw an asset; unchanged parts are not redrawn."""
         _remove(self._marks)
         _remove(self._overlays)
         if self._drawn is None or self._drawn[0] is not asset.segmentation or self._drawn[1] != self.textured:
@@ -80,7 +80,7 @@ class SceneView:
         self._draw_overlays(asset)
 
     def clear(self) -> None:
-        """Take the asset out of the scene."""
+        """Remove the asset from the scene."""
         for handles in (self._marks, self._overlays, [*self._frames.values()], [frame for _, frame in self._axes]):
             _remove(handles)
         self._frames, self._meshes, self._looks, self._axes = {}, {}, [], []
@@ -104,7 +104,7 @@ class SceneView:
         return self._scene.add_frame(f"/node{next(self._made)}", show_axes=False)
 
     def _below(self, part: str) -> str:
-        """The name of a new node that goes with a part."""
+        """Return the name of a new node that moves with a part."""
         return f"{self._frames[part].name}/node{next(self._made)}"
 
     def _mesh(self, name: str, surface: DisplayMesh, color: tuple[int, int, int], opacity: float | None) -> Any:
@@ -134,7 +134,7 @@ class SceneView:
         return self._scene.add_line_segments(name, segments, color, thickness=width, thickness_units="screen")
 
     def pose(self, positions: Mapping[str, float], explode: float) -> None:
-        """Puts every part where joint positions [rad or m] and the exploded view (0..1) have it."""
+        """Place every part according to joint positions [rad or m] and the exploded view (0..1)."""
         if self._asset is None:
             return
         poses = part_poses(self._asset, positions, explode)
@@ -143,7 +143,7 @@ class SceneView:
                 frame.wxyz, frame.position = quaternion(poses[name][:3, :3]), poses[name][:3, 3]
 
     def mark(self, selected: str | None, chosen: np.ndarray) -> None:
-        """Shows which part is selected and which faces are chosen."""
+        """Highlight the selected part and the chosen faces."""
         _remove(self._marks)
         if self._asset is None:
             return
@@ -163,7 +163,7 @@ class SceneView:
             self._marks.append(self._lines(self._below(names[number]), edges, SELECTED, THICK))
 
     def _draw_overlays(self, asset: Asset) -> None:
-        """Collision shapes in place of the parts, and boxes of equal inertia. Building them can take seconds."""
+        """Draw collision shapes in place of the parts, and boxes of equal inertia. Building them can take seconds."""
         for look in self._looks:
             look.visible = not self.collision
         if not (self.collision or self.inertia):
@@ -180,7 +180,7 @@ class SceneView:
 
 
 def ray_through(camera: Any, x: Float[np.ndarray, " n"], y: Float[np.ndarray, " n"]) -> tuple[Vector, np.ndarray]:
-    """Where a tab's camera is, and the directions (n, 3) through places of its picture, 0..1 from the upper left corner."""
+    """Return a tab's camera position, and directions (n, 3) through picture points, 0..1 from the upper left corner."""
     w, i, j, k = camera.wxyz
     half = np.tan(camera.fov / 2)
     local = np.stack([(2 * x - 1) * half * camera.aspect, (2 * y - 1) * half, np.ones(len(x))], 1)
@@ -197,7 +197,7 @@ def _model(asset: Asset) -> Model:
 
 
 def _glb(asset: Asset, number: int) -> bytes:
-    """One part with its looks."""
+    """Return the GLB of one part with its materials."""
     faces = asset.segmentation.faces(number)
     part = asset.segmentation.parts[number]
     alone = Asset("part", asset.source, asset.mesh.subset(faces), Segmentation(np.zeros(len(faces), int), (part,)), (), "")
@@ -212,6 +212,6 @@ def _vertex_normals(mesh: Mesh) -> np.ndarray:
 
 
 def _remove(handles: list[Any]) -> None:
-    """Takes nodes out of the scene, and out of the list."""
+    """Remove nodes from the scene and from the list."""
     while handles:
         handles.pop().remove()

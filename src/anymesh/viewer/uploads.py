@@ -1,4 +1,4 @@
-"""Files that a person hands to the page: a mesh, or a zip with a mesh and what it refers to. Nothing in them is trusted."""
+"""Uploaded files: a mesh, or a zip with a mesh and its referenced files. Their content is not trusted."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ from pathlib import Path, PurePosixPath
 from anymesh.errors import InputError
 from anymesh.loading.load import READERS
 
-MAX_UPLOAD_BYTES = 200 << 20  # [bytes] of a file
-MAX_UNPACKED_BYTES = 1 << 30  # [bytes] of all files in a zip
-MAX_FILES = 2000  # in a zip
-BLOCK = 1 << 20  # [bytes] unpacked at a time
+MAX_UPLOAD_BYTES = 200 << 20  # maximum size of a file [bytes]
+MAX_UNPACKED_BYTES = 1 << 30  # maximum size of all files in a zip [bytes]
+MAX_FILES = 2000  # maximum number of files in a zip
+BLOCK = 1 << 20  # [bytes] unpacked per step
 PLAIN_NAME = re.compile(r"[^A-Za-z0-9._-]+")
 
 
 @dataclass(frozen=True)
 class Upload:
-    """A mesh that was handed over. root: the folder within which the files that it refers to lie."""
+    """An uploaded mesh. root: folder with the files that it refers to."""
 
     mesh: Path
     root: Path
@@ -29,7 +29,7 @@ class Upload:
 def receive(name: str, content: bytes, folder: Path) -> Upload:
     """Save an uploaded file in an empty folder; a zip is unpacked there.
 
-    Raises InputError for a file that is too large, of no known format, or a zip that is unsafe or without exactly one mesh.
+    Raise InputError for a file that is too large, of unknown format, or a zip that is unsafe or without exactly one mesh.
     """
     if len(content) > MAX_UPLOAD_BYTES:
         raise InputError(f"the file has {_size(len(content))}; at most {_size(MAX_UPLOAD_BYTES)} are taken")
@@ -59,7 +59,7 @@ def plain_name(name: str) -> str:
 def unpack(path: Path, folder: Path) -> None:
     """Unpack a zip into a new folder.
 
-    Raises InputError when it is broken, encrypted, too large once unpacked, or has a name that leads out of the folder.
+    Raise InputError if it is broken, encrypted, too large once unpacked, or has a path outside the folder.
     """
     folder.mkdir()
     try:
@@ -72,13 +72,13 @@ def unpack(path: Path, folder: Path) -> None:
                 left = _unpack_entry(archive, entry, folder, left)
     except InputError:
         raise
-    except Exception as error:  # whatever a broken archive makes the library raise is one thing to the user
+    except Exception as error:  # the library raises many types of errors for a broken archive
         reason = " ".join(f"{type(error).__name__}: {error}".split())[:120]
         raise InputError(f"the zip cannot be unpacked, it is broken, encrypted or of an unknown kind ({reason})") from None
 
 
 def _unpack_entry(archive: zipfile.ZipFile, entry: zipfile.ZipInfo, folder: Path, left: int) -> int:
-    """Write one file and return how many bytes may still be written. Counts the bytes; headers can lie."""
+    """Write one file and return the remaining number of bytes. Bytes are counted, since headers may be wrong."""
     target = _inside(entry, folder)
     if target is None:
         return left
@@ -93,7 +93,7 @@ def _unpack_entry(archive: zipfile.ZipFile, entry: zipfile.ZipInfo, folder: Path
 
 
 def _inside(entry: zipfile.ZipInfo, folder: Path) -> Path | None:
-    """Return where an entry goes, None for hidden files that some systems add. Raises InputError for an unsafe one."""
+    """Return the path of an entry, None for hidden files that some systems add. Raise InputError for an unsafe one."""
     name = entry.filename
     place = PurePosixPath(name)
     unsafe = place.is_absolute() or ".." in place.parts or re.search(r"[\\:\x00-\x1f]", name) is not None
@@ -105,7 +105,7 @@ def _inside(entry: zipfile.ZipInfo, folder: Path) -> Path | None:
 
 
 def _only_mesh(folder: Path) -> Path:
-    """Return the one mesh file in a folder. Raises InputError when there is none, or several."""
+    """Return the only mesh file in a folder. Raise InputError if there is none, or several."""
     meshes = sorted(p for p in folder.rglob("*") if p.is_file() and p.suffix.lower() in READERS)
     if len(meshes) != 1:
         names = ", ".join(p.relative_to(folder).as_posix() for p in meshes[:4])

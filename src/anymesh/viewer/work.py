@@ -1,4 +1,4 @@
-"""A mesh on its way to an asset, in a child process that a page watches and may end."""
+"""Articulation of a mesh in a child process that a page can follow and end."""
 
 from __future__ import annotations
 
@@ -26,8 +26,11 @@ CRASHED = "the work on this mesh ended unexpectedly ({}); it may need more memor
 
 
 class ArticulationWork:
-    """One run of `articulate`. `mesh`: the placed mesh as soon as it is read; `error`: why it failed, in words; `done`: the
-    asset is in the folder `out`."""
+    """One run of `articulate`.
+
+    `mesh`: the placed mesh, once it is loaded; `error`: why it failed, in words; `done`: whether the asset is in the folder
+    `out`.
+    """
 
     def __init__(self, mesh: Path, out: Path, **options: Any) -> None:
         self.out = out
@@ -46,7 +49,7 @@ class ArticulationWork:
 
     @property
     def over(self) -> bool:
-        """Whether it ended, well or not."""
+        """Whether it ended, successfully or not."""
         return self.done or self.cancelled or self.error is not None
 
     @property
@@ -56,12 +59,12 @@ class ArticulationWork:
 
     @property
     def words(self) -> str:
-        """What is being done, in words."""
+        """Description of the current stage."""
         stage = WORDS.get(self.stage, self.stage)
         return f"{stage} ({self.item})" if self.item and self.stage in ("segment", "joints") else stage
 
     def cancel(self) -> None:
-        """End the work at once."""
+        """End the work immediately."""
         self.cancelled = True
         self._process.kill()
         self._reader.join(10)

@@ -1,6 +1,6 @@
-"""Main of the child process that articulates one mesh for a page, and reports to standard output as it goes.
+"""Main function of the child process that articulates a mesh for a page, with progress on standard output.
 
-The page's process stays responsive, can end this one at any time, and outlives a crash of native code.
+The page's process stays responsive, can end this one at any time, and survives a crash of native code.
 """
 
 from __future__ import annotations
@@ -15,14 +15,16 @@ from typing import IO, Any
 from anymesh.errors import AnymeshError
 from anymesh.isolation.child import LENGTH, write_message
 
-PARENT_GONE = 1  # exit code when the parent ends
+PARENT_GONE = 1  # exit code if the parent ends
 
 
 def main() -> None:
-    """Read one request (keyword arguments of `articulate`), run it, and write messages: ("progress", stage, item, done,
-    total), ("mesh", Mesh), then ("done",) or ("error", text)."""
+    """Read one request (keyword arguments of `articulate`), run it, and write messages.
+
+    These are ("progress", stage, item, done, total), ("mesh", Mesh), then ("done",) or ("error", text).
+    """
     replies = os.fdopen(os.dup(1), "wb")
-    os.dup2(2, 1)  # what libraries print must not get between the messages
+    os.dup2(2, 1)  # output of libraries must not mix with the messages
     head = sys.stdin.buffer.read(LENGTH)
     request = pickle.loads(sys.stdin.buffer.read(int.from_bytes(head, "little")))
     threading.Thread(target=_end_with_parent, daemon=True).start()
@@ -50,7 +52,7 @@ def _work(replies: IO[bytes], *, mesh: Path, out: Path, **options: Any) -> None:
 
 
 def _end_with_parent() -> None:
-    """End this process when the parent closes the pipe, whatever it is at."""
+    """End this process when the parent closes the pipe."""
     while os.read(sys.stdin.fileno(), 1):  # not through sys.stdin, whose lock would be held when this process ends by itself
         pass
     os._exit(PARENT_GONE)

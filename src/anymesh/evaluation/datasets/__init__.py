@@ -1,1 +1,1 @@
-"""Objects with known joints, as a mesh file and the truth about it."""
+"""Data sets of objects with known joints, as a mesh file and its ground truth."""

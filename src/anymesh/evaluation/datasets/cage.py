@@ -1,5 +1,8 @@
-"""The split of CAGE (Liu et al., CVPR 2024): ids of PartNet-Mobility as its authors publish them (indexes/data_split.json of
-their repository, MIT). 81 objects of six categories are tested; two more categories are trained on only."""
+"""The split of CAGE (Liu et al., CVPR 2024), as published ids of PartNet-Mobility.
+
+The ids are from indexes/data_split.json of the authors' repository (MIT). 81 objects of six categories are tested; two more
+categories are only used for training.
+"""
 
 from __future__ import annotations
 

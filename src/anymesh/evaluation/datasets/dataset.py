@@ -1,4 +1,4 @@
-"""What a set of objects with known joints has to offer."""
+"""Protocol of a data set of objects with known joints."""
 
 from __future__ import annotations
 
@@ -15,21 +15,21 @@ class Dataset(Protocol):
 
     @property
     def name(self) -> str:
-        """As in reports, without spaces."""
+        """Name in reports, without spaces."""
         ...
 
     @property
     def splits(self) -> tuple[str, ...]:
-        """Names of subsets, such as ID and OOD; none for a set that has no subsets."""
+        """Names of subsets, such as ID and OOD; empty if there are none."""
         ...
 
     def objects(self, split: str | None = None) -> Sequence[str]:
-        """Sorted names of the objects, usable as file names. OptionError for a split that does not exist."""
+        """Return the sorted names of the objects, usable as file names. Raise OptionError if the split does not exist."""
         ...
 
     def truth(self, name: str, folder: Path) -> GroundTruth:
-        """Writes the object at rest as one nameless mesh file `folder`/NAME.glb, and returns the truth about it.
+        """Write the object at rest as a nameless mesh file `folder`/NAME.glb, and return its ground truth.
 
-        InputError where the object's files cannot be used.
+        Raise InputError if the object's files cannot be used.
         """
         ...

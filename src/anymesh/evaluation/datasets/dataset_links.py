@@ -1,4 +1,4 @@
-"""Bodies and joints of any source as an object with known joints: one nameless mesh file and the truth about it."""
+"""Assembly of links and joints from any source into an object with known joints: a nameless mesh file and its truth."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from anymesh.evaluation.ground_truth import GroundTruth, TrueJoint
 from anymesh.names import legal_names
 from anymesh.types import JointType, Mesh, Part
 
-Y_UP = np.array([[1.0, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]])  # from Z-up, as robots have it, to glTF's Y-up
+Y_UP = np.array([[1.0, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]])  # from Z-up, as in robotics, to glTF's Y-up
 
 
 @dataclass(frozen=True, eq=False)
 class DatasetJoint:
-    """How a body moves against its parent. origin: a point on the axis; axis: not zero; limits: None if endless or unknown."""
+    """Motion of a link relative to its parent. origin: on the axis; axis: not zero; limits: None if endless or unknown."""
 
     type: JointType
     origin: Float[np.ndarray, " 3"]
@@ -31,9 +31,10 @@ class DatasetJoint:
 
 @dataclass(frozen=True, eq=False)
 class DatasetLink:
-    """meshes: at rest, in the coordinates of the file to be written (Y up); none for a body that cannot be seen.
+    """A link of an object.
 
-    motion: None for a body that is fixed to its parent; parent: None for the root, of which there is one.
+    meshes: at rest, in the coordinates of the file to be written (Y up); empty for an invisible link.
+    motion: None if the link is fixed to its parent; parent: None for the root, of which there is one.
     """
 
     name: str
@@ -44,16 +45,16 @@ class DatasetLink:
 
 
 def assemble(name: str, links: Sequence[DatasetLink], path: Path, category: str = "object") -> GroundTruth:
-    """Writes the bodies to a nameless GLB at `path`; bodies that are fixed to each other are one part.
+    """Write the links to a nameless GLB at `path`; links that are fixed to each other form one part.
 
-    A body that cannot be seen is no part: what it carries moves against the next body below that can, by the joint that
-    carries it. Where the root cannot be seen, the body that carries the others stands for it, or the largest of several.
-    An axis is turned so that positive goes towards the larger limit. Raises InputError where nothing can be seen.
+    An invisible link is not a part: its children are attached to the next visible link towards the root, with their own joints.
+    If the root is invisible, its visible child becomes the base, or the largest of several.
+    Axes are flipped so that the positive direction is towards the larger limit. Raise InputError if nothing is visible.
     """
     known = {b.name: b for b in links}
 
     def head(name: str) -> str:
-        """The body that the fixed one belongs to."""
+        """Return the link that a fixed link belongs to."""
         while known[name].motion is None and known[name].parent is not None:
             name = str(known[name].parent)
         return name
@@ -66,7 +67,7 @@ def assemble(name: str, links: Sequence[DatasetLink], path: Path, category: str 
         raise InputError(f"{name}: found no body with a visible surface; at least one is needed")
 
     def below(name: str) -> str | None:
-        """The next visible body towards the root."""
+        """Return the next visible link towards the root."""
         at = known[name].parent
         while at is not None and head(at) not in seen:
             at = known[head(at)].parent
@@ -97,7 +98,7 @@ def _joint(child: str, parent: str, motion: DatasetJoint | None) -> TrueJoint:
 
 
 def moved(body: DatasetLink, T: Float[np.ndarray, "4 4"]) -> DatasetLink:
-    """The body in other coordinates; T: rigid."""
+    """Transform the link to other coordinates; T: rigid."""
     motion = body.motion
     if motion is not None:
         motion = replace(motion, origin=T[:3, :3] @ motion.origin + T[:3, 3], axis=T[:3, :3] @ motion.axis)

@@ -1,4 +1,4 @@
-"""One file out of a Debian package file, without installing it."""
+"""Extraction of a file from a Debian package file, without installing it."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ HEADER = 60  # bytes before each member of the archive
 
 
 def member(package: Path, name: str) -> io.BytesIO:
-    """The first file of that name in the .deb. Raises InputError."""
+    """Return the first file of that name in the .deb. Raise InputError if it cannot be read."""
     archive = package.read_bytes()
     if not archive.startswith(MAGIC):
         raise InputError(f"{package.name} is no Debian package file; it is expected to start with {MAGIC!r}")

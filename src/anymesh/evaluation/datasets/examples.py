@@ -1,4 +1,4 @@
-"""The objects that this project ships: NAME.json and NAME.npy in truth/, NAME.glb in meshes/ (see examples/build.py)."""
+"""The objects shipped with this project: NAME.json and NAME.npy in truth/, NAME.glb in meshes/ (see examples/build.py)."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from anymesh.evaluation.ground_truth import GroundTruth, read_ground_truth
 
 @dataclass(frozen=True)
 class Examples:
-    """folder: `examples/` of the repository."""
+    """Data set of the shipped examples. folder: `examples/` of the repository."""
 
     folder: Path
     name: str = "examples"
@@ -26,7 +26,7 @@ class Examples:
         return found
 
     def truth(self, name: str, folder: Path) -> GroundTruth:
-        """Its mesh is the one that ships; nothing is written."""
+        """Return the ground truth, with the shipped mesh; nothing is written."""
         path = self.folder / "truth" / f"{name}.json"
         if not path.is_file():
             raise InputError(f"{self.folder}: found no object {name!r}; valid are {', '.join(self.objects())}")

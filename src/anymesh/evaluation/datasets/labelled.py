@@ -1,6 +1,6 @@
-"""Objects at rest: a mesh with a part number a face, and a record of the joints, as made from Infinigen-Sim's generators.
+"""Objects at rest: a mesh with a part index per face, and a record of the joints, as from Infinigen-Sim's generators.
 
-FOLDER/NAME/ holds `rigid.ply` (coordinates as `up` says), `labels.npy` (a part number a face, 0 the base) and `gt.json`:
+FOLDER/NAME/ holds `rigid.ply` (with the up axis `up`), `labels.npy` (a part index per face, 0 for the base) and `gt.json`:
 category, up, and for each joint part, parent_part, type, axis, origin and limits in the mesh's coordinates (null: endless).
 """
 
@@ -21,12 +21,12 @@ from anymesh.evaluation.ground_truth import GroundTruth
 from anymesh.types import JointType, Mesh
 
 RECORD, MESH, LABELS = "gt.json", "rigid.ply", "labels.npy"
-UPRIGHT = {(0, 0, 1): Y_UP, (0, 1, 0): np.eye(4)}  # to the file that is written, which is Y-up
+UPRIGHT = {(0, 0, 1): Y_UP, (0, 1, 0): np.eye(4)}  # to the written file, which is Y-up
 
 
 @dataclass(frozen=True)
 class LabelledFolder:
-    """Every folder below one that holds such an object. Files split_NAME.txt in it list subsets, a name a line."""
+    """Data set of all such folders below a folder. Files split_NAME.txt in it list subsets, one name per line."""
 
     folder: Path
     name: str = "labelled"
@@ -36,7 +36,7 @@ class LabelledFolder:
         return tuple(listed(self.folder))
 
     def objects(self, split: str | None = None) -> list[str]:
-        """Names of the folders. InputError where there is none."""
+        """Return the names of the folders. Raise InputError if there are none."""
         check_split(self.name, split, self.splits)
         names = sorted(path.parent.name for path in self.folder.glob(f"*/{RECORD}"))
         if not names:
@@ -44,7 +44,7 @@ class LabelledFolder:
         return names if split is None else chosen(self.folder, split, names)
 
     def truth(self, name: str, folder: Path) -> GroundTruth:
-        """Writes the parts to `folder`/NAME.glb without names. InputError for a record that cannot be read."""
+        """Write the parts to `folder`/NAME.glb without names. Raise InputError if the record cannot be read."""
         place = self.folder / name
         try:
             record = json.loads((place / RECORD).read_bytes())
@@ -59,7 +59,7 @@ class LabelledFolder:
 
 
 def _bodies(record: dict[str, Any], mesh: Mesh, labels: np.ndarray) -> list[DatasetLink]:
-    """A body a part, Y up. Raises ValueError, KeyError or TypeError for what is not as it should be."""
+    """Return a link per part, Y up. Raise ValueError, KeyError or TypeError for invalid data."""
     if labels.shape != (len(mesh.faces),):
         raise ValueError(f"found {labels.shape} labels for {len(mesh.faces)} faces; valid is one a face")
     T = UPRIGHT[tuple(record["up"])]

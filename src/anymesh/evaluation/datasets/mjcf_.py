@@ -1,10 +1,10 @@
 """Articulated MJCF files as objects with known joints, by MuJoCo's own compiler (the extra `sim`).
 
-An object is a body of the world with all that hangs on it, where at least one hinge or slide joint is in it; a free joint is
-none. Where such a body itself turns or slides against the world, the world's own geoms (without planes) are its base.
-What a body looks like: its geoms that collide with nothing (contype = conaffinity = 0), or all where there is none.
-Of several joints of one body the last is its joint. A range that is told counts, enforced or not. Rest is the pose that the
-file tells (qpos0).
+An object is a child body of the world with all its descendants, if they contain at least one hinge or slide joint; free joints
+do not count. If such a body itself rotates or slides against the world, the world's own geoms (without planes) are its base.
+The visuals of a body are its geoms that collide with nothing (contype = conaffinity = 0), or all geoms if there are none.
+If a body has several joints, the last one is used. A given range is used even if it is not enforced. The rest pose is that of
+the file (qpos0).
 """
 
 from __future__ import annotations
@@ -29,12 +29,12 @@ mujoco = load_mujoco()
 
 TYPES = {int(mujoco.mjtJoint.mjJNT_HINGE): JointType.REVOLUTE, int(mujoco.mjtJoint.mjJNT_SLIDE): JointType.PRISMATIC}
 WORLD = 0
-ENDLESS = (int(mujoco.mjtGeom.mjGEOM_PLANE), int(mujoco.mjtGeom.mjGEOM_HFIELD))  # grounds, not things
+ENDLESS = (int(mujoco.mjtGeom.mjGEOM_PLANE), int(mujoco.mjtGeom.mjGEOM_HFIELD))  # grounds, not objects
 
 
 @dataclass(frozen=True, eq=False)
 class MjcfModel:
-    """A compiled file at rest. Raises InputError where MuJoCo refuses it."""
+    """A compiled file at rest. Raises InputError if MuJoCo rejects it."""
 
     path: Path
 
@@ -53,7 +53,7 @@ class MjcfModel:
         return GeomMaterials(self.model)
 
     def objects(self) -> dict[str, list[int]]:
-        """Name of each object -> its bodies, the one that stays first."""
+        """Return object name -> its bodies, the static one first."""
         m = self.model
         trees: dict[int, list[int]] = {}
         for body in range(1, m.nbody):
@@ -70,7 +70,7 @@ class MjcfModel:
         return {f"{stem}-{legal_name(m.body(root).name or f'body{root}')}": tree for root, tree in sorted(groups.items())}
 
     def _moves(self, tree: list[int]) -> bool:
-        """Whether something that can be seen moves against something else that can."""
+        """Return whether a visible part moves against another visible one."""
         head: dict[int, int] = {}
         for body in tree:  # parents come first
             fixed = body != tree[0] and self._joint(body) is None
@@ -78,19 +78,19 @@ class MjcfModel:
         return len({head[body] for body in tree if self._shown(body)}) > 1
 
     def truth(self, own: str, folder: Path, name: str) -> GroundTruth:
-        """Writes the object `own` of this file as `name`.glb under `folder`. Raises InputError."""
+        """Write the object `own` of this file as `name`.glb to `folder`. Raise InputError if nothing is visible."""
         found = self.objects()[own]
         bodies = [moved(self._body(b, b == found[0]), Y_UP) for b in found]
         return assemble(name, bodies, folder / f"{name}.glb")
 
     def _joint(self, body: int) -> int | None:
-        """The last hinge or slide joint of a body."""
+        """Return the last hinge or slide joint of a body."""
         first, count = int(self.model.body_jntadr[body]), int(self.model.body_jntnum[body])
         own = [j for j in range(first, first + count) if int(self.model.jnt_type[j]) in TYPES]
         return own[-1] if own else None
 
     def _body(self, body: int, root: bool) -> DatasetLink:
-        """In the world's frame, Z up."""
+        """Return the body as a link in the world's frame, Z up."""
         m = self.model
         name, parent = self._name(body), None if root else self._name(int(m.body_parentid[body]))
         joint = None if root else self._joint(body)
@@ -117,7 +117,7 @@ class MjcfModel:
             yield self._looks.mesh(geom).transformed(T)
 
     def _shown(self, body: int) -> list[int]:
-        """The geoms that a body is seen by."""
+        """Return the geoms that show a body."""
         m = self.model
         first = int(m.body_geomadr[body])
         geoms = [g for g in range(first, first + int(m.body_geomnum[body])) if int(m.geom_type[g]) not in ENDLESS]
@@ -125,5 +125,5 @@ class MjcfModel:
 
 
 def object_stem(path: Path) -> str:
-    """How the names of a file's objects begin."""
+    """Return the common prefix of the names of a file's objects."""
     return legal_name(path.stem, fallback="object")

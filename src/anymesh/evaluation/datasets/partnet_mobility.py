@@ -1,14 +1,15 @@
 """PartNet-Mobility, the paper's benchmark: ID/{mobility.urdf, semantics.txt, meta.json, textured_objs/*.obj, images/*}.
 
-The data are gated and non-commercial (SAPIEN's terms), so that nothing of them ships here; whoever has accepted the terms
-unpacks them into a folder with an object a sub-folder. Parts, joints and ranges come from mobility.urdf (which says the same
-as mobility_v2.json), labels from semantics.txt (`link_0 hinge door`), the category from meta.json (model_cat).
-A part that slides and turns (slider+) has the joint that carries it; parts that lie loose (free) are not told from the base.
+The data are gated and non-commercial (SAPIEN's terms), so they are not shipped. Users who have accepted the terms unpack them
+into a folder with one sub-folder per object.
+Parts, joints and ranges come from mobility.urdf (which agrees with mobility_v2.json), labels from semantics.txt (`link_0 hinge
+door`), the category from meta.json (model_cat). For a part that slides and rotates (slider+), the joint nearest to it is used;
+loose parts (free) belong to the base.
 
-Subsets. ID, OOD: the paper's five in-domain categories, and all others. cage-ID: the objects that CAGE tests on; cage-OOD:
-the categories that CAGE does not train on. OneDoor: one hinge door and nothing else that moves (what ANCSH's fixed tree
-takes). Which objects of these the paper took it does not say; a file split_NAME.txt in the folder, with an id a line, sets
-or replaces a subset.
+Subsets. ID, OOD: the paper's five in-domain categories, and all others. cage-ID: CAGE's test objects; cage-OOD: categories that
+CAGE does not train on. OneDoor: a single hinged door and no other moving part (the fixed tree of ANCSH).
+The paper does not state which of these objects it used; a file split_NAME.txt in the folder, with one id per line, adds or
+replaces a subset.
 """
 
 from __future__ import annotations
@@ -31,20 +32,20 @@ SPLITS = ("ID", "OOD", "cage-ID", "cage-OOD", "OneDoor")
 
 @dataclass(frozen=True)
 class ObjectInfo:
-    """What is told of an object. links: (name, kind of joint, label) each."""
+    """Metadata of an object. links: (name, kind of joint, label) each."""
 
     category: str
     links: tuple[tuple[str, str, str], ...]
 
     @property
     def moving(self) -> list[tuple[str, str]]:
-        """(kind, label) of each link that turns or slides."""
+        """(kind, label) of each link that rotates or slides."""
         return [(kind, label) for _, kind, label in self.links if kind in MOVING]
 
 
 @dataclass(frozen=True)
 class PartNetMobility:
-    """folder: holds the objects' folders, each named by its id."""
+    """PartNet-Mobility data set. folder: holds the objects' folders, each named by its id."""
 
     folder: Path
     name: str = "partnet-mobility"
@@ -54,7 +55,7 @@ class PartNetMobility:
         return tuple(dict.fromkeys([*SPLITS, *listed(self.folder)]))
 
     def objects(self, split: str | None = None) -> list[str]:
-        """Ids of the objects with something that turns or slides."""
+        """Return the ids of the objects with a rotating or sliding part."""
         check_split(self.name, split, self.splits)
         names = sorted(self._entries)
         if split is None:

@@ -18,20 +18,22 @@ CLASSES = (
     "BaseCabinet", "WallCabinet", "SinkCabinet", "KitchenIsland", "Dishwasher", "Range", "Refrigerator", "Microwave",
     "HandWheel", "CNCMachine",
 )  # fmt: skip
-VARIED = ("BaseCabinet", "WallCabinet", "SinkCabinet", "Dishwasher", "Range", "Refrigerator")  # forms can be drawn of these
-VARIANTS = 7  # of each, in the subset "random"
+VARIED = ("BaseCabinet", "WallCabinet", "SinkCabinet", "Dishwasher", "Range", "Refrigerator")  # classes with random variants
+VARIANTS = 7  # per class, in the subset "random"
 
 
 @dataclass(frozen=True)
 class SceneSynthesizer:
-    """The classes in their default form; CLASS-SEED is a form that is drawn. HandWheel stands on nothing, so nothing of it
-    moves against anything that can be seen: a mesh in which no joint is to be found."""
+    """The classes in their default form; CLASS-SEED is a random variant.
+
+    HandWheel has no visible base, so no visible part moves against another: a mesh in which no joint should be found.
+    """
 
     name: str = "scene-synthesizer"
     splits: tuple[str, ...] = ("default", "random")
 
     def objects(self, split: str | None = None) -> list[str]:
-        """The default forms; those drawn are the subset "random"."""
+        """Return the default forms, or the random variants for the subset "random"."""
         check_split(self.name, split, self.splits)
         return sorted(f"{c}-{k}" for c in VARIED for k in range(1, VARIANTS + 1)) if split == "random" else sorted(CLASSES)
 
@@ -40,7 +42,7 @@ class SceneSynthesizer:
 
 
 def synthesize(name: str, folder: Path) -> GroundTruth:
-    """Builds CLASS (its default form) or CLASS-SEED and writes it under `folder`: NAME/NAME.urdf and NAME.glb, flattened."""
+    """Build CLASS (its default form) or CLASS-SEED and write it to `folder`: NAME/NAME.urdf and NAME.glb, flattened."""
     from scene_synthesizer import procedural_assets
 
     kind, _, seed = name.partition("-")

@@ -1,12 +1,13 @@
-"""Sweet Home 3D's built-in furniture, doors and windows: models by artists, with hinges and rails (GPL or CC-BY; not shipped).
+"""Sweet Home 3D's built-in furniture, doors and windows with hinges and rails, by artists (GPL or CC-BY; not shipped).
 
-They lie in the program's jar, which the Debian package `sweethome3d` installs (`apt-get install sweethome3d`); the package
-file itself (`apt-get download sweethome3d`) will do as well. In a model the groups `sweethome3d_hinge_K` mark where a hinge
-is, along the longest side of their common box, and groups `..._on_hinge_K...` turn about it; rails likewise, one for all
-where it is called unique. Markers and names would tell the answer: neither reaches the mesh.
+The models are in the program's jar, installed by the Debian package `sweethome3d` (`apt-get install sweethome3d`); the package
+file itself (`apt-get download sweethome3d`) works as well.
+In a model, groups `sweethome3d_hinge_K` mark a hinge along the longest side of their common box, and groups `..._on_hinge_K...`
+rotate about it. Rails work alike; a rail called unique is shared by all. Markers and names would reveal the answer, so neither
+is written to the mesh.
 
-Sweet Home 3D lets a part turn or slide without end, so ranges are not known; but doors and windows have sashes in the
-catalogue, whose arcs tell the side and the angle to which they open.
+Sweet Home 3D does not limit motions, so ranges are unknown. Doors and windows, however, have sashes in the catalogue, whose
+arcs give the side and the angle of their opening.
 """
 
 from __future__ import annotations
@@ -34,12 +35,12 @@ CATALOG = "com/eteks/sweethome3d/io/DefaultFurnitureCatalog.properties"
 ON = re.compile(r"sweethome3d_(?:opening|window_pane|mirror)_on_(hinge|rail)_([^_]+)")
 MARKER = re.compile(r"sweethome3d_(?:unique_(rail)|(hinge|rail)_([^_]+))")
 TYPES = {"hinge": JointType.REVOLUTE, "rail": JointType.PRISMATIC}
-CLOSED = 10.0  # [deg] a sash nearer than this to an end of its arc rests there
+CLOSED = 10.0  # [deg] a sash nearer than this to an end of its arc is at rest there
 
 
 @dataclass(frozen=True)
 class Sash:
-    """A wing of a door or window as the plan draws it: where it turns (shares of width and depth), the ends of its arc [deg].
+    """A wing of a door or window in the floor plan: its hinge (shares of width and depth) and the ends of its arc [deg].
 
     Angles are about +y from +x of the model, whose front is +z.
     """
@@ -50,7 +51,7 @@ class Sash:
 
 @dataclass(frozen=True)
 class SweetHome3D:
-    """source: the .deb, the .jar, or the folder that holds the jar."""
+    """Sweet Home 3D data set. source: the .deb, the .jar, or a folder that contains the jar."""
 
     source: Path = INSTALLED
     name: str = "sweethome3d"
@@ -62,7 +63,7 @@ class SweetHome3D:
 
     @cached_property
     def _catalog(self) -> dict[str, dict[str, str]]:
-        """What the catalogue says of each model, by the name of its file."""
+        """Catalogue entries of the models, by file name."""
         found: dict[str, dict[str, str]] = {}
         for line in self._jar.read(CATALOG).decode("latin-1").splitlines():
             if entry := re.match(r"(\w+)#(\d+)=(.*)", line.strip()):
@@ -75,7 +76,7 @@ class SweetHome3D:
         return self._jar.read(entry["model"].lstrip("/"))
 
     def objects(self, split: str | None = None) -> list[str]:
-        """Models with at least one part that moves."""
+        """Return the models with at least one moving part."""
         check_split(self.name, split, self.splits)
         return sorted(name for name, entry in self._catalog.items() if ON.search(self._model(entry).decode("latin-1")))
 
@@ -113,7 +114,7 @@ def _sashes(entry: dict[str, str]) -> list[Sash]:
 
 
 def _bodies(mesh: Mesh, sashes: list[Sash]) -> list[DatasetLink]:
-    """One body for the groups that stay, one for those on each hinge or rail."""
+    """Return one link for the static groups, and one for those on each hinge or rail."""
     groups = [node.name for node in mesh.nodes]
     owner = {g: on.group(1, 2) for g in groups if (on := ON.match(g))}
     markers: dict[tuple[str, str | None], list[str]] = {}
@@ -140,13 +141,13 @@ def _pieces(mesh: Mesh, groups: list[str]) -> tuple[Mesh, ...]:
 
 
 def _motion(kind: JointType, points: np.ndarray) -> DatasetJoint:
-    """Along the longest side of the marker's box, through its middle."""
+    """Return a motion along the longest side of the marker's box, through its centre."""
     low, high = points.min(0), points.max(0)
     return DatasetJoint(kind, (low + high) / 2, np.eye(3)[int((high - low).argmax())], None, range_known=False)
 
 
 def _opened(motion: DatasetJoint, pieces: tuple[Mesh, ...], sashes: list[Sash], bounds: np.ndarray) -> DatasetJoint:
-    """With the range of the sash that turns nearest to the hinge."""
+    """Return the motion with the range of the sash nearest to the hinge."""
     low, high = bounds[:, [0, 2]]
     places = np.array([low + np.array(s.at) * (high - low) for s in sashes])
     at = motion.origin[[0, 2]]
@@ -160,7 +161,7 @@ def _opened(motion: DatasetJoint, pieces: tuple[Mesh, ...], sashes: list[Sash], 
 
 
 def _direction(pieces: tuple[Mesh, ...], at: np.ndarray) -> np.ndarray:
-    """(x, z): where the wing points from its hinge, along its plane seen from above."""
+    """Return (x, z): the direction of the wing from its hinge, along its plane seen from above."""
     centers = np.concatenate([p.triangles.mean(1) for p in pieces])[:, [0, 2]]
     weights = np.concatenate([p.face_areas for p in pieces])
     middle = np.average(centers, axis=0, weights=weights)

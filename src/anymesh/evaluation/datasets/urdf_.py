@@ -1,7 +1,7 @@
-"""An articulated URDF as an object with known joints: its visuals as one mesh without names, and the truth about it.
+"""Articulated URDF files as objects with known joints: the visuals as one mesh without names, and its ground truth.
 
-Rest is where all joints are at 0. Every joint that turns or slides counts, a mimicking one too. Where links without a visual
-stand between two parts, so that one has several freedoms, the joint that carries it is its joint.
+In the rest pose all joints are at 0. Every rotating or sliding joint counts, including mimicking ones. If links without visuals
+lie between two parts, so that a part has several degrees of freedom, the joint nearest to the part is used.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ JOINT = re.compile(r"""<joint[^>]*type\s*=\s*["'](revolute|continuous|prismatic)
 
 @dataclass(frozen=True)
 class UrdfFolder:
-    """Every *.urdf below a folder with a joint that moves; `static`: without one, so that every part found is wrong.
+    """Every *.urdf below a folder with a moving joint; with `static`, those without one, so that every found part is wrong.
 
     Files split_NAME.txt in it list subsets, one name per line.
     """
@@ -44,7 +44,7 @@ class UrdfFolder:
         return tuple(listed(self.folder))
 
     def objects(self, split: str | None = None) -> list[str]:
-        """Paths without suffix, with - for the folders between."""
+        """Return the paths without suffix, with - between folders."""
         check_split(self.name, split, self.splits)
         moving = {name: bool(JOINT.search(path.read_text(errors="replace"))) for name, path in self._files().items()}
         names = sorted(name for name, moves in moving.items() if moves is not self.static)
@@ -67,10 +67,10 @@ class UrdfFolder:
 def flatten_urdf(
     urdf: Path, mesh: Path, *, root: Path | None = None, labels: Mapping[str, str] | None = None, category: str = "object"
 ) -> GroundTruth:
-    """Writes the visuals at rest as one nameless GLB at `mesh`; returns its truth in that file's coordinates.
+    """Write the visuals at rest as a nameless GLB at `mesh`; return the ground truth in that file's coordinates.
 
-    root: files that the visuals name must lie below it (None: below the URDF's folder); labels: of links. Links that do not
-    move against each other are one part; see `assemble`. Raises InputError, with the URDF's name.
+    root: files of the visuals must lie below it (None: below the URDF's folder); labels: of links. Links that do not move
+    against each other form one part; see `assemble`. Raise InputError, with the URDF's name, if it cannot be used.
     """
     try:
         return assemble(urdf.stem, read_bodies(urdf, root or urdf.parent, labels or {}), mesh, category)
@@ -79,13 +79,13 @@ def flatten_urdf(
 
 
 def read_bodies(urdf: Path, root: Path, labels: Mapping[str, str]) -> list[DatasetLink]:
-    """A body a link, Y up. Raises InputError."""
+    """Return a dataset link per URDF link, Y up. Raise InputError for an invalid file."""
     try:
         robot = URDF.load(str(urdf), build_scene_graph=False, load_meshes=False)
         carrier = {j.child: j for j in robot.joint_map.values()}
         roots = [link for link in robot.link_map if link not in carrier]
-    except Exception as error:  # whatever a broken file makes the reader raise is one thing to the user
-        raise InputError(f"it is no valid URDF ({type(error).__name__}: {' '.join(str(error).split())[:150]})") from None
+    except Exception as error:  # the reader raises many types of errors for a broken file
+        raise InputError(f"it is not a valid URDF ({type(error).__name__}: {' '.join(str(error).split())[:150]})") from None
     if len(roots) != 1:
         raise InputError(f"found the root links {sorted(roots)}; valid is a tree with one")
     colors = {m.name: m.color for m in robot.robot.materials if m.color is not None}
@@ -102,7 +102,7 @@ def read_bodies(urdf: Path, root: Path, labels: Mapping[str, str]) -> list[Datas
 
 
 def _rest(link: str, carrier: Mapping[str, parsed.Joint], links: Mapping[str, parsed.Link]) -> np.ndarray:
-    """From a link's frame to the root's, all joints at 0."""
+    """Return the transform from a link's frame to the root's, with all joints at 0."""
     T = np.eye(4)
     for _ in range(len(links)):
         joint = carrier.get(link)
@@ -116,7 +116,7 @@ def _rest(link: str, carrier: Mapping[str, parsed.Joint], links: Mapping[str, pa
 
 
 def _motion(joint: parsed.Joint, T: np.ndarray) -> DatasetJoint | None:
-    """In the root's frame; None for a joint whose range has no length."""
+    """Return the motion in the root's frame; None for a joint with an empty range."""
     axis = np.array([1.0, 0, 0]) if joint.axis is None else np.asarray(joint.axis, float)
     if not (np.isfinite(axis).all() and np.linalg.norm(axis) > 0):
         raise InputError(f"joint {joint.name!r}: found the axis {joint.axis}; valid is a direction")
@@ -133,7 +133,7 @@ def _motion(joint: parsed.Joint, T: np.ndarray) -> DatasetJoint | None:
 
 
 def _visual(visual: parsed.Visual, folder: Path, root: Path, colors: Mapping) -> Mesh:
-    """In the link's frame; colours that a mesh file tells go before those that the URDF tells."""
+    """Return a visual in the link's frame; colours of the mesh file take precedence over those of the URDF."""
     T = np.eye(4) if visual.origin is None else visual.origin
     color = None if visual.material is None else visual.material.color or colors.get(visual.material.name)
     material = None

@@ -1,4 +1,4 @@
-"""Mesh files that a robot description names: found by the ways such files name them, and read with their looks."""
+"""Mesh files named by robot descriptions: resolution of their paths, and reading with materials."""
 
 from __future__ import annotations
 
@@ -17,8 +17,11 @@ UNIT = re.compile(rb"""<unit[^>]*\bmeter\s*=\s*["']([0-9.eE+-]+)""")
 
 
 def find_mesh(reference: str, folder: Path) -> Path:
-    """The file that a description in `folder` means. package://NAME/PATH is looked for in the folder NAME here or above, then
-    as PATH. Raises InputError."""
+    """Return the file that a description in `folder` refers to.
+
+    package://NAME/PATH is searched in the folder NAME here or in parent folders, then as PATH. Raise InputError if it is
+    missing.
+    """
     plain = re.sub(r"^(package|model|file)://", "", reference.strip().replace("\\", "/"))
     rest = plain.split("/", 1)[-1]
     above = [folder, *folder.resolve().parents]
@@ -32,9 +35,9 @@ def find_mesh(reference: str, folder: Path) -> Path:
 
 
 def read_visual(path: Path, root: Path) -> Mesh:
-    """The mesh in file coordinates, with materials and textures from anywhere within `root`. Raises InputError.
+    """Read a mesh in file coordinates, with materials and textures from anywhere within `root`. Raise InputError.
 
-    As viewers of robots do it: of COLLADA the unit counts, its up axis does not; other formats are taken as they are.
+    As in robot viewers, the unit of COLLADA is applied, but its up axis is not; other formats are read without conversion.
     """
     data = check_file(path)
     within = path.parent.resolve().is_relative_to(root.resolve())
@@ -42,7 +45,7 @@ def read_visual(path: Path, root: Path) -> Mesh:
         mesh = READERS[path.suffix.lower()](data, Folder(path, root if within else None))
     except InputError:
         raise
-    except Exception as error:  # whatever a broken file makes a reader raise is one thing to the user
+    except Exception as error:  # readers raise many types of errors for a broken file
         told = " ".join(f"{type(error).__name__}: {error}".split())[:150]
         raise InputError(f"{path.name} is broken or truncated ({told})") from None
     if not np.isfinite(mesh.vertices).all():
