@@ -1,0 +1,271 @@
+"""A robot's files as an editable MuJoCo model: which joints are the arm's, which the gripper's, and what drives them."""
+
+from __future__ import annotations
+
+import re
+import warnings
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+
+import numpy as np
+from jaxtyping import Float
+
+from anymesh.applications.plan.robot_packages_ import RobotFiles
+from anymesh.errors import InputError, OptionError
+from anymesh.mujoco_ import load_mujoco
+from anymesh.simulation.files import find_file
+
+STIFFNESS = 50.0  # [1/rad] of a servo that is added: full effort at a lag of 0.02 rad, as MuJoCo Menagerie's Panda has it
+DAMPING = 0.1  # [s] of such a servo, over its stiffness
+ARMATURE, FRICTION_DAMPING = 0.1, 1.0  # [kg m2], [N m s/rad] of a URDF's joints, which state no rotor
+FINGER_STIFFNESS = 40.0  # [1/m] of a finger's servo over its force
+USUAL_VELOCITY, USUAL_ACCELERATION, USUAL_EFFORT, USUAL_GRIP = 1.0, 2.0, 50.0, 40.0  # where a file states none
+HAND = "hand_"  # prefix of the names of a gripper that is mounted
+
+
+@dataclass(frozen=True, eq=False)
+class Robot:
+    """An arm with a gripper, alone at the origin.
+
+    xml, assets: the whole model, with an actuator a joint of the arm, in order, first; joints: of the arm; fingers: the
+    gripper's; root: the body that stands; wrist: the last body that the arm moves; home: (J,) [rad]; limits: (J, 2) [rad];
+    velocity, acceleration: (J,) limits [rad/s, rad/s2]; lag: (J,) that a servo is behind, over the speed [s];
+    opened, closed: controls of the gripper's actuators; mesh_files: whether visual meshes are there.
+    """
+
+    name: str
+    spec: Any
+    joints: tuple[str, ...]
+    fingers: tuple[str, ...]
+    root: str
+    wrist: str
+    home: Float[np.ndarray, " J"]
+    limits: Float[np.ndarray, "J 2"]
+    velocity: Float[np.ndarray, " J"]
+    acceleration: Float[np.ndarray, " J"]
+    lag: Float[np.ndarray, " J"]
+    grip: float
+
+
+def load_robot(files: RobotFiles, *, tool: str | None = None, gripper: Sequence[str] = ()) -> Robot:
+    """The arm that carries the gripper, found by where the tree of joints branches.
+
+    tool: a body of the hand, where the tree branches elsewhere (two arms, a head); gripper: names of the gripper's joints.
+    Raises InputError when MuJoCo cannot load the files, OptionError when no arm is found.
+    """
+    mujoco = load_mujoco()
+    velocity = _urdf_velocities(files.arm)
+    try:
+        spec = _read(mujoco, files.arm)
+        if files.hand is not None and files.preset is not None:
+            _mount(spec, _read(mujoco, files.hand), files.preset.site)
+        _name_joints(spec)
+        model = without_visuals(spec).compile()
+    except (ValueError, mujoco.FatalError, OSError) as error:
+        raise InputError(f"MuJoCo cannot load the robot {files.name}: {' '.join(str(error).split())}") from error
+    arm, fingers = _split(mujoco, model, files.name, tool, gripper)
+    names = tuple(model.joint(j).name for j in arm)
+    limits = np.where(model.jnt_limited[arm, None].astype(bool), model.jnt_range[arm], (-np.pi, np.pi))
+    preset = files.preset
+    home = np.array(preset.home) if preset is not None else _home(spec, model, arm, limits)
+    count = len(arm)
+    speeds = np.array(preset.velocity if preset is not None else [velocity.get(n, USUAL_VELOCITY) for n in names], float)
+    pushes = np.array(preset.acceleration if preset is not None else [USUAL_ACCELERATION] * count, float)
+    grip = preset.grip if preset is not None else USUAL_GRIP
+    lag = _drive(mujoco, spec, model, arm, fingers, grip)
+    chain = [int(model.jnt_bodyid[j]) for j in arm]
+    root = chain[0]
+    while model.body_parentid[root]:
+        root = int(model.body_parentid[root])
+    while len(spec.keys):
+        spec.delete(spec.keys[0])
+    return Robot(
+        files.name,
+        spec,
+        names,
+        tuple(model.joint(j).name for j in fingers),
+        model.body(root).name,
+        model.body(chain[-1]).name,
+        home,
+        limits,
+        speeds,
+        pushes,
+        lag,
+        grip,
+    )
+
+
+def without_visuals(spec: Any) -> Any:
+    """A copy without geoms that never collide, and without the meshes that only they use: it compiles in milliseconds."""
+    bare = spec.copy()
+    for geom in [g for g in bare.geoms if not (g.contype or g.conaffinity)]:
+        bare.delete(geom)
+    used = {g.meshname for g in bare.geoms}
+    for mesh in [m for m in bare.meshes if m.name not in used]:
+        bare.delete(mesh)
+    for texture in list(bare.textures):
+        bare.delete(texture)
+    return bare
+
+
+def _read(mujoco: Any, path: Path) -> Any:
+    """An MJCF as it is; a URDF with its visuals and fixed links, and meshes that MuJoCo does not read left out."""
+    if not re.search(rb"<robot[\s>]", path.read_bytes()[:100_000]):
+        return mujoco.MjSpec.from_file(str(path))
+    root = ElementTree.parse(path).getroot()
+    settings = ElementTree.SubElement(root, "mujoco")
+    ElementTree.SubElement(settings, "compiler", discardvisual="false", fusestatic="false", strippath="false")
+    for link in root.findall("link"):
+        _resolve(link, path.parent)
+    return mujoco.MjSpec.from_string(ElementTree.tostring(root, encoding="unicode"))
+
+
+def _resolve(link: ElementTree.Element, folder: Path) -> None:
+    """Names of mesh files become paths; a visual in a format that MuJoCo does not read gives way to the collision shape."""
+    dropped = False
+    for shape in [*link.findall("visual"), *link.findall("collision")]:
+        mesh = shape.find("geometry/mesh")
+        if mesh is None:
+            continue
+        found = find_file(mesh.get("filename") or "", folder)
+        readable = found is not None and found.suffix.lower() in (".stl", ".obj", ".msh")
+        if found is not None and readable:
+            mesh.set("filename", str(found.resolve()))
+        elif shape.tag == "visual":
+            link.remove(shape)
+            dropped = True
+        else:
+            raise ValueError(f"the collision mesh {mesh.get('filename')} is missing or neither STL nor OBJ")
+    if dropped:
+        for shape in link.findall("collision"):
+            copied = ElementTree.SubElement(link, "visual")
+            copied.extend(list(shape))
+
+
+def _urdf_velocities(path: Path) -> dict[str, float]:
+    """Limits of speed by joint [rad/s], which MuJoCo does not keep; empty for an MJCF."""
+    try:
+        root = ElementTree.parse(path).getroot()
+    except ElementTree.ParseError as error:
+        raise InputError(f"{path.name} is no XML: {error}") from None
+    if root.tag != "robot":
+        return {}
+    limits = ((joint.get("name") or "", joint.find("limit")) for joint in root.findall("joint"))
+    return {name: float(limit.get("velocity") or 0) for name, limit in limits if limit is not None and limit.get("velocity")}
+
+
+def _mount(spec: Any, hand: Any, site: str) -> None:
+    """Attaches a gripper to a site of the arm."""
+    place = next((s for s in spec.sites if s.name == site), None)
+    if place is None:
+        raise ValueError(f"the arm has no site {site!r} to mount a gripper at")
+    spec.attach(hand, site=place, prefix=HAND)
+
+
+def _name_joints(spec: Any) -> None:
+    for word, things in (("joint", spec.joints), ("body", spec.bodies)):
+        for number, thing in enumerate(things):
+            thing.name = thing.name or f"{word}_{number}"
+
+
+def _split(
+    mujoco: Any, model: Any, name: str, tool: str | None, gripper: Sequence[str]
+) -> tuple[list[int], list[int]]:
+    """Joints of the arm, from its base on, and of the gripper."""
+    single = (int(mujoco.mjtJoint.mjJNT_HINGE), int(mujoco.mjtJoint.mjJNT_SLIDE))
+    moves = [j for j in range(model.njnt) if int(model.jnt_type[j]) in single]
+    bodies = [model.body(b).name for b in range(1, model.nbody)]
+    if tool is not None and tool not in bodies:
+        raise OptionError(f"--tool: {name} has no body {tool!r}; its bodies are {', '.join(bodies)}")
+    known = [model.joint(j).name for j in moves]
+    for wrong in (g for g in gripper if g not in known):
+        raise OptionError(f"--gripper: {name} has no joint {wrong!r}; its joints are {', '.join(known)}")
+    if tool is not None:
+        body = model.body(tool).id
+    else:
+        body = _branching(model, moves)
+    path = _ancestors(model, body)
+    named = [j for j in moves if model.joint(j).name in gripper]
+    arm = [j for j in moves if int(model.jnt_bodyid[j]) in path and j not in named]
+    arm.sort(key=lambda j: path[::-1].index(int(model.jnt_bodyid[j])))
+    fingers = named or [j for j in moves if j not in arm and arm and int(model.jnt_bodyid[arm[-1]]) in _ancestors(
+        model, int(model.jnt_bodyid[j]))]  # fmt: skip
+    if not 4 <= len(arm) <= 9:
+        raise OptionError(
+            f"{name} has {len(arm)} joints before its tree branches; an arm has 4 to 9: name the hand's body with --tool "
+            f"(bodies: {', '.join(bodies)}) and the gripper's joints with --gripper (joints: {', '.join(known)})"
+        )
+    return arm, fingers
+
+
+def _ancestors(model: Any, body: int) -> list[int]:
+    """A body and all that carry it."""
+    found = [body]
+    while found[-1]:
+        found.append(int(model.body_parentid[found[-1]]))
+    return found
+
+
+def _branching(model: Any, moves: Sequence[int]) -> int:
+    """The first body from the root on below which joints part, or the last that moves."""
+    carrying = {b for j in moves for b in _ancestors(model, int(model.jnt_bodyid[j]))}
+    body = 0
+    while True:
+        below = [b for b in carrying if b != body and int(model.body_parentid[b]) == body]
+        if len(below) != 1:
+            return body
+        body = below[0]
+
+
+def _home(spec: Any, model: Any, arm: Sequence[int], limits: np.ndarray) -> np.ndarray:
+    """The file's first keyframe where it lies within the limits, else the middle of every range."""
+    if len(spec.keys) and len(spec.keys[0].qpos) == model.nq:
+        posture = np.array(spec.keys[0].qpos)[model.jnt_qposadr[arm]]
+        if ((posture >= limits[:, 0]) & (posture <= limits[:, 1])).all():
+            return posture
+    return limits.mean(1)
+
+
+def _drive(
+    mujoco: Any, spec: Any, model: Any, arm: Sequence[int], fingers: Sequence[int], grip: float
+) -> Float[np.ndarray, " J"]:
+    """Gives each joint of the arm a position servo where it has none, and the gripper too; returns the servos' lag [s]."""
+    servo = int(mujoco.mjtBias.mjBIAS_AFFINE)
+    at: dict[int, Any] = {}
+    drives_fingers = False
+    for number, actuator in enumerate(list(spec.actuators)):
+        joint = int(model.actuator_trnid[number, 0])
+        on_joint = int(model.actuator_trntype[number]) == int(mujoco.mjtTrn.mjTRN_JOINT)
+        if on_joint and joint in arm:
+            if int(model.actuator_biastype[number]) == servo:
+                at[joint] = actuator
+            else:
+                spec.delete(actuator)
+        else:
+            drives_fingers = True
+    lag = []
+    for joint in arm:
+        name = model.joint(joint).name
+        if joint not in at:
+            effort = float(model.jnt_actfrcrange[joint, 1]) if model.jnt_actfrclimited[joint] else USUAL_EFFORT
+            at[joint] = _add_servo(mujoco, spec, name, effort * STIFFNESS, effort * STIFFNESS * DAMPING, effort)
+            made = spec.joint(name)
+            made.armature = max(float(made.armature), ARMATURE)
+            made.damping = [max(float(np.ravel(made.damping)[0]), FRICTION_DAMPING), 0, 0]
+        lag.append(float(-at[joint].biasprm[2] / at[joint].gainprm[0]))
+    if not drives_fingers:
+        for joint in fingers:
+            force = grip / max(len(fingers), 1)
+            _add_servo(mujoco, spec, model.joint(joint).name, force * FINGER_STIFFNESS, force * FINGER_STIFFNESS * DAMPING, force)
+            spec.joint(model.joint(joint).name).armature = ARMATURE
+    return np.array(lag)
+
+
+def _add_servo(mujoco: Any, spec: Any, joint: str, stiffness: float, damping: float, effort: float) -> Any:
+    servo = spec.add_actuator(name=joint, target=joint, trntype=mujoco.mjtTrn.mjTRN_JOINT)
+    servo.set_to_position(kp=stiffness, kv=damping)
+    servo.forcelimited, servo.forcerange = 1, [-effort, effort]
+    return servo
