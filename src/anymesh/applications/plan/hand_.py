@@ -95,6 +95,7 @@ class _Bench:
     def __init__(self, mujoco: Any, robot: Robot) -> None:
         spec = without_visuals(robot.spec)
         spec.option.gravity = (0, 0, 0)
+        spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST  # stiff servos on light fingers
         for motor in [a for a in spec.actuators if a.target in robot.joints]:
             spec.delete(motor)
         for name in robot.joints:  # the arm is rigid: the fingers must not push it about
@@ -110,6 +111,8 @@ class _Bench:
                 carried.add(body)
         collides = (model.geom_contype | model.geom_conaffinity) != 0
         self.geoms = np.flatnonzero(np.isin(model.geom_bodyid, sorted(carried)) & collides)
+        still = np.setdiff1d(np.arange(model.ngeom), self.geoms)
+        model.geom_contype[still] = model.geom_conaffinity[still] = 0  # an arm without joints is no longer next to the fingers
 
     def states(self) -> list[_State]:
         """The gripper at rest at each of some controls, from one end to the other."""

@@ -106,8 +106,10 @@ def without_visuals(spec: Any) -> Any:
     used = {g.meshname for g in bare.geoms}
     for mesh in [m for m in bare.meshes if m.name not in used]:
         bare.delete(mesh)
-    for texture in list(bare.textures):
-        bare.delete(texture)
+    for geom in bare.geoms:
+        geom.material = ""
+    for look in (*bare.materials, *bare.textures):
+        bare.delete(look)
     return bare
 
 

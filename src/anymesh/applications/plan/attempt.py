@@ -1,0 +1,178 @@
+"""One robot base, one target: postures of the arm from home to the part, along its joint, and away."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass, field
+from enum import StrEnum
+
+import numpy as np
+from jaxtyping import Float
+
+from anymesh.applications.plan.approach_ import free_path
+from anymesh.applications.plan.asset_ import ArticulatedObject
+from anymesh.applications.plan.fitting_ import BACK, OPENING, tool_pose
+from anymesh.applications.plan.hand_ import Hand
+from anymesh.applications.plan.kinematics_ import Kinematics
+from anymesh.applications.plan.plans import BasePose, Contact, Target
+from anymesh.applications.plan.robot_ import Robot
+from anymesh.applications.plan.scene_ import CollisionWorld
+
+BACK_LEAST = 0.03  # [m] where there is less room
+LINE_STEP = 0.004  # [m] between postures on a straight line
+ARC_STEP, ARC_TURN = 0.003, np.deg2rad(1.5)  # [m], [rad] between postures along the joint
+JUMP = 0.25  # [rad] between neighbouring postures; more means that the arm changed its configuration
+STAND_OFF = 0.003  # [m] from which a push begins, for the object may stand nearer than thought
+PRESS = 0.004  # [m] that a push goes on beyond its goal, for it may stand farther
+TRIES = 10  # random seeds of the inverse kinematics, a target
+
+
+class Reason(StrEnum):
+    """Why a target was dropped."""
+
+    REACH = "out of reach"
+    COLLISION = "in collision at the part"
+    ARC = "joint limits or reach end along the joint's path"
+    ARC_COLLISION = "in collision along the joint's path"
+    LINE = "no straight way to the part"
+    PATH = "no free path from home"
+
+
+@dataclass(frozen=True, eq=False)
+class Route:
+    """Postures (k, J) of each motion; shift: (k,) of the push beyond the part [m]; gaps: of the fingers, free and at the part."""
+
+    base: BasePose
+    target: Target
+    approach: Float[np.ndarray, "k J"]
+    reach: Float[np.ndarray, "m J"]
+    move: Float[np.ndarray, "n J"]
+    retreat: Float[np.ndarray, "r J"]
+    values: Float[np.ndarray, " n"]
+    open_gap: float
+    hold_gap: float
+
+    @property
+    def length(self) -> float:
+        """Of the motion along the joint [rad]."""
+        return float(np.linalg.norm(np.diff(self.move, axis=0), axis=1).sum())
+
+
+@dataclass(eq=False)
+class Cell:
+    """A robot at a base before the object: tries targets and counts why they fail."""
+
+    thing: ArticulatedObject
+    robot: Robot
+    hand: Hand
+    kinematics: Kinematics
+    base: BasePose
+    value: float
+    seed: int = 0
+    failures: Counter[Reason] = field(default_factory=Counter)
+    farthest: float = 0.0
+
+    def __post_init__(self) -> None:
+        self.world = CollisionWorld(self.thing, self.robot, self.hand, self.base)
+        self._T_base_asset = np.linalg.inv(self.base.T_asset_base)
+
+    def home_touches(self) -> str | None:
+        """What the robot collides with at home, None when it is free."""
+        touch = self.world.touching(self.robot.home, self.hand.stroke, 0.0)
+        return None if touch is None else f"{touch.a} at {touch.b}"
+
+    def tool(self, target: Target, value: float, along: float = 0.0) -> Float[np.ndarray, "4 4"]:
+        """The tool's pose in the robot's frame when the part is at a value; along: moved by so much along its z [m]."""
+        return self._T_base_asset @ self.thing.motion.transform(value) @ tool_pose(target, self.hand, along)
+
+    def reachable(self, target: Target, rng: np.random.Generator) -> bool:
+        """Whether the tool can be brought to both ends of the part's motion, collisions aside."""
+        for value in (self.value, 0.0):
+            T = self.tool(target, value)
+            if float(np.linalg.norm(T[:3, 3] - self.kinematics.shoulder)) > self.kinematics.reach:
+                return False
+        for value in (0.0, self.value):
+            found = next(iter(self.kinematics.search(self.tool(target, value), rng, 2)), None)
+            if found is None:
+                return False
+        return True
+
+    def route(self, target: Target) -> Route | None:
+        """The whole way for a target, but for the approach; None, counted, when there is none."""
+        rng = np.random.default_rng([self.seed, 1])
+        open_gap = min(self.hand.stroke, target.width + OPENING) if target.contact is Contact.GRASP else 0.0
+        start = -STAND_OFF if target.contact is Contact.PUSH else 0.0
+        reasons: list[Reason] = []
+        for posture in self.kinematics.search(self.tool(target, 0.0, start), rng, TRIES):
+            found = self._from(target, posture, open_gap, start)
+            if isinstance(found, Route):
+                return found
+            reasons.append(found)
+        last = max(reasons, key=list(Reason).index, default=Reason.REACH)  # the one that came farthest
+        self.failures[last] += 1
+        return None
+
+    def _from(self, target: Target, posture: np.ndarray, open_gap: float, start: float) -> Route | Reason:
+        hold_gap = target.width
+        if self.world.touching(posture, hold_gap, 0.0, holding=True) is not None:
+            return Reason.COLLISION
+        move, values = self._along(target, posture, hold_gap, start)
+        if abs(values[-1]) > abs(self.farthest):
+            self.farthest = float(values[-1])
+        if abs(values[-1] - self.value) > 1e-9:
+            return self._why
+        reach = self._line(target, posture, 0.0, open_gap, start, whole=True)
+        if reach is None or self.world.touching(reach[-1], open_gap, 0.0) is not None:
+            return Reason.LINE
+        retreat = self._line(target, move[-1], self.value, open_gap, PRESS if start else 0.0, whole=False)
+        return Route(
+            self.base, target, reach[-1:], reach[::-1], move, move[-1:] if retreat is None else retreat, values, open_gap, hold_gap
+        )
+
+    def _along(
+        self, target: Target, posture: np.ndarray, gap: float, start: float
+    ) -> tuple[Float[np.ndarray, "n J"], Float[np.ndarray, " n"]]:
+        """Postures along the joint as far as they go, and the joint's values."""
+        step = ARC_TURN if self.thing.turns else ARC_STEP
+        count = max(8, int(np.ceil(abs(self.value) / step)))
+        values = self.value * np.arange(count + 1) / count
+        shifts = start + (PRESS - start) * np.arange(count + 1) / count if start else np.zeros(count + 1)
+        found = [posture]
+        for value, shift in zip(values[1:], shifts[1:], strict=True):
+            following = self.kinematics.solve(self.tool(target, float(value), float(shift)), found[-1])
+            if following is None or np.abs(following - found[-1]).max() > JUMP:
+                self._why = Reason.ARC
+                break
+            if self.world.touching(following, gap, float(value), holding=True, pressed=PRESS if start else 0.0) is not None:
+                self._why = Reason.ARC_COLLISION
+                break
+            found.append(following)
+        return np.array(found), values[: len(found)]
+
+    def _line(
+        self, target: Target, posture: np.ndarray, value: float, gap: float, start: float, *, whole: bool
+    ) -> Float[np.ndarray, "k J"] | None:
+        """Postures straight back from the part; None when it gets less far than `BACK_LEAST`, or `BACK` when whole."""
+        found = [posture]
+        for back in np.arange(LINE_STEP, BACK + 1e-9, LINE_STEP):
+            following = self.kinematics.solve(self.tool(target, value, start - back), found[-1])
+            if following is None or np.abs(following - found[-1]).max() > JUMP:
+                break
+            if self.world.touching(following, gap, value, holding=True, pressed=PRESS if start > 0 else 0.0) is not None:
+                break
+            found.append(following)
+        least = BACK if whole else BACK_LEAST
+        return np.array(found) if (len(found) - 1) * LINE_STEP > least - 1e-9 else None
+
+    def approach(self, route: Route) -> Float[np.ndarray, "k J"] | None:
+        """A free path from home to where the tool goes straight to the part."""
+        path = free_path(
+            self.robot.home, route.reach[0], self.kinematics.low, self.kinematics.high, self.free(route), seed=self.seed
+        )
+        if path is None:
+            self.failures[Reason.PATH] += 1
+        return path
+
+    def free(self, route: Route):  # noqa: ANN201 - a closure
+        """Whether a posture on the approach is clear of everything."""
+        return lambda posture: self.world.touching(posture, route.open_gap, 0.0) is None
