@@ -93,8 +93,8 @@ class Trajectory:
     """What the arm does, sampled.
 
     joints: names of the arm's, as the robot's file has them; time: (n,) from 0 [s]; position, velocity, acceleration: (n, J)
-    [rad, rad/s, rad/s2]; opening: (n,) of the gripper, 0 closed to 1 open; phase: of each sample; value: (n,) where the part's
-    joint is meant to be [rad or m].
+    [rad, rad/s, rad/s2]; gap: (n,) between the fingers that is commanded, 0 is closing with full force [m]; phase: of each
+    sample; value: (n,) where the part's joint is meant to be [rad or m].
     """
 
     joints: tuple[str, ...]
@@ -102,13 +102,13 @@ class Trajectory:
     position: Float[np.ndarray, "n J"]
     velocity: Float[np.ndarray, "n J"]
     acceleration: Float[np.ndarray, "n J"]
-    opening: Float[np.ndarray, " n"]
+    gap: Float[np.ndarray, " n"]
     phase: tuple[Phase, ...]
     value: Float[np.ndarray, " n"]
 
     def __post_init__(self) -> None:
         count = len(self.time)
-        if any(len(rows) != count for rows in (self.position, self.velocity, self.acceleration, self.opening, self.phase)):
+        if any(len(rows) != count for rows in (self.position, self.velocity, self.acceleration, self.gap, self.phase, self.value)):
             raise ValueError(f"a trajectory has one row a time, found {count} times and others")
         if count < 2 or not (np.diff(self.time) > 0).all():
             raise ValueError("the times of a trajectory must rise")

@@ -21,7 +21,7 @@ from anymesh.simulation.files import find_file
 STIFFNESS = 50.0  # [1/rad] of a servo that is added: full effort at a lag of 0.02 rad, as MuJoCo Menagerie's Panda has it
 DAMPING = 0.1  # [s] of such a servo, over its stiffness
 ARMATURE, FRICTION_DAMPING = 0.1, 1.0  # [kg m2], [N m s/rad] of a URDF's joints, which state no rotor
-FINGER_STIFFNESS = 40.0  # [1/m] of a finger's servo over its force
+FINGER_STIFFNESS, FINGER_DAMPING = 400.0, 20.0  # [1/m], [s/m] of a finger's servo over its force: all of it from 2.5 mm on
 USUAL_VELOCITY, USUAL_ACCELERATION, USUAL_EFFORT, USUAL_GRIP = 1.0, 2.0, 50.0, 40.0  # where a file states none
 HAND = "hand_"  # prefix of the names of a gripper that is mounted
 
@@ -261,7 +261,7 @@ def _drive(
     if not drives_fingers:
         for joint in fingers:
             force = grip / max(len(fingers), 1)
-            _add_servo(mujoco, spec, model.joint(joint).name, force * FINGER_STIFFNESS, force * FINGER_STIFFNESS * DAMPING, force)
+            _add_servo(mujoco, spec, model.joint(joint).name, force * FINGER_STIFFNESS, force * FINGER_DAMPING, force)
             spec.joint(model.joint(joint).name).armature = ARMATURE
     return np.array(lag)
 

@@ -20,7 +20,7 @@ DENSE = 0.02  # [rad] between the points that corners are rounded on
 ROUNDINGS = (0.8, 0.4, 0.2, 0.1)  # [rad] of the path within which a corner is rounded, the largest first
 KNOTS = 0.08  # [rad] between the postures a curve goes through
 Valid = Callable[[Float[np.ndarray, " J"]], bool]
-Piece = tuple[Phase, Timed, float, float, np.ndarray]  # with the opening, before and after, and the joint's values
+Piece = tuple[Phase, Timed, float, np.ndarray]  # with the fingers' gap and the joint's values
 
 
 def build_trajectory(route: Route, robot: Robot, speed: float, free: Valid) -> Trajectory:
@@ -31,22 +31,22 @@ def build_trajectory(route: Route, robot: Robot, speed: float, free: Valid) -> T
     velocity, push = robot.velocity * speed, robot.acceleration * speed
     slow = (velocity * TOUCHING, push * TOUCHING)
     held = route.values[-1]
-    opened = 1.0 if route.target.contact is Contact.GRASP else 0.0
+    grasped, opened = route.target.contact is Contact.GRASP, route.open_gap
     none = np.zeros(1)
     pieces: list[Piece] = [
-        (Phase.APPROACH, timed, opened, opened, none) for timed in rounded(route.approach, velocity, push, free)
+        (Phase.APPROACH, timed, opened, none) for timed in rounded(route.approach, velocity, push, free)
     ]
-    pieces.append((Phase.REACH, time_curve(Curve(route.reach), *slow), opened, opened, none))
-    if opened:
-        pieces.append((Phase.CLOSE, stand(route.move[0], CLOSING), 0.0, 0.0, none))
+    pieces.append((Phase.REACH, time_curve(Curve(route.reach), *slow), opened, none))
+    if grasped:
+        pieces.append((Phase.CLOSE, stand(route.move[0], CLOSING), 0.0, none))
     share = np.linspace(0, 1, len(route.move))
     moved = time_curve(Curve(route.move, share), *slow, least=SLOWEST)
-    pieces.append((Phase.MOVE, moved, 0.0, 0.0, np.interp(moved.share, share, route.values)))
-    pieces.append((Phase.HOLD, stand(route.move[-1], HOLDING), 0.0, 0.0, np.array([held])))
-    if opened:
-        pieces.append((Phase.OPEN, stand(route.move[-1], OPENING), opened, opened, np.array([held])))
+    pieces.append((Phase.MOVE, moved, 0.0, np.interp(moved.share, share, route.values)))
+    pieces.append((Phase.HOLD, stand(route.move[-1], HOLDING), 0.0, np.array([held])))
+    if grasped:
+        pieces.append((Phase.OPEN, stand(route.move[-1], OPENING), opened, np.array([held])))
     if len(route.retreat) > 1:
-        pieces.append((Phase.RETREAT, time_curve(Curve(route.retreat), *slow), opened, opened, np.array([held])))
+        pieces.append((Phase.RETREAT, time_curve(Curve(route.retreat), *slow), opened, np.array([held])))
     return _joined(pieces, robot.joints)
 
 
@@ -83,17 +83,17 @@ def _smoothed(dense: Float[np.ndarray, "n J"], width: float) -> Float[np.ndarray
 
 def _joined(pieces: Sequence[Piece], joints: tuple[str, ...]) -> Trajectory:
     """One trajectory; where two motions meet, the sample at rest is kept once."""
-    columns: dict[str, list[np.ndarray]] = {k: [] for k in ("time", "position", "velocity", "acceleration", "opening", "value")}
+    columns: dict[str, list[np.ndarray]] = {k: [] for k in ("time", "position", "velocity", "acceleration", "gap", "value")}
     phases: list[Phase] = []
     end = 0.0
-    for number, (phase, timed, before, after, values) in enumerate(pieces):
+    for number, (phase, timed, gap, values) in enumerate(pieces):
         first = 0 if number == 0 else 1
         count = len(timed.time)
         rows = slice(first, None)
         columns["time"].append(timed.time[rows] + end)
         for name in ("position", "velocity", "acceleration"):
             columns[name].append(getattr(timed, name)[rows])
-        columns["opening"].append(np.linspace(before, after, count)[rows])
+        columns["gap"].append(np.full(count - first, gap))
         columns["value"].append(np.broadcast_to(values, count)[rows] if len(values) == 1 else values[rows])
         phases += [phase] * (count - first)
         end += timed.time[-1]
