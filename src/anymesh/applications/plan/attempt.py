@@ -24,7 +24,7 @@ ARC_STEP, ARC_TURN = 0.003, np.deg2rad(1.5)  # [m], [rad] between postures along
 JUMP = 0.25  # [rad] between neighbouring postures; more means that the arm changed its configuration
 STAND_OFF = 0.003  # [m] from which a push begins, for the object may stand nearer than thought
 PRESS = 0.004  # [m] that a push goes on beyond its goal, for it may stand farther
-TRIES = 10  # random seeds of the inverse kinematics, a target
+TRIES, FEW = 10, 4  # random seeds of the inverse kinematics, for a target and to judge a base
 
 
 class Reason(StrEnum):
@@ -60,7 +60,7 @@ class Route:
 
 @dataclass(eq=False)
 class Cell:
-    """A robot at a base before the object: tries targets and counts why they fail."""
+    """A robot at a base before the object: tries targets and counts why they fail. Its world serves one cell at a time."""
 
     thing: ArticulatedObject
     robot: Robot
@@ -68,12 +68,13 @@ class Cell:
     kinematics: Kinematics
     base: BasePose
     value: float
+    world: CollisionWorld
     seed: int = 0
     failures: Counter[Reason] = field(default_factory=Counter)
     farthest: float = 0.0
 
     def __post_init__(self) -> None:
-        self.world = CollisionWorld(self.thing, self.robot, self.hand, self.base)
+        self.world.move(self.base)
         self._T_base_asset = np.linalg.inv(self.base.T_asset_base)
 
     def home_touches(self) -> str | None:
@@ -86,22 +87,27 @@ class Cell:
         return self._T_base_asset @ self.thing.motion.transform(value) @ tool_pose(target, self.hand, along)
 
     def reachable(self, target: Target, rng: np.random.Generator) -> bool:
-        """Whether the tool can be brought to both ends of the part's motion, collisions aside."""
+        """Whether some posture brings the tool to the part without collision, and some to the end of the part's motion."""
         for value in (self.value, 0.0):
             T = self.tool(target, value)
             if float(np.linalg.norm(T[:3, 3] - self.kinematics.shoulder)) > self.kinematics.reach:
                 return False
-        for value in (0.0, self.value):
-            found = next(iter(self.kinematics.search(self.tool(target, value), rng, 2)), None)
-            if found is None:
-                return False
-        return True
+        if next(iter(self.kinematics.search(self.tool(target, self.value), rng, FEW)), None) is None:
+            return False
+        start = self.start(target)
+        postures = self.kinematics.search(self.tool(target, 0.0, start), rng, FEW)
+        return any(self.world.touching(q, target.width, 0.0, holding=True) is None for q in postures)
+
+    @staticmethod
+    def start(target: Target) -> float:
+        """How far along the tool's z from the target the part's motion begins [m]."""
+        return -STAND_OFF if target.contact is Contact.PUSH else 0.0
 
     def route(self, target: Target) -> Route | None:
         """The whole way for a target, but for the approach; None, counted, when there is none."""
         rng = np.random.default_rng([self.seed, 1])
         open_gap = min(self.hand.stroke, target.width + OPENING) if target.contact is Contact.GRASP else 0.0
-        start = -STAND_OFF if target.contact is Contact.PUSH else 0.0
+        start = self.start(target)
         reasons: list[Reason] = []
         for posture in self.kinematics.search(self.tool(target, 0.0, start), rng, TRIES):
             found = self._from(target, posture, open_gap, start)

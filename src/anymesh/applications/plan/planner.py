@@ -20,6 +20,7 @@ from anymesh.applications.plan.kinematics_ import Kinematics
 from anymesh.applications.plan.plans import BasePose, Contact, Plan, PlanError, Target
 from anymesh.applications.plan.robot_ import Robot, load_robot
 from anymesh.applications.plan.robot_packages_ import find_robot
+from anymesh.applications.plan.scene_ import CollisionWorld
 from anymesh.applications.plan.targets import Surfaces, sample_targets, velocity
 from anymesh.applications.plan.trajectory import build_trajectory
 from anymesh.errors import OptionError
@@ -28,6 +29,7 @@ from anymesh.progress import Progress, silent
 TARGETS = 60  # that are tried from a base
 ENOUGH = 3  # routes of which the shortest is taken
 SCREENED = 10  # targets with which a base is judged
+GOOD = 0.3  # share of them that a base must reach to be tried at once
 BASES = 6  # bases that are tried in full
 SHORT = 0.03  # [m] what moves less is pushed rather than grasped
 AUTO = "auto"
@@ -167,9 +169,14 @@ class _Search:
         self.farthest = 0.0
         self.bases = 0
         self.cell: Cell
+        self._worlds: dict[float, CollisionWorld] = {}
 
     def _open(self, base: BasePose) -> Cell | None:
-        cell = Cell(self.thing, self.arm.robot, self.arm.hand, self.arm.kinematics, base, self.value, self.settings.seed)
+        arm = self.arm
+        if base.z not in self._worlds:
+            self._worlds[base.z] = CollisionWorld(self.thing, arm.robot, arm.hand, base)
+        world = self._worlds[base.z]
+        cell = Cell(self.thing, arm.robot, arm.hand, arm.kinematics, base, self.value, world, self.settings.seed)
         self.blocked = cell.home_touches()
         return cell if self.blocked is None else None
 
@@ -198,34 +205,41 @@ class _Search:
         return None
 
     def anywhere(self, *, near: BasePose | None = None) -> Route | None:
-        """A route from the base that most targets are reached from; near: those that are nearest to a base go first."""
-        ranked = self._ranked()
+        """A route from the first base that a good share of the targets is reached from, else from the best of the others.
+
+        near: bases near it go first.
+        """
+        poses = self._poses()
         if near is not None:
-            ranked.sort(key=lambda b: float(np.hypot(b.x - near.x, b.y - near.y) + abs(b.z - near.z)))
-        for base in ranked[:BASES]:
+            poses.sort(key=lambda b: float(np.hypot(b.x - near.x, b.y - near.y) + abs(b.z - near.z)))
+        rng, some = np.random.default_rng([self.settings.seed, 2]), self.targets[:SCREENED]
+        worse: list[tuple[int, int, BasePose]] = []
+        tried = 0
+        for number, base in enumerate(poses):
+            if tried >= BASES or time.perf_counter() > self._end:
+                return None
+            cell = self._open(base)
+            count = 0 if cell is None else sum(cell.reachable(t, rng) for t in some)
+            if count < GOOD * len(some):
+                worse += [(-count, number, base)] if count else []
+                continue
+            tried += 1
+            found = self.at(base)
+            if found is not None:
+                return found
+        for _, _, base in sorted(worse, key=lambda w: w[:2])[: BASES - tried]:
             found = self.at(base)
             if found is not None or time.perf_counter() > self._end:
                 return found
         return None
 
-    def _ranked(self) -> list[BasePose]:
-        rng = np.random.default_rng([self.settings.seed, 2])
+    def _poses(self) -> list[BasePose]:
+        """Where the robot might stand, by the middle of the tool's path."""
         some = self.targets[:SCREENED]
         half = self.thing.motion.transform(self.value / 2)
         at = np.mean([(half @ t.T_asset_tool)[:3, 3] for t in some], axis=0)
         outwards = -np.mean([(half @ t.T_asset_tool)[:3, 2] for t in some], axis=0)
-        scored = []
-        for number, base in enumerate(base_poses(at, outwards, self.arm.kinematics.reach)):
-            cell = self._open(base)
-            if cell is None:
-                continue
-            count = sum(cell.reachable(t, rng) for t in some)
-            if count:
-                scored.append((-count, number, base))
-            good = sum(-c >= len(some) / 2 for c, _, _ in scored)
-            if good >= BASES or time.perf_counter() > self._end - self.settings.seconds / 2:
-                break
-        return [base for _, _, base in sorted(scored, key=lambda s: s[:2])]
+        return base_poses(at, outwards, self.arm.kinematics.reach)
 
     def notes(self) -> tuple[str, ...]:
         dropped = [f"{count} targets dropped: {reason.value}" for reason, count in self.failures.most_common()]

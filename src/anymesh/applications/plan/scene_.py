@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from jaxtyping import Bool, Float, Int
+from jaxtyping import Bool, Float
 
 from anymesh.applications.plan.asset_ import ArticulatedObject
 from anymesh.applications.plan.hand_ import Hand
@@ -16,9 +15,10 @@ from anymesh.applications.plan.robot_ import Robot, without_visuals
 from anymesh.mujoco_ import load_mujoco
 
 OBJECT, ROBOT = "object/", "robot/"  # prefixes of names
+PEDESTAL = "pedestal"
 THICK = 0.02  # [m] of the slab that is the ground
 THINGS, ARM = 1, 2  # bits of what collides: the ground and the object; the robot
-HIGHEST = 1.0  # [m] of a pedestal or a stand
+FOOT = 0.05  # of the object's height: what is lower stands on the stand
 
 
 def compose(
@@ -45,10 +45,11 @@ def compose(
     floor = spec.worldbody.add_geom(name="floor", type=box, size=[3, 3, THICK / 2], pos=[0, 0, ground - THICK / 2])
     floor.rgba = [0.82, 0.82, 0.8, 1]
     if height > 0 and base is not None:
-        spec.worldbody.add_geom(name="pedestal", type=box, size=[0.1, 0.1, height / 2], pos=[base.x, base.y, height / 2 - 1e-3])
+        spec.worldbody.add_geom(name=PEDESTAL, type=box, size=[0.1, 0.1, height / 2], pos=[base.x, base.y, height / 2 - 1e-3])
     if height < 0:
         corners = np.concatenate([thing.part_triangles, thing.other_triangles]).reshape(-1, 3)
-        low, high = corners.min(0), corners.max(0)
+        foot = corners[corners[:, 2] < corners[:, 2].min() + FOOT * np.ptp(corners[:, 2])]
+        low, high = foot.min(0), foot.max(0)
         half = [*((high - low)[:2] / 2), -height / 2]
         spec.worldbody.add_geom(name="stand", type=box, size=half, pos=[*((low + high)[:2] / 2), height / 2 - 1e-3])
     for child, T, prefix in (
@@ -79,7 +80,7 @@ class Touch:
 class CollisionWorld:
     """Tells whether a posture of the arm collides, with the object posed anywhere along its joint.
 
-    clearance: [m] that the arm and the open gripper keep from everything; touch: [m] that fingers may be in the part while
+    The robot may be moved to another base of the same height (`move`). clearance: [m] that the arm and the open gripper keep from everything; touch: [m] that fingers may be in the part while
     they hold it.
     """
 
@@ -98,11 +99,23 @@ class CollisionWorld:
         self.joint = int(model.joint(OBJECT + thing.joint).qposadr[0])
         names = [model.body(b).name for b in range(model.nbody)]
         self.is_robot = np.array([n.startswith(ROBOT) for n in names])
+        self._is_object = np.array([n.startswith(OBJECT) for n in names])
         self.is_part = np.array([n.removeprefix(OBJECT) in thing.carried and n.startswith(OBJECT) for n in names])
         self.is_finger = self._below({int(model.joint(ROBOT + n).bodyid[0]) for n in robot.fingers})
         self.is_hand = self._below({int(model.body(ROBOT + robot.wrist).id)})
         model.geom_margin[self.is_robot[model.geom_bodyid]] = clearance
+        self._root = int(model.body(ROBOT + robot.root).id)
+        self._T_base_root = np.linalg.inv(base.T_asset_base) @ _transform(model.body_pos[self._root], model.body_quat[self._root])
         self._ignored = self._always(hand)
+
+    def move(self, base: BasePose) -> None:
+        """Places the robot elsewhere; at the height that it was made for."""
+        T = base.T_asset_base @ self._T_base_root
+        self.model.body_pos[self._root] = T[:3, 3]
+        self.mujoco.mju_mat2Quat(self.model.body_quat[self._root], np.ascontiguousarray(T[:3, :3]).reshape(-1))
+        for geom in range(self.model.ngeom):
+            if self.model.geom(geom).name == PEDESTAL:
+                self.model.geom_pos[geom, :2] = base.x, base.y
 
     def _below(self, bodies: set[int]) -> Bool[np.ndarray, " b"]:
         for b in range(self.model.nbody):
@@ -143,7 +156,7 @@ class CollisionWorld:
     ) -> Touch | None:
         """The first pair that is too near, None when all are clear.
 
-        holding: fingers may be at the part, and up to `touch` in it; pressed: and so much deeper [m].
+        holding: fingers may be at the part, and up to `touch` in it; pressed: so much deeper in it, and in what is round it [m].
         """
         self.pose(posture, gap, value)
         for (a, b), distance in self._pairs():
@@ -156,11 +169,14 @@ class CollisionWorld:
                 continue
             allowed = 0.0 if own else self.clearance
             if holding and fingers:
-                allowed = -self.touch - pressed if part else 0.0
+                allowed = -self.touch - pressed if part else -pressed if self._is_object[a] or self._is_object[b] else 0.0
             if distance < allowed:
                 return Touch(self.model.body(a).name, self.model.body(b).name, distance)
         return None
 
-    def numbers(self) -> Mapping[str, Int[np.ndarray, " n"]]:
-        """Indices of the arm's and the fingers' positions."""
-        return {"arm": self.arm, "fingers": self.fingers}
+
+def _transform(pos: Float[np.ndarray, " 3"], quat: Float[np.ndarray, " 4"]) -> Float[np.ndarray, "4 4"]:
+    mujoco, turn, T = load_mujoco(), np.zeros(9), np.eye(4)
+    mujoco.mju_quat2Mat(turn, quat)
+    T[:3, :3], T[:3, 3] = turn.reshape(3, 3), pos
+    return T
