@@ -1,7 +1,7 @@
 """The paper's three tasks (4.2): plan on a digital twin, replay open loop on the true object, somewhat off, fifty times.
 
-    python benchmarks/plan.py WORK [--robot panda] [--trials 50] [--tasks trigger,door,wheel] [--twins ours,corrected,truth,paper]
-                              [--twin NAME=FOLDER] [--pictures] [--markdown FILE]
+    python benchmarks/plan.py WORK [--robot panda] [--trials 50] [--tasks trigger,door,wheel]
+        [--twins ours,corrected,truth,paper] [--twin TASK:NAME=FOLDER] [--pictures] [--markdown FILE]
 
 A second MuJoCo simulation with the true joints stands in for the real robot. Twins: ours (`anymesh articulate` on the mesh),
 corrected (ours with the sign of the joint set right by hand), truth (the true parts and joints: an upper bound), paper (the
@@ -82,9 +82,7 @@ def true_asset(task: Task, subject: Subject, folder: Path) -> Path:
     if not (folder / "asset.json").exists():
         asset = subject.asset()
         own = f"{task.part}_joint"
-        joints = tuple(
-            replace(j, damping=task.damping, friction=task.friction) if j.name == own else j for j in asset.joints
-        )
+        joints = tuple(replace(j, damping=task.damping, friction=task.friction) if j.name == own else j for j in asset.joints)
         source = replace(asset.source, T_asset_source=subject.T)
         folder.mkdir(parents=True)
         write_asset(replace(asset, joints=joints, source=source), folder)
@@ -162,7 +160,9 @@ class Row:
     note: str = ""
 
 
-def run(task: Task, kind: str, folder: Path, subject: Subject, true: Path, arm: Arm, trials: int) -> tuple[Row, ArticulatedObject, np.ndarray]:
+def run(
+    task: Task, kind: str, folder: Path, subject: Subject, true: Path, arm: Arm, trials: int
+) -> tuple[Row, ArticulatedObject, np.ndarray]:
     thing, _, T = matched(folder, task, subject)
     real = open_object(true, f"{task.part}_joint")
     begin = time.perf_counter()
@@ -217,7 +217,9 @@ def main() -> None:
     parser.add_argument("--trials", type=int, default=50)
     parser.add_argument("--tasks", default=",".join(TASKS))
     parser.add_argument("--twins", default=",".join(TWINS))
-    parser.add_argument("--twin", action="append", default=[], metavar="TASK:NAME=FOLDER", help="another twin of a task's object")
+    parser.add_argument(
+        "--twin", action="append", default=[], metavar="TASK:NAME=FOLDER", help="another twin of a task's object"
+    )
     parser.add_argument("--pictures", action="store_true")
     parser.add_argument("--markdown", type=Path)
     options = parser.parse_args()
@@ -226,7 +228,9 @@ def main() -> None:
         task = TASKS[name]
         subject = prepared(true_object(task.thing, options.work / "objects"))
         true = true_asset(task, subject, options.work / "true" / task.thing)
-        folders = {k: twin(k, task, subject, options.work) for k in options.twins.split(",") if k != "corrected" or name == "trigger"}
+        folders = {
+            k: twin(k, task, subject, options.work) for k in options.twins.split(",") if k != "corrected" or name == "trigger"
+        }
         named = [t.removeprefix(f"{name}:").partition("=") for t in options.twin if t.startswith(f"{name}:")]
         folders |= {k: Path(folder) for k, _, folder in named}
         for kind, folder in folders.items():

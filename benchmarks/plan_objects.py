@@ -20,7 +20,7 @@ LEAN = 35.0  # [deg] of the wheel's axis from the horizontal
 RADIUS, TUBE, HUB = 0.16, 0.012, np.array([0.0, -0.06, 0.33])  # [m] of the rim; where the hub is
 
 
-def steering_wheel():  # noqa: ANN201 - a type of the folder examples/, which is no package
+def steering_wheel():
     """The wheel as a `Thing` of examples/objects.py [m, Z up, the driver at -Y]."""
     sys.path.insert(0, str(EXAMPLES))
     try:
@@ -32,7 +32,7 @@ def steering_wheel():  # noqa: ANN201 - a type of the folder examples/, which is
     axis = np.array([0.0, -away, up])
     t = Thing("steering_wheel", "steering wheel")
 
-    def placed(solid):  # noqa: ANN001, ANN202 - a trimesh
+    def placed(solid):
         """From the wheel's own frame, its axis along z, to where it is."""
         return moved(turned(solid, (1, 0, 0), 90 - LEAN, (0, 0, 0)), tuple(HUB))
 

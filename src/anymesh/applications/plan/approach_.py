@@ -32,7 +32,7 @@ def free_path(
     if straight_is_free(start, goal, valid):
         return np.stack([start, goal])
     try:
-        from ompl import base, geometric, util
+        from ompl import base, geometric, util  # ty: ignore[import-not-found]
     except ImportError:
         raise MissingExtraError("ompl is missing; `pip install 'articulate-anymesh[plan]'` brings it") from None
     path = _rrt(base, geometric, util, (start, goal, low, high), valid, seed, seconds)

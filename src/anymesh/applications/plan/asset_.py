@@ -93,7 +93,7 @@ def open_object(path: str | Path, joint: str) -> ArticulatedObject:
     _exclude_overlaps(mujoco, spec, model, data)
     slides = int(model.jnt_type[number]) == int(mujoco.mjtJoint.mjJNT_SLIDE)
     kind = MotionKind.SLIDE if slides else MotionKind.TURN
-    limits = tuple(float(v) for v in model.jnt_range[number]) if model.jnt_limited[number] else None
+    low, high = (float(v) for v in model.jnt_range[number])
     return ArticulatedObject(
         file.stem,
         file,
@@ -101,7 +101,7 @@ def open_object(path: str | Path, joint: str) -> ArticulatedObject:
         model.joint(number).name,
         model.body(body).name,
         Motion(kind, data.xaxis[number].copy(), data.xanchor[number].copy(), "asset"),
-        limits,
+        (low, high) if model.jnt_limited[number] else None,
         carried,
         np.concatenate(mine),
         np.concatenate([np.zeros((0, 3, 3)), *others]),
@@ -170,7 +170,7 @@ def _exclude_overlaps(mujoco: Any, spec: Any, model: Any, data: Any) -> None:
     pairs = {(int(model.body_parentid[b]), b) for b in range(1, model.nbody)}
     deep = OVERLAP * float(model.stat.extent)
     pairs |= {
-        tuple(sorted((int(model.geom_bodyid[c.geom1]), int(model.geom_bodyid[c.geom2]))))
+        _ordered(int(model.geom_bodyid[c.geom1]), int(model.geom_bodyid[c.geom2]))
         for c in data.contact[: data.ncon]
         if c.dist < -deep
     }
@@ -178,3 +178,7 @@ def _exclude_overlaps(mujoco: Any, spec: Any, model: Any, data: Any) -> None:
         names = model.body(a).name, model.body(b).name
         if a and b and a != b and frozenset(names) not in known:
             spec.add_exclude(bodyname1=names[0], bodyname2=names[1])
+
+
+def _ordered(a: int, b: int) -> tuple[int, int]:
+    return (a, b) if a < b else (b, a)

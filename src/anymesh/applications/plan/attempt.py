@@ -40,7 +40,7 @@ class Reason(StrEnum):
 
 @dataclass(frozen=True, eq=False)
 class Route:
-    """Postures (k, J) of each motion; shift: (k,) of the push beyond the part [m]; gaps: of the fingers, free and at the part."""
+    """Postures (k, J) of each motion; values: of the joint along `move`; gaps: of the fingers, free and at the part [m]."""
 
     base: BasePose
     target: Target
@@ -75,7 +75,7 @@ class Cell:
 
     def __post_init__(self) -> None:
         self.world.move(self.base)
-        self._T_base_asset = np.linalg.inv(self.base.T_asset_base)
+        self._T_base_asset = np.linalg.inv(self.base.transform)
 
     def home_touches(self) -> str | None:
         """What the robot collides with at home, None when it is free."""
@@ -132,7 +132,15 @@ class Cell:
             return Reason.LINE
         retreat = self._line(target, move[-1], self.value, open_gap, PRESS if start else 0.0, whole=False)
         return Route(
-            self.base, target, reach[-1:], reach[::-1], move, move[-1:] if retreat is None else retreat, values, open_gap, hold_gap
+            self.base,
+            target,
+            reach[-1:],
+            reach[::-1],
+            move,
+            move[-1:] if retreat is None else retreat,
+            values,
+            open_gap,
+            hold_gap,
         )
 
     def _along(
@@ -179,6 +187,6 @@ class Cell:
             self.failures[Reason.PATH] += 1
         return path
 
-    def free(self, route: Route):  # noqa: ANN201 - a closure
+    def free(self, route: Route):
         """Whether a posture on the approach is clear of everything."""
         return lambda posture: self.world.touching(posture, route.open_gap, 0.0) is None

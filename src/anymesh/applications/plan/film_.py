@@ -31,6 +31,7 @@ FLOOR = 2.5  # [m] side of the ground that is drawn
 FOV = np.deg2rad(35)
 GRAY = (0.7, 0.7, 0.72)
 SUN = np.array([0.3, -0.5, 0.8]) / np.linalg.norm([0.3, -0.5, 0.8])
+SHOULDER = 0.5  # [m] of the arm above its foot that must be seen
 SHEET_COLUMNS, SHEET_ROWS = 3, 3
 
 
@@ -38,7 +39,12 @@ class Film:
     """Draws the object and the robot in given states."""
 
     def __init__(
-        self, thing: ArticulatedObject, robot: Robot, hand: Hand, base: BasePose, physics: Physics = Physics()  # noqa: B008
+        self,
+        thing: ArticulatedObject,
+        robot: Robot,
+        hand: Hand,
+        base: BasePose,
+        physics: Physics = Physics(),  # noqa: B008
     ) -> None:
         self.mujoco = load_mujoco()
         self.model = model = compose(thing, robot, base=base, T_world_asset=moved(physics), visuals=True).compile()
@@ -71,7 +77,9 @@ class Film:
         q[int(self.model.joint(OBJECT + self.thing.joint).qposadr[0])] = trajectory.value[row]
         return q
 
-    def camera(self, states: Float[np.ndarray, "k q"], *, close: bool = False, width: int = WIDTH, height: int = HEIGHT) -> Camera:
+    def camera(
+        self, states: Float[np.ndarray, "k q"], *, close: bool = False, width: int = WIDTH, height: int = HEIGHT
+    ) -> Camera:
         """A camera from the side that sees the object and the robot in all states; close: the hand and the part alone."""
         wrist = int(self.model.body(ROBOT + self.robot.wrist).id)
         root = int(self.model.body(ROBOT + self.robot.root).id)
@@ -85,7 +93,7 @@ class Film:
         points = np.concatenate([tool, self.thing.part_triangles.reshape(-1, 3)] if close else [tool, np.array(box)])
         foot = self.data.xpos[root].copy()
         if not close:
-            points = np.concatenate([points, [foot, foot + [0, 0, 0.5]]])
+            points = np.concatenate([points, [foot, foot + np.array([0, 0, SHOULDER])]])
         center = (points.min(0) + points.max(0)) / 2
         radius = float(np.linalg.norm(points - center, axis=1).max()) + 0.05
         along = center[:2] - foot[:2] if close else corners.mean(0)[:2] - foot[:2]

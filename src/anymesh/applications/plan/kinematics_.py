@@ -26,7 +26,7 @@ class Kinematics:
 
     def __init__(self, robot: Robot, hand: Hand) -> None:
         try:
-            import mink
+            import mink  # ty: ignore[import-not-found]
         except ImportError:
             raise MissingExtraError("mink is missing; `pip install 'articulate-anymesh[plan]'` brings it") from None
         self.mujoco = load_mujoco()

@@ -79,8 +79,8 @@ class BasePose:
         return cls(x, y, z, float(np.deg2rad(yaw)))
 
     @property
-    def T_asset_base(self) -> Float[np.ndarray, "4 4"]:
-        """From the robot's frame to the asset's."""
+    def transform(self) -> Float[np.ndarray, "4 4"]:
+        """(4, 4) from the robot's frame to the asset's."""
         c, s = np.cos(self.yaw), np.sin(self.yaw)
         return np.array([[c, -s, 0, self.x], [s, c, 0, self.y], [0, 0, 1, self.z], [0, 0, 0, 1]])
 
@@ -108,7 +108,9 @@ class Trajectory:
 
     def __post_init__(self) -> None:
         count = len(self.time)
-        if any(len(rows) != count for rows in (self.position, self.velocity, self.acceleration, self.gap, self.phase, self.value)):
+        if any(
+            len(rows) != count for rows in (self.position, self.velocity, self.acceleration, self.gap, self.phase, self.value)
+        ):
             raise ValueError(f"a trajectory has one row a time, found {count} times and others")
         if count < 2 or not (np.diff(self.time) > 0).all():
             raise ValueError("the times of a trajectory must rise")

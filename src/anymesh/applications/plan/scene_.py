@@ -54,7 +54,7 @@ def compose(
         spec.worldbody.add_geom(name="stand", type=box, size=half, pos=[*((low + high)[:2] / 2), height / 2 - 1e-3])
     for child, T, prefix in (
         (thing.spec, np.eye(4) if T_world_asset is None else T_world_asset, OBJECT),
-        (robot.spec, np.eye(4) if base is None else base.T_asset_base, ROBOT),
+        (robot.spec, np.eye(4) if base is None else base.transform, ROBOT),
     ):
         quat = np.zeros(4)
         mujoco.mju_mat2Quat(quat, np.ascontiguousarray(T[:3, :3]).reshape(-1))
@@ -80,12 +80,19 @@ class Touch:
 class CollisionWorld:
     """Tells whether a posture of the arm collides, with the object posed anywhere along its joint.
 
-    The robot may be moved to another base of the same height (`move`). clearance: [m] that the arm and the open gripper keep from everything; touch: [m] that fingers may be in the part while
-    they hold it.
+    The robot may be moved to another base of the same height (`move`). clearance: [m] that the arm and the open gripper keep
+    from everything; touch: [m] that fingers may be in the part while they hold it.
     """
 
     def __init__(
-        self, thing: ArticulatedObject, robot: Robot, hand: Hand, base: BasePose, *, clearance: float = 0.004, touch: float = 1e-3
+        self,
+        thing: ArticulatedObject,
+        robot: Robot,
+        hand: Hand,
+        base: BasePose,
+        *,
+        clearance: float = 0.004,
+        touch: float = 1e-3,
     ) -> None:
         self.mujoco = load_mujoco()
         self.thing, self.robot, self.hand = thing, robot, hand
@@ -105,12 +112,12 @@ class CollisionWorld:
         self.is_hand = self._below({int(model.body(ROBOT + robot.wrist).id)})
         model.geom_margin[self.is_robot[model.geom_bodyid]] = clearance
         self._root = int(model.body(ROBOT + robot.root).id)
-        self._T_base_root = np.linalg.inv(base.T_asset_base) @ _transform(model.body_pos[self._root], model.body_quat[self._root])
+        self._T_base_root = np.linalg.inv(base.transform) @ _transform(model.body_pos[self._root], model.body_quat[self._root])
         self._ignored = self._always(hand)
 
     def move(self, base: BasePose) -> None:
         """Places the robot elsewhere; at the height that it was made for."""
-        T = base.T_asset_base @ self._T_base_root
+        T = base.transform @ self._T_base_root
         self.model.body_pos[self._root] = T[:3, 3]
         self.mujoco.mju_mat2Quat(self.model.body_quat[self._root], np.ascontiguousarray(T[:3, :3]).reshape(-1))
         for geom in range(self.model.ngeom):
@@ -156,7 +163,7 @@ class CollisionWorld:
     ) -> Touch | None:
         """The first pair that is too near, None when all are clear.
 
-        holding: fingers may be at the part, and up to `touch` in it; pressed: so much deeper in it, and in what is round it [m].
+        holding: fingers may be at the part, and up to `touch` in it; pressed: so much deeper, and in what is round it [m].
         """
         self.pose(posture, gap, value)
         for (a, b), distance in self._pairs():

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from jaxtyping import Bool, Float, Int
+from jaxtyping import Bool, Float
 
 from anymesh.applications.plan.plans import Contact, Target
 from anymesh.rendering.raycast_ import RayScene
@@ -132,9 +132,7 @@ def _grasps(
     return [Target(Contact.GRASP, t, float(a), float(s)) for t, a, s in zip(T, w, score, strict=True)]
 
 
-def _pushes(
-    surfaces: Surfaces, points: np.ndarray, normals: np.ndarray, motion: Motion, value: float
-) -> list[Target]:
+def _pushes(surfaces: Surfaces, points: np.ndarray, normals: np.ndarray, motion: Motion, value: float) -> list[Target]:
     """Faces against which the closed fingers press the way the part is to go."""
     speed = velocity(motion, points) * np.sign(value)
     length = np.linalg.norm(speed, axis=1)
@@ -197,7 +195,7 @@ def _room(scene: RayScene, T: Float[np.ndarray, "n 4 4"], width: Float[np.ndarra
     starts = np.einsum("nij,nkj->nki", T[:, :3, :3], own) + T[:, None, :3, 3]
     ways = np.repeat(-T[:, None, :3, 2], len(rows), 1)
     hits = scene.first_hit(starts.reshape(-1, 3), ways.reshape(-1, 3))
-    return (hits.distance.reshape(len(T), -1) > CORRIDOR).all(1)
+    return np.asarray(hits.distance.reshape(len(T), -1).min(1) > CORRIDOR)
 
 
 def _unlike(targets: list[Target]) -> list[Target]:

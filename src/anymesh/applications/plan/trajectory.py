@@ -33,9 +33,7 @@ def build_trajectory(route: Route, robot: Robot, speed: float, free: Valid) -> T
     held = route.values[-1]
     grasped, opened = route.target.contact is Contact.GRASP, route.open_gap
     none = np.zeros(1)
-    pieces: list[Piece] = [
-        (Phase.APPROACH, timed, opened, none) for timed in rounded(route.approach, velocity, push, free)
-    ]
+    pieces: list[Piece] = [(Phase.APPROACH, timed, opened, none) for timed in rounded(route.approach, velocity, push, free)]
     pieces.append((Phase.REACH, time_curve(Curve(route.reach), *slow), opened, none))
     if grasped:
         pieces.append((Phase.CLOSE, stand(route.move[0], CLOSING), 0.0, none))
