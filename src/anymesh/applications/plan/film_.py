@@ -17,6 +17,7 @@ from anymesh.applications.plan.replay_ import Physics, moved
 from anymesh.applications.plan.robot_ import Robot
 from anymesh.applications.plan.scene_ import OBJECT, ROBOT, compose
 from anymesh.errors import MissingExtraError, OptionError
+from anymesh.geometry.simplify_ import simplify
 from anymesh.mujoco_ import load_mujoco
 from anymesh.rendering.drawing import draw, ground, look_of_faces, subject_of
 from anymesh.rendering.raycast_ import RayScene
@@ -31,6 +32,7 @@ FLOOR = 2.5  # [m] side of the ground that is drawn
 FOV = np.deg2rad(35)
 GRAY = (0.7, 0.7, 0.72)
 SUN = np.array([0.3, -0.5, 0.8]) / np.linalg.norm([0.3, -0.5, 0.8])
+MOST_FACES = 2000  # of a shape: robots come with a hundred times as many
 SHOULDER = 0.5  # [m] of the arm above its foot that must be seen
 SHEET_COLUMNS, SHEET_ROWS = 3, 3
 
@@ -64,6 +66,7 @@ class Film:
         if int(model.geom_bodyid[geom]) == 0:
             half = FLOOR / 2
             own = np.clip(own, -half, half)
+        own = simplify(own, MOST_FACES)
         plain = look < 0 and np.allclose(rgba[:3], 0.5)  # what a file leaves out is 0.5
         return own, np.round(255 * np.clip(GRAY if plain else rgba[:3], 0, 1)).astype(np.uint8)
 
@@ -137,8 +140,10 @@ def write_film(film: Film, states: Float[np.ndarray, "k q"], path: Path, rate: f
     """
     if path.suffix.lower() not in (".mp4", ".png"):
         raise OptionError(f"--video: found {path.name}; valid are files that end in .mp4 or .png")
-    camera = film.camera(states[:: max(1, len(states) // 20)])
-    if path.suffix.lower() == ".mp4":
+    sheet = path.suffix.lower() == ".png"
+    size = (WIDTH // SHEET_COLUMNS * 2, HEIGHT // SHEET_COLUMNS * 2) if sheet else (WIDTH, HEIGHT)
+    camera = film.camera(states[:: max(1, len(states) // 20)], width=size[0], height=size[1])
+    if not sheet:
         from anymesh.viewer.pictures_mp4_ import write_mp4
 
         part = path.with_name(f".{path.name}.part.mp4")

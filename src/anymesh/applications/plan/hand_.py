@@ -82,7 +82,7 @@ def measure_hand(robot: Robot) -> Hand:
 class _State:
     qpos: Float[np.ndarray, " q"]
     control: Float[np.ndarray, " A"]
-    points: tuple[Float[np.ndarray, "n 3"], ...]  # of each of the fingers' shapes, in the wrist's frame
+    points: tuple[Float[np.ndarray, "_ 3"], ...]  # of each of the fingers' shapes, in the wrist's frame
 
     @property
     def middles(self) -> Float[np.ndarray, "g 3"]:
@@ -124,7 +124,7 @@ class _Bench:
             for _ in range(SETTLE):
                 self.mujoco.mj_step(model, data)
             self.mujoco.mj_kinematics(model, data)
-            found.append(_State(data.qpos.copy(), data.ctrl.copy(), tuple(map(self._points, self.geoms))))
+            found.append(_State(data.qpos.copy(), data.ctrl.copy(), tuple(self._points(int(g)) for g in self.geoms)))
         return found
 
     def _ends(self, actuator: int) -> np.ndarray:

@@ -92,6 +92,12 @@ class Stage:
         _give_physics(spec, thing, physics)
         self.model = model = spec.compile()
         self.data = self.mujoco.MjData(model)
+        for name in thing.carried:
+            body = int(model.body(OBJECT + name).id)
+            model.body_mass[body] *= physics.mass
+            model.body_inertia[body] *= physics.mass
+        self.mujoco.mj_setConst(model, self.data)
+        self.mujoco.mj_resetData(model, self.data)
         self.arm = np.array([int(model.joint(ROBOT + n).qposadr[0]) for n in robot.joints])
         self.fingers = np.array([int(model.joint(ROBOT + n).qposadr[0]) for n in robot.fingers], int)
         self.joint = int(model.joint(OBJECT + thing.joint).qposadr[0])
@@ -200,10 +206,6 @@ def _give_physics(spec: Any, thing: ArticulatedObject, physics: Physics) -> None
     for body in spec.bodies:
         if body.name.startswith(ROBOT):
             body.gravcomp = 1.0  # arms hold their own weight
-        elif body.name.removeprefix(OBJECT) in thing.carried:
-            body.mass *= physics.mass
-            body.inertia = np.array(body.inertia) * physics.mass
-            body.fullinertia = np.array(body.fullinertia) * physics.mass
     for geom in spec.geoms:
         if geom.parent.name.startswith(OBJECT) and (geom.contype or geom.conaffinity):
             geom.friction, geom.condim, geom.priority = [physics.friction, TORSION, ROLLING], 4, PRIORITY

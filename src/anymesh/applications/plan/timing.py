@@ -65,9 +65,20 @@ def time_curve(
     speed = np.abs(first * ds[:, None]).max(0) / velocity
     push = np.abs(second * ds[:, None] ** 2 + first * dds[:, None]).max(0) / acceleration
     duration = max(least, float(speed.max()) / SHARE, float(np.sqrt(push.max() / SHARE)))
-    count = int(np.ceil(duration / STEP)) + 1
-    duration = (count - 1) * STEP
-    time = np.arange(count) * STEP
+    while True:
+        timed = _sampled(curve, int(np.ceil(duration / STEP)) + 1)
+        over = max(
+            float((np.abs(timed.velocity).max(0) / velocity).max()),
+            float(np.sqrt((np.abs(timed.acceleration).max(0) / acceleration).max())),
+        )
+        if over <= 1:
+            return timed
+        duration *= over / SHARE  # a sharp bend between the places that were checked
+
+
+def _sampled(curve: Curve, count: int) -> Timed:
+    """`count` samples of the whole curve, `STEP` apart."""
+    duration, time = (count - 1) * STEP, np.arange(count) * STEP
     s, ds, dds = _quintic(time / duration)
     first, second = curve.at(s, 1), curve.at(s, 2)
     ds, dds = ds[:, None] / duration, dds[:, None] / duration**2

@@ -1,0 +1,61 @@
+"""A trajectory replayed with contacts opens the door; off by too much it does not, and the reason is told."""
+
+import numpy as np
+import pytest
+
+from anymesh.applications.plan.asset_ import open_object
+from anymesh.applications.plan.film_ import Film, write_film
+from anymesh.applications.plan.planner import plan_motion
+from anymesh.applications.plan.plans import BasePose
+from anymesh.applications.plan.replay_ import Failure, Physics, Stage, replay
+from anymesh.errors import OptionError
+
+
+def test_the_door_opens_and_nothing_passes_through(door_plan, cupboard, arm):
+    seen = replay(door_plan.trajectory, cupboard, arm.robot, arm.hand, door_plan.base, 0.7)
+    assert seen.failure is None
+    assert seen.value == pytest.approx(0.7, abs=0.05)
+    assert seen.penetration < 0.003
+    assert seen.force == 0
+    assert seen.lag < 0.03
+
+
+def test_the_door_stays_shut_when_it_is_elsewhere(door_plan, cupboard, arm):
+    off = Physics(shift=(0.1, 0.0, 0.0))
+    seen = replay(door_plan.trajectory, cupboard, arm.robot, arm.hand, door_plan.base, 0.7, physics=off)
+    assert seen.failure in (Failure.MISSED, Failure.SLIPPED, Failure.HIT)
+    assert abs(seen.value) < 0.6
+
+
+def test_a_door_that_resists_is_not_opened(door_plan, cupboard, arm):
+    """What moves the part is contact, not a weld: the bar slips out of the fingers."""
+    stiff = Physics(damping=10_000.0)  # 2000 N m s/rad
+    seen = replay(door_plan.trajectory, cupboard, arm.robot, arm.hand, door_plan.base, 0.7, physics=stiff)
+    assert seen.failure in (Failure.SLIPPED, Failure.SHORT)
+
+
+def test_the_mass_of_what_moves_is_scaled(cupboard, arm):
+    one, two = (Stage(cupboard, arm.robot, arm.hand, BasePose(0.0, -0.8, 0.0, 1.57), Physics(mass=m)) for m in (1.0, 2.0))
+    body = one.model.body("object/door").id
+    assert two.model.body_mass[body] == pytest.approx(2 * one.model.body_mass[body])
+    assert two.model.body_mass.sum() - one.model.body_mass.sum() == pytest.approx(one.model.body_mass[body])
+
+
+def test_a_button_goes_in(things, arm):
+    panel = open_object(things / "panel.xml", "button")
+    found = plan_motion(panel, arm, -0.01)
+    seen = replay(found.trajectory, panel, arm.robot, arm.hand, found.base, -0.01, physics=Physics(spring=300.0))
+    assert seen.failure is None
+    assert seen.value <= -0.009
+
+
+def test_a_film_is_a_sheet_of_pictures_that_differ(door_plan, cupboard, arm, tmp_path):
+    film = Film(cupboard, arm.robot, arm.hand, door_plan.base)
+    rows = np.round(np.linspace(0, len(door_plan.trajectory.time) - 1, 2)).astype(int)
+    states = np.array([film.state(door_plan.trajectory, int(k)) for k in rows])
+    camera = film.camera(states, width=96, height=72)
+    first, last = (film.frame(q, camera) for q in states)
+    assert first.shape == (72, 96, 3)
+    assert (first != last).any(-1).mean() > 0.02
+    with pytest.raises(OptionError, match=r"valid are files that end in .mp4 or .png"):
+        write_film(film, states, tmp_path / "film.gif")
