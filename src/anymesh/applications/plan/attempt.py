@@ -88,15 +88,18 @@ class Cell:
 
     def reachable(self, target: Target, rng: np.random.Generator) -> bool:
         """Whether some posture brings the tool to the part without collision, and some to the end of the part's motion."""
-        for value in (self.value, 0.0):
-            T = self.tool(target, value)
-            if float(np.linalg.norm(T[:3, 3] - self.kinematics.shoulder)) > self.kinematics.reach:
-                return False
+        if not self._near(target):
+            return False
         if next(iter(self.kinematics.search(self.tool(target, self.value), rng, FEW)), None) is None:
             return False
         start = self.start(target)
         postures = self.kinematics.search(self.tool(target, 0.0, start), rng, FEW)
         return any(self.world.touching(q, target.width, 0.0, holding=True) is None for q in postures)
+
+    def _near(self, target: Target) -> bool:
+        """Whether both ends of the motion are within the arm's length; quicker to tell than by inverse kinematics."""
+        ends = (self.tool(target, value)[:3, 3] for value in (self.value, 0.0))
+        return all(float(np.linalg.norm(at - self.kinematics.shoulder)) <= self.kinematics.reach for at in ends)
 
     @staticmethod
     def start(target: Target) -> float:
@@ -109,7 +112,9 @@ class Cell:
         open_gap = min(self.hand.stroke, target.width + OPENING) if target.contact is Contact.GRASP else 0.0
         start = self.start(target)
         reasons: list[Reason] = []
-        for posture in self.kinematics.search(self.tool(target, 0.0, start), rng, TRIES):
+        first = self.tool(target, 0.0, start)
+        far = float(np.linalg.norm(first[:3, 3] - self.kinematics.shoulder)) > self.kinematics.reach
+        for posture in () if far else self.kinematics.search(first, rng, TRIES):
             found = self._from(target, posture, open_gap, start)
             if isinstance(found, Route):
                 return found
