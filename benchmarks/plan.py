@@ -1,7 +1,7 @@
 """The paper's three tasks (4.2): plan on a digital twin, replay open loop on the true object, somewhat off, fifty times.
 
     python benchmarks/plan.py WORK [--robot panda] [--trials 50] [--tasks trigger,door,wheel]
-        [--twins ours,corrected,truth,paper] [--twin TASK:NAME=FOLDER] [--pictures] [--markdown FILE]
+        [--twins ours,corrected,truth,paper] [--twin TASK:NAME=FOLDER[@T.json]] [--pictures] [--markdown FILE]
 
 A second MuJoCo simulation with the true joints stands in for the real robot. Twins: ours (`anymesh articulate` on the mesh),
 corrected (ours with the sign of the joint set right by hand), truth (the true parts and joints: an upper bound), paper (the
@@ -26,7 +26,7 @@ from anymesh.applications.plan.asset_ import ArticulatedObject, open_object
 from anymesh.applications.plan.film_ import Film, tiled
 from anymesh.applications.plan.planner import Arm, Settings, open_arm, plan_motion
 from anymesh.applications.plan.plans import BasePose, Phase, Plan, PlanError
-from anymesh.applications.plan.replay_ import Failure, Physics, replay
+from anymesh.applications.plan.replay_ import Physics, replay
 from anymesh.config import Config
 from anymesh.correcting import Entry, FlipSign, Opened, open_asset, save_asset
 from anymesh.errors import AnymeshError
@@ -116,9 +116,15 @@ def placement(folder: Path) -> np.ndarray:
     return np.array(json.loads((folder / "asset.json").read_text(encoding="utf-8"))["source"]["T_asset_source"], float)
 
 
-def matched(folder: Path, task: Task, subject: Subject) -> tuple[ArticulatedObject, str, np.ndarray]:
-    """The twin's joint whose part lies where the true part does, the part's name, and the twin's frame in the true one."""
-    T = subject.T @ np.linalg.inv(placement(folder))
+def matched(
+    folder: Path, task: Task, subject: Subject, T_true_file: np.ndarray | None = None
+) -> tuple[ArticulatedObject, str, np.ndarray]:
+    """The twin's joint whose part lies where the true part does, the part's name, and the twin's frame in the true one.
+
+    T_true_file: from the coordinates of the twin's mesh file to the true asset frame; None where the twin was made of the
+    very mesh file of the true object.
+    """
+    T = (subject.T if T_true_file is None else T_true_file) @ np.linalg.inv(placement(folder))
     number = next(k for k, p in enumerate(subject.truth.parts) if p.name == task.part)
     true = subject.mesh.triangles[subject.labels == number].reshape(-1, 3)
     middle = (true.min(0) + true.max(0)) / 2
@@ -161,9 +167,10 @@ class Row:
 
 
 def run(
-    task: Task, kind: str, folder: Path, subject: Subject, true: Path, arm: Arm, trials: int
+    task: Task, kind: str, twin_of: tuple[Path, np.ndarray | None], subject: Subject, true: Path, arm: Arm, trials: int
 ) -> tuple[Row, ArticulatedObject, np.ndarray]:
-    thing, _, T = matched(folder, task, subject)
+    """One line of the table. twin_of: the twin's folder, and `T_true_file` of `matched`."""
+    thing, _, T = matched(twin_of[0], task, subject, twin_of[1])
     real = open_object(true, f"{task.part}_joint")
     begin = time.perf_counter()
     try:
@@ -218,7 +225,11 @@ def main() -> None:
     parser.add_argument("--tasks", default=",".join(TASKS))
     parser.add_argument("--twins", default=",".join(TWINS))
     parser.add_argument(
-        "--twin", action="append", default=[], metavar="TASK:NAME=FOLDER", help="another twin of a task's object"
+        "--twin",
+        action="append",
+        default=[],
+        metavar="TASK:NAME=FOLDER[@T.json]",
+        help="another twin; T.json: 4x4, its file's coordinates to the true frame",
     )
     parser.add_argument("--pictures", action="store_true")
     parser.add_argument("--markdown", type=Path)
@@ -232,10 +243,13 @@ def main() -> None:
             k: twin(k, task, subject, options.work) for k in options.twins.split(",") if k != "corrected" or name == "trigger"
         }
         named = [t.removeprefix(f"{name}:").partition("=") for t in options.twin if t.startswith(f"{name}:")]
-        folders |= {k: Path(folder) for k, _, folder in named}
-        for kind, folder in folders.items():
+        twins = {k: (folder, None) for k, folder in folders.items()}
+        for kind, _, text in named:
+            folder, _, transform = text.partition("@")
+            twins[kind] = Path(folder), np.array(json.loads(Path(transform).read_text())) if transform else None
+        for kind, which in twins.items():
             try:
-                row, real, T = run(task, kind, folder, subject, true, arm, options.trials)
+                row, real, T = run(task, kind, which, subject, true, arm, options.trials)
             except AnymeshError as error:
                 rows.append(Row(name, kind, 0.0, 0, options.trials, Counter({"no plan": options.trials}), note=str(error)))
                 continue
@@ -251,6 +265,3 @@ def main() -> None:
 
 if __name__ == "__main__":
     main()
-
-
-__all__ = ["Failure"]

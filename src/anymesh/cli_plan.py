@@ -52,7 +52,7 @@ def plan(
     json_: Json = False,
     quiet: Quiet = False,
 ) -> None:
-    """Plans how a robot arm moves a joint of ASSET: a grasp or a push, a free approach, the part's motion, in time."""
+    """Plan how a robot arm moves a joint of ASSET: a grasp or a push, a free approach, the part's motion, in time."""
     from anymesh.applications.plan.formats import write_plan
     from anymesh.applications.plan.options import parse_value
     from anymesh.applications.plan.planner import plan as find

@@ -25,7 +25,7 @@ def free_path(
     seed: int,
     seconds: float = 3.0,
 ) -> Float[np.ndarray, "k J"] | None:
-    """Postures from start to goal, straight between which nothing collides; None when none is found in time.
+    """Return postures from start to goal, straight between which nothing collides; None when none is found in time.
 
     low, high: (J,) limits [rad]. The same seed gives the same path, unless time runs out. Raises MissingExtraError.
     """
@@ -71,14 +71,14 @@ def _rrt(
 
 
 def straight_is_free(a: Float[np.ndarray, " J"], b: Float[np.ndarray, " J"], valid: Valid) -> bool:
-    """Whether nothing collides straight between two postures, their ends included."""
+    """Return whether nothing collides straight between two postures, their ends included."""
     count = max(2, int(np.ceil(np.linalg.norm(b - a) / STRIDE)) + 1)
     order = np.argsort([_bits(k) for k in range(count)])  # the middle first: what collides mostly does so there
     return all(valid(a + (b - a) * k / (count - 1)) for k in order)
 
 
 def _bits(k: int) -> float:
-    """The van der Corput sequence."""
+    """Return the van der Corput sequence."""
     value, scale = 0.0, 0.5
     while k:
         value, k, scale = value + scale * (k & 1), k >> 1, scale / 2
@@ -86,7 +86,7 @@ def _bits(k: int) -> float:
 
 
 def _shortcut(path: np.ndarray, valid: Valid, rng: np.random.Generator) -> np.ndarray:
-    """Straight pieces in the place of detours, where they are free."""
+    """Return straight pieces in the place of detours, where they are free."""
     for _ in range(SHORTCUTS):
         if len(path) < 3:
             break

@@ -43,11 +43,11 @@ class ArticulatedObject:
         return self.motion.kind is MotionKind.TURN
 
     def say(self, value: float) -> str:
-        """A value of the joint, as people read it."""
+        """Return a value of the joint, as people read it."""
         return f"{np.rad2deg(value):.1f} deg" if self.turns else f"{1000 * value:.1f} mm"
 
     def check_value(self, value: float) -> float:
-        """The value, if the joint has it in its range. Raises PlanError with the nearest one."""
+        """Return the value, if the joint has it in its range. Raises PlanError with the nearest one."""
         if not np.isfinite(value):
             raise PlanError(f"--to: found {value}; a finite number is needed")
         if self.limits is None:
@@ -64,7 +64,7 @@ class ArticulatedObject:
 
 
 def open_object(path: str | Path, joint: str) -> ArticulatedObject:
-    """Reads an asset folder, a URDF or an MJCF. joint: its name, or that of the part it carries.
+    """Read an asset folder, a URDF or an MJCF. joint: its name, or that of the part it carries.
 
     Raises InputError when there is nothing to read, OptionError for a joint that is not there or does not move.
     """
@@ -109,7 +109,7 @@ def open_object(path: str | Path, joint: str) -> ArticulatedObject:
 
 
 def _description(path: Path) -> Path:
-    """The MJCF beside the URDF where there is one, since it keeps which links do not collide."""
+    """Return the MJCF beside the URDF where there is one, since it keeps which links do not collide."""
     found = find_description(path)
     beside = found.with_suffix(".xml")
     return beside if path.is_dir() and beside.is_file() else found
@@ -135,14 +135,14 @@ def _carried(model: Any, body: int) -> tuple[str, ...]:
 
 
 def _shown_geoms(model: Any) -> list[int]:
-    """Geoms that are only seen; of links without any, those that collide."""
+    """Return geoms that are only seen; of links without any, those that collide."""
     seen = [g for g in range(model.ngeom) if not (model.geom_contype[g] or model.geom_conaffinity[g])]
     covered = {int(model.geom_bodyid[g]) for g in seen}
     return seen + [g for g in range(model.ngeom) if g not in seen and int(model.geom_bodyid[g]) not in covered]
 
 
 def geom_triangles(mujoco: Any, model: Any, data: Any, geom: int) -> Float[np.ndarray, "n 3 3"]:
-    """The surface of a geom in the world [m]; round ones as polyhedra."""
+    """Return the surface of a geom in the world [m]; round ones as polyhedra."""
     from anymesh.simulation.robot import Geometry, shape_triangles
 
     kinds, kind = mujoco.mjtGeom, int(model.geom_type[geom])
@@ -165,7 +165,7 @@ def geom_triangles(mujoco: Any, model: Any, data: Any, geom: int) -> Float[np.nd
 
 
 def _exclude_overlaps(mujoco: Any, spec: Any, model: Any, data: Any) -> None:
-    """Links that a joint connects, and links that overlap at rest, do not collide; what the file excludes stays so."""
+    """Exclude links that a joint connects, and links that overlap at rest, from collision; what the file excludes stays so."""
     known = {frozenset((e.bodyname1, e.bodyname2)) for e in spec.excludes}
     pairs = {(int(model.body_parentid[b]), b) for b in range(1, model.nbody)}
     deep = OVERLAP * float(model.stat.extent)

@@ -78,16 +78,16 @@ class Cell:
         self._T_base_asset = np.linalg.inv(self.base.transform)
 
     def home_touches(self) -> str | None:
-        """What the robot collides with at home, None when it is free."""
+        """Return what the robot collides with at home, None when it is free."""
         touch = self.world.touching(self.robot.home, self.hand.stroke, 0.0)
         return None if touch is None else f"{touch.a} at {touch.b}"
 
     def tool(self, target: Target, value: float, along: float = 0.0) -> Float[np.ndarray, "4 4"]:
-        """The tool's pose in the robot's frame when the part is at a value; along: moved by so much along its z [m]."""
+        """Return the tool's pose in the robot's frame when the part is at a value; along: moved by so much along its z [m]."""
         return self._T_base_asset @ self.thing.motion.transform(value) @ tool_pose(target, self.hand, along)
 
     def reachable(self, target: Target, rng: np.random.Generator) -> bool:
-        """Whether some posture brings the tool to the part without collision, and some to the end of the part's motion."""
+        """Return whether the tool gets to the part without collision, and to the end of the part's motion."""
         if not self._near(target):
             return False
         if next(iter(self.kinematics.search(self.tool(target, self.value), rng, FEW)), None) is None:
@@ -97,17 +97,17 @@ class Cell:
         return any(self.world.touching(q, target.width, 0.0, holding=True) is None for q in postures)
 
     def _near(self, target: Target) -> bool:
-        """Whether both ends of the motion are within the arm's length; quicker to tell than by inverse kinematics."""
+        """Return whether both ends of the motion are within the arm's length; quicker to tell than by inverse kinematics."""
         ends = (self.tool(target, value)[:3, 3] for value in (self.value, 0.0))
         return all(float(np.linalg.norm(at - self.kinematics.shoulder)) <= self.kinematics.reach for at in ends)
 
     @staticmethod
     def start(target: Target) -> float:
-        """How far along the tool's z from the target the part's motion begins [m]."""
+        """Return how far along the tool's z from the target the part's motion begins [m]."""
         return -STAND_OFF if target.contact is Contact.PUSH else 0.0
 
     def route(self, target: Target) -> Route | None:
-        """The whole way for a target, but for the approach; None, counted, when there is none."""
+        """Return the whole way for a target, but for the approach; None, counted, when there is none."""
         rng = np.random.default_rng([self.seed, 1])
         open_gap = min(self.hand.stroke, target.width + OPENING) if target.contact is Contact.GRASP else 0.0
         start = self.start(target)
@@ -151,7 +151,7 @@ class Cell:
     def _along(
         self, target: Target, posture: np.ndarray, gap: float, start: float
     ) -> tuple[Float[np.ndarray, "n J"], Float[np.ndarray, " n"]]:
-        """Postures along the joint as far as they go, and the joint's values."""
+        """Return postures along the joint as far as they go, and the joint's values."""
         step = ARC_TURN if self.thing.turns else ARC_STEP
         count = max(8, int(np.ceil(abs(self.value) / step)))
         values = self.value * np.arange(count + 1) / count
@@ -171,7 +171,7 @@ class Cell:
     def _line(
         self, target: Target, posture: np.ndarray, value: float, gap: float, start: float, *, whole: bool
     ) -> Float[np.ndarray, "k J"] | None:
-        """Postures straight back from the part; None when it gets less far than `BACK_LEAST`, or `BACK` when whole."""
+        """Return postures straight back from the part; None when it gets less far than `BACK_LEAST`, or `BACK` when whole."""
         found = [posture]
         for back in np.arange(LINE_STEP, BACK + 1e-9, LINE_STEP):
             following = self.kinematics.solve(self.tool(target, value, start - back), found[-1])
@@ -184,7 +184,7 @@ class Cell:
         return np.array(found) if (len(found) - 1) * LINE_STEP > least - 1e-9 else None
 
     def approach(self, route: Route) -> Float[np.ndarray, "k J"] | None:
-        """A free path from home to where the tool goes straight to the part."""
+        """Return a free path from home to where the tool goes straight to the part."""
         path = free_path(
             self.robot.home, route.reach[0], self.kinematics.low, self.kinematics.high, self.free(route), seed=self.seed
         )
@@ -193,5 +193,5 @@ class Cell:
         return path
 
     def free(self, route: Route):
-        """Whether a posture on the approach is clear of everything."""
+        """Return whether a posture on the approach is clear of everything."""
         return lambda posture: self.world.touching(posture, route.open_gap, 0.0) is None

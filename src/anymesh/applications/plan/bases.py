@@ -14,7 +14,7 @@ HEIGHTS = (0.35, 0.5)  # [m] of the part above the base, where the ground is too
 
 
 def base_poses(middle: Float[np.ndarray, " 3"], outwards: Float[np.ndarray, " 3"], reach: float) -> list[BasePose]:
-    """Poses round the place where the part is worked on, each turned towards it; the most promising first.
+    """Return poses round the place where the part is worked on, each turned towards it; the most promising first.
 
     middle: of the tool's path [m]; outwards: from where the tool comes; reach: of the arm [m].
     """

@@ -56,7 +56,7 @@ class Film:
         self._colors = np.concatenate([np.tile(color, (len(own), 1)) for _, own, color in self._shapes])
 
     def _shape(self, geom: int) -> tuple[Float[np.ndarray, "n 3 3"], UInt8[np.ndarray, " 3"]]:
-        """A geom's surface in its own frame, and its colour."""
+        """Return a geom's surface in its own frame, and its colour."""
         model, data = self.model, self.data
         self.mujoco.mj_kinematics(model, data)
         world = geom_triangles(self.mujoco, model, data, geom)
@@ -71,7 +71,7 @@ class Film:
         return own, np.round(255 * np.clip(GRAY if plain else rgba[:3], 0, 1)).astype(np.uint8)
 
     def state(self, trajectory: Trajectory, row: int) -> Float[np.ndarray, " q"]:
-        """The positions that a trajectory means at one of its samples."""
+        """Return the positions that a trajectory means at one of its samples."""
         q = self.model.qpos0.copy()
         for name, value in zip(trajectory.joints, trajectory.position[row], strict=True):
             q[int(self.model.joint(ROBOT + name).qposadr[0])] = value
@@ -83,7 +83,7 @@ class Film:
     def camera(
         self, states: Float[np.ndarray, "k q"], *, close: bool = False, width: int = WIDTH, height: int = HEIGHT
     ) -> Camera:
-        """A camera from the side that sees the object and the robot in all states; close: the hand and the part alone."""
+        """Return a camera from the side that sees the whole scene in all states; close: the hand and the part alone."""
         wrist = int(self.model.body(ROBOT + self.robot.wrist).id)
         root = int(self.model.body(ROBOT + self.robot.root).id)
         places = []
@@ -111,7 +111,7 @@ class Film:
         self.mujoco.mj_kinematics(self.model, self.data)
 
     def frame(self, q: Float[np.ndarray, " q"], camera: Camera) -> UInt8[np.ndarray, "H W 3"]:
-        """One picture."""
+        """Return one picture."""
         self._pose(q)
         data = self.data
         parts = [own @ data.geom_xmat[g].reshape(3, 3).T + data.geom_xpos[g] for g, own, _ in self._shapes]
@@ -127,14 +127,14 @@ class Film:
 
 
 def _drawn(model: Any) -> list[int]:
-    """Geoms that are only seen; those that collide where a link has no others. The ground is drawn too."""
+    """Return geoms that are only seen; those that collide where a link has no others. The ground is drawn too."""
     seen = {g for g in range(model.ngeom) if not (model.geom_contype[g] or model.geom_conaffinity[g])}
     covered = {int(model.geom_bodyid[g]) for g in seen}
     return [g for g in range(model.ngeom) if g in seen or int(model.geom_bodyid[g]) not in covered]
 
 
 def write_film(film: Film, states: Float[np.ndarray, "k q"], path: Path, rate: float = RATE) -> Path:
-    """Writes an MP4, or a PNG contact sheet: where `path` ends in .png, or where the extra `video` is missing.
+    """Write an MP4, or a PNG contact sheet: where `path` ends in .png, or where the extra `video` is missing.
 
     Returns the path written. Raises OptionError for another ending.
     """
@@ -167,7 +167,7 @@ def _frames(film: Film, states: Float[np.ndarray, "k q"], camera: Camera) -> Ite
 
 
 def tiled(frames: list[UInt8[np.ndarray, "H W 3"]], columns: int) -> UInt8[np.ndarray, "h w 3"]:
-    """Pictures of one size in rows."""
+    """Arrange pictures of one size in rows."""
     rows = [frames[k : k + columns] for k in range(0, len(frames), columns)]
     rows[-1] += [np.full_like(frames[0], 255)] * (columns - len(rows[-1]))
     return np.concatenate([np.concatenate(row, 1) for row in rows])

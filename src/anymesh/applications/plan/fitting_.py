@@ -57,7 +57,7 @@ class HandWorld:
         return T
 
     def _clear(self, T_asset_tool: Float[np.ndarray, "4 4"], gap: float) -> bool:
-        """Whether fingers are at most `TOUCH` in the part, and nothing else of the hand touches anything."""
+        """Return whether fingers are at most `TOUCH` in the part, and nothing else of the hand touches anything."""
         T = T_asset_tool @ np.linalg.inv(self.hand.T_wrist_tool) @ self._T_wrist_root
         quat = np.zeros(4)
         self.mujoco.mju_mat2Quat(quat, np.ascontiguousarray(T[:3, :3]).reshape(-1))
@@ -72,7 +72,7 @@ class HandWorld:
         return bool((self.data.contact.dist >= np.where(touching, -TOUCH, 0.0)).all())
 
     def fitted(self, targets: Sequence[Target]) -> list[Target]:
-        """The targets where the hand fits, with the width that the collision shapes have there."""
+        """Return the targets where the hand fits, with the width that the collision shapes have there."""
         return [found for target in targets if (found := self._fit(target)) is not None]
 
     def _fit(self, target: Target) -> Target | None:
@@ -90,7 +90,7 @@ class HandWorld:
 
 
 def tool_pose(target: Target, hand: Hand, along: float) -> Float[np.ndarray, "4 4"]:
-    """The tool at a target, in the asset frame at rest; along: moved by so much along its z [m].
+    """Return the tool at a target, in the asset frame at rest; along: moved by so much along its z [m].
 
     The fingertips are `PAD` beyond what is grasped, and at what is pushed.
     """
@@ -101,7 +101,7 @@ def tool_pose(target: Target, hand: Hand, along: float) -> Float[np.ndarray, "4 
 
 
 def _without_arm(robot: Robot) -> Robot:
-    """The robot with the arm's joints fixed."""
+    """Return the robot with the arm's joints fixed."""
     spec = robot.spec.copy()
     for motor in list(spec.actuators):
         spec.delete(motor)

@@ -29,7 +29,7 @@ class PlanFormat(StrEnum):
 
 
 def write_plan(plan: Plan, path: Path, kind: str = PlanFormat.JSON, *, force: bool = False) -> None:
-    """Writes a plan, whole or not at all. Raises OptionError for a format that is not known, OutputError."""
+    """Write a plan, whole or not at all. Raises OptionError for a format that is not known, OutputError."""
     if kind not in list(PlanFormat):
         raise OptionError(f"--format: found {kind!r}; valid are {', '.join(PlanFormat)}")
     if path.exists() and not force:
@@ -45,7 +45,7 @@ def write_plan(plan: Plan, path: Path, kind: str = PlanFormat.JSON, *, force: bo
 
 
 def plan_text(plan: Plan, kind: PlanFormat) -> str:
-    """The text of a file."""
+    """Return the text of a file."""
     match kind:
         case PlanFormat.JSON:
             return json.dumps(plan_record(plan), indent=1) + "\n"
@@ -58,7 +58,7 @@ def plan_text(plan: Plan, kind: PlanFormat) -> str:
 
 
 def plan_record(plan: Plan) -> dict[str, Any]:
-    """All of a plan, but for how long planning took: the same plan gives the same text."""
+    """Return all of a plan, but for how long planning took: the same plan gives the same text."""
     t = plan.trajectory
     return {
         "version": VERSION,
@@ -98,7 +98,7 @@ def _numbers(row: np.ndarray) -> list[float]:
 
 
 def read_plan(path: str | Path) -> Plan:
-    """A plan from our JSON. Raises InputError when it is none."""
+    """Return a plan from our JSON. Raises InputError when it is none."""
     path = Path(path)
     try:
         return _plan(json.loads(path.read_text(encoding="utf-8")))
@@ -132,7 +132,7 @@ def _plan(record: Mapping[str, Any]) -> Plan:
 
 
 def _csv(t: Trajectory) -> str:
-    """One row a sample: time [s], phase, each joint's position, velocity, acceleration, the fingers' gap, the part's value."""
+    """Return one row per sample: time [s], phase, position, velocity and acceleration per joint, gap, the part's value."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     heads = [f"{word}_{joint}" for word in ("position", "velocity", "acceleration") for joint in t.joints]
@@ -146,7 +146,7 @@ def _csv(t: Trajectory) -> str:
 
 
 def ros_record(t: Trajectory) -> dict[str, Any]:
-    """The fields of trajectory_msgs/JointTrajectory (ROS 2), no others, so that it can be published as it is."""
+    """Return the fields of trajectory_msgs/JointTrajectory (ROS 2), no others, so that it can be published as it is."""
     points = [
         {
             "positions": _numbers(t.position[k]),
@@ -167,6 +167,6 @@ def _stamp(seconds: float) -> dict[str, int]:
 
 
 def gripper_commands(t: Trajectory) -> list[dict[str, Any]]:
-    """When the fingers are told another gap: time from start [s] and gap [m], for control_msgs/GripperCommand."""
+    """Return the commanded gaps of the fingers [m] with their times from start [s], for control_msgs/GripperCommand."""
     changes = np.r_[0, np.flatnonzero(np.diff(t.gap)) + 1]
     return [{"time": round(float(t.time[k]), 6), "gap": round(float(t.gap[k]), 6)} for k in changes]

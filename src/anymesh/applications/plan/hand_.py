@@ -40,15 +40,15 @@ class Hand:
         return float(self.gap[-1])
 
     def posture_at(self, gap: float) -> Float[np.ndarray, " F"]:
-        """The gripper's joints at a gap [m], clipped to what it can."""
+        """Return the gripper's joints at a gap [m], clipped to what it can."""
         return self._at(self.posture, gap)
 
     def control_at(self, gap: float) -> Float[np.ndarray, " A"]:
-        """The controls that lead there."""
+        """Return the controls that lead there."""
         return self._at(self.control, gap)
 
     def reach_at(self, gap: float) -> float:
-        """How far the tips are ahead of the tool's origin [m]."""
+        """Return how far the tips are ahead of the tool's origin [m]."""
         return float(np.interp(gap, self.gap, self.reach))
 
     def _at(self, table: np.ndarray, gap: float) -> np.ndarray:
@@ -56,7 +56,7 @@ class Hand:
 
 
 def measure_hand(robot: Robot) -> Hand:
-    """Opens and closes the gripper in a simulation of its own and measures how its fingers move.
+    """Open and closes the gripper in a simulation of its own and measures how its fingers move.
 
     Raises OptionError when no fingers close on one another.
     """
@@ -115,7 +115,7 @@ class _Bench:
         model.geom_contype[still] = model.geom_conaffinity[still] = 0  # an arm without joints is no longer next to the fingers
 
     def states(self) -> list[_State]:
-        """The gripper at rest at each of some controls, from one end to the other."""
+        """Return the gripper at rest at each of some controls, from one end to the other."""
         model, data = self.model, self.data
         ends = np.array([self._ends(a) for a in range(model.nu)]).reshape(-1, 2)
         found = []
@@ -134,7 +134,7 @@ class _Bench:
         return model.jnt_range[int(model.actuator_trnid[actuator, 0])]
 
     def _points(self, geom: int) -> Float[np.ndarray, "n 3"]:
-        """Vertices of a mesh, corners of the box round any other shape, in the wrist's frame."""
+        """Return vertices of a mesh, corners of the box round any other shape, in the wrist's frame."""
         model, data = self.model, self.data
         if int(model.geom_type[geom]) == int(self.mujoco.mjtGeom.mjGEOM_MESH):
             mesh = int(model.geom_dataid[geom])
@@ -146,17 +146,17 @@ class _Bench:
         return (world - data.xpos[self.wrist]) @ data.xmat[self.wrist].reshape(3, 3)
 
     def closing(self, states: list[_State]) -> Float[np.ndarray, " 3"]:
-        """The direction along which the fingers move most, in the wrist's frame; its largest component is positive."""
+        """Return the direction along which the fingers move most, in the wrist's frame; its largest component is positive."""
         moved = states[-1].middles - states[0].middles
         _, _, axes = np.linalg.svd(moved, full_matrices=False)
         return axes[0] * np.sign(axes[0][np.abs(axes[0]).argmax()])
 
     def span(self, state: _State, closing: np.ndarray) -> float:
-        """How far the fingers' middles are apart along the closing direction [m]."""
+        """Return how far the fingers' middles are apart along the closing direction [m]."""
         return float(np.ptp(state.middles @ closing))
 
     def tool(self, closed: _State, closing: np.ndarray) -> Float[np.ndarray, "4 4"]:
-        """The tool's frame: z from the wrist to the tips, y along the closing direction, origin between the pads."""
+        """Return the tool's frame: z from the wrist to the tips, y along the closing direction, origin between the pads."""
         points = np.concatenate(closed.points)
         ahead = points.mean(0) - (points.mean(0) @ closing) * closing
         axis = int(np.abs(ahead).argmax())

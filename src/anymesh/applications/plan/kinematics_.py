@@ -40,19 +40,19 @@ class Kinematics:
         self.shoulder, self.reach = self._reach()
 
     def _reach(self) -> tuple[Float[np.ndarray, " 3"], float]:
-        """Where the second joint is at home, and how far the tool gets from there [m], by 300 random postures."""
+        """Return where the second joint is at home, and how far the tool gets from there [m], by 300 random postures."""
         self._configuration.update(self.robot.home)
         shoulder = np.array(self._configuration.data.xanchor[self.model.joint(self.robot.joints[1]).id])
         postures = np.random.default_rng(0).uniform(self.low, self.high, (300, len(self.low)))
         return shoulder, max(float(np.linalg.norm(self.forward(q)[:3, 3] - shoulder)) for q in postures)
 
     def forward(self, posture: Float[np.ndarray, " J"]) -> Float[np.ndarray, "4 4"]:
-        """From the tool's frame to the base's."""
+        """Return the transform from the tool's frame to the base's."""
         self._configuration.update(np.asarray(posture, float))
         return np.array(self._configuration.get_transform_frame_to_world(TOOL, "site").as_matrix())
 
     def solve(self, T_base_tool: Float[np.ndarray, "4 4"], seed: Float[np.ndarray, " J"]) -> Float[np.ndarray, " J"] | None:
-        """A posture that brings the tool there, near a seed; None when none is found within the limits."""
+        """Return a posture that brings the tool there, near a seed; None when none is found within the limits."""
         self._configuration.update(np.clip(seed, self.low, self.high))
         self._task.set_target(self._mink.SE3.from_matrix(T_base_tool))
         for step in range(STEPS):
@@ -74,7 +74,7 @@ class Kinematics:
     def search(
         self, T_base_tool: Float[np.ndarray, "4 4"], rng: np.random.Generator, tries: int, near: Iterable[np.ndarray] = ()
     ) -> Iterable[Float[np.ndarray, " J"]]:
-        """Different postures that bring the tool there, from the home posture, the ones given and random seeds."""
+        """Yield different postures that bring the tool there, from the home posture, the ones given and random seeds."""
         found: list[np.ndarray] = []
         spread = np.minimum(self.high - self.low, 2 * np.pi)
         middle = (self.low + self.high) / 2
@@ -87,7 +87,7 @@ class Kinematics:
 
 
 def _arm_alone(mujoco: Any, robot: Robot, hand: Hand) -> Any:
-    """The arm's links without shapes, the gripper's joints fixed, and a site at the tool."""
+    """Return the arm's links without shapes, the gripper's joints fixed, and a site at the tool."""
     spec = without_visuals(robot.spec)
     for things in (spec.actuators, spec.equalities, spec.tendons, spec.sensors, spec.excludes, spec.geoms, spec.meshes):
         for thing in list(things):

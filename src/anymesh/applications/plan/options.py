@@ -12,7 +12,7 @@ VALUE = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([a-z]*)\s
 
 
 def parse_value(text: str) -> float:
-    """A joint's value [rad or m] from a number with or without a unit. Raises OptionError."""
+    """Return a joint's value [rad or m] from a number with or without a unit. Raises OptionError."""
     found = VALUE.fullmatch(text)
     if found is None or found[2] not in UNITS:
         units = ", ".join(name for name in UNITS if name)

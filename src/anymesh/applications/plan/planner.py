@@ -29,7 +29,7 @@ CONTACTS = {AUTO: (), **{c.value: (c,) for c in Contact}}
 
 
 def open_arm(robot: str | Path, *, tool: str | None = None, gripper: Sequence[str] = ()) -> Arm:
-    """Loads a robot by short name or file and measures its gripper. Raises as `find_robot`, `load_robot`, `measure_hand`."""
+    """Load a robot by short name or file and measures its gripper. Raises as `find_robot`, `load_robot`, `measure_hand`."""
     loaded = load_robot(find_robot(robot), tool=tool, gripper=gripper)
     hand = measure_hand(loaded)
     return Arm(loaded, hand, Kinematics(loaded, hand))
@@ -50,7 +50,7 @@ def plan(
     seconds: float = 20.0,
     progress: Progress = silent,
 ) -> Plan:
-    """Plans how a robot arm moves a joint of an asset from rest to a value (paper, 4.2).
+    """Plan how a robot arm moves a joint of an asset from rest to a value (paper, 4.2).
 
     asset: a folder that anymesh made, a URDF or an MJCF; robot: panda, ur5e, or a URDF or MJCF; joint: its name or that of
     the part it carries; to: [rad or m]; base: auto, "X,Y,Z,YAW" [m, deg] or a pose; contact: auto, grasp or push; tool,
@@ -83,7 +83,7 @@ def plan_motion(
     settings: Settings = Settings(),  # noqa: B008 - frozen
     progress: Progress = silent,
 ) -> Plan:
-    """`plan` for an object and a robot that are loaded. base: None for automatic; contacts: none for automatic."""
+    """Run `plan` for an object and a robot that are loaded. base: None for automatic; contacts: none for automatic."""
     begin = time.perf_counter()
     value = thing.check_value(to)
     if value == 0:
@@ -128,7 +128,7 @@ def plan_motion(
 
 
 def _usual(thing: ArticulatedObject, value: float) -> tuple[Contact, ...]:
-    """What moves little is pushed first, the rest grasped first."""
+    """Return what moves little is pushed first, the rest grasped first."""
     corners = thing.part_triangles.reshape(-1, 3)
     travel = float(np.linalg.norm(velocity(thing.motion, corners), axis=1).max()) * abs(value)
     return (Contact.PUSH, Contact.GRASP) if travel < SHORT else (Contact.GRASP, Contact.PUSH)

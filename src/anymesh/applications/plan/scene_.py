@@ -29,7 +29,7 @@ def compose(
     T_world_asset: Float[np.ndarray, "4 4"] | None = None,
     visuals: bool = False,
 ) -> Any:
-    """The spec of both: the object stands on the ground z = 0, or on a stand where the robot's base is lower.
+    """Return the spec of both: the object stands on the ground z = 0, or on a stand where the robot's base is lower.
 
     base: of the robot, the origin when None; T_world_asset: of the object, the identity when None.
     """
@@ -116,7 +116,7 @@ class CollisionWorld:
         self._ignored = self._always(hand)
 
     def move(self, base: BasePose) -> None:
-        """Places the robot elsewhere; at the height that it was made for."""
+        """Place the robot elsewhere; at the height that it was made for."""
         T = base.transform @ self._T_base_root
         self.model.body_pos[self._root] = T[:3, 3]
         self.mujoco.mju_mat2Quat(self.model.body_quat[self._root], np.ascontiguousarray(T[:3, :3]).reshape(-1))
@@ -133,7 +133,7 @@ class CollisionWorld:
         return mask
 
     def _always(self, hand: Hand) -> set[tuple[int, int]]:
-        """Pairs of links of the robot that touch at home, and the base on the ground: they are built so."""
+        """Return pairs of links of the robot that touch at home, and the base on the ground: they are built so."""
         ignored: set[tuple[int, int]] = set()
         for gap in (0.0, hand.stroke):
             self.pose(self.robot.home, gap, 0.0)
@@ -143,7 +143,7 @@ class CollisionWorld:
         return ignored | {(a, b) for k in (root, first) for a, b in ((0, k), (k, 0))}
 
     def pose(self, posture: Float[np.ndarray, " J"], gap: float, value: float) -> None:
-        """Places the arm, the fingers and the part."""
+        """Place the arm, the fingers and the part."""
         self.data.qpos[self.arm] = posture
         self.data.qpos[self.fingers] = self.hand.posture_at(gap)
         self.data.qpos[self.joint] = value
@@ -161,7 +161,7 @@ class CollisionWorld:
     def touching(
         self, posture: Float[np.ndarray, " J"], gap: float, value: float, *, holding: bool = False, pressed: float = 0.0
     ) -> Touch | None:
-        """The first pair that is too near, None when all are clear.
+        """Return the first pair that is too near, None when all are clear.
 
         holding: fingers may be at the part, and up to `touch` in it; pressed: so much deeper, and in what is round it [m].
         """

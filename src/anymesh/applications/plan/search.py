@@ -66,7 +66,7 @@ class Search:
         return cell if self.blocked is None else None
 
     def at(self, base: BasePose) -> Route | None:
-        """The shortest of some routes from a base; None when there is none."""
+        """Return the shortest of some routes from a base; None when there is none."""
         cell = self._open(base)
         if cell is None:
             return None
@@ -90,7 +90,7 @@ class Search:
         return None
 
     def anywhere(self, *, near: BasePose | None = None) -> Route | None:
-        """A route from the first base that a good share of the targets is reached from, else from the best of the others.
+        """Return a route from the first base that reaches a good share of the targets, else from the best of the others.
 
         near: bases near it go first.
         """
@@ -119,7 +119,7 @@ class Search:
         return None
 
     def _poses(self) -> list[BasePose]:
-        """Where the robot might stand, by the middle of the tool's path."""
+        """Return where the robot might stand, by the middle of the tool's path."""
         some = self.targets[:SCREENED]
         half = self.thing.motion.transform(self.value / 2)
         at = np.mean([(half @ t.T_asset_tool)[:3, 3] for t in some], axis=0)
@@ -131,7 +131,7 @@ class Search:
         return (f"{len(self.targets)} targets, {self.bases} bases tried", *dropped)
 
     def failure(self, base: BasePose | None) -> PlanError:
-        """Why nothing worked, with the nearest value and base that do."""
+        """Return why nothing worked, with the nearest value and base that do."""
         say, joint = self.thing.say, self.thing.joint
         where = f"from the base {base}" if base is not None else "from any base that was tried"
         told = [f"{joint} cannot be brought to {say(self.value)} {where}"]
@@ -148,7 +148,7 @@ class Search:
         return PlanError("; ".join(told), nearest)
 
     def _nearest(self, base: BasePose | None) -> float | None:
-        """The value that is reached at most, if it can be planned for; a little less where not at all."""
+        """Return the value that is reached at most, if it can be planned for; a little less where not at all."""
         for share in (0.98, 0.8):
             value = self.farthest * share
             if base is None or abs(value) < 0.03 * abs(self.value):

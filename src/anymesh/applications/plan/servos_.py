@@ -18,7 +18,7 @@ USUAL_EFFORT = 50.0  # [N m] where a file states none
 def add_servos(
     mujoco: Any, spec: Any, model: Any, arm: Sequence[int], fingers: Sequence[int], grip: float
 ) -> Float[np.ndarray, " J"]:
-    """Gives each joint of the arm a position servo where it has none, and the gripper too; returns the servos' lag [s]."""
+    """Give each joint of the arm a position servo where it has none, and the gripper too; returns the servos' lag [s]."""
     servo = int(mujoco.mjtBias.mjBIAS_AFFINE)
     at: dict[int, Any] = {}
     drives_fingers = False

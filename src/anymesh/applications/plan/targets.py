@@ -53,7 +53,7 @@ class Surfaces:
 def sample_targets(
     surfaces: Surfaces, motion: Motion, value: float, stroke: float, seed: int, contacts: tuple[Contact, ...]
 ) -> list[Target]:
-    """Targets of the kinds asked for, the most promising first.
+    """Return targets of the requested kinds, the most promising first.
 
     value: where the joint is to go from rest [rad or m], whose sign tells the way; stroke: of the gripper [m].
     """
@@ -69,7 +69,7 @@ def sample_targets(
 
 
 def _samples(triangles: np.ndarray, rng: np.random.Generator) -> tuple[Float[np.ndarray, "n 3"], Float[np.ndarray, "n 3"]]:
-    """Points spread over a surface, with its normals."""
+    """Return points spread over a surface, with its normals."""
     cross = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
     area = np.linalg.norm(cross, axis=1)
     chosen = rng.choice(len(triangles), POINTS, p=area / area.sum())
@@ -81,7 +81,7 @@ def _samples(triangles: np.ndarray, rng: np.random.Generator) -> tuple[Float[np.
 
 
 def velocity(motion: Motion, points: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 3"]:
-    """How points of the part move when the joint's value rises, [m] per radian or metre."""
+    """Return how points of the part move when the joint's value rises, [m] per radian or metre."""
     if motion.kind is MotionKind.SLIDE:
         return np.broadcast_to(motion.axis, points.shape).copy()
     return np.cross(motion.axis, points - motion.origin)
@@ -95,7 +95,7 @@ def _frames(y: np.ndarray, z: np.ndarray, origin: np.ndarray) -> Float[np.ndarra
 
 
 def _across(v: np.ndarray) -> np.ndarray:
-    """A unit vector at right angles to each."""
+    """Return a unit vector at right angles to each."""
     helper = np.where(np.abs(v[:, 2:3]) < 0.9, [[0.0, 0, 1]], [[1.0, 0, 0]])
     found = np.cross(v, helper)
     return found / np.linalg.norm(found, axis=1, keepdims=True)
@@ -104,7 +104,7 @@ def _across(v: np.ndarray) -> np.ndarray:
 def _grasps(
     surfaces: Surfaces, points: np.ndarray, normals: np.ndarray, motion: Motion, value: float, stroke: float
 ) -> list[Target]:
-    """Two opposite faces of the part between the fingers, approached from where there is room."""
+    """Return two opposite faces of the part between the fingers, approached from where there is room."""
     hits = surfaces.scene.first_hit(points - EPS * normals, -normals)
     width = hits.distance + EPS
     mine = (hits.face >= 0) & (hits.face < len(surfaces.part))
@@ -133,7 +133,7 @@ def _grasps(
 
 
 def _pushes(surfaces: Surfaces, points: np.ndarray, normals: np.ndarray, motion: Motion, value: float) -> list[Target]:
-    """Faces against which the closed fingers press the way the part is to go."""
+    """Return places where the closed fingers can press in the direction of the motion."""
     speed = velocity(motion, points) * np.sign(value)
     length = np.linalg.norm(speed, axis=1)
     way = speed / np.maximum(length, 1e-9)[:, None]
@@ -164,7 +164,7 @@ def _pushes(surfaces: Surfaces, points: np.ndarray, normals: np.ndarray, motion:
 def _first_touch(
     surfaces: Surfaces, T: Float[np.ndarray, "n 4 4"]
 ) -> tuple[Float[np.ndarray, "n 4 4"], Bool[np.ndarray, " n"]]:
-    """Moves targets along their z until the first ray of the fingertips meets the part; False where it meets another."""
+    """Move targets along their z until the first ray of the fingertips meets the part; False where it meets another."""
     grid = np.array([(x, y) for x in (-TIP, 0.0, TIP) for y in (-TIP, 0.0, TIP)])
     back = 0.05
     own = np.concatenate([grid, np.full((len(grid), 1), -back)], 1)
@@ -182,7 +182,7 @@ def _first_touch(
 
 
 def _room(scene: RayScene, T: Float[np.ndarray, "n 4 4"], width: Float[np.ndarray, " n"]) -> Bool[np.ndarray, " n"]:
-    """Whether fingers and palm fit where the tool comes from."""
+    """Return whether fingers and palm fit where the tool comes from."""
     rows = []
     for side in (-1, 1):
         for x in (-TIP, TIP):
@@ -199,7 +199,7 @@ def _room(scene: RayScene, T: Float[np.ndarray, "n 4 4"], width: Float[np.ndarra
 
 
 def _unlike(targets: list[Target]) -> list[Target]:
-    """The best of those that are alike."""
+    """Return the best of those that are alike."""
     kept: list[Target] = []
     for target in sorted(targets, key=lambda t: -t.score)[:POOL]:
         if len(kept) >= KEPT:

@@ -41,7 +41,7 @@ class Curve:
         self.path = path
 
     def at(self, share: Float[np.ndarray, " n"], order: int = 0) -> Float[np.ndarray, "n J"]:
-        """Postures, or their derivatives by the share."""
+        """Return postures, or their derivatives by the share."""
         if self.spline is None:
             return np.tile(self.path[0], (len(share), 1)) * (order == 0)
         return self.spline(share, order)
@@ -54,7 +54,7 @@ def time_curve(
     *,
     least: float = LEAST,
 ) -> Timed:
-    """Runs along a curve from rest to rest, quintic in time, as fast as limits allow.
+    """Run along a curve from rest to rest, quintic in time, as fast as limits allow.
 
     velocity, acceleration: limits of each joint [rad/s, rad/s2]; least: duration [s]. At every sample |q'| and |q''| are
     within the limits.
@@ -77,7 +77,7 @@ def time_curve(
 
 
 def _sampled(curve: Curve, count: int) -> Timed:
-    """`count` samples of the whole curve, `STEP` apart."""
+    """Return `count` samples of the whole curve, `STEP` apart."""
     duration, time = (count - 1) * STEP, np.arange(count) * STEP
     s, ds, dds = _quintic(time / duration)
     first, second = curve.at(s, 1), curve.at(s, 2)
@@ -86,12 +86,12 @@ def _sampled(curve: Curve, count: int) -> Timed:
 
 
 def stand(posture: Float[np.ndarray, " J"], seconds: float) -> Timed:
-    """The arm stands."""
+    """Return the arm stands."""
     count = max(2, round(seconds / STEP) + 1)
     zero = np.zeros((count, len(posture)))
     return Timed(np.arange(count) * STEP, np.tile(posture, (count, 1)), zero, zero, np.linspace(0, 1, count))
 
 
 def _quintic(u: Float[np.ndarray, " n"]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """The share of the way at a share of the time, and its first two derivatives: at rest, unaccelerated at both ends."""
+    """Return the share of the way at a share of the time, with two derivatives; both vanish at both ends."""
     return u**3 * (10 - 15 * u + 6 * u**2), 30 * u**2 * (1 - u) ** 2, 60 * u * (1 - u) * (1 - 2 * u)

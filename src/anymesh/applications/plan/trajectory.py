@@ -24,7 +24,7 @@ Piece = tuple[Phase, Timed, float, np.ndarray]  # with the fingers' gap and the 
 
 
 def build_trajectory(route: Route, robot: Robot, speed: float, free: Valid) -> Trajectory:
-    """Samples every 10 ms from home to beside the part, with each joint below `speed` of its limits.
+    """Sample every 10 ms from home to beside the part, with each joint below `speed` of its limits.
 
     free: whether a posture on the approach is clear; rounded corners are checked with it.
     """
@@ -49,7 +49,7 @@ def build_trajectory(route: Route, robot: Robot, speed: float, free: Valid) -> T
 
 
 def rounded(path: Float[np.ndarray, "k J"], velocity: np.ndarray, push: np.ndarray, free: Valid) -> list[Timed]:
-    """One motion along a path with its corners rounded where that is free; else a stop at each corner."""
+    """Return one motion along a path with its corners rounded where that is free; else a stop at each corner."""
     if len(path) > 2:
         dense = _dense(path)
         for width in ROUNDINGS:
@@ -61,7 +61,7 @@ def rounded(path: Float[np.ndarray, "k J"], velocity: np.ndarray, push: np.ndarr
 
 
 def _dense(path: np.ndarray) -> Float[np.ndarray, "n J"]:
-    """Points about `DENSE` apart along a path of straight pieces."""
+    """Return points about `DENSE` apart along a path of straight pieces."""
     length = np.r_[0.0, np.cumsum(np.linalg.norm(np.diff(path, axis=0), axis=1))]
     count = max(2, int(np.ceil(length[-1] / DENSE)) + 1)
     at = np.linspace(0, length[-1], count)
@@ -69,7 +69,7 @@ def _dense(path: np.ndarray) -> Float[np.ndarray, "n J"]:
 
 
 def _smoothed(dense: Float[np.ndarray, "n J"], width: float) -> Float[np.ndarray, "m J"]:
-    """The mean over a window that narrows towards the ends, so that they stay; thinned to knots."""
+    """Return the mean over a window that narrows towards the ends, so that they stay; thinned to knots."""
     count, half = len(dense), max(1, round(width / DENSE / 2))
     sums = np.concatenate([np.zeros((1, dense.shape[1])), np.cumsum(dense, 0)])
     k = np.arange(count)
@@ -80,7 +80,7 @@ def _smoothed(dense: Float[np.ndarray, "n J"], width: float) -> Float[np.ndarray
 
 
 def _joined(pieces: Sequence[Piece], joints: tuple[str, ...]) -> Trajectory:
-    """One trajectory; where two motions meet, the sample at rest is kept once."""
+    """Return one trajectory; where two motions meet, the sample at rest is kept once."""
     columns: dict[str, list[np.ndarray]] = {k: [] for k in ("time", "position", "velocity", "acceleration", "gap", "value")}
     phases: list[Phase] = []
     end = 0.0
