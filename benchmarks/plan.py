@@ -229,7 +229,7 @@ def main() -> None:
         action="append",
         default=[],
         metavar="TASK:NAME=FOLDER[@T.json]",
-        help="another twin; T.json: 4x4, its file's coordinates to the true frame",
+        help="T.json: 4x4, twin's file to true frame",
     )
     parser.add_argument("--pictures", action="store_true")
     parser.add_argument("--markdown", type=Path)

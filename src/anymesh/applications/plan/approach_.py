@@ -53,7 +53,7 @@ def _rrt(
         bounds.setHigh(k, float(max(high[k], start[k], goal[k])))
     space.setBounds(bounds)
     setup = geometric.SimpleSetup(space)
-    setup.setStateValidityChecker(lambda state: valid(np.array([state[k] for k in range(count)])))
+    setup.setStateValidityChecker(lambda state: bool(valid(np.array([state[k] for k in range(count)]))))
     information = setup.getSpaceInformation()
     information.setStateValidityCheckingResolution(STRIDE / space.getMaximumExtent())
     ends = [space.allocState(), space.allocState()]

@@ -13,7 +13,7 @@ from anymesh.applications.plan.asset_ import ArticulatedObject, open_object
 from anymesh.applications.plan.fitting_ import HandWorld
 from anymesh.applications.plan.hand_ import measure_hand
 from anymesh.applications.plan.kinematics_ import Kinematics
-from anymesh.applications.plan.plans import BasePose, Contact, Plan, PlanError
+from anymesh.applications.plan.plans import BasePose, Contact, Plan, PlanError, Target
 from anymesh.applications.plan.robot_ import load_robot
 from anymesh.applications.plan.robot_packages_ import find_robot
 from anymesh.applications.plan.search import Arm, Search, Settings
@@ -90,19 +90,7 @@ def plan_motion(
         raise PlanError(f"{thing.joint} is at 0 at rest already; --to needs another value")
     contacts = contacts or _usual(thing, value)
     progress("targets", thing.part, 1, 3)
-    surfaces = Surfaces(thing.part_triangles, thing.other_triangles)
-    targets = sample_targets(surfaces, thing.motion, value, arm.hand.stroke, settings.seed, contacts)
-    if not targets:
-        words = " or ".join(contacts)
-        raise PlanError(
-            f"{thing.part} offers nothing to {words}: a grasp needs two opposite faces less than "
-            f"{1000 * arm.hand.stroke:.0f} mm apart with room for the fingers, a push a face that looks against the motion"
-        )
-    targets = HandWorld(thing, arm.robot, arm.hand).fitted(targets)[:TARGETS]
-    if not targets:
-        raise PlanError(
-            f"the gripper of {arm.robot.name} fits nowhere on {thing.part}: it collides with the object or the ground"
-        )
+    targets = _targets(thing, arm, value, contacts, settings.seed)
     sampled = time.perf_counter()
     progress("route", thing.joint, 2, 3)
     search = Search(thing, arm, value, targets, settings, begin)
@@ -125,6 +113,23 @@ def plan_motion(
         {k: round(v, 3) for k, v in took.items()},
         search.notes(),
     )
+
+
+def _targets(thing: ArticulatedObject, arm: Arm, value: float, contacts: tuple[Contact, ...], seed: int) -> list[Target]:
+    """Return the targets where the gripper fits. Raise PlanError when there is none."""
+    surfaces = Surfaces(thing.part_triangles, thing.other_triangles)
+    sampled = sample_targets(surfaces, thing.motion, value, arm.hand.stroke, seed, contacts)
+    if not sampled:
+        raise PlanError(
+            f"{thing.part} offers nothing to {' or '.join(contacts)}: a grasp needs two opposite faces less than "
+            f"{1000 * arm.hand.stroke:.0f} mm apart with room for the fingers, a push a face that looks against the motion"
+        )
+    fitted = HandWorld(thing, arm.robot, arm.hand).fitted(sampled)[:TARGETS]
+    if not fitted:
+        raise PlanError(
+            f"the gripper of {arm.robot.name} fits nowhere on {thing.part}: it collides with the object or the ground"
+        )
+    return fitted
 
 
 def _usual(thing: ArticulatedObject, value: float) -> tuple[Contact, ...]:
