@@ -5,7 +5,8 @@
 
 A second MuJoCo simulation with the true joints stands in for the real robot. Twins: ours (`anymesh articulate` on the mesh),
 corrected (ours with the sign of the joint set right by hand), truth (the true parts and joints: an upper bound), paper (the
-paper's rule alone for every joint, `verify="off"`, with ground truth in the place of the model), and any folder by --twin.
+paper's rule alone for every joint, `verify="off"`, with ground truth in the place of the model), scan (ours of a simulated
+RGB-D scan of the object, by `anymesh scan`; not among the defaults), and any folder by --twin.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ import shutil
 import time
 from collections import Counter
 from dataclasses import dataclass, replace
+from importlib import import_module
 from pathlib import Path
 
 import numpy as np
@@ -110,6 +112,22 @@ def twin(kind: str, task: Task, subject: Subject, work: Path) -> Path:
         folder.mkdir(parents=True)
         write_asset(replace(asset, source=replace(asset.source, T_asset_source=subject.T)), folder)
     return folder
+
+
+def scanned(subject: Subject, folder: Path) -> tuple[Path, np.ndarray]:
+    """The twin of a scan of the true object, 60 rendered RGB-D frames with noise, and `T_true_file` of `matched`."""
+    module = import_module("anymesh.applications.scan")
+    if not (folder / "T.json").exists():
+        folder.mkdir(parents=True, exist_ok=True)
+        module.render_frames(subject.mesh, folder / "frames", views=60, noise=0.0015, seed=0)
+        report = module.scan(folder / "frames", folder / "scan.glb", force=True)
+        articulate(folder / "scan.glb", folder / "asset", force=True)
+        truth = json.loads((folder / "frames" / "truth.json").read_text(encoding="utf-8"))
+        T_glb_scan = np.eye(4)
+        T_glb_scan[:3, :3] = import_module("anymesh.applications.scan.output").TO_GLTF
+        T = np.linalg.inv(T_glb_scan @ np.array(report.T_scan_world) @ np.array(truth["T_world_mesh"]))
+        (folder / "T.json").write_text(json.dumps(T.tolist()), encoding="utf-8")
+    return folder / "asset", np.array(json.loads((folder / "T.json").read_text(encoding="utf-8")))
 
 
 def placement(folder: Path) -> np.ndarray:
@@ -239,13 +257,14 @@ def main() -> None:
         task = TASKS[name]
         subject = prepared(true_object(task.thing, options.work / "objects"))
         true = true_asset(task, subject, options.work / "true" / task.thing)
-        folders = {
-            k: twin(k, task, subject, options.work) for k in options.twins.split(",") if k != "corrected" or name == "trigger"
-        }
-        named = [t.removeprefix(f"{name}:").partition("=") for t in options.twin if t.startswith(f"{name}:")]
-        twins = {k: (folder, None) for k, folder in folders.items()}
-        for kind, _, text in named:
-            folder, _, transform = text.partition("@")
+        wanted = [k for k in options.twins.split(",") if k != "corrected" or name == "trigger"]
+        twins: dict[str, tuple[Path, np.ndarray | None]] = {}
+        for kind in wanted:
+            here = options.work / kind / task.thing
+            twins[kind] = scanned(subject, here) if kind == "scan" else (twin(kind, task, subject, options.work), None)
+        for text in (t.removeprefix(f"{name}:") for t in options.twin if t.startswith(f"{name}:")):
+            kind, _, place = text.partition("=")
+            folder, _, transform = place.partition("@")
             twins[kind] = Path(folder), np.array(json.loads(Path(transform).read_text())) if transform else None
         for kind, which in twins.items():
             try:
