@@ -137,7 +137,7 @@ def placement(folder: Path) -> np.ndarray:
 def matched(
     folder: Path, task: Task, subject: Subject, T_true_file: np.ndarray | None = None
 ) -> tuple[ArticulatedObject, str, np.ndarray]:
-    """The twin's joint whose part lies where the true part does, the part's name, and the twin's frame in the true one.
+    """The twin's joint whose part has most nearly the true part's box, the part's name, and the twin's frame in the true one.
 
     T_true_file: from the coordinates of the twin's mesh file to the true asset frame; None where the twin was made of the
     very mesh file of the true object.
@@ -145,14 +145,14 @@ def matched(
     T = (subject.T if T_true_file is None else T_true_file) @ np.linalg.inv(placement(folder))
     number = next(k for k, p in enumerate(subject.truth.parts) if p.name == task.part)
     true = subject.mesh.triangles[subject.labels == number].reshape(-1, 3)
-    middle = (true.min(0) + true.max(0)) / 2
+    corners = np.stack([true.min(0), true.max(0)])
     record = json.loads((folder / "asset.json").read_text(encoding="utf-8"))
     names = [j["name"] for j in record["joints"] if j["type"] != "fixed"]
     things = [open_object(folder, n) for n in names]
 
     def off(thing: ArticulatedObject) -> float:
         own = thing.part_triangles.reshape(-1, 3) @ T[:3, :3].T + T[:3, 3]
-        return float(np.linalg.norm((own.min(0) + own.max(0)) / 2 - middle))
+        return float(np.linalg.norm(np.stack([own.min(0), own.max(0)]) - corners))
 
     best = min(things, key=off)
     return best, best.part, T

@@ -48,7 +48,7 @@ def test_a_button_goes_in(things, arm):
     found = plan_motion(panel, arm, -0.01)
     seen = replay(found.trajectory, panel, arm.robot, arm.hand, found.base, -0.01, physics=Physics(spring=300.0))
     assert seen.failure is None
-    assert seen.value <= -0.009
+    assert -0.011 < seen.value <= -0.009  # a stop is hard, though the push means to go on by 4 mm
 
 
 def test_a_film_shows_what_moves(things, cupboard, tmp_path):

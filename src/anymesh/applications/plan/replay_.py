@@ -214,3 +214,4 @@ def _give_physics(spec: Any, thing: ArticulatedObject, physics: Physics) -> None
     joint.damping = [float(np.ravel(joint.damping)[0]) * physics.damping, 0, 0]
     joint.frictionloss = float(joint.frictionloss) * physics.joint_friction
     joint.stiffness = [physics.spring, 0, 0]
+    joint.solref_limit, joint.solimp_limit = [0.004, 1.0], [0.95, 0.99, 0.001, 0.5, 2.0]  # a stop is hard
