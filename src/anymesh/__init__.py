@@ -14,6 +14,7 @@ from anymesh.errors import AnymeshError, InputError, MissingExtraError, OptionEr
 
 if TYPE_CHECKING:
     from anymesh.applications.generate import generate
+    from anymesh.applications.plan import plan
     from anymesh.checking import check_asset
     from anymesh.pipeline import articulate, export, finish, joints, segment
     from anymesh.types import Asset, Joint, JointType, Mesh, Part, Segmentation
@@ -24,6 +25,7 @@ _HOME = {
     **dict.fromkeys(("articulate", "segment", "joints", "export", "finish"), "anymesh.pipeline"),
     "check_asset": "anymesh.checking",
     "generate": "anymesh.applications.generate",
+    "plan": "anymesh.applications.plan",
     "show": "anymesh.viewer.report_notebook",
     **dict.fromkeys(("Asset", "Joint", "JointType", "Mesh", "Part", "Segmentation"), "anymesh.types"),
 }
@@ -46,6 +48,7 @@ __all__ = [
     "finish",
     "generate",
     "joints",
+    "plan",
     "segment",
     "show",
 ]

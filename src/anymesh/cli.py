@@ -21,6 +21,7 @@ from anymesh.cli_generate import generate
 from anymesh.cli_mcp import mcp, skill
 from anymesh.cli_models import models
 from anymesh.cli_output import plain
+from anymesh.cli_plan import plan
 from anymesh.cli_quiet import quiet_libraries
 from anymesh.cli_report import picture, report
 from anymesh.cli_stages import export, joints, segment
@@ -90,6 +91,7 @@ _command()(finish)
 _command()(report)
 _command()(picture)
 _command()(view)
+_command()(plan)
 _command("check")(check)
 _command("eval")(evaluate)
 

@@ -1,0 +1,184 @@
+"""The articulated object: the joint that is to move, the part's surface, and its model for collisions."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from jaxtyping import Float
+
+from anymesh.applications.plan.plans import PlanError
+from anymesh.checking.find import find_description
+from anymesh.errors import InputError, OptionError
+from anymesh.mujoco_ import load_mujoco
+from anymesh.simulation.mujoco_bench_ import read_spec
+from anymesh.types import Motion, MotionKind
+
+OVERLAP = 1e-4  # of the object's extent: links that overlap more than this at rest do not collide
+
+
+@dataclass(frozen=True, eq=False)
+class ArticulatedObject:
+    """A joint of an asset at rest, in the asset frame.
+
+    part: the link that it carries; limits: [rad or m], None where it turns endlessly; carried: names of the links that move
+    with it; part_triangles, other_triangles: (n, 3, 3) of what is seen [m]; spec: MuJoCo's, without motors.
+    """
+
+    name: str
+    path: Path
+    spec: Any
+    joint: str
+    part: str
+    motion: Motion
+    limits: tuple[float, float] | None
+    carried: tuple[str, ...]
+    part_triangles: Float[np.ndarray, "n 3 3"]
+    other_triangles: Float[np.ndarray, "m 3 3"]
+
+    @property
+    def turns(self) -> bool:
+        return self.motion.kind is MotionKind.REVOLUTE
+
+    def say(self, value: float) -> str:
+        """Return a value of the joint, as people read it."""
+        return f"{np.rad2deg(value):.1f} deg" if self.turns else f"{1000 * value:.1f} mm"
+
+    def check_value(self, value: float) -> float:
+        """Return the value, if the joint has it in its range. Raises PlanError with the nearest one."""
+        if not np.isfinite(value):
+            raise PlanError(f"--to: found {value}; a finite number is needed")
+        if self.limits is None:
+            return value
+        low, high = self.limits
+        nearest = float(np.clip(value, low, high))
+        if abs(nearest - value) > 1e-6 * max(high - low, 1e-9):
+            raise PlanError(
+                f"{self.joint} moves from {self.say(low)} to {self.say(high)}, found {self.say(value)}; "
+                f"the nearest value is {self.say(nearest)} ({nearest:.4g})",
+                nearest,
+            )
+        return nearest
+
+
+def open_object(path: str | Path, joint: str) -> ArticulatedObject:
+    """Read an asset folder, a URDF or an MJCF. joint: its name, or that of the part it carries.
+
+    Raises InputError when there is nothing to read, OptionError for a joint that is not there or does not move.
+    """
+    mujoco = load_mujoco()
+    file = _description(Path(path))
+    try:
+        spec = read_spec(mujoco, file)
+        spec.compiler.fusestatic = False
+        for mesh in spec.meshes:
+            mesh.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL
+        for motor in list(spec.actuators):
+            spec.delete(motor)
+        model = spec.compile()
+    except (ValueError, mujoco.FatalError) as error:
+        raise InputError(f"MuJoCo cannot load {file}: {' '.join(str(error).split())}") from error
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    number = _joint(mujoco, model, joint)
+    body = int(model.jnt_bodyid[number])
+    carried = _carried(model, body)
+    shown = _shown_geoms(model)
+    mine = [geom_triangles(mujoco, model, data, g) for g in shown if int(model.geom_bodyid[g]) == body]
+    others = [geom_triangles(mujoco, model, data, g) for g in shown if int(model.geom_bodyid[g]) != body]
+    if not mine:
+        raise InputError(f"{model.body(body).name} of {file.name} has no shape to touch")
+    _exclude_overlaps(mujoco, spec, model, data)
+    slides = int(model.jnt_type[number]) == int(mujoco.mjtJoint.mjJNT_SLIDE)
+    kind = MotionKind.PRISMATIC if slides else MotionKind.REVOLUTE
+    low, high = (float(v) for v in model.jnt_range[number])
+    return ArticulatedObject(
+        file.stem,
+        file,
+        spec,
+        model.joint(number).name,
+        model.body(body).name,
+        Motion(kind, data.xaxis[number].copy(), data.xanchor[number].copy(), "asset"),
+        (low, high) if model.jnt_limited[number] else None,
+        carried,
+        np.concatenate(mine),
+        np.concatenate([np.zeros((0, 3, 3)), *others]),
+    )
+
+
+def _description(path: Path) -> Path:
+    """Return the MJCF beside the URDF where there is one, since it keeps which links do not collide."""
+    found = find_description(path)
+    beside = found.with_suffix(".xml")
+    return beside if path.is_dir() and beside.is_file() else found
+
+
+def _joint(mujoco: Any, model: Any, name: str) -> int:
+    single = (int(mujoco.mjtJoint.mjJNT_HINGE), int(mujoco.mjtJoint.mjJNT_SLIDE))
+    moving = [j for j in range(model.njnt) if int(model.jnt_type[j]) in single]
+    by_name = {model.joint(j).name: j for j in moving}
+    by_part = {model.body(int(model.jnt_bodyid[j])).name: j for j in moving}
+    found = by_name.get(name, by_part.get(name))
+    if found is None:
+        raise OptionError(f"--joint: found {name!r}; valid are {', '.join(by_name) or 'none, for nothing moves'}")
+    return found
+
+
+def _carried(model: Any, body: int) -> tuple[str, ...]:
+    found = {body}
+    for b in range(1, model.nbody):
+        if int(model.body_parentid[b]) in found:
+            found.add(b)
+    return tuple(model.body(b).name for b in sorted(found))
+
+
+def _shown_geoms(model: Any) -> list[int]:
+    """Return geoms that are only seen; of links without any, those that collide."""
+    seen = [g for g in range(model.ngeom) if not (model.geom_contype[g] or model.geom_conaffinity[g])]
+    covered = {int(model.geom_bodyid[g]) for g in seen}
+    return seen + [g for g in range(model.ngeom) if g not in seen and int(model.geom_bodyid[g]) not in covered]
+
+
+def geom_triangles(mujoco: Any, model: Any, data: Any, geom: int) -> Float[np.ndarray, "n 3 3"]:
+    """Return the surface of a geom in the world [m]; round ones as polyhedra."""
+    from anymesh.simulation.robot import Geometry, shape_triangles
+
+    kinds, kind = mujoco.mjtGeom, int(model.geom_type[geom])
+    size = model.geom_size[geom]
+    if kind == int(kinds.mjGEOM_MESH):
+        mesh = int(model.geom_dataid[geom])
+        first, face = int(model.mesh_vertadr[mesh]), int(model.mesh_faceadr[mesh])
+        points = model.mesh_vert[first : first + int(model.mesh_vertnum[mesh])].astype(float)
+        own = points[model.mesh_face[face : face + int(model.mesh_facenum[mesh])]]
+    elif kind == int(kinds.mjGEOM_BOX):
+        own = shape_triangles(Geometry("box", np.eye(4), tuple(float(2 * v) for v in size)))
+    elif kind in (int(kinds.mjGEOM_CYLINDER), int(kinds.mjGEOM_CAPSULE)):
+        word = "cylinder" if kind == int(kinds.mjGEOM_CYLINDER) else "capsule"
+        own = shape_triangles(Geometry(word, np.eye(4), (float(size[0]), float(2 * size[1]))))
+    elif kind == int(kinds.mjGEOM_SPHERE):
+        own = shape_triangles(Geometry("sphere", np.eye(4), (float(size[0]),)))
+    else:
+        return np.zeros((0, 3, 3))
+    return own @ data.geom_xmat[geom].reshape(3, 3).T + data.geom_xpos[geom]
+
+
+def _exclude_overlaps(mujoco: Any, spec: Any, model: Any, data: Any) -> None:
+    """Exclude links that a joint connects, and links that overlap at rest, from collision; what the file excludes stays so."""
+    known = {frozenset((e.bodyname1, e.bodyname2)) for e in spec.excludes}
+    pairs = {(int(model.body_parentid[b]), b) for b in range(1, model.nbody)}
+    deep = OVERLAP * float(model.stat.extent)
+    pairs |= {
+        _ordered(int(model.geom_bodyid[c.geom1]), int(model.geom_bodyid[c.geom2]))
+        for c in data.contact[: data.ncon]
+        if c.dist < -deep
+    }
+    for a, b in sorted(pairs):
+        names = model.body(a).name, model.body(b).name
+        if a and b and a != b and frozenset(names) not in known:
+            spec.add_exclude(bodyname1=names[0], bodyname2=names[1])
+
+
+def _ordered(a: int, b: int) -> tuple[int, int]:
+    return (a, b) if a < b else (b, a)

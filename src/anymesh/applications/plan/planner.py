@@ -1,0 +1,139 @@
+"""Planning: a base, a target and a route that work, and the trajectory along it."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from anymesh.applications.plan.asset_ import ArticulatedObject, open_object
+from anymesh.applications.plan.fitting_ import HandWorld
+from anymesh.applications.plan.hand_ import measure_hand
+from anymesh.applications.plan.kinematics_ import Kinematics
+from anymesh.applications.plan.plans import BasePose, GripperContact, MotionPlan, PlanError, Target
+from anymesh.applications.plan.robot_ import load_robot
+from anymesh.applications.plan.robot_packages_ import find_robot
+from anymesh.applications.plan.search import Arm, Search, Settings
+from anymesh.applications.plan.targets import PartSurfaces, sample_targets, velocity
+from anymesh.applications.plan.trajectory import build_trajectory
+from anymesh.errors import OptionError
+from anymesh.progress import Progress, silent
+
+TARGETS = 60  # that are tried from a base
+SHORT = 0.03  # [m] what moves less is pushed rather than grasped
+AUTO = "auto"
+CONTACTS = {AUTO: (), **{c.value: (c,) for c in GripperContact}}
+
+
+def open_arm(robot: str | Path, *, tool: str | None = None, gripper: Sequence[str] = ()) -> Arm:
+    """Load a robot by short name or file and measures its gripper. Raises as `find_robot`, `load_robot`, `measure_hand`."""
+    loaded = load_robot(find_robot(robot), tool=tool, gripper=gripper)
+    hand = measure_hand(loaded)
+    return Arm(loaded, hand, Kinematics(loaded, hand))
+
+
+def plan(
+    asset: str | Path,
+    *,
+    robot: str | Path = "panda",
+    joint: str,
+    to: float,
+    base: BasePose | str = AUTO,
+    contact: str = AUTO,
+    tool: str | None = None,
+    gripper: Sequence[str] = (),
+    seed: int = 0,
+    speed: float = 0.3,
+    seconds: float = 20.0,
+    progress: Progress = silent,
+) -> MotionPlan:
+    """Plan how a robot arm moves a joint of an asset from rest to a value (paper, 4.2).
+
+    asset: a folder that anymesh made, a URDF or an MJCF; robot: panda, ur5e, or a URDF or MJCF; joint: its name or that of
+    the part it carries; to: [rad or m]; base: auto, "X,Y,Z,YAW" [m, deg] or a pose; contact: auto, grasp or push; tool,
+    gripper: as for `load_robot`; speed: share of the joints' limits; seconds: after which nothing further is tried.
+    Raises PlanError with the reason and the nearest value where nothing works, OptionError, InputError, MissingExtraError.
+    """
+    if contact not in CONTACTS:
+        raise OptionError(f"--contact: found {contact!r}; valid are {', '.join(CONTACTS)}")
+    if not 0 < speed <= 1:
+        raise OptionError(f"--speed: found {speed}; valid is a share above 0 up to 1")
+    place = base if isinstance(base, BasePose) else None if base == AUTO else BasePose.parse(base)
+    begin = time.perf_counter()
+    progress("load", str(robot), 0, 3)
+    arm = open_arm(robot, tool=tool, gripper=gripper)
+    thing = open_object(asset, joint)
+    loaded = time.perf_counter() - begin
+    found = plan_motion(
+        thing, arm, to, base=place, contacts=CONTACTS[contact], settings=Settings(seed, speed, seconds), progress=progress
+    )
+    return replace(found, seconds={"load": round(loaded, 3), **found.seconds})
+
+
+def plan_motion(
+    thing: ArticulatedObject,
+    arm: Arm,
+    to: float,
+    *,
+    base: BasePose | None = None,
+    contacts: tuple[GripperContact, ...] = (),
+    settings: Settings = Settings(),  # noqa: B008 - frozen
+    progress: Progress = silent,
+) -> MotionPlan:
+    """Run `plan` for an object and a robot that are loaded. base: None for automatic; contacts: none for automatic."""
+    begin = time.perf_counter()
+    value = thing.check_value(to)
+    if value == 0:
+        raise PlanError(f"{thing.joint} is at 0 at rest already; --to needs another value")
+    contacts = contacts or _usual(thing, value)
+    progress("targets", thing.part, 1, 3)
+    targets = _targets(thing, arm, value, contacts, settings.seed)
+    sampled = time.perf_counter()
+    progress("route", thing.joint, 2, 3)
+    search = Search(thing, arm, value, targets, settings, begin)
+    route = search.at(base) if base is not None else search.anywhere()
+    if route is None:
+        raise search.failure(base)
+    routed = time.perf_counter()
+    trajectory = build_trajectory(route, arm.robot, settings.speed, search.cell.free(route))
+    took = {"targets": sampled - begin, "route": routed - sampled, "timing": time.perf_counter() - routed}
+    return MotionPlan(
+        thing.name,
+        arm.robot.name,
+        thing.joint,
+        thing.part,
+        "rad" if thing.turns else "m",
+        (0.0, value),
+        route.base,
+        route.target,
+        trajectory,
+        {k: round(v, 3) for k, v in took.items()},
+        search.notes(),
+    )
+
+
+def _targets(thing: ArticulatedObject, arm: Arm, value: float, contacts: tuple[GripperContact, ...], seed: int) -> list[Target]:
+    """Return the targets where the gripper fits. Raise PlanError when there is none."""
+    surfaces = PartSurfaces(thing.part_triangles, thing.other_triangles)
+    sampled = sample_targets(surfaces, thing.motion, value, arm.hand.stroke, seed, contacts)
+    if not sampled:
+        raise PlanError(
+            f"{thing.part} offers nothing to {' or '.join(contacts)}: a grasp needs two opposite faces less than "
+            f"{1000 * arm.hand.stroke:.0f} mm apart with room for the fingers, a push a face that looks against the motion"
+        )
+    fitted = HandWorld(thing, arm.robot, arm.hand).fitted(sampled)[:TARGETS]
+    if not fitted:
+        raise PlanError(
+            f"the gripper of {arm.robot.name} fits nowhere on {thing.part}: it collides with the object or the ground"
+        )
+    return fitted
+
+
+def _usual(thing: ArticulatedObject, value: float) -> tuple[GripperContact, ...]:
+    """Return what moves little is pushed first, the rest grasped first."""
+    corners = thing.part_triangles.reshape(-1, 3)
+    travel = float(np.linalg.norm(velocity(thing.motion, corners), axis=1).max()) * abs(value)
+    return (GripperContact.PUSH, GripperContact.GRASP) if travel < SHORT else (GripperContact.GRASP, GripperContact.PUSH)

@@ -1,0 +1,217 @@
+"""A trajectory replayed open loop in MuJoCo on another object than it was planned on: servos, contacts, friction."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import Any
+
+import numpy as np
+from jaxtyping import Float
+
+from anymesh.applications.plan.asset_ import ArticulatedObject
+from anymesh.applications.plan.hand_ import Hand
+from anymesh.applications.plan.plans import BasePose, Phase, Trajectory
+from anymesh.applications.plan.robot_ import RobotArm
+from anymesh.applications.plan.scene_ import OBJECT, ROBOT, compose
+from anymesh.mujoco_ import load_mujoco
+
+FIRM = 0.9  # share of the wanted motion from which a task is done
+HIT = 20.0  # [N] between the arm and anything else from which it counts as a collision
+PRIORITY = 3  # of the object's contacts, so that its friction holds whatever the gripper's says
+TORSION, ROLLING = 0.005, 1e-4  # [m] friction about the normal and against rolling
+SAMPLED = 5  # simulated steps between looks at contacts
+
+
+class ReplayFailure(StrEnum):
+    """Why a replay did not do its task."""
+
+    MISSED = "never touched the part"
+    SLIPPED = "lost the part on the way"
+    SHORT = "held the part, which moved too little"
+    OVER = "moved the part too far"
+    HIT = "the arm hit something"
+    UNSTABLE = "the simulation became unstable"
+
+
+@dataclass(frozen=True)
+class Physics:
+    """What the object is made of, unlike what the plan knows. friction: coefficient of its surface; mass, damping,
+    joint_friction: factors; spring: of the joint, towards rest [N/m or N m/rad]; T: its pose error, x y z [m] and yaw [rad]."""
+
+    friction: float = 0.8
+    mass: float = 1.0
+    damping: float = 1.0
+    joint_friction: float = 1.0
+    spring: float = 0.0
+    shift: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    yaw: float = 0.0
+
+
+@dataclass(frozen=True, eq=False)
+class ReplayResult:
+    """What happened. value: of the joint when the arm holds [rad or m]; failure: None when the task was done; penetration:
+    deepest of a finger in the part [m]; lag: largest distance of a joint from its command [rad]; force: largest of the arm
+    against anything but its fingers' [N]; states: (k, q) at `times` for pictures."""
+
+    value: float
+    failure: ReplayFailure | None
+    penetration: float
+    lag: float
+    force: float
+    times: Float[np.ndarray, " k"]
+    states: Float[np.ndarray, "k q"]
+
+
+def replay(
+    trajectory: Trajectory,
+    thing: ArticulatedObject,
+    robot: RobotArm,
+    hand: Hand,
+    base: BasePose,
+    wanted: float,
+    *,
+    physics: Physics = Physics(),
+    rate: float = 0.0,
+) -> ReplayResult:
+    """Run a trajectory with position servos, open loop: the object is not observed.
+
+    thing: the true object; wanted: where its joint should get [rad or m]; rate: states kept a second, 0 for none.
+    """
+    stage = ReplaySimulation(thing, robot, hand, base, physics)
+    return stage.run(trajectory, wanted, rate)
+
+
+class ReplaySimulation:
+    """The simulation of the true object and the robot."""
+
+    def __init__(self, thing: ArticulatedObject, robot: RobotArm, hand: Hand, base: BasePose, physics: Physics) -> None:
+        self.mujoco = load_mujoco()
+        self.robot, self.hand, self.thing = robot, hand, thing
+        spec = compose(thing, robot, base=base, T_world_asset=moved(physics))
+        _give_physics(spec, thing, physics)
+        self.model = model = spec.compile()
+        self.data = self.mujoco.MjData(model)
+        for name in thing.carried:
+            body = int(model.body(OBJECT + name).id)
+            model.body_mass[body] *= physics.mass
+            model.body_inertia[body] *= physics.mass
+        self.mujoco.mj_setConst(model, self.data)
+        self.mujoco.mj_resetData(model, self.data)
+        self.arm = np.array([int(model.joint(ROBOT + n).qposadr[0]) for n in robot.joints])
+        self.fingers = np.array([int(model.joint(ROBOT + n).qposadr[0]) for n in robot.fingers], int)
+        self.joint = int(model.joint(OBJECT + thing.joint).qposadr[0])
+        at_joint = int(self.mujoco.mjtTrn.mjTRN_JOINT)
+        target = {
+            model.joint(int(model.actuator_trnid[a, 0])).name: a
+            for a in range(model.nu)
+            if int(model.actuator_trntype[a]) == at_joint
+        }
+        self.arm_motors = np.array([target[ROBOT + n] for n in robot.joints])
+        self.hand_motors = np.setdiff1d(np.arange(model.nu), self.arm_motors)
+        names = [model.body(b).name for b in range(model.nbody)]
+        self.is_part = np.array([n.startswith(OBJECT) and n.removeprefix(OBJECT) in thing.carried for n in names])
+        self.is_robot = np.array([n.startswith(ROBOT) for n in names])
+        below = {int(model.joint(ROBOT + n).bodyid[0]) for n in robot.fingers}
+        for b in range(model.nbody):
+            if int(model.body_parentid[b]) in below:
+                below.add(b)
+        self.is_finger = np.isin(np.arange(model.nbody), sorted(below))
+        self.foot = {int(model.body(ROBOT + robot.root).id), int(model.joint(ROBOT + robot.joints[0]).bodyid[0])}
+
+    def run(self, trajectory: Trajectory, wanted: float, rate: float) -> ReplayResult:
+        """Run it once from the trajectory's start."""
+        model, data, dt = self.model, self.data, float(self.model.opt.timestep)
+        data.qpos[self.arm] = trajectory.position[0]
+        data.qpos[self.fingers] = self.hand.posture_at(float(trajectory.gap[0]))
+        command = trajectory.position + self.robot.lag * trajectory.velocity  # a servo's damping lags by this much
+        low, high = model.actuator_ctrlrange[self.arm_motors].T
+        limited = model.actuator_ctrllimited[self.arm_motors].astype(bool)
+        command = np.where(limited, np.clip(command, low, high), command)
+        grips = np.array([self.hand.control_at(float(g)) for g in trajectory.gap])
+        watch = _Watch(self)
+        times, states = [], []
+        count = int(np.ceil(trajectory.duration / dt)) + 1
+        every = max(1, round(1 / (rate * dt))) if rate else count + 1
+        for step in range(count):
+            t = step * dt
+            row = min(int(np.searchsorted(trajectory.time, t + 1e-9)), len(trajectory.time) - 1)
+            data.ctrl[self.arm_motors], data.ctrl[self.hand_motors] = command[row], grips[row]
+            self.mujoco.mj_step(model, data)
+            if step % SAMPLED == 0:
+                watch.look(trajectory.phase[row], trajectory.position[row])
+            if step % every == 0:
+                times.append(t)
+                states.append(data.qpos.copy())
+        unstable = not np.isfinite(data.qpos).all() or any(w.number for w in data.warning)
+        failure = ReplayFailure.UNSTABLE if unstable else watch.failure(wanted)
+        kept = np.array(states) if states else np.zeros((0, model.nq))
+        return ReplayResult(watch.value, failure, watch.penetration, watch.lag, watch.force, np.array(times), kept)
+
+
+class _Watch:
+    """What is seen while a trajectory runs."""
+
+    def __init__(self, stage: ReplaySimulation) -> None:
+        self.stage = stage
+        self.value = self.penetration = self.lag = self.force = 0.0
+        self.touched, self.holding = False, False
+
+    def look(self, phase: Phase, posture: np.ndarray) -> None:
+        stage, data = self.stage, self.stage.data
+        self.lag = max(self.lag, float(np.abs(data.qpos[stage.arm] - posture).max()))
+        if phase is Phase.HOLD:
+            self.value = float(data.qpos[stage.joint])
+        if data.ncon == 0:
+            self.holding = self.holding and phase not in (Phase.MOVE, Phase.HOLD)
+            return
+        body = stage.model.geom_bodyid[data.contact.geom]
+        fingers, part = stage.is_finger[body].any(1), stage.is_part[body].any(1)
+        held = fingers & part
+        if held.any():
+            self.penetration = max(self.penetration, float(-data.contact.dist[held].min()))
+        if phase in (Phase.MOVE, Phase.HOLD):
+            self.touched |= bool(held.any())
+            self.holding = bool(held.any())
+        own = stage.is_robot[body].all(1)
+        foot = np.isin(body, sorted(stage.foot)).any(1)
+        arm = stage.is_robot[body].any(1) & ~own & ~fingers & ~foot
+        for k in np.flatnonzero(arm):
+            wrench = np.zeros(6)
+            stage.mujoco.mj_contactForce(stage.model, data, int(k), wrench)
+            self.force = max(self.force, float(np.linalg.norm(wrench[:3])))
+
+    def failure(self, wanted: float) -> ReplayFailure | None:
+        share = self.value / wanted
+        if self.force > HIT:
+            return ReplayFailure.HIT
+        if share > 2 - FIRM and self.stage.thing.limits is None:
+            return ReplayFailure.OVER
+        if share >= FIRM:
+            return None
+        if not self.touched:
+            return ReplayFailure.MISSED
+        return ReplayFailure.SHORT if self.holding else ReplayFailure.SLIPPED
+
+
+def moved(physics: Physics) -> Float[np.ndarray, "4 4"]:
+    c, s = np.cos(physics.yaw), np.sin(physics.yaw)
+    T = np.eye(4)
+    T[:2, :2] = [[c, -s], [s, c]]
+    T[:3, 3] = physics.shift
+    return T
+
+
+def _give_physics(spec: Any, thing: ArticulatedObject, physics: Physics) -> None:
+    for body in spec.bodies:
+        if body.name.startswith(ROBOT):
+            body.gravcomp = 1.0  # arms hold their own weight
+    for geom in spec.geoms:
+        if geom.parent.name.startswith(OBJECT) and (geom.contype or geom.conaffinity):
+            geom.friction, geom.condim, geom.priority = [physics.friction, TORSION, ROLLING], 4, PRIORITY
+            geom.solref, geom.solimp = [0.01, 1.0], [0.95, 0.99, 0.001, 0.5, 2.0]
+    joint = spec.joint(OBJECT + thing.joint)
+    joint.damping = [float(np.ravel(joint.damping)[0]) * physics.damping, 0, 0]
+    joint.frictionloss = float(joint.frictionloss) * physics.joint_friction
+    joint.stiffness = [physics.spring, 0, 0]
+    joint.solref_limit, joint.solimp_limit = [0.004, 1.0], [0.95, 0.99, 0.001, 0.5, 2.0]  # a stop is hard

@@ -1,0 +1,222 @@
+"""A robot's files as an editable MuJoCo model: which joints are the arm's, which the gripper's, and what drives them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+
+import numpy as np
+from jaxtyping import Float
+
+from anymesh.applications.plan.robot_packages_ import RobotFiles
+from anymesh.applications.plan.servos_ import add_servos
+from anymesh.errors import InputError, OptionError
+from anymesh.mujoco_ import load_mujoco
+from anymesh.simulation.files import find_file
+
+USUAL_VELOCITY, USUAL_ACCELERATION, DEFAULT_CLOSING_FORCE = 1.0, 2.0, 40.0  # where a file states none
+HAND = "hand_"  # prefix of the names of a gripper that is mounted
+
+
+@dataclass(frozen=True, eq=False)
+class RobotArm:
+    """An arm with a gripper, alone at the origin.
+
+    xml, assets: the whole model, with an actuator a joint of the arm, in order, first; joints: of the arm; fingers: the
+    gripper's; root: the body that stands; wrist: the last body that the arm moves; home: (J,) [rad]; limits: (J, 2) [rad];
+    velocity, acceleration: (J,) limits [rad/s, rad/s2]; lag: (J,) that a servo is behind, over the speed [s];
+    opened, closed: controls of the gripper's actuators; mesh_files: whether visual meshes are there.
+    """
+
+    name: str
+    spec: Any
+    joints: tuple[str, ...]
+    fingers: tuple[str, ...]
+    root: str
+    wrist: str
+    home: Float[np.ndarray, " J"]
+    limits: Float[np.ndarray, "J 2"]
+    velocity: Float[np.ndarray, " J"]
+    acceleration: Float[np.ndarray, " J"]
+    lag: Float[np.ndarray, " J"]
+    closing_force: float
+
+
+def load_robot(files: RobotFiles, *, tool: str | None = None, gripper: Sequence[str] = ()) -> RobotArm:
+    """Return the arm that carries the gripper, found by where the tree of joints branches.
+
+    tool: a body of the hand, where the tree branches elsewhere (two arms, a head); gripper: names of the gripper's joints.
+    Raises InputError when MuJoCo cannot load the files, OptionError when no arm is found.
+    """
+    mujoco = load_mujoco()
+    velocity = _urdf_velocities(files.arm)
+    try:
+        spec = _read(mujoco, files.arm)
+        if files.hand is not None and files.preset is not None:
+            _mount(spec, _read(mujoco, files.hand), files.preset.site)
+        _name_joints(spec)
+        model = without_visuals(spec).compile()
+    except (ValueError, mujoco.FatalError, OSError) as error:
+        raise InputError(f"MuJoCo cannot load the robot {files.name}: {' '.join(str(error).split())}") from error
+    arm, fingers = _split(mujoco, model, files.name, tool, gripper)
+    names = tuple(model.joint(j).name for j in arm)
+    limits = np.where(model.jnt_limited[arm, None].astype(bool), model.jnt_range[arm], (-np.pi, np.pi))
+    preset = files.preset
+    home = np.array(preset.home) if preset is not None else _home(spec, model, arm, limits)
+    count = len(arm)
+    speeds = np.array(preset.velocity if preset is not None else [velocity.get(n, USUAL_VELOCITY) for n in names], float)
+    pushes = np.array(preset.acceleration if preset is not None else [USUAL_ACCELERATION] * count, float)
+    closing_force = preset.closing_force if preset is not None else DEFAULT_CLOSING_FORCE
+    lag = add_servos(mujoco, spec, model, arm, fingers, closing_force)
+    chain = [int(model.jnt_bodyid[j]) for j in arm]
+    root = chain[0]
+    while model.body_parentid[root]:
+        root = int(model.body_parentid[root])
+    while len(spec.keys):
+        spec.delete(spec.keys[0])
+    return RobotArm(
+        files.name,
+        spec,
+        names,
+        tuple(model.joint(j).name for j in fingers),
+        model.body(root).name,
+        model.body(chain[-1]).name,
+        home,
+        limits,
+        speeds,
+        pushes,
+        lag,
+        closing_force,
+    )
+
+
+def without_visuals(spec: Any) -> Any:
+    """Copy a spec without geoms that never collide, and meshes that only they use: it compiles in milliseconds."""
+    bare = spec.copy()
+    for geom in [g for g in bare.geoms if not (g.contype or g.conaffinity)]:
+        bare.delete(geom)
+    used = {g.meshname for g in bare.geoms}
+    for mesh in [m for m in bare.meshes if m.name not in used]:
+        bare.delete(mesh)
+    for geom in bare.geoms:
+        geom.material = ""
+    for look in (*bare.materials, *bare.textures):
+        bare.delete(look)
+    return bare
+
+
+def _read(mujoco: Any, path: Path) -> Any:
+    """Return an MJCF as it is; a URDF with its visuals and fixed links, and meshes that MuJoCo does not read left out."""
+    if not re.search(rb"<robot[\s>]", path.read_bytes()[:100_000]):
+        return mujoco.MjSpec.from_file(str(path))
+    root = ElementTree.parse(path).getroot()
+    settings = ElementTree.SubElement(root, "mujoco")
+    ElementTree.SubElement(settings, "compiler", discardvisual="false", fusestatic="false", strippath="false")
+    for link in root.findall("link"):
+        _resolve(link, path.parent)
+    return mujoco.MjSpec.from_string(ElementTree.tostring(root, encoding="unicode"))
+
+
+def _resolve(link: ElementTree.Element, folder: Path) -> None:
+    """Resolve mesh files; a visual that MuJoCo cannot read is replaced by the collision shape."""
+    dropped = False
+    for shape in [*link.findall("visual"), *link.findall("collision")]:
+        mesh = shape.find("geometry/mesh")
+        if mesh is None:
+            continue
+        found = find_file(mesh.get("filename") or "", folder)
+        readable = found is not None and found.suffix.lower() in (".stl", ".obj", ".msh")
+        if found is not None and readable:
+            mesh.set("filename", str(found.resolve()))
+        elif shape.tag == "visual":
+            link.remove(shape)
+            dropped = True
+        else:
+            raise ValueError(f"the collision mesh {mesh.get('filename')} is missing or neither STL nor OBJ")
+    if dropped:
+        for shape in link.findall("collision"):
+            copied = ElementTree.SubElement(link, "visual")
+            copied.extend(list(shape))
+
+
+def _urdf_velocities(path: Path) -> dict[str, float]:
+    """Return limits of speed by joint [rad/s], which MuJoCo does not keep; empty for an MJCF."""
+    try:
+        root = ElementTree.parse(path).getroot()
+    except ElementTree.ParseError as error:
+        raise InputError(f"{path.name} is no XML: {error}") from None
+    if root.tag != "robot":
+        return {}
+    limits = ((joint.get("name") or "", joint.find("limit")) for joint in root.findall("joint"))
+    return {name: float(limit.get("velocity") or 0) for name, limit in limits if limit is not None and limit.get("velocity")}
+
+
+def _mount(spec: Any, hand: Any, site: str) -> None:
+    """Attach a gripper to a site of the arm."""
+    place = next((s for s in spec.sites if s.name == site), None)
+    if place is None:
+        raise ValueError(f"the arm has no site {site!r} to mount a gripper at")
+    spec.attach(hand, site=place, prefix=HAND)
+
+
+def _name_joints(spec: Any) -> None:
+    for word, things in (("joint", spec.joints), ("body", spec.bodies)):
+        for number, thing in enumerate(things):
+            thing.name = thing.name or f"{word}_{number}"
+
+
+def _split(mujoco: Any, model: Any, name: str, tool: str | None, gripper: Sequence[str]) -> tuple[list[int], list[int]]:
+    """Return joints of the arm, from its base on, and of the gripper."""
+    single = (int(mujoco.mjtJoint.mjJNT_HINGE), int(mujoco.mjtJoint.mjJNT_SLIDE))
+    moves = [j for j in range(model.njnt) if int(model.jnt_type[j]) in single]
+    bodies = [model.body(b).name for b in range(1, model.nbody)]
+    if tool is not None and tool not in bodies:
+        raise OptionError(f"--tool: {name} has no body {tool!r}; its bodies are {', '.join(bodies)}")
+    known = [model.joint(j).name for j in moves]
+    for wrong in (g for g in gripper if g not in known):
+        raise OptionError(f"--gripper: {name} has no joint {wrong!r}; its joints are {', '.join(known)}")
+    body = model.body(tool).id if tool is not None else _branching(model, moves)
+    path = _ancestors(model, body)
+    named = [j for j in moves if model.joint(j).name in gripper]
+    arm = [j for j in moves if int(model.jnt_bodyid[j]) in path and j not in named]
+    arm.sort(key=lambda j: path[::-1].index(int(model.jnt_bodyid[j])))
+    fingers = named or [j for j in moves if j not in arm and arm and int(model.jnt_bodyid[arm[-1]]) in _ancestors(
+        model, int(model.jnt_bodyid[j]))]  # fmt: skip
+    if not 4 <= len(arm) <= 9:
+        raise OptionError(
+            f"{name} has {len(arm)} joints before its tree branches; an arm has 4 to 9: name the hand's body with --tool "
+            f"(bodies: {', '.join(bodies)}) and the gripper's joints with --gripper (joints: {', '.join(known)})"
+        )
+    return arm, fingers
+
+
+def _ancestors(model: Any, body: int) -> list[int]:
+    """Return a body and all that carry it."""
+    found = [body]
+    while found[-1]:
+        found.append(int(model.body_parentid[found[-1]]))
+    return found
+
+
+def _branching(model: Any, moves: Sequence[int]) -> int:
+    """Return the first body from the root on below which joints part, or the last that moves."""
+    carrying = {b for j in moves for b in _ancestors(model, int(model.jnt_bodyid[j]))}
+    body = 0
+    while True:
+        below = [b for b in carrying if b != body and int(model.body_parentid[b]) == body]
+        if len(below) != 1:
+            return body
+        body = below[0]
+
+
+def _home(spec: Any, model: Any, arm: Sequence[int], limits: np.ndarray) -> np.ndarray:
+    """Return the file's first keyframe where it lies within the limits, else the middle of every range."""
+    if len(spec.keys) and len(spec.keys[0].qpos) == model.nq:
+        posture = np.array(spec.keys[0].qpos)[model.jnt_qposadr[arm]]
+        if ((posture >= limits[:, 0]) & (posture <= limits[:, 1])).all():
+            return posture
+    return limits.mean(1)

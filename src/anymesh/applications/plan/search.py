@@ -1,0 +1,159 @@
+"""The search for a route: bases and targets are tried until one works, and why the others do not is remembered."""
+
+from __future__ import annotations
+
+import time
+from collections import Counter
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from anymesh.applications.plan.asset_ import ArticulatedObject
+from anymesh.applications.plan.attempt import Reason, Route, WorkCell
+from anymesh.applications.plan.bases import base_poses
+from anymesh.applications.plan.hand_ import Hand
+from anymesh.applications.plan.kinematics_ import Kinematics
+from anymesh.applications.plan.plans import BasePose, PlanError, Target
+from anymesh.applications.plan.robot_ import RobotArm
+from anymesh.applications.plan.scene_ import CollisionWorld
+
+ENOUGH = 3  # routes of which the shortest is taken
+SCREENED = 10  # targets with which a base is judged
+GOOD = 0.3  # share of them that a base must reach to be tried at once
+BASES = 6  # bases that are tried in full
+
+
+@dataclass(frozen=True)
+class Settings:
+    """How to plan. speed: share of the robot's limits; seconds: after which no further target is tried."""
+
+    seed: int = 0
+    speed: float = 0.3
+    seconds: float = 20.0
+
+
+@dataclass(frozen=True, eq=False)
+class Arm:
+    """A robot ready to plan with."""
+
+    robot: RobotArm
+    hand: Hand
+    kinematics: Kinematics
+
+
+class Search:
+    """Tries bases and targets, and remembers why they failed."""
+
+    def __init__(
+        self, thing: ArticulatedObject, arm: Arm, value: float, targets: list[Target], settings: Settings, begin: float
+    ) -> None:
+        self.thing, self.arm, self.value, self.targets, self.settings = thing, arm, value, targets, settings
+        self._end = begin + settings.seconds
+        self.failures: Counter[Reason] = Counter()
+        self.blocked: str | None = None
+        self.farthest = 0.0
+        self.bases = 0
+        self.cell: WorkCell
+        self._worlds: dict[float, CollisionWorld] = {}
+
+    def _open(self, base: BasePose) -> WorkCell | None:
+        arm = self.arm
+        if base.z not in self._worlds:
+            self._worlds[base.z] = CollisionWorld(self.thing, arm.robot, arm.hand, base)
+        world = self._worlds[base.z]
+        cell = WorkCell(self.thing, arm.robot, arm.hand, arm.kinematics, base, self.value, world, self.settings.seed)
+        self.blocked = cell.home_touches()
+        return cell if self.blocked is None else None
+
+    def at(self, base: BasePose) -> Route | None:
+        """Return the shortest of some routes from a base; None when there is none."""
+        cell = self._open(base)
+        if cell is None:
+            return None
+        self.cell, self.bases = cell, self.bases + 1
+        found: list[Route] = []
+        for target in self.targets:
+            if len(found) >= ENOUGH or time.perf_counter() > self._end:
+                break
+            if found and target.contact is not found[0].target.contact:
+                break
+            route = cell.route(target)
+            if route is not None:
+                found.append(route)
+        self.farthest = max(self.farthest, cell.farthest, key=abs)
+        for route in sorted(found, key=lambda r: r.length):
+            path = cell.approach(route)
+            if path is not None:
+                self.failures += cell.failures
+                return replace(route, approach=path)
+        self.failures += cell.failures
+        return None
+
+    def anywhere(self, *, near: BasePose | None = None) -> Route | None:
+        """Return a route from the first base that reaches a good share of the targets, else from the best of the others.
+
+        near: bases near it go first.
+        """
+        poses = self._poses()
+        if near is not None:
+            poses.sort(key=lambda b: float(np.hypot(b.x - near.x, b.y - near.y) + abs(b.z - near.z)))
+        rng, some = np.random.default_rng([self.settings.seed, 2]), self.targets[:SCREENED]
+        worse: list[tuple[int, int, BasePose]] = []
+        tried = 0
+        for number, base in enumerate(poses):
+            if tried >= BASES or time.perf_counter() > self._end:
+                return None
+            cell = self._open(base)
+            count = 0 if cell is None else sum(cell.reachable(t, rng) for t in some)
+            if count < GOOD * len(some):
+                worse += [(-count, number, base)] if count else []
+                continue
+            tried += 1
+            found = self.at(base)
+            if found is not None:
+                return found
+        for _, _, base in sorted(worse, key=lambda w: w[:2])[: BASES - tried]:
+            found = self.at(base)
+            if found is not None or time.perf_counter() > self._end:
+                return found
+        return None
+
+    def _poses(self) -> list[BasePose]:
+        """Return where the robot might stand, by the middle of the tool's path."""
+        some = self.targets[:SCREENED]
+        half = self.thing.motion.transform(self.value / 2)
+        at = np.mean([(half @ t.T_asset_tool)[:3, 3] for t in some], axis=0)
+        outwards = -np.mean([(half @ t.T_asset_tool)[:3, 2] for t in some], axis=0)
+        return base_poses(at, outwards, self.arm.kinematics.reach)
+
+    def notes(self) -> tuple[str, ...]:
+        dropped = [f"{count} targets dropped: {reason.value}" for reason, count in self.failures.most_common()]
+        return (f"{len(self.targets)} targets, {self.bases} bases tried", *dropped)
+
+    def failure(self, base: BasePose | None) -> PlanError:
+        """Return why nothing worked, with the nearest value and base that do."""
+        say, joint = self.thing.say, self.thing.joint
+        where = f"from the base {base}" if base is not None else "from any base that was tried"
+        told = [f"{joint} cannot be brought to {say(self.value)} {where}"]
+        if base is not None and self.blocked is not None:
+            told.append(f"the robot collides there ({self.blocked})")
+        told += [f"{reason.value}: {count} targets" for reason, count in self.failures.most_common(3)]
+        nearest = self._nearest(base)
+        if nearest is not None:
+            told.append(f"it can be brought to {say(nearest)} ({nearest:.4g})")
+        if base is not None:
+            other = Search(self.thing, self.arm, self.value, self.targets, self.settings, time.perf_counter())
+            route = other.anywhere(near=base)
+            told.append("no base near does better" if route is None else f"the nearest feasible base is {route.base}")
+        return PlanError("; ".join(told), nearest)
+
+    def _nearest(self, base: BasePose | None) -> float | None:
+        """Return the value that is reached at most, if it can be planned for; a little less where not at all."""
+        for share in (0.98, 0.8):
+            value = self.farthest * share
+            if base is None or abs(value) < 0.03 * abs(self.value):
+                return None
+            again = Search(self.thing, self.arm, value, self.targets, self.settings, time.perf_counter())
+            if again.at(base) is not None:
+                return float(value)
+        return None

@@ -1,0 +1,222 @@
+"""Where a gripper can take or press a part: sampled on its surface, checked for room by rays, the most useful first."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from jaxtyping import Bool, Float
+
+from anymesh.applications.plan.plans import GripperContact, Target
+from anymesh.rendering.raycast_ import RayScene
+from anymesh.types import Motion, MotionKind
+from anymesh.types.triangles import face_cross
+
+POINTS = 3000  # samples of the part's surface
+OPPOSED = np.cos(np.deg2rad(15))  # two faces that a gripper holds between it
+THIN = 0.002  # [m] what is thinner is not grasped
+ROOM = 0.006  # [m] of the stroke that is left when the open fingers pass what they take
+APPROACH_ANGLES = 12  # directions from which the same two faces are approached
+ROLLS = 4  # turns of the closed hand about the direction in which it presses
+TILTS = np.deg2rad([0, 20, -20, 40, -40])  # of that direction against the part's motion
+FACING = np.cos(np.deg2rad(25))  # a face that can be pressed along a motion
+FINGER, TIP = 0.013, 0.008  # [m] half the thickness of a finger and half its width, for the test of room
+PALM = np.array([(x, y) for x in (-0.03, 0.0, 0.03) for y in (-0.08, -0.04, 0.0, 0.04, 0.08)])  # [m] the hand behind them
+PALM_BACK = 0.034  # [m] from what is held
+CORRIDOR = 0.35  # [m] behind it that must be free
+EPS = 1e-5  # [m] that rays start off a surface
+KEPT, POOL = 250, 2500  # targets, and of how many of the best they are chosen
+APART, TURNED = 0.015, np.cos(np.deg2rad(25))  # [m], cosine: targets nearer than both are alike
+
+
+@dataclass(frozen=True, eq=False)
+class PartSurfaces:
+    """The part and the rest of the object at rest: (n, 3, 3) and (m, 3, 3) [m]."""
+
+    part: Float[np.ndarray, "n 3 3"]
+    others: Float[np.ndarray, "m 3 3"]
+
+    @cached_property
+    def scene(self) -> RayScene:
+        """All of it, to cast rays at; the part's faces come first."""
+        corners = np.concatenate([self.part, self.others]).reshape(-1, 3)
+        return RayScene(corners, np.arange(len(corners)).reshape(-1, 3))
+
+    @cached_property
+    def part_normals(self) -> Float[np.ndarray, "n 3"]:
+        """Unit normals of the part's faces; zero where a face has no area."""
+        cross = face_cross(self.part)
+        return cross / np.maximum(np.linalg.norm(cross, axis=1, keepdims=True), 1e-12)
+
+
+def sample_targets(
+    surfaces: PartSurfaces, motion: Motion, value: float, stroke: float, seed: int, contacts: tuple[GripperContact, ...]
+) -> list[Target]:
+    """Return targets of the requested kinds, the most promising first.
+
+    value: where the joint is to go from rest [rad or m], whose sign tells the way; stroke: of the gripper [m].
+    """
+    rng = np.random.default_rng(seed)
+    points, normals = _samples(surfaces.part, rng)
+    found: list[Target] = []
+    if GripperContact.GRASP in contacts:
+        found += _grasps(surfaces, points, normals, motion, value, stroke)
+    if GripperContact.PUSH in contacts:
+        found += _pushes(surfaces, points, normals, motion, value)
+    first = {kind: k for k, kind in enumerate(contacts)}
+    return sorted(_unlike(found), key=lambda t: (first[t.contact], -t.score))
+
+
+def _samples(triangles: np.ndarray, rng: np.random.Generator) -> tuple[Float[np.ndarray, "n 3"], Float[np.ndarray, "n 3"]]:
+    """Return points spread over a surface, with its normals."""
+    cross = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    area = np.linalg.norm(cross, axis=1)
+    chosen = rng.choice(len(triangles), POINTS, p=area / area.sum())
+    u, v = rng.random((2, POINTS, 1))
+    over = (u + v) > 1
+    u, v = np.where(over, 1 - u, u), np.where(over, 1 - v, v)
+    a, b, c = (triangles[chosen, k] for k in range(3))
+    return a + u * (b - a) + v * (c - a), cross[chosen] / area[chosen, None]
+
+
+def velocity(motion: Motion, points: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 3"]:
+    """Return how points of the part move when the joint's value rises, [m] per radian or metre."""
+    if motion.kind is MotionKind.PRISMATIC:
+        return np.broadcast_to(motion.axis, points.shape).copy()
+    return np.cross(motion.axis, points - motion.origin)
+
+
+def _frames(y: np.ndarray, z: np.ndarray, origin: np.ndarray) -> Float[np.ndarray, "n 4 4"]:
+    T = np.tile(np.eye(4), (len(y), 1, 1))
+    T[:, :3, :3] = np.stack([np.cross(y, z), y, z], -1)
+    T[:, :3, 3] = origin
+    return T
+
+
+def _across(v: np.ndarray) -> np.ndarray:
+    """Return a unit vector at right angles to each."""
+    helper = np.where(np.abs(v[:, 2:3]) < 0.9, [[0.0, 0, 1]], [[1.0, 0, 0]])
+    found = np.cross(v, helper)
+    return found / np.linalg.norm(found, axis=1, keepdims=True)
+
+
+def _grasps(
+    surfaces: PartSurfaces, points: np.ndarray, normals: np.ndarray, motion: Motion, value: float, stroke: float
+) -> list[Target]:
+    """Return two opposite faces of the part between the fingers, approached from where there is room."""
+    hits = surfaces.scene.first_hit(points - EPS * normals, -normals)
+    width = hits.distance + EPS
+    mine = (hits.face >= 0) & (hits.face < len(surfaces.part))
+    ok = np.flatnonzero(mine & (width > THIN) & (width < stroke - ROOM))
+    far = surfaces.part_normals[hits.face[ok]]
+    ok = ok[np.einsum("ij,ij->i", far, normals[ok]) < -OPPOSED]
+    if len(ok) == 0:
+        return []
+    y, w, middle = normals[ok], width[ok], points[ok] - normals[ok] * width[ok, None] / 2
+    side = _across(y)
+    other = np.cross(y, side)
+    angle = np.arange(APPROACH_ANGLES) * 2 * np.pi / APPROACH_ANGLES
+    z = np.cos(angle)[:, None, None] * side + np.sin(angle)[:, None, None] * other  # (APPROACH_ANGLES, k, 3)
+    z, y, middle, w = (
+        z.reshape(-1, 3),
+        np.tile(y, (APPROACH_ANGLES, 1)),
+        np.tile(middle, (APPROACH_ANGLES, 1)),
+        np.tile(w, APPROACH_ANGLES),
+    )
+    T = _frames(y, z, middle)
+    free = _room(surfaces.scene, T, w)
+    T, w, y, z, middle = T[free], w[free], y[free], z[free], middle[free]
+    if len(T) == 0:
+        return []
+    speed = velocity(motion, middle) * np.sign(value)
+    length = np.linalg.norm(speed, axis=1)
+    along = np.abs(np.einsum("ij,ij->i", y, speed)) / np.maximum(length, 1e-9)
+    lever = length / max(float(length.max()), 1e-9)
+    score = lever + 0.3 * along - 0.3 * np.maximum(z[:, 2], 0) - 2.0 * w
+    return [Target(GripperContact.GRASP, t, float(a), float(s)) for t, a, s in zip(T, w, score, strict=True)]
+
+
+def _pushes(surfaces: PartSurfaces, points: np.ndarray, normals: np.ndarray, motion: Motion, value: float) -> list[Target]:
+    """Return places where the closed fingers can press in the direction of the motion."""
+    speed = velocity(motion, points) * np.sign(value)
+    length = np.linalg.norm(speed, axis=1)
+    way = speed / np.maximum(length, 1e-9)[:, None]
+    ok = np.flatnonzero((np.einsum("ij,ij->i", normals, way) < -FACING) & (length > 1e-9))
+    if len(ok) == 0:
+        return []
+    ok = ok[:: max(1, len(ok) // 150)]
+    center = points[ok].mean(0)
+    spread = max(float(np.linalg.norm(points[ok] - center, axis=1).max()), 1e-6)
+    near = 1 - np.linalg.norm(points[ok] - center, axis=1) / spread
+    lever = length[ok] / max(float(length[ok].max()), 1e-9)
+    found = []
+    for tilt in TILTS:
+        for roll in np.arange(ROLLS) * np.pi / ROLLS:
+            side = _across(way[ok])
+            up = np.cross(side, way[ok])  # level side, so a tilt leads the hand up or down
+            z = np.cos(tilt) * way[ok] + np.sin(tilt) * up
+            flat = np.cross(z, side)
+            y = np.cos(roll) * side + np.sin(roll) * flat
+            T = _frames(y, z, points[ok])
+            T, seen = _first_touch(surfaces, T)
+            free = seen & _room(surfaces.scene, T, np.zeros(len(T)))
+            score = lever + near - 0.5 * abs(tilt) - 0.3 * np.maximum(z[:, 2], 0)
+            found += [Target(GripperContact.PUSH, T[k], 0.0, float(score[k])) for k in np.flatnonzero(free)]
+    return found
+
+
+def _first_touch(
+    surfaces: PartSurfaces, T: Float[np.ndarray, "n 4 4"]
+) -> tuple[Float[np.ndarray, "n 4 4"], Bool[np.ndarray, " n"]]:
+    """Move targets along their z until the first ray of the fingertips meets the part; False where it meets another."""
+    grid = np.array([(x, y) for x in (-TIP, 0.0, TIP) for y in (-TIP, 0.0, TIP)])
+    back = 0.05
+    own = np.concatenate([grid, np.full((len(grid), 1), -back)], 1)
+    starts = np.einsum("nij,kj->nki", T[:, :3, :3], own) + T[:, None, :3, 3]
+    ways = np.repeat(T[:, None, :3, 2], len(grid), 1)
+    hits = surfaces.scene.first_hit(starts.reshape(-1, 3), ways.reshape(-1, 3))
+    distance = hits.distance.reshape(len(T), -1)
+    first = distance.argmin(1)
+    at = distance[np.arange(len(T)), first]
+    face = hits.face.reshape(len(T), -1)[np.arange(len(T)), first]
+    moved = T.copy()
+    ok = np.isfinite(at) & (face >= 0) & (face < len(surfaces.part)) & (at > 0.02)
+    moved[ok, :3, 3] += (at[ok] - back)[:, None] * T[ok, :3, 2]
+    return moved, ok
+
+
+def _room(scene: RayScene, T: Float[np.ndarray, "n 4 4"], width: Float[np.ndarray, " n"]) -> Bool[np.ndarray, " n"]:
+    """Return whether fingers and palm fit where the tool comes from."""
+    rows = []
+    for side in (-1, 1):
+        for x in (-TIP, TIP):
+            own = np.zeros((len(T), 3))
+            own[:, 0], own[:, 1] = x, side * (width / 2 + FINGER * (width > 0) + TIP * (width == 0))
+            own[:, 2] = np.where(width > 0, 0.006, -0.002)
+            rows.append(own)
+    rows += [np.tile([x, y, -PALM_BACK], (len(T), 1)) for x, y in PALM]
+    own = np.stack(rows, 1)
+    starts = np.einsum("nij,nkj->nki", T[:, :3, :3], own) + T[:, None, :3, 3]
+    ways = np.repeat(-T[:, None, :3, 2], len(rows), 1)
+    hits = scene.first_hit(starts.reshape(-1, 3), ways.reshape(-1, 3))
+    return np.asarray(hits.distance.reshape(len(T), -1).min(1) > CORRIDOR)
+
+
+def _unlike(targets: list[Target]) -> list[Target]:
+    """Return the best of those that are alike."""
+    kept: list[Target] = []
+    for target in sorted(targets, key=lambda t: -t.score)[:POOL]:
+        if len(kept) >= KEPT:
+            break
+        T = target.T_asset_tool
+        alike = any(
+            k.contact is target.contact
+            and np.linalg.norm(k.T_asset_tool[:3, 3] - T[:3, 3]) < APART
+            and k.T_asset_tool[:3, 2] @ T[:3, 2] > TURNED
+            and abs(k.T_asset_tool[:3, 1] @ T[:3, 1]) > TURNED
+            for k in kept
+        )
+        if not alike:
+            kept.append(target)
+    return kept
