@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 from anymesh.errors import AnymeshError, InputError, MissingExtraError, OptionError, OutputError
 
 if TYPE_CHECKING:
+    from anymesh.applications.scan import scan
     from anymesh.checking import check_asset
     from anymesh.pipeline import articulate, export, finish, joints, segment
     from anymesh.types import Asset, Joint, JointType, Mesh, Part, Segmentation
@@ -22,6 +23,7 @@ __version__ = "0.1.0"
 _HOME = {
     **dict.fromkeys(("articulate", "segment", "joints", "export", "finish"), "anymesh.pipeline"),
     "check_asset": "anymesh.checking",
+    "scan": "anymesh.applications.scan",
     "show": "anymesh.viewer.report_notebook",
     **dict.fromkeys(("Asset", "Joint", "JointType", "Mesh", "Part", "Segmentation"), "anymesh.types"),
 }
@@ -43,6 +45,7 @@ __all__ = [
     "export",
     "finish",
     "joints",
+    "scan",
     "segment",
     "show",
 ]

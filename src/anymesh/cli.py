@@ -22,6 +22,7 @@ from anymesh.cli_models import models
 from anymesh.cli_output import plain
 from anymesh.cli_quiet import quiet_libraries
 from anymesh.cli_report import picture, report
+from anymesh.cli_scan import scan
 from anymesh.cli_stages import export, joints, segment
 from anymesh.cli_view import view
 from anymesh.errors import DEFECT, AnymeshError, OpenQuestionError
@@ -85,6 +86,7 @@ _command()(models)
 _command()(mcp)
 _command()(skill)
 _command()(finish)
+_command()(scan)
 _command()(report)
 _command()(picture)
 _command()(view)

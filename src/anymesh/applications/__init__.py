@@ -1,0 +1,1 @@
+"""Applications of the pipeline (paper, section 4.2)."""
