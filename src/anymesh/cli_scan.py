@@ -78,11 +78,10 @@ def _lines(report: ScanReport, out: Path) -> list[str]:
     used = f"{report.frames} frames ({report.layout}), {len(report.dropped)} left out"
     agree = f"; they differ by {report.disagreement:.2%} of the depth"
     size = f"{x:.3f} x {y:.3f} x {z:.3f} m, {report.faces} faces, voxels of {1000 * report.voxel:.2f} mm; floor {report.floor}"
-    holes = (
-        f"{len(report.holes)} holes are open ({report.open_share:.1%} of the surface), {report.closed_holes} small ones closed"
-    )
+    left = sum(not h.closed for h in report.holes)
+    holes = f"{left} holes are open ({report.open_share:.1%} of the surface); {report.closed_holes} small ones were closed"
     largest = [
-        f"  hole of {1e4 * h.area:.0f} cm2 at {', '.join(f'{v:.2f}' for v in h.middle)} m{' (on the floor)' if h.under else ''}"
+        f"  hole of {1e4 * h.area:.0f} cm2 at {', '.join(f'{v:.2f}' for v in h.middle)} m{', closed' if h.closed else ''}"
         for h in report.holes[:3]
     ]
     return [*(f"warning: {w}" for w in report.warnings), used + agree, size, holes, *largest, f"wrote {out}"]

@@ -13,7 +13,8 @@ from anymesh.types.triangles import face_cross
 
 CUT = 2.5  # [voxels] above the floor where it is cut off: the crease between floor and object is round below
 BIT = 0.01  # area of a component over the largest, below which it is a floating bit
-CLOSED = 40  # [voxels] round holes that are closed
+CLOSED = 40  # [voxels] round: smaller holes are closed whatever their shape
+FLAT, FLAT_VOXELS = 0.01, 1.5  # a larger hole is closed when it is off a plane by less, of its length or of voxels
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,13 +38,14 @@ class Surface:
 
 @dataclass(frozen=True)
 class Hole:
-    """A loop of border edges. middle: [m]; area: of a fan across it [m2]; length: of the loop [m]; under: it lies on the
-    floor, where nothing can be seen."""
+    """A loop of border edges. middle: [m]; area: of a fan across it [m2]; length: of the loop [m]; on_floor: it lies on the
+    floor, where nothing can be seen; closed: a flat face was put in."""
 
     middle: tuple[float, float, float]
     area: float
     length: float
-    under: bool
+    on_floor: bool
+    closed: bool
 
 
 def cut_floor(surface: Surface, voxel: float) -> Surface:
@@ -89,22 +91,33 @@ def loops(faces: Int[np.ndarray, "F 3"]) -> list[Int[np.ndarray, " n"]]:
 
 
 def close_small(surface: Surface, voxel: float, most: float = CLOSED) -> tuple[Surface, tuple[Hole, ...], int]:
-    """With a fan in every hole less than `most` voxels round, the holes that stay, and how many were closed."""
+    """With a fan in every hole that is flat, or less than `most` voxels round.
+
+    Also the larger holes, flat ones closed and others left open, and how many small ones were closed.
+    """
     vertices, faces, holes, closed = [surface.vertices], [surface.faces], [], 0
     count = len(surface.vertices)
     for loop in loops(surface.faces):
         p = surface.vertices[loop]
         length = float(np.linalg.norm(p - np.roll(p, -1, 0), axis=1).sum())
         middle = p.mean(0)
-        fan = np.stack([p, np.roll(p, -1, 0), np.broadcast_to(middle, p.shape)], 1)
-        under = bool((p[:, 2] <= 1e-9).all())
-        if length > most * voxel:
+        large = length > most * voxel
+        flat = large and _off_plane(p) < max(FLAT * length, FLAT_VOXELS * voxel)
+        if large:
+            fan = np.stack([p, np.roll(p, -1, 0), np.broadcast_to(middle, p.shape)], 1)
             area = float(0.5 * np.linalg.norm(face_cross(fan).sum(0)))
-            holes.append(Hole((float(middle[0]), float(middle[1]), float(middle[2])), area, length, under))
+            at = (float(middle[0]), float(middle[1]), float(middle[2]))
+            holes.append(Hole(at, area, length, bool((p[:, 2] <= 1e-9).all()), flat))
+        if large and not flat:
             continue
         faces.append(np.stack([loop, np.roll(loop, -1), np.full(len(loop), count)], 1))
         vertices.append(middle[None])
         count += 1
-        closed += 1
+        closed += not large
     holes.sort(key=lambda h: -h.area)
     return Surface(np.concatenate(vertices), np.concatenate(faces)), tuple(holes), closed
+
+
+def _off_plane(points: Float[np.ndarray, "n 3"]) -> float:
+    """Root mean square distance of points from the plane that fits them best [m]."""
+    return float(np.linalg.svd(points - points.mean(0), compute_uv=False)[2]) / float(np.sqrt(len(points)))

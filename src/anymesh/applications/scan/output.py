@@ -23,8 +23,8 @@ class ScanReport:
     """What a scan was made of and what became of it; lengths [m].
 
     T_scan_world: rows of the transform from the recording's world to the scan's frame (z up, floor at 0; the GLB has y up, as
-    its format wants); disagreement: of frames about the surface, median, share of the depth; holes: those left open, the
-    largest first; open_share: their area over the surface's; closed_holes: small ones that were closed.
+    its format wants); disagreement: of frames about the surface, median, share of the depth; holes: large ones, the largest
+    first, flat ones closed; open_share: area of those left open over the surface's; closed_holes: small ones, all closed.
     """
 
     mesh: str

@@ -12,6 +12,7 @@ from anymesh.applications.scan.agreement import agreement, check_convention, che
 from anymesh.applications.scan.cleaning import Hole, Surface, close_small, cut_floor, drop_bits
 from anymesh.applications.scan.coloring import vertex_colors
 from anymesh.applications.scan.config import Options, ScanConfig
+from anymesh.applications.scan.decimate_ import decimate
 from anymesh.applications.scan.frames import Frames
 from anymesh.applications.scan.fusion import Field, fuse, place_blocks
 from anymesh.applications.scan.output import ScanReport, check_output, write_scan
@@ -20,11 +21,9 @@ from anymesh.applications.scan.scene import Scene, find_scene
 from anymesh.applications.scan.smoothing import smooth
 from anymesh.applications.scan.surface_ import extract
 from anymesh.errors import InputError
-from anymesh.geometry.simplify_ import simplify
-from anymesh.geometry.topology import weld
 from anymesh.progress import Progress, silent
 
-FINE = 350  # voxels along the object's diagonal, where pixels are small enough, and
+FINE = 400  # voxels along the object's diagonal, where pixels are small enough, and
 PIXELS = 0.75  # of a pixel on the object that a voxel is at least
 TRUNCATION = 4.0  # [voxels], and
 NOISES = 3.0  # standard deviations of depth, whichever is more
@@ -34,7 +33,7 @@ MOVED = 2.0  # [voxels] that smoothing may move a vertex by
 
 @dataclass(frozen=True)
 class Cleaned:
-    """What cleaning did: floating bits dropped, small holes closed, holes that stay; area of the surface [m2]."""
+    """What cleaning did: floating bits dropped, small holes closed, larger holes; area of the surface [m2]."""
 
     bits: int
     closed: int
@@ -87,7 +86,7 @@ def scan(
         bits_removed=cleaned.bits,
         closed_holes=cleaned.closed,
         holes=cleaned.holes,
-        open_share=sum(hole.area for hole in cleaned.holes) / cleaned.area,
+        open_share=sum(h.area for h in cleaned.holes if not h.closed) / cleaned.area,
     )
     write_scan(out, surface.vertices, surface.faces, colors, told)
     return told
@@ -137,7 +136,4 @@ def _cleaned(surface: Surface, voxel: float, scene: Scene, config: ScanConfig, p
     surface = Surface(smooth(surface.vertices, surface.faces, MOVED * voxel), surface.faces)
     told = Cleaned(bits, closed, holes, float(surface.areas.sum()))
     progress("simplify", f"to {config.faces} faces", 2, 3)
-    few = simplify(surface.vertices[surface.faces], config.faces).reshape(-1, 3)
-    _, first, inverse = np.unique(weld(few), return_index=True, return_inverse=True)
-    simple = Surface(few[first], inverse.reshape(-1, 3))
-    return simple.keeping(simple.areas > 0), told
+    return decimate(surface, config.faces), told

@@ -50,7 +50,7 @@ def smooth(
 
 def neighbours(faces: Int[np.ndarray, "F 3"]) -> Int[np.ndarray, "m 2"]:
     """Pairs of faces that share an edge; edges of more than two faces are left out."""
-    key, owner = _edges(faces)
+    key, owner = edge_keys(faces)
     order = np.argsort(key, kind="stable")
     key, owner = key[order], owner[order]
     first = np.flatnonzero(np.r_[True, key[1:] != key[:-1]])
@@ -60,7 +60,7 @@ def neighbours(faces: Int[np.ndarray, "F 3"]) -> Int[np.ndarray, "m 2"]:
 
 def border_vertices(faces: Int[np.ndarray, "F 3"], count: int) -> np.ndarray:
     """Whether each vertex lies on an edge of one face only."""
-    key, _ = _edges(faces)
+    key, _ = edge_keys(faces)
     unique, times = np.unique(key, return_counts=True)
     lone = unique[times == 1]
     found = np.zeros(count, bool)
@@ -69,6 +69,7 @@ def border_vertices(faces: Int[np.ndarray, "F 3"], count: int) -> np.ndarray:
     return found
 
 
-def _edges(faces: Int[np.ndarray, "F 3"]) -> tuple[np.ndarray, np.ndarray]:
+def edge_keys(faces: Int[np.ndarray, "F 3"]) -> tuple[np.ndarray, np.ndarray]:
+    """A number for the edge of every side of every face, equal where they share it, and the face of each."""
     ends = np.sort(faces[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), 1).astype(np.int64)
     return ends[:, 0] * (int(faces.max()) + 1) + ends[:, 1], np.repeat(np.arange(len(faces)), 3)
