@@ -102,8 +102,10 @@ def scored(truth: Truth, mesh: Mesh, asset: Asset, T: np.ndarray) -> dict[str, A
 
 def table(rows: list[dict[str, Any]]) -> str:
     """Markdown: one row an object, then the sums."""
-    lines = ["| object | voxel mm | accuracy % (95 %) | completeness % (95 %) | scan s (CPU s) | joints found | extra | angle, deg |",
-             "|---|---|---|---|---|---|---|---|"]  # fmt: skip
+    lines = [
+        "| object | voxel mm | accuracy % (95 %) | completeness % (95 %) | scan s (CPU s) | joints found | extra | angle |",
+        "|---|---|---|---|---|---|---|---|",
+    ]
     for r in rows:
         found = [j for j in r["joints"] if j["found"]]
         angles = ", ".join(
@@ -118,9 +120,8 @@ def table(rows: list[dict[str, Any]]) -> str:
         )
     joints = [j for r in rows for j in r["joints"]]
     good = sum(bool(j["found"]) and j["angle"] <= 5 and j["type"] == j["found"] for j in joints)
-    lines.append(
-        f"\n{sum(bool(j['found']) for j in joints)} of {len(joints)} joints found, {good} of them of the right type within 5 degrees."
-    )
+    count = sum(bool(j["found"]) for j in joints)
+    lines.append(f"\n{count} of {len(joints)} joints found, {good} of them of the right type within 5 degrees.")
     return "\n".join(lines)
 
 

@@ -26,7 +26,6 @@ CONVENTIONS = {
     "poses are world-to-camera, and with the other camera axes (OpenGL or OpenCV) than told": lambda T: (
         np.linalg.inv(T) @ FLIPPED
     ),
-    "poses are inverse with OpenGL axes (inverted before the axes were turned)": lambda T: FLIPPED @ np.linalg.inv(T),
 }
 
 

@@ -6,14 +6,14 @@ from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Bool, Float, Int
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
+from anymesh.applications.scan.smoothing import neighbours
+from anymesh.geometry.topology import label_connected
 from anymesh.types.triangles import face_cross
 
 CUT = 2.5  # [voxels] above the floor where it is cut off: the crease between floor and object is round below
 BIT = 0.01  # area of a component over the largest, below which it is a floating bit
-CLOSED = 40  # [voxels] round: smaller holes are closed whatever their shape
+CLOSED = 40.0  # [voxels] round: smaller holes are closed whatever their shape
 FLAT, FLAT_VOXELS = 0.01, 1.5  # a larger hole is closed when it is off a plane by less, of its length or of voxels
 
 
@@ -60,10 +60,7 @@ def cut_floor(surface: Surface, voxel: float) -> Surface:
 
 def drop_bits(surface: Surface) -> tuple[Surface, int]:
     """The largest component and those that are not tiny beside it, and how many were dropped."""
-    f = surface.faces
-    count = len(surface.vertices)
-    links = coo_array((np.ones(2 * len(f)), (np.r_[f[:, 0], f[:, 1]], np.r_[f[:, 1], f[:, 2]])), shape=(count, count))
-    label = connected_components(links, directed=False)[1][f[:, 0]]
+    label = label_connected(len(surface.faces), neighbours(surface.faces))
     area = np.bincount(label, surface.areas)
     kept = area >= BIT * area.max()
     return surface.keeping(kept[label]), int(((area > 0) & ~kept).sum())

@@ -8,7 +8,7 @@ from anymesh.applications.scan.cleaning import Surface, close_small, drop_bits
 from anymesh.applications.scan.smoothing import edge_keys
 
 ROUNDS = 6  # of taking off what touches folds, and closing the holes that this opens
-ROUND_HOLE = 40  # [edges] of such holes
+ROUND_HOLE = 40.0  # [edges] of such holes
 
 
 def decimate(surface: Surface, most: int) -> Surface:

@@ -106,6 +106,20 @@ class Frame:
         return (rays * some[seen][:, None]) @ self.T_world_camera[:3, :3].T + self.T_world_camera[:3, 3]
 
 
+def cropped(frame: Frame, low: Float[np.ndarray, " 3"], high: Float[np.ndarray, " 3"]) -> Frame:
+    """The frame without depth outside a box of the world."""
+
+    def read() -> Observation:
+        found = frame.read()
+        depth = found.depth.copy()
+        seen = depth > 0
+        p = frame.points(depth)
+        depth[seen] = np.where(((p >= low) & (p <= high)).all(1), depth[seen], np.float32(0))
+        return Observation(found.color, depth)
+
+    return replace(frame, read=read)
+
+
 @dataclass(frozen=True, eq=False)
 class Frames:
     """A recording. layout: its name for messages; has_depth: whether frames carry depth; up: the world's upward direction

@@ -127,9 +127,17 @@ def _cosine(depth: Float32[np.ndarray, "h w"], camera: Pinhole) -> Float32[np.nd
     near = (there > 0) & (np.abs(smooth - depth) < 0.03 * depth)
     rays = camera.directions()
     p = rays * np.where(near, smooth, depth)[..., None]
-    normal = np.cross(np.gradient(p, axis=1), np.gradient(p, axis=0))
+    normal = np.cross(_slope(p, 1), _slope(p, 0))
     length = np.linalg.norm(normal, axis=2) * np.linalg.norm(rays, axis=2)
     return (np.abs(np.einsum("hwk,hwk->hw", normal, rays)) / np.maximum(length, 1e-12)).astype(np.float32)
+
+
+def _slope(p: Float32[np.ndarray, "h w 3"], axis: int) -> Float32[np.ndarray, "h w 3"]:
+    """The step to the next or the previous pixel, whichever is shorter: at an edge one of them leaves the surface."""
+    step = np.diff(p, axis=axis)
+    ahead, back = (np.concatenate(pair, axis) for pair in ((step, np.take(step, [-1], axis)), (np.take(step, [0], axis), step)))
+    shorter = np.abs(ahead[..., 2:]) < np.abs(back[..., 2:])
+    return np.where(shorter, ahead, back)
 
 
 def _blocks_in_sight(grid: Grid, view: _View, truncation: float) -> list[Int[np.ndarray, " n"]]:

@@ -26,7 +26,7 @@ from anymesh.types.camera import Camera
 
 NOISE = 0.0015  # [1/m] standard deviation of depth over its square
 DEPTH_UNIT = 0.001  # [m] of a 16-bit depth picture
-RINGS = (8.0, 28.0, 48.0, 70.0)  # [deg] elevations of the cameras
+RINGS, SHARES = (8.0, 28.0, 48.0, 70.0), (0.3, 0.3, 0.25, 0.15)  # [deg] elevations of the cameras, and how many are there
 DISTANCES = (0.3, 0.75)  # [m] from the object's box
 FOV = np.deg2rad(45)  # vertical
 FILLED = 1.15  # the object's diagonal fits a picture this many times, where distances allow it
@@ -98,8 +98,10 @@ def orbit(bounds: Float[np.ndarray, "2 3"], views: int, size: tuple[int, int], r
     half, center = np.ptp(bounds, axis=0) / 2, bounds.mean(0)
     fit = FILLED * float(np.linalg.norm(half)) / np.sin(FOV / 2)
     found = []
+    ring = np.searchsorted(np.cumsum(SHARES), (np.arange(views) + 0.5) / views)
     for k in range(views):
-        way = away(2 * np.pi * (k * 0.618034 % 1.0), np.deg2rad(RINGS[k % len(RINGS)] + rng.uniform(-4, 4)))
+        around = (k - np.flatnonzero(ring == ring[k])[0] + 0.37 * ring[k]) / (ring == ring[k]).sum()
+        way = away(2 * np.pi * around, np.deg2rad(RINGS[ring[k]] + rng.uniform(-4, 4)))
         reach = float(np.abs(way) @ half)
         near = float(np.clip(fit - reach, *DISTANCES))
         share = float(np.clip(1.2 - (reach + near) / fit, 0, 0.85))

@@ -13,7 +13,7 @@ from anymesh.applications.scan.cleaning import Hole, Surface, close_small, cut_f
 from anymesh.applications.scan.coloring import vertex_colors
 from anymesh.applications.scan.config import Options, ScanConfig
 from anymesh.applications.scan.decimate_ import decimate
-from anymesh.applications.scan.frames import Frames
+from anymesh.applications.scan.frames import Frames, cropped
 from anymesh.applications.scan.fusion import Field, fuse, place_blocks
 from anymesh.applications.scan.output import ScanReport, check_output, write_scan
 from anymesh.applications.scan.reading import FEWEST, read_frames
@@ -27,7 +27,7 @@ FINE = 400  # voxels along the object's diagonal, where pixels are small enough,
 PIXELS = 0.75  # of a pixel on the object that a voxel is at least
 TRUNCATION = 4.0  # [voxels], and
 NOISES = 3.0  # standard deviations of depth, whichever is more
-SEEN = 0.5  # weight of a voxel to count: half a square view from the usual distance
+SEEN = 0.3  # weight of a voxel to count; a square view from the usual distance weighs 1
 MOVED = 2.0  # [voxels] that smoothing may move a vertex by
 
 
@@ -108,6 +108,9 @@ def checked(frames: Frames, config: ScanConfig, progress: Progress) -> tuple[Fra
         )
     glimpses = [glimpses[k] for k in kept]
     scene = find_scene(frames, glimpses, crop=config.crop, floor=not config.keep_floor, seed=config.seed)
+    if config.crop is not None:
+        low, high = np.array(config.crop[:3]), np.array(config.crop[3:])
+        frames = frames.of([cropped(frame, low, high) for frame in frames.frames])
     if not scene.has_floor and not config.keep_floor:
         frames = frames.of(list(frames.frames), "no floor or table was found: nothing was cut off, and up is a guess")
     usual = float(np.median([np.median(g.points[:, 2]) for g in glimpses if len(g.points)]))
