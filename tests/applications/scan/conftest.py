@@ -4,7 +4,7 @@ import shutil
 from pathlib import Path
 
 import pytest
-from recordings import SIZE, thing
+from recordings import SIZE, VOXEL, thing
 
 from anymesh.applications.scan import render_frames, scan
 
@@ -25,4 +25,4 @@ def mine(recording: Path, tmp_path: Path) -> Path:
 def scanned(recording: Path, tmp_path_factory: pytest.TempPathFactory):
     """The GLB of the recording and its report."""
     out = tmp_path_factory.mktemp("scanned") / "thing.glb"
-    return out, scan(recording, out)
+    return out, scan(recording, out, voxel=VOXEL)

@@ -15,6 +15,7 @@ from anymesh.applications.scan.lzfse_ import pack
 from anymesh.types import Mesh, Node
 
 SIZE = (160, 120)
+VOXEL = 0.008  # [m] coarse, for speed
 EXTENTS = np.array([0.4, 0.3, 0.5])  # of the box [m]; a smaller one is on its front
 
 

@@ -132,7 +132,7 @@ def test_a_frame_that_drifted_is_left_out(mine: Path) -> None:
         return T
 
     with_poses(mine, drifted)
-    report = scan(mine, mine.parent / "out.glb")
+    report = scan(mine, mine.parent / "out.glb", voxel=0.015)
     assert report.dropped == ("5",)
     assert "1 of 24 frames disagree with the others" in " ".join(report.warnings)
 

@@ -47,5 +47,5 @@ def _without_folds(surface: Surface) -> tuple[Surface, int]:
     _, where, sides = np.unique(key, return_inverse=True, return_counts=True)
     crowded[owner[sides[where.reshape(-1)] > 2]] = True
     bad = np.unique(faces[flat | twice | crowded])
-    gone = np.isin(faces, bad).any(1)
+    gone = np.any(np.isin(faces, bad), axis=1)
     return surface.keeping(~gone), int(gone.sum())
