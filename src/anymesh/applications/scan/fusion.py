@@ -18,6 +18,7 @@ HITS = 4  # depth pixels that a block takes to be kept
 MOST_BLOCKS = 120_000  # about 1 GB of voxels
 BEHIND = 0.5  # truncations behind the surface that a view tells of
 FADE = 0.9  # share of its weight that it has lost there
+FELLOWS, NEAR = 4, 0.015  # pixels around one that differ by less than this share of the depth
 STEEP = 0.15  # cosine of the angle of view below which depth says too little
 _LOCAL = np.stack(np.meshgrid(*[np.arange(SIDE)] * 3, indexing="ij"), -1).reshape(-1, 3)
 
@@ -116,7 +117,14 @@ class _View:
 
 
 def _limited(depth: np.ndarray, most: float) -> Float32[np.ndarray, "h w"]:
-    return np.where(depth <= most, depth, np.float32(0))
+    """Depth up to `most` [m] where FELLOWS of the eight pixels around tell about the same: at edges a sensor mixes both sides,
+    and such a pixel behind an edge would carve it away."""
+    height, width = depth.shape
+    padded = np.pad(depth, 1)
+    same = np.zeros(depth.shape, np.int8)
+    for y, x in ((0, 0), (0, 1), (0, 2), (1, 0), (1, 2), (2, 0), (2, 1), (2, 2)):
+        same += np.abs(padded[y : y + height, x : x + width] - depth) < NEAR * depth
+    return np.where((depth <= most) & (same >= FELLOWS), depth, np.float32(0))
 
 
 def _cosine(depth: Float32[np.ndarray, "h w"], camera: Pinhole) -> Float32[np.ndarray, "h w"]:
