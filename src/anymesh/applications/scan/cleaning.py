@@ -13,6 +13,7 @@ from anymesh.types.triangles import face_cross
 
 CUT = 2.5  # [voxels] above the floor where it is cut off: the crease between floor and object is round below
 BIT = 0.01  # area of a component over the largest, below which it is a floating bit
+ON_FLOOR = 0.8  # share of its vertices at z = 0 by which a hole is one that the object stands on
 CLOSED = 40.0  # [voxels] round: smaller holes are closed whatever their shape
 FLAT, FLAT_VOXELS = 0.01, 1.5  # a larger hole is closed when it is off a plane by less, of its length or of voxels
 
@@ -104,7 +105,7 @@ def close_small(surface: Surface, voxel: float, most: float = CLOSED) -> tuple[S
             fan = np.stack([p, np.roll(p, -1, 0), np.broadcast_to(middle, p.shape)], 1)
             area = float(0.5 * np.linalg.norm(face_cross(fan).sum(0)))
             at = (float(middle[0]), float(middle[1]), float(middle[2]))
-            holes.append(Hole(at, area, length, bool((p[:, 2] <= 1e-9).all()), flat))
+            holes.append(Hole(at, area, length, bool((p[:, 2] <= 1e-9).mean() > ON_FLOOR), flat))
         if large and not flat:
             continue
         faces.append(np.stack([loop, np.roll(loop, -1), np.full(len(loop), count)], 1))
