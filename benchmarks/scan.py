@@ -20,13 +20,14 @@ import anymesh
 from anymesh.applications.scan import render_frames, scan
 from anymesh.applications.scan.output import TO_GLTF
 from anymesh.applications.scan.reading import read_frames
+from anymesh.evaluation.metrics import same_motion
 from anymesh.evaluation.score import score
 from anymesh.evaluation.truth import Subject, Truth, read_truth
 from anymesh.geometry.distance_ import distance_to_mesh
 from anymesh.geometry.sampling import sample_surface
 from anymesh.loading import load_mesh, place_mesh
 from anymesh.rendering.raycast_ import RayScene
-from anymesh.types import Asset, Mesh
+from anymesh.types import Asset, JointType, Mesh
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 NAMES = ("cabinet", "microwave", "fridge", "laptop", "drill", "storage_box", "stove")
@@ -119,9 +120,11 @@ def table(rows: list[dict[str, Any]]) -> str:
             f"{'; missed ' + missed if missed else ''} |"
         )
     joints = [j for r in rows for j in r["joints"]]
-    good = sum(bool(j["found"]) and j["angle"] <= 5 and j["type"] == j["found"] for j in joints)
+    good = sum(
+        bool(j["found"]) and j["angle"] <= 5 and same_motion(JointType(j["type"]), JointType(j["found"])) for j in joints
+    )
     count = sum(bool(j["found"]) for j in joints)
-    lines.append(f"\n{count} of {len(joints)} joints found, {good} of them of the right type within 5 degrees.")
+    lines.append(f"\n{count} of {len(joints)} joints found, {good} of them with the right motion and an axis within 5 degrees.")
     return "\n".join(lines)
 
 

@@ -171,3 +171,14 @@ def test_an_output_that_is_there_stays(recording: Path, tmp_path: Path) -> None:
     with pytest.raises(OutputError, match=r"written as \.glb"):
         scan(recording, tmp_path / "mesh.obj")
     assert out.read_bytes() == b"mine"
+
+
+def test_scale_is_of_the_poses_and_depth_scale_of_the_depth(mine: Path, recording: Path) -> None:
+    def centimetres(k, T):
+        T[:3, 3] *= 100
+        return T
+
+    with_poses(mine, centimetres)
+    for a, b in zip(read_frames(mine, scale=0.01).frames, read_frames(recording).frames, strict=True):
+        np.testing.assert_allclose(a.T_world_camera, b.T_world_camera, atol=1e-9)
+        np.testing.assert_array_equal(a.observe().depth, b.observe().depth)

@@ -113,11 +113,11 @@ def _disagreement(a: Glimpse, b: Glimpse) -> float:
     return float(np.median(np.abs(front))) if len(front) >= max(LEAST * len(a.points), 20) else np.nan
 
 
-def check_convention(glimpses: list[Glimpse], found: Agreement) -> list[str]:
-    """Warnings; InputError where frames contradict each other, with the convention of poses that would make them agree."""
+def check_convention(glimpses: list[Glimpse], found: Agreement) -> None:
+    """InputError where frames contradict each other, with the convention of poses that would make them agree, if any."""
     usual = found.usual
     if usual <= OFF:
-        return []
+        return
     tried = {why: agreement([replace(g, T=turn(g.T)) for g in glimpses]).usual for why, turn in CONVENTIONS.items()}
     known = {why: value for why, value in tried.items() if np.isfinite(value)}
     best = min(known, key=lambda why: known[why], default=None)

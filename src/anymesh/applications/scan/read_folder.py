@@ -34,7 +34,7 @@ def read_frames_json(folder: Path, depth_scale: float | None, scale: float | Non
         camera = pinhole({**told.get("camera", {}), **entry.get("camera", {})}, KEYS, f"frame {name} in {OURS}")
         T = pose(entry.get("T_world_camera"), name, axes=axes, scale=scale or 1.0)
         depth, mask, sure = (within(folder, entry[k]) if k in entry else None for k in ("depth", "mask", "confidence"))
-        reader = file_reader(color, depth, unit * (scale or 1.0), mask, sure)
+        reader = file_reader(color, depth, unit, mask, sure)
         found.append((Frame(name, fitted(camera, picture_size(color), name), T, reader), depth))
     return _frames(found, OURS, UPS.get(str(told.get("up", ""))), [])
 
@@ -55,7 +55,7 @@ def read_transforms_json(folder: Path, depth_scale: float | None, scale: float |
         warnings.add(check_distortion(camera, [float(both.get(f"k{n}", 0.0)) for n in (1, 2, 3)], NERFSTUDIO))
         T = pose(entry.get("transform_matrix"), name, axes="opengl", scale=scale or 1.0)
         depth, mask = (within(folder, entry[k]) if entry.get(k) else None for k in ("depth_file_path", "mask_path"))
-        reader = file_reader(color, depth, unit * (scale or 1.0), mask)
+        reader = file_reader(color, depth, unit, mask)
         found.append((Frame(name, fitted(camera, picture_size(color), name), T, reader), depth))
     if "applied_scale" in told and scale is None:
         warnings.add(

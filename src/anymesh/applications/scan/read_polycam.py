@@ -43,7 +43,7 @@ def read_polycam(folder: Path, depth_scale: float | None, scale: float | None) -
             raise InputError(f"{path}: the pose is missing: {', '.join(missing)}")
         T = pose(np.array([[told[key] for key in row] for row in ENTRIES]), name, axes="opengl", scale=scale or 1.0)
         depth, sure = (p if (p := home / kind / f"{name}.png").is_file() else None for kind in ("depth", "confidence"))
-        reader = file_reader(color, depth, (depth_scale or MILLIMETRES) * (scale or 1.0), sure)
+        reader = file_reader(color, depth, depth_scale or MILLIMETRES, sure)
         found.append(Frame(name, fitted(camera, picture_size(color), name), T, reader))
         deep.append(depth is not None)
     kept = tuple(frame for frame, d in zip(found, deep, strict=True) if d or not any(deep))

@@ -70,7 +70,7 @@ def read_record3d(path: Path, depth_scale: float | None, scale: float | None) ->
     poses = told.get("poses")
     if not isinstance(poses, list) or len(poses) <= max(numbers):
         raise InputError(f"{path}: metadata has {len(poses or ())} poses for pictures up to number {max(numbers)}")
-    factor = (depth_scale or 1.0) * (scale or 1.0)
+    factor = depth_scale or 1.0
     found = []
     for n in deep or numbers:
         row = [float(v) for v in poses[n]]
