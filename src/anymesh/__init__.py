@@ -15,6 +15,7 @@ from anymesh.errors import AnymeshError, InputError, MissingExtraError, OptionEr
 if TYPE_CHECKING:
     from anymesh.applications.generate import generate
     from anymesh.applications.plan import plan
+    from anymesh.applications.scan import scan
     from anymesh.checking import check_asset
     from anymesh.pipeline import articulate, export, finish, joints, segment
     from anymesh.types import Asset, Joint, JointType, Mesh, Part, Segmentation
@@ -26,6 +27,7 @@ _HOME = {
     "check_asset": "anymesh.checking",
     "generate": "anymesh.applications.generate",
     "plan": "anymesh.applications.plan",
+    "scan": "anymesh.applications.scan",
     "show": "anymesh.viewer.report_notebook",
     **dict.fromkeys(("Asset", "Joint", "JointType", "Mesh", "Part", "Segmentation"), "anymesh.types"),
 }
@@ -49,6 +51,7 @@ __all__ = [
     "generate",
     "joints",
     "plan",
+    "scan",
     "segment",
     "show",
 ]

@@ -24,6 +24,7 @@ from anymesh.cli_output import plain
 from anymesh.cli_plan import plan
 from anymesh.cli_quiet import quiet_libraries
 from anymesh.cli_report import picture, report
+from anymesh.cli_scan import scan
 from anymesh.cli_stages import export, joints, segment
 from anymesh.cli_view import view
 from anymesh.errors import DEFECT, AnymeshError, OpenQuestionError
@@ -88,6 +89,7 @@ _command()(models)
 _command()(mcp)
 _command()(skill)
 _command()(finish)
+_command()(scan)
 _command()(report)
 _command()(picture)
 _command()(view)

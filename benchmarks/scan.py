@@ -1,0 +1,151 @@
+"""Scans of the examples, recorded by a simulated depth camera, against the truth, and articulated end to end (docs/scan.md).
+
+    python benchmarks/scan.py OUT [NAME ...] [--views 60] [--noise 0.0015] [--seed 0]
+
+A folder an object: its recording, scan.glb, the asset, and result.json; what is there is not made again. Prints one table.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import time
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import anymesh
+from anymesh.applications.scan import render_frames, scan
+from anymesh.applications.scan.output import TO_GLTF
+from anymesh.applications.scan.reading import read_frames
+from anymesh.evaluation.ground_truth import EvalSample, GroundTruth, read_ground_truth
+from anymesh.evaluation.metrics import same_motion
+from anymesh.evaluation.score import score
+from anymesh.geometry.distance_ import distance_to_mesh
+from anymesh.geometry.sampling import sample_surface
+from anymesh.loading import load_mesh, place_mesh
+from anymesh.rendering.raycast_ import RayScene
+from anymesh.types import Asset, JointType, Mesh
+
+EXAMPLES = Path(__file__).parents[1] / "examples"
+NAMES = ("cabinet", "microwave", "fridge", "laptop", "drill", "storage_box", "stove")
+POINTS = 50_000  # on each surface
+SEEN = 0.002  # [m] a ray may end before the point that it is cast at
+
+
+def measured(name: str, out: Path, views: int, noise: float, seed: int) -> dict[str, Any]:
+    """One object from its recording to the score of its asset."""
+    truth = read_ground_truth(EXAMPLES / "truth" / f"{name}.json", EXAMPLES / "meshes" / f"{name}.glb")
+    loaded = load_mesh(truth.mesh)
+    placed = place_mesh(loaded)
+    if not (out / "frames").exists():
+        render_frames(placed.mesh, out / "frames", views=views, noise=noise, seed=seed)
+    began, spent = time.perf_counter(), time.process_time()
+    report = scan(out / "frames", out / "scan.glb", force=True)
+    seconds, spent = time.perf_counter() - began, time.process_time() - spent
+    T_world_mesh = np.array(json.loads((out / "frames" / "truth.json").read_text())["T_world_mesh"])
+    T_scan_mesh = np.array(report.T_scan_world) @ T_world_mesh
+    found = {"name": name, "seconds": seconds, "cpu": spent, "faces": report.faces, "voxel": report.voxel,
+             "dropped": len(report.dropped), "open": report.open_share, "diagonal": placed.mesh.diagonal}  # fmt: skip
+    found |= distances(placed.mesh, out, T_world_mesh, T_scan_mesh)
+    began = time.perf_counter()
+    asset = anymesh.articulate(out / "scan.glb", out / "asset", force=True, formats="urdf,glb")
+    found["articulate"] = time.perf_counter() - began
+    T_glb_scan = np.eye(4)
+    T_glb_scan[:3, :3] = TO_GLTF
+    return found | scored(
+        truth, loaded.mesh, asset, asset.source.T_asset_source @ T_glb_scan @ T_scan_mesh @ placed.T_asset_source
+    )
+
+
+def distances(mesh: Mesh, out: Path, T_world_mesh: np.ndarray, T_scan_mesh: np.ndarray) -> dict[str, float]:
+    """Accuracy (scan to true surface) and completeness (true surface that a camera saw to scan), shares of the diagonal."""
+    made = load_mesh(out / "scan.glb").mesh
+    vertices = (made.vertices @ TO_GLTF - T_scan_mesh[:3, 3]) @ T_scan_mesh[:3, :3]
+    on = sample_surface(vertices[made.faces], POINTS, 0).points
+    accuracy = distance_to_mesh(on, mesh.vertices, mesh.faces)[0] / mesh.diagonal
+    true = sample_surface(mesh.triangles, POINTS, 0).points
+    scene = RayScene(mesh.vertices, mesh.faces)
+    seen = np.zeros(len(true), bool)
+    for frame in read_frames(out / "frames").frames:
+        T = np.linalg.inv(T_world_mesh) @ frame.T_world_camera
+        inside = frame.camera.pixels((true - T[:3, 3]) @ T[:3, :3])[0] >= 0
+        way = true - T[:3, 3]
+        reach = scene.first_hit(np.repeat(T[None, :3, 3], len(true), 0), way).distance * np.linalg.norm(way, axis=1)
+        seen |= inside & (reach > np.linalg.norm(way, axis=1) - SEEN)
+    complete = distance_to_mesh(true[seen], vertices, made.faces)[0] / mesh.diagonal
+    return {"accuracy": float(accuracy.mean()), "accuracy95": float(np.quantile(accuracy, 0.95)),
+            "complete": float(complete.mean()), "complete95": float(np.quantile(complete, 0.95))}  # fmt: skip
+
+
+def scored(truth: GroundTruth, mesh: Mesh, asset: Asset, T: np.ndarray) -> dict[str, Any]:
+    """The asset's joints against the truth, whose labels go to the nearest faces. Parts that the scan does not show are left
+    out of the truth, and told."""
+    there = mesh.transformed(T)
+    labels = truth.labels[distance_to_mesh(asset.mesh.triangles.mean(1), there.vertices, there.faces)[1]]
+    shown = np.bincount(labels, minlength=len(truth.parts)) > 0
+    shown[0] = True
+    names = {p.name for p, s in zip(truth.parts, shown, strict=True) if s}
+    kept = replace(
+        truth,
+        parts=tuple(p for p in truth.parts if p.name in names),
+        joints=tuple(j for j in truth.joints if j.child in names),
+    )
+    subject = EvalSample(kept, asset.mesh, (np.cumsum(shown) - 1)[labels], T)
+    result = score(subject, asset.segmentation, asset.joints)
+    joints = [{"part": j.part, "iou": j.iou, "type": j.type_true.value, "found": j.type_found and j.type_found.value,
+               "angle": j.angle, "at_part": j.at_part, "opens_right": j.opens_right} for j in result.joints]  # fmt: skip
+    hidden = [p.name for p in truth.parts if p.name not in names]
+    return {"joints": joints, "predicted": result.predicted, "true": result.true, "matched": result.matched, "hidden": hidden}
+
+
+def table(rows: list[dict[str, Any]]) -> str:
+    """Markdown: one row an object, then the sums."""
+    lines = [
+        "| object | voxel mm | accuracy % (95 %) | completeness % (95 %) | scan s (CPU s) | joints found | extra | angle |",
+        "|---|---|---|---|---|---|---|---|",
+    ]
+    for r in rows:
+        found = [j for j in r["joints"] if j["found"]]
+        angles = ", ".join(
+            f"{j['part']} {j['angle']:.1f}{'' if j['type'] == j['found'] else ' as ' + j['found']}" for j in found
+        )
+        missed = ", ".join(j["part"] for j in r["joints"] if not j["found"])
+        lines.append(
+            f"| {r['name']} | {1000 * r['voxel']:.1f} | {100 * r['accuracy']:.3f} ({100 * r['accuracy95']:.3f}) "
+            f"| {100 * r['complete']:.3f} ({100 * r['complete95']:.3f}) | {r['seconds']:.0f} ({r['cpu']:.0f}) "
+            f"| {len(found)} of {len(r['joints'])} | {r['predicted'] - r['matched']} | {angles or '-'}"
+            f"{'; missed ' + missed if missed else ''} |"
+        )
+    joints = [j for r in rows for j in r["joints"]]
+    good = sum(
+        bool(j["found"]) and j["angle"] <= 5 and same_motion(JointType(j["type"]), JointType(j["found"])) for j in joints
+    )
+    count = sum(bool(j["found"]) for j in joints)
+    lines.append(f"\n{count} of {len(joints)} joints found, {good} of them with the right motion and an axis within 5 degrees.")
+    return "\n".join(lines)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("out", type=Path)
+    parser.add_argument("names", nargs="*", default=list(NAMES))
+    parser.add_argument("--views", type=int, default=60)
+    parser.add_argument("--noise", type=float, default=0.0015)
+    parser.add_argument("--seed", type=int, default=0)
+    told = parser.parse_args()
+    rows = []
+    for name in told.names:
+        place = told.out / name / "result.json"
+        if not place.exists():
+            found = measured(name, place.parent, told.views, told.noise, told.seed)
+            place.write_text(json.dumps(found, indent=1))
+        rows.append(json.loads(place.read_text()))
+        print(table(rows[-1:]).splitlines()[2], flush=True)
+    print(table(rows))
+
+
+if __name__ == "__main__":
+    main()

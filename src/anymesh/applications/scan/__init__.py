@@ -1,0 +1,8 @@
+"""From posed pictures with depth to a surface mesh in metres that the pipeline articulates (paper, 4.2)."""
+
+from anymesh.applications.scan.config import ScanConfig
+from anymesh.applications.scan.output import ScanReport
+from anymesh.applications.scan.rendered import render_frames
+from anymesh.applications.scan.scanning import scan
+
+__all__ = ["ScanConfig", "ScanReport", "render_frames", "scan"]

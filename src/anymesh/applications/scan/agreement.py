@@ -1,0 +1,155 @@
+"""Whether frames agree about the surface: how far the depth of one lies from that of others that see the same place."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from jaxtyping import Float, Float32
+
+from anymesh.applications.scan.frames import FLIPPED, Frames, Pinhole, RgbdFrame
+from anymesh.errors import InputError
+
+POINTS = 1500  # of a frame that are looked up in others
+SAMPLED = 24  # frames in which each is looked up
+SIDE = 160  # [px] of the depth maps that are kept for this
+IGNORED = 0.95  # share of the depth that may lie beyond the limit
+MIN_OVERLAP_SHARE = 0.1  # share of a frame's points that fall on depth of another for the two to overlap
+OFF = 0.03  # share of the depth: frames that disagree by more do not show one surface
+BETTER = 0.4  # another convention is named where it leaves less than this share of the disagreement
+DRIFTED = 4.0  # times the usual disagreement from which a frame is left out, and
+DRIFTED_LEAST = 0.006  # share of the depth that it must disagree by as well
+DEPTHS = (0.03, 30.0)  # [m] in which the median depth of a recording of an object lies
+CONVENTIONS = {
+    "camera axes are those of OpenGL (y up, z back) where OpenCV's were told, or the other way round": lambda T: T @ FLIPPED,
+    "poses are world-to-camera where camera-to-world was expected": np.linalg.inv,
+    "poses are world-to-camera, and with the other camera axes (OpenGL or OpenCV) than told": lambda T: (
+        np.linalg.inv(T) @ FLIPPED
+    ),
+}
+
+
+@dataclass(frozen=True, eq=False)
+class Glimpse:
+    """A frame's depth, coarse. points: (n, 3) of the camera's frame [m]; camera: of the depth map."""
+
+    name: str
+    T: Float[np.ndarray, "4 4"]
+    camera: Pinhole
+    depth: Float32[np.ndarray, "h w"]
+    points: Float[np.ndarray, "n 3"]
+    focal: float  # of the depth map as it came [px]
+
+
+@dataclass(frozen=True)
+class FrameAgreement:
+    """of: (n,) median disagreement of each frame with those that see the same, share of the depth, nan without any."""
+
+    of: Float[np.ndarray, " n"]
+
+    @property
+    def usual(self) -> float:
+        """The median over frames; nan where none overlaps another."""
+        known = self.of[np.isfinite(self.of)]
+        return float(np.median(known)) if len(known) else np.nan
+
+
+def glimpse(frame: RgbdFrame, depth_max: float = np.inf, seed: int = 0) -> Glimpse:
+    """A frame with a coarse depth map and some of its points, up to `depth_max` [m]. InputError where sizes do not fit."""
+    depth = frame.observe().depth
+    if (depth > depth_max).mean() < IGNORED * (depth > 0).mean():  # else the unit is wrong, which is told below
+        depth = np.where(depth <= depth_max, depth, np.float32(0))
+    step = max(1, round(max(depth.shape) / SIDE))
+    coarse = np.ascontiguousarray(depth[step // 2 :: step, step // 2 :: step])
+    full = frame.depth_camera(depth)
+    rows, columns = np.nonzero(depth)
+    some = np.random.default_rng([seed, depth.size]).permutation(len(rows))[:POINTS]
+    z = depth[rows[some], columns[some]].astype(np.float64)
+    x, y = (columns[some] + 0.5 - full.cx) / full.fx, (rows[some] + 0.5 - full.cy) / full.fy
+    camera = Pinhole(full.fx / step, full.fy / step, full.cx / step, full.cy / step, coarse.shape[1], coarse.shape[0])
+    return Glimpse(frame.name, frame.T_world_camera, camera, coarse, np.stack([x * z, y * z, z], 1), full.fx)
+
+
+def check_depth_unit(glimpses: list[Glimpse]) -> None:
+    """InputError where the median depth is no distance from which an object is recorded."""
+    depths = [float(np.median(g.points[:, 2])) for g in glimpses if len(g.points)]
+    if not depths:
+        raise InputError("no frame has any depth; all maps are empty, or masks and confidence leave nothing")
+    usual = float(np.median(depths))
+    if not DEPTHS[0] <= usual <= DEPTHS[1]:
+        way = "millimetres read as metres" if usual > DEPTHS[1] else "metres read as millimetres"
+        factor = 0.001 if usual > DEPTHS[1] else 1000
+        raise InputError(
+            f"the median depth is {usual:.4g} m; valid is {DEPTHS[0]} to {DEPTHS[1]} m. It looks like {way}: "
+            f"tell --depth-scale (metres per unit), {factor:g} times what was used"
+        )
+
+
+def agreement(glimpses: list[Glimpse], seed: int = 0) -> FrameAgreement:
+    """How far each frame's points are from the surface that others measured, beyond what may hide them."""
+    count = len(glimpses)
+    found = np.full(count, np.nan)
+    rng = np.random.default_rng(seed)
+    for i, g in enumerate(glimpses):
+        others = rng.permutation([j for j in range(count) if j != i])[:SAMPLED]
+        values = [v for j in others if np.isfinite(v := _disagreement(g, glimpses[j]))]
+        if values:
+            found[i] = np.median(values)
+    return FrameAgreement(found)
+
+
+def _disagreement(a: Glimpse, b: Glimpse) -> float:
+    """Median over points of `a` on or in front of what `b` measured; nan where too few are.
+
+    A point in front of a measured surface contradicts it. One behind may be hidden by it, and says nothing.
+    """
+    p = (a.points @ a.T[:3, :3].T + a.T[:3, 3] - b.T[:3, 3]) @ b.T[:3, :3]
+    column, row = b.camera.pixels(p)
+    inside = column >= 0
+    known = b.depth[row[inside], column[inside]]
+    there = known > 0
+    gap = (known[there] - p[inside, 2][there]) / known[there]
+    front = gap[gap > -OFF]
+    return float(np.median(np.abs(front))) if len(front) >= max(MIN_OVERLAP_SHARE * len(a.points), 20) else np.nan
+
+
+def check_convention(glimpses: list[Glimpse], found: FrameAgreement) -> None:
+    """InputError where frames contradict each other, with the convention of poses that would make them agree, if any."""
+    usual = found.usual
+    if usual <= OFF:
+        return
+    tried = {why: agreement([replace(g, T=turn(g.T)) for g in glimpses]).usual for why, turn in CONVENTIONS.items()}
+    known = {why: value for why, value in tried.items() if np.isfinite(value)}
+    best = min(known, key=lambda why: known[why], default=None)
+    if np.isnan(usual):
+        hint = f"; {best}: read so, they do overlap" if best and known[best] < OFF else ""
+        raise InputError(f"no two frames see the same place: poses are wrong, or each shows another side only{hint}")
+    told = f"frames contradict each other: the same place differs by {usual:.1%} of the depth between them (valid: {OFF:.0%})"
+    if best and known[best] < BETTER * usual:
+        raise InputError(f"{told}. Probably {best}: read so, it differs by {known[best]:.1%}")
+    raise InputError(
+        f"{told}. No other convention of poses explains it: poses, intrinsics or the scale of depth (--depth-scale) are wrong"
+    )
+
+
+def without_drifted(frames: Frames, found: FrameAgreement) -> tuple[Frames, list[int]]:
+    """The frames that agree with most others, and the numbers of those that stay; the rest is told in the warnings."""
+    limit = max(DRIFTED * found.usual, DRIFTED_LEAST)
+    bad = [k for k in range(len(frames)) if not found.of[k] <= limit]
+    if not bad:
+        return frames, list(range(len(frames)))
+    kept = [k for k in range(len(frames)) if k not in set(bad)]
+    lone = [frames.frames[k].name for k in bad if np.isnan(found.of[k])]
+    off = [f"{frames.frames[k].name} ({found.of[k]:.1%})" for k in bad if np.isfinite(found.of[k])]
+    told = []
+    if off:
+        told.append(
+            f"{len(off)} of {len(frames)} frames disagree with the others about the surface and are left out: {_few(off)}"
+        )
+    if lone:
+        told.append(f"{len(lone)} of {len(frames)} frames see nothing that others see and are left out: {_few(lone)}")
+    return frames.of([frames.frames[k] for k in kept], *told), kept
+
+
+def _few(names: list[str]) -> str:
+    return ", ".join(names[:6]) + (f", and {len(names) - 6} more" if len(names) > 6 else "")

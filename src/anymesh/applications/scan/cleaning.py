@@ -1,0 +1,121 @@
+"""From a fused surface to one object: the floor off, floating bits off, small holes closed, all others told."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Bool, Float, Int
+
+from anymesh.applications.scan.smoothing import neighbours
+from anymesh.geometry.topology import label_connected
+from anymesh.types.triangles import face_cross
+
+CUT = 2.5  # [voxels] above the floor where it is cut off: the crease between floor and object is round below
+BIT = 0.01  # area of a component over the largest, below which it is a floating bit
+ON_FLOOR = 0.8  # share of its vertices at z = 0 by which a hole is one that the object stands on
+CLOSED = 40.0  # [voxels] round: smaller holes are closed whatever their shape
+FLAT, FLAT_VOXELS = 0.01, 1.5  # a larger hole is closed when it is off a plane by less, of its length or of voxels
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """vertices: (V, 3) [m]; faces: (F, 3) outward."""
+
+    vertices: Float[np.ndarray, "V 3"]
+    faces: Int[np.ndarray, "F 3"]
+
+    def keeping(self, faces: Bool[np.ndarray, " F"] | Int[np.ndarray, " n"]) -> Surface:
+        """Some of the faces, without vertices that none uses."""
+        chosen = self.faces[faces]
+        used, inverse = np.unique(chosen, return_inverse=True)
+        return Surface(self.vertices[used], inverse.reshape(-1, 3))
+
+    @property
+    def areas(self) -> Float[np.ndarray, " F"]:
+        """Area of every face [m2]."""
+        return 0.5 * np.linalg.norm(face_cross(self.vertices[self.faces]), axis=1)
+
+
+@dataclass(frozen=True)
+class Hole:
+    """A loop of border edges. middle: [m]; area: of a fan across it [m2]; length: of the loop [m]; on_floor: it lies on the
+    floor, where nothing can be seen; closed: a flat face was put in."""
+
+    middle: tuple[float, float, float]
+    area: float
+    length: float
+    on_floor: bool
+    closed: bool
+
+
+def cut_floor(surface: Surface, voxel: float) -> Surface:
+    """Without the floor at z = 0, and what stands on it drawn down to it: faces that cross the cut reach z = 0."""
+    height = surface.vertices[:, 2]
+    low = height < CUT * voxel
+    kept = surface.keeping(~low[surface.faces].all(1))
+    vertices = kept.vertices.copy()
+    vertices[vertices[:, 2] < CUT * voxel, 2] = 0.0
+    return Surface(vertices, kept.faces)
+
+
+def drop_bits(surface: Surface) -> tuple[Surface, int]:
+    """The largest component and those that are not tiny beside it, and how many were dropped."""
+    label = label_connected(len(surface.faces), neighbours(surface.faces))
+    area = np.bincount(label, surface.areas)
+    kept = area >= BIT * area.max()
+    return surface.keeping(kept[label]), int(((area > 0) & ~kept).sum())
+
+
+def loops(faces: Int[np.ndarray, "F 3"]) -> list[Int[np.ndarray, " n"]]:
+    """Closed walks along the border, each the way round that a face which fills it would run; vertices in order."""
+    ends = faces[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2)
+    base = int(faces.max()) + 1
+    there = set((ends[:, 0] * base + ends[:, 1]).tolist())
+    lone = ends[[(b * base + a) not in there for a, b in ends.tolist()]]
+    after: dict[int, list[int]] = {}
+    for a, b in lone[:, ::-1].tolist():
+        after.setdefault(a, []).append(b)
+    found = []
+    for start in sorted(after):
+        while after[start]:
+            walk, at = [start], after[start].pop()
+            while at != start and after.get(at):
+                walk.append(at)
+                at = after[at].pop()
+            if at == start and len(walk) > 2:
+                found.append(np.array(walk))
+    return found
+
+
+def close_small(surface: Surface, voxel: float, most: float = CLOSED) -> tuple[Surface, tuple[Hole, ...], int]:
+    """With a fan in every hole that is flat, or less than `most` voxels round.
+
+    Also the larger holes, flat ones closed and others left open, and how many small ones were closed.
+    """
+    vertices, faces, holes, closed = [surface.vertices], [surface.faces], [], 0
+    count = len(surface.vertices)
+    for loop in loops(surface.faces):
+        p = surface.vertices[loop]
+        length = float(np.linalg.norm(p - np.roll(p, -1, 0), axis=1).sum())
+        middle = p.mean(0)
+        large = length > most * voxel
+        flat = large and _off_plane(p) < max(FLAT * length, FLAT_VOXELS * voxel)
+        if large:
+            fan = np.stack([p, np.roll(p, -1, 0), np.broadcast_to(middle, p.shape)], 1)
+            area = float(0.5 * np.linalg.norm(face_cross(fan).sum(0)))
+            at = (float(middle[0]), float(middle[1]), float(middle[2]))
+            holes.append(Hole(at, area, length, bool((p[:, 2] <= 1e-9).mean() > ON_FLOOR), flat))
+        if large and not flat:
+            continue
+        faces.append(np.stack([loop, np.roll(loop, -1), np.full(len(loop), count)], 1))
+        vertices.append(middle[None])
+        count += 1
+        closed += not large
+    holes.sort(key=lambda h: -h.area)
+    return Surface(np.concatenate(vertices), np.concatenate(faces)), tuple(holes), closed
+
+
+def _off_plane(points: Float[np.ndarray, "n 3"]) -> float:
+    """Root mean square distance of points from the plane that fits them best [m]."""
+    return float(np.linalg.svd(points - points.mean(0), compute_uv=False)[2]) / float(np.sqrt(len(points)))

@@ -1,0 +1,139 @@
+"""Posed pictures with depth: what every layout of a recording is read into."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+from jaxtyping import Float, Float32, Float64, Int, UInt8
+
+from anymesh.errors import InputError
+
+ASPECT = 0.02  # relative: a depth map whose sides differ more from the picture's does not show the same section
+FLIPPED = np.diag([1.0, -1.0, -1.0, 1.0])  # OpenGL camera axes (y up, z back) to OpenCV ones (y down, z ahead), and back
+
+
+@dataclass(frozen=True)
+class Pinhole:
+    """A pinhole camera without distortion. All in pixels; (0, 0) is the outer corner of the first pixel, centres are at .5."""
+
+    fx: float
+    fy: float
+    cx: float
+    cy: float
+    width: int
+    height: int
+
+    def __post_init__(self) -> None:
+        if not (self.fx > 0 and self.fy > 0 and self.width > 0 and self.height > 0 and np.isfinite([self.cx, self.cy]).all()):
+            raise ValueError(f"a camera needs focal lengths and a size above 0, found {self}")
+
+    def resized(self, width: int, height: int) -> Pinhole:
+        """The same view in a picture of another size [px]. ValueError where the proportions differ."""
+        x, y = width / self.width, height / self.height
+        if abs(x / y - 1) > ASPECT:
+            raise ValueError(f"{width} x {height} has other proportions than {self.width} x {self.height}")
+        return Pinhole(self.fx * x, self.fy * y, self.cx * x, self.cy * y, width, height)
+
+    def directions(self) -> Float32[np.ndarray, "h w 3"]:
+        """Directions of the rays through the pixels' centres, in the camera's frame, depth 1."""
+        x = (np.arange(self.width, dtype=np.float32) + 0.5 - self.cx) / self.fx
+        y = (np.arange(self.height, dtype=np.float32) + 0.5 - self.cy) / self.fy
+        found = np.ones((self.height, self.width, 3), np.float32)
+        found[..., 0], found[..., 1] = x, y[:, None]
+        return found
+
+    def pixels(self, points: Float[np.ndarray, "n 3"]) -> tuple[Int[np.ndarray, " n"], Int[np.ndarray, " n"]]:
+        """Column and row of the pixel that each point of the camera's frame falls on; -1, -1 outside the picture."""
+        x, y, z = points.T
+        ahead = z > 1e-6
+        deep = np.where(ahead, z, 1)
+        column = np.floor(np.where(ahead, self.fx * x / deep + self.cx, -1))
+        row = np.floor(np.where(ahead, self.fy * y / deep + self.cy, -1))
+        outside = ~((column >= 0) & (column < self.width) & (row >= 0) & (row < self.height))
+        column[outside] = row[outside] = -1
+        return column.astype(np.int64), row.astype(np.int64)
+
+
+@dataclass(frozen=True, eq=False)
+class Observation:
+    """What a frame shows. color: (H, W, 3) sRGB; depth: (h, w) along the optical axis [m], 0 where none was measured."""
+
+    color: UInt8[np.ndarray, "H W 3"]
+    depth: Float32[np.ndarray, "h w"]
+
+    def __post_init__(self) -> None:
+        if not (np.isfinite(self.depth).all() and (self.depth >= 0).all()):
+            raise ValueError("depth must be finite and not negative; 0 stands for none")
+
+
+@dataclass(frozen=True, eq=False)
+class RgbdFrame:
+    """One picture with its pose, read when it is asked for, so that memory does not grow with the recording.
+
+    camera: of the colour picture; T_world_camera: (4, 4) rigid, the camera looks along its +z, x to the right, y down [m].
+    """
+
+    name: str
+    camera: Pinhole
+    T_world_camera: Float64[np.ndarray, "4 4"]
+    read: Callable[[], Observation]
+
+    def observe(self) -> Observation:
+        """The picture and its depth. InputError where their sizes do not fit the intrinsics."""
+        found = self.read()
+        for what, size in (("picture", found.color.shape[1::-1]), ("depth map", found.depth.shape[::-1])):
+            try:
+                if size != (1, 1):
+                    self.camera.resized(*size)
+            except ValueError:
+                raise InputError(
+                    f"frame {self.name}: the {what} has {size[0]} x {size[1]} pixels, its intrinsics are for "
+                    f"{self.camera.width} x {self.camera.height}; valid is the same or another resolution of the same section"
+                ) from None
+        return found
+
+    def depth_camera(self, depth: Float32[np.ndarray, "h w"]) -> Pinhole:
+        """The camera of the depth map, which may be smaller than the picture."""
+        return self.camera.resized(depth.shape[1], depth.shape[0])
+
+    def points(self, depth: Float32[np.ndarray, "h w"], step: int = 1) -> Float[np.ndarray, "n 3"]:
+        """World positions [m] of every `step`-th pixel each way that has a depth."""
+        some = depth[::step, ::step]
+        seen = some > 0
+        rays = self.depth_camera(depth).directions()[::step, ::step][seen]
+        return (rays * some[seen][:, None]) @ self.T_world_camera[:3, :3].T + self.T_world_camera[:3, 3]
+
+
+def cropped(frame: RgbdFrame, low: Float[np.ndarray, " 3"], high: Float[np.ndarray, " 3"]) -> RgbdFrame:
+    """The frame without depth outside a box of the world."""
+
+    def read() -> Observation:
+        found = frame.read()
+        depth = found.depth.copy()
+        seen = depth > 0
+        p = frame.points(depth)
+        depth[seen] = np.where(((p >= low) & (p <= high)).all(1), depth[seen], np.float32(0))
+        return Observation(found.color, depth)
+
+    return replace(frame, read=read)
+
+
+@dataclass(frozen=True, eq=False)
+class Frames:
+    """A recording. layout: its name for messages; has_depth: whether frames carry depth; up: the world's upward direction
+    where the layout defines it; warnings: what was noticed on reading."""
+
+    frames: tuple[RgbdFrame, ...]
+    layout: str
+    has_depth: bool = True
+    up: tuple[float, float, float] | None = None
+    warnings: tuple[str, ...] = ()
+
+    def __len__(self) -> int:
+        return len(self.frames)
+
+    def of(self, kept: list[RgbdFrame], *warnings: str) -> Frames:
+        """The recording with some of its frames."""
+        return replace(self, frames=tuple(kept), warnings=(*self.warnings, *warnings))

@@ -1,0 +1,191 @@
+"""Depth maps to a truncated signed distance field on blocks of voxels near the surface (Curless and Levoy 1996)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Bool, Float, Float32, Int, Int32
+from scipy import ndimage
+
+from anymesh.applications.scan.frames import Frames, Pinhole
+from anymesh.errors import InputError, OptionError
+from anymesh.progress import Progress
+
+SIDE = 8  # voxels along a block
+CHUNK = 1024  # blocks that are projected at once
+HITS = 4  # depth pixels that a block takes to be kept
+MOST_BLOCKS = 120_000  # about 1 GB of voxels
+BEHIND = 0.5  # truncations behind the surface that a view tells of
+FADE = 0.9  # share of its weight that it has lost there
+FELLOWS, DEPTH_TOLERANCE_RATIO = 4, 0.015  # pixels around one that differ by less than this share of the depth
+STEEP = 0.15  # cosine of the angle of view below which depth says too little
+_LOCAL = np.stack(np.meshgrid(*[np.arange(SIDE)] * 3, indexing="ij"), -1).reshape(-1, 3)
+
+
+@dataclass(frozen=True, eq=False)
+class Grid:
+    """Blocks of SIDE**3 voxels. origin: of voxel 0, 0, 0 [m]; voxel [m]; table: number of each block, -1 where there is none;
+    blocks: (B, 3) places in the table."""
+
+    origin: Float[np.ndarray, " 3"]
+    voxel: float
+    table: Int32[np.ndarray, "x y z"]
+    blocks: Int[np.ndarray, "B 3"]
+
+
+@dataclass(frozen=True, eq=False)
+class Field:
+    """distance: (B, SIDE**3) signed, in truncations, positive outside, 1 where unknown; weight: (B, SIDE**3), 1 for one
+    square view from the usual distance; truncation [m]."""
+
+    grid: Grid
+    distance: Float32[np.ndarray, "B n"]
+    weight: Float32[np.ndarray, "B n"]
+    truncation: float
+
+
+def place_blocks(
+    frames: Frames, T: Float[np.ndarray, "4 4"], bounds: Float[np.ndarray, "2 3"], voxel: float, truncation: float,
+    depth_max: float, progress: Progress,
+) -> Grid:  # fmt: skip
+    """The blocks within the bounds (of the frame that T takes the world to) that surfaces pass through.
+
+    OptionError where there would be too many, with the voxel size that would do.
+    """
+    size = SIDE * voxel
+    origin = np.floor(bounds[0] / size) * size
+    shape = np.ceil((bounds[1] - origin) / size).astype(int) + 1
+    if float(np.prod(shape.astype(float))) > 200 * MOST_BLOCKS:
+        raise OptionError(f"--voxel {voxel:.4g} m is too fine for a region of {np.round(np.ptp(bounds, axis=0), 2)} m")
+    count = np.zeros(shape, np.int32)
+    for number, frame in enumerate(frames.frames):
+        progress("allocate", frame.name, number, len(frames))
+        depth = _limited(frame.observe().depth, depth_max)
+        eye = (T @ frame.T_world_camera)[:3, 3]
+        p = frame.points(depth) @ T[:3, :3].T + T[:3, 3]
+        p = p[((p > bounds[0]) & (p < bounds[1])).all(1)]
+        way = (p - eye) / np.maximum(np.linalg.norm(p - eye, axis=1, keepdims=True), 1e-9)
+        cells = np.concatenate([np.floor((p + s * truncation * way - origin) / size).astype(np.int64) for s in (-1, 0, 1)])
+        cells = cells[((cells >= 0) & (cells < shape)).all(1)]
+        count += np.bincount(np.ravel_multi_index(tuple(cells.T), tuple(shape)), minlength=count.size).reshape(shape)
+    blocks = np.argwhere(count >= HITS)
+    if len(blocks) == 0:
+        raise InputError("no frame shows a surface within the region; check --crop, --depth-max and the poses")
+    if len(blocks) > MOST_BLOCKS:
+        wanted = voxel * float(np.sqrt(len(blocks) / MOST_BLOCKS)) * 1.05
+        raise OptionError(f"--voxel {voxel:.4g} m makes {len(blocks)} blocks, more than {MOST_BLOCKS}; {wanted:.4g} m would do")
+    table = np.full(shape, -1, np.int32)
+    table[tuple(blocks.T)] = np.arange(len(blocks))
+    return Grid(origin, voxel, table, blocks)
+
+
+def fuse(
+    frames: Frames, T: Float[np.ndarray, "4 4"], grid: Grid, truncation: float, usual: float, depth_max: float,
+    progress: Progress,
+) -> Field:  # fmt: skip
+    """The weighted mean of all frames' distances. usual: [m] a depth whose views weigh 1.
+
+    A view weighs as its depth is precise: by the squared cosine of the angle of view over the fourth power of the depth
+    (noise grows with its square), less behind the surface. Distances are along the surface's normal.
+    """
+    total = np.zeros((len(grid.blocks), SIDE**3), np.float32)
+    weight = np.zeros_like(total)
+    for number, frame in enumerate(frames.frames):
+        progress("fuse", frame.name, number, len(frames))
+        depth = _limited(frame.observe().depth, depth_max)
+        camera = frame.depth_camera(depth)
+        cosine = _cosine(depth, camera)
+        worth = cosine**2 * np.minimum((usual / np.maximum(depth, 1e-3)) ** 4, 4.0).astype(np.float32)
+        worth[(depth <= 0) | (cosine < STEEP)] = 0
+        view = _View(np.linalg.inv(T @ frame.T_world_camera), camera, depth, cosine, worth)
+        for rows in _blocks_in_sight(grid, view, truncation):
+            _add(total, weight, rows, grid, view, truncation)
+    known = weight > 0
+    distance = np.ones_like(total)
+    np.divide(total, weight, out=distance, where=known)
+    return Field(grid, distance, weight, truncation)
+
+
+@dataclass(frozen=True, eq=False)
+class _View:
+    T_camera_grid: Float[np.ndarray, "4 4"]
+    camera: Pinhole
+    depth: Float32[np.ndarray, "h w"]
+    cosine: Float32[np.ndarray, "h w"]
+    worth: Float32[np.ndarray, "h w"]
+
+
+def _limited(depth: np.ndarray, most: float) -> Float32[np.ndarray, "h w"]:
+    """Depth up to `most` [m] where FELLOWS of the eight pixels around tell about the same: at edges a sensor mixes both sides,
+    and such a pixel behind an edge would carve it away."""
+    height, width = depth.shape
+    padded = np.pad(depth, 1)
+    same = np.zeros(depth.shape, np.int8)
+    for y, x in ((0, 0), (0, 1), (0, 2), (1, 0), (1, 2), (2, 0), (2, 1), (2, 2)):
+        same += np.abs(padded[y : y + height, x : x + width] - depth) < DEPTH_TOLERANCE_RATIO * depth
+    return np.where((depth <= most) & (same >= FELLOWS), depth, np.float32(0))
+
+
+def _cosine(depth: Float32[np.ndarray, "h w"], camera: Pinhole) -> Float32[np.ndarray, "h w"]:
+    """Of the angle between the ray and the normal of the surface, which is taken from a smoothed depth map."""
+    there = (depth > 0).astype(np.float32)
+    share = ndimage.uniform_filter(there, 5)
+    smooth = ndimage.uniform_filter(depth, 5) / np.maximum(share, 1e-3)
+    near = (there > 0) & (np.abs(smooth - depth) < 0.03 * depth)
+    rays = camera.directions()
+    p = rays * np.where(near, smooth, depth)[..., None]
+    normal = np.cross(_slope(p, 1), _slope(p, 0))
+    length = np.linalg.norm(normal, axis=2) * np.linalg.norm(rays, axis=2)
+    return (np.abs(np.einsum("hwk,hwk->hw", normal, rays)) / np.maximum(length, 1e-12)).astype(np.float32)
+
+
+def _slope(p: Float32[np.ndarray, "h w 3"], axis: int) -> Float32[np.ndarray, "h w 3"]:
+    """The step to the next or the previous pixel, whichever is shorter: at an edge one of them leaves the surface."""
+    step = np.diff(p, axis=axis)
+    ahead, back = (np.concatenate(pair, axis) for pair in ((step, np.take(step, [-1], axis)), (np.take(step, [0], axis), step)))
+    shorter = np.abs(ahead[..., 2:]) < np.abs(back[..., 2:])
+    return np.where(shorter, ahead, back)
+
+
+def _blocks_in_sight(grid: Grid, view: _View, truncation: float) -> list[Int[np.ndarray, " n"]]:
+    """Blocks that the view says something about, in chunks: in the picture, and not all behind what it shows."""
+    half = SIDE * grid.voxel / 2
+    centers = grid.origin + (grid.blocks + 0.5) * SIDE * grid.voxel
+    p = centers @ view.T_camera_grid[:3, :3].T + view.T_camera_grid[:3, 3]
+    radius = np.sqrt(3) * half
+    z = np.maximum(p[:, 2], 1e-6)
+    spread = view.camera.fx * radius / z
+    u, v = view.camera.fx * p[:, 0] / z + view.camera.cx, view.camera.fy * p[:, 1] / z + view.camera.cy
+    inside = (p[:, 2] > radius) & (u > -spread) & (u < view.camera.width + spread)
+    inside &= (v > -spread) & (v < view.camera.height + spread)
+    rows = np.flatnonzero(inside)
+    if len(rows) == 0:
+        return []
+    tile = 16
+    far = ndimage.maximum_filter(view.depth, 2 * tile)[tile // 2 :: tile, tile // 2 :: tile]
+    i = np.clip((v[rows] / tile).astype(int), 0, far.shape[0] - 1)
+    j = np.clip((u[rows] / tile).astype(int), 0, far.shape[1] - 1)
+    rows = rows[(z[rows] - radius < far[i, j] + truncation) | (spread[rows] > tile)]
+    return [rows[k : k + CHUNK] for k in range(0, len(rows), CHUNK)]
+
+
+def _add(total: np.ndarray, weight: np.ndarray, rows: np.ndarray, grid: Grid, view: _View, truncation: float) -> None:
+    """Adds what a view says about some blocks, in place."""
+    R, t = view.T_camera_grid[:3, :3], view.T_camera_grid[:3, 3]
+    corner = (grid.origin + grid.blocks[rows] * (SIDE * grid.voxel)) @ R.T + t
+    offset = (_LOCAL * grid.voxel) @ R.T
+    x, y, z = (corner[:, k, None].astype(np.float32) + offset[None, :, k].astype(np.float32) for k in range(3))
+    camera = view.camera
+    with np.errstate(divide="ignore", invalid="ignore"):
+        u, v = camera.fx * x / z + camera.cx, camera.fy * y / z + camera.cy
+    inside = (z > 1e-3) & (u >= 0) & (u < camera.width) & (v >= 0) & (v < camera.height)
+    at = np.where(inside, v, 0).astype(np.int32) * camera.width + np.where(inside, u, 0).astype(np.int32)
+    worth = view.worth.reshape(-1)[at]
+    ahead = view.depth.reshape(-1)[at] - z
+    sdf = ahead * view.cosine.reshape(-1)[at] / np.float32(truncation)
+    use: Bool[np.ndarray, "n m"] = inside & (worth > 0) & (sdf > -BEHIND)
+    fade = 1 + FADE * np.minimum(sdf, 0) / BEHIND  # behind the surface a view tells less: a thin wall or a groove's side
+    worth = np.where(use, worth * fade, 0)
+    total[rows] += worth * np.minimum(sdf, 1)
+    weight[rows] += worth

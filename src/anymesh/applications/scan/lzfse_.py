@@ -1,0 +1,28 @@
+"""LZFSE, in which Record3D keeps depth, by the package lzfse (MIT, 0.2 MB)."""
+
+from __future__ import annotations
+
+import importlib
+from typing import Any
+
+from anymesh.errors import InputError, MissingExtraError
+
+
+def unpack(data: bytes, name: str) -> bytes:
+    """Return the uncompressed bytes. Raise InputError if they are damaged, MissingExtraError without the library."""
+    try:
+        lzfse: Any = importlib.import_module("lzfse")  # a compiled module without types
+    except ImportError:
+        raise MissingExtraError(
+            "depth of Record3D is compressed with LZFSE; pip install 'articulate-anymesh[scan]' brings what reads it"
+        ) from None
+    try:
+        return lzfse.decompress(data)
+    except lzfse.error as error:
+        raise InputError(f"{name} is no LZFSE data: {error}") from None
+
+
+def pack(data: bytes) -> bytes:
+    """Return compressed bytes, for recordings that are written."""
+    lzfse: Any = importlib.import_module("lzfse")
+    return lzfse.compress(data)

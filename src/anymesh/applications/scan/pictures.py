@@ -1,0 +1,125 @@
+"""Colour pictures, depth maps and masks from files, by Pillow."""
+
+from __future__ import annotations
+
+import io
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from jaxtyping import Bool, Float32, UInt8
+
+from anymesh.applications.scan.frames import Observation
+from anymesh.errors import InputError
+
+CONFIDENT = 1  # values of a confidence map from which depth is taken: 0 is "low" in every layout read here
+
+
+def read_object(path: Path) -> dict[str, Any]:
+    """A JSON object. InputError where the file is missing or holds anything else."""
+    try:
+        found = json.loads(path.read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        raise InputError(f"{path} is missing") from None
+    except (OSError, ValueError) as error:
+        raise InputError(f"{path} cannot be read as JSON: {error}") from None
+    if not isinstance(found, dict):
+        raise InputError(f"{path} must hold a JSON object, found {type(found).__name__}")
+    return found
+
+
+def within(folder: Path, name: object) -> Path:
+    """A file of a recording by the name that its description tells. InputError where it is missing or lies outside."""
+    if not isinstance(name, str) or not name:
+        raise InputError(f"{folder}: a file name was expected, found {name!r}")
+    path = (folder / name).resolve()
+    if not path.is_relative_to(folder.resolve()):
+        raise InputError(f"{folder}: {name} lies outside the recording's folder")
+    if not path.is_file():
+        raise InputError(f"{folder}: the file {name}, which the recording names, is missing")
+    return path
+
+
+def picture_size(path: Path) -> tuple[int, int]:
+    """Width and height [px], from the file's header. InputError for what is no picture."""
+    from PIL import Image
+
+    try:
+        with Image.open(path) as image:
+            return image.size
+    except OSError as error:
+        raise InputError(f"{path} is no picture that can be read: {error}") from None
+
+
+def read_color(source: Path | bytes, name: str) -> UInt8[np.ndarray, "H W 3"]:
+    """A picture as sRGB bytes. InputError where it cannot be decoded."""
+    from PIL import Image
+
+    try:
+        with Image.open(source if isinstance(source, Path) else io.BytesIO(source)) as image:
+            return np.asarray(image.convert("RGB"))
+    except (OSError, SyntaxError) as error:
+        raise InputError(f"{name} is no picture that can be read: {error}") from None
+
+
+def read_depth(path: Path, scale: float) -> Float32[np.ndarray, "h w"]:
+    """A depth map [m] from a 16-bit PNG (units of `scale` metres) or a .npy file of floats; 0 where there is none."""
+    if path.suffix == ".npy":
+        try:
+            return clean_depth(np.load(path, allow_pickle=False), path.name, scale)
+        except (OSError, ValueError) as error:
+            raise InputError(f"{path} cannot be read as a depth map: {error}") from None
+    from PIL import Image
+
+    try:
+        with Image.open(path) as image:
+            if image.mode not in ("I;16", "I;16B", "I", "F"):
+                raise InputError(f"{path}: depth must be a picture of 16 bits and one channel, found mode {image.mode}")
+            return clean_depth(np.asarray(image), path.name, scale)
+    except (OSError, SyntaxError) as error:
+        raise InputError(f"{path} is no picture that can be read: {error}") from None
+
+
+def clean_depth(raw: np.ndarray, name: str, scale: float = 1.0) -> Float32[np.ndarray, "h w"]:
+    """Raw values times `scale` [m]; 0 where they are no positive number. InputError for anything but a plane of numbers."""
+    raw = raw[..., 0] if raw.ndim == 3 and raw.shape[2] == 1 else raw
+    if raw.ndim != 2 or raw.dtype.kind not in "iuf":
+        raise InputError(f"{name}: a depth map of one channel was expected, found {raw.shape} of {raw.dtype}")
+    depth = raw.astype(np.float32) * np.float32(scale)
+    return np.where(np.isfinite(depth) & (depth > 0), depth, np.float32(0))
+
+
+def read_mask(path: Path | None) -> Bool[np.ndarray, "h w"] | None:
+    """Where a mask or confidence map is not 0; None without a file."""
+    if path is None:
+        return None
+    from PIL import Image
+
+    try:
+        with Image.open(path) as image:
+            found = np.asarray(image)
+    except (OSError, SyntaxError) as error:
+        raise InputError(f"{path} is no picture that can be read: {error}") from None
+    return (found if found.ndim == 2 else found.max(2)) >= CONFIDENT
+
+
+def observed(color: np.ndarray, depth: np.ndarray, *masks: np.ndarray | None) -> Observation:
+    """An observation; depth is taken where every mask says so, masks of other sizes are scaled to the depth map's."""
+    kept = depth
+    for mask in masks:
+        if mask is not None:
+            rows = np.arange(depth.shape[0]) * mask.shape[0] // depth.shape[0]
+            columns = np.arange(depth.shape[1]) * mask.shape[1] // depth.shape[1]
+            kept = np.where(mask[rows[:, None], columns], kept, np.float32(0))
+    return Observation(color, np.ascontiguousarray(kept, np.float32))
+
+
+def file_reader(color: Path, depth: Path | None, scale: float, *masks: Path | None):
+    """A function that reads an observation from files; without depth, the map is one pixel of none."""
+
+    def read() -> Observation:
+        found = np.zeros((1, 1), np.float32) if depth is None else read_depth(depth, scale)
+        return observed(read_color(color, color.name), found, *(read_mask(m) for m in masks))
+
+    return read

@@ -1,0 +1,98 @@
+"""Plain folders: `frames.json` (ours) and `transforms.json` (nerfstudio, instant-ngp)."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from anymesh.applications.scan.frames import Frames, RgbdFrame
+from anymesh.applications.scan.pictures import file_reader, picture_size, read_object, within
+from anymesh.applications.scan.poses import AXES, check_distortion, fitted, pinhole, pose
+from anymesh.errors import InputError
+
+OURS = "frames.json"
+NERFSTUDIO = "transforms.json"
+MILLIMETRES = 0.001
+KEYS = ("fx", "fy", "cx", "cy", "width", "height")
+NERF_KEYS = ("fl_x", "fl_y", "cx", "cy", "w", "h")
+PERSPECTIVE = ("OPENCV", "PINHOLE", "SIMPLE_PINHOLE", "PERSPECTIVE")
+UPS = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
+
+
+def read_frames_json(folder: Path, depth_scale: float | None, scale: float | None) -> Frames:
+    """Our own layout: `camera`, `camera_axes`, `depth_scale` and `frames` of color, depth, mask, confidence, T_world_camera."""
+    told = read_object(folder / OURS)
+    axes, unit = told.get("camera_axes", "opencv"), depth_scale or float(told.get("depth_scale", MILLIMETRES))
+    if axes not in AXES:
+        raise InputError(f"{folder / OURS}: camera_axes {axes!r}; valid are {', '.join(AXES)}")
+    found = []
+    for number, entry in enumerate(_entries(told, folder / OURS)):
+        name = str(entry.get("name", number))
+        color = within(folder, entry.get("color"))
+        camera = pinhole({**told.get("camera", {}), **entry.get("camera", {})}, KEYS, f"frame {name} in {OURS}")
+        T = pose(entry.get("T_world_camera"), name, axes=axes, scale=scale or 1.0)
+        depth, mask, sure = (within(folder, entry[k]) if k in entry else None for k in ("depth", "mask", "confidence"))
+        reader = file_reader(color, depth, unit, mask, sure)
+        found.append((RgbdFrame(name, fitted(camera, picture_size(color), name), T, reader), depth))
+    return _frames(found, OURS, UPS.get(str(told.get("up", ""))), [])
+
+
+def read_transforms_json(folder: Path, depth_scale: float | None, scale: float | None) -> Frames:
+    """nerfstudio's layout: camera-to-world with OpenGL axes, depth in millimetres unless `depth_unit_scale_factor` tells."""
+    told = read_object(folder / NERFSTUDIO)
+    model = str(told.get("camera_model", "OPENCV")).upper()
+    if model not in PERSPECTIVE:
+        raise InputError(f"{folder / NERFSTUDIO}: camera_model {model}; valid are {', '.join(PERSPECTIVE)}")
+    unit = depth_scale or float(told.get("depth_unit_scale_factor", MILLIMETRES))
+    warnings, found = set(), []
+    for number, entry in enumerate(_entries(told, folder / NERFSTUDIO)):
+        name = str(entry.get("file_path", number))
+        color = within(folder, _with_suffix(folder, name))
+        both = _intrinsics({**told, **entry}, picture_size(color))
+        camera = pinhole(both, NERF_KEYS, f"frame {name} in {NERFSTUDIO}")
+        warnings.add(check_distortion(camera, [float(both.get(f"k{n}", 0.0)) for n in (1, 2, 3)], NERFSTUDIO))
+        T = pose(entry.get("transform_matrix"), name, axes="opengl", scale=scale or 1.0)
+        depth, mask = (within(folder, entry[k]) if entry.get(k) else None for k in ("depth_file_path", "mask_path"))
+        reader = file_reader(color, depth, unit, mask)
+        found.append((RgbdFrame(name, fitted(camera, picture_size(color), name), T, reader), depth))
+    if "applied_scale" in told and scale is None:
+        warnings.add(
+            f"{NERFSTUDIO} was rescaled by {told['applied_scale']}; --scale {1 / float(told['applied_scale']):.6g} undoes it"
+        )
+    return _frames(found, NERFSTUDIO, UPS["z"], sorted(warnings - {""}))
+
+
+def _entries(told: dict[str, Any], path: Path) -> list[dict[str, Any]]:
+    found = told.get("frames")
+    if not isinstance(found, list) or not found or not all(isinstance(f, dict) for f in found):
+        raise InputError(f"{path}: `frames` must be a list of objects, found {type(found).__name__} of {len(found or ())}")
+    return found
+
+
+def _with_suffix(folder: Path, name: str) -> str:
+    """Blender's layout leaves out the suffix of pictures."""
+    return name if Path(name).suffix or (folder / name).is_file() else f"{name}.png"
+
+
+def _intrinsics(told: dict[str, Any], size: tuple[int, int]) -> dict[str, Any]:
+    """With what the format lets one leave out: the size, the middle, focal lengths from the angle of view."""
+    found = {"w": size[0], "h": size[1], **told}
+    found = {"cx": found["w"] / 2, "cy": found["h"] / 2, **found}
+    for key, angle, side in (("fl_x", "camera_angle_x", "w"), ("fl_y", "camera_angle_y", "h")):
+        if key not in found and angle in found:
+            found[key] = found[side] / (2 * np.tan(float(found[angle]) / 2))
+    if "fl_x" in found:
+        found.setdefault("fl_y", found["fl_x"])
+    return found
+
+
+def _frames(
+    found: list[tuple[RgbdFrame, Path | None]], layout: str, up: tuple[float, float, float] | None, told: list[str]
+) -> Frames:
+    """Frames without depth are left out where others have it."""
+    deep = [frame for frame, depth in found if depth is not None]
+    if deep and len(deep) < len(found):
+        told.append(f"{len(found) - len(deep)} of {len(found)} frames have no depth and are left out")
+    return Frames(tuple(deep or [frame for frame, _ in found]), layout, bool(deep), up, tuple(told))

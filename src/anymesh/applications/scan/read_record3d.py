@@ -1,0 +1,139 @@
+"""Record3D: an `.r3d` file, or the folder that it unpacks to."""
+
+from __future__ import annotations
+
+import json
+import re
+import zipfile
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from anymesh.applications.scan.frames import FLIPPED, Frames, Observation, Pinhole, RgbdFrame
+from anymesh.applications.scan.lzfse_ import unpack
+from anymesh.applications.scan.pictures import clean_depth, observed, read_color
+from anymesh.applications.scan.poses import quaternion_pose
+from anymesh.errors import InputError
+
+METADATA = ("metadata", "metadata.json")
+MOST_BYTES = 1 << 28  # of one file in the archive
+
+
+@dataclass(frozen=True)
+class _Home:
+    """The files of a recording, in a folder or an archive."""
+
+    path: Path
+
+    def names(self) -> set[str]:
+        if self.path.is_dir():
+            return {p.relative_to(self.path).as_posix() for p in self.path.rglob("*") if p.is_file()}
+        with _opened(self.path) as archive:
+            return set(archive.namelist())
+
+    def content(self, name: str) -> bytes:
+        if self.path.is_dir():
+            return (self.path / name).read_bytes()
+        with _opened(self.path) as archive:
+            if archive.getinfo(name).file_size > MOST_BYTES:
+                raise InputError(f"{self.path}: {name} would unpack to more than {MOST_BYTES >> 20} MB")
+            return archive.read(name)
+
+
+def _opened(path: Path) -> zipfile.ZipFile:
+    try:
+        return zipfile.ZipFile(path)
+    except (OSError, zipfile.BadZipFile) as error:
+        raise InputError(f"{path} is no archive of Record3D: {error}") from None
+
+
+def is_record3d(path: Path) -> bool:
+    """Whether a folder or file holds a recording of Record3D."""
+    if path.is_file():
+        return path.suffix.lower() in (".r3d", ".zip")
+    return (path / "rgbd").is_dir() and any((path / name).is_file() for name in METADATA)
+
+
+def read_record3d(path: Path, depth_scale: float | None, scale: float | None) -> Frames:
+    """A recording: poses are camera-to-world with OpenGL axes (ARKit), depth is float32 in metres, y is up."""
+    home = _Home(path)
+    names = home.names()
+    told = _metadata(home, names)
+    numbers = sorted(int(m[1]) for name in names if (m := re.fullmatch(r"rgbd/(\d+)\.(?:jpg|png)", name)))
+    deep = [n for n in numbers if f"rgbd/{n}.depth" in names]
+    if not numbers:
+        raise InputError(f"{path}: found no rgbd/NUMBER.jpg; an export as .r3d has them")
+    poses = told.get("poses")
+    if not isinstance(poses, list) or len(poses) <= max(numbers):
+        raise InputError(f"{path}: metadata has {len(poses or ())} poses for pictures up to number {max(numbers)}")
+    factor = depth_scale or 1.0
+    found = []
+    for n in deep or numbers:
+        row = [float(v) for v in poses[n]]
+        T = quaternion_pose(row[:4], [v * (scale or 1.0) for v in row[4:7]], str(n)) @ FLIPPED
+        found.append(RgbdFrame(str(n), _camera(told, n, path), T, _reader(home, names, n, told, factor)))
+    warnings = () if len(found) == len(numbers) else (f"{len(numbers) - len(found)} frames have no depth and are left out",)
+    return Frames(tuple(found), "Record3D", bool(deep), (0.0, 1.0, 0.0), warnings)
+
+
+def _metadata(home: _Home, names: set[str]) -> dict[str, Any]:
+    name = next((m for m in METADATA if m in names), None)
+    if name is None:
+        raise InputError(f"{home.path}: found no {' or '.join(METADATA)}; a recording of Record3D (.r3d) has one")
+    try:
+        found = json.loads(home.content(name))
+    except ValueError as error:
+        raise InputError(f"{home.path}: {name} cannot be read as JSON: {error}") from None
+    if not isinstance(found, dict):
+        raise InputError(f"{home.path}: {name} must hold a JSON object, found {type(found).__name__}")
+    return found
+
+
+def _camera(told: dict[str, Any], number: int, path: Path) -> Pinhole:
+    """perFrameIntrinsicCoeffs (fx, fy, cx, cy) where it is there, else K by columns."""
+    with suppress(KeyError, IndexError, TypeError, ValueError):
+        size = int(told["w"]), int(told["h"])
+        each = told.get("perFrameIntrinsicCoeffs")
+        if each:
+            fx, fy, cx, cy = (float(v) for v in each[number])
+        else:
+            K = np.array(told["K"], float).reshape(3, 3).T
+            fx, fy, cx, cy = K[0, 0], K[1, 1], K[0, 2], K[1, 2]
+        return Pinhole(float(fx), float(fy), float(cx), float(cy), *size)
+    raise InputError(
+        f"{path}: intrinsics are missing: metadata needs w, h and K (9 numbers) or perFrameIntrinsicCoeffs (4 a frame)"
+    )
+
+
+def _reader(home: _Home, names: set[str], n: int, told: dict[str, Any], factor: float) -> Callable[[], Observation]:
+    def read() -> Observation:
+        picture = next(f"rgbd/{n}{s}" for s in (".jpg", ".png") if f"rgbd/{n}{s}" in names)
+        color = read_color(home.content(picture), picture)
+        if f"rgbd/{n}.depth" not in names:
+            return observed(color, np.zeros((1, 1), np.float32))
+        raw = unpack(home.content(f"rgbd/{n}.depth"), f"rgbd/{n}.depth")
+        flat = np.frombuffer(raw[: len(raw) // 4 * 4], "<f4")
+        depth = clean_depth(flat.reshape(_size(told, flat.size, home.path)), f"{n}.depth", factor)
+        sure = None
+        if f"rgbd/{n}.conf" in names:
+            values = np.frombuffer(unpack(home.content(f"rgbd/{n}.conf"), f"rgbd/{n}.conf"), np.uint8)
+            sure = values.reshape(depth.shape) > 0 if values.size == depth.size else None
+        return observed(color, depth, sure)
+
+    return read
+
+
+def _size(told: dict[str, Any], count: int, path: Path) -> tuple[int, int]:
+    """Rows and columns of a depth map: as told, or from the picture's proportions in older recordings."""
+    if {"dw", "dh"} <= set(told):
+        rows, columns = int(told["dh"]), int(told["dw"])
+    else:
+        rows = round(float(np.sqrt(count * told["h"] / told["w"])))
+        columns = count // max(rows, 1)
+    if rows * columns != count:
+        raise InputError(f"{path}: a depth map holds {count} values, metadata tells {columns} x {rows}")
+    return rows, columns

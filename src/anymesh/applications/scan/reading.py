@@ -1,0 +1,44 @@
+"""Which layout a recording has, and its frames."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from anymesh.applications.scan.frames import Frames
+from anymesh.applications.scan.read_colmap import model_folder, read_colmap
+from anymesh.applications.scan.read_folder import NERFSTUDIO, OURS, read_frames_json, read_transforms_json
+from anymesh.applications.scan.read_polycam import keyframes, read_polycam
+from anymesh.applications.scan.read_record3d import is_record3d, read_record3d
+from anymesh.errors import InputError
+
+FEWEST = 3  # frames of which a surface can be fused
+
+
+def read_frames(path: Path, *, depth_scale: float | None = None, scale: float | None = None) -> Frames:
+    """The frames of a recording in any layout that is known.
+
+    depth_scale: metres per unit of the depth maps (None: the layout's own); scale: metres per unit of the poses.
+    InputError where nothing is recognized, files are missing, intrinsics or poses are wrong; OptionError for a COLMAP model
+    without a scale.
+    """
+    path = Path(path)
+    if not path.exists():
+        raise InputError(f"{path} does not exist; a folder of frames or an .r3d file is expected")
+    if (path / OURS).is_file():
+        found = read_frames_json(path, depth_scale, scale)
+    elif (path / NERFSTUDIO).is_file():
+        found = read_transforms_json(path, depth_scale, scale)
+    elif is_record3d(path):
+        found = read_record3d(path, depth_scale, scale)
+    elif path.is_dir() and keyframes(path) is not None:
+        found = read_polycam(path, depth_scale, scale)
+    elif path.is_dir() and model_folder(path) is not None:
+        found = read_colmap(path, depth_scale, scale)
+    else:
+        raise InputError(
+            f"{path} holds no recording that is known; valid are a folder with {OURS}, {NERFSTUDIO} (nerfstudio), "
+            "keyframes/ (Polycam's raw data), sparse/ (COLMAP), or metadata and rgbd/ (Record3D), or an .r3d file"
+        )
+    if len(found) < FEWEST:
+        raise InputError(f"{path}: found {len(found)} usable frames; a surface needs {FEWEST} or more from different sides")
+    return found

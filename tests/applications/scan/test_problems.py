@@ -1,0 +1,184 @@
+"""What is wrong with calibration, poses or depth is told with its likely cause."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+from recordings import edited
+
+from anymesh.applications.scan import scan
+from anymesh.applications.scan.agreement import agreement, glimpse
+from anymesh.applications.scan.frames import FLIPPED
+from anymesh.applications.scan.reading import read_frames
+from anymesh.errors import AnymeshError, InputError, MissingExtraError, OptionError, OutputError
+
+
+def with_poses(folder: Path, change) -> None:
+    """Every pose after `change(number, T)`."""
+    told = json.loads((folder / "frames.json").read_text())
+    for number, entry in enumerate(told["frames"]):
+        entry["T_world_camera"] = np.asarray(change(number, np.array(entry["T_world_camera"]))).tolist()
+    (folder / "frames.json").write_text(json.dumps(told))
+
+
+def told_by(folder: Path, error: type[AnymeshError] = InputError, **options) -> str:
+    with pytest.raises(error) as found:
+        scan(folder, folder.parent / "out.glb", **options)
+    assert not (folder.parent / "out.glb").exists()
+    return str(found.value)
+
+
+def test_missing_intrinsics(mine: Path) -> None:
+    edited(mine, camera={"fx": 100.0, "cx": 80, "cy": 60, "width": 160, "height": 120})
+    assert "intrinsics are missing: fy" in told_by(mine)
+
+
+def test_a_picture_of_other_proportions(mine: Path) -> None:
+    edited(mine, camera={"fx": 150.0, "fy": 150.0, "cx": 80, "cy": 80, "width": 160, "height": 160})
+    assert "160 x 120 pixels, its intrinsics are for 160 x 160" in told_by(mine)
+
+
+def test_intrinsics_of_another_resolution_are_scaled(mine: Path, recording: Path) -> None:
+    told = json.loads((mine / "frames.json").read_text())["camera"]
+    edited(mine, camera={key: 4 * value for key, value in told.items()})
+    for a, b in zip(read_frames(mine).frames, read_frames(recording).frames, strict=True):
+        assert a.camera == b.camera
+
+
+def test_a_depth_map_of_other_proportions(mine: Path) -> None:
+    Image.fromarray(np.full((100, 100), 900, np.uint16)).save(mine / "depth" / "0002.png")
+    assert "frame 2: the depth map has 100 x 100 pixels" in told_by(mine)
+
+
+@pytest.mark.parametrize(("unit", "hint"), [(1.0, "millimetres read as metres"), (1e-6, "metres read as millimetres")])
+def test_a_wrong_unit_of_depth(mine: Path, unit: float, hint: str) -> None:
+    edited(mine, depth_scale=unit)
+    told = told_by(mine)
+    assert hint in told
+    assert "--depth-scale" in told
+
+
+def test_poses_that_are_not_rigid(mine: Path) -> None:
+    with_poses(mine, lambda k, T: T @ np.diag([2.0, 2, 2, 1]))
+    assert "must be orthonormal" in told_by(mine)
+    assert "scaled by 2" in told_by(mine)
+
+
+def test_poses_that_mirror(mine: Path) -> None:
+    with_poses(mine, lambda k, T: T @ np.diag([1.0, 1, -1, 1]))
+    assert "mirrors" in told_by(mine)
+
+
+def test_poses_by_columns(mine: Path) -> None:
+    with_poses(mine, lambda k, T: T.T)
+    assert "transposed" in told_by(mine)
+
+
+def test_poses_with_other_camera_axes(mine: Path) -> None:
+    with_poses(mine, lambda k, T: T @ FLIPPED)
+    assert "axes are those of OpenGL" in told_by(mine)
+
+
+def test_poses_from_world_to_camera(mine: Path) -> None:
+    with_poses(mine, lambda k, T: np.linalg.inv(T))
+    assert "world-to-camera where camera-to-world was expected" in told_by(mine)
+
+
+def test_poses_from_world_to_camera_with_other_axes(mine: Path) -> None:
+    with_poses(mine, lambda k, T: np.linalg.inv(T @ FLIPPED))
+    assert "world-to-camera, and with the other camera axes" in told_by(mine)
+
+
+def test_poses_in_another_unit_than_depth(mine: Path) -> None:
+    with_poses(mine, lambda k, T: np.block([[T[:3, :3], 100 * T[:3, 3:]], [np.zeros((1, 3)), np.ones((1, 1))]]))
+    assert "no two frames see the same place" in told_by(mine)
+
+
+def test_no_overlap(mine: Path) -> None:
+    def apart(k, T):
+        T[:3, 3] += [50.0 * k, 0, 0]
+        return T
+
+    with_poses(mine, apart)
+    assert "no two frames see the same place" in told_by(mine)
+
+
+def test_too_few_frames(mine: Path) -> None:
+    told = json.loads((mine / "frames.json").read_text())
+    edited(mine, frames=told["frames"][:2])
+    assert "found 2 usable frames" in told_by(mine)
+
+
+def test_depth_that_is_empty(mine: Path) -> None:
+    for path in (mine / "depth").iterdir():
+        Image.fromarray(np.zeros((120, 160), np.uint16)).save(path)
+    assert "no frame has any depth" in told_by(mine)
+
+
+def test_pictures_without_depth_name_the_extra(mine: Path) -> None:
+    told = json.loads((mine / "frames.json").read_text())
+    edited(mine, frames=[{k: v for k, v in f.items() if k != "depth"} for f in told["frames"]])
+    try:
+        import gsplat  # noqa: F401
+    except ImportError:
+        assert "scan-gpu" in told_by(mine, MissingExtraError)
+
+
+def test_a_frame_that_drifted_is_left_out(mine: Path) -> None:
+    def drifted(k, T):
+        T[:3, 3] += [0.06, 0.05, 0.03] if k == 5 else 0
+        return T
+
+    with_poses(mine, drifted)
+    report = scan(mine, mine.parent / "out.glb", voxel=0.015)
+    assert report.dropped == ("5",)
+    assert "1 of 24 frames disagree with the others" in " ".join(report.warnings)
+
+
+def test_frames_that_agree_stay(recording: Path) -> None:
+    glimpses = [glimpse(frame) for frame in read_frames(recording).frames]
+    found = agreement(glimpses)
+    assert np.isfinite(found.of).all()
+    assert found.usual < 0.006  # noise of .15 % of the depth at 1 m, of a millimetre's rounding
+
+
+@pytest.mark.parametrize(
+    ("options", "told"),
+    [
+        ({"voxel": 0.0}, "--voxel"),
+        ({"voxel": 1e-5}, "--voxel"),
+        ({"depth_scale": -1.0}, "--depth-scale"),
+        ({"crop": (0.0, 0.0, 0.0, 1.0, 1.0)}, "--crop"),
+        ({"crop": (1.0, 0.0, 0.0, 0.0, 1.0, 1.0)}, "--crop"),
+        ({"faces": 10}, "--faces"),
+    ],
+)
+def test_options_that_are_not_valid(mine: Path, options: dict, told: str) -> None:
+    assert told in told_by(mine, OptionError, **options)
+
+
+def test_a_crop_that_leaves_nothing(mine: Path) -> None:
+    assert "--crop leaves nothing" in told_by(mine, crop=(90.0, 90.0, 90.0, 91.0, 91.0, 91.0))
+
+
+def test_an_output_that_is_there_stays(recording: Path, tmp_path: Path) -> None:
+    out = tmp_path / "kept.glb"
+    out.write_bytes(b"mine")
+    with pytest.raises(OutputError, match="--force"):
+        scan(recording, out)
+    with pytest.raises(OutputError, match=r"written as \.glb"):
+        scan(recording, tmp_path / "mesh.obj")
+    assert out.read_bytes() == b"mine"
+
+
+def test_scale_is_of_the_poses_and_depth_scale_of_the_depth(mine: Path, recording: Path) -> None:
+    def centimetres(k, T):
+        T[:3, 3] *= 100
+        return T
+
+    with_poses(mine, centimetres)
+    for a, b in zip(read_frames(mine, scale=0.01).frames, read_frames(recording).frames, strict=True):
+        np.testing.assert_allclose(a.T_world_camera, b.T_world_camera, atol=1e-9)
+        np.testing.assert_array_equal(a.observe().depth, b.observe().depth)

@@ -1,0 +1,102 @@
+"""A recording becomes the thing that was recorded: its place, size, colour, and nothing else."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from recordings import EXTENTS, VOXEL, thing
+
+from anymesh.applications.scan import scan
+from anymesh.applications.scan.output import TO_GLTF
+from anymesh.geometry.distance_ import distance_to_mesh
+from anymesh.geometry.topology import components
+from anymesh.loading import load_mesh
+
+
+def in_truth(path: Path, report, recording: Path) -> np.ndarray:
+    """Vertices of a scan in the true mesh's frame."""
+    T = np.array(report.T_scan_world) @ np.array(json.loads((recording / "truth.json").read_text())["T_world_mesh"])
+    return (load_mesh(path).mesh.vertices @ TO_GLTF - T[:3, 3]) @ T[:3, :3]
+
+
+def test_it_lies_on_the_true_surface(scanned, recording: Path) -> None:
+    out, report = scanned
+    truth = thing()
+    far = distance_to_mesh(in_truth(out, report, recording), truth.vertices, truth.faces)[0] / truth.diagonal
+    assert far.mean() < 0.003
+    assert np.quantile(far, 0.95) < 0.01
+
+
+def test_the_true_surface_is_all_there(scanned, recording: Path) -> None:
+    out, report = scanned
+    corners = thing().vertices
+    far = distance_to_mesh(corners, in_truth(out, report, recording), load_mesh(out).mesh.faces)[0]
+    assert far.max() < 0.02  # [m] corners are the most that noise takes off
+
+
+def test_up_floor_and_size(scanned) -> None:
+    out, report = scanned
+    assert report.floor == "removed"
+    low, high = load_mesh(out).mesh.bounds  # y is up
+    assert low[1] == pytest.approx(0, abs=0.002)
+    assert high[1] == pytest.approx(EXTENTS[2], abs=0.01)
+    assert sorted(report.extents) == pytest.approx(sorted([0.4, 0.35, 0.5]), abs=0.02)
+
+
+def test_it_is_one_closed_outward_surface(scanned) -> None:
+    out, report = scanned
+    mesh = load_mesh(out).mesh
+    found = components(mesh.vertices, mesh.faces)
+    assert found.count == 1
+    assert found.solid[0]
+    assert not found.flip[0]
+    assert len(mesh.faces) == report.faces
+    assert [h.on_floor for h in report.holes if h.area > 0.05] == [True]  # it stands on it
+
+
+def test_colors_are_those_of_the_parts(scanned, recording: Path) -> None:
+    out, report = scanned
+    mesh, at = load_mesh(out).mesh, in_truth(out, report, recording)
+    color = np.zeros((len(mesh.vertices), 3))
+    color[mesh.faces.reshape(-1)] = mesh.corner_color.reshape(-1, 4)[:, :3]
+    knob = (at[:, 1] < -0.17) & (at[:, 2] > 0.31) & (at[:, 2] < 0.39)
+    body = (at[:, 1] > -0.1) & (at[:, 2] > 0.1)
+    assert np.median(color[knob, 2]) > np.median(color[knob, 0])
+    assert np.median(color[body, 0]) > 2 * np.median(color[body, 2])
+
+
+def test_the_same_recording_gives_the_same_bytes(scanned, recording: Path, tmp_path: Path) -> None:
+    out, report = scanned
+    again = scan(recording, tmp_path / "thing.glb", voxel=VOXEL)
+    assert again == report
+    assert (tmp_path / "thing.glb").read_bytes() == out.read_bytes()
+    assert (tmp_path / "thing.scan.json").read_bytes() == out.with_name("thing.scan.json").read_bytes()
+
+
+def test_report_is_written_beside(scanned) -> None:
+    out, report = scanned
+    told = json.loads(out.with_name("thing.scan.json").read_text())
+    assert told["frames"] == 24
+    assert told["voxel"] == report.voxel
+    assert not list(out.parent.glob(".*"))
+
+
+def test_voxel_and_faces_are_obeyed(recording: Path, tmp_path: Path) -> None:
+    report = scan(recording, tmp_path / "coarse.glb", voxel=0.015, faces=2000)
+    assert report.voxel == 0.015
+    assert report.faces < 2200
+
+
+def test_the_floor_stays_when_asked(recording: Path, tmp_path: Path) -> None:
+    report = scan(recording, tmp_path / "floor.glb", voxel=0.02, keep_floor=True)
+    assert report.floor == "kept"
+    assert max(report.extents) > 0.8
+
+
+def test_a_crop_keeps_what_is_inside(recording: Path, tmp_path: Path) -> None:
+    T = np.array(json.loads((recording / "truth.json").read_text())["T_world_mesh"])
+    x, y, z = T[:3, 3]
+    crop = tuple(float(v) for v in (x - 1, y - 1, z + 0.25, x + 1, y + 1, z + 1))
+    report = scan(recording, tmp_path / "top.glb", voxel=0.015, crop=crop, keep_floor=True)
+    assert report.extents[2] == pytest.approx(0.25, abs=0.03)
