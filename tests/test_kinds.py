@@ -2,6 +2,7 @@
 
 import sys
 from pathlib import Path
+from zlib import crc32
 
 import numpy as np
 import pytest
@@ -19,8 +20,11 @@ from kinds_model import Link, Model, without_hidden  # noqa: E402
 
 @pytest.fixture(scope="module")
 def models() -> dict[str, Model]:
-    """One of each kind, as its artist left it."""
-    return {kind: kinds.build(kind, 7, 0) for kind in kinds.KINDS | kinds.RESERVED}
+    """One of each kind, upright and complete."""
+    made = {kind: Model(np.random.default_rng([7, crc32(kind.encode())])) for kind in kinds.KINDS | kinds.RESERVED}
+    for kind, model in made.items():
+        (kinds.KINDS | kinds.RESERVED)[kind](model)
+    return made
 
 
 def _opened(mesh: trimesh.Trimesh, joint: Link, share: float) -> trimesh.Trimesh:

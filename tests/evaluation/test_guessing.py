@@ -16,7 +16,7 @@ from anymesh.reasoning.recognition import Recognize
 from anymesh.solving import solve
 
 ROOT = Path(__file__).parents[2]
-QUICK = Config(views=ViewsConfig(size=160, around="4@15,1@50+30"), grounding=GroundingConfig(points=10_000))
+QUICK = Config(views=ViewsConfig(size=160, around="3@15,1@50+30"), grounding=GroundingConfig(points=3_000))
 REGION = (np.arange(24).reshape(4, 6), np.arange(20, 44).reshape(4, 6))
 
 

@@ -96,9 +96,9 @@ def test_files_that_are_no_pair_are_told(tmp_path):
     sam2 = decoder(tmp_path / "other_decoder.onnx", "sam2")
     with pytest.raises(ModelError, match=r"the decoder takes \['has_mask_input', 'high_res_feats_0'.*valid is.*SAM 2: "):
         OnnxSam(made, sam2)
-    with pytest.raises(ModelError, match="no pair"):
+    with pytest.raises(ModelError, match="not a pair"):
         OnnxSam(sam2, made)
-    with pytest.raises(ModelError, match="no pair"):
+    with pytest.raises(ModelError, match="not a pair"):
         OnnxSam(encoder(tmp_path / "e.onnx", outputs=("image_embed", "high_res_feats_0")), sam2)
     (tmp_path / "empty.onnx").write_bytes(b"nothing")
     with pytest.raises(ModelError, match=r"empty.onnx cannot be loaded"):

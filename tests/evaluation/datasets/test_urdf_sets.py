@@ -92,7 +92,7 @@ def test_a_mesh_is_mirrored_and_scaled(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("old", "new", "said"),
     [
-        (ROBOT, "<robot", "no valid URDF"),
+        (ROBOT, "<robot", "not a valid URDF"),
         ('<axis xyz="0 1 1"/>', '<axis xyz="0 0 0"/>', "axis"),
         ('lower="0" upper="0.4"', 'lower="0.5" upper="0.4"', "limits"),
         ('<parent link="empty"/>', '<parent link="nowhere"/>', "nowhere"),
