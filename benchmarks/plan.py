@@ -227,7 +227,7 @@ def picture(row: Row, real: ArticulatedObject, T: np.ndarray, task: Task, arm: A
 
 
 def table(rows: list[Row], robot: str) -> str:
-    lines = [f"| task ({robot}) | twin | planned in [s] | trajectory [s] | done | failures |", "|---|---|---|---|---|---|"]
+    lines = [f"| task ({robot}) | twin | planning [s] | trajectory [s] | successes | failures |", "|---|---|---|---|---|---|"]
     for r in rows:
         length = "" if r.plan is None else f"{r.plan.trajectory.duration:.1f}"
         causes = ", ".join(f"{n} {cause}" for cause, n in r.failures.most_common()) or "none"
