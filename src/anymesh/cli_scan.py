@@ -26,7 +26,7 @@ Recording = Annotated[
 File = Annotated[
     Path, typer.Option("--out", "-o", metavar="FILE", help="The .glb file; FILE's name.scan.json is written beside.")
 ]
-Voxel = Annotated[float | None, typer.Option(metavar="METRES", help="Of a voxel; 1/350 of the object when not given.")]
+Voxel = Annotated[float | None, typer.Option(metavar="METRES", help="Of a voxel; 1/400 of the object when not given.")]
 Scale = Annotated[float | None, typer.Option(metavar="FACTOR", help="Metres per unit of the poses; COLMAP needs it.")]
 DepthScale = Annotated[float | None, typer.Option("--depth-scale", metavar="FACTOR", help="Metres per unit of the depth maps.")]
 DepthMax = Annotated[float, typer.Option("--depth-max", metavar="METRES", help="Depth beyond it is ignored.")]

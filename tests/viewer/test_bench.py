@@ -161,6 +161,7 @@ def test_every_question_is_asked_answered_and_recorded(page):
         found, answer = put(folder, kind)
         until(lambda: page.bench._desk.busy)
         until(lambda: "your answer is needed" in said(page))
+        until(lambda: page.bench._desk._asked._suggested)  # written after the question
         page.act(page.bench._desk._answer)
         assert json.loads(found.answer()) == answer
         until(lambda: not page.bench._desk.busy)
