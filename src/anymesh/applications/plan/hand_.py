@@ -24,8 +24,7 @@ class Hand:
     """Measured geometry of a gripper.
 
     T_wrist_tool: (4, 4); gap: (k,) between the pads [m], rising; reach: (k,) from the tool's origin to the tips [m];
-    posture: (k, F) of the gripper's joints; control: (k, A) of its actuators; size: (2,) half the hand's extent along the
-    tool's x and y [m]; length: from the hand's front to the tips [m].
+    posture: (k, F) of the gripper's joints; control: (k, A) of its actuators.
     """
 
     T_wrist_tool: Float[np.ndarray, "4 4"]
