@@ -15,7 +15,7 @@ CUT = 2.5  # [voxels] above the floor where the surface is cut, since the fused 
 BIT = 0.01  # share of the largest component's area; smaller components are dropped
 ON_FLOOR = 0.8  # share of a hole's vertices at z = 0 from which it counts as the object's footprint
 CLOSED = 40.0  # [voxels] perimeter; shorter holes are closed whatever their shape
-FLAT, FLAT_VOXELS = 0.01, 1.5  # flatness of larger holes that are closed: share of their perimeter, and voxels
+FLAT, FLAT_VOXELS = 0.01, 1.5  # larger holes are closed if nearer to a plane: share of the perimeter, [voxels]
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,7 +53,7 @@ class Hole:
 
 
 def cut_floor(surface: Surface, voxel: float) -> Surface:
-    """Cut off the floor at z = 0; lower vertices of faces that cross the cut are moved to z = 0."""
+    """Cut off the floor at z = 0, and extend faces that cross the cut down to z = 0."""
     height = surface.vertices[:, 2]
     low = height < CUT * voxel
     kept = surface.keeping(~low[surface.faces].all(1))

@@ -20,7 +20,7 @@ def extract(field: Field, least: float) -> tuple[Float[np.ndarray, "V 3"], Int[n
 
     grid = field.grid
     value, weight = field.distance.reshape(-1), field.weight.reshape(-1)
-    candidates = np.flatnonzero((weight >= least) & (np.abs(value) < 1))  # a truncation is wider than a cube's diagonal
+    candidates = np.flatnonzero((weight >= least) & (np.abs(value) < 1))  # suffices: a truncation exceeds a cube's diagonal
     block, local = np.divmod(candidates, SIDE**3)
     at = grid.blocks[block] * SIDE + np.stack(np.unravel_index(local, (SIDE,) * 3), 1)
     index = np.stack([_index(grid.table, at + corner) for corner in _CUBE], 1)
