@@ -1,4 +1,4 @@
-"""`anymesh generate`: from words or a picture to an articulated asset, on the command line."""
+"""Command line of `anymesh generate`: text or an image to an articulated asset."""
 
 from __future__ import annotations
 

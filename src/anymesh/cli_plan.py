@@ -1,4 +1,4 @@
-"""The command line of `anymesh plan`."""
+"""Command line of `anymesh plan`."""
 
 from __future__ import annotations
 

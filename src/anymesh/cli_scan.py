@@ -1,4 +1,4 @@
-"""`anymesh scan`: posed pictures with depth to a mesh, on the command line."""
+"""Command line of `anymesh scan`: fusion of posed pictures with depth into a mesh."""
 
 from __future__ import annotations
 

@@ -15,7 +15,7 @@ SEGMENT, JOINTS, COMPLETION, COLLISION = 0.4, 0.7, 0.7, 0.9  # shares of the lim
 
 
 class Deadline:
-    """A time limit of a run [s] that begins with its construction, and a record of what was left out to keep it.
+    """Time limit of a run [s] that starts at construction, with a record of work omitted to keep it.
 
     Raise OptionError for a limit that is not positive.
     """
@@ -28,12 +28,12 @@ class Deadline:
         self._left_out: list[str] = []
 
     def late(self, share: float) -> bool:
-        """Return whether more than a share of the limit is spent."""
+        """Return whether more than a share of the limit has passed."""
         return time.monotonic() - self._begin > share * self.seconds
 
     @contextmanager
     def paused(self) -> Generator[None]:
-        """Do not count the time spent inside, such as waiting for a person."""
+        """Exclude the time spent inside from the limit, such as waiting for a person."""
         begin = time.monotonic()
         try:
             yield
@@ -41,11 +41,11 @@ class Deadline:
             self._begin += time.monotonic() - begin
 
     def leave_out(self, what: str) -> None:
-        """Record in words what was left out."""
+        """Record omitted work, described in words."""
         if what not in self._left_out:
             self._left_out.append(what)
 
     def warnings(self) -> tuple[str, ...]:
-        """Return what was left out since the last call, as warnings."""
+        """Return the work omitted since the last call, as warnings."""
         found, self._left_out = self._left_out, []
         return tuple(f"time limit of {self.seconds:g} s: {what}" for what in found)

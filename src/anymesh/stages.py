@@ -1,4 +1,4 @@
-"""Stages within a run: each loads its saved result if its inputs and options are the same, else computes and saves it."""
+"""Stages within a run: each loads its saved result if its inputs and options are unchanged, else computes and saves it."""
 
 from __future__ import annotations
 
@@ -35,12 +35,12 @@ from anymesh.stage_results import (
 from anymesh.types import Asset, Source
 
 Result = TypeVar("Result", RecognitionResult, SegmentationResult, JointResult)
-ASIDE = 500_000  # faces up to which the preview is drawn in parallel with the files; above, both together take too much memory
+ASIDE = 500_000  # faces up to which the preview is drawn in parallel with writing; above, both together need too much memory
 
 
 @dataclass(frozen=True)
 class Placement:
-    """How a mesh is read and placed, as in the options of `articulate`."""
+    """Options of `articulate` about reading and placing the mesh."""
 
     up: str
     scale: str
@@ -50,11 +50,11 @@ class Placement:
 def prepare(
     run: RunFolder, path: Path, parts: str, how: Placement, who: AnswererSetup, deadline: Deadline, progress: Progress
 ) -> tuple[Solver, RecognitionResult, str]:
-    """Load, place and recognize the mesh, and return the solver of both stages on it with the last stage's key."""
+    """Load, place and recognize the mesh; return the solver of both stages, the recognition, and the key of the last stage."""
     placed, key = place(run, path, how, who.config.category, progress)
     solver = Solver(placed.mesh, who.config, who.factory, deadline)
     if parts != "auto":
-        solver.parts(parts)  # report invalid parts before anything is asked
+        solver.parts(parts)  # report invalid parts before any model call
     recognized, key = recognize(run, solver, key, who, how.scale == "auto", placed.metric)
     sized = recognized.sized(placed)
     return (solver if sized is placed else Solver(sized.mesh, who.config, who.factory, deadline)), recognized, key
@@ -77,7 +77,7 @@ def place(run: RunFolder, path: Path, how: Placement, category: str | None, prog
 
 
 def _answered(found: Result | None, who: AnswererSetup) -> Result | None:
-    """Return a saved stage, or None if geometry replaced a model there (it is asked again) or its answers have changed."""
+    """Return a saved stage, or None if it was answered by geometry instead of a model or if its answers have changed."""
     if found is None or any(e.given_up for e in found.exchanges) or not who.is_current(found.exchanges):
         return None
     return found
@@ -86,7 +86,7 @@ def _answered(found: Result | None, who: AnswererSetup) -> Result | None:
 def recognize(
     run: RunFolder, solver: Solver, previous: str, who: AnswererSetup, sized: bool, metric: bool
 ) -> tuple[RecognitionResult, str]:
-    """Ask a model what the object is and which parts move (paper, 3.1); geometry alone asks nothing."""
+    """Recognize the object's category and movable parts with a model (paper, 3.1), or by geometry without requests."""
     if who.factory is None:
         return solver.recognize(), previous
     key = stage_key(
@@ -171,7 +171,7 @@ def write_files(run: RunFolder, how: ExportOptions, deadline: Deadline, progress
 
 @contextmanager
 def timed(run: RunFolder, stage: str) -> Generator[None]:
-    """Add the time spent inside to a stage's, and note the stage on errors."""
+    """Add the time spent inside to that of a stage, and attach the stage's name to errors."""
     begin = time.perf_counter()
     try:
         yield

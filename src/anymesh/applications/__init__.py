@@ -1,1 +1,1 @@
-"""What the pipeline is put to (paper, 4.2); each application imports the core's public surface only."""
+"""Applications of the pipeline (paper, 4.2); each imports only the public interface of the core."""

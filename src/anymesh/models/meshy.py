@@ -1,4 +1,4 @@
-"""Retexturing by Meshy: a paid task is made once, waited for, and found again by a rerun."""
+"""Retexturing by Meshy: a paid task is created once, waited for, and resumed by a rerun."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ LARGEST_MODEL = 100_000_000  # [bytes] of a model sent as a data URI
 
 
 def check_prompt(prompt: str) -> str:
-    """Without spaces around it. Raises OptionError for one that the service does not take."""
+    """Return the prompt without surrounding spaces. Raise OptionError if the service does not accept it."""
     found = prompt.strip()
     if not 0 < len(found) <= LONGEST_PROMPT:
         raise OptionError(f"a texture prompt has 1 to {LONGEST_PROMPT} characters, found {len(found)}")
@@ -24,16 +24,16 @@ def check_prompt(prompt: str) -> str:
 
 @dataclass
 class Meshy(PaidTasks):
-    """Retextures a GLB."""
+    """Client that retextures a GLB."""
 
     def retexture(self, glb: bytes, prompt: str) -> bytes:
-        """The GLB with new textures, on the texture coordinates that it has.
+        """Return the GLB with new textures, on its existing texture coordinates.
 
-        Raises ModelError without a key or a result, BudgetError instead of a task too many, OptionError for a prompt that
-        is not valid, OutputError where the task's id cannot be kept.
+        Raise ModelError without a key or a result, BudgetError before a task beyond the limit, OptionError for a prompt that is
+        not valid, OutputError if the task's id cannot be stored.
         """
         prompt = check_prompt(prompt)
-        read_key()  # better missed now than after the packing
+        read_key()  # report a missing key before packing the data
         order = Order(RETEXTURE, self._body(glb, prompt), self.state, prompt)
         return self.fetch(order, self.run(order).task)
 

@@ -1,8 +1,8 @@
-"""The wire format of Meshy's tasks: retexturing, text to 3D and image to 3D.
+"""Wire format of Meshy's tasks: retexturing, text to 3D and image to 3D.
 
-Sources: its pages "Retexture API", "Text to 3D API", "Image to 3D API" and "Errors" (2026-11); for credits and fields of the
-newest models its own clients, github.com/meshy-dev (meshy-mcp-server, which states the price page of 2026-10-05, and
-meshy-cookbook, recipes 01 and 07 with measured runs of 2026-09).
+Sources: the service's pages "Retexture API", "Text to 3D API", "Image to 3D API" and "Errors" (2026-11); for credits and
+fields of the newest models its own clients, github.com/meshy-dev (meshy-mcp-server, which states the price page of
+2026-10-05, and meshy-cookbook, recipes 01 and 07 with measured runs of 2026-09).
 """
 
 from __future__ import annotations
@@ -20,14 +20,17 @@ from anymesh.models.web import Answer, Call, LostError, exchange
 
 KEY, BASE = "MESHY_API_KEY", "MESHY_BASE_URL"
 TASK_ID = re.compile(r"[A-Za-z0-9_-]{1,100}")
-LARGEST = 1 << 29  # [bytes] of a result
-WRITTEN = ("text/", "application/json", "application/xml")  # types of answers that are no model
+LARGEST = 1 << 29  # [bytes] limit of a result
+WRITTEN = ("text/", "application/json", "application/xml")  # content types that are no model
 
 
 @dataclass(frozen=True)
 class TaskKind:
-    """A kind of paid task. name: with its article, as in messages; path: of its endpoint; credits: what one takes, about
-    (what a credit costs depends on the plan); type: as task objects tell it."""
+    """Kind of paid task.
+
+    name: with its article, as in messages; path: of its endpoint; credits: approximate price of a task (the price of a credit
+    depends on the plan); type: as stated in task objects.
+    """
 
     name: str
     path: str
@@ -40,11 +43,11 @@ PREVIEW = TaskKind("a text-to-3D preview", "/openapi/v2/text-to-3d", 20, "text-t
 REFINE = TaskKind("a text-to-3D refinement", "/openapi/v2/text-to-3d", 10, "text-to-3d-refine")
 IMAGE = TaskKind("an image-to-3D task", "/openapi/v1/image-to-3d", 30, "image-to-3d")
 IMAGE_SHAPE = TaskKind("an image-to-3D task without texture", "/openapi/v1/image-to-3d", 20, "image-to-3d")
-PRICED = "2026-10-05, github.com/meshy-dev/meshy-mcp-server"  # when and where the credits of generation were stated
+PRICED = "2026-10-05, github.com/meshy-dev/meshy-mcp-server"  # date and source of the credits of generation
 
 
 class RefusedError(ModelError):
-    """The service says no. status: of HTTP."""
+    """Refusal of a request by the service. status: of HTTP."""
 
     def __init__(self, message: str, status: int) -> None:
         super().__init__(message)
@@ -53,9 +56,12 @@ class RefusedError(ModelError):
 
 @dataclass(frozen=True)
 class Task:
-    """status: PENDING, IN_PROGRESS, SUCCEEDED, FAILED, EXPIRED or CANCELED; error: what the service says of a failure, made
-    safe; url: of the GLB, signed, so it is in no message; type: empty where it is not told; seed: that the service drew;
-    created: when [s since 1970], 0 where it is not told."""
+    """State of a task.
+
+    status: PENDING, IN_PROGRESS, SUCCEEDED, FAILED, EXPIRED or CANCELED; error: message of a failure with secrets removed; url:
+    of the GLB, signed, hence in no message; type: empty if not stated; seed: drawn by the service; created: creation time
+    [s since 1970], 0 if not stated.
+    """
 
     id: str
     status: str
@@ -73,7 +79,7 @@ class Task:
 
 
 def read_key() -> str:
-    """From the environment, at each call. Raises ModelError when there is none."""
+    """Read the key from the environment, at each call. Raise ModelError if there is none."""
     found = os.environ.get(KEY, "").strip()
     if not found:
         raise ModelError(f"no key for meshy: set the environment variable {KEY}")
@@ -81,7 +87,7 @@ def read_key() -> str:
 
 
 def create_task(kind: TaskKind, body: bytes, timeout: float) -> str:
-    """The id of a new, paid task. Raises LostError where it may have been made though no answer came."""
+    """Create a paid task and return its id. Raise LostError if it may have been created although no answer arrived."""
     made = _said(_call(kind, "POST", "", timeout, body)).get("result")
     if not (isinstance(made, str) and TASK_ID.fullmatch(made)):
         raise LostError("meshy: the service took the task and named no valid id")
@@ -89,19 +95,19 @@ def create_task(kind: TaskKind, body: bytes, timeout: float) -> str:
 
 
 def get_task(kind: TaskKind, task: str, timeout: float) -> Task:
-    """How it stands with a task. Raises RefusedError with status 404 where there is none of that id."""
+    """Return the state of a task. Raise RefusedError with status 404 if there is none of that id."""
     return _task(_said(_call(kind, "GET", f"/{task}", timeout)), task)
 
 
 def list_tasks(kind: TaskKind, timeout: float) -> list[Task]:
-    """The latest tasks of an endpoint, the newest first."""
+    """Return the latest tasks of an endpoint, the newest first."""
     told = _call(kind, "GET", "?page_num=1&page_size=50&sort_by=-created_at", timeout)
     rows = [row for row in told if isinstance(row, dict)] if isinstance(told, list) else []
     return [_task(row, row["id"]) for row in rows if TASK_ID.fullmatch(str(row.get("id")))]
 
 
 def download_glb(url: str, timeout: float) -> bytes:
-    """The bytes of a whole GLB. Raises TransientError for an answer that may become one, ModelError for another content."""
+    """Download a GLB. Raise TransientError for another HTTP status, which may be retried, ModelError for other content."""
     answer = exchange(Call("meshy's result", "GET", url, timeout=timeout, max_bytes=LARGEST, redirects=True))
     if answer.status != 200:
         raise TransientError(f"meshy's result: HTTP {answer.status}")
@@ -127,12 +133,12 @@ def _call(kind: TaskKind, method: str, rest: str, timeout: float, body: bytes | 
 
 def _refusal(kind: TaskKind, answer: Answer) -> ModelError:
     message, told = f"meshy: HTTP {answer.status}", _json(answer)
-    if answer.status in (401, 403):  # its words are about the key, and may hold parts of it
+    if answer.status in (401, 403):  # the service's message is about the key and may contain parts of it
         return RefusedError(f"{message}, the key in {KEY} is missing or refused", answer.status)
     message += safe(_said(told).get("message"))
     if answer.status in (408, 425, 429, 503):
         return TransientError(message, answer.retry_after)
-    if answer.status >= 500:  # behind a gateway it may have been carried out all the same
+    if answer.status >= 500:  # a request may have been carried out despite a gateway error
         return LostError(message, answer.retry_after)
     if answer.status == 402:
         message += f"; the account has too few credits, {kind.name} takes about {kind.credits}"
@@ -140,7 +146,7 @@ def _refusal(kind: TaskKind, answer: Answer) -> ModelError:
 
 
 def safe(words: object) -> str:
-    """What the service said, in one short line without anything that looks like a key or like data; may be empty."""
+    """Return the service's message in one short line without anything that resembles a key or data; may be empty."""
     if not isinstance(words, str) or not words.strip():
         return ""
     line = " ".join(words.split()).replace(read_key(), "[removed]")
@@ -160,7 +166,7 @@ def _task(told: dict[str, Any], task: str) -> Task:
         url=url if isinstance(url, str) else None,
         type=str(told.get("type") or "")[:40],
         seed=seed if isinstance(seed, int) else None,
-        created=created / 1000 if isinstance(created, int | float) else 0.0,  # the service tells milliseconds
+        created=created / 1000 if isinstance(created, int | float) else 0.0,  # the service states milliseconds
     )
 
 

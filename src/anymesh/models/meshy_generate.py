@@ -1,4 +1,4 @@
-"""Meshes by Meshy, from text (a preview, then its refinement) and from a picture; paid tasks as for retexturing."""
+"""Meshes by Meshy, from text (a preview, then its refinement) and from images; tasks are paid as for retexturing."""
 
 from __future__ import annotations
 
@@ -13,24 +13,24 @@ from anymesh.models.meshy_api import IMAGE, IMAGE_SHAPE, PREVIEW, REFINE, Refuse
 from anymesh.models.meshy_paid import Order, PaidTasks
 from anymesh.models.meshy_task import Bought
 
-LONGEST_PROMPT = 800  # characters, of the shape and of the looks (meshy-cookbook, recipe 07)
+LONGEST_PROMPT = 800  # characters, for shape and texture prompts (meshy-cookbook, recipe 07)
 LARGEST_IMAGE = 20 * 1024 * 1024  # [bytes] as in the service's own client
-FACES = 100_000  # asked for; the service takes 100 to 300,000, and gives about 0.3 to 1 million where it is not asked
-PICTURES = {b"\x89PNG\r\n\x1a\n": "image/png", b"\xff\xd8\xff": "image/jpeg"}  # how files of each type begin
-SIZED = {"auto_size": True, "origin_at": "bottom"}  # asked of the last task
-GONE = (400, 404, 410, 422)  # how a refinement of a preview that is no longer kept may be refused
+FACES = 100_000  # requested; the service takes 100 to 300,000, and returns about 0.3 to 1 million by default
+PICTURES = {b"\x89PNG\r\n\x1a\n": "image/png", b"\xff\xd8\xff": "image/jpeg"}  # magic bytes of each file type
+SIZED = {"auto_size": True, "origin_at": "bottom"}  # options of the last task
+GONE = (400, 404, 410, 422)  # HTTP statuses by which the refinement of a deleted preview may be refused
 
 
 @dataclass(frozen=True)
 class Generated:
-    """What came back: a GLB, and the paid tasks that it took, also those of earlier runs."""
+    """Result of a generation: a GLB, and the paid tasks that it took, including those of earlier runs."""
 
     glb: bytes
     tasks: tuple[tuple[TaskKind, Bought], ...]
 
 
 def check_prompt(prompt: str) -> str:
-    """Without spaces around it. Raises OptionError for one that the service does not take."""
+    """Return the prompt without surrounding spaces. Raise OptionError if the service does not accept it."""
     found = prompt.strip()
     if not 0 < len(found) <= LONGEST_PROMPT:
         raise OptionError(f"a prompt for meshy has 1 to {LONGEST_PROMPT} characters, found {len(found)}")
@@ -38,7 +38,7 @@ def check_prompt(prompt: str) -> str:
 
 
 def data_uri(image: Path) -> str:
-    """A picture as the service takes it. Raises InputError for a file that is no PNG or JPEG, or is too large."""
+    """Return an image as a data URI. Raise InputError for a file that is no PNG or JPEG, or is too large."""
     try:
         data = image.read_bytes()
     except OSError as error:
@@ -53,25 +53,25 @@ def data_uri(image: Path) -> str:
 
 @dataclass
 class Meshy3D(PaidTasks):
-    """Makes meshes. textured: whether textures are paid for too; faces: that are asked for.
+    """Client that generates meshes. textured: whether to pay for textures too; faces: requested number.
 
-    The service is asked to estimate the object's size (`auto_size`), so that a metre of the GLB is about a metre.
+    The service is requested to estimate the object's size (`auto_size`), so that a unit of the GLB is about a metre.
     """
 
     textured: bool = True
     faces: int = FACES
 
     def kinds(self, *, image: bool) -> tuple[TaskKind, ...]:
-        """The tasks that a mesh takes."""
+        """Return the kinds of tasks that a mesh takes."""
         if image:
             return (IMAGE if self.textured else IMAGE_SHAPE,)
         return (PREVIEW, REFINE) if self.textured else (PREVIEW,)
 
     def from_text(self, prompt: str) -> Generated:
-        """A mesh by its description.
+        """Generate a mesh from its description.
 
-        Raises ModelError without a key or a result, BudgetError before a task where all of them would pass the limit,
-        OptionError for a prompt that is not valid, OutputError where a task's id cannot be kept.
+        Raise ModelError without a key or a result, BudgetError before a task if those that remain would exceed the limit,
+        OptionError for a prompt that is not valid, OutputError if a task's id cannot be stored.
         """
         prompt = check_prompt(prompt)
         read_key()
@@ -91,7 +91,7 @@ class Meshy3D(PaidTasks):
         return Generated(self.fetch(second, refined.task), ((PREVIEW, preview), (REFINE, refined)))
 
     def from_image(self, image: Path, prompt: str | None = None) -> Generated:
-        """A mesh of what a picture shows; prompt: of its looks. Raises as `from_text`, InputError for the picture."""
+        """Generate a mesh from an image; prompt: for its textures. Raise as `from_text`, and InputError for the image."""
         body: dict[str, Any] = {"image_url": data_uri(image), "ai_model": self.model, "should_texture": self.textured}
         if self.textured:
             body["enable_pbr"] = True
@@ -116,7 +116,7 @@ class Meshy3D(PaidTasks):
             return self.run(second)
         except RefusedError as error:
             if error.status in GONE:
-                self._look(first, preview.task)  # raises, and forgets the preview, where the service keeps it no longer
+                self._look(first, preview.task)  # raises and discards the preview if the service no longer has it
             raise
 
     def _shape(self) -> dict[str, Any]:

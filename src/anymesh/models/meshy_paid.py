@@ -1,4 +1,4 @@
-"""Paid tasks of Meshy, of whatever kind: made once, waited for, and found again by a rerun."""
+"""Paid tasks of Meshy of any kind: created once, waited for, and resumed by a rerun."""
 
 from __future__ import annotations
 
@@ -20,13 +20,16 @@ from anymesh.models.web import LostError
 log = logging.getLogger("anymesh")
 T = TypeVar("T")
 OVER = ("FAILED", "EXPIRED", "CANCELED", "CANCELLED")
-AROUND = 900.0  # [s] a task that repeats nothing of its request was made within this of the request
+AROUND = 900.0  # [s] largest difference between request and creation of a task that is matched by time
 
 
 @dataclass(frozen=True)
 class Order:
-    """A task to be paid for once. body: of the request, JSON; state: the file that keeps the task's id; prompt: as the task
-    repeats it, None where it repeats nothing by which it could be told from others; seed: of the task that it refines."""
+    """Task to be paid for once.
+
+    body: of the request, JSON; state: the file that stores the task's id; prompt: as task objects repeat it, None if they
+    repeat nothing that identifies the task; seed: of the task that it refines.
+    """
 
     kind: TaskKind
     body: bytes = field(repr=False)
@@ -36,11 +39,11 @@ class Order:
 
     @property
     def digest(self) -> str:
-        """Of the request."""
+        """SHA-256 of the request."""
         return hashlib.sha256(self.body).hexdigest()
 
     def may_be(self, task: Task, asked: float) -> bool:
-        """Whether a listed task can be this one. asked: when it was requested [s since 1970]."""
+        """Return whether a listed task can be this one. asked: time of the request [s since 1970]."""
         if task.type not in ("", self.kind.type) or (None not in (self.seed, task.seed) and self.seed != task.seed):
             return False
         return abs(task.created - asked) < AROUND if self.prompt is None else task.prompt == self.prompt
@@ -48,17 +51,18 @@ class Order:
 
 @dataclass
 class PaidTasks:
-    """Makes tasks, waits for them, and fetches their results. Holds no key: it is taken from MESHY_API_KEY at each call.
+    """Client that creates tasks, waits for them, and downloads their results.
 
-    state: the file that keeps a task's id; max_calls: tasks that may be paid for; timeout [s] of one call (of a download ten
-    times that), patience [s] for a task. `calls` and `credits` are what was spent by this object.
+    It stores no key: MESHY_API_KEY is read at each call. state: the file that stores a task's id; max_calls: maximum number of
+    paid tasks; timeout: of one call [s] (ten times that for a download); patience: for a task [s]. `calls` and `credits` count
+    what this object spent.
     """
 
     state: Path
     model: str = "latest"
     max_calls: int | None = None
     timeout: float = 60.0
-    patience: float = 3600.0  # the service asks to allow an hour
+    patience: float = 3600.0  # the service's documentation recommends an hour
     sleep: Callable[[float], None] = field(default=time.sleep, repr=False)
     chance: Callable[[], float] = field(default=random.random, repr=False)
     watch: Callable[[TaskKind, Task], None] = field(default=lambda kind, task: None, repr=False)
@@ -73,14 +77,14 @@ class PaidTasks:
             raise OptionError(f"time-outs must be more than 0 s, found {self.timeout:g} and {self.patience:g}")
 
     def held(self, order: Order) -> Pending | None:
-        """What an earlier run knew of this order; None where it was never begun."""
+        """Return what an earlier run stored about this order; None if it was not started."""
         return read_pending(order.state, order.digest)
 
     def run(self, order: Order) -> Bought:
-        """The task of an order when it has succeeded: that of an earlier run, or else a new one.
+        """Return the finished task of an order: that of an earlier run, or else a new one.
 
-        Raises ModelError without a key or a result, BudgetError instead of a task too many, OutputError where the task's id
-        cannot be kept.
+        Raise ModelError without a key or a result, BudgetError before a task beyond the limit, OutputError if the id of the
+        task cannot be stored.
         """
         held, before = self.held(order), self.calls
         task = held.task if held else None
@@ -96,7 +100,7 @@ class PaidTasks:
         return bought
 
     def fetch(self, order: Order, task: str) -> bytes:
-        """The GLB of a task that has succeeded. Its address is asked for each time: it is signed, and valid for a while."""
+        """Download the GLB of a finished task. Its signed address expires, so it is requested each time."""
 
         def fetch() -> bytes:
             url = self._look(order, task).url
@@ -107,7 +111,7 @@ class PaidTasks:
         return self._persist(fetch)
 
     def check_budget(self, *kinds: TaskKind) -> None:
-        """BudgetError where paying for a task of each kind would pass the limit."""
+        """Raise BudgetError if paying for a task of each kind would exceed the limit."""
         if self.max_calls is None or self.calls + len(kinds) <= self.max_calls:
             return
         credits = sum(kind.credits for kind in kinds)
@@ -116,7 +120,7 @@ class PaidTasks:
         raise BudgetError(f"meshy: {what} about {credits} credits and would pass --max-calls {self.max_calls}; {spent}")
 
     def _create(self, order: Order) -> str:
-        """The id of a new task. One whose id never arrived is looked for before another is made."""
+        """Create a task and return its id. If the id does not arrive, look for the task before creating another one."""
         self.check_budget(order.kind)
         before = self._tasks(order.kind)
         known = None if before is None else tuple(task.id for task in before)
@@ -140,7 +144,7 @@ class PaidTasks:
         return task
 
     def _lost(self, held: Pending | None, order: Order) -> str | None:
-        """The task that was made for this order though its id never arrived, as far as the service lists it."""
+        """Return the id of a task that was created for this order but whose id did not arrive, if the service lists it."""
         if held is None or held.known is None:
             return None
         new = [task for task in self._tasks(order.kind) or () if task.id not in held.known and order.may_be(task, held.asked)]
@@ -153,7 +157,7 @@ class PaidTasks:
         return new[0].id if new else None
 
     def _tasks(self, kind: TaskKind) -> list[Task] | None:
-        """The latest tasks; None where they cannot be listed."""
+        """Return the latest tasks; None if they cannot be listed."""
         try:
             return self._persist(lambda: list_tasks(kind, self.timeout))
         except ModelError as error:
@@ -163,7 +167,7 @@ class PaidTasks:
             return None
 
     def _wait(self, order: Order, task: str) -> Task:
-        """The task when it has succeeded."""
+        """Wait until the task has succeeded and return it."""
         end, pause, kind = time.monotonic() + self.patience, 2.0, order.kind
         while True:
             now = self._persist(lambda: self._look(order, task))

@@ -1,4 +1,4 @@
-"""The task that a run waits for, kept in a file so that a rerun goes on with it instead of paying again."""
+"""State of a paid task, stored in a file so that a rerun resumes it instead of paying again."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from anymesh.models.meshy_api import TASK_ID
 
 @dataclass(frozen=True)
 class Bought:
-    """A paid task that has succeeded. credits: what it took; seed: that the service drew, None where it does not tell."""
+    """Finished paid task. credits: that it took; seed: drawn by the service, None if not stated."""
 
     task: str
     credits: float
@@ -22,9 +22,12 @@ class Bought:
 
 @dataclass(frozen=True)
 class Pending:
-    """request: digest of what was asked; task: its id, None while its creation is not confirmed; known: the tasks that
-    there were before it, None when they could not be listed; asked: when its creation was begun [s since 1970]; bought: once it
-    has succeeded."""
+    """Stored state of a paid task.
+
+    request: digest of the request; task: its id, None until its creation is confirmed; known: ids of the tasks that existed
+    before it, None if they could not be listed; asked: start time of its creation [s since 1970]; bought: once it has
+    succeeded.
+    """
 
     request: str
     task: str | None
@@ -34,7 +37,7 @@ class Pending:
 
 
 def read_pending(path: Path, request: str) -> Pending | None:
-    """What the file holds of this very request; None for another one, no file, or one that cannot be read."""
+    """Read the state of this request; None if the file is about another one, is missing or cannot be read."""
     try:
         held = json.loads(path.read_text(encoding="utf-8"))
     except (OSError, ValueError):
@@ -56,7 +59,7 @@ def _bought(task: str | None, held: object) -> Bought | None:
 
 
 def write_pending(path: Path, pending: Pending) -> None:
-    """Raises OutputError where it cannot be written: nothing is bought that a rerun could not find again."""
+    """Write the state. Raise OutputError if that fails, so that no task is bought that a rerun could not find."""
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         write_whole(path, (json.dumps(asdict(pending), indent=1) + "\n").encode())

@@ -1,4 +1,4 @@
-"""Articulated objects from words and pictures (paper, 4.2): a 3D generator, then the pipeline, then stage C."""
+"""Articulated objects from text and images (paper, 4.2): a 3D generator, the pipeline and stage C."""
 
 from anymesh.applications.generate.explain import Explanation, explain_generation
 from anymesh.applications.generate.run import generate

@@ -1,4 +1,4 @@
-"""From the name of a generator, as in --generator, to the generator."""
+"""Selection of a generator by its name, as in --generator."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ PROGRAM = "command:"
 
 
 def open_generator(name: str, *, time_limit: float = 1800.0, max_calls: int | None = None) -> Generator3D:
-    """Whoever makes the mesh. time_limit [s] of a program; max_calls: tasks that may be paid for.
+    """Return the generator of a name. time_limit: of a program [s]; max_calls: maximum number of paid tasks.
 
-    Raises OptionError for a name that is not valid. Asks nobody and needs no key.
+    Makes no request and needs no key. Raise OptionError for a name that is not valid.
     """
     if name in (TEXTURED, SHAPE):
         return MeshyGenerator(textured=name == TEXTURED, max_calls=max_calls)

@@ -1,4 +1,4 @@
-"""A generator that is a program of the user's: TRELLIS, Hunyuan3D, or anything else that writes a GLB."""
+"""Generator that runs a program of the user: TRELLIS, Hunyuan3D, or any other that writes a GLB."""
 
 from __future__ import annotations
 
@@ -28,14 +28,17 @@ SECRET_OPTION = re.compile(r"(?i)(--?[\w-]*(?:key|token|secret|password)[\w-]*)(
 
 @dataclass(frozen=True)
 class CommandGenerator:
-    """Runs a command without a shell, once a mesh. words: of the command, with placeholders; timeout [s]."""
+    """Generator that runs a command without a shell, once per mesh.
+
+    words: of the command, with placeholders; timeout [s].
+    """
 
     words: tuple[str, ...]
     timeout: float = 1800.0
 
     @classmethod
     def parse(cls, template: str, timeout: float = 1800.0) -> CommandGenerator:
-        """From the words after `command:`, quoted as in a shell. Raises OptionError for a template that is not valid."""
+        """Parse the text after `command:`, quoted as in a shell. Raise OptionError for a template that is not valid."""
         try:
             words = tuple(shlex.split(template))
         except ValueError as error:
@@ -53,32 +56,32 @@ class CommandGenerator:
 
     @property
     def name(self) -> str:
-        """The program's name."""
+        """Name of the generator, from the program's file name."""
         return f"command:{Path(self.words[0]).name}"
 
     @property
     def unit(self) -> Unit:
-        """Programs write meshes in a box of their own."""
+        """Meaning of a unit of the meshes, which programs write in a box of arbitrary size."""
         return Unit.ARBITRARY
 
     def settings(self, request: MeshRequest) -> Mapping[str, object]:
-        """The command without folders and keys, the digest of the whole, and the seed where it is passed on."""
+        """Return the command without folders and keys, the digest of the full command, and the seed if the command takes it."""
         whole = shlex.join(self.words)
         seed = {"seed": request.seed} if self._takes("seed") else {}
         return {"name": self.name, "command": _public(whole), "sha256": hashlib.sha256(whole.encode()).hexdigest(), **seed}
 
     def steps(self, request: MeshRequest) -> tuple[Step, ...]:
-        """The command as it would be run."""
+        """Return the command with its placeholders filled in."""
         words = self._filled(request, Path(f"{request.name}.glb"))
         return (Step(f"run a program, for at most {self.timeout:g} s: {shlex.join(words)}"),)
 
     def check(self) -> None:
-        """ModelError where there is no such program."""
+        """Raise ModelError if the program does not exist."""
         if shutil.which(self.words[0]) is None:
             raise ModelError(f"--generator: found no program {self.words[0]!r}; valid is one on the PATH, or its path")
 
     def make(self, request: MeshRequest, folder: Path, progress: Progress) -> GeneratedMesh:
-        """The file that the program writes as {out}, once it is a readable mesh."""
+        """Run the program and return the file that it writes as {out}. Raise ModelError if it is no readable mesh."""
         out, log = folder / f"{request.name}.glb", folder / LOG
         out.unlink(missing_ok=True)
         code = run_program(
@@ -103,7 +106,7 @@ class CommandGenerator:
         return any(f"{{{placeholder}}}" in word for word in self.words)
 
     def _filled(self, request: MeshRequest, out: Path) -> list[str]:
-        """The words with their placeholders filled in, each within its own word."""
+        """Return the words of the command with placeholders filled in, each value within its word."""
         image = None if request.image is None else str(request.image.absolute())
         values = {"prompt": request.prompt, "image": image, "out": str(out), "seed": str(request.seed)}
         for name, value in values.items():
@@ -114,7 +117,7 @@ class CommandGenerator:
 
 
 def _keyless() -> dict[str, str]:
-    """The environment without the keys that this package uses itself: the program needs none of them."""
+    """Return the environment without the keys used by this package, which the program does not need."""
     keys = {KEY, *(name for names in KEYS.values() for name in names)}
     return {name: value for name, value in os.environ.items() if name not in keys}
 

@@ -1,4 +1,4 @@
-"""What a run would do and cost, before anything is made, sent, paid or written."""
+"""Dry run: the steps and costs of a run, before anything is made, sent, paid or written."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from anymesh.export_options import ExportOptions
 from anymesh.models.meshy_api import RETEXTURE
 from anymesh.solving import GEOMETRY
 
-CHECKED = "2026-11-21, docs.meshy.ai/en/api/retexture"  # when and where the credits of retexturing were stated
+CHECKED = "2026-11-21, docs.meshy.ai/en/api/retexture"  # date and source of the credits of retexturing
 
 
 @dataclass(frozen=True)
 class Explanation:
-    """steps: in their order; size: how large the object will be, in words; warnings: what is better known before."""
+    """Result of a dry run. steps: in order; size: of the object, in words; warnings: known before the run."""
 
     steps: tuple[Step, ...]
     size: str
@@ -28,7 +28,7 @@ class Explanation:
 
     @property
     def credits(self) -> float:
-        """About what services take for all of it."""
+        """Approximate total of the credits that services take."""
         return sum(step.credits for step in self.steps)
 
 
@@ -44,9 +44,9 @@ def explain_generation(
     force: bool = False,
     **options: Unpack[GenerateOptions],
 ) -> Explanation:
-    """The steps of `generate` with these options. Nothing is written or sent, and no key is needed.
+    """Return the steps of `generate` with these options, without writing or sending anything and without a key.
 
-    Raises OptionError, InputError.
+    Raise OptionError or InputError.
     """
     job = open_job(prompt, out, image=image, mesh=mesh, generator=generator, time_limit=generator_time_limit, options=options)
     warnings = (job.size.warning,) if job.size.warning else ()

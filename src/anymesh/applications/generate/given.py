@@ -1,4 +1,4 @@
-"""A mesh that is there already, in the place of a generated one."""
+"""Generator that returns an existing mesh."""
 
 from __future__ import annotations
 
@@ -15,19 +15,19 @@ from anymesh.progress import Progress
 
 @dataclass(frozen=True)
 class GivenMesh:
-    """Takes a mesh file as it is. root: the folder within which files that it refers to may be read."""
+    """Generator that returns a mesh file unchanged. root: the folder within which files that it refers to may be read."""
 
     path: Path
     root: str | Path | None = None
 
     @property
     def name(self) -> str:
-        """Of nobody."""
+        """Name of the generator."""
         return "file"
 
     @property
     def unit(self) -> Unit:
-        """The file's."""
+        """Meaning of a unit of the mesh, as stated by the file."""
         return Unit.STATED
 
     @cached_property
@@ -35,17 +35,17 @@ class GivenMesh:
         return load_mesh(self.path, root=self.root)
 
     def settings(self, request: MeshRequest) -> Mapping[str, object]:
-        """Digests of the file and of those that it refers to. Raises InputError for what is no usable mesh."""
+        """Return digests of the file and of those that it refers to. Raise InputError if it is no usable mesh."""
         return {"name": self.name, "file": self.path.name, "sha256": self._loaded.sha256, "references": self._loaded.references}
 
     def steps(self, request: MeshRequest) -> tuple[Step, ...]:
-        """Read the file."""
+        """Return the reading of the file as the only step."""
         return (Step(f"take the mesh {self.path.name} ({len(self._loaded.mesh.faces):,} faces); nothing is generated"),)
 
     def check(self) -> None:
-        """InputError for what is no usable mesh."""
+        """Raise InputError if the file is no usable mesh."""
         self._loaded  # noqa: B018 - reads it
 
     def make(self, request: MeshRequest, folder: Path, progress: Progress) -> GeneratedMesh:
-        """The file where it is."""
+        """Return the file at its place."""
         return GeneratedMesh(self.path)

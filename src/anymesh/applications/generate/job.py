@@ -1,4 +1,4 @@
-"""What `anymesh generate` is asked to do, checked before anything is made, paid or written."""
+"""Job of `anymesh generate`, checked before anything is made, paid or written."""
 
 from __future__ import annotations
 
@@ -36,12 +36,12 @@ DEFAULTS: dict[str, Any] = {
     "answerer": GEOMETRY.name, "category": None, "seed": 0, "parts_list": (), "at_least": 0, "proposer": "exact",
     "viewpoints": DEFAULT_VIEWS, "verify": "motion",
 }  # fmt: skip
-FINISHING = ("completer", "texture", "watertight", "base", "formats", "drives")  # what the pipeline's result does not hang on
-FREE = ("max_calls", "max_cost", "cache", "timeout", "wait", "suggest", "spent", "limiter")  # what no result hangs on
+FINISHING = ("completer", "texture", "watertight", "base", "formats", "drives")  # do not affect the pipeline's result
+FREE = ("max_calls", "max_cost", "cache", "timeout", "wait", "suggest", "spent", "limiter")  # options that affect no result
 
 
 class GenerateOptions(Answering, total=False):
-    """Options of `articulate` and `finish`, as they are there; `max_calls` counts paid tasks and calls of a model together."""
+    """Options of `articulate` and `finish` with the same meaning; `max_calls` limits paid tasks and model calls together."""
 
     up: str
     scale: str
@@ -57,7 +57,7 @@ class GenerateOptions(Answering, total=False):
 
 @dataclass(frozen=True, eq=False)
 class GenerationJob:
-    """One object. options: all, with their defaults; size: --scale and --category for the pipeline."""
+    """Generation of one object. options: all, including defaults; size: --scale and --category for the pipeline."""
 
     request: MeshRequest
     generator: Generator3D
@@ -67,11 +67,11 @@ class GenerationJob:
 
     @property
     def mesh_key(self) -> str:
-        """Of the mesh."""
+        """Digest that identifies the mesh."""
         return _digest({"request": self.request.as_dict(), "generator": self.generator.settings(self.request)})
 
     def key(self, *, finished: bool) -> str:
-        """Of what the pipeline makes of the mesh, or of the finished asset."""
+        """Return the digest that identifies the pipeline's result, or the finished asset."""
         left_out = FREE if finished else (*FREE, *FINISHING)
         held = {name: value for name, value in self.options.items() if name not in left_out}
         size = [self.size.scale, self.size.category]
@@ -79,21 +79,21 @@ class GenerationJob:
 
     @property
     def answerer(self) -> str:
-        """Who answers the pipeline's questions."""
+        """Name of the answerer of the pipeline's questions."""
         return str(self.options["answerer"])
 
     @property
     def by_files(self) -> bool:
-        """Whether somebody writes answers into files, which may change between runs."""
+        """Whether answers are read from files, which may change between runs."""
         return self.answerer.startswith(FILES)
 
     def articulating(self) -> dict[str, Any]:
-        """Options for `articulate`."""
+        """Return the options for `articulate`."""
         kept = {name: value for name, value in self.options.items() if name not in FINISHING[:3]}
         return {**kept, "scale": self.size.scale, "category": self.size.category}
 
     def check(self, *, force: bool) -> None:
-        """Raise now what would come up later: OptionError, OutputError, ModelError (no key), MissingExtraError."""
+        """Check all options before the run. Raise OptionError, OutputError, ModelError (no key) or MissingExtraError."""
         options = self.options
         ExportOptions.parse(options["base"], options["formats"], options["drives"])
         Deadline(options["time_limit"])
@@ -104,14 +104,14 @@ class GenerationJob:
         self.check_output(force=force)
 
     def check_output(self, *, force: bool) -> None:
-        """OutputError where the output may not be written."""
+        """Raise OutputError if the output may not be written."""
         if self.out.exists() and not self.out.is_dir():
             raise OutputError(f"{self.out} is a file; an output is a folder")
         if self.out.is_dir() and any(not path.name.startswith(FOLDER_PREFIX) for path in self.out.iterdir()):
             check_replaceable(self.out, force)
 
     def answering(self) -> Answering:
-        """Who answers, of the options."""
+        """Return the options that select and configure the answerer."""
         return {name: value for name, value in self.options.items() if name in Answering.__annotations__}  # ty: ignore
 
 
@@ -125,7 +125,7 @@ def open_job(
     time_limit: float,
     options: GenerateOptions,
 ) -> GenerationJob:
-    """From the words of the options. Raises OptionError, InputError; nobody is asked and nothing is written."""
+    """Build a job from options. Raise OptionError or InputError; makes no request and writes nothing."""
     unknown = sorted(set(options) - set(GenerateOptions.__annotations__) - set(Answering.__annotations__))
     if unknown:
         valid = ", ".join(dict.fromkeys((*DEFAULTS, *Answering.__annotations__)))
@@ -141,14 +141,14 @@ def open_job(
     who = open_generator(generator, time_limit=time_limit, max_calls=chosen.get("max_calls"))
     if mesh is not None:
         who = GivenMesh(Path(mesh), chosen["root"])
-    who.steps(request)  # raises for a request that it cannot take
+    who.steps(request)  # raises if the generator does not support the request
     name = request.name if mesh is None else Path(mesh).stem
     size = choose_size(chosen["scale"], chosen["category"], prompt, name, who.unit)
     return GenerationJob(request, who, Path(out).resolve(), chosen, size)
 
 
 def _cube() -> LoadedMesh:
-    """A mesh on which the words of --up and --scale are tried."""
+    """Return a small mesh for validating --up and --scale."""
     corners = np.array([[x, y, z] for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 1.0)])
     faces = np.array([[0, 1, 3], [4, 6, 7], [0, 4, 5]])
     zero = np.zeros(len(faces), int)

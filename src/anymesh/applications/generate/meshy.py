@@ -21,7 +21,10 @@ TEXTURED, SHAPE = "meshy", "meshy:untextured"
 
 @dataclass(frozen=True)
 class MeshyGenerator:
-    """Asks Meshy. textured: pay for textures too; max_calls: tasks that may be paid for; timeout [s] of one call."""
+    """Generator that uses Meshy.
+
+    textured: whether to pay for textures too; max_calls: maximum number of paid tasks; timeout: of one call [s].
+    """
 
     textured: bool = True
     max_calls: int | None = None
@@ -33,20 +36,20 @@ class MeshyGenerator:
 
     @property
     def name(self) -> str:
-        """As in --generator."""
+        """Name of the generator, as in --generator."""
         return TEXTURED if self.textured else SHAPE
 
     @property
     def unit(self) -> Unit:
-        """The service is asked to estimate the size."""
+        """Meaning of a unit of the meshes; the service is requested to estimate the size."""
         return Unit.ESTIMATED
 
     def settings(self, request: MeshRequest) -> Mapping[str, object]:
-        """What is asked for; the service takes no seed."""
+        """Return the parameters of the request; the service takes no seed."""
         return {"name": self.name, "model": MODEL, "faces": FACES}
 
     def steps(self, request: MeshRequest) -> tuple[Step, ...]:
-        """The paid tasks, and the download."""
+        """Return the paid tasks and the download."""
         sent = "the prompt" if request.image is None else f"the picture {request.image.name}"
         if request.prompt is not None:
             check_prompt(request.prompt)
@@ -59,11 +62,11 @@ class MeshyGenerator:
         return (*tasks, Step("wait for it, and download the GLB"))
 
     def check(self) -> None:
-        """ModelError without a key."""
+        """Raise ModelError without a key."""
         read_key()
 
     def make(self, request: MeshRequest, folder: Path, progress: Progress) -> GeneratedMesh:
-        """The GLB of the last task; ids of tasks are kept in `folder`, so that none is paid for twice."""
+        """Return the GLB of the last task. Ids of tasks are stored in `folder`, so that none is paid for twice."""
         service = self._service(folder, progress)
         if request.image is not None:
             found = service.from_image(request.image, request.prompt)

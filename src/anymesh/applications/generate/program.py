@@ -1,4 +1,4 @@
-"""A program run to its end, with a time limit; what it started ends with it."""
+"""Running of a program with a time limit; its child processes end with it."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ from pathlib import Path
 from anymesh.errors import ModelError
 from anymesh.models.error_redaction import SECRET
 
-GRACE = 3.0  # [s] between asking a program to end and killing it
-LOOK = 0.2  # [s] between looks at a running program
-TAIL = 4000  # [bytes] at the end of a log, of which a message may quote
+GRACE = 3.0  # [s] between SIGTERM and SIGKILL
+LOOK = 0.2  # [s] between checks of a running program
+TAIL = 4000  # [bytes] at the end of a log that a message may quote
 LINES = 6
 LONGEST = 600  # characters
 
@@ -26,8 +26,8 @@ def run_program(
 ) -> int:
     """Run a program without a shell and return its exit status; its output goes to the file `log`.
 
-    timeout [s]; tell: called with the seconds that it has run. Raises ModelError where it cannot be started or takes too
-    long. In that case, when interrupted, and when it fails, its whole process group is ended.
+    timeout [s]; tell: called with the seconds elapsed. Raise ModelError if the program cannot be started or exceeds the time
+    limit. In the latter case, on interruption, and if the program fails, its whole process group is ended.
     """
     with log.open("wb") as output:
         try:
@@ -49,7 +49,7 @@ def run_program(
 
 
 def log_tail(log: Path) -> str:
-    """The last lines that a program wrote, as far as they hold nothing that looks like a key; may be empty."""
+    """Return the last lines of a program's output, with anything that resembles a key removed; may be empty."""
     with log.open("rb") as file:
         file.seek(max(0, log.stat().st_size - TAIL))
         text = file.read().decode("utf-8", "replace")
@@ -59,7 +59,7 @@ def log_tail(log: Path) -> str:
 
 
 def _wait(process: subprocess.Popen[bytes], timeout: float, tell: Callable[[float], None]) -> int | None:
-    """The exit status; None when it takes too long."""
+    """Return the exit status; None if the time limit is exceeded."""
     begin = time.monotonic()
     while (spent := time.monotonic() - begin) < timeout:
         tell(spent)
@@ -69,7 +69,7 @@ def _wait(process: subprocess.Popen[bytes], timeout: float, tell: Callable[[floa
 
 
 def _end(process: subprocess.Popen[bytes]) -> None:
-    """Ends a program and its group: asked first, killed when that does not help."""
+    """End a program and its process group, by SIGTERM and then by SIGKILL."""
     if not hasattr(os, "killpg"):
         process.kill()
         process.wait()
@@ -78,5 +78,5 @@ def _end(process: subprocess.Popen[bytes]) -> None:
         os.killpg(process.pid, signal.SIGTERM)
         with suppress(subprocess.TimeoutExpired):
             process.wait(GRACE)
-        os.killpg(process.pid, signal.SIGKILL)  # those that it started, and itself where it ignored the first
+        os.killpg(process.pid, signal.SIGKILL)  # child processes, and the program itself if it ignored SIGTERM
     process.wait()

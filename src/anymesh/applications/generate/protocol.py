@@ -1,4 +1,4 @@
-"""What a 3D generator is asked for, what it gives, and what it says beforehand of its tasks and their cost."""
+"""Interface of 3D generators: requests, results, and steps with their costs for dry runs."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from anymesh.errors import InputError, OptionError
 from anymesh.names import legal_name
 from anymesh.progress import Progress
 
-WORDS = 6  # of a prompt that name the asset
+WORDS = 6  # number of words of a prompt used to name the asset
 ARTICLES = ("a", "an", "the")
 
 
 @dataclass(frozen=True)
 class MeshRequest:
-    """What to make: by its description, by a picture, or by both (neither for a mesh that is there already).
+    """Request for a mesh: by its description, by an image, or by both; neither for an existing mesh.
 
     seed: for generators that take one.
     """
@@ -36,20 +36,20 @@ class MeshRequest:
 
     @property
     def name(self) -> str:
-        """Of the asset: the first words of the prompt, or the picture's name."""
+        """Name of the asset: the first words of the prompt, or the image's name."""
         if self.prompt is None:
             return legal_name(self.image.stem if self.image else "", fallback="object")
         words = [word for word in self.prompt.lower().split() if word not in ARTICLES]
         return legal_name("_".join(words[:WORDS]), fallback="object")
 
     def as_dict(self) -> dict[str, object]:
-        """Plain values, the picture by its name and digest."""
+        """Return plain values, with the image as its name and digest."""
         image = None if self.image is None else {"name": self.image.name, "sha256": file_digest(self.image)}
         return {"prompt": self.prompt, "image": image}
 
 
 class Unit(StrEnum):
-    """What a unit of a mesh file is worth: as its author states it, as a generator estimated it, or nothing."""
+    """Meaning of a unit of a mesh file: stated by its author, estimated by a generator, or arbitrary."""
 
     STATED = "stated"
     ESTIMATED = "estimated"
@@ -58,7 +58,7 @@ class Unit(StrEnum):
 
 @dataclass(frozen=True)
 class PaidTask:
-    """A task of a service. credits: that it took; seed: that the service drew, None where it does not tell."""
+    """Paid task of a service. credits: that it took; seed: drawn by the service, None if it does not state it."""
 
     kind: str
     id: str
@@ -68,7 +68,7 @@ class PaidTask:
 
 @dataclass(frozen=True)
 class GeneratedMesh:
-    """A mesh file, and the tasks that were paid for it, also by earlier runs. calls: tasks that were paid for now."""
+    """Mesh file, and the tasks paid for it, also by earlier runs. calls: number of tasks paid for by this run."""
 
     path: Path
     tasks: tuple[PaidTask, ...] = ()
@@ -77,8 +77,10 @@ class GeneratedMesh:
 
 @dataclass(frozen=True)
 class Step:
-    """A step of a dry run. credits: about what a service takes for it, 0 where it is free; source: when and where that was
-    stated."""
+    """Step of a dry run.
+
+    credits: approximate price of the service, 0 if free; source: date and source of the price.
+    """
 
     what: str
     credits: float = 0.0
@@ -87,38 +89,40 @@ class Step:
 
 @runtime_checkable
 class Generator3D(Protocol):
-    """Whoever makes surface meshes."""
+    """Interface of a generator of surface meshes."""
 
     @property
     def name(self) -> str:
-        """As in files and messages; holds no secret."""
+        """Name for files and messages, without secrets."""
         ...
 
     @property
     def unit(self) -> Unit:
-        """Of its meshes."""
+        """Meaning of a unit of its meshes."""
         ...
 
     def settings(self, request: MeshRequest) -> Mapping[str, object]:
-        """What the mesh hangs on, as plain values without secrets: equal settings mean that a mesh need not be made again."""
+        """Return what affects the mesh, as plain values without secrets; with equal settings an existing mesh is reused."""
         ...
 
     def steps(self, request: MeshRequest) -> tuple[Step, ...]:
-        """What would be done. Nothing is written, sent, or read from the environment. Raises OptionError, InputError for a
-        request that this generator cannot take."""
+        """Return the steps of a request, without writing, sending, or reading the environment.
+
+        Raise OptionError or InputError for a request that this generator does not support.
+        """
         ...
 
     def check(self) -> None:
-        """Raise ModelError where it cannot be asked at all (no key, no program)."""
+        """Raise ModelError if the generator cannot be used (no key, no program)."""
         ...
 
     def make(self, request: MeshRequest, folder: Path, progress: Progress) -> GeneratedMesh:
-        """A mesh file in `folder`, where it may also keep what a rerun goes on from. ModelError where nothing comes back."""
+        """Make a mesh file in `folder`, where data for resuming may be stored. Raise ModelError if there is no result."""
         ...
 
 
 def file_digest(path: Path) -> str:
-    """SHA-256 of a file. Raises InputError where it cannot be read."""
+    """Return the SHA-256 of a file. Raise InputError if it cannot be read."""
     try:
         with path.open("rb") as file:
             return hashlib.file_digest(file, "sha256").hexdigest()

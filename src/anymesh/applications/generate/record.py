@@ -1,4 +1,4 @@
-"""generation.json: where the mesh of an asset came from, what was paid for it, and under which keys runs go on from it."""
+"""generation.json: origin of an asset's mesh, the tasks paid for it, and the keys by which later runs resume."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ from anymesh.storage.outputs import GENERATED, GENERATION
 from anymesh.storage.stage_files import read_json, write_json
 
 SCHEMA_VERSION = 1
-WORDS = ("category", "texture")  # options that are words of the user's
+WORDS = ("category", "texture")  # options that are free text of the user
 STILL = "no part that moves was found; --at-least 1, an --answerer that sees, or `anymesh view` may help"
 
 
 def generation_record(job: GenerationJob, mesh: GeneratedMesh, warnings: Sequence[str]) -> dict[str, Any]:
-    """The content of generation.json as plain values, without keys, signed addresses and folders."""
+    """Return the content of generation.json as plain values, without keys, signed addresses and folders."""
     loaded = load_mesh(mesh.path, root=job.options["root"]).mesh
     given = isinstance(job.generator, GivenMesh)
     options = {k: v for k, v in job.options.items() if k not in (*FREE, "root") and v is not None}
@@ -56,7 +56,7 @@ def generation_record(job: GenerationJob, mesh: GeneratedMesh, warnings: Sequenc
 
 
 def add_record(folder: Path, job: GenerationJob, mesh: GeneratedMesh, warnings: Sequence[str]) -> None:
-    """Write generation.json and a generated mesh into an output that exists."""
+    """Write generation.json and a generated mesh into an existing output."""
     record = generation_record(job, mesh, warnings)
     with RunFolder.open(folder) as run:
         if not isinstance(job.generator, GivenMesh):
@@ -76,13 +76,13 @@ def add_tasks(folder: Path, tasks: Sequence[PaidTask]) -> None:
 
 
 def read_record(folder: Path) -> Mapping[str, Any] | None:
-    """generation.json of an output; None where there is none that can be read."""
+    """Read generation.json of an output; None if there is none that can be read."""
     found = read_json(folder / GENERATION)
     return found if found is not None and isinstance(found.get("keys"), dict) else None
 
 
 def recorded_mesh(out: Path, key: str) -> GeneratedMesh | None:
-    """The mesh that an output was made of, where it was generated under a key and is unchanged; None otherwise."""
+    """Return the mesh of an output if it was generated under this key and is unchanged; None otherwise."""
     record = read_record(out)
     if record is None or record["keys"].get("mesh") != key:
         return None
@@ -95,7 +95,7 @@ def recorded_mesh(out: Path, key: str) -> GeneratedMesh | None:
 
 
 def retexture_task(state: Path) -> tuple[PaidTask, ...]:
-    """The paid task of a retexturing, from the file that keeps its id; empty where there is none."""
+    """Return the paid task of retexturing, from the file that stores its id; empty if there is none."""
     held = read_json(state)
     bought = None if held is None else held.get("bought")
     if not isinstance(bought, dict):

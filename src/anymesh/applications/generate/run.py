@@ -1,4 +1,4 @@
-"""The paper's figure with a generator before it: words or a picture -> mesh -> parts and joints -> a finished asset."""
+"""The paper's pipeline preceded by a generator: text or image -> mesh -> parts and joints -> finished asset."""
 
 from __future__ import annotations
 
@@ -37,15 +37,15 @@ def generate(
     progress: Progress = silent,
     **options: Unpack[GenerateOptions],
 ) -> Asset:
-    """Make a surface mesh by words or a picture, and of it a finished articulated asset in the folder `out`.
+    """Generate a surface mesh from text or an image and make it a finished articulated asset in the folder `out`.
 
-    generator: meshy (MESHY_API_KEY; paid), meshy:untextured, or command:PROGRAM with {out} and {prompt} or {image} (of at
-    most generator_time_limit [s]); mesh: a file to start from instead. options: those of `articulate` (but `parts`) and of
-    `finish`; max_calls counts paid tasks and calls of a model together.
+    generator: meshy (MESHY_API_KEY; paid), meshy:untextured, or command:PROGRAM with {out} and {prompt} or {image} (limited to
+    generator_time_limit [s]); mesh: a file to use instead. options: those of `articulate` (except `parts`) and of `finish`;
+    max_calls limits paid tasks and model calls together.
 
-    A mesh is made once: a rerun of the same request uses it, and goes on with a task that an earlier run paid for;
-    regenerate: make, and pay for, another. An output that the same call finished is returned as it is.
-    Raises as `articulate` and `finish`; ModelError where no mesh comes back, BudgetError before what would pass the limit.
+    A mesh is made once: a rerun of the same request uses it, and resumes a task that an earlier run paid for; regenerate: make
+    and pay for another one. An output that the same call finished is returned unchanged.
+    Raise as `articulate` and `finish`; ModelError if no mesh is returned, BudgetError before a task beyond the limit.
     """
     job = open_job(prompt, out, image=image, mesh=mesh, generator=generator, time_limit=generator_time_limit, options=options)
     if not (force or regenerate) and (done := _finished(job)) is not None:
@@ -63,7 +63,7 @@ def generate(
 
 @contextmanager
 def _anew(work: WorkFolder, wanted: bool) -> Generator[None]:
-    """Make another mesh; what a kill or a service cut short is gone on with by the next run that is to."""
+    """Start over if `wanted`. If a kill or a ModelError ends the run, the next run that starts over resumes it instead."""
     if wanted:
         work.begin_anew()
     try:
@@ -77,15 +77,15 @@ def _anew(work: WorkFolder, wanted: bool) -> Generator[None]:
 
 
 def finished_before(job: GenerationJob) -> bool:
-    """Whether the output is what this job makes."""
+    """Return whether the output is the result of this job."""
     record = read_record(job.out)
     return record is not None and record["keys"].get("finished") == job.key(finished=True) and not job.by_files
 
 
 def mesh_before(job: GenerationJob, work: WorkFolder, *, anew: bool) -> GeneratedMesh | None:
-    """The mesh that an earlier run made for this job: that of the work folder, or of the output.
+    """Return the mesh that an earlier run made for this job, from the work folder or the output; None if there is none.
 
-    anew: another than that of the output.
+    anew: ignore the mesh of the output, and that of the work folder unless it belongs to an interrupted regeneration.
     """
     if isinstance(job.generator, GivenMesh) or (anew and not work.anew):
         return None
@@ -100,7 +100,7 @@ def _finished(job: GenerationJob) -> Asset | None:
 
 
 def _mesh(job: GenerationJob, work: WorkFolder, progress: Progress, *, anew: bool) -> GeneratedMesh:
-    """The mesh of an earlier run, or a new one."""
+    """Return the mesh of an earlier run, or a new one."""
     try:
         held = mesh_before(job, work, anew=anew)
         if held is None:
@@ -120,7 +120,7 @@ def _mesh(job: GenerationJob, work: WorkFolder, progress: Progress, *, anew: boo
 
 
 def _articulated(job: GenerationJob, work: WorkFolder, made: GeneratedMesh, spent: Account, progress: Progress) -> None:
-    """Stages A and B of the mesh, in the work folder."""
+    """Run stages A and B on the mesh, in the work folder."""
     folder = work.articulated
     if _articulated_before(job, folder):
         return
@@ -138,7 +138,7 @@ def _articulated_before(job: GenerationJob, folder: Path) -> bool:
 
 
 def _finish(job: GenerationJob, work: WorkFolder, spent: Account, seconds: float, force: bool, progress: Progress) -> Asset:
-    """Stage C, from the work folder to the output. seconds: that the mesh took."""
+    """Run stage C from the work folder to the output. seconds: spent on the mesh."""
     options, most = job.options, job.options.get("max_calls")
     finished = pipeline.finish(
         work.articulated,
@@ -158,7 +158,7 @@ def _finish(job: GenerationJob, work: WorkFolder, spent: Account, seconds: float
         add_tasks(job.out, retexture_task(job.out.parent / f".{job.out.name}.meshy.json"))
     shutil.rmtree(work.articulated, ignore_errors=True)
     with suppress(OSError):
-        work.folder.rmdir()  # nothing was made in it
+        work.folder.rmdir()  # only if empty
     return _warned(replace(finished, timing=timing), job)
 
 
@@ -171,7 +171,7 @@ def _add_timing(out: Path, before: Mapping[str, float]) -> Mapping[str, float]:
 
 
 def _added(asset: Asset, job: GenerationJob) -> tuple[str, ...]:
-    """What a user should know of the whole, beside the warnings of the stages."""
+    """Return warnings about the whole run, in addition to those of the stages."""
     size = (job.size.warning,) if job.size.warning else ()
     return size if any(joint.type is not JointType.FIXED for joint in asset.joints) else (*size, STILL)
 

@@ -1,4 +1,4 @@
-"""How large a generated object is: generators work in units of their own."""
+"""Size of a generated object, since generators use units of their own."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ ADVICE = "give --scale METRES:AXIS, such as 0.9:z"
 
 @dataclass(frozen=True)
 class Size:
-    """--scale and --category for the pipeline, and in words why; warning: where nothing tells the size."""
+    """Values of --scale and --category for the pipeline, with the reason in words; warning: if the size is unknown."""
 
     scale: str
     category: str | None
@@ -21,14 +21,14 @@ class Size:
 
 
 def choose_size(scale: str, category: str | None, prompt: str | None, name: str, unit: Unit) -> Size:
-    """What was given; else the usual size of the kind of thing that the category, the prompt or the file's name tells.
+    """Return the given size, else the usual size of the kind of object named by the category, the prompt or the file name.
 
-    A unit that means something stays where it suits the kind (within a factor of 3), and where no kind is known.
+    Units that are stated or estimated are kept if they suit the kind (within a factor of 3) or no kind is known.
     """
     kind = usual_size(category or prompt or name)
     known = category or prompt or (None if kind is None else kind[0].replace("_", " "))
     if unit is Unit.STATED:
-        known = category or prompt  # a unit in the file counts for more than the file's name
+        known = category or prompt  # a unit in the file takes precedence over the file's name
     if scale != "auto":
         return Size(scale, known, f"given as {scale}")
     if kind is not None:

@@ -1,4 +1,4 @@
-"""The hidden folder beside an output in which a mesh is made: what was paid or computed there is found by the next run."""
+"""Hidden work folder beside an output, in which later runs find meshes that were made or paid for."""
 
 from __future__ import annotations
 
@@ -16,25 +16,25 @@ from anymesh.storage.atomic_folder import locked
 from anymesh.storage.stage_files import read_json
 
 MADE = "made.json"
-ANEW = "anew"  # there while another mesh than that of the output is made
+ANEW = "anew"  # marker file that exists while another mesh than that of the output is made
 ARTICULATED = "articulated"
 
 
 @dataclass(frozen=True)
 class WorkFolder:
-    """folder: `.NAME.generate` beside the output NAME."""
+    """Work folder of an output. folder: `.NAME.generate` beside the output NAME."""
 
     folder: Path
 
     @classmethod
     def of(cls, out: Path) -> WorkFolder:
-        """That of an output; nothing is made."""
+        """Return the work folder of an output without creating it."""
         out = Path(out).resolve()
         return cls(out.parent / f".{out.name[:100]}.generate")
 
     @contextmanager
     def open(self) -> Generator[None]:
-        """Make it, and hold it for this run alone. OutputError where that cannot be."""
+        """Create the folder and lock it for this run. Raise OutputError if that fails."""
         try:
             self.folder.mkdir(parents=True, exist_ok=True)
         except OSError as error:
@@ -46,11 +46,11 @@ class WorkFolder:
 
     @property
     def articulated(self) -> Path:
-        """Where the asset lies between the pipeline and stage C."""
+        """Folder of the asset between the pipeline and stage C."""
         return self.folder / ARTICULATED
 
     def made(self, key: str) -> GeneratedMesh | None:
-        """The mesh that was made under a key, and what was paid for it; None where there is none, or it was changed."""
+        """Return the mesh that was made under a key, and its paid tasks; None if there is none, or it was changed."""
         held = read_json(self.folder / MADE)
         if held is None or held.get("key") != key:
             return None
@@ -62,7 +62,7 @@ class WorkFolder:
             return None
 
     def keep(self, key: str, mesh: GeneratedMesh) -> None:
-        """Note that a mesh of this folder is finished."""
+        """Record that a mesh of this folder is finished."""
         record = {
             "key": key,
             "file": mesh.path.name,
@@ -73,17 +73,17 @@ class WorkFolder:
 
     @property
     def anew(self) -> bool:
-        """Whether a run that makes another mesh was cut short."""
+        """Whether a run that makes another mesh was interrupted."""
         return (self.folder / ANEW).exists()
 
     def begin_anew(self) -> None:
-        """Forget the mesh and the ids of paid tasks, but for those of a run that did the same and was cut short."""
+        """Delete the mesh and the ids of paid tasks, unless they belong to an interrupted run that made another mesh."""
         if not self.anew:
             self._forget()
             (self.folder / ANEW).touch()
 
     def end_anew(self) -> None:
-        """Let the next call of `begin_anew` forget what is there."""
+        """Remove the marker, so that the next call of `begin_anew` deletes the folder's content."""
         (self.folder / ANEW).unlink(missing_ok=True)
 
     def _forget(self) -> None:

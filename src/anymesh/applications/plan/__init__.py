@@ -1,4 +1,4 @@
-"""Plan how a robot arm opens, pushes or turns a joint of an asset, and replay it (paper, 4.2: real-to-sim-to-real)."""
+"""Plan how a robot arm opens, pushes or turns a joint of an asset, and replay the plan (paper, 4.2: real-to-sim-to-real)."""
 
 from anymesh.applications.plan.formats import PlanFormat, gripper_commands, read_plan, write_plan
 from anymesh.applications.plan.planner import plan

@@ -1,4 +1,4 @@
-"""A free path of the arm between two postures: OMPL's RRT-Connect, then shortcuts."""
+"""Collision-free path of the arm between two postures: RRT-Connect of OMPL, then shortcutting."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from jaxtyping import Float
 from anymesh.errors import MissingExtraError
 
 Valid = Callable[[Float[np.ndarray, " J"]], bool]
-STRIDE = 0.03  # [rad] between postures that are checked
-SHORTCUTS = 120  # tries to go straight between two places on the path
+STRIDE = 0.03  # [rad] between postures that are checked for collision
+SHORTCUTS = 120  # attempts to shorten the path
 
 
 def free_path(
@@ -25,9 +25,10 @@ def free_path(
     seed: int,
     seconds: float = 3.0,
 ) -> Float[np.ndarray, "k J"] | None:
-    """Return postures from start to goal, straight between which nothing collides; None when none is found in time.
+    """Compute a collision-free path of straight segments from start to goal; None if none is found within `seconds`.
 
-    low, high: (J,) limits [rad]. The same seed gives the same path, unless time runs out. Raises MissingExtraError.
+    low, high: (J,) limits [rad]. The path depends only on the seed unless time runs out.
+    Raise MissingExtraError if OMPL is not installed.
     """
     if straight_is_free(start, goal, valid):
         return np.stack([start, goal])
@@ -45,7 +46,7 @@ def _rrt(
     start, goal, low, high = problem
     count = len(start)
     util.noOutputHandler()
-    util.RNG.setSeed(seed + 1)  # every generator made from now on takes its own seed from this one; 0 means the clock
+    util.RNG.setSeed(seed + 1)  # seeds every generator created afterwards; 0 would mean the clock
     space = base.RealVectorStateSpace(count)
     bounds = base.RealVectorBounds(count)
     for k in range(count):
@@ -71,14 +72,14 @@ def _rrt(
 
 
 def straight_is_free(a: Float[np.ndarray, " J"], b: Float[np.ndarray, " J"], valid: Valid) -> bool:
-    """Return whether nothing collides straight between two postures, their ends included."""
+    """Return whether the straight segment between two postures is collision-free, ends included."""
     count = max(2, int(np.ceil(np.linalg.norm(b - a) / STRIDE)) + 1)
-    order = np.argsort([_bits(k) for k in range(count)])  # the middle first: what collides mostly does so there
+    order = np.argsort([_bits(k) for k in range(count)])  # the middle first, where collisions are most likely
     return all(valid(a + (b - a) * k / (count - 1)) for k in order)
 
 
 def _bits(k: int) -> float:
-    """Return the van der Corput sequence."""
+    """Return element `k` of the van der Corput sequence in base 2."""
     value, scale = 0.0, 0.5
     while k:
         value, k, scale = value + scale * (k & 1), k >> 1, scale / 2
@@ -86,7 +87,7 @@ def _bits(k: int) -> float:
 
 
 def _shortcut(path: np.ndarray, valid: Valid, rng: np.random.Generator) -> np.ndarray:
-    """Return straight pieces in the place of detours, where they are free."""
+    """Replace detours of a path by straight segments where these are collision-free."""
     for _ in range(SHORTCUTS):
         if len(path) < 3:
             break

@@ -1,4 +1,4 @@
-"""The articulated object: the joint that is to move, the part's surface, and its model for collisions."""
+"""Articulated object: the joint to move, the surface of its part, and the collision model."""
 
 from __future__ import annotations
 
@@ -16,15 +16,15 @@ from anymesh.mujoco_ import load_mujoco
 from anymesh.simulation.mujoco_bench_ import read_spec
 from anymesh.types import Motion, MotionKind
 
-OVERLAP = 1e-4  # of the object's extent: links that overlap more than this at rest do not collide
+OVERLAP = 1e-4  # share of the object's extent; links that overlap by more at rest do not collide
 
 
 @dataclass(frozen=True, eq=False)
 class ArticulatedObject:
-    """A joint of an asset at rest, in the asset frame.
+    """Joint of an asset at rest, in the asset frame.
 
-    part: the link that it carries; limits: [rad or m], None where it turns endlessly; carried: names of the links that move
-    with it; part_triangles, other_triangles: (n, 3, 3) of what is seen [m]; spec: MuJoCo's, without motors.
+    part: link moved by the joint; limits: [rad or m], None for a continuous joint; carried: names of all links that move with
+    the joint; part_triangles, other_triangles: (n, 3, 3) visible surfaces [m]; spec: MuJoCo spec without actuators.
     """
 
     name: str
@@ -43,11 +43,11 @@ class ArticulatedObject:
         return self.motion.kind is MotionKind.REVOLUTE
 
     def say(self, value: float) -> str:
-        """Return a value of the joint, as people read it."""
+        """Format a value of the joint for messages, in degrees or millimetres."""
         return f"{np.rad2deg(value):.1f} deg" if self.turns else f"{1000 * value:.1f} mm"
 
     def check_value(self, value: float) -> float:
-        """Return the value, if the joint has it in its range. Raises PlanError with the nearest one."""
+        """Return the value, clipped to the joint's range. Raise PlanError with the nearest value if it is outside the range."""
         if not np.isfinite(value):
             raise PlanError(f"--to: found {value}; a finite number is needed")
         if self.limits is None:
@@ -64,9 +64,9 @@ class ArticulatedObject:
 
 
 def open_object(path: str | Path, joint: str) -> ArticulatedObject:
-    """Read an asset folder, a URDF or an MJCF. joint: its name, or that of the part it carries.
+    """Read an asset folder, a URDF or an MJCF. joint: name of the joint or of the part that it moves.
 
-    Raises InputError when there is nothing to read, OptionError for a joint that is not there or does not move.
+    Raise InputError if there is nothing to read, OptionError if the joint does not exist or does not move.
     """
     mujoco = load_mujoco()
     file = _description(Path(path))
@@ -109,7 +109,7 @@ def open_object(path: str | Path, joint: str) -> ArticulatedObject:
 
 
 def _description(path: Path) -> Path:
-    """Return the MJCF beside the URDF where there is one, since it keeps which links do not collide."""
+    """Return the MJCF beside the URDF if there is one, since it states which links do not collide."""
     found = find_description(path)
     beside = found.with_suffix(".xml")
     return beside if path.is_dir() and beside.is_file() else found
@@ -135,14 +135,14 @@ def _carried(model: Any, body: int) -> tuple[str, ...]:
 
 
 def _shown_geoms(model: Any) -> list[int]:
-    """Return geoms that are only seen; of links without any, those that collide."""
+    """Return the visual geoms, and the collision geoms of links without visual ones."""
     seen = [g for g in range(model.ngeom) if not (model.geom_contype[g] or model.geom_conaffinity[g])]
     covered = {int(model.geom_bodyid[g]) for g in seen}
     return seen + [g for g in range(model.ngeom) if g not in seen and int(model.geom_bodyid[g]) not in covered]
 
 
 def geom_triangles(mujoco: Any, model: Any, data: Any, geom: int) -> Float[np.ndarray, "n 3 3"]:
-    """Return the surface of a geom in the world [m]; round ones as polyhedra."""
+    """Return the surface of a geom in the world frame [m]; cylinders, capsules and spheres as polyhedra."""
     from anymesh.simulation.robot import Geometry, shape_triangles
 
     kinds, kind = mujoco.mjtGeom, int(model.geom_type[geom])
@@ -165,7 +165,7 @@ def geom_triangles(mujoco: Any, model: Any, data: Any, geom: int) -> Float[np.nd
 
 
 def _exclude_overlaps(mujoco: Any, spec: Any, model: Any, data: Any) -> None:
-    """Exclude links that a joint connects, and links that overlap at rest, from collision; what the file excludes stays so."""
+    """Exclude pairs of links that a joint connects or that overlap at rest from collision, beside the file's exclusions."""
     known = {frozenset((e.bodyname1, e.bodyname2)) for e in spec.excludes}
     pairs = {(int(model.body_parentid[b]), b) for b in range(1, model.nbody)}
     deep = OVERLAP * float(model.stat.extent)

@@ -1,4 +1,4 @@
-"""One robot base, one target: postures of the arm from home to the part, along its joint, and away."""
+"""Routes for one robot base and one target: postures from home to the part, along its joint, and away from it."""
 
 from __future__ import annotations
 
@@ -18,17 +18,17 @@ from anymesh.applications.plan.plans import BasePose, GripperContact, Target
 from anymesh.applications.plan.robot_ import RobotArm
 from anymesh.applications.plan.scene_ import CollisionWorld
 
-BACK_LEAST = 0.03  # [m] where there is less room
+BACK_LEAST = 0.03  # [m] shortest straight retreat
 LINE_STEP = 0.004  # [m] between postures on a straight line
 ARC_STEP, ARC_TURN = 0.003, np.deg2rad(1.5)  # [m], [rad] between postures along the joint
-JUMP = 0.25  # [rad] between neighbouring postures; more means that the arm changed its configuration
-STAND_OFF = 0.003  # [m] from which a push begins, for the object may stand nearer than thought
-PRESS = 0.004  # [m] that a push goes on beyond its goal, for it may stand farther
-TRIES, FEW = 10, 4  # random seeds of the inverse kinematics, for a target and to judge a base
+JUMP = 0.25  # [rad] largest step between neighbouring postures; more means that the arm changed its configuration
+STAND_OFF = 0.003  # [m] before the surface at which a push starts, since the object may be nearer than planned
+PRESS = 0.004  # [m] that a push continues beyond its goal, since the object may be farther than planned
+TRIES, FEW = 10, 4  # random seeds of the inverse kinematics: per target, and to assess a base
 
 
 class Reason(StrEnum):
-    """Why a target was dropped."""
+    """Reason for which a target was dropped."""
 
     REACH = "out of reach"
     COLLISION = "in collision at the part"
@@ -40,7 +40,7 @@ class Reason(StrEnum):
 
 @dataclass(frozen=True, eq=False)
 class Route:
-    """Postures (k, J) of each motion; values: of the joint along `move`; gaps: of the fingers, free and at the part [m]."""
+    """Postures (k, J) of each motion; values: of the joint along `move`; gaps: of the fingers, open and at the part [m]."""
 
     base: BasePose
     target: Target
@@ -54,13 +54,16 @@ class Route:
 
     @property
     def length(self) -> float:
-        """Of the motion along the joint [rad]."""
+        """Length of the motion along the joint in joint space [rad]."""
         return float(np.linalg.norm(np.diff(self.move, axis=0), axis=1).sum())
 
 
 @dataclass(eq=False)
 class WorkCell:
-    """A robot at a base before the object: tries targets and counts why they fail. Its world serves one cell at a time."""
+    """Robot at a base before the object: tries targets and counts why they fail.
+
+    The collision world is shared, so only one cell may use it at a time.
+    """
 
     thing: ArticulatedObject
     robot: RobotArm
@@ -78,16 +81,16 @@ class WorkCell:
         self._T_base_asset = np.linalg.inv(self.base.transform)
 
     def home_touches(self) -> str | None:
-        """Return what the robot collides with at home, None when it is free."""
+        """Return which links collide at the robot's home posture, None if none do."""
         touch = self.world.touching(self.robot.home, self.hand.stroke, 0.0)
         return None if touch is None else f"{touch.a} at {touch.b}"
 
     def tool(self, target: Target, value: float, along: float = 0.0) -> Float[np.ndarray, "4 4"]:
-        """Return the tool's pose in the robot's frame when the part is at a value; along: moved by so much along its z [m]."""
+        """Return the tool's pose in the robot's base frame for a value of the joint; along: offset along the tool's z [m]."""
         return self._T_base_asset @ self.thing.motion.transform(value) @ tool_pose(target, self.hand, along)
 
     def reachable(self, target: Target, rng: np.random.Generator) -> bool:
-        """Return whether the tool gets to the part without collision, and to the end of the part's motion."""
+        """Return whether the tool reaches the part without collision, and the end of the part's motion."""
         if not self._near(target):
             return False
         if next(iter(self.kinematics.search(self.tool(target, self.value), rng, FEW)), None) is None:
@@ -97,17 +100,17 @@ class WorkCell:
         return any(self.world.touching(q, target.width, 0.0, holding=True) is None for q in postures)
 
     def _near(self, target: Target) -> bool:
-        """Return whether both ends of the motion are within the arm's length; quicker to tell than by inverse kinematics."""
+        """Return whether both ends of the motion are within the arm's reach; cheaper than inverse kinematics."""
         ends = (self.tool(target, value)[:3, 3] for value in (self.value, 0.0))
         return all(float(np.linalg.norm(at - self.kinematics.shoulder)) <= self.kinematics.reach for at in ends)
 
     @staticmethod
     def start(target: Target) -> float:
-        """Return how far along the tool's z from the target the part's motion begins [m]."""
+        """Return the offset along the tool's z at which the part's motion begins, relative to the target [m]."""
         return -STAND_OFF if target.contact is GripperContact.PUSH else 0.0
 
     def route(self, target: Target) -> Route | None:
-        """Return the whole way for a target, but for the approach; None, counted, when there is none."""
+        """Compute all motions for a target except the approach; None if there are none, and the reason is counted."""
         rng = np.random.default_rng([self.seed, 1])
         open_gap = min(self.hand.stroke, target.width + OPENING) if target.contact is GripperContact.GRASP else 0.0
         start = self.start(target)
@@ -119,7 +122,7 @@ class WorkCell:
             if isinstance(found, Route):
                 return found
             reasons.append(found)
-        last = max(reasons, key=list(Reason).index, default=Reason.REACH)  # the one that came farthest
+        last = max(reasons, key=list(Reason).index, default=Reason.REACH)  # the reason of the attempt that got farthest
         self.failures[last] += 1
         return None
 
@@ -151,7 +154,7 @@ class WorkCell:
     def _along(
         self, target: Target, posture: np.ndarray, gap: float, start: float
     ) -> tuple[Float[np.ndarray, "n J"], Float[np.ndarray, " n"]]:
-        """Return postures along the joint as far as they go, and the joint's values."""
+        """Return the postures along the joint up to the first failure, and the joint's values."""
         step = ARC_TURN if self.thing.turns else ARC_STEP
         count = max(8, int(np.ceil(abs(self.value) / step)))
         values = self.value * np.arange(count + 1) / count
@@ -171,7 +174,7 @@ class WorkCell:
     def _line(
         self, target: Target, posture: np.ndarray, value: float, gap: float, start: float, *, whole: bool
     ) -> Float[np.ndarray, "k J"] | None:
-        """Return postures straight back from the part; None when it gets less far than `BACK_LEAST`, or `BACK` when whole."""
+        """Return postures of a straight retreat from the part; None if shorter than `BACK_LEAST`, or than `BACK` if `whole`."""
         found = [posture]
         for back in np.arange(LINE_STEP, BACK + 1e-9, LINE_STEP):
             following = self.kinematics.solve(self.tool(target, value, start - back), found[-1])
@@ -184,7 +187,7 @@ class WorkCell:
         return np.array(found) if (len(found) - 1) * LINE_STEP > least - 1e-9 else None
 
     def approach(self, route: Route) -> Float[np.ndarray, "k J"] | None:
-        """Return a free path from home to where the tool goes straight to the part."""
+        """Compute a collision-free path from home to the start of the straight motion to the part."""
         path = free_path(
             self.robot.home, route.reach[0], self.kinematics.low, self.kinematics.high, self.free(route), seed=self.seed
         )
@@ -193,5 +196,5 @@ class WorkCell:
         return path
 
     def free(self, route: Route):
-        """Return whether a posture on the approach is clear of everything."""
+        """Return a predicate that tests whether a posture on the approach is free of collisions."""
         return lambda posture: self.world.touching(posture, route.open_gap, 0.0) is None

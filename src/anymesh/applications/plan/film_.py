@@ -1,4 +1,4 @@
-"""Pictures of a replay, by the project's ray caster: an MP4, or a contact sheet."""
+"""Pictures of a replay by the project's ray caster: an MP4 or a contact sheet."""
 
 from __future__ import annotations
 
@@ -27,18 +27,18 @@ from anymesh.types.camera import Camera
 from anymesh.types.mesh import Node
 
 WIDTH, HEIGHT = 640, 480  # [px] of a frame
-RATE = 10.0  # frames a second
-FLOOR = 2.5  # [m] side of the ground that is drawn
+RATE = 10.0  # [1/s] frames
+FLOOR = 2.5  # [m] side of the ground square that is drawn
 FOV = np.deg2rad(35)
 GRAY = (0.7, 0.7, 0.72)
 SUN = np.array([0.3, -0.5, 0.8]) / np.linalg.norm([0.3, -0.5, 0.8])
-MOST_FACES = 2000  # of a shape: robots come with a hundred times as many
-SHOULDER = 0.5  # [m] of the arm above its foot that must be seen
+MOST_FACES = 2000  # per geom; visual meshes of robots have up to a hundred times as many
+SHOULDER = 0.5  # [m] above the base; the part of the arm that must be visible
 SHEET_COLUMNS, SHEET_ROWS = 3, 3
 
 
 class Film:
-    """Draws the object and the robot in given states."""
+    """Renderer of the object and the robot in given states."""
 
     def __init__(
         self,
@@ -56,7 +56,7 @@ class Film:
         self._colors = np.concatenate([np.tile(color, (len(own), 1)) for _, own, color in self._shapes])
 
     def _shape(self, geom: int) -> tuple[Float[np.ndarray, "n 3 3"], UInt8[np.ndarray, " 3"]]:
-        """Return a geom's surface in its own frame, and its colour."""
+        """Return the surface of a geom in its own frame, and its colour."""
         model, data = self.model, self.data
         self.mujoco.mj_kinematics(model, data)
         world = geom_triangles(self.mujoco, model, data, geom)
@@ -67,11 +67,11 @@ class Film:
             half = FLOOR / 2
             own = np.clip(own, -half, half)
         own = simplify(own, MOST_FACES)
-        plain = look < 0 and np.allclose(rgba[:3], 0.5)  # what a file leaves out is 0.5
+        plain = look < 0 and np.allclose(rgba[:3], 0.5)  # MuJoCo's default colour, used where a file states none
         return own, np.round(255 * np.clip(GRAY if plain else rgba[:3], 0, 1)).astype(np.uint8)
 
     def state(self, trajectory: Trajectory, row: int) -> Float[np.ndarray, " q"]:
-        """Return the positions that a trajectory means at one of its samples."""
+        """Return the positions that a trajectory prescribes at one of its samples."""
         q = self.model.qpos0.copy()
         for name, value in zip(trajectory.joints, trajectory.position[row], strict=True):
             q[int(self.model.joint(ROBOT + name).qposadr[0])] = value
@@ -83,7 +83,7 @@ class Film:
     def camera(
         self, states: Float[np.ndarray, "k q"], *, close: bool = False, width: int = WIDTH, height: int = HEIGHT
     ) -> Camera:
-        """Return a camera from the side that sees the whole scene in all states; close: the hand and the part alone."""
+        """Return a camera at the side that sees the whole scene in all states; close: only the hand and the part."""
         wrist = int(self.model.body(ROBOT + self.robot.wrist).id)
         root = int(self.model.body(ROBOT + self.robot.root).id)
         places = []
@@ -111,7 +111,7 @@ class Film:
         self.mujoco.mj_kinematics(self.model, self.data)
 
     def frame(self, q: Float[np.ndarray, " q"], camera: Camera) -> UInt8[np.ndarray, "H W 3"]:
-        """Return one picture."""
+        """Render one picture."""
         self._pose(q)
         data = self.data
         parts = [own @ data.geom_xmat[g].reshape(3, 3).T + data.geom_xpos[g] for g, own, _ in self._shapes]
@@ -127,16 +127,16 @@ class Film:
 
 
 def _drawn(model: Any) -> list[int]:
-    """Return geoms that are only seen; those that collide where a link has no others. The ground is drawn too."""
+    """Return the visual geoms, the ground, and the collision geoms of links without visual ones."""
     seen = {g for g in range(model.ngeom) if not (model.geom_contype[g] or model.geom_conaffinity[g])}
     covered = {int(model.geom_bodyid[g]) for g in seen}
     return [g for g in range(model.ngeom) if g in seen or int(model.geom_bodyid[g]) not in covered]
 
 
 def write_film(film: Film, states: Float[np.ndarray, "k q"], path: Path, rate: float = RATE) -> Path:
-    """Write an MP4, or a PNG contact sheet: where `path` ends in .png, or where the extra `video` is missing.
+    """Write an MP4; write a PNG contact sheet if `path` ends in .png or the extra `video` is missing.
 
-    Returns the path written. Raises OptionError for another ending.
+    Return the path written. Raise OptionError for another suffix.
     """
     if path.suffix.lower() not in (".mp4", ".png"):
         raise OptionError(f"--video: found {path.name}; valid are files that end in .mp4 or .png")
@@ -167,7 +167,7 @@ def _frames(film: Film, states: Float[np.ndarray, "k q"], camera: Camera) -> Ite
 
 
 def tiled(frames: list[UInt8[np.ndarray, "H W 3"]], columns: int) -> UInt8[np.ndarray, "h w 3"]:
-    """Arrange pictures of one size in rows."""
+    """Arrange pictures of equal size in rows."""
     rows = [frames[k : k + columns] for k in range(0, len(frames), columns)]
     rows[-1] += [np.full_like(frames[0], 255)] * (columns - len(rows[-1]))
     return np.concatenate([np.concatenate(row, 1) for row in rows])

@@ -1,4 +1,4 @@
-"""Whether the gripper alone, wherever the arm is, fits at a target: this does not depend on where the robot stands."""
+"""Test whether the gripper alone fits at a target; the result is independent of the robot's base."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ from anymesh.applications.plan.robot_ import RobotArm
 from anymesh.applications.plan.scene_ import OBJECT, ROBOT, compose
 from anymesh.mujoco_ import load_mujoco
 
-BACK, BACK_STEP = 0.08, 0.01  # [m] from which the tool goes straight to the part; steps of the test
-WIDER = (0.002, 0.005, 0.009, 0.014)  # [m] by which collision shapes may be thicker than the surface
-OPENING = 0.024  # [m] that the fingers are wider than what they take
-TOUCH = 1e-3  # [m] that a finger may be in the part
+BACK, BACK_STEP = 0.08, 0.01  # [m] length of the straight motion to the part; step of the test
+WIDER = (0.002, 0.005, 0.009, 0.014)  # [m] by which collision shapes may be thicker than the visible surface
+OPENING = 0.024  # [m] by which the open fingers are wider than what they grasp
+TOUCH = 1e-3  # [m] that a finger may penetrate the part
 
 
 class HandWorld:
-    """The gripper as a body of its own, and the object at rest."""
+    """Collision model of the gripper as a free body and the object at rest."""
 
     def __init__(self, thing: ArticulatedObject, robot: RobotArm, hand: Hand) -> None:
         self.mujoco = load_mujoco()
@@ -49,7 +49,7 @@ class HandWorld:
         robot_geoms = np.array([names[b].startswith(ROBOT) for b in model.geom_bodyid])
         outside = robot_geoms & ~np.isin(model.geom_bodyid, sorted(below))
         model.geom_contype[outside] = model.geom_conaffinity[outside] = 0
-        model.geom_conaffinity[robot_geoms] = 0  # nor with itself
+        model.geom_conaffinity[robot_geoms] = 0  # no collisions within the robot
 
     def _frame(self, body: int) -> Float[np.ndarray, "4 4"]:
         T = np.eye(4)
@@ -57,7 +57,7 @@ class HandWorld:
         return T
 
     def _clear(self, T_asset_tool: Float[np.ndarray, "4 4"], gap: float) -> bool:
-        """Return whether fingers are at most `TOUCH` in the part, and nothing else of the hand touches anything."""
+        """Return whether fingers penetrate the part by at most `TOUCH` and nothing else of the hand touches anything."""
         T = T_asset_tool @ np.linalg.inv(self.hand.T_wrist_tool) @ self._T_wrist_root
         quat = np.zeros(4)
         self.mujoco.mju_mat2Quat(quat, np.ascontiguousarray(T[:3, :3]).reshape(-1))
@@ -72,7 +72,7 @@ class HandWorld:
         return bool((self.data.contact.dist >= np.where(touching, -TOUCH, 0.0)).all())
 
     def fitted(self, targets: Sequence[Target]) -> list[Target]:
-        """Return the targets where the hand fits, with the width that the collision shapes have there."""
+        """Return the targets where the hand fits, with the width of the collision shapes there."""
         return [found for target in targets if (found := self._fit(target)) is not None]
 
     def _fit(self, target: Target) -> Target | None:
@@ -90,9 +90,9 @@ class HandWorld:
 
 
 def tool_pose(target: Target, hand: Hand, along: float) -> Float[np.ndarray, "4 4"]:
-    """Return the tool at a target, in the asset frame at rest; along: moved by so much along its z [m].
+    """Return the tool's pose at a target, in the asset frame at rest; along: offset along its z [m].
 
-    The fingertips are `PAD` beyond what is grasped, and at what is pushed.
+    The fingertips are `PAD` beyond the grasped place, or at the pushed one.
     """
     ahead = np.eye(4)
     reach = hand.reach_at(target.width)

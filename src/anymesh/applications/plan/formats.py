@@ -1,4 +1,4 @@
-"""Trajectories as files: our JSON with everything, CSV, and the layout of ROS' trajectory_msgs/JointTrajectory."""
+"""Trajectory files: the project's JSON with all data, CSV, and the layout of ROS' trajectory_msgs/JointTrajectory."""
 
 from __future__ import annotations
 
@@ -16,20 +16,20 @@ from anymesh.applications.plan.plans import BasePose, GripperContact, MotionPlan
 from anymesh.errors import InputError, OptionError, OutputError
 
 VERSION = 1
-DIGITS = 9  # of positions and their derivatives: 1e-9 rad
+DIGITS = 9  # decimals of positions and their derivatives: 1e-9 rad
 SECOND = 1_000_000_000  # [ns]
 
 
 class PlanFormat(StrEnum):
-    """How a trajectory is written."""
+    """File format of a trajectory."""
 
     JSON = "json"
     CSV = "csv"
-    ROS = "ros"  # trajectory_msgs/JointTrajectory as JSON, which is YAML too
+    ROS = "ros"  # trajectory_msgs/JointTrajectory as JSON, which is also valid YAML
 
 
 def write_plan(plan: MotionPlan, path: Path, kind: str = PlanFormat.JSON, *, force: bool = False) -> None:
-    """Write a plan, whole or not at all. Raises OptionError for a format that is not known, OutputError."""
+    """Write a plan, completely or not at all. Raise OptionError for an unknown format, OutputError if writing fails."""
     if kind not in list(PlanFormat):
         raise OptionError(f"--format: found {kind!r}; valid are {', '.join(PlanFormat)}")
     if path.exists() and not force:
@@ -45,7 +45,7 @@ def write_plan(plan: MotionPlan, path: Path, kind: str = PlanFormat.JSON, *, for
 
 
 def plan_text(plan: MotionPlan, kind: PlanFormat) -> str:
-    """Return the text of a file."""
+    """Return the content of the file in the given format."""
     match kind:
         case PlanFormat.JSON:
             return json.dumps(plan_record(plan), indent=1) + "\n"
@@ -58,7 +58,7 @@ def plan_text(plan: MotionPlan, kind: PlanFormat) -> str:
 
 
 def plan_record(plan: MotionPlan) -> dict[str, Any]:
-    """Return all of a plan, but for how long planning took: the same plan gives the same text."""
+    """Return the whole plan as plain values, without planning times, so that the same plan gives the same text."""
     t = plan.trajectory
     return {
         "version": VERSION,
@@ -98,7 +98,7 @@ def _numbers(row: np.ndarray) -> list[float]:
 
 
 def read_plan(path: str | Path) -> MotionPlan:
-    """Return a plan from our JSON. Raises InputError when it is none."""
+    """Read a plan from the project's JSON. Raise InputError if the file holds none."""
     path = Path(path)
     try:
         return _plan(json.loads(path.read_text(encoding="utf-8")))
@@ -132,7 +132,7 @@ def _plan(record: Mapping[str, Any]) -> MotionPlan:
 
 
 def _csv(t: Trajectory) -> str:
-    """Return one row per sample: time [s], phase, position, velocity and acceleration per joint, gap, the part's value."""
+    """Return one row per sample: time [s], phase, position, velocity and acceleration per joint, gap, value of the part."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     heads = [f"{word}_{joint}" for word in ("position", "velocity", "acceleration") for joint in t.joints]
@@ -146,7 +146,7 @@ def _csv(t: Trajectory) -> str:
 
 
 def ros_record(t: Trajectory) -> dict[str, Any]:
-    """Return the fields of trajectory_msgs/JointTrajectory (ROS 2), no others, so that it can be published as it is."""
+    """Return exactly the fields of trajectory_msgs/JointTrajectory (ROS 2), so that the record can be published unchanged."""
     points = [
         {
             "positions": _numbers(t.position[k]),

@@ -1,4 +1,4 @@
-"""The gripper: where its tool frame lies, and how its fingers stand when opened so far. Measured on the model itself."""
+"""Gripper model: the tool frame, and the finger positions for a given gap, measured in simulation."""
 
 from __future__ import annotations
 
@@ -12,20 +12,19 @@ from anymesh.applications.plan.robot_ import RobotArm, without_visuals
 from anymesh.errors import OptionError
 from anymesh.mujoco_ import load_mujoco
 
-STOPS = 9  # postures of the gripper, from closed to open
-SETTLE = 300  # simulated steps that the fingers get for each
-PAD = 0.010  # [m] from the fingertips back to the middle of what they hold
-NEAR_TIP = 0.005  # [m] from the tips: shapes that reach there are the pads
+STOPS = 9  # measured postures of the gripper, from closed to open
+SETTLE = 300  # simulation steps for the fingers to settle in each
+PAD = 0.010  # [m] from the fingertips back to the middle of the grasp
+NEAR_TIP = 0.005  # [m] from the tips; shapes that reach this far are the pads
 CORNERS = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
 
 
 @dataclass(frozen=True, eq=False)
 class Hand:
-    """How a gripper is posed.
+    """Measured geometry of a gripper.
 
     T_wrist_tool: (4, 4); gap: (k,) between the pads [m], rising; reach: (k,) from the tool's origin to the tips [m];
-    posture: (k, F) of the gripper's joints; control: (k, A) of its actuators; size: (2,) half the hand's extent along the
-    tool's x and y [m]; length: from the hand's front to the tips [m].
+    posture: (k, F) of the gripper's joints; control: (k, A) of its actuators.
     """
 
     T_wrist_tool: Float[np.ndarray, "4 4"]
@@ -36,15 +35,15 @@ class Hand:
 
     @property
     def stroke(self) -> float:
-        """The largest gap [m]."""
+        """Largest gap [m]."""
         return float(self.gap[-1])
 
     def posture_at(self, gap: float) -> Float[np.ndarray, " F"]:
-        """Return the gripper's joints at a gap [m], clipped to what it can."""
+        """Return the positions of the gripper's joints for a gap [m], clipped to its range."""
         return self._at(self.posture, gap)
 
     def control_at(self, gap: float) -> Float[np.ndarray, " A"]:
-        """Return the controls that lead there."""
+        """Return the actuator controls for a gap [m]."""
         return self._at(self.control, gap)
 
     def reach_at(self, gap: float) -> float:
@@ -56,9 +55,9 @@ class Hand:
 
 
 def measure_hand(robot: RobotArm) -> Hand:
-    """Open and closes the gripper in a simulation of its own and measures how its fingers move.
+    """Open and close the gripper in a separate simulation and measure how its fingers move.
 
-    Raises OptionError when no fingers close on one another.
+    Raise OptionError if no two fingers close on one another.
     """
     if not robot.fingers:
         raise OptionError(f"{robot.name} has no gripper: no joints after its last branching; name them with --gripper")
@@ -82,7 +81,7 @@ def measure_hand(robot: RobotArm) -> Hand:
 class _State:
     qpos: Float[np.ndarray, " q"]
     control: Float[np.ndarray, " A"]
-    points: tuple[Float[np.ndarray, "_ 3"], ...]  # of each of the fingers' shapes, in the wrist's frame
+    points: tuple[Float[np.ndarray, "_ 3"], ...]  # of each finger shape, in the wrist's frame
 
     @property
     def middles(self) -> Float[np.ndarray, "g 3"]:
@@ -90,15 +89,15 @@ class _State:
 
 
 class _Bench:
-    """The robot alone, its arm held, without gravity."""
+    """Simulation of the robot alone, its arm fixed, without gravity."""
 
     def __init__(self, mujoco: Any, robot: RobotArm) -> None:
         spec = without_visuals(robot.spec)
         spec.option.gravity = (0, 0, 0)
-        spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST  # stiff servos on light fingers
+        spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST  # stable for stiff servos on light fingers
         for motor in [a for a in spec.actuators if a.target in robot.joints]:
             spec.delete(motor)
-        for name in robot.joints:  # the arm is rigid: the fingers must not push it about
+        for name in robot.joints:  # fix the arm, so that the fingers do not move it
             spec.delete(spec.joint(name))
         self.mujoco, self.robot = mujoco, robot
         self.model = model = spec.compile()
@@ -112,10 +111,10 @@ class _Bench:
         collides = (model.geom_contype | model.geom_conaffinity) != 0
         self.geoms = np.flatnonzero(np.isin(model.geom_bodyid, sorted(carried)) & collides)
         still = np.setdiff1d(np.arange(model.ngeom), self.geoms)
-        model.geom_contype[still] = model.geom_conaffinity[still] = 0  # an arm without joints is no longer next to the fingers
+        model.geom_contype[still] = model.geom_conaffinity[still] = 0  # no longer neighbours of the fingers without joints
 
     def states(self) -> list[_State]:
-        """Return the gripper at rest at each of some controls, from one end to the other."""
+        """Return the settled gripper at `STOPS` controls from one end of their range to the other."""
         model, data = self.model, self.data
         ends = np.array([self._ends(a) for a in range(model.nu)]).reshape(-1, 2)
         found = []
@@ -134,7 +133,7 @@ class _Bench:
         return model.jnt_range[int(model.actuator_trnid[actuator, 0])]
 
     def _points(self, geom: int) -> Float[np.ndarray, "n 3"]:
-        """Return vertices of a mesh, corners of the box round any other shape, in the wrist's frame."""
+        """Return the vertices of a mesh or the corners of another shape's bounding box, in the wrist's frame."""
         model, data = self.model, self.data
         if int(model.geom_type[geom]) == int(self.mujoco.mjtGeom.mjGEOM_MESH):
             mesh = int(model.geom_dataid[geom])
@@ -152,7 +151,7 @@ class _Bench:
         return axes[0] * np.sign(axes[0][np.abs(axes[0]).argmax()])
 
     def span(self, state: _State, closing: np.ndarray) -> float:
-        """Return how far the fingers' middles are apart along the closing direction [m]."""
+        """Return the distance between the centres of the fingers along the closing direction [m]."""
         return float(np.ptp(state.middles @ closing))
 
     def tool(self, closed: _State, closing: np.ndarray) -> Float[np.ndarray, "4 4"]:
@@ -160,7 +159,7 @@ class _Bench:
         points = np.concatenate(closed.points)
         ahead = points.mean(0) - (points.mean(0) @ closing) * closing
         axis = int(np.abs(ahead).argmax())
-        if np.abs(ahead[axis]) > 0.99 * np.linalg.norm(ahead):  # hands are built along an axis of their flange
+        if np.abs(ahead[axis]) > 0.99 * np.linalg.norm(ahead):  # most hands are aligned with an axis of their flange
             ahead = np.sign(ahead[axis]) * np.eye(3)[axis]
         ahead = ahead / np.linalg.norm(ahead)
         y = closing - (closing @ ahead) * ahead
@@ -174,7 +173,7 @@ class _Bench:
         return T
 
     def _pads(self, state: _State, T: np.ndarray) -> tuple[Float[np.ndarray, "n 3"], Int[np.ndarray, " n"]]:
-        """Points, in the tool's frame, of the shapes that reach to the tips, and on which side each is."""
+        """Return points of the shapes that reach to the tips, in the tool's frame, and the side of each."""
         shapes = [(p - T[:3, 3]) @ T[:3, :3] for p in state.points]
         top = max(p[:, 2].max() for p in shapes)
         reaching = [p[p[:, 2] > top - 2 * PAD] for p in shapes if p[:, 2].max() > top - NEAR_TIP]

@@ -1,4 +1,4 @@
-"""Where the tool is for a posture of the arm, and a posture for where the tool should be (by mink, on MuJoCo)."""
+"""Forward and inverse kinematics of the arm with mink, on MuJoCo."""
 
 from __future__ import annotations
 
@@ -13,16 +13,16 @@ from anymesh.applications.plan.robot_ import RobotArm, without_visuals
 from anymesh.errors import MissingExtraError
 from anymesh.mujoco_ import load_mujoco
 
-TOOL = "anymesh_tool"  # the site that is added to the wrist
-POSITION_TOLERANCE_M, ANGLE_TOLERANCE_RAD = 1e-6, 1e-6  # [m], [rad] that a solution may be off
-STEPS = 40  # of Gauss-Newton before a seed is given up
-GIVE_UP = 12  # steps after which a seed must be within `HOPE` of the target
+TOOL = "anymesh_tool"  # name of the site added to the wrist
+POSITION_TOLERANCE_M, ANGLE_TOLERANCE_RAD = 1e-6, 1e-6  # [m], [rad] largest error of a solution
+STEPS = 40  # Gauss-Newton steps per seed
+GIVE_UP = 12  # steps after which a seed is dropped unless its error is below `HOPE`
 HOPE = 0.15  # [m] or [rad]
-MARGIN = 0.02  # [rad] that solutions keep from the joint limits, for what tracking needs
+MARGIN = 0.02  # [rad] distance of solutions from the joint limits, reserved for tracking
 
 
 class Kinematics:
-    """The arm alone, its base at the origin."""
+    """Kinematic model of the arm alone, its base at the origin."""
 
     def __init__(self, robot: RobotArm, hand: Hand) -> None:
         try:
@@ -40,7 +40,7 @@ class Kinematics:
         self.shoulder, self.reach = self._reach()
 
     def _reach(self) -> tuple[Float[np.ndarray, " 3"], float]:
-        """Return where the second joint is at home, and how far the tool gets from there [m], by 300 random postures."""
+        """Return the position of the second joint at home, and the reach from there [m], estimated from 300 random postures."""
         self._configuration.update(self.robot.home)
         shoulder = np.array(self._configuration.data.xanchor[self.model.joint(self.robot.joints[1]).id])
         postures = np.random.default_rng(0).uniform(self.low, self.high, (300, len(self.low)))
@@ -52,7 +52,7 @@ class Kinematics:
         return np.array(self._configuration.get_transform_frame_to_world(TOOL, "site").as_matrix())
 
     def solve(self, T_base_tool: Float[np.ndarray, "4 4"], seed: Float[np.ndarray, " J"]) -> Float[np.ndarray, " J"] | None:
-        """Return a posture that brings the tool there, near a seed; None when none is found within the limits."""
+        """Return a posture near the seed that brings the tool to a pose; None if none is found within the limits."""
         self._configuration.update(np.clip(seed, self.low, self.high))
         self._task.set_target(self._mink.SE3.from_matrix(T_base_tool))
         for step in range(STEPS):
@@ -74,7 +74,7 @@ class Kinematics:
     def search(
         self, T_base_tool: Float[np.ndarray, "4 4"], rng: np.random.Generator, tries: int, near: Iterable[np.ndarray] = ()
     ) -> Iterable[Float[np.ndarray, " J"]]:
-        """Yield different postures that bring the tool there, from the home posture, the ones given and random seeds."""
+        """Yield distinct postures that bring the tool to a pose, seeded by `near`, the home posture and random postures."""
         found: list[np.ndarray] = []
         spread = np.minimum(self.high - self.low, 2 * np.pi)
         middle = (self.low + self.high) / 2
@@ -87,7 +87,7 @@ class Kinematics:
 
 
 def _arm_alone(mujoco: Any, robot: RobotArm, hand: Hand) -> Any:
-    """Return the arm's links without shapes, the gripper's joints fixed, and a site at the tool."""
+    """Return a model of the arm's links without shapes, with the gripper's joints fixed and a site at the tool."""
     spec = without_visuals(robot.spec)
     for things in (spec.actuators, spec.equalities, spec.tendons, spec.sensors, spec.excludes, spec.geoms, spec.meshes):
         for thing in list(things):
@@ -95,7 +95,7 @@ def _arm_alone(mujoco: Any, robot: RobotArm, hand: Hand) -> Any:
     for joint in [j for j in spec.joints if j.name not in robot.joints]:
         spec.delete(joint)
     for body in spec.bodies[1:]:
-        body.explicitinertial, body.mass, body.inertia = True, 1.0, [1.0, 1.0, 1.0]  # shapes no longer give any
+        body.explicitinertial, body.mass, body.inertia = True, 1.0, [1.0, 1.0, 1.0]  # the shapes that gave inertia are deleted
         body.fullinertia = [np.nan] * 6
     quat = np.zeros(4)
     mujoco.mju_mat2Quat(quat, np.ascontiguousarray(hand.T_wrist_tool[:3, :3]).reshape(-1))

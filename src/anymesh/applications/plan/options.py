@@ -1,4 +1,4 @@
-"""What the command line says in words."""
+"""Parsing of option values of the command line."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ VALUE = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([a-z]*)\s
 
 
 def parse_value(text: str) -> float:
-    """Return a joint's value [rad or m] from a number with or without a unit. Raises OptionError."""
+    """Return a joint's value [rad or m] from a number with an optional unit. Raise OptionError if the text is not valid."""
     found = VALUE.fullmatch(text)
     if found is None or found[2] not in UNITS:
         units = ", ".join(name for name in UNITS if name)

@@ -1,4 +1,4 @@
-"""Planning: a base, a target and a route that work, and the trajectory along it."""
+"""Planning: find a base, a target and a route, and compute the trajectory along the route."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ from anymesh.applications.plan.trajectory import build_trajectory
 from anymesh.errors import OptionError
 from anymesh.progress import Progress, silent
 
-TARGETS = 60  # that are tried from a base
-SHORT = 0.03  # [m] what moves less is pushed rather than grasped
+TARGETS = 60  # targets tried per base
+SHORT = 0.03  # [m] travel of the part below which pushing is tried before grasping
 AUTO = "auto"
 CONTACTS = {AUTO: (), **{c.value: (c,) for c in GripperContact}}
 
 
 def open_arm(robot: str | Path, *, tool: str | None = None, gripper: Sequence[str] = ()) -> Arm:
-    """Load a robot by short name or file and measures its gripper. Raises as `find_robot`, `load_robot`, `measure_hand`."""
+    """Load a robot by short name or file and measure its gripper. Raise as `find_robot`, `load_robot` and `measure_hand`."""
     loaded = load_robot(find_robot(robot), tool=tool, gripper=gripper)
     hand = measure_hand(loaded)
     return Arm(loaded, hand, Kinematics(loaded, hand))
@@ -52,10 +52,11 @@ def plan(
 ) -> MotionPlan:
     """Plan how a robot arm moves a joint of an asset from rest to a value (paper, 4.2).
 
-    asset: a folder that anymesh made, a URDF or an MJCF; robot: panda, ur5e, or a URDF or MJCF; joint: its name or that of
-    the part it carries; to: [rad or m]; base: auto, "X,Y,Z,YAW" [m, deg] or a pose; contact: auto, grasp or push; tool,
-    gripper: as for `load_robot`; speed: share of the joints' limits; seconds: after which nothing further is tried.
-    Raises PlanError with the reason and the nearest value where nothing works, OptionError, InputError, MissingExtraError.
+    asset: a folder written by anymesh, a URDF or an MJCF; robot: panda, ur5e, or a URDF or MJCF; joint: name of the joint or of
+    the part that it moves; to: [rad or m]; base: auto, "X,Y,Z,YAW" [m, deg] or a pose; contact: auto, grasp or push; tool,
+    gripper: as for `load_robot`; speed: share of the joints' limits; seconds: after which no further target is tried.
+    Raise PlanError with the reason and the nearest feasible value if no plan is found, OptionError, InputError or
+    MissingExtraError.
     """
     if contact not in CONTACTS:
         raise OptionError(f"--contact: found {contact!r}; valid are {', '.join(CONTACTS)}")
@@ -83,7 +84,7 @@ def plan_motion(
     settings: Settings = Settings(),  # noqa: B008 - frozen
     progress: Progress = silent,
 ) -> MotionPlan:
-    """Run `plan` for an object and a robot that are loaded. base: None for automatic; contacts: none for automatic."""
+    """Run `plan` for a loaded object and robot. base: None for automatic; contacts: empty for automatic."""
     begin = time.perf_counter()
     value = thing.check_value(to)
     if value == 0:
@@ -116,7 +117,7 @@ def plan_motion(
 
 
 def _targets(thing: ArticulatedObject, arm: Arm, value: float, contacts: tuple[GripperContact, ...], seed: int) -> list[Target]:
-    """Return the targets where the gripper fits. Raise PlanError when there is none."""
+    """Return the targets where the gripper fits. Raise PlanError if there are none."""
     surfaces = PartSurfaces(thing.part_triangles, thing.other_triangles)
     sampled = sample_targets(surfaces, thing.motion, value, arm.hand.stroke, seed, contacts)
     if not sampled:
@@ -133,7 +134,7 @@ def _targets(thing: ArticulatedObject, arm: Arm, value: float, contacts: tuple[G
 
 
 def _usual(thing: ArticulatedObject, value: float) -> tuple[GripperContact, ...]:
-    """Return what moves little is pushed first, the rest grasped first."""
+    """Return the order of contacts to try: push first for parts that move little, else grasp first."""
     corners = thing.part_triangles.reshape(-1, 3)
     travel = float(np.linalg.norm(velocity(thing.motion, corners), axis=1).max()) * abs(value)
     return (GripperContact.PUSH, GripperContact.GRASP) if travel < SHORT else (GripperContact.GRASP, GripperContact.PUSH)

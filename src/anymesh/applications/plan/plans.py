@@ -1,4 +1,4 @@
-"""Nouns of planning: poses of a gripper on a part, what an arm can do, and its trajectory."""
+"""Types of planning: poses of a gripper on a part, and plans with their trajectories."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from anymesh.errors import OptionError
 
 
 class PlanError(OptionError):
-    """No motion does what was asked: out of reach, in collision, or beyond a limit; the message says which.
+    """Error if no motion reaches the requested value; the message states whether reach, a collision or a limit prevents it.
 
-    nearest: the nearest value of the joint that can be reached [rad or m], None where none is known.
+    nearest: the nearest value of the joint that can be reached [rad or m], None if unknown.
     """
 
     def __init__(self, message: str, nearest: float | None = None) -> None:
@@ -31,23 +31,23 @@ class GripperContact(StrEnum):
 
 
 class Phase(StrEnum):
-    """What the arm does between two stops."""
+    """Phase of a trajectory."""
 
     APPROACH = "approach"  # through free space, planned
     REACH = "reach"  # straight to the part
-    CLOSE = "close"  # the fingers close, the arm stands
-    MOVE = "move"  # the part along its joint
+    CLOSE = "close"  # the fingers close, the arm is at rest
+    MOVE = "move"  # the part moves along its joint
     HOLD = "hold"
-    OPEN = "open"  # the fingers open, the arm stands
+    OPEN = "open"  # the fingers open, the arm is at rest
     RETREAT = "retreat"  # straight away from the part
 
 
 @dataclass(frozen=True, eq=False)
 class Target:
-    """A pose of the tool on a part at rest.
+    """Pose of the tool on a part at rest.
 
-    T_asset_tool: (4, 4), the tool's z is where it comes from to where it goes, its y the way the fingers close, its origin
-    between their pads; width: of what is grasped [m], 0 for a push; score: larger is tried earlier.
+    T_asset_tool: (4, 4), z along the approach, y along the closing direction of the fingers, origin between their pads;
+    width: of what is grasped [m], 0 for a push; score: targets with higher scores are tried first.
     """
 
     contact: GripperContact
@@ -58,7 +58,7 @@ class Target:
 
 @dataclass(frozen=True)
 class BasePose:
-    """Where the robot stands in the asset frame: x, y, z [m], yaw [rad]."""
+    """Pose of the robot's base in the asset frame: x, y, z [m], yaw [rad]."""
 
     x: float
     y: float
@@ -80,7 +80,7 @@ class BasePose:
 
     @property
     def transform(self) -> Float[np.ndarray, "4 4"]:
-        """(4, 4) from the robot's frame to the asset's."""
+        """Transform (4, 4) from the robot's frame to the asset's."""
         c, s = np.cos(self.yaw), np.sin(self.yaw)
         return np.array([[c, -s, 0, self.x], [s, c, 0, self.y], [0, 0, 1, self.z], [0, 0, 0, 1]])
 
@@ -90,11 +90,11 @@ class BasePose:
 
 @dataclass(frozen=True, eq=False)
 class Trajectory:
-    """What the arm does, sampled.
+    """Sampled trajectory of the arm and the gripper.
 
-    joints: names of the arm's, as the robot's file has them; time: (n,) from 0 [s]; position, velocity, acceleration: (n, J)
-    [rad, rad/s, rad/s2]; gap: (n,) between the fingers that is commanded, 0 is closing with full force [m]; phase: of each
-    sample; value: (n,) where the part's joint is meant to be [rad or m].
+    joints: names of the arm's joints in the robot's file; time: (n,) from 0 [s]; position, velocity, acceleration: (n, J)
+    [rad, rad/s, rad/s2]; gap: (n,) commanded between the fingers [m], 0 to close with full force; phase: of each sample;
+    value: (n,) planned value of the part's joint [rad or m].
     """
 
     joints: tuple[str, ...]
@@ -117,16 +117,16 @@ class Trajectory:
 
     @property
     def duration(self) -> float:
-        """Of the whole [s]."""
+        """Duration of the trajectory [s]."""
         return float(self.time[-1])
 
 
 @dataclass(frozen=True, eq=False)
 class MotionPlan:
-    """A trajectory and what it is for.
+    """Trajectory with its task and statistics.
 
-    asset, robot, joint, part: names; value: from, to [rad or m]; unit: rad or m; target: at rest; seconds: that each step of
-    planning took; notes: what was tried and dropped, in words.
+    asset, robot, joint, part: names; value: from, to [rad or m]; unit: rad or m; target: at rest; seconds: of each step of
+    planning; notes: what was tried and dropped, in words.
     """
 
     asset: str

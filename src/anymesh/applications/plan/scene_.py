@@ -1,4 +1,4 @@
-"""The object and the robot in one MuJoCo model, and what collides in it."""
+"""Combined MuJoCo model of the object and the robot, and its collision checks."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ from anymesh.mujoco_ import load_mujoco
 
 OBJECT, ROBOT = "object/", "robot/"  # prefixes of names
 PEDESTAL = "pedestal"
-THICK = 0.02  # [m] of the slab that is the ground
-THINGS, ARM = 1, 2  # bits of what collides: the ground and the object; the robot
-FOOT = 0.05  # of the object's height: what is lower stands on the stand
+THICK = 0.02  # [m] thickness of the ground slab
+THINGS, ARM = 1, 2  # collision bits: ground and object; robot
+FOOT = 0.05  # share of the object's height; vertices below it define the stand
 
 
 def compose(
@@ -29,15 +29,15 @@ def compose(
     T_world_asset: Float[np.ndarray, "4 4"] | None = None,
     visuals: bool = False,
 ) -> Any:
-    """Return the spec of both: the object stands on the ground z = 0, or on a stand where the robot's base is lower.
+    """Return the spec of both: the object stands on the ground z = 0, or on a stand if the robot's base is lower.
 
-    base: of the robot, the origin when None; T_world_asset: of the object, the identity when None.
+    base: of the robot, the origin if None; T_world_asset: of the object, the identity if None.
     """
     mujoco = load_mujoco()
     spec = mujoco.MjSpec()
     spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
     spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
-    spec.option.impratio = 10.0  # friction does not creep
+    spec.option.impratio = 10.0  # keeps friction contacts from creeping
     spec.option.timestep = 0.002
     height = 0.0 if base is None else base.z
     box = mujoco.mjtGeom.mjGEOM_BOX
@@ -70,7 +70,7 @@ def compose(
 
 @dataclass(frozen=True)
 class Touch:
-    """A pair of shapes nearer than allowed: names of the links, and their distance [m]."""
+    """Pair of shapes nearer than allowed: names of their links, and the distance [m]."""
 
     a: str
     b: str
@@ -78,10 +78,10 @@ class Touch:
 
 
 class CollisionWorld:
-    """Tells whether a posture of the arm collides, with the object posed anywhere along its joint.
+    """Collision checker of the arm's postures, with the object posed anywhere along its joint.
 
     The robot may be moved to another base of the same height (`move`). clearance: [m] that the arm and the open gripper keep
-    from everything; touch: [m] that fingers may be in the part while they hold it.
+    from everything; touch: [m] that fingers may penetrate the part while they hold it.
     """
 
     def __init__(
@@ -116,7 +116,7 @@ class CollisionWorld:
         self._ignored = self._always(hand)
 
     def move(self, base: BasePose) -> None:
-        """Place the robot elsewhere; at the height that it was made for."""
+        """Move the robot to another base of the same height."""
         T = base.transform @ self._T_base_root
         self.model.body_pos[self._root] = T[:3, 3]
         self.mujoco.mju_mat2Quat(self.model.body_quat[self._root], np.ascontiguousarray(T[:3, :3]).reshape(-1))
@@ -133,7 +133,7 @@ class CollisionWorld:
         return mask
 
     def _always(self, hand: Hand) -> set[tuple[int, int]]:
-        """Return pairs of links of the robot that touch at home, and the base on the ground: they are built so."""
+        """Return the pairs of robot links that touch at home, and the base with the ground; these contacts are by design."""
         ignored: set[tuple[int, int]] = set()
         for gap in (0.0, hand.stroke):
             self.pose(self.robot.home, gap, 0.0)
@@ -143,7 +143,7 @@ class CollisionWorld:
         return ignored | {(a, b) for k in (root, first) for a, b in ((0, k), (k, 0))}
 
     def pose(self, posture: Float[np.ndarray, " J"], gap: float, value: float) -> None:
-        """Place the arm, the fingers and the part."""
+        """Set the posture of the arm, the gap of the fingers and the value of the part's joint."""
         self.data.qpos[self.arm] = posture
         self.data.qpos[self.fingers] = self.hand.posture_at(gap)
         self.data.qpos[self.joint] = value
@@ -161,9 +161,10 @@ class CollisionWorld:
     def touching(
         self, posture: Float[np.ndarray, " J"], gap: float, value: float, *, holding: bool = False, pressed: float = 0.0
     ) -> Touch | None:
-        """Return the first pair that is too near, None when all are clear.
+        """Return the first pair that is too near, None if there is none.
 
-        holding: fingers may be at the part, and up to `touch` in it; pressed: so much deeper, and in what is round it [m].
+        holding: fingers may touch the part, and penetrate it up to `touch`; pressed: additional penetration of the part, and
+        penetration allowed for the rest of the object [m].
         """
         self.pose(posture, gap, value)
         for (a, b), distance in self._pairs():

@@ -1,4 +1,4 @@
-"""The search for a route: bases and targets are tried until one works, and why the others do not is remembered."""
+"""Search for a route over bases and targets; counts why attempts fail."""
 
 from __future__ import annotations
 
@@ -17,15 +17,15 @@ from anymesh.applications.plan.plans import BasePose, PlanError, Target
 from anymesh.applications.plan.robot_ import RobotArm
 from anymesh.applications.plan.scene_ import CollisionWorld
 
-ENOUGH = 3  # routes of which the shortest is taken
-SCREENED = 10  # targets with which a base is judged
-GOOD = 0.3  # share of them that a base must reach to be tried at once
+ENOUGH = 3  # routes per base, of which the shortest is taken
+SCREENED = 10  # targets used to assess a base
+GOOD = 0.3  # share of them that must be reachable for a base to be tried at once
 BASES = 6  # bases that are tried in full
 
 
 @dataclass(frozen=True)
 class Settings:
-    """How to plan. speed: share of the robot's limits; seconds: after which no further target is tried."""
+    """Planning settings. speed: share of the robot's limits; seconds: after which no further target is tried."""
 
     seed: int = 0
     speed: float = 0.3
@@ -34,7 +34,7 @@ class Settings:
 
 @dataclass(frozen=True, eq=False)
 class Arm:
-    """A robot ready to plan with."""
+    """Robot with its measured gripper and kinematics."""
 
     robot: RobotArm
     hand: Hand
@@ -42,7 +42,7 @@ class Arm:
 
 
 class Search:
-    """Tries bases and targets, and remembers why they failed."""
+    """Search over bases and targets that counts the reasons of failures."""
 
     def __init__(
         self, thing: ArticulatedObject, arm: Arm, value: float, targets: list[Target], settings: Settings, begin: float
@@ -66,7 +66,7 @@ class Search:
         return cell if self.blocked is None else None
 
     def at(self, base: BasePose) -> Route | None:
-        """Return the shortest of some routes from a base; None when there is none."""
+        """Return the shortest of up to `ENOUGH` routes from a base; None if there are none."""
         cell = self._open(base)
         if cell is None:
             return None
@@ -90,9 +90,9 @@ class Search:
         return None
 
     def anywhere(self, *, near: BasePose | None = None) -> Route | None:
-        """Return a route from the first base that reaches a good share of the targets, else from the best of the others.
+        """Return a route from the first base that reaches a good share of the targets, else from the best of the other bases.
 
-        near: bases near it go first.
+        near: bases near it are tried first.
         """
         poses = self._poses()
         if near is not None:
@@ -119,7 +119,7 @@ class Search:
         return None
 
     def _poses(self) -> list[BasePose]:
-        """Return where the robot might stand, by the middle of the tool's path."""
+        """Return candidate bases around the middle of the tool's path."""
         some = self.targets[:SCREENED]
         half = self.thing.motion.transform(self.value / 2)
         at = np.mean([(half @ t.T_asset_tool)[:3, 3] for t in some], axis=0)
@@ -131,7 +131,7 @@ class Search:
         return (f"{len(self.targets)} targets, {self.bases} bases tried", *dropped)
 
     def failure(self, base: BasePose | None) -> PlanError:
-        """Return why nothing worked, with the nearest value and base that do."""
+        """Return an error that states why no route was found, with the nearest feasible value and base."""
         say, joint = self.thing.say, self.thing.joint
         where = f"from the base {base}" if base is not None else "from any base that was tried"
         told = [f"{joint} cannot be brought to {say(self.value)} {where}"]
@@ -148,7 +148,7 @@ class Search:
         return PlanError("; ".join(told), nearest)
 
     def _nearest(self, base: BasePose | None) -> float | None:
-        """Return the value that is reached at most, if it can be planned for; a little less where not at all."""
+        """Return 98% or else 80% of the farthest value reached, if a route from the base exists for it; else None."""
         for share in (0.98, 0.8):
             value = self.farthest * share
             if base is None or abs(value) < 0.03 * abs(self.value):

@@ -1,4 +1,4 @@
-"""Position servos on the joints of an arm and its gripper, where the robot's file gives none."""
+"""Position servos for the joints of an arm and its gripper, where the robot's file has none."""
 
 from __future__ import annotations
 
@@ -8,17 +8,17 @@ from typing import Any
 import numpy as np
 from jaxtyping import Float
 
-STIFFNESS = 50.0  # [1/rad] of a servo that is added: full effort at a lag of 0.02 rad, as MuJoCo Menagerie's Panda has it
-DAMPING = 0.1  # [s] of such a servo, over its stiffness
-ARMATURE, FRICTION_DAMPING = 0.1, 1.0  # [kg m2], [N m s/rad] of a URDF's joints, which state no rotor
-FINGER_STIFFNESS, FINGER_DAMPING = 400.0, 20.0  # [1/m], [s/m] of a finger's servo over its force: all of it from 2.5 mm on
-USUAL_EFFORT = 50.0  # [N m] where a file states none
+STIFFNESS = 50.0  # [1/rad] over the effort limit: full effort at a lag of 0.02 rad, as in MuJoCo Menagerie's Panda
+DAMPING = 0.1  # [s] damping over stiffness
+ARMATURE, FRICTION_DAMPING = 0.1, 1.0  # [kg m2], [N m s/rad] for joints of a URDF, which states no rotor inertia
+FINGER_STIFFNESS, FINGER_DAMPING = 400.0, 20.0  # [1/m], [s/m] over the closing force: full force from 2.5 mm on
+USUAL_EFFORT = 50.0  # [N m] if a file states none
 
 
 def add_servos(
     mujoco: Any, spec: Any, model: Any, arm: Sequence[int], fingers: Sequence[int], closing_force: float
 ) -> Float[np.ndarray, " J"]:
-    """Give each joint of the arm a position servo where it has none, and the gripper too; returns the servos' lag [s]."""
+    """Add position servos to joints of the arm without one and to a gripper without actuators; return the servos' lag [s]."""
     servo = int(mujoco.mjtBias.mjBIAS_AFFINE)
     at: dict[int, Any] = {}
     drives_fingers = False

@@ -1,4 +1,4 @@
-"""Where a gripper can take or press a part: sampled on its surface, checked for room by rays, the most useful first."""
+"""Candidate grasps and pushes: sampled on the part's surface, checked for free space by rays, ranked by score."""
 
 from __future__ import annotations
 
@@ -14,38 +14,38 @@ from anymesh.types import Motion, MotionKind
 from anymesh.types.triangles import face_cross
 
 POINTS = 3000  # samples of the part's surface
-OPPOSED = np.cos(np.deg2rad(15))  # two faces that a gripper holds between it
-THIN = 0.002  # [m] what is thinner is not grasped
-ROOM = 0.006  # [m] of the stroke that is left when the open fingers pass what they take
-APPROACH_ANGLES = 12  # directions from which the same two faces are approached
-ROLLS = 4  # turns of the closed hand about the direction in which it presses
-TILTS = np.deg2rad([0, 20, -20, 40, -40])  # of that direction against the part's motion
-FACING = np.cos(np.deg2rad(25))  # a face that can be pressed along a motion
-FINGER, TIP = 0.013, 0.008  # [m] half the thickness of a finger and half its width, for the test of room
-PALM = np.array([(x, y) for x in (-0.03, 0.0, 0.03) for y in (-0.08, -0.04, 0.0, 0.04, 0.08)])  # [m] the hand behind them
-PALM_BACK = 0.034  # [m] from what is held
-CORRIDOR = 0.35  # [m] behind it that must be free
-EPS = 1e-5  # [m] that rays start off a surface
-KEPT, POOL = 250, 2500  # targets, and of how many of the best they are chosen
-APART, TURNED = 0.015, np.cos(np.deg2rad(25))  # [m], cosine: targets nearer than both are alike
+OPPOSED = np.cos(np.deg2rad(15))  # cosine; two faces within this angle of opposite can be grasped
+THIN = 0.002  # [m] thinner objects are not grasped
+ROOM = 0.006  # [m] of the stroke reserved for clearance when the open fingers pass the grasped place
+APPROACH_ANGLES = 12  # approach directions per pair of faces
+ROLLS = 4  # rotations of the closed hand about the pressing direction
+TILTS = np.deg2rad([0, 20, -20, 40, -40])  # of the pressing direction against the part's motion
+FACING = np.cos(np.deg2rad(25))  # cosine; a face within this angle of the motion can be pressed
+FINGER, TIP = 0.013, 0.008  # [m] half thickness and half width of a finger, for the free-space test
+PALM = np.array([(x, y) for x in (-0.03, 0.0, 0.03) for y in (-0.08, -0.04, 0.0, 0.04, 0.08)])  # [m] sample points of the palm
+PALM_BACK = 0.034  # [m] from the palm to the grasped place
+CORRIDOR = 0.35  # [m] free length required behind the palm
+EPS = 1e-5  # [m] offset of rays from their surface
+KEPT, POOL = 250, 2500  # targets returned, and number of the best from which they are chosen
+APART, TURNED = 0.015, np.cos(np.deg2rad(25))  # [m], cosine; targets closer than both are duplicates
 
 
 @dataclass(frozen=True, eq=False)
 class PartSurfaces:
-    """The part and the rest of the object at rest: (n, 3, 3) and (m, 3, 3) [m]."""
+    """Surfaces of the part and of the rest of the object at rest: (n, 3, 3) and (m, 3, 3) [m]."""
 
     part: Float[np.ndarray, "n 3 3"]
     others: Float[np.ndarray, "m 3 3"]
 
     @cached_property
     def scene(self) -> RayScene:
-        """All of it, to cast rays at; the part's faces come first."""
+        """Ray casting scene of both surfaces; the part's faces come first."""
         corners = np.concatenate([self.part, self.others]).reshape(-1, 3)
         return RayScene(corners, np.arange(len(corners)).reshape(-1, 3))
 
     @cached_property
     def part_normals(self) -> Float[np.ndarray, "n 3"]:
-        """Unit normals of the part's faces; zero where a face has no area."""
+        """Unit normals of the part's faces; zero for faces without area."""
         cross = face_cross(self.part)
         return cross / np.maximum(np.linalg.norm(cross, axis=1, keepdims=True), 1e-12)
 
@@ -55,7 +55,7 @@ def sample_targets(
 ) -> list[Target]:
     """Return targets of the requested kinds, the most promising first.
 
-    value: where the joint is to go from rest [rad or m], whose sign tells the way; stroke: of the gripper [m].
+    value: of the joint to reach from rest [rad or m], whose sign gives the direction; stroke: of the gripper [m].
     """
     rng = np.random.default_rng(seed)
     points, normals = _samples(surfaces.part, rng)
@@ -69,7 +69,7 @@ def sample_targets(
 
 
 def _samples(triangles: np.ndarray, rng: np.random.Generator) -> tuple[Float[np.ndarray, "n 3"], Float[np.ndarray, "n 3"]]:
-    """Return points spread over a surface, with its normals."""
+    """Sample points on a surface; return them with its normals."""
     cross = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
     area = np.linalg.norm(cross, axis=1)
     chosen = rng.choice(len(triangles), POINTS, p=area / area.sum())
@@ -81,7 +81,7 @@ def _samples(triangles: np.ndarray, rng: np.random.Generator) -> tuple[Float[np.
 
 
 def velocity(motion: Motion, points: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 3"]:
-    """Return how points of the part move when the joint's value rises, [m] per radian or metre."""
+    """Return the velocity of points of the part per unit of the joint's value, [m] per radian or metre."""
     if motion.kind is MotionKind.PRISMATIC:
         return np.broadcast_to(motion.axis, points.shape).copy()
     return np.cross(motion.axis, points - motion.origin)
@@ -95,7 +95,7 @@ def _frames(y: np.ndarray, z: np.ndarray, origin: np.ndarray) -> Float[np.ndarra
 
 
 def _across(v: np.ndarray) -> np.ndarray:
-    """Return a unit vector at right angles to each."""
+    """Return a unit vector perpendicular to each input vector."""
     helper = np.where(np.abs(v[:, 2:3]) < 0.9, [[0.0, 0, 1]], [[1.0, 0, 0]])
     found = np.cross(v, helper)
     return found / np.linalg.norm(found, axis=1, keepdims=True)
@@ -104,7 +104,7 @@ def _across(v: np.ndarray) -> np.ndarray:
 def _grasps(
     surfaces: PartSurfaces, points: np.ndarray, normals: np.ndarray, motion: Motion, value: float, stroke: float
 ) -> list[Target]:
-    """Return two opposite faces of the part between the fingers, approached from where there is room."""
+    """Return grasps of two opposite faces of the part, approached from directions with free space."""
     hits = surfaces.scene.first_hit(points - EPS * normals, -normals)
     width = hits.distance + EPS
     mine = (hits.face >= 0) & (hits.face < len(surfaces.part))
@@ -154,7 +154,7 @@ def _pushes(surfaces: PartSurfaces, points: np.ndarray, normals: np.ndarray, mot
     for tilt in TILTS:
         for roll in np.arange(ROLLS) * np.pi / ROLLS:
             side = _across(way[ok])
-            up = np.cross(side, way[ok])  # level side, so a tilt leads the hand up or down
+            up = np.cross(side, way[ok])  # `side` is horizontal, so a tilt moves the hand up or down
             z = np.cos(tilt) * way[ok] + np.sin(tilt) * up
             flat = np.cross(z, side)
             y = np.cos(roll) * side + np.sin(roll) * flat
@@ -169,7 +169,7 @@ def _pushes(surfaces: PartSurfaces, points: np.ndarray, normals: np.ndarray, mot
 def _first_touch(
     surfaces: PartSurfaces, T: Float[np.ndarray, "n 4 4"]
 ) -> tuple[Float[np.ndarray, "n 4 4"], Bool[np.ndarray, " n"]]:
-    """Move targets along their z until the first ray of the fingertips meets the part; False where it meets another."""
+    """Move targets along their z until the first ray of the fingertips meets the part; False if it meets another surface."""
     grid = np.array([(x, y) for x in (-TIP, 0.0, TIP) for y in (-TIP, 0.0, TIP)])
     back = 0.05
     own = np.concatenate([grid, np.full((len(grid), 1), -back)], 1)
@@ -187,7 +187,7 @@ def _first_touch(
 
 
 def _room(scene: RayScene, T: Float[np.ndarray, "n 4 4"], width: Float[np.ndarray, " n"]) -> Bool[np.ndarray, " n"]:
-    """Return whether fingers and palm fit where the tool comes from."""
+    """Return whether the fingers and the palm fit along the approach."""
     rows = []
     for side in (-1, 1):
         for x in (-TIP, TIP):
@@ -204,7 +204,7 @@ def _room(scene: RayScene, T: Float[np.ndarray, "n 4 4"], width: Float[np.ndarra
 
 
 def _unlike(targets: list[Target]) -> list[Target]:
-    """Return the best of those that are alike."""
+    """Return targets without near duplicates, keeping the best of each group."""
     kept: list[Target] = []
     for target in sorted(targets, key=lambda t: -t.score)[:POOL]:
         if len(kept) >= KEPT:

@@ -1,4 +1,4 @@
-"""Paths to trajectories: a smooth curve through the postures, at a speed that keeps every joint within its limits."""
+"""Time parametrization: a smooth curve through the postures, timed so that every joint stays within its limits."""
 
 from __future__ import annotations
 
@@ -9,16 +9,18 @@ from jaxtyping import Float
 from scipy.interpolate import CubicSpline
 
 STEP = 0.01  # [s] between samples
-CHECKED = 400  # places along a curve at which limits are held; samples lie between them, so a share is left
+CHECKED = 400  # places along a curve where limits are checked; samples lie between them, hence `SHARE`
 SHARE = 0.98  # of every limit that is used
-MIN_DURATION_S = 0.3  # [s] of the shortest motion
-SAME = 1e-9  # [rad] postures nearer than this are one
+MIN_DURATION_S = 0.3  # [s] shortest motion
+SAME = 1e-9  # [rad] below which two postures are equal
 
 
 @dataclass(frozen=True, eq=False)
 class Timed:
-    """Samples of one motion from rest to rest: time (n,) from 0 [s]; position, velocity, acceleration (n, J); share: (n,) of
-    the way along the path, 0 to 1."""
+    """Samples of one motion from rest to rest.
+
+    time: (n,) from 0 [s]; position, velocity, acceleration: (n, J); share: (n,) of the path, 0 to 1.
+    """
 
     time: Float[np.ndarray, " n"]
     position: Float[np.ndarray, "n J"]
@@ -28,10 +30,10 @@ class Timed:
 
 
 class Curve:
-    """A path through postures as a function of a share of its way, 0 to 1; twice differentiable."""
+    """Path through postures as a twice differentiable function of the share of its length, 0 to 1."""
 
     def __init__(self, path: Float[np.ndarray, "k J"], share: Float[np.ndarray, " k"] | None = None) -> None:
-        """share: where each posture lies, rising from 0 to 1; by the distance between them when None."""
+        """Fit the curve. share: of each posture, rising from 0 to 1; by the distances between postures if None."""
         if share is None:
             length = np.linalg.norm(np.diff(path, axis=0), axis=1)
             path = path[np.r_[True, length > SAME]]
@@ -41,7 +43,7 @@ class Curve:
         self.path = path
 
     def at(self, share: Float[np.ndarray, " n"], order: int = 0) -> Float[np.ndarray, "n J"]:
-        """Return postures, or their derivatives by the share."""
+        """Return postures, or their derivatives with respect to the share."""
         if self.spline is None:
             return np.tile(self.path[0], (len(share), 1)) * (order == 0)
         return self.spline(share, order)
@@ -54,10 +56,10 @@ def time_curve(
     *,
     least: float = MIN_DURATION_S,
 ) -> Timed:
-    """Run along a curve from rest to rest, quintic in time, as fast as limits allow.
+    """Time a curve from rest to rest, quintic in time, as fast as the limits allow.
 
-    velocity, acceleration: limits of each joint [rad/s, rad/s2]; least: duration [s]. At every sample |q'| and |q''| are
-    within the limits.
+    velocity, acceleration: limits of each joint [rad/s, rad/s2]; least: shortest duration [s]. At every sample |q'| and |q''|
+    are within the limits.
     """
     u = np.linspace(0, 1, CHECKED)
     s, ds, dds = _quintic(u)
@@ -73,11 +75,11 @@ def time_curve(
         )
         if over <= 1:
             return timed
-        duration *= over / SHARE  # a sharp bend between the places that were checked
+        duration *= over / SHARE  # a sharp bend between the checked places may exceed a limit
 
 
 def _sampled(curve: Curve, count: int) -> Timed:
-    """Return `count` samples of the whole curve, `STEP` apart."""
+    """Sample the whole curve `count` times, `STEP` apart."""
     duration, time = (count - 1) * STEP, np.arange(count) * STEP
     s, ds, dds = _quintic(time / duration)
     first, second = curve.at(s, 1), curve.at(s, 2)
@@ -86,12 +88,12 @@ def _sampled(curve: Curve, count: int) -> Timed:
 
 
 def stand(posture: Float[np.ndarray, " J"], seconds: float) -> Timed:
-    """Return the arm stands."""
+    """Return samples of an arm at rest."""
     count = max(2, round(seconds / STEP) + 1)
     zero = np.zeros((count, len(posture)))
     return Timed(np.arange(count) * STEP, np.tile(posture, (count, 1)), zero, zero, np.linspace(0, 1, count))
 
 
 def _quintic(u: Float[np.ndarray, " n"]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return the share of the way at a share of the time, with two derivatives; both vanish at both ends."""
+    """Return the quintic share of the path at a share of the time, with two derivatives, which vanish at both ends."""
     return u**3 * (10 - 15 * u + 6 * u**2), 30 * u**2 * (1 - u) ** 2, 60 * u * (1 - u) * (1 - 2 * u)

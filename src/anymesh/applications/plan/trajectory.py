@@ -1,4 +1,4 @@
-"""A route to a trajectory: each motion timed within the limits, the gripper's commands between."""
+"""Conversion of a route to a trajectory: motions timed within the limits, with gripper commands between them."""
 
 from __future__ import annotations
 
@@ -13,20 +13,20 @@ from anymesh.applications.plan.plans import GripperContact, Phase, Trajectory
 from anymesh.applications.plan.robot_ import RobotArm
 from anymesh.applications.plan.timing import STEP, Curve, Timed, stand, time_curve
 
-CLOSING, HOLDING, OPENING = 1.0, 0.8, 0.8  # [s] the arm stands while the fingers move, and at the end of the part's motion
-TOUCHING = 0.4  # share of the speed with which the tool goes to the part and moves it
-SLOWEST = 1.5  # [s] of the part's motion, at least
-DENSE = 0.02  # [rad] between the points that corners are rounded on
-ROUNDINGS = (0.8, 0.4, 0.2, 0.1)  # [rad] of the path within which a corner is rounded, the largest first
-KNOTS = 0.08  # [rad] between the postures a curve goes through
+CLOSING, HOLDING, OPENING = 1.0, 0.8, 0.8  # [s] pauses of the arm while the fingers move, and at the end of the part's motion
+TOUCHING = 0.4  # share of the speed for the motion to the part and along its joint
+SLOWEST = 1.5  # [s] shortest duration of the part's motion
+DENSE = 0.02  # [rad] between the points used to round corners
+ROUNDINGS = (0.8, 0.4, 0.2, 0.1)  # [rad] length of the path over which a corner is rounded, tried in this order
+KNOTS = 0.08  # [rad] between the postures that define a curve
 Valid = Callable[[Float[np.ndarray, " J"]], bool]
 Piece = tuple[Phase, Timed, float, np.ndarray]  # with the fingers' gap and the joint's values
 
 
 def build_trajectory(route: Route, robot: RobotArm, speed: float, free: Valid) -> Trajectory:
-    """Sample every 10 ms from home to beside the part, with each joint below `speed` of its limits.
+    """Sample every 10 ms from home to beside the part, with each joint below `speed` times its limits.
 
-    free: whether a posture on the approach is clear; rounded corners are checked with it.
+    free: whether a posture on the approach is collision-free, used to check rounded corners.
     """
     velocity, push = robot.velocity * speed, robot.acceleration * speed
     slow = (velocity * TOUCHING, push * TOUCHING)
@@ -49,7 +49,7 @@ def build_trajectory(route: Route, robot: RobotArm, speed: float, free: Valid) -
 
 
 def rounded(path: Float[np.ndarray, "k J"], velocity: np.ndarray, push: np.ndarray, free: Valid) -> list[Timed]:
-    """Return one motion along a path with its corners rounded where that is free; else a stop at each corner."""
+    """Return one motion along a path with rounded corners if that is collision-free, else motions that stop at each corner."""
     if len(path) > 2:
         dense = _dense(path)
         for width in ROUNDINGS:
@@ -61,7 +61,7 @@ def rounded(path: Float[np.ndarray, "k J"], velocity: np.ndarray, push: np.ndarr
 
 
 def _dense(path: np.ndarray) -> Float[np.ndarray, "n J"]:
-    """Return points about `DENSE` apart along a path of straight pieces."""
+    """Return points about `DENSE` apart along a path of straight segments."""
     length = np.r_[0.0, np.cumsum(np.linalg.norm(np.diff(path, axis=0), axis=1))]
     count = max(2, int(np.ceil(length[-1] / DENSE)) + 1)
     at = np.linspace(0, length[-1], count)
@@ -69,7 +69,7 @@ def _dense(path: np.ndarray) -> Float[np.ndarray, "n J"]:
 
 
 def _smoothed(dense: Float[np.ndarray, "n J"], width: float) -> Float[np.ndarray, "m J"]:
-    """Return the mean over a window that narrows towards the ends, so that they stay; thinned to knots."""
+    """Return the moving average over a window that narrows towards the ends, which stay fixed; thinned to knots."""
     count, half = len(dense), max(1, round(width / DENSE / 2))
     sums = np.concatenate([np.zeros((1, dense.shape[1])), np.cumsum(dense, 0)])
     k = np.arange(count)
@@ -80,7 +80,7 @@ def _smoothed(dense: Float[np.ndarray, "n J"], width: float) -> Float[np.ndarray
 
 
 def _joined(pieces: Sequence[Piece], joints: tuple[str, ...]) -> Trajectory:
-    """Return one trajectory; where two motions meet, the sample at rest is kept once."""
+    """Concatenate motions to one trajectory; samples at rest where two motions meet are kept once."""
     columns: dict[str, list[np.ndarray]] = {k: [] for k in ("time", "position", "velocity", "acceleration", "gap", "value")}
     phases: list[Phase] = []
     end = 0.0

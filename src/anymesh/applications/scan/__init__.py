@@ -1,4 +1,4 @@
-"""From posed pictures with depth to a surface mesh in metres that the pipeline articulates (paper, 4.2)."""
+"""Fusion of posed pictures with depth into a surface mesh in metres that the pipeline can articulate (paper, 4.2)."""
 
 from anymesh.applications.scan.config import ScanConfig
 from anymesh.applications.scan.output import ScanReport

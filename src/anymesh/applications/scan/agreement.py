@@ -1,4 +1,4 @@
-"""Whether frames agree about the surface: how far the depth of one lies from that of others that see the same place."""
+"""Consistency of frames: distance between the depth of one frame and that of others that see the same place."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ from jaxtyping import Float, Float32
 from anymesh.applications.scan.frames import FLIPPED, Frames, Pinhole, RgbdFrame
 from anymesh.errors import InputError
 
-POINTS = 1500  # of a frame that are looked up in others
-SAMPLED = 24  # frames in which each is looked up
-SIDE = 160  # [px] of the depth maps that are kept for this
-IGNORED = 0.95  # share of the depth that may lie beyond the limit
-MIN_OVERLAP_SHARE = 0.1  # share of a frame's points that fall on depth of another for the two to overlap
-OFF = 0.03  # share of the depth: frames that disagree by more do not show one surface
-BETTER = 0.4  # another convention is named where it leaves less than this share of the disagreement
-DRIFTED = 4.0  # times the usual disagreement from which a frame is left out, and
-DRIFTED_LEAST = 0.006  # share of the depth that it must disagree by as well
-DEPTHS = (0.03, 30.0)  # [m] in which the median depth of a recording of an object lies
+POINTS = 1500  # points per frame that are projected into other frames
+SAMPLED = 24  # other frames that each frame is compared with
+SIDE = 160  # [px] longer side of the reduced depth maps
+IGNORED = 0.95  # largest share of the depth that may lie beyond the limit
+MIN_OVERLAP_SHARE = 0.1  # share of a frame's points that must fall on depth of another for the two to overlap
+OFF = 0.03  # share of the depth; frames that disagree by more are inconsistent
+BETTER = 0.4  # another pose convention is reported if it leaves less than this share of the disagreement
+DRIFTED = 4.0  # times the usual disagreement; frames above it are dropped
+DRIFTED_LEAST = 0.006  # share of the depth; minimum disagreement of a dropped frame
+DEPTHS = (0.03, 30.0)  # [m] valid range of the median depth of a recording
 CONVENTIONS = {
     "camera axes are those of OpenGL (y up, z back) where OpenCV's were told, or the other way round": lambda T: T @ FLIPPED,
     "poses are world-to-camera where camera-to-world was expected": np.linalg.inv,
@@ -31,33 +31,33 @@ CONVENTIONS = {
 
 @dataclass(frozen=True, eq=False)
 class Glimpse:
-    """A frame's depth, coarse. points: (n, 3) of the camera's frame [m]; camera: of the depth map."""
+    """Frame with a reduced depth map. points: (n, 3) in the camera's frame [m]; camera: of the depth map."""
 
     name: str
     T: Float[np.ndarray, "4 4"]
     camera: Pinhole
     depth: Float32[np.ndarray, "h w"]
     points: Float[np.ndarray, "n 3"]
-    focal: float  # of the depth map as it came [px]
+    focal: float  # of the depth map at its original size [px]
 
 
 @dataclass(frozen=True)
 class FrameAgreement:
-    """of: (n,) median disagreement of each frame with those that see the same, share of the depth, nan without any."""
+    """Disagreement of frames. of: (n,) median per frame against those that overlap it, share of the depth, nan if none does."""
 
     of: Float[np.ndarray, " n"]
 
     @property
     def usual(self) -> float:
-        """The median over frames; nan where none overlaps another."""
+        """Median over frames; nan if no frames overlap."""
         known = self.of[np.isfinite(self.of)]
         return float(np.median(known)) if len(known) else np.nan
 
 
 def glimpse(frame: RgbdFrame, depth_max: float = np.inf, seed: int = 0) -> Glimpse:
-    """A frame with a coarse depth map and some of its points, up to `depth_max` [m]. InputError where sizes do not fit."""
+    """Reduce a frame's depth map and sample its points up to `depth_max` [m]. Raise InputError if sizes do not fit."""
     depth = frame.observe().depth
-    if (depth > depth_max).mean() < IGNORED * (depth > 0).mean():  # else the unit is wrong, which is told below
+    if (depth > depth_max).mean() < IGNORED * (depth > 0).mean():  # else `check_depth_unit` reports a wrong unit
         depth = np.where(depth <= depth_max, depth, np.float32(0))
     step = max(1, round(max(depth.shape) / SIDE))
     coarse = np.ascontiguousarray(depth[step // 2 :: step, step // 2 :: step])
@@ -71,7 +71,7 @@ def glimpse(frame: RgbdFrame, depth_max: float = np.inf, seed: int = 0) -> Glimp
 
 
 def check_depth_unit(glimpses: list[Glimpse]) -> None:
-    """InputError where the median depth is no distance from which an object is recorded."""
+    """Raise InputError if the median depth is outside `DEPTHS`."""
     depths = [float(np.median(g.points[:, 2])) for g in glimpses if len(g.points)]
     if not depths:
         raise InputError("no frame has any depth; all maps are empty, or masks and confidence leave nothing")
@@ -86,7 +86,7 @@ def check_depth_unit(glimpses: list[Glimpse]) -> None:
 
 
 def agreement(glimpses: list[Glimpse], seed: int = 0) -> FrameAgreement:
-    """How far each frame's points are from the surface that others measured, beyond what may hide them."""
+    """Compute the distance of each frame's points from the surfaces measured by others, ignoring possibly occluded points."""
     count = len(glimpses)
     found = np.full(count, np.nan)
     rng = np.random.default_rng(seed)
@@ -99,9 +99,9 @@ def agreement(glimpses: list[Glimpse], seed: int = 0) -> FrameAgreement:
 
 
 def _disagreement(a: Glimpse, b: Glimpse) -> float:
-    """Median over points of `a` on or in front of what `b` measured; nan where too few are.
+    """Return the median disagreement of points of `a` on or in front of the depth of `b`; nan if there are too few.
 
-    A point in front of a measured surface contradicts it. One behind may be hidden by it, and says nothing.
+    A point in front of a measured surface contradicts it. A point behind it may be occluded and is ignored.
     """
     p = (a.points @ a.T[:3, :3].T + a.T[:3, 3] - b.T[:3, 3]) @ b.T[:3, :3]
     column, row = b.camera.pixels(p)
@@ -114,7 +114,7 @@ def _disagreement(a: Glimpse, b: Glimpse) -> float:
 
 
 def check_convention(glimpses: list[Glimpse], found: FrameAgreement) -> None:
-    """InputError where frames contradict each other, with the convention of poses that would make them agree, if any."""
+    """Raise InputError if frames contradict each other, naming the pose convention that would make them agree, if any."""
     usual = found.usual
     if usual <= OFF:
         return
@@ -133,7 +133,7 @@ def check_convention(glimpses: list[Glimpse], found: FrameAgreement) -> None:
 
 
 def without_drifted(frames: Frames, found: FrameAgreement) -> tuple[Frames, list[int]]:
-    """The frames that agree with most others, and the numbers of those that stay; the rest is told in the warnings."""
+    """Return the frames that agree with most others, with a warning about the dropped ones, and the indices of those kept."""
     limit = max(DRIFTED * found.usual, DRIFTED_LEAST)
     bad = [k for k in range(len(frames)) if not found.of[k] <= limit]
     if not bad:

@@ -1,4 +1,4 @@
-"""From a fused surface to one object: the floor off, floating bits off, small holes closed, all others told."""
+"""Extraction of one object from a fused surface: cut off the floor, drop small components, close small holes, report others."""
 
 from __future__ import annotations
 
@@ -11,36 +11,39 @@ from anymesh.applications.scan.smoothing import neighbours
 from anymesh.geometry.topology import label_connected
 from anymesh.types.triangles import face_cross
 
-CUT = 2.5  # [voxels] above the floor where it is cut off: the crease between floor and object is round below
-BIT = 0.01  # area of a component over the largest, below which it is a floating bit
-ON_FLOOR = 0.8  # share of its vertices at z = 0 by which a hole is one that the object stands on
-CLOSED = 40.0  # [voxels] round: smaller holes are closed whatever their shape
-FLAT, FLAT_VOXELS = 0.01, 1.5  # a larger hole is closed when it is off a plane by less, of its length or of voxels
+CUT = 2.5  # [voxels] above the floor where the surface is cut, since the fused crease between floor and object is rounded
+BIT = 0.01  # share of the largest component's area; smaller components are dropped
+ON_FLOOR = 0.8  # share of a hole's vertices at z = 0 from which it counts as the object's footprint
+CLOSED = 40.0  # [voxels] perimeter; shorter holes are closed whatever their shape
+FLAT, FLAT_VOXELS = 0.01, 1.5  # larger holes are closed if nearer to a plane: share of the perimeter, [voxels]
 
 
 @dataclass(frozen=True, eq=False)
 class Surface:
-    """vertices: (V, 3) [m]; faces: (F, 3) outward."""
+    """Triangle mesh. vertices: (V, 3) [m]; faces: (F, 3), oriented outward."""
 
     vertices: Float[np.ndarray, "V 3"]
     faces: Int[np.ndarray, "F 3"]
 
     def keeping(self, faces: Bool[np.ndarray, " F"] | Int[np.ndarray, " n"]) -> Surface:
-        """Some of the faces, without vertices that none uses."""
+        """Return the surface of some of the faces, without unused vertices."""
         chosen = self.faces[faces]
         used, inverse = np.unique(chosen, return_inverse=True)
         return Surface(self.vertices[used], inverse.reshape(-1, 3))
 
     @property
     def areas(self) -> Float[np.ndarray, " F"]:
-        """Area of every face [m2]."""
+        """Areas of the faces [m2]."""
         return 0.5 * np.linalg.norm(face_cross(self.vertices[self.faces]), axis=1)
 
 
 @dataclass(frozen=True)
 class Hole:
-    """A loop of border edges. middle: [m]; area: of a fan across it [m2]; length: of the loop [m]; on_floor: it lies on the
-    floor, where nothing can be seen; closed: a flat face was put in."""
+    """Loop of border edges.
+
+    middle: [m]; area: of a fan across it [m2]; length: of the loop [m]; on_floor: whether it lies on the floor, where nothing
+    can be seen; closed: whether it was filled with a flat fan.
+    """
 
     middle: tuple[float, float, float]
     area: float
@@ -50,7 +53,7 @@ class Hole:
 
 
 def cut_floor(surface: Surface, voxel: float) -> Surface:
-    """Without the floor at z = 0, and what stands on it drawn down to it: faces that cross the cut reach z = 0."""
+    """Cut off the floor at z = 0, and extend faces that cross the cut down to z = 0."""
     height = surface.vertices[:, 2]
     low = height < CUT * voxel
     kept = surface.keeping(~low[surface.faces].all(1))
@@ -60,7 +63,7 @@ def cut_floor(surface: Surface, voxel: float) -> Surface:
 
 
 def drop_bits(surface: Surface) -> tuple[Surface, int]:
-    """The largest component and those that are not tiny beside it, and how many were dropped."""
+    """Return the largest component and others that are not tiny beside it, and the number of dropped components."""
     label = label_connected(len(surface.faces), neighbours(surface.faces))
     area = np.bincount(label, surface.areas)
     kept = area >= BIT * area.max()
@@ -68,7 +71,7 @@ def drop_bits(surface: Surface) -> tuple[Surface, int]:
 
 
 def loops(faces: Int[np.ndarray, "F 3"]) -> list[Int[np.ndarray, " n"]]:
-    """Closed walks along the border, each the way round that a face which fills it would run; vertices in order."""
+    """Return the border loops, each as vertices in the orientation of a face that fills the hole."""
     ends = faces[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2)
     base = int(faces.max()) + 1
     there = set((ends[:, 0] * base + ends[:, 1]).tolist())
@@ -89,9 +92,9 @@ def loops(faces: Int[np.ndarray, "F 3"]) -> list[Int[np.ndarray, " n"]]:
 
 
 def close_small(surface: Surface, voxel: float, most: float = CLOSED) -> tuple[Surface, tuple[Hole, ...], int]:
-    """With a fan in every hole that is flat, or less than `most` voxels round.
+    """Close holes that are flat or have a perimeter below `most` voxels with a fan.
 
-    Also the larger holes, flat ones closed and others left open, and how many small ones were closed.
+    Also return the larger holes, both closed flat ones and open ones, and the number of closed small ones.
     """
     vertices, faces, holes, closed = [surface.vertices], [surface.faces], [], 0
     count = len(surface.vertices)
@@ -117,5 +120,5 @@ def close_small(surface: Surface, voxel: float, most: float = CLOSED) -> tuple[S
 
 
 def _off_plane(points: Float[np.ndarray, "n 3"]) -> float:
-    """Root mean square distance of points from the plane that fits them best [m]."""
+    """Return the root mean square distance of points from their best-fitting plane [m]."""
     return float(np.linalg.svd(points - points.mean(0), compute_uv=False)[2]) / float(np.sqrt(len(points)))

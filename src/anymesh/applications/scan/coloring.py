@@ -1,4 +1,4 @@
-"""Colours of a surface from the pictures that see it best."""
+"""Vertex colours of a surface from the pictures that see it best."""
 
 from __future__ import annotations
 
@@ -9,16 +9,19 @@ from anymesh.applications.scan.frames import Frames
 from anymesh.progress import Progress
 from anymesh.types.triangles import face_cross
 
-SEEN = 0.012  # share of the depth that a vertex may lie off what the depth map shows, to be seen there
-SHARP = 4  # power of a view's weight: square, near views decide
-UNSEEN = 150  # grey of what no picture shows
+SEEN = 0.012  # share of the depth; largest difference between a visible vertex and the depth map
+SHARP = 4  # exponent of a view's weight; emphasizes frontal, near views
+UNSEEN = 150  # grey value where no picture shows the surface
 
 
 def vertex_colors(
     vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"], frames: Frames, T: Float[np.ndarray, "4 4"],
     progress: Progress,
 ) -> UInt8[np.ndarray, "V 3"]:  # fmt: skip
-    """sRGB colours, means over the frames that see a vertex, by how squarely and how near. T: world to the vertices' frame."""
+    """Return sRGB colours, averaged over the frames that see a vertex, weighted by viewing angle and distance.
+
+    T: from the world to the vertices' frame.
+    """
     cross = face_cross(vertices[faces])
     normal = np.stack([np.bincount(faces.reshape(-1), np.repeat(c, 3), len(vertices)) for c in cross.T], 1)
     normal = normal / np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-30)
@@ -47,7 +50,7 @@ def vertex_colors(
 
 
 def _spread(colors: np.ndarray, known: np.ndarray, faces: np.ndarray) -> UInt8[np.ndarray, "V 3"]:
-    """Vertices that no picture shows take the mean of their neighbours, from the seen ones inwards."""
+    """Fill the colours of unseen vertices with the mean of their neighbours, starting from the seen ones."""
     ends = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
     ends = np.concatenate([ends, ends[:, ::-1]])
     for _ in range(30):

@@ -1,4 +1,4 @@
-"""The options of a scan, checked."""
+"""Validated options of a scan."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 
 from anymesh.errors import OptionError
 
-FINEST = 0.0002  # [m] voxels below this are finer than any depth camera
+FINEST = 0.0002  # [m] smallest voxel; finer than any depth camera resolves
 
 
 class Options(TypedDict, total=False):
@@ -27,10 +27,13 @@ class Options(TypedDict, total=False):
 
 @dataclass(frozen=True)
 class ScanConfig:
-    """voxel: [m], None chooses; scale: metres per unit of the poses; depth_scale: metres per unit of the depth maps (both None:
-    as the layout has it); depth_max: [m] beyond which depth is ignored; crop: x0, y0, z0, x1, y1, z1 [m] in the recording's
-    world; keep_floor: no plane is looked for and cut off; faces: the surface is simplified to about so many; seed: of the
-    search for the floor. OptionError for a value that is not valid."""
+    """Options of a scan.
+
+    voxel: [m], None for automatic; scale: metres per unit of the poses; depth_scale: metres per unit of the depth maps (both
+    None: as defined by the layout); depth_max: [m], larger depth is ignored; crop: x0, y0, z0, x1, y1, z1 [m] in the world of
+    the recording; keep_floor: do not detect and cut off the floor; faces: approximate number of faces after simplification;
+    seed: of the floor detection. Raise OptionError for a value that is not valid.
+    """
 
     voxel: float | None = None
     scale: float | None = None

@@ -1,4 +1,4 @@
-"""Fewer faces for a fused surface, by fast-simplification (quadric error, MIT, in the core), with its topology kept clean."""
+"""Simplification of a fused surface by fast-simplification (quadric error, MIT, a core dependency), keeping it manifold."""
 
 from __future__ import annotations
 
@@ -7,19 +7,19 @@ import numpy as np
 from anymesh.applications.scan.cleaning import Surface, close_small, drop_bits
 from anymesh.applications.scan.smoothing import edge_keys
 
-ROUNDS = 6  # of taking off what touches folds, and closing the holes that this opens
-ROUND_HOLE = 40.0  # [edges] of such holes
+ROUNDS = 6  # iterations of removing folded faces and closing the holes that result
+ROUND_HOLE = 40.0  # [edges] perimeter of holes that are closed
 
 
 def decimate(surface: Surface, most: int) -> Surface:
-    """The surface in about `most` faces, in one piece as it was: no edge of more than two faces, no folded faces.
+    """Simplify the surface to about `most` faces, without non-manifold edges and folded faces.
 
-    `geometry.simplify_` is not used: for pictures of shape it may tear a surface, and every tear is a part boundary later.
+    `geometry.simplify_` is not used: it is meant for rendering and may tear a surface, and tears later become part boundaries.
     """
     if len(surface.faces) > most:
         from fast_simplification import simplify
 
-        center = surface.vertices.mean(0)  # float32 inside: near the origin it keeps its digits
+        center = surface.vertices.mean(0)  # simplify computes in float32, which is most precise near the origin
         vertices, faces = simplify(
             (surface.vertices - center).astype(np.float32), surface.faces.astype(np.int32), target_count=most
         )
@@ -34,9 +34,9 @@ def decimate(surface: Surface, most: int) -> Surface:
 
 
 def _without_folds(surface: Surface) -> tuple[Surface, int]:
-    """Without all that touches a face of no area, two faces of the same corners, or an edge of three; how many faces went.
+    """Remove degenerate, duplicate and non-manifold faces and all faces that touch them; return the number of removed faces.
 
-    What touches it goes as well: the hole is then a simple one, which a fan closes.
+    Faces that touch them are removed too, so that the hole is simple and can be closed with a fan.
     """
     faces = surface.faces
     flat = (faces == np.roll(faces, 1, axis=1)).any(1) | (surface.areas <= 0)

@@ -1,4 +1,4 @@
-"""Posed pictures with depth: what every layout of a recording is read into."""
+"""Posed pictures with depth: the common representation of all recording layouts."""
 
 from __future__ import annotations
 
@@ -10,13 +10,16 @@ from jaxtyping import Float, Float32, Float64, Int, UInt8
 
 from anymesh.errors import InputError
 
-ASPECT = 0.02  # relative: a depth map whose sides differ more from the picture's does not show the same section
+ASPECT = 0.02  # largest relative difference of aspect ratio between depth map and picture; above, they show different sections
 FLIPPED = np.diag([1.0, -1.0, -1.0, 1.0])  # OpenGL camera axes (y up, z back) to OpenCV ones (y down, z ahead), and back
 
 
 @dataclass(frozen=True)
 class Pinhole:
-    """A pinhole camera without distortion. All in pixels; (0, 0) is the outer corner of the first pixel, centres are at .5."""
+    """Pinhole camera without distortion.
+
+    All values are in pixels; (0, 0) is the outer corner of the first pixel, pixel centres are at .5.
+    """
 
     fx: float
     fy: float
@@ -30,14 +33,14 @@ class Pinhole:
             raise ValueError(f"a camera needs focal lengths and a size above 0, found {self}")
 
     def resized(self, width: int, height: int) -> Pinhole:
-        """The same view in a picture of another size [px]. ValueError where the proportions differ."""
+        """Return the camera of the same view at another size [px]. Raise ValueError if the proportions differ."""
         x, y = width / self.width, height / self.height
         if abs(x / y - 1) > ASPECT:
             raise ValueError(f"{width} x {height} has other proportions than {self.width} x {self.height}")
         return Pinhole(self.fx * x, self.fy * y, self.cx * x, self.cy * y, width, height)
 
     def directions(self) -> Float32[np.ndarray, "h w 3"]:
-        """Directions of the rays through the pixels' centres, in the camera's frame, depth 1."""
+        """Directions of the rays through the pixel centres, in the camera's frame, scaled to depth 1."""
         x = (np.arange(self.width, dtype=np.float32) + 0.5 - self.cx) / self.fx
         y = (np.arange(self.height, dtype=np.float32) + 0.5 - self.cy) / self.fy
         found = np.ones((self.height, self.width, 3), np.float32)
@@ -45,7 +48,7 @@ class Pinhole:
         return found
 
     def pixels(self, points: Float[np.ndarray, "n 3"]) -> tuple[Int[np.ndarray, " n"], Int[np.ndarray, " n"]]:
-        """Column and row of the pixel that each point of the camera's frame falls on; -1, -1 outside the picture."""
+        """Project points of the camera's frame to pixels; return columns and rows, -1 for points outside the picture."""
         x, y, z = points.T
         ahead = z > 1e-6
         deep = np.where(ahead, z, 1)
@@ -58,7 +61,7 @@ class Pinhole:
 
 @dataclass(frozen=True, eq=False)
 class Observation:
-    """What a frame shows. color: (H, W, 3) sRGB; depth: (h, w) along the optical axis [m], 0 where none was measured."""
+    """Data of a frame. color: (H, W, 3) sRGB; depth: (h, w) along the optical axis [m], 0 if not measured."""
 
     color: UInt8[np.ndarray, "H W 3"]
     depth: Float32[np.ndarray, "h w"]
@@ -70,9 +73,9 @@ class Observation:
 
 @dataclass(frozen=True, eq=False)
 class RgbdFrame:
-    """One picture with its pose, read when it is asked for, so that memory does not grow with the recording.
+    """Picture with depth and pose, read on demand so that memory does not grow with the recording.
 
-    camera: of the colour picture; T_world_camera: (4, 4) rigid, the camera looks along its +z, x to the right, y down [m].
+    camera: of the colour picture; T_world_camera: (4, 4) rigid [m], the camera looks along its +z, x to the right, y down.
     """
 
     name: str
@@ -81,7 +84,7 @@ class RgbdFrame:
     read: Callable[[], Observation]
 
     def observe(self) -> Observation:
-        """The picture and its depth. InputError where their sizes do not fit the intrinsics."""
+        """Read the picture and its depth. Raise InputError if their sizes do not fit the intrinsics."""
         found = self.read()
         for what, size in (("picture", found.color.shape[1::-1]), ("depth map", found.depth.shape[::-1])):
             try:
@@ -95,11 +98,11 @@ class RgbdFrame:
         return found
 
     def depth_camera(self, depth: Float32[np.ndarray, "h w"]) -> Pinhole:
-        """The camera of the depth map, which may be smaller than the picture."""
+        """Return the camera of the depth map, which may be smaller than the picture."""
         return self.camera.resized(depth.shape[1], depth.shape[0])
 
     def points(self, depth: Float32[np.ndarray, "h w"], step: int = 1) -> Float[np.ndarray, "n 3"]:
-        """World positions [m] of every `step`-th pixel each way that has a depth."""
+        """Return the world positions [m] of pixels with depth, at every `step`-th row and column."""
         some = depth[::step, ::step]
         seen = some > 0
         rays = self.depth_camera(depth).directions()[::step, ::step][seen]
@@ -107,7 +110,7 @@ class RgbdFrame:
 
 
 def cropped(frame: RgbdFrame, low: Float[np.ndarray, " 3"], high: Float[np.ndarray, " 3"]) -> RgbdFrame:
-    """The frame without depth outside a box of the world."""
+    """Return the frame without depth outside a box of the world."""
 
     def read() -> Observation:
         found = frame.read()
@@ -122,8 +125,11 @@ def cropped(frame: RgbdFrame, low: Float[np.ndarray, " 3"], high: Float[np.ndarr
 
 @dataclass(frozen=True, eq=False)
 class Frames:
-    """A recording. layout: its name for messages; has_depth: whether frames carry depth; up: the world's upward direction
-    where the layout defines it; warnings: what was noticed on reading."""
+    """Recording.
+
+    layout: name for messages; has_depth: whether frames have depth; up: the world's upward direction if the layout defines it;
+    warnings: collected while reading.
+    """
 
     frames: tuple[RgbdFrame, ...]
     layout: str
@@ -135,5 +141,5 @@ class Frames:
         return len(self.frames)
 
     def of(self, kept: list[RgbdFrame], *warnings: str) -> Frames:
-        """The recording with some of its frames."""
+        """Return the recording with some of its frames and additional warnings."""
         return replace(self, frames=tuple(kept), warnings=(*self.warnings, *warnings))

@@ -1,4 +1,4 @@
-"""Depth maps to a truncated signed distance field on blocks of voxels near the surface (Curless and Levoy 1996)."""
+"""Fusion of depth maps into a truncated signed distance field on blocks of voxels near the surface (Curless and Levoy 1996)."""
 
 from __future__ import annotations
 
@@ -12,21 +12,24 @@ from anymesh.applications.scan.frames import Frames, Pinhole
 from anymesh.errors import InputError, OptionError
 from anymesh.progress import Progress
 
-SIDE = 8  # voxels along a block
-CHUNK = 1024  # blocks that are projected at once
-HITS = 4  # depth pixels that a block takes to be kept
-MOST_BLOCKS = 120_000  # about 1 GB of voxels
-BEHIND = 0.5  # truncations behind the surface that a view tells of
-FADE = 0.9  # share of its weight that it has lost there
-FELLOWS, DEPTH_TOLERANCE_RATIO = 4, 0.015  # pixels around one that differ by less than this share of the depth
-STEEP = 0.15  # cosine of the angle of view below which depth says too little
+SIDE = 8  # voxels along the edge of a block
+CHUNK = 1024  # blocks projected at a time
+HITS = 4  # depth pixels that a block needs to be allocated
+MOST_BLOCKS = 120_000  # memory limit; about 1 GB of voxels
+BEHIND = 0.5  # [truncations] behind the surface up to which a view contributes
+FADE = 0.9  # share of its weight that a view has lost there
+FELLOWS, DEPTH_TOLERANCE_RATIO = 4, 0.015  # neighbouring pixels that must differ by less than this share of the depth
+STEEP = 0.15  # cosine of the viewing angle below which depth is ignored
 _LOCAL = np.stack(np.meshgrid(*[np.arange(SIDE)] * 3, indexing="ij"), -1).reshape(-1, 3)
 
 
 @dataclass(frozen=True, eq=False)
 class Grid:
-    """Blocks of SIDE**3 voxels. origin: of voxel 0, 0, 0 [m]; voxel [m]; table: number of each block, -1 where there is none;
-    blocks: (B, 3) places in the table."""
+    """Sparse grid of blocks of SIDE**3 voxels.
+
+    origin: of voxel (0, 0, 0) [m]; voxel: edge length [m]; table: index of each block, -1 if not allocated; blocks: (B, 3)
+    positions in the table.
+    """
 
     origin: Float[np.ndarray, " 3"]
     voxel: float
@@ -36,8 +39,11 @@ class Grid:
 
 @dataclass(frozen=True, eq=False)
 class Field:
-    """distance: (B, SIDE**3) signed, in truncations, positive outside, 1 where unknown; weight: (B, SIDE**3), 1 for one
-    square view from the usual distance; truncation [m]."""
+    """Truncated signed distance field.
+
+    distance: (B, SIDE**3) in units of the truncation, positive outside, 1 if unknown; weight: (B, SIDE**3), 1 for one frontal
+    view from the usual distance; truncation [m].
+    """
 
     grid: Grid
     distance: Float32[np.ndarray, "B n"]
@@ -49,9 +55,9 @@ def place_blocks(
     frames: Frames, T: Float[np.ndarray, "4 4"], bounds: Float[np.ndarray, "2 3"], voxel: float, truncation: float,
     depth_max: float, progress: Progress,
 ) -> Grid:  # fmt: skip
-    """The blocks within the bounds (of the frame that T takes the world to) that surfaces pass through.
+    """Allocate the blocks within the bounds that contain surfaces. bounds: in the frame to which T maps the world [m].
 
-    OptionError where there would be too many, with the voxel size that would do.
+    Raise OptionError if there would be too many, with a voxel size that would fit.
     """
     size = SIDE * voxel
     origin = np.floor(bounds[0] / size) * size
@@ -84,10 +90,10 @@ def fuse(
     frames: Frames, T: Float[np.ndarray, "4 4"], grid: Grid, truncation: float, usual: float, depth_max: float,
     progress: Progress,
 ) -> Field:  # fmt: skip
-    """The weighted mean of all frames' distances. usual: [m] a depth whose views weigh 1.
+    """Compute the weighted mean of the distances of all frames. usual: depth at which a frontal view has weight 1 [m].
 
-    A view weighs as its depth is precise: by the squared cosine of the angle of view over the fourth power of the depth
-    (noise grows with its square), less behind the surface. Distances are along the surface's normal.
+    The weight follows the precision of depth: squared cosine of the viewing angle over the fourth power of the depth (noise
+    grows with its square), reduced behind the surface. Distances are measured along the surface normal.
     """
     total = np.zeros((len(grid.blocks), SIDE**3), np.float32)
     weight = np.zeros_like(total)
@@ -117,8 +123,10 @@ class _View:
 
 
 def _limited(depth: np.ndarray, most: float) -> Float32[np.ndarray, "h w"]:
-    """Depth up to `most` [m] where FELLOWS of the eight pixels around tell about the same: at edges a sensor mixes both sides,
-    and such a pixel behind an edge would carve it away."""
+    """Return depth up to `most` [m] where at least FELLOWS of the eight neighbours agree, else 0.
+
+    At edges a sensor mixes the depth of both sides; such pixels behind an edge would remove the surface there.
+    """
     height, width = depth.shape
     padded = np.pad(depth, 1)
     same = np.zeros(depth.shape, np.int8)
@@ -128,7 +136,7 @@ def _limited(depth: np.ndarray, most: float) -> Float32[np.ndarray, "h w"]:
 
 
 def _cosine(depth: Float32[np.ndarray, "h w"], camera: Pinhole) -> Float32[np.ndarray, "h w"]:
-    """Of the angle between the ray and the normal of the surface, which is taken from a smoothed depth map."""
+    """Return the cosine of the angle between ray and surface normal, which is computed from a smoothed depth map."""
     there = (depth > 0).astype(np.float32)
     share = ndimage.uniform_filter(there, 5)
     smooth = ndimage.uniform_filter(depth, 5) / np.maximum(share, 1e-3)
@@ -141,7 +149,7 @@ def _cosine(depth: Float32[np.ndarray, "h w"], camera: Pinhole) -> Float32[np.nd
 
 
 def _slope(p: Float32[np.ndarray, "h w 3"], axis: int) -> Float32[np.ndarray, "h w 3"]:
-    """The step to the next or the previous pixel, whichever is shorter: at an edge one of them leaves the surface."""
+    """Return the shorter of the differences to the next and the previous pixel; at an edge the other one crosses the gap."""
     step = np.diff(p, axis=axis)
     ahead, back = (np.concatenate(pair, axis) for pair in ((step, np.take(step, [-1], axis)), (np.take(step, [0], axis), step)))
     shorter = np.abs(ahead[..., 2:]) < np.abs(back[..., 2:])
@@ -149,7 +157,7 @@ def _slope(p: Float32[np.ndarray, "h w 3"], axis: int) -> Float32[np.ndarray, "h
 
 
 def _blocks_in_sight(grid: Grid, view: _View, truncation: float) -> list[Int[np.ndarray, " n"]]:
-    """Blocks that the view says something about, in chunks: in the picture, and not all behind what it shows."""
+    """Return chunks of blocks that are within the picture and not entirely behind the surfaces that it shows."""
     half = SIDE * grid.voxel / 2
     centers = grid.origin + (grid.blocks + 0.5) * SIDE * grid.voxel
     p = centers @ view.T_camera_grid[:3, :3].T + view.T_camera_grid[:3, 3]
@@ -171,7 +179,7 @@ def _blocks_in_sight(grid: Grid, view: _View, truncation: float) -> list[Int[np.
 
 
 def _add(total: np.ndarray, weight: np.ndarray, rows: np.ndarray, grid: Grid, view: _View, truncation: float) -> None:
-    """Adds what a view says about some blocks, in place."""
+    """Add the contribution of a view to some blocks, in place."""
     R, t = view.T_camera_grid[:3, :3], view.T_camera_grid[:3, 3]
     corner = (grid.origin + grid.blocks[rows] * (SIDE * grid.voxel)) @ R.T + t
     offset = (_LOCAL * grid.voxel) @ R.T
@@ -185,7 +193,7 @@ def _add(total: np.ndarray, weight: np.ndarray, rows: np.ndarray, grid: Grid, vi
     ahead = view.depth.reshape(-1)[at] - z
     sdf = ahead * view.cosine.reshape(-1)[at] / np.float32(truncation)
     use: Bool[np.ndarray, "n m"] = inside & (worth > 0) & (sdf > -BEHIND)
-    fade = 1 + FADE * np.minimum(sdf, 0) / BEHIND  # behind the surface a view tells less: a thin wall or a groove's side
+    fade = 1 + FADE * np.minimum(sdf, 0) / BEHIND  # less weight behind the surface, for thin walls and grooves
     worth = np.where(use, worth * fade, 0)
     total[rows] += worth * np.minimum(sdf, 1)
     weight[rows] += worth

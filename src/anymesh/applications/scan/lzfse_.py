@@ -1,4 +1,4 @@
-"""LZFSE, in which Record3D keeps depth, by the package lzfse (MIT, 0.2 MB)."""
+"""LZFSE compression, used by Record3D for depth, by the package lzfse (MIT, 0.2 MB)."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from anymesh.errors import InputError, MissingExtraError
 
 
 def unpack(data: bytes, name: str) -> bytes:
-    """Return the uncompressed bytes. Raise InputError if they are damaged, MissingExtraError without the library."""
+    """Decompress bytes. Raise InputError if they are damaged, MissingExtraError if the library is not installed."""
     try:
         lzfse: Any = importlib.import_module("lzfse")  # a compiled module without types
     except ImportError:
@@ -23,6 +23,6 @@ def unpack(data: bytes, name: str) -> bytes:
 
 
 def pack(data: bytes) -> bytes:
-    """Return compressed bytes, for recordings that are written."""
+    """Compress bytes, for writing recordings."""
     lzfse: Any = importlib.import_module("lzfse")
     return lzfse.compress(data)

@@ -1,4 +1,4 @@
-"""The files of a scan: one GLB with vertex colours and a report, both written whole or not at all."""
+"""Output files of a scan: a GLB with vertex colours and a report, both written completely or not at all."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ TO_GLTF = np.array([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]])  # z up to y up
 
 @dataclass(frozen=True)
 class ScanReport:
-    """What a scan was made of and what became of it; lengths [m].
+    """Inputs and results of a scan; lengths in metres.
 
     T_scan_world: rows of the transform from the recording's world to the scan's frame (z up, floor at 0; the GLB has y up, as
-    its format wants); disagreement: of frames about the surface, median, share of the depth; holes: large ones, the largest
-    first, flat ones closed; open_share: area of those left open over the surface's; closed_holes: small ones, all closed.
+    its format requires); disagreement: median over frames, share of the depth; holes: large ones, closed if flat, the largest
+    first; open_share: area of the open ones over the surface's; closed_holes: number of small ones, all closed.
     """
 
     mesh: str
@@ -50,12 +50,12 @@ class ScanReport:
 
 
 def report_path(out: Path) -> Path:
-    """Where the report of a scan lies, beside its mesh."""
+    """Return the path of a scan's report, beside its mesh."""
     return out.with_name(f"{out.stem}.scan.json")
 
 
 def check_output(out: Path, force: bool) -> None:
-    """OutputError unless the files may be written."""
+    """Raise OutputError unless the files may be written."""
     if out.suffix.lower() != ".glb":
         raise OutputError(f"{out}: a scan is written as .glb, found {out.suffix or 'no suffix'!r}")
     if out.is_dir():
@@ -69,7 +69,7 @@ def write_scan(
     out: Path, vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"], colors: UInt8[np.ndarray, "V 3"],
     report: ScanReport,
 ) -> None:  # fmt: skip
-    """Write the GLB and its report. OutputError where the folder cannot be written; then nothing is changed."""
+    """Write the GLB and its report. Raise OutputError if the folder cannot be written; then nothing is changed."""
     parts = {report_path(out): json.dumps(asdict(report), indent=1).encode(), out: glb_bytes(vertices, faces, colors)}
     temporary = {path: path.with_name(f".{path.name}.partial") for path in parts}
     try:
@@ -86,7 +86,7 @@ def write_scan(
 
 
 def glb_bytes(vertices: np.ndarray, faces: np.ndarray, colors: np.ndarray) -> bytes:
-    """A GLB of one mesh, y up, with linear 16-bit vertex colours."""
+    """Return a GLB of one mesh, y up, with linear 16-bit vertex colours."""
     buffer = GlbBuffer()
     color = np.c_[np.rint(to_linear(colors / 255) * 65535), np.full(len(colors), 65535)].astype(np.uint16)
     attributes = {

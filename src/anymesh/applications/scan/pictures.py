@@ -1,4 +1,4 @@
-"""Colour pictures, depth maps and masks from files, by Pillow."""
+"""Reading of colour pictures, depth maps and masks with Pillow."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from jaxtyping import Bool, Float32, UInt8
 from anymesh.applications.scan.frames import Observation
 from anymesh.errors import InputError
 
-CONFIDENT = 1  # values of a confidence map from which depth is taken: 0 is "low" in every layout read here
+CONFIDENT = 1  # lowest confidence at which depth is used; 0 means "low" in every supported layout
 
 
 def read_object(path: Path) -> dict[str, Any]:
-    """A JSON object. InputError where the file is missing or holds anything else."""
+    """Read a JSON object. Raise InputError if the file is missing or holds anything else."""
     try:
         found = json.loads(path.read_text(encoding="utf-8"))
     except FileNotFoundError:
@@ -30,7 +30,7 @@ def read_object(path: Path) -> dict[str, Any]:
 
 
 def within(folder: Path, name: object) -> Path:
-    """A file of a recording by the name that its description tells. InputError where it is missing or lies outside."""
+    """Return the path of a file named in a recording's description. Raise InputError if it is missing or outside the folder."""
     if not isinstance(name, str) or not name:
         raise InputError(f"{folder}: a file name was expected, found {name!r}")
     path = (folder / name).resolve()
@@ -42,7 +42,7 @@ def within(folder: Path, name: object) -> Path:
 
 
 def picture_size(path: Path) -> tuple[int, int]:
-    """Width and height [px], from the file's header. InputError for what is no picture."""
+    """Return width and height [px] from the file's header. Raise InputError if the file is no picture."""
     from PIL import Image
 
     try:
@@ -53,7 +53,7 @@ def picture_size(path: Path) -> tuple[int, int]:
 
 
 def read_color(source: Path | bytes, name: str) -> UInt8[np.ndarray, "H W 3"]:
-    """A picture as sRGB bytes. InputError where it cannot be decoded."""
+    """Read a picture as sRGB bytes. Raise InputError if it cannot be decoded."""
     from PIL import Image
 
     try:
@@ -64,7 +64,7 @@ def read_color(source: Path | bytes, name: str) -> UInt8[np.ndarray, "H W 3"]:
 
 
 def read_depth(path: Path, scale: float) -> Float32[np.ndarray, "h w"]:
-    """A depth map [m] from a 16-bit PNG (units of `scale` metres) or a .npy file of floats; 0 where there is none."""
+    """Read a depth map [m] from a 16-bit PNG (units of `scale` metres) or a .npy file of floats; 0 where there is no depth."""
     if path.suffix == ".npy":
         try:
             return clean_depth(np.load(path, allow_pickle=False), path.name, scale)
@@ -82,7 +82,7 @@ def read_depth(path: Path, scale: float) -> Float32[np.ndarray, "h w"]:
 
 
 def clean_depth(raw: np.ndarray, name: str, scale: float = 1.0) -> Float32[np.ndarray, "h w"]:
-    """Raw values times `scale` [m]; 0 where they are no positive number. InputError for anything but a plane of numbers."""
+    """Return raw values times `scale` [m], 0 where not positive and finite. Raise InputError unless they have one channel."""
     raw = raw[..., 0] if raw.ndim == 3 and raw.shape[2] == 1 else raw
     if raw.ndim != 2 or raw.dtype.kind not in "iuf":
         raise InputError(f"{name}: a depth map of one channel was expected, found {raw.shape} of {raw.dtype}")
@@ -91,7 +91,7 @@ def clean_depth(raw: np.ndarray, name: str, scale: float = 1.0) -> Float32[np.nd
 
 
 def read_mask(path: Path | None) -> Bool[np.ndarray, "h w"] | None:
-    """Where a mask or confidence map is not 0; None without a file."""
+    """Return where a mask or confidence map is not 0; None without a file."""
     if path is None:
         return None
     from PIL import Image
@@ -105,7 +105,7 @@ def read_mask(path: Path | None) -> Bool[np.ndarray, "h w"] | None:
 
 
 def observed(color: np.ndarray, depth: np.ndarray, *masks: np.ndarray | None) -> Observation:
-    """An observation; depth is taken where every mask says so, masks of other sizes are scaled to the depth map's."""
+    """Return an observation with depth where all masks allow it; masks of other sizes are scaled to that of the depth map."""
     kept = depth
     for mask in masks:
         if mask is not None:
@@ -116,7 +116,7 @@ def observed(color: np.ndarray, depth: np.ndarray, *masks: np.ndarray | None) ->
 
 
 def file_reader(color: Path, depth: Path | None, scale: float, *masks: Path | None):
-    """A function that reads an observation from files; without depth, the map is one pixel of none."""
+    """Return a function that reads an observation from files; without a depth file, its depth map is a single 0."""
 
     def read() -> Observation:
         found = np.zeros((1, 1), np.float32) if depth is None else read_depth(depth, scale)

@@ -1,4 +1,4 @@
-"""Camera poses as files tell them, checked and turned to one convention: camera to world, OpenCV axes, metres."""
+"""Camera poses read from files, validated and converted to one convention: camera to world, OpenCV axes, metres."""
 
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ from jaxtyping import Float
 from anymesh.applications.scan.frames import FLIPPED, Pinhole
 from anymesh.errors import InputError
 
-STRAIGHT = 1e-2  # most that a column of a rotation may differ from unit length and right angles
+STRAIGHT = 1e-2  # largest deviation of a rotation's columns from unit length and orthogonality
 AXES = ("opencv", "opengl")
-PIXELS_OFF = 2.0  # [px] of lens distortion at a corner that may be left out
+PIXELS_OFF = 2.0  # [px] largest lens distortion at a corner that may be ignored
 
 
 def pose(told: object, name: str, *, axes: str = "opencv", scale: float = 1.0) -> Float[np.ndarray, "4 4"]:
-    """T_world_camera of a 4x4 or 3x4 matrix in a file, orthonormal, its translation times `scale` [m].
+    """Return T_world_camera from a 4x4 or 3x4 matrix in a file, orthonormalized, its translation times `scale` [m].
 
-    axes: opencv (x right, y down, z ahead) or opengl (x right, y up, z back). InputError where it is not rigid.
+    axes: opencv (x right, y down, z ahead) or opengl (x right, y up, z back). Raise InputError if the matrix is not rigid.
     """
     try:
         T = np.array(told, np.float64)
@@ -50,7 +50,7 @@ def pose(told: object, name: str, *, axes: str = "opencv", scale: float = 1.0) -
 
 
 def quaternion_pose(xyzw: Sequence[float], at: Sequence[float], name: str) -> Float[np.ndarray, "4 4"]:
-    """The transform of a quaternion (x, y, z, w) and a translation. InputError where the quaternion has no length."""
+    """Return the transform of a quaternion (x, y, z, w) and a translation. Raise InputError for a zero quaternion."""
     q = np.asarray(xyzw, np.float64)
     length = float(np.linalg.norm(q))
     if q.shape != (4,) or not np.isfinite(length) or abs(length - 1) > STRAIGHT:
@@ -67,7 +67,7 @@ def quaternion_pose(xyzw: Sequence[float], at: Sequence[float], name: str) -> Fl
 
 
 def pinhole(told: dict[str, Any], keys: Sequence[str], name: str) -> Pinhole:
-    """The camera whose fx, fy, cx, cy, width, height stand under `keys`. InputError that names what is missing."""
+    """Return the camera with fx, fy, cx, cy, width and height under `keys`. Raise InputError that names missing ones."""
     missing = [key for key in keys if not isinstance(told.get(key), (int, float)) or isinstance(told.get(key), bool)]
     if missing:
         raise InputError(f"{name}: intrinsics are missing: {', '.join(missing)}; needed are {', '.join(keys)} [px]")
@@ -88,7 +88,7 @@ def _shown(told: object) -> str:
 
 
 def fitted(camera: Pinhole, size: tuple[int, int], name: str) -> Pinhole:
-    """The camera for a picture of `size` (width, height): scaled where only the resolution differs, else InputError."""
+    """Scale the camera to a picture of `size` (width, height). Raise InputError if more than the resolution differs."""
     if size == (camera.width, camera.height):
         return camera
     try:
@@ -101,9 +101,9 @@ def fitted(camera: Pinhole, size: tuple[int, int], name: str) -> Pinhole:
 
 
 def check_distortion(camera: Pinhole, k: Sequence[float], name: str) -> str:
-    """What to warn of where radial distortion k1, k2, ... is left out; empty for less than half a pixel.
+    """Return a warning about ignored radial distortion k1, k2, ...; empty if it is less than half a pixel.
 
-    InputError where it moves a corner by more than PIXELS_OFF pixels.
+    Raise InputError if it moves a corner by more than PIXELS_OFF pixels.
     """
     corner = max(camera.cx, camera.width - camera.cx) / camera.fx, max(camera.cy, camera.height - camera.cy) / camera.fy
     r2 = corner[0] ** 2 + corner[1] ** 2

@@ -1,4 +1,4 @@
-"""COLMAP models, text and binary, with the depth maps of its dense workspace or a folder of depth pictures."""
+"""COLMAP models, text and binary, with depth maps of the dense workspace or of a folder of depth pictures."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from anymesh.applications.scan.pictures import clean_depth, file_reader, observe
 from anymesh.applications.scan.poses import check_distortion, fitted, quaternion_pose
 from anymesh.errors import InputError, OptionError
 
-# Number, name and how many parameters each model has (COLMAP's src/colmap/sensor/models.h); fisheye models are refused.
+# Number, name and parameter count of each model (COLMAP's src/colmap/sensor/models.h); fisheye models are not supported.
 MODELS = {0: ("SIMPLE_PINHOLE", 3), 1: ("PINHOLE", 4), 2: ("SIMPLE_RADIAL", 4), 3: ("RADIAL", 5), 4: ("OPENCV", 8)}
 FOLDERS = ("sparse/0", "sparse", "colmap/sparse/0", ".")
 DEPTHS = ("stereo/depth_maps/{name}.geometric.bin", "stereo/depth_maps/{name}.photometric.bin", "depth/{stem}.png",
@@ -31,7 +31,7 @@ class _Image:
 
 
 def model_folder(folder: Path) -> Path | None:
-    """Where in a folder a COLMAP model lies, None where there is none."""
+    """Return the folder of the COLMAP model within a folder, None if there is none."""
     for name in FOLDERS:
         for suffix in (".bin", ".txt"):
             if (folder / name / f"cameras{suffix}").is_file() and (folder / name / f"images{suffix}").is_file():
@@ -40,7 +40,7 @@ def model_folder(folder: Path) -> Path | None:
 
 
 def read_colmap(folder: Path, depth_scale: float | None, scale: float | None) -> Frames:
-    """A COLMAP workspace. OptionError without a scale: a reconstruction from pictures has no unit."""
+    """Read a COLMAP workspace. Raise OptionError without a scale, since a reconstruction from pictures has no unit."""
     model = model_folder(folder)
     if model is None:
         raise InputError(f"{folder}: found no cameras and images of COLMAP in {', '.join(FOLDERS)}")
@@ -76,14 +76,17 @@ def _depth(folder: Path, name: str) -> Path | None:
 
 
 def _reader(color: Path, depth: Path | None, depth_scale: float | None, scale: float) -> Callable[[], Observation]:
-    """Depth maps of COLMAP are in units of the model; pictures of a depth camera have their own, millimetres by default."""
+    """Return a reader of a frame.
+
+    Depth maps of COLMAP are in units of the model; pictures of a depth camera in their own, by default millimetres.
+    """
     if depth is None or depth.suffix != ".bin":
         return file_reader(color, depth, depth_scale or 0.001)
     return lambda: observed(read_color(color, color.name), clean_depth(read_array(depth), depth.name, scale))
 
 
 def read_array(path: Path) -> Float[np.ndarray, "h w"]:
-    """A dense map of COLMAP: `width&height&channels&`, then floats. InputError where the file is cut short."""
+    """Read a dense map of COLMAP: `width&height&channels&`, then floats. Raise InputError if the file is truncated."""
     data = path.read_bytes()
     try:
         width, height, channels = (int(v) for v in data[:64].split(b"&", 3)[:3])
@@ -122,7 +125,7 @@ def _text_cameras(model: Path) -> Iterator[tuple[int, str, int, int, list[float]
 
 
 def _text_images(model: Path) -> Iterator[_Image]:
-    """Every second line is a list of points, which may be empty."""
+    """Parse images.txt, in which every second line is a list of points and may be empty."""
     for row in _text_rows(model / "images.txt")[::2]:
         try:
             q, t = [float(v) for v in row[1:5]], [float(v) for v in row[5:8]]
@@ -152,7 +155,7 @@ def _binary_images(model: Path) -> Iterator[_Image]:
 
 
 class _Bytes:
-    """Reads a binary file from its start. InputError where it ends too soon."""
+    """Sequential reader of a binary file. Raise InputError if it ends too soon."""
 
     def __init__(self, path: Path) -> None:
         self._path, self._data, self._at = path, path.read_bytes(), 0

@@ -1,4 +1,4 @@
-"""Plain folders: `frames.json` (ours) and `transforms.json` (nerfstudio, instant-ngp)."""
+"""Plain folders: `frames.json` (this project's layout) and `transforms.json` (nerfstudio, instant-ngp)."""
 
 from __future__ import annotations
 
@@ -22,7 +22,10 @@ UPS = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 
 
 def read_frames_json(folder: Path, depth_scale: float | None, scale: float | None) -> Frames:
-    """Our own layout: `camera`, `camera_axes`, `depth_scale` and `frames` of color, depth, mask, confidence, T_world_camera."""
+    """Read this project's layout.
+
+    Its keys are `camera`, `camera_axes`, `depth_scale` and `frames` of color, depth, mask, confidence, T_world_camera.
+    """
     told = read_object(folder / OURS)
     axes, unit = told.get("camera_axes", "opencv"), depth_scale or float(told.get("depth_scale", MILLIMETRES))
     if axes not in AXES:
@@ -40,7 +43,7 @@ def read_frames_json(folder: Path, depth_scale: float | None, scale: float | Non
 
 
 def read_transforms_json(folder: Path, depth_scale: float | None, scale: float | None) -> Frames:
-    """nerfstudio's layout: camera-to-world with OpenGL axes, depth in millimetres unless `depth_unit_scale_factor` tells."""
+    """Read nerfstudio's layout: camera-to-world, OpenGL axes, depth in millimetres unless `depth_unit_scale_factor` is set."""
     told = read_object(folder / NERFSTUDIO)
     model = str(told.get("camera_model", "OPENCV")).upper()
     if model not in PERSPECTIVE:
@@ -72,12 +75,12 @@ def _entries(told: dict[str, Any], path: Path) -> list[dict[str, Any]]:
 
 
 def _with_suffix(folder: Path, name: str) -> str:
-    """Blender's layout leaves out the suffix of pictures."""
+    """Add the suffix of pictures, which Blender's layout omits."""
     return name if Path(name).suffix or (folder / name).is_file() else f"{name}.png"
 
 
 def _intrinsics(told: dict[str, Any], size: tuple[int, int]) -> dict[str, Any]:
-    """With what the format lets one leave out: the size, the middle, focal lengths from the angle of view."""
+    """Add values that the format allows to omit: size, principal point, and focal lengths from the field of view."""
     found = {"w": size[0], "h": size[1], **told}
     found = {"cx": found["w"] / 2, "cy": found["h"] / 2, **found}
     for key, angle, side in (("fl_x", "camera_angle_x", "w"), ("fl_y", "camera_angle_y", "h")):
@@ -91,7 +94,7 @@ def _intrinsics(told: dict[str, Any], size: tuple[int, int]) -> dict[str, Any]:
 def _frames(
     found: list[tuple[RgbdFrame, Path | None]], layout: str, up: tuple[float, float, float] | None, told: list[str]
 ) -> Frames:
-    """Frames without depth are left out where others have it."""
+    """Return a recording; frames without depth are dropped if others have depth."""
     deep = [frame for frame, depth in found if depth is not None]
     if deep and len(deep) < len(found):
         told.append(f"{len(found) - len(deep)} of {len(found)} frames have no depth and are left out")

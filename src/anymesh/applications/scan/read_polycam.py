@@ -17,7 +17,7 @@ MILLIMETRES = 0.001
 
 
 def keyframes(folder: Path) -> Path | None:
-    """The folder `keyframes` of an export, None where there is none."""
+    """Return the folder `keyframes` of an export, None if there is none."""
     for place in (folder / "keyframes", folder):
         if any((place / name).is_dir() for name in ("cameras", "corrected_cameras")):
             return place
@@ -25,7 +25,7 @@ def keyframes(folder: Path) -> Path | None:
 
 
 def read_polycam(folder: Path, depth_scale: float | None, scale: float | None) -> Frames:
-    """An export; optimized cameras and undistorted images are taken where they are there. ARKit: OpenGL axes, y is up."""
+    """Read an export, with optimized cameras and undistorted images if present. ARKit: OpenGL axes, y is up."""
     home = keyframes(folder)
     if home is None:
         raise InputError(f"{folder}: found no keyframes/cameras; Polycam exports it as raw data (developer mode)")

@@ -1,4 +1,4 @@
-"""Record3D: an `.r3d` file, or the folder that it unpacks to."""
+"""Record3D recordings: an `.r3d` file, or the folder that it unpacks to."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ from anymesh.applications.scan.poses import quaternion_pose
 from anymesh.errors import InputError
 
 METADATA = ("metadata", "metadata.json")
-MOST_BYTES = 1 << 28  # of one file in the archive
+MOST_BYTES = 1 << 28  # [bytes] limit of one file in the archive
 
 
 @dataclass(frozen=True)
 class _Home:
-    """The files of a recording, in a folder or an archive."""
+    """Access to the files of a recording, in a folder or an archive."""
 
     path: Path
 
@@ -52,14 +52,14 @@ def _opened(path: Path) -> zipfile.ZipFile:
 
 
 def is_record3d(path: Path) -> bool:
-    """Whether a folder or file holds a recording of Record3D."""
+    """Return whether a folder or file holds a recording of Record3D."""
     if path.is_file():
         return path.suffix.lower() in (".r3d", ".zip")
     return (path / "rgbd").is_dir() and any((path / name).is_file() for name in METADATA)
 
 
 def read_record3d(path: Path, depth_scale: float | None, scale: float | None) -> Frames:
-    """A recording: poses are camera-to-world with OpenGL axes (ARKit), depth is float32 in metres, y is up."""
+    """Read a recording: poses are camera-to-world with OpenGL axes (ARKit), depth is float32 in metres, y is up."""
     home = _Home(path)
     names = home.names()
     told = _metadata(home, names)
@@ -94,7 +94,7 @@ def _metadata(home: _Home, names: set[str]) -> dict[str, Any]:
 
 
 def _camera(told: dict[str, Any], number: int, path: Path) -> Pinhole:
-    """perFrameIntrinsicCoeffs (fx, fy, cx, cy) where it is there, else K by columns."""
+    """Return the camera of a frame from perFrameIntrinsicCoeffs (fx, fy, cx, cy) if present, else from K, stored by columns."""
     with suppress(KeyError, IndexError, TypeError, ValueError):
         size = int(told["w"]), int(told["h"])
         each = told.get("perFrameIntrinsicCoeffs")
@@ -128,7 +128,7 @@ def _reader(home: _Home, names: set[str], n: int, told: dict[str, Any], factor: 
 
 
 def _size(told: dict[str, Any], count: int, path: Path) -> tuple[int, int]:
-    """Rows and columns of a depth map: as told, or from the picture's proportions in older recordings."""
+    """Return rows and columns of a depth map, as stated or, in older recordings, from the picture's proportions."""
     if {"dw", "dh"} <= set(told):
         rows, columns = int(told["dh"]), int(told["dw"])
     else:

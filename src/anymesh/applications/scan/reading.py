@@ -1,4 +1,4 @@
-"""Which layout a recording has, and its frames."""
+"""Detection of a recording's layout, and reading of its frames."""
 
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ from anymesh.applications.scan.read_polycam import keyframes, read_polycam
 from anymesh.applications.scan.read_record3d import is_record3d, read_record3d
 from anymesh.errors import InputError
 
-FEWEST = 3  # frames of which a surface can be fused
+FEWEST = 3  # minimum number of frames to fuse
 
 
 def read_frames(path: Path, *, depth_scale: float | None = None, scale: float | None = None) -> Frames:
-    """The frames of a recording in any layout that is known.
+    """Read the frames of a recording in any supported layout.
 
     depth_scale: metres per unit of the depth maps (None: the layout's own); scale: metres per unit of the poses.
-    InputError where nothing is recognized, files are missing, intrinsics or poses are wrong; OptionError for a COLMAP model
-    without a scale.
+    Raise InputError if no layout is recognized, files are missing, or intrinsics or poses are wrong; OptionError for a COLMAP
+    model without a scale.
     """
     path = Path(path)
     if not path.exists():

@@ -1,8 +1,8 @@
-"""Recordings of a mesh by a simulated depth camera: what scans are tested and measured with.
+"""Recordings of a mesh by a simulated depth camera, for testing and measuring scans.
 
-The camera goes round the object on rings, some of them low, and nearer than it would take to see all of a large object. The
-sensor is like a structured-light camera: noise grows with the square of the depth (Khoshelham and Elberink 2012), pixels at
-edges are lost or mixed, surfaces that are seen at a grazing angle or are dark give no depth.
+The camera moves around the object on rings, some of them low, and close enough that a large object does not fit the picture.
+The sensor resembles a structured-light camera: noise grows with the square of the depth (Khoshelham and Elberink 2012), pixels
+at edges are lost or mixed, and surfaces that are dark or seen at a grazing angle give no depth.
 """
 
 from __future__ import annotations
@@ -25,22 +25,22 @@ from anymesh.types import Mesh
 from anymesh.types.camera import Camera
 
 NOISE = 0.0015  # [1/m] standard deviation of depth over its square
-DEPTH_UNIT = 0.001  # [m] of a 16-bit depth picture
-RINGS, SHARES = (8.0, 28.0, 48.0, 70.0), (0.3, 0.3, 0.25, 0.15)  # [deg] elevations of the cameras, and how many are there
+DEPTH_UNIT = 0.001  # [m] per unit of a 16-bit depth picture
+RINGS, SHARES = (8.0, 28.0, 48.0, 70.0), (0.3, 0.3, 0.25, 0.15)  # [deg] elevations of the rings; shares of the cameras
 DISTANCES = (0.3, 0.75)  # [m] from the object's box
 FOV = np.deg2rad(45)  # vertical
-FILLED = 1.15  # the object's diagonal fits a picture this many times, where distances allow it
-GRAZING = 0.17  # cosine of the angle of view below which there is no depth
-DARK = 40.0  # sRGB luminance below which half of the surface gives no depth
-EDGE = 0.02  # relative step of depth that is an edge
+FILLED = 1.15  # size of the picture over the object's diagonal, if `DISTANCES` allow it
+GRAZING = 0.17  # cosine of the viewing angle below which there is no depth
+DARK = 40.0  # sRGB luminance below which half of the pixels have no depth
+EDGE = 0.02  # relative step of depth that counts as an edge
 LOST, MIXED = 0.6, 0.2  # shares of edge pixels without depth, and with a depth between both sides
-FLOOR = 2.5  # sides of the floor in diagonals of the object
+FLOOR = 2.5  # side of the floor over the object's diagonal
 FLOOR_COLORS = ((168.0, 150.0, 130.0), (140.0, 124.0, 106.0))  # of its squares
 
 
 @dataclass(frozen=True, eq=False)
 class Sensor:
-    """noise: [1/m]; missing: whether edges, grazing and dark surfaces lose depth."""
+    """Sensor model. noise: [1/m]; missing: whether depth is lost at edges and on grazing or dark surfaces."""
 
     noise: float = NOISE
     missing: bool = True
@@ -59,9 +59,9 @@ def render_frames(
 ) -> Path:
     """Write a recording of a mesh (metres, z up, standing on z = 0) to a new folder, in the layout `frames.json`.
 
-    size: width and height [px]; noise: of depth, over its square [1/m]; missing: whether the sensor has gaps; floor: whether
-    the object stands on one. The world frame is turned about the upright and shifted, by the seed; `truth.json` keeps
-    T_world_mesh. Returns the folder. OutputError where it exists.
+    size: width and height [px]; noise: of depth, over its square [1/m]; missing: whether depth has gaps; floor: whether the
+    object stands on a floor. The world frame is rotated about the vertical and shifted, depending on the seed; `truth.json`
+    stores T_world_mesh. Return the folder. Raise OutputError if it exists.
     """
     out, rng, sensor = Path(out), np.random.default_rng(seed), Sensor(noise, missing)
     if out.exists():
@@ -94,7 +94,7 @@ def render_frames(
 
 
 def orbit(bounds: Float[np.ndarray, "2 3"], views: int, size: tuple[int, int], rng: np.random.Generator) -> list[Camera]:
-    """Cameras on rings round a box; where it is too large for one picture, each looks at another place in it."""
+    """Return cameras on rings around a box; if it is too large for one picture, each looks at another place in it."""
     half, center = np.ptp(bounds, axis=0) / 2, bounds.mean(0)
     fit = FILLED * float(np.linalg.norm(half)) / np.sin(FOV / 2)
     found = []
@@ -115,7 +115,7 @@ def orbit(bounds: Float[np.ndarray, "2 3"], views: int, size: tuple[int, int], r
 def observe(
     mesh: Mesh, scene: RayScene, camera: Camera, ground: int, sensor: Sensor, rng: np.random.Generator
 ) -> tuple[np.ndarray, Float32[np.ndarray, "h w"]]:
-    """Colour (sRGB bytes) and depth [m] as the sensor gives them. ground: the first face of the floor."""
+    """Simulate colour (sRGB bytes) and depth [m] of the sensor. ground: index of the floor's first face."""
     origins, directions = camera.rays()
     hits = scene.surface_hits(origins[0], directions.astype(np.float32))
     shape = (camera.height, camera.width)
@@ -149,7 +149,7 @@ def _sensed(
 
 
 def _tile(base: np.ndarray, hits: SurfaceHits, ground: int, origins: np.ndarray, directions: np.ndarray) -> None:
-    """Squares on the floor, in place."""
+    """Draw the squares of the floor, in place."""
     on = np.flatnonzero(hits.face >= ground)
     at = origins[on, :2] + directions[on, :2] * hits.depth[on, None]
     odd = (np.floor(at / 0.1).sum(1) % 2 == 1)[:, None]
@@ -157,7 +157,7 @@ def _tile(base: np.ndarray, hits: SurfaceHits, ground: int, origins: np.ndarray,
 
 
 def _with_floor(mesh: Mesh) -> tuple[Mesh, int]:
-    """The mesh on a square floor at its lowest point, and the floor's first face."""
+    """Return the mesh on a square floor at its lowest point, and the index of the floor's first face."""
     low, high = mesh.bounds
     x, y = (low + high)[:2] / 2
     s = FLOOR * mesh.diagonal / 2

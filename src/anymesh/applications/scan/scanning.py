@@ -1,4 +1,4 @@
-"""`anymesh scan`: a recording -> checked frames -> fused surface -> one clean object -> a GLB in metres."""
+"""`anymesh scan`: recording -> validated frames -> fused surface -> one clean object -> GLB in metres."""
 
 from __future__ import annotations
 
@@ -23,17 +23,17 @@ from anymesh.applications.scan.surface_ import extract
 from anymesh.errors import InputError
 from anymesh.progress import Progress, silent
 
-FINE = 400  # voxels along the object's diagonal, where pixels are small enough, and
-PIXELS = 0.75  # of a pixel on the object that a voxel is at least
-TRUNCATION = 4.0  # [voxels], and
-NOISES = 3.0  # standard deviations of depth, whichever is more
-SEEN = 0.3  # weight of a voxel to count; a square view from the usual distance weighs 1
-MOVED = 2.0  # [voxels] that smoothing may move a vertex by
+FINE = 400  # voxels along the object's diagonal, unless limited by `PIXELS`
+PIXELS = 0.75  # [px] smallest voxel, projected on the object
+TRUNCATION = 4.0  # [voxels] smallest truncation
+NOISES = 3.0  # [standard deviations of depth] smallest truncation
+SEEN = 0.3  # lowest weight of a voxel that counts; a frontal view from the usual distance has weight 1
+MOVED = 2.0  # [voxels] largest displacement of a vertex by smoothing
 
 
 @dataclass(frozen=True)
 class Cleaned:
-    """What cleaning did: floating bits dropped, small holes closed, larger holes; area of the surface [m2]."""
+    """Results of cleaning: dropped components, closed small holes, larger holes; area of the surface [m2]."""
 
     bits: int
     closed: int
@@ -44,11 +44,11 @@ class Cleaned:
 def scan(
     recording: str | Path, out: str | Path, *, force: bool = False, progress: Progress = silent, **options: Unpack[Options]
 ) -> ScanReport:
-    """Fuse posed pictures with depth to a surface mesh in metres, with colours, and write it to the file `out` (.glb).
+    """Fuse posed pictures with depth to a coloured surface mesh in metres and write it to the file `out` (.glb).
 
     recording: a folder with frames.json, transforms.json (nerfstudio), keyframes/ (Polycam), sparse/ (COLMAP) or metadata and
-    rgbd/ (Record3D), or an .r3d file; options: see `ScanConfig`. Raises InputError (files, intrinsics, poses or depth are
-    wrong), OptionError, OutputError, MissingExtraError (pictures without depth, or a compressed recording).
+    rgbd/ (Record3D), or an .r3d file; options: see `ScanConfig`. Raise InputError (wrong files, intrinsics, poses or depth),
+    OptionError, OutputError, or MissingExtraError (pictures without depth, or a compressed recording).
     """
     out, config = Path(out), ScanConfig(**options)
     check_output(out, force)
@@ -93,7 +93,7 @@ def scan(
 
 
 def checked(frames: Frames, config: ScanConfig, progress: Progress) -> tuple[Frames, Scene, float, float]:
-    """The frames that agree, where the object is, the usual depth [m] and the frames' median disagreement (share of depth)."""
+    """Return the consistent frames, the scene, the usual depth [m] and the frames' median disagreement (share of depth)."""
     glimpses = []
     for number, frame in enumerate(frames.frames):
         progress("check", frame.name, number, len(frames))
@@ -118,7 +118,7 @@ def checked(frames: Frames, config: ScanConfig, progress: Progress) -> tuple[Fra
 
 
 def fused(frames: Frames, scene: Scene, usual: float, config: ScanConfig, progress: Progress) -> Field:
-    """The distance field of the scene's region. A voxel is a share of the object's diagonal, and not far below a pixel."""
+    """Compute the distance field of the region; the default voxel depends on the object's diagonal and the pixel size."""
     voxel = config.voxel or max(scene.diagonal / FINE, PIXELS * scene.pixel)
     truncation = max(TRUNCATION * voxel, NOISES * scene.noise)
     bounds = np.stack([scene.low, scene.high])
@@ -127,7 +127,7 @@ def fused(frames: Frames, scene: Scene, usual: float, config: ScanConfig, progre
 
 
 def _cleaned(surface: Surface, voxel: float, scene: Scene, config: ScanConfig, progress: Progress) -> tuple[Surface, Cleaned]:
-    """One object, smooth and simplified, and what the report says of it."""
+    """Return one object, smoothed and simplified, and the results of cleaning for the report."""
     progress("clean", f"{len(surface.faces)} faces", 0, 3)
     if scene.has_floor:
         surface = cut_floor(surface, voxel)

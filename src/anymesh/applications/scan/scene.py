@@ -1,4 +1,4 @@
-"""Where the object is in a recording: the plane that it stands on, which way is up, and the box that is worth fusing."""
+"""Location of the object in a recording: its supporting plane, the upward direction, and the box to fuse."""
 
 from __future__ import annotations
 
@@ -12,24 +12,25 @@ from anymesh.applications.scan.agreement import Glimpse
 from anymesh.applications.scan.frames import Frames
 from anymesh.errors import InputError, OptionError
 
-TRIES = 600  # planes through three points that are tried as floor
-LEVEL_KNOWN, LEVEL_GUESSED = 20.0, 50.0  # [deg] a floor may lean from the layout's up, or from the cameras' mean up
-THICK = 0.006  # share of the depth within which points lie on a plane
-SUPPORT = 0.05  # share of all points that lie on the floor, at least
-BELOW = 0.1  # points right under a floor, over the points on it, at most
-CELL = 0.02  # share of the depth: points nearer than about this are one body
-MARGIN = 0.04  # round the object, a share of its diagonal
-MIDDLE = 0.35  # tangent of the angle from the optical axis within which a camera looks at what it records
-QUANTILES = (0.005, 0.995)  # of an object's points, between which its sides are measured to turn it square
-COUNTED = 20_000  # points that planes are judged by
+TRIES = 600  # planes through three points tried as floor
+LEVEL_KNOWN, LEVEL_GUESSED = 20.0, 50.0  # [deg] largest tilt of a floor against the layout's up, or the cameras' mean up
+THICK = 0.006  # share of the depth; largest distance of a plane's points
+SUPPORT = 0.05  # minimum share of all points that lie on the floor
+BELOW = 0.1  # largest ratio of points below a floor to points on it
+CELL = 0.02  # share of the depth; approximate distance within which points are connected
+MARGIN = 0.04  # margin around the object, share of its diagonal
+MIDDLE = 0.35  # tangent of the angle from the optical axis within which points count as the camera's subject
+QUANTILES = (0.005, 0.995)  # of the object's points, between which its extent is measured for alignment
+COUNTED = 20_000  # points used to evaluate planes
 
 
 @dataclass(frozen=True, eq=False)
 class Scene:
-    """The scan's frame and region. T_scan_world: (4, 4) rigid, z up, floor (where there is one) at z = 0, object at x = y = 0.
+    """Frame and region of the scan.
 
-    low, high: corners of the region in the scan's frame [m]; diagonal: of the object's box [m]; pixel: size of a pixel on
-    the object [m]; noise: standard deviation of depth there [m]; has_floor: whether a floor was found.
+    T_scan_world: (4, 4) rigid, z up, floor (if any) at z = 0, object at x = y = 0; low, high: corners of the region in the
+    scan's frame [m]; diagonal: of the object's box [m]; pixel: size of a pixel on the object [m]; noise: standard deviation of
+    depth there [m]; has_floor: whether a floor was found.
     """
 
     T_scan_world: Float[np.ndarray, "4 4"]
@@ -43,7 +44,7 @@ class Scene:
 
 @dataclass(frozen=True, eq=False)
 class _Cloud:
-    """points: (n, 3) world [m]; central: (n,) weight, 1 on the optical axis; depth, usual [m]; pixel: (n,) [m]."""
+    """Point cloud. points: (n, 3) world [m]; central: (n,) weight, 1 on the optical axis; depth, usual [m]; pixel: (n,) [m]."""
 
     points: Float[np.ndarray, "n 3"]
     central: Float[np.ndarray, " n"]
@@ -57,9 +58,10 @@ class _Cloud:
 def find_scene(
     frames: Frames, glimpses: list[Glimpse], *, crop: tuple[float, ...] | None = None, floor: bool = True, seed: int = 0
 ) -> Scene:
-    """The object that most cameras look at. crop: x0, y0, z0, x1, y1, z1 [m] in the recording's world; floor: look for one.
+    """Find the object that most cameras look at.
 
-    InputError where nothing is left.
+    crop: x0, y0, z0, x1, y1, z1 [m] in the recording's world; floor: whether to look for a floor. Raise InputError if no points
+    remain.
     """
     cloud = _cloud(glimpses)
     if crop is not None:
@@ -113,7 +115,7 @@ def _cropped(cloud: _Cloud, crop: tuple[float, ...]) -> _Cloud:
 
 
 def _up(frames: Frames) -> tuple[np.ndarray, float]:
-    """The upward direction of the world and how far a floor may lean from it [deg]."""
+    """Return the upward direction of the world and the largest angle of a floor's normal to it [deg]."""
     if frames.up is not None:
         return np.array(frames.up), LEVEL_KNOWN
     mean = -np.mean([f.T_world_camera[:3, 1] for f in frames.frames], axis=0)
@@ -122,9 +124,9 @@ def _up(frames: Frames) -> tuple[np.ndarray, float]:
 
 
 def _floor(points: np.ndarray, up: np.ndarray, lean: float, tolerance: float, rng: np.random.Generator) -> np.ndarray | None:
-    """The plane (unit normal up, offset) with the most points of those that bear what is on them; None without any.
+    """Return the plane (unit normal up, offset) with the most points that can be a floor; None if there is none.
 
-    Nothing lies right under such a plane: under a top of the object, its sides do.
+    A floor has hardly any points directly below it, in contrast to a top face of the object, which has the object's sides.
     """
     some = points[rng.permutation(len(points))[:COUNTED]]
     corners = some[rng.integers(len(some), size=(TRIES, 3))]
@@ -166,7 +168,7 @@ def _bears(points: np.ndarray, plane: np.ndarray, tolerance: float) -> bool:
 
 
 def _body(cloud: _Cloud) -> _Cloud:
-    """The connected points that cameras look at most."""
+    """Return the connected points at which cameras look most."""
     if len(cloud.points) < 50:
         raise InputError(
             f"found {len(cloud.points)} points above the floor; the object is missing, or --depth-max or --crop leaves it out"
@@ -187,7 +189,7 @@ def _body(cloud: _Cloud) -> _Cloud:
 
 
 def _upright(up: np.ndarray) -> Float[np.ndarray, "3 3"]:
-    """A rotation whose third row is `up`."""
+    """Return a rotation whose third row is `up`."""
     z = up / np.linalg.norm(up)
     x = np.eye(3)[int(np.abs(z).argmin())]
     x = x - (x @ z) * z
@@ -196,7 +198,7 @@ def _upright(up: np.ndarray) -> Float[np.ndarray, "3 3"]:
 
 
 def _square(points: np.ndarray) -> Float[np.ndarray, "4 4"]:
-    """A turn about z after which the points fill the smallest box: walls then lie along the grid that is fused on."""
+    """Return the rotation about z that minimizes the bounding box, so that walls are aligned with the fusion grid."""
     best, least = 0.0, np.inf
     for angle in np.deg2rad(np.arange(0, 90, 1.0)):
         area = _area(points, angle)

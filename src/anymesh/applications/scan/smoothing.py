@@ -1,4 +1,4 @@
-"""Noise off a fused surface while its creases stay: faces' normals are filtered bilaterally, then vertices follow them.
+"""Feature-preserving denoising of a fused surface: bilateral filtering of face normals, then vertex updates.
 
 Zheng, Fu, Au and Tai 2011 (local, iterative scheme); vertices by Sun, Rosin, Martin and Langbein 2007.
 """
@@ -11,15 +11,15 @@ from jaxtyping import Float, Int
 from anymesh.types.triangles import face_cross
 
 NORMAL_ROUNDS, VERTEX_ROUNDS = 20, 12
-SIGMA = 0.35  # difference of unit normals at which a neighbour counts for .6
-STEP = 0.9  # share of the way that a vertex follows in a round
+SIGMA = 0.35  # difference of unit normals at which a neighbour has weight 0.6
+STEP = 0.9  # share of a vertex update that is applied per iteration
 
 
 def smooth(
     vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"], most: float,
     rounds: tuple[int, int] = (NORMAL_ROUNDS, VERTEX_ROUNDS),
 ) -> Float[np.ndarray, "V 3"]:  # fmt: skip
-    """Vertices of the denoised surface. most: [m] that none of them moves further than. Border vertices stay in their place."""
+    """Return the vertices of the denoised surface; border vertices are fixed. most: largest displacement of a vertex [m]."""
     pairs = neighbours(faces)
     cross = face_cross(vertices[faces])
     double = np.linalg.norm(cross, axis=1)
@@ -49,7 +49,7 @@ def smooth(
 
 
 def neighbours(faces: Int[np.ndarray, "F 3"]) -> Int[np.ndarray, "m 2"]:
-    """Pairs of faces that share an edge; edges of more than two faces are left out."""
+    """Return pairs of faces that share an edge, ignoring edges of more than two faces."""
     key, owner = edge_keys(faces)
     order = np.argsort(key, kind="stable")
     key, owner = key[order], owner[order]
@@ -59,7 +59,7 @@ def neighbours(faces: Int[np.ndarray, "F 3"]) -> Int[np.ndarray, "m 2"]:
 
 
 def border_vertices(faces: Int[np.ndarray, "F 3"], count: int) -> np.ndarray:
-    """Whether each vertex lies on an edge of one face only."""
+    """Return whether each vertex lies on an edge of only one face."""
     key, _ = edge_keys(faces)
     unique, times = np.unique(key, return_counts=True)
     lone = unique[times == 1]
@@ -70,6 +70,6 @@ def border_vertices(faces: Int[np.ndarray, "F 3"], count: int) -> np.ndarray:
 
 
 def edge_keys(faces: Int[np.ndarray, "F 3"]) -> tuple[np.ndarray, np.ndarray]:
-    """A number for the edge of every side of every face, equal where they share it, and the face of each."""
+    """Return a key for each side of each face, equal for shared edges, and the face of each."""
     ends = np.sort(faces[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), 1).astype(np.int64)
     return ends[:, 0] * (int(faces.max()) + 1) + ends[:, 1], np.repeat(np.arange(len(faces)), 3)

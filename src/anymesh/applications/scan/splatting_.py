@@ -1,6 +1,6 @@
-"""Depth for pictures that have none, by 2D Gaussian splatting (Huang et al. 2024, the paper's choice) through gsplat, on CUDA.
+"""Depth for pictures without depth, by 2D Gaussian splatting (Huang et al. 2024, the paper's choice) with gsplat, on CUDA.
 
-Written against gsplat 1.5 and not run on a GPU yet. Gaussians are fitted to the pictures, their median depth is rendered from
+Written against gsplat 1.5 and not run on a GPU yet. Gaussians are fitted to the pictures; their median depth is rendered for
 every frame and fused like a sensor's, as the method's authors extract their meshes.
 """
 
@@ -16,11 +16,11 @@ from anymesh.applications.scan.frames import Frames, Observation, Pinhole, RgbdF
 from anymesh.errors import MissingExtraError
 from anymesh.progress import Progress
 
-GAUSSIANS = 50_000  # at first; the strategy splits and prunes them
+GAUSSIANS = 50_000  # initial number; the strategy splits and prunes them
 STEPS = 10_000
-SIDE = 800  # [px] of the pictures that are fitted, at most
-RATES = {"means": 1.6e-4, "scales": 5e-3, "quats": 1e-3, "opacities": 5e-2, "colors": 2.5e-3}  # means: of the scene's size
-NORMAL_FROM, NORMAL_WEIGHT = 3000, 0.05  # normals of Gaussians are made to agree with those of the depth (the authors' values)
+SIDE = 800  # [px] largest side of the pictures used for fitting
+RATES = {"means": 1.6e-4, "scales": 5e-3, "quats": 1e-3, "opacities": 5e-2, "colors": 2.5e-3}  # means: over the scene's size
+NORMAL_FROM, NORMAL_WEIGHT = 3000, 0.05  # first step and weight of the normal consistency loss (the authors' values)
 SOLID = 0.5  # opacity from which a pixel has depth
 
 
@@ -32,7 +32,7 @@ class _Libraries:
 
 
 def with_depth(frames: Frames, *, seed: int, progress: Progress) -> Frames:
-    """The frames with rendered depth. MissingExtraError without torch, gsplat or a CUDA device."""
+    """Return the frames with rendered depth. Raise MissingExtraError without torch, gsplat or a CUDA device."""
     lib = _libraries()
     torch = lib.torch
     torch.manual_seed(seed)
@@ -66,7 +66,7 @@ def with_depth(frames: Frames, *, seed: int, progress: Progress) -> Frames:
 
 
 def gaze(frames: Frames) -> tuple[Float[np.ndarray, " 3"], float]:
-    """The point that all cameras look at most nearly (least squares), and the median distance to it [m]."""
+    """Return the point closest to all optical axes (least squares), and the cameras' median distance to it [m]."""
     A, b = np.zeros((3, 3)), np.zeros(3)
     eyes = np.stack([f.T_world_camera[:3, 3] for f in frames.frames])
     for frame, eye in zip(frames.frames, eyes, strict=True):
@@ -93,7 +93,7 @@ def _libraries() -> _Libraries:
 
 @dataclass(frozen=True, eq=False)
 class _Target:
-    """A picture (H, W, 3) in 0..1 on the device, with its camera."""
+    """Picture (H, W, 3) in 0..1 on the device, with its camera."""
 
     picture: Any
     T_camera_world: Any
@@ -113,7 +113,7 @@ def _view(torch: Any, frame: RgbdFrame) -> _Target:
 
 
 def _start(torch: Any, center: np.ndarray, size: float) -> Any:
-    """Small grey Gaussians, evenly in a box round what the cameras look at."""
+    """Return small grey Gaussians, spread evenly in a box around the point that the cameras look at."""
     spread = (torch.rand(GAUSSIANS, 3) * 2 - 1) * 0.6 * size + torch.tensor(center, dtype=torch.float32)
     values = {
         "means": spread,
