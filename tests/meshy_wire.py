@@ -3,12 +3,16 @@ asked."""
 
 import base64
 import json
+import os
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from typing import Any
+
+import pytest
 
 PATH, TEXT, IMAGE = "/openapi/v1/retexture", "/openapi/v2/text-to-3d", "/openapi/v1/image-to-3d"
 SHAPE = {"should_remesh", "topology", "target_polycount", "target_formats", "ai_model", "auto_size", "origin_at"}
@@ -118,6 +122,20 @@ class MeshyServer:
         self.url = f"http://127.0.0.1:{server.server_port}"
         threading.Thread(target=server.serve_forever, kwargs={"poll_interval": 0.02}, daemon=True).start()
         return server
+
+
+@contextmanager
+def serving(server: MeshyServer, monkeypatch: pytest.MonkeyPatch) -> Iterator[MeshyServer]:
+    """Run a server, and direct the client to it by its environment variables."""
+    running = server.start()
+    for name in [n for n in os.environ if "PROXY" in n.upper()]:
+        monkeypatch.delenv(name)
+    monkeypatch.setenv("MESHY_API_KEY", KEY)
+    monkeypatch.setenv("MESHY_BASE_URL", server.url)
+    yield server
+    server.over.set()
+    running.shutdown()
+    running.server_close()
 
 
 def _handler(service: MeshyServer) -> type[BaseHTTPRequestHandler]:

@@ -4,7 +4,6 @@ import base64
 import io
 import json
 import logging
-import os
 import traceback
 from collections.abc import Iterator
 from dataclasses import replace
@@ -13,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from assets import cabinet
-from meshy_wire import KEY, SIGNATURE, MeshyServer, cuts, refuses, says
+from meshy_wire import KEY, SIGNATURE, MeshyServer, cuts, refuses, says, serving
 from PIL import Image
 
 from anymesh.errors import AnymeshError, BudgetError, ModelError, OptionError
@@ -34,16 +33,8 @@ SENT = "data:application/octet-stream;base64," + base64.b64encode(GLB).decode()
 
 @pytest.fixture
 def server(monkeypatch: pytest.MonkeyPatch, loopback_only: None) -> Iterator[MeshyServer]:
-    found = MeshyServer()
-    running = found.start()
-    for name in [n for n in os.environ if "PROXY" in n.upper()]:
-        monkeypatch.delenv(name)
-    monkeypatch.setenv("MESHY_API_KEY", KEY)
-    monkeypatch.setenv("MESHY_BASE_URL", found.url)
-    yield found
-    found.over.set()
-    running.shutdown()
-    running.server_close()
+    with serving(MeshyServer(), monkeypatch) as found:
+        yield found
 
 
 @pytest.fixture

@@ -2,12 +2,11 @@
 
 import json
 import logging
-import os
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from meshy_wire import IMAGE, KEY, SIGNATURE, TEXT, MeshyServer, cuts, refuses, says
+from meshy_wire import IMAGE, KEY, SIGNATURE, TEXT, MeshyServer, cuts, refuses, says, serving
 
 from anymesh.errors import BudgetError, InputError, ModelError, OptionError
 from anymesh.models.meshy_api import PREVIEW, REFINE
@@ -20,16 +19,8 @@ PNG = b"\x89PNG\r\n\x1a\n" + b"picture"
 
 @pytest.fixture
 def server(monkeypatch: pytest.MonkeyPatch, loopback_only: None) -> Iterator[MeshyServer]:
-    found = MeshyServer(model=GLB)
-    running = found.start()
-    for name in [n for n in os.environ if "PROXY" in n.upper()]:
-        monkeypatch.delenv(name)
-    monkeypatch.setenv("MESHY_API_KEY", KEY)
-    monkeypatch.setenv("MESHY_BASE_URL", found.url)
-    yield found
-    found.over.set()
-    running.shutdown()
-    running.server_close()
+    with serving(MeshyServer(model=GLB), monkeypatch) as found:
+        yield found
 
 
 @pytest.fixture

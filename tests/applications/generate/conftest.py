@@ -1,6 +1,5 @@
 """Meshy on the loopback address, a small program that makes meshes, and an articulated box that stands in for the pipeline."""
 
-import os
 import shutil
 import sys
 from collections.abc import Callable, Iterator
@@ -8,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from loopback import guard
-from meshy_wire import KEY, MeshyServer
+from meshy_wire import MeshyServer, serving
 
 from anymesh import pipeline
 from anymesh.progress import Progress
@@ -24,16 +23,8 @@ PROGRAM = Path(__file__).parent / "small_generator.py"
 def server(monkeypatch: pytest.MonkeyPatch) -> Iterator[MeshyServer]:
     """Gives the box at the first look."""
     guard(monkeypatch)
-    found = MeshyServer(model=BOX.read_bytes(), steps=[])
-    running = found.start()
-    for name in [n for n in os.environ if "PROXY" in n.upper()]:
-        monkeypatch.delenv(name)
-    monkeypatch.setenv("MESHY_API_KEY", KEY)
-    monkeypatch.setenv("MESHY_BASE_URL", found.url)
-    yield found
-    found.over.set()
-    running.shutdown()
-    running.server_close()
+    with serving(MeshyServer(model=BOX.read_bytes(), steps=[]), monkeypatch) as found:
+        yield found
 
 
 @pytest.fixture(scope="session")
