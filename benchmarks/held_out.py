@@ -3,7 +3,7 @@
 python benchmarks/held_out.py WORK            all objects: writes held_out.md and the baseline held_out.json
 python benchmarks/held_out.py WORK --check    a sample: exit code 1 if a figure is worse than the baseline
 
-WORK: a folder for objects and results; results that are there are not computed again.
+WORK: a folder for objects and results; objects that are there are used again, results are computed anew.
 """
 
 from __future__ import annotations

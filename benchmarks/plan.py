@@ -227,11 +227,11 @@ def picture(row: Row, real: ArticulatedObject, T: np.ndarray, task: Task, arm: A
 
 
 def table(rows: list[Row], robot: str) -> str:
-    lines = [f"| task ({robot}) | twin | planning [s] | trajectory [s] | successes | failures |", "|---|---|---|---|---|---|"]
+    lines = ["| task | robot | twin | planning [s] | trajectory [s] | successes | failures |", "|---|---|---|---|---|---|---|"]
     for r in rows:
-        length = "" if r.plan is None else f"{r.plan.trajectory.duration:.1f}"
+        times = "- | -" if r.plan is None else f"{r.seconds:.1f} | {r.plan.trajectory.duration:.1f}"
         causes = ", ".join(f"{n} {cause}" for cause, n in r.failures.most_common()) or "none"
-        lines.append(f"| {r.task} | {r.twin} | {r.seconds:.1f} | {length} | {r.done}/{r.trials} | {causes} |")
+        lines.append(f"| {r.task} | {robot} | {r.twin} | {times} | **{r.done}/{r.trials}** | {causes} |")
     return "\n".join(lines)
 
 

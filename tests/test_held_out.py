@@ -1,4 +1,4 @@
-"""The figures on reserved kinds are held out, and a figure that gets worse is told."""
+"""Test that reserved kinds stay held out, and that a figure below the baseline is reported."""
 
 import json
 import sys

@@ -51,7 +51,7 @@ def test_answers_are_kept_without_pictures_and_found_again(visual, tmp_path: Pat
     place = folder / "001" / "parts"
     store, asked = QuestionStore(place, "001"), question()
     with pytest.raises(ModelError):
-        FileAnswerer(store, ReferenceAnswerer("nobody", lambda: pytest.fail("asked"))).ask(asked)
+        FileAnswerer(store, ReferenceAnswerer("unused", lambda: pytest.fail("asked"))).ask(asked)
     (open_,) = find_questions(folder)
     open_.write_answer(json.dumps(ANSWER))
     done = visual.results_of(folder) / "001" / "parts"

@@ -58,9 +58,7 @@ def guarded_server(bound: str) -> Generator[None]:
             except MultipleValuesError:
                 fine = False
             if not fine:
-                return Response(
-                    http.HTTPStatus.FORBIDDEN, "Forbidden", Headers(), b"this page answers at its own address only\n"
-                )
+                return Response(http.HTTPStatus.FORBIDDEN, "Forbidden", Headers(), REFUSAL)
             return None if process_request is None else process_request(connection, request)
 
         return serve(*values, process_request=check, **options)

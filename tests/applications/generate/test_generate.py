@@ -1,4 +1,4 @@
-"""From words to a finished asset: each step once, whatever ends a run; and where it came from is told without secrets."""
+"""Test generation end to end: each step runs once even if a run is interrupted, and its record holds no secrets."""
 
 import json
 import logging

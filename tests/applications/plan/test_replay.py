@@ -1,4 +1,4 @@
-"""A trajectory replayed with contacts opens the door; off by too much it does not, and the reason is told."""
+"""Test replays with contacts: a trajectory opens the door, and a displaced one fails with the reason reported."""
 
 import sys
 

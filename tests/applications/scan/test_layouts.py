@@ -21,7 +21,7 @@ def few(recording: Path) -> Frames:
     return found.of(list(found.frames[:4]))
 
 
-def same(found: Frames, true: Frames, *, half: bool = False, metres: float = 1e-6) -> None:
+def assert_same_frames(found: Frames, true: Frames, *, half: bool = False, metres: float = 1e-6) -> None:
     assert len(found) == len(true)
     for a, b in zip(found.frames, true.frames, strict=True):
         np.testing.assert_allclose(a.T_world_camera, b.T_world_camera, atol=1e-6)
@@ -39,7 +39,7 @@ def test_nerfstudio(few: Frames, tmp_path: Path) -> None:
     found = read_frames(as_nerfstudio(few, tmp_path / "n"))
     assert found.has_depth
     assert found.up == (0, 0, 1)
-    same(found, few)
+    assert_same_frames(found, few)
 
 
 def test_nerfstudio_takes_focal_lengths_from_the_angle_of_view(few: Frames, tmp_path: Path) -> None:
@@ -49,13 +49,13 @@ def test_nerfstudio_takes_focal_lengths_from_the_angle_of_view(few: Frames, tmp_
     for key in ("fl_x", "fl_y", "cx", "cy", "w", "h"):
         del told[key]
     (folder / "transforms.json").write_text(json.dumps(told | {"camera_angle_x": angle}))
-    same(read_frames(folder), few)
+    assert_same_frames(read_frames(folder), few)
 
 
 @pytest.mark.parametrize("binary", [True, False])
 def test_colmap_with_its_depth_maps(few: Frames, tmp_path: Path, binary: bool) -> None:
     folder = as_colmap(few, tmp_path / "c", binary=binary, unit=0.25)
-    same(read_frames(folder, scale=0.25), few, metres=1e-5)
+    assert_same_frames(read_frames(folder, scale=0.25), few, metres=1e-5)
 
 
 def test_colmap_needs_a_scale(few: Frames, tmp_path: Path) -> None:
@@ -84,16 +84,16 @@ def test_polycam_with_confidence_and_smaller_depth(few: Frames, tmp_path: Path) 
     found = read_frames(as_polycam(few, tmp_path / "p"))
     assert "drift" in found.warnings[0]  # no optimized cameras
     assert found.up == (0, 1, 0)
-    same(found, few, half=True)
+    assert_same_frames(found, few, half=True)
 
 
 def test_record3d_as_folder_and_archive(few: Frames, tmp_path: Path) -> None:
     folder = as_record3d(few, tmp_path / "r")
-    same(read_frames(folder), few)
+    assert_same_frames(read_frames(folder), few)
     with zipfile.ZipFile(tmp_path / "r.r3d", "w") as archive:
         for path in folder.rglob("*"):
             archive.write(path, path.relative_to(folder).as_posix())
-    same(read_frames(tmp_path / "r.r3d"), few)
+    assert_same_frames(read_frames(tmp_path / "r.r3d"), few)
 
 
 def test_record3d_that_lacks_its_size(few: Frames, tmp_path: Path) -> None:
@@ -102,7 +102,7 @@ def test_record3d_that_lacks_its_size(few: Frames, tmp_path: Path) -> None:
     told = json.loads((folder / "metadata").read_text())
     del told["dw"], told["dh"]
     (folder / "metadata").write_text(json.dumps(told))
-    same(read_frames(folder), few)
+    assert_same_frames(read_frames(folder), few)
 
 
 def test_record3d_with_damaged_depth(few: Frames, tmp_path: Path) -> None:

@@ -1,4 +1,4 @@
-"""What is wrong with calibration, poses or depth is told with its likely cause."""
+"""Test that errors in calibration, poses or depth are reported with their likely cause."""
 
 import json
 from pathlib import Path

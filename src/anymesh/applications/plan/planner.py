@@ -123,7 +123,7 @@ def _targets(thing: ArticulatedObject, arm: Arm, value: float, contacts: tuple[G
     if not sampled:
         raise PlanError(
             f"{thing.part} offers nothing to {' or '.join(contacts)}: a grasp needs two opposite faces less than "
-            f"{1000 * arm.hand.stroke:.0f} mm apart with room for the fingers, a push a face that looks against the motion"
+            f"{1000 * arm.hand.stroke:.0f} mm apart with room for the fingers, a push a face that opposes the motion"
         )
     fitted = HandWorld(thing, arm.robot, arm.hand).fitted(sampled)[:TARGETS]
     if not fitted:
