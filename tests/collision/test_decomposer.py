@@ -10,8 +10,6 @@ import pytest
 from assets import box, cabinet
 
 from anymesh.collision import collision_shapes
-from anymesh.collision.convex import volume
-from anymesh.collision.cuts import cut_solid
 from anymesh.collision.decompose import Component, Method, Resolution, cleaned, split_components
 from anymesh.collision.decomposer import Decomposer, divide_here
 from anymesh.collision.primitives import as_hull
@@ -52,12 +50,6 @@ class FakePool(ChildPool):
         return divide_here(**arguments)
 
 
-def test_a_faceted_solid_is_cut_into_its_blocks_exactly():
-    hulls = cut_solid(bracket().triangles, gap=0.01, wall=0.002, max_pieces=16)
-    assert len(hulls) == 2
-    assert sum(volume(h) for h in hulls) == pytest.approx(0.36, rel=1e-9)
-
-
 def test_children_divide_as_this_process_does_and_keep_the_order():
     components = [bracket(), Component(triangles(box((0, 0, 0), (1, 2, 3))), True)]
     with ChildPool(2, ChildLimits(60.0)) as pool:
@@ -91,8 +83,8 @@ def test_pieces_do_not_depend_on_the_number_of_threads():
 @pytest.mark.parametrize(
     ("failing", "used"),
     [
-        ((Method.CUTS,), Method.CLEANED.value),
-        ((Method.CUTS, Method.CLEANED), Method.SPLIT.value),
+        ((Method.SOLID,), Method.CLEANED.value),
+        ((Method.SOLID, Method.CLEANED), Method.SURFACE.value),
         (tuple(Method), "one convex hull"),
     ],
 )
@@ -106,35 +98,35 @@ def test_a_crash_costs_one_component_its_way_of_division(failing, used):
 
 
 def test_what_takes_too_long_is_cut_by_planes_at_once():
-    pool = FakePool(Method.CUTS, failure=Failure.TIME)
+    pool = FakePool(Method.SOLID, failure=Failure.TIME)
     (found,) = Decomposer(pool, None, 30.0).divide([bracket()], [FINE])
-    assert [method for method, _ in pool.calls] == [Method.CUTS, Method.SPLIT]
-    assert found.fallback.used == Method.SPLIT.value
+    assert [method for method, _ in pool.calls] == [Method.SOLID, Method.SURFACE]
+    assert found.fallback.used == Method.SURFACE.value
 
 
 def test_a_fallback_gives_the_same_shapes_each_time():
     def shapes():
-        (found,) = Decomposer(FakePool(Method.CUTS), None, 30.0).divide([bracket()], [FINE])
+        (found,) = Decomposer(FakePool(Method.SOLID), None, 30.0).divide([bracket()], [FINE])
         return [as_hull(s).vertices.tobytes() for s in found.shapes]
 
     assert shapes() == shapes()
 
 
 def test_what_a_fallback_made_is_not_kept(tmp_path):
-    Decomposer(FakePool(Method.CUTS), tmp_path, 30.0).divide([bracket()], [FINE])
+    Decomposer(FakePool(Method.SOLID), tmp_path, 30.0).divide([bracket()], [FINE])
     assert not list(tmp_path.glob("*.npz"))
     pool = FakePool()
     for _ in range(2):
         (found,) = Decomposer(pool, tmp_path, 30.0).divide([bracket()], [FINE])
         assert found.fallback is None
-    assert pool.calls == [(Method.CUTS, 1)]  # the second result comes from the cache
+    assert pool.calls == [(Method.SOLID, 1)]  # the second result comes from the cache
 
 
 def test_copies_are_divided_once():
     pool, shift = FakePool(), np.array([3.1, -0.7, 0.2])
     moved = replace(bracket(), triangles=bracket().triangles + shift)
     one, other = Decomposer(pool, None, 30.0).divide([bracket(), moved], [FINE, FINE])
-    assert pool.calls == [(Method.CUTS, 1)]
+    assert pool.calls == [(Method.SOLID, 1)]
     for a, b in zip(one.shapes, other.shapes, strict=True):
         np.testing.assert_allclose(as_hull(a).vertices + shift, as_hull(b).vertices, atol=1e-8)
 
@@ -144,7 +136,7 @@ def test_a_few_components_are_shared_out_one_by_one_and_many_in_batches():
     for pool, count in ((few, 20), (many, 200)):
         boxes = [Component(triangles(box((0, 0, 0), (1, 2, 3 + k))), True) for k in range(count)]
         assert len(Decomposer(pool, None, 30.0).divide(boxes, [FINE] * count)) == count
-    assert few.calls == [(Method.CUTS, 1)] * 20
+    assert few.calls == [(Method.SOLID, 1)] * 20
     assert len(many.calls) < 5
 
 
@@ -173,10 +165,10 @@ def test_the_asset_names_the_link_whose_collision_fell_back():
     links = split_links(asset)
     where = {k.name: k.triangles for k in links}, {k.name: k.origin for k in links}
     plain = collision_shapes(asset, *where, pool=FakePool())
-    fallen = [collision_shapes(asset, *where, pool=FakePool(Method.CUTS)) for _ in range(2)]
+    fallen = [collision_shapes(asset, *where, pool=FakePool(Method.SOLID)) for _ in range(2)]
     assert plain.warnings == ()
     assert {w.split(":")[0] for w in fallen[0].warnings} == {f"link {name}" for name in plain.shapes}
-    assert all("CoACD on a cleaned surface, since" in w and "crash: signal 11" in w for w in fallen[0].warnings)
+    assert all("exact cuts of the cleaned solid, since" in w and "crash: signal 11" in w for w in fallen[0].warnings)
     assert fallen[0].warnings == fallen[1].warnings
     for link, shapes in fallen[0].shapes.items():
         again = fallen[1].shapes[link]

@@ -8,10 +8,9 @@ from enum import StrEnum
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.collision.coacd_ import decompose
 from anymesh.collision.convex import hull_of, planes
-from anymesh.collision.cuts import cut_solid
 from anymesh.collision.primitives import fitted
+from anymesh.collision.solids_ import decompose_solid
 from anymesh.collision.split import patch_of, solid_mesh, split_surface
 from anymesh.geometry.simplify_ import simplify
 from anymesh.geometry.topology import components
@@ -19,10 +18,8 @@ from anymesh.types import Hull, Shape
 from anymesh.types.triangles import normals_and_areas
 
 FACES = 3000  # faces of a component for its shapes; more take seconds without better accuracy
-COACD_FACES = 1000  # faces of a solid for CoACD; takes a third less time than 3000, with the same number of pieces
-CUTS_SHARE = 2 / 3  # of the maximum number of pieces, for exact cuts; CoACD needs fewer for complex solids
+SOLID_FACES = 1000  # faces of a solid that is cut exactly
 AROUND_FACES = 500  # maximum faces of a hull that is tested for components inside; larger ones are smooth, and need much memory
-CONCAVITY = (0.01, 1.0)  # range of CoACD's threshold
 CELLS = 4  # cells per side of a link's bounds: small components in one cell share a hull
 SLIVER = 1e-9  # of the squared diagonal: cleaning removes faces with a smaller area
 
@@ -30,9 +27,9 @@ SLIVER = 1e-9  # of the squared diagonal: cleaning removes faces with a smaller 
 class Method(StrEnum):
     """Methods to divide a component that is not convex, in the order in which they are tried."""
 
-    CUTS = "cuts along concave edges, else CoACD"
-    CLEANED = "CoACD on a cleaned surface"
-    SPLIT = "cuts by planes"
+    SOLID = "exact cuts of the solid"
+    CLEANED = "exact cuts of the cleaned solid"
+    SURFACE = "cuts of the surface"
 
 
 @dataclass(frozen=True)
@@ -114,12 +111,12 @@ def _gathered(pieces: list[np.ndarray]) -> list[Component]:
     return [Component(np.concatenate([pieces[k] for k in np.flatnonzero(cell == c)]), False) for c in np.unique(cell)]
 
 
-def component_shapes(component: Component, resolution: Resolution, method: Method = Method.CUTS) -> tuple[Shape, ...]:
+def component_shapes(component: Component, resolution: Resolution, method: Method = Method.SOLID) -> tuple[Shape, ...]:
     """Return one shape if the hull is close enough to the surface, else the shapes of its pieces.
 
-    method: division of a solid; an open surface is always cut by planes.
+    method: division of a solid; an open surface is always cut as a surface.
 
-    Call it in a child process unless the method is SPLIT, since CoACD may crash.
+    Call it in a child process unless the method is SURFACE, since the others use native code that may fail.
     """
     triangles = simplify(component.triangles, FACES)
     whole = patch_of(triangles, resolution.wall)
@@ -127,36 +124,21 @@ def component_shapes(component: Component, resolution: Resolution, method: Metho
         return ()
     if whole.gap <= resolution.gap:
         return (fitted(hull_of(component.triangles.reshape(-1, 3)) or whole.hull),)
-    hulls = _divided(triangles, resolution, method) if component.solid else []
-    if not hulls:
-        hulls = split_surface(triangles, gap=resolution.gap, wall=resolution.wall, max_pieces=resolution.max_pieces)
-    return tuple(fitted(hull) for hull in hulls)
+    limits = {"gap": resolution.gap, "wall": resolution.wall, "max_pieces": resolution.max_pieces}
+    hulls: list[Hull] = []
+    if component.solid and method is not Method.SURFACE:
+        closed = _closed(triangles if method is Method.SOLID else cleaned(triangles))
+        hulls = [] if closed is None else decompose_solid(*closed, **limits)
+    return tuple(fitted(hull) for hull in hulls or split_surface(triangles, **limits))
 
 
-def _divided(triangles: np.ndarray, resolution: Resolution, method: Method) -> list[Hull]:
-    """Return the hulls of a solid's pieces; none if the method finds none."""
-    match method:
-        case Method.CUTS:
-            most = int(CUTS_SHARE * resolution.max_pieces)
-            cuts = cut_solid(triangles, gap=resolution.gap, wall=resolution.wall, max_pieces=most)
-            return cuts or _by_coacd(triangles, resolution)
-        case Method.CLEANED:
-            return _by_coacd(cleaned(triangles), resolution)
-        case Method.SPLIT:
-            return []
-
-
-def _by_coacd(triangles: np.ndarray, resolution: Resolution) -> list[Hull]:
-    """Return the hulls of CoACD's pieces; none if the surface is not closed."""
-    for few in (simplify(triangles, COACD_FACES), triangles):  # simplification may open a surface
+def _closed(triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
+    """Return the vertices and faces of a closed surface with few faces; None if it is not closed."""
+    for few in (simplify(triangles, SOLID_FACES), triangles):  # simplification may open a surface
         vertices, faces = solid_mesh(few)
         if len(faces) and components(vertices, faces).solid.all():
-            break
-    else:
-        return []
-    half = float(np.ptp(vertices, axis=0).max()) / 2
-    corners = decompose(vertices, faces, concavity=float(np.clip(resolution.gap / half, *CONCAVITY)))
-    return [hull for points in corners if (hull := hull_of(points)) is not None]
+            return vertices, faces
+    return None
 
 
 def cleaned(triangles: Float[np.ndarray, "n 3 3"]) -> Float[np.ndarray, "m 3 3"]:
