@@ -40,7 +40,7 @@ Plane = tuple[np.ndarray, float]  # unit normal and offset
 
 
 @dataclass(frozen=True, eq=False)
-class _Piece:
+class _SolidPiece:
     """Surfaces, their common hull, and the maximum distance of the hull from them. The diagonal of the whole solid is 1.
 
     solid: None for merged pieces.
@@ -70,7 +70,7 @@ def decompose_solid(
     if solid is None:
         return []
     pieces = _cut(solid, concave_planes(unit[faces], FACETED_PLANES), gap / size, wall / size, SPLIT_RATIO * max_pieces)
-    merged = _merged(pieces, gap / size, max_pieces)
+    merged = _merge_pieces(pieces, gap / size, max_pieces)
     return [Hull(p.hull.vertices * size + low, p.hull.faces) for p in merged]
 
 
@@ -83,9 +83,9 @@ def _manifold(vertices: np.ndarray, faces: np.ndarray) -> Manifold | None:
     return solid if solid.status() == Error.NoError and solid.volume() > 0 else None
 
 
-def _cut(solid: Manifold, planes: Sequence[Plane], gap: float, wall: float, most: int) -> list[_Piece]:
+def _cut(solid: Manifold, planes: Sequence[Plane], gap: float, wall: float, most: int) -> list[_SolidPiece]:
     """Cut the piece with the largest gap until all are within `gap` or there are `most` pieces."""
-    done: list[_Piece] = []
+    done: list[_SolidPiece] = []
     waiting = [(-piece.gap, k, piece) for k, piece in enumerate(_pieces(solid))]
     number = itertools.count(len(waiting))
     heapq.heapify(waiting)
@@ -100,12 +100,12 @@ def _cut(solid: Manifold, planes: Sequence[Plane], gap: float, wall: float, most
     return done
 
 
-def _pieces(solid: Manifold) -> list[_Piece]:
+def _pieces(solid: Manifold) -> list[_SolidPiece]:
     """Return the connected pieces of a solid, without those that are flat."""
     return [piece for part in solid.decompose() if (piece := _piece(part)) is not None]
 
 
-def _piece(solid: Manifold) -> _Piece | None:
+def _piece(solid: Manifold) -> _SolidPiece | None:
     if solid.volume() <= KERF * solid.surface_area():
         return None
     mesh = solid.to_mesh64()
@@ -114,7 +114,7 @@ def _piece(solid: Manifold) -> _Piece | None:
     if hull is None:
         return None
     convex = solid.volume() >= (1 - CONVEX) * volume(hull)
-    return _Piece(triangles, hull, 0.0 if convex else _gap(hull, triangles), solid)
+    return _SolidPiece(triangles, hull, 0.0 if convex else _gap(hull, triangles), solid)
 
 
 def _gap(hull: Hull, triangles: np.ndarray) -> float:
@@ -125,7 +125,7 @@ def _gap(hull: Hull, triangles: np.ndarray) -> float:
     return float(distance_to_mesh(points, corners, np.arange(len(corners)).reshape(-1, 3))[0].max())
 
 
-def _halves(piece: _Piece, planes: Sequence[Plane], wall: float) -> list[_Piece]:
+def _halves(piece: _SolidPiece, planes: Sequence[Plane], wall: float) -> list[_SolidPiece]:
     """Return the pieces on both sides of the plane that leaves the least volume in their hulls; empty if no plane divides."""
     assert piece.solid is not None  # only merged pieces have none
     outlined = outline(piece.triangles)
@@ -148,7 +148,7 @@ def _hull_volume(points: np.ndarray) -> float:
         return 0.0
 
 
-def _candidates(piece: _Piece, planes: Sequence[Plane], wall: float) -> Iterator[Plane]:
+def _candidates(piece: _SolidPiece, planes: Sequence[Plane], wall: float) -> Iterator[Plane]:
     """Yield planes at concave edges of the whole solid that pass through a piece, and others if it has few or is smooth."""
     smooth = len(planes) > FACETED_PLANES
     points = piece.hull.vertices
@@ -164,7 +164,7 @@ def _candidates(piece: _Piece, planes: Sequence[Plane], wall: float) -> Iterator
         yield from cutting_planes(piece.triangles, wall)
 
 
-def _merged(pieces: Sequence[_Piece], gap: float, most: int) -> list[_Piece]:
+def _merge_pieces(pieces: Sequence[_SolidPiece], gap: float, most: int) -> list[_SolidPiece]:
     """Merge touching pieces while their common hull is within `gap` of them, or there are more than `most`.
 
     Pairs whose common hull adds the least volume are merged first.
@@ -194,7 +194,7 @@ def _merged(pieces: Sequence[_Piece], gap: float, most: int) -> list[_Piece]:
     return list(kept.values())
 
 
-def _queue_pair(queue: list[tuple[float, int, int]], pieces: dict[int, _Piece], a: int, b: int) -> None:
+def _queue_pair(queue: list[tuple[float, int, int]], pieces: dict[int, _SolidPiece], a: int, b: int) -> None:
     """Queue a pair of pieces by the volume that their common hull adds, if their bounds touch."""
     first, second = pieces[a].hull, pieces[b].hull
     near = (first.vertices.min(0) <= second.vertices.max(0) + TOUCH) & (second.vertices.min(0) <= first.vertices.max(0) + TOUCH)
@@ -204,9 +204,9 @@ def _queue_pair(queue: list[tuple[float, int, int]], pieces: dict[int, _Piece], 
     heapq.heappush(queue, (common - volume(first) - volume(second), a, b))
 
 
-def _joined(first: _Piece, second: _Piece) -> _Piece | None:
+def _joined(first: _SolidPiece, second: _SolidPiece) -> _SolidPiece | None:
     hull = hull_of(np.concatenate([first.hull.vertices, second.hull.vertices]))
     if hull is None:
         return None
     triangles = np.concatenate([first.triangles, second.triangles])
-    return _Piece(triangles, hull, _gap(hull, triangles))
+    return _SolidPiece(triangles, hull, _gap(hull, triangles))
