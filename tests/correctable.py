@@ -10,8 +10,7 @@ import numpy as np
 from assets import cabinet
 
 from anymesh.export import write_asset
-from anymesh.run_folder import RunFolder
-from anymesh.stage_results import (
+from anymesh.pipeline.stage_results import (
     COMPLETION,
     JOINTS,
     MESH,
@@ -21,6 +20,7 @@ from anymesh.stage_results import (
     LoadResult,
     SegmentationResult,
 )
+from anymesh.pipeline.storage.run_folder import RunFolder
 from anymesh.types import Asset
 
 

@@ -9,10 +9,11 @@ import numpy as np
 import pytest
 import trimesh
 
-from anymesh import __version__, pipeline, solving, stages
+from anymesh import __version__, pipeline
 from anymesh.cli import run
 from anymesh.defects import redacted
 from anymesh.errors import InputError
+from anymesh.pipeline import solving, stages
 
 KEY = "sk-0123456789abcdefghijklmnopqrstuvwxyz"
 CALL = ["articulate", "my mesh.stl", "-o", "out", "--up", "z", "--formats", "glb"]

@@ -5,8 +5,8 @@ from assets import box, mesh_of
 
 from anymesh.config import Config
 from anymesh.geometry.patches import ObjectShape
+from anymesh.pipeline.solving import Solver
 from anymesh.segmentation.unseen import join_unseen
-from anymesh.solving import Solver
 from anymesh.types.recognition import Moves
 
 WALLS = [box((0, 0, 0), (1, 1, 0.02)), box((0, 0, 0.98), (1, 1, 1)), box((0, 0, 0.02), (0.02, 1, 0.98)),

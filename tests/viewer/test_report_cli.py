@@ -8,7 +8,7 @@ from assets import cabinet
 from shown import folder_of
 from typer.testing import CliRunner
 
-from anymesh.cli_report import picture, report
+from anymesh.cli.report import picture, report
 
 
 @pytest.fixture(scope="module")

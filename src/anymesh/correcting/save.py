@@ -13,14 +13,14 @@ from anymesh.correcting.log import pack_log, unpack_log
 from anymesh.errors import OutputError
 from anymesh.export import Base, Driven, Format, write_asset
 from anymesh.export.formats import DEFAULT
-from anymesh.models.cache import cache_folder
+from anymesh.files import read_json, write_json
+from anymesh.pipeline.stage_results import CORRECTION, CorrectionResult
+from anymesh.pipeline.storage.atomic_folder import locked
+from anymesh.pipeline.storage.outputs import CORRECTIONS
+from anymesh.pipeline.storage.run_folder import RunFolder, stage_key
+from anymesh.pipeline.storage.saved import Saved
 from anymesh.rendering.preview import write_preview
-from anymesh.run_folder import RunFolder, stage_key
-from anymesh.stage_results import CORRECTION, CorrectionResult
-from anymesh.storage.atomic_folder import locked
-from anymesh.storage.outputs import CORRECTIONS
-from anymesh.storage.saved import Saved
-from anymesh.storage.stage_files import read_json, write_json
+from anymesh.vlm.cache import cache_folder
 
 
 class StaleError(OutputError):

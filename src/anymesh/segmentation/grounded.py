@@ -13,8 +13,6 @@ from anymesh.config import Config
 from anymesh.geometry.patches import ObjectShape
 from anymesh.models.sam import PromptedSegmenter, automatic_masks
 from anymesh.progress import Progress, silent
-from anymesh.reasoning.asking import VisualAnswerer
-from anymesh.reasoning.grounding import MarkedPart
 from anymesh.rendering.render import View
 from anymesh.rendering.viewpoints import normal_picture
 from anymesh.rendering.visual_prompts import VisualPrompts
@@ -38,6 +36,8 @@ from anymesh.segmentation.regions import face_regions, number_regions, split_mar
 from anymesh.segmentation.unseen import StaysFree
 from anymesh.types import Mesh, Segmentation
 from anymesh.types.recognition import Moves, Recognition
+from anymesh.vlm.asking import VisualAnswerer
+from anymesh.vlm.grounding import MarkedPart
 
 SURE, UNSURE = 0.9, 0.6  # confidence of a part from certain marks, and from uncertain ones
 EXACT = "exact"

@@ -12,22 +12,22 @@ from typing import Any
 import numpy as np
 
 from anymesh import __version__
-from anymesh.answering import FILES, Answering, choose_answerer
 from anymesh.applications.generate.choose import open_generator
 from anymesh.applications.generate.given import GivenMesh
 from anymesh.applications.generate.protocol import Generator3D, MeshRequest
 from anymesh.applications.generate.size import Size, choose_size
+from anymesh.completion.outside import open_completer, open_retexturer
 from anymesh.config import DEFAULT_VIEWS
 from anymesh.deadline import DEFAULT_SECONDS, Deadline
 from anymesh.errors import OptionError, OutputError
 from anymesh.export.formats import DEFAULT
-from anymesh.export_options import ExportOptions
+from anymesh.export.options import ExportOptions
 from anymesh.loading import place_mesh
 from anymesh.loading.load import LoadedMesh
-from anymesh.postprocessing.outside import open_completer, open_retexturer
-from anymesh.solving import GEOMETRY
-from anymesh.storage.atomic_folder import FOLDER_PREFIX
-from anymesh.storage.outputs import check_replaceable
+from anymesh.pipeline.answering import FILES, Answering, choose_answerer
+from anymesh.pipeline.solving import GEOMETRY
+from anymesh.pipeline.storage.atomic_folder import FOLDER_PREFIX
+from anymesh.pipeline.storage.outputs import check_replaceable
 from anymesh.types import Mesh, Node
 
 DEFAULTS: dict[str, Any] = {
