@@ -16,16 +16,20 @@ from anymesh.cli.answer import answer
 from anymesh.cli.articulate import articulate
 from anymesh.cli.check import check
 from anymesh.cli.evaluate import evaluate
+from anymesh.cli.export import export
 from anymesh.cli.finish import finish
 from anymesh.cli.generate import generate
-from anymesh.cli.mcp import mcp, skill
+from anymesh.cli.joints import joints
+from anymesh.cli.mcp import mcp
 from anymesh.cli.models import models
 from anymesh.cli.output import plain
+from anymesh.cli.picture import picture
 from anymesh.cli.plan import plan
 from anymesh.cli.quiet import quiet_libraries
-from anymesh.cli.report import picture, report
+from anymesh.cli.report import report
 from anymesh.cli.scan import scan
-from anymesh.cli.stages import export, joints, segment
+from anymesh.cli.segment import segment
+from anymesh.cli.skill import skill
 from anymesh.cli.view import view
 from anymesh.errors import DEFECT, AnymeshError, OpenQuestionError
 

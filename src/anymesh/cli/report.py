@@ -1,4 +1,4 @@
-"""The command line of `anymesh report` and `anymesh picture`."""
+"""The command line of `anymesh report`."""
 
 from __future__ import annotations
 
@@ -9,17 +9,11 @@ from typing import Annotated
 
 import typer
 
-from anymesh.cli.options import Json, Quiet
+from anymesh.cli.options import FolderPath, Json, Quiet
 from anymesh.cli.output import Shown, plain
 
-FolderPath = Annotated[
-    Path, typer.Argument(metavar="FOLDER", help="An output of `anymesh articulate`, or a folder with several of them.")
-]
 Page = Annotated[
     Path | None, typer.Option("--out", "-o", metavar="FILE", help="The HTML file; default: FOLDER_report.html beside FOLDER.")
-]
-File = Annotated[
-    Path, typer.Option("--out", "-o", metavar="FILE", help=".gif or .mp4: a turntable of the motion; .png: a contact sheet.")
 ]
 
 
@@ -47,26 +41,3 @@ def report(
         count = f"{told.assets} asset{'s' if told.assets != 1 else ''}"
         lines.append(f"wrote {told.path}: {count}, {told.size / 1e6:.1f} MB")
         typer.echo("\n".join(plain(line) for line in lines))
-
-
-def picture(
-    folder: FolderPath,
-    out: File,
-    size: Annotated[int, typer.Option(help="Width of a turntable in pixels.")] = 400,
-    rate: Annotated[float, typer.Option(help="Frames per second.")] = 12.5,
-    turn: Annotated[float, typer.Option(help="Degrees; less than 360 swings around the front.")] = 360.0,
-    materials: Annotated[
-        bool, typer.Option("--materials", help="Use the object's materials instead of a colour per part.")
-    ] = False,
-    columns: Annotated[int, typer.Option(help="Columns of a contact sheet.")] = 4,
-    quiet: Quiet = False,
-) -> None:
-    """Make a turntable of the motion of the asset in FOLDER (.gif, .mp4), or a contact sheet of all assets in it (.png)."""
-    from anymesh.viewer.pictures_write import write_picture
-
-    with Shown(quiet) as progress:
-        path = write_picture(
-            folder, out, size=size, rate=rate, turn=turn, materials=materials, columns=columns, progress=progress
-        )
-    if not quiet:
-        typer.echo(plain(f"wrote {path}"))
