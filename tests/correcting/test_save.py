@@ -26,7 +26,8 @@ from anymesh.correcting import (
     save_asset,
 )
 from anymesh.errors import OutputError
-from anymesh.pipeline.stage_results import JOINTS, JointResult
+from anymesh.pipeline.results import JointResult
+from anymesh.pipeline.storage.packing import JOINTS
 from anymesh.pipeline.storage.run_folder import RunFolder
 from anymesh.types import JointType
 

@@ -13,16 +13,10 @@ from assets import cabinet, slanted
 
 from anymesh.errors import OpenQuestionError, OutputError
 from anymesh.export import write_asset
-from anymesh.pipeline.storage.run_folder import (
-    JOINTS,
-    MESH,
-    SEGMENTATION,
-    JointResult,
-    LoadResult,
-    RunFolder,
-    SegmentationResult,
-    stage_key,
-)
+from anymesh.pipeline.results import JointResult, LoadResult, SegmentationResult
+from anymesh.pipeline.storage.packing import JOINTS, MESH, SEGMENTATION
+from anymesh.pipeline.storage.run_folder import RunFolder
+from anymesh.pipeline.storage.stage_files import stage_key
 
 
 def results(asset):
@@ -230,10 +224,11 @@ def test_a_mount_point_is_written_file_by_file(tmp_path, source, monkeypatch):
 
 CHILD = """
 import sys, time
-sys.path.insert(0, sys.argv[3])
+sys.path[:0] = sys.argv[3:]
 from pathlib import Path
 from test_run_folder import results, cabinet
-from anymesh.pipeline.storage.run_folder import MESH, RunFolder
+from anymesh.pipeline.storage.packing import MESH
+from anymesh.pipeline.storage.run_folder import RunFolder
 with RunFolder.create(Path(sys.argv[1]), source=Path(sys.argv[2])) as run:
     run.save(MESH, "m", results(cabinet())[0])
     print("ready", flush=True)
@@ -244,7 +239,7 @@ with RunFolder.create(Path(sys.argv[1]), source=Path(sys.argv[2])) as run:
 @pytest.mark.skipif(sys.platform == "win32", reason="SIGKILL and file locks")
 def test_a_killed_run_leaves_no_output_and_its_stages_are_taken_over(tmp_path, source):
     out = tmp_path / "out"
-    command = [sys.executable, "-c", CHILD, str(out), str(source), str(Path(__file__).parent)]
+    command = [sys.executable, "-c", CHILD, str(out), str(source), *map(str, Path(__file__).parents[:2])]
     child = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
     assert child.stdout
     assert child.stdout.readline() == "ready\n"

@@ -13,8 +13,8 @@ from anymesh.evaluation.oracle import oracle
 from anymesh.evaluation.protocols import prepared
 from anymesh.loading import load_mesh, place_mesh
 from anymesh.pipeline import solving
+from anymesh.pipeline.results import SegmentationResult
 from anymesh.pipeline.solving import Solver
-from anymesh.pipeline.stage_results import SegmentationResult
 from anymesh.rendering.viewpoints import part_pixels
 from anymesh.segmentation import grounded
 from anymesh.types import Mesh, Segmentation

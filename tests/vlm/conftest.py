@@ -5,15 +5,9 @@ import ssl
 from collections.abc import Callable, Iterator
 
 import pytest
-from loopback import guard
 from wire import DIALECTS, SECRET, Dialect, Service
 
 from anymesh.vlm.vision import VisionModel
-
-
-@pytest.fixture
-def loopback_only(monkeypatch: pytest.MonkeyPatch) -> None:
-    guard(monkeypatch)
 
 
 @pytest.fixture

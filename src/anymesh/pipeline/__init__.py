@@ -1,6 +1,12 @@
-"""The pipeline of the paper's overview figure: mesh -> parts -> joints -> asset -> files.
+"""The pipeline of the paper's overview figure. Each arrow is a stage, whose result is saved in the output folder.
 
-Functions are loaded on first use, so that importing a module of this package is fast.
+    mesh file -> load -> recognize -> segment_parts -> estimate_joints -> write_files     articulate
+                         (what it is)  (Stage A, 3.2)   (Stage B, 3.3)
+    output    -> complete_asset -> write_files                                            finish
+                 (Stage C, 3.4)
+
+A stage is `stage(inputs, options) -> result`; who answers its questions (geometry, a model, a reference) is an option of the run.
+The functions below are loaded on first use, so that importing a module of this package is fast.
 """
 
 from importlib import import_module

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Generator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Unpack
 
@@ -14,11 +16,10 @@ from anymesh.export.options import ExportOptions
 from anymesh.export.package import write_package
 from anymesh.isolation import AHEAD, shared_pool
 from anymesh.pipeline.answering import Answering, choose_answerer, object_name
-from anymesh.pipeline.solving import Solver
-from anymesh.pipeline.stage_results import COMPLETION, MESH, SEGMENTATION
-from anymesh.pipeline.stages import Placement, estimate_joints, prepare, segment_parts, timed, write_files
+from anymesh.pipeline.stages import Keyed, Placement, Run, estimate_joints, load, recognize, segment_parts, write_files
 from anymesh.pipeline.stopped_run import kept_transcript
-from anymesh.pipeline.storage.run_folder import RunFolder, stage_key
+from anymesh.pipeline.storage.packing import MESH, SEGMENTATION
+from anymesh.pipeline.storage.run_folder import RunFolder
 from anymesh.progress import Progress, silent
 from anymesh.types import Asset, Joint, Segmentation
 
@@ -50,14 +51,14 @@ def articulate(
     Raise InputError, OptionError, OutputError or ModelError; then nothing is written. After OpenQuestionError and BudgetError,
     finished stages are kept for the next call.
     """
-    how, deadline = ExportOptions.parse(base, formats, drives), Deadline(time_limit)
-    who = choose_answerer(answering, about=object_name(mesh_path), deadline=deadline)
-    shared_pool().warm(*AHEAD)
-    with RunFolder.create(Path(out), source=Path(mesh_path), force=force) as run, kept_transcript(run, who):
-        solver, recognized, key = prepare(run, Path(mesh_path), parts, Placement(up, scale, root), who, deadline, progress)
-        segmented, key = segment_parts(run, solver, recognized, key, parts, who, progress)
-        estimate_joints(run, solver, recognized, segmented, key, who, progress)
-        return write_files(run, how, deadline, progress)
+    how = ExportOptions.parse(base, formats, drives)
+    with _new_run(mesh_path, out, answering, force, time_limit, progress) as run:
+        shared_pool().warm(*AHEAD)
+        loaded = load(run, Path(mesh_path), Placement(up, scale, root))
+        solver, recognized = recognize(run, loaded, parts, sized=scale == "auto")
+        segmented = segment_parts(run, solver, recognized, parts)
+        estimate_joints(run, solver, recognized.result, segmented)
+        return write_files(run.folder, how, run.deadline, progress)
 
 
 def segment(
@@ -74,11 +75,21 @@ def segment(
     **answering: Unpack[Answering],
 ) -> Segmentation:
     """Run only Stage A: save the parts of a mesh in `out` for `joints`. Options as for `articulate`."""
+    with _new_run(mesh_path, out, answering, force, time_limit, progress) as run:
+        loaded = load(run, Path(mesh_path), Placement(up, scale, root))
+        solver, recognized = recognize(run, loaded, parts, sized=scale == "auto")
+        return segment_parts(run, solver, recognized, parts).result.segmentation
+
+
+@contextmanager
+def _new_run(
+    mesh_path: str | Path, out: str | Path, answering: Answering, force: bool, time_limit: float, progress: Progress
+) -> Generator[Run]:
+    """Begin a run that makes a new output, in the folder `out`."""
     deadline = Deadline(time_limit)
     who = choose_answerer(answering, about=object_name(mesh_path), deadline=deadline)
-    with RunFolder.create(Path(out), source=Path(mesh_path), force=force) as run, kept_transcript(run, who):
-        solver, recognized, key = prepare(run, Path(mesh_path), parts, Placement(up, scale, root), who, deadline, progress)
-        return segment_parts(run, solver, recognized, key, parts, who, progress)[0].segmentation
+    with RunFolder.create(Path(out), source=Path(mesh_path), force=force) as folder, kept_transcript(folder, who):
+        yield Run(folder, who, deadline, progress)
 
 
 def joints(
@@ -91,10 +102,11 @@ def joints(
     """Run only Stage B, on the parts that `segment` saved in `folder`. Options as for `articulate`."""
     deadline = Deadline(time_limit)
     who = choose_answerer(answering, deadline=deadline)
-    with RunFolder.open(Path(folder)) as run, kept_transcript(run, who):
-        recognized, segmented = run.recognition(), run.need(SEGMENTATION)
-        solver = Solver(recognized.sized(run.need(MESH)).mesh, who.config, who.factory, deadline)
-        return estimate_joints(run, solver, recognized, segmented, run.key(SEGMENTATION), who, progress).joints
+    with RunFolder.open(Path(folder)) as kept, kept_transcript(kept, who):
+        run = Run(kept, who, deadline, progress)
+        recognized, segmented = kept.recognition(), Keyed(kept.need(SEGMENTATION), kept.key(SEGMENTATION))
+        solver = run.solver(recognized.sized(kept.need(MESH)).mesh)
+        return estimate_joints(run, solver, recognized, segmented).joints
 
 
 def export(
@@ -146,28 +158,11 @@ def finish(
     as for `articulate`.
     Raise OptionError, OutputError, ModelError or BudgetError; a paid task that was started is resumed by the next run.
     """
-    from anymesh.completion.outside import open_completer, open_retexturer
-    from anymesh.completion.settings import ShapeConfig
-    from anymesh.pipeline.finishing import finish_asset
+    from anymesh.pipeline.finishing import Completion, complete_asset  # imports on use: only this stage needs its modules
 
-    how, deadline = ExportOptions.parse(base, formats, drives), Deadline(time_limit)
-    out = Path(out)
-    who = open_completer(completer)
-    looks = open_retexturer(texture, state=out.parent / f".{out.name}.meshy.json", max_calls=max_calls)
+    written, deadline, out = ExportOptions.parse(base, formats, drives), Deadline(time_limit), Path(out)
+    how = Completion(completer, texture, watertight, max_calls, state=out.parent / f".{out.name}.meshy.json")
     with RunFolder.create(out, source=Path(folder) / "asset.json", force=force) as run:
         run.take_over(Path(folder))
-        progress("finish", completer, 0, 1)
-        settings = {"by": completer, "texture": texture, "tight": watertight, "limit": time_limit}
-        key = stage_key(COMPLETION, previous=run.last_key(), config=settings)
-        if run.load(COMPLETION, key) is None:
-            with timed(run, "finish"):
-                done = finish_asset(
-                    run.asset(),
-                    shapes=completer != "off",
-                    completer=who,
-                    retexturer=looks,
-                    config=ShapeConfig(watertight=watertight),
-                    deadline=deadline,
-                )
-            run.save(COMPLETION, key, done)
-        return write_files(run, how, deadline, progress)
+        complete_asset(run, how, deadline, progress)
+        return write_files(run, written, deadline, progress)

@@ -4,17 +4,63 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
 
 import numpy as np
 
 from anymesh.completion.complete import complete
+from anymesh.completion.outside import open_completer, open_retexturer
 from anymesh.completion.protocol import Completer, Finished
 from anymesh.completion.settings import ShapeConfig
 from anymesh.completion.texture import Retexturer
 from anymesh.deadline import Deadline
 from anymesh.errors import ModelError
-from anymesh.pipeline.stage_results import CompletionResult
+from anymesh.pipeline.results import CompletionResult
+from anymesh.pipeline.storage.packing import COMPLETION
+from anymesh.pipeline.storage.run_folder import RunFolder
+from anymesh.pipeline.storage.stage_files import stage_key
+from anymesh.progress import Progress
 from anymesh.types import Asset
+
+
+@dataclass(frozen=True, eq=False)
+class Completion:
+    """Options of `finish`: the names that a user gave, and what they open.
+
+    state: file of the paid tasks that were started.
+    Raise OptionError for invalid names.
+    """
+
+    completer: str
+    texture: str
+    watertight: bool
+    max_calls: int | None
+    state: Path
+    first: Completer | None = field(init=False)
+    retexturer: Retexturer = field(init=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "first", open_completer(self.completer))
+        object.__setattr__(self, "retexturer", open_retexturer(self.texture, state=self.state, max_calls=self.max_calls))
+
+
+def complete_asset(folder: RunFolder, how: Completion, deadline: Deadline, progress: Progress) -> None:
+    """Complete shapes and textures, unless the saved result has the same inputs and options."""
+    progress("finish", how.completer, 0, 1)
+    settings = {"by": how.completer, "texture": how.texture, "tight": how.watertight, "limit": deadline.seconds}
+    key = stage_key(COMPLETION, previous=folder.last_key(), config=settings)
+    if folder.load(COMPLETION, key) is None:
+        with folder.timed("finish"):
+            found = finish_asset(
+                folder.asset(),
+                shapes=how.completer != "off",
+                completer=how.first,
+                retexturer=how.retexturer,
+                config=ShapeConfig(watertight=how.watertight),
+                deadline=deadline,
+            )
+        folder.save(COMPLETION, key, found)
 
 
 def finish_asset(

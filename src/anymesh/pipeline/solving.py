@@ -30,7 +30,7 @@ from anymesh.geometry.part_context import PartContext
 from anymesh.geometry.patches import ObjectShape, object_shape
 from anymesh.models.sam import PromptedSegmenter
 from anymesh.models.sam_load import load_sam
-from anymesh.pipeline.stage_results import JointResult, RecognitionResult, SegmentationResult
+from anymesh.pipeline.results import JointResult, RecognitionResult, SegmentationResult
 from anymesh.progress import Progress, silent
 from anymesh.rendering.visual_prompts import VisualPrompts
 from anymesh.segmentation.ask_marks import MarkQuestioner

@@ -2,39 +2,30 @@
 
 from __future__ import annotations
 
-import time
-from collections.abc import Generator
+from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
-from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TypeVar
+from typing import Generic, TypeVar
 
 from anymesh.deadline import Deadline
-from anymesh.errors import note_stage
 from anymesh.export import write_asset
 from anymesh.export.options import ExportOptions
 from anymesh.loading import load_mesh, place_mesh
 from anymesh.pipeline.answering import AnswererSetup
+from anymesh.pipeline.results import JointResult, LoadResult, RecognitionResult, SegmentationResult
 from anymesh.pipeline.solving import Solver
-from anymesh.pipeline.stage_results import (
-    JOINTS,
-    MESH,
-    RECOGNITION,
-    SEGMENTATION,
-    JointResult,
-    LoadResult,
-    RecognitionResult,
-    SegmentationResult,
-)
-from anymesh.pipeline.storage.run_folder import RunFolder, stage_key
+from anymesh.pipeline.storage.packing import JOINTS, MESH, RECOGNITION, SEGMENTATION, Stage
+from anymesh.pipeline.storage.run_folder import RunFolder
+from anymesh.pipeline.storage.stage_files import stage_key
 from anymesh.progress import Progress
 from anymesh.rendering.preview import write_preview
 from anymesh.segmentation.given import GIVEN
-from anymesh.types import Asset, Source
+from anymesh.types import Asset, Mesh, Source
 from anymesh.vlm.cache import cache_folder
 
-Result = TypeVar("Result", RecognitionResult, SegmentationResult, JointResult)
+Result = TypeVar("Result")
+Answered = TypeVar("Answered", RecognitionResult, SegmentationResult, JointResult)
 ASIDE = 500_000  # faces up to which the preview is drawn in parallel with writing; above, both together need too much memory
 
 
@@ -47,77 +38,81 @@ class Placement:
     root: str | Path | None
 
 
-def prepare(
-    run: RunFolder, path: Path, parts: str, how: Placement, who: AnswererSetup, deadline: Deadline, progress: Progress
-) -> tuple[Solver, RecognitionResult, str]:
-    """Load, place and recognize the mesh; return the solver of both stages, the recognition, and the key of the last stage."""
-    placed, key = place(run, path, how, who.config.category, progress)
-    solver = Solver(placed.mesh, who.config, who.factory, deadline)
-    if parts != "auto":
-        solver.parts(parts)  # report invalid parts before any model call
-    recognized, key = recognize(run, solver, key, who, how.scale == "auto", placed.metric)
-    sized = recognized.sized(placed)
-    return (solver if sized is placed else Solver(sized.mesh, who.config, who.factory, deadline)), recognized, key
+@dataclass(frozen=True, eq=False)
+class Run:
+    """One run of the pipeline: its output folder, its answerer, its deadline and its progress."""
+
+    folder: RunFolder
+    who: AnswererSetup
+    deadline: Deadline
+    progress: Progress
+
+    def solver(self, mesh: Mesh) -> Solver:
+        """Return the solver of both stages for a mesh."""
+        return Solver(mesh, self.who.config, self.who.factory, self.deadline)
+
+    def answered(self, stage: Stage[Answered], key: str, name: str, compute: Callable[[], Answered]) -> Answered:
+        """Return the saved result of a stage, or compute and save it.
+
+        A saved result is not used if geometry answered it instead of a model, or if its answers have changed.
+        """
+        found = self.folder.load(stage, key)
+        if found is None or any(e.given_up for e in found.exchanges) or not self.who.is_current(found.exchanges):
+            with self.folder.timed(name):
+                found = compute()
+            self.folder.save(stage, key, found)
+        return found
 
 
-def place(run: RunFolder, path: Path, how: Placement, category: str | None, progress: Progress) -> tuple[LoadResult, str]:
+@dataclass(frozen=True, eq=False)
+class Keyed(Generic[Result]):
+    """The result of a stage, with the key that it is saved under."""
+
+    result: Result
+    key: str
+
+
+def load(run: Run, path: Path, how: Placement) -> Keyed[LoadResult]:
     """Load a mesh and bring it to metres, z up."""
-    progress("load", path.name, 0, 1)
-    with timed(run, "load"):
+    run.progress("load", path.name, 0, 1)
+    with run.folder.timed("load"):
         loaded = load_mesh(path, root=how.root)
+        category = run.who.config.category
         settings = {"up": how.up, "scale": how.scale, "category": category, "path": str(path), "references": loaded.references}
         key = stage_key(MESH, previous=loaded.sha256, config=settings)
-        found = run.load(MESH, key)
+        found = run.folder.load(MESH, key)
         if found is None:
             p = place_mesh(loaded, up=how.up, scale=how.scale, category=category)
             source = Source(str(path), loaded.sha256, p.T_asset_source, p.up, p.notes)
             found = LoadResult(p.mesh, source, (*loaded.warnings, *p.warnings), p.metric)
-            run.save(MESH, key, found)
-    return found, key
+            run.folder.save(MESH, key, found)
+    return Keyed(found, key)
 
 
-def _answered(found: Result | None, who: AnswererSetup) -> Result | None:
-    """Return a saved stage, or None if it was answered by geometry instead of a model or if its answers have changed."""
-    if found is None or any(e.given_up for e in found.exchanges) or not who.is_current(found.exchanges):
-        return None
-    return found
+def recognize(run: Run, loaded: Keyed[LoadResult], parts: str, *, sized: bool) -> tuple[Solver, Keyed[RecognitionResult]]:
+    """Recognize the object's category and movable parts with a model (paper, 3.1), or by geometry without requests.
 
-
-def recognize(
-    run: RunFolder, solver: Solver, previous: str, who: AnswererSetup, sized: bool, metric: bool
-) -> tuple[RecognitionResult, str]:
-    """Recognize the object's category and movable parts with a model (paper, 3.1), or by geometry without requests."""
+    sized: whether the answered size sets the scale. Return also the solver of both stages for the mesh in its final size.
+    """
+    solver, who = run.solver(loaded.result.mesh), run.who
+    if parts != "auto":
+        solver.parts(parts)  # report invalid parts before any model call
     if who.factory is None:
-        return solver.recognize(), previous
-    key = stage_key(
-        RECOGNITION, previous=previous, config={**who.settings("verify", "proposer"), "sized": sized, "metric": metric}
-    )
-    found = _answered(run.load(RECOGNITION, key), who)
-    if found is None:
-        with timed(run, "recognize"):
-            found = solver.recognize(sized=sized, metric=metric)
-        run.save(RECOGNITION, key, found)
-    return found, key
+        return solver, Keyed(solver.recognize(), loaded.key)
+    metric = loaded.result.metric
+    settings = {**who.settings("verify", "proposer"), "sized": sized, "metric": metric}
+    key = stage_key(RECOGNITION, previous=loaded.key, config=settings)
+    found = run.answered(RECOGNITION, key, "recognize", lambda: solver.recognize(sized=sized, metric=metric))
+    final = found.sized(loaded.result)
+    return (solver if final is loaded.result else run.solver(final.mesh)), Keyed(found, key)
 
 
-def segment_parts(
-    run: RunFolder,
-    solver: Solver,
-    recognized: RecognitionResult,
-    previous: str,
-    parts: str,
-    who: AnswererSetup,
-    progress: Progress,
-) -> tuple[SegmentationResult, str]:
+def segment_parts(run: Run, solver: Solver, recognized: Keyed[RecognitionResult], parts: str) -> Keyed[SegmentationResult]:
     """Find the movable parts (paper, 3.2)."""
-    settings = {**who.settings("verify"), "parts": parts, "labels": _bytes_of_labels(parts), "limit": solver.deadline.seconds}
-    key = stage_key(SEGMENTATION, previous=previous, config=settings)
-    found = _answered(run.load(SEGMENTATION, key), who)
-    if found is None:
-        with timed(run, "segment"):
-            found = solver.parts(parts, recognized.recognition, progress)
-        run.save(SEGMENTATION, key, found)
-    return found, key
+    settings = {**run.who.settings("verify"), "parts": parts, "labels": _bytes_of_labels(parts), "limit": run.deadline.seconds}
+    key = stage_key(SEGMENTATION, previous=recognized.key, config=settings)
+    recognition = recognized.result.recognition
+    return Keyed(run.answered(SEGMENTATION, key, "segment", lambda: solver.parts(parts, recognition, run.progress)), key)
 
 
 def _bytes_of_labels(parts: str) -> str:
@@ -129,53 +124,35 @@ def _bytes_of_labels(parts: str) -> str:
 
 
 def estimate_joints(
-    run: RunFolder,
-    solver: Solver,
-    recognized: RecognitionResult,
-    segmented: SegmentationResult,
-    previous: str,
-    who: AnswererSetup,
-    progress: Progress,
+    run: Run, solver: Solver, recognized: RecognitionResult, segmented: Keyed[SegmentationResult]
 ) -> JointResult:
     """Find the joint of each part (paper, 3.3)."""
-    key = stage_key(JOINTS, previous=previous, config={**who.settings(), "limit": solver.deadline.seconds})
-    found = _answered(run.load(JOINTS, key), who)
-    if found is None:
-        with timed(run, "joints"):
-            grounded = segmented.answerer != GIVEN
-            found = solver.joints(segmented.segmentation, recognized.recognition, progress, grounded)
+
+    def compute() -> JointResult:
+        parts, grounded = segmented.result, segmented.result.answerer != GIVEN
+        found = solver.joints(parts.segmentation, recognized.recognition, run.progress, grounded)
         if found.segmentation is not None:
-            run.save(SEGMENTATION, previous, replace(segmented, segmentation=found.segmentation))
-        run.save(JOINTS, key, found)
-    return found
+            run.folder.save(SEGMENTATION, segmented.key, replace(parts, segmentation=found.segmentation))
+        return found
+
+    key = stage_key(JOINTS, previous=segmented.key, config={**run.who.settings(), "limit": run.deadline.seconds})
+    return run.answered(JOINTS, key, "joints", compute)
 
 
-def write_files(run: RunFolder, how: ExportOptions, deadline: Deadline, progress: Progress) -> Asset:
+def write_files(folder: RunFolder, how: ExportOptions, deadline: Deadline, progress: Progress) -> Asset:
     """Write the files of the asset and its preview."""
     progress("export", "files", 0, 2)
-    asset = run.asset()
-    with timed(run, "export"), ThreadPoolExecutor(1) as aside:
+    asset = folder.asset()
+    with folder.timed("export"), ThreadPoolExecutor(1) as aside:
 
         def draw() -> Future[None]:
-            return aside.submit(write_preview, asset, run.folder / "preview.png")
+            return aside.submit(write_preview, asset, folder.folder / "preview.png")
 
         picture = draw() if len(asset.mesh.faces) <= ASIDE else None  # while child processes divide components
         model = write_asset(
-            asset, run.folder, base=how.base, formats=how.formats, driven=how.driven, cache=cache_folder("shapes"),
+            asset, folder.folder, base=how.base, formats=how.formats, driven=how.driven, cache=cache_folder("shapes"),
             deadline=deadline,
         )  # fmt: skip
         progress("export", "preview", 1, 2)
         (picture or draw()).result()
-    return replace(asset, warnings=model.asset.warnings, timing=run.timing())
-
-
-@contextmanager
-def timed(run: RunFolder, stage: str) -> Generator[None]:
-    """Add the time spent inside to that of a stage, and attach the stage's name to errors."""
-    begin = time.perf_counter()
-    try:
-        yield
-    except Exception as error:
-        note_stage(error, stage)
-        raise
-    run.add_time(stage, time.perf_counter() - begin)
+    return replace(asset, warnings=model.asset.warnings, timing=folder.timing())

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from anymesh.errors import OpenQuestionError, OutputError
 from anymesh.pipeline.answering import AnswererSetup
-from anymesh.pipeline.stage_results import JOINTS, RECOGNITION, SEGMENTATION
+from anymesh.pipeline.storage.packing import JOINTS, RECOGNITION, SEGMENTATION
 from anymesh.pipeline.storage.run_folder import RunFolder
 from anymesh.types import Exchange
 from anymesh.vlm.transcript import remove_transcript, write_transcript

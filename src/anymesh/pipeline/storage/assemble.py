@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from anymesh.names import legal_name
-from anymesh.pipeline.stage_results import (
+from anymesh.pipeline.results import (
     CompletionResult,
     CorrectionResult,
     JointResult,

@@ -153,3 +153,10 @@ def move_files(new: Path, target: Path, *, remove: Iterable[str], last: str) -> 
     for name in sorted(files, key=lambda name: name == last):
         (target / name).parent.mkdir(parents=True, exist_ok=True)
         (new / name).replace(target / name)
+
+
+def copy_files(source: Path, target: Path, names: Iterable[str]) -> None:
+    """Copy files by relative name into another folder; those that do not exist are left out."""
+    for name in sorted(name for name in names if os.path.lexists(source / name)):
+        (target / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy2(source / name, target / name)

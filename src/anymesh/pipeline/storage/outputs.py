@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 from anymesh.errors import OutputError
-from anymesh.files import read_json
-from anymesh.pipeline.storage.atomic_folder import list_files
+from anymesh.files import read_json, write_json
+from anymesh.pipeline.storage.atomic_folder import list_files, recover
 
 GENERATOR = "articulate-anymesh"
 MANIFEST = "stages/files.json"  # list of files written by this program; nothing else is ever removed
@@ -30,6 +30,24 @@ def written_files(target: Path) -> list[str] | None:
     found = read_json(target / MANIFEST)
     files = found.get("files") if found is not None and found.get("generator") == GENERATOR else None
     return files if isinstance(files, list) else None
+
+
+def existing_files(target: Path) -> list[str]:
+    """Return the files that this program wrote into an output, after recovery from a killed run.
+
+    Raise OutputError if the folder is no output.
+    """
+    recover(target, atomic_prefix(target, "old"))
+    written = written_files(target)
+    if written is None:
+        raise OutputError(f"{target} is no output of anymesh; `anymesh segment MESH -o {target}` makes one")
+    return written
+
+
+def write_manifest(folder: Path, files: set[str]) -> None:
+    """Write the list of files of an output."""
+    (folder / MANIFEST).parent.mkdir(exist_ok=True)
+    write_json(folder / MANIFEST, {"generator": GENERATOR, "files": sorted(files)})
 
 
 def check_replaceable(target: Path, force: bool) -> None:

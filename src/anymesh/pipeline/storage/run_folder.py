@@ -10,31 +10,19 @@ from __future__ import annotations
 import errno
 import os
 import shutil
-from collections.abc import Sequence
+import time
+from collections.abc import Generator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from types import TracebackType
 from typing import Any, TypeVar
 
-from anymesh.errors import AnymeshError, BudgetError, OpenQuestionError, OutputError
+from anymesh.errors import AnymeshError, BudgetError, OpenQuestionError, OutputError, note_stage
 from anymesh.files import write_json
-from anymesh.pipeline.stage_results import (
-    COMPLETION,
-    CORRECTION,
-    JOINTS,
-    MESH,
-    RECOGNITION,
-    REVISION,
-    SEGMENTATION,
-    STAGES,
-    JointResult,
-    LoadResult,
-    RecognitionResult,
-    SegmentationResult,
-    Stage,
-)
 from anymesh.pipeline.storage.atomic_folder import (
     FOLDER_PREFIX,
     LockedFolder,
+    copy_files,
     list_files,
     locks_known,
     make_locked_folder,
@@ -45,44 +33,30 @@ from anymesh.pipeline.storage.atomic_folder import (
 )
 from anymesh.pipeline.storage.outputs import (
     CORRECTIONS,
-    GENERATOR,
     MANIFEST,
     atomic_prefix,
     check_replaceable,
     check_uncorrected,
+    existing_files,
     is_origin,
+    write_manifest,
     written_files,
 )
+from anymesh.pipeline.storage.packing import (
+    COMPLETION,
+    CORRECTION,
+    JOINTS,
+    MESH,
+    REVISION,
+    SEGMENTATION,
+    STAGES,
+    Stage,
+)
 from anymesh.pipeline.storage.saved import TIMING, Saved
-from anymesh.pipeline.storage.stage_files import read_stage, saved_key, stage_files, stage_key, write_stage
+from anymesh.pipeline.storage.stage_files import read_stage, saved_key, stage_files, write_stage
 
-__all__ = [
-    "COMPLETION",
-    "JOINTS",
-    "MESH",
-    "RECOGNITION",
-    "SEGMENTATION",
-    "JointResult",
-    "LoadResult",
-    "RecognitionResult",
-    "RunFolder",
-    "SegmentationResult",
-    "stage_key",
-]
 Result = TypeVar("Result")
 LAST = "asset.json"  # file that marks a finished output
-
-
-def _existing(target: Path) -> list[str]:
-    """Return the files that this program wrote into an output, after recovery from a killed run.
-
-    Raise OutputError if the folder is no output.
-    """
-    recover(target, atomic_prefix(target, "old"))
-    written = written_files(target)
-    if written is None:
-        raise OutputError(f"{target} is no output of anymesh; `anymesh segment MESH -o {target}` makes one")
-    return written
 
 
 class RunFolder(Saved):
@@ -146,7 +120,7 @@ class RunFolder(Saved):
         """
         target = Path(target).resolve()
         try:
-            _existing(target)
+            existing_files(target)
             dead = stale_folders(target, f"{FOLDER_PREFIX}tmp-")
             hidden = make_locked_folder(target, f"{FOLDER_PREFIX}tmp-")
         except OSError as error:
@@ -163,13 +137,13 @@ class RunFolder(Saved):
         if os.path.ismount(target):
             return cls.open(target)
         try:
-            ours = set(_existing(target))
+            ours = set(existing_files(target))
             run = cls(
                 target, make_locked_folder(target.parent, atomic_prefix(target, "tmp")), base=None, earlier=[target], dead=[]
             )
             run._foreign = set(list_files(target)) - ours
             stages = {name for stage in STAGES for name in stage_files(stage)}
-            run._copy(target, (ours & (stages | {TIMING})) | set(filter(is_origin, ours)) | run._foreign)
+            copy_files(target, run.folder, (ours & (stages | {TIMING})) | set(filter(is_origin, ours)) | run._foreign)
         except OSError as error:
             raise OutputError(f"cannot write {target}: {error.strerror or error}") from error
         return run
@@ -204,6 +178,17 @@ class RunFolder(Saved):
         stale = stage is not None and stage.name in self._stale
         return [self.folder] if self._base is None or stale else [self.folder, self._base]
 
+    @contextmanager
+    def timed(self, stage: str) -> Generator[None]:
+        """Add the time spent inside to that of a stage, and attach the stage's name to errors."""
+        begin = time.perf_counter()
+        try:
+            yield
+        except Exception as error:
+            note_stage(error, stage)
+            raise
+        self.add_time(stage, time.perf_counter() - begin)
+
     def add_time(self, stage: str, seconds: float) -> None:
         """Add to the seconds that each stage took."""
         write_json(self.folder / TIMING, {**self.timing(), stage: round(seconds, 4)})
@@ -223,26 +208,20 @@ class RunFolder(Saved):
                 self.load(stage, key)
         for stage in (MESH, SEGMENTATION, JOINTS):
             self.need(stage)
-        self._copy(Path(folder), set(filter(is_origin, written)))
-
-    def _copy(self, folder: Path, names: set[str]) -> None:
-        """Files of another output, so that they become this one's; those that somebody removed are left out."""
-        for name in sorted(name for name in names if os.path.lexists(folder / name)):
-            (self.folder / name).parent.mkdir(parents=True, exist_ok=True)
-            shutil.copy2(folder / name, self.folder / name)
+        copy_files(Path(folder), self.folder, set(filter(is_origin, written)))
 
     def _commit(self) -> None:
         """Move everything written into place."""
         new = {*list_files(self.folder), MANIFEST} - self._foreign
         try:
             if self._base is None:
-                self._write_manifest(new)
+                write_manifest(self.folder, new)
                 aside = self.target.parent / f"{atomic_prefix(self.target, 'old')}{os.getpid()}"
                 replace_folder(self.folder, self.target, aside if self._replaces else None)
             else:
                 before = set(written_files(self.target) or ())
                 kept = before - self._outdated(before, new)
-                self._write_manifest(new | kept)
+                write_manifest(self.folder, new | kept)
                 move_files(self.folder, self.target, remove=sorted(before - kept - new), last=LAST)
         except OSError as error:
             raise OutputError(f"cannot write {self.target}: {error.strerror or error}") from error
@@ -254,10 +233,6 @@ class RunFolder(Saved):
         kept = {MANIFEST, TIMING, CORRECTIONS} | set(filter(is_origin, before))
         final = before - stages - kept if self._stale or LAST in new else set()
         return stale | final
-
-    def _write_manifest(self, files: set[str]) -> None:
-        (self.folder / "stages").mkdir(exist_ok=True)
-        write_json(self.folder / MANIFEST, {"generator": GENERATOR, "files": sorted(files)})
 
     def __enter__(self) -> RunFolder:
         return self

@@ -7,7 +7,10 @@ from typing import Any, TypeVar
 
 from anymesh.errors import OutputError
 from anymesh.files import read_json
-from anymesh.pipeline.stage_results import (
+from anymesh.pipeline.results import CorrectionResult, RecognitionResult, Record
+from anymesh.pipeline.storage.assemble import assemble
+from anymesh.pipeline.storage.outputs import written_files
+from anymesh.pipeline.storage.packing import (
     COMPLETION,
     CORRECTION,
     JOINTS,
@@ -16,13 +19,8 @@ from anymesh.pipeline.stage_results import (
     REVISION,
     SEGMENTATION,
     STAGES,
-    CorrectionResult,
-    RecognitionResult,
-    Record,
     Stage,
 )
-from anymesh.pipeline.storage.assemble import assemble
-from anymesh.pipeline.storage.outputs import written_files
 from anymesh.pipeline.storage.stage_files import read_stage, saved_key
 from anymesh.types import Asset
 

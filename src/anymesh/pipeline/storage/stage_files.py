@@ -14,7 +14,7 @@ import numpy as np
 
 import anymesh
 from anymesh.files import read_json, write_json
-from anymesh.pipeline.stage_results import Stage
+from anymesh.pipeline.storage.packing import Stage
 
 log = logging.getLogger("anymesh")
 Result = TypeVar("Result")
