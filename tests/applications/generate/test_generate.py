@@ -19,6 +19,7 @@ from anymesh.checking import check_asset
 from anymesh.completion.retexture import Remote
 from anymesh.errors import AnymeshError, BudgetError, InputError, ModelError, OptionError, OutputError
 from anymesh.pipeline.storage.atomic_folder import locked
+from anymesh.pipeline.storage.run_folder import RunFolder
 from anymesh.types import JointType
 
 BOX = Path(__file__).parents[3] / "examples" / "meshes" / "storage_box.glb"
@@ -190,7 +191,7 @@ def test_where_it_came_from_survives_an_export_and_corrections(articulations, pr
     origin = {name for name in before if name.startswith("generat")}
     assert origin == {"generation.json", "generated/box.glb"}
     assert {name: content for name, content in files(out).items() if name in origin} == {n: before[n] for n in origin}
-    with pipeline.RunFolder.revise(out):
+    with RunFolder.revise(out):
         pass
     assert origin <= set(files(out))
     pipeline.finish(out, tmp_path / "again", **FAST)
