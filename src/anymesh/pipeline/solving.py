@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
-from functools import cached_property
+from functools import cached_property, partial
 from pathlib import Path
 
 import numpy as np
@@ -13,20 +13,15 @@ from anymesh.articulation.estimate import (
     PartMotions,
     choose_motion,
     estimate_joints,
-    motion_question,
     motion_questions,
-    part_context,
     relabelled,
 )
-from anymesh.articulation.evidence import hypotheses
+from anymesh.articulation.freedom import stays_free
 from anymesh.articulation.geometry_answerer import GeometryAnswerer
-from anymesh.articulation.motion_question import Candidate
 from anymesh.articulation.part_labels import label_of
 from anymesh.articulation.prompted import Questions, Reground, prompt_joints
-from anymesh.articulation.tree import parents
 from anymesh.config import Config
 from anymesh.deadline import Deadline
-from anymesh.geometry.part_context import PartContext
 from anymesh.geometry.patches import ObjectShape, object_shape
 from anymesh.models.sam import PromptedSegmenter
 from anymesh.models.sam_load import load_sam
@@ -40,8 +35,8 @@ from anymesh.segmentation.grounded import EXACT, ground_parts, object_cloud
 from anymesh.segmentation.hidden import MIN_RECOGNITION_PATCH_RATIO, inner_faces, seen_points
 from anymesh.segmentation.regrounding import ground_again
 from anymesh.segmentation.segment import segment_parts
-from anymesh.types import Joint, JointType, Mesh, MotionKind, Picture, Segmentation
-from anymesh.types.recognition import Moves, Recognition
+from anymesh.types import Joint, JointType, Mesh, Picture, Segmentation
+from anymesh.types.recognition import Recognition
 from anymesh.vlm.asking import VisualAnswerer
 from anymesh.vlm.recognition import answered_scale, recognize
 from anymesh.vlm.reference_answerer import Reference, ReferenceAnswerer, ReferenceJoint
@@ -49,9 +44,6 @@ from anymesh.vlm.reference_answerer import Reference, ReferenceAnswerer, Referen
 AnswererFactory = Callable[[VisualAnswerer], VisualAnswerer]  # makes a visual answerer with the given fallback
 MAX_INSIDE_VIEWS = 2  # pictures of the inside in the question about the object
 LOW_CONFIDENCE = 0.4  # warnings name joints below this confidence
-MOTIONS_PER_TYPE = 4  # likeliest motions of each kind, one of which must stay free with the gained patches
-MIN_FREE_RATIO = 0.8  # minimum opening of a part with gained patches, relative to its opening without them
-SUFFICIENT_OPENING = float(np.deg2rad(60))  # [rad, or share of the diagonal] larger openings are not compared
 GEOMETRY = GeometryAnswerer()
 
 
@@ -139,7 +131,7 @@ class Solver:
             self._visual_prompts,
             self._segmenter,
             self._geometric_parts,
-            self.stays_free,
+            partial(stays_free, self.whole, self.config.articulation),
             progress,
             self._cloud,
         )
@@ -195,31 +187,6 @@ class Solver:
             self._swept = faces, list(_with_progress(found, segmentation, progress))
             return self._swept[1]
         return list(_with_progress(relabelled(self._swept[1], segmentation), segmentation, progress))
-
-    def stays_free(self, without: np.ndarray, joined: np.ndarray, part: int, moves: Moves | None = None) -> bool:
-        """Return whether a part opens as far with the unseen patches that it would gain.
-
-        without, joined: part index of each face of `whole`, without and with these patches; moves: the recognized motion of the
-        part, if known.
-        """
-        alone, gained = self._around(without, part), self._around(joined, part)
-        question = motion_question(alone, "candidate", "part")
-        best: dict[int, Candidate] = {}  # the better one of the two directions along each axis
-        for k in GEOMETRY.which_motion(question).ranking:
-            best.setdefault(id(question.candidates[k].motion), question.candidates[k])
-        kinds = (
-            list(MotionKind) if moves is None else [MotionKind.PRISMATIC if moves is Moves.PRISMATIC else MotionKind.REVOLUTE]
-        )
-        likely = [c for kind in kinds for c in [c for c in best.values() if c.motion.kind is kind][:MOTIONS_PER_TYPE]]
-        after = hypotheses(gained, [(c.role, c.motion) for c in likely])[::2]
-        far = [(max(c.opening, c.closing), max(a.opening, a.closing)) for c, a in zip(likely, after, strict=True)]
-        return any(now >= MIN_FREE_RATIO * min(before, SUFFICIENT_OPENING) for before, now in far)
-
-    def _around(self, label: np.ndarray, part: int) -> PartContext:
-        shapes = [self.whole.of(np.flatnonzero(label == k)) for k in np.unique(label)]
-        rank = np.searchsorted(np.unique(label), label)
-        number = int(np.searchsorted(np.unique(label), part))
-        return part_context(self.whole, rank, shapes, parents(shapes, self.whole.diagonal), number, self.config.articulation)
 
     def _ready_for(self, segmentation: Segmentation) -> ObjectShape:
         """Return the object with patches that each belong to one of these parts."""

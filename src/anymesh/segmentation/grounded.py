@@ -42,7 +42,7 @@ from anymesh.vlm.grounding import MarkedPart
 SURE, UNSURE = 0.9, 0.6  # confidence of a part from certain marks, and from uncertain ones
 EXACT = "exact"
 EXACT_POINTS = 120_000  # exact regions use the cloud for superpoints only, which need fewer points
-MovesFreely = Callable[[Int[np.ndarray, " R"], Int[np.ndarray, " R"], int, Moves | None], bool]  # see `Solver.stays_free`
+MovesFreely = Callable[[Int[np.ndarray, " R"], Int[np.ndarray, " R"], int, Moves | None], bool]  # see `articulation.freedom`
 
 
 @dataclass(frozen=True, eq=False)
