@@ -10,34 +10,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from anymesh.cli.options import (
-    FORMATS,
-    AnswererName,
-    AtLeast,
-    BaseName,
-    Cache,
-    Category,
-    Drives,
-    Formats,
-    Json,
-    MaxCalls,
-    MaxCost,
-    Parts,
-    PartsList,
-    Proposer,
-    Quiet,
-    Scale,
-    Seed,
-    TimeLimit,
-    Timeout,
-    Up,
-    Verify,
-    Viewpoints,
-)
-from anymesh.cli.output import cache_of, chosen_answerer, ended_by_signal, plain, split_labels
-from anymesh.config import DEFAULT_VIEWS
-from anymesh.deadline import CALL_SECONDS, DEFAULT_SECONDS
+from anymesh.cli.from_options import OptionsOf, with_options
+from anymesh.cli.options import Formats, Json, Parts, Quiet, Time
+from anymesh.cli.output import chosen_answerer, ended_by_signal, plain
 from anymesh.errors import InputError, OpenQuestionError, OptionError
+from anymesh.pipeline.options import AnswererOptions, PlacementOptions
 
 if TYPE_CHECKING:
     from anymesh.applications.annotate.annotate import Speed
@@ -80,8 +57,10 @@ DryRun = Annotated[
 ]
 
 
+@with_options
 def annotate(
     source: Source = None,
+    *,
     out: Out = None,
     status: Status = None,
     export: Export = None,
@@ -96,24 +75,10 @@ def annotate(
     tokens_per_minute: Tokens = None,
     patience: Patience = 3600.0,
     parts: Parts = "auto",
-    answerer: AnswererName = "geometry",
-    parts_list: PartsList = "",
-    at_least: AtLeast = 0,
-    proposer: Proposer = "exact",
-    viewpoints: Viewpoints = DEFAULT_VIEWS,
-    verify: Verify = "motion",
-    category: Category = None,
-    timeout: Timeout = CALL_SECONDS,
-    max_calls: MaxCalls = None,
-    max_cost: MaxCost = None,
-    cache: Cache = "auto",
-    seed: Seed = 0,
-    up: Up = "auto",
-    scale: Scale = "auto",
-    base: BaseName = "fixed",
-    formats: Formats = FORMATS,
-    drives: Drives = "passive",
-    time_limit: TimeLimit = DEFAULT_SECONDS,
+    answering: Annotated[dict[str, Any], OptionsOf(AnswererOptions, without=("wait",))],
+    placement: Annotated[dict[str, Any], OptionsOf(PlacementOptions, without=("root",))],
+    writing: Formats,
+    time: Time,
     json_: Json = False,
     quiet: Quiet = False,
 ) -> None:
@@ -125,13 +90,8 @@ def annotate(
         raise OptionError("found no INPUT or no --out; valid is `anymesh annotate INPUT -o OUT`, or `--status OUT`")
     from anymesh.applications.annotate.annotate import Speed
 
-    name = chosen_answerer(answerer, quiet or json_)
-    options: dict[str, Any] = {
-        "parts": parts, "up": up, "scale": scale, "base": base, "formats": formats, "drives": drives, "time_limit": time_limit,
-        "answerer": name, "parts_list": split_labels(parts_list), "at_least": at_least, "proposer": proposer,
-        "viewpoints": viewpoints, "verify": verify, "category": category, "seed": seed, "max_calls": max_calls,
-        "max_cost": max_cost, "timeout": timeout, **cache_of(cache),
-    }  # fmt: skip
+    answering["answerer"] = chosen_answerer(answering["answerer"], quiet or json_)
+    options: dict[str, Any] = {"parts": parts, **placement, **writing, **time, **answering}
     speed = Speed(workers, memory, kill_after, attempts, requests_per_minute, tokens_per_minute, patience, ray)
     if dry_run:
         _tell_estimate(source, dry_run, speed, options, json_)

@@ -7,37 +7,9 @@ from typing import Annotated, Any
 
 import typer
 
-from anymesh.cli.options import (
-    FORMATS,
-    AnswererName,
-    AtLeast,
-    BaseName,
-    Cache,
-    Category,
-    Drives,
-    Force,
-    Formats,
-    Json,
-    MaxCalls,
-    MaxCost,
-    Out,
-    Parts,
-    PartsList,
-    Proposer,
-    Quiet,
-    Root,
-    Scale,
-    Seed,
-    TimeLimit,
-    Timeout,
-    Up,
-    Verify,
-    Viewpoints,
-    Wait,
-)
-from anymesh.cli.output import Shown, cache_of, chosen_answerer, plain, split_labels, tell, tell_asset
-from anymesh.config import DEFAULT_VIEWS
-from anymesh.deadline import CALL_SECONDS, DEFAULT_SECONDS
+from anymesh.cli.from_options import with_options
+from anymesh.cli.options import Answering, Formats, Json, Out, Parts, Placement, Quiet, Running
+from anymesh.cli.output import Shown, chosen_answerer, plain, tell, tell_asset
 from anymesh.errors import AnymeshError, OpenQuestionError, OptionError
 from anymesh.isolation import AHEAD, shared_pool
 
@@ -49,32 +21,17 @@ Batch = Annotated[
 ]
 
 
+@with_options
 def articulate(
     mesh: Meshes,
     out: Out,
+    *,
     parts: Parts = "auto",
-    answerer: AnswererName = "geometry",
-    parts_list: PartsList = "",
-    at_least: AtLeast = 0,
-    proposer: Proposer = "exact",
-    viewpoints: Viewpoints = DEFAULT_VIEWS,
-    verify: Verify = "motion",
-    category: Category = None,
-    timeout: Timeout = CALL_SECONDS,
-    wait: Wait = False,
+    answering: Answering,
     batch: Batch = False,
-    max_calls: MaxCalls = None,
-    max_cost: MaxCost = None,
-    cache: Cache = "auto",
-    seed: Seed = 0,
-    up: Up = "auto",
-    scale: Scale = "auto",
-    root: Root = None,
-    base: BaseName = "fixed",
-    formats: Formats = FORMATS,
-    drives: Drives = "passive",
-    force: Force = False,
-    time_limit: TimeLimit = DEFAULT_SECONDS,
+    placement: Placement,
+    writing: Formats,
+    running: Running,
     json_: Json = False,
     quiet: Quiet = False,
 ) -> None:
@@ -82,13 +39,8 @@ def articulate(
     shared_pool().warm(*AHEAD)  # the child processes import while this process does
     from anymesh import pipeline
 
-    answerer = chosen_answerer(answerer, quiet or json_)
-    options: dict[str, Any] = {
-        "parts": parts, "up": up, "scale": scale, "root": root, "base": base, "formats": formats, "drives": drives,
-        "force": force, "time_limit": time_limit, "answerer": answerer, "parts_list": split_labels(parts_list),
-        "at_least": at_least, "proposer": proposer, "viewpoints": viewpoints, "verify": verify, "category": category,
-        "seed": seed, "max_calls": max_calls, "max_cost": max_cost, "wait": wait, "timeout": timeout, **cache_of(cache),
-    }  # fmt: skip
+    answering["answerer"] = chosen_answerer(answering["answerer"], quiet or json_)
+    options: dict[str, Any] = {"parts": parts, **placement, **writing, **running, **answering}
     if batch:
         _articulate_many(mesh, out, options, json_, quiet)
         return

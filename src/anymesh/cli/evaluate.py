@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from dataclasses import asdict
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
-from anymesh.cli.options import Timeout, Wait
-from anymesh.cli.output import Shown, cache_of, tell
-from anymesh.config import DEFAULT_VIEWS
-from anymesh.deadline import CALL_SECONDS
+from anymesh.cli.from_options import OptionsOf, with_options
+from anymesh.cli.options import Json, Quiet
+from anymesh.cli.output import Shown, tell
+from anymesh.pipeline.options import AnswererOptions
 
 DatasetName = Annotated[
     str,
@@ -32,42 +32,35 @@ Changes = Annotated[
 Views = Annotated[int, typer.Option(help="Views per object, for the protocol views.")]
 Only = Annotated[str, typer.Option(metavar="NAMES", help="Only these objects.")]
 Jobs = Annotated[int | None, typer.Option("--jobs", "-j", help="Parallel objects; one per core by default.")]
+EVALUATION_HELPS = {"answerer": "As for articulate; or oracle (ground truth), or oracle:P (wrong with probability P)."}
 EvalAnswerer = Annotated[
-    str, typer.Option("--answerer", help="As for articulate; or oracle (ground truth), or oracle:P (wrong with probability P).")
+    dict[str, Any],
+    OptionsOf(
+        AnswererOptions,
+        without=("parts_list", "category"),
+        helps=EVALUATION_HELPS,
+        flags={"viewpoints": ("--viewpoints",)},  # --views is the number of views of the protocol
+    ),
 ]
 
 SHOWN = ("change", "objects", "joints", "type", "angle", "line", "at part", "opens", "range", "part F1", "part mIoU", "runs")
 
 
+@with_options
 def evaluate(
     dataset: DatasetName,
     out: ReportOut,
+    *,
     protocol: ProtocolName = "parts",
-    answerer: EvalAnswerer = "geometry",
     split: Split = None,
     changes: Changes = "none",
     views: Views = 1,
     only: Only = "",
     jobs: Jobs = None,
-    proposer: Annotated[
-        str, typer.Option(help="Source of masks for a model: exact, sam:WEIGHTS or exact+sam:WEIGHTS.")
-    ] = "exact",
-    viewpoints: Annotated[
-        str, typer.Option(help="For a model: cameras as COUNT@ELEVATION[+AZIMUTH],... [deg].")
-    ] = DEFAULT_VIEWS,
-    verify: Annotated[str, typer.Option(help="motion, free, or off (the paper's method unchanged).")] = "motion",
-    at_least: Annotated[
-        int, typer.Option("--at-least", metavar="N", help="Parts that geometry accepts regardless of evidence.")
-    ] = 0,
-    timeout: Timeout = CALL_SECONDS,
-    wait: Wait = False,
-    max_calls: Annotated[int | None, typer.Option("--max-calls", help="Maximum number of model calls.")] = None,
-    max_cost: Annotated[float | None, typer.Option("--max-cost", metavar="USD", help="Maximum cost of model calls.")] = None,
-    cache: Annotated[str, typer.Option(metavar="DIR", help="Cache of model answers: auto, off, or a folder.")] = "auto",
-    seed: Annotated[int, typer.Option(help="From 0 up.")] = 0,
+    answering: EvalAnswerer,
     force: Annotated[bool, typer.Option("--force", help="Start again.")] = False,
-    json_: Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")] = False,
-    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="No progress, no summary.")] = False,
+    json_: Json = False,
+    quiet: Quiet = False,
 ) -> None:
     """Evaluate all objects of a data set with known joints; write tables, pictures of the worst joints, a line per joint."""
     from anymesh.evaluation import evaluating
@@ -79,9 +72,7 @@ def evaluate(
     with Shown(quiet or json_) as progress:
         records = evaluating.evaluate(
             dataset, out, protocol=protocol, split=split, changes=chosen, views=views, only=_names(only), jobs=jobs,
-            force=force, progress=progress, answerer=answerer, proposer=proposer, viewpoints=viewpoints, verify=verify,
-            seed=seed, at_least=at_least, max_calls=max_calls, max_cost=max_cost, wait=wait, timeout=timeout,
-            **cache_of(cache),
+            force=force, progress=progress, **answering,
         )  # fmt: skip
     groups = grouped(records, lambda r: r.change)
     table = group_table("By change", groups)

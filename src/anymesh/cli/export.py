@@ -2,30 +2,19 @@
 
 from __future__ import annotations
 
-from anymesh.cli.options import (
-    FORMATS,
-    BaseName,
-    Drives,
-    Folder,
-    Formats,
-    Json,
-    Package,
-    Quiet,
-    TimeLimit,
-    Zip,
-)
+from anymesh.cli.from_options import with_options
+from anymesh.cli.options import Folder, Formats, Json, Package, Quiet, Time, Zip
 from anymesh.cli.output import Shown, tell_asset
-from anymesh.deadline import DEFAULT_SECONDS
 
 
+@with_options
 def export(
     folder: Folder,
-    base: BaseName = "fixed",
-    formats: Formats = FORMATS,
-    drives: Drives = "passive",
+    *,
+    writing: Formats,
     package: Package = None,
     zip_: Zip = None,
-    time_limit: TimeLimit = DEFAULT_SECONDS,
+    time: Time,
     json_: Json = False,
     quiet: Quiet = False,
 ) -> None:
@@ -33,8 +22,5 @@ def export(
     from anymesh import pipeline
 
     with Shown(quiet or json_) as progress:
-        asset = pipeline.export(
-            folder, base=base, formats=formats, drives=drives, package=package, archive=zip_,
-            time_limit=time_limit, progress=progress,
-        )  # fmt: skip
+        asset = pipeline.export(folder, package=package, archive=zip_, progress=progress, **writing, **time)
     tell_asset(asset, folder, json_, quiet)

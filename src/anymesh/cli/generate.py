@@ -9,36 +9,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from anymesh.cli.finish import Completer, Texture, Watertight
-from anymesh.cli.options import (
-    FORMATS,
-    AnswererName,
-    AtLeast,
-    BaseName,
-    Cache,
-    Category,
-    Drives,
-    Force,
-    Formats,
-    Json,
-    MaxCost,
-    Out,
-    PartsList,
-    Proposer,
-    Quiet,
-    Root,
-    Scale,
-    Seed,
-    TimeLimit,
-    Timeout,
-    Up,
-    Verify,
-    Viewpoints,
-    Wait,
-)
-from anymesh.cli.output import Shown, cache_of, chosen_answerer, ended_by_signal, plain, split_labels, tell_asset
-from anymesh.config import DEFAULT_VIEWS
-from anymesh.deadline import CALL_SECONDS, DEFAULT_SECONDS
+from anymesh.cli.from_options import OptionsOf, with_options
+from anymesh.cli.options import Completion, Formats, Json, Out, Placement, Quiet, Running
+from anymesh.cli.output import Shown, chosen_answerer, ended_by_signal, plain, tell_asset
+from anymesh.pipeline.options import AnswererOptions
 
 if TYPE_CHECKING:
     from anymesh.applications.generate import Explanation
@@ -60,13 +34,13 @@ Regenerate = Annotated[
     bool, typer.Option("--regenerate", help="Make, and pay for, another mesh; else one made for the same request is used.")
 ]
 DryRun = Annotated[bool, typer.Option("--dry-run", help="Explain each step and its cost; nothing is sent, paid or written.")]
-MaxCalls = Annotated[
-    int | None, typer.Option("--max-calls", help="Paid tasks and calls of a model together: none is made beyond so many.")
-]
+GENERATION_HELPS = {"max_calls": "Paid tasks and calls of a model together: none is made beyond so many."}
 
 
+@with_options
 def generate(
     out: Out,
+    *,
     prompt: Prompt = None,
     image: Image = None,
     mesh: MeshFile = None,
@@ -74,30 +48,11 @@ def generate(
     generator_time_limit: GeneratorTime = 1800.0,
     regenerate: Regenerate = False,
     dry_run: DryRun = False,
-    answerer: AnswererName = "geometry",
-    parts_list: PartsList = "",
-    at_least: AtLeast = 0,
-    proposer: Proposer = "exact",
-    viewpoints: Viewpoints = DEFAULT_VIEWS,
-    verify: Verify = "motion",
-    category: Category = None,
-    timeout: Timeout = CALL_SECONDS,
-    wait: Wait = False,
-    max_calls: MaxCalls = None,
-    max_cost: MaxCost = None,
-    cache: Cache = "auto",
-    seed: Seed = 0,
-    up: Up = "auto",
-    scale: Scale = "auto",
-    root: Root = None,
-    completer: Completer = "builtin",
-    texture: Texture = "builtin",
-    watertight: Watertight = True,
-    base: BaseName = "fixed",
-    formats: Formats = FORMATS,
-    drives: Drives = "passive",
-    force: Force = False,
-    time_limit: TimeLimit = DEFAULT_SECONDS,
+    answering: Annotated[dict[str, Any], OptionsOf(AnswererOptions, helps=GENERATION_HELPS)],
+    placement: Placement,
+    completion: Completion,
+    writing: Formats,
+    running: Running,
     json_: Json = False,
     quiet: Quiet = False,
 ) -> None:
@@ -106,13 +61,10 @@ def generate(
     from anymesh.applications.generate import explain_generation
     from anymesh.applications.generate import generate as run
 
+    answerer = answering.pop("answerer")
     options: dict[str, Any] = {
         "image": image, "mesh": mesh, "generator": generator, "generator_time_limit": generator_time_limit,
-        "regenerate": regenerate, "force": force, "parts_list": split_labels(parts_list), "at_least": at_least,
-        "proposer": proposer, "viewpoints": viewpoints, "verify": verify, "category": category, "timeout": timeout,
-        "wait": wait, "max_calls": max_calls, "max_cost": max_cost, "seed": seed, "up": up, "scale": scale, "root": root,
-        "completer": completer, "texture": texture, "watertight": watertight, "base": base, "formats": formats,
-        "drives": drives, "time_limit": time_limit, **cache_of(cache),
+        "regenerate": regenerate, **answering, **placement, **completion, **writing, **running,
     }  # fmt: skip
     if dry_run:
         _tell(explain_generation(prompt, out, answerer=answerer, **options), json_)

@@ -116,16 +116,6 @@ def tell(record: dict[str, Any], rows: list[dict[str, Any]], columns: tuple[str,
         Console(width=None if sys.stdout.isatty() else 140).print(table)
 
 
-def cache_of(told: str) -> dict[str, Any]:
-    """Return the option `cache` for `Answering`; auto: its default."""
-    return {} if told == "auto" else {"cache": None if told == "off" else Path(told)}
-
-
-def split_labels(told: str) -> tuple[str, ...]:
-    """Split an option with comma-separated labels."""
-    return tuple(label for label in told.split(",") if label.strip())
-
-
 def plain(text: str) -> str:
     """Replace control characters, so that names from files cannot control the terminal."""
     return "".join(c if c.isprintable() else "?" for c in text)

@@ -31,7 +31,8 @@ from anymesh.evaluation.results import ResultsFolder
 from anymesh.evaluation.score import ObjectScore
 from anymesh.evaluation.training import trained_note
 from anymesh.names import legal_name
-from anymesh.pipeline.answering import FILES, Answering, choose_answerer
+from anymesh.pipeline.answering import FILES, choose_answerer
+from anymesh.pipeline.options import Answering
 from anymesh.pipeline.solving import GEOMETRY, AnswererFactory, solve
 from anymesh.progress import Progress, silent
 

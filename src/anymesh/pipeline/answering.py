@@ -7,54 +7,20 @@ from dataclasses import dataclass, field, replace
 from importlib.util import find_spec
 from pathlib import Path
 from threading import Event
-from typing import TypedDict
 
-from anymesh.config import DEFAULT_VIEWS, Config, SegmentationConfig
-from anymesh.deadline import CALL_SECONDS, Deadline
+from anymesh.config import Config, SegmentationConfig
+from anymesh.deadline import Deadline
 from anymesh.errors import OptionError
+from anymesh.pipeline.options import AnswererOptions, Answering
 from anymesh.pipeline.solving import GEOMETRY, AnswererFactory
 from anymesh.types import Exchange
 from anymesh.vlm.asking import VisualAnswerer
-from anymesh.vlm.budget import Account
 from anymesh.vlm.cache import cache_folder
 from anymesh.vlm.patience import Patience
-from anymesh.vlm.rates import Limiter
 from anymesh.vlm.recognition import parse_labels
 from anymesh.vlm.servers import SERVERS, first_vision_model, probe_servers
 
 FILES, AUTO = "files:", "auto"
-
-
-class Answering(TypedDict, total=False):
-    """Options of the answerer of both stages. All have defaults.
-
-    answerer: geometry, openai:MODEL, openai-responses:MODEL, anthropic:MODEL, google:MODEL, ollama:MODEL, lmstudio:MODEL,
-    vllm:MODEL, openai-compatible:BASE_URL#MODEL, files:FOLDER, replay:FOLDER, or auto: a local model, else geometry; category:
-    of the object; seed: from 0 up; parts_list: labels of the movable parts, which a model is then not asked for; at_least:
-    minimum number of parts that geometry selects, even with weak evidence; proposer: of masks for a model, exact, sam:..., or
-    exact+sam:...; viewpoints: the cameras whose pictures a model is shown (see `ViewsConfig`); verify: motion, free or off;
-    max_calls, max_cost [USD]: limits that no call may exceed; cache: folder of answers (None: no cache); timeout: of one call
-    [s]; wait: wait for an answer in files; suggest: write geometry's answer beside each question that is waited for; spent:
-    calls and cost counted towards max_calls and max_cost, shared by several runs; limiter: delays calls above a provider's rate
-    limit.
-    """
-
-    answerer: str
-    category: str | None
-    seed: int
-    parts_list: Sequence[str] | str
-    at_least: int
-    proposer: str
-    viewpoints: str
-    verify: str
-    max_calls: int | None
-    max_cost: float | None
-    cache: Path | str | None
-    timeout: float
-    wait: bool
-    suggest: bool
-    spent: Account | None
-    limiter: Limiter | None
 
 
 class RecordingFactory:
@@ -106,37 +72,26 @@ def choose_answerer(
     unknown = sorted(set(options) - set(Answering.__annotations__))
     if unknown:
         raise OptionError(f"found the options {unknown}; valid are {', '.join(Answering.__annotations__)}")
-    told = options.get("parts_list", ())
-    name, _ = resolve_auto(options.get("answerer", GEOMETRY.name))
-    labels = parse_labels(told.split(",") if isinstance(told, str) else told)
-    config = Config(
-        seed=options.get("seed", 0),
-        category=options.get("category"),
-        parts_list=labels,
-        proposer=options.get("proposer", "exact"),
-        verify=options.get("verify", "motion"),
-        segmentation=SegmentationConfig(at_least=options.get("at_least", 0)),
-    )
-    config = replace(config, views=replace(config.views, around=options.get("viewpoints", DEFAULT_VIEWS)))
+    chosen = AnswererOptions(**options)
+    name, _ = resolve_auto(chosen.answerer)
+    config = _config(chosen)
     if name == GEOMETRY.name:
-        if labels:
+        if config.parts_list:
             raise OptionError("--parts-list: geometry cannot find parts by name; choose a model or files with --answerer")
         return AnswererSetup(config, name, None)
     if name.startswith(FILES):
-        return _from_files(config, name, options, about, deadline or Deadline(), stop)
+        return _from_files(config, name, chosen, about, deadline or Deadline(), stop)
     from anymesh.vlm.connect import open_model  # import on use: only runs with a model need these modules
     from anymesh.vlm.vlm_answerer import VlmAnswerer
 
-    cache = options["cache"] if "cache" in options else cache_folder()
-    cache = None if cache is None else Path(cache)
     model = open_model(
         name,
-        cache=cache,
-        max_calls=options.get("max_calls"),
-        max_cost=None if name.partition(":")[0] in SERVERS else options.get("max_cost"),  # the user's own servers cost nothing
-        timeout=options.get("timeout", CALL_SECONDS),
-        spent=options.get("spent"),
-        limiter=options.get("limiter"),
+        cache=_cache(chosen.cache),
+        max_calls=chosen.max_calls,
+        max_cost=None if name.partition(":")[0] in SERVERS else chosen.max_cost,  # the user's own servers cost nothing
+        timeout=chosen.timeout,
+        spent=chosen.spent,
+        limiter=chosen.limiter,
     )
 
     def renewed() -> RecordingFactory:
@@ -144,6 +99,25 @@ def choose_answerer(
 
     asked = renewed()
     return AnswererSetup(config, name, asked, exchanges=asked.exchanges, new_factory=renewed)
+
+
+def _config(options: AnswererOptions) -> Config:
+    """Return the settings of a run that the options change."""
+    told = options.parts_list
+    config = Config(
+        seed=options.seed,
+        category=options.category,
+        parts_list=parse_labels(told.split(",") if isinstance(told, str) else told),
+        proposer=options.proposer,
+        verify=options.verify,
+        segmentation=SegmentationConfig(at_least=options.at_least),
+    )
+    return replace(config, views=replace(config.views, around=options.viewpoints))
+
+
+def _cache(told: Path | str | None) -> Path | None:
+    """Return the folder of cached answers; "auto" is the user's cache folder, "off" and None are none."""
+    return cache_folder() if told == "auto" else None if told in (None, "off") else Path(told)
 
 
 def object_name(mesh: str | Path) -> str:
@@ -172,7 +146,7 @@ def resolve_auto(name: str) -> tuple[str, str]:
 
 
 def _from_files(
-    config: Config, name: str, options: Answering, about: str | None, deadline: Deadline, stop: Event | None
+    config: Config, name: str, options: AnswererOptions, about: str | None, deadline: Deadline, stop: Event | None
 ) -> AnswererSetup:
     from anymesh.vlm.file_answerer import FileAnswerer, still_answered
     from anymesh.vlm.question_files import QuestionStore
@@ -187,10 +161,10 @@ def _from_files(
         lambda fallback: FileAnswerer(
             store,
             fallback,
-            wait=options.get("wait", False),
+            wait=options.wait,
             paused=deadline.paused,
             stop=stop,
-            suggest=options.get("suggest", False),
+            suggest=options.suggest,
         ),
         lambda exchanges: still_answered(store, exchanges),
     )

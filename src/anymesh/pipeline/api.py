@@ -15,8 +15,9 @@ from anymesh.export.formats import DEFAULT
 from anymesh.export.options import ExportOptions
 from anymesh.export.package import write_package
 from anymesh.isolation import AHEAD, shared_pool
-from anymesh.pipeline.answering import Answering, choose_answerer, object_name
-from anymesh.pipeline.stages import Keyed, Placement, Run, estimate_joints, load, recognize, segment_parts, write_files
+from anymesh.pipeline.answering import choose_answerer, object_name
+from anymesh.pipeline.options import Answering, PlacementOptions
+from anymesh.pipeline.stages import Keyed, Run, estimate_joints, load, recognize, segment_parts, write_files
 from anymesh.pipeline.stopped_run import kept_transcript
 from anymesh.pipeline.storage.packing import MESH, SEGMENTATION
 from anymesh.pipeline.storage.run_folder import RunFolder
@@ -54,7 +55,7 @@ def articulate(
     how = ExportOptions.parse(base, formats, drives)
     with _new_run(mesh_path, out, answering, force, time_limit, progress) as run:
         shared_pool().warm(*AHEAD)
-        loaded = load(run, Path(mesh_path), Placement(up, scale, root))
+        loaded = load(run, Path(mesh_path), PlacementOptions(up, scale, root))
         solver, recognized = recognize(run, loaded, parts, sized=scale == "auto")
         segmented = segment_parts(run, solver, recognized, parts)
         estimate_joints(run, solver, recognized.result, segmented)
@@ -76,7 +77,7 @@ def segment(
 ) -> Segmentation:
     """Run only Stage A: save the parts of a mesh in `out` for `joints`. Options as for `articulate`."""
     with _new_run(mesh_path, out, answering, force, time_limit, progress) as run:
-        loaded = load(run, Path(mesh_path), Placement(up, scale, root))
+        loaded = load(run, Path(mesh_path), PlacementOptions(up, scale, root))
         solver, recognized = recognize(run, loaded, parts, sized=scale == "auto")
         return segment_parts(run, solver, recognized, parts).result.segmentation
 

@@ -13,6 +13,7 @@ from anymesh.export import write_asset
 from anymesh.export.options import ExportOptions
 from anymesh.loading import load_mesh, place_mesh
 from anymesh.pipeline.answering import AnswererSetup
+from anymesh.pipeline.options import PlacementOptions
 from anymesh.pipeline.results import JointResult, LoadResult, RecognitionResult, SegmentationResult
 from anymesh.pipeline.solving import Solver
 from anymesh.pipeline.storage.packing import JOINTS, MESH, RECOGNITION, SEGMENTATION, Stage
@@ -27,15 +28,6 @@ from anymesh.vlm.cache import cache_folder
 Result = TypeVar("Result")
 Answered = TypeVar("Answered", RecognitionResult, SegmentationResult, JointResult)
 ASIDE = 500_000  # faces up to which the preview is drawn in parallel with writing; above, both together need too much memory
-
-
-@dataclass(frozen=True)
-class Placement:
-    """Options of `articulate` about reading and placing the mesh."""
-
-    up: str
-    scale: str
-    root: str | Path | None
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,7 +64,7 @@ class Keyed(Generic[Result]):
     key: str
 
 
-def load(run: Run, path: Path, how: Placement) -> Keyed[LoadResult]:
+def load(run: Run, path: Path, how: PlacementOptions) -> Keyed[LoadResult]:
     """Load a mesh and bring it to metres, z up."""
     run.progress("load", path.name, 0, 1)
     with run.folder.timed("load"):

@@ -25,7 +25,8 @@ from anymesh.deadline import DEFAULT_SECONDS
 from anymesh.errors import OptionError
 from anymesh.export.formats import DEFAULT
 from anymesh.export.options import ExportOptions
-from anymesh.pipeline.answering import FILES, Answering, choose_answerer
+from anymesh.pipeline.answering import FILES, choose_answerer
+from anymesh.pipeline.options import Answering
 from anymesh.pipeline.solving import GEOMETRY
 from anymesh.vlm.rates import Rate
 

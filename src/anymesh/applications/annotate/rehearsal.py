@@ -15,7 +15,8 @@ from anymesh.errors import AnymeshError
 from anymesh.evaluation.simulated_vlm import SimulatedVlm
 from anymesh.export.asset_json import usage
 from anymesh.loading import load_mesh, place_mesh
-from anymesh.pipeline.answering import Answering, choose_answerer
+from anymesh.pipeline.answering import choose_answerer
+from anymesh.pipeline.options import Answering
 from anymesh.pipeline.solving import GEOMETRY, Solver
 
 
