@@ -23,18 +23,18 @@ from pathlib import Path
 
 import numpy as np
 
-from anymesh.collision import MIN_COMPONENT_SIZE_RATIO, CollisionConfig, sampled_poses
-from anymesh.collision.clear import ComponentShapes, ContactScene
-from anymesh.collision.convex import hull_of
-from anymesh.collision.crossing import LinkSurface
-from anymesh.collision.decompose import Component, Resolution, component_shapes, split_components
-from anymesh.collision.primitives import fitted
-from anymesh.collision.split import patch_of, solid_mesh, split_surface
 from anymesh.evaluation.datasets.named import open_dataset
 from anymesh.evaluation.protocols import prepared
 from anymesh.export.links import split_links
 from anymesh.geometry.simplify_ import simplify
 from anymesh.isolation import ChildError, ChildLimits, ChildPool
+from anymesh.physics.collision import MIN_COMPONENT_SIZE_RATIO, CollisionConfig, sampled_poses
+from anymesh.physics.collision.clear import ComponentShapes, ContactScene
+from anymesh.physics.collision.convex import hull_of
+from anymesh.physics.collision.crossing import LinkSurface
+from anymesh.physics.collision.decompose import Component, Resolution, component_shapes, split_components
+from anymesh.physics.collision.primitives import fitted
+from anymesh.physics.collision.split import patch_of, solid_mesh, split_surface
 
 PAGE = Path(__file__).with_suffix(".md")
 SETS = ("examples", "scene-synthesizer", "metaworld", "libero")
