@@ -19,7 +19,7 @@ from typing import Any
 
 from anymesh.isolation.child import LENGTH, PATIENCE, write_message
 
-WARM = 2  # children that are started before the first call
+WARM = 1  # children that are started before the first call; each takes about a second of processor time
 START_AFTER = 0.3  # [s] total waiting time of calls before another child is started, which takes about as long
 ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")  # sums would depend on the number of threads
 
