@@ -17,23 +17,26 @@ from jaxtyping import Float, Int
 from scipy.spatial import ConvexHull, QhullError
 
 from anymesh.errors import MissingExtraError
-from anymesh.geometry.distance_ import distance_to_mesh
+from anymesh.geometry.distance_ import distance_to_triangles
 from anymesh.geometry.sampling import sample_surface
 from anymesh.physics.collision.concave import concave_planes
-from anymesh.physics.collision.convex import hull_of, volume
+from anymesh.physics.collision.convex import DIRECTIONS, hull_of, volume
 from anymesh.physics.collision.split import SAMPLES, below_and_above, cutting_planes, outline
 from anymesh.types import Hull
+from anymesh.types.triangles import normals_and_areas
 
 if TYPE_CHECKING:
     from manifold3d import Manifold
 
-SPLIT_RATIO = 3  # pieces before merging, per piece after it
+SPLIT_RATIO = 2  # pieces before merging, per piece after it
 FACETED_PLANES = 32  # distinct planes at concave edges; a solid with more is smooth, and other planes are tried too
 PLANES_PER_CUT = 16  # planes at concave edges tried per cut, those with the longest edges first
 SMOOTH_PLANES = 8  # the same for a smooth solid
+EXACT = 3  # planes whose hulls are computed from all points, after a selection from the furthest points
 CONVEX = 1e-6  # relative difference between the volumes of a solid and its hull below which it is convex
 KERF = 2e-5  # half the width of a cut, relative to the diagonal; a cut without width leaves thin layers where it meets a face
 DIGITS = 9  # of volumes of hulls that are compared; planes with equal ones are tried in order
+FEW = 12  # faces of a hull whose centers are tested first
 TOUCH = 3 * KERF  # distance between the bounds of touching pieces, relative to the diagonal
 
 Plane = tuple[np.ndarray, float]  # unit normal and offset
@@ -117,12 +120,15 @@ def _piece(solid: Manifold) -> _SolidPiece | None:
     return _SolidPiece(triangles, hull, 0.0 if convex else _gap(hull, triangles), solid)
 
 
-def _gap(hull: Hull, triangles: np.ndarray) -> float:
-    """Return the maximum distance of sample points of a hull from surfaces inside it."""
+def _gap(hull: Hull, triangles: np.ndarray, limit: float = np.inf) -> float:
+    """Return the maximum distance of sample points of a hull from surfaces inside it, or any distance above `limit`."""
     sides = hull.vertices[hull.faces]
+    largest = np.argsort(-normals_and_areas(sides)[1], kind="stable")[:FEW]
+    first = float(distance_to_triangles(sides[largest].mean(1), triangles).max())
+    if first > limit:
+        return first
     points = np.concatenate([sample_surface(sides, SAMPLES, 0).points, sides.mean(1)])
-    corners = triangles.reshape(-1, 3)
-    return float(distance_to_mesh(points, corners, np.arange(len(corners)).reshape(-1, 3))[0].max())
+    return float(distance_to_triangles(points, triangles).max())
 
 
 def _halves(piece: _SolidPiece, planes: Sequence[Plane], wall: float) -> list[_SolidPiece]:
@@ -130,8 +136,12 @@ def _halves(piece: _SolidPiece, planes: Sequence[Plane], wall: float) -> list[_S
     assert piece.solid is not None  # only merged pieces have none
     outlined = outline(piece.triangles)
     candidates = list(_candidates(piece, planes, wall))
-    left = [sum(_hull_volume(side) for side in below_and_above(*outlined, *plane)) for plane in candidates]
-    for k in np.argsort(np.round(left, DIGITS), kind="stable"):
+    sides = [below_and_above(*outlined, *plane) for plane in candidates]
+    near = np.round([sum(_hull_volume(_furthest(points)) for points in pair) for pair in sides], DIGITS)
+    order = np.argsort(near, kind="stable")
+    exact = np.round([sum(map(_hull_volume, sides[k])) for k in order[:EXACT]], DIGITS)
+    order[:EXACT] = order[:EXACT][np.argsort(exact, kind="stable")]
+    for k in order:
         normal, offset = candidates[k]
         above = piece.solid.trim_by_plane(tuple(normal.tolist()), offset + KERF)
         below = piece.solid.trim_by_plane(tuple((-normal).tolist()), KERF - offset)
@@ -139,6 +149,11 @@ def _halves(piece: _SolidPiece, planes: Sequence[Plane], wall: float) -> list[_S
         if all(sides):
             return sides[0] + sides[1]
     return []
+
+
+def _furthest(points: np.ndarray) -> np.ndarray:
+    """Return the furthest of many points in each of some directions."""
+    return points[np.unique((points @ DIRECTIONS.T).argmax(0))] if len(points) > 2 * len(DIRECTIONS) else points
 
 
 def _hull_volume(points: np.ndarray) -> float:
@@ -179,7 +194,7 @@ def _merge_pieces(pieces: Sequence[_SolidPiece], gap: float, most: int) -> list[
         forced = not queue
         pair = heapq.heappop(refused if forced else queue)
         _, a, b = pair
-        both = _joined(kept[a], kept[b]) if a in kept and b in kept else None
+        both = _joined(kept[a], kept[b], gap) if a in kept and b in kept else None
         if both is None:
             continue
         if both.gap > gap and not forced:
@@ -204,9 +219,9 @@ def _queue_pair(queue: list[tuple[float, int, int]], pieces: dict[int, _SolidPie
     heapq.heappush(queue, (common - volume(first) - volume(second), a, b))
 
 
-def _joined(first: _SolidPiece, second: _SolidPiece) -> _SolidPiece | None:
+def _joined(first: _SolidPiece, second: _SolidPiece, limit: float) -> _SolidPiece | None:
     hull = hull_of(np.concatenate([first.hull.vertices, second.hull.vertices]))
     if hull is None:
         return None
     triangles = np.concatenate([first.triangles, second.triangles])
-    return _SolidPiece(triangles, hull, _gap(hull, triangles))
+    return _SolidPiece(triangles, hull, _gap(hull, triangles, limit))
