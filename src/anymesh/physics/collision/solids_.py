@@ -14,14 +14,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from jaxtyping import Float, Int
-from scipy.spatial import ConvexHull, QhullError
 
 from anymesh.errors import MissingExtraError
 from anymesh.geometry.distance_ import distance_to_triangles
 from anymesh.geometry.sampling import sample_surface
 from anymesh.physics.collision.concave import concave_planes
-from anymesh.physics.collision.convex import DIRECTIONS, hull_of, volume
-from anymesh.physics.collision.split import SAMPLES, below_and_above, cutting_planes, outline
+from anymesh.physics.collision.convex import hull_of, volume
+from anymesh.physics.collision.split import SAMPLES, Plane, cutting_planes, hull_volume, least_volume_first, outline
 from anymesh.types import Hull
 from anymesh.types.triangles import normals_and_areas
 
@@ -32,14 +31,10 @@ SPLIT_RATIO = 2  # pieces before merging, per piece after it
 FACETED_PLANES = 32  # distinct planes at concave edges; a solid with more is smooth, and other planes are tried too
 PLANES_PER_CUT = 16  # planes at concave edges tried per cut, those with the longest edges first
 SMOOTH_PLANES = 8  # the same for a smooth solid
-EXACT = 3  # planes whose hulls are computed from all points, after a selection from the furthest points
 CONVEX = 1e-6  # relative difference between the volumes of a solid and its hull below which it is convex
 KERF = 2e-5  # half the width of a cut, relative to the diagonal; a cut without width leaves thin layers where it meets a face
-DIGITS = 9  # of volumes of hulls that are compared; planes with equal ones are tried in order
 FEW = 12  # faces of a hull whose centers are tested first
 TOUCH = 3 * KERF  # distance between the bounds of touching pieces, relative to the diagonal
-
-Plane = tuple[np.ndarray, float]  # unit normal and offset
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,14 +129,8 @@ def _gap(hull: Hull, triangles: np.ndarray, limit: float = np.inf) -> float:
 def _halves(piece: _SolidPiece, planes: Sequence[Plane], wall: float) -> list[_SolidPiece]:
     """Return the pieces on both sides of the plane that leaves the least volume in their hulls; empty if no plane divides."""
     assert piece.solid is not None  # only merged pieces have none
-    outlined = outline(piece.triangles)
     candidates = list(_candidates(piece, planes, wall))
-    sides = [below_and_above(*outlined, *plane) for plane in candidates]
-    near = np.round([sum(_hull_volume(_furthest(points)) for points in pair) for pair in sides], DIGITS)
-    order = np.argsort(near, kind="stable")
-    exact = np.round([sum(map(_hull_volume, sides[k])) for k in order[:EXACT]], DIGITS)
-    order[:EXACT] = order[:EXACT][np.argsort(exact, kind="stable")]
-    for k in order:
+    for k in least_volume_first(outline(piece.triangles), candidates):
         normal, offset = candidates[k]
         above = piece.solid.trim_by_plane(tuple(normal.tolist()), offset + KERF)
         below = piece.solid.trim_by_plane(tuple((-normal).tolist()), KERF - offset)
@@ -149,18 +138,6 @@ def _halves(piece: _SolidPiece, planes: Sequence[Plane], wall: float) -> list[_S
         if all(sides):
             return sides[0] + sides[1]
     return []
-
-
-def _furthest(points: np.ndarray) -> np.ndarray:
-    """Return the furthest of many points in each of some directions."""
-    return points[np.unique((points @ DIRECTIONS.T).argmax(0))] if len(points) > 2 * len(DIRECTIONS) else points
-
-
-def _hull_volume(points: np.ndarray) -> float:
-    try:
-        return float(ConvexHull(points).volume) if len(points) > 3 else 0.0
-    except QhullError:
-        return 0.0
 
 
 def _candidates(piece: _SolidPiece, planes: Sequence[Plane], wall: float) -> Iterator[Plane]:
@@ -215,7 +192,7 @@ def _queue_pair(queue: list[tuple[float, int, int]], pieces: dict[int, _SolidPie
     near = (first.vertices.min(0) <= second.vertices.max(0) + TOUCH) & (second.vertices.min(0) <= first.vertices.max(0) + TOUCH)
     if not near.all():
         return
-    common = _hull_volume(np.concatenate([first.vertices, second.vertices]))
+    common = hull_volume(np.concatenate([first.vertices, second.vertices]))
     heapq.heappush(queue, (common - volume(first) - volume(second), a, b))
 
 
