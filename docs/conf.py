@@ -1,0 +1,75 @@
+"""Configuration of the documentation site. Build it from the root of the repository, offline:
+
+sphinx-build -W --keep-going -c docs . out/site
+"""
+
+import re
+from pathlib import Path
+
+from docutils import nodes
+from sphinx.application import Sphinx
+from sphinx.errors import ConfigError
+
+from anymesh import __version__
+
+ROOT = Path(__file__).parents[1]
+
+project = "Articulate AnyMesh"
+copyright = "the authors of Articulate AnyMesh, Apache-2.0"
+version = release = __version__
+
+# The pages stand where a code host shows them; the site takes the same files.
+root_doc = "docs/index"
+include_patterns = ["docs/**.md", "benchmarks/*.md", "benchmarks/reports/*.md", "CHANGELOG.md", "SECURITY.md", "examples/README.md"]
+exclude_patterns = ["**/.venv", "out", "**/.*"]
+extensions = ["myst_parser", "sphinx.ext.autodoc"]
+myst_heading_anchors = 4
+myst_enable_extensions = ["attrs_inline"]
+suppress_warnings = ["myst.header"]  # pages that begin with a heading of level 2 or skip one read well
+nitpicky = False
+
+default_role = "literal"  # docstrings write `name` as Markdown does
+autodoc_member_order = "bysource"
+autodoc_typehints = "signature"
+autodoc_typehints_format = "short"
+autodoc_preserve_defaults = True
+autodoc_class_signature = "mixed"
+python_maximum_signature_line_length = 88
+add_module_names = False
+
+html_theme = "furo"
+html_title = f"Articulate AnyMesh {__version__}"
+html_static_path = ["_static"]
+html_css_files = ["site.css"]
+html_extra_path = ["_root"]  # index.html, which leads to docs/index.html
+html_copy_source = False
+html_show_sourcelink = False
+pygments_style, pygments_dark_style = "friendly", "monokai"
+
+PARAMETER = r"(?:[A-Za-z_*][\w*]*)(?:(?:,| and) [A-Za-z_*][\w*]*)*"
+
+
+def list_parameters(app: Sphinx, what: str, name: str, found: object, options: object, lines: list[str]) -> None:
+    """Turn a docstring's "a: text; b: text." into a list with an entry per parameter."""
+    text, out = "\n".join(lines), []
+    for paragraph in text.split("\n\n"):
+        flat = " ".join(paragraph.split())
+        if re.match(rf"{PARAMETER}(?: \[[^\]]+\])?: ", flat) and not paragraph.startswith((" ", "-", "Raise")):
+            end = re.search(r"\. (?=[A-Z])", flat)
+            rest = flat[end.end() :] if end else ""
+            entries = re.split(rf"; (?={PARAMETER}(?: \[[^\]]+\])?: )", flat[: end.start()] if end else flat.rstrip("."))
+            out += ["- " + re.sub(r"^([^:]+): ", r"**\1**: ", entry.replace("*", r"\*")) for entry in entries] + ["", rest, ""]
+        else:
+            out += [*paragraph.split("\n"), ""]
+    lines[:] = out
+
+
+def leave_out_sources(app: Sphinx, doctree: nodes.document) -> None:
+    """Show links to source files and folders as plain text: the site does not contain them."""
+
+
+def setup(app: Sphinx) -> dict[str, bool]:
+    if not (ROOT / "docs" / "index.md").exists():
+        raise ConfigError("build the site from the repository, with `-c docs .`")
+    app.connect("autodoc-process-docstring", list_parameters)
+    return {"parallel_read_safe": True}
