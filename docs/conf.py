@@ -4,15 +4,17 @@ sphinx-build -W --keep-going -c docs . out/site
 """
 
 import re
+import sys
 from pathlib import Path
 
-from docutils import nodes
 from sphinx.application import Sphinx
 from sphinx.errors import ConfigError
 
 from anymesh import __version__
 
 ROOT = Path(__file__).parents[1]
+sys.path.insert(0, str(ROOT / "docs"))
+from commands import Commands  # noqa: E402 - beside this file
 
 project = "Articulate AnyMesh"
 copyright = "the authors of Articulate AnyMesh, Apache-2.0"
@@ -20,13 +22,18 @@ version = release = __version__
 
 # The pages stand where a code host shows them; the site takes the same files.
 root_doc = "docs/index"
-include_patterns = ["docs/**.md", "benchmarks/*.md", "benchmarks/reports/*.md", "CHANGELOG.md", "SECURITY.md", "examples/README.md"]
+include_patterns = [
+    "docs/**.md",
+    "benchmarks/*.md",
+    "benchmarks/reports/*.md",
+    "CHANGELOG.md",
+    "SECURITY.md",
+    "examples/README.md",
+]
 exclude_patterns = ["**/.venv", "out", "**/.*"]
 extensions = ["myst_parser", "sphinx.ext.autodoc"]
 myst_heading_anchors = 4
 myst_enable_extensions = ["attrs_inline"]
-suppress_warnings = ["myst.header"]  # pages that begin with a heading of level 2 or skip one read well
-nitpicky = False
 
 default_role = "literal"  # docstrings write `name` as Markdown does
 autodoc_member_order = "bysource"
@@ -64,12 +71,17 @@ def list_parameters(app: Sphinx, what: str, name: str, found: object, options: o
     lines[:] = out
 
 
-def leave_out_sources(app: Sphinx, doctree: nodes.document) -> None:
-    """Show links to source files and folders as plain text: the site does not contain them."""
+def leave_out_of_navigation(app: Sphinx, doctree: object) -> None:
+    """Mark the reports as pages that no table of contents lists; their README links them."""
+    name = app.env.current_document.docname
+    if name.startswith("benchmarks/reports/") and not name.endswith("README"):
+        app.env.metadata[name]["orphan"] = True
 
 
 def setup(app: Sphinx) -> dict[str, bool]:
     if not (ROOT / "docs" / "index.md").exists():
         raise ConfigError("build the site from the repository, with `-c docs .`")
+    app.add_directive("anymesh-commands", Commands)
+    app.connect("doctree-read", leave_out_of_navigation)
     app.connect("autodoc-process-docstring", list_parameters)
     return {"parallel_read_safe": True}
