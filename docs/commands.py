@@ -9,7 +9,6 @@ from typer.core import TyperArgument, TyperCommand, TyperGroup
 
 from anymesh.cli import app
 
-
 VALUES = {int: "INTEGER", float: "NUMBER", str: "TEXT"}  # of options without a metavar, by the type of their default
 
 

@@ -30,11 +30,12 @@ include_patterns = [
     "SECURITY.md",
     "examples/README.md",
 ]
-exclude_patterns = ["**/.venv", "out", "**/.*"]
+exclude_patterns = ["README.md", "**/.venv", "out", "**/.*"]
 extensions = ["myst_parser", "sphinx.ext.autodoc"]
 myst_heading_anchors = 4
 myst_enable_extensions = ["attrs_inline"]
 
+smartquotes = False  # options begin with two hyphens
 default_role = "literal"  # docstrings write `name` as Markdown does
 autodoc_member_order = "bysource"
 autodoc_typehints = "signature"
