@@ -45,6 +45,7 @@ autodoc_class_signature = "mixed"
 python_maximum_signature_line_length = 88
 add_module_names = False
 
+highlight_language = "text"  # of blocks without a language
 html_theme = "furo"
 html_title = f"Articulate AnyMesh {__version__}"
 html_static_path = ["_static"]
