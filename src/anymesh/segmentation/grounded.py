@@ -13,8 +13,6 @@ from anymesh.config import Config
 from anymesh.geometry.patches import ObjectShape
 from anymesh.models.sam import PromptedSegmenter, automatic_masks
 from anymesh.progress import Progress, silent
-from anymesh.reasoning.asking import VisualAnswerer
-from anymesh.reasoning.grounding import MarkedPart
 from anymesh.rendering.render import View
 from anymesh.rendering.viewpoints import normal_picture
 from anymesh.rendering.visual_prompts import VisualPrompts
@@ -38,11 +36,13 @@ from anymesh.segmentation.regions import face_regions, number_regions, split_mar
 from anymesh.segmentation.unseen import StaysFree
 from anymesh.types import Mesh, Segmentation
 from anymesh.types.recognition import Moves, Recognition
+from anymesh.vlm.asking import VisualAnswerer
+from anymesh.vlm.grounding import MarkedPart
 
 SURE, UNSURE = 0.9, 0.6  # confidence of a part from certain marks, and from uncertain ones
 EXACT = "exact"
 EXACT_POINTS = 120_000  # exact regions use the cloud for superpoints only, which need fewer points
-MovesFreely = Callable[[Int[np.ndarray, " R"], Int[np.ndarray, " R"], int, Moves | None], bool]  # see `Solver.stays_free`
+MovesFreely = Callable[[Int[np.ndarray, " R"], Int[np.ndarray, " R"], int, Moves | None], bool]  # see `articulation.freedom`
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,9 +13,9 @@ from PIL import Image
 from anymesh.export.animation import tracks
 from anymesh.export.settings import ExportConfig
 from anymesh.geometry.kinematics import posed
+from anymesh.geometry.raycast_ import RayScene
 from anymesh.rendering.drawing import draw, face_colors, ground, light_on, material_colors, render_target
 from anymesh.rendering.preview import best_camera, part_colors, shown_position
-from anymesh.rendering.raycast_ import RayScene
 from anymesh.rendering.samples import Window, sample
 from anymesh.rendering.smooth import smoothed
 from anymesh.rendering.viewpoints import away
