@@ -120,7 +120,7 @@ def test_a_choice_is_found_again_in_another_order_or_the_other_way(visual) -> No
 @pytest.mark.parametrize("number", ["022", *(pytest.param(number, marks=pytest.mark.slow) for number in ("048", "060", "065"))])
 def test_a_recording_of_an_example_replays_without_a_model(visual, number: str) -> None:
     (item,) = visual.items({}, [number])
-    row = visual.row(item, visual.EvalProtocol.END_TO_END, "as recorded")
+    (row,) = visual.rows_of(item, visual.EvalProtocol.END_TO_END, ["as recorded"])
     assert row.record.error == ""
     assert row.record.score.matched == row.record.score.true == row.record.score.predicted
     assert all(j.type_right and (j.angle or 0.0) < 2 and (j.at_part or 0.0) < 0.04 for j in row.record.score.joints)
