@@ -146,12 +146,12 @@ def finished(out: Path) -> int:
 
 def ledger(how: argparse.Namespace) -> Figures:
     """Enter so many objects, finish 2,000 of them, and fill in the rest as if they were finished."""
-    from anymesh.annotation.claims import begun_run, claim, finish
-    from anymesh.annotation.entering import enter_objects
-    from anymesh.annotation.ledger import Ledger
-    from anymesh.annotation.requests import ObjectRequest
-    from anymesh.annotation.states import AttemptOutcome, Result
-    from anymesh.annotation.tally import tally
+    from anymesh.applications.annotate.claims import begun_run, claim, finish
+    from anymesh.applications.annotate.entering import enter_objects
+    from anymesh.applications.annotate.ledger import Ledger
+    from anymesh.applications.annotate.requests import ObjectRequest
+    from anymesh.applications.annotate.states import AttemptOutcome, Result
+    from anymesh.applications.annotate.tally import tally
 
     out = how.work / "ledger"
     shutil.rmtree(out, ignore_errors=True)

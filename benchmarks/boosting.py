@@ -1,4 +1,4 @@
-"""Train classifiers in two steps (`anymesh.reasoning.two_steps`) by lightgbm, and score what was left out of training."""
+"""Train classifiers in two steps (`anymesh.scoring.two_steps`) by lightgbm, and score what was left out of training."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ import lightgbm
 import numpy as np
 from jaxtyping import Bool, Float
 
-from anymesh.reasoning.boosted_trees import NO_FEATURE, BoostedTrees
+from anymesh.scoring.boosted_trees import NO_FEATURE, BoostedTrees
 
 SETTINGS = {
     "objective": "cross_entropy", "learning_rate": 0.1, "num_leaves": 15, "min_data_in_leaf": 25, "feature_fraction": 0.5,

@@ -20,16 +20,15 @@ from pathlib import Path
 
 import numpy as np
 
-from anymesh.collision import CollisionConfig, collision_shapes, joint_poses
-from anymesh.collision.clear import ComponentShapes, ContactScene
-from anymesh.collision.coacd_ import decompose
-from anymesh.collision.convex import hull_of
-from anymesh.collision.crossing import LinkSurface
-from anymesh.collision.decompose import Component
 from anymesh.evaluation.datasets.named import open_dataset
 from anymesh.evaluation.protocols import prepared
 from anymesh.export.links import Link, split_links
 from anymesh.geometry.topology import weld
+from anymesh.physics.collision import CollisionConfig, collision_shapes, joint_poses
+from anymesh.physics.collision.clear import ComponentShapes, ContactScene
+from anymesh.physics.collision.convex import hull_of
+from anymesh.physics.collision.crossing import LinkSurface
+from anymesh.physics.collision.decompose import Component
 from anymesh.types import Asset, JointType, Shape
 
 PAGE = Path(__file__).with_suffix(".md")
@@ -44,13 +43,18 @@ def one_hull(asset: Asset, links: tuple[Link, ...]) -> Shapes:
 
 
 def one_coacd(asset: Asset, links: tuple[Link, ...]) -> Shapes:
-    """CoACD on all of a link at its usual concavity, as it is often done; its own remesh makes a link one solid."""
+    """CoACD on all of a link at its usual concavity, as it is often done; its own remesh makes a link one solid.
+
+    Needs: pip install coacd
+    """
+    import coacd
+
     found = {}
     for link in links:
         corners = link.triangles.reshape(-1, 3)
         _, first, faces = np.unique(weld(corners), return_index=True, return_inverse=True)
-        pieces = decompose(corners[first], faces.reshape(-1, 3), concavity=0.05, remesh=True)
-        found[link.name] = tuple(hull for points in pieces if (hull := hull_of(points)) is not None)
+        pieces = coacd.run_coacd(coacd.Mesh(corners[first], faces.reshape(-1, 3)), threshold=0.05, preprocess_mode="on")
+        found[link.name] = tuple(hull for points, _ in pieces if (hull := hull_of(points)) is not None)
     return found
 
 
@@ -110,7 +114,7 @@ def main() -> None:
             rows.append("| " + " | ".join(cells) + " |")
             print(rows[-1], flush=True)
     head = "| set | shapes | joints free | shapes a link | seconds an object, median | most |\n|---|---|---|---|---|---|"
-    packages = ", ".join(f"{p} {version(p)}" for p in ("coacd", "mujoco", "numpy"))
+    packages = ", ".join(f"{p} {version(p)}" for p in ("manifold3d", "mujoco", "numpy"))
     told = f"{datetime.date.today()}, Python {platform.python_version()}, {packages}; `python benchmarks/collision.py`."
     text = "\n\n".join(["# Collision shapes", (__doc__ or "").split("\n\n", 2)[2].strip(), "\n".join([head, *rows]), told])
     PAGE.write_text(text + "\n", encoding="utf-8")

@@ -10,14 +10,14 @@ from jaxtyping import Bool, Float
 from PIL import Image
 from scipy import ndimage
 
+from anymesh.completion.protocol import Finished
+from anymesh.completion.scenes import widest
+from anymesh.completion.visible import GRAZE, escapes
 from anymesh.geometry.distance_ import distance_to_mesh, winding_number
 from anymesh.geometry.kinematics import posed
+from anymesh.geometry.raycast_ import RayScene
 from anymesh.geometry.sampling import sample_surface, spread_directions
 from anymesh.geometry.topology import components, weld
-from anymesh.postprocessing.protocol import Finished
-from anymesh.postprocessing.scenes import widest
-from anymesh.postprocessing.visible import GRAZE, escapes
-from anymesh.rendering.raycast_ import RayScene
 from anymesh.rendering.render import render
 from anymesh.rendering.viewpoints import orbit_camera
 from anymesh.types import Asset, Mesh

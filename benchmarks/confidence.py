@@ -20,6 +20,7 @@ import numpy as np
 from anymesh.articulation import offers
 from anymesh.articulation.confidence import WEIGHTS, Agreement
 from anymesh.articulation.evidence import hypotheses
+from anymesh.articulation.motion_question import Candidate
 from anymesh.articulation.prompted import Questions, prompt_joints
 from anymesh.config import Config
 from anymesh.evaluation.datasets.named import open_dataset
@@ -27,8 +28,7 @@ from anymesh.evaluation.ground_truth import EvalSample
 from anymesh.evaluation.oracle import Noisy, Random, oracle
 from anymesh.evaluation.protocols import prepared
 from anymesh.evaluation.score import JointScore, score
-from anymesh.reasoning.questions import Candidate
-from anymesh.solving import Solver
+from anymesh.pipeline.solving import Solver
 from anymesh.types.recognition import Moves, Recognition, RecognizedLabel
 
 WRONG = (0.0, 0.1, 0.25, 0.5, 1.0)  # probabilities of a wrong item; the last: all answers at random

@@ -20,7 +20,7 @@ from anymesh.evaluation.oracle import oracle
 from anymesh.evaluation.protocols import prepared
 from anymesh.evaluation.simulated_vlm import SimulatedVlm
 from anymesh.export.asset_json import usage
-from anymesh.solving import Solver
+from anymesh.pipeline.solving import Solver
 
 HEAD = """# Cost of a model
 

@@ -12,7 +12,7 @@ from typing import Any
 
 Result = dict[str, Any]
 OUTCOMES = ("asset", "error", "unexpected", "crash", "over time limit", "over memory limit")
-PACKAGES = ("articulate-anymesh", "numpy", "scipy", "embreex", "coacd", "mujoco", "manifold3d", "trimesh", "usd-core")
+PACKAGES = ("articulate-anymesh", "numpy", "scipy", "embreex", "mujoco", "manifold3d", "trimesh", "usd-core")
 SLOWEST = 10
 EXAMPLES = 3  # cases named for each cause
 

@@ -17,7 +17,7 @@ from anymesh.errors import InputError
 from anymesh.evaluation.datasets.named import open_dataset
 from anymesh.evaluation.guessing import Guesser
 from anymesh.evaluation.protocols import prepared
-from anymesh.solving import solve
+from anymesh.pipeline.solving import solve
 
 QUICK = Config(views=ViewsConfig(size=320), grounding=GroundingConfig(points=60_000))
 

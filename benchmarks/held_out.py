@@ -15,7 +15,7 @@ from pathlib import Path
 
 import kinds
 
-from anymesh.evaluating import evaluate
+from anymesh.evaluation.evaluating import evaluate
 from anymesh.evaluation.record import Record
 from anymesh.evaluation.report import markdown
 from anymesh.evaluation.summary import Summary, summarize

@@ -13,13 +13,14 @@ from pathlib import Path
 import numpy as np
 
 from anymesh.articulation.estimate import motion_questions
+from anymesh.articulation.geometry_answerer import motion_scores
 from anymesh.articulation.limits import opening_motion
+from anymesh.articulation.motion_question import Candidate
 from anymesh.articulation.offers import MAX_SHOWN_ANGLE_RAD, MAX_SHOWN_TRAVEL_RATIO
 from anymesh.config import Config
 from anymesh.loading import load_mesh, place_mesh
 from anymesh.pipeline import articulate
-from anymesh.reasoning.geometry import motion_scores
-from anymesh.reasoning.questions import Candidate
+from anymesh.pipeline.solving import Solver
 from anymesh.rendering.encode import encode
 from anymesh.rendering.paint import mark_color
 from anymesh.rendering.render import render
@@ -30,7 +31,6 @@ from anymesh.segmentation.part_assignment import assign_parts
 from anymesh.segmentation.part_classifier import score_parts
 from anymesh.segmentation.part_features import FeatureScene, part_context_of, part_features
 from anymesh.segmentation.part_tree import PartTree, part_tree
-from anymesh.solving import Solver
 from anymesh.types import Mesh, MotionKind, Picture
 
 EXAMPLES = Path(__file__).parents[1] / "examples" / "meshes"

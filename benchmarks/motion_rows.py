@@ -19,6 +19,7 @@ from jaxtyping import Bool, Float, Float32, Int
 from rows import collect_all, kind_of, nameless
 
 from anymesh.articulation.estimate import PartMotions, motion_questions
+from anymesh.articulation.geometry_answerer import same_joints
 from anymesh.articulation.motion_features import motion_features
 from anymesh.articulation.repeated_parts import in_a_row, same_size
 from anymesh.config import Config
@@ -28,7 +29,6 @@ from anymesh.evaluation.ground_truth import EvalSample, TrueJoint
 from anymesh.evaluation.metrics import angle_error, distance_at, opening_side, opens_both_ways
 from anymesh.evaluation.protocols import prepared
 from anymesh.geometry.patches import ObjectShape, object_shape
-from anymesh.reasoning.geometry import same_joints
 from anymesh.types import JointType, Motion, MotionKind
 
 ANGLE, FAR = 5.0, 0.08  # [deg], and half the object's diagonal is 1: a motion that is further off is wrong

@@ -25,7 +25,7 @@ from anymesh.evaluation.record import Record
 from anymesh.evaluation.report import markdown
 from anymesh.evaluation.score import JointScore, ObjectScore
 from anymesh.evaluation.tables import group_table
-from anymesh.solving import solve
+from anymesh.pipeline.solving import solve
 
 HEAD = """# The oracle
 

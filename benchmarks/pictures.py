@@ -13,7 +13,7 @@ from anymesh.evaluation.oracle import oracle
 from anymesh.evaluation.protocols import prepared
 from anymesh.evaluation.simulated_vlm import SimulatedVlm
 from anymesh.loading import load_mesh, place_mesh
-from anymesh.solving import Solver
+from anymesh.pipeline.solving import Solver
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 

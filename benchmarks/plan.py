@@ -37,7 +37,7 @@ from anymesh.evaluation.oracle import oracle
 from anymesh.evaluation.protocols import prepared
 from anymesh.export import write_asset
 from anymesh.pipeline import articulate
-from anymesh.solving import solve
+from anymesh.pipeline.solving import solve
 
 TWINS = ("ours", "corrected", "truth", "paper")
 

@@ -24,9 +24,9 @@ from anymesh.evaluation.ground_truth import EvalSample, GroundTruth, read_ground
 from anymesh.evaluation.metrics import same_motion
 from anymesh.evaluation.score import score
 from anymesh.geometry.distance_ import distance_to_mesh
+from anymesh.geometry.raycast_ import RayScene
 from anymesh.geometry.sampling import sample_surface
 from anymesh.loading import load_mesh, place_mesh
-from anymesh.rendering.raycast_ import RayScene
 from anymesh.types import Asset, JointType, Mesh
 
 EXAMPLES = Path(__file__).parents[1] / "examples"

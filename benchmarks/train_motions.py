@@ -24,8 +24,8 @@ from jaxtyping import Bool, Float
 from motion_rows import MotionRows, read_rows
 
 from anymesh.articulation.estimate import MAX_COPIES
+from anymesh.articulation.geometry_answerer import BLOCKED, share_of_best
 from anymesh.articulation.motion_context import ScoredMotions, context_features
-from anymesh.reasoning.geometry import BLOCKED, share_of_best
 
 ROUNDS = (200, 100)  # trees of the first and of the second step
 OBJECT, SOURCE = 0.5, 0.6  # powers by which parts of an object, and parts of a source, count less the more they are

@@ -28,14 +28,14 @@ from visual_choices import choices_of, write_choices
 from visual_replay import VARIANTS, Row, replayed
 from visual_table import MEASURED, page
 
-from anymesh.answering import choose_answerer
 from anymesh.errors import AnymeshError, OpenQuestionError
 from anymesh.evaluation.datasets.named import open_dataset
 from anymesh.evaluation.evaluate_sample import EvalConfig, EvalProtocol, evaluate_sample
 from anymesh.evaluation.record import record_of, record_text
-from anymesh.models.question_files import ANSWER, OWNER, QUESTION, find_questions
-from anymesh.reasoning.files import open_questions
-from anymesh.solving import solve
+from anymesh.pipeline.answering import choose_answerer
+from anymesh.pipeline.solving import solve
+from anymesh.vlm.file_answerer import open_questions
+from anymesh.vlm.question_files import ANSWER, OWNER, QUESTION, find_questions
 
 HERE = Path(__file__).parent
 RECORDINGS = HERE / "recordings"

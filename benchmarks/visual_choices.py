@@ -15,11 +15,11 @@ from pathlib import Path
 import numpy as np
 
 from anymesh.errors import ModelError
-from anymesh.models.question_files import CHECK, QuestionFolder
-from anymesh.reasoning.asking import Answer, Question, VisualAnswerer
-from anymesh.reasoning.prompting import MotionPick, MotionTable, PartFit, WhichMotions
-from anymesh.reasoning.saved_question import unpack_question
 from anymesh.types import Exchange, Motion, MotionKind
+from anymesh.vlm.asking import Answer, Question, VisualAnswerer
+from anymesh.vlm.prompting import MotionPick, MotionTable, PartFit, WhichMotions
+from anymesh.vlm.question_files import CHECK, QuestionFolder
+from anymesh.vlm.saved_question import unpack_question
 
 FILE = "choices.json"
 KIND = "motions"

@@ -14,14 +14,14 @@ from anymesh.evaluation.datasets.dataset import Dataset
 from anymesh.evaluation.evaluate_sample import EvalConfig, EvalProtocol, evaluate_sample
 from anymesh.evaluation.record import Record
 from anymesh.evaluation.score import ObjectScore
-from anymesh.models.replay import Replay
-from anymesh.models.vision import Request
-from anymesh.reasoning.asking import Answer, Question, VisualAnswerer
-from anymesh.reasoning.reference_answerer import ReferenceAnswerer
-from anymesh.reasoning.reply_text import reply_object
-from anymesh.reasoning.vlm import SYSTEM, VlmAnswerer
-from anymesh.solving import reference_of, solve
+from anymesh.pipeline.solving import reference_of, solve
 from anymesh.types import Exchange, Joint, Mesh, Segmentation
+from anymesh.vlm.asking import Answer, Question, VisualAnswerer
+from anymesh.vlm.reference_answerer import ReferenceAnswerer
+from anymesh.vlm.replay import Replay
+from anymesh.vlm.reply_text import reply_object
+from anymesh.vlm.vision import Request
+from anymesh.vlm.vlm_answerer import SYSTEM, VlmAnswerer
 
 VARIANTS = ("as recorded", "--verify off", "one view", "geometry alone")
 ONE_VIEW = "1@15+30"

@@ -2,6 +2,7 @@
 
 import pytest
 from hypothesis import HealthCheck, settings
+from loopback import guard
 
 settings.register_profile("repeatable", derandomize=True, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.load_profile("repeatable")  # the same examples each time, however slow the machine
@@ -10,3 +11,8 @@ settings.load_profile("repeatable")  # the same examples each time, however slow
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Start with the longest file, so that no worker is left alone with it at the end."""
     items.sort(key=lambda item: item.path.name != "test_fuzz.py")
+
+
+@pytest.fixture
+def loopback_only(monkeypatch: pytest.MonkeyPatch) -> None:
+    guard(monkeypatch)

@@ -10,17 +10,9 @@ import numpy as np
 from assets import cabinet
 
 from anymesh.export import write_asset
-from anymesh.run_folder import RunFolder
-from anymesh.stage_results import (
-    COMPLETION,
-    JOINTS,
-    MESH,
-    SEGMENTATION,
-    CompletionResult,
-    JointResult,
-    LoadResult,
-    SegmentationResult,
-)
+from anymesh.pipeline.results import CompletionResult, JointResult, LoadResult, SegmentationResult
+from anymesh.pipeline.storage.packing import COMPLETION, JOINTS, MESH, SEGMENTATION
+from anymesh.pipeline.storage.run_folder import RunFolder
 from anymesh.types import Asset
 
 

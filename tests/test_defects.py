@@ -9,10 +9,11 @@ import numpy as np
 import pytest
 import trimesh
 
-from anymesh import __version__, pipeline, solving, stages
+from anymesh import __version__, pipeline
 from anymesh.cli import run
 from anymesh.defects import redacted
 from anymesh.errors import InputError
+from anymesh.pipeline import solving, stages
 
 KEY = "sk-0123456789abcdefghijklmnopqrstuvwxyz"
 CALL = ["articulate", "my mesh.stl", "-o", "out", "--up", "z", "--formats", "glb"]
@@ -62,8 +63,8 @@ def test_the_report_tells_what_is_needed_and_nothing_private(folder, monkeypatch
     assert (found["options"]["mesh"], found["options"]["out"], found["options"]["category"]) == (["my mesh.stl"], "out", "box")
     assert found["versions"]["anymesh"] == __version__
     assert found["versions"]["python"] == platform.python_version()
-    assert all(found["versions"][name] for name in ("numpy", "scipy", "embreex", "mujoco", "coacd"))
-    assert any(re.match(r"anymesh/solving\.py:\d+ joints: ", line) for line in found["traceback"])
+    assert all(found["versions"][name] for name in ("numpy", "scipy", "embreex", "mujoco", "manifold3d"))
+    assert any(re.match(r"anymesh/pipeline/solving\.py:\d+ joints: ", line) for line in found["traceback"])
     assert any(line.startswith("numpy/") for line in found["traceback"])
     assert "ValueError: zero-size array to reduction operation minimum which has no identity" in found["traceback"]
     for private in (KEY, str(folder), str(Path.home()) + "/", "secret", "OPENAI"):

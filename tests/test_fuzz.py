@@ -103,7 +103,7 @@ def test_fixtures_have_the_properties_that_they_are_named_for(tmp_path: Path) ->
     stool = load_mesh(write_scene(fixture("turned legs"), tmp_path)).mesh
     assert 3000 < len(stool.faces) < 5500
     found = components(stool.vertices, stool.faces)
-    assert found.solid[found.label[-1]]  # of a leg: what is open is not CoACD's
+    assert found.solid[found.label[-1]]  # of a leg: only closed solids are cut exactly
     beads = load_mesh(write_scene(fixture("chandelier"), tmp_path)).mesh
     assert len(beads.faces) > 100_000
     assert components(beads.vertices, beads.faces).count >= 2000

@@ -8,7 +8,7 @@ from anymesh.evaluation.ground_truth import GroundTruth
 from anymesh.evaluation.metrics import same_motion
 from anymesh.evaluation.protocols import evaluate
 from anymesh.loading import load_mesh, place_mesh
-from anymesh.solving import solve
+from anymesh.pipeline.solving import solve
 
 
 @pytest.fixture(scope="module")

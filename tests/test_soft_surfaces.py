@@ -12,7 +12,7 @@ from anymesh.evaluation.ground_truth import GroundTruth, example_truths
 from anymesh.evaluation.metrics import same_motion
 from anymesh.evaluation.protocols import evaluate
 from anymesh.loading import load_mesh
-from anymesh.solving import solve
+from anymesh.pipeline.solving import solve
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 

@@ -14,16 +14,16 @@ from PIL import Image
 from anymesh.errors import ModelError
 from anymesh.evaluation.record import Record, record_text
 from anymesh.evaluation.score import JointScore, ObjectScore
-from anymesh.models.question_files import find_questions
-from anymesh.models.replay import Replay
-from anymesh.models.vision import Request
-from anymesh.reasoning.files import FileAnswerer, QuestionStore
-from anymesh.reasoning.prompting import MotionPick, MotionTable, PartFit, PartShown, WhichMotions
-from anymesh.reasoning.recognition import Recognize
-from anymesh.reasoning.reference_answerer import ReferenceAnswerer
-from anymesh.reasoning.vlm import SYSTEM
 from anymesh.rendering.encode import encode
 from anymesh.types import JointType, Motion, MotionKind
+from anymesh.vlm.file_answerer import FileAnswerer, QuestionStore
+from anymesh.vlm.prompting import MotionPick, MotionTable, PartFit, PartShown, WhichMotions
+from anymesh.vlm.question_files import find_questions
+from anymesh.vlm.recognition import Recognize
+from anymesh.vlm.reference_answerer import ReferenceAnswerer
+from anymesh.vlm.replay import Replay
+from anymesh.vlm.vision import Request
+from anymesh.vlm.vlm_answerer import SYSTEM
 
 X, Y, Z = np.eye(3)
 BENCHMARKS = Path(__file__).parents[1] / "benchmarks"

@@ -13,9 +13,9 @@ from typing import Any
 
 from anymesh import __version__
 from anymesh.errors import failed_stage
-from anymesh.models.error_redaction import SECRET
+from anymesh.vlm.error_redaction import SECRET
 
-LIBRARIES = "numpy scipy trimesh embreex mujoco coacd manifold3d libigl fast-simplification pillow pycollada typer".split()
+LIBRARIES = "numpy scipy trimesh embreex mujoco manifold3d libigl fast-simplification pillow pycollada typer".split()
 PATH = re.compile(r"(?:(?<!\w)[A-Za-z]:)?[^\s:#'\"(),=<>]*[\\/]([^\\/\s:#'\"(),=<>]*)")
 QUOTED = re.compile(r"(['\"])[^'\"]*[\\/]([^'\"\\/]*)\1")  # a path with spaces, as Python prints it
 ADDRESS = re.compile(r"\b\w[\w+.-]*://[^\s#'\"]*")

@@ -14,10 +14,10 @@ from anymesh.articulation.cases import PartCase, make_cases
 from anymesh.articulation.prompted import Questions, prompt_joints
 from anymesh.config import Config, PromptConfig, ViewsConfig
 from anymesh.geometry.patches import ObjectShape, object_shape
-from anymesh.reasoning.asking import VisualAnswerer
-from anymesh.reasoning.reference_answerer import Reference, ReferenceAnswerer, ReferenceJoint
 from anymesh.rendering.visual_prompts import VisualPrompts
 from anymesh.types import Exchange, Joint, JointType, Mesh, Segmentation
+from anymesh.vlm.asking import VisualAnswerer
+from anymesh.vlm.reference_answerer import Reference, ReferenceAnswerer, ReferenceJoint
 
 X, Y, Z = np.eye(3)
 # half the resolution

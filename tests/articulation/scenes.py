@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from assets import box, mesh_of
 
-from anymesh.solving import Solver
+from anymesh.pipeline.solving import Solver
 from anymesh.types import Joint, Mesh, Part, Segmentation
 
 Piece = tuple[np.ndarray, np.ndarray]

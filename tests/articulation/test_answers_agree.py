@@ -13,11 +13,11 @@ from anymesh.articulation.confidence import Agreement, confidences
 from anymesh.articulation.prompted import PromptedJoints, Questions, prompt_joints
 from anymesh.articulation.relabel import labels_by_name
 from anymesh.articulation.taken import normal_outwards, opening_slide
-from anymesh.reasoning.prompting import JointKind, KindAnswer, MotionPick, PartFit
+from anymesh.pipeline.solving import Solver
 from anymesh.rendering.visual_prompts import VisualPrompts
-from anymesh.solving import Solver
 from anymesh.types import JointType, Part, Segmentation
 from anymesh.types.recognition import Moves, Recognition, RecognizedLabel
+from anymesh.vlm.prompting import JointKind, KindAnswer, MotionPick, PartFit
 
 LEFT = KNOWN["left"]
 X, Y, Z = np.eye(3)

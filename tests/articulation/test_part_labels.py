@@ -5,10 +5,10 @@ import pytest
 from assets import box, mesh_of
 
 from anymesh.articulation.estimate import choose_motion, motion_questions
+from anymesh.articulation.geometry_answerer import GeometryAnswerer
 from anymesh.articulation.part_labels import label_of
 from anymesh.config import Config
 from anymesh.geometry.patches import object_shape
-from anymesh.reasoning.geometry import GeometryAnswerer
 from anymesh.types import Part, Segmentation
 
 

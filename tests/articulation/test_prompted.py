@@ -12,11 +12,11 @@ from scenes import Scene
 from anymesh.articulation.cases import MAX_PICTURES, ask_each, make_cases
 from anymesh.articulation.prompted import Questions, prompt_joints
 from anymesh.evaluation.metrics import angle_error, line_distance
-from anymesh.reasoning.prompting import JointKind, KindAnswer, MotionPick, WhichMotions
-from anymesh.reasoning.reference_answerer import ReferenceJoint
 from anymesh.rendering.visual_prompts import VisualPrompts
 from anymesh.types import Joint, JointType, Motion, Part, Picture
 from anymesh.types.recognition import Moves, Recognition, RecognizedLabel
+from anymesh.vlm.prompting import JointKind, KindAnswer, MotionPick, WhichMotions
+from anymesh.vlm.reference_answerer import ReferenceJoint
 
 X, Y, Z = np.eye(3)
 

@@ -11,6 +11,7 @@ from scenes import Scene, door, prism
 
 from anymesh.articulation.cases import PartCase
 from anymesh.articulation.limits import opening_motion
+from anymesh.articulation.motion_question import Candidate
 from anymesh.articulation.offers import (
     BLOCKED_SHOWN_RATIO,
     DUPLICATE_MOTION_RATIO,
@@ -24,9 +25,8 @@ from anymesh.articulation.offers import (
     shown_amount,
 )
 from anymesh.articulation.own_axes import CENTRAL
-from anymesh.reasoning.prompting import JointKind, KindAnswer
-from anymesh.reasoning.questions import Candidate
 from anymesh.types import Motion, MotionKind
+from anymesh.vlm.prompting import JointKind, KindAnswer
 
 X, Y, Z = np.eye(3)
 MOST = 7

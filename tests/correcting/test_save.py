@@ -26,8 +26,9 @@ from anymesh.correcting import (
     save_asset,
 )
 from anymesh.errors import OutputError
-from anymesh.run_folder import RunFolder
-from anymesh.stage_results import JOINTS, JointResult
+from anymesh.pipeline.results import JointResult
+from anymesh.pipeline.storage.packing import JOINTS
+from anymesh.pipeline.storage.run_folder import RunFolder
 from anymesh.types import JointType
 
 NOW = "2024-05-01T12:00:00+00:00"

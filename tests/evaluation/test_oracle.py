@@ -10,9 +10,10 @@ from assets import cabinet
 from anymesh.evaluation.ground_truth import EvalSample, GroundTruth, TrueJoint
 from anymesh.evaluation.oracle import Noisy, oracle, true_reference
 from anymesh.geometry.kinematics import joint_transform
-from anymesh.reasoning.asking import VisualAnswerer
-from anymesh.reasoning.grounding import WhichMarks
-from anymesh.reasoning.prompting import (
+from anymesh.types import Joint, JointType, Motion, MotionKind, Part
+from anymesh.vlm.asking import VisualAnswerer
+from anymesh.vlm.grounding import WhichMarks
+from anymesh.vlm.prompting import (
     ArrowTable,
     JointKind,
     MotionTable,
@@ -23,8 +24,7 @@ from anymesh.reasoning.prompting import (
     WhichMotions,
     WhichPoints,
 )
-from anymesh.reasoning.reference_answerer import Reference, ReferenceAnswerer, ReferenceJoint
-from anymesh.types import Joint, JointType, Motion, MotionKind, Part
+from anymesh.vlm.reference_answerer import Reference, ReferenceAnswerer, ReferenceJoint
 
 X, Y, Z = np.eye(3)
 ASSET = cabinet()

@@ -11,8 +11,8 @@ from anymesh.errors import InputError
 from anymesh.evaluation.ground_truth import EvalSample, GroundTruth, TrueJoint
 from anymesh.evaluation.score import score
 from anymesh.evaluation.single_view import observation, observations, observed
+from anymesh.pipeline.solving import solve
 from anymesh.rendering.viewpoints import orbit_camera
-from anymesh.solving import solve
 from anymesh.types import JointType, Part
 
 PIECES = {

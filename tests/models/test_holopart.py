@@ -11,11 +11,11 @@ from assets import box, joint, mesh_of, source
 from holopart_checkout import checkout
 from meshy_wire import MeshyServer, refuses, says
 
+from anymesh.completion.accept import accept, accepted
+from anymesh.completion.holopart import HoloPart, read_pieces
+from anymesh.completion.scene_glb import scene_glb
 from anymesh.errors import ModelError, OptionError
 from anymesh.models.holopart import Checkout, CrashError, PartServer, open_holopart
-from anymesh.postprocessing.accept import accept, accepted
-from anymesh.postprocessing.holopart import HoloPart, read_pieces
-from anymesh.postprocessing.scene_glb import scene_glb
 from anymesh.types import Asset, Mesh, Part, Segmentation
 
 

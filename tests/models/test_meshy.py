@@ -15,15 +15,15 @@ from assets import cabinet
 from meshy_wire import KEY, SIGNATURE, MeshyServer, cuts, refuses, says, serving
 from PIL import Image
 
+from anymesh.completion.bake_slots import png
+from anymesh.completion.protocol import Finished
+from anymesh.completion.retexture import Remote
+from anymesh.completion.scene_glb import scene_glb
+from anymesh.completion.texture import Retexturer
 from anymesh.errors import AnymeshError, BudgetError, ModelError, OptionError
 from anymesh.loading.folder import Folder
 from anymesh.loading.gltf import read_gltf
 from anymesh.models.meshy import Meshy
-from anymesh.postprocessing.bake_slots import png
-from anymesh.postprocessing.protocol import Finished
-from anymesh.postprocessing.retexture import Remote
-from anymesh.postprocessing.scene_glb import scene_glb
-from anymesh.postprocessing.texture import Retexturer
 from anymesh.rendering.render import face_colors
 from anymesh.types import Material, Texture
 

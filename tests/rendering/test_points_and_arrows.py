@@ -5,10 +5,10 @@ import pytest
 from assets import box, mesh_of
 
 from anymesh.config import ViewsConfig
+from anymesh.geometry.raycast_ import RayScene
 from anymesh.rendering.arrows import clearest_view, distinctness, draw_arrows
 from anymesh.rendering.paint import mark_color
 from anymesh.rendering.points import DOT, draw_points, labels_apart
-from anymesh.rendering.raycast_ import RayScene
 from anymesh.rendering.viewpoints import hidden_points, views
 from anymesh.types.camera import Camera
 

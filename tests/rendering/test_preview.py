@@ -6,9 +6,9 @@ from assets import box, cabinet, joint, mesh_of, slanted, source
 from PIL import Image
 
 from anymesh.geometry.kinematics import posed
+from anymesh.geometry.raycast_ import RayScene
 from anymesh.rendering import preview
 from anymesh.rendering.axes import AXIS_COLOR
-from anymesh.rendering.raycast_ import RayScene
 from anymesh.types import Asset, Part, Segmentation
 
 SIZE = 150

@@ -5,7 +5,7 @@ import pytest
 from assets import QUAD_UV, box, checker, mesh_of
 
 from anymesh.geometry.distance_ import distance_to_triangles
-from anymesh.rendering.raycast_ import RayScene
+from anymesh.geometry.raycast_ import RayScene
 from anymesh.rendering.render import BACKGROUND, face_colors, render
 from anymesh.types import Material, Texture
 from anymesh.types.camera import Camera

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from assets import QUAD_UV, box, checker, mesh_of
 
+from anymesh.geometry.raycast_ import RayScene
 from anymesh.rendering.drawing import BRIGHTNESS, draw, face_colors, ground, light_on, material_colors, render_target
 from anymesh.rendering.materials import texels_per_pixel
 from anymesh.rendering.outlines import stroke
-from anymesh.rendering.raycast_ import RayScene
 from anymesh.rendering.samples import GRID, Window, sample
 from anymesh.rendering.smooth import CREASE_ANGLE, smoothed
 from anymesh.types import Material, Mesh, Texture

@@ -5,10 +5,10 @@ import pytest
 from assets import box, mesh_of
 
 from anymesh.config import ViewsConfig
+from anymesh.geometry.raycast_ import RayScene
 from anymesh.rendering.card import BAR, part_card, titled
 from anymesh.rendering.paint import HIGHLIGHT
 from anymesh.rendering.posed import Posed
-from anymesh.rendering.raycast_ import RayScene
 from anymesh.rendering.render import render
 from anymesh.rendering.strips import COLUMNS, PANEL, grid, motion_strip, moved, silhouette, strip_camera
 from anymesh.rendering.viewpoints import views

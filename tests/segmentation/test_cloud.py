@@ -108,7 +108,7 @@ def test_pixels_are_where_the_points_project() -> None:
 
 
 def test_visibility_agrees_with_a_ray_to_every_point() -> None:
-    from anymesh.rendering.raycast_ import RayScene
+    from anymesh.geometry.raycast_ import RayScene
 
     cloud = cloud_of(MESH)
     eye = np.array([1.6, -1.2, 1.4])

@@ -7,12 +7,12 @@ from rows import counts_of, row_cloud
 
 from anymesh.config import GroundingConfig
 from anymesh.geometry.patches import object_shape
-from anymesh.reasoning.grounding import MarkedPart
 from anymesh.rendering.render import render
 from anymesh.segmentation.cloud import sample_cloud
 from anymesh.segmentation.fuse import Instances, Mask, count_points, fuse_masks, label_superpoints, marked_masks
 from anymesh.segmentation.propose import Proposal
 from anymesh.types.camera import Camera
+from anymesh.vlm.grounding import MarkedPart
 
 FEW = GroundingConfig(points=10_000)
 MESH, PIECE = mesh_of([box((0, 0, 0), (1, 1, 1)), box((0, -0.2, 0), (0.48, -0.1, 1)), box((0.52, -0.2, 0), (1, -0.1, 1))])

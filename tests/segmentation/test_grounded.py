@@ -7,18 +7,18 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from anymesh import solving
 from anymesh.config import Config, GroundingConfig, ViewsConfig
 from anymesh.evaluation.ground_truth import GroundTruth, example_truths
 from anymesh.evaluation.matching import match_parts, part_ious
 from anymesh.evaluation.oracle import oracle
 from anymesh.evaluation.protocols import prepared
 from anymesh.loading import load_mesh, place_mesh
+from anymesh.pipeline import solving
+from anymesh.pipeline.results import SegmentationResult
+from anymesh.pipeline.solving import Solver
 from anymesh.rendering.viewpoints import part_pixels
 from anymesh.segmentation import ground_masks
 from anymesh.segmentation.grounded_parts import UNSURE
-from anymesh.solving import Solver
-from anymesh.stage_results import SegmentationResult
 from anymesh.types import Mesh, Segmentation
 from anymesh.types.recognition import Recognition, RecognizedLabel
 

@@ -7,7 +7,6 @@ import pytest
 from assets import box, mesh_of
 
 from anymesh.config import Config, GroundingConfig, ViewsConfig
-from anymesh.reasoning.grounding import MarkedPart, MarksAnswer, WhichMarks, WhichViews
 from anymesh.rendering.visual_prompts import VisualPrompts
 from anymesh.segmentation import ask_marks
 from anymesh.segmentation.ask_marks import MarkQuestioner, ask_exact, ask_masks
@@ -15,6 +14,7 @@ from anymesh.segmentation.mark_pictures import MAX_MARKS_PER_PICTURE, MIN_MARK_P
 from anymesh.segmentation.propose import Proposal
 from anymesh.segmentation.regions import Marks
 from anymesh.types import Mesh
+from anymesh.vlm.grounding import MarkedPart, MarksAnswer, WhichMarks, WhichViews
 
 VIEWS = ViewsConfig(size=320)
 BODY = box((0, 0, 0), (1, 1, 1))

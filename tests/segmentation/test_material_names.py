@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from assets import box, mesh_of
 
-from anymesh.solving import Solver
+from anymesh.pipeline.solving import Solver
 from anymesh.types import Material
 
 WALLS = [

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from anymesh.articulation import motion_classifier
-from anymesh.reasoning.two_steps import TwoStepClassifier
+from anymesh.scoring.two_steps import TwoStepClassifier
 from anymesh.segmentation import part_classifier
 
 SHIPPED = pytest.mark.parametrize("shipped", [part_classifier.shipped_classifier, motion_classifier.shipped_classifier])

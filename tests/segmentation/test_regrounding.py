@@ -9,11 +9,11 @@ import pytest
 from assets import box, mesh_of
 
 from anymesh.config import Config, GroundingConfig, ViewsConfig
-from anymesh.reasoning.grounding import MarkedPart, MarksAnswer
-from anymesh.reasoning.prompting import PartFit
-from anymesh.reasoning.reference_answerer import Reference, ReferenceAnswerer, ReferenceJoint
-from anymesh.solving import solve
+from anymesh.pipeline.solving import solve
 from anymesh.types import JointType
+from anymesh.vlm.grounding import MarkedPart, MarksAnswer
+from anymesh.vlm.prompting import PartFit
+from anymesh.vlm.reference_answerer import Reference, ReferenceAnswerer, ReferenceJoint
 
 CASE = [box((0, 0, 0), (0.6, 0.4, 0.6))]
 DOORS = [box((0.0, -0.03, 0.0), (0.29, 0.0, 0.6)), box((0.31, -0.03, 0.0), (0.6, 0.0, 0.6))]

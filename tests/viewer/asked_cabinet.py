@@ -7,8 +7,9 @@ from typing import Any
 import numpy as np
 from assets import cabinet, checker
 
-from anymesh.reasoning.grounding import WhichMarks
-from anymesh.reasoning.prompting import (
+from anymesh.types import Motion, MotionKind, Picture
+from anymesh.vlm.grounding import WhichMarks
+from anymesh.vlm.prompting import (
     ArrowTable,
     JointKind,
     MotionTable,
@@ -19,8 +20,7 @@ from anymesh.reasoning.prompting import (
     WhichMotions,
     WhichPoints,
 )
-from anymesh.reasoning.recognition import Recognize
-from anymesh.types import Motion, MotionKind, Picture
+from anymesh.vlm.recognition import Recognize
 
 ASSET = cabinet()
 MESH = ASSET.mesh

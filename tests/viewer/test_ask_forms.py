@@ -6,12 +6,7 @@ import numpy as np
 import pytest
 from asked_cabinet import FACE_PART, MESH, marks, motions, part, points, questions
 
-from anymesh.models.question_files import QuestionStore
-from anymesh.models.vision import Request
-from anymesh.reasoning.answer_json import answer_object
-from anymesh.reasoning.asking import BadAnswerError
-from anymesh.reasoning.saved_question import pack_question
-from anymesh.rendering.raycast_ import RayScene
+from anymesh.geometry.raycast_ import RayScene
 from anymesh.viewer.ask_forms import LabelRow, form_of
 from anymesh.viewer.ask_marks import SPLIT, MarksForm
 from anymesh.viewer.ask_shapes import (
@@ -30,6 +25,11 @@ from anymesh.viewer.ask_shapes import (
 from anymesh.viewer.ask_words import guide, label_words, marks_table, motion_words, title
 from anymesh.viewer.open_question import SUGGESTED, WAITING, OpenQuestion, find_open_question
 from anymesh.viewer.scene import color_of
+from anymesh.vlm.answer_json import answer_object
+from anymesh.vlm.asking import BadAnswerError
+from anymesh.vlm.question_files import QuestionStore
+from anymesh.vlm.saved_question import pack_question
+from anymesh.vlm.vision import Request
 
 KINDS = list(questions())
 

@@ -15,11 +15,11 @@ from correctable import write_output
 
 from anymesh.correcting import CorrectionError, FlipSign
 from anymesh.errors import OptionError
-from anymesh.models.question_files import QuestionStore
-from anymesh.models.vision import Request
-from anymesh.reasoning.saved_question import pack_question
 from anymesh.viewer import bench_
 from anymesh.viewer.live_serve_ import serve
+from anymesh.vlm.question_files import QuestionStore
+from anymesh.vlm.saved_question import pack_question
+from anymesh.vlm.vision import Request
 
 pytest.importorskip("viser", reason="needs the extra view")
 CUBE = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\nf 1 3 4\nf 2 3 4\n"

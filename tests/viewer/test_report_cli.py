@@ -8,7 +8,8 @@ from assets import cabinet
 from shown import folder_of
 from typer.testing import CliRunner
 
-from anymesh.cli_report import picture, report
+from anymesh.cli.picture import picture
+from anymesh.cli.report import report
 
 
 @pytest.fixture(scope="module")

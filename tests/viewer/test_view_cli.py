@@ -6,7 +6,7 @@ import pytest
 from correctable import write_output
 from typer.testing import CliRunner
 
-from anymesh.cli_view import view
+from anymesh.cli.view import view
 from anymesh.errors import InputError, MissingExtraError, OutputError
 from anymesh.viewer import live_serve_
 

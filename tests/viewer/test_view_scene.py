@@ -8,8 +8,8 @@ from assets import box, cabinet, mesh_of, slanted, source
 from hypothesis import given
 from hypothesis import strategies as st
 
-from anymesh.export.inertia import Inertia
 from anymesh.geometry.kinematics import link_transforms
+from anymesh.physics.inertia import Inertia
 from anymesh.types import Asset, Box, Cylinder, Joint, JointType, Part, Segmentation
 from anymesh.viewer.live import part_poses
 from anymesh.viewer.panels import head, joint_table, selection

@@ -12,17 +12,17 @@ from typing import Any
 
 from anymesh import pipeline
 from anymesh.agents.places import Places
-from anymesh.answering import FILES
-from anymesh.answers import open_in, record_answer
 from anymesh.checking import check_asset
 from anymesh.correcting import CorrectionError, open_asset, ranked_motions, save_asset
 from anymesh.correcting.log import pack_entry, unpack_log
 from anymesh.deadline import DEFAULT_SECONDS
 from anymesh.errors import OpenQuestionError, OptionError, OutputError
 from anymesh.export.formats import DEFAULT
-from anymesh.models.question_files import QuestionFolder, find_questions
+from anymesh.files import read_json
+from anymesh.pipeline.answering import FILES
 from anymesh.progress import Progress, silent
-from anymesh.storage.stage_files import read_json
+from anymesh.vlm.answers import open_in, record_answer
+from anymesh.vlm.question_files import QuestionFolder, find_questions
 
 AUTHOR = "agent"  # in the log of corrections
 QUESTIONS = ".questions"  # suffix of the folder with an output's questions, beside the output

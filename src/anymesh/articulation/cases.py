@@ -15,10 +15,10 @@ from anymesh.articulation.tree import descendants, parents
 from anymesh.config import Config
 from anymesh.geometry.part_context import PartContext
 from anymesh.geometry.patches import ObjectShape
-from anymesh.reasoning.asking import Answer, Question, VisualAnswerer
-from anymesh.reasoning.prompting import JointKind, KindAnswer, PartShown
 from anymesh.types import Motion, Picture, Segmentation
 from anymesh.types.recognition import BASE, Recognition, RecognizedLabel
+from anymesh.vlm.asking import Answer, Question, VisualAnswerer
+from anymesh.vlm.prompting import JointKind, KindAnswer, PartShown
 
 MAX_PICTURES = 8  # pictures per call
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from anymesh.articulation.cases import PartCase
-from anymesh.reasoning.prompting import JointKind
 from anymesh.types import Joint, JointType
 from anymesh.types.recognition import Moves
+from anymesh.vlm.prompting import JointKind
 
 TURNING = (JointType.REVOLUTE, JointType.CONTINUOUS)
 

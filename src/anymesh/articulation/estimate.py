@@ -12,6 +12,7 @@ from anymesh.articulation.evidence import hypotheses, part_facts
 from anymesh.articulation.hypotheses import propose
 from anymesh.articulation.limits import limits, opening_as_answered, opening_motion
 from anymesh.articulation.motion_classifier import UnscoredMotions
+from anymesh.articulation.motion_question import Candidate, MotionAnswer, MotionAnswerer, MotionQuestion
 from anymesh.articulation.repeated_parts import in_a_row, same_size, share_opening_directions
 from anymesh.articulation.tree import descendants, parents
 from anymesh.config import ArticulationConfig, Config
@@ -20,7 +21,6 @@ from anymesh.geometry.part_context import PartContext, find_barrel_candidates
 from anymesh.geometry.patches import ObjectShape
 from anymesh.geometry.sweep import free_amount
 from anymesh.geometry.triangle_set import TriangleSet
-from anymesh.reasoning.questions import Candidate, MotionAnswer, MotionAnswerer, MotionQuestion
 from anymesh.types import Joint, JointType, Motion, MotionKind, Segmentation
 
 MAX_RIM_DISTANCE_RATIO = 0.01  # of the scale: hinge lines within this distance, or within the part's thickness, are at one rim

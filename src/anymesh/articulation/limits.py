@@ -7,9 +7,9 @@ from dataclasses import replace
 import numpy as np
 from jaxtyping import Bool, Float
 
+from anymesh.articulation.motion_question import MIN_ANGLE, Candidate
 from anymesh.geometry.part_context import PartContext
 from anymesh.geometry.sweep import free_amount
-from anymesh.reasoning.questions import MIN_ANGLE, Candidate
 from anymesh.types import JointType, Motion, MotionKind
 from anymesh.types.recognition import Moves, RecognizedLabel
 

@@ -10,9 +10,9 @@ from jaxtyping import Float
 
 from anymesh.articulation.motion_context import ScoredMotions, context_features
 from anymesh.articulation.motion_features import motion_features
+from anymesh.articulation.motion_question import Candidate, MotionQuestion, PartFacts
 from anymesh.geometry.part_context import PartContext
-from anymesh.reasoning.questions import Candidate, MotionQuestion, PartFacts
-from anymesh.reasoning.two_steps import TwoStepClassifier
+from anymesh.scoring.two_steps import TwoStepClassifier
 
 
 class UnscoredMotions:

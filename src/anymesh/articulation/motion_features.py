@@ -12,10 +12,10 @@ import numpy as np
 from jaxtyping import Float
 
 from anymesh.articulation.contact_metrics import CONTACT_RATIO, CONTACT_TOLERANCE_FACTOR
+from anymesh.articulation.motion_question import Candidate, PartFacts
 from anymesh.geometry.circles import outline_about
 from anymesh.geometry.part_context import PartContext
-from anymesh.reasoning.questions import Candidate, PartFacts
-from anymesh.reasoning.two_steps import MISSING
+from anymesh.scoring.two_steps import MISSING
 from anymesh.types import Motion, MotionKind
 
 MAX_ACROSS_COSINE = 0.7  # maximum cosine between an axis and a direction across it

@@ -12,15 +12,15 @@ from jaxtyping import Float
 
 from anymesh.articulation.cases import PartCase
 from anymesh.articulation.evidence import hypotheses, part_facts
+from anymesh.articulation.geometry_answerer import motion_scores
 from anymesh.articulation.hypotheses import distinct, propose
 from anymesh.articulation.limits import answered_range, opening_motion, pressed
 from anymesh.articulation.motion_classifier import UnscoredMotions
+from anymesh.articulation.motion_question import Candidate, MotionQuestion, PartFacts
 from anymesh.articulation.own_axes import CENTRAL, pivots
-from anymesh.reasoning.geometry import motion_scores
-from anymesh.reasoning.prompting import JointKind, MotionTable
-from anymesh.reasoning.questions import Candidate, MotionQuestion, PartFacts
 from anymesh.types import JointType, MotionKind
 from anymesh.types.recognition import Moves
+from anymesh.vlm.prompting import JointKind, MotionTable
 
 MAX_SHOWN_ANGLE_RAD = np.deg2rad(60.0)  # [rad] maximum rotation in a picture
 MAX_SHOWN_TRAVEL_RATIO = 0.6  # of the part's size: maximum travel of a slide in a picture

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from anymesh.articulation.motion_question import Candidate
 from anymesh.geometry.part_context import PartContext
-from anymesh.reasoning.questions import Candidate
 from anymesh.types import MotionKind
 
 MAX_ALONG_COSINE = 0.5  # maximum cosine between the opening direction and a slide along the surface

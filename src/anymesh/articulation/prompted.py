@@ -24,11 +24,11 @@ from anymesh.articulation.verify import Choice, MotionQuestioner, choose_motions
 from anymesh.config import Config
 from anymesh.geometry.patches import ObjectShape
 from anymesh.progress import Progress, silent
-from anymesh.reasoning.asking import VisualAnswerer
-from anymesh.reasoning.prompting import ArrowTable, JointKind, PartFit, PointTable, WhichArrows, WhichKinds, WhichPoints
 from anymesh.rendering.visual_prompts import Shot, VisualPrompts
 from anymesh.types import Joint, JointType, Motion, MotionKind, Segmentation
 from anymesh.types.recognition import Recognition
+from anymesh.vlm.asking import VisualAnswerer
+from anymesh.vlm.prompting import ArrowTable, JointKind, PartFit, PointTable, WhichArrows, WhichKinds, WhichPoints
 
 INTO_POINTS = 8  # candidates for an axis into the surface, half of which stand for axes
 ShapeOf = Callable[[Segmentation], ObjectShape]

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from anymesh.reasoning.vocabulary import words_of
 from anymesh.types import Segmentation
+from anymesh.vocabulary import words_of
 
 
 def labels_by_name(segmentation: Segmentation, labels: Sequence[str]) -> Segmentation:

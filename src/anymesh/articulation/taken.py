@@ -9,8 +9,8 @@ from anymesh.articulation.evidence import hypotheses, part_facts
 from anymesh.articulation.motion_classifier import score_motions
 from anymesh.articulation.offers import moves_as
 from anymesh.articulation.verify import Choice, words
-from anymesh.reasoning.prompting import JointKind
 from anymesh.types import Motion, MotionKind
+from anymesh.vlm.prompting import JointKind
 
 MIN_GUIDED_SHARE = 0.4  # minimum share of the sideways directions in which an outward slide is guided
 

@@ -13,13 +13,13 @@ from jaxtyping import Int
 
 from anymesh.articulation.cases import PartCase, ask_each
 from anymesh.articulation.confidence import Agreement
+from anymesh.articulation.geometry_answerer import reason
+from anymesh.articulation.motion_question import Candidate
 from anymesh.articulation.offers import MotionOffers, fits, make_offers, moves_as
-from anymesh.reasoning.asking import VisualAnswerer
-from anymesh.reasoning.geometry import reason
-from anymesh.reasoning.prompting import JointKind, MotionPick, MotionTable, PartFit, WhichMotions
-from anymesh.reasoning.questions import Candidate
 from anymesh.rendering.visual_prompts import VisualPrompts
 from anymesh.types import Picture
+from anymesh.vlm.asking import VisualAnswerer
+from anymesh.vlm.prompting import JointKind, MotionPick, MotionTable, PartFit, WhichMotions
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,12 +8,12 @@ import numpy as np
 from jaxtyping import Int
 
 from anymesh.articulation.estimate import joint_of, motion_question, part_context
+from anymesh.articulation.geometry_answerer import joint_type, motion_scores, reason
 from anymesh.config import Config
 from anymesh.correcting.corrections import ChooseMotion, vector
 from anymesh.correcting.finding import joint_of_part, part_number
 from anymesh.geometry.patches import ObjectShape, object_shape
 from anymesh.geometry.simplify_ import simplify
-from anymesh.reasoning.geometry import joint_type, motion_scores, reason
 from anymesh.types import Asset, Joint, JointType, Mesh
 
 MAX_MOTIONS = 8

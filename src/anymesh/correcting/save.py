@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import time
-from collections.abc import Generator
-from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -13,14 +10,16 @@ from anymesh.correcting.log import pack_log, unpack_log
 from anymesh.errors import OutputError
 from anymesh.export import Base, Driven, Format, write_asset
 from anymesh.export.formats import DEFAULT
-from anymesh.models.cache import cache_folder
+from anymesh.files import read_json, write_json
+from anymesh.pipeline.results import CorrectionResult
+from anymesh.pipeline.storage.atomic_folder import locked
+from anymesh.pipeline.storage.outputs import CORRECTIONS
+from anymesh.pipeline.storage.packing import CORRECTION
+from anymesh.pipeline.storage.run_folder import RunFolder
+from anymesh.pipeline.storage.saved import Saved
+from anymesh.pipeline.storage.stage_files import stage_key
 from anymesh.rendering.preview import write_preview
-from anymesh.run_folder import RunFolder, stage_key
-from anymesh.stage_results import CORRECTION, CorrectionResult
-from anymesh.storage.atomic_folder import locked
-from anymesh.storage.outputs import CORRECTIONS
-from anymesh.storage.saved import Saved
-from anymesh.storage.stage_files import read_json, write_json
+from anymesh.vlm.cache import cache_folder
 
 
 class StaleError(OutputError):
@@ -64,7 +63,7 @@ def _write(run: RunFolder, history: History) -> None:
     stage, log, asset = run.editing(), pack_log(history.done), history.asset
     key = stage_key(stage, previous=run.last_key(edited=False), config={"log": log})
     run.save(stage, key, CorrectionResult(asset.segmentation, asset.joints, asset.warnings, tuple(log)))
-    with _timed(run):
+    with run.timed("export"):
         written = read_json(run.target / "asset.json") or {}
         formats = tuple(Format(name) for name in written.get("files", {})) or DEFAULT
         base = Base(written.get("base", Base.FIXED))
@@ -73,10 +72,3 @@ def _write(run: RunFolder, history: History) -> None:
         write_preview(asset, run.folder / "preview.png")
     before = () if stage is CORRECTION else run.corrections(CORRECTION)
     write_json(run.folder / CORRECTIONS, {"asset": asset.name, "corrections": [*before, *log]})
-
-
-@contextmanager
-def _timed(run: RunFolder) -> Generator[None]:
-    begin = time.perf_counter()
-    yield
-    run.add_time("export", time.perf_counter() - begin)

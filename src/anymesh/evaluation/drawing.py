@@ -13,10 +13,10 @@ from anymesh.evaluation.ground_truth import EvalSample, TrueJoint
 from anymesh.evaluation.matching import part_ious
 from anymesh.evaluation.score import JointScore
 from anymesh.evaluation.worst import what_is_off
+from anymesh.geometry.raycast_ import RayScene
 from anymesh.rendering.axes import axis_line, draw_arrow, ring
 from anymesh.rendering.labels import font
 from anymesh.rendering.paint import Color, blend, lighten, rim
-from anymesh.rendering.raycast_ import RayScene
 from anymesh.rendering.render import lit, render
 from anymesh.rendering.strips import moved, silhouette, strip_camera
 from anymesh.rendering.viewpoints import zoom

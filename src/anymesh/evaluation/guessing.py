@@ -7,12 +7,12 @@ from typing import Any, cast
 
 import numpy as np
 
-from anymesh.reasoning.asking import Answer, Question, check_schema
-from anymesh.reasoning.grounding import WhichMarks, WhichViews
-from anymesh.reasoning.prompting import WhichArrows, WhichKinds, WhichMotions, WhichPoints
-from anymesh.reasoning.recognition import Recognize
 from anymesh.types import Exchange
 from anymesh.types.recognition import BASE
+from anymesh.vlm.asking import Answer, Question, check_schema
+from anymesh.vlm.grounding import WhichMarks, WhichViews
+from anymesh.vlm.prompting import WhichArrows, WhichKinds, WhichMotions, WhichPoints
+from anymesh.vlm.recognition import Recognize
 
 WORDS = ("door", "lid", "drawer", "knob", "wheel", "handle", "arm", "button")
 MAX_KINDS, MAX_PARTS = 4, 6  # maximum number of labels, and of parts in an answer about marks

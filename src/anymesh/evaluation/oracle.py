@@ -9,9 +9,10 @@ from typing import Any, TypeVar, cast
 import numpy as np
 
 from anymesh.evaluation.ground_truth import EvalSample
-from anymesh.reasoning.asking import Answer, Question, VisualAnswerer
-from anymesh.reasoning.grounding import WhichMarks
-from anymesh.reasoning.prompting import (
+from anymesh.types import Exchange
+from anymesh.vlm.asking import Answer, Question, VisualAnswerer
+from anymesh.vlm.grounding import WhichMarks
+from anymesh.vlm.prompting import (
     JointKind,
     KindAnswer,
     MotionPick,
@@ -22,9 +23,8 @@ from anymesh.reasoning.prompting import (
     WhichMotions,
     WhichPoints,
 )
-from anymesh.reasoning.reference_answerer import Reference, ReferenceAnswerer, ReferenceJoint
-from anymesh.reasoning.vocabulary import recognize
-from anymesh.types import Exchange
+from anymesh.vlm.reference_answerer import Reference, ReferenceAnswerer, ReferenceJoint
+from anymesh.vocabulary import recognize
 
 Item = TypeVar("Item")
 

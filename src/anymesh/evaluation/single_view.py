@@ -22,7 +22,7 @@ from anymesh.evaluation.ground_truth import EvalSample, GroundTruth, TrueJoint
 from anymesh.evaluation.partial import visible_surface
 from anymesh.evaluation.posing import posed
 from anymesh.geometry.hidden_base import hidden_base
-from anymesh.rendering.raycast_ import RayScene
+from anymesh.geometry.raycast_ import RayScene
 from anymesh.rendering.render import View, render
 from anymesh.rendering.viewpoints import orbit_camera
 from anymesh.types import Mesh

@@ -5,13 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from anymesh.collision import Collision, collision_shapes
 from anymesh.deadline import Deadline
-from anymesh.export.densities import Substance, substance_of
-from anymesh.export.inertia import link_inertia
 from anymesh.export.links import Link, split_links, with_legal_names
 from anymesh.export.model import Base, Driven, Exclusion, ExportLink, Model
 from anymesh.export.settings import ExportConfig
+from anymesh.physics.collision import Collision, collision_shapes
+from anymesh.physics.densities import Substance, substance_of
+from anymesh.physics.inertia import link_inertia
 from anymesh.types import Asset, Mesh
 
 OVERLAP = "their surfaces overlap at rest"

@@ -8,7 +8,6 @@ from typing import Any, assert_never
 
 import numpy as np
 
-from anymesh.collision.convex import volume
 from anymesh.errors import OutputError
 from anymesh.export.drives import Drive, drives
 from anymesh.export.meshes import material_names
@@ -18,6 +17,7 @@ from anymesh.export.model import Base, Driven, ExportLink, Model
 from anymesh.export.rotations import quaternion
 from anymesh.export.settings import ExportConfig
 from anymesh.mujoco_ import load_mujoco
+from anymesh.physics.collision.convex import volume
 from anymesh.types import Box, Cylinder, Hull, Joint, JointType, Mesh, Shape
 
 VISUAL, COLLISION = "visual", "collision"

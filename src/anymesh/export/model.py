@@ -9,8 +9,8 @@ from enum import StrEnum
 import numpy as np
 from jaxtyping import Int
 
-from anymesh.export.inertia import Inertia
 from anymesh.export.links import Link
+from anymesh.physics.inertia import Inertia
 from anymesh.types import Asset, Hull, Shape
 
 FOLDER = "meshes"

@@ -10,9 +10,9 @@ from jaxtyping import Bool, Float, Int
 
 from anymesh.geometry.boxes import OrientedBox, fit_box
 from anymesh.geometry.distance_ import TriangleTree, winding_number
+from anymesh.geometry.raycast_ import RayScene
 from anymesh.geometry.sampling import SurfacePoints, spread_points
 from anymesh.geometry.topology import Components, components
-from anymesh.rendering.raycast_ import RayScene
 from anymesh.types import Mesh
 from anymesh.types.triangles import bounds_of, normals_and_areas
 

@@ -21,8 +21,7 @@ from anymesh.isolation.child import LENGTH, PATIENCE, write_message
 
 WARM = 2  # children that are started before the first call
 START_AFTER = 0.3  # [s] total waiting time of calls before another child is started, which takes about as long
-THREADS = 2  # maximum number of OpenMP threads of a child; CoACD's pieces do not depend on it (docs/decisions.md)
-ONE_THREAD = ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")  # libraries whose sums would depend on the number of cores
+ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")  # sums would depend on the number of threads
 
 
 class Failure(StrEnum):
@@ -140,7 +139,7 @@ class ChildPool:
     def _started(self, modules: Sequence[str]) -> _Child:
         if self._closed:
             raise ChildError(Failure.ERROR, "the pool is closed")
-        child = _Child(self.limits.memory, modules, min(self.size, THREADS))
+        child = _Child(self.limits.memory, modules)
         self._live.add(child)
         return child
 
@@ -158,10 +157,10 @@ class ChildPool:
 class _Child:
     """One child process."""
 
-    def __init__(self, memory: int, modules: Sequence[str], threads: int) -> None:
+    def __init__(self, memory: int, modules: Sequence[str]) -> None:
         self.calls, self._lock = 0, threading.Lock()
-        settings = {"OMP_NUM_THREADS": str(threads), "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
-        environment = {**os.environ, **dict.fromkeys(ONE_THREAD, "1"), **settings}
+        places = os.pathsep.join(filter(None, sys.path))
+        environment = {**os.environ, **dict.fromkeys(ONE_THREAD, "1"), "PYTHONPATH": places}
         theirs, self._lifeline = os.pipe() if os.name == "posix" else (-1, -1)
         inherited = (theirs,) if theirs >= 0 else ()
         program = "from anymesh.isolation.child import main; main()"

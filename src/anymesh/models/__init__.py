@@ -1,1 +1,1 @@
-"""External models: vision-language models and mask proposers, each behind a small protocol."""
+"""External models other than vision-language models: SAM, HoloPart and Meshy, each behind a small protocol."""

@@ -17,9 +17,9 @@ from pathlib import Path
 from typing import Protocol, runtime_checkable
 
 from anymesh.errors import ModelError, OptionError
-from anymesh.models.error_redaction import LONGEST, SECRET
-from anymesh.models.retry import persist
 from anymesh.models.web import Call, LostError, exchange, is_web
+from anymesh.vlm.error_redaction import LONGEST, SECRET
+from anymesh.vlm.retry import persist
 
 log = logging.getLogger("anymesh")
 VALID = "holopart:FOLDER, holopart:FOLDER#PYTHON or holopart:URL"

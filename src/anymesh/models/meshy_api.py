@@ -14,9 +14,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from anymesh.errors import ModelError
-from anymesh.models.error_redaction import LONGEST, SECRET
-from anymesh.models.retry import TransientError
 from anymesh.models.web import Answer, Call, LostError, exchange
+from anymesh.vlm.error_redaction import LONGEST, SECRET
+from anymesh.vlm.retry import TransientError
 
 KEY, BASE = "MESHY_API_KEY", "MESHY_BASE_URL"
 TASK_ID = re.compile(r"[A-Za-z0-9_-]{1,100}")

@@ -14,8 +14,8 @@ from typing import TypeVar
 from anymesh.errors import BudgetError, ModelError, OptionError
 from anymesh.models.meshy_api import RefusedError, Task, TaskKind, create_task, download_glb, get_task, list_tasks
 from anymesh.models.meshy_task import Bought, Pending, read_pending, write_pending
-from anymesh.models.retry import persist
 from anymesh.models.web import LostError
+from anymesh.vlm.retry import persist
 
 log = logging.getLogger("anymesh")
 T = TypeVar("T")

@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from anymesh.errors import OutputError
-from anymesh.models.cache import write_whole
+from anymesh.files import write_whole
 from anymesh.models.meshy_api import TASK_ID
 
 

@@ -23,7 +23,7 @@ from urllib.request import (
 )
 
 from anymesh.errors import ModelError
-from anymesh.models.retry import TransientError
+from anymesh.vlm.retry import TransientError
 
 log = logging.getLogger("anymesh")
 T = TypeVar("T")

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from jaxtyping import Float32, Int, UInt8
 
+from anymesh.geometry.raycast_ import RayScene
 from anymesh.rendering.materials import base_colors, texels_per_pixel
 from anymesh.rendering.outlines import stroke
-from anymesh.rendering.raycast_ import RayScene
 from anymesh.rendering.render import KEY_LIGHT
 from anymesh.rendering.samples import GRID, RenderTarget, Samples
 from anymesh.types import Mesh

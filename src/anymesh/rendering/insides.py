@@ -9,8 +9,8 @@ from functools import partial
 import numpy as np
 from jaxtyping import Bool, UInt8
 
+from anymesh.geometry.raycast_ import RayScene
 from anymesh.rendering.paint import lighten
-from anymesh.rendering.raycast_ import RayScene
 from anymesh.rendering.render import View
 from anymesh.rendering.viewpoints import shown
 from anymesh.types import Mesh

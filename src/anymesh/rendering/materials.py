@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 from jaxtyping import Float, Int, UInt8
 
-from anymesh.rendering.raycast_ import SurfaceHits
+from anymesh.geometry.raycast_ import SurfaceHits
 from anymesh.types import Material, Mesh
 from anymesh.types.color import to_linear, to_srgb
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float32, Int, UInt8
 
-from anymesh.rendering.raycast_ import SurfaceHits
+from anymesh.geometry.raycast_ import SurfaceHits
 from anymesh.rendering.smooth import CREASE_ANGLE
 
 # [px] distance of a surface behind its neighbour's plane at which a line begins, and at which it has full strength

@@ -9,8 +9,8 @@ from functools import cached_property
 import numpy as np
 from jaxtyping import Bool, Float, Int, UInt8
 
+from anymesh.geometry.raycast_ import Hits, RayScene
 from anymesh.rendering.paint import HIGHLIGHT, lighten
-from anymesh.rendering.raycast_ import Hits, RayScene
 from anymesh.rendering.render import lit, shade
 from anymesh.types import Mesh
 from anymesh.types.camera import Camera

@@ -12,10 +12,10 @@ from jaxtyping import UInt8
 from PIL import Image, ImageDraw
 
 from anymesh.geometry.kinematics import posed
+from anymesh.geometry.raycast_ import RayScene
 from anymesh.rendering.axes import AxisShape, axis_shapes, draw_axes
 from anymesh.rendering.drawing import draw, face_colors, ground, light_on, material_colors, render_target
 from anymesh.rendering.labels import font
-from anymesh.rendering.raycast_ import RayScene
 from anymesh.rendering.samples import Window, sample
 from anymesh.rendering.smooth import smoothed
 from anymesh.rendering.viewpoints import orbit_camera

@@ -9,8 +9,8 @@ from functools import cached_property
 import numpy as np
 from jaxtyping import Float, Int, UInt8
 
+from anymesh.geometry.raycast_ import Hits, RayScene
 from anymesh.rendering.materials import base_colors
-from anymesh.rendering.raycast_ import Hits, RayScene
 from anymesh.types import Mesh
 from anymesh.types.camera import Camera
 

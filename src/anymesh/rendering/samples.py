@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float32, Int
 
+from anymesh.geometry.raycast_ import RayScene, SurfaceHits
 from anymesh.rendering.outlines import Steps, changes, find_steps
-from anymesh.rendering.raycast_ import RayScene, SurfaceHits
 from anymesh.types.camera import Camera
 
 GRID = 3  # rays per side of a pixel where the surface changes

@@ -9,11 +9,11 @@ import numpy as np
 from jaxtyping import Bool, Float, UInt8
 from PIL import Image, ImageDraw
 
+from anymesh.geometry.raycast_ import RayScene
 from anymesh.rendering.axes import axis_line, draw_arrow, draw_ring, ring
 from anymesh.rendering.labels import PAD, Plate, draw_plate, plate_size
 from anymesh.rendering.paint import HIGHLIGHT, blend, rim
 from anymesh.rendering.posed import PartPixels, Posed, Rays, Still, bounds_of, part_color
-from anymesh.rendering.raycast_ import RayScene
 from anymesh.rendering.viewpoints import box_of, orbit_camera, zoom
 from anymesh.types import Mesh, Motion, MotionKind
 from anymesh.types.camera import Camera

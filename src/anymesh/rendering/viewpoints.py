@@ -9,8 +9,8 @@ import numpy as np
 from jaxtyping import Bool, Float, Int, UInt8
 
 from anymesh.config import ViewsConfig
+from anymesh.geometry.raycast_ import RayScene
 from anymesh.rendering.drawing import draw, headlight_on, material_colors, render_target
-from anymesh.rendering.raycast_ import RayScene
 from anymesh.rendering.render import BACKGROUND, View
 from anymesh.rendering.samples import Window, first_hits, sample
 from anymesh.types import Mesh

@@ -10,13 +10,13 @@ import numpy as np
 from jaxtyping import Bool, Float, Int, UInt8
 
 from anymesh.config import Config
+from anymesh.geometry.raycast_ import RayScene
 from anymesh.rendering.arrows import clearest_view, draw_arrows
 from anymesh.rendering.card import part_card, titled
 from anymesh.rendering.encode import encode
 from anymesh.rendering.insides import inside_views
 from anymesh.rendering.paint import highlight
 from anymesh.rendering.points import draw_points
-from anymesh.rendering.raycast_ import RayScene
 from anymesh.rendering.render import View, face_colors
 from anymesh.rendering.smooth import smoothed
 from anymesh.rendering.strips import motion_strip, silhouette

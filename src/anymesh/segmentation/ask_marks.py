@@ -11,8 +11,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from anymesh.config import Config
-from anymesh.reasoning.asking import VisualAnswerer
-from anymesh.reasoning.grounding import MarkedPart, MarksAnswer, WhichMarks, WhichViews
 from anymesh.rendering.marks import draw_marks
 from anymesh.rendering.render import View
 from anymesh.rendering.visual_prompts import VisualPrompts
@@ -20,6 +18,8 @@ from anymesh.segmentation.mark_pictures import MarkPicture, choose_pictures
 from anymesh.segmentation.propose import Proposal
 from anymesh.segmentation.regions import Marks
 from anymesh.types import Picture
+from anymesh.vlm.asking import VisualAnswerer
+from anymesh.vlm.grounding import MarkedPart, MarksAnswer, WhichMarks, WhichViews
 
 INSIDE = "inside"  # prefix of the names of pictures of the inside
 MAX_PICTURES = 16  # pictures per call

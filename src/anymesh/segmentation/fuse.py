@@ -9,10 +9,10 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 
 from anymesh.config import GroundingConfig
-from anymesh.reasoning.grounding import MarkedPart
 from anymesh.rendering.render import View
 from anymesh.segmentation.cloud import Cloud, sight
 from anymesh.segmentation.propose import Proposal
+from anymesh.vlm.grounding import MarkedPart
 
 
 @dataclass(frozen=True, eq=False)

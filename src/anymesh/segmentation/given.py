@@ -11,8 +11,8 @@ import numpy as np
 
 from anymesh.errors import InputError, OptionError
 from anymesh.names import legal_names
-from anymesh.reasoning.vocabulary import recognize
 from anymesh.types import Mesh, Part, Segmentation
+from anymesh.vocabulary import recognize
 
 GIVEN = "given"
 NPY, ZIP = b"\x93NUMPY", b"PK"  # first bytes of a file of the format

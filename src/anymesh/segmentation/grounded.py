@@ -9,7 +9,6 @@ from jaxtyping import Int
 
 from anymesh.models.sam import PromptedSegmenter
 from anymesh.progress import Progress, silent
-from anymesh.reasoning.asking import VisualAnswerer
 from anymesh.segmentation.ask_marks import MarkQuestioner
 from anymesh.segmentation.faces import MIN_SEEN_SHARE
 from anymesh.segmentation.ground_exact import ground_exactly
@@ -20,8 +19,9 @@ from anymesh.segmentation.naming import named_parts
 from anymesh.segmentation.unseen import StaysFree
 from anymesh.types import Segmentation
 from anymesh.types.recognition import Moves, Recognition
+from anymesh.vlm.asking import VisualAnswerer
 
-MovesFreely = Callable[[Int[np.ndarray, " R"], Int[np.ndarray, " R"], int, Moves | None], bool]  # see `Solver.stays_free`
+MovesFreely = Callable[[Int[np.ndarray, " R"], Int[np.ndarray, " R"], int, Moves | None], bool]  # see `articulation.freedom`
 
 
 def ground_parts(

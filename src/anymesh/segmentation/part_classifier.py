@@ -7,7 +7,7 @@ from functools import cache
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.reasoning.two_steps import TwoStepClassifier
+from anymesh.scoring.two_steps import TwoStepClassifier
 from anymesh.segmentation.candidate_context import context_features
 from anymesh.segmentation.part_tree import Overlap
 

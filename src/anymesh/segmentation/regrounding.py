@@ -9,12 +9,12 @@ import numpy as np
 from jaxtyping import Int
 
 from anymesh.geometry.patches import ObjectShape
-from anymesh.reasoning.grounding import MarkedPart
-from anymesh.reasoning.prompting import PartFit
 from anymesh.segmentation.ask_marks import MarkQuestioner, ask_exact
 from anymesh.segmentation.grounded_parts import SampledObject, shown_views
 from anymesh.segmentation.regions import Marks, face_regions, number_regions, split_marks
 from anymesh.types import Segmentation
+from anymesh.vlm.grounding import MarkedPart
+from anymesh.vlm.prompting import PartFit
 
 WORDS = {
     PartFit.TOO_MUCH: "too much: some of these marks do not move with it",

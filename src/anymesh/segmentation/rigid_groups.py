@@ -10,9 +10,9 @@ from jaxtyping import Float, Int
 
 from anymesh.geometry.patches import ObjectShape
 from anymesh.geometry.topology import label_connected
-from anymesh.reasoning.vocabulary import is_fixed_name, recognize
 from anymesh.segmentation.contacts import Contacts, coplanar, hanging_on
 from anymesh.types import Mesh
+from anymesh.vocabulary import is_fixed_name, recognize
 
 MAX_SURFACE_SHARE = 0.5  # share of the object's surface above which a creased surface is the object itself
 

@@ -19,8 +19,7 @@ from anymesh.config import Config
 from anymesh.deadline import SEGMENT, Deadline
 from anymesh.geometry.patches import ObjectShape
 from anymesh.progress import Progress, silent
-from anymesh.reasoning.two_steps import confidence_of
-from anymesh.reasoning.vocabulary import TypicalMotion, is_fixed_name, recognize, words_of
+from anymesh.scoring.two_steps import confidence_of
 from anymesh.segmentation.contacts import find_contacts
 from anymesh.segmentation.naming import named_parts
 from anymesh.segmentation.part_assignment import MIN_SCORE, assign_parts, conflicts, join_floating
@@ -28,6 +27,7 @@ from anymesh.segmentation.part_classifier import score_parts
 from anymesh.segmentation.part_features import FeatureScene, part_context_of, part_features
 from anymesh.segmentation.part_tree import PartTree, part_tree
 from anymesh.types import Mesh, Segmentation
+from anymesh.vocabulary import TypicalMotion, is_fixed_name, recognize, words_of
 
 LabelParts = Callable[[Segmentation], Sequence[str]]  # label per part except the base from its motion, "" if it cannot move
 MAX_ASSIGNMENTS = 3  # maximum number of assignments, each without the candidates that turned out to be fixed

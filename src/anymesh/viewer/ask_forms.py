@@ -6,9 +6,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, Protocol, runtime_checkable
 
-from anymesh.reasoning.asking import Question
-from anymesh.reasoning.grounding import WhichMarks
-from anymesh.reasoning.prompting import (
+from anymesh.types.recognition import BASE, Moves
+from anymesh.viewer.ask_marks import MarksForm
+from anymesh.vlm.asking import Question
+from anymesh.vlm.grounding import WhichMarks
+from anymesh.vlm.prompting import (
     OTHER,
     JointKind,
     MotionTable,
@@ -20,9 +22,7 @@ from anymesh.reasoning.prompting import (
     WhichMotions,
     WhichPoints,
 )
-from anymesh.reasoning.recognition import Recognize
-from anymesh.types.recognition import BASE, Moves
-from anymesh.viewer.ask_marks import MarksForm
+from anymesh.vlm.recognition import Recognize
 
 UNNAMED = "part"
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from anymesh.export.rotations import quaternion
-from anymesh.rendering.raycast_ import RayScene
+from anymesh.geometry.raycast_ import RayScene
 from anymesh.types import Mesh
 from anymesh.viewer.ask_forms import ArrowsForm, Form, MotionsForm, PartsForm, PointsForm
 from anymesh.viewer.ask_marks import MarksForm

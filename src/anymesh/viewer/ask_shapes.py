@@ -7,14 +7,14 @@ import colorsys
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
+from anymesh.geometry.raycast_ import RayScene
 from anymesh.geometry.simplify_ import simplify
-from anymesh.reasoning.prompting import ArrowTable, MotionTable, PartShown, PointTable
 from anymesh.rendering.axes import axis_line
-from anymesh.rendering.raycast_ import RayScene
 from anymesh.rendering.viewpoints import away
 from anymesh.types import Mesh, MotionKind
 from anymesh.viewer.ask_marks import SPLIT, MarksForm
 from anymesh.viewer.scene import MAX_DISPLAY_FACES, MIN_PART_FACES, Color, DisplayMesh, color_of
+from anymesh.vlm.prompting import ArrowTable, MotionTable, PartShown, PointTable
 
 SAME_SIZE = 0.05  # tolerance of the ratio of sizes, below which a part has the scale of the mesh
 REACH = 0.03  # maximum distance of a clicked point from the ray, as a share of its distance from the eye

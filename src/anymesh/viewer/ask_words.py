@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from html import escape
 
-from anymesh.reasoning.prompting import JointKind, MotionTable, PartFit
 from anymesh.types import MotionKind
 from anymesh.types.recognition import Moves
 from anymesh.viewer.ask_forms import ArrowsForm, Form, KindsForm, LabelRow, MotionsForm, PartsForm, PointsForm, RecognizeForm
 from anymesh.viewer.ask_marks import SPLIT, Group, MarksForm
 from anymesh.viewer.ask_shapes import group_color
 from anymesh.viewer.panels import SMALL
+from anymesh.vlm.prompting import JointKind, MotionTable, PartFit
 
 KINDS = {
     "hinge along an edge (door, lid)": JointKind.HINGE_ALONG,

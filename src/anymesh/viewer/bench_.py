@@ -12,9 +12,9 @@ from html import escape
 from pathlib import Path
 from typing import Any
 
-from anymesh.answering import FILES, object_name
 from anymesh.correcting import CorrectionError
 from anymesh.errors import AnymeshError
+from anymesh.pipeline.answering import FILES, object_name
 from anymesh.viewer.ask_desk_ import AskDesk
 from anymesh.viewer.drop_zone import drop_zone
 from anymesh.viewer.panels import SMALL

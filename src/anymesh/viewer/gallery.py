@@ -13,9 +13,9 @@ from pathlib import Path
 from typing import Any
 
 from anymesh.errors import OutputError
-from anymesh.storage.atomic_folder import locked
-from anymesh.storage.outputs import written_files
-from anymesh.storage.stage_files import read_json
+from anymesh.files import read_json
+from anymesh.pipeline.storage.atomic_folder import locked
+from anymesh.pipeline.storage.outputs import written_files
 
 REVIEW = "review.json"
 DEEP = 3  # maximum depth of folders that are searched for outputs

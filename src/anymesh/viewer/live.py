@@ -23,7 +23,7 @@ from anymesh.correcting import (
 )
 from anymesh.correcting.motions import Ready, made_ready
 from anymesh.geometry.kinematics import link_transforms
-from anymesh.rendering.raycast_ import RayScene
+from anymesh.geometry.raycast_ import RayScene
 from anymesh.types import Asset, Joint, Segmentation
 from anymesh.viewer.scene import apart
 

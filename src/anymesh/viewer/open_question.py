@@ -7,11 +7,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from anymesh.errors import InputError
-from anymesh.models.question_files import CHECK, LEAVE, QuestionFolder, QuestionStore
-from anymesh.reasoning.asking import BadAnswerError
-from anymesh.reasoning.files import check_answer
-from anymesh.reasoning.saved_question import unpack_question
 from anymesh.viewer.ask_forms import Form, form_of
+from anymesh.vlm.asking import BadAnswerError
+from anymesh.vlm.file_answerer import check_answer
+from anymesh.vlm.question_files import CHECK, LEAVE, QuestionFolder, QuestionStore
+from anymesh.vlm.saved_question import unpack_question
 
 WAITING = "Geometry is working out a suggestion; you need not wait for it."
 SUGGESTED = "Filled in as geometry would answer; change what is wrong."

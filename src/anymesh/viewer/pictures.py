@@ -13,11 +13,11 @@ from PIL import Image, ImageDraw
 from anymesh.export.animation import tracks
 from anymesh.export.settings import ExportConfig
 from anymesh.geometry.kinematics import posed
+from anymesh.geometry.raycast_ import RayScene
 from anymesh.rendering.axes import axis_shapes, draw_axes
 from anymesh.rendering.drawing import draw, face_colors, ground, light_on, material_colors, render_target
 from anymesh.rendering.labels import font
 from anymesh.rendering.preview import best_camera, part_colors, shown_position
-from anymesh.rendering.raycast_ import RayScene
 from anymesh.rendering.samples import Window, sample
 from anymesh.rendering.smooth import smoothed
 from anymesh.rendering.viewpoints import away

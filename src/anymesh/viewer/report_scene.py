@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 
 from anymesh.geometry.kinematics import posed
+from anymesh.geometry.raycast_ import RayScene
 from anymesh.rendering.axes import axis_line
 from anymesh.rendering.preview import BASE, PALETTE, best_camera, shown_position
-from anymesh.rendering.raycast_ import RayScene
 from anymesh.types import Asset, Joint, JointType
 
 APART = 0.35  # maximum distance of a part in the exploded view, as a share of the diagonal

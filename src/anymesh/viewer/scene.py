@@ -8,9 +8,9 @@ from dataclasses import dataclass, field
 import numpy as np
 from jaxtyping import Float, Int
 
-from anymesh.export.inertia import Inertia
 from anymesh.geometry.kinematics import joint_transform
 from anymesh.geometry.simplify_ import simplify
+from anymesh.physics.inertia import Inertia
 from anymesh.rendering.axes import axis_line, ring
 from anymesh.rendering.preview import BASE, PALETTE
 from anymesh.types import Asset, Box, Cylinder, Hull, Joint, JointType, Mesh, Shape

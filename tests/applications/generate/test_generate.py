@@ -16,9 +16,10 @@ from anymesh.applications.generate import explain_generation, generate
 from anymesh.applications.generate.record import STILL
 from anymesh.applications.generate.work import WorkFolder
 from anymesh.checking import check_asset
+from anymesh.completion.retexture import Remote
 from anymesh.errors import AnymeshError, BudgetError, InputError, ModelError, OptionError, OutputError
-from anymesh.postprocessing.retexture import Remote
-from anymesh.storage.atomic_folder import locked
+from anymesh.pipeline.storage.atomic_folder import locked
+from anymesh.pipeline.storage.run_folder import RunFolder
 from anymesh.types import JointType
 
 BOX = Path(__file__).parents[3] / "examples" / "meshes" / "storage_box.glb"
@@ -190,7 +191,7 @@ def test_where_it_came_from_survives_an_export_and_corrections(articulations, pr
     origin = {name for name in before if name.startswith("generat")}
     assert origin == {"generation.json", "generated/box.glb"}
     assert {name: content for name, content in files(out).items() if name in origin} == {n: before[n] for n in origin}
-    with pipeline.RunFolder.revise(out):
+    with RunFolder.revise(out):
         pass
     assert origin <= set(files(out))
     pipeline.finish(out, tmp_path / "again", **FAST)
@@ -220,7 +221,7 @@ def test_a_warning_tells_that_nothing_moves(program, tmp_path, quick, monkeypatc
 
 
 def test_looks_by_meshy_are_counted_in_and_limited(server, articulations, tmp_path, monkeypatch) -> None:
-    monkeypatch.setattr("anymesh.postprocessing.outside.Remote", partial(Remote, size=128, padding=1))
+    monkeypatch.setattr("anymesh.completion.outside.Remote", partial(Remote, size=128, padding=1))
     with pytest.raises(BudgetError, match="would pass --max-calls 0"):
         generate(PROMPT, tmp_path / "box", **FAST, texture="meshy:oak", max_calls=2)
     assert len(server.tasks) == 2

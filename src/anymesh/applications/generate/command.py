@@ -16,9 +16,9 @@ from anymesh.applications.generate.protocol import GeneratedMesh, MeshRequest, S
 from anymesh.defects import redacted
 from anymesh.errors import InputError, ModelError, OptionError
 from anymesh.loading import load_mesh
-from anymesh.models.address import KEYS
 from anymesh.models.meshy_api import KEY
 from anymesh.progress import Progress
+from anymesh.vlm.address import KEYS
 
 PLACEHOLDERS = ("prompt", "image", "out", "seed")
 VALID = "command:PROGRAM with {out}, and {prompt} or {image}, such as 'command:python run.py --image {image} --out {out}'"

@@ -12,32 +12,37 @@ from typing import Any
 import numpy as np
 
 from anymesh import __version__
-from anymesh.answering import FILES, Answering, choose_answerer
 from anymesh.applications.generate.choose import open_generator
 from anymesh.applications.generate.given import GivenMesh
 from anymesh.applications.generate.protocol import Generator3D, MeshRequest
 from anymesh.applications.generate.size import Size, choose_size
-from anymesh.config import DEFAULT_VIEWS
-from anymesh.deadline import DEFAULT_SECONDS, Deadline
+from anymesh.completion.outside import open_completer, open_retexturer
+from anymesh.deadline import Deadline
 from anymesh.errors import OptionError, OutputError
-from anymesh.export.formats import DEFAULT
-from anymesh.export_options import ExportOptions
+from anymesh.export.options import ExportOptions
 from anymesh.loading import place_mesh
 from anymesh.loading.load import LoadedMesh
-from anymesh.postprocessing.outside import open_completer, open_retexturer
-from anymesh.solving import GEOMETRY
-from anymesh.storage.atomic_folder import FOLDER_PREFIX
-from anymesh.storage.outputs import check_replaceable
+from anymesh.pipeline.answering import FILES, choose_answerer
+from anymesh.pipeline.options import (
+    AnswererOptions,
+    Answering,
+    CompletionOptions,
+    FormatOptions,
+    PlacementOptions,
+    RunOptions,
+    defaults,
+)
+from anymesh.pipeline.storage.atomic_folder import FOLDER_PREFIX
+from anymesh.pipeline.storage.outputs import check_replaceable
 from anymesh.types import Mesh, Node
 
-DEFAULTS: dict[str, Any] = {
-    "up": "auto", "scale": "auto", "base": "fixed", "formats": ",".join(DEFAULT), "drives": "passive",
-    "time_limit": DEFAULT_SECONDS, "completer": "builtin", "texture": "builtin", "watertight": True, "root": None,
-    "answerer": GEOMETRY.name, "category": None, "seed": 0, "parts_list": (), "at_least": 0, "proposer": "exact",
-    "viewpoints": DEFAULT_VIEWS, "verify": "motion",
-}  # fmt: skip
-FINISHING = ("completer", "texture", "watertight", "base", "formats", "drives")  # do not affect the pipeline's result
 FREE = ("max_calls", "max_cost", "cache", "timeout", "wait", "suggest", "spent", "limiter")  # options that affect no result
+DEFAULTS = {
+    name: value
+    for name, value in defaults(PlacementOptions, FormatOptions, RunOptions, CompletionOptions, AnswererOptions).items()
+    if name not in (*FREE, "force")
+}
+FINISHING = ("completer", "texture", "watertight", "base", "formats", "drives")  # do not affect the pipeline's result
 
 
 class GenerateOptions(Answering, total=False):

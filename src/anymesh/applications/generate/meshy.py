@@ -8,8 +8,8 @@ from pathlib import Path
 
 from anymesh.applications.generate.protocol import GeneratedMesh, MeshRequest, PaidTask, Step, Unit
 from anymesh.errors import InputError, ModelError, OptionError
+from anymesh.files import write_whole
 from anymesh.loading import load_mesh
-from anymesh.models.cache import write_whole
 from anymesh.models.meshy_api import PRICED, Task, TaskKind, read_key
 from anymesh.models.meshy_generate import FACES, Generated, Meshy3D, check_prompt, data_uri
 from anymesh.progress import Progress

@@ -17,11 +17,11 @@ from anymesh.applications.generate.protocol import GeneratedMesh
 from anymesh.applications.generate.record import STILL, add_record, add_tasks, read_record, recorded_mesh, retexture_task
 from anymesh.applications.generate.work import WorkFolder
 from anymesh.errors import ModelError, OutputError, note_stage
-from anymesh.models.budget import Account, Spent
+from anymesh.pipeline.storage.run_folder import RunFolder
+from anymesh.pipeline.storage.saved import Saved
 from anymesh.progress import Progress, silent
-from anymesh.run_folder import RunFolder
-from anymesh.storage.saved import Saved
 from anymesh.types import Asset, JointType
+from anymesh.vlm.budget import Account, Spent
 
 
 def generate(

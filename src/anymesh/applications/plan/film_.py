@@ -17,10 +17,10 @@ from anymesh.applications.plan.replay_ import Physics, moved
 from anymesh.applications.plan.robot_ import RobotArm
 from anymesh.applications.plan.scene_ import OBJECT, ROBOT, compose
 from anymesh.errors import MissingExtraError, OptionError
+from anymesh.geometry.raycast_ import RayScene
 from anymesh.geometry.simplify_ import simplify
 from anymesh.mujoco_ import load_mujoco
 from anymesh.rendering.drawing import draw, face_colors, ground, render_target
-from anymesh.rendering.raycast_ import RayScene
 from anymesh.rendering.samples import Window, sample
 from anymesh.types import Mesh
 from anymesh.types.camera import Camera

@@ -9,7 +9,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from anymesh.applications.plan.plans import GripperContact, Target
-from anymesh.rendering.raycast_ import RayScene
+from anymesh.geometry.raycast_ import RayScene
 from anymesh.types import Motion, MotionKind
 from anymesh.types.triangles import face_cross
 

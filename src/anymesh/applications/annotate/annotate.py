@@ -1,0 +1,173 @@
+"""`anymesh annotate`: articulation of all objects of a collection, each in its own folder, with a ledger."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Generator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+from anymesh.applications.annotate.claims import begun_run, free_lost
+from anymesh.applications.annotate.entering import enter_objects
+from anymesh.applications.annotate.inputs import find_objects
+from anymesh.applications.annotate.ledger import Ledger
+from anymesh.applications.annotate.outages import Outage
+from anymesh.applications.annotate.report import write_report
+from anymesh.applications.annotate.runner import Plan, Runner
+from anymesh.applications.annotate.salvage import open_ledger
+from anymesh.applications.annotate.states import AttemptOutcome
+from anymesh.applications.annotate.tally import Tally, tally
+from anymesh.applications.annotate.workers import LocalWorkers, ObjectLimits, Workers, machine_cores
+from anymesh.deadline import DEFAULT_SECONDS
+from anymesh.errors import OptionError
+from anymesh.export.formats import DEFAULT
+from anymesh.export.options import ExportOptions
+from anymesh.pipeline.answering import FILES, choose_answerer
+from anymesh.pipeline.options import Answering
+from anymesh.pipeline.solving import GEOMETRY
+from anymesh.vlm.rates import Rate
+
+PARQUET = "ledger.parquet"
+UNPINNED = ("max_calls", "max_cost", "cache", "timeout")  # options that may differ between runs on one output
+KILL = 4.0  # maximum duration of an object, as a multiple of its time limit
+PATIENCE = 3600.0  # [s] for which a run waits for an unreachable model
+
+
+@dataclass(frozen=True)
+class Speed:
+    """Number of parallel objects, and their limits.
+
+    workers: None for one per core; memory: address space [GiB]; kill_after: [s] processor time after which an object is ended,
+    4 times its time limit by default; attempts: before quarantine;
+    requests, tokens: of a model per minute; patience: [s] with an unreachable model; ray: address of a cluster.
+    """
+
+    workers: int | None = None
+    memory: float | None = None
+    kill_after: float | None = None
+    attempts: int = 3
+    requests: int | None = None
+    tokens: int | None = None
+    patience: float = PATIENCE
+    ray: str | None = None
+
+
+@dataclass(frozen=True)
+class Annotated:
+    """Result of a run. ended: what ended it early, None if all was done; report: path of the page."""
+
+    found: Tally
+    ended: AttemptOutcome | None
+    report: Path
+
+
+def annotate(
+    source: str,
+    out: str | Path,
+    *,
+    speed: Speed = Speed(),
+    again: bool = False,
+    tell: Callable[[Tally], None] = lambda _: None,
+    work: Workers | None = None,
+    **options: Any,
+) -> Annotated:
+    """Annotate every unfinished object of a collection, and write the report.
+
+    source: a folder, a pattern, a table (.csv, .parquet), or `objaverse:` with ids or a file of them; again: include
+    quarantined objects; options: as for `articulate`, for all objects; work: workers, local processes by default.
+    A KeyboardInterrupt ends the workers immediately, and finished results are kept.
+    Raise InputError, OptionError, OutputError, MissingExtraError or ModelError before the work starts.
+    """
+    out = Path(out).absolute()
+    who = checked(options)
+    plan = Plan(options, speed.attempts, (speed.requests, speed.tokens), metered=who not in (GEOMETRY.name, FILES))
+    if speed.attempts < 1:
+        raise OptionError(f"--attempts: found {speed.attempts}; valid are integers from 1 up")
+    Rate(speed.requests, speed.tokens)
+    with open_ledger(out) as ledger, _workers(speed, options, plan, work) as (workers, count):
+        _pin(ledger, options)
+        enter_objects(ledger, find_objects(source, without=out))
+        _open_again(ledger, again)
+        with begun_run(ledger, count) as run:
+            runner = Runner(ledger, run, workers, plan, Outage(speed.patience), tell, count=count)
+            free_lost(ledger, run)
+            try:
+                runner.loop()
+            finally:
+                workers.close()
+        report = write_report(ledger)
+        if find_spec("pyarrow") is not None:
+            export_ledger(ledger, out / PARQUET)
+        return Annotated(tally(ledger), runner.ended, report)
+
+
+def checked(options: Mapping[str, Any]) -> str:
+    """Check the options common to all objects; return the answerer: geometry, files:, or a model's name.
+
+    Raise OptionError, ModelError (no key) or MissingExtraError.
+    """
+    answering: Answering = {k: v for k, v in options.items() if k in Answering.__annotations__}  # ty: ignore[invalid-assignment]
+    ExportOptions.parse(
+        options.get("base", "fixed"), options.get("formats", ",".join(DEFAULT)), options.get("drives", "passive")
+    )
+    who = choose_answerer(answering).name
+    return FILES if who.startswith(FILES) else who
+
+
+def _pin(ledger: Ledger, options: Mapping[str, Any]) -> None:
+    """Store the options of an output, or compare them with the stored ones. Raise OptionError if they differ."""
+    told = json.dumps({k: str(v) for k, v in sorted(options.items()) if k not in UNPINNED})
+    kept = ledger.setting("options", told)
+    if kept != told:
+        ours, theirs = json.loads(told), json.loads(kept or "{}")
+        names = sorted(k for k in {*ours, *theirs} if ours.get(k) != theirs.get(k))
+        shown = ", ".join(f"{k} {theirs.get(k, 'default')!r}, now {ours.get(k, 'default')!r}" for k in names)
+        raise OptionError(f"{ledger.out} was begun with {shown}; use the same options, or another output")
+
+
+def _open_again(ledger: Ledger, again: bool) -> None:
+    """Set waiting objects to pending, since their questions may be answered; with `again`, also quarantined ones."""
+    with ledger.writing() as connection:
+        connection.execute("UPDATE objects SET state = 'pending' WHERE state = 'waiting'")
+        if again:
+            told = "UPDATE objects SET state = 'pending', attempts = 0, losses = 0 WHERE state = 'quarantined'"
+            connection.execute(told)
+
+
+@contextmanager
+def _workers(speed: Speed, options: Mapping[str, Any], plan: Plan, given: Workers | None) -> Generator[tuple[Workers, int]]:
+    if speed.workers is not None and speed.workers < 1:
+        raise OptionError(f"--workers: found {speed.workers}; valid are integers from 1 up")
+    seconds = speed.kill_after or KILL * float(options.get("time_limit", DEFAULT_SECONDS))
+    if given is not None:
+        yield given, given.free
+    elif speed.ray is not None:
+        from anymesh.applications.annotate.ray_ import RayWorkers
+
+        limits = ObjectLimits.default(1, speed.memory or 4.0, seconds, waits=plan.metered)
+        workers = RayWorkers(speed.ray, limits, speed.workers)
+        yield workers, workers.free
+    else:
+        count = speed.workers or machine_cores()
+        yield LocalWorkers(count, ObjectLimits.default(count, speed.memory, seconds, waits=plan.metered)), count
+
+
+def export_ledger(ledger: Ledger, path: Path) -> None:
+    """Write the table of objects as Parquet. Raise MissingExtraError or OutputError."""
+    from anymesh.applications.annotate.ledger_schema import OBJECTS
+    from anymesh.applications.annotate.parquet_ import write_rows
+    from anymesh.errors import OutputError
+
+    try:
+        write_rows(path, OBJECTS, ledger.export_rows())
+    except OSError as error:
+        raise OutputError(f"cannot write {path}: {error.strerror or error}") from error
+
+
+def collection_status(out: str | Path) -> Tally:
+    """Return the progress of a collection, also while runs work on it. Raise OutputError if there is none."""
+    with Ledger.open(Path(out)) as ledger:
+        return tally(ledger)

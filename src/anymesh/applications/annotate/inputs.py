@@ -1,0 +1,146 @@
+"""The objects of a collection: a folder, a pattern, a table, or ids of Objaverse."""
+
+from __future__ import annotations
+
+import logging
+import os
+import re
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+
+from anymesh.applications.annotate.requests import OBJAVERSE, ObjectRequest
+from anymesh.applications.annotate.tables import TABLES, read_table
+from anymesh.errors import InputError, OptionError
+from anymesh.loading.checks import FORMATS
+
+log = logging.getLogger("anymesh")
+WILD = re.compile(r"[*?\[]")
+UID = re.compile(r"[0-9a-f]{32}")
+ANY_FOLDERS = "(?:[^/]+/)*"  # `**/` as a regular expression
+
+
+def find_objects(spec: str, *, without: Path) -> Iterator[ObjectRequest]:
+    """Yield the objects that INPUT names, in a fixed order, without the folder `without` (the output).
+
+    Each folder is read once. Raise InputError if nothing is found or a table is not valid, OptionError for invalid ids.
+    """
+    if spec.startswith(OBJAVERSE):
+        yield from _objaverse(spec.removeprefix(OBJAVERSE))
+        return
+    path = Path(spec)
+    if path.is_dir():
+        found = _files(path, (p for p in walk(path, without) if p.suffix.lower() in FORMATS))
+    elif path.is_file():
+        table = path.suffix.lower() in TABLES
+        found = (_with_file(r) for r in read_table(path)) if table else _files(path.parent, [path])
+    elif WILD.search(spec):
+        found = _files(*_matches(spec, without))
+    else:
+        raise InputError(f"found no {spec!r}; valid are a folder, a pattern, a table ({', '.join(TABLES)}), or objaverse:IDS")
+    count = 0
+    for count, request in enumerate(found, 1):  # noqa: B007
+        yield request
+    if not count:
+        raise InputError(f"{spec} holds no object; valid are files with {', '.join(FORMATS)}")
+
+
+def walk(base: Path, without: Path | None = None) -> Iterator[Path]:
+    """Yield all files below a folder in the order of their names, including linked folders, each real folder once.
+
+    Unreadable folders and cyclic links are skipped with a warning. `without`: a folder to skip.
+    """
+    left_out = None if without is None else without.resolve()
+    seen: set[tuple[int, int]] = set()
+    waiting = [base]
+    while waiting:
+        folder = waiting.pop()
+        try:
+            status = folder.stat()
+            entries = sorted(os.scandir(folder), key=lambda e: e.name)
+        except OSError as error:
+            log.warning("%s is left out: %s", folder, error.strerror)
+            continue
+        if (status.st_dev, status.st_ino) in seen or (left_out is not None and folder.resolve() == left_out):
+            continue
+        seen.add((status.st_dev, status.st_ino))
+        inner = []
+        for entry in entries:
+            try:
+                if entry.is_dir():
+                    inner.append(folder / entry.name)
+                elif entry.is_file():
+                    yield folder / entry.name
+            except OSError as error:
+                log.warning("%s is left out: %s", entry.path, error.strerror)
+        waiting += reversed(inner)
+
+
+def _files(base: Path, paths: Iterable[Path]) -> Iterator[ObjectRequest]:
+    """Return files as objects, named by their path relative to the base."""
+    for path in paths:
+        yield _with_file(ObjectRequest(path.relative_to(base).as_posix(), str(path.absolute())))
+
+
+def _with_file(request: ObjectRequest) -> ObjectRequest:
+    """Add the file's size and time to the request; mark it as refused if its name is not valid text or there is no file."""
+    try:
+        f"{request.name}{request.source}".encode()
+    except UnicodeEncodeError:
+        name = request.name.encode("utf-8", "surrogateescape").decode("utf-8", "backslashreplace")
+        return ObjectRequest(name, name, refusal="the name of the file is not valid UTF-8; rename it")
+    if request.source.startswith(OBJAVERSE):
+        return request
+    try:
+        status = Path(request.source).stat()
+    except (OSError, ValueError) as error:
+        told = getattr(error, "strerror", None) or error
+        return ObjectRequest(request.name, request.source, request.options, refusal=f"the file cannot be opened: {told}")
+    return ObjectRequest(request.name, request.source, request.options, size=status.st_size, modified=status.st_mtime_ns)
+
+
+def _matches(pattern: str, without: Path) -> tuple[Path, Iterator[Path]]:
+    """Return the folder before the first wildcard, and the matching files below it; `**` matches any folders."""
+    parts = Path(pattern).parts
+    fixed = next(k for k, part in enumerate(parts) if WILD.search(part))
+    base = Path(*parts[:fixed]) if fixed else Path()
+    if not base.is_dir():
+        raise InputError(f"found no folder {str(base)!r}, where the pattern {pattern!r} begins")
+    last = [".*"] if parts[-1] == "**" else [_part_regex(parts[-1])]
+    regex = re.compile("/".join([*map(_part_regex, parts[fixed:-1]), *last]).replace(ANY_FOLDERS + "/", ANY_FOLDERS), re.S)
+    return base, (p for p in walk(base, without) if p.suffix.lower() in FORMATS and regex.fullmatch(_below(p, base)))
+
+
+def _below(path: Path, base: Path) -> str:
+    return path.relative_to(base).as_posix()
+
+
+def _part_regex(part: str) -> str:
+    if part == "**":
+        return ANY_FOLDERS
+    tokens = re.findall(r"\[!?\]?[^\]]*\]|.", part, re.S)
+    return "".join(_token_regex(token) for token in tokens)
+
+
+def _token_regex(token: str) -> str:
+    match token:
+        case "*":
+            return "[^/]*"
+        case "?":
+            return "[^/]"
+        case _ if len(token) > 1:
+            inner = token[1:-1].replace("\\", "\\\\").replace("[", "\\[").replace("^", "\\^")
+            return f"[^/{inner[1:]}]" if inner.startswith("!") else f"[{inner}]"
+        case _:
+            return re.escape(token)
+
+
+def _objaverse(text: str) -> Iterator[ObjectRequest]:
+    """Yield objects by ids, separated by commas or one per line in a text file; meshes are fetched when processed."""
+    path = Path(text)
+    is_file = len(text) < 4096 and path.is_file()
+    ids = [line.strip() for line in (path.read_text(encoding="utf-8").splitlines() if is_file else text.split(","))]
+    ids = list(dict.fromkeys(i.removesuffix(".glb") for i in ids if i))
+    wrong = [i for i in ids if not UID.fullmatch(i)]
+    if wrong or not ids:
+        raise OptionError(f"objaverse: found {(wrong or [text])[0][:80]!r}; valid are ids of 32 hexadecimal digits, or a file")
+    yield from (ObjectRequest(i, f"{OBJAVERSE}{i}") for i in ids)

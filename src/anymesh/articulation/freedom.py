@@ -1,0 +1,53 @@
+"""Test of Stage B that Stage A makes of unseen patches: a part must not lose its free motion by gaining them."""
+
+from __future__ import annotations
+
+import numpy as np
+from jaxtyping import Int
+
+from anymesh.articulation.estimate import motion_question, part_context
+from anymesh.articulation.evidence import hypotheses
+from anymesh.articulation.geometry_answerer import GeometryAnswerer
+from anymesh.articulation.motion_question import Candidate
+from anymesh.articulation.tree import parents
+from anymesh.config import ArticulationConfig
+from anymesh.geometry.part_context import PartContext
+from anymesh.geometry.patches import ObjectShape
+from anymesh.types import MotionKind
+from anymesh.types.recognition import Moves
+
+MOTIONS_PER_TYPE = 4  # likeliest motions of each kind, one of which must stay free with the gained patches
+MIN_FREE_RATIO = 0.8  # minimum opening of a part with gained patches, relative to its opening without them
+SUFFICIENT_OPENING = float(np.deg2rad(60))  # [rad, or share of the diagonal] larger openings are not compared
+
+
+def stays_free(
+    whole: ObjectShape,
+    config: ArticulationConfig,
+    without: Int[np.ndarray, " F"],
+    joined: Int[np.ndarray, " F"],
+    part: int,
+    moves: Moves | None = None,
+) -> bool:
+    """Return whether a part opens as far with the unseen patches that it would gain.
+
+    without, joined: part index of each face of `whole`, without and with these patches; moves: the recognized motion of the
+    part, if known.
+    """
+    alone, gained = _context(whole, config, without, part), _context(whole, config, joined, part)
+    question, geometry = motion_question(alone, "candidate", "part"), GeometryAnswerer()
+    best: dict[int, Candidate] = {}  # the better one of the two directions along each axis
+    for k in geometry.which_motion(question).ranking:
+        best.setdefault(id(question.candidates[k].motion), question.candidates[k])
+    kinds = list(MotionKind) if moves is None else [MotionKind.PRISMATIC if moves is Moves.PRISMATIC else MotionKind.REVOLUTE]
+    likely = [c for kind in kinds for c in [c for c in best.values() if c.motion.kind is kind][:MOTIONS_PER_TYPE]]
+    after = hypotheses(gained, [(c.role, c.motion) for c in likely])[::2]
+    far = [(max(c.opening, c.closing), max(a.opening, a.closing)) for c, a in zip(likely, after, strict=True)]
+    return any(now >= MIN_FREE_RATIO * min(before, SUFFICIENT_OPENING) for before, now in far)
+
+
+def _context(whole: ObjectShape, config: ArticulationConfig, label: Int[np.ndarray, " F"], part: int) -> PartContext:
+    shapes = [whole.of(np.flatnonzero(label == k)) for k in np.unique(label)]
+    rank = np.searchsorted(np.unique(label), label)
+    number = int(np.searchsorted(np.unique(label), part))
+    return part_context(whole, rank, shapes, parents(shapes, whole.diagonal), number, config)

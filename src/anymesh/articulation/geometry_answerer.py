@@ -1,0 +1,102 @@
+"""Answerer without a model: ranks motions by the learned score and by the part's label."""
+
+from __future__ import annotations
+
+import numpy as np
+from jaxtyping import Bool, Float
+
+from anymesh.articulation.motion_question import Candidate, MotionAnswer, MotionQuestion, PartFacts
+from anymesh.scoring.two_steps import confidence_of
+from anymesh.types import JointType, MotionKind
+from anymesh.vocabulary import TypicalMotion, typical_motion
+
+NO_MOTION_CONFIDENCE = 0.3  # confidence of a joint without a plausible motion
+# calibration of the log-odds of a confidence, fitted to kinds left out of training (benchmarks/train_motions.py)
+CALIBRATION_SLOPE, OFFSET = 0.81, 0.05
+SAME_AXIS = 0.97  # minimum cosine between axes that a user sees as one
+SAME_LINE = 0.1  # of the part's size: maximum distance between lines that a user sees as one
+BLOCKED = -4.0  # [log-odds] penalty of a motion that the sweep finds blocked
+LABEL_PRIOR = {  # [log-odds] added by a label to a hinge, to a rotation about the axis of a round outline, to a slide
+    TypicalMotion.HINGE: (1.5, -2.5, -2.0),
+    TypicalMotion.TWO_PIVOT: (1.5, -2.5, -2.0),
+    TypicalMotion.PRISMATIC: (-2.0, -2.5, 2.0),
+    TypicalMotion.PRESS: (-2.0, -2.5, 2.0),
+    TypicalMotion.SPIN: (-1.5, 2.5, -2.0),
+}
+
+
+class GeometryAnswerer:
+    """Answers from geometry alone; needs no key and no network."""
+
+    name = "geometry"
+
+    def which_motion(self, question: MotionQuestion) -> MotionAnswer:
+        """Rank the candidates by score.
+
+        The confidence comes from the probability of the candidates that a user sees as the best one.
+        """
+        scores = motion_scores(question)
+        ranking = tuple(int(i) for i in np.argsort(-scores, kind="stable"))
+        best = question.candidates[ranking[0]]
+        if not best.is_free:
+            return MotionAnswer(ranking, JointType.FIXED, NO_MOTION_CONFIDENCE, "no candidate motion is free and plausible")
+        share = np.clip(share_of_best(scores, same_joints(question, ranking[0])), 1e-6, 1 - 1e-6)
+        confidence = confidence_of(float(np.log(share / (1 - share))), CALIBRATION_SLOPE, OFFSET)
+        why = f"{reason(question.part, best)}; {question.reasons[ranking[0]]}"
+        return MotionAnswer(ranking, joint_type(best), confidence, why)
+
+
+def motion_scores(question: MotionQuestion) -> Float[np.ndarray, " k"]:
+    """Return the log-odds of each candidate, with a penalty for blocked motions and a prior from the label."""
+    scores = question.scores + np.array([0.0 if c.is_free else BLOCKED for c in question.candidates])
+    prior = LABEL_PRIOR.get(habit) if (habit := typical_motion(question.part.label)) else None
+    if prior is None:
+        return scores
+    kinds = [2 if c.motion.kind is MotionKind.PRISMATIC else int(c.role == "round") for c in question.candidates]
+    return scores + np.array(prior)[kinds]
+
+
+def same_joints(question: MotionQuestion, best: int) -> Bool[np.ndarray, " k"]:
+    """Return which candidates a user could not distinguish from `best`.
+
+    They are of its kind, about the same line, opening to the same side. A motion that is free both ways has no side.
+    """
+    motions = [c.motion for c in question.candidates]
+    same = np.array([m.kind is motions[best].kind for m in motions])
+    axes, axis = np.array([c.motion.axis * c.opening_sign for c in question.candidates]), motions[best].axis
+    cosine = axes @ (axis * question.candidates[best].opening_sign)
+    same &= (np.abs(cosine) if question.candidates[best].is_endless else cosine) >= SAME_AXIS
+    if motions[best].kind is MotionKind.REVOLUTE:
+        offset = np.array([m.origin for m in motions]) - motions[best].origin
+        same &= np.linalg.norm(np.cross(offset, axis), axis=1) <= SAME_LINE * question.part.size * question.part.diagonal
+    return same
+
+
+def share_of_best(scores: Float[np.ndarray, " k"], same: Bool[np.ndarray, " k"]) -> float:
+    """Return the probability of the candidates that are the same joint, if exactly one of all is right."""
+    likely = np.exp(scores - scores.max())
+    return float(likely[same].sum() / likely.sum())
+
+
+def joint_type(c: Candidate) -> JointType:
+    """Return the type of joint of a candidate."""
+    if c.motion.kind is MotionKind.PRISMATIC:
+        return JointType.PRISMATIC
+    return JointType.CONTINUOUS if c.role == "round" and c.is_endless else JointType.REVOLUTE
+
+
+def reason(part: PartFacts, c: Candidate) -> str:
+    """Describe a motion in words."""
+    if c.motion.kind is MotionKind.PRISMATIC:
+        held = f"held on {round(4 * c.guided)} of 4 sides"
+        way = "outwards" if c.outward > 0.7 else "inwards" if c.outward < -0.7 else "along the surface"
+        return f"slides {way}, {held}, free for {100 * c.opening:.0f} % of the object's diagonal ({c.motion.source})"
+    free = f"free {-np.degrees(c.closing):.0f}..{np.degrees(c.opening):.0f} deg"
+    if c.role == "round":
+        return f"round outline ({100 * part.roundness:.0f} %), turns about its axis, {free}"
+    told = [c.motion.source]
+    if c.handle_side > 0.3:
+        told.insert(0, "hinge opposite the handle")
+    if c.hinge_support > 0.5:
+        told.append("the parent runs along it")
+    return ", ".join([*told, free])

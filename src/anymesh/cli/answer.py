@@ -1,0 +1,123 @@
+"""The command line of `anymesh answer`."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from anymesh.cli.options import Json, MaxCost, Quiet
+from anymesh.cli.output import plain
+from anymesh.errors import OptionError
+
+if TYPE_CHECKING:
+    from anymesh.vlm.question_files import QuestionFolder
+
+QuestionsPath = Annotated[
+    Path, typer.Argument(metavar="FOLDER", help="The folder of --answerer files:FOLDER, or of one question in it.")
+]
+Value = Annotated[
+    str | None,
+    typer.Argument(
+        metavar="VALUE", help="JSON; short, such as '1=2 2=0'; geometry to leave it; @FILE; or - for standard input."
+    ),
+]
+
+
+BatchApi = Annotated[
+    str | None,
+    typer.Option(
+        "--batch-api", metavar="MODEL", help="Send all open questions to MODEL's batch API as one job, or collect it."
+    ),
+]
+
+
+def answer(
+    folder: QuestionsPath,
+    value: Value = None,
+    batch_api: BatchApi = None,
+    max_cost: MaxCost = None,
+    json_: Json = False,
+    quiet: Quiet = False,
+) -> None:
+    """Show the open question in FOLDER, or answer it with VALUE, which is checked immediately."""
+    from anymesh.vlm.answers import open_in, record_answer
+
+    if batch_api is not None:
+        if value is not None:
+            raise OptionError("--batch-api answers all open questions; leave VALUE out")
+        _answer_by_batch(folder, batch_api, max_cost, json_, quiet)
+        return
+    if value is not None:
+        told = record_answer(folder, _read(value))
+        if json_:
+            typer.echo(json.dumps({"answered": str(told.question.path), "checked": told.whole, "open": told.left}, indent=2))
+        elif not quiet:
+            typer.echo(plain(told.words()))
+        return
+    found = open_in(folder)
+    if json_:
+        typer.echo(json.dumps({"open": [question_record(q) for q in found]}, indent=2))
+    elif found:
+        typer.echo(_shown(found))
+    else:
+        typer.echo("no question is open; run the command that asks them again to resume")
+
+
+def _answer_by_batch(folder: Path, model: str, max_cost: float | None, json_: bool, quiet: bool) -> None:
+    from dataclasses import asdict
+
+    from anymesh.vlm.batch_api import answer_by_batch
+
+    state = answer_by_batch(folder, model, max_cost=max_cost)
+    if json_:
+        typer.echo(json.dumps(asdict(state), indent=2))
+    elif not quiet:
+        typer.echo(plain(state.words().replace("\n", "; ")))
+
+
+def question_record(question: QuestionFolder) -> dict[str, Any]:
+    """Return everything that an agent needs to answer a question."""
+    from anymesh.vlm.question_files import SHEET
+
+    pictures = [{"path": str(question.path / p["file"]), "caption": p["caption"]} for p in question.record["pictures"]]
+    return {
+        "question": str(question.path),
+        "kind": question.kind,
+        "system": question.record["system"],
+        "text": question.record["text"],
+        "sheet": str(question.path / SHEET) if pictures else None,
+        "pictures": pictures,
+        "schema": question.schema,
+        "refused": question.refusal(),
+    }
+
+
+def _shown(found: list[QuestionFolder]) -> str:
+    from anymesh.vlm.question_files import SHEET
+    from anymesh.vlm.question_words import example_answer, explain_schema
+
+    first, record = found[0], found[0].record
+    lines = [f"{first.path}: {first.kind}", "", record["text"], ""]
+    if record["pictures"]:
+        lines.append(f"all pictures: {first.path / SHEET}")
+    lines += [f"{first.path / p['file']}  {p['caption']}".rstrip() for p in record["pictures"]]
+    lines += ["", "answer: one JSON object with", explain_schema(first.schema), ""]
+    lines.append(f"for example, in form only: {json.dumps(example_answer(first.schema))}")
+    lines += [first.refusal() or ""] * (first.refusal() is not None)
+    lines += [f"also open: {q.path}" for q in found[1:]]
+    return "\n".join(plain(line) for text in lines for line in text.split("\n"))
+
+
+def _read(value: str) -> str:
+    from anymesh.errors import InputError
+
+    try:
+        if value == "-":
+            return sys.stdin.read()
+        return Path(value[1:]).read_text(encoding="utf-8-sig") if value.startswith("@") else value
+    except (OSError, UnicodeDecodeError) as error:
+        raise InputError(f"{value[1:]} cannot be read as an answer ({type(error).__name__})") from None

@@ -1,0 +1,162 @@
+"""The command line. Heavy modules are imported inside the commands, so that help and completion are fast."""
+
+from __future__ import annotations
+
+import json
+import sys
+from functools import partial
+from typing import Annotated, Any
+
+import typer
+from typer.core import TyperCommand
+
+from anymesh import __version__
+from anymesh.cli.annotate import annotate
+from anymesh.cli.answer import answer
+from anymesh.cli.articulate import articulate
+from anymesh.cli.check import check
+from anymesh.cli.evaluate import evaluate
+from anymesh.cli.export import export
+from anymesh.cli.finish import finish
+from anymesh.cli.generate import generate
+from anymesh.cli.joints import joints
+from anymesh.cli.mcp import mcp
+from anymesh.cli.models import models
+from anymesh.cli.output import plain
+from anymesh.cli.picture import picture
+from anymesh.cli.plan import plan
+from anymesh.cli.quiet import quiet_libraries
+from anymesh.cli.report import report
+from anymesh.cli.scan import scan
+from anymesh.cli.segment import segment
+from anymesh.cli.skill import skill
+from anymesh.cli.view import view
+from anymesh.errors import DEFECT, AnymeshError, OpenQuestionError
+
+EXIT_CODES = (
+    "Exit codes: 0 done; 2 a wrong option; 3 the mesh cannot be used; 4 the output folder exists or "
+    "cannot be written; 5 an optional dependency is missing; 6 a model cannot be asked; 7 the budget is spent; "
+    "8 a check failed; 9 a question waits for its answer; 70 an internal defect, with a report to send; 130 interrupted."
+)
+
+
+class _Command(TyperCommand):
+    """Command that wraps unexpected errors with their command and options, before the library converts two of them."""
+
+    def invoke(self, ctx: Any) -> Any:
+        try:
+            return super().invoke(ctx)
+        except (AnymeshError, typer.Exit, typer.Abort):
+            raise
+        except (KeyboardInterrupt, Exception) as error:
+            if hasattr(error, "format_message") or isinstance(error, BrokenPipeError):
+                raise
+            raise _HandedError(error, str(ctx.info_name), dict(ctx.params)) from error
+
+
+class _HandedError(Exception):
+    def __init__(self, error: BaseException, command: str, options: dict[str, Any]) -> None:
+        self.error, self.command, self.options = error, command, options
+
+
+app = typer.Typer(
+    help="Any rigid 3D mesh in, a simulation-ready articulated asset out.",
+    epilog=EXIT_CODES,
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+_command = partial(app.command, cls=_Command, epilog=EXIT_CODES)
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        typer.echo(f"anymesh {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def _main(
+    version: Annotated[bool | None, typer.Option("--version", callback=_version, is_eager=True, help="Print it.")] = False,
+    debug: Annotated[bool, typer.Option("--debug", help="Show the traceback of an unexpected error.")] = False,
+) -> None: ...
+
+
+_command()(articulate)
+_command()(generate)
+_command()(annotate)
+_command()(segment)
+_command()(joints)
+_command()(export)
+_command()(answer)
+_command()(models)
+_command()(mcp)
+_command()(skill)
+_command()(finish)
+_command()(scan)
+_command()(report)
+_command()(picture)
+_command()(view)
+_command()(plan)
+_command("check")(check)
+_command("eval")(evaluate)
+
+
+def main(arguments: list[str] | None = None) -> None:
+    """Run the command line and end the process with its exit code."""
+    sys.exit(run(sys.argv[1:] if arguments is None else arguments))
+
+
+def run(arguments: list[str]) -> int:
+    """Run the command line; return the exit code."""
+    with quiet_libraries():
+        return _run(arguments)
+
+
+def _run(arguments: list[str]) -> int:
+    try:
+        code = app(arguments, standalone_mode=False)
+        return code if isinstance(code, int) else 0
+    except (typer.Exit, SystemExit) as stop:
+        return int(getattr(stop, "exit_code", getattr(stop, "code", 0)) or 0)
+    except (KeyboardInterrupt, typer.Abort):
+        return _interrupted(arguments)
+    except _HandedError as handed:
+        if isinstance(handed.error, KeyboardInterrupt):
+            return _interrupted(arguments)
+        return _defect(arguments, handed)
+    except Exception as error:
+        if isinstance(error, AnymeshError):
+            waiting = [str(f) for f in error.folders] if isinstance(error, OpenQuestionError) else None
+            return _fail(arguments, error, str(error), error.exit_code, **({} if waiting is None else {"questions": waiting}))
+        if hasattr(error, "format_message"):  # a usage error of the command line itself
+            return _fail(arguments, error, str(error.format_message()), 2) if arguments else 2  # ty: ignore[not-callable]
+        return _defect(arguments, _HandedError(error, "", {}))
+
+
+def _defect(arguments: list[str], handed: _HandedError) -> int:
+    """Report an unexpected error, and the location of its report."""
+    from anymesh.cli.defect import write_defect
+
+    error = handed.error
+    if "--debug" in arguments:
+        raise error
+    report = write_defect(error, handed.command, handed.options)
+    where = "" if report is None else f"; please report it with {report} (versions, options, traceback; no mesh, no keys)"
+    told = f"internal defect, {type(error).__name__}: {error}{where}; --debug before the command shows the traceback"
+    return _fail(arguments, error, told, DEFECT, report=None if report is None else str(report))
+
+
+def _interrupted(arguments: list[str]) -> int:
+    if "--json" in arguments:
+        typer.echo(json.dumps({"error": "interrupted", "kind": "KeyboardInterrupt", "exit_code": 130}))
+    typer.echo("interrupted", err=True)
+    return 130
+
+
+def _fail(arguments: list[str], error: BaseException, told: str, code: int, **more: str | list[str] | None) -> int:
+    told = plain(" ".join(told.split()))
+    if "--json" in arguments:
+        typer.echo(json.dumps({"error": told, "kind": type(error).__name__, "exit_code": code, **more}))
+    typer.echo(f"error: {told}", err=True)
+    return code

@@ -1,0 +1,75 @@
+"""The command line of `anymesh articulate`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from anymesh.cli.from_options import with_options
+from anymesh.cli.options import Answering, Formats, Json, Out, Parts, Placement, Quiet, Running
+from anymesh.cli.output import Shown, chosen_answerer, plain, tell, tell_asset
+from anymesh.errors import AnymeshError, OpenQuestionError, OptionError
+from anymesh.isolation import AHEAD, shared_pool
+
+Meshes = Annotated[
+    list[Path], typer.Argument(metavar="MESH", help="GLB, glTF, OBJ, PLY, STL, OFF or DAE; several with --batch.")
+]
+Batch = Annotated[
+    bool, typer.Option("--batch", help="Several meshes, or folders of them; a failure of one does not stop the others.")
+]
+
+
+@with_options
+def articulate(
+    mesh: Meshes,
+    out: Out,
+    *,
+    parts: Parts = "auto",
+    answering: Answering,
+    batch: Batch = False,
+    placement: Placement,
+    writing: Formats,
+    running: Running,
+    json_: Json = False,
+    quiet: Quiet = False,
+) -> None:
+    """Turn MESH into an articulated asset in DIR; with --batch, each of many meshes into a folder with its name in DIR."""
+    shared_pool().warm(*AHEAD)  # the child processes import while this process does
+    from anymesh import pipeline
+
+    answering["answerer"] = chosen_answerer(answering["answerer"], quiet or json_)
+    options: dict[str, Any] = {"parts": parts, **placement, **writing, **running, **answering}
+    if batch:
+        _articulate_many(mesh, out, options, json_, quiet)
+        return
+    if len(mesh) != 1:
+        raise OptionError(f"found {len(mesh)} meshes; several need --batch")
+    with Shown(quiet or json_) as progress:
+        asset = pipeline.articulate(mesh[0], out, progress=progress, **options)
+    tell_asset(asset, out, json_, quiet)
+
+
+def _articulate_many(meshes: list[Path], out: Path, options: dict[str, Any], json_: bool, quiet: bool) -> None:
+    from anymesh.pipeline.batch import articulate_many
+
+    with Shown(quiet or json_) as progress:
+        outcomes = articulate_many(meshes, out, progress=progress, **options)
+    rows = [{"mesh": str(o.mesh), "out": str(o.out), "state": o.state, "note": plain(_note(o.error))} for o in outcomes]
+    waiting = [o.error for o in outcomes if isinstance(o.error, OpenQuestionError)]
+    questions = [str(folder) for error in waiting for folder in error.folders]
+    tell({"out": str(out), "objects": rows, "questions": questions}, rows, ("mesh", "state", "note"), json_, quiet)
+    if questions and not (json_ or quiet):
+        answers = str(options["answerer"]).removeprefix("files:")
+        typer.echo(f"{len(questions)} open questions; `anymesh answer {answers}` shows them; then run the same command again")
+    codes = [o.error.exit_code for o in outcomes if o.error is not None]
+    if codes:
+        raise typer.Exit(waiting[0].exit_code if waiting else codes[0])
+
+
+def _note(error: AnymeshError | None) -> str:
+    """Return what stopped an object: the folder of its question, or the message."""
+    if isinstance(error, OpenQuestionError):
+        return ", ".join(map(str, error.folders))
+    return "" if error is None else str(error)

@@ -1,0 +1,88 @@
+"""The command line of `anymesh eval`."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from anymesh.cli.from_options import OptionsOf, with_options
+from anymesh.cli.options import Json, Quiet
+from anymesh.cli.output import Shown, tell
+from anymesh.pipeline.options import AnswererOptions
+
+DatasetName = Annotated[
+    str,
+    typer.Argument(
+        metavar="DATASET",
+        help="examples, scene-synthesizer, sweethome3d, metaworld, libero, or one of partnet-mobility, urdf, mjcf and labelled "
+        "with its folder: urdf:DIR.",
+    ),
+]
+ReportOut = Annotated[
+    Path, typer.Option("--out", "-o", metavar="DIR", help="Folder of the report; a stopped evaluation is resumed.")
+]
+ProtocolName = Annotated[str, typer.Option(help="parts (given), views (parts given, in one view), end-to-end, executability.")]
+Split = Annotated[str | None, typer.Option(help="A subset of the data set, such as ID, OOD or OneDoor.")]
+Changes = Annotated[
+    str, typer.Option("--changes", metavar="NAMES", help="Changes of each mesh, such as none,turned,noise.001,fused; or all.")
+]
+Views = Annotated[int, typer.Option(help="Views per object, for the protocol views.")]
+Only = Annotated[str, typer.Option(metavar="NAMES", help="Only these objects.")]
+Jobs = Annotated[int | None, typer.Option("--jobs", "-j", help="Parallel objects; one per core by default.")]
+EVALUATION_HELPS = {"answerer": "As for articulate; or oracle (ground truth), or oracle:P (wrong with probability P)."}
+EvalAnswerer = Annotated[
+    dict[str, Any],
+    OptionsOf(
+        AnswererOptions,
+        without=("parts_list", "category"),
+        helps=EVALUATION_HELPS,
+        flags={"viewpoints": ("--viewpoints",)},  # --views is the number of views of the protocol
+    ),
+]
+
+SHOWN = ("change", "objects", "joints", "type", "angle", "line", "at part", "opens", "range", "part F1", "part mIoU", "runs")
+
+
+@with_options
+def evaluate(
+    dataset: DatasetName,
+    out: ReportOut,
+    *,
+    protocol: ProtocolName = "parts",
+    split: Split = None,
+    changes: Changes = "none",
+    views: Views = 1,
+    only: Only = "",
+    jobs: Jobs = None,
+    answering: EvalAnswerer,
+    force: Annotated[bool, typer.Option("--force", help="Start again.")] = False,
+    json_: Json = False,
+    quiet: Quiet = False,
+) -> None:
+    """Evaluate all objects of a data set with known joints; write tables, pictures of the worst joints, a line per joint."""
+    from anymesh.evaluation import evaluating
+    from anymesh.evaluation.changes import CHANGES
+    from anymesh.evaluation.summary import summarize
+    from anymesh.evaluation.tables import group_table, grouped
+
+    chosen = tuple(CHANGES) if changes == "all" else _names(changes)
+    with Shown(quiet or json_) as progress:
+        records = evaluating.evaluate(
+            dataset, out, protocol=protocol, split=split, changes=chosen, views=views, only=_names(only), jobs=jobs,
+            force=force, progress=progress, **answering,
+        )  # fmt: skip
+    groups = grouped(records, lambda r: r.change)
+    table = group_table("By change", groups)
+    rows = [dict(zip(("change", *table.head[1:]), (cell.text for cell in row), strict=True)) for row in table.rows]
+    head = tuple(name for name in SHOWN if name in ("change", *table.head))
+    results = {name: asdict(summarize(some)) for name, some in groups}
+    tell({"out": str(out), "results": results}, rows, head, json_, quiet)
+    if not (json_ or quiet):
+        typer.echo(f"wrote {out / 'report.html'}, report.md, worst.png and joints.jsonl")
+
+
+def _names(told: str) -> tuple[str, ...]:
+    return tuple(name.strip() for name in told.split(",") if name.strip())

@@ -1,0 +1,34 @@
+"""`anymesh finish`: Stage C on the command line."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from anymesh.cli.from_options import with_options
+from anymesh.cli.options import Completion, Formats, Json, MaxCalls, Out, Quiet, Running
+from anymesh.cli.output import Shown, tell_asset
+
+Asset = Annotated[Path, typer.Argument(metavar="DIR", help="An output of `anymesh articulate`.")]
+
+
+@with_options
+def finish(
+    folder: Asset,
+    out: Out,
+    *,
+    completion: Completion,
+    max_calls: MaxCalls = None,
+    writing: Formats,
+    running: Running,
+    json_: Json = False,
+    quiet: Quiet = False,
+) -> None:
+    """Complete shapes and textures of the asset in DIR: inner walls, drawer boxes, thickness, textures of new faces."""
+    from anymesh import pipeline
+
+    with Shown(quiet or json_) as progress:
+        asset = pipeline.finish(folder, out, max_calls=max_calls, progress=progress, **completion, **writing, **running)
+    tell_asset(asset, out, json_, quiet)

@@ -1,0 +1,81 @@
+"""Options of commands, generated from the classes of options of the Python functions."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Mapping
+from dataclasses import Field, dataclass, field
+from functools import wraps
+from typing import Annotated, Any, get_args, get_type_hints
+
+import typer
+
+from anymesh.pipeline.options import FLAGS, HELP, KIND, METAVAR, command_fields
+
+
+@dataclass(frozen=True)
+class OptionsOf:
+    """Annotation of a command's parameter: it receives the values of a class of options.
+
+    without: fields that the command does not have; helps, flags: help texts and names that differ from those of the class.
+    """
+
+    kind: type
+    without: tuple[str, ...] = ()
+    helps: Mapping[str, str] = field(default_factory=dict)
+    flags: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+
+    def parameters(self) -> list[inspect.Parameter]:
+        """Return one parameter per option."""
+        return [self._parameter(f) for f in command_fields(self.kind) if f.name not in self.without]
+
+    def _parameter(self, f: Field[Any]) -> inspect.Parameter:
+        kind: Any = f.metadata[KIND]
+        default: Any = f.default
+        if kind is tuple:
+            kind, default = str, ",".join(default)
+        hint: Any = kind | None if default is None else kind
+        value = _typer_option(f, self.helps.get(f.name), self.flags.get(f.name))
+        annotation = Annotated[hint, value]
+        return inspect.Parameter(f.name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=annotation)
+
+    def values(self, given: dict[str, Any]) -> dict[str, Any]:
+        """Take the values of these options out of a command's arguments."""
+        found = {}
+        for f in command_fields(self.kind):
+            if f.name in given:
+                value = given.pop(f.name)
+                found[f.name] = tuple(v for v in value.split(",") if v.strip()) if f.metadata[KIND] is tuple else value
+        return found
+
+
+def option_of(kind: type, name: str) -> Any:
+    """Return the option of one field, for a command that has no other field of the class."""
+    found = next(f for f in command_fields(kind) if f.name == name)
+    return _typer_option(found)
+
+
+def _typer_option(f: Field[Any], text: str | None = None, flags: tuple[str, ...] | None = None) -> Any:
+    names = flags or f.metadata[FLAGS] or (f"--{f.name.replace('_', '-')}",)
+    return typer.Option(*names, metavar=f.metadata[METAVAR], help=text or f.metadata[HELP])
+
+
+def with_options(function: Callable[..., None]) -> Callable[..., None]:
+    """Replace each parameter of a command that is annotated with `OptionsOf` by the options of its class."""
+    hints = get_type_hints(function, include_extras=True)
+    classes = {name: k for name, hint in hints.items() for k in get_args(hint)[1:] if isinstance(k, OptionsOf)}
+    parameters: list[inspect.Parameter] = []
+    for name, parameter in inspect.signature(function).parameters.items():
+        if name in classes:
+            parameters += classes[name].parameters()
+        else:
+            parameters.append(parameter.replace(kind=inspect.Parameter.KEYWORD_ONLY, annotation=hints[name]))
+
+    @wraps(function)
+    def command(**given: Any) -> None:
+        found = {name: of.values(given) for name, of in classes.items()}
+        function(**given, **found)
+
+    command.__signature__ = inspect.Signature(parameters)  # ty: ignore[missing-attribute]
+    command.__annotations__ = {p.name: p.annotation for p in parameters}
+    return command

@@ -1,0 +1,52 @@
+"""The command line of `anymesh models`."""
+
+from __future__ import annotations
+
+import json
+import os
+from typing import Any
+
+import typer
+
+from anymesh.cli.options import Json
+from anymesh.cli.output import plain
+
+
+def models(json_: Json = False) -> None:
+    """List the models available on this machine, and which keys are set (without their values)."""
+    from anymesh.vlm.address import KEYS
+    from anymesh.vlm.servers import SERVERS, first_vision_model, probe_servers
+
+    found = probe_servers()
+    chosen = first_vision_model(found)
+    keys = [
+        {"provider": provider, "variable": name, "set": bool(os.environ.get(name, "").strip())}
+        for provider, names in KEYS.items()
+        for name in names
+    ]
+    record: dict[str, Any] = {
+        "servers": [
+            {
+                "server": f.server,
+                "url": f.url,
+                "answers": f.models is not None,
+                "note": f.note,
+                "models": [{"name": m.name, "takes_pictures": m.takes_pictures} for m in f.models or ()],
+            }
+            for f in found
+        ],
+        "keys": keys,
+        "auto": "geometry" if chosen is None else chosen.name,
+    }
+    if json_:
+        typer.echo(json.dumps(record, indent=2))
+        return
+    words = {True: "takes pictures", False: "text only", None: "not known whether it takes pictures"}
+    for f in found:
+        typer.echo(plain(f"{f.server} at {f.url or 'no address'}: {f.note or f'{len(f.models or ())} models'}"))
+        for m in f.models or ():
+            typer.echo(plain(f"  {m.name}  ({words[m.takes_pictures]})"))
+        if f.models is None:
+            typer.echo(f"  elsewhere: set {' or '.join(SERVERS[f.server].variables)}")
+    typer.echo("keys: " + ", ".join(f"{k['variable']} {'is set' if k['set'] else 'is not set'}" for k in keys))
+    typer.echo(f"--answerer auto takes {record['auto']}; without any model, --answerer files:FOLDER asks you or your agent")

@@ -1,0 +1,112 @@
+"""Command line of `anymesh plan`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from anymesh.cli.options import Force, Json, Quiet
+from anymesh.cli.output import Shown, plain, tell
+
+AssetPath = Annotated[
+    Path, typer.Argument(metavar="ASSET", help="A folder that anymesh made, or any URDF or MJCF with a joint that moves.")
+]
+RobotName = Annotated[str, typer.Option("--robot", help="panda, ur5e, or the path of a URDF or MJCF.")]
+JointName = Annotated[str, typer.Option("--joint", help="The joint's name, or that of the part it carries.")]
+To = Annotated[str, typer.Option("--to", help="Where it is brought from rest: radians or metres, or with a unit: 60deg, 10mm.")]
+Out = Annotated[Path, typer.Option("--out", "-o", metavar="FILE", help="The trajectory.")]
+Kind = Annotated[
+    str, typer.Option("--format", help="json (all), csv, or ros: the fields of trajectory_msgs/JointTrajectory as JSON.")
+]
+Base = Annotated[str, typer.Option(help="Of the robot in the asset frame: auto, or X,Y,Z,YAW in metres and degrees.")]
+ContactKind = Annotated[str, typer.Option("--contact", help="auto, grasp or push.")]
+Tool = Annotated[str | None, typer.Option(help="The hand's body, of a robot by path whose joints part before its hand.")]
+Gripper = Annotated[str, typer.Option(help="The gripper's joints, with commas between, of such a robot.")]
+Speed = Annotated[float, typer.Option(help="Share of the joints' limits of velocity and acceleration.")]
+Seconds = Annotated[float, typer.Option("--seconds", help="After which nothing further is tried.")]
+Video = Annotated[
+    Path | None,
+    typer.Option(metavar="FILE", help="Replay it in MuJoCo on the asset itself: .mp4 (extra video) or .png, a contact sheet."),
+]
+SeedNumber = Annotated[int, typer.Option("--seed", help="From 0 up; the same input and seed give the same trajectory.")]
+
+
+def plan(
+    asset: AssetPath,
+    joint: JointName,
+    to: To,
+    out: Out,
+    robot: RobotName = "panda",
+    kind: Kind = "json",
+    base: Base = "auto",
+    contact: ContactKind = "auto",
+    tool: Tool = None,
+    gripper: Gripper = "",
+    speed: Speed = 0.3,
+    seconds: Seconds = 20.0,
+    video: Video = None,
+    seed: SeedNumber = 0,
+    force: Force = False,
+    json_: Json = False,
+    quiet: Quiet = False,
+) -> None:
+    """Plan how a robot arm moves a joint of ASSET: a grasp or a push, a free approach, the part's motion, in time."""
+    from anymesh.applications.plan.formats import write_plan
+    from anymesh.applications.plan.options import parse_value
+    from anymesh.applications.plan.planner import plan as find
+
+    joints = tuple(name for name in gripper.split(",") if name)
+    with Shown(quiet or json_) as progress:
+        found = find(
+            asset, robot=robot, joint=joint, to=parse_value(to), base=base, contact=contact, tool=tool, gripper=joints,
+            seed=seed, speed=speed, seconds=seconds, progress=progress,
+        )  # fmt: skip
+        write_plan(found, out, kind, force=force)
+        shown = None if video is None else _film(found, asset, robot, tool, joints, video)
+    _tell(found, out, shown, json_, quiet)
+
+
+def _film(found: Any, asset: Path, robot: str, tool: str | None, gripper: tuple[str, ...], video: Path) -> tuple[Path, Any]:
+    from anymesh.applications.plan.asset_ import open_object
+    from anymesh.applications.plan.film_ import RATE, Film, write_film
+    from anymesh.applications.plan.planner import open_arm
+    from anymesh.applications.plan.replay_ import replay
+
+    arm = open_arm(robot, tool=tool, gripper=gripper)
+    thing = open_object(asset, found.joint)
+    seen = replay(found.trajectory, thing, arm.robot, arm.hand, found.base, found.value[1], rate=RATE)
+    return write_film(Film(thing, arm.robot, arm.hand, found.base), seen.states, video), seen
+
+
+def _tell(found: Any, out: Path, shown: tuple[Path, Any] | None, json_: bool, quiet: bool) -> None:
+    place = found.target.T_asset_tool[:3, 3]
+    row = {
+        "joint": found.joint,
+        "to": f"{found.value[1]:.4g} {found.unit}",
+        "contact": found.target.contact.value,
+        "at": ", ".join(f"{v:.3f}" for v in place),
+        "base": str(found.base),
+        "seconds": found.trajectory.duration,
+    }
+    record = {
+        **row,
+        "asset": found.asset,
+        "robot": found.robot,
+        "out": str(out),
+        "notes": list(found.notes),
+        "timing": dict(found.seconds),
+    }
+    if shown is not None:
+        path, seen = shown
+        done = "done" if seen.failure is None else seen.failure.value
+        record["replay"] = {"video": str(path), "value": seen.value, "outcome": done}
+    if json_ or not quiet:
+        tell(record, [row], tuple(row), json_, quiet)
+    if not (json_ or quiet):
+        for note in found.notes:
+            typer.echo(plain(note))
+        if shown is not None:
+            typer.echo(plain(f"replayed on the asset: {done}, at {seen.value:.4g} {found.unit}; see {path}"))
+        typer.echo(plain(f"wrote {out} ({len(found.trajectory.time)} samples, planned in {sum(found.seconds.values()):.1f} s)"))

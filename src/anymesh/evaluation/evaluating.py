@@ -1,0 +1,234 @@
+"""`anymesh eval`: evaluation of all objects of a data set, in parallel and resumable, with a report."""
+
+from __future__ import annotations
+
+import datetime
+import os
+import platform
+from collections.abc import Iterator, Sequence
+from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor, as_completed
+from concurrent.futures.process import BrokenProcessPool
+from functools import partial
+from multiprocessing import get_context
+from pathlib import Path
+from threading import Event
+from typing import Unpack
+from zlib import crc32
+
+import numpy as np
+
+from anymesh import __version__
+from anymesh.errors import OpenQuestionError, OptionError
+from anymesh.evaluation.changes import CHANGES
+from anymesh.evaluation.datasets.dataset import Dataset
+from anymesh.evaluation.datasets.named import open_dataset
+from anymesh.evaluation.evaluate_sample import EvalConfig, EvalProtocol, SampleAnswerer, evaluate_sample
+from anymesh.evaluation.ground_truth import EvalSample
+from anymesh.evaluation.oracle import Noisy, oracle
+from anymesh.evaluation.record import Record
+from anymesh.evaluation.report import write_report
+from anymesh.evaluation.results import ResultsFolder
+from anymesh.evaluation.score import ObjectScore
+from anymesh.evaluation.training import trained_note
+from anymesh.names import legal_name
+from anymesh.pipeline.answering import FILES, choose_answerer
+from anymesh.pipeline.options import Answering
+from anymesh.pipeline.solving import GEOMETRY, AnswererFactory, solve
+from anymesh.progress import Progress, silent
+
+ORACLE = "oracle"
+Examined = list[Record] | OpenQuestionError  # the records of an object, or the question that it waits for
+Done = Iterator[tuple[str, Examined]]
+
+
+def evaluate(
+    dataset: str,
+    out: str | Path,
+    *,
+    protocol: str = EvalProtocol.PARTS,
+    split: str | None = None,
+    changes: Sequence[str] = ("none",),
+    views: int = 1,
+    only: Sequence[str] = (),
+    jobs: int | None = None,
+    force: bool = False,
+    progress: Progress = silent,
+    **answering: Unpack[Answering],
+) -> list[Record]:
+    """Evaluate each object of a data set and write the report to the folder `out`; resume a stopped evaluation.
+
+    dataset: see `open_dataset`; protocol: parts, views, end-to-end or executability; changes: see `evaluation.changes`;
+    views: observations per object, for the views protocol; only: names of objects; jobs: objects in parallel (None: one per
+    core).
+    answerer: as for `articulate`, or oracle, or oracle:P (each answer wrong with probability P).
+    Raise OptionError, OutputError, MissingExtraError or ModelError; earlier results are kept.
+    """
+    eval_config = _eval_config(protocol, changes, views, answering.get("seed", 0))
+    stop = Event()
+    answerer_for, data = _answerer_for(answering, eval_config.seed, stop), open_dataset(dataset)
+    names = _chosen(data, split, only)
+    results = ResultsFolder.open(Path(out), _settings(dataset, split, only, eval_config, answering), force=force)
+    left = [name for name in names if not results.has(name)]
+    before, total = len(names) - len(left), len(names)
+    progress("eval", f"{before} done before" if before else "begins", before, total)
+    work = partial(_examined, dataset, eval_config, answering, results.folder)
+    alone = (GEOMETRY.name, ORACLE, *(() if answering.get("wait") else (FILES,)))
+    shared = not results.settings["answerer"].startswith(alone)
+    waiting: list[OpenQuestionError] = []
+    for done, (name, records) in enumerate(_all(left, work, answerer_for, shared, jobs or _cores(), stop), start=before):
+        progress("eval", name, done, total)
+        if isinstance(records, OpenQuestionError):
+            waiting.append(records)
+        else:
+            results.save(name, records)
+    if waiting:
+        raise _waiting(waiting, total)
+    every = [record for name in names for record in results.load(name)]
+    title = f"{data.name}{f' {split}' if split else ''}, {eval_config.protocol}, {results.settings['answerer']}"
+    settings = {**results.settings, "trained on": trained_note(data.name, names)}
+    write_report(every, results.folder, title=title, settings=settings)
+    return every
+
+
+def _waiting(errors: Sequence[OpenQuestionError], total: int) -> OpenQuestionError:
+    folders = [folder for error in errors for folder in error.folders]
+    return OpenQuestionError(
+        f"{len(errors)} of {total} objects wait for an answer: {', '.join(str(f) for f in folders[:5])}"
+        f"{', ...' if len(folders) > 5 else ''}; `anymesh answer` shows and answers them; then run the same command again",
+        folders,
+    )
+
+
+def _eval_config(protocol: str, changes: Sequence[str], views: int, seed: int) -> EvalConfig:
+    if protocol not in list(EvalProtocol):
+        raise OptionError(f"--protocol: found {protocol!r}; valid are {', '.join(EvalProtocol)}")
+    unknown = [c for c in changes if c not in CHANGES]
+    if unknown or not changes:
+        raise OptionError(f"--change: found {', '.join(unknown) or 'none'}; valid are {', '.join(CHANGES)}")
+    if views < 1:
+        raise OptionError(f"--views must be 1 or more, found {views}")
+    return EvalConfig(EvalProtocol(protocol), tuple(dict.fromkeys(changes)), views, seed)
+
+
+def _chosen(data: Dataset, split: str | None, only: Sequence[str]) -> list[str]:
+    names = list(data.objects(split))
+    unknown = sorted(set(only) - set(names))
+    if unknown:
+        raise OptionError(f"--only: found {', '.join(unknown)}; valid are {', '.join(names)}")
+    if not names:
+        raise OptionError(f"the data set {data.name} has no objects{f' in its split {split}' if split else ''}")
+    return [n for n in names if not only or n in only]
+
+
+def _settings(
+    dataset: str, split: str | None, only: Sequence[str], eval_config: EvalConfig, answering: Answering
+) -> dict[str, str]:
+    """Return the settings that determine an evaluation, and the environment in which it runs, in words."""
+    told = {
+        "dataset": dataset,
+        "split": split or "all",
+        "protocol": str(eval_config.protocol),
+        "answerer": answering.get("answerer", GEOMETRY.name),
+        "changes": ", ".join(eval_config.changes),
+        "seed": str(eval_config.seed),
+        "anymesh": __version__,
+    }
+    if eval_config.protocol is EvalProtocol.VIEWS:
+        told["views"] = str(eval_config.views)
+    if only:
+        told["only"] = ", ".join(sorted(only))
+    told |= {k: str(answering[k]) for k in ("verify", "proposer", "viewpoints") if k in answering}
+    if eval_config.protocol in (EvalProtocol.END_TO_END, EvalProtocol.EXECUTABILITY):
+        told["at least"] = str(answering.get("at_least", 0))
+    made = {"date": datetime.datetime.now(datetime.UTC).date().isoformat(), "python": platform.python_version()}
+    return told | made | {"numpy": np.__version__, "machine": f"{platform.machine()}, {_cores()} cores"}
+
+
+def _cores() -> int:
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+def _answerer_for(answering: Answering, seed: int, stop: Event | None = None) -> SampleAnswerer:
+    """Return the function that chooses the answerer of a sample.
+
+    It is geometry, the sample's ground truth (optionally with errors), files, or a model.
+    """
+    name, _, share = answering.get("answerer", GEOMETRY.name).partition(":")
+    if name == FILES.removesuffix(":"):
+
+        def asked(sample: EvalSample) -> AnswererFactory | None:
+            place: Answering = {**answering, "answerer": f"{FILES}{Path(share) / legal_name(sample.truth.name)}"}
+            return choose_answerer(place, about=sample.truth.name, stop=stop).factory
+
+        one = f"{FILES}{Path(share) / 'object'}" if share else FILES
+        _ = choose_answerer({**answering, "answerer": one})  # report invalid options before any work is done
+        return asked
+    if name != ORACLE:
+        who = choose_answerer(answering)
+        return lambda sample: who.factory if who.new_factory is None else who.new_factory()
+    try:
+        wrong = float(share or 0)
+    except ValueError:
+        wrong = -1.0
+    if not 0 <= wrong <= 1:
+        raise OptionError(f"--answerer oracle:P needs a probability P from 0 to 1, found {share!r}")
+
+    def known(sample: EvalSample) -> AnswererFactory:
+        rng = np.random.default_rng((seed, crc32(sample.truth.name.encode())))
+        return lambda fallback: Noisy(oracle(sample), wrong, rng) if wrong else oracle(sample)
+
+    return known
+
+
+def _examined(
+    dataset: str,
+    eval_config: EvalConfig,
+    answering: Answering,
+    folder: Path,
+    name: str,
+    answerer_for: SampleAnswerer | None = None,
+) -> Examined:
+    """Evaluate one object in its own process, which opens the data set again."""
+    options: Answering = {**answering, "answerer": GEOMETRY.name, "parts_list": ()}
+    solver = partial(solve, config=choose_answerer(options).config)
+    try:
+        return evaluate_sample(
+            eval_config, open_dataset(dataset), name, folder, solver, answerer_for or _answerer_for(answering, eval_config.seed)
+        )
+    except OpenQuestionError as error:
+        return error
+
+
+def _all(
+    names: Sequence[str], work: partial[Examined], answerer_for: SampleAnswerer, shared: bool, jobs: int, stop: Event
+) -> Done:
+    """Yield the records of each object as they complete.
+
+    shared: use threads, which share a model and its budget; else processes. stop: set at the end, for threads that wait for
+    answers.
+    """
+    if jobs == 1 or len(names) < 2:
+        yield from ((name, work(name, answerer_for)) for name in names)
+        return
+    pool: Executor = ThreadPoolExecutor(jobs) if shared else ProcessPoolExecutor(jobs, get_context("spawn"))
+    lost = []
+    try:
+        futures = {pool.submit(work, name, answerer_for if shared else None): name for name in names}
+        for future in as_completed(futures):
+            try:
+                yield futures[future], future.result()
+            except BrokenProcessPool:
+                lost.append(futures[future])
+    finally:
+        stop.set()
+        pool.shutdown(cancel_futures=True)
+    for name in lost:  # one of them ended its process, and with it the others
+        yield name, _alone(name, work)
+
+
+def _alone(name: str, work: partial[Examined]) -> Examined:
+    with ProcessPoolExecutor(1, get_context("spawn")) as pool:
+        try:
+            return pool.submit(work, name).result()
+        except BrokenProcessPool:
+            return [Record(ObjectScore(name, (), 0, 0, 0), error="its process ended unexpectedly (out of memory?)")]

@@ -1,0 +1,1 @@
+"""Physical properties that a mesh does not state: collision shapes, density, inertia."""

@@ -1,0 +1,151 @@
+"""Collision shapes of an asset: convex, close to the surface, with open cavities and freely moving parts."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from jaxtyping import Float
+
+from anymesh.deadline import COLLISION, Deadline
+from anymesh.geometry.kinematics import carried_links, joint_transform, link_transforms
+from anymesh.geometry.simplify_ import simplify
+from anymesh.isolation import ChildPool, shared_pool
+from anymesh.physics.collision.clear import ComponentShapes, ContactScene, clear
+from anymesh.physics.collision.convex import hull_of, thinned
+from anymesh.physics.collision.crossing import LinkSurface
+from anymesh.physics.collision.decompose import Component, Resolution, smallest_box, split_components
+from anymesh.physics.collision.decomposer import Decomposer, Fallback
+from anymesh.physics.collision.settings import CollisionConfig
+from anymesh.types import Asset, Joint, JointType, Shape
+
+__all__ = ["Collision", "CollisionConfig", "collision_shapes", "joint_poses", "sampled_poses"]
+MAX_CROSSING_FACES = 50_000  # faces of a link for tests of crossing surfaces
+MAX_POSES, MIN_POSES = 2000, 3  # sampled poses: maximum in all, minimum per joint
+MIN_COMPONENT_SIZE_RATIO = 0.3  # of the first gap: smaller components get no shape beside larger ones
+
+
+@dataclass(frozen=True, eq=False)
+class Collision:
+    """Collision shapes per link, in its frame.
+
+    overlapping: pairs of links whose surfaces cross at rest; false_before: number of pairs of shapes that touched at a sampled
+    pose although the surfaces do not, before trimming and refinement; tight: pairs of links that still have false contacts;
+    warnings: per link, deviations from the intended method, and why.
+    """
+
+    shapes: Mapping[str, tuple[Shape, ...]]
+    overlapping: tuple[tuple[str, str], ...]
+    false_before: int
+    tight: tuple[tuple[str, str], ...]
+    warnings: tuple[str, ...] = ()
+
+
+def collision_shapes(
+    asset: Asset,
+    triangles: Mapping[str, Float[np.ndarray, "n 3 3"]],
+    origins: Mapping[str, Float[np.ndarray, " 3"]],
+    config: CollisionConfig = CollisionConfig(),  # noqa: B008 - frozen
+    cache: Path | None = None,
+    *,
+    deadline: Deadline | None = None,
+    pool: ChildPool | None = None,
+) -> Collision:
+    """Make collision shapes for every link. Components that are not convex are divided in child processes.
+
+    triangles: per link, in its frame [m]; origins: of link frames at rest [m]; deadline: after it, each component gets one hull
+    and false contacts stay; pool: of child processes, by default the shared one of this process.
+    """
+    deadline = deadline or Deadline()
+    size = asset.mesh.diagonal
+    wall = min(config.wall * size, config.wall_most)
+    decomposer = Decomposer(pool or shared_pool(), cache, config.seconds)
+    fallbacks: dict[str, Fallback] = {}
+    parts = [
+        (link, c)
+        for link, t in triangles.items()
+        for c in split_components(t, MIN_COMPONENT_SIZE_RATIO * config.gaps[0] * size, config.most_components)
+    ]
+    owner = {id(c): link for link, c in parts}
+
+    def late() -> bool:
+        if late := deadline.late(COLLISION):
+            deadline.leave_out("collision: false contacts stay")
+        return late
+
+    def shapes_of(some: Sequence[Component], levels: Sequence[int]) -> list[tuple[Shape, ...]]:
+        if deadline.late(COLLISION):
+            deadline.leave_out("collision: one convex hull per component")
+            return [_one_hull(c, wall) for c in some]
+        resolution = [Resolution(config.gaps[k] * size, wall, config.pieces[k]) for k in levels]
+        divided = decomposer.divide(some, resolution)
+        fallbacks.update({owner[id(c)]: d.fallback for c, d in zip(some, divided, strict=True) if d.fallback is not None})
+        return [d.shapes for d in divided]
+
+    first = shapes_of([c for _, c in parts], [0] * len(parts))
+    pieces = [ComponentShapes(link, c, 0, shapes) for (link, c), shapes in zip(parts, first, strict=True)]
+    scene = ContactScene(
+        {link: LinkSurface(simplify(t, MAX_CROSSING_FACES)) for link, t in triangles.items()},
+        sampled_poses(asset, origins, config.poses),
+        config.contact * size,
+        config.crossing * size,
+    )
+    done = clear(scene, pieces, shapes_of, levels=len(config.gaps), rounds=config.rounds, late=late)
+    found = {link: tuple(s for p in done.pieces if p.link == link for s in p.shapes) for link in triangles}
+    found = {link: shapes or (smallest_box(triangles[link], wall),) for link, shapes in found.items()}
+    warnings = tuple(
+        f"link {link}: collision made by {f.used}, since {'; '.join(f.reasons)}" for link, f in sorted(fallbacks.items())
+    )
+    return Collision(found, scene.overlapping, done.before, done.left, (*warnings, *deadline.warnings()))
+
+
+def _one_hull(component: Component, wall: float) -> tuple[Shape, ...]:
+    hull = hull_of(component.triangles.reshape(-1, 3), wall)
+    return () if hull is None else (thinned(hull),)
+
+
+def joint_poses(
+    asset: Asset, origins: Mapping[str, Float[np.ndarray, " 3"]], joint: Joint, count: int
+) -> list[dict[str, Float[np.ndarray, "4 4"]]]:
+    """Return the poses of link frames at rest, and at `count` positions of one joint over its range with the others at rest."""
+    rest = _placed(asset, origins, {})
+    return [rest, *_alone(asset, rest, joint, count)]
+
+
+def sampled_poses(
+    asset: Asset, origins: Mapping[str, Float[np.ndarray, " 3"]], count: int
+) -> list[dict[str, Float[np.ndarray, "4 4"]]]:
+    """Return the poses of link frames at rest, with each joint alone over its range, and with all joints open.
+
+    Each joint has `count` positions, or fewer if the total would exceed MAX_POSES, but at least MIN_POSES. Links that a joint
+    does not move share their transform with the rest pose.
+    """
+    moving = [j for j in asset.joints if j.type is not JointType.FIXED]
+    count = int(np.clip(MAX_POSES // max(len(moving), 1), min(MIN_POSES, count), count))
+    rest = _placed(asset, origins, {})
+    alone = [pose for joint in moving for pose in _alone(asset, rest, joint, count)]
+    opened = {j.name: np.pi if j.limits is None else j.limits[1] for j in moving}
+    return [rest, *alone, _placed(asset, origins, opened)]
+
+
+def _alone(
+    asset: Asset, rest: dict[str, Float[np.ndarray, "4 4"]], joint: Joint, count: int
+) -> list[dict[str, Float[np.ndarray, "4 4"]]]:
+    """Return poses with one joint at positions of its range other than 0."""
+    lower, upper = (-np.pi, np.pi) if joint.limits is None else joint.limits
+    carried = carried_links(asset, joint)
+    moved = [joint_transform(joint, float(v)) for v in np.linspace(lower, upper, count) if v != 0]
+    return [rest | {name: T @ rest[name] for name in carried} for T in moved]
+
+
+def _placed(
+    asset: Asset, origins: Mapping[str, Float[np.ndarray, " 3"]], positions: Mapping[str, float]
+) -> dict[str, Float[np.ndarray, "4 4"]]:
+    placed = link_transforms(asset, positions)
+    for name, origin in origins.items():
+        shift = np.eye(4)
+        shift[:3, 3] = origin
+        placed[name] = placed[name] @ shift
+    return placed

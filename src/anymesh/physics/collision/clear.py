@@ -1,0 +1,208 @@
+"""Collision shapes that let every joint move: false contacts at sampled poses are removed by refinement or trimming.
+
+A contact of shapes is false if the surfaces themselves do not cross. First the components involved are decomposed more finely.
+Remaining protrusions are trimmed along the contact. Links whose surfaces overlap at rest are excluded from contact, and listed.
+Real collisions (a tray behind a closed door) stay.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from anymesh.physics.collision.contacts_ import Contact, ContactBench, Pose
+from anymesh.physics.collision.convex import trimmed, volume
+from anymesh.physics.collision.crossing import LinkSurface, cross, placed_bounds
+from anymesh.physics.collision.decompose import Component
+from anymesh.physics.collision.primitives import EXACT, as_hull, fitted
+from anymesh.types import Shape
+
+MAX_PLANED_RATIO = 0.15  # maximum share of a shape that is trimmed before its component is refined instead
+MAX_PLANED_RATIO_LAST = 0.7  # maximum share that is trimmed at the finest resolution
+# returns shapes of components at levels of resolution
+Refine = Callable[[Sequence[Component], Sequence[int]], list[tuple[Shape, ...]]]
+
+
+@dataclass(frozen=True, eq=False)
+class ComponentShapes:
+    """A component of a link and its shapes at a level of resolution."""
+
+    link: str
+    component: Component
+    level: int
+    shapes: tuple[Shape, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Fault:
+    """A false contact at a pose, between shapes of two components.
+
+    first, second: (index of the component, index of its shape).
+    """
+
+    first: tuple[int, int]
+    second: tuple[int, int]
+    depth: float
+    normal: np.ndarray  # from the first to the second, in the frame of the pose
+    pose: Pose
+
+
+@dataclass(frozen=True, eq=False)
+class Faults:
+    """The deepest false contact of each pair of shapes, deepest first.
+
+    poses: indices of the poses with false contacts.
+    """
+
+    found: list[Fault]
+    poses: tuple[int, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class ContactScene:
+    """Surfaces per link in link frames, poses (the first one is rest), and depth thresholds [m]."""
+
+    surfaces: dict[str, LinkSurface]
+    poses: Sequence[Pose]
+    contact: float
+    crossing: float
+
+    @cached_property
+    def overlapping(self) -> tuple[tuple[str, str], ...]:
+        """Return pairs of links whose surfaces cross at rest."""
+        names = sorted(self.surfaces)
+        low, high = np.stack([placed_bounds(self.surfaces[name], self.poses[0][name]) for name in names], 1)
+        near = np.triu((low[:, None] <= high[None]).all(2) & (low[None] <= high[:, None]).all(2), 1)
+        return tuple((names[i], names[k]) for i, k in np.argwhere(near) if self._cross(names[i], names[k], 0))
+
+    @cached_property
+    def _crossings(self) -> dict[tuple[str, str, int], bool]:
+        return {}
+
+    def _cross(self, a: str, b: str, at: int) -> bool:
+        """Return whether the surfaces of two links cross at a pose; cached, since surfaces do not change."""
+        if (a, b, at) not in self._crossings:
+            pose = self.poses[at]
+            self._crossings[a, b, at] = cross(self.surfaces[a], pose[a], self.surfaces[b], pose[b], self.crossing)
+        return self._crossings[a, b, at]
+
+    def faults(
+        self, pieces: Sequence[ComponentShapes], at: Sequence[int] | None = None, late: Callable[[], bool] = lambda: False
+    ) -> Faults:
+        """Find the false contacts at some poses, None for all; poses after the deadline are left out."""
+        owner = {
+            link: [(k, n) for k, p in enumerate(pieces) if p.link == link for n in range(len(p.shapes))]
+            for link in self.surfaces
+        }
+        bench = ContactBench({link: [pieces[k].shapes[n] for k, n in some] for link, some in owner.items()}, self.overlapping)
+        worst: dict[tuple[tuple[int, int], tuple[int, int]], Fault] = {}
+        poses = []
+        for number in range(len(self.poses)) if at is None else at:
+            if late():
+                break
+            found: dict[tuple[str, str], list[Contact]] = {}
+            for contact in bench.contacts(self.poses[number], self.contact):
+                a, b = sorted((contact.first[0], contact.second[0]))
+                found.setdefault((a, b), []).append(contact)
+            false = [c for (a, b), contacts in found.items() if not self._cross(a, b, number) for c in contacts]
+            poses += [number] if false else []
+            for c in false:
+                key = owner[c.first[0]][c.first[1]], owner[c.second[0]][c.second[1]]
+                if key not in worst or c.depth > worst[key].depth:
+                    worst[key] = Fault(*key, c.depth, c.normal, self.poses[number])
+        return Faults(sorted(worst.values(), key=lambda f: (-f.depth, f.first, f.second)), tuple(poses))
+
+
+@dataclass(frozen=True, eq=False)
+class Cleared:
+    """Components after clearing, the number of false contacts before, and the pairs of links that still have some."""
+
+    pieces: list[ComponentShapes]
+    before: int
+    left: tuple[tuple[str, str], ...]
+
+
+def clear(
+    scene: ContactScene,
+    components: list[ComponentShapes],
+    refine: Refine,
+    *,
+    levels: int,
+    rounds: int,
+    late: Callable[[], bool] = lambda: False,
+) -> Cleared:
+    """Remove false contacts by trimming shapes, or by refining components up to the last of `levels`.
+
+    Shapes are trimmed if they lose little. Since shapes only shrink, each round checks the poses that had false contacts. Once
+    these are free, all poses are checked again.
+
+    late: returns whether the deadline has passed, after which false contacts stay.
+    """
+    faults = scene.faults(components, None, late)
+    before = len(faults.found)
+    while faults.found and rounds > 0 and not late():
+        rounds -= 1
+        planed, costly = _planed(components, faults.found, scene.contact, MAX_PLANED_RATIO)
+        coarse = sorted({k for f in costly for k, _ in (f.first, f.second) if components[k].level + 1 < levels})
+        if coarse:
+            finer = refine([components[k].component for k in coarse], [components[k].level + 1 for k in coarse])
+            for k, shapes in zip(coarse, finer, strict=True):
+                planed[k] = replace(components[k], level=components[k].level + 1, shapes=shapes)
+        elif costly:
+            planed, _ = _planed(components, faults.found, scene.contact, MAX_PLANED_RATIO_LAST)
+        components = planed
+        again = scene.faults(components, faults.poses, late)
+        again = again if again.found else scene.faults(components, None, late)
+        if late():  # not all poses were checked, so earlier false contacts may remain
+            break
+        faults = again
+    links = [(components[f.first[0]].link, components[f.second[0]].link) for f in faults.found]
+    return Cleared(components, before, tuple(sorted({(min(pair), max(pair)) for pair in links})))
+
+
+def _planed(
+    components: list[ComponentShapes], faults: Sequence[Fault], margin: float, max_ratio: float
+) -> tuple[list[ComponentShapes], list[Fault]]:
+    """Trim the shape of each contact that loses the smaller share.
+
+    Return the shapes, and the contacts for which that share exceeds `max_ratio`.
+    """
+    shapes: list[list[Shape | None]] = [list(p.shapes) for p in components]
+    costly = []
+    for fault in faults:
+        sides = [(k, n, fault.pose[components[k].link], shapes[k][n]) for k, n in (fault.first, fault.second)]
+        reach = [
+            None if shape is None else float((placed_hull(shape, T) @ (sign * fault.normal)).max())
+            for (_, _, T, shape), sign in zip(sides, (1.0, -1.0), strict=True)
+        ]
+        if reach[0] is None or reach[1] is None or reach[0] + reach[1] <= 0:  # separated by an earlier cut
+            continue
+        depth = reach[0] + reach[1] + margin
+        cuts = [
+            _cut(shape, T, sign * fault.normal, depth)
+            for (_, _, T, shape), sign in zip(sides, (1.0, -1.0), strict=True)
+            if shape is not None
+        ]
+        side = 0 if cuts[0][0] <= cuts[1][0] else 1
+        if cuts[side][0] > max_ratio:
+            costly.append(fault)
+        else:
+            shapes[sides[side][0]][sides[side][1]] = cuts[side][1]
+    kept = [replace(p, shapes=tuple(s for s in some if s is not None)) for p, some in zip(components, shapes, strict=True)]
+    return kept, costly
+
+
+def placed_hull(shape: Shape, T: np.ndarray) -> np.ndarray:
+    """Return the corners of a shape in a pose."""
+    return as_hull(shape).vertices @ T[:3, :3].T + T[:3, 3]
+
+
+def _cut(shape: Shape, T: np.ndarray, normal: np.ndarray, depth: float) -> tuple[float, Shape | None]:
+    """Return the share that a shape loses and its rest, when it is trimmed by `depth` [m] from its furthest point."""
+    hull = as_hull(shape)
+    n = T[:3, :3].T @ normal
+    left = trimmed(hull, n, float((hull.vertices @ n).max()) - depth)
+    return (1.0, None) if left is None else (1 - volume(left) / volume(hull), fitted(left, EXACT))

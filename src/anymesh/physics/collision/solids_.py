@@ -1,0 +1,212 @@
+"""Convex decomposition of closed solids by exact cuts along planes, with manifold3d (Apache-2.0).
+
+A solid is cut into closed solids until each is close to its hull. Pieces whose common hull is also close to them are merged.
+Call it in a child process, since it is native code (docs/decisions.md).
+"""
+
+from __future__ import annotations
+
+import heapq
+import itertools
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from jaxtyping import Float, Int
+from scipy.spatial import ConvexHull, QhullError
+
+from anymesh.errors import MissingExtraError
+from anymesh.geometry.distance_ import distance_to_mesh
+from anymesh.geometry.sampling import sample_surface
+from anymesh.physics.collision.concave import concave_planes
+from anymesh.physics.collision.convex import hull_of, volume
+from anymesh.physics.collision.split import SAMPLES, below_and_above, cutting_planes, outline
+from anymesh.types import Hull
+
+if TYPE_CHECKING:
+    from manifold3d import Manifold
+
+SPLIT_RATIO = 3  # pieces before merging, per piece after it
+FACETED_PLANES = 32  # distinct planes at concave edges; a solid with more is smooth, and other planes are tried too
+PLANES_PER_CUT = 16  # planes at concave edges tried per cut, those with the longest edges first
+SMOOTH_PLANES = 8  # the same for a smooth solid
+CONVEX = 1e-6  # relative difference between the volumes of a solid and its hull below which it is convex
+KERF = 2e-5  # half the width of a cut, relative to the diagonal; a cut without width leaves thin layers where it meets a face
+DIGITS = 9  # of volumes of hulls that are compared; planes with equal ones are tried in order
+TOUCH = 3 * KERF  # distance between the bounds of touching pieces, relative to the diagonal
+
+Plane = tuple[np.ndarray, float]  # unit normal and offset
+
+
+@dataclass(frozen=True, eq=False)
+class _SolidPiece:
+    """Surfaces, their common hull, and the maximum distance of the hull from them. The diagonal of the whole solid is 1.
+
+    solid: None for merged pieces.
+    """
+
+    triangles: Float[np.ndarray, "n 3 3"]
+    hull: Hull
+    gap: float
+    solid: Manifold | None = None
+
+
+def decompose_solid(
+    vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"], *, gap: float, wall: float, max_pieces: int
+) -> list[Hull]:
+    """Return hulls of pieces of a closed solid that are within `gap` of it, or of `max_pieces` pieces.
+
+    Empty if the surface is not manifold. The same input gives the same hulls.
+
+    gap: maximum distance of a hull from the surface [m]; wall: minimum spacing of cutting planes [m].
+
+    Raise MissingExtraError without manifold3d.
+    """
+    low = vertices.min(0)
+    size = float(np.linalg.norm(np.ptp(vertices, axis=0)))
+    unit = (vertices - low) / size
+    solid = _manifold(unit, faces)
+    if solid is None:
+        return []
+    pieces = _cut(solid, concave_planes(unit[faces], FACETED_PLANES), gap / size, wall / size, SPLIT_RATIO * max_pieces)
+    merged = _merge_pieces(pieces, gap / size, max_pieces)
+    return [Hull(p.hull.vertices * size + low, p.hull.faces) for p in merged]
+
+
+def _manifold(vertices: np.ndarray, faces: np.ndarray) -> Manifold | None:
+    try:
+        from manifold3d import Error, Manifold, Mesh64
+    except ImportError:
+        raise MissingExtraError("manifold3d is missing; it comes with articulate-anymesh, install that again") from None
+    solid = Manifold(Mesh64(np.ascontiguousarray(vertices, np.float64), np.ascontiguousarray(faces, np.uint64)))
+    return solid if solid.status() == Error.NoError and solid.volume() > 0 else None
+
+
+def _cut(solid: Manifold, planes: Sequence[Plane], gap: float, wall: float, most: int) -> list[_SolidPiece]:
+    """Cut the piece with the largest gap until all are within `gap` or there are `most` pieces."""
+    done: list[_SolidPiece] = []
+    waiting = [(-piece.gap, k, piece) for k, piece in enumerate(_pieces(solid))]
+    number = itertools.count(len(waiting))
+    heapq.heapify(waiting)
+    while waiting:
+        piece = heapq.heappop(waiting)[2]
+        few = len(done) + len(waiting) + 1 < most
+        halves = _halves(piece, planes, wall) if piece.gap > gap and few else []
+        if not halves:
+            done.append(piece)
+        for half in halves:
+            heapq.heappush(waiting, (-half.gap, next(number), half))
+    return done
+
+
+def _pieces(solid: Manifold) -> list[_SolidPiece]:
+    """Return the connected pieces of a solid, without those that are flat."""
+    return [piece for part in solid.decompose() if (piece := _piece(part)) is not None]
+
+
+def _piece(solid: Manifold) -> _SolidPiece | None:
+    if solid.volume() <= KERF * solid.surface_area():
+        return None
+    mesh = solid.to_mesh64()
+    triangles = np.asarray(mesh.vert_properties)[:, :3][np.asarray(mesh.tri_verts, np.int64)]
+    hull = hull_of(triangles.reshape(-1, 3))
+    if hull is None:
+        return None
+    convex = solid.volume() >= (1 - CONVEX) * volume(hull)
+    return _SolidPiece(triangles, hull, 0.0 if convex else _gap(hull, triangles), solid)
+
+
+def _gap(hull: Hull, triangles: np.ndarray) -> float:
+    """Return the maximum distance of sample points of a hull from surfaces inside it."""
+    sides = hull.vertices[hull.faces]
+    points = np.concatenate([sample_surface(sides, SAMPLES, 0).points, sides.mean(1)])
+    corners = triangles.reshape(-1, 3)
+    return float(distance_to_mesh(points, corners, np.arange(len(corners)).reshape(-1, 3))[0].max())
+
+
+def _halves(piece: _SolidPiece, planes: Sequence[Plane], wall: float) -> list[_SolidPiece]:
+    """Return the pieces on both sides of the plane that leaves the least volume in their hulls; empty if no plane divides."""
+    assert piece.solid is not None  # only merged pieces have none
+    outlined = outline(piece.triangles)
+    candidates = list(_candidates(piece, planes, wall))
+    left = [sum(_hull_volume(side) for side in below_and_above(*outlined, *plane)) for plane in candidates]
+    for k in np.argsort(np.round(left, DIGITS), kind="stable"):
+        normal, offset = candidates[k]
+        above = piece.solid.trim_by_plane(tuple(normal.tolist()), offset + KERF)
+        below = piece.solid.trim_by_plane(tuple((-normal).tolist()), KERF - offset)
+        sides = [_pieces(above), _pieces(below)]
+        if all(sides):
+            return sides[0] + sides[1]
+    return []
+
+
+def _hull_volume(points: np.ndarray) -> float:
+    try:
+        return float(ConvexHull(points).volume) if len(points) > 3 else 0.0
+    except QhullError:
+        return 0.0
+
+
+def _candidates(piece: _SolidPiece, planes: Sequence[Plane], wall: float) -> Iterator[Plane]:
+    """Yield planes at concave edges of the whole solid that pass through a piece, and others if it has few or is smooth."""
+    smooth = len(planes) > FACETED_PLANES
+    points = piece.hull.vertices
+    count = 0
+    for normal, offset in planes:
+        along = points @ normal
+        if along.min() < offset - KERF and along.max() > offset + KERF:
+            yield normal, offset
+            count += 1
+        if count == (SMOOTH_PLANES if smooth else PLANES_PER_CUT):
+            break
+    if smooth or count == 0:
+        yield from cutting_planes(piece.triangles, wall)
+
+
+def _merge_pieces(pieces: Sequence[_SolidPiece], gap: float, most: int) -> list[_SolidPiece]:
+    """Merge touching pieces while their common hull is within `gap` of them, or there are more than `most`.
+
+    Pairs whose common hull adds the least volume are merged first.
+    """
+    kept = dict(enumerate(pieces))
+    number = itertools.count(len(kept))
+    queue: list[tuple[float, int, int]] = []
+    refused: list[tuple[float, int, int]] = []
+    for a, b in itertools.combinations(kept, 2):
+        _queue_pair(queue, kept, a, b)
+    while queue or (refused and len(kept) > most):
+        forced = not queue
+        pair = heapq.heappop(refused if forced else queue)
+        _, a, b = pair
+        both = _joined(kept[a], kept[b]) if a in kept and b in kept else None
+        if both is None:
+            continue
+        if both.gap > gap and not forced:
+            heapq.heappush(refused, pair)
+            continue
+        del kept[a], kept[b]
+        new = next(number)
+        kept[new] = both
+        for other in kept:
+            if other != new:
+                _queue_pair(queue, kept, other, new)
+    return list(kept.values())
+
+
+def _queue_pair(queue: list[tuple[float, int, int]], pieces: dict[int, _SolidPiece], a: int, b: int) -> None:
+    """Queue a pair of pieces by the volume that their common hull adds, if their bounds touch."""
+    first, second = pieces[a].hull, pieces[b].hull
+    near = (first.vertices.min(0) <= second.vertices.max(0) + TOUCH) & (second.vertices.min(0) <= first.vertices.max(0) + TOUCH)
+    if not near.all():
+        return
+    common = _hull_volume(np.concatenate([first.vertices, second.vertices]))
+    heapq.heappush(queue, (common - volume(first) - volume(second), a, b))
+
+
+def _joined(first: _SolidPiece, second: _SolidPiece) -> _SolidPiece | None:
+    hull = hull_of(np.concatenate([first.hull.vertices, second.hull.vertices]))
+    if hull is None:
+        return None
+    triangles = np.concatenate([first.triangles, second.triangles])
+    return _SolidPiece(triangles, hull, _gap(hull, triangles))

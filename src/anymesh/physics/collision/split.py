@@ -1,0 +1,149 @@
+"""Convex decomposition of open surfaces: the surface is cut by planes until every piece is close to its hull.
+
+A voxel remesh, as decomposers of solids need, would give an open shell thick walls. Cut directly, the shell stays thin and its
+cavity stays open.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float, Int
+from scipy.spatial import ConvexHull, QhullError
+
+from anymesh.geometry.boxes import dominant_normals
+from anymesh.geometry.distance_ import distance_to_triangles
+from anymesh.geometry.sampling import sample_surface
+from anymesh.geometry.topology import weld
+from anymesh.physics.collision.convex import cut, hull_of
+from anymesh.types import Hull
+from anymesh.types.triangles import normals_and_areas
+
+SAMPLES = 200  # sample points of a hull for its distance from the surface
+PLACES = 5  # positions of a cutting plane along each direction
+
+
+@dataclass(frozen=True, eq=False)
+class Patch:
+    """A piece of surface, its hull, and the maximum distance of the hull from it [m]."""
+
+    triangles: Float[np.ndarray, "n 3 3"]
+    hull: Hull
+    gap: float
+
+
+def patch_of(triangles: Float[np.ndarray, "n 3 3"], wall: float) -> Patch | None:
+    """Return the patch of some triangles; a flat one gets a hull of `wall` [m] behind it. None if there is no surface."""
+    if len(triangles) == 0:
+        return None
+    normals, areas = normals_and_areas(triangles)
+    facing = (normals * areas[:, None]).sum(0)
+    hull = hull_of(triangles.reshape(-1, 3), wall, -facing if float(np.linalg.norm(facing)) > 0 else None)
+    if hull is None:
+        return None
+    sides = hull.vertices[hull.faces]
+    points = np.concatenate([sample_surface(sides, SAMPLES, 0).points, sides.mean(1)])
+    return Patch(triangles, hull, float(distance_to_triangles(points, triangles).max()))
+
+
+def split_surface(triangles: Float[np.ndarray, "n 3 3"], *, gap: float, wall: float, max_pieces: int) -> list[Hull]:
+    """Return hulls of pieces that are within `gap` [m] of the surface, or of `max_pieces` pieces.
+
+    Thin pieces are `wall` [m] thick.
+    """
+    first = patch_of(triangles, wall)
+    done, waiting = [], [] if first is None else [first]
+    while waiting:
+        worst = max(range(len(waiting)), key=lambda k: waiting[k].gap)
+        patch = waiting.pop(worst)
+        if patch.gap <= max(gap, 2 * wall) or len(done) + len(waiting) + 1 >= max_pieces:
+            done.append(patch)
+            continue
+        halves = _halves(patch, wall)
+        if len(halves) < 2:
+            done.append(patch)
+        else:
+            waiting += halves
+    return [patch.hull for patch in done]
+
+
+def _halves(patch: Patch, wall: float) -> list[Patch]:
+    """Return the two pieces of a cut by the plane that leaves the least volume in both hulls."""
+    best = None
+    points, ends = outline(patch.triangles)
+    for normal, offset in cutting_planes(patch.triangles, wall):
+        left = sum(_thick_volume(side, wall) for side in below_and_above(points, ends, normal, offset))
+        if best is None or left < best[0] * (1 - 1e-9):
+            best = (left, normal, offset)
+    if best is None:
+        return []
+    pieces = (patch_of(piece, wall) for piece in cut(patch.triangles, best[1], best[2]))
+    return [piece for piece in pieces if piece is not None]
+
+
+def solid_mesh(triangles: Float[np.ndarray, "n 3 3"]) -> tuple[Float[np.ndarray, "V 3"], Int[np.ndarray, "n 3"]]:
+    """Return the welded vertices and faces of some triangles."""
+    corners = triangles.reshape(-1, 3)
+    _, first, faces = np.unique(weld(corners), return_index=True, return_inverse=True)
+    return corners[first], faces.reshape(-1, 3)
+
+
+def outline(triangles: Float[np.ndarray, "n 3 3"]) -> tuple[Float[np.ndarray, "V 3"], Int[np.ndarray, "E 2"]]:
+    """Return the distinct corners of some triangles, and the distinct edges as pairs of them."""
+    points, index = np.unique(triangles.reshape(-1, 3), axis=0, return_inverse=True)
+    index = index.reshape(-1, 3)
+    ends = np.sort(np.concatenate([index[:, [0, 1]], index[:, [1, 2]], index[:, [2, 0]]]), axis=1)
+    key = np.unique(ends[:, 0] * len(points) + ends[:, 1])
+    return points, np.stack([key // len(points), key % len(points)], 1)
+
+
+def cutting_planes(triangles: Float[np.ndarray, "n 3 3"], wall: float) -> Iterator[tuple[np.ndarray, float]]:
+    """Yield planes (normal, offset) across the directions that a surface faces and its principal directions.
+
+    They lie beside and between its corners, at least `wall` [m] apart.
+    """
+    normals, areas = normals_and_areas(triangles)
+    corners = triangles.reshape(-1, 3)
+    spread = corners - corners.mean(0)
+    directions = list(dominant_normals(normals, areas, count=4))
+    if len(directions) < 3:
+        directions += list(np.linalg.svd(spread.T @ spread)[2])
+    kept: list[np.ndarray] = []
+    for direction in directions:
+        if all(abs(float(direction @ other)) < 0.99 for other in kept):
+            kept.append(direction)
+    for direction in kept:
+        along = np.unique(np.round((corners @ direction) / wall)) * wall
+        low, high = float(along[0]), float(along[-1])
+        if high - low < 4 * wall:
+            continue
+        inner = along[(along > low + 1.5 * wall) & (along < high - 1.5 * wall)]
+        chosen = inner[np.unique(np.linspace(0, len(inner) - 1, PLACES).astype(int))] if len(inner) else inner
+        for offset in (low + wall, *chosen.tolist(), (low + high) / 2, high - wall):
+            yield direction, float(offset)
+
+
+def below_and_above(
+    points: Float[np.ndarray, "V 3"], ends: Int[np.ndarray, "E 2"], normal: Float[np.ndarray, " 3"], offset: float
+) -> tuple[Float[np.ndarray, "a 3"], Float[np.ndarray, "b 3"]]:
+    """Return the corner points on each side of a plane through an outline, without dividing the triangles."""
+    height = points @ normal - offset
+    a, b = ends[height[ends[:, 0]] * height[ends[:, 1]] < 0].T
+    share = (height[a] / (height[a] - height[b]))[:, None]
+    met = points[a] + (points[b] - points[a]) * share
+    return np.concatenate([points[height <= 0], met]), np.concatenate([points[height >= 0], met])
+
+
+def _thick_volume(points: np.ndarray, wall: float) -> float:
+    """Return the volume of the hull of some points, at least that of a sheet `wall` [m] thick."""
+    if len(points) < 4:
+        return 0.0
+    for options in (None, "QJ"):  # with joggled input (QJ), flat points have a hull too
+        try:
+            hull = ConvexHull(points, qhull_options=options)
+        except QhullError:
+            continue
+        return max(float(hull.volume), wall * float(hull.area) / 2)
+    return 0.0

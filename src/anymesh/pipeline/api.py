@@ -1,0 +1,169 @@
+"""The pipeline of the paper's overview figure: mesh -> parts -> joints -> asset -> files."""
+
+from __future__ import annotations
+
+from collections.abc import Generator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Unpack
+
+from anymesh.deadline import DEFAULT_SECONDS, Deadline
+from anymesh.errors import OptionError
+from anymesh.export import Base, Driven, Format
+from anymesh.export.archive import write_zip
+from anymesh.export.formats import DEFAULT
+from anymesh.export.options import ExportOptions
+from anymesh.export.package import write_package
+from anymesh.isolation import AHEAD, shared_pool
+from anymesh.pipeline.answering import choose_answerer, object_name
+from anymesh.pipeline.options import Answering, PlacementOptions
+from anymesh.pipeline.stages import Keyed, Run, estimate_joints, load, recognize, segment_parts, write_files
+from anymesh.pipeline.stopped_run import kept_transcript
+from anymesh.pipeline.storage.packing import MESH, SEGMENTATION
+from anymesh.pipeline.storage.run_folder import RunFolder
+from anymesh.progress import Progress, silent
+from anymesh.types import Asset, Joint, Segmentation
+
+
+def articulate(
+    mesh_path: str | Path,
+    out: str | Path,
+    *,
+    parts: str = "auto",
+    up: str = "auto",
+    scale: str = "auto",
+    root: str | Path | None = None,
+    force: bool = False,
+    base: str = Base.FIXED,
+    formats: str = ",".join(DEFAULT),
+    drives: str = Driven.PASSIVE,
+    time_limit: float = DEFAULT_SECONDS,
+    progress: Progress = silent,
+    **answering: Unpack[Answering],
+) -> Asset:
+    """Turn a rigid mesh into an articulated asset and write it to the folder `out`.
+
+    parts: "auto", "nodes" (the scene's nodes) or a file of face labels; up: auto, x, y, z; scale: auto, a factor (file units to
+    metres) or METRES:AXIS;
+    root: folder within which files that the mesh refers to may be read (default: the mesh's own); base: fixed or free; formats:
+    comma-separated, of urdf, mjcf, usd, sdf, glb;
+    drives: passive, or position (joints follow a commanded position); time_limit: [s], past a share of which each stage
+    shortens its work, with a warning.
+    Raise InputError, OptionError, OutputError or ModelError; then nothing is written. After OpenQuestionError and BudgetError,
+    finished stages are kept for the next call.
+    """
+    how = ExportOptions.parse(base, formats, drives)
+    with _new_run(mesh_path, out, answering, force, time_limit, progress) as run:
+        shared_pool().warm(*AHEAD)
+        loaded = load(run, Path(mesh_path), PlacementOptions(up, scale, root))
+        solver, recognized = recognize(run, loaded, parts, sized=scale == "auto")
+        segmented = segment_parts(run, solver, recognized, parts)
+        estimate_joints(run, solver, recognized.result, segmented)
+        return write_files(run.folder, how, run.deadline, progress)
+
+
+def segment(
+    mesh_path: str | Path,
+    out: str | Path,
+    *,
+    parts: str = "auto",
+    up: str = "auto",
+    scale: str = "auto",
+    root: str | Path | None = None,
+    force: bool = False,
+    time_limit: float = DEFAULT_SECONDS,
+    progress: Progress = silent,
+    **answering: Unpack[Answering],
+) -> Segmentation:
+    """Run only Stage A: save the parts of a mesh in `out` for `joints`. Options as for `articulate`."""
+    with _new_run(mesh_path, out, answering, force, time_limit, progress) as run:
+        loaded = load(run, Path(mesh_path), PlacementOptions(up, scale, root))
+        solver, recognized = recognize(run, loaded, parts, sized=scale == "auto")
+        return segment_parts(run, solver, recognized, parts).result.segmentation
+
+
+@contextmanager
+def _new_run(
+    mesh_path: str | Path, out: str | Path, answering: Answering, force: bool, time_limit: float, progress: Progress
+) -> Generator[Run]:
+    """Begin a run that makes a new output, in the folder `out`."""
+    deadline = Deadline(time_limit)
+    who = choose_answerer(answering, about=object_name(mesh_path), deadline=deadline)
+    with RunFolder.create(Path(out), source=Path(mesh_path), force=force) as folder, kept_transcript(folder, who):
+        yield Run(folder, who, deadline, progress)
+
+
+def joints(
+    folder: str | Path,
+    *,
+    time_limit: float = DEFAULT_SECONDS,
+    progress: Progress = silent,
+    **answering: Unpack[Answering],
+) -> tuple[Joint, ...]:
+    """Run only Stage B, on the parts that `segment` saved in `folder`. Options as for `articulate`."""
+    deadline = Deadline(time_limit)
+    who = choose_answerer(answering, deadline=deadline)
+    with RunFolder.open(Path(folder)) as kept, kept_transcript(kept, who):
+        run = Run(kept, who, deadline, progress)
+        recognized, segmented = kept.recognition(), Keyed(kept.need(SEGMENTATION), kept.key(SEGMENTATION))
+        solver = run.solver(recognized.sized(kept.need(MESH)).mesh)
+        return estimate_joints(run, solver, recognized, segmented).joints
+
+
+def export(
+    folder: str | Path,
+    *,
+    base: str = Base.FIXED,
+    formats: str = ",".join(DEFAULT),
+    drives: str = Driven.PASSIVE,
+    package: str | Path | None = None,
+    archive: str | Path | None = None,
+    time_limit: float = DEFAULT_SECONDS,
+    progress: Progress = silent,
+) -> Asset:
+    """Write the files of the asset that `segment` and `joints` saved in `folder`. Options as for `articulate`.
+
+    package: folder for a ROS 2 package of the URDF; archive: a zip file of the asset.
+    """
+    how, deadline = ExportOptions.parse(base, formats, drives), Deadline(time_limit)
+    if package is not None and Format.URDF not in how.formats:
+        raise OptionError(f"--package needs the format urdf, found {formats!r}")
+    with RunFolder.open(Path(folder)) as run:
+        asset = write_files(run, how, deadline, progress)
+    if package is not None:
+        write_package(Path(folder), Path(package), base=how.base)
+    if archive is not None:
+        write_zip(Path(folder), Path(archive))
+    return asset
+
+
+def finish(
+    folder: str | Path,
+    out: str | Path,
+    *,
+    completer: str = "builtin",
+    texture: str = "builtin",
+    watertight: bool = True,
+    max_calls: int | None = None,
+    base: str = Base.FIXED,
+    formats: str = ",".join(DEFAULT),
+    drives: str = Driven.PASSIVE,
+    force: bool = False,
+    time_limit: float = DEFAULT_SECONDS,
+    progress: Progress = silent,
+) -> Asset:
+    """Run Stage C: complete shapes and textures of the asset in `folder`, an output of `articulate`, and write it to `out`.
+
+    completer: builtin, off, holopart:FOLDER[#PYTHON] or holopart:URL; texture: builtin, bake, bake:PIXELS, meshy or
+    meshy:PROMPT, with at most `max_calls` paid tasks; watertight: also close surfaces that no motion uncovers; time_limit: [s],
+    as for `articulate`.
+    Raise OptionError, OutputError, ModelError or BudgetError; a paid task that was started is resumed by the next run.
+    """
+    from anymesh.pipeline.finishing import Completion, complete_asset  # imports on use: only this stage needs its modules
+
+    written, deadline, out = ExportOptions.parse(base, formats, drives), Deadline(time_limit), Path(out)
+    how = Completion(completer, texture, watertight, max_calls, state=out.parent / f".{out.name}.meshy.json")
+    with RunFolder.create(out, source=Path(folder) / "asset.json", force=force) as run:
+        run.take_over(Path(folder))
+        complete_asset(run, how, deadline, progress)
+        return write_files(run, written, deadline, progress)

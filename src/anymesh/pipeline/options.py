@@ -1,0 +1,139 @@
+"""Options of the pipeline, each defined once: the Python functions, the commands and the applications read them from here."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import Field, dataclass, field, fields
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypedDict
+
+from anymesh.config import DEFAULT_VIEWS
+from anymesh.deadline import CALL_SECONDS, DEFAULT_SECONDS
+
+if TYPE_CHECKING:
+    from anymesh.vlm.budget import Account
+    from anymesh.vlm.rates import Limiter
+
+FLAGS, METAVAR, KIND, HELP = "flags", "metavar", "kind", "help"  # metadata of a field that is also an option of commands
+
+
+def _option(default: Any, text: str, *flags: str, metavar: str | None = None, kind: type | None = None) -> Any:
+    """Return the field of an option. kind: type of a value other than the default, for a default of None or a sequence.
+
+    A sequence is comma-separated text on the command line.
+    """
+    return field(default=default, metadata={HELP: text, FLAGS: flags, METAVAR: metavar, KIND: kind or type(default)})
+
+
+def command_fields(kind: Any) -> tuple[Field[Any], ...]:
+    """Return the fields of a class of options that are options of commands too."""
+    return tuple(f for f in fields(kind) if HELP in f.metadata)
+
+
+def defaults(*kinds: Any) -> dict[str, Any]:
+    """Return the default values of all fields."""
+    return {f.name: f.default for kind in kinds for f in fields(kind)}
+
+
+@dataclass(frozen=True)
+class AnswererOptions:
+    """Who answers the questions of both stages, and what limits it. The help texts below are the documentation of the fields.
+
+    parts_list: labels, which a model is then not asked for; at_least: minimum number of parts that geometry selects;
+    viewpoints: see `ViewsConfig`; max_calls, max_cost [USD]: limits that no call may exceed; timeout [s]; suggest: write
+    geometry's answer beside each question in files that is waited for; spent: calls and cost counted towards max_calls and
+    max_cost, shared by several runs; limiter: delays calls above a provider's rate limit.
+    """
+
+    answerer: str = _option(
+        "geometry",
+        "geometry, openai:MODEL, openai-responses:MODEL, anthropic:MODEL, google:MODEL, ollama:MODEL, lmstudio:MODEL, "
+        "vllm:MODEL, openai-compatible:BASE_URL#MODEL, files:FOLDER (answers in files), replay:FOLDER, "
+        "or auto (a local model, else geometry).",
+    )
+    parts_list: Sequence[str] | str = _option(
+        (), "Labels of the moving parts, such as door,drawer, instead of asking a model.", metavar="LABELS"
+    )
+    at_least: int = _option(0, "Parts accepted regardless of evidence; 1 if the object is known to move.", metavar="N")
+    proposer: str = _option("exact", "Source of masks for a model: exact, sam:WEIGHTS or exact+sam:WEIGHTS.")
+    viewpoints: str = _option(
+        DEFAULT_VIEWS,
+        "For a model: cameras as COUNT@ELEVATION[+AZIMUTH],... in degrees; 8@15 is the paper's.",
+        "--views",
+        "--viewpoints",
+    )
+    verify: str = _option(
+        "motion", "motion: a model chooses among motions; free: its picks are used unless blocked; off: the paper's method."
+    )
+    category: str | None = _option(None, "What the object is; used by models, not by geometry.", kind=str)
+    timeout: float = _option(CALL_SECONDS, "Time-out of one model call.", metavar="SECONDS")
+    wait: bool = _option(False, "With files:FOLDER, wait for missing answers.", "--wait")
+    max_calls: int | None = _option(None, "Maximum number of model calls.", kind=int)
+    max_cost: float | None = _option(None, "Maximum cost of model calls.", metavar="USD", kind=float)
+    cache: Path | str | None = _option(  # noqa: RUF009
+        "auto", "Cache of model answers: auto (the user's cache folder), off, or a folder.", metavar="DIR"
+    )
+    seed: int = _option(0, "From 0 up; the same input and seed give the same bytes.")
+    suggest: bool = False
+    spent: Account | None = None
+    limiter: Limiter | None = None
+
+
+class Answering(TypedDict, total=False):
+    """The keyword arguments of `AnswererOptions`, for the Python functions: see there."""
+
+    answerer: str
+    category: str | None
+    seed: int
+    parts_list: Sequence[str] | str
+    at_least: int
+    proposer: str
+    viewpoints: str
+    verify: str
+    max_calls: int | None
+    max_cost: float | None
+    cache: Path | str | None
+    timeout: float
+    wait: bool
+    suggest: bool
+    spent: Account | None
+    limiter: Limiter | None
+
+
+@dataclass(frozen=True)
+class PlacementOptions:
+    """How the mesh is read and placed."""
+
+    up: str = _option("auto", "The file's up axis: auto, x, y, z.")
+    scale: str = _option("auto", "auto, a factor to metres, or METRES:AXIS such as 0.9:z.")
+    root: str | Path | None = _option(  # noqa: RUF009
+        None, "Folder for textures, and for package:// and model:// references.", metavar="FOLDER", kind=Path
+    )
+
+
+@dataclass(frozen=True)
+class CompletionOptions:
+    """What Stage C does."""
+
+    completer: str = _option("builtin", "Completer of shapes: builtin, off, holopart:FOLDER(#PYTHON) or holopart:URL.")
+    texture: str = _option("builtin", "builtin, bake or bake:PIXELS (one atlas), meshy or meshy:PROMPT (paid).")
+    watertight: bool = _option(True, "Also close surfaces that no motion uncovers.", "--watertight/--no-watertight")
+
+
+@dataclass(frozen=True)
+class FormatOptions:
+    """Which files are written."""
+
+    base: str = _option("fixed", "fixed or free: whether the root link is fixed to the world.")
+    formats: str = _option("urdf,mjcf,sdf,glb", "Comma-separated, of urdf, mjcf, usd, sdf, glb; usd needs its extra.")
+    drives: str = _option("passive", "passive, or position: joints follow a commanded position, initially 0.")
+
+
+@dataclass(frozen=True)
+class RunOptions:
+    """How a run treats its output and its time."""
+
+    force: bool = _option(False, "Replace an existing output.", "--force")
+    time_limit: float = _option(
+        DEFAULT_SECONDS, "Stages shorten their work, with a warning, past shares of it.", metavar="SECONDS"
+    )

@@ -1,0 +1,1 @@
+"""The output folder of a run: stages kept with their keys, files written atomically."""

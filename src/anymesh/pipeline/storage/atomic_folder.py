@@ -1,0 +1,162 @@
+"""Write outputs atomically: build them in a locked hidden folder, then replace the target."""
+
+from __future__ import annotations
+
+import os
+import secrets
+import shutil
+from collections.abc import Generator, Iterable
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
+from pathlib import Path
+
+try:
+    import fcntl
+except ImportError:  # Windows: no folder is recognized as stale there
+    fcntl = None
+
+FOLDER_PREFIX = ".anymesh."  # prefix of hidden folders inside an output
+IGNORED = frozenset({"Thumbs.db", "desktop.ini", ".DS_Store"})  # created by file managers
+
+
+@dataclass(frozen=True)
+class LockedFolder:
+    """A folder and its lock (a file descriptor, -1 if locks are not available)."""
+
+    path: Path
+    lock: int
+
+    def release(self) -> None:
+        """Release the lock; the folder stays."""
+        if self.lock >= 0:
+            os.close(self.lock)
+
+    def discard(self) -> None:
+        """Remove the folder and release the lock."""
+        shutil.rmtree(self.path, ignore_errors=True)
+        self.release()
+
+
+def _locked(path: Path) -> int | None:
+    """Lock a folder; return its descriptor, None if another process holds the lock."""
+    if fcntl is None:
+        return -1
+    try:
+        descriptor = os.open(path, os.O_RDONLY)
+    except OSError:
+        return None
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        os.close(descriptor)
+        return None
+    return descriptor
+
+
+@contextmanager
+def locked(path: Path) -> Generator[bool]:
+    """Lock an existing folder; yield whether the lock was acquired, always True if locks are not available."""
+    descriptor = _locked(path)
+    try:
+        yield descriptor is not None
+    finally:
+        if descriptor is not None and descriptor >= 0:
+            os.close(descriptor)
+
+
+def locks_known() -> bool:
+    """Return whether locks are available, so that folders of ended processes are recognized."""
+    return fcntl is not None
+
+
+def make_locked_folder(parent: Path, prefix: str) -> LockedFolder:
+    """Create and lock a folder `<parent>/<prefix><random>`."""
+    while True:
+        path = parent / f"{prefix}{secrets.token_hex(4)}"
+        path.mkdir()
+        lock = _locked(path)
+        if lock is not None and path.is_dir():  # otherwise another process recognized it as stale in between
+            return LockedFolder(path, lock)
+
+
+def stale_folders(parent: Path, prefix: str) -> list[LockedFolder]:
+    """Return the folders left by ended processes, locked against other processes."""
+    if fcntl is None or not parent.is_dir():
+        return []
+    found = []
+    for path in sorted(parent.glob(f"{_escaped(prefix)}*")):
+        lock = _locked(path) if path.is_dir() else None
+        if lock is not None:
+            found.append(LockedFolder(path, lock))
+    return found
+
+
+def _escaped(prefix: str) -> str:
+    return "".join(f"[{c}]" if c in "*?[" else c for c in prefix)
+
+
+def list_files(folder: Path) -> list[str]:
+    """List the relative paths of all files, sorted, without hidden work folders and files of file managers."""
+    found = []
+    for path in folder.rglob("*"):
+        relative = path.relative_to(folder)
+        if relative.parts[0].startswith(FOLDER_PREFIX) or path.name in IGNORED:
+            continue
+        if path.is_symlink() or not path.is_dir():
+            found.append(relative.as_posix())
+    return sorted(found)
+
+
+def replace_folder(new: Path, target: Path, old: Path | None) -> None:
+    """Replace `target` by `new`; the previous folder is moved to `old` during two renames, then removed.
+
+    Without `old`, the target must be missing or empty.
+    """
+    if old is None or not target.exists():
+        if target.exists():
+            target.rmdir()
+        new.rename(target)
+        return
+    lock = _locked(target)
+    try:
+        target.rename(old)
+        try:
+            new.rename(target)
+        except OSError:
+            old.rename(target)
+            raise
+        shutil.rmtree(old, ignore_errors=True)
+    finally:
+        if lock is not None and lock >= 0:
+            os.close(lock)
+
+
+def recover(target: Path, prefix: str) -> None:
+    """Recover from a kill within `replace_folder`: restore the old folder, or remove it if the new one is in place."""
+    for left in stale_folders(target.parent, prefix):
+        if target.exists():
+            left.discard()
+        else:
+            left.path.rename(target)
+            left.release()
+
+
+def move_files(new: Path, target: Path, *, remove: Iterable[str], last: str) -> None:
+    """Move the files of `new` into `target` one by one; `last`, which marks a complete output, is moved last."""
+    files, remove = list_files(new), list(remove)
+    if last in files:
+        remove.insert(0, last)
+    for name in sorted(remove, key=lambda name: name != last):
+        (target / name).unlink(missing_ok=True)
+        with suppress(OSError):  # a folder with other files stays
+            (target / name).parent.rmdir()
+    for name in sorted(files, key=lambda name: name == last):
+        (target / name).parent.mkdir(parents=True, exist_ok=True)
+        (new / name).replace(target / name)
+
+
+def copy_files(source: Path, target: Path, names: Iterable[str]) -> None:
+    """Copy files by relative name into another folder; those that do not exist are left out."""
+    for name in sorted(name for name in names if os.path.lexists(source / name)):
+        (target / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy2(source / name, target / name)

@@ -1,0 +1,266 @@
+"""The output folder. Only this module knows its file names.
+
+Stages are kept, and an output is either complete or absent. Everything is written into a hidden folder beside the output (on
+the same file system), which replaces the output at the end. A process that is killed, or ended by a budget or an internal
+defect, leaves at most the hidden folder. The next run takes over its finished stages and removes it.
+"""
+
+from __future__ import annotations
+
+import errno
+import os
+import shutil
+import time
+from collections.abc import Generator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from types import TracebackType
+from typing import Any, TypeVar
+
+from anymesh.errors import AnymeshError, BudgetError, OpenQuestionError, OutputError, note_stage
+from anymesh.files import write_json
+from anymesh.pipeline.storage.atomic_folder import (
+    FOLDER_PREFIX,
+    LockedFolder,
+    copy_files,
+    list_files,
+    locks_known,
+    make_locked_folder,
+    move_files,
+    recover,
+    replace_folder,
+    stale_folders,
+)
+from anymesh.pipeline.storage.outputs import (
+    CORRECTIONS,
+    MANIFEST,
+    atomic_prefix,
+    check_replaceable,
+    check_uncorrected,
+    existing_files,
+    is_origin,
+    write_manifest,
+    written_files,
+)
+from anymesh.pipeline.storage.packing import (
+    COMPLETION,
+    CORRECTION,
+    JOINTS,
+    MESH,
+    REVISION,
+    SEGMENTATION,
+    STAGES,
+    Stage,
+)
+from anymesh.pipeline.storage.saved import TIMING, Saved
+from anymesh.pipeline.storage.stage_files import read_stage, saved_key, stage_files, write_stage
+
+Result = TypeVar("Result")
+LAST = "asset.json"  # file that marks a finished output
+
+
+class RunFolder(Saved):
+    """An output folder while it is written.
+
+    Files are written to `folder`. Leaving the `with` block moves them into place. An exception inside the block leaves the
+    output unchanged. If a budget or an internal defect ends the run, the finished stages stay in the hidden folder for the next
+    run.
+    """
+
+    def __init__(
+        self, target: Path, hidden: LockedFolder, *, base: Path | None, earlier: Sequence[Path], dead: Sequence[LockedFolder]
+    ) -> None:
+        super().__init__(target)
+        self.folder = hidden.path
+        self._hidden = hidden
+        self._base = base  # files are added to this folder; None: the whole folder is new
+        self._earlier = tuple(earlier)  # folders from which results of earlier runs may be taken
+        self._dead = tuple(dead)
+        self._replaces = base is None and target in self._earlier
+        self._resumable = False  # whether the next run looks for what this one leaves
+        self._foreign: set[str] = set()  # files of others that are copied to the new output
+        self._stale: set[str] = set()  # stages whose results no longer follow from earlier stages
+        self._redone: set[str] = set()  # stages after a recomputed one, for which results of earlier runs are not valid
+
+    @classmethod
+    def create(cls, target: Path, *, source: Path, force: bool = False) -> RunFolder:
+        """Create a new output, in place of an older one if `force`; stages of the older one with equal keys are taken over.
+
+        Raise OutputError if the folder is not empty and `force` is off, if it holds the source mesh or files that this program
+        did not write, or if it cannot be written.
+        """
+        target = Path(target).resolve()
+        if source.resolve().is_relative_to(target):
+            raise OutputError(f"the source mesh {source} lies in the output folder {target}; choose another folder")
+        try:
+            recover(target, atomic_prefix(target, "old"))
+            if target.exists() and not target.is_dir():
+                raise OutputError(f"{target} is a file; an output is a folder")
+            inside = target.is_dir() and os.path.ismount(target)  # a mount point cannot be renamed
+            old = target.is_dir() and any(p for p in target.iterdir() if not p.name.startswith(FOLDER_PREFIX))
+            if old:
+                check_replaceable(target, force)
+            target.parent.mkdir(parents=True, exist_ok=True)
+            place = (target, f"{FOLDER_PREFIX}tmp-") if inside else (target.parent, atomic_prefix(target, "tmp"))
+            dead = stale_folders(*place)
+            earlier = [d.path for d in dead] + ([target] if old else [])
+            base = target if inside else None
+            run = cls(target, make_locked_folder(*place), base=base, earlier=earlier, dead=dead)
+        except OSError as error:
+            raise OutputError(f"cannot write {target}: {error.strerror or error}") from error
+        run._resumable = locks_known()
+        run._stale = {stage.name for stage in STAGES} if inside else set()
+        return run
+
+    @classmethod
+    def open(cls, target: Path) -> RunFolder:
+        """Open an existing output to add another stage or the final files.
+
+        Raise OutputError if there is none.
+        """
+        target = Path(target).resolve()
+        try:
+            existing_files(target)
+            dead = stale_folders(target, f"{FOLDER_PREFIX}tmp-")
+            hidden = make_locked_folder(target, f"{FOLDER_PREFIX}tmp-")
+        except OSError as error:
+            raise OutputError(f"cannot write {target}: {error.strerror or error}") from error
+        return cls(target, hidden, base=target, earlier=[], dead=dead)
+
+    @classmethod
+    def revise(cls, target: Path) -> RunFolder:
+        """Open an existing output, to be replaced atomically by one with its stages and all files of others.
+
+        Raise OutputError if there is none. A mount point cannot be replaced atomically, so files are added to it as by `open`.
+        """
+        target = Path(target).resolve()
+        if os.path.ismount(target):
+            return cls.open(target)
+        try:
+            ours = set(existing_files(target))
+            run = cls(
+                target, make_locked_folder(target.parent, atomic_prefix(target, "tmp")), base=None, earlier=[target], dead=[]
+            )
+            run._foreign = set(list_files(target)) - ours
+            stages = {name for stage in STAGES for name in stage_files(stage)}
+            copy_files(target, run.folder, (ours & (stages | {TIMING})) | set(filter(is_origin, ours)) | run._foreign)
+        except OSError as error:
+            raise OutputError(f"cannot write {target}: {error.strerror or error}") from error
+        return run
+
+    def load(self, stage: Stage[Result], key: str) -> Result | None:
+        """Return the saved result of a stage if it was made under this key, else None. It becomes part of this output."""
+        earlier = () if stage.name in self._redone else self._earlier
+        for place in (*self._places(stage), *earlier):
+            found = read_stage(place, stage, key)
+            if found is None:
+                continue
+            if place in earlier:
+                (self.folder / "stages").mkdir(exist_ok=True)
+                for name in stage_files(stage):
+                    if (place / name).exists():
+                        shutil.copyfile(place / name, self.folder / name)
+            return found
+        return None
+
+    def save(self, stage: Stage[Result], key: str, result: Result) -> None:
+        """Save the result of a stage; results of later stages and final files are no longer valid and are removed."""
+        if self._base is not None and stage not in (CORRECTION, REVISION):
+            check_uncorrected(self._base)
+        write_stage(self.folder, stage, key, result)
+        later = STAGES[STAGES.index(stage) + 1 :]
+        self._stale |= {s.name for s in (stage, *later)}
+        self._redone |= {s.name for s in later}
+        for name in (name for s in later for name in stage_files(s)):
+            (self.folder / name).unlink(missing_ok=True)
+
+    def _places(self, stage: Stage[Any] | None) -> list[Path]:
+        stale = stage is not None and stage.name in self._stale
+        return [self.folder] if self._base is None or stale else [self.folder, self._base]
+
+    @contextmanager
+    def timed(self, stage: str) -> Generator[None]:
+        """Add the time spent inside to that of a stage, and attach the stage's name to errors."""
+        begin = time.perf_counter()
+        try:
+            yield
+        except Exception as error:
+            note_stage(error, stage)
+            raise
+        self.add_time(stage, time.perf_counter() - begin)
+
+    def add_time(self, stage: str, seconds: float) -> None:
+        """Add to the seconds that each stage took."""
+        write_json(self.folder / TIMING, {**self.timing(), stage: round(seconds, 4)})
+
+    def take_over(self, folder: Path) -> None:
+        """Take over the stages of another output, up to its joints and their corrections.
+
+        Raise OutputError if it has none.
+        """
+        written = written_files(folder)
+        if written is None:
+            raise OutputError(f"{folder} is no output of anymesh; `anymesh articulate MESH -o {folder}` makes one")
+        self._earlier = (Path(folder).resolve(), *self._earlier)
+        for stage in STAGES[: STAGES.index(COMPLETION)]:
+            key = saved_key(folder, stage)
+            if key is not None:
+                self.load(stage, key)
+        for stage in (MESH, SEGMENTATION, JOINTS):
+            self.need(stage)
+        copy_files(Path(folder), self.folder, set(filter(is_origin, written)))
+
+    def _commit(self) -> None:
+        """Move everything written into place."""
+        new = {*list_files(self.folder), MANIFEST} - self._foreign
+        try:
+            if self._base is None:
+                write_manifest(self.folder, new)
+                aside = self.target.parent / f"{atomic_prefix(self.target, 'old')}{os.getpid()}"
+                replace_folder(self.folder, self.target, aside if self._replaces else None)
+            else:
+                before = set(written_files(self.target) or ())
+                kept = before - self._outdated(before, new)
+                write_manifest(self.folder, new | kept)
+                move_files(self.folder, self.target, remove=sorted(before - kept - new), last=LAST)
+        except OSError as error:
+            raise OutputError(f"cannot write {self.target}: {error.strerror or error}") from error
+
+    def _outdated(self, before: set[str], new: set[str]) -> set[str]:
+        """Return the files from before that no longer follow from the stages, or that the final files written now replace."""
+        stages = {name for stage in STAGES for name in stage_files(stage)}
+        stale = {name for stage in STAGES if stage.name in self._stale for name in stage_files(stage)}
+        kept = {MANIFEST, TIMING, CORRECTIONS} | set(filter(is_origin, before))
+        final = before - stages - kept if self._stale or LAST in new else set()
+        return stale | final
+
+    def __enter__(self) -> RunFolder:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, _: TracebackType | None) -> None:
+        try:
+            if error is None:
+                self._commit()
+            elif isinstance(error, OSError) and self._is_mine(error):
+                raise OutputError(f"cannot write {self.target}: {error.strerror or error}") from error
+        finally:
+            if self._resumed_later(error):
+                self._hidden.release()
+            else:
+                self._hidden.discard()
+            for hidden in self._dead:
+                hidden.discard()
+
+    def _resumed_later(self, error: BaseException | None) -> bool:
+        """Return whether the finished stages are kept for a later run.
+
+        They are kept if a budget or an open question ended the run, or a defect after which a rerun may get further.
+        """
+        told = isinstance(error, AnymeshError) or (isinstance(error, OSError) and self._is_mine(error))
+        defect = isinstance(error, Exception) and not told
+        saved = any((self.folder / stage_files(stage)[0]).exists() for stage in STAGES)
+        return isinstance(error, BudgetError | OpenQuestionError) or (defect and saved and self._resumable)
+
+    def _is_mine(self, error: OSError) -> bool:
+        full = error.errno in (errno.ENOSPC, errno.EROFS, getattr(errno, "EDQUOT", errno.ENOSPC))
+        return full or (error.filename is not None and str(error.filename).startswith(str(self.folder)))

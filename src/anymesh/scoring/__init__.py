@@ -1,0 +1,1 @@
+"""Learned scores of candidates, used by both stages."""

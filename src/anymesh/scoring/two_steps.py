@@ -1,0 +1,64 @@
+"""Learned score in two steps: by a candidate's own features, then also by the scores of other candidates."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from importlib.resources import files
+from typing import Any
+
+import numpy as np
+from jaxtyping import Float
+
+from anymesh.scoring.boosted_trees import BoostedTrees
+
+REASONS = 3  # number of features named in a reason
+MIN_CONFIDENCE, MAX_CONFIDENCE = 0.05, 0.99  # range of confidences
+MISSING = -9.0  # value of a feature that does not apply to a candidate
+
+
+@dataclass(frozen=True, eq=False)
+class TwoStepClassifier:
+    """Classifier of candidates in two steps.
+
+    names: features in the order of columns; those of the context follow in the second step; manifest: training data and
+    settings.
+    """
+
+    first: BoostedTrees
+    second: BoostedTrees
+    names: tuple[str, ...]
+    manifest: dict[str, Any]
+
+    @classmethod
+    def read(cls, package: str, file: str) -> TwoStepClassifier:
+        """Read an .npz file of a package."""
+        with (files(package) / file).open("rb") as opened:
+            arrays = dict(np.load(opened))
+        manifest = json.loads(bytes(arrays["manifest"]).decode())
+        first, second = (BoostedTrees.from_arrays(name, arrays) for name in ("first", "second"))
+        return cls(first, second, tuple(manifest["features"]), manifest)
+
+    def table(self, features: list[dict[str, float]]) -> Float[np.ndarray, "n k"]:
+        """Return the features of all candidates in the order of columns."""
+        return np.array([[row[name] for name in self.names] for row in features]).reshape(-1, len(self.names))
+
+    def score(
+        self, own: Float[np.ndarray, "n k"], context: dict[str, Float[np.ndarray, " n"]]
+    ) -> tuple[Float[np.ndarray, " n"], list[str]]:
+        """Return the log-odds of each candidate, and the names of the features that raised each score the most."""
+        table = np.concatenate([own, np.stack(list(context.values()), 1)], 1)
+        gain = self.second.contributions(table)[:, : len(self.names)]
+        return self.second.score(table), [self._reason(row, g) for row, g in zip(own, gain, strict=True)]
+
+    def _reason(self, row: Float[np.ndarray, " k"], gain: Float[np.ndarray, " k"]) -> str:
+        best = [int(k) for k in np.argsort(-gain, kind="stable") if gain[k] > 0 and row[k] != MISSING][:REASONS]
+        return ", ".join(f"{self.names[k]} {row[k]:.2g}" for k in best) or "the other candidates"
+
+
+def confidence_of(log_odds: float, slope: float, offset: float) -> float:
+    """Return the probability that a choice with these log-odds is right.
+
+    slope, offset: calibration, fitted to held-out data.
+    """
+    return float(np.clip(1 / (1 + np.exp(-slope * log_odds - offset)), MIN_CONFIDENCE, MAX_CONFIDENCE))

@@ -1,1 +1,0 @@
-"""Saved results on disk, used by `run_folder`."""

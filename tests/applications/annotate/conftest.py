@@ -1,0 +1,42 @@
+"""Collections of small files for the fake work."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+
+from anymesh.applications.annotate.workers import LocalWorkers, ObjectLimits
+
+TARGET = ("fake_work", "run")
+LIMITS = ObjectLimits(memory=2 << 30, seconds=20.0, wall=1.5)
+
+
+@pytest.fixture
+def workers(monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[..., LocalWorkers]]:
+    """Makes worker processes that run the fake work."""
+    monkeypatch.syspath_prepend(Path(__file__).parent)
+    made: list[LocalWorkers] = []
+
+    def make(count: int = 2, limits: ObjectLimits = LIMITS) -> LocalWorkers:
+        made.append(LocalWorkers(count, limits, TARGET))
+        return made[-1]
+
+    yield make
+    for some in made:
+        some.close()
+
+
+@pytest.fixture
+def collection(tmp_path: Path) -> Callable[..., Path]:
+    """Writes a folder of meshes, which hold the words that the fake work does."""
+
+    def make(**words: str) -> Path:
+        folder = tmp_path / "in"
+        folder.mkdir(exist_ok=True)
+        for name, word in words.items():
+            (folder / f"{name}.glb").write_text(word)
+        return folder
+
+    return make

@@ -1,0 +1,277 @@
+"""The command line: exit codes, what is said where, and what is left on disk."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+import trimesh
+from assets import CABINET
+from PIL import Image
+
+from anymesh import __version__
+from anymesh.cli import run
+from anymesh.errors import MissingExtraError
+from anymesh.pipeline import solving, stages
+
+PARTS = ["--parts", "nodes", "--up", "z"]
+FACES = 12 * sum(len(pieces) for pieces in CABINET.values())
+
+
+@pytest.fixture
+def mesh(tmp_path, monkeypatch) -> Path:
+    """A cabinet with a node a part, Z up, alone in the working folder."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(stages, "write_preview", lambda _, path: path.write_bytes(b"drawing takes longest; tested elsewhere"))
+    scene = trimesh.Scene()
+    for name, pieces in CABINET.items():
+        solids = [trimesh.Trimesh(v, f, process=False) for v, f in pieces]
+        scene.add_geometry(trimesh.util.concatenate(solids), node_name=name, geom_name=name)
+    scene.export(tmp_path / "cabinet.glb")
+    return Path("cabinet.glb")
+
+
+def contents(folder: Path) -> dict[str, bytes]:
+    return {str(p.relative_to(folder)): p.read_bytes() if p.is_file() else b"" for p in sorted(folder.rglob("*"))}
+
+
+def called(capfd, *arguments) -> tuple[int, str, str]:
+    """Exit code, stdout, stderr."""
+    code = run([str(a) for a in arguments])
+    return (code, *capfd.readouterr())
+
+
+@pytest.mark.parametrize("command", [[], ["articulate"], ["segment"], ["joints"], ["export"]])
+@pytest.mark.parametrize("flag", ["-h", "--help"])
+def test_help_names_the_exit_codes(command, flag, capfd) -> None:
+    code, out, err = called(capfd, *command, flag)
+    assert (code, err) == (0, "")
+    assert "Usage" in out
+    assert "130 interrupted" in " ".join(out.split())
+
+
+def test_no_command_shows_the_help(capfd) -> None:
+    code, out, err = called(capfd)
+    assert (code, err) == (2, "")
+    assert "articulate" in out
+
+
+def test_version(capfd) -> None:
+    assert called(capfd, "--version") == (0, f"anymesh {__version__}\n", "")
+
+
+def test_the_whole_job_tells_a_person_or_a_program_or_nobody(mesh, capfd) -> None:
+    call = ["articulate", mesh, "-o", "out", *PARTS]
+    code, out, err = called(capfd, *call)
+    assert (code, err) == (0, "")
+    assert all(word in out for word in ("door_joint", "drawer_joint", "up axis z (given)", "cabinet.urdf"))
+    assert {"cabinet.urdf", "cabinet.glb", "preview.png", "asset.json"} <= set(contents(Path("out")))
+    assert called(capfd, *call, "--force", "--quiet") == (0, "", "")
+    code, out, err = called(capfd, *call, "--force", "--json")
+    assert (code, err) == (0, "")
+    told, asset = json.loads(out), json.loads(Path("out/asset.json").read_text())
+    assert told["parts"] == [p["name"] for p in asset["parts"]]
+    assert set(told["parts"]) == set(CABINET)
+    for said, written in zip(told["joints"], asset["joints"], strict=True):
+        assert [said[k] for k in ("name", "type", "parent", "child")] == [
+            written[k] for k in ("name", "type", "parent", "child")
+        ]
+        assert said["axis"] == pytest.approx(written["axis"], abs=1e-9)
+        assert said["limits"] == (written["limits"] and pytest.approx(written["limits"], abs=1e-9))
+
+
+def test_stages_run_alone_write_the_same_bytes(mesh, capfd) -> None:
+    assert called(capfd, "articulate", mesh, "-o", "whole", *PARTS, "-q")[0] == 0
+    code, out, _ = called(capfd, "segment", mesh, "-o", "stages", *PARTS, "--json")
+    assert code == 0
+    assert sum(part["faces"] for part in json.loads(out)["parts"]) == FACES
+    assert not Path("stages/asset.json").exists()
+    code, out, _ = called(capfd, "joints", "stages", "--json")
+    assert code == 0
+    assert {j["child"] for j in json.loads(out)["joints"]} == set(CABINET) - {"base"}
+    assert called(capfd, "export", "stages", "--quiet") == (0, "", "")
+    whole, stages = contents(Path("whole")), contents(Path("stages"))
+    assert set(whole) == set(stages)
+    assert [name for name in whole if whole[name] != stages[name]] in ([], ["timing.json"])
+
+
+def test_an_interrupt_is_an_object_where_one_is_asked_for(mesh, monkeypatch, capfd) -> None:
+    def interrupted(*_, **__):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(solving, "segment_parts", interrupted)
+    code, out, err = called(capfd, "articulate", mesh, "-o", "out", "--json")
+    assert (code, err) == (130, "interrupted\n")
+    assert json.loads(out) == {"error": "interrupted", "kind": "KeyboardInterrupt", "exit_code": 130}
+
+
+def test_the_category_changes_keys_and_the_note_on_size(mesh, capfd) -> None:
+    for out, more in (("plain", []), ("told", ["--category", "cabinet"])):
+        assert called(capfd, "articulate", mesh, "-o", out, *PARTS, *more, "-q")[0] == 0
+    plain, told = contents(Path("plain")), contents(Path("told"))
+    assert plain.keys() == told.keys()
+    changed = {name for name in plain if plain[name] != told[name]} - {"timing.json"}
+    assert changed == {"asset.json", "stages/mesh.json", "stages/segmentation.json", "stages/joints.json"}
+
+
+def test_a_root_admits_textures_and_computes_the_mesh_anew(mesh, capfd) -> None:
+    box = trimesh.creation.box().export(file_type="obj", include_texture=False)
+    Path("model/meshes").mkdir(parents=True)
+    Path("model/meshes/box.obj").write_text(f"mtllib box.mtl\nusemtl red\n{box}")
+    Path("model/meshes/box.mtl").write_text("newmtl red\nmap_Kd ../textures/red.png\nmap_Ke model://model/textures/red.png\n")
+    Path("model/textures").mkdir()
+    Image.new("RGB", (2, 2), "red").save("model/textures/red.png")
+    call = ["segment", "model/meshes/box.obj", "-o", "out", *PARTS]
+    keys = []
+    for root, count in ((), 2), (("--root", "model"), 0):
+        assert called(capfd, *call, *root, "--force", "--quiet") == (0, "", "")
+        saved = json.loads(Path("out/stages/mesh.json").read_text())
+        assert len([w for w in saved["result"]["warnings"] if "red.png" in w]) == count
+        keys.append(saved["key"])
+    assert keys[0] != keys[1]
+    code, out, err = called(capfd, *call, "--root", "model/textures", "--force")
+    assert (code, out) == (2, "")
+    assert err.startswith("error: --root: ")
+
+
+def faulty_calls() -> dict[str, tuple[int, list[str], str]]:
+    """What is wrong -> exit code, arguments, a word of the message."""
+    make = ["segment", "cabinet.glb", "-o", "out"]
+    return {
+        "no output": (2, ["segment", "cabinet.glb"], "--out"),
+        "unknown command": (2, ["fold", "cabinet.glb"], "fold"),
+        "unknown option": (2, [*make, "--colour", "red"], "--colour"),
+        "seed": (2, [*make, "--seed", "x"], "--seed"),
+        "a seed below 0": (2, [*make, "--seed", "-1"], "found -1"),
+        "a seed of joints below 0": (2, ["joints", "old", "--seed", "-1"], "found -1"),
+        "up": (2, [*make, "--up", "w"], "auto, x, y, z"),
+        "scale": (2, [*make, "--scale", "-1"], "METRES:AXIS"),
+        "scale 0": (2, [*make, "--scale", "0"], "found '0'"),
+        "scale nan": (2, [*make, "--scale", "nan"], "found 'nan'"),
+        "a huge scale": (2, [*make, "--scale", "1e300"], "1e-06 to 1e+06 m"),
+        "a tiny scale": (2, [*make, "--scale", "1e-300"], "1e-06 to 1e+06 m"),
+        "empty parts": (2, [*make, "--parts", "empty.npy"], "an empty file"),
+        "deep parts": (2, [*make, "--parts", "deep.json"], "nested too deep"),
+        "parts with a long name": (2, [*make, "--parts", f"{'a' * 300}.npy"], "cannot be opened"),
+        "parts": (2, [*make, "--parts", "none.npy"], "none.npy"),
+        "answerer": (2, [*make, "--answerer", "oracle"], "valid are geometry"),
+        "answerer of the whole job": (2, ["articulate", *make[1:], "--answerer", "oracle"], "'oracle'"),
+        "answerer of joints": (2, ["joints", "old", "--answerer", "oracle"], "'oracle'"),
+        "no mesh": (3, ["segment", "none.glb", "-o", "out"], "none.glb"),
+        "a broken mesh": (3, ["segment", "broken.glb", "-o", "out"], "broken.glb"),
+        "another format": (3, ["segment", "notes.txt", "-o", "out"], ".glb, .gltf, .obj"),
+        "an output that exists": (4, ["segment", "cabinet.glb", "-o", "old"], "--force"),
+        "a folder of others": (4, ["segment", "cabinet.glb", "-o", "foreign", "--force"], "not replaced"),
+        "a file as output": (4, ["segment", "cabinet.glb", "-o", "notes.txt"], "is a file"),
+        "the source within": (4, ["segment", "cabinet.glb", "-o", "."], "source mesh"),
+        "joints of nothing": (4, ["joints", "none"], "anymesh segment"),
+        "export before joints": (4, ["export", "old"], "'joints'"),
+    }
+
+
+@pytest.fixture
+def crowded(mesh, capfd) -> Path:
+    """The working folder with an older output, files of others, and files that are no mesh."""
+    assert called(capfd, "segment", mesh, "-o", "old", *PARTS, "-q")[0] == 0
+    Path("foreign").mkdir()
+    for name in ("foreign/thesis.txt", "notes.txt"):
+        Path(name).write_text("mine")
+    Path("empty.npy").touch()
+    Path("deep.json").write_text("[" * 200_000)
+    Path("broken.glb").write_bytes(mesh.read_bytes()[:200])
+    return Path.cwd()
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("name", faulty_calls())
+def test_an_error_is_one_line_on_stderr_and_nothing_is_written(name: str, crowded, capfd) -> None:
+    expected, arguments, word = faulty_calls()[name]
+    before = contents(crowded)
+    code, out, err = called(capfd, *arguments)
+    assert (code, out) == (expected, "")
+    assert err.startswith("error: ")
+    assert word in err
+    assert (err.count("\n"), err[-1]) == (1, "\n")
+    assert contents(crowded) == before
+    if arguments[0] != "fold":
+        code, out, _ = called(capfd, *arguments, "--json")
+        assert json.loads(out)["exit_code"] == code == expected
+        assert f"error: {json.loads(out)['error']}\n" == err
+
+
+def test_force_replaces_an_output_of_this_program(crowded, capfd) -> None:
+    np.save("labels.npy", np.arange(FACES) // (FACES // 2))
+    assert called(capfd, "segment", "cabinet.glb", "-o", "old", "--parts", "labels.npy", "--force", "-q")[0] == 0
+    assert called(capfd, "joints", "old", "--json")[0] == 0
+
+
+@pytest.mark.parametrize(
+    ("raised", "code", "word"),
+    [
+        (MissingExtraError("needs articulate-anymesh[sim]"), 5, "[sim]"),
+        (RuntimeError("two\nlines\x1b[31m"), 70, "--debug"),
+        (EOFError("cut"), 70, "internal defect, EOFError: cut"),
+        (KeyboardInterrupt(), 130, "interrupted\n"),
+    ],
+)
+def test_other_ends(raised, code: int, word: str, mesh, monkeypatch, capfd) -> None:
+    def fails(*_, **__):
+        raise raised
+
+    monkeypatch.setattr(solving, "segment_parts", fails)
+    before = contents(Path.cwd())
+    found, out, err = called(capfd, "articulate", mesh, "-o", "out")
+    assert (found, out) == (code, "")
+    assert (err.count("\n"), err[-1]) == (1, "\n")
+    assert word in err
+    assert "\x1b" not in err
+    if code != 70:
+        assert contents(Path.cwd()) == before
+    else:
+        assert Path("out.defect.json").exists()
+        assert not Path("out").exists()
+        with pytest.raises(type(raised)):
+            run(["--debug", "articulate", str(mesh), "-o", "out"])
+
+
+def test_several_meshes_need_batch_and_a_batch_goes_on_past_what_fails(mesh, capfd) -> None:
+    Path("other").mkdir()
+    Path("other/cabinet.glb").write_bytes(mesh.read_bytes())
+    Path("broken.obj").write_text("v nothing")
+    code, _, err = called(capfd, "articulate", mesh, "broken.obj", "-o", "out", *PARTS)
+    assert (code, "several need --batch" in err) == (2, True)
+    code, _, err = called(capfd, "articulate", mesh, "other/cabinet.glb", "-o", "out", "--batch", *PARTS)
+    assert (code, "have the same" in err) == (2, True)
+    call = ("articulate", "broken.obj", mesh, "-o", "out", "--batch", "--formats", "urdf", *PARTS)
+    code, out, err = called(capfd, *call, "--json")
+    told = json.loads(out)
+    assert (code, [o["state"] for o in told["objects"]]) == (3, ["failed", "done"])
+    assert Path("out/cabinet/asset.json").is_file()
+    before = contents(Path("out/cabinet"))
+    assert called(capfd, *call, "--quiet")[0] == 3
+    assert contents(Path("out/cabinet")) == before  # what is there stays
+    other = trimesh.load(mesh)
+    other.apply_scale(1.1)
+    other.export(mesh)
+    code, out, _ = called(capfd, *call, "--json")
+    assert [o["state"] for o in json.loads(out)["objects"]] == ["failed", "failed"]
+    assert "another version of the mesh" in out
+
+
+def test_an_unsure_joint_says_what_would_help(mesh, capfd, monkeypatch) -> None:
+    monkeypatch.setattr(solving, "LOW_CONFIDENCE", 1.1)
+    code, out, _ = called(capfd, "articulate", mesh, "-o", "out", "--formats", "urdf", *PARTS)
+    assert code == 0
+    (line,) = [line for line in out.splitlines() if "files:FOLDER" in line]
+    assert "unsure" in line
+    monkeypatch.setattr(solving, "LOW_CONFIDENCE", 0.0)
+    code, out, _ = called(capfd, "articulate", mesh, "-o", "sure", "--formats", "urdf", *PARTS, "--json")
+    assert (code, json.loads(out)["hint"], json.loads(out)["answerer"]) == (0, "", "geometry")
+
+
+def test_auto_says_what_it_takes(mesh, capfd, monkeypatch) -> None:
+    for variable in ("OLLAMA_BASE_URL", "LM_STUDIO_BASE_URL", "VLLM_BASE_URL"):
+        monkeypatch.setenv(variable, "127.0.0.1:9")
+    code, out, _ = called(capfd, "segment", mesh, "-o", "out", "--answerer", "auto", *PARTS)
+    assert code == 0
+    assert "auto takes geometry: no local model" in out

@@ -1,0 +1,138 @@
+"""`anymesh eval`: every protocol on a small object, what is kept, what is refused, what is a failure."""
+
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+from anymesh.cli import run
+from anymesh.errors import InputError, ModelError, OptionError, OutputError
+from anymesh.evaluation import evaluating
+from anymesh.evaluation.evaluating import evaluate
+from anymesh.evaluation.ground_truth import GroundTruth, example_truths
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+SET = f"examples:{EXAMPLES}"
+TRUTHS = {t.name: t for t in example_truths(EXAMPLES)}
+
+
+@dataclass(frozen=True)
+class Shelf:
+    """A data set of examples by their names; "broken" cannot be read."""
+
+    names: tuple[str, ...]
+    name: str = "shelf"
+    splits: tuple[str, ...] = ()
+
+    def objects(self, split: str | None = None) -> Sequence[str]:
+        return self.names
+
+    def truth(self, name: str, folder: Path) -> GroundTruth:
+        if name == "broken":
+            raise InputError("broken has no faces")
+        return TRUTHS[name]
+
+
+@pytest.mark.parametrize("protocol", ["parts", "views", "end-to-end", "executability"])
+def test_each_protocol_gets_a_box_right(protocol: str, tmp_path: Path) -> None:
+    (record,) = evaluate(SET, tmp_path / "out", protocol=protocol, only=["storage_box"], jobs=1)
+    (joint,) = record.score.joints
+    assert not record.error
+    assert joint.type_right
+    assert joint.angle is not None
+    assert joint.angle < 5
+    assert joint.opens_right
+    assert record.score.executable is (True if protocol == "executability" else None)
+    report = (tmp_path / "out" / "report.md").read_text()
+    assert f"| protocol | {protocol} |" in report
+    rows = [json.loads(line) for line in (tmp_path / "out" / "joints.jsonl").read_text().splitlines()]
+    assert [row["object"] for row in rows] == ["storage_box"]
+    assert "<script src" not in (tmp_path / "out" / "report.html").read_text()
+
+
+def test_a_change_and_an_oracle_have_their_rows(tmp_path: Path) -> None:
+    records = evaluate(SET, tmp_path, protocol="parts", only=["valve"], changes=["none", "turned"], answerer="oracle",
+                       viewpoints="4@15+30,1@50+30", jobs=1)  # fmt: skip
+    assert [r.change for r in records] == ["none", "turned"]
+    assert all(j.type_right and (j.angle or 0) < 1 for r in records for j in r.score.joints)
+
+
+def test_it_goes_on_where_it_was_stopped_and_tries_failures_again(tmp_path: Path, monkeypatch) -> None:
+    names = ["valve", "broken"]
+    monkeypatch.setattr(evaluating, "open_dataset", lambda spec: Shelf(tuple(names)))
+    asked: list[str] = []
+    truth = Shelf.truth
+    monkeypatch.setattr(Shelf, "truth", lambda self, name, folder: (asked.append(name), truth(self, name, folder))[1])
+    first = evaluate("shelf", tmp_path, jobs=1)
+    assert [r.error for r in first] == ["", "broken has no faces"]
+    assert evaluate("shelf", tmp_path, jobs=1) == first
+    assert asked == ["valve", "broken", "broken"]
+
+
+def test_a_crash_is_this_objects_failure_and_a_silent_model_ends_it_all(tmp_path: Path, monkeypatch) -> None:
+    def crash(*_: object, **__: object) -> None:
+        raise ZeroDivisionError("by chance")
+
+    monkeypatch.setattr(evaluating, "solve", crash)
+    (record,) = evaluate(SET, tmp_path / "a", only=["valve"], jobs=1)
+    assert "ZeroDivisionError" in record.error
+    assert [j.type_found for j in record.score.joints] == [None]  # it counts as missing
+
+    def silent(*_: object, **__: object) -> None:
+        raise ModelError("nobody answers")
+
+    monkeypatch.setattr(evaluating, "solve", silent)
+    with pytest.raises(ModelError, match="nobody answers"):
+        evaluate(SET, tmp_path / "b", only=["valve"], jobs=1)
+
+
+@pytest.mark.slow
+def test_processes_and_this_one_find_the_same(tmp_path: Path) -> None:
+    def found(jobs: int) -> list[object]:
+        records = evaluate(SET, tmp_path / str(jobs), only=["valve", "laptop"], jobs=jobs)
+        return [r.score for r in records]
+
+    assert found(1) == found(2)
+
+
+@pytest.mark.parametrize(
+    ("options", "told"),
+    [
+        ({"protocol": "guess"}, "valid are parts, views"),
+        ({"changes": ["melted"]}, "valid are none, turned"),
+        ({"changes": []}, "valid are none"),
+        ({"only": ["sofa"]}, "found sofa"),
+        ({"split": "ID"}, "split"),
+        ({"views": 0}, "--views must be 1 or more"),
+        ({"answerer": "oracle:2"}, "from 0 to 1"),
+        ({"answerer": "oracle:x"}, "from 0 to 1"),
+    ],
+)
+def test_what_is_not_valid_is_told_before_anything_is_written(options, told: str, tmp_path: Path) -> None:
+    with pytest.raises(OptionError, match=told):
+        evaluate(SET, tmp_path / "out", **options)
+    assert not (tmp_path / "out").exists()
+
+
+def test_other_settings_and_other_folders_are_refused(tmp_path: Path) -> None:
+    evaluate(SET, tmp_path / "out", only=["table"], jobs=1)
+    with pytest.raises(OutputError, match=r"seed: 0 \(now 1\)"):
+        evaluate(SET, tmp_path / "out", only=["table"], seed=1, jobs=1)
+    evaluate(SET, tmp_path / "out", only=["table"], seed=1, force=True, jobs=1)
+    (tmp_path / "mine").mkdir()
+    (tmp_path / "mine" / "thesis.txt").write_text("x")
+    with pytest.raises(OutputError, match="no evaluation of anymesh"):
+        evaluate(SET, tmp_path / "mine", only=["table"], force=True)
+    assert (tmp_path / "mine" / "thesis.txt").read_text() == "x"
+
+
+def test_the_command_line_tells_figures_or_json(tmp_path: Path, capsys) -> None:
+    assert run(["eval", SET, "-o", str(tmp_path / "out"), "--only", "valve", "--jobs", "1", "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert told["results"]["none"]["type_right"] == 1
+    assert run(["eval", SET, "-o", str(tmp_path / "out"), "--only", "valve", "--jobs", "1"]) == 0
+    assert "report.html" in capsys.readouterr().out
+    assert run(["eval", "toys", "-o", str(tmp_path / "x")]) == 2
+    assert "valid are examples" in capsys.readouterr().err

@@ -1,0 +1,204 @@
+"""Test convex shapes of links: close to the surface, thin for thin surfaces, and replaced by primitives that fit."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import trimesh
+from assets import box, cabinet, joint, mesh_of, source
+
+from anymesh.export.links import split_links
+from anymesh.geometry.distance_ import distance_to_triangles
+from anymesh.physics.collision import CollisionConfig, collision_shapes
+from anymesh.physics.collision.convex import cut, hull_of, trimmed, volume
+from anymesh.physics.collision.decompose import Resolution, component_shapes, smallest_box, split_components
+from anymesh.physics.collision.primitives import as_hull, fitted
+from anymesh.physics.collision.split import split_surface
+from anymesh.physics.collision.store import content_key, load_shapes, save_shapes
+from anymesh.types import Asset, Box, Cylinder, Hull, Part, Segmentation
+
+FINE = Resolution(gap=0.02, wall=0.002, max_pieces=24)
+
+
+def triangles(vertices, faces):
+    return np.asarray(vertices, float)[faces]
+
+
+def turned(points, seed=4):
+    q = np.linalg.qr(np.random.default_rng(seed).normal(size=(3, 3)))[0]
+    return points @ (q * np.sign(np.linalg.det(q)))
+
+
+def open_box(size=(0.6, 0.4, 0.5)):
+    """Return five single-sided walls; the front (-y) is open."""
+    v, f = box((0, 0, 0), size)
+    t = v[f]
+    return t[~(t[:, :, 1] == 0).all(1)]
+
+
+def collision_of(asset: Asset, **changes):
+    links = split_links(asset)
+    config = replace(CollisionConfig(), **changes)
+    return collision_shapes(asset, {k.name: k.triangles for k in links}, {k.name: k.origin for k in links}, config)
+
+
+def inside(shapes, points):
+    """Return which points lie in a shape."""
+    found = np.zeros(len(points), bool)
+    for shape in shapes:
+        hull = as_hull(shape)
+        t = hull.vertices[hull.faces]
+        n = np.cross(t[:, 1] - t[:, 0], t[:, 2] - t[:, 0])
+        found |= (((points[:, None] - t[None, :, 0]) * n).sum(2) <= 1e-12).all(1)
+    return found
+
+
+@pytest.mark.parametrize("turn", [False, True])
+def test_boards_become_boxes_of_the_same_volume(turn):
+    asset = cabinet()
+    if turn:
+        whole = Segmentation(0 * asset.segmentation.face_part, (Part("all", "all"),))
+        mesh = replace(asset.mesh, vertices=turned(asset.mesh.vertices))
+        asset = replace(asset, mesh=mesh, segmentation=whole, joints=())
+    shapes = [s for some in collision_of(asset).shapes.values() for s in some]
+    assert all(isinstance(s, Box) for s in shapes)
+    t = asset.mesh.triangles
+    exact = np.einsum("ij,ij->i", t[:, 0], np.cross(t[:, 1], t[:, 2])).sum() / 6
+    assert sum(float(s.size.prod()) for s in shapes) == pytest.approx(exact, rel=1e-6)
+
+
+def test_a_round_bar_is_a_cylinder_and_an_eight_sided_one_is_not():
+    for sides, kind in ((48, Cylinder), (8, Hull)):
+        mesh = trimesh.creation.cylinder(0.1, 0.5, sections=sides)
+        shape = fitted(hull_of(turned(np.asarray(mesh.vertices))))
+        assert isinstance(shape, kind)
+        if isinstance(shape, Cylinder):
+            assert (shape.radius, shape.length) == (pytest.approx(0.1, rel=0.01), pytest.approx(0.5))
+            assert np.linalg.det(shape.rotation) == pytest.approx(1)
+
+
+def test_a_cut_keeps_the_volume_of_both_sides():
+    whole = hull_of(turned(np.random.default_rng(0).normal(size=(40, 3))))
+    normal = np.array([0.6, 0.0, 0.8])
+    below, above = trimmed(whole, normal, 0.2), trimmed(whole, -normal, -0.2)
+    assert volume(below) + volume(above) == pytest.approx(volume(whole), rel=1e-9)
+    surface = whole.vertices[whole.faces]
+    parts = cut(surface, normal, 0.2)
+    area = [np.linalg.norm(np.cross(t[:, 1] - t[:, 0], t[:, 2] - t[:, 0]), axis=1).sum() for t in (surface, *parts)]
+    assert area[1] + area[2] == pytest.approx(area[0], rel=1e-9)
+    assert (parts[0] @ normal).max() <= 0.2 + 1e-9
+    assert (parts[1] @ normal).min() >= 0.2 - 1e-9
+
+
+@pytest.mark.parametrize("turn", [False, True])
+def test_an_open_shell_stays_thin_and_hollow(turn):
+    shell = open_box()
+    middle = np.array([[0.3, 0.2, 0.25], [0.05, 0.05, 0.05], [0.3, 0.0, 0.25]])
+    if turn:
+        shell, middle = turned(shell), turned(middle)
+    hulls = split_surface(shell, gap=0.02, wall=0.002, max_pieces=24)
+    assert not inside(hulls, middle).any()
+    for hull in hulls:
+        assert distance_to_triangles(hull.vertices, shell).max() <= 0.02
+    on_walls = shell.mean(1)
+    assert np.min([distance_to_triangles(on_walls, h.vertices[h.faces]) for h in hulls], axis=0).max() <= 0.003
+
+
+def test_a_solid_with_a_cavity_is_decomposed_and_stays_open():
+    outer = trimesh.creation.box((1, 1, 1))
+    inner = trimesh.creation.box((0.8, 0.8, 1), at(0, 0, 0.2))
+    solid = trimesh.boolean.difference([outer, inner], engine="manifold")
+    (component,) = split_components(triangles(solid.vertices, solid.faces), 0.0)
+    assert component.solid
+    shapes = component_shapes(component, FINE)
+    assert len(shapes) > 4
+    assert not inside(shapes, np.array([[0, 0, 0.0], [0.35, 0.35, 0.45], [0, 0, 0.49]])).any()
+    assert inside(shapes, np.array([[0, 0, -0.45], [0.45, 0, 0], [-0.45, 0.1, 0.2]])).all()
+    assert sum(volume(as_hull(s)) for s in shapes) == pytest.approx(float(solid.volume), rel=0.05)
+
+
+def test_what_lies_in_a_convex_piece_and_what_is_tiny_needs_no_shape():
+    pieces = [box((0, 0, 0), (1, 1, 1)), box((0.2, 0.2, 0.2), (0.4, 0.4, 0.4)), box((2, 0, 0), (2.001, 0.001, 0.001))]
+    found = split_components(np.concatenate([triangles(*p) for p in pieces]), 0.01)
+    assert [len(c.triangles) for c in found] == [12]
+    assert found[0].triangles.max() == 1
+
+
+def test_inside_out_solids_are_turned():
+    v, f = box((0, 0, 0), (1, 2, 3))
+    (found,) = split_components(v[f[:, ::-1]], 0.0)
+    normal = np.cross(found.triangles[:, 1] - found.triangles[:, 0], found.triangles[:, 2] - found.triangles[:, 0])
+    assert ((found.triangles.mean(1) - v.mean(0)) * normal).sum(1).min() > 0
+
+
+def test_flat_and_empty_links_get_a_thickness():
+    sheet = np.array([[[0, 0, 0], [1, 0, 0], [1, 1, 0]], [[0, 0, 0], [1, 1, 0], [0, 1.0, 0]]])
+    (component,) = split_components(sheet, 0.0)
+    (shape,) = component_shapes(component, FINE)
+    assert isinstance(shape, Box)
+    np.testing.assert_allclose(np.sort(shape.size), [FINE.wall, 1, 1], atol=1e-9)
+    assert shape.center[2] == pytest.approx(-FINE.wall / 2)  # behind the visible face
+    nothing = smallest_box(np.zeros((1, 3, 3)), 0.002)
+    np.testing.assert_allclose(as_hull(nothing).vertices.max(0), [0.001] * 3)
+
+
+def test_shapes_are_kept_by_content(tmp_path):
+    hull = hull_of(turned(np.random.default_rng(1).normal(size=(20, 3))))
+    shapes = (hull, Box(np.ones(3), np.eye(3), np.array([1, 2, 3.0])), Cylinder(np.zeros(3), np.eye(3), 0.5, 2.0))
+    key = content_key(hull.vertices, True, 0.1)
+    assert key != content_key(hull.vertices, True, 0.2)
+    assert load_shapes(tmp_path, key) is None
+    save_shapes(tmp_path, key, shapes)
+    found = load_shapes(tmp_path, key)
+    assert found is not None
+    assert [type(s) for s in found] == [Hull, Box, Cylinder]
+    np.testing.assert_array_equal(found[0].vertices, hull.vertices)
+    (tmp_path / f"{key}.npz").write_bytes(b"cut short")
+    assert load_shapes(tmp_path, key) is None
+
+
+def at(*place):
+    return trimesh.transformations.translation_matrix(place)
+
+
+def sliding(gap: float, depth: float = 0.0, wall: float = 0.03) -> Asset:
+    """Return a solid case with a tight drawer.
+
+    gap: clearance [m]; depth: penetration of the drawer into the floor [m].
+    """
+    outer = trimesh.creation.box((0.5, 0.5, 0.3))
+    inner = trimesh.creation.box((0.5 - 2 * wall, 0.5, 0.3 - 2 * wall), at(0, -wall, 0))
+    case = trimesh.boolean.difference([outer, inner], engine="manifold")
+    half = np.array([0.25 - wall - gap, 0.25 - wall / 2 - gap, 0.15 - wall - gap])
+    middle = np.array([0, -wall / 2, -depth])
+    body = trimesh.creation.box(2 * half, at(*middle))
+    scoop = trimesh.creation.box(2 * half - [0.03, 0.03, 0.0], at(*(middle + np.array([0, 0, 0.02]))))
+    tray = trimesh.boolean.difference([body, scoop], engine="manifold")
+    mesh, part = mesh_of([(case.vertices, case.faces), (tray.vertices, tray.faces)])
+    slide = joint("slide", "prismatic", "case", "tray", middle, (0, -1, 0), (0.0, 0.3))
+    return Asset("drawer", source(), mesh, Segmentation(part, (Part("case", "case"), Part("tray", "tray"))), (slide,), "")
+
+
+def test_a_tight_drawer_is_free_and_open_after_clearing():
+    coarse = collision_of(sliding(0.002), gaps=(0.3,), rounds=0)
+    assert coarse.tight == (("case", "tray"),)  # one hull each fills the case, as this test requires
+    found = collision_of(sliding(0.002), gaps=(0.3, 0.006))
+    assert found.false_before > 0
+    assert found.tight == ()
+    assert found.overlapping == ()
+    assert not inside(found.shapes["tray"], np.array([[0, -0.015, 0.1], [0.0, -0.1, 0.0]])).any()
+    assert inside(found.shapes["case"], np.array([[0.235, 0, 0], [0, 0, -0.135], [0, 0.235, 0]])).all()
+
+
+def test_links_that_overlap_at_rest_are_listed():
+    assert collision_of(sliding(0.002, depth=0.02)).overlapping == (("case", "tray"),)
+
+
+def test_a_round_hull_keeps_few_corners_and_nearly_all_of_its_volume():
+    ball = trimesh.creation.icosphere(5)
+    hull = fitted(hull_of(np.asarray(ball.vertices)))
+    assert isinstance(hull, Hull)
+    assert len(hull.vertices) <= 64
+    assert 0.85 < volume(hull) / ball.volume < 1
+    inner = np.abs(np.einsum("ij,ij->i", hull.vertices, hull.vertices) - 1)
+    assert inner.max() < 1e-9  # they are corners of the ball

@@ -1,0 +1,105 @@
+"""Stage C from an output to another: what a user gets, and what stays."""
+
+import hashlib
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+import trimesh
+from surfaces import case_with_door
+
+from anymesh.checking import check_asset
+from anymesh.completion.settings import ShapeConfig
+from anymesh.completion.texture import Carried
+from anymesh.errors import ModelError, OptionError, OutputError
+from anymesh.pipeline import articulate, export, finish
+from anymesh.pipeline.finishing import finish_asset
+
+
+@pytest.fixture(scope="module")
+def surface(tmp_path_factory) -> Path:
+    """An output made from a case whose front a door covers: a surface mesh without any interior."""
+    folder = tmp_path_factory.mktemp("finish")
+    asset = case_with_door()
+    trimesh.Trimesh(asset.mesh.vertices, asset.mesh.faces, process=False).export(folder / "case.ply")
+    np.save(folder / "labels.npy", asset.segmentation.face_part)
+    articulate(folder / "case.ply", folder / "out", parts=str(folder / "labels.npy"), up="z", scale="1")
+    return folder / "out"
+
+
+def digests(folder: Path) -> dict[str, str]:
+    files = sorted(p for p in folder.rglob("*") if p.is_file())
+    return {p.relative_to(folder).as_posix(): hashlib.sha256(p.read_bytes()).hexdigest() for p in files}
+
+
+def test_a_surface_becomes_a_whole_asset_and_the_input_stays(surface, tmp_path):
+    before = digests(surface)
+    asset = finish(surface, tmp_path / "done")
+    assert digests(surface) == before
+    record = json.loads((tmp_path / "done" / "asset.json").read_text())
+    assert all(p["new_faces"] > 0 for p in record["parts"])
+    assert record["finish"] == list(asset.notes)
+    assert any(note.startswith("base:") or note.startswith("part_0") for note in record["finish"])
+    first = json.loads((surface / "asset.json").read_text())
+    for part, old in zip(record["parts"], first["parts"], strict=True):
+        np.testing.assert_array_equal(np.load(tmp_path / "done" / part["faces"]), np.load(surface / old["faces"]))
+        assert part["face_count"] == old["face_count"]
+        mesh = trimesh.load(tmp_path / "done" / "meshes" / f"{part['name']}.obj", force="mesh")
+        mesh.merge_vertices(merge_tex=True, merge_norm=True)
+        assert mesh.is_watertight
+    assert record["joints"] == first["joints"]
+    assert check_asset(tmp_path / "done").ok
+
+
+def test_finish_past_its_time_limit_leaves_surfaces_open_and_says_so(surface, tmp_path):
+    asset = finish(surface, tmp_path / "done", time_limit=1e-6)
+    record = json.loads((tmp_path / "done" / "asset.json").read_text())
+    assert not any(p.get("new_faces") for p in record["parts"])
+    assert "time limit of 1e-06 s: completion: some surfaces stay open" in asset.notes
+    assert record["joints"] == json.loads((surface / "asset.json").read_text())["joints"]
+    assert check_asset(tmp_path / "done").ok
+    whole = finish(surface, tmp_path / "done", force=True)  # another limit computes the stage anew
+    assert any("given" in note for note in whole.notes)
+
+
+def test_a_rerun_and_an_export_write_the_same(surface, tmp_path):
+    finish(surface, tmp_path / "a")
+    finish(surface, tmp_path / "b")
+    a, b = digests(tmp_path / "a"), digests(tmp_path / "b")
+    assert {k: v for k, v in a.items() if k != "timing.json"} == {k: v for k, v in b.items() if k != "timing.json"}
+    export(tmp_path / "a")  # the finished stage is what is exported
+    assert {k: v for k, v in digests(tmp_path / "a").items() if k != "timing.json"} == {
+        k: v for k, v in a.items() if k != "timing.json"
+    }
+
+
+def test_shapes_can_be_left_and_looks_baked(surface, tmp_path):
+    finish(surface, tmp_path / "done", completer="off", texture="bake:64")
+    record = json.loads((tmp_path / "done" / "asset.json").read_text())
+    assert [p["new_faces"] for p in record["parts"]] == [0, 0]
+    assert (tmp_path / "done" / "meshes" / "atlas.png").exists()
+
+
+def test_whom_nobody_can_ask_the_built_in_stands_in_for():
+    class Away:
+        name = "away"
+
+        def complete(self, asset):
+            raise ModelError("there is no GPU")
+
+    done = finish_asset(case_with_door(), shapes=True, completer=Away(), retexturer=Carried(), config=ShapeConfig())
+    assert (done.source_face < 0).any()
+    assert done.notes[0] == "away: there is no GPU; the built-in completer did all parts"
+
+
+def test_wrong_places_and_names_are_one_clear_error(surface, tmp_path):
+    with pytest.raises(OutputError, match="lies in the output folder"):
+        finish(surface, surface)
+    with pytest.raises(OutputError, match="is no output of anymesh"):
+        finish(tmp_path, tmp_path / "done")
+    with pytest.raises(OptionError, match="--completer: found 'magic'; valid are builtin, off"):
+        finish(surface, tmp_path / "done", completer="magic")
+    with pytest.raises(OptionError, match="--texture: found 'magic'"):
+        finish(surface, tmp_path / "done", texture="magic")
+    assert not (tmp_path / "done").exists()

@@ -1,0 +1,24 @@
+"""Test that the reasons of a learned score name features that a candidate has."""
+
+import numpy as np
+
+from anymesh.scoring.boosted_trees import BoostedTrees
+from anymesh.scoring.two_steps import MISSING, TwoStepClassifier
+
+
+def stump(column: int) -> BoostedTrees:
+    """Return a tree with one split at 0: -1 up to it, 1 above, or the opposite for a missing value."""
+    up = 1.0 if column != 1 else -1.0
+    return BoostedTrees(
+        np.array([column, -1, -1], np.int16), np.zeros(3, np.float32), np.array([1, 1, 2], np.int32),
+        np.array([2, 1, 2], np.int32), np.array([0.0, -up, up], np.float32), np.zeros(1, np.int32),
+    )  # fmt: skip
+
+
+def test_a_feature_that_a_candidate_does_not_have_is_no_reason() -> None:
+    for column, value, reason in ((0, 2.0, "size 2"), (1, MISSING, "the other candidates")):
+        classifier = TwoStepClassifier(stump(column), stump(column), ("size", "support"), {})
+        row = {"size": 0.0, "support": 0.0, ("size", "support")[column]: value}
+        scores, reasons = classifier.score(classifier.table([row]), {"score": np.zeros(1)})
+        assert scores.tolist() == [1.0]
+        assert reasons == [reason]
