@@ -129,7 +129,7 @@ class GroundingConfig:
     alike: float = 0.2  # maximum difference of their coverage in any mask
     box_iou: float = 0.5  # minimum IoU of an instance with a mask in some view
     em_extra: int = 5  # instances in addition to the initial ones
-    em_most: int = 28
+    em_most: int = 28  # instances up to which em_extra are added; initial ones are never dropped
     em_epochs: int = 10
     em_rate: float = 1.0  # learning rate of Adam
     em_connect: float = 0.025  # an instance is split at larger distances between its points

@@ -37,6 +37,12 @@ def test_every_picture_shows_in_its_proportions(count: int, size: tuple[int, int
     assert width * height >= min(1.0, (240 / max(size)) ** 2) * size[0] * size[1] * 0.97
 
 
+def test_a_caption_that_begins_with_its_number_is_not_numbered_twice() -> None:
+    told, bare = (question_sheet([plain((200, 30, 30), (400, 300), c)]) for c in ("picture 1: from the left", "from the left"))
+    other = question_sheet([plain((200, 30, 30), (400, 300), "picture 2: from the left")])
+    assert told.png == bare.png != other.png
+
+
 def test_a_sheet_of_nothing_is_an_error() -> None:
     with pytest.raises(ValueError, match="at least one"):
         question_sheet([])

@@ -159,6 +159,23 @@ def test_cards_have_a_close_up_only_for_small_parts():
     assert titled(large, "ä").shape[0] == 320 + 2 * BAR
 
 
+def test_a_card_is_in_the_view_that_shows_where_the_part_meets_the_rest():
+    """A flap on the front (-y): the side views show both of its short edges alike, and each contact is at one of them."""
+    mesh, number = mesh_of([box((-1, -1, -1), (1, 1, 1)), box((-0.5, -1.6, -0.5), (0.5, -1.0, 0.5))])
+    scene, config = RayScene(mesh.vertices, mesh.faces), ViewsConfig(around="2@15+40", size=320)  # from -40 deg and its back
+    both = [*views(mesh, config, scene=scene)[:1], *views(mesh, ViewsConfig(around="1@15+320", size=320), scene=scene)]
+    pixels = [int((number[v.face] == 1)[v.face >= 0].sum()) for v in both]
+    assert min(pixels) > 0.9 * max(pixels)
+    across = np.linspace(-0.5, 0.5, 9)
+    chosen = []
+    for side in (-0.501, 0.501):
+        contact = np.stack([np.full(9, side), np.full(9, -1.001), across], 1)
+        drawn = part_card(mesh, both, number, 1, "part 1: flap", config, scene, contact)
+        alone = [part_card(mesh, [view], number, 1, "part 1: flap", config, scene) for view in both]
+        chosen.append([k for k, other in enumerate(alone) if (drawn == other).all()])
+    assert sorted(chosen) == [[0], [1]]
+
+
 def test_poses_are_cast_at_as_if_the_part_had_been_moved():
     mesh, moving, (motion, amount), _ = door()
     posed = Posed(mesh, moving, RayScene(mesh.vertices, mesh.faces))

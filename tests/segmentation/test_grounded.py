@@ -1,5 +1,6 @@
 """Test Stage A with a visual answerer: exact regions, masks of a model, unseen parts, labels without parts."""
 
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -16,18 +17,22 @@ from anymesh.pipeline import solving
 from anymesh.pipeline.results import SegmentationResult
 from anymesh.pipeline.solving import Solver
 from anymesh.rendering.viewpoints import part_pixels
-from anymesh.segmentation import grounded
+from anymesh.segmentation import ground_masks
+from anymesh.segmentation.grounded_parts import UNSURE
 from anymesh.types import Mesh, Segmentation
 from anymesh.types.recognition import Recognition, RecognizedLabel
 
 TRUTHS = {t.name: t for t in example_truths(Path(__file__).parents[2] / "examples")}
 FEW, VIEWS = GroundingConfig(points=20_000), ViewsConfig(size=320)
+MORE = GroundingConfig(points=80_000)  # masks are fused on the points themselves
 
 
-def found_in(name: str, proposer: str = "exact") -> tuple[GroundTruth, Mesh, SegmentationResult]:
+def found_in(
+    name: str, proposer: str = "exact", grounding: GroundingConfig = FEW
+) -> tuple[GroundTruth, Mesh, SegmentationResult]:
     truth = TRUTHS[name]
     placed = place_mesh(load_mesh(truth.mesh))
-    solver = Solver(placed.mesh, Config(grounding=FEW, views=VIEWS, proposer=proposer), lambda _: oracle(prepared(truth)))
+    solver = Solver(placed.mesh, Config(grounding=grounding, views=VIEWS, proposer=proposer), lambda _: oracle(prepared(truth)))
     return truth, placed.mesh, solver.parts("auto", solver.recognize().recognition)
 
 
@@ -56,18 +61,19 @@ def test_geometry_finds_what_is_inside_where_nobody_was_asked_for_it() -> None:
     assert any("no view shows the wheel" in w for w in found.warnings)
 
 
-@pytest.mark.parametrize(
-    "name", ["tilted_drawer", *(pytest.param(n, marks=pytest.mark.slow) for n in ("microwave_fused", "stove"))]
-)
-def test_masks_of_a_model_become_parts_by_partslip(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+MOVING = sorted(name for name, truth in TRUTHS.items() if truth.joints)
+
+
+@pytest.mark.parametrize("name", [n if n == "tilted_drawer" else pytest.param(n, marks=pytest.mark.slow) for n in MOVING])
+def test_ideal_masks_lose_no_part_and_divide_none(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """The masks cover every part in every view, and their numbers differ between views."""
     truth = TRUTHS[name]
     mesh = place_mesh(load_mesh(truth.mesh)).mesh
-    shown, proposed = {}, grounded.propose
+    shown, proposed = {}, ground_masks.propose
 
-    def propose(whole, region, seen, *more):
+    def propose(region, diagonal, seen, *more):
         shown.update({v.color.tobytes(): v for v in seen})
-        return proposed(whole, region, seen, *more)
+        return proposed(region, diagonal, seen, *more)
 
     class Masker:
         name, frame = "masker", None
@@ -82,12 +88,46 @@ def test_masks_of_a_model_become_parts_by_partslip(name: str, monkeypatch: pytes
         return [SimpleNamespace(mask=m) for m in parts if m.any()]
 
     monkeypatch.setattr(solving, "load_sam", lambda spec: Masker())
-    monkeypatch.setattr(grounded, "automatic_masks", masks)
-    monkeypatch.setattr(grounded, "propose", propose)
-    truth, mesh, found = found_in(name, "sam:some")
+    monkeypatch.setattr(ground_masks, "automatic_masks", masks)
+    monkeypatch.setattr(ground_masks, "propose", propose)
+    truth, mesh, found = found_in(name, "sam:some", MORE)
     got = ious(truth, mesh, found.segmentation)
     assert set(got) == {p.name for p in truth.parts[1:]}
+    assert len(found.segmentation.parts) == len(truth.parts)
     assert min(got.values()) > 0.9
+    assert found.warnings == ()
+
+
+def test_marks_take_one_question_whose_captions_name_sides_by_the_recognized_front() -> None:
+    truth = TRUTHS["tilted_drawer"]
+    placed = place_mesh(load_mesh(truth.mesh))
+    asked = []
+
+    class Watched:
+        name, needs_images, exchanges, warnings = "watched", True, (), ()
+        knowing = oracle(prepared(truth))
+
+        def ask(self, question):
+            asked.append(question)
+            found = self.knowing.ask(question)
+            if question.kind == "marks":  # all of them may be wrong
+                return replace(found, unsure=found.parts[0].marks)
+            return replace(found, front=90.0)
+
+    solver = Solver(placed.mesh, Config(grounding=FEW, views=VIEWS), lambda _: Watched())
+    recognition = solver.recognize().recognition
+    found = solver.parts("auto", recognition)
+    assert [q.kind for q in asked] == ["recognize", "marks"]  # which views show a label is asked about masks alone
+    assert any(p.caption == "picture 1: turned by 0 degrees, 15 degrees up" for p in asked[0].pictures)
+    captions = [p.caption.partition(": ")[2] for p in asked[1].pictures]
+    sides = {"from the left, 15 degrees up": 0.0, "from the front, 15 degrees up": 90.0, "from the back, 15 degrees up": 270.0}
+    seen = dict(zip(captions, asked[1].faces, strict=True))
+    views = dict(zip([azimuth for azimuth, _ in VIEWS.directions], solver._visual_prompts.views, strict=False))
+    assert all("turned" not in caption for caption in captions)
+    assert any((seen[side] == views[azimuth].face).all() for side, azimuth in sides.items() if side in seen)
+    (part,) = found.segmentation.parts[1:]
+    assert part.confidence == UNSURE
+    assert "not sure of" in part.reason
 
 
 def test_what_is_expected_and_not_there_is_told() -> None:

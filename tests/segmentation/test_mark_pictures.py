@@ -10,7 +10,6 @@ from anymesh.config import Config, GroundingConfig, ViewsConfig
 from anymesh.rendering.visual_prompts import VisualPrompts
 from anymesh.segmentation import ask_marks
 from anymesh.segmentation.ask_marks import MarkQuestioner, ask_exact, ask_masks
-from anymesh.segmentation.grounded import _lost
 from anymesh.segmentation.mark_pictures import MAX_MARKS_PER_PICTURE, MIN_MARK_PIXELS, WELL, choose_pictures
 from anymesh.segmentation.propose import Proposal
 from anymesh.segmentation.regions import Marks
@@ -130,7 +129,20 @@ def test_views_of_masks_are_numbered_as_the_pictures_are() -> None:
     assert [p.caption.split(":")[0] for p in asked[0].pictures] == [f"picture {k}" for k in range(1, 12)]
 
 
-def test_parts_of_one_label_that_are_lost_are_told() -> None:
-    marked = [MarkedPart("wheel", k, v, (k,)) for v in (0, 1) for k in (1, 2, 3)] + [MarkedPart("door", 1, 0, (4,))]
-    assert _lost(marked, ["wheel", "wheel", "door"]) == ("3 parts 'wheel' were marked in one view, but 2 found",)
-    assert _lost(marked, ["wheel"] * 3 + ["door"] * 2) == ()
+def test_more_pictures_of_masks_than_fit_are_asked_about_in_several_calls(monkeypatch: pytest.MonkeyPatch) -> None:
+    """No view is left out, and what different calls number alike may be different parts."""
+    monkeypatch.setattr(ask_marks, "MAX_PICTURES", 4)
+    mesh, piece = mesh_of([BODY, box((0.4, -0.1, 0.4), (0.6, 0, 0.6))])
+    studio = studio_of(mesh)
+
+    class All(Points):
+        def ask(self, question):
+            if isinstance(question, WhichViews):
+                return {"key": tuple(range(0, 11, 2))}
+            return MarksAnswer(tuple(MarkedPart("key", 1, v, (2,)) for v in range(len(question.regions))))
+
+    labels = [np.where(v.face >= 0, piece[np.maximum(v.face, 0)] + 1, -1) for v in studio.views]
+    proposals = [Proposal(k, label, (1, 2)) for k, label in enumerate(labels)]
+    asked = MarkQuestioner(All(), studio, ("key",), None, Config(views=VIEWS))
+    found = ask_masks(asked, proposals, studio.views, studio.names(11))
+    assert [(p.view, p.instance) for p in found] == [(0, 1), (2, 1), (4, 1), (6, 1), (8, 2), (10, 2)]

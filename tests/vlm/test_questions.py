@@ -1,6 +1,7 @@
 """Test that schema and parser of every question match, and that no answer is guessed or causes a crash."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 import jsonschema
@@ -129,6 +130,12 @@ def test_the_category_is_repeated_where_marks_are_asked_for() -> None:
         WhichViews((), ("door",), FACES, "toaster oven"),
     ):
         assert question.text().startswith("The object is a toaster oven.")
+
+
+@pytest.mark.parametrize("name", ["kinds", "points", "arrows", "motions"])
+def test_the_category_is_repeated_in_questions_about_joints(name: str) -> None:
+    question = replace(ASKED[name].question, category="toaster oven")
+    assert question.text().startswith("Object: toaster oven. ")
 
 
 def test_handles_belong_to_what_they_sit_on_unless_they_are_asked_for() -> None:

@@ -2,6 +2,7 @@
 
 import io
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -84,6 +85,7 @@ def test_the_example_satisfies_the_schema_in_form(name: str) -> None:
         ("marks", "door#2=1,4", parts({"label": "door", "instance": 2, "marks": [1, 4]})),
         ("marks", "door=1", parts({"label": "door", "instance": 1, "marks": [1]})),
         ("views", "door=1,2", parts({"label": "door", "views": [1, 2]})),
+        ("arrows", "1=3", parts({"part": 1, "arrow": 3})),
     ],
 )
 def test_the_short_form(name: str, told: str, found: dict) -> None:
@@ -99,6 +101,13 @@ def test_the_short_form_passes_over_reasons_and_flags() -> None:
     schema = an_object(note={"type": "string"}, parts=a_list(item))
     expected = {"note": "", "parts": [{"reason": "", "part": 3, "pick": "b", "unsure": True}]}
     assert json.loads(answer_text("3=b,unsure", schema)) == expected
+
+
+def test_the_short_form_of_a_motion_takes_the_region_for_right_unless_told() -> None:
+    schema = replace(ASKED["motions"].question, ask_fit=True).schema()
+    answer = json.loads(answer_text("1=2 2=0,too_much", schema))
+    check_schema(answer, schema)
+    assert [(p["motion"], p["part_is"]) for p in answer["parts"]] == [(2, "right"), (0, "too_much")]
 
 
 @pytest.mark.parametrize("told", ["1=2 and more", "1=x", "x=1", "1=1,2", "1#2=1", "1="])

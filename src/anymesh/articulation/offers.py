@@ -167,8 +167,7 @@ def _unlike(
     Return their indices, their displacements, the position of the one that stands for the answered motion, and for each the
     first one that it is similar to.
     """
-    samples = case.around.part.samples.points
-    points = samples[:: max(1, len(samples) // ENOUGH_POINTS)]
+    moved = _MovedPoints(case, candidates)
     part_limit, object_limit = DUPLICATE_PART_RATIO * case.around.part.box.diagonal, DUPLICATE_OBJECT_RATIO * case.around.scale
     kept: list[int] = []
     amounts: list[float] = []
@@ -177,7 +176,7 @@ def _unlike(
     for k in order:
         amount, own, head = shown_amount(candidates[k], case), len(kept), len(kept)
         for n, other in enumerate(kept):
-            apart, way = _apart(points, candidates[k], candidates[other], max(amount, amounts[n], key=abs))
+            apart, way = moved.apart(k, other, max(amount, amounts[n], key=abs))
             if apart <= max(part_limit, min(object_limit, DUPLICATE_MOTION_RATIO * way)):
                 own = n
                 break
@@ -192,19 +191,34 @@ def _unlike(
     return kept, amounts, answered, first
 
 
-def _apart(points: Float[np.ndarray, "n 3"], a: Candidate, b: Candidate, amount: float) -> tuple[float, float]:
-    """Return the distance between the part's points after two motions, and their displacement [m], as means over the points.
+class _MovedPoints:
+    """Points of a part after its motions, each computed once."""
 
-    Both motions are by up to `amount` [rad or m], however far each is free.
-    """
-    if a.motion.kind is not b.motion.kind:
-        return np.inf, 0.0
-    apart, way = 0.0, 0.0
-    for share in (0.5, 1.0):
-        ends = [points @ T[:3, :3].T + T[:3, 3] for T in (opening_motion(c).transform(share * amount) for c in (a, b))]
-        apart = max(apart, float(np.linalg.norm(ends[0] - ends[1], axis=1).mean()))
-        way = float(np.linalg.norm(ends[0] - points, axis=1).mean())
-    return apart, way
+    def __init__(self, case: PartCase, candidates: list[Candidate]) -> None:
+        samples = case.around.part.samples.points
+        self._points = samples[:: max(1, len(samples) // ENOUGH_POINTS)]
+        self._motions = [opening_motion(c) for c in candidates]
+        self._ends: dict[tuple[int, float], Float[np.ndarray, "n 3"]] = {}
+
+    def apart(self, a: int, b: int, amount: float) -> tuple[float, float]:
+        """Return the distance between the points after two motions, and the displacement by the first [m], as means.
+
+        Both motions are by up to `amount` [rad or m], however far each is free.
+        """
+        if self._motions[a].kind is not self._motions[b].kind:
+            return np.inf, 0.0
+        apart = max(_mean_distance(self._after(a, s * amount), self._after(b, s * amount)) for s in (0.5, 1.0))
+        return apart, _mean_distance(self._after(a, amount), self._points)
+
+    def _after(self, k: int, amount: float) -> Float[np.ndarray, "n 3"]:
+        if (k, amount) not in self._ends:
+            T = self._motions[k].transform(amount)
+            self._ends[k, amount] = self._points @ T[:3, :3].T + T[:3, 3]
+        return self._ends[k, amount]
+
+
+def _mean_distance(a: Float[np.ndarray, "n 3"], b: Float[np.ndarray, "n 3"]) -> float:
+    return float(np.linalg.norm(a - b, axis=1).mean())
 
 
 def _crowding(first: list[int], values: list[float]) -> list[bool]:

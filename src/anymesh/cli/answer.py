@@ -104,7 +104,7 @@ def _shown(found: list[QuestionFolder]) -> str:
     lines = [f"{first.path}: {first.kind}", "", record["text"], ""]
     if record["pictures"]:
         lines.append(f"all pictures: {first.path / SHEET}")
-    lines += [f"{first.path / p['file']}  {p['caption']}" for p in record["pictures"]]
+    lines += [f"{first.path / p['file']}  {p['caption']}".rstrip() for p in record["pictures"]]
     lines += ["", "answer: one JSON object with", explain_schema(first.schema), ""]
     lines.append(f"for example, in form only: {json.dumps(example_answer(first.schema))}")
     lines += [first.refusal() or ""] * (first.refusal() is not None)

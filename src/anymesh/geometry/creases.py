@@ -14,6 +14,8 @@ from anymesh.geometry.superpoints import superpoints
 from anymesh.geometry.topology import edge_pairs
 from anymesh.types.triangles import normals_and_areas
 
+BOX_MARGIN = 1.01  # of `reach`: faces outside this margin around a border's box are farther away than `reach`
+
 
 def convex_regions(triangles: Float[np.ndarray, "F 3 3"], diagonal: float, config: PiecesConfig) -> Int[np.ndarray, " F"]:
     """Return a region index per face.
@@ -50,19 +52,24 @@ def _folds_inwards(
 
     middle: centers of the edges on the borders.
     """
-    count = int(label.max()) + 1
+    count, reach = int(label.max()) + 1, config.reach * diagonal
     order = np.argsort(label, kind="stable")
     start = np.searchsorted(label[order], np.arange(count + 1))
+    ordered = centers[order]
     rows = np.argsort(where, kind="stable")
     first = np.searchsorted(where[rows], np.arange(len(key) + 1))
     inwards = np.zeros(len(key), bool)
     for k, pair in enumerate(key):
-        tree = KDTree(middle[rows[first[k] : first[k + 1]]])
+        border = middle[rows[first[k] : first[k + 1]]]
+        tree, low, high = KDTree(border), border.min(0) - BOX_MARGIN * reach, border.max(0) + BOX_MARGIN * reach
         ends = []
         for side in divmod(int(pair), count):
-            mine = order[start[side] : start[side + 1]]
-            gap = tree.query(centers[mine])[0]
-            near = mine[gap <= max(config.reach * diagonal, float(gap.min()))]
+            mine, points = (a[start[side] : start[side + 1]] for a in (order, ordered))
+            boxed = mine[((points >= low) & (points <= high)).all(1)]  # most faces of a large superpoint are far away
+            near = boxed[tree.query(centers[boxed])[0] <= reach]
+            if len(near) == 0:
+                gap = tree.query(points)[0]
+                near = mine[gap <= gap.min()]
             ends.append((np.average(centers[near], 0, weight[near]), np.average(normals[near], 0, weight[near])))
         (a, n), (b, m) = ends
         cosine = float(n @ m) / max(float(np.linalg.norm(n) * np.linalg.norm(m)), 1e-300)

@@ -48,6 +48,32 @@ class ObjectShape:
         return self.shape.take(faces)
 
 
+@dataclass(frozen=True, eq=False)
+class DividedSurface:
+    """The faces of a mesh, oriented and divided into patches, before dense meshes are simplified.
+
+    flipped: (F,) faces whose winding the mesh has the other way round; patch, shared, panels, diagonal: as in `ObjectShape`.
+    """
+
+    shape: TriangleSet
+    flipped: Bool[np.ndarray, " F"]
+    patch: Int[np.ndarray, " F"]
+    shared: Int[np.ndarray, "k 2"]
+    panels: Int[np.ndarray, " p"]
+    diagonal: float
+
+    def simplified(self, config: PiecesConfig, labels: Int[np.ndarray, " F"] | None = None) -> ObjectShape:
+        """Simplify each patch.
+
+        labels: (F,) parts that are kept apart.
+        """
+        group = self.patch if labels is None else self.patch * (int(labels.max()) + 1) + labels
+        shape, source = _simplified(self.shape, self.flipped, group, config)
+        return ObjectShape(
+            shape.prepared(), self.patch[source], source, self.patch, self.shared, self.panels, self.diagonal
+        )  # fmt: skip
+
+
 def object_shape(
     mesh: Mesh, seed: int = 0, config: PiecesConfig | None = None, labels: Int[np.ndarray, " F"] | None = None
 ) -> ObjectShape:
@@ -56,14 +82,18 @@ def object_shape(
     labels: (F,) parts that are kept apart.
     """
     config = config or PiecesConfig()
+    return divide_surface(mesh, seed, config).simplified(config, labels)
+
+
+def divide_surface(mesh: Mesh, seed: int, config: PiecesConfig) -> DividedSurface:
+    """Orient a mesh and divide it into patches; the mesh is not modified."""
     s = mesh_surface(mesh, seed)
     patch, inferred = split_patches(s, config)
     pairs = np.sort(patch[s.components.edges.faces], 1)
     shared = np.unique(pairs[pairs[:, 0] != pairs[:, 1]], axis=0)
-    group = patch if labels is None else patch * (int(labels.max()) + 1) + labels
-    shape, source = _simplified(s.shape, s.components.flip[s.components.label] & ~s.void[s.components.label], group, config)
+    flipped = s.components.flip[s.components.label] & ~s.void[s.components.label]
     panels = np.flatnonzero(np.bincount(patch, np.where(inferred, s.shape.areas, -s.shape.areas)) > 0)
-    return ObjectShape(shape.prepared(), patch[source], source, patch, shared, panels, s.diagonal)
+    return DividedSurface(s.shape, flipped, patch, shared, panels, s.diagonal)
 
 
 def _simplified(

@@ -90,7 +90,9 @@ class RayScene:
             nothing = np.zeros(0)
             return Hits(np.zeros(0, np.int64), nothing, nothing, nothing)
         far = np.inf if max_distance is None else max_distance
-        found = self.first_hit_unit(self.to_unit(origins), (directions * self.scale).astype(np.float32), far)
+        one = origins.strides[0] == 0  # rays from one point
+        starts = np.tile(self.to_unit(origins[:1]), (len(origins), 1)) if one else self.to_unit(origins)
+        found = self.first_hit_unit(starts, (directions * self.scale).astype(np.float32), far)
         return Hits(found.face, *(v.astype(np.float64) for v in (found.distance, found.u, found.v)))
 
     def to_unit(self, points: Float[np.ndarray, "n 3"]) -> Float32[np.ndarray, "n 3"]:

@@ -22,16 +22,16 @@ from anymesh.articulation.part_labels import label_of
 from anymesh.articulation.prompted import Questions, Reground, prompt_joints
 from anymesh.config import Config
 from anymesh.deadline import Deadline
-from anymesh.geometry.patches import ObjectShape, object_shape
+from anymesh.geometry.patches import DividedSurface, ObjectShape, divide_surface
 from anymesh.models.sam import PromptedSegmenter
 from anymesh.models.sam_load import load_sam
 from anymesh.pipeline.results import JointResult, RecognitionResult, SegmentationResult
 from anymesh.progress import Progress, silent
 from anymesh.rendering.visual_prompts import VisualPrompts
 from anymesh.segmentation.ask_marks import MarkQuestioner
-from anymesh.segmentation.cloud import Cloud
 from anymesh.segmentation.given import GIVEN, parts_from_file, parts_from_nodes
-from anymesh.segmentation.grounded import EXACT, ground_parts, object_cloud
+from anymesh.segmentation.grounded import ground_parts
+from anymesh.segmentation.grounded_parts import EXACT, SampledObject, sample_object
 from anymesh.segmentation.hidden import MIN_RECOGNITION_PATCH_RATIO, inner_faces, seen_points
 from anymesh.segmentation.regrounding import ground_again
 from anymesh.segmentation.segment import segment_parts
@@ -69,7 +69,11 @@ class Solver:
     @cached_property
     def whole(self) -> ObjectShape:
         """Return the object as both stages use it."""
-        return object_shape(self.mesh, self.config.seed, self.config.pieces)
+        return self._divided.simplified(self.config.pieces)
+
+    @cached_property
+    def _divided(self) -> DividedSurface:
+        return divide_surface(self.mesh, self.config.seed, self.config.pieces)
 
     @cached_property
     def _segmenter(self) -> PromptedSegmenter | None:
@@ -77,8 +81,8 @@ class Solver:
         return None if spec == EXACT else load_sam(spec)
 
     @cached_property
-    def _cloud(self) -> Cloud:
-        return object_cloud(self.mesh, self.whole, self.config)
+    def _sampled(self) -> SampledObject:
+        return sample_object(self.mesh, self.whole, self.config)
 
     @cached_property
     def _visual_prompts(self) -> VisualPrompts:
@@ -100,9 +104,9 @@ class Solver:
         return RecognitionResult(found, answerer.name, scale, note, (*answerer.warnings, *doubt), answerer.exchanges)
 
     def _view_pictures(self) -> tuple[Picture, ...]:
-        seen, prompts = self._visual_prompts.views, self._visual_prompts
+        seen, prompts, cloud = self._visual_prompts.views, self._visual_prompts, self._sampled.cloud
         names = prompts.names(len(seen))
-        inside = inner_faces(self.mesh, self.whole, self._cloud, seen_points(self._cloud, seen), MIN_RECOGNITION_PATCH_RATIO)
+        inside = inner_faces(self.mesh, self.whole, cloud, seen_points(cloud, seen), MIN_RECOGNITION_PATCH_RATIO)
         if inside.any():
             chosen = prompts.clearest_inside_views(inside, MAX_INSIDE_VIEWS)
             seen = [*seen, *(prompts.insides(inside)[k] for k in chosen)]
@@ -122,18 +126,16 @@ class Solver:
         if self._see is None or recognition is None:
             return _segmentation_result(self._geometric_parts(progress), GEOMETRY.name, None, self.deadline.warnings())
         answerer = self._see(ReferenceAnswerer(GEOMETRY.name, lambda: self._geometric_reference))
+        labels = tuple(r.label for r in recognition.labels)
+        questioner = MarkQuestioner(answerer, self._visual_prompts, labels, recognition.category, self.config)
         found, warnings = ground_parts(
-            self.mesh,
-            self.whole,
-            answerer,
-            self.config,
+            self._sampled,
+            questioner,
             recognition,
-            self._visual_prompts,
             self._segmenter,
             self._geometric_parts,
             partial(stays_free, self.whole, self.config.articulation),
             progress,
-            self._cloud,
         )
         return _segmentation_result(found, answerer.name, answerer, (*warnings, *self.deadline.warnings()))
 
@@ -163,7 +165,7 @@ class Solver:
         recognition = questions.recognition
         asked = MarkQuestioner(questions.answerer, self._visual_prompts, questions.labels, questions.category, self.config)
         front = recognition.front if recognition else None
-        return lambda wrong: ground_again(self.mesh, self.whole, self._cloud, asked, segmentation, wrong, front)
+        return lambda wrong: ground_again(self._sampled, asked, segmentation, wrong, front)
 
     def _geometric_parts(self, progress: Progress = silent) -> Segmentation:
         """Return the parts found by geometry, computed once."""
@@ -193,7 +195,7 @@ class Solver:
         label, whole = segmentation.face_part, self.whole
         if (label == label[whole.source][np.unique(whole.patch, return_index=True)[1]][whole.mesh_patch]).all():
             return whole
-        return object_shape(self.mesh, self.config.seed, self.config.pieces, label)
+        return self._divided.simplified(self.config.pieces, label)
 
     @cached_property
     def _geometric_reference(self) -> Reference:

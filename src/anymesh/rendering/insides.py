@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
-from jaxtyping import Bool
+from jaxtyping import Bool, UInt8
 
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.rendering.paint import lighten
@@ -27,6 +28,10 @@ def inside_views(mesh: Mesh, inside: Bool[np.ndarray, " F"], cameras: Sequence[C
     for camera in cameras:
         near, whole = shown(part, camera, rays), shown(mesh, camera, scene)
         face = np.where(near.face >= 0, own[np.maximum(near.face, 0)], -1)
-        color = np.where((face >= 0)[..., None], near.color, lighten(whole.color, GHOST))
-        found.append(replace(near, color=color, face=face))
+        found.append(replace(near, face=face, paint=partial(_over_ghost, near, whole)))
     return found
+
+
+def _over_ghost(near: View, whole: View) -> UInt8[np.ndarray, "H W 3"]:
+    """Return the picture of some faces over the lightened picture of all."""
+    return np.where((near.face >= 0)[..., None], near.color, lighten(whole.color, GHOST))

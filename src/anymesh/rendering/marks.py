@@ -33,7 +33,7 @@ def mark_positions(labels: Int[np.ndarray, "H W"], numbers: Sequence[int] | None
     scale = labels.shape[0] / 640
     plates, waiting = {}, []
     for number in sorted(wanted, key=lambda n: (areas[n], n)):
-        anchor, plate = _inside(labels == number, boxes[number], used, number, scale)
+        anchor, plate = _inside(labels, boxes[number], used, number, scale)
         if plate is None:
             waiting.append((number, anchor))
             _keep(used, anchor)
@@ -56,21 +56,22 @@ def _keep(used: Bool[np.ndarray, "H W"], anchor: tuple[int, int]) -> None:
 
 
 def _inside(
-    region: Bool[np.ndarray, "H W"], box: tuple[slice, slice], used: Bool[np.ndarray, "H W"], number: int, scale: float
+    labels: Int[np.ndarray, "H W"], box: tuple[slice, slice], used: Bool[np.ndarray, "H W"], number: int, scale: float
 ) -> tuple[tuple[int, int], Plate | None]:
     """Return the middle of a region, and its plate there if it fits."""
-    free = (region & ~used)[box]
-    free = free if free.any() else region[box]
+    region = labels[box] == number
+    free = region & ~used[box]
+    free = free if free.any() else region
     middle = _middle(free)
     x, y = int(middle[0]) + box[1].start, int(middle[1]) + box[0].start
     for size, overhang in ((LARGE, 0.0), (SMALL, OVERHANG)):
         font = max(size, round(scale * size))
         width, height = plate_size(str(number), font)
         x0, y0 = x - width // 2, y - height // 2
-        if x0 < 0 or y0 < 0 or x0 + width > region.shape[1] or y0 + height > region.shape[0]:
+        if x0 < 0 or y0 < 0 or x0 + width > labels.shape[1] or y0 + height > labels.shape[0]:
             continue
         window = (slice(y0, y0 + height), slice(x0, x0 + width))
-        if region[window].mean() >= 1 - overhang and not used[window].any():
+        if (labels[window] == number).mean() >= 1 - overhang and not used[window].any():
             return (x, y), Plate(str(number), (x0, y0, x0 + width, y0 + height), (x, y), font)
     return (x, y), None
 
@@ -93,10 +94,12 @@ def draw_marks(
     (`GroundingConfig.alpha`). A number has the same colour in every picture.
     """
     plates = mark_positions(regions, numbers)
+    boxes, image = ndimage.find_objects(regions + 1), image.copy()
     for number in plates:
-        region = regions == number
-        image = blend(image, region, mark_color(number), alpha)
-        image = blend(image, _outline(region), mark_color(number), 1.0)
+        box, color = boxes[number], mark_color(number)
+        region = regions[box] == number
+        filled = blend(image[box], region, color, alpha)
+        image[box] = blend(filled, _outline(region, regions.shape[0]), color, 1.0)
     drawn = Image.fromarray(image)
     draw = ImageDraw.Draw(drawn)
     for number, plate in plates.items():
@@ -107,7 +110,10 @@ def draw_marks(
     return np.asarray(drawn)
 
 
-def _outline(region: Bool[np.ndarray, "H W"]) -> Bool[np.ndarray, "H W"]:
-    """Return the inner border of the region; small regions get a border of one pixel, so that they are not hidden."""
-    width = max(1, round(region.shape[0] / 320)) if region.sum() > 400 else 1
+def _outline(region: Bool[np.ndarray, "h w"], height: int) -> Bool[np.ndarray, "h w"]:
+    """Return the inner border of a region within its box; small regions get one of one pixel, so that they are not hidden.
+
+    height: of the picture [px].
+    """
+    width = max(1, round(height / 320)) if region.sum() > 400 else 1
     return region & ~ndimage.binary_erosion(region, iterations=width)

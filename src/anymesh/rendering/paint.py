@@ -33,8 +33,9 @@ def blend(
     image: UInt8[np.ndarray, "H W 3"], mask: Bool[np.ndarray, "H W"], color: Color, alpha: float
 ) -> UInt8[np.ndarray, "H W 3"]:
     """Return a copy with a colour blended over the mask. alpha: 0 leaves it unchanged, 1 is opaque."""
-    mixed = image.copy()
-    mixed[mask] = np.round((1 - alpha) * image[mask] + alpha * np.array(color))
+    mixed, chosen = image.copy(), np.flatnonzero(mask)
+    pixels = mixed.reshape(-1, 3)
+    pixels[chosen] = np.round((1 - alpha) * pixels[chosen] + alpha * np.array(color))
     return mixed
 
 

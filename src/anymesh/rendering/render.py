@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from jaxtyping import Float, Int, UInt8
@@ -20,14 +22,19 @@ BACKGROUND = 255
 class View:
     """Buffers of a camera's view.
 
-    color: (H, W, 3); depth: (H, W), inf where nothing is hit; normal: (H, W, 3); face: (H, W), -1 where nothing is hit.
+    depth: (H, W), inf where nothing is hit; normal: (H, W, 3); face: (H, W), -1 where nothing is hit; paint: makes the colours.
     """
 
     camera: Camera
-    color: UInt8[np.ndarray, "H W 3"]
     depth: Float[np.ndarray, "H W"]
     normal: Float[np.ndarray, "H W 3"]
     face: Int[np.ndarray, "H W"]
+    paint: Callable[[], UInt8[np.ndarray, "H W 3"]]
+
+    @cached_property
+    def color(self) -> UInt8[np.ndarray, "H W 3"]:
+        """Return the picture, drawn on first use: many views only serve to choose others."""
+        return self.paint()
 
 
 def render(
@@ -44,10 +51,10 @@ def render(
     shape = (camera.height, camera.width)
     return View(
         camera,
-        color.reshape(*shape, 3),
         hits.distance.reshape(shape),
         normal.reshape(*shape, 3),
         hits.face.reshape(shape),
+        lambda: color.reshape(*shape, 3),
     )
 
 

@@ -79,13 +79,17 @@ class RenderTarget:
     face_key: Int[np.ndarray, " F"]
 
 
-def sample(target: RenderTarget, camera: Camera, window: Window) -> Samples:
-    """Cast the rays of a window."""
+def first_hits(scene: RayScene, camera: Camera, window: Window) -> SurfaceHits:
+    """Cast one ray through the centre of every pixel of a window."""
+    return scene.surface_hits(camera.T_world_camera[:3, 3], _center_directions(camera, window))
+
+
+def sample(target: RenderTarget, camera: Camera, window: Window, first: SurfaceHits | None = None) -> Samples:
+    """Cast the rays of a window. first: result of `first_hits`, if it already exists."""
     height, width = window.shape
     origin, pixel = camera.T_world_camera[:3, 3], 1 / camera.focal
-    across, down = _terms(camera, window, 1)
-    directions = (down[:, None] + across).reshape(-1, 3)
-    hits = target.scene.surface_hits(origin, directions)
+    directions = _center_directions(camera, window)
+    hits = first_hits(target.scene, camera, window) if first is None else first
     normal = _shading_normals(hits, target.corner_normal)
     divided = _split(target, hits, directions, normal, window.shape, pixel)
     plain, split = np.flatnonzero((hits.face >= 0) & ~divided), np.flatnonzero(divided)
@@ -102,6 +106,11 @@ def sample(target: RenderTarget, camera: Camera, window: Window) -> Samples:
     face.reshape(-1)[place] = grids.face
     steps = find_steps(joined, np.concatenate([directions[plain], more]), normals, changes(face, rows), pixel)
     return Samples(window, hits, plain, split, joined, normals, steps, place)
+
+
+def _center_directions(camera: Camera, window: Window) -> Float32[np.ndarray, "n 3"]:
+    across, down = _terms(camera, window, 1)
+    return (down[:, None] + across).reshape(-1, 3)
 
 
 def _terms(camera: Camera, window: Window, grid: int) -> tuple[np.ndarray, np.ndarray]:

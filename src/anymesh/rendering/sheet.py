@@ -42,7 +42,8 @@ def question_sheet(pictures: Sequence[Picture]) -> Picture:
 
 
 def _title(number: int, picture: Picture) -> str:
-    plain = "".join(c if " " <= c <= "~" else "?" for c in picture.caption)
+    caption = picture.caption.removeprefix(f"picture {number}: ")
+    plain = "".join(c if " " <= c <= "~" else "?" for c in caption)
     return f"{number}. {plain}" if plain else f"{number}."
 
 

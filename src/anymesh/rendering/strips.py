@@ -118,16 +118,17 @@ def _painted(still: Still, lines: Bool[np.ndarray, "H W"], part: PartPixels) -> 
     """
     shape = lines.shape
     before = part.distance < still.distance[part.pixel]
-    seen = np.zeros(len(still.distance), bool)
+    color, seen, drawn = still.color.copy(), np.zeros(len(still.distance), bool), lines.copy()
+    color[part.pixel[before]] = part_color(part.normal[before])
     seen[part.pixel[before]] = True
-    color, depth, facing = still.color.copy(), still.distance.copy(), still.normal.copy()
-    color[seen] = part_color(part.normal[before])
-    depth[seen], facing[seen] = part.distance[before], part.normal[before]
-    drawn, visible = lines.copy(), seen.reshape(shape)
+    visible = seen.reshape(shape)
     if len(part.pixel):
         rows, columns = np.divmod(part.pixel, shape[1])
         box = (slice(max(rows.min() - 1, 0), rows.max() + 2), slice(max(columns.min() - 1, 0), columns.max() + 2))
-        drawn[box] = _lines(depth.reshape(shape)[box], facing.reshape(*shape, 3)[box], visible[box])
+        depth, facing = still.distance.reshape(shape)[box].copy(), still.normal.reshape(*shape, 3)[box].copy()
+        at = rows[before] - box[0].start, columns[before] - box[1].start
+        depth[at], facing[at] = part.distance[before], part.normal[before]
+        drawn[box] = _lines(depth, facing, visible[box])
     picture = blend(color.reshape(*shape, 3), drawn & ~visible, STILL_LINE, LINE)
     picture = blend(picture, drawn & visible, PART_LINE, LINE)
     hidden = np.zeros(len(seen), bool)

@@ -12,7 +12,7 @@ from anymesh.config import ViewsConfig
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.rendering.drawing import draw, headlight_on, material_colors, render_target
 from anymesh.rendering.render import BACKGROUND, View
-from anymesh.rendering.samples import Window, sample
+from anymesh.rendering.samples import Window, first_hits, sample
 from anymesh.types import Mesh
 from anymesh.types.camera import Camera
 
@@ -82,11 +82,15 @@ def shown(mesh: Mesh, camera: Camera, scene: RayScene) -> View:
     look curved.
     """
     shape = (camera.height, camera.width)
-    samples = sample(render_target(mesh, scene, np.zeros(len(mesh.faces), np.int64)), camera, Window(0, 0, *shape[::-1]))
-    white = np.full((*shape, 3), BACKGROUND, np.float32)
-    color = draw(samples, material_colors(mesh, samples), headlight_on(samples, camera), white)
-    hits = samples.first
-    return View(camera, color, hits.depth.reshape(shape), hits.normal.reshape(*shape, 3), hits.face.reshape(shape))
+    window = Window(0, 0, camera.width, camera.height)
+    hits = first_hits(scene, camera, window)
+
+    def paint() -> UInt8[np.ndarray, "H W 3"]:
+        samples = sample(render_target(mesh, scene, np.zeros(len(mesh.faces), np.int64)), camera, window, hits)
+        white = np.full((*shape, 3), BACKGROUND, np.float32)
+        return draw(samples, material_colors(mesh, samples), headlight_on(samples, camera), white)
+
+    return View(camera, hits.depth.reshape(shape), hits.normal.reshape(*shape, 3), hits.face.reshape(shape), paint)
 
 
 def normal_picture(view: View) -> UInt8[np.ndarray, "H W 3"]:

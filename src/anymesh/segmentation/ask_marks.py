@@ -135,20 +135,30 @@ def ask_masks(
 ) -> tuple[MarkedPart, ...]:
     """Ask about masks that are numbered separately in each view.
 
-    The first question asks which labels each view shows, the second which marks belong to which part.
+    The first question asks which labels each view shows, the others which marks belong to which part, for MAX_PICTURES views
+    each. Parts of different calls have different instance numbers, since no call shows the pictures of another.
     """
     plain = questioner.visual_prompts.pictures([v.color for v in seen], names) if questioner.answerer.needs_images else ()
     seen_in = questioner.answerer.ask(WhichViews(plain, questioner.labels, tuple(v.face for v in seen), questioner.category))
-    score = np.array([sum(k in found for found in seen_in.values()) for k in range(len(seen))])
-    chosen = [int(k) for k in np.sort(np.argsort(-score, kind="stable")[:MAX_PICTURES]) if score[k] > 0]
-    if not chosen:
-        return ()
-    regions = [np.where(np.isin(proposals[k].labels, proposals[k].numbers), proposals[k].labels, -1) for k in chosen]
-    some = [MarkPicture(seen[k], region, names[k]) for k, region in zip(chosen, regions, strict=True)]
+    chosen = sorted({k for found in seen_in.values() for k in found})
     labels = tuple(label for label, found in seen_in.items() if found)
-    answer = questioner.answerer.ask(
-        WhichMarks(
-            questioner.pictures(some), labels, False, tuple(regions), tuple(p.view.face for p in some), questioner.category
-        )
-    )
-    return tuple(replace(p, view=chosen[p.view]) for p in answer.parts if p.view is not None)
+    parts: list[MarkedPart] = []
+    for begin in range(0, len(chosen), MAX_PICTURES):
+        some, last = chosen[begin : begin + MAX_PICTURES], max((p.instance for p in parts), default=0)
+        marked = _in_views(questioner, labels, [proposals[k] for k in some], [seen[k] for k in some], [names[k] for k in some])
+        parts += [replace(p, view=some[p.view], instance=last + p.instance) for p in marked if p.view is not None]
+    return tuple(parts)
+
+
+def _in_views(
+    questioner: MarkQuestioner,
+    labels: tuple[str, ...],
+    proposals: Sequence[Proposal],
+    seen: Sequence[View],
+    names: Sequence[str],
+) -> tuple[MarkedPart, ...]:
+    """Ask which marks of some views belong to which part."""
+    regions = tuple(np.where(np.isin(p.labels, p.numbers), p.labels, -1) for p in proposals)
+    pictures = questioner.pictures([MarkPicture(*shown) for shown in zip(seen, regions, names, strict=True)])
+    faces = tuple(v.face for v in seen)
+    return questioner.answerer.ask(WhichMarks(pictures, labels, False, regions, faces, questioner.category)).parts

@@ -44,16 +44,9 @@ def maximise(
     start: as `Instances.number`. Its first `initial` parts become the first instances, the other superpoints start in the one
     after them.
     """
-    number = min(initial + config.em_extra, config.em_most)
-    first = np.where(start > 0, start - 1, initial)
-    kept = min(initial, number - 1)  # one instance is reserved for points of no part
-    if initial > kept:  # keep the largest
-        size = np.bincount(first, sum(c.seen for c in counts), initial + 1)[:initial]
-        rank = np.full(initial + 1, kept)
-        rank[np.argsort(-size, kind="stable")[:kept]] = np.arange(kept)
-        first = rank[first]
+    number = max(min(initial + config.em_extra, config.em_most), initial + 1)  # at least one instance is for points of no part
     logits = np.zeros((len(start), number))
-    logits[np.arange(len(start)), np.minimum(first, kept)] = CERTAIN
+    logits[np.arange(len(start)), np.where(start > 0, start - 1, initial)] = CERTAIN
     mean, square = np.zeros_like(logits), np.zeros_like(logits)
     step = 0
     for _ in range(config.em_epochs):

@@ -10,10 +10,9 @@ from jaxtyping import Int
 
 from anymesh.geometry.patches import ObjectShape
 from anymesh.segmentation.ask_marks import MarkQuestioner, ask_exact
-from anymesh.segmentation.cloud import Cloud
-from anymesh.segmentation.grounded import shown_views
+from anymesh.segmentation.grounded_parts import SampledObject, shown_views
 from anymesh.segmentation.regions import Marks, face_regions, number_regions, split_marks
-from anymesh.types import Mesh, Segmentation
+from anymesh.types import Segmentation
 from anymesh.vlm.grounding import MarkedPart
 from anymesh.vlm.prompting import PartFit
 
@@ -24,9 +23,7 @@ WORDS = {
 
 
 def ground_again(
-    mesh: Mesh,
-    whole: ObjectShape,
-    cloud: Cloud,
+    sampled: SampledObject,
     questioner: MarkQuestioner,
     segmentation: Segmentation,
     wrong: Mapping[str, PartFit],
@@ -44,14 +41,16 @@ def ground_again(
     instance = {k: labels[1 : k + 1].count(labels[k]) for k in numbers.values()}
     parts = {(labels[numbers[name]], instance[numbers[name]]): numbers[name] for name in wrong}
     questioner = replace(questioner, labels=tuple(dict.fromkeys(label for label, _ in parts)))
-    seen, names, _ = shown_views(mesh, whole, questioner, cloud, face_regions(whole, cloud), front)
+    mesh, whole, cloud = sampled.mesh, sampled.whole, sampled.cloud
+    region = face_regions(whole, cloud)
+    shown = shown_views(sampled, questioner, region, front)
     config = questioner.config.grounding
-    marks = number_regions(face_regions(whole, cloud), seen, whole.diagonal, config)
+    marks = number_regions(region, shown.views, whole.diagonal, config)
     areas = mesh.face_areas
     owner = _owners(marks, segmentation, areas)
     much = [m for m, part in owner.items() if part and wrong.get(segmentation.parts[part].name) is PartFit.TOO_MUCH]
     if much:
-        marks = split_marks(marks, much, mesh, cloud, seen, config)
+        marks = split_marks(marks, much, mesh, cloud, shown.views, config)
         owner = _owners(marks, segmentation, areas)
     if all(fit is PartFit.TOO_MUCH for fit in wrong.values()):  # no other marks need to be asked about
         owner = {m: part for m, part in owner.items() if part in parts.values()}
@@ -59,7 +58,8 @@ def ground_again(
         _problem_text(MarkedPart(label, n, None, _of(owner, k)), wrong, segmentation, k) for (label, n), k in parts.items()
     )
     answer = ask_exact(
-        questioner, marks, seen, names, lambda some, chosen: split_marks(some, chosen, mesh, cloud, seen, config),
+        questioner, marks, shown.views, shown.names,
+        lambda some, chosen: split_marks(some, chosen, mesh, cloud, shown.views, config),
         wanted=owner, again=told,
     )  # fmt: skip
     given = {parts[p.label, p.instance]: p.marks for p in answer.parts if (p.label, p.instance) in parts}

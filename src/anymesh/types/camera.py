@@ -48,7 +48,7 @@ class Camera:
         u, v = np.meshgrid(np.arange(self.width) + 0.5, np.arange(self.height) + 0.5)
         x, y = ((u - self.width / 2) / self.focal).reshape(-1, 1), ((v - self.height / 2) / self.focal).reshape(-1, 1)
         right, down, ahead = self.T_world_camera[:3, :3].T
-        return np.repeat(self.T_world_camera[None, :3, 3], x.size, 0), x * right + y * down + ahead
+        return np.broadcast_to(self.T_world_camera[:3, 3], (x.size, 3)), x * right + y * down + ahead
 
     def ray_grid(
         self, x: Float[np.ndarray, " w"], y: Float[np.ndarray, " h"]

@@ -14,8 +14,9 @@ WORDS = {"integer": "a whole number", "number": "a number", "string": "text", "b
 
 def question_page(request: Request) -> str:
     """Return the content of question.md."""
+    captions = [p.caption.removeprefix(f"picture {k}: ") for k, p in enumerate(request.pictures, 1)]
     pictures = "\n".join(
-        f"{k}. {p.caption or 'picture'}\n\n   ![{_plain(p.caption)}]({k:02d}.png)\n" for k, p in enumerate(request.pictures, 1)
+        f"{k}. {caption or 'picture'}\n\n   ![{_plain(caption)}]({k:02d}.png)\n" for k, caption in enumerate(captions, 1)
     )
     sheet = f"All of them on one sheet: ![contact sheet]({SHEET})\n\n" if request.pictures else ""
     return (

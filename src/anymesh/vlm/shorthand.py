@@ -2,7 +2,8 @@
 
 An entry is NAME=VALUE,VALUE,... The name is the entry's first number or choice (a part's number, or a label). The values fill
 the other properties in their order. A list takes all values of its kind. A boolean is false unless its name is given. Missing
-text is empty. After a name, `#2` gives a second number (`door#2=5,7` with an `instance`).
+text is empty, and properties in USUAL have a usual value. After a name, `#2` gives a second number (`door#2=5,7` with an
+`instance`).
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from anymesh.errors import OptionError
 
 ASSIGNMENT = re.compile(r"([^=\s#][^=#]*?)(?:#(-?\d+))?=([^=\s]*)(?=\s|$)")
 Schema = Mapping[str, Any]
+USUAL = {"instance": 1, "part_is": "right"}  # values of properties that need not be given
 
 
 def answer_text(told: str, schema: Schema) -> str:
@@ -77,7 +79,7 @@ def _take(name: str, schema: Schema, values: list[str], *, defaults: bool) -> An
             return ""
         case kind:
             if defaults and kind in ("integer", "number"):
-                return 1 if name == "instance" else 0
+                return USUAL.get(name, 0)
             fitting = next((v for v in values if _fits(v, schema)), None)
             if fitting is None:
                 return _blank(name, schema)
@@ -101,6 +103,8 @@ def _value(told: str, schema: Schema, name: str) -> Any:
 
 def _blank(name: str, schema: Schema) -> Any:
     match schema["type"]:
+        case _ if name in USUAL:
+            return USUAL[name]
         case "string" if "enum" not in schema:
             return ""
         case "boolean":
