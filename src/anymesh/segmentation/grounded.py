@@ -34,15 +34,15 @@ from anymesh.segmentation.naming import named_parts
 from anymesh.segmentation.propose import Proposal, propose_masks
 from anymesh.segmentation.regions import face_regions, number_regions, split_marks
 from anymesh.segmentation.unseen import StaysFree
-from anymesh.types import Mesh, Segmentation
-from anymesh.types.recognition import Moves, Recognition
+from anymesh.types import JointType, Mesh, Segmentation
+from anymesh.types.recognition import Recognition
 from anymesh.vlm.asking import VisualAnswerer
 from anymesh.vlm.grounding import MarkedPart
 
 SURE, UNSURE = 0.9, 0.6  # confidence of a part from certain marks, and from uncertain ones
 EXACT = "exact"
 EXACT_POINTS = 120_000  # exact regions use the cloud for superpoints only, which need fewer points
-MovesFreely = Callable[[Int[np.ndarray, " R"], Int[np.ndarray, " R"], int, Moves | None], bool]  # see `articulation.freedom`
+MovesFreely = Callable[[Int[np.ndarray, " R"], Int[np.ndarray, " R"], int, JointType | None], bool]  # `stays_free`
 
 
 @dataclass(frozen=True, eq=False)
