@@ -15,7 +15,7 @@ from anymesh.errors import ModelError
 from anymesh.evaluation.record import Record, record_text
 from anymesh.evaluation.score import JointScore, ObjectScore
 from anymesh.rendering.encode import encode
-from anymesh.types import JointType, Motion, MotionKind
+from anymesh.types import JointType, Motion
 from anymesh.vlm.file_answerer import FileAnswerer, QuestionStore
 from anymesh.vlm.prompting import MotionPick, MotionTable, PartFit, PartShown, WhichMotions
 from anymesh.vlm.question_files import find_questions
@@ -98,7 +98,7 @@ def motions_shown(amount: float, *axes: np.ndarray) -> WhichMotions:
     """One part, a plate, and turns about lines through the origin."""
     points = np.array([[0.0, 0, 0], [0.4, 0.02, 0.6]])
     part = PartShown("door", np.arange(2), points, Y, Y, points)
-    motions = tuple(Motion(MotionKind.REVOLUTE, axis, np.zeros(3), "a line") for axis in axes)
+    motions = tuple(Motion(JointType.REVOLUTE, axis, np.zeros(3), "a line") for axis in axes)
     return WhichMotions((), (MotionTable(part, motions, (amount,) * len(axes)),))
 
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
-from anymesh.types import Motion, MotionKind, Picture
+from anymesh.types import JointType, Motion, Picture
 from anymesh.vlm.asking import BOOLEAN, INTEGER, BadAnswerError, a_list, an_answer, an_object, one_each, one_of
 
 OTHER = "other"  # label of a part that is none of the recognized kinds
@@ -227,7 +227,7 @@ class MotionTable:
         words = []
         for k, motion in enumerate(self.motions):
             blocked = ", blocked" if k < len(self.blocked) and self.blocked[k] else ""
-            words.append(f"{k + 1} ({'slides' if motion.kind is MotionKind.PRISMATIC else 'turns'}{blocked})")
+            words.append(f"{k + 1} ({'slides' if motion.kind is JointType.PRISMATIC else 'turns'}{blocked})")
         return ", ".join(words)
 
 
