@@ -10,7 +10,8 @@ import numpy as np
 from anymesh.types.recognition import Moves, Recognition, RecognizedLabel
 from anymesh.vlm.asking import Question
 from anymesh.vlm.grounding import MarksAnswer, WhichMarks, WhichViews
-from anymesh.vlm.prompting import OTHER, KindAnswer, WhichArrows, WhichKinds, WhichMotions, WhichPoints
+from anymesh.vlm.motion_choice import WhichMotions
+from anymesh.vlm.prompting import OTHER, KindAnswer, WhichArrows, WhichKinds, WhichPoints
 from anymesh.vlm.recognition import Recognize
 
 
