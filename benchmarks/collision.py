@@ -81,7 +81,9 @@ def free_joints(asset: Asset, links: tuple[Link, ...], shapes: Shapes) -> tuple[
         if joint.type is not JointType.FIXED:
             scene = ContactScene(surfaces, joint_poses(asset, origins, joint, 21), DEEP * size, config.crossing * size)
             moving += 1
-            free += not any({pieces[f.first[0]].link, pieces[f.second[0]].link} & {joint.child} for f in scene.faults(pieces))
+            free += not any(
+                {pieces[f.first[0]].link, pieces[f.second[0]].link} & {joint.child} for f in scene.faults(pieces).found
+            )
     return free, moving
 
 

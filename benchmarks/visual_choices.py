@@ -17,7 +17,7 @@ import numpy as np
 from anymesh.errors import ModelError
 from anymesh.types import Exchange, JointType, Motion
 from anymesh.vlm.asking import Answer, Question, VisualAnswerer
-from anymesh.vlm.prompting import MotionPick, MotionTable, PartFit, WhichMotions
+from anymesh.vlm.motion_choice import MotionPick, MotionTable, PartFit, WhichMotions
 from anymesh.vlm.question_files import CHECK, QuestionFolder
 from anymesh.vlm.saved_question import unpack_question
 

@@ -17,7 +17,8 @@ from anymesh.pipeline.solving import Solver
 from anymesh.rendering.visual_prompts import VisualPrompts
 from anymesh.types import JointType, Part, Segmentation
 from anymesh.types.recognition import Recognition, RecognizedLabel
-from anymesh.vlm.prompting import JointKind, KindAnswer, MotionPick, PartFit
+from anymesh.vlm.motion_choice import MotionPick, PartFit
+from anymesh.vlm.prompting import JointKind, KindAnswer
 
 LEFT = KNOWN["left"]
 X, Y, Z = np.eye(3)

@@ -15,7 +15,8 @@ from anymesh.evaluation.metrics import angle_error, line_distance
 from anymesh.rendering.visual_prompts import VisualPrompts
 from anymesh.types import Joint, JointType, Motion, Part, Picture
 from anymesh.types.recognition import Recognition, RecognizedLabel
-from anymesh.vlm.prompting import JointKind, KindAnswer, MotionPick, WhichMotions
+from anymesh.vlm.motion_choice import MotionPick, WhichMotions
+from anymesh.vlm.prompting import JointKind, KindAnswer
 from anymesh.vlm.reference_answerer import ReferenceJoint
 
 X, Y, Z = np.eye(3)

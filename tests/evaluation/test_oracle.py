@@ -13,17 +13,8 @@ from anymesh.geometry.kinematics import joint_transform
 from anymesh.types import Joint, JointType, Motion, Part
 from anymesh.vlm.asking import VisualAnswerer
 from anymesh.vlm.grounding import WhichMarks
-from anymesh.vlm.prompting import (
-    ArrowTable,
-    JointKind,
-    MotionTable,
-    PartShown,
-    PointTable,
-    WhichArrows,
-    WhichKinds,
-    WhichMotions,
-    WhichPoints,
-)
+from anymesh.vlm.motion_choice import MotionTable, WhichMotions
+from anymesh.vlm.prompting import ArrowTable, JointKind, PartShown, PointTable, WhichArrows, WhichKinds, WhichPoints
 from anymesh.vlm.reference_answerer import Reference, ReferenceAnswerer, ReferenceJoint
 
 X, Y, Z = np.eye(3)

@@ -12,7 +12,7 @@ from anymesh.config import Config, GroundingConfig, ViewsConfig
 from anymesh.pipeline.solving import solve
 from anymesh.types import JointType
 from anymesh.vlm.grounding import MarkedPart, MarksAnswer
-from anymesh.vlm.prompting import PartFit
+from anymesh.vlm.motion_choice import PartFit
 from anymesh.vlm.reference_answerer import Reference, ReferenceAnswerer, ReferenceJoint
 
 CASE = [box((0, 0, 0), (0.6, 0.4, 0.6))]

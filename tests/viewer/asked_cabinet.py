@@ -9,17 +9,8 @@ from assets import cabinet, checker
 
 from anymesh.types import JointType, Motion, Picture
 from anymesh.vlm.grounding import WhichMarks
-from anymesh.vlm.prompting import (
-    ArrowTable,
-    JointKind,
-    MotionTable,
-    PartShown,
-    PointTable,
-    WhichArrows,
-    WhichKinds,
-    WhichMotions,
-    WhichPoints,
-)
+from anymesh.vlm.motion_choice import MotionTable, WhichMotions
+from anymesh.vlm.prompting import ArrowTable, JointKind, PartShown, PointTable, WhichArrows, WhichKinds, WhichPoints
 from anymesh.vlm.recognition import Recognize
 
 ASSET = cabinet()

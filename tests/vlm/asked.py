@@ -13,19 +13,8 @@ from anymesh.types import JointType, Motion, Picture
 from anymesh.types.recognition import Recognition, RecognizedLabel
 from anymesh.vlm.asking import Question
 from anymesh.vlm.grounding import MarkedPart, MarksAnswer, WhichMarks, WhichViews
-from anymesh.vlm.prompting import (
-    ArrowTable,
-    JointKind,
-    KindAnswer,
-    MotionPick,
-    MotionTable,
-    PartShown,
-    PointTable,
-    WhichArrows,
-    WhichKinds,
-    WhichMotions,
-    WhichPoints,
-)
+from anymesh.vlm.motion_choice import MotionPick, MotionTable, WhichMotions
+from anymesh.vlm.prompting import ArrowTable, JointKind, KindAnswer, PartShown, PointTable, WhichArrows, WhichKinds, WhichPoints
 from anymesh.vlm.recognition import Recognize
 
 X, Y, Z = np.eye(3)

@@ -12,19 +12,8 @@ from anymesh.types.recognition import RecognizedLabel
 from anymesh.vlm.answer_json import answer_object
 from anymesh.vlm.asking import Question, VisualAnswerer
 from anymesh.vlm.grounding import MarkedPart, MarksAnswer, WhichMarks, WhichViews
-from anymesh.vlm.prompting import (
-    ArrowTable,
-    JointKind,
-    KindAnswer,
-    MotionPick,
-    MotionTable,
-    PartShown,
-    PointTable,
-    WhichArrows,
-    WhichKinds,
-    WhichMotions,
-    WhichPoints,
-)
+from anymesh.vlm.motion_choice import MotionPick, MotionTable, WhichMotions
+from anymesh.vlm.prompting import ArrowTable, JointKind, KindAnswer, PartShown, PointTable, WhichArrows, WhichKinds, WhichPoints
 from anymesh.vlm.recognition import Recognize
 from anymesh.vlm.reference_answerer import Reference, ReferenceAnswerer, ReferenceJoint
 from anymesh.vlm.scripted import ScriptedModel

@@ -8,7 +8,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float
 
 from anymesh.articulation.cases import PartCase
 from anymesh.articulation.evidence import hypotheses, part_facts
@@ -17,9 +16,11 @@ from anymesh.articulation.hypotheses import distinct, propose
 from anymesh.articulation.limits import answered_range, opening_motion, pressed
 from anymesh.articulation.motion_classifier import UnscoredMotions
 from anymesh.articulation.motion_question import Candidate, MotionQuestion, PartFacts
+from anymesh.articulation.moved_points import MovedPoints
 from anymesh.articulation.own_axes import CENTRAL, pivots
 from anymesh.types import JointType
-from anymesh.vlm.prompting import JointKind, MotionTable
+from anymesh.vlm.motion_choice import MotionTable
+from anymesh.vlm.prompting import JointKind
 
 MAX_SHOWN_ANGLE_RAD = np.deg2rad(60.0)  # [rad] maximum rotation in a picture
 MAX_SHOWN_TRAVEL_RATIO = 0.6  # of the part's size: maximum travel of a slide in a picture
@@ -38,7 +39,6 @@ SHAPE_AXES = 3  # number of axes of the part's own shape that are always in the 
 # [log-odds] penalty of a line through picked points, which is less exact than a similar one of the part's own
 PICKED_POINT_PENALTY = 2.0
 ANSWERED_BONUS = 2.0  # [log-odds] bonus of a motion of the answered kind
-ENOUGH_POINTS = 200  # sample points of the part for comparing motions
 
 
 @dataclass(frozen=True, eq=False)
@@ -166,7 +166,7 @@ def _unlike(
     Return their indices, their displacements, the position of the one that stands for the answered motion, and for each the
     first one that it is similar to.
     """
-    moved = _MovedPoints(case, candidates)
+    moved = MovedPoints(case.around, candidates)
     part_limit, object_limit = DUPLICATE_PART_RATIO * case.around.part.box.diagonal, DUPLICATE_OBJECT_RATIO * case.around.scale
     kept: list[int] = []
     amounts: list[float] = []
@@ -188,36 +188,6 @@ def _unlike(
         if candidates[k].role == "asked":
             answered = own
     return kept, amounts, answered, first
-
-
-class _MovedPoints:
-    """Points of a part after its motions, each computed once."""
-
-    def __init__(self, case: PartCase, candidates: list[Candidate]) -> None:
-        samples = case.around.part.samples.points
-        self._points = samples[:: max(1, len(samples) // ENOUGH_POINTS)]
-        self._motions = [opening_motion(c) for c in candidates]
-        self._ends: dict[tuple[int, float], Float[np.ndarray, "n 3"]] = {}
-
-    def apart(self, a: int, b: int, amount: float) -> tuple[float, float]:
-        """Return the distance between the points after two motions, and the displacement by the first [m], as means.
-
-        Both motions are by up to `amount` [rad or m], however far each is free.
-        """
-        if self._motions[a].kind is not self._motions[b].kind:
-            return np.inf, 0.0
-        apart = max(_mean_distance(self._after(a, s * amount), self._after(b, s * amount)) for s in (0.5, 1.0))
-        return apart, _mean_distance(self._after(a, amount), self._points)
-
-    def _after(self, k: int, amount: float) -> Float[np.ndarray, "n 3"]:
-        if (k, amount) not in self._ends:
-            T = self._motions[k].transform(amount)
-            self._ends[k, amount] = self._points @ T[:3, :3].T + T[:3, 3]
-        return self._ends[k, amount]
-
-
-def _mean_distance(a: Float[np.ndarray, "n 3"], b: Float[np.ndarray, "n 3"]) -> float:
-    return float(np.linalg.norm(a - b, axis=1).mean())
 
 
 def _crowding(first: list[int], values: list[float]) -> list[bool]:

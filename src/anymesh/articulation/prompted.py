@@ -28,7 +28,8 @@ from anymesh.rendering.visual_prompts import Shot, VisualPrompts
 from anymesh.types import Joint, JointType, Motion, Segmentation
 from anymesh.types.recognition import Recognition
 from anymesh.vlm.asking import VisualAnswerer
-from anymesh.vlm.prompting import ArrowTable, JointKind, PartFit, PointTable, WhichArrows, WhichKinds, WhichPoints
+from anymesh.vlm.motion_choice import PartFit
+from anymesh.vlm.prompting import ArrowTable, JointKind, PointTable, WhichArrows, WhichKinds, WhichPoints
 
 INTO_POINTS = 8  # candidates for an axis into the surface, half of which stand for axes
 ShapeOf = Callable[[Segmentation], ObjectShape]

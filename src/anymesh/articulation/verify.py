@@ -19,7 +19,8 @@ from anymesh.articulation.offers import MotionOffers, fits, make_offers, moves_a
 from anymesh.rendering.visual_prompts import VisualPrompts
 from anymesh.types import Picture
 from anymesh.vlm.asking import VisualAnswerer
-from anymesh.vlm.prompting import JointKind, MotionPick, MotionTable, PartFit, WhichMotions
+from anymesh.vlm.motion_choice import MotionPick, MotionTable, PartFit, WhichMotions
+from anymesh.vlm.prompting import JointKind
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,7 +11,8 @@ from anymesh.types import Exchange
 from anymesh.types.recognition import BASE
 from anymesh.vlm.asking import Answer, Question, check_schema
 from anymesh.vlm.grounding import WhichMarks, WhichViews
-from anymesh.vlm.prompting import WhichArrows, WhichKinds, WhichMotions, WhichPoints
+from anymesh.vlm.motion_choice import WhichMotions
+from anymesh.vlm.prompting import WhichArrows, WhichKinds, WhichPoints
 from anymesh.vlm.recognition import Recognize
 
 WORDS = ("door", "lid", "drawer", "knob", "wheel", "handle", "arm", "button")

@@ -12,17 +12,8 @@ from anymesh.evaluation.ground_truth import EvalSample
 from anymesh.types import Exchange
 from anymesh.vlm.asking import Answer, Question, VisualAnswerer
 from anymesh.vlm.grounding import WhichMarks
-from anymesh.vlm.prompting import (
-    JointKind,
-    KindAnswer,
-    MotionPick,
-    PartShown,
-    PointTable,
-    WhichArrows,
-    WhichKinds,
-    WhichMotions,
-    WhichPoints,
-)
+from anymesh.vlm.motion_choice import MotionPick, WhichMotions
+from anymesh.vlm.prompting import JointKind, KindAnswer, PartShown, PointTable, WhichArrows, WhichKinds, WhichPoints
 from anymesh.vlm.reference_answerer import Reference, ReferenceAnswerer, ReferenceJoint
 from anymesh.vocabulary import recognize
 

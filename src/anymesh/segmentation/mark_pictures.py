@@ -34,6 +34,10 @@ class MarkPicture:
         """Return the marks in the picture."""
         return set(np.unique(self.marks[self.marks > 0]).tolist())
 
+    def only(self, marks: Int[np.ndarray, " n"]) -> MarkPicture:
+        """Return the picture with some marks alone."""
+        return MarkPicture(self.view, np.where(np.isin(self.marks, marks), self.marks, -1), self.name)
+
     def without(self, marks: Collection[int]) -> MarkPicture:
         """Return the picture without some marks."""
         return MarkPicture(self.view, np.where(np.isin(self.marks, list(marks)), -1, self.marks), self.name)
@@ -55,7 +59,7 @@ def choose_pictures(
     well = size >= np.minimum(WELL * scale, np.maximum(HALF * size.max(0), 1))
     found: list[MarkPicture] = []
     for v, new in _cover(well, size):
-        found += _drawn(labels[v], numbers, size[v], new, views[v], names[v], render, marks)
+        found += _drawn(MarkPicture(views[v], labels[v], names[v]), numbers, size[v], new, render, marks)
     return found
 
 
@@ -86,32 +90,24 @@ def _cover(well: Bool[np.ndarray, "V n"], size: np.ndarray) -> list[tuple[int, n
 
 
 def _drawn(
-    label: np.ndarray,
-    numbers: np.ndarray,
-    size: np.ndarray,
-    new: np.ndarray,
-    view: View,
-    name: str,
-    render: Callable[[Camera], View],
-    marks: Marks,
+    whole: MarkPicture, numbers: np.ndarray, size: np.ndarray, new: np.ndarray, render: Callable[[Camera], View], marks: Marks
 ) -> list[MarkPicture]:
     """Return one picture with all visible marks, or with the new ones only, or else close-ups of the new ones.
 
-    The first of these with at most MAX_MARKS_PER_PICTURE marks is chosen.
+    The first of these with at most MAX_MARKS_PER_PICTURE marks is chosen. whole: the view with all marks, also tiny ones.
     """
-    shown = numbers[size >= MIN_MARK_PIXELS * (view.camera.height / 640) ** 2]
+    shown = numbers[size >= MIN_MARK_PIXELS * (whole.view.camera.height / 640) ** 2]
     own = np.union1d(shown, numbers[new])
     if len(own) <= MAX_MARKS_PER_PICTURE:
-        return [MarkPicture(view, np.where(np.isin(label, own), label, -1), name)]
+        return [whole.only(own)]
     if new.sum() <= MAX_MARKS_PER_PICTURE:
-        return [MarkPicture(view, np.where(np.isin(label, numbers[new]), label, -1), name)]
-    return _tiles(label, numbers[new], view, name, render, marks)
+        return [whole.only(numbers[new])]
+    return _tiles(whole, numbers[new], render, marks)
 
 
-def _tiles(
-    label: np.ndarray, own: np.ndarray, view: View, name: str, render: Callable[[Camera], View], marks: Marks
-) -> list[MarkPicture]:
+def _tiles(whole: MarkPicture, own: np.ndarray, render: Callable[[Camera], View], marks: Marks) -> list[MarkPicture]:
     """Return close-ups of a crowded view, each with a limited number of marks."""
+    label, camera = whole.marks, whole.view.camera
     row, column = np.nonzero(np.isin(label, own))
     where = np.searchsorted(own, label[row, column])
     count = np.maximum(np.bincount(where, minlength=len(own)), 1)
@@ -125,9 +121,8 @@ def _tiles(
     for group in groups:
         at = np.isin(where, group)
         box = np.array([column[at].min(), row[at].min(), column[at].max() + 1, row[at].max() + 1], float)
-        near = render(zoom(view.camera, box, TILE_AIR, view.camera.height))
-        seen = marks.in_view(near)
-        found.append(MarkPicture(near, np.where(np.isin(seen, own[group]), seen, -1), f"a close-up of the view {name}"))
+        near = render(zoom(camera, box, TILE_AIR, camera.height))
+        found.append(MarkPicture(near, marks.in_view(near), f"a close-up of the view {whole.name}").only(own[group]))
     return found
 
 

@@ -14,7 +14,7 @@ from anymesh.segmentation.grounded_parts import SampledObject, shown_views
 from anymesh.segmentation.regions import Marks, face_regions, number_regions, split_marks
 from anymesh.types import Segmentation
 from anymesh.vlm.grounding import MarkedPart
-from anymesh.vlm.prompting import PartFit
+from anymesh.vlm.motion_choice import PartFit
 
 WORDS = {
     PartFit.TOO_MUCH: "too much: some of these marks do not move with it",

@@ -11,18 +11,8 @@ from anymesh.types.recognition import BASE
 from anymesh.viewer.ask_marks import MarksForm
 from anymesh.vlm.asking import Question
 from anymesh.vlm.grounding import WhichMarks
-from anymesh.vlm.prompting import (
-    OTHER,
-    JointKind,
-    MotionTable,
-    PartFit,
-    PartShown,
-    PointTable,
-    WhichArrows,
-    WhichKinds,
-    WhichMotions,
-    WhichPoints,
-)
+from anymesh.vlm.motion_choice import MotionTable, PartFit, WhichMotions
+from anymesh.vlm.prompting import OTHER, JointKind, PartShown, PointTable, WhichArrows, WhichKinds, WhichPoints
 from anymesh.vlm.recognition import Recognize
 
 UNNAMED = "part"

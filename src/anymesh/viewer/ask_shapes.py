@@ -14,7 +14,8 @@ from anymesh.rendering.viewpoints import away
 from anymesh.types import JointType, Mesh
 from anymesh.viewer.ask_marks import SPLIT, MarksForm
 from anymesh.viewer.scene import MAX_DISPLAY_FACES, MIN_PART_FACES, Color, DisplayMesh, color_of
-from anymesh.vlm.prompting import ArrowTable, MotionTable, PartShown, PointTable
+from anymesh.vlm.motion_choice import MotionTable
+from anymesh.vlm.prompting import ArrowTable, PartShown, PointTable
 
 SAME_SIZE = 0.05  # tolerance of the ratio of sizes, below which a part has the scale of the mesh
 REACH = 0.03  # maximum distance of a clicked point from the ray, as a share of its distance from the eye

@@ -9,7 +9,8 @@ from anymesh.viewer.ask_forms import ArrowsForm, Form, KindsForm, LabelRow, Moti
 from anymesh.viewer.ask_marks import SPLIT, Group, MarksForm
 from anymesh.viewer.ask_shapes import group_color
 from anymesh.viewer.panels import SMALL
-from anymesh.vlm.prompting import JointKind, MotionTable, PartFit
+from anymesh.vlm.motion_choice import MotionTable, PartFit
+from anymesh.vlm.prompting import JointKind
 
 KINDS = {
     "hinge along an edge (door, lid)": JointKind.HINGE_ALONG,

@@ -11,7 +11,8 @@ from anymesh.types import JointType
 from anymesh.types.recognition import Recognition, RecognizedLabel
 from anymesh.vlm.asking import Question
 from anymesh.vlm.grounding import MarksAnswer, WhichMarks, WhichViews
-from anymesh.vlm.prompting import OTHER, KindAnswer, WhichArrows, WhichKinds, WhichMotions, WhichPoints
+from anymesh.vlm.motion_choice import WhichMotions
+from anymesh.vlm.prompting import OTHER, KindAnswer, WhichArrows, WhichKinds, WhichPoints
 from anymesh.vlm.recognition import Recognize
 
 

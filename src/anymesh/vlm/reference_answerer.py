@@ -19,17 +19,8 @@ from anymesh.types import Exchange, JointType, Motion
 from anymesh.types.recognition import BASE, Recognition, RecognizedLabel
 from anymesh.vlm.asking import Answer, Question
 from anymesh.vlm.grounding import MarkedPart, MarksAnswer, WhichMarks, WhichViews
-from anymesh.vlm.prompting import (
-    JointKind,
-    KindAnswer,
-    MotionPick,
-    PartShown,
-    PointTable,
-    WhichArrows,
-    WhichKinds,
-    WhichMotions,
-    WhichPoints,
-)
+from anymesh.vlm.motion_choice import MotionPick, WhichMotions
+from anymesh.vlm.prompting import JointKind, KindAnswer, PartShown, PointTable, WhichArrows, WhichKinds, WhichPoints
 from anymesh.vlm.recognition import Recognize
 
 MIN_VISIBLE_PIXELS = 40  # [px] minimum visible size of a part

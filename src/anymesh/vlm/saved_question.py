@@ -22,9 +22,11 @@ from anymesh.vlm.asking import Question
 
 HOMES = ("anymesh.vlm.", "anymesh.types.", "anymesh.geometry.")
 SAVED_NAMES = {  # modules whose name in files stays that of the first version, so that files of all versions can be read
-    f"anymesh.vlm.{module}": f"anymesh.reasoning.{module}" for module in ("grounding", "prompting", "recognition")
+    "anymesh.vlm.grounding": "anymesh.reasoning.grounding",
+    "anymesh.vlm.prompting": "anymesh.reasoning.prompting",
+    "anymesh.vlm.motion_choice": "anymesh.reasoning.prompting",
+    "anymesh.vlm.recognition": "anymesh.reasoning.recognition",
 }
-MODULES = {saved: module for module, saved in SAVED_NAMES.items()}
 RECORD = "record"  # name of the array with the JSON text
 TAG = "is"  # field of a tagged value with its type
 SAVED_CLASSES = {"anymesh.types.motion:JointType": "anymesh.types.motion:MotionKind"}  # the same for classes
@@ -79,10 +81,11 @@ def _name(kind: type) -> str:
 
 def _class(name: str) -> Any:
     saved, _, cls = CLASSES.get(name, name).partition(":")
-    module = MODULES.get(saved, saved)
-    if not module.startswith(HOMES):
+    names = [module for module, told in SAVED_NAMES.items() if told == saved] or [saved]
+    if not all(module.startswith(HOMES) for module in names):
         raise ValueError(name)
-    found = getattr(importlib.import_module(module), cls)
+    modules = [importlib.import_module(module) for module in names]
+    found = next((getattr(module, cls) for module in modules if hasattr(module, cls)), None)
     if not isinstance(found, type) or not (is_dataclass(found) or issubclass(found, Enum)):
         raise ValueError(name)
     return found
