@@ -119,7 +119,7 @@ def test_the_hollow_ends_beside_the_controls():
 
 def test_a_small_flap_leaves_the_whole_body_hollow():
     found = complete_shapes(case_with_controls(0.2))
-    assert not any("wall put" in note for note in found.notes["case"])
+    assert not any("wall added" in note for note in found.notes["case"])
 
 
 def test_a_hole_that_a_knob_hides_is_capped():

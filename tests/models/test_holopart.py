@@ -56,7 +56,7 @@ def test_open_parts_come_back_whole_in_the_asset_frame(tmp_path: Path, monkeypat
 
 
 def test_a_second_crash_is_told(tmp_path: Path) -> None:
-    with pytest.raises(CrashError, match=r"status 1; its last words: RuntimeError: min\(\): Expected reduction dim 0"):
+    with pytest.raises(CrashError, match=r"status 1; the end of its output: RuntimeError: min\(\): Expected reduction dim 0"):
         completer(tmp_path, "crash").complete(cupboard())
 
 

@@ -191,7 +191,7 @@ def test_a_task_that_is_gone_is_forgotten(server, meshy) -> None:
     client = meshy()
     client.retexture(GLB, "oak")
     server.tasks.clear()
-    with pytest.raises(ModelError, match=r"knows no task .* any more"):
+    with pytest.raises(ModelError, match=r"no longer has task"):
         meshy().retexture(GLB, "oak")
     assert not client.state.exists()
 
@@ -199,7 +199,7 @@ def test_a_task_that_is_gone_is_forgotten(server, meshy) -> None:
 def test_a_task_that_takes_too_long_is_kept_for_the_rerun(server, meshy) -> None:
     server.last = {"status": "IN_PROGRESS"}
     client = meshy(patience=1e-9)
-    with pytest.raises(ModelError, match=r"is still .* a rerun goes on with it"):
+    with pytest.raises(ModelError, match=r"is still .* a rerun resumes it"):
         client.retexture(GLB, "oak")
     assert state(client)["task"] in server.tasks
 
@@ -215,7 +215,7 @@ def test_a_truncated_download_is_fetched_again(server, meshy) -> None:
     [
         (b"<html>login</html>", "text/html", "content of type 'text/html', valid is a GLB"),
         (b"{}", "application/json", "content of type 'application/json'"),
-        (b"not a model", "application/octet-stream", "no whole GLB"),
+        (b"not a model", "application/octet-stream", "not a complete GLB"),
         (GLB[:-3], "model/gltf-binary", "no whole GLB: 17 bytes"),
     ],
 )
@@ -262,7 +262,7 @@ def test_a_wrong_key_is_refused_before_anything_is_made(server, meshy, monkeypat
 
 
 def test_the_budget_refuses_before_anything_is_paid(server, meshy) -> None:
-    with pytest.raises(BudgetError, match=r"about 10 credits and would pass --max-calls 0; spent so far: 0 tasks"):
+    with pytest.raises(BudgetError, match=r"about 10 credits and would exceed --max-calls 0; spent so far: 0 tasks"):
         meshy(max_calls=0).retexture(GLB, "oak")
     assert server.asked == []
 

@@ -113,4 +113,4 @@ def test_where_nothing_moves_nothing_is_asked() -> None:
         "auto", Recognition("table", None, ())
     )
     assert [p.name for p in found.segmentation.parts] == ["base"]
-    assert "nothing was found that moves" in found.warnings
+    assert "no moving part was found" in found.warnings

@@ -114,7 +114,7 @@ def _pointed(answerer: VisualAnswerer) -> str:
     """Return the origin of the parts: the answerer of the question about marks."""
     if any(e.kind == "marks" and e.given_up for e in answerer.exchanges):
         return f"geometry points at it in place of {answerer.name}"
-    return f"pointed at by {answerer.name}"
+    return f"identified by {answerer.name}"
 
 
 def object_cloud(mesh: Mesh, whole: ObjectShape, config: Config) -> Cloud:
@@ -160,7 +160,7 @@ def _exactly(
         labels,
         tuple(UNSURE if some else SURE for some in doubts),
         tuple(
-            f", not sure of {len(some)} of {len(p.marks)} marks" if some else ""
+            f", unsure of {len(some)} of {len(p.marks)} marks" if some else ""
             for some, p in zip(doubts, answer.parts, strict=True)
         ),
         frozenset(p.label for p in answer.parts),

@@ -168,7 +168,7 @@ def test_the_budget_holds_over_processes_and_counts_by_object(tmp_path, ledger) 
         second = accounts[1].hold("marks", 0.6, limit)
         accounts[1].settle(second, None)  # not answered: not billed
         assert (accounts[1].calls, accounts[1].cost) == (1, 0.25)
-        with pytest.raises(BudgetError, match="call 2 would pass --max-calls 1"):
+        with pytest.raises(BudgetError, match="call 2 would exceed --max-calls 1"):
             accounts[1].hold("marks", 0.0, Limit(calls=1))
     assert ledger.rows("SELECT name, calls, cost FROM objects") == [("object 0", 1, 0.25), ("object 1", 0, None)]
 
