@@ -43,7 +43,7 @@ FAULTS = {  # name: (changes to the chest's text, check, severity, subject, word
     "inward drawer": ([INWARD], "direction", "failure", "slide", "axis is reversed"),
     "inward door": ([('axis xyz="0 0 1"', 'axis xyz="0 0 -1"')], "direction", "failure", "hinge", "axis is reversed"),
     "jammed drawer": ([('<origin xyz="0.3 0 0.6" />', '<origin xyz="0.3 0.05 0.6" />')],
-                      "collision", "warning", "drawer", "deep in 'case'"),
+                      "collision", "warning", "drawer", "penetrates 'case'"),
     "scale of a mesh": ([(DRAWER_VISUAL, DRAWER_VISUAL.replace("/>", 'scale="20 20 20" />'))],
                         "meshes", "failure", "drawer", "units"),
     "no mass": ([('mass value="3.864"', 'mass value="0"')], "inertia", "failure", "door", "above 0"),
@@ -110,8 +110,8 @@ def test_one_hull_for_the_case_fills_it_and_is_told(tmp_path):
     path = edited(chest(tmp_path), r"(?s)<collision>.*?</collision>\s*</link>", hull, 1)
     (cavity, *contacts) = found(check_asset(path, engines=()), "collision", "warning")
     assert cavity.subject == "case"
-    assert "one convex shape) takes 100%" in cavity.text
-    assert any("deep in 'case'" in f.text for f in contacts)
+    assert "one convex shape) fills 100%" in cavity.text
+    assert any("penetrates 'case'" in f.text for f in contacts)
 
 
 def test_links_that_no_joint_connects_must_not_overlap(tmp_path):
