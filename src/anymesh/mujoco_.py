@@ -15,7 +15,7 @@ def load_mujoco() -> Any:
     try:
         import mujoco as untyped
     except ImportError:
-        raise MissingExtraError("mujoco is missing; it comes with articulate-anymesh, install that again") from None
+        raise MissingExtraError("mujoco is missing; it is a dependency of articulate-anymesh; reinstall that") from None
     mujoco: Any = untyped  # its compiled names have no stubs
     mujoco.set_mju_user_warning(_tell)
     return mujoco

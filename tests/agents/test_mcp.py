@@ -198,7 +198,7 @@ FAULTS: dict[str, tuple[str, dict[str, Any], str]] = {
     "no asset": ("inspect", {"asset": "box"}, "holds no asset"),
     "no question": ("answer", {"question": ".", "answer": "geometry"}, "is not a question"),
     "a question outside": ("answer", {"question": "../..", "answer": "geometry"}, "lies outside"),
-    "corrections of nothing": ("correct", {"asset": "out", "corrections": []}, "no output of anymesh"),
+    "corrections of nothing": ("correct", {"asset": "out", "corrections": []}, "not an output of anymesh"),
     "a check of nothing": ("check", {"asset": "nowhere"}, "nowhere"),
     "an engine that is unknown": ("check", {"asset": ".", "engines": ["abacus"]}, "abacus"),
     "a zip outside": ("export", {"asset": "out", "archive": "../out.zip"}, "lies outside"),

@@ -19,7 +19,7 @@ def run(*arguments):
 def test_a_good_asset_is_told_in_lines_with_exit_code_0(tmp_path):
     done = run(chest(tmp_path))
     assert done.exit_code == 0
-    assert done.output.splitlines()[-1].endswith("in order, 0 failures, 0 warnings")
+    assert done.output.splitlines()[-1].endswith("passed, 0 failures, 0 warnings")
 
 
 def test_a_bad_one_ends_with_its_own_exit_code_and_json_alone(tmp_path):

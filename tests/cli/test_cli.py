@@ -274,4 +274,4 @@ def test_auto_says_what_it_takes(mesh, capfd, monkeypatch) -> None:
         monkeypatch.setenv(variable, "127.0.0.1:9")
     code, out, _ = called(capfd, "segment", mesh, "-o", "out", "--answerer", "auto", *PARTS)
     assert code == 0
-    assert "auto takes geometry: no local model" in out
+    assert "auto uses geometry: no local model" in out

@@ -91,7 +91,7 @@ def test_turned_shifted_and_scaled_it_is_the_same(scale):
 def test_a_drawer_gets_a_box_that_its_travel_asks_for(travel):
     asset = case_with_drawer(travel)
     found = complete_shapes(asset)
-    assert any("drawer's box" in note for note in found.notes["drawer"])
+    assert any("drawer box" in note for note in found.notes["drawer"])
     t = part_triangles(found.asset, "drawer")
     assert is_closed(t)
     assert t[..., 1].max() == pytest.approx(travel / (1 - ShapeConfig().drawer_keep), abs=1e-3)
@@ -119,7 +119,7 @@ def test_the_hollow_ends_beside_the_controls():
 
 def test_a_small_flap_leaves_the_whole_body_hollow():
     found = complete_shapes(case_with_controls(0.2))
-    assert not any("wall put" in note for note in found.notes["case"])
+    assert not any("wall added" in note for note in found.notes["case"])
 
 
 def test_a_hole_that_a_knob_hides_is_capped():

@@ -155,7 +155,7 @@ def test_what_is_not_the_object_is_not_used(change: Callable, why: str) -> None:
     found = run(change)
     assert why in found.notes[-1]
     assert found.notes[-1].startswith("service: not accepted, ")
-    assert found.notes[-1].endswith("; the built-in looks stay")
+    assert found.notes[-1].endswith("; the built-in textures are kept")
     assert found.asset.mesh.materials[0].name == "atlas"
     np.testing.assert_array_equal(face_colors(found.asset.mesh), built_in())
 

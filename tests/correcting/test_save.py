@@ -183,8 +183,8 @@ def test_no_run_takes_corrections_away(tmp_path):
     folder = write_output(tmp_path / "out")
     save_asset(corrected(open_asset(folder), FlipSign("door")))
     kept = content(folder)
-    with pytest.raises(OutputError, match="corrected by hand"), RunFolder.open(folder) as run:
+    with pytest.raises(OutputError, match="manual corrections"), RunFolder.open(folder) as run:
         run.save(JOINTS, "new", JointResult((), "geometry"))
-    with pytest.raises(OutputError, match="corrected by hand"):
+    with pytest.raises(OutputError, match="manual corrections"):
         RunFolder.create(folder, source=tmp_path / "mesh.glb", force=True)
     assert content(folder) == kept

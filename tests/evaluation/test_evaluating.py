@@ -123,7 +123,7 @@ def test_other_settings_and_other_folders_are_refused(tmp_path: Path) -> None:
     evaluate(SET, tmp_path / "out", only=["table"], seed=1, force=True, jobs=1)
     (tmp_path / "mine").mkdir()
     (tmp_path / "mine" / "thesis.txt").write_text("x")
-    with pytest.raises(OutputError, match="no evaluation of anymesh"):
+    with pytest.raises(OutputError, match="not an evaluation of anymesh"):
         evaluate(SET, tmp_path / "mine", only=["table"], force=True)
     assert (tmp_path / "mine" / "thesis.txt").read_text() == "x"
 

@@ -56,7 +56,7 @@ def test_open_parts_come_back_whole_in_the_asset_frame(tmp_path: Path, monkeypat
 
 
 def test_a_second_crash_is_told(tmp_path: Path) -> None:
-    with pytest.raises(CrashError, match=r"status 1; its last words: RuntimeError: min\(\): Expected reduction dim 0"):
+    with pytest.raises(CrashError, match=r"status 1; the end of its output: RuntimeError: min\(\): Expected reduction dim 0"):
         completer(tmp_path, "crash").complete(cupboard())
 
 
@@ -88,7 +88,7 @@ def test_parts_whose_names_are_lost_are_told_apart_by_where_they_are() -> None:
 def test_parts_that_are_missing_are_left_out() -> None:
     made = HoloPart(Echo(lambda m: {"door": m["door"]})).complete(cupboard())
     assert set(made) == {"door"}
-    with pytest.raises(ModelError, match="gave 2 parts for 3, under names that were not sent"):
+    with pytest.raises(ModelError, match="returned 2 parts for 3, under names that were not sent"):
         HoloPart(Echo(lambda m: {"a": m["door"], "b": m["case"]})).complete(cupboard())
 
 
@@ -109,7 +109,7 @@ def test_a_result_that_is_not_the_visible_surface_is_not_accepted() -> None:
         ("nothing", r"left no output\.glb; found nothing in its output folder"),
         ("no file of its kind", r"left no output\.glb; found \['output\.obj'\]"),
         ("garbage", "HoloPart's result cannot be used|no readable GLB"),
-        ("talks of a key", r"last words: RuntimeError: \[removed\] is refused"),
+        ("talks of a key", r"the end of its output: RuntimeError: \[removed\] is refused"),
     ],
 )
 def test_what_goes_wrong_is_told(tmp_path: Path, fault: str, told: str) -> None:

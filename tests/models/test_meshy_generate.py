@@ -210,7 +210,7 @@ def test_tasks_that_cannot_be_told_apart_are_not_paid_again(server, meshy, pictu
 
 
 def test_the_budget_is_checked_for_all_tasks_before_the_first(server, meshy) -> None:
-    told = r"preview and a text-to-3D refinement take about 30 credits and would pass --max-calls 1; spent so far: 0 tasks"
+    told = r"preview and a text-to-3D refinement take about 30 credits and would exceed --max-calls 1; spent so far: 0 tasks"
     with pytest.raises(BudgetError, match=told):
         meshy(max_calls=1).from_text(PROMPT)
     assert server.asked == []
@@ -233,7 +233,7 @@ def test_a_preview_that_is_no_longer_kept_is_forgotten(server, meshy) -> None:
     with pytest.raises(ModelError, match="too few credits, a text-to-3D refinement takes about 10"):
         client.from_text(PROMPT)
     server.tasks.clear()  # after three days
-    with pytest.raises(ModelError, match=r"knows no task .* any more; a rerun makes a new one \(about 20 credits\)"):
+    with pytest.raises(ModelError, match=r"no longer has task .*; a rerun makes a new one \(about 20 credits\)"):
         meshy().from_text(PROMPT)
     assert meshy().from_text(PROMPT).glb == GLB
 
@@ -259,10 +259,10 @@ def test_too_many_requests_and_faults_of_the_server_are_waited_for(server, meshy
 
 def test_a_result_that_is_too_large_or_no_model_is_not_used(server, meshy, monkeypatch) -> None:
     server.model = b"glTF" + bytes(200)
-    with pytest.raises(ModelError, match="no whole GLB"):
+    with pytest.raises(ModelError, match="not a complete GLB"):
         meshy().from_text(PROMPT)
     server.model = b"<html>"
-    with pytest.raises(ModelError, match="no whole GLB"):
+    with pytest.raises(ModelError, match="not a complete GLB"):
         meshy().from_text(PROMPT)
     monkeypatch.setattr("anymesh.models.meshy_api.LARGEST", 1000)
     server.model = b"glTF" + bytes(200_000)

@@ -56,7 +56,7 @@ def test_finish_past_its_time_limit_leaves_surfaces_open_and_says_so(surface, tm
     asset = finish(surface, tmp_path / "done", time_limit=1e-6)
     record = json.loads((tmp_path / "done" / "asset.json").read_text())
     assert not any(p.get("new_faces") for p in record["parts"])
-    assert "time limit of 1e-06 s: completion: some surfaces stay open" in asset.notes
+    assert "time limit of 1e-06 s: completion: some surfaces remain open" in asset.notes
     assert record["joints"] == json.loads((surface / "asset.json").read_text())["joints"]
     assert check_asset(tmp_path / "done").ok
     whole = finish(surface, tmp_path / "done", force=True)  # another limit computes the stage anew
@@ -96,7 +96,7 @@ def test_whom_nobody_can_ask_the_built_in_stands_in_for():
 def test_wrong_places_and_names_are_one_clear_error(surface, tmp_path):
     with pytest.raises(OutputError, match="lies in the output folder"):
         finish(surface, surface)
-    with pytest.raises(OutputError, match="is no output of anymesh"):
+    with pytest.raises(OutputError, match="is not an output of anymesh"):
         finish(tmp_path, tmp_path / "done")
     with pytest.raises(OptionError, match="--completer: found 'magic'; valid are builtin, off"):
         finish(surface, tmp_path / "done", completer="magic")

@@ -183,7 +183,7 @@ def test_folders_that_are_refused(tmp_path, source):
             RunFolder.create(mine, source=source, force=force)
     with pytest.raises(OutputError, match="is a file"):
         RunFolder.create(mine / "asset.json", source=source, force=True)
-    with pytest.raises(OutputError, match="no output of anymesh"):
+    with pytest.raises(OutputError, match="not an output of anymesh"):
         RunFolder.open(mine)
     assert (out / "notes.txt").read_text() == "mine"
     assert source.read_bytes() == b"mesh"

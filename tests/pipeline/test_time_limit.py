@@ -54,7 +54,7 @@ def test_given_parts_get_joints_from_the_likeliest_motions(tmp_path):
     labels = EXAMPLES / "truth" / "cabinet.npy"
     asset = anymesh.articulate(CABINET, tmp_path / "out", parts=str(labels), time_limit=0.001)
     assert len(asset.joints) == 5
-    assert any("only the likeliest motions were swept" in w for w in asset.warnings)
+    assert any("only the most likely motions were swept" in w for w in asset.warnings)
 
 
 @pytest.mark.slow

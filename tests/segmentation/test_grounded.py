@@ -46,7 +46,7 @@ def test_marks_become_parts_those_inside_too() -> None:
     got = ious(truth, mesh, found.segmentation)
     assert set(got) == {p.name for p in truth.parts[1:]}
     assert min(got.values()) > 0.97
-    assert {p.reason for p in found.segmentation.parts[1:]} == {"pointed at by oracle"}
+    assert {p.reason for p in found.segmentation.parts[1:]} == {"identified by oracle"}
 
 
 @pytest.mark.slow
@@ -153,4 +153,4 @@ def test_where_nothing_moves_nothing_is_asked() -> None:
         "auto", Recognition("table", None, ())
     )
     assert [p.name for p in found.segmentation.parts] == ["base"]
-    assert "nothing was found that moves" in found.warnings
+    assert "no moving part was found" in found.warnings

@@ -64,7 +64,7 @@ def test_a_joint_that_is_blocked_is_told(robot):
     assert hinge.ok
     assert slide.reached_upper == pytest.approx(0.1)
     assert "not to its upper limit 0.3" in slide.faults[0]
-    assert "it is stuck" in drive(Ideal(robot, stop=0.0), robot).joints[0].faults
+    assert "it does not move" in drive(Ideal(robot, stop=0.0), robot).joints[0].faults
 
 
 def test_a_drawer_behind_a_door_is_tried_with_the_door_opened(robot):
@@ -81,7 +81,7 @@ def test_a_drawer_behind_a_door_is_tried_with_the_door_opened(robot):
 def test_limits_read_otherwise_and_links_held_elsewhere_are_told(robot):
     assert "reads the limits" in drive(Ideal(robot, read=(0.0, 30.0)), robot).joints[0].faults[0]
     faults = drive(Ideal(robot, twist=0.1), robot).joints[0].faults
-    assert any("0.1 m from where the joint should hold it" in f for f in faults)
+    assert any("0.1 m from where the joint should place it" in f for f in faults)
 
 
 def test_a_joint_that_the_engine_does_not_know_is_told(robot):

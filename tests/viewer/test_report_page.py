@@ -199,7 +199,7 @@ def test_a_report_lies_beside_the_folder_and_cannot_be_written_nowhere(tmp_path)
 def test_a_large_asset_is_decimated_for_display_and_keeps_its_colours_and_parts():
     asset = grid(60)
     light, notes = displayed(asset, faces=1500)
-    assert notes == (f"Decimated for display: {len(light.mesh.faces):,} of 7,200 faces. The files keep them all.",)
+    assert notes == (f"Decimated for display: {len(light.mesh.faces):,} of 7,200 faces. The files are unchanged.",)
     assert len(light.mesh.faces) < 2000
     np.testing.assert_allclose(light.mesh.bounds, asset.mesh.bounds, atol=0.02)
     red = light.mesh.corner_color[:, :, 0].mean(1) > 128

@@ -199,7 +199,7 @@ def test_without_a_folder_or_with_a_file_there_is_one_clear_error(work: Path) ->
         pipeline.articulate("box.glb", "out", answerer="files:")
     with pytest.raises(OptionError, match="this is a file"):
         pipeline.articulate("box.glb", "out", answerer="files:box.glb")
-    with pytest.raises(OptionError, match="holds no questions"):
+    with pytest.raises(OptionError, match="has no questions"):
         open_in(Path("nowhere"))
     with pytest.raises(OpenQuestionError):
         pipeline.articulate("box.glb", "out", answerer="files:a b")

@@ -180,7 +180,7 @@ def test_a_model_that_answers_nonsense_is_given_up_for_the_rest_of_the_run(model
     assert articulate(model, "out", "--cache", "off") == 0
     assert len(model.asked) == 3
     found = record("out")
-    assert [w for w in found["warnings"] if "given up" in w and "3 answers in a row" in w] == [
+    assert [w for w in found["warnings"] if "given up" in w and "3 invalid answers in a row" in w] == [
         w for w in found["warnings"] if "given up" in w
     ]
     assert sum("given up" in w for w in found["warnings"]) == 1

@@ -92,7 +92,7 @@ def test_stops_before_one_call_too_many() -> None:
     model = Budgeted(inner, max_calls=2)
     model.ask(a_request())
     model.ask(a_request())
-    with pytest.raises(BudgetError, match="hinge: call 3 would pass --max-calls 2; spent so far: 2 calls"):
+    with pytest.raises(BudgetError, match="hinge: call 3 would exceed --max-calls 2; spent so far: 2 calls"):
         model.ask(a_request())
     assert len(inner.requests) == 2
 
@@ -108,7 +108,7 @@ def test_stops_before_a_call_that_could_pass_the_cost() -> None:
     assert most is not None
     assert most > 0.01  # the tokens out alone
     inner = ScriptedModel(["a", "b"], name="openai:gpt-4o")
-    with pytest.raises(BudgetError, match=r"may cost up to 0\.0\d+ USD, which could pass --max-cost .*; spent so far: 0 calls"):
+    with pytest.raises(BudgetError, match=r"up to 0\.0\d+ USD, which could exceed --max-cost .*; spent so far: 0 calls"):
         Budgeted(inner, max_cost=0.99 * most).ask(request)
     assert not inner.requests
     assert Budgeted(inner, max_cost=1.01 * most).ask(request).text == "a"

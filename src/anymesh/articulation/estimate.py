@@ -113,7 +113,7 @@ def motion_question(around: PartContext, name: str, label: str) -> MotionQuestio
 def _unscored(around: PartContext, name: str, label: str, deadline: Deadline | None) -> UnscoredMotions:
     proposed = propose(around)
     if deadline is not None and deadline.late(JOINTS):
-        deadline.leave_out("joints: only the likeliest motions were swept")
+        deadline.leave_out("joints: only the most likely motions were swept")
         proposed = [(role, motion) for role, motion in proposed if role in ROLES_AFTER_DEADLINE] or proposed
     facts = part_facts(around, name, label, any(role == "two_pivot" for role, _ in proposed))
     return UnscoredMotions(around, facts, hypotheses(around, proposed))
@@ -150,7 +150,7 @@ def estimate_joint(around: PartContext, name: str, parent: str, question: Motion
         return joint_of(around, name, parent, best, answer.type, answer.confidence, answer.reason)
     # the part is known to move, so a fixed answer is replaced by the best motion
     kind = JointType.PRISMATIC if best.motion.kind is JointType.PRISMATIC else JointType.REVOLUTE
-    return joint_of(around, name, parent, best, kind, answer.confidence, f"{answer.reason}; likeliest: {best.motion.source}")
+    return joint_of(around, name, parent, best, kind, answer.confidence, f"{answer.reason}; most likely: {best.motion.source}")
 
 
 def joint_of(

@@ -66,15 +66,15 @@ def _still(content: Content) -> Iterator[Finding]:
     joints = [*check_joints(robot, content.diagonal)]
     straight = not any(f.severity is Severity.FAILURE for f in joints)
     told = f"{len(robot.links)} links and {len(robot.joints)} joints in a tree with the root {robot.roots[0]!r}"
-    yield from _or_ok(CHECK, schema, f"{told}{', asset.json keeps its schema' if ours else ''}")
+    yield from _or_ok(CHECK, schema, f"{told}{', asset.json matches its schema' if ours else ''}")
     yield from _or_ok("naming", [*check_naming(robot)], "names are legal, unique and plain ASCII")
     shapes = sum(len(some) for kind in (content.visuals, content.collisions) for some in kind.values())
     yield from _or_ok("meshes", [*check_meshes(content)], f"{shapes} shapes are read, with area, and of sensible size")
     yield from _or_ok("scale", [*check_scale(content)], f"the diagonal is {content.diagonal:.3g} m")
-    yield from _or_ok("joints", joints, f"{len(robot.moving)} joints move, with axes, limits and strengths")
+    yield from _or_ok("joints", joints, f"{len(robot.moving)} joints move, with axes, limits, effort and velocity")
     yield from _or_ok("inertia", [*check_inertia(content)], _masses(robot))
     collision = [*check_collision(content, _contacts(robot))]
-    yield from _or_ok("collision", collision, "what moves collides, cavities are open, nothing overlaps at rest")
+    yield from _or_ok("collision", collision, "moving links have collision shapes, cavities are open, nothing overlaps at rest")
     yield from _or_ok("texture", [*check_texture(content, ours=ours)], "materials and pictures are there")
     if straight:
         yield from _or_ok("direction", [*check_direction(content)], "no joint drives its link into its parent")
@@ -86,7 +86,7 @@ def _or_ok(check: str, found: list[Finding], told: str) -> Iterator[Finding]:
 
 def _masses(robot: Robot) -> str:
     masses = [link.inertial.mass for link in robot.links if link.inertial is not None]
-    return f"{len(masses)} links weigh {sum(masses):.3g} kg, with possible inertias"
+    return f"{len(masses)} links have a total mass of {sum(masses):.3g} kg, with valid inertias"
 
 
 def _contacts(robot: Robot) -> dict[tuple[str, str], float] | None:

@@ -65,6 +65,7 @@ def _ways(content: Content, joint: RobotJoint, part: TriangleSet, rest: Triangle
         way = "positive" if sign > 0 else "negative"
         told = f"{way} motion drives {joint.child!r} into {joint.parent!r} after {free:.3g} of {most:.3g} {unit}"
         if other >= FREER * free and other >= STOPPED * most:
-            yield failure(CHECK, joint.name, f"{told}; the other way is free for {other:.3g} {unit}, so the axis is reversed")
+            free_for = f"the opposite direction is free for {other:.3g} {unit}"
+            yield failure(CHECK, joint.name, f"{told}; {free_for}, so the axis is reversed")
         else:
             yield warning(CHECK, joint.name, f"{told}; the visible surfaces meet")

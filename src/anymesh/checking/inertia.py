@@ -52,7 +52,7 @@ def _possible(link: str, inertial: Inertial) -> Iterator[Finding]:
     if not a > 0:
         yield failure(CHECK, link, f"{shown}; all must be above 0")
     elif a + b < c * (1 - REL_TOLERANCE):
-        yield failure(CHECK, link, f"{shown}; no body has one above the sum of the others")
+        yield failure(CHECK, link, f"{shown}; none may exceed the sum of the others")
 
 
 def _fitting(content: Content, link: RobotLink, inertial: Inertial) -> Iterator[Finding]:
@@ -70,12 +70,12 @@ def _fitting(content: Content, link: RobotLink, inertial: Inertial) -> Iterator[
     volume = float(np.prod(np.maximum(high - low, 0.01 * diagonal)))
     density = inertial.mass / max(volume, 1e-300)
     if not LIGHTEST <= density <= HEAVIEST:
-        told = f"its mass {inertial.mass:.4g} kg makes {density:.3g} kg/m3 of its box"
+        told = f"its mass of {inertial.mass:.4g} kg in its box is a density of {density:.3g} kg/m3"
         yield warning(CHECK, link.name, f"{told}; plausible is {LIGHTEST:g} to {HEAVIEST:g}")
     spread = float(np.sqrt(np.trace(inertial.tensor) / 2 / inertial.mass))
     farthest = float(np.linalg.norm(np.maximum(high - inertial.center, inertial.center - low)))
     if not SMALL <= spread / max(farthest, 1e-300) <= LARGE:
-        told = f"its inertia is that of mass {spread:.3g} m from its centre, its farthest corner is {farthest:.3g} m away"
+        told = f"its inertia corresponds to mass {spread:.3g} m from its centre; its farthest corner is {farthest:.3g} m away"
         yield warning(CHECK, link.name, f"{told}; a ratio of {SMALL:g} to {LARGE:g} is plausible")
 
 
@@ -91,5 +91,5 @@ def _placeholder(content: Content, given: list[tuple[RobotLink, Inertial]]) -> I
     same = np.allclose(tensors, tensors[0], rtol=REL_TOLERANCE, atol=0)
     balls = all(np.allclose(t, t[0, 0] * np.eye(3), rtol=REL_TOLERANCE, atol=REL_TOLERANCE * abs(t[0, 0])) for t in tensors)
     if (same and not alike) or (balls and not cubes):
-        told = f"all {len(tensors)} links have the tensor of a ball" if balls else f"all {len(tensors)} links have one tensor"
+        told = f"all {len(tensors)} links have the tensor of a sphere" if balls else f"all {len(tensors)} links have one tensor"
         yield warning(CHECK, "", f"{told} (such as {size:.3g} kg m2): placeholders; valid is each link's own, from its shape")

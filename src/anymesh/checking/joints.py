@@ -30,9 +30,9 @@ def check_joints(robot: Robot, diagonal: float) -> Iterator[Finding]:
             if robot.format == "URDF":  # in an MJCF they belong to motors, not to joints
                 yield from _strength(joint)
         elif joint.type != "fixed":
-            yield warning(CHECK, joint.name, f"its type {joint.type} has several freedoms; it is not driven here")
+            yield warning(CHECK, joint.name, f"its type {joint.type} has several degrees of freedom; it is not driven here")
     if not robot.moving:
-        yield warning(CHECK, "", "no joint moves; an articulated asset has one at least")
+        yield warning(CHECK, "", "no joint moves; an articulated asset has at least one")
 
 
 def _axis(joint: RobotJoint) -> Iterator[Finding]:

@@ -63,7 +63,7 @@ class CheckReport:
         order = (Severity.FAILURE, Severity.WARNING, Severity.OK)
         told = [str(f) for severity in order for f in self.findings if f.severity is severity]
         counts = f"{self.count(Severity.FAILURE)} failures, {self.count(Severity.WARNING)} warnings"
-        return (*told, f"{self.path}: {'in order' if self.ok else 'not in order'}, {counts}")
+        return (*told, f"{self.path}: {'passed' if self.ok else 'failed'}, {counts}")
 
 
 def failure(check: str, subject: str, text: str) -> Finding:

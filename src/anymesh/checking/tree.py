@@ -32,9 +32,9 @@ def check_tree(robot: Robot) -> Iterator[Finding]:
                 yield failure(CHECK, joint.name, f"its {word} is the link {link!r}, which is not there")
     for child, count in Counter(j.child for j in robot.joints).items():
         if count > 1:
-            yield failure(CHECK, child, f"{count} joints carry this link; one is valid")
+            yield failure(CHECK, child, f"{count} joints have this link as their child; one is valid")
     if len(robot.roots) != 1:
-        told = ", ".join(robot.roots) or "none, the joints run in a circle"
+        told = ", ".join(robot.roots) or "none, since the joints form a cycle"
         yield failure(CHECK, "", f"the links that no joint carries are: {told}; valid is one")
     elif len(robot.carried(robot.roots[0])) < len(known):
         lost = sorted(known - robot.carried(robot.roots[0]))
@@ -48,8 +48,8 @@ def check_files(content: Content) -> Iterator[Finding]:
     for link in content.robot.links:
         for file in dict.fromkeys(s.file for s in (*link.visuals, *link.collisions) if s.file):
             if file.startswith(("/", "file:")) or file[1:2] == ":":
-                yield warning(CHECK, link.name, f"the mesh path {file} is absolute; a relative one holds anywhere")
+                yield warning(CHECK, link.name, f"the mesh path {file} is absolute; a relative path works everywhere")
             elif "\\" in file:
-                yield warning(CHECK, link.name, f"the mesh path {file} has backslashes; forward ones hold everywhere")
+                yield warning(CHECK, link.name, f"the mesh path {file} has backslashes; forward slashes work everywhere")
             elif "://" in file and not file.startswith(PACKAGE):
                 yield warning(CHECK, link.name, f"the mesh path {file} is a URL; engines read relative paths and package://")

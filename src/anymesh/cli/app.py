@@ -35,8 +35,8 @@ from anymesh.errors import DEFECT, AnymeshError, OpenQuestionError
 
 EXIT_CODES = (
     "Exit codes: 0 done; 2 a wrong option; 3 the mesh cannot be used; 4 the output folder exists or "
-    "cannot be written; 5 an optional dependency is missing; 6 a model cannot be asked; 7 the budget is spent; "
-    "8 a check failed; 9 a question waits for its answer; 70 an internal defect, with a report to send; 130 interrupted."
+    "cannot be written; 5 an optional dependency is missing; 6 a model cannot be used; 7 the budget is spent; "
+    "8 a check failed; 9 a question is open; 70 an internal defect, with a report to send; 130 interrupted."
 )
 
 

@@ -28,13 +28,14 @@ GeneratorName = Annotated[
     ),
 ]
 GeneratorTime = Annotated[
-    float, typer.Option("--generator-time-limit", metavar="SECONDS", help="For a program that makes the mesh.")
+    float, typer.Option("--generator-time-limit", metavar="SECONDS", help="Time limit of a program that makes the mesh.")
 ]
 Regenerate = Annotated[
-    bool, typer.Option("--regenerate", help="Make, and pay for, another mesh; else one made for the same request is used.")
+    bool,
+    typer.Option("--regenerate", help="Make, and pay for, another mesh for a request that was made before."),
 ]
 DryRun = Annotated[bool, typer.Option("--dry-run", help="Explain each step and its cost; nothing is sent, paid or written.")]
-GENERATION_HELPS = {"max_calls": "Paid tasks and calls of a model together: none is made beyond so many."}
+GENERATION_HELPS = {"max_calls": "Maximum number of paid tasks and model calls together."}
 
 
 @with_options

@@ -22,7 +22,7 @@ def mcp(folders: Folders, http: Http = False, host: Host = "127.0.0.1", port: Po
     if host not in LOOPBACK:
         raise OptionError(f"--host: found {host!r}; valid are {', '.join(LOOPBACK)}: there is no password")
     if find_spec("mcp") is None:
-        raise MissingExtraError("the MCP server is not installed; `pip install articulate-anymesh[mcp]` brings it")
+        raise MissingExtraError("the MCP server is not installed; install it with `pip install articulate-anymesh[mcp]`")
     from anymesh.agents.server_ import serve_http, serve_stdio
 
     names = [str(folder) for folder in folders]

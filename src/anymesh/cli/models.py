@@ -41,12 +41,12 @@ def models(json_: Json = False) -> None:
     if json_:
         typer.echo(json.dumps(record, indent=2))
         return
-    words = {True: "takes pictures", False: "text only", None: "not known whether it takes pictures"}
+    words = {True: "takes pictures", False: "text only", None: "support for pictures is not known"}
     for f in found:
         typer.echo(plain(f"{f.server} at {f.url or 'no address'}: {f.note or f'{len(f.models or ())} models'}"))
         for m in f.models or ():
             typer.echo(plain(f"  {m.name}  ({words[m.takes_pictures]})"))
         if f.models is None:
-            typer.echo(f"  elsewhere: set {' or '.join(SERVERS[f.server].variables)}")
+            typer.echo(f"  to use another address, set {' or '.join(SERVERS[f.server].variables)}")
     typer.echo("keys: " + ", ".join(f"{k['variable']} {'is set' if k['set'] else 'is not set'}" for k in keys))
-    typer.echo(f"--answerer auto takes {record['auto']}; without any model, --answerer files:FOLDER asks you or your agent")
+    typer.echo(f"--answerer auto uses {record['auto']}; without a model, you or your agent can answer: --answerer files:FOLDER")

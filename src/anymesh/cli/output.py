@@ -95,7 +95,7 @@ def chosen_answerer(name: str, hidden: bool) -> str:
 
 
 def _spent(usage: dict[str, Any], out: Path) -> str:
-    cost = "at a price that is not known" if usage["cost_usd"] is None else f"{usage['cost_usd']:.4f} USD"
+    cost = "at an unknown price" if usage["cost_usd"] is None else f"{usage['cost_usd']:.4f} USD"
     tokens = f"{usage['input_tokens']} + {usage['output_tokens']} tokens"
     told = f"{usage['calls']} calls ({usage['cached_calls']} from the cache), {tokens}, {cost}"
     return f"{told}; every question with its pictures: {out / 'transcript' / 'index.html'}"

@@ -15,17 +15,17 @@ AssetPath = Annotated[
 ]
 RobotName = Annotated[str, typer.Option("--robot", help="panda, ur5e, or the path of a URDF or MJCF.")]
 JointName = Annotated[str, typer.Option("--joint", help="The joint's name, or that of the part it carries.")]
-To = Annotated[str, typer.Option("--to", help="Where it is brought from rest: radians or metres, or with a unit: 60deg, 10mm.")]
+To = Annotated[str, typer.Option("--to", help="Target position: radians or metres, or with a unit: 60deg, 10mm.")]
 Out = Annotated[Path, typer.Option("--out", "-o", metavar="FILE", help="The trajectory.")]
 Kind = Annotated[
     str, typer.Option("--format", help="json (all), csv, or ros: the fields of trajectory_msgs/JointTrajectory as JSON.")
 ]
-Base = Annotated[str, typer.Option(help="Of the robot in the asset frame: auto, or X,Y,Z,YAW in metres and degrees.")]
+Base = Annotated[str, typer.Option(help="Robot's base in the asset frame: auto, or X,Y,Z,YAW in metres and degrees.")]
 ContactKind = Annotated[str, typer.Option("--contact", help="auto, grasp or push.")]
-Tool = Annotated[str | None, typer.Option(help="The hand's body, of a robot by path whose joints part before its hand.")]
-Gripper = Annotated[str, typer.Option(help="The gripper's joints, with commas between, of such a robot.")]
+Tool = Annotated[str | None, typer.Option(help="Body of the hand, for a robot by path whose tree branches before the hand.")]
+Gripper = Annotated[str, typer.Option(help="Joints of the gripper of such a robot, comma-separated.")]
 Speed = Annotated[float, typer.Option(help="Share of the joints' limits of velocity and acceleration.")]
-Seconds = Annotated[float, typer.Option("--seconds", help="After which nothing further is tried.")]
+Seconds = Annotated[float, typer.Option("--seconds", help="Time after which no further attempt is made.")]
 Video = Annotated[
     Path | None,
     typer.Option(metavar="FILE", help="Replay it in MuJoCo on the asset itself: .mp4 (extra video) or .png, a contact sheet."),

@@ -26,13 +26,13 @@ Recording = Annotated[
 File = Annotated[
     Path, typer.Option("--out", "-o", metavar="FILE", help="The .glb file; FILE's name.scan.json is written beside.")
 ]
-Voxel = Annotated[float | None, typer.Option(metavar="METRES", help="Of a voxel; 1/400 of the object when not given.")]
-Scale = Annotated[float | None, typer.Option(metavar="FACTOR", help="Metres per unit of the poses; COLMAP needs it.")]
+Voxel = Annotated[float | None, typer.Option(metavar="METRES", help="Size of a voxel; default: 1/400 of the object.")]
+Scale = Annotated[float | None, typer.Option(metavar="FACTOR", help="Metres per unit of the poses; required for COLMAP.")]
 DepthScale = Annotated[float | None, typer.Option("--depth-scale", metavar="FACTOR", help="Metres per unit of the depth maps.")]
 DepthMax = Annotated[float, typer.Option("--depth-max", metavar="METRES", help="Depth beyond it is ignored.")]
-Crop = Annotated[str, typer.Option(metavar="X0,Y0,Z0,X1,Y1,Z1", help="Box of the recording's world [m] that is looked at.")]
-KeepFloor = Annotated[bool, typer.Option("--keep-floor", help="Look for no floor or table, and cut none off.")]
-Faces = Annotated[int, typer.Option(help="The surface is simplified to about so many.")]
+Crop = Annotated[str, typer.Option(metavar="X0,Y0,Z0,X1,Y1,Z1", help="Region of the recording's world that is used [m].")]
+KeepFloor = Annotated[bool, typer.Option("--keep-floor", help="Keep everything: search for no floor or table.")]
+Faces = Annotated[int, typer.Option(help="Approximate number of faces after simplification.")]
 
 
 def scan(

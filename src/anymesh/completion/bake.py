@@ -48,7 +48,7 @@ def bake(mesh: Mesh, *, size: int = 1024, padding: int = 2) -> tuple[Mesh, tuple
     layout = check_layout(mesh, size, padding)
     seen = see_through(mesh)
     materials = atlas_materials(layout, mesh, "atlas", clear=bool(seen.any()))
-    notes = [f"looks baked to {size} x {size} px: {layout.charts} charts, {layout.scale:.3g} px a metre"]
+    notes = [f"appearance baked to {size} x {size} px: {layout.charts} charts, {layout.scale:.3g} px per metre"]
     lost = sorted({slot for m in mesh.materials for slot in m.textures} & {"normal", "occlusion"})
     if lost:
         notes.append(f"not baked: {', '.join(lost)} maps")

@@ -42,7 +42,7 @@ def add_walls(panel: PanelBox, panels: Sequence[PanelBox], growing: Growing, con
                 low[2] = first
                 new = board(low, high, panel.axes)
                 if not crosses(movers, low, high, panel.axes) and moves_freely(panel.part, growing, growing, beside=new):
-                    growing.add(parent, new, ["a wall put beside the hollow of a moving part"])
+                    growing.add(parent, new, ["wall added beside the cavity of a moving part"])
                     break
 
 

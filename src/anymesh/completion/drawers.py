@@ -44,7 +44,7 @@ def add_box(panel: PanelBox, growing: Growing, config: ShapeConfig) -> None:
         if moves_freely(panel.part, growing, growing, added=box):
             reach = high[2] - low[2]
             growing.add(
-                panel.part, box, [f"a drawer's box put behind its front, {reach:.2g} m deep for a travel of {travel:.2g} m"]
+                panel.part, box, [f"drawer box added behind its front, {reach:.2g} m deep for a travel of {travel:.2g} m"]
             )
             return
     growing.add(panel.part, np.zeros((0, 3, 3)), ["no drawer box added: none moves without collision"])

@@ -89,7 +89,7 @@ def match_pieces(pieces: Mapping[str, PartMesh], parts: Mapping[str, PartMesh]) 
         return {name: piece for name, piece in pieces.items() if len(piece.faces)}
     if len(pieces) != len(parts):
         raise ModelError(
-            f"HoloPart gave {len(pieces)} parts for {len(parts)}, under names that were not sent: {sorted(pieces)[:5]}"
+            f"HoloPart returned {len(pieces)} parts for {len(parts)}, under names that were not sent: {sorted(pieces)[:5]}"
         )
     off = np.empty((len(parts), len(pieces)))
     for row, part in enumerate(parts.values()):

@@ -68,7 +68,7 @@ class Remote:
         return Painted(replace(asset, mesh=self._transferred(back, asset)), (*baked.notes, note))
 
     def _refused(self, baked: Painted, why: str) -> Painted:
-        return replace(baked, notes=(*baked.notes, f"{self.name}: not accepted, {why}; the built-in looks stay"))
+        return replace(baked, notes=(*baked.notes, f"{self.name}: not accepted, {why}; the built-in textures are kept"))
 
     def _transferred(self, back: Mesh, asset: Asset) -> Mesh:
         ours = asset.mesh

@@ -46,7 +46,7 @@ def complete_shapes(
     for part in growing.scenes.order:
         _free_again(part, touched, growing, config)
     if growing.late():
-        deadline.leave_out("completion: some surfaces stay open")
+        deadline.leave_out("completion: some surfaces remain open")
         return _grown(asset, growing)
     carrier = {k: growing.scenes.carriers(k)[0] for k in growing.scenes.joint}
     near = [k for k in growing.scenes.order if k in touched or carrier.get(k) in touched]

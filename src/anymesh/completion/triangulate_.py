@@ -19,5 +19,5 @@ def triangulate(outlines: Sequence[Float[np.ndarray, "n 2"]]) -> Int[np.ndarray,
     try:
         from manifold3d import triangulate as cut
     except ImportError:
-        raise MissingExtraError("manifold3d is missing; it comes with articulate-anymesh, install that again") from None
+        raise MissingExtraError("manifold3d is missing; it is a dependency of articulate-anymesh; reinstall that") from None
     return np.asarray(cut([np.ascontiguousarray(o, np.float64) for o in outlines]), np.int64).reshape(-1, 3)

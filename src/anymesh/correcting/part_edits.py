@@ -53,7 +53,7 @@ def split_part(asset: Asset, c: SplitPart) -> Asset:
     if not mine[faces].all():
         raise CorrectionError(f"{int((~mine[faces]).sum())} of {len(faces)} faces are not of {c.part!r}; choose faces of it")
     if len(faces) == int(mine.sum()):
-        raise CorrectionError(f"these are all faces of {c.part!r}; a split leaves some of them")
+        raise CorrectionError(f"these are all faces of {c.part!r}; a split must leave some of them")
     return _with_new_parts(asset, c.part, [faces], [_new_name(asset, c.name)], c.label)
 
 

@@ -53,7 +53,7 @@ def save_asset(opened: Opened) -> Opened:
             raise StaleError(f"{opened.folder} is being saved by another process; try again")
         with RunFolder.revise(opened.folder) as run:
             if run.last_key() != opened.version:
-                raise StaleError(f"{opened.folder} was saved by someone else since it was opened; open it again to go on")
+                raise StaleError(f"{opened.folder} was saved by someone else since it was opened; open it again to continue")
             _write(run, opened.history)
             version = run.last_key()
     return replace(opened, version=version)

@@ -28,7 +28,7 @@ def executability(sample: EvalSample, segmentation: Segmentation, joints: tuple[
     """
     faults = drive(sample.mesh, segmentation, joints)
     if sample.truth.joints and not _movable(joints):
-        faults = ("object: nothing was found that moves",)
+        faults = ("object: no moving part was found",)
     return replace(found, executable=not faults, faults=faults)
 
 

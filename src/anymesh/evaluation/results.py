@@ -40,7 +40,7 @@ class ResultsFolder:
         begun = read_json(folder / SETTINGS) if folder.is_dir() else None
         ours = begun is not None and begun.get("generator") == GENERATOR
         if not ours and folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
-            raise OutputError(f"{folder} is not empty and no evaluation of anymesh; choose another folder")
+            raise OutputError(f"{folder} is not empty and not an evaluation of anymesh; choose another folder")
         kept = {k: v for k, v in (begun or {}).items() if k != "generator"}
         differing = sorted(k for k in {*kept, *settings} - {*NEW} if kept.get(k) != settings.get(k))
         if ours and differing and not force:

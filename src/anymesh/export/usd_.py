@@ -34,7 +34,7 @@ def _pxr() -> ModuleType:
         import pxr.UsdShade
         import pxr.Vt
     except ImportError as error:
-        raise MissingExtraError("USD is not installed; `pip install articulate-anymesh[usd]` brings it") from error
+        raise MissingExtraError("USD is not installed; install it with `pip install articulate-anymesh[usd]`") from error
     return pxr
 
 

@@ -70,7 +70,7 @@ class RayScene:
             from embreex.mesh_construction import TriangleMesh  # ty: ignore[import-not-found]
             from embreex.rtcore_scene import EmbreeScene  # ty: ignore[import-not-found]
         except ImportError:
-            raise MissingExtraError("embreex is missing; it comes with articulate-anymesh, install that again") from None
+            raise MissingExtraError("embreex is missing; it is a dependency of articulate-anymesh; reinstall that") from None
         low, high = bounds_of(vertices)
         self.center, self.scale = (low + high) / 2, 1.0 / (float((high - low).max()) or 1.0)
         self.unit_half = ((high - low) / 2 * self.scale).astype(np.float32)  # half extents of the bounds in the unit frame

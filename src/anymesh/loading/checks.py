@@ -34,7 +34,7 @@ def check_file(path: Path) -> bytes:
     if not path.exists():
         raise InputError(f"found no file {path}")
     if not path.is_file():
-        raise InputError(f"{path} is no file; a mesh file is expected ({', '.join(FORMATS)})")
+        raise InputError(f"{path} is not a file; a mesh file is expected ({', '.join(FORMATS)})")
     suffix = path.suffix.lower()
     if suffix not in FORMATS:
         raise InputError(f"{path.name}: found the format {suffix or '(none)'}; valid are {', '.join(FORMATS)}")
@@ -49,7 +49,7 @@ def check_file(path: Path) -> bytes:
         raise InputError(f"{path.name} cannot be opened: {error.strerror}") from None
     if not _plausible(suffix, data):
         seems = next((f"; it looks like {kind}" for kind, sign in SIGNS.items() if re.match(sign, data)), "")
-        raise InputError(f"{path.name}: the content is no {suffix[1:].upper()} file{seems}; is the extension right?")
+        raise InputError(f"{path.name}: the content is not {suffix[1:].upper()} file{seems}; is the extension right?")
     return data
 
 

@@ -67,7 +67,7 @@ def _up(loaded: LoadedMesh, up: str) -> tuple[str, str]:
     if up != "auto":
         raise OptionError(f"--up: found {up!r}; valid are auto, x, y, z")
     if loaded.format_up is not None:
-        return loaded.format_up, f"up axis {loaded.format_up} (told by the format)"
+        return loaded.format_up, f"up axis {loaded.format_up} (defined by the format)"
     return infer_up(loaded.mesh, "y" if loaded.path.lower().endswith(".obj") else "z")
 
 

@@ -142,7 +142,7 @@ def _rows(name: str, element: Element, order: str, body: bytes, at: int) -> tupl
                 )
                 at += count.itemsize
             if not 0 <= told * kind.itemsize <= len(body) - at:  # also false for NaN
-                raise InputError(f"{name} is truncated: {element.name!r} {row + 1} of {element.count} is not whole")
+                raise InputError(f"{name} is truncated: {element.name!r} {row + 1} of {element.count} is incomplete")
             end = at + int(told) * kind.itemsize
             found[label].append(body[at:end])
             counts[label].append(int(told))

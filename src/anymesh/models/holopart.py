@@ -157,4 +157,4 @@ def _last_words(path: Path) -> str:
     with path.open("rb") as file:
         file.seek(max(0, path.stat().st_size - 4000))
         lines = [line.strip() for line in file.read().decode("utf-8", "replace").splitlines() if line.strip()]
-    return f"; its last words: {SECRET.sub('[removed]', lines[-1])[:LONGEST]}" if lines else ""
+    return f"; the end of its output: {SECRET.sub('[removed]', lines[-1])[:LONGEST]}" if lines else ""

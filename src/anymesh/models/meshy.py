@@ -40,6 +40,6 @@ class Meshy(PaidTasks):
     def _body(self, glb: bytes, prompt: str) -> bytes:
         uri = "data:application/octet-stream;base64," + base64.b64encode(glb).decode("ascii")
         if len(uri) > LARGEST_MODEL:
-            raise ModelError(f"meshy: the model takes {len(uri)} bytes to send, at most {LARGEST_MODEL} are taken")
+            raise ModelError(f"meshy: the model takes {len(uri)} bytes to send, at most {LARGEST_MODEL} are accepted")
         asked = {"ai_model": self.model, "enable_original_uv": True, "enable_pbr": True}
         return json.dumps({"model_url": uri, "text_style_prompt": prompt, **asked}).encode()

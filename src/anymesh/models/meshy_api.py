@@ -90,7 +90,7 @@ def create_task(kind: TaskKind, body: bytes, timeout: float) -> str:
     """Create a paid task and return its id. Raise LostError if it may have been created although no answer arrived."""
     made = _said(_call(kind, "POST", "", timeout, body)).get("result")
     if not (isinstance(made, str) and TASK_ID.fullmatch(made)):
-        raise LostError("meshy: the service took the task and named no valid id")
+        raise LostError("meshy: the service accepted the task without a valid id")
     return made
 
 
@@ -115,7 +115,7 @@ def download_glb(url: str, timeout: float) -> bytes:
     if kind.startswith(WRITTEN):
         raise ModelError(f"meshy's result: found content of type {kind[:60]!r}, valid is a GLB")
     if answer.body[:4] != b"glTF" or int.from_bytes(answer.body[8:12], "little") != size:
-        raise ModelError(f"meshy's result is no whole GLB: {size} bytes that start with {answer.body[:12]!r}")
+        raise ModelError(f"meshy's result is not a complete GLB: {size} bytes that start with {answer.body[:12]!r}")
     return answer.body
 
 
@@ -127,7 +127,7 @@ def _call(kind: TaskKind, method: str, rest: str, timeout: float, body: bytes | 
         raise _refusal(kind, answer)
     told = _json(answer)
     if told is None:
-        raise LostError("meshy: the answer is no JSON")
+        raise LostError("meshy: the answer is not JSON")
     return told
 
 

@@ -92,7 +92,7 @@ class PaidTasks:
             task = self._lost(held, order) or self._create(order)
             write_pending(order.state, Pending(order.digest, task))
         else:
-            log.info("meshy: going on with task %s", task)
+            log.info("meshy: resuming task %s", task)
         found = self._wait(order, task)
         self.credits += found.credits if self.calls > before else 0.0
         bought = Bought(task, found.credits, found.seed)
@@ -105,7 +105,7 @@ class PaidTasks:
         def fetch() -> bytes:
             url = self._look(order, task).url
             if url is None:
-                raise ModelError(f"meshy: task {task} succeeded and names no GLB")
+                raise ModelError(f"meshy: task {task} succeeded without a GLB")
             return download_glb(url, 10 * self.timeout)
 
         return self._persist(fetch)
@@ -117,7 +117,7 @@ class PaidTasks:
         credits = sum(kind.credits for kind in kinds)
         what = f"{kinds[0].name} takes" if len(kinds) == 1 else f"{' and '.join(kind.name for kind in kinds)} take"
         spent = f"spent so far: {self.calls} tasks, {self.credits:g} credits"
-        raise BudgetError(f"meshy: {what} about {credits} credits and would pass --max-calls {self.max_calls}; {spent}")
+        raise BudgetError(f"meshy: {what} about {credits} credits and would exceed --max-calls {self.max_calls}; {spent}")
 
     def _create(self, order: Order) -> str:
         """Create a task and return its id. If the id does not arrive, look for the task before creating another one."""
@@ -179,7 +179,7 @@ class PaidTasks:
                 again = f"a rerun makes a new one (about {kind.credits} credits)"
                 raise ModelError(f"meshy: task {task} is {now.status}{now.error}; {again}")
             if time.monotonic() > end:
-                raise ModelError(f"meshy: task {task} is still {now.status} after {self.patience:g} s; a rerun goes on with it")
+                raise ModelError(f"meshy: task {task} is still {now.status} after {self.patience:g} s; a rerun resumes it")
             log.info("meshy: task %s is %s, %d %%", task, now.status, now.progress)
             self.sleep(pause)
             pause = min(30.0, 1.3 * pause)
@@ -192,7 +192,7 @@ class PaidTasks:
                 raise
         order.state.unlink(missing_ok=True)
         again = f"a rerun makes a new one (about {order.kind.credits} credits)"
-        raise ModelError(f"meshy: the service knows no task {task} any more; {again}")
+        raise ModelError(f"meshy: the service no longer has task {task}; {again}")
 
     def _persist(self, call: Callable[[], T]) -> T:
         return persist(call, sleep=self.sleep, chance=self.chance)

@@ -43,7 +43,7 @@ def _library() -> ModuleType:
         return importlib.import_module("huggingface_hub")
     except ImportError as error:
         raise MissingExtraError(
-            "huggingface_hub is not installed; `pip install articulate-anymesh[sam]` brings it; "
+            "huggingface_hub is not installed; install it with `pip install articulate-anymesh[sam]`; "
             "or give a folder that holds the weights: sam:FOLDER"
         ) from error
 

@@ -176,7 +176,7 @@ def _session(path: Path) -> Any:
     try:  # imported by name, because type checks also run without the library
         runtime = importlib.import_module("onnxruntime")
     except ImportError as error:
-        raise MissingExtraError("ONNX Runtime is not installed; `pip install articulate-anymesh[sam]` brings it") from error
+        raise MissingExtraError("ONNX Runtime is missing; install it with `pip install articulate-anymesh[sam]`") from error
     wanted = ("CUDAExecutionProvider", "CPUExecutionProvider")
     providers = [p for p in wanted if p in runtime.get_available_providers()]
     try:

@@ -94,6 +94,6 @@ def _library(name: str) -> ModuleType:
         return importlib.import_module(name)
     except ImportError as error:
         raise MissingExtraError(
-            f"{name} is not installed; `pip install articulate-anymesh[sam-torch]` brings it; "
+            f"{name} is not installed; install it with `pip install articulate-anymesh[sam-torch]`; "
             "weights in ONNX files need only the extra `sam`"
         ) from error

@@ -119,9 +119,9 @@ def _read(call: Call, response: http.client.HTTPResponse, headers: Mapping[str, 
         chunks.append(chunk)
         size += len(chunk)
         if size > call.max_bytes:
-            return ModelError(f"{call.name}: the answer is larger than {call.max_bytes} bytes, which is the most that is read")
+            return ModelError(f"{call.name}: the answer is larger than {call.max_bytes} bytes, the maximum")
         if time.monotonic() > end:
-            return LostError(f"{call.name}: the answer was not whole within {call.timeout:g} s")
+            return LostError(f"{call.name}: the answer was not complete within {call.timeout:g} s")
     told = headers.get("content-length", "")
     if told.isdecimal() and size < int(told):
         return LostError(f"{call.name}: the answer broke off after {size} of {told} bytes")

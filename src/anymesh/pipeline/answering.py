@@ -138,11 +138,11 @@ def resolve_auto(name: str) -> tuple[str, str]:
         return name, ""
     found = first_vision_model(probe_servers())
     if found is None:
-        return GEOMETRY.name, "auto takes geometry: no local model that takes pictures answers (`anymesh models`)"
+        return GEOMETRY.name, "auto uses geometry: no local model that accepts pictures responds (`anymesh models`)"
     if find_spec("pydantic_ai") is None:
-        told = f"auto takes geometry: {found.name} answers, but its client is missing: pip install 'articulate-anymesh[vlm]'"
+        told = f"auto uses geometry: {found.name} responds, but its client is missing: pip install 'articulate-anymesh[vlm]'"
         return GEOMETRY.name, told
-    return found.name, f"auto takes {found.name}, which answers on this machine"
+    return found.name, f"auto uses {found.name}, which runs on this machine"
 
 
 def _from_files(

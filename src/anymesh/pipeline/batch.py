@@ -72,7 +72,7 @@ def mesh_files(meshes: Sequence[str | Path]) -> dict[str, Path]:
             raise InputError(f"{given} holds no mesh; valid are files with {', '.join(FORMATS)}")
         for path in inside:
             if path.stem in found and found[path.stem] != path:
-                raise OptionError(f"--batch tells objects apart by name, and {found[path.stem]} and {path} have the same")
+                raise OptionError(f"--batch identifies objects by name; {found[path.stem]} and {path} have the same")
             found[path.stem] = path
     return found
 
@@ -90,5 +90,5 @@ def _is_done(mesh: Path, target: Path, answerer: str, *, force: bool) -> bool:
     expected = NAME if answerer.startswith(FILES) else answerer
     if not same or (asset.get("answerer") != expected and not answerer.startswith("replay:")):
         what = f"by {asset.get('answerer')!r}" if same else "from another version of the mesh"
-        raise OutputError(f"{target} was made {what}; --force makes it anew, or choose another folder")
+        raise OutputError(f"{target} was made {what}; --force replaces it, or choose another folder")
     return True

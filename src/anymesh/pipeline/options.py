@@ -65,7 +65,7 @@ class AnswererOptions:
     verify: str = _option(
         "motion", "motion: a model chooses among motions; free: its picks are used unless blocked; off: the paper's method."
     )
-    category: str | None = _option(None, "What the object is; used by models, not by geometry.", kind=str)
+    category: str | None = _option(None, "Kind of object, such as fridge; for models and for --scale auto.", kind=str)
     timeout: float = _option(CALL_SECONDS, "Time-out of one model call.", metavar="SECONDS")
     wait: bool = _option(False, "With files:FOLDER, wait for missing answers.", "--wait")
     max_calls: int | None = _option(None, "Maximum number of model calls.", kind=int)
@@ -135,5 +135,5 @@ class RunOptions:
 
     force: bool = _option(False, "Replace an existing output.", "--force")
     time_limit: float = _option(
-        DEFAULT_SECONDS, "Stages shorten their work, with a warning, past shares of it.", metavar="SECONDS"
+        DEFAULT_SECONDS, "Time limit of a run; when shares of it are spent, stages shorten their work.", metavar="SECONDS"
     )

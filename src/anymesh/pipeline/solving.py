@@ -233,7 +233,7 @@ def reference_of(mesh: Mesh, segmentation: Segmentation, joints: tuple[Joint, ..
 def _segmentation_result(
     segmentation: Segmentation, name: str, answerer: VisualAnswerer | None = None, warnings: tuple[str, ...] = ()
 ) -> SegmentationResult:
-    none = ("nothing was found that moves",) if len(segmentation.parts) == 1 else ()
+    none = ("no moving part was found",) if len(segmentation.parts) == 1 else ()
     noted = answerer.warnings if answerer else ()
     return SegmentationResult(segmentation, name, (*noted, *warnings, *none), answerer.exchanges if answerer else ())
 

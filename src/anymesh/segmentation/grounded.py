@@ -73,4 +73,4 @@ def _pointed(answerer: VisualAnswerer) -> str:
     """Return the origin of the parts: the answerer of the question about marks."""
     if any(e.kind == "marks" and e.given_up for e in answerer.exchanges):
         return f"geometry points at it in place of {answerer.name}"
-    return f"pointed at by {answerer.name}"
+    return f"identified by {answerer.name}"

@@ -34,6 +34,6 @@ def named_parts(
     renumber[present] = np.arange(1, len(present) + 1)
     own = [labels[k - 1] for k in present]
     names = legal_names(["base", *(n if own.count(n) == 1 else f"{n}_{own[: i + 1].count(n)}" for i, n in enumerate(own))])
-    parts = [Part("base", "base", 1.0, "what is left when the movable parts are taken")]
+    parts = [Part("base", "base", 1.0, "everything that is not a movable part")]
     parts += [Part(name, labels[k - 1], confidence[k - 1], reason[k - 1]) for name, k in zip(names[1:], present, strict=True)]
     return Segmentation(renumber[face_part], tuple(parts))

@@ -153,7 +153,7 @@ def _faults(joint: RobotJoint, read: ReadBack, reached: tuple[float, float], off
         if abs(at - limit) > REACHED_RATIO * span:
             faults.append(f"a motor brings it to {at:.4g} only, not to its {word} limit {limit:.4g}")
     if abs(reached[1] - reached[0]) < REACHED_RATIO * span:
-        faults.append("it is stuck")
+        faults.append("it does not move")
     if off > DEEP * extent:
-        faults.append(f"its link is {off:.4g} m from where the joint should hold it")
+        faults.append(f"its link is {off:.4g} m from where the joint should place it")
     return tuple(faults)

@@ -162,9 +162,9 @@ def _faults(bench: MujocoBench, found: JointSweep, blew_up: bool) -> tuple[str, 
         if abs(reached - limit) > REACHED_RATIO * span:
             faults.append(f"a motor brings it to {reached:.4g} only, not to its {word} limit {limit:.4g}")
     if abs(found.reached_upper - found.reached_lower) < REACHED_RATIO * span:
-        faults.append("it is stuck")
+        faults.append("it does not move")
     if found.penetration is not None and found.penetration > DEEP * bench.extent:
-        faults.append(f"on its way it goes {found.penetration:.4g} m into {found.against!r}")
+        faults.append(f"on its way it penetrates {found.against!r} by {found.penetration:.4g} m")
     if found.off > DEEP * bench.extent:
-        faults.append(f"its link is {found.off:.4g} m from where the joint should hold it")
+        faults.append(f"its link is {found.off:.4g} m from where the joint should place it")
     return tuple(faults)

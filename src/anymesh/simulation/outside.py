@@ -14,7 +14,7 @@ def load_engine(module: str, *, shown: str, extra: str) -> ModuleType:
     try:
         return import_module(module)
     except ImportError as error:
-        told = f"{shown} is not installed ({error}); `pip install articulate-anymesh[{extra}]` brings it"
+        told = f"{shown} is not installed ({error}); install it with `pip install articulate-anymesh[{extra}]`"
         raise MissingExtraError(told) from error
 
 

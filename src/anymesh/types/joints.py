@@ -43,11 +43,11 @@ class Joint:
             raise ValueError(f"joint {self.name!r}: a reason in words is needed")
         limited = self.type in (JointType.REVOLUTE, JointType.PRISMATIC)
         if limited != (self.limits is not None):
-            raise ValueError(f"joint {self.name!r}: limits {self.limits} do not go with type {self.type}")
+            raise ValueError(f"joint {self.name!r}: limits {self.limits} do not match type {self.type}")
         if self.limits is None:
             return
         lower, upper = self.limits
         if not (-np.inf < lower <= 0 <= upper < np.inf and lower < upper):
             raise ValueError(
-                f"joint {self.name!r}: limits must be finite, hold the rest pose 0 and a range, found {self.limits}"
+                f"joint {self.name!r}: limits must be finite and contain the rest pose 0 and a range, found {self.limits}"
             )

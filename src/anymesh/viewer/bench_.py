@@ -26,7 +26,7 @@ log = logging.getLogger("anymesh")
 TICK, LOOK = 0.05, 0.25  # [s] between poses, and between checks of the work
 ALONE, MYSELF = "are left to geometry", "are put to me"
 UPS = ("auto", "x", "y", "z")
-BUSY = "one mesh at a time; cancel the work on this one first"
+BUSY = "one mesh at a time; cancel the current one first"
 
 
 @dataclass(frozen=True)
@@ -171,7 +171,7 @@ class Workbench:
                     looked = time.monotonic()
             except Exception as error:  # a bug must not leave an unresponsive page
                 log.exception("the work on %s could not be followed", self._name)
-                message = f"The work on {self._name} was ended by an internal defect, {type(error).__name__}: {error}"
+                message = f"The work on {self._name} failed with an internal defect, {type(error).__name__}: {error}"
                 self._page.act(lambda message=message: self._give_up(message))
 
     def _look(self) -> None:

@@ -27,7 +27,7 @@ if (!window.anymeshDrop) {
   window.addEventListener('drop', (event) => {
     event.preventDefault(); paint(false);
     const files = event.dataTransfer.files, to = input();
-    if (!to) { tell('Wait for the work to end, or cancel it, before the next mesh.'); return; }
+    if (!to) { tell('Wait until the current mesh is done, or cancel it.'); return; }
     if (files.length !== 1) { tell('Drop one file; several that belong together as a zip.'); return; }
     to.files = files;
     to.dispatchEvent(new Event('change', { bubbles: true }));
@@ -37,7 +37,7 @@ if (!window.anymeshDrop) {
     tell('');
     if (event.target.files[0].size > most) {
       event.stopImmediatePropagation();
-      tell('The file is larger than ' + Math.round(most / 1048576) + ' MB, the most that is taken.');
+      tell('The file is larger than ' + Math.round(most / 1048576) + ' MB, the maximum.');
     }
   }, true);
 }

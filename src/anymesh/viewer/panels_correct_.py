@@ -43,7 +43,7 @@ class CorrectPanel:
         self._on(self._part, lambda: page.select(None if self._part.value == NONE else self._part.value))
         with self._motion_folder:
             self._find = gui.add_button(
-                "Find other motions", color=QUIET, hint="Those that the rest leaves free, the likeliest first"
+                "Find other motions", color=QUIET, hint="Motions that nothing blocks, the most likely first"
             )
             self._motion = gui.add_dropdown("Preview", (NOT_FOUND_YET,))
             self._use = gui.add_button("Use this motion")

@@ -35,7 +35,7 @@ TOOL_HINTS = {
     Tool.EDGE: "Click near an edge: the axis goes along it. Esc leaves.",
     Tool.PLANE: "Click a flat face: the axis goes along its normal. Esc leaves.",
     Tool.ROUND: "Click a round face: the axis becomes its own. Esc leaves.",
-    Tool.PATCH: "Click patches to choose their faces, again to let go. Esc leaves.",
+    Tool.PATCH: "Click patches to choose their faces, again to deselect. Esc leaves.",
     Tool.BRUSH: "Hold Shift and drag over faces to choose what is seen. Esc leaves.",
 }
 SNAPS, BRUSHES = (Tool.EDGE, Tool.PLANE, Tool.ROUND), (Tool.PATCH, Tool.BRUSH)

@@ -16,7 +16,7 @@ def write_mp4(frames: Iterable[UInt8[np.ndarray, "H W 3"]], path: Path, rate: fl
     try:
         from imageio_ffmpeg import write_frames
     except ImportError as error:
-        raise MissingExtraError("imageio-ffmpeg is not installed; `pip install articulate-anymesh[video]` brings it") from error
+        raise MissingExtraError("imageio-ffmpeg is missing; install it with `pip install articulate-anymesh[video]`") from error
     writer = None
     for frame in frames:
         if writer is None:

@@ -36,7 +36,7 @@ def displayed(asset: Asset, *, faces: int = FACES, pixels: int = PIXELS) -> tupl
     count = len(asset.mesh.faces)
     if count > faces:
         asset = _decimated(asset, faces)
-        return asset, (f"Decimated for display: {len(asset.mesh.faces):,} of {count:,} faces. The files keep them all.",)
+        return asset, (f"Decimated for display: {len(asset.mesh.faces):,} of {count:,} faces. The files are unchanged.",)
     largest, materials = 0, []
     for material in asset.mesh.materials:
         textures = {slot: _smaller(texture, pixels) for slot, texture in material.textures.items()}
@@ -44,7 +44,7 @@ def displayed(asset: Asset, *, faces: int = FACES, pixels: int = PIXELS) -> tupl
         materials.append(replace(material, textures={slot: texture for slot, (texture, _) in textures.items()}))
     if largest <= pixels:
         return asset, ()
-    told = f"Textures shrunk for display: from up to {largest} to {pixels} pixels. The files keep them as they are."
+    told = f"Textures shrunk for display: from up to {largest} to {pixels} pixels. The files are unchanged."
     return replace(asset, mesh=replace(asset.mesh, materials=tuple(materials))), (told,)
 
 

@@ -76,7 +76,7 @@ def _head(title: str, entries: Sequence[ReportEntry]) -> str:
         + "</tr>"
         for k, e in enumerate(entries)
     )
-    head = "<tr><th>asset, least sure first</th><th>joints</th><th>lowest confidence</th><th>warnings</th></tr>"
+    head = "<tr><th>asset, least confident first</th><th>joints</th><th>lowest confidence</th><th>warnings</th></tr>"
     table = f'<div class="wide"><table><thead>{head}</thead><tbody>{rows}</tbody></table></div>'
     folded = f"<details open><summary>All assets</summary>{table}</details>"
     return told + folded

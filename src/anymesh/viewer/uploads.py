@@ -32,7 +32,7 @@ def receive(name: str, content: bytes, folder: Path) -> Upload:
     Raise InputError for a file that is too large, of unknown format, or a zip that is unsafe or without exactly one mesh.
     """
     if len(content) > MAX_UPLOAD_BYTES:
-        raise InputError(f"the file has {_size(len(content))}; at most {_size(MAX_UPLOAD_BYTES)} are taken")
+        raise InputError(f"the file has {_size(len(content))}; at most {_size(MAX_UPLOAD_BYTES)} are accepted")
     folder.mkdir(parents=True)
     plain = plain_name(name)
     suffix = Path(plain).suffix.lower()

@@ -22,7 +22,7 @@ WORDS = {
     "joints": "finding how they move",
     "export": "writing the files",
 }
-CRASHED = "the work on this mesh ended unexpectedly ({}); it may need more memory than there is, or a library crashed"
+CRASHED = "processing of this mesh ended unexpectedly ({}); it may need more memory than there is, or a library crashed"
 
 
 class ArticulationWork:

@@ -34,7 +34,7 @@ def open_in(folder: Path) -> list[QuestionFolder]:
     """
     found = find_questions(folder)
     if not found:
-        raise OptionError(f"{folder} holds no questions; `anymesh articulate MESH -o DIR --answerer files:{folder}` asks some")
+        raise OptionError(f"{folder} has no questions; `anymesh articulate MESH -o DIR --answerer files:{folder}` creates them")
     return open_questions(found)
 
 

@@ -93,7 +93,7 @@ def _check_cost(model: str, requests: Mapping[str, Request], max_cost: float | N
     if len(known) < len(costs):
         raise OptionError(f"--max-cost needs a known price, and that of {model} is not")
     if SHARE * sum(known) > max_cost:
-        raise BudgetError(f"the job may cost up to {SHARE * sum(known):.4f} USD, which could pass --max-cost {max_cost:g}")
+        raise BudgetError(f"the job may cost up to {SHARE * sum(known):.4f} USD, which could exceed --max-cost {max_cost:g}")
 
 
 def _write(asked: Mapping[str, QuestionFolder], found: Mapping[str, Any]) -> BatchState:

@@ -24,9 +24,9 @@ class Limit:
         calls, cost: spent and reserved so far; kind: kind of the question; spent: both in words.
         """
         if self.calls is not None and calls >= self.calls:
-            raise BudgetError(f"{kind}: call {calls + 1} would pass --max-calls {self.calls}; {spent}")
+            raise BudgetError(f"{kind}: call {calls + 1} would exceed --max-calls {self.calls}; {spent}")
         if self.cost is not None and cost + most > self.cost:
-            told = f"the next call may cost up to {most:.4f} USD, which could pass --max-cost {self.cost:g}"
+            told = f"the next call may cost up to {most:.4f} USD, which could exceed --max-cost {self.cost:g}"
             raise BudgetError(f"{kind}: {told}; {spent}")
 
 

@@ -158,8 +158,8 @@ def _open(folder: QuestionFolder) -> OpenQuestionError:
     refused = f"the answer to {folder.kind!r} was refused ({folder.path / REFUSED} says why)"
     why = f"the question {folder.kind!r} is open" if folder.refusal() is None else refused
     return OpenQuestionError(
-        f"{why}: {folder.path / WORDS} asks it, {ANSWER} beside it or `anymesh answer {_quoted(place)} VALUE` answers it; "
-        "then run the same command again, it goes on from here",
+        f"{why}: read {folder.path / WORDS}, answer it by `anymesh answer {_quoted(place)} VALUE` or in {ANSWER} beside it, "
+        "then run the same command again to resume",
         [folder.path],
     )
 

@@ -48,7 +48,7 @@ def connect(name: str, *, timeout: float = CALL_SECONDS) -> Client:
         importlib.import_module(f"pydantic_ai.models.{address.provider.partition('-')[0]}")
     except ImportError:
         raise MissingExtraError(
-            f"the client of {address.provider} is not installed; `pip install articulate-anymesh[vlm]` brings it"
+            f"the client of {address.provider} is not installed; install it with `pip install articulate-anymesh[vlm]`"
         ) from None
     address.key()  # fail now rather than after the rendering
     return Client(name, address, timeout)

@@ -70,8 +70,7 @@ class VlmAnswerer:
         self._warnings.append(f"{self.name} gave no valid answer to {kind!r} ({why}); {other} answered it")
         if self._patience.first_time():
             self._warnings.append(
-                f"{self.name} was given up after {MAX_INVALID_ANSWERS} answers in a row that were not valid; {other} "
-                "answered the rest"
+                f"{self.name} was given up after {MAX_INVALID_ANSWERS} invalid answers in a row; {other} answered the rest"
             )
         self._exchanges[-1] = replace(self._exchanges[-1], verdict=f"not valid: {why}; {other} {FALLBACK_VERDICT}")
 

@@ -27,7 +27,7 @@ def test_a_budget_and_a_rate_hold_through_a_bridge(tmp_path, ledger) -> None:
     with Bridge(ask) as address:
         remote = RemoteMeter(address, "a", "token")
         hold = remote.hold("marks", 0.5, Limit(cost=0.6))
-        with pytest.raises(BudgetError, match=r"could pass --max-cost 0\.6"):
+        with pytest.raises(BudgetError, match=r"could exceed --max-cost 0\.6"):
             remote.hold("marks", 0.5, Limit(cost=0.6))
         remote.settle(hold, 0.2)
         assert (remote.calls, remote.cost) == spent(ledger) == (1, 0.2)

@@ -162,13 +162,13 @@ def test_the_budget_holds_over_processes_and_counts_by_object(tmp_path, ledger) 
         accounts = [LedgerAccount(stack.enter_context(Ledger.open(tmp_path / "out")), f"object {k}", f"t{k}") for k in range(2)]
         limit = Limit(cost=1.0)
         first = accounts[0].hold("marks", 0.6, limit)
-        with pytest.raises(BudgetError, match=r"could pass --max-cost 1; spent so far: 0 calls"):
+        with pytest.raises(BudgetError, match=r"could exceed --max-cost 1; spent so far: 0 calls"):
             accounts[1].hold("marks", 0.6, limit)
         accounts[0].settle(first, 0.25)
         second = accounts[1].hold("marks", 0.6, limit)
         accounts[1].settle(second, None)  # not answered: not billed
         assert (accounts[1].calls, accounts[1].cost) == (1, 0.25)
-        with pytest.raises(BudgetError, match="call 2 would pass --max-calls 1"):
+        with pytest.raises(BudgetError, match="call 2 would exceed --max-calls 1"):
             accounts[1].hold("marks", 0.0, Limit(calls=1))
     assert ledger.rows("SELECT name, calls, cost FROM objects") == [("object 0", 1, 0.25), ("object 1", 0, None)]
 

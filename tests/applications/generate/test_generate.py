@@ -200,8 +200,8 @@ def test_where_it_came_from_survives_an_export_and_corrections(articulations, pr
 
 def test_a_warning_tells_that_nothing_tells_the_size(program, tmp_path, quick) -> None:
     asset = generate("a contraption", tmp_path / "out", generator=program("--prompt {prompt} --out {out}"), **FAST)
-    assert any("nothing tells how large the object is" in w for w in asset.warnings)
-    assert record(tmp_path / "out")["warnings"] == [w for w in asset.warnings if "how large" in w]
+    assert any("the size of the object is not known" in w for w in asset.warnings)
+    assert record(tmp_path / "out")["warnings"] == [w for w in asset.warnings if "the size of the object" in w]
     assert STILL not in asset.warnings
 
 
@@ -222,7 +222,7 @@ def test_a_warning_tells_that_nothing_moves(program, tmp_path, quick, monkeypatc
 
 def test_looks_by_meshy_are_counted_in_and_limited(server, articulations, tmp_path, monkeypatch) -> None:
     monkeypatch.setattr("anymesh.completion.outside.Remote", partial(Remote, size=128, padding=1))
-    with pytest.raises(BudgetError, match="would pass --max-calls 0"):
+    with pytest.raises(BudgetError, match="would exceed --max-calls 0"):
         generate(PROMPT, tmp_path / "box", **FAST, texture="meshy:oak", max_calls=2)
     assert len(server.tasks) == 2
     generate(PROMPT, tmp_path / "box", **FAST, texture="meshy:oak", max_calls=1)
@@ -254,7 +254,7 @@ def test_a_service_that_refuses_leaves_nothing(server, quick, tmp_path, what, fa
 def test_a_result_that_is_no_mesh_is_fetched_again_unpaid(server, quick, tmp_path) -> None:
     good = server.model
     server.model = b"glTF" + (2).to_bytes(4, "little") + (20).to_bytes(4, "little") + b"12345678"
-    with pytest.raises(ModelError, match=r"meshy's result is no usable mesh: .*; a rerun fetches it again, unpaid"):
+    with pytest.raises(ModelError, match=r"meshy's result is not a usable mesh: .*; a rerun downloads it again at no cost"):
         generate(PROMPT, tmp_path / "box", **FAST)
     server.model = good
     server.fails("file", cuts)
@@ -276,7 +276,7 @@ def test_what_is_wrong_is_told_before_anything_is_paid(server, tmp_path, monkeyp
         ({"answerer": "magic:x"}, OptionError, "--answerer"),
         ({"time_limit": -1.0}, OptionError, "--time-limit"),
         ({"max_calls": -1}, OptionError, "--max-calls must be 0 or more"),
-        ({"max_calls": 1}, BudgetError, "take about 30 credits and would pass --max-calls 1"),
+        ({"max_calls": 1}, BudgetError, "take about 30 credits and would exceed --max-calls 1"),
         ({"prompt": " "}, OptionError, "empty prompt"),
         ({"prompt": "x" * 801}, OptionError, "1 to 800 characters"),
         ({"prompt": None}, OptionError, "neither a prompt nor --image nor --mesh"),
@@ -322,7 +322,7 @@ def test_a_dry_run_tells_each_step_and_touches_nothing(tmp_path, monkeypatch, se
     [done] = explain_generation(PROMPT, tmp_path / "box", **FAST).steps
     assert done.what == "return box as it is: it was finished by the same call"
     held = explain_generation(PROMPT, tmp_path / "box", **FAST, seed=3)
-    assert "would end at once" in held.warnings[0]
+    assert "would stop immediately" in held.warnings[0]
     assert explain_generation(PROMPT, tmp_path / "box", **FAST, seed=3, force=True, regenerate=True).credits == 30
     assert held.steps[0].what.startswith("use the mesh that an earlier run made")
     assert held.credits == 0

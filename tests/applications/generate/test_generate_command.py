@@ -59,7 +59,7 @@ def test_a_mesh_comes_back_and_no_shell_reads_the_prompt(program, tmp_path, monk
 
 def test_a_program_that_hangs_is_ended_with_what_it_started(program, tmp_path) -> None:
     hanging = opened(program("--prompt {prompt} --out {out} --fault hang"), time_limit=1.5)
-    with pytest.raises(ModelError, match=r"was ended: it took longer than 1\.5 s; its last words: step 1 of 50"):
+    with pytest.raises(ModelError, match=r"was ended: it took longer than 1\.5 s; the end of its output: step 1 of 50"):
         hanging.make(MeshRequest("box"), tmp_path, silent)
     pids = [int(p) for p in (tmp_path / "box.pids").read_text().split()]
     assert len(pids) == 2
@@ -80,7 +80,7 @@ def test_an_interrupt_ends_the_program_with_what_it_started(program, tmp_path) -
 def test_a_crash_says_its_last_words_without_what_looks_like_a_key(program, tmp_path) -> None:
     with pytest.raises(ModelError) as failed:
         opened(program("--prompt {prompt} --out {out} --fault crash")).make(MeshRequest("box"), tmp_path, silent)
-    assert "ended with status 3; its last words: CUDA out of memory: tried to allocate 20 GiB | token [removed]" in str(
+    assert "ended with status 3; the end of its output: CUDA out of memory: tried to allocate 20 GiB | token [removed]" in str(
         failed.value
     )
 
@@ -88,8 +88,8 @@ def test_a_crash_says_its_last_words_without_what_looks_like_a_key(program, tmp_
 @pytest.mark.parametrize(
     ("fault", "told"),
     [
-        ("nothing", r"ended and wrote no file at \{out\}; its last words: done, or so it says"),
-        ("garbage", "wrote a file that is no usable mesh"),
+        ("nothing", r"ended and wrote no file at \{out\}; the end of its output: done, or so it says"),
+        ("garbage", "wrote a file that is not a usable mesh"),
     ],
 )
 def test_what_is_no_mesh_is_told(program, tmp_path, fault, told) -> None:

@@ -54,6 +54,6 @@ def test_files_are_not_replaced_unasked_and_others_are_no_plans(door_plan, tmp_p
         write_plan(door_plan, path)
     with pytest.raises(OptionError, match="valid are json, csv, ros"):
         write_plan(door_plan, path, "yaml")
-    with pytest.raises(InputError, match="is no plan of anymesh"):
+    with pytest.raises(InputError, match="is not a plan of anymesh"):
         read_plan(path)
     assert path.read_text() == "{}"

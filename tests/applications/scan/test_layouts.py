@@ -108,7 +108,7 @@ def test_record3d_that_lacks_its_size(few: Frames, tmp_path: Path) -> None:
 def test_record3d_with_damaged_depth(few: Frames, tmp_path: Path) -> None:
     folder = as_record3d(few, tmp_path / "r")
     (folder / "rgbd" / "0.depth").write_bytes(b"none of this is compressed")
-    with pytest.raises(InputError, match="no LZFSE data"):
+    with pytest.raises(InputError, match="not LZFSE data"):
         read_frames(folder).frames[0].observe()
 
 

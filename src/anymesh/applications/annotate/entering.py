@@ -31,7 +31,7 @@ def enter_objects(ledger: Ledger, requests: Iterable[ObjectRequest]) -> int:
         for request in batch:
             digest = hash(request.name)
             if digest in names:
-                raise InputError(f"found two objects of the name {request.name[:200]!r}; valid is a name each (column `name`)")
+                raise InputError(f"found two objects of the name {request.name[:200]!r}; names must be unique (column `name`)")
             names.add(digest)
         count += len(batch)
         with ledger.writing() as connection:

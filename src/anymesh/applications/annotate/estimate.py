@@ -64,16 +64,16 @@ class Estimate:
         most = f"95 % interval over {self.sample} objects tried, {self.failed} of them without an asset"
         lines = [
             f"{n:,} objects on {self.workers} workers ({most}):",
-            f"  time     {self.seconds.mean:.1f} +- {self.seconds.half:.1f} s an object, {duration(3600 * self.hours)} in all",
-            f"  storage  {size.mean / 1e6:.2f} +- {size.half / 1e6:.2f} MB an object, {n * size.mean / 1e9:.2f} GB in all",
+            f"  time     {self.seconds.mean:.1f} +- {self.seconds.half:.1f} s per object, {duration(3600 * self.hours)} in all",
+            f"  storage  {size.mean / 1e6:.2f} +- {size.half / 1e6:.2f} MB per object, {n * size.mean / 1e9:.2f} GB in all",
         ]
         if self.calls.mean:
-            lines.append(f"  calls    {self.calls.mean:.1f} an object, {self.tokens.mean:,.0f} tokens")
+            lines.append(f"  calls    {self.calls.mean:.1f} per object, {self.tokens.mean:,.0f} tokens")
             cost = self.cost
             lines.append(
                 "  cost     not known: the model has no price in the table"
                 if cost is None
-                else f"  cost     {cost.mean:.4f} +- {cost.half:.4f} USD an object, {n * cost.mean:,.2f} USD in all"
+                else f"  cost     {cost.mean:.4f} +- {cost.half:.4f} USD per object, {n * cost.mean:,.2f} USD in all"
             )
         return "\n".join(lines)
 

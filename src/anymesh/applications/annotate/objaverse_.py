@@ -35,7 +35,7 @@ def fetch(uid: str) -> Path:
     try:
         import objaverse
     except ImportError:
-        told = "objects of Objaverse need its package; `pip install articulate-anymesh[objaverse]` brings it"
+        told = "objects of Objaverse need its package; install it with `pip install articulate-anymesh[objaverse]`"
         raise MissingExtraError(told) from None
     home, before = Path(objaverse._VERSIONED_PATH), socket.getdefaulttimeout()
     socket.setdefaulttimeout(SECONDS)

@@ -17,7 +17,7 @@ def _pyarrow() -> Any:
         import pyarrow
         import pyarrow.parquet
     except ImportError:
-        told = "Parquet needs pyarrow, which is not installed; `pip install articulate-anymesh[parquet]` brings it"
+        told = "Parquet needs pyarrow, which is not installed; install it with `pip install articulate-anymesh[parquet]`"
         raise MissingExtraError(told) from None
     return pyarrow
 

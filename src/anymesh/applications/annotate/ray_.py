@@ -33,7 +33,7 @@ def _ray() -> Any:
     try:
         return importlib.import_module("ray")
     except ImportError:
-        told = "a cluster needs Ray, which is not installed; `pip install articulate-anymesh[ray]` brings it"
+        told = "a cluster needs Ray, which is not installed; install it with `pip install articulate-anymesh[ray]`"
         raise MissingExtraError(told) from None
 
 

@@ -108,7 +108,7 @@ def _confidence(ledger: Ledger) -> str:
         count = counts.get(k, 0)
         bar = f'<meter max="{most}" value="{count}"></meter>'
         rows.append((f"{k / BINS:.1f} to {(k + 1) / BINS:.1f}", f"{count:,}", bar))
-    return _table("Confidence of the least sure joint", ("", "objects", ""), rows, numbers=(1,)) if counts else ""
+    return _table("Confidence of the least confident joint", ("", "objects", ""), rows, numbers=(1,)) if counts else ""
 
 
 def _gallery(ledger: Ledger) -> str:

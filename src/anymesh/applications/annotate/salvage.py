@@ -25,10 +25,10 @@ def open_ledger(out: Path) -> Ledger:
         return Ledger.open(out, create=True, check=True)
     except CorruptLedgerError as error:
         aside = _put_aside(out)
-        log.warning("%s; it is kept as %s, and what can be read of it is taken over", error, aside.name)
+        log.warning("%s; it is kept as %s, and its readable content is recovered", error, aside.name)
         ledger = Ledger.open(out, create=True)
         rescued = _take_over(ledger, aside)
-        log.warning("%d objects were taken over from the damaged ledger", rescued)
+        log.warning("%d objects were recovered from the damaged ledger", rescued)
         return ledger
 
 

@@ -34,7 +34,7 @@ class Tally:
     def words(self) -> str:
         """Format the progress in one line."""
         told = [f"{self.counts[s]} {s}" for s in State if self.counts[s] or s is State.DONE]
-        rate = f", {self.rate:.0f} an hour" if self.rate else ""
+        rate = f", {self.rate:.0f} per hour" if self.rate else ""
         left = f", {duration(self.left)} left" if self.left is not None else ""
         cost = f", {self.calls} calls, {self.cost:.2f} USD" if self.calls else ""
         return f"{', '.join(told)} of {self.total}{rate}{left}{cost}{f'; {self.note}' if self.note else ''}"
@@ -61,9 +61,9 @@ def duration(seconds: float) -> str:
 def write_metrics(out: Path, found: Tally, ledger_seconds: float) -> None:
     """Write the metrics in Prometheus' text format, atomically. Raise OutputError if this fails."""
     metrics = {
-        "anymesh_annotate_rate_per_hour": ("gauge", "Objects finished in an hour, in this run.", found.rate),
+        "anymesh_annotate_rate_per_hour": ("gauge", "Objects finished per hour, in this run.", found.rate),
         "anymesh_annotate_seconds_left": ("gauge", "Time left; -1 when not known.", -1 if found.left is None else found.left),
-        "anymesh_annotate_workers": ("gauge", "Objects at a time.", found.workers),
+        "anymesh_annotate_workers": ("gauge", "Objects processed in parallel.", found.workers),
         "anymesh_annotate_model_calls_total": ("counter", "Calls of a model, over all runs.", found.calls),
         "anymesh_annotate_cost_usd_total": ("counter", "Cost of these calls.", found.cost),
         "anymesh_annotate_ledger_seconds_total": ("counter", "Time that this run spent in the ledger.", ledger_seconds),

@@ -89,7 +89,7 @@ def _annotated(job: Job) -> AttemptOutcome:
     articulate(mesh, out, force=out.exists(), **options, **_metered(job))
     made = asset_columns(out)
     if made is None:
-        raise InputError(f"{out} was removed while it was worked on")
+        raise InputError(f"{out} was removed during processing")
     return AttemptOutcome(Result.DONE, record=made)
 
 

@@ -98,7 +98,7 @@ class CommandGenerator:
         try:
             load_mesh(out)
         except InputError as error:
-            raise ModelError(f"{self.name} wrote a file that is no usable mesh: {error}{log_tail(log)}") from None
+            raise ModelError(f"{self.name} wrote a file that is not a usable mesh: {error}{log_tail(log)}") from None
         log.unlink()
         return GeneratedMesh(out)
 

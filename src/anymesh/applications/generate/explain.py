@@ -56,7 +56,7 @@ def explain_generation(
     try:
         job.check_output(force=force)
     except OutputError as error:
-        warnings = (*warnings, f"it would end at once: {error}")
+        warnings = (*warnings, f"it would stop immediately: {error}")
     return Explanation((*_making(job, regenerate), *_following(job)), job.size.reason, warnings)
 
 
@@ -83,4 +83,4 @@ def _looks(texture: str) -> Step:
     if texture.startswith("meshy"):
         told = f"pay Meshy for {RETEXTURE.name} ({RETEXTURE.path}); the finished object is sent"
         return Step(told, float(RETEXTURE.credits), CHECKED)
-    return Step("keep the looks of the mesh" if texture == "builtin" else f"put the looks into an atlas ({texture})")
+    return Step("keep the appearance of the mesh" if texture == "builtin" else f"bake the appearance into an atlas ({texture})")

@@ -140,7 +140,7 @@ def open_job(
     if image is not None and mesh is not None:
         raise OptionError("found --image and --mesh; valid is one of them")
     if mesh is None and options.get("root") is not None:
-        raise OptionError("--root is for files that a --mesh refers to, and found no --mesh")
+        raise OptionError("--root applies to files that --mesh refers to; found no --mesh")
     chosen: dict[str, Any] = {**DEFAULTS, **options}
     request = MeshRequest(prompt, None if image is None else Path(image), chosen["seed"])
     who = open_generator(generator, time_limit=time_limit, max_calls=chosen.get("max_calls"))

@@ -78,7 +78,7 @@ class MeshyGenerator:
             load_mesh(path)
         except InputError as error:
             path.unlink()
-            raise ModelError(f"meshy's result is no usable mesh: {error}; a rerun fetches it again, unpaid") from None
+            raise ModelError(f"meshy's result is not a usable mesh: {error}; a rerun downloads it again at no cost") from None
         return GeneratedMesh(path, _paid(found), calls=service.calls)
 
     def _service(self, folder: Path, progress: Progress | None) -> Meshy3D:

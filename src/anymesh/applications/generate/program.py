@@ -55,7 +55,7 @@ def log_tail(log: Path) -> str:
         text = file.read().decode("utf-8", "replace")
     lines = [re.sub(r"\s+", " ", line).strip() for line in re.split(r"[\r\n]+", text)]
     told = " | ".join([line for line in lines if line][-LINES:])
-    return f"; its last words: {SECRET.sub('[removed]', told)[-LONGEST:]}" if told else ""
+    return f"; the end of its output: {SECRET.sub('[removed]', told)[-LONGEST:]}" if told else ""
 
 
 def _wait(process: subprocess.Popen[bytes], timeout: float, tell: Callable[[float], None]) -> int | None:

@@ -24,7 +24,7 @@ from anymesh.pipeline.storage.run_folder import RunFolder
 
 SCHEMA_VERSION = 1
 WORDS = ("category", "texture")  # options that are free text of the user
-STILL = "no part that moves was found; --at-least 1, an --answerer that sees, or `anymesh view` may help"
+STILL = "no moving part was found; try --at-least 1, a model (--answerer), or `anymesh view`"
 
 
 def generation_record(job: GenerationJob, mesh: GeneratedMesh, warnings: Sequence[str]) -> dict[str, Any]:

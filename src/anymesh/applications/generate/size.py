@@ -34,11 +34,11 @@ def choose_size(scale: str, category: str | None, prompt: str | None, name: str,
     if kind is not None:
         usual = f"a {kind[0].replace('_', ' ')} is about {kind[1]:g} m long"
         if unit is Unit.ARBITRARY:
-            return Size(f"{kind[1]:g}:longest", known, f"{usual}; the generator knows no size")
+            return Size(f"{kind[1]:g}:longest", known, f"{usual}; the generator gives no size")
         if known is None:
             return Size("auto", None, "as the mesh file states it")
         told = "the generator estimates" if unit is Unit.ESTIMATED else "the mesh file states"
         return Size("auto", known, f"as {told} it, where that suits the kind ({usual})")
     if unit is Unit.ESTIMATED:
         return Size("auto", known, "as the generator estimated it")
-    return Size("auto", known, "as the mesh file states it", f"nothing tells how large the object is; {ADVICE}")
+    return Size("auto", known, "as the mesh file states it", f"the size of the object is not known; {ADVICE}")

@@ -35,7 +35,7 @@ def free_path(
     try:
         from ompl import base, geometric, util
     except ImportError:
-        raise MissingExtraError("ompl is missing; `pip install 'articulate-anymesh[plan]'` brings it") from None
+        raise MissingExtraError("ompl is missing; install it with `pip install 'articulate-anymesh[plan]'`") from None
     path = _rrt(base, geometric, util, (start, goal, low, high), valid, seed, seconds)
     return None if path is None else _shortcut(path, valid, np.random.default_rng(seed))
 

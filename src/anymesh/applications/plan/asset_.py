@@ -122,7 +122,7 @@ def _joint(mujoco: Any, model: Any, name: str) -> int:
     by_part = {model.body(int(model.jnt_bodyid[j])).name: j for j in moving}
     found = by_name.get(name, by_part.get(name))
     if found is None:
-        raise OptionError(f"--joint: found {name!r}; valid are {', '.join(by_name) or 'none, for nothing moves'}")
+        raise OptionError(f"--joint: found {name!r}; valid are {', '.join(by_name) or 'none, since no joint moves'}")
     return found
 
 

@@ -33,7 +33,7 @@ def write_plan(plan: MotionPlan, path: Path, kind: str = PlanFormat.JSON, *, for
     if kind not in list(PlanFormat):
         raise OptionError(f"--format: found {kind!r}; valid are {', '.join(PlanFormat)}")
     if path.exists() and not force:
-        raise OutputError(f"{path} is there already; --force replaces it")
+        raise OutputError(f"{path} exists; --force replaces it")
     fresh = path.with_name(f".{path.name}.part")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -103,7 +103,7 @@ def read_plan(path: str | Path) -> MotionPlan:
     try:
         return _plan(json.loads(path.read_text(encoding="utf-8")))
     except (OSError, ValueError, KeyError, TypeError) as error:
-        raise InputError(f"{path.name} is no plan of anymesh ({type(error).__name__}: {error})") from None
+        raise InputError(f"{path.name} is not a plan of anymesh ({type(error).__name__}: {error})") from None
 
 
 def _plan(record: Mapping[str, Any]) -> MotionPlan:

@@ -28,7 +28,7 @@ class Kinematics:
         try:
             import mink
         except ImportError:
-            raise MissingExtraError("mink is missing; `pip install 'articulate-anymesh[plan]'` brings it") from None
+            raise MissingExtraError("mink is missing; install it with `pip install 'articulate-anymesh[plan]'`") from None
         self.mujoco = load_mujoco()
         self._mink: Any = mink
         self.robot = robot

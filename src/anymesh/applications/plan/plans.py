@@ -111,9 +111,9 @@ class Trajectory:
         if any(
             len(rows) != count for rows in (self.position, self.velocity, self.acceleration, self.gap, self.phase, self.value)
         ):
-            raise ValueError(f"a trajectory has one row a time, found {count} times and others")
+            raise ValueError(f"a trajectory has one row per time, found {count} times and others")
         if count < 2 or not (np.diff(self.time) > 0).all():
-            raise ValueError("the times of a trajectory must rise")
+            raise ValueError("the times of a trajectory must increase")
 
     @property
     def duration(self) -> float:

@@ -12,7 +12,7 @@ from typing import Any
 from anymesh.errors import InputError, MissingExtraError, OptionError
 
 SHARE = "cmeel.prefix/share/example-robot-data/robots"  # path of the robots in the wheel example-robot-data
-NO_PLAN = "is not installed; `pip install 'articulate-anymesh[plan]'` brings it"
+NO_PLAN = "is not installed; install it with `pip install 'articulate-anymesh[plan]'`"
 
 
 @dataclass(frozen=True)
@@ -117,7 +117,7 @@ def _example_robot_data(what: tuple[str, str], preset: Preset) -> Path | str:
     try:
         path = Path(str(metadata.distribution("example-robot-data").locate_file(f"{SHARE}/{preset.urdf}")))
     except metadata.PackageNotFoundError:
-        return "example-robot-data is not installed; `pip install 'articulate-anymesh[robots]'` brings it"
+        return "example-robot-data is not installed; install it with `pip install 'articulate-anymesh[robots]'`"
     return path if path.is_file() else "example-robot-data does not have it"
 
 

@@ -144,7 +144,7 @@ class Search:
         if base is not None:
             other = Search(self.thing, self.arm, self.value, self.targets, self.settings, time.perf_counter())
             route = other.anywhere(near=base)
-            told.append("no base near does better" if route is None else f"the nearest feasible base is {route.base}")
+            told.append("no nearby base is better" if route is None else f"the nearest feasible base is {route.base}")
         return PlanError("; ".join(told), nearest)
 
     def _nearest(self, base: BasePose | None) -> float | None:

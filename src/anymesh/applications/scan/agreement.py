@@ -21,9 +21,9 @@ DRIFTED = 4.0  # times the usual disagreement; frames above it are dropped
 DRIFTED_LEAST = 0.006  # share of the depth; minimum disagreement of a dropped frame
 DEPTHS = (0.03, 30.0)  # [m] valid range of the median depth of a recording
 CONVENTIONS = {
-    "camera axes are those of OpenGL (y up, z back) where OpenCV's were told, or the other way round": lambda T: T @ FLIPPED,
+    "camera axes are those of OpenGL (y up, z back) where OpenCV's were declared, or vice versa": lambda T: T @ FLIPPED,
     "poses are world-to-camera where camera-to-world was expected": np.linalg.inv,
-    "poses are world-to-camera, and with the other camera axes (OpenGL or OpenCV) than told": lambda T: (
+    "poses are world-to-camera, and with the other camera axes (OpenGL or OpenCV) than declared": lambda T: (
         np.linalg.inv(T) @ FLIPPED
     ),
 }
@@ -122,11 +122,11 @@ def check_convention(glimpses: list[Glimpse], found: FrameAgreement) -> None:
     known = {why: value for why, value in tried.items() if np.isfinite(value)}
     best = min(known, key=lambda why: known[why], default=None)
     if np.isnan(usual):
-        hint = f"; {best}: read so, they do overlap" if best and known[best] < OFF else ""
-        raise InputError(f"no two frames see the same place: poses are wrong, or each shows another side only{hint}")
+        hint = f"; {best}: with this reading they overlap" if best and known[best] < OFF else ""
+        raise InputError(f"no two frames see the same place: poses are wrong, or each shows a different side{hint}")
     told = f"frames contradict each other: the same place differs by {usual:.1%} of the depth between them (valid: {OFF:.0%})"
     if best and known[best] < BETTER * usual:
-        raise InputError(f"{told}. Probably {best}: read so, it differs by {known[best]:.1%}")
+        raise InputError(f"{told}. Probably {best}: with this reading it differs by {known[best]:.1%}")
     raise InputError(
         f"{told}. No other convention of poses explains it: poses, intrinsics or the scale of depth (--depth-scale) are wrong"
     )

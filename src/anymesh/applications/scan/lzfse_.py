@@ -19,7 +19,7 @@ def unpack(data: bytes, name: str) -> bytes:
     try:
         return lzfse.decompress(data)
     except lzfse.error as error:
-        raise InputError(f"{name} is no LZFSE data: {error}") from None
+        raise InputError(f"{name} is not LZFSE data: {error}") from None
 
 
 def pack(data: bytes) -> bytes:

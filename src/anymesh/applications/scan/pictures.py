@@ -49,7 +49,7 @@ def picture_size(path: Path) -> tuple[int, int]:
         with Image.open(path) as image:
             return image.size
     except OSError as error:
-        raise InputError(f"{path} is no picture that can be read: {error}") from None
+        raise InputError(f"{path} is not a readable picture: {error}") from None
 
 
 def read_color(source: Path | bytes, name: str) -> UInt8[np.ndarray, "H W 3"]:
@@ -60,7 +60,7 @@ def read_color(source: Path | bytes, name: str) -> UInt8[np.ndarray, "H W 3"]:
         with Image.open(source if isinstance(source, Path) else io.BytesIO(source)) as image:
             return np.asarray(image.convert("RGB"))
     except (OSError, SyntaxError) as error:
-        raise InputError(f"{name} is no picture that can be read: {error}") from None
+        raise InputError(f"{name} is not a readable picture: {error}") from None
 
 
 def read_depth(path: Path, scale: float) -> Float32[np.ndarray, "h w"]:
@@ -78,7 +78,7 @@ def read_depth(path: Path, scale: float) -> Float32[np.ndarray, "h w"]:
                 raise InputError(f"{path}: depth must be a picture of 16 bits and one channel, found mode {image.mode}")
             return clean_depth(np.asarray(image), path.name, scale)
     except (OSError, SyntaxError) as error:
-        raise InputError(f"{path} is no picture that can be read: {error}") from None
+        raise InputError(f"{path} is not a readable picture: {error}") from None
 
 
 def clean_depth(raw: np.ndarray, name: str, scale: float = 1.0) -> Float32[np.ndarray, "h w"]:
@@ -100,7 +100,7 @@ def read_mask(path: Path | None) -> Bool[np.ndarray, "h w"] | None:
         with Image.open(path) as image:
             found = np.asarray(image)
     except (OSError, SyntaxError) as error:
-        raise InputError(f"{path} is no picture that can be read: {error}") from None
+        raise InputError(f"{path} is not a readable picture: {error}") from None
     return (found if found.ndim == 2 else found.max(2)) >= CONFIDENT
 
 

@@ -96,7 +96,7 @@ def fitted(camera: Pinhole, size: tuple[int, int], name: str) -> Pinhole:
     except ValueError:
         raise InputError(
             f"frame {name}: the picture has {size[0]} x {size[1]} pixels, its intrinsics are for {camera.width} x "
-            f"{camera.height}; other proportions mean a crop or a rotation that the intrinsics do not know"
+            f"{camera.height}; other proportions mean a crop or a rotation that the intrinsics do not include"
         ) from None
 
 

@@ -93,7 +93,7 @@ def read_array(path: Path) -> Float[np.ndarray, "h w"]:
         start = len(b"&".join(data.split(b"&", 3)[:3])) + 1
         return np.frombuffer(data, "<f4", width * height * channels, start).reshape(channels, height, width)[0]
     except ValueError:
-        raise InputError(f"{path} is no depth map of COLMAP, or is cut short ({len(data)} bytes)") from None
+        raise InputError(f"{path} is not a depth map of COLMAP, or is cut short ({len(data)} bytes)") from None
 
 
 def _cameras(rows: Iterator[tuple[int, str, int, int, list[float]]]) -> tuple[dict[int, Pinhole], list[str]]:

@@ -48,7 +48,7 @@ def _opened(path: Path) -> zipfile.ZipFile:
     try:
         return zipfile.ZipFile(path)
     except (OSError, zipfile.BadZipFile) as error:
-        raise InputError(f"{path} is no archive of Record3D: {error}") from None
+        raise InputError(f"{path} is not an archive of Record3D: {error}") from None
 
 
 def is_record3d(path: Path) -> bool:
@@ -105,7 +105,7 @@ def _camera(told: dict[str, Any], number: int, path: Path) -> Pinhole:
             fx, fy, cx, cy = K[0, 0], K[1, 1], K[0, 2], K[1, 2]
         return Pinhole(float(fx), float(fy), float(cx), float(cy), *size)
     raise InputError(
-        f"{path}: intrinsics are missing: metadata needs w, h and K (9 numbers) or perFrameIntrinsicCoeffs (4 a frame)"
+        f"{path}: intrinsics are missing: metadata needs w, h and K (9 numbers) or perFrameIntrinsicCoeffs (4 per frame)"
     )
 
 

@@ -16,7 +16,7 @@ def member(package: Path, name: str) -> io.BytesIO:
     """Return the first file of that name in the .deb. Raise InputError if it cannot be read."""
     archive = package.read_bytes()
     if not archive.startswith(MAGIC):
-        raise InputError(f"{package.name} is no Debian package file; it is expected to start with {MAGIC!r}")
+        raise InputError(f"{package.name} is not a Debian package file; it must start with {MAGIC!r}")
     at = len(MAGIC)
     while at + HEADER <= len(archive):
         header = archive[at : at + HEADER]

@@ -61,7 +61,7 @@ class LabelledFolder:
 def _bodies(record: dict[str, Any], mesh: Mesh, labels: np.ndarray) -> list[DatasetLink]:
     """Return a link per part, Y up. Raise ValueError, KeyError or TypeError for invalid data."""
     if labels.shape != (len(mesh.faces),):
-        raise ValueError(f"found {labels.shape} labels for {len(mesh.faces)} faces; valid is one a face")
+        raise ValueError(f"found {labels.shape} labels for {len(mesh.faces)} faces; valid is one per face")
     T = UPRIGHT[tuple(record["up"])]
     joints = {int(j["part"]): j for j in record["joints"]}
     found = []

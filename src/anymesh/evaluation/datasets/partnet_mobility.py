@@ -95,7 +95,7 @@ def _read(place: Path) -> ObjectInfo:
         raise InputError(f"{place.name}: meta.json or semantics.txt cannot be used ({told})") from None
     rows = [line.split() for line in lines if line.strip()]
     if any(len(row) != 3 for row in rows):
-        raise InputError(f"{place.name}/semantics.txt: valid is a link, a kind and a label a line, such as `link_0 hinge door`")
+        raise InputError(f"{place.name}/semantics.txt: each line needs a link, a kind and a label, such as `link_0 hinge door`")
     return ObjectInfo(str(category), tuple((link, kind, label) for link, kind, label in rows))
 
 

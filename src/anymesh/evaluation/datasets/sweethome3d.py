@@ -101,7 +101,7 @@ def _open(source: Path) -> zipfile.ZipFile:
     try:
         return zipfile.ZipFile(member(source, INSTALLED.name) if source.suffix == ".deb" else source)
     except zipfile.BadZipFile:
-        raise InputError(f"{source.name} is no .jar and no .deb file; valid is either, of Sweet Home 3D") from None
+        raise InputError(f"{source.name} is neither a .jar nor a .deb file of Sweet Home 3D") from None
 
 
 def _sashes(entry: dict[str, str]) -> list[Sash]:

@@ -112,7 +112,7 @@ def _rest(link: str, carrier: Mapping[str, parsed.Joint], links: Mapping[str, pa
             raise InputError(f"joint {joint.name!r} refers to a link {joint.parent!r} that is not there")
         T = (np.eye(4) if joint.origin is None else joint.origin) @ T
         link = joint.parent
-    raise InputError(f"its joints run in a circle through the link {link!r}; valid is a tree")
+    raise InputError(f"its joints form a cycle through the link {link!r}; valid is a tree")
 
 
 def _motion(joint: parsed.Joint, T: np.ndarray) -> DatasetJoint | None:

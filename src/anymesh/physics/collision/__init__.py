@@ -73,7 +73,7 @@ def collision_shapes(
 
     def late() -> bool:
         if late := deadline.late(COLLISION):
-            deadline.leave_out("collision: false contacts stay")
+            deadline.leave_out("collision: false contacts remain")
         return late
 
     def shapes_of(some: Sequence[Component], levels: Sequence[int]) -> list[tuple[Shape, ...]]:

@@ -76,7 +76,7 @@ def _manifold(vertices: np.ndarray, faces: np.ndarray) -> Manifold | None:
     try:
         from manifold3d import Error, Manifold, Mesh64
     except ImportError:
-        raise MissingExtraError("manifold3d is missing; it comes with articulate-anymesh, install that again") from None
+        raise MissingExtraError("manifold3d is missing; it is a dependency of articulate-anymesh; reinstall that") from None
     solid = Manifold(Mesh64(np.ascontiguousarray(vertices, np.float64), np.ascontiguousarray(faces, np.uint64)))
     return solid if solid.status() == Error.NoError and solid.volume() > 0 else None
 

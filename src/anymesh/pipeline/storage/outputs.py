@@ -40,7 +40,7 @@ def existing_files(target: Path) -> list[str]:
     recover(target, atomic_prefix(target, "old"))
     written = written_files(target)
     if written is None:
-        raise OutputError(f"{target} is no output of anymesh; `anymesh segment MESH -o {target}` makes one")
+        raise OutputError(f"{target} is not an output of anymesh; `anymesh segment MESH -o {target}` makes one")
     return written
 
 
@@ -58,7 +58,7 @@ def check_replaceable(target: Path, force: bool) -> None:
         raise OutputError(f"the output folder {target} is not empty; choose another{hint}")
     check_uncorrected(target)
     if written is None:
-        raise OutputError(f"{target} is not empty and no output of anymesh, so it is not replaced; choose another folder")
+        raise OutputError(f"{target} is not empty and not an output of anymesh, so it is not replaced; choose another folder")
     foreign = sorted(set(list_files(target)) - set(written))
     if foreign:
         shown = ", ".join(foreign[:5]) + (", ..." if len(foreign) > 5 else "")
@@ -68,5 +68,5 @@ def check_replaceable(target: Path, force: bool) -> None:
 def check_uncorrected(target: Path) -> None:
     """Raise OutputError if an output holds manual corrections."""
     if (target / CORRECTIONS).exists():
-        raise OutputError(f"{target} was corrected by hand, which a new run would lose; choose another folder, or remove "
-                          f"{CORRECTIONS} to give the corrections up")  # fmt: skip
+        raise OutputError(f"{target} contains manual corrections, which a new run would lose; choose another folder, or remove "
+                          f"{CORRECTIONS} to discard them")  # fmt: skip

@@ -200,7 +200,7 @@ class RunFolder(Saved):
         """
         written = written_files(folder)
         if written is None:
-            raise OutputError(f"{folder} is no output of anymesh; `anymesh articulate MESH -o {folder}` makes one")
+            raise OutputError(f"{folder} is not an output of anymesh; `anymesh articulate MESH -o {folder}` makes one")
         self._earlier = (Path(folder).resolve(), *self._earlier)
         for stage in STAGES[: STAGES.index(COMPLETION)]:
             key = saved_key(folder, stage)

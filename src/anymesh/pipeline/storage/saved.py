@@ -45,7 +45,7 @@ class Saved:
         """
         target = Path(target).resolve()
         if written_files(target) is None:
-            raise OutputError(f"{target} is no output of anymesh; `anymesh articulate MESH -o {target}` makes one")
+            raise OutputError(f"{target} is not an output of anymesh; `anymesh articulate MESH -o {target}` makes one")
         return Saved(target)
 
     def _places(self, stage: Stage[Any] | None) -> list[Path]:
