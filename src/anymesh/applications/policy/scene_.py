@@ -30,8 +30,6 @@ def compose(found: TaskObject, robot: TaskRobot, *, lifts: bool, visuals: bool =
     mujoco = load_mujoco()
     spec = mujoco.MjSpec()
     spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
-    spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC if lifts else mujoco.mjtCone.mjCONE_PYRAMIDAL
-    spec.option.impratio = 3.0 if lifts else 1.0  # keeps a held handle from creeping
     spec.option.timestep = TIMESTEP
     spec.option.iterations = 30
     floor = spec.worldbody.add_geom(name=FLOOR, type=mujoco.mjtGeom.mjGEOM_PLANE, size=[2, 2, 0.1], rgba=[0.82, 0.82, 0.8, 1])
