@@ -17,13 +17,14 @@ from __future__ import annotations
 import argparse
 import datetime
 import json
+import subprocess
+import sys
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
 from policy_objects import write_object
 from policy_report import write_report
 
-from anymesh.annotation.annotate import Speed, annotate
 from anymesh.applications.policy.objects_ import find_assets, task_object
 from anymesh.applications.policy.settings import SETTINGS
 from anymesh.applications.policy.tasks import PolicyTask
@@ -91,7 +92,8 @@ def prepare(thing: str, size: Size, work: Path) -> Sets:
     truths = {t.name: t for t in (write_object(thing, "designed", k, meshes) for k in range(round(MORE * wanted) or 1))}
     annotated = work / f"annotated_{thing}"
     if not annotated.exists() or len(_assets(annotated)) < len(truths):
-        annotate(str(meshes), annotated, speed=Speed(workers=1))
+        command = [sys.executable, "-c", "from anymesh.cli import main; main()", "annotate", meshes, "-o", annotated]
+        subprocess.run([*map(str, command), "--workers", "1", "--quiet"], check=False)  # failed objects are told below
     usable, refused = [], dict.fromkeys(truths, "no asset")
     for name, path in sorted(_assets(annotated).items()):
         refused.pop(name, None)

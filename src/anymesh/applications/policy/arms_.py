@@ -13,7 +13,7 @@ from anymesh.applications.plan.robot_packages_ import find_robot
 from anymesh.applications.policy.robot import TaskRobot
 from anymesh.mujoco_ import load_mujoco
 
-TOOL_X, TOOL_Y = 0.0, -0.15  # [m] of the tool at home, from the handle point; the arm's base is behind it
+TOOL_X, TOOL_Y = 0.0, -0.3  # [m] of the tool at home, from the middle of the object; the base of the arm is behind it
 JOINT_STEP = 0.06  # [rad] of the largest change of a command in one step
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from jaxtyping import Float
 
 from anymesh.applications.policy.objects_ import TaskObject, find_assets, task_object
-from anymesh.applications.policy.observations_ import POINTS, DepthCamera, ObservationKind, robot_state, state
+from anymesh.applications.policy.observations_ import POINTS, DepthCamera, ObservationKind, boxed, robot_state, state
 from anymesh.applications.policy.randomization import Randomization
 from anymesh.applications.policy.robots import NAMES
 from anymesh.applications.policy.scene_ import TIMESTEP
@@ -25,6 +25,7 @@ except ImportError:
     raise MissingExtraError("gymnasium is not installed; `pip install 'articulate-anymesh[policy]'` brings it") from None
 
 LARGE = 100.0  # bound of observations
+VECTORS = {ObservationKind.STATE: state, ObservationKind.BOX: boxed}
 
 
 class ArticulatedEnv(gymnasium.Env):
@@ -55,8 +56,8 @@ class ArticulatedEnv(gymnasium.Env):
         self._camera: DepthCamera | None = None
         self._picture: Any = None
         self.action_space = Box(-1.0, 1.0, (len(self.simulation.robot.servos),), np.float32)
-        if observation is ObservationKind.STATE:
-            self.observation_space = Box(-LARGE, LARGE, (len(state(self.simulation)),), np.float32)
+        if observation in VECTORS:
+            self.observation_space = Box(-LARGE, LARGE, VECTORS[observation](self.simulation).shape, np.float32)
         else:
             own = Box(-LARGE, LARGE, (len(robot_state(self.simulation)),), np.float32)
             self.observation_space = Dict({"robot": own, "points": Box(-LARGE, LARGE, (POINTS, 4), np.float32)})
@@ -84,7 +85,7 @@ class ArticulatedEnv(gymnasium.Env):
 
     def _observe(self) -> Any:
         if self._camera is None:
-            return np.clip(state(self.simulation), -LARGE, LARGE)
+            return np.clip(VECTORS[self.observation](self.simulation), -LARGE, LARGE)
         return {
             "robot": np.clip(robot_state(self.simulation), -LARGE, LARGE),
             "points": self._camera.points(self.simulation, self.np_random),
@@ -119,8 +120,8 @@ def make_env(
 ) -> ArticulatedEnv:
     """Make a Gymnasium environment from an asset, a URDF or MJCF, a folder of assets, or several of these.
 
-    task: open, close or lift; robot: gripper, shadow, panda or ur5e; observation: state or points; joint: which one the task
-    moves (default: the one with the largest part); opening: from closed [rad or m] (default: 90 degrees or the whole range).
+    task: open, close or lift; robot: gripper, shadow, panda or ur5e; observation: state, box or points; joint: which one
+    the task moves (default: the one with the largest part); opening: from closed [rad or m] (default: 90 degrees or the whole range).
     Raise InputError or OptionError if an asset does not fit the task, MissingExtraError if a package is not installed.
     """
     if task not in list(PolicyTask):

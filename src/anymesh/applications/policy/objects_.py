@@ -30,13 +30,14 @@ class TaskObject:
     """An asset with the joint that a task moves.
 
     handle: the point to take hold of, in the asset frame at rest [m]; T_world_asset: the object on the floor z = 0 with its
-    front to -y, so that the handle point is at x = y = 0 where the joint is at the start.
+    front to -y; box: (2, 3) bounds in the world frame where the joint is at the start [m], centred at x = y = 0.
     """
 
     thing: ArticulatedObject
     goal: JointGoal
     handle: Float[np.ndarray, " 3"]
     T_world_asset: Float[np.ndarray, "4 4"]
+    box: Float[np.ndarray, "2 3"]
 
     @property
     def name(self) -> str:
@@ -106,7 +107,7 @@ def task_object(path: str | Path, task: PolicyTask, joint: str | None = None, op
         return _lifted(thing, handle)
     goal = lid_goal(task, thing, handle, opening) or joint_goal(task, thing.limits, not thing.turns, opening)
     closed = goal.start if task is PolicyTask.OPEN else goal.goal
-    return TaskObject(thing, goal, handle, _placed(thing, handle, goal.start, _front(thing.motion, handle, closed)))
+    return TaskObject(thing, goal, handle, *_placed(thing, goal.start, _front(thing.motion, handle, closed)))
 
 
 def handle_point(thing: ArticulatedObject) -> Float[np.ndarray, " 3"]:
@@ -184,17 +185,20 @@ def _front(motion: Motion, handle: np.ndarray, closed: float) -> Float[np.ndarra
     return flat / length if length > 1e-9 else np.array([0.0, -1.0, 0.0])
 
 
-def _placed(thing: ArticulatedObject, handle: np.ndarray, start: float, front: np.ndarray) -> Float[np.ndarray, "4 4"]:
-    """Return the pose in which the front faces -y and the handle point is at x = y = 0 at the start."""
+def _placed(
+    thing: ArticulatedObject, start: float, front: Float[np.ndarray, " 3"]
+) -> tuple[Float[np.ndarray, "4 4"], Float[np.ndarray, "2 3"]]:
+    """Return the pose in which the front faces -y and the object, with its joint at the start, is centred; and its bounds."""
     T = np.eye(4)
     c, s = -front[1], -front[0]  # turns the front to -y
     T[:2, :2] = [[c, -s], [s, c]]
-    corners = np.concatenate([thing.part_triangles, thing.other_triangles]).reshape(-1, 3)
-    if len(thing.other_triangles):
-        corners = thing.other_triangles.reshape(-1, 3)  # the part may be below at rest, as an open flap is
-    at = T[:3, :3] @ apply(thing.motion.transform(start), handle)
-    T[:3, 3] = -at[0], -at[1], -corners[:, 2].min()
-    return T
+    moved = thing.motion.transform(start)
+    part = thing.part_triangles.reshape(-1, 3) @ moved[:3, :3].T + moved[:3, 3]
+    rest = thing.other_triangles.reshape(-1, 3) if len(thing.other_triangles) else part
+    points = np.concatenate([part, rest]) @ T[:3, :3].T
+    low, high = points.min(0), points.max(0)
+    T[:3, 3] = [*(-(low + high)[:2] / 2), -rest[:, 2].min()]
+    return T, np.stack([low, high]) + T[:3, 3]
 
 
 def _lifted(thing: ArticulatedObject, handle: np.ndarray) -> TaskObject:
@@ -214,4 +218,4 @@ def _lifted(thing: ArticulatedObject, handle: np.ndarray) -> TaskObject:
     flat = (fallen - (fallen @ motion.axis) * motion.axis) * [1, 1, 0]
     length = float(np.linalg.norm(flat))
     front = flat / length if length > 1e-6 else np.array([0.0, -1.0, 0.0])
-    return TaskObject(thing, JointGoal(start, goal), handle, _placed(thing, handle, start, front))
+    return TaskObject(thing, JointGoal(start, goal), handle, *_placed(thing, start, front))

@@ -1,4 +1,4 @@
-"""Observations: a state vector, and a point cloud cast by the engine from a camera."""
+"""Observations: the full state, the object as a box, and a point cloud cast by the engine from a camera."""
 
 from __future__ import annotations
 
@@ -20,6 +20,7 @@ class ObservationKind(StrEnum):
     """What a policy observes."""
 
     STATE = "state"
+    BOX = "box"
     POINTS = "points"
 
 
@@ -43,6 +44,20 @@ def state(s: TaskSimulation) -> Float32[np.ndarray, " n"]:
     progress = s.found.goal.progress(s.value)
     rise = data.xpos[s.stand, 2] - s.start_height
     own = (10 * (s.handle_position - tool), 5 * (anchor - tool), axis, 5 * lever, [progress, 5 * rise])
+    return np.concatenate([robot_state(s), *own]).astype(np.float32)
+
+
+def boxed(s: TaskSimulation) -> Float32[np.ndarray, " n"]:
+    """Return the robot's state and what a detector tells of the object: its box at the start, where it is, and the progress.
+
+    Neither handle nor axis is told; where they are in the box differs between objects.
+    """
+    R, T = s.data.xmat[s.stand].reshape(3, 3), s.found.T_world_asset
+    low, high = s.found.box
+    center = R @ (T[:3, :3].T @ ((low + high) / 2 - T[:3, 3])) + s.data.xpos[s.stand]
+    turn = R @ T[:3, :3].T
+    progress = s.found.goal.progress(s.value)
+    own = (5 * (center - s.tool_position), 5 * (high - low), turn[:2, 0], [progress, 5 * (center[2] - (low + high)[2] / 2)])
     return np.concatenate([robot_state(s), *own]).astype(np.float32)
 
 

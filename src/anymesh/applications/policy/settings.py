@@ -14,7 +14,7 @@ class TrainingSettings:
     """
 
     robot: str = "gripper"
-    observation: str = "state"
+    observation: str = "box"
     envs: int = 16
     processes: bool = False
     rollout: int = 128

@@ -19,7 +19,7 @@ SUBSTEPS = 10  # of `TIMESTEP` per action: 20 actions per second
 HORIZON = 70  # actions
 FORWARD = np.array([[0.0, 1, 0], [0, 0, 1], [1, 0, 0]])  # tool's z to +y, its closing direction along x
 DOWN = np.array([[-1.0, 0, 0], [0, 1, 0], [0, 0, -1]])  # tool's z down, its closing direction along y
-BEFORE, ABOVE = np.array([0.0, -0.12, 0.02]), np.array([0.0, 0.0, 0.14])  # [m] from the handle point to the tool at the start
+BEFORE, ABOVE = 0.12, 0.10  # [m] of the tool at the start, from the front of the object and from its top
 LEAD = 2.0  # steps that a command may be ahead of its joint, which limits the force
 GRAVITY, STAYS = 9.81, 1.5  # [m/s2], and friction over the weight's largest moment about the axis
 LOWEST = 0.05  # [m] of the tool at the start
@@ -130,7 +130,7 @@ class TaskSimulation:
         self.measure()
 
     def _pose(self, sample: SceneSample) -> tuple[Float[np.ndarray, " 3"], Float[np.ndarray, " 4"]]:
-        """Return position and quaternion of the object, turned about its handle point at the start."""
+        """Return position and quaternion of the object, turned about its middle."""
         c, s = np.cos(sample.yaw), np.sin(sample.yaw)
         turn = np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
         T, quat = self.found.T_world_asset, np.zeros(4)
@@ -138,9 +138,10 @@ class TaskSimulation:
         return turn @ T[:3, 3] + [sample.x, sample.y, 0.0], quat
 
     def _place_hand(self) -> None:
-        """Move a floating hand before the nominal handle point, whatever the sample."""
-        at = self.handle_at_start + (ABOVE if self._free else BEFORE)
-        at[2] = max(at[2], LOWEST)
+        """Move a floating hand before the front of the object, or above an object that is lifted, whatever the sample."""
+        low, high = self.found.box
+        middle = (low + high) / 2
+        at = np.array([0.0, 0.0, high[2] + ABOVE] if self._free else [0.0, low[1] - BEFORE, max(middle[2], LOWEST)])
         data, model = self.data, self.model
         self.mujoco.mj_kinematics(model, data)
         offset = data.site_xpos[self.tool_site].copy()

@@ -118,7 +118,7 @@ def _model(sb3: Any, envs: Any, out: Path, start: Path | None, seed: int, settin
 
         policy["features_extractor_class"] = PointCloudExtractor
     model = sb3.PPO(
-        "MlpPolicy" if settings.observation == "state" else "MultiInputPolicy", envs, n_steps=settings.rollout,
+        "MultiInputPolicy" if settings.observation == "points" else "MlpPolicy", envs, n_steps=settings.rollout,
         batch_size=settings.batch, n_epochs=settings.epochs, learning_rate=settings.learning_rate, gamma=settings.discount,
         gae_lambda=settings.gae, policy_kwargs=policy, seed=seed, device=settings.device,
     )  # fmt: skip
