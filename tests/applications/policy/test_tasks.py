@@ -18,37 +18,42 @@ from anymesh.applications.policy.tasks import (
 from anymesh.errors import OptionError
 
 OPEN, LIFT = PolicyTask.OPEN, PolicyTask.LIFT
-AWAY = Situation(0.2, 0.0, False, 0.0, 0.0, 0.0, 0.0, 5, 70)
+AWAY = Situation(0.15, 0, False, 0.0, 0.0, 0.0, 0.0, 5, 70)
 
 
 def test_nearer_is_better_until_a_finger_touches():
-    assert reward(OPEN, AWAY) == pytest.approx(-0.2)
+    assert reward(OPEN, AWAY) == pytest.approx(-0.15)
     assert reward(OPEN, replace(AWAY, distance=0.1)) > reward(OPEN, AWAY)
     assert reward(OPEN, replace(AWAY, distance=3.0)) == pytest.approx(-0.5)
-    assert reward(OPEN, replace(AWAY, fingers=0.5)) > reward(OPEN, replace(AWAY, distance=0.0))
+    assert (
+        reward(OPEN, replace(AWAY, fingers=2))
+        > reward(OPEN, replace(AWAY, fingers=1))
+        > reward(OPEN, replace(AWAY, distance=0))
+    )
 
 
 def test_progress_pays_only_in_contact_and_regress_always_costs():
     assert reward(OPEN, replace(AWAY, progress=0.5)) == reward(OPEN, AWAY)
-    held = replace(AWAY, fingers=1.0)
+    held = replace(AWAY, fingers=2)
     assert reward(OPEN, replace(held, progress=0.5)) == pytest.approx(reward(OPEN, held) + 0.5)
     assert reward(OPEN, replace(AWAY, progress=-0.5)) == pytest.approx(reward(OPEN, AWAY) - 0.25)
 
 
 def test_the_lid_is_open_at_its_goal_in_contact_and_an_early_end_pays_more():
-    done = replace(AWAY, fingers=0.5, progress=0.96)
+    done = replace(AWAY, fingers=2, progress=0.96)
     assert success(OPEN, done)
     assert not success(OPEN, replace(done, progress=0.94))
-    assert not success(OPEN, replace(done, fingers=0.0))
+    assert not success(OPEN, replace(done, fingers=1))
+    assert not success(OPEN, replace(done, distance=0.3))
     assert reward(OPEN, done) - reward(OPEN, replace(done, step=6)) == pytest.approx(1.2 * 0.96)
 
 
 def test_the_bucket_is_lifted_by_its_raised_handle():
-    held = replace(AWAY, fingers=1.0, progress=0.8, rise=0.26)
+    held = replace(AWAY, fingers=2, progress=0.8, rise=0.26)
     assert success(LIFT, held)
     assert not success(LIFT, replace(held, rise=0.24))
     assert not success(LIFT, replace(held, progress=0.6))
-    assert not success(LIFT, replace(held, fingers=0.0))
+    assert not success(LIFT, replace(held, fingers=1))
     low, high = (reward(LIFT, replace(held, rise=rise)) for rise in (0.05, 0.2))
     assert high > low
 

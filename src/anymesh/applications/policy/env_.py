@@ -120,8 +120,8 @@ def make_env(
 ) -> ArticulatedEnv:
     """Make a Gymnasium environment from an asset, a URDF or MJCF, a folder of assets, or several of these.
 
-    task: open, close or lift; robot: gripper, shadow, panda or ur5e; observation: state, box or points; joint: which one
-    the task moves (default: the one with the largest part); opening: from closed [rad or m] (default: 90 degrees or the whole range).
+    task: open, close or lift; robot: gripper, shadow, panda or ur5e; observation: state, box or points; joint: which one the
+    task moves (default: that of the largest part); opening: from closed [rad or m] (default: 90 degrees or the whole range).
     Raise InputError or OptionError if an asset does not fit the task, MissingExtraError if a package is not installed.
     """
     if task not in list(PolicyTask):

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from anymesh.applications.policy.tasks import PolicyTask
 from anymesh.errors import OptionError
 
 Range = tuple[float, float]
@@ -65,3 +66,8 @@ class Randomization:
 
 
 NO_RANDOMIZATION = Randomization(0.0, 0.0, (1.0, 1.0), 1.0, 1.0, 1.0, 0.0)
+DEXART = {  # its ranges of pose: a square of 0.1 m and 60 degrees for laptops, 0.05 m and none for buckets
+    PolicyTask.OPEN: Randomization(position=0.05, yaw=60.0),
+    PolicyTask.CLOSE: Randomization(position=0.05, yaw=60.0),
+    PolicyTask.LIFT: Randomization(position=0.025, yaw=0.0),
+}

@@ -9,12 +9,14 @@ from dataclasses import dataclass
 class TrainingSettings:
     """Settings of PPO and of the environments.
 
-    envs: in parallel; processes: whether each runs in its own; rollout: steps of each between updates; batch, epochs: of an
-    update; hidden: widths of the layers; saved: steps between checkpoints.
+    dexart_poses: draw poses from DexArt's ranges instead of the default ones; envs: in parallel; processes: run each in its
+    own; rollout: steps of each between updates; batch, epochs: of an update; hidden: widths of the layers; log_std: of actions
+    at the start; saved: steps between checkpoints.
     """
 
     robot: str = "gripper"
     observation: str = "box"
+    dexart_poses: bool = True
     envs: int = 16
     processes: bool = False
     rollout: int = 128

@@ -222,6 +222,6 @@ class TaskSimulation:
         distance = float(np.linalg.norm(self.handle_position - self.tool_position))
         rise = float(self.data.xpos[self.stand, 2]) - self.start_height
         return Situation(
-            distance, float(fingers.mean()), collides, self.found.goal.progress(self.value), rise, tool_rise, self._effort,
+            distance, int(fingers.sum()), collides, self.found.goal.progress(self.value), rise, tool_rise, self._effort,
             self.step, self.horizon,
         )  # fmt: skip

@@ -9,11 +9,12 @@ from enum import StrEnum
 from anymesh.errors import OptionError
 
 MAX_DISTANCE = 0.5  # [m] distance above which the reaching term is constant
+FINGERS, HELD_DISTANCE = 2, 0.2  # fingers on the part, and [m] to its handle point, that count as holding it
 OPEN_SUCCESS, LIFT_SUCCESS = 0.95, 0.7  # progress of the joint that counts as done
 LIFTED, LIFT_HEIGHT = 0.25, 0.3  # [m] rise that counts as done, and rise up to which lifting is rewarded
 MAX_OPENING = math.pi / 2  # [rad] the goal of `open` from closed, as for DexArt's laptops
 MAX_TURN = math.pi / 3  # [rad] goal for a joint without limits
-AJAR = math.radians(20)  # [rad] opening at the start of `open`, so that a finger fits below a lid without a handle
+AJAR = 0.2  # [rad] opening at the start of `open`, so that a finger fits below a lid without a handle (DexArt: 0.2)
 AJAR_SHARE = 0.15  # of the travel of a slide, for the same purpose
 
 
@@ -41,13 +42,13 @@ class JointGoal:
 class Situation:
     """Measurements after a step.
 
-    distance: from the tool to the handle point [m]; fingers: share of the fingers that touch the part; collides: whether the
-    rest of the robot touches the object; progress: of the joint; rise: of the object [m]; tool_rise: of the tool in the last
+    distance: from the tool to the handle point [m]; fingers: number of fingers that touch the part; collides: whether the rest
+    of the robot touches the object; progress: of the joint; rise: of the object [m]; tool_rise: of the tool in the last
     step [m]; effort: mean squared action; step, horizon: counts.
     """
 
     distance: float
-    fingers: float
+    fingers: int
     collides: bool
     progress: float
     rise: float
@@ -55,6 +56,11 @@ class Situation:
     effort: float
     step: int
     horizon: int
+
+    @property
+    def held(self) -> bool:
+        """Whether two fingers touch the part near its handle point."""
+        return self.fingers >= FINGERS and self.distance < HELD_DISTANCE
 
 
 def joint_goal(task: PolicyTask, limits: tuple[float, float] | None, slides: bool, opening: float | None = None) -> JointGoal:
@@ -76,13 +82,13 @@ def joint_goal(task: PolicyTask, limits: tuple[float, float] | None, slides: boo
 
 def reward(task: PolicyTask, s: Situation) -> float:
     """Return the reward of a step: DexArt's terms for reaching, contact, progress and lifting (see docs/policy.md)."""
-    found = -min(s.distance, MAX_DISTANCE) if s.fingers == 0 else 0.2 * s.fingers
+    found = -min(s.distance, MAX_DISTANCE) if s.fingers == 0 else 0.1 * min(s.fingers, FINGERS)
     found -= 0.1 * s.collides + 0.01 * s.effort
     if s.progress < 0:
         found += 0.5 * s.progress
     elif s.fingers > 0:
-        found += (1.0 if task is not PolicyTask.LIFT else 0.5) * min(s.progress, 1.0)
-    if task is PolicyTask.LIFT and s.fingers >= 1.0 and s.rise < LIFT_HEIGHT:
+        found += (1.0 if s.held else 0.5) * min(s.progress, 1.0)
+    if task is PolicyTask.LIFT and s.held and s.rise < LIFT_HEIGHT:
         found += 20 * s.tool_rise * (s.rise > 0.01) + s.rise / LIFT_HEIGHT * 3
     if success(task, s):
         found += (s.horizon - s.step) * 1.2 * min(s.progress, 1.0) * (1.0 if task is not PolicyTask.LIFT else 3.0)
@@ -90,7 +96,7 @@ def reward(task: PolicyTask, s: Situation) -> float:
 
 
 def success(task: PolicyTask, s: Situation) -> bool:
-    """Return whether the task is done: the joint at its goal while a finger touches the part, or the object lifted by it."""
+    """Return whether the task is done: the joint at its goal, or the object lifted by its raised handle, while held."""
     if task is PolicyTask.LIFT:
-        return s.progress > LIFT_SUCCESS and s.rise > LIFTED and s.fingers > 0
-    return s.progress > OPEN_SUCCESS and s.fingers > 0
+        return s.progress > LIFT_SUCCESS and s.rise > LIFTED and s.held
+    return s.progress > OPEN_SUCCESS and s.held

@@ -12,7 +12,9 @@ from typing import Any
 import numpy as np
 
 from anymesh.applications.policy.env_ import ArticulatedEnv, make_env
+from anymesh.applications.policy.randomization import DEXART, Randomization
 from anymesh.applications.policy.settings import TrainingSettings
+from anymesh.applications.policy.tasks import PolicyTask
 from anymesh.errors import MissingExtraError, OptionError, OutputError
 from anymesh.models.cache import write_whole
 
@@ -91,10 +93,16 @@ def _check_config(out: Path, config: dict[str, Any]) -> None:
     write_whole(path, json.dumps(config, indent=1).encode())
 
 
+def _maker(assets: Sequence[Path], task: str, settings: TrainingSettings) -> Callable[[], ArticulatedEnv]:
+    poses = DEXART[PolicyTask(task)] if settings.dexart_poses else Randomization()
+    paths = [str(p) for p in assets]
+    return partial(make_env, paths, task, robot=settings.robot, observation=settings.observation, randomization=poses)
+
+
 def _vector(assets: Sequence[Path], task: str, settings: TrainingSettings) -> Any:
     from stable_baselines3.common.vec_env import DummyVecEnv, SubprocVecEnv, VecMonitor
 
-    make = partial(make_env, [str(p) for p in assets], task, robot=settings.robot, observation=settings.observation)
+    make = _maker(assets, task, settings)
     kind = SubprocVecEnv if settings.processes else DummyVecEnv
     return VecMonitor(kind([make] * settings.envs), info_keywords=("success", "progress", "rise"))
 
@@ -177,7 +185,7 @@ def evaluate_policy(
 
     torch.set_num_threads(settings.threads)
     model = load_sb3().PPO.load(policy, device=settings.device)
-    make = partial(make_env, [str(p) for p in assets], task, robot=settings.robot, observation=settings.observation)
+    make = _maker(assets, task, settings)
     envs = [make() for _ in range(min(settings.envs, len(assets) * episodes))]
     jobs = [(asset, number) for asset in range(len(assets)) for number in range(episodes)][::-1]
     return _run_all(model, envs, jobs, seed)
