@@ -23,7 +23,7 @@ from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
 from policy_objects import write_object
-from policy_report import write_report
+from policy_report import TEST_SEED, write_report
 
 from anymesh.applications.policy.objects_ import find_assets, task_object
 from anymesh.applications.policy.settings import SETTINGS
@@ -36,7 +36,6 @@ from anymesh.export import write_asset
 
 TASKS = {"laptop": PolicyTask.OPEN, "bucket": PolicyTask.LIFT}
 ARMS = ("baseline", "augmented")
-TEST_SEED = 7_000_000  # of the starts of evaluated episodes; trainings draw theirs from 0 up
 
 
 @dataclass(frozen=True)

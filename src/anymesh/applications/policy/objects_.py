@@ -10,7 +10,7 @@ import numpy as np
 from jaxtyping import Float
 
 from anymesh.applications.plan.asset_ import ArticulatedObject, description, open_object
-from anymesh.applications.policy.tasks import AJAR, MAX_OPENING, JointGoal, PolicyTask, joint_goal
+from anymesh.applications.policy.tasks import AJAR, MAX_OPENING, MAX_TURN, JointGoal, PolicyTask, joint_goal
 from anymesh.checking.find import kind_of
 from anymesh.errors import InputError, OptionError
 from anymesh.mujoco_ import load_mujoco
@@ -108,6 +108,21 @@ def task_object(path: str | Path, task: PolicyTask, joint: str | None = None, op
     goal = lid_goal(task, thing, handle, opening) or joint_goal(task, thing.limits, not thing.turns, opening)
     closed = goal.start if task is PolicyTask.OPEN else goal.goal
     return TaskObject(thing, goal, handle, *_placed(thing, goal.start, _front(thing.motion, handle, closed)))
+
+
+def object_at_rest(path: str | Path, joint: str) -> TaskObject:
+    """Read an asset with a joint to move from rest to the farther end of its range, or by at most 90 degrees.
+
+    Raise OptionError if the range is empty.
+    """
+    thing = open_object(path, joint)
+    low, high = thing.limits if thing.limits is not None else (0.0, MAX_TURN)
+    far = high if high >= -low else low
+    goal = float(np.clip(far, -MAX_OPENING, MAX_OPENING)) if thing.turns else far
+    if abs(goal) < 1e-6:
+        raise OptionError(f"{joint} of {thing.name} has an empty range")
+    handle = handle_point(thing)
+    return TaskObject(thing, JointGoal(0.0, goal), handle, *_placed(thing, 0.0, _front(thing.motion, handle, 0.0)))
 
 
 def handle_point(thing: ArticulatedObject) -> Float[np.ndarray, " 3"]:

@@ -26,12 +26,24 @@ LOWEST = 0.05  # [m] of the tool at the start
 
 
 class TaskSimulation:
-    """One object with one robot. `reset` sets a sample of the randomization; `act` runs one action."""
+    """One object with one robot. `reset` sets a sample of the randomization; `act` runs one action.
 
-    def __init__(self, found: TaskObject, task: PolicyTask, robot: str = "gripper", horizon: int = HORIZON) -> None:
+    R_world_tool: orientation of a floating hand at the start; by default ahead, or down for `lift`.
+    """
+
+    def __init__(
+        self,
+        found: TaskObject,
+        task: PolicyTask,
+        robot: str = "gripper",
+        horizon: int = HORIZON,
+        R_world_tool: Float[np.ndarray, "3 3"] | None = None,
+    ) -> None:
         self.mujoco = load_mujoco()
         self.found, self.task, self.horizon = found, task, horizon
-        self.robot = made = make_robot(robot, DOWN if task is PolicyTask.LIFT else FORWARD)
+        home = DOWN if task is PolicyTask.LIFT else FORWARD
+        self._R_home = home if R_world_tool is None else R_world_tool
+        self.robot = made = make_robot(robot, self._R_home)
         lifts = task is PolicyTask.LIFT
         spec = compose(found, made, lifts=lifts)
         self.model = model = spec.compile()
@@ -167,15 +179,22 @@ class TaskSimulation:
         self._tool_height = float(self.tool_position[2])
         return self.measure(self._tool_height - before)
 
-    def place_tool(self, position: Float[np.ndarray, " 3"], R: Float[np.ndarray, "3 3"], gap: float) -> None:
-        """Command a pose of the floating gripper's tool in the world frame, and a gap of its fingers, below 0 to press."""
-        turn = R @ FORWARD.T if self.task is not PolicyTask.LIFT else R @ DOWN.T
+    def command_tool(
+        self, position: Float[np.ndarray, " 3"], R: Float[np.ndarray, "3 3"], gap: float, *, jump: bool = False
+    ) -> None:
+        """Command a pose of the floating gripper's tool in the world frame, and a gap of its fingers, below 0 to press.
+
+        The orientation must be less than 90 degrees of pitch from that at the start. jump: place the hand there at once.
+        """
+        turn = R @ self._R_home.T
         yaw, pitch = np.arctan2(turn[1, 0], turn[0, 0]), -np.arcsin(np.clip(turn[2, 0], -1, 1))
         roll = np.arctan2(turn[2, 1], turn[2, 2])
-        for name, value in zip((*SLIDERS, *HINGES), (*position, yaw, pitch, roll), strict=True):
+        values = dict(zip((*SLIDERS, *HINGES), (*position, yaw, pitch, roll), strict=True))
+        values |= {"left_finger": gap / 2, "right_finger": gap / 2}
+        for name, value in values.items():
             self.data.ctrl[int(self.model.actuator(ROBOT + name).id)] = value
-        for name in ("left_finger", "right_finger"):
-            self.data.ctrl[int(self.model.actuator(ROBOT + name).id)] = gap / 2
+            if jump:
+                self.data.qpos[int(self.model.joint(ROBOT + name).qposadr[0])] = value
 
     def _send(self) -> None:
         for number, group in enumerate(self._servos):
