@@ -25,7 +25,7 @@ FLOORS = [
     {"agents"},
     {"cli", "cli_output", "cli_eval", "cli_check", "cli_finish", "cli_view", "cli_report", "cli_options"}
     | {"cli_annotate", "cli_quiet", "cli_defect", "cli_articulate", "cli_stages", "cli_answer", "cli_models", "cli_mcp"}
-    | {"cli_generate", "cli_plan", "cli_scan"},
+    | {"cli_generate", "cli_plan", "cli_policy", "cli_scan"},
 ]
 STAGES = {"segmentation", "articulation", "postprocessing"}
 OUTSIDE = set(

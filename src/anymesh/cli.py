@@ -22,6 +22,7 @@ from anymesh.cli_mcp import mcp, skill
 from anymesh.cli_models import models
 from anymesh.cli_output import plain
 from anymesh.cli_plan import plan
+from anymesh.cli_policy import train
 from anymesh.cli_quiet import quiet_libraries
 from anymesh.cli_report import picture, report
 from anymesh.cli_scan import scan
@@ -94,6 +95,7 @@ _command()(report)
 _command()(picture)
 _command()(view)
 _command()(plan)
+_command()(train)
 _command("check")(check)
 _command("eval")(evaluate)
 
