@@ -10,14 +10,14 @@ from anymesh.applications.policy.objects_ import object_at_rest
 from anymesh.cli import run
 from anymesh.errors import OptionError
 
-WELDED = """
+KNOB = """
 <mujoco model="{name}">
   <worldbody>
     <body name="base">
       <geom type="box" size="0.1 0.1 0.1" pos="0 0.1 0.1" mass="2"/>
       <body name="knob" pos="0 -0.02 0.1">
-        <joint name="knob_joint" type="slide" axis="0 -1 0" range="0 0.05" frictionloss="{friction}"/>
-        <geom type="box" size="0.01 0.02 0.01" mass="0.1"/>
+        <joint name="knob_joint" type="slide" axis="0 -1 0" range="0 0.05" frictionloss="0.5"/>
+        <geom type="box" size="{half} 0.02 {half}" mass="0.1"/>
       </body>
     </body>
   </worldbody>
@@ -25,31 +25,31 @@ WELDED = """
 """
 
 
-def test_a_drawer_is_pulled_and_a_knob_that_sticks_is_not(objects, tmp_path):
+def test_a_drawer_is_pulled_by_its_handle_and_a_flush_front_is_not(objects, tmp_path):
     done = move_joint(object_at_rest(objects / "drawer.xml", "tray_joint"), tries=3)
     assert done.failure is None
     assert done.share > 0.9
-    path = tmp_path / "stuck.xml"
-    path.write_text(WELDED.format(name="stuck", friction=5000))
-    stuck = move_joint(object_at_rest(path, "knob_joint"), tries=2)
-    assert stuck.failure in (InteractionFailure.SHORT, InteractionFailure.MISSED)
-    assert stuck.share < 0.5
+    path = tmp_path / "flush.xml"
+    path.write_text(KNOB.format(name="flush", half=0.1))
+    flush = move_joint(object_at_rest(path, "knob_joint"), tries=2)
+    assert flush.failure is InteractionFailure.NO_PLACE
+    assert flush.share == flush.tries == 0
 
 
 def test_a_folder_is_reported_per_joint_and_resumed(tmp_path, monkeypatch):
-    for name, friction in (("free", 0.5), ("stuck", 5000)):
+    for name, half in (("flush", 0.1), ("knob", 0.01)):
         (tmp_path / "set" / name).mkdir(parents=True)
-        (tmp_path / "set" / name / f"{name}.xml").write_text(WELDED.format(name=name, friction=friction))
+        (tmp_path / "set" / name / f"{name}.xml").write_text(KNOB.format(name=name, half=half))
         (tmp_path / "set" / name / "asset.json").write_text("{}")
     rows = evaluate_interaction(tmp_path / "set", tmp_path / "out", tries=2)
-    assert [(r.asset, r.success) for r in rows] == [("free", True), ("stuck", False)]
+    assert [(r.asset, r.success) for r in rows] == [("flush", False), ("knob", True)]
     assert summary(rows)["slide"]["interaction"] == 0.5
     report = (tmp_path / "out" / "report.md").read_text()
     assert "| slide | 2 | 0.500 |" in report
-    assert (tmp_path / "out" / "failures.png").is_file()
+    assert InteractionFailure.NO_PLACE in report
     monkeypatch.setattr("anymesh.applications.policy.interaction_.move_joint", None)  # nothing is evaluated again
     assert evaluate_interaction(tmp_path / "set", tmp_path / "out", tries=2) == rows
-    with pytest.raises(OptionError, match="valid are free, stuck"):
+    with pytest.raises(OptionError, match="valid are flush, knob"):
         evaluate_interaction(tmp_path / "set", tmp_path / "other", only=("missing",))
 
 

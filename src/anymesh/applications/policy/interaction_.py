@@ -139,7 +139,7 @@ def summary(rows: Sequence[JointInteraction]) -> dict[str, dict[str, float]]:
     groups = {"all": list(rows)} | {k: [r for r in rows if r.kind == k] for k in ("hinge", "slide")}
     return {
         name: {
-            "joints": len(some),
+            "joints": float(len(some)),
             "interaction": sum(r.success for r in some) / len(some),
             "executable": sum(r.executable for r in some) / len(some),
             "both": sum(r.success and r.executable for r in some) / len(some),

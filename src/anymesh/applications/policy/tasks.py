@@ -88,7 +88,7 @@ def reward(task: PolicyTask, s: Situation) -> float:
         found += 0.5 * s.progress
     elif s.fingers > 0:
         found += (1.0 if s.held else 0.5) * min(s.progress, 1.0)
-    if task is PolicyTask.LIFT and s.held and s.rise < LIFT_HEIGHT:
+    if task is PolicyTask.LIFT and s.fingers > 0 and s.rise < LIFT_HEIGHT:
         found += 20 * s.tool_rise * (s.rise > 0.01) + s.rise / LIFT_HEIGHT * 3
     if success(task, s):
         found += (s.horizon - s.step) * 1.2 * min(s.progress, 1.0) * (1.0 if task is not PolicyTask.LIFT else 3.0)
@@ -96,7 +96,10 @@ def reward(task: PolicyTask, s: Situation) -> float:
 
 
 def success(task: PolicyTask, s: Situation) -> bool:
-    """Return whether the task is done: the joint at its goal, or the object lifted by its raised handle, while held."""
+    """Return whether the task is done: the joint at its goal while it is held, or the object lifted by its raised handle.
+
+    As in DexArt, an object that hangs on one finger is lifted.
+    """
     if task is PolicyTask.LIFT:
-        return s.progress > LIFT_SUCCESS and s.rise > LIFTED and s.held
+        return s.progress > LIFT_SUCCESS and s.rise > LIFTED
     return s.progress > OPEN_SUCCESS and s.held
