@@ -28,7 +28,7 @@ def test_nearer_is_better_until_a_finger_touches():
     assert (
         reward(OPEN, replace(AWAY, fingers=2))
         > reward(OPEN, replace(AWAY, fingers=1))
-        > reward(OPEN, replace(AWAY, distance=0))
+        > reward(OPEN, replace(AWAY, distance=0.0))
     )
 
 
