@@ -15,6 +15,7 @@ from anymesh.errors import AnymeshError, InputError, MissingExtraError, OptionEr
 if TYPE_CHECKING:
     from anymesh.applications.generate import generate
     from anymesh.applications.plan import plan
+    from anymesh.applications.policy.env_ import make_env
     from anymesh.applications.scan import scan
     from anymesh.checking import check_asset
     from anymesh.pipeline import articulate, export, finish, joints, segment
@@ -26,6 +27,7 @@ _HOME = {
     **dict.fromkeys(("articulate", "segment", "joints", "export", "finish"), "anymesh.pipeline"),
     "check_asset": "anymesh.checking",
     "generate": "anymesh.applications.generate",
+    "make_env": "anymesh.applications.policy.env_",
     "plan": "anymesh.applications.plan",
     "scan": "anymesh.applications.scan",
     "show": "anymesh.viewer.report_notebook",
@@ -50,6 +52,7 @@ __all__ = [
     "finish",
     "generate",
     "joints",
+    "make_env",
     "plan",
     "scan",
     "segment",

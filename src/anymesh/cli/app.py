@@ -30,6 +30,7 @@ from anymesh.cli.report import report
 from anymesh.cli.scan import scan
 from anymesh.cli.segment import segment
 from anymesh.cli.skill import skill
+from anymesh.cli.train import train
 from anymesh.cli.view import view
 from anymesh.errors import DEFECT, AnymeshError, OpenQuestionError
 
@@ -98,6 +99,7 @@ _command()(report)
 _command()(picture)
 _command()(view)
 _command()(plan)
+_command()(train)
 _command("check")(check)
 _command("eval")(evaluate)
 

@@ -24,7 +24,13 @@ DatasetName = Annotated[
 ReportOut = Annotated[
     Path, typer.Option("--out", "-o", metavar="DIR", help="Folder of the report; a stopped evaluation is resumed.")
 ]
-ProtocolName = Annotated[str, typer.Option(help="parts (given), views (parts given, in one view), end-to-end, executability.")]
+ProtocolName = Annotated[
+    str,
+    typer.Option(
+        help="parts (given), views (parts given, in one view), end-to-end, executability; or interaction, where DATASET is a "
+        "folder of assets whose joints a scripted gripper moves."
+    ),
+]
 Split = Annotated[str | None, typer.Option(help="A subset of the data set, such as ID, OOD or OneDoor.")]
 Changes = Annotated[
     str, typer.Option("--changes", metavar="NAMES", help="Changes of each mesh, such as none,turned,noise.001,fused; or all.")
@@ -43,6 +49,7 @@ EvalAnswerer = Annotated[
     ),
 ]
 
+INTERACTION = "interaction"
 SHOWN = ("change", "objects", "joints", "type", "angle", "line", "at part", "opens", "range", "part F1", "part mIoU", "runs")
 
 
@@ -63,6 +70,9 @@ def evaluate(
     quiet: Quiet = False,
 ) -> None:
     """Evaluate all objects of a data set with known joints; write tables, pictures of the worst joints, a line per joint."""
+    if protocol == INTERACTION:
+        _interaction(dataset, out, _names(only), answering["seed"], force, json_, quiet)
+        return
     from anymesh.evaluation import evaluating
     from anymesh.evaluation.changes import CHANGES
     from anymesh.evaluation.summary import summarize
@@ -82,6 +92,19 @@ def evaluate(
     tell({"out": str(out), "results": results}, rows, head, json_, quiet)
     if not (json_ or quiet):
         typer.echo(f"wrote {out / 'report.html'}, report.md, worst.png and joints.jsonl")
+
+
+def _interaction(assets: str, out: Path, only: tuple[str, ...], seed: int, force: bool, json_: bool, quiet: bool) -> None:
+    from anymesh.applications.policy.interaction_ import evaluate_interaction, summary
+
+    with Shown(quiet or json_) as progress:
+        rows = evaluate_interaction(assets, out, only=only, seed=seed, force=force, progress=progress)
+    shares = summary(rows)
+    head = ("joints", "count", "interaction", "executable", "both")
+    shown = [{"joints": name, "count": int(s["joints"]), **{k: f"{s[k]:.3f}" for k in head[2:]}} for name, s in shares.items()]
+    tell({"out": str(out), "results": shares, "joints": [asdict(r) for r in rows]}, shown, head, json_, quiet)
+    if not (json_ or quiet):
+        typer.echo(f"wrote {out / 'report.md'}")
 
 
 def _names(told: str) -> tuple[str, ...]:

@@ -69,7 +69,7 @@ def open_object(path: str | Path, joint: str) -> ArticulatedObject:
     Raise InputError if there is nothing to read, OptionError if the joint does not exist or does not move.
     """
     mujoco = load_mujoco()
-    file = _description(Path(path))
+    file = description(Path(path))
     try:
         spec = read_spec(mujoco, file)
         spec.compiler.fusestatic = False
@@ -108,7 +108,7 @@ def open_object(path: str | Path, joint: str) -> ArticulatedObject:
     )
 
 
-def _description(path: Path) -> Path:
+def description(path: Path) -> Path:
     """Return the MJCF beside the URDF if there is one, since it states which links do not collide."""
     found = find_description(path)
     beside = found.with_suffix(".xml")

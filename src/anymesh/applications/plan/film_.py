@@ -52,23 +52,8 @@ class Film:
         self.model = model = compose(thing, robot, base=base, T_world_asset=moved(physics), visuals=True).compile()
         self.data = self.mujoco.MjData(model)
         self.robot, self.hand, self.thing = robot, hand, thing
-        self._shapes = [(g, *self._shape(g)) for g in _drawn(model)]
+        self._shapes = [(g, *geom_surface(self.mujoco, model, self.data, g)) for g in drawn_geoms(model)]
         self._colors = np.concatenate([np.tile(color, (len(own), 1)) for _, own, color in self._shapes])
-
-    def _shape(self, geom: int) -> tuple[Float[np.ndarray, "n 3 3"], UInt8[np.ndarray, " 3"]]:
-        """Return the surface of a geom in its own frame, and its colour."""
-        model, data = self.model, self.data
-        self.mujoco.mj_kinematics(model, data)
-        world = geom_triangles(self.mujoco, model, data, geom)
-        own = (world - data.geom_xpos[geom]) @ data.geom_xmat[geom].reshape(3, 3)
-        look = int(model.geom_matid[geom])
-        rgba = model.geom_rgba[geom] if look < 0 else model.mat_rgba[look]
-        if int(model.geom_bodyid[geom]) == 0:
-            half = FLOOR / 2
-            own = np.clip(own, -half, half)
-        own = simplify(own, MOST_FACES)
-        plain = look < 0 and np.allclose(rgba[:3], 0.5)  # MuJoCo's default colour, used where a file states none
-        return own, np.round(255 * np.clip(GRAY if plain else rgba[:3], 0, 1)).astype(np.uint8)
 
     def state(self, trajectory: Trajectory, row: int) -> Float[np.ndarray, " q"]:
         """Return the positions that a trajectory prescribes at one of its samples."""
@@ -115,18 +100,40 @@ class Film:
         self._pose(q)
         data = self.data
         parts = [own @ data.geom_xmat[g].reshape(3, 3).T + data.geom_xpos[g] for g, own, _ in self._shapes]
-        corners = np.concatenate(parts).reshape(-1, 3)
-        faces = np.arange(len(corners)).reshape(-1, 3)
-        none = np.zeros(len(faces), np.int64)
-        mesh = Mesh(corners, faces, none, (Node("scene"),), none - 1)
-        scene = RayScene(mesh.vertices, mesh.faces)
-        groups = np.repeat(np.arange(len(parts)), [len(p) for p in parts])
-        samples = sample(render_target(mesh, scene, groups), camera, Window(0, 0, camera.width, camera.height))
-        light = 0.55 + 0.45 * np.maximum(samples.normal @ SUN.astype(np.float32), 0)
-        return draw(samples, face_colors(self._colors, samples), light, ground(camera.height, camera.width))
+        return draw_surfaces(parts, self._colors, camera)
 
 
-def _drawn(model: Any) -> list[int]:
+def geom_surface(mujoco: Any, model: Any, data: Any, geom: int) -> tuple[Float[np.ndarray, "n 3 3"], UInt8[np.ndarray, " 3"]]:
+    """Return the surface of a geom in its own frame, and its colour; ground is cut to a square."""
+    mujoco.mj_kinematics(model, data)
+    world = geom_triangles(mujoco, model, data, geom)
+    own = (world - data.geom_xpos[geom]) @ data.geom_xmat[geom].reshape(3, 3)
+    look = int(model.geom_matid[geom])
+    rgba = model.geom_rgba[geom] if look < 0 else model.mat_rgba[look]
+    if int(model.geom_bodyid[geom]) == 0:
+        half = FLOOR / 2
+        own = np.clip(own, -half, half)
+    own = simplify(own, MOST_FACES)
+    plain = look < 0 and np.allclose(rgba[:3], 0.5)  # MuJoCo's default colour, used where a file states none
+    return own, np.round(255 * np.clip(GRAY if plain else rgba[:3], 0, 1)).astype(np.uint8)
+
+
+def draw_surfaces(
+    surfaces: list[Float[np.ndarray, "_ 3 3"]], colors: UInt8[np.ndarray, "F 3"], camera: Camera
+) -> UInt8[np.ndarray, "H W 3"]:
+    """Draw surfaces with a colour per face, with outlines between them."""
+    corners = np.concatenate(surfaces).reshape(-1, 3)
+    faces = np.arange(len(corners)).reshape(-1, 3)
+    none = np.zeros(len(faces), np.int64)
+    mesh = Mesh(corners, faces, none, (Node("scene"),), none - 1)
+    scene = RayScene(mesh.vertices, mesh.faces)
+    groups = np.repeat(np.arange(len(surfaces)), [len(p) for p in surfaces])
+    samples = sample(render_target(mesh, scene, groups), camera, Window(0, 0, camera.width, camera.height))
+    light = 0.55 + 0.45 * np.maximum(samples.normal @ SUN.astype(np.float32), 0)
+    return draw(samples, face_colors(colors, samples), light, ground(camera.height, camera.width))
+
+
+def drawn_geoms(model: Any) -> list[int]:
     """Return the visual geoms, the ground, and the collision geoms of links without visual ones."""
     seen = {g for g in range(model.ngeom) if not (model.geom_contype[g] or model.geom_conaffinity[g])}
     covered = {int(model.geom_bodyid[g]) for g in seen}

@@ -26,7 +26,7 @@ PALM = np.array([(x, y) for x in (-0.03, 0.0, 0.03) for y in (-0.08, -0.04, 0.0,
 PALM_BACK = 0.034  # [m] from the palm to the grasped place
 CORRIDOR = 0.35  # [m] free length required behind the palm
 EPS = 1e-5  # [m] offset of rays from their surface
-KEPT, POOL = 250, 2500  # targets returned, and number of the best from which they are chosen
+KEPT, POOL = 250, 2500  # targets returned by default, and number of the best from which they are chosen
 APART, TURNED = 0.015, np.cos(np.deg2rad(25))  # [m], cosine; targets closer than both are duplicates
 
 
@@ -51,11 +51,18 @@ class PartSurfaces:
 
 
 def sample_targets(
-    surfaces: PartSurfaces, motion: Motion, value: float, stroke: float, seed: int, contacts: tuple[GripperContact, ...]
+    surfaces: PartSurfaces,
+    motion: Motion,
+    value: float,
+    stroke: float,
+    seed: int,
+    contacts: tuple[GripperContact, ...],
+    count: int = KEPT,
 ) -> list[Target]:
     """Return targets of the requested kinds, the most promising first.
 
-    value: of the joint to reach from rest [rad or m], whose sign gives the direction; stroke: of the gripper [m].
+    value: of the joint to reach from rest [rad or m], whose sign gives the direction; stroke: of the gripper [m]; count: the
+    largest number of targets.
     """
     rng = np.random.default_rng(seed)
     points, normals = _samples(surfaces.part, rng)
@@ -65,7 +72,7 @@ def sample_targets(
     if GripperContact.PUSH in contacts:
         found += _pushes(surfaces, points, normals, motion, value)
     first = {kind: k for k, kind in enumerate(contacts)}
-    return sorted(_unlike(found), key=lambda t: (first[t.contact], -t.score))
+    return sorted(_unlike(found, count), key=lambda t: (first[t.contact], -t.score))
 
 
 def _samples(triangles: np.ndarray, rng: np.random.Generator) -> tuple[Float[np.ndarray, "n 3"], Float[np.ndarray, "n 3"]]:
@@ -203,11 +210,11 @@ def _room(scene: RayScene, T: Float[np.ndarray, "n 4 4"], width: Float[np.ndarra
     return np.asarray(hits.distance.reshape(len(T), -1).min(1) > CORRIDOR)
 
 
-def _unlike(targets: list[Target]) -> list[Target]:
+def _unlike(targets: list[Target], count: int) -> list[Target]:
     """Return targets without near duplicates, keeping the best of each group."""
     kept: list[Target] = []
     for target in sorted(targets, key=lambda t: -t.score)[:POOL]:
-        if len(kept) >= KEPT:
+        if len(kept) >= count:
             break
         T = target.T_asset_tool
         alike = any(

@@ -1,0 +1,6 @@
+"""Environments for reinforcement learning from articulated assets, and training on sets of them (paper, 4.2 and table 2)."""
+
+from anymesh.applications.policy.randomization import NO_RANDOMIZATION, Randomization
+from anymesh.applications.policy.tasks import PolicyTask
+
+__all__ = ["NO_RANDOMIZATION", "PolicyTask", "Randomization"]

@@ -1,0 +1,121 @@
+"""Floating hands: a parallel gripper of boxes, and the Shadow hand."""
+
+from __future__ import annotations
+
+from importlib import metadata
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+
+import numpy as np
+
+from anymesh.applications.plan.hand_ import Hand
+from anymesh.applications.policy.robot import HINGES, LIMIT, SLIDERS, TaskRobot
+from anymesh.errors import MissingExtraError
+from anymesh.mujoco_ import load_mujoco
+
+STROKE, PAD, REACH = 0.085, (0.010, 0.006, 0.036), 0.012  # [m] of the gripper; half sizes of a pad; tips ahead of the tool
+FINGER_FORCE, MOVE_FORCE, TURN_TORQUE = 30.0, 80.0, 8.0  # [N], [N], [N m] limits of the servos
+PRESS = 0.01  # [m] by which a closing command passes beyond closed, to press on what is between the pads
+MASS = 0.8  # [kg] of the gripper
+STEP, TURN_STEP = 0.03, 0.12  # [m], [rad] of the largest change of the command in one step
+SHADOW = "gymnasium_robotics/envs/assets"  # in the wheel gymnasium-robotics: the Shadow hand as MJCF, with meshes
+SHADOW_FINGERS = ("ff", "mf", "rf", "lf", "th")
+NO_SHADOW = "gymnasium-robotics is not installed; `pip install 'articulate-anymesh[policy-hand]'` brings it"
+
+
+def gripper_hand() -> Hand:
+    """Return the geometry of the floating gripper, as `anymesh plan` measures it for others."""
+    posture = np.array([[0.0, 0.0], [STROKE / 2, STROKE / 2]])
+    return Hand(np.eye(4), np.array([0.0, STROKE]), np.full(2, REACH), posture, posture.copy())
+
+
+def _floating(R_world_tool: np.ndarray) -> tuple[Any, Any]:
+    """Return a spec with a mount that six servos move, and the body of the hand on it."""
+    mujoco = load_mujoco()
+    spec = mujoco.MjSpec()
+    spec.compiler.degree = False
+    body = spec.worldbody.add_body(name="mount", gravcomp=1.0)
+    axes = np.eye(3)
+    for k, name in enumerate(SLIDERS):
+        body.add_joint(name=name, type=mujoco.mjtJoint.mjJNT_SLIDE, axis=axes[k], armature=0.2)
+    for name, k in zip(HINGES, (2, 1, 0), strict=True):
+        body.add_joint(name=name, type=mujoco.mjtJoint.mjJNT_HINGE, axis=axes[k], armature=0.02)
+    body.mass, body.inertia, body.explicitinertial = MASS / 2, [1e-3] * 3, True
+    for name in SLIDERS:
+        _add_servo(mujoco, spec, name, 1500.0, 80.0, MOVE_FORCE)
+    for name in HINGES:
+        _add_servo(mujoco, spec, name, 60.0, 3.0, TURN_TORQUE)
+    quat = np.zeros(4)
+    mujoco.mju_mat2Quat(quat, np.ascontiguousarray(R_world_tool, float).reshape(-1))
+    return spec, body.add_body(name="hand", quat=quat, gravcomp=1.0)
+
+
+def _add_servo(mujoco: Any, spec: Any, joint: str, stiffness: float, damping: float, force: float) -> None:
+    servo = spec.add_actuator(name=joint, target=joint, trntype=mujoco.mjtTrn.mjTRN_JOINT)
+    servo.set_to_position(kp=stiffness, kv=damping)
+    servo.forcelimited, servo.forcerange = 1, [-force, force]
+
+
+def floating_gripper(R_world_tool: np.ndarray) -> TaskRobot:
+    """Return the parallel gripper: a palm and two fingers with box pads, whose tool frame is that of the hand's body."""
+    mujoco = load_mujoco()
+    spec, hand = _floating(R_world_tool)
+    box = mujoco.mjtGeom.mjGEOM_BOX
+    hand.add_geom(name="palm", type=box, size=[0.022, 0.055, 0.012], pos=[0, 0, -0.062], mass=MASS / 4)
+    hand.add_site(name="tool")
+    for name, side in (("left", 1.0), ("right", -1.0)):
+        finger = hand.add_body(name=name, pos=[0, side * PAD[1], 0], gravcomp=1.0)
+        finger.add_joint(
+            name=f"{name}_finger", type=mujoco.mjtJoint.mjJNT_SLIDE, axis=[0, side, 0], range=[0, STROKE / 2], limited=1,
+            armature=0.02,
+        )  # fmt: skip
+        finger.add_geom(name=f"{name}_pad", type=box, size=PAD, pos=[0, 0, REACH - PAD[2]], mass=MASS / 8)
+        _add_servo(mujoco, spec, f"{name}_finger", 3000.0, 150.0, FINGER_FORCE)
+    servos = (*((n,) for n in (*SLIDERS, "turn_z", "turn_x")), ("left_finger", "right_finger"))
+    rate = np.array([STEP, STEP, STEP, TURN_STEP, TURN_STEP, 0.0])
+    high = np.array([LIMIT] * 5 + [STROKE / 2])
+    low = np.array([-LIMIT] * 5 + [-PRESS])
+    positions = (("left_finger", STROKE / 2), ("right_finger", STROKE / 2))
+    return TaskRobot("gripper", spec, "tool", (("left",), ("right",)), True, servos, rate, low, high, positions)
+
+
+def floating_shadow(R_world_tool: np.ndarray) -> TaskRobot:
+    """Return the Shadow hand of gymnasium-robotics on a floating mount, with 4 + 20 actions."""
+    mujoco = load_mujoco()
+    try:
+        folder = Path(str(metadata.distribution("gymnasium-robotics").locate_file(SHADOW)))
+    except metadata.PackageNotFoundError:
+        raise MissingExtraError(f"the Shadow hand is not there: {NO_SHADOW}") from None
+    spec, hand = _floating(R_world_tool)
+    frame = hand.add_frame(pos=[0, 0, -0.385])  # from the forearm to between the fingers
+    spec.attach(mujoco.MjSpec.from_string(_shadow_text(folder)), frame=frame, prefix="shadow_")
+    spec.body("shadow_robot0:palm").add_site(name="tool", pos=[0, -0.03, 0.10])
+    for body in spec.bodies:
+        body.gravcomp = 1.0
+    fingers = tuple(
+        tuple(b.name for b in spec.bodies if b.name.startswith(f"shadow_robot0:{finger}")) for finger in SHADOW_FINGERS
+    )
+    own = [a for a in spec.actuators if a.name.startswith("shadow_")]
+    servos = (*((n,) for n in (*SLIDERS, "turn_z")), *((a.name,) for a in own))
+    ranges = np.array([a.ctrlrange for a in own])
+    rate = np.array([STEP, STEP, STEP, TURN_STEP] + [0.0] * len(own))
+    low, high = (np.concatenate([[s * LIMIT] * 4, ranges[:, k]]) for k, s in ((0, -1), (1, 1)))
+    return TaskRobot("shadow", spec, "tool", fingers, True, servos, rate, low, high)
+
+
+def _shadow_text(folder: Path) -> str:
+    """Return the hand alone as MJCF, which the package has only in parts that its scenes include."""
+    root = ElementTree.Element("mujoco", model="shadow")
+    places = {"meshdir": str(folder / "stls" / "hand"), "texturedir": str(folder / "textures")}
+    ElementTree.SubElement(root, "compiler", {"angle": "radian", **places})
+    for element in ElementTree.parse(folder / "hand" / "shared.xml").getroot():
+        if element.tag not in ("size", "visual"):  # memory sizes that MuJoCo no longer has
+            root.append(element)
+    ElementTree.SubElement(root, "asset").extend(list(ElementTree.parse(folder / "hand" / "shared_asset.xml").getroot()))
+    hand = ElementTree.parse(folder / "hand" / "robot.xml").getroot()
+    mount = hand[0]
+    mount.attrib.pop("euler", None)
+    mount.set("pos", "0 0 0")
+    ElementTree.SubElement(root, "worldbody").append(mount)
+    return ElementTree.tostring(root, encoding="unicode")

@@ -1,0 +1,246 @@
+"""Simulation of one object and a robot, stepped by actions or by tool poses, without Gymnasium."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from jaxtyping import Bool, Float
+
+from anymesh.applications.policy.objects_ import TaskObject, apply
+from anymesh.applications.policy.randomization import NOMINAL, SceneSample
+from anymesh.applications.policy.robot import HINGES, SLIDERS, TaskRobot
+from anymesh.applications.policy.robots import make_robot
+from anymesh.applications.policy.scene_ import OBJECT, ROBOT, STAND, compose, limit_masses
+from anymesh.applications.policy.tasks import PolicyTask, Situation
+from anymesh.mujoco_ import load_mujoco
+
+SUBSTEPS = 10  # of `TIMESTEP` per action: 20 actions per second
+HORIZON = 70  # actions
+FORWARD = np.array([[0.0, 1, 0], [0, 0, 1], [1, 0, 0]])  # tool's z to +y, its closing direction along x
+DOWN = np.array([[-1.0, 0, 0], [0, 1, 0], [0, 0, -1]])  # tool's z down, its closing direction along y
+BEFORE, ABOVE = 0.12, 0.10  # [m] of the tool at the start, from the front of the object and from its top
+LEAD = 2.0  # steps that a command may be ahead of its joint, which limits the force
+GRAVITY, STAYS = 9.81, 1.5  # [m/s2], and friction over the weight's largest moment about the axis
+LOWEST = 0.05  # [m] of the tool at the start
+
+
+class TaskSimulation:
+    """One object with one robot. `reset` sets a sample of the randomization; `act` runs one action.
+
+    R_world_tool: orientation of a floating hand at the start; by default ahead, or down for `lift`.
+    """
+
+    def __init__(
+        self,
+        found: TaskObject,
+        task: PolicyTask,
+        robot: str = "gripper",
+        horizon: int = HORIZON,
+        R_world_tool: Float[np.ndarray, "3 3"] | None = None,
+    ) -> None:
+        self.mujoco = load_mujoco()
+        self.found, self.task, self.horizon = found, task, horizon
+        home = DOWN if task is PolicyTask.LIFT else FORWARD
+        self._R_home = home if R_world_tool is None else R_world_tool
+        self.robot = made = make_robot(robot, self._R_home)
+        lifts = task is PolicyTask.LIFT
+        spec = compose(found, made, lifts=lifts)
+        self.model = model = spec.compile()
+        limit_masses(self.mujoco, model, lifts)
+        self.data = self.mujoco.MjData(model)
+        self.mujoco.mj_setConst(model, self.data)
+        self._hold_still()
+        self._nominal = {k: getattr(model, k).copy() for k in ("body_mass", "body_inertia", "dof_damping", "dof_frictionloss")}
+        self._free = bool(lifts)
+        self._index(model, made)
+        start = apply(found.thing.motion.transform(found.goal.start), found.handle)
+        self.handle_at_start = apply(found.T_world_asset, start)
+        self.step = 0
+        self.reset(NOMINAL)
+
+    def _index(self, model: Any, robot: TaskRobot) -> None:
+        """Look up the numbers of joints, actuators and shapes."""
+        body = model.geom_bodyid
+        names = [model.body(b).name for b in range(model.nbody)]
+        part = np.array([n.startswith(OBJECT) and n.removeprefix(OBJECT) in self.found.thing.carried for n in names])
+        own = np.array([n.startswith(OBJECT) or n == STAND for n in names])
+        finger = np.full(model.nbody, -1)
+        for k, bodies in enumerate(robot.fingers):
+            finger[[int(model.body(ROBOT + b).id) for b in bodies]] = k
+        self._is_part, self.is_object, self._finger = part[body], own[body], finger[body]
+        self.is_robot = np.array([n.startswith(ROBOT) for n in names])[body]
+        self._count = len(robot.fingers)
+        self.joint = int(model.joint(OBJECT + self.found.thing.joint).qposadr[0])
+        self.dof = int(model.joint(OBJECT + self.found.thing.joint).dofadr[0])
+        self._part = int(model.body(OBJECT + self.found.thing.part).id)
+        self.stand = int(model.body(STAND).id)
+        self.own_bodies = np.array([b for b in range(model.nbody) if names[b].startswith(OBJECT)])
+        self.tool_site = int(model.site(ROBOT + robot.tool).id)
+        self._servos = [np.array([int(model.actuator(ROBOT + n).id) for n in group]) for group in robot.servos]
+        self._first = np.array([group[0] for group in self._servos])
+        self.command_at = np.array([self._position_of(int(a)) for a in self._first])
+        self.robot_at = np.array(
+            [int(model.jnt_qposadr[j]) for j in range(model.njnt) if model.joint(j).name.startswith(ROBOT)]
+        )
+        self._handle = self._in_part(self.found.handle)
+
+    def _position_of(self, actuator: int) -> int:
+        """Return where the position of an actuator's joint is; of a tendon, that of its first joint."""
+        model = self.model
+        number = int(model.actuator_trnid[actuator, 0])
+        if int(model.actuator_trntype[actuator]) == int(self.mujoco.mjtTrn.mjTRN_TENDON):
+            number = int(model.wrap_objid[int(model.tendon_adr[number])])
+        return int(model.jnt_qposadr[number])
+
+    def _hold_still(self) -> None:
+        """Give a joint that gravity moves enough friction to stay where it starts, as DexArt's do."""
+        model, thing = self.model, self.found.thing
+        part = int(model.body(OBJECT + thing.part).id)
+        dof = int(model.joint(OBJECT + thing.joint).dofadr[0])
+        weight = GRAVITY * float(model.body_subtreemass[part])
+        if thing.turns:
+            weight *= float(np.linalg.norm(self.found.handle - thing.motion.origin) * np.hypot(*thing.motion.axis[:2]))
+        else:
+            weight *= abs(float(thing.motion.axis[2]))
+        model.dof_frictionloss[dof] = max(float(model.dof_frictionloss[dof]), STAYS * weight)
+
+    def _in_part(self, point: Float[np.ndarray, " 3"]) -> Float[np.ndarray, " 3"]:
+        """Return a point of the part, given in the asset frame at rest, in the frame of its body."""
+        data, stand = self.data, self.stand
+        self.mujoco.mj_resetData(self.model, data)
+        self.mujoco.mj_kinematics(self.model, data)
+        world = data.xmat[stand].reshape(3, 3) @ point + data.xpos[stand]
+        return data.xmat[self._part].reshape(3, 3).T @ (world - data.xpos[self._part])
+
+    def reset(self, sample: SceneSample) -> None:
+        """Bring the object to its start in a drawn pose with drawn physics, and the robot before it."""
+        model, data, goal = self.model, self.data, self.found.goal
+        self.mujoco.mj_resetData(model, data)
+        for name, nominal in self._nominal.items():
+            getattr(model, name)[:] = nominal
+        model.body_mass[self.own_bodies] *= sample.mass
+        model.body_inertia[self.own_bodies] *= sample.mass
+        model.dof_damping[self.dof] *= sample.damping
+        model.dof_frictionloss[self.dof] *= sample.joint_friction
+        model.geom_friction[self.is_object, 0] = sample.friction
+        pos, quat = self._pose(sample)
+        if self._free:
+            data.qpos[:7] = [*pos, *quat]
+        else:
+            data.mocap_pos[0], data.mocap_quat[0] = pos, quat
+        data.qpos[self.joint] = goal.start + sample.start * (goal.goal - goal.start)
+        for name, value in self.robot.positions:
+            data.qpos[int(model.joint(ROBOT + name).qposadr[0])] = value
+        if self.robot.floating:
+            self._place_hand()
+        self.command = np.where(self.robot.rate > 0, data.qpos[self.command_at], self.robot.high)
+        self._send()
+        self.mujoco.mj_forward(model, data)
+        self.step, self.start_height = 0, float(data.xpos[self.stand, 2])
+        self._tool_height, self._effort = float(self.tool_position[2]), 0.0
+        self.measure()
+
+    def _pose(self, sample: SceneSample) -> tuple[Float[np.ndarray, " 3"], Float[np.ndarray, " 4"]]:
+        """Return position and quaternion of the object, turned about its middle."""
+        c, s = np.cos(sample.yaw), np.sin(sample.yaw)
+        turn = np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
+        T, quat = self.found.T_world_asset, np.zeros(4)
+        self.mujoco.mju_mat2Quat(quat, np.ascontiguousarray(turn @ T[:3, :3]).reshape(-1))
+        return turn @ T[:3, 3] + [sample.x, sample.y, 0.0], quat
+
+    def _place_hand(self) -> None:
+        """Move a floating hand before the front of the object, or above an object that is lifted, whatever the sample."""
+        low, high = self.found.box
+        middle = (low + high) / 2
+        at = np.array([0.0, 0.0, high[2] + ABOVE] if self._free else [0.0, low[1] - BEFORE, max(middle[2], LOWEST)])
+        data, model = self.data, self.model
+        self.mujoco.mj_kinematics(model, data)
+        offset = data.site_xpos[self.tool_site].copy()
+        for name, value in zip(SLIDERS, at - offset, strict=True):
+            data.qpos[int(model.joint(ROBOT + name).qposadr[0])] = value
+
+    def act(self, action: Float[np.ndarray, " a"]) -> Situation:
+        """Run one action in [-1, 1] and return what it led to."""
+        robot, wanted = self.robot, np.clip(action, -1.0, 1.0)
+        now, lead = self.data.qpos[self.command_at], LEAD * robot.rate
+        moved = np.clip(self.command + robot.rate * wanted, now - lead, now + lead)
+        fixed = robot.low + (wanted + 1) / 2 * (robot.high - robot.low)
+        self.command = np.clip(np.where(robot.rate > 0, moved, fixed), robot.low, robot.high)
+        self._effort = float(np.mean(wanted * wanted))
+        self._send()
+        return self.advance()
+
+    def advance(self) -> Situation:
+        """Run the substeps of one action with the present commands, and measure."""
+        before = self._tool_height
+        self.mujoco.mj_step(self.model, self.data, SUBSTEPS)
+        self.step += 1
+        self._tool_height = float(self.tool_position[2])
+        return self.measure(self._tool_height - before)
+
+    def command_tool(
+        self, position: Float[np.ndarray, " 3"], R: Float[np.ndarray, "3 3"], gap: float, *, jump: bool = False
+    ) -> None:
+        """Command a pose of the floating gripper's tool in the world frame, and a gap of its fingers, below 0 to press.
+
+        The orientation must be less than 90 degrees of pitch from that at the start. jump: place the hand there at once.
+        """
+        turn = R @ self._R_home.T
+        yaw, pitch = np.arctan2(turn[1, 0], turn[0, 0]), -np.arcsin(np.clip(turn[2, 0], -1, 1))
+        roll = np.arctan2(turn[2, 1], turn[2, 2])
+        values = dict(zip((*SLIDERS, *HINGES), (*position, yaw, pitch, roll), strict=True))
+        values |= {"left_finger": gap / 2, "right_finger": gap / 2}
+        for name, value in values.items():
+            self.data.ctrl[int(self.model.actuator(ROBOT + name).id)] = value
+            if jump:
+                self.data.qpos[int(self.model.joint(ROBOT + name).qposadr[0])] = value
+
+    def _send(self) -> None:
+        for number, group in enumerate(self._servos):
+            self.data.ctrl[group] = self.command[number]
+
+    @property
+    def tool_position(self) -> Float[np.ndarray, " 3"]:
+        """Position of the tool in the world frame [m]."""
+        return self.data.site_xpos[self.tool_site]
+
+    @property
+    def tool_rotation(self) -> Float[np.ndarray, "3 3"]:
+        """Orientation of the tool in the world frame."""
+        return self.data.site_xmat[self.tool_site].reshape(3, 3)
+
+    @property
+    def handle_position(self) -> Float[np.ndarray, " 3"]:
+        """Position of the handle point in the world frame [m]."""
+        return self.data.xmat[self._part].reshape(3, 3) @ self._handle + self.data.xpos[self._part]
+
+    @property
+    def value(self) -> float:
+        """Value of the joint [rad or m]."""
+        return float(self.data.qpos[self.joint])
+
+    def touching(self) -> tuple[Bool[np.ndarray, " f"], bool]:
+        """Return which fingers touch the part, and whether the rest of the robot touches the object."""
+        found = np.zeros(self._count, bool)
+        if self.data.ncon == 0:
+            return found, False
+        geoms = self.data.contact.geom
+        a, b = geoms[:, 0], geoms[:, 1]
+        fingers = np.concatenate([self._finger[a][self._is_part[b]], self._finger[b][self._is_part[a]]])
+        found[fingers[fingers >= 0]] = True
+        hit = (self.is_robot[a] & (self._finger[a] < 0) & self.is_object[b]) | (
+            self.is_robot[b] & (self._finger[b] < 0) & self.is_object[a]
+        )
+        return found, bool(hit.any())
+
+    def measure(self, tool_rise: float = 0.0) -> Situation:
+        """Measure the situation."""
+        fingers, collides = self.touching()
+        self.fingers = fingers
+        distance = float(np.linalg.norm(self.handle_position - self.tool_position))
+        rise = float(self.data.xpos[self.stand, 2]) - self.start_height
+        return Situation(
+            distance, int(fingers.sum()), collides, self.found.goal.progress(self.value), rise, tool_rise, self._effort,
+            self.step, self.horizon,
+        )  # fmt: skip
