@@ -15,9 +15,10 @@ from anymesh.evaluation.datasets.dataset import Dataset
 from anymesh.evaluation.evaluate_sample import EvalConfig, EvalProtocol, evaluate_sample
 from anymesh.evaluation.record import Record
 from anymesh.evaluation.score import ObjectScore
-from anymesh.pipeline.solving import reference_of, solve
+from anymesh.pipeline.solving import solve
 from anymesh.types import Exchange, Joint, Mesh, Segmentation
 from anymesh.vlm.asking import Answer, Question, VisualAnswerer
+from anymesh.vlm.reference import reference_of
 from anymesh.vlm.reference_answerer import ReferenceAnswerer
 from anymesh.vlm.replay import Replay
 from anymesh.vlm.reply_text import reply_object

@@ -15,17 +15,18 @@ from anymesh.articulation.prompted import Questions, prompt_joints
 from anymesh.config import Config, PromptConfig, ViewsConfig
 from anymesh.geometry.patches import ObjectShape, object_shape
 from anymesh.rendering.visual_prompts import VisualPrompts
-from anymesh.types import Exchange, Joint, JointType, Mesh, Segmentation
+from anymesh.types import Exchange, Joint, JointType, KnownJoint, Mesh, Segmentation
 from anymesh.vlm.asking import VisualAnswerer
-from anymesh.vlm.reference_answerer import Reference, ReferenceAnswerer, ReferenceJoint
+from anymesh.vlm.reference import Reference
+from anymesh.vlm.reference_answerer import ReferenceAnswerer
 
 X, Y, Z = np.eye(3)
 # half the resolution
 QUICK = Config(views=ViewsConfig(size=320, zoom_size=2048, zoom_below=1250), prompts=PromptConfig(label_apart=17.5))
 
 
-def known(kind: str, axis, origin=(0.0, 0, 0), limits: tuple[float, float] | None = (0.0, 1.9)) -> ReferenceJoint:
-    return ReferenceJoint(JointType(kind), np.asarray(axis, float), np.asarray(origin, float), limits)
+def known(kind: str, axis, origin=(0.0, 0, 0), limits: tuple[float, float] | None = (0.0, 1.9)) -> KnownJoint:
+    return KnownJoint(JointType(kind), np.asarray(origin, float), np.asarray(axis, float), limits)
 
 
 def open_drawer() -> Scene:
@@ -44,7 +45,7 @@ class Known:
     """A scene and the true joint of its only moving part."""
 
     scene: Scene
-    joint: ReferenceJoint
+    joint: KnownJoint
 
 
 KNOWN = {
@@ -58,7 +59,7 @@ KNOWN = {
 }
 
 
-def row_of(*names: str) -> tuple[Scene, tuple[ReferenceJoint, ...]]:
+def row_of(*names: str) -> tuple[Scene, tuple[KnownJoint, ...]]:
     """Return some of these scenes side by side on one base."""
     scene, joints = {"base": []}, []
     for k, name in enumerate(names):
@@ -81,7 +82,7 @@ def the_case(scene: Scene) -> PartCase:
     return found
 
 
-def knowing(mesh: Mesh, segmentation: Segmentation, joints: tuple[ReferenceJoint, ...]) -> ReferenceAnswerer:
+def knowing(mesh: Mesh, segmentation: Segmentation, joints: tuple[KnownJoint, ...]) -> ReferenceAnswerer:
     """Return an answerer with these joints, one per part after the base, all mounted on the base."""
     labels = ("base", *(p.label for p in segmentation.parts[1:]))
     made = Reference("object", 1.0, segmentation.face_part, mesh.face_areas, labels, (0,) * len(labels), (None, *joints))
@@ -109,7 +110,7 @@ class Watched:
         return self.changed[question.kind](question) if question.kind in self.changed else self.seer.ask(question)
 
 
-def prompted(scene: Scene, joints: tuple[ReferenceJoint, ...], **options: Any) -> tuple[tuple[Joint, ...], Watched]:
+def prompted(scene: Scene, joints: tuple[KnownJoint, ...], **options: Any) -> tuple[tuple[Joint, ...], Watched]:
     """Return the joints of a scene as estimated with its reference answerer; options: of Watched, verify, or recognition."""
     mesh, whole, segmentation = ready(scene)
     config = replace(QUICK, verify=options.pop("verify", "motion"))

@@ -13,16 +13,15 @@ from anymesh.articulation.cases import MAX_PICTURES, ask_each, make_cases
 from anymesh.articulation.prompted import Questions, prompt_joints
 from anymesh.evaluation.metrics import angle_error, line_distance
 from anymesh.rendering.visual_prompts import VisualPrompts
-from anymesh.types import Joint, JointType, Motion, Part, Picture
+from anymesh.types import Joint, JointType, KnownJoint, Motion, Part, Picture
 from anymesh.types.recognition import Recognition, RecognizedLabel
 from anymesh.vlm.motion_choice import MotionPick, WhichMotions
 from anymesh.vlm.prompting import JointKind, KindAnswer
-from anymesh.vlm.reference_answerer import ReferenceJoint
 
 X, Y, Z = np.eye(3)
 
 
-def check(found: Joint, true: ReferenceJoint, diagonal: float) -> None:
+def check(found: Joint, true: KnownJoint, diagonal: float) -> None:
     assert found.type is true.type
     assert angle_error(found.axis, true.axis) < 1
     if true.type is not JointType.PRISMATIC:

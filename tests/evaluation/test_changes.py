@@ -92,7 +92,7 @@ def test_what_is_behind_a_door_is_gone_and_not_to_be_found(microwave: EvalSample
 
 def test_what_moved_on_a_part_that_is_gone_moves_on_its_carrier() -> None:
     mesh = cabinet().mesh
-    joint = TrueJoint("a", "base", cabinet().joints[0].type, np.zeros(3), np.array([0, 0, 1.0]), (0.0, 1.0))
+    joint = TrueJoint(cabinet().joints[0].type, np.zeros(3), np.array([0, 0, 1.0]), (0.0, 1.0), child="a", parent="base")
     parts = tuple(Part(name, "part") for name in ("base", "a", "b"))
     inside = np.zeros(len(mesh.faces), np.int64)
     inside[-1] = 2

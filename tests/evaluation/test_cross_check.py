@@ -78,7 +78,7 @@ def perturbed(seed: int) -> Asset:
 
 
 def scored(found: Asset) -> dict[str, JointScore]:
-    joints = tuple(TrueJoint(j.child, j.parent, j.type, j.origin, j.axis, j.limits) for j in ASSET.joints)
+    joints = tuple(TrueJoint(j.type, j.origin, j.axis, j.limits, child=j.child, parent=j.parent) for j in ASSET.joints)
     s = ASSET.segmentation
     truth = GroundTruth("cabinet", Path("x"), s.parts, s.face_part, joints)
     return {j.part: j for j in score(EvalSample(truth, found.mesh, s.face_part, np.eye(4)), s, found.joints).joints}
@@ -170,7 +170,7 @@ def test_displacement_of_a_point_as_their_rigid_bodies_have_it(p, a, q, b, x) ->
     from articulatearena.new_equation.material_motion import config_discrepancy, se3_exp
 
     ours = joint("j", "revolute", "base", "door", p, a, (0.0, 1.0))
-    true = TrueJoint("door", "base", JointType.REVOLUTE, q, b, (0.0, 1.0))
+    true = TrueJoint(JointType.REVOLUTE, q, b, (0.0, 1.0), child="door", parent="base")
     moved = [se3_exp(arena.screw_twist(axis, o, "revolute").data, TURNED) for axis, o in ((ours.axis, p), (b, q))]
     theirs = config_discrepancy(*moved, arena.LinkInertia(1.0, x, 1e-12 * np.eye(3)))  # a point
     assert displacement(x[None], ours, true, 1.0) == pytest.approx(theirs, abs=1e-5)

@@ -16,7 +16,7 @@ REACH = np.abs(DOOR[:, 0]).mean()
 
 
 def true(kind="revolute", axis=Z, limits: tuple[float, float] | None = (0.0, 1.5), **more) -> TrueJoint:
-    return TrueJoint("door", "base", JointType(kind), np.zeros(3), np.asarray(axis, float), limits, **more)
+    return TrueJoint(JointType(kind), np.zeros(3), np.asarray(axis, float), limits, child="door", parent="base", **more)
 
 
 def found(kind="revolute", axis=Z, limits: tuple[float, float] | None = (0.0, 1.5), origin=(0, 0, 0)) -> Joint:
@@ -83,6 +83,6 @@ def test_it_does_not_depend_on_the_frame_and_grows_with_the_object(shift, axis, 
     R = np.eye(3) + np.sin(angle) * K + (1 - np.cos(angle)) * K @ K
     ours, theirs = found(axis=X + Z, origin=(0.3, 0.1, 0)), true()
     there = joint("j", "revolute", "base", "door", scale * R @ ours.origin + shift, R @ ours.axis, ours.limits)
-    moved = TrueJoint("door", "base", theirs.type, shift, R @ theirs.axis, theirs.limits)
+    moved = TrueJoint(theirs.type, shift, R @ theirs.axis, theirs.limits, child="door", parent="base")
     value = displacement(scale * DOOR @ R.T + shift, there, moved, 1.0)
     assert value == pytest.approx(scale * apart(ours, theirs))

@@ -27,7 +27,7 @@ def sample(*joints: TrueJoint) -> EvalSample:
     return EvalSample(GroundTruth("block", Path("x"), PARTS, LABELS, joints), MESH, LABELS, np.eye(4))
 
 
-TRUE = TrueJoint("slider", "base", SLIDE.type, SLIDE.origin, SLIDE.axis, (0.0, 0.25))
+TRUE = TrueJoint(SLIDE.type, SLIDE.origin, SLIDE.axis, (0.0, 0.25), child="slider", parent="base")
 
 
 def test_a_good_asset_has_no_faults() -> None:

@@ -10,12 +10,13 @@ from assets import cabinet
 from anymesh.evaluation.ground_truth import EvalSample, GroundTruth, TrueJoint
 from anymesh.evaluation.oracle import Noisy, oracle, true_reference
 from anymesh.geometry.kinematics import joint_transform
-from anymesh.types import Joint, JointType, Motion, Part
+from anymesh.types import Joint, JointType, KnownJoint, Motion, Part
 from anymesh.vlm.asking import VisualAnswerer
 from anymesh.vlm.grounding import WhichMarks
 from anymesh.vlm.motion_choice import MotionTable, WhichMotions
 from anymesh.vlm.prompting import ArrowTable, JointKind, PartShown, PointTable, WhichArrows, WhichKinds, WhichPoints
-from anymesh.vlm.reference_answerer import Reference, ReferenceAnswerer, ReferenceJoint
+from anymesh.vlm.reference import Reference
+from anymesh.vlm.reference_answerer import ReferenceAnswerer
 
 X, Y, Z = np.eye(3)
 ASSET = cabinet()
@@ -30,7 +31,9 @@ def sample(T_asset_source: np.ndarray, labels=("base", "Door_01", "drawer", "kno
     def one(j: Joint) -> TrueJoint:
         factor = scale if j.type is JointType.PRISMATIC else 1.0
         limits = None if j.limits is None else (j.limits[0] * factor, j.limits[1] * factor)
-        return TrueJoint(j.child, j.parent, j.type, T[:3, :3] @ j.origin + T[:3, 3], T[:3, :3] @ j.axis / scale, limits)
+        return TrueJoint(
+            j.type, T[:3, :3] @ j.origin + T[:3, 3], T[:3, :3] @ j.axis / scale, limits, child=j.child, parent=j.parent
+        )
 
     s = ASSET.segmentation
     parts = tuple(Part(p.name, label) for p, label in zip(s.parts, labels, strict=True))
@@ -48,7 +51,7 @@ def test_the_truth_of_a_file_moves_the_asset_as_it_should(T: np.ndarray) -> None
         assert joint.type is asked.type
         assert joint.limits == (None if asked.limits is None else pytest.approx(asked.limits))
         amount = 0.7 if asked.limits is None else asked.limits[1]
-        assert joint.motion.transform(amount) == pytest.approx(joint_transform(asked, amount), abs=1e-9)
+        assert joint.opening_motion.transform(amount) == pytest.approx(joint_transform(asked, amount), abs=1e-9)
 
 
 def test_the_reference_tells_what_is_where() -> None:
@@ -79,7 +82,7 @@ def test_the_oracle_knows_the_truth() -> None:
 
 
 # One door of a hundred faces with a hinge along z: what is asked, and what is right, is plain.
-HINGE = ReferenceJoint(JointType.REVOLUTE, Z, np.zeros(3), (0.0, 1.5))
+HINGE = KnownJoint(JointType.REVOLUTE, np.zeros(3), Z, (0.0, 1.5))
 KNOWN = ReferenceAnswerer(
     "oracle", lambda: Reference("x", 1.0, np.ones(100, int), np.ones(100), ("base", "door"), (0, 0), (None, HINGE))
 )

@@ -20,7 +20,7 @@ SLIDE = joint("s", "prismatic", "base", "plate", (0, 0, 0), X, (0.0, 1.0))
 def sample(joints: tuple[Joint, ...] = (SLIDE,), T=None, range_known: bool = True) -> EvalSample:
     """On the block, or on one that T took elsewhere, the truth with it."""
     T = np.eye(4) if T is None else T
-    true = tuple(TrueJoint(j.child, j.parent, j.type, j.origin, j.axis, j.limits, range_known) for j in joints)
+    true = tuple(TrueJoint(j.type, j.origin, j.axis, j.limits, range_known, child=j.child, parent=j.parent) for j in joints)
     return EvalSample(GroundTruth("block", Path("x"), PARTS, LABELS, true), MESH.transformed(T), LABELS, T)
 
 
@@ -60,7 +60,7 @@ def test_distances_are_squared_and_taken_both_ways() -> None:
     sheets = [(np.array([[0, 0, z], [1, 0, z], [1, 1, z], [0, 1, z]]), np.array([[0, 1, 2], [0, 2, 3]])) for z in (0.5, 1.0)]
     mesh, piece = mesh_of([box((0, 0, 0), (1, 1, 0.5)), *sheets])
     labels = np.array([0, 1, 0])[piece]  # the upper sheet is the base's, but was taken for the lower one's
-    true = TrueJoint("plate", "base", SLIDE.type, np.zeros(3), Z, (0.0, 0.5))
+    true = TrueJoint(SLIDE.type, np.zeros(3), Z, (0.0, 0.5), child="plate", parent="base")
     truth = EvalSample(GroundTruth("sheets", Path("x"), PARTS, labels, (true,)), mesh, labels, np.eye(4))
     slow = joint("s", "prismatic", "base", "plate", (0, 0, 0), Z, (0.0, 0.1))
     found = particulate_metrics(truth, Segmentation(np.array([0, 1, 1])[piece], PARTS), (slow,)).opened
@@ -108,7 +108,7 @@ def test_without_known_ranges_there_is_no_motion_to_compare() -> None:
 
 def test_what_is_carried_moves_with_what_carries_it() -> None:
     asset = cabinet()
-    true = tuple(TrueJoint(j.child, j.parent, j.type, j.origin, j.axis, j.limits) for j in asset.joints)
+    true = tuple(TrueJoint(j.type, j.origin, j.axis, j.limits, child=j.child, parent=j.parent) for j in asset.joints)
     s = asset.segmentation
     truth = EvalSample(GroundTruth("c", Path("x"), s.parts, s.face_part, true), asset.mesh, s.face_part, np.eye(4))
     loose = [joint("turn", "continuous", "base", "knob", (0.3, -0.04, 0.8), (0, -1, 0), None)]

@@ -24,7 +24,7 @@ def sample(T: np.ndarray) -> EvalSample:
         factor = scale if j.type is JointType.PRISMATIC else 1.0
         limits = None if j.limits is None else (j.limits[0] * factor, j.limits[1] * factor)
         axis = back[:3, :3] @ j.axis / scale
-        return TrueJoint(j.child, j.parent, j.type, back[:3, :3] @ j.origin + back[:3, 3], axis, limits)
+        return TrueJoint(j.type, back[:3, :3] @ j.origin + back[:3, 3], axis, limits, child=j.child, parent=j.parent)
 
     s = ASSET.segmentation
     truth = GroundTruth(

@@ -24,7 +24,7 @@ def truth_of(asset: Asset, T_asset_source: np.ndarray) -> GroundTruth:
         if limits is not None and j.type is JointType.PRISMATIC:
             limits = (limits[0] * scale, limits[1] * scale)
         axis = T[:3, :3] @ j.axis / scale
-        return TrueJoint(j.child, j.parent, j.type, T[:3, :3] @ j.origin + T[:3, 3], axis, limits)
+        return TrueJoint(j.type, T[:3, :3] @ j.origin + T[:3, 3], axis, limits, child=j.child, parent=j.parent)
 
     s = asset.segmentation
     return GroundTruth(asset.name, Path("mesh.glb"), s.parts, s.face_part, tuple(map(one, asset.joints)))

@@ -34,8 +34,8 @@ def closet() -> EvalSample:
     mesh, piece = mesh_of([p for part in PIECES.values() for p in part])
     labels = np.repeat(np.arange(3), [len(part) for part in PIECES.values()])[piece]
     joints = (
-        TrueJoint("door", "base", JointType.REVOLUTE, np.array([0.6, -0.02, 0]), Z, (0.0, 1.9)),
-        TrueJoint("hidden", "door", JointType.CONTINUOUS, np.array([0.35, 0.25, 0.3]), Z, None),
+        TrueJoint(JointType.REVOLUTE, np.array([0.6, -0.02, 0]), Z, (0.0, 1.9), child="door", parent="base"),
+        TrueJoint(JointType.CONTINUOUS, np.array([0.35, 0.25, 0.3]), Z, None, child="hidden", parent="door"),
     )
     parts = tuple(Part(name, "part") for name in PIECES)
     return EvalSample(GroundTruth("closet", Path("mesh.glb"), parts, labels, joints), mesh, labels, np.eye(4))

@@ -10,10 +10,11 @@ from assets import box, mesh_of
 
 from anymesh.config import Config, GroundingConfig, ViewsConfig
 from anymesh.pipeline.solving import solve
-from anymesh.types import JointType
+from anymesh.types import JointType, KnownJoint
 from anymesh.vlm.grounding import MarkedPart, MarksAnswer
 from anymesh.vlm.motion_choice import PartFit
-from anymesh.vlm.reference_answerer import Reference, ReferenceAnswerer, ReferenceJoint
+from anymesh.vlm.reference import Reference
+from anymesh.vlm.reference_answerer import ReferenceAnswerer
 
 CASE = [box((0, 0, 0), (0.6, 0.4, 0.6))]
 DOORS = [box((0.0, -0.03, 0.0), (0.29, 0.0, 0.6)), box((0.31, -0.03, 0.0), (0.6, 0.0, 0.6))]
@@ -64,8 +65,8 @@ def test_a_wrong_part_goes_back_to_the_marks_and_is_solved_again(fit: PartFit) -
     mesh, piece = mesh_of([*CASE, *DOORS, *KNOBS])
     truth = np.array([0, 1, 2, 1, 2])[piece]
     z = np.array([0.0, 0.0, 1.0])
-    joints = (None, ReferenceJoint(JointType.REVOLUTE, -z, np.array([0, -0.015, 0.3]), (0.0, 1.5)),
-              ReferenceJoint(JointType.REVOLUTE, z, np.array([0.6, -0.015, 0.3]), (0.0, 1.5)))  # fmt: skip
+    joints = (None, KnownJoint(JointType.REVOLUTE, np.array([0, -0.015, 0.3]), -z, (0.0, 1.5)),
+              KnownJoint(JointType.REVOLUTE, np.array([0.6, -0.015, 0.3]), z, (0.0, 1.5)))  # fmt: skip
     reference = Reference("cabinet", 0.6, truth, mesh.face_areas, ("base", "door", "door"), (0, 0, 0), joints)
     seer = Scripted(reference, fit)
     segmentation, found = solve(mesh, config=QUICK, answerer_factory=lambda _: seer)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from asked import X, Y, Z, part
 
-from anymesh.types import JointType, Motion
+from anymesh.types import JointType, KnownJoint, Motion
 from anymesh.types.recognition import RecognizedLabel
 from anymesh.vlm.answer_json import answer_object
 from anymesh.vlm.asking import Question, VisualAnswerer
@@ -15,14 +15,15 @@ from anymesh.vlm.grounding import MarkedPart, MarksAnswer, WhichMarks, WhichView
 from anymesh.vlm.motion_choice import MotionPick, MotionTable, WhichMotions
 from anymesh.vlm.prompting import ArrowTable, JointKind, KindAnswer, PartShown, PointTable, WhichArrows, WhichKinds, WhichPoints
 from anymesh.vlm.recognition import Recognize
-from anymesh.vlm.reference_answerer import Reference, ReferenceAnswerer, ReferenceJoint
+from anymesh.vlm.reference import Reference
+from anymesh.vlm.reference_answerer import ReferenceAnswerer
 from anymesh.vlm.scripted import ScriptedModel
 from anymesh.vlm.vlm_answerer import VlmAnswerer
 
-HINGE = ReferenceJoint(JointType.REVOLUTE, Z, np.zeros(3), (0.0, 1.5))
-SLIDE = ReferenceJoint(JointType.PRISMATIC, -2 * Y, np.zeros(3), (0.0, 0.3))
-SPIN = ReferenceJoint(JointType.CONTINUOUS, Y, np.array([0.2, 0, 0.2]), None)
-FIXED = ReferenceJoint(JointType.FIXED, np.zeros(3), np.zeros(3), None)
+HINGE = KnownJoint(JointType.REVOLUTE, np.zeros(3), Z, (0.0, 1.5))
+SLIDE = KnownJoint(JointType.PRISMATIC, np.zeros(3), -2 * Y, (0.0, 0.3))
+SPIN = KnownJoint(JointType.CONTINUOUS, np.array([0.2, 0, 0.2]), Y, None)
+FIXED = KnownJoint(JointType.FIXED, np.zeros(3), np.zeros(3), None)
 # Ten faces per part: the base, two doors, a drawer, a knob on the panel of the second door, that panel.
 LABELS = ("base", "door", "door", "drawer", "knob", "panel")
 KNOWN = Reference(
@@ -83,10 +84,10 @@ def test_parts_of_one_label_that_move_differently_are_told_apart() -> None:
 
 
 def test_limits_go_with_the_way_that_opens() -> None:
-    turned = ReferenceJoint(JointType.REVOLUTE, Z, np.zeros(3), (-1.5, 0.1))
+    turned = KnownJoint(JointType.REVOLUTE, np.zeros(3), Z, (-1.5, 0.1))
     found = ask(Recognize(()), replace(KNOWN, joints=(None, turned, *KNOWN.joints[2:])))
     assert found.labels[0].limits == (-0.1, 1.5)
-    assert turned.motion.axis == pytest.approx(-Z)
+    assert turned.opening_motion.axis == pytest.approx(-Z)
 
 
 def test_a_label_is_in_the_views_that_show_enough_of_one_such_part() -> None:
@@ -174,7 +175,7 @@ def test_the_arrow_is_the_way_that_opens() -> None:
 def test_what_is_fixed_is_answered_as_well_as_can_be() -> None:
     assert ask(WhichArrows((), (ArrowTable(shown(PANEL), np.stack([X, -X])),))) == (0,)
     assert ask(WhichPoints((), (PointTable(shown(PANEL), CORNERS, JointKind.HINGE_ALONG),))) == ((0, 1),)
-    assert ask(WhichMotions((), (MotionTable(shown(PANEL), (HINGE.motion,), (1.0,)),))) == (MotionPick(None),)
+    assert ask(WhichMotions((), (MotionTable(shown(PANEL), (HINGE.opening_motion,), (1.0,)),))) == (MotionPick(None),)
 
 
 def turn(axis: np.ndarray, origin=(0.0, 0, 0)) -> Motion:

@@ -149,8 +149,9 @@ def estimate_joint(around: PartContext, name: str, parent: str, question: Motion
     if answer.type is not JointType.FIXED:
         return joint_of(around, name, parent, best, answer.type, answer.confidence, answer.reason)
     # the part is known to move, so a fixed answer is replaced by the best motion
-    kind = JointType.PRISMATIC if best.motion.kind is JointType.PRISMATIC else JointType.REVOLUTE
-    return joint_of(around, name, parent, best, kind, answer.confidence, f"{answer.reason}; most likely: {best.motion.source}")
+    return joint_of(
+        around, name, parent, best, best.motion.kind, answer.confidence, f"{answer.reason}; most likely: {best.motion.source}"
+    )
 
 
 def joint_of(

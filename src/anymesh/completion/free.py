@@ -7,10 +7,11 @@ from jaxtyping import Float
 
 from anymesh.completion.scenes import Growing
 from anymesh.config import ArticulationConfig
+from anymesh.geometry.kinematics import joint_motion
 from anymesh.geometry.sweep import Obstacles, free_amount
 from anymesh.geometry.topology import components
 from anymesh.geometry.triangle_set import TriangleSet
-from anymesh.types import Joint, JointType, Motion
+from anymesh.types import Joint, JointType
 from anymesh.types.triangles import normals_and_areas
 
 STEPS = 24  # steps of a sweep from rest to a limit
@@ -41,9 +42,7 @@ def moves_freely(
     tolerance = ArticulationConfig().penetration * scenes.diagonal
     own, rest = (np.concatenate([growing.triangles(*k), new]) for k, new in ((carried, added), (others, beside)))
     after = Obstacles(shape_of(own), shape_of(rest), tolerance)
-    motion = Motion(
-        JointType.PRISMATIC if joint.type is JointType.PRISMATIC else JointType.REVOLUTE, joint.axis, joint.origin, "joint"
-    )
+    motion = joint_motion(joint)
     for sign, most in limits_of(joint):
         now = free_amount(after, motion, sign, most, STEPS)[0]
         if now < (1 - LOSS) * most:

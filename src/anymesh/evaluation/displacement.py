@@ -9,7 +9,8 @@ from jaxtyping import Float
 
 from anymesh.evaluation.ground_truth import TrueJoint
 from anymesh.evaluation.metrics import opening_side, opens_both_ways, same_motion
-from anymesh.types import Joint, JointType, Motion
+from anymesh.geometry.kinematics import joint_transform
+from anymesh.types import Joint, JointType
 
 TURNED = np.pi / 6  # [rad] by which rotating joints are opened
 TRAVEL = 0.5  # share of the travel by which slides are opened
@@ -33,7 +34,7 @@ def _apart(points: Float[np.ndarray, "N 3"], found: Joint, true: TrueJoint, side
     ours = opening_side(found.limits)
     amount = _amount(true, side, size)
     own = amount if same_motion(found.type, true.type) else _amount(found, ours, size)
-    T = _transform(true, side * amount) - _transform(found, ours * own)
+    T = joint_transform(true, side * amount) - joint_transform(found, ours * own)
     return float(np.linalg.norm(points @ T[:3, :3].T + T[:3, 3], axis=1).mean())
 
 
@@ -42,10 +43,3 @@ def _amount(joint: Joint | TrueJoint, side: int, size: float) -> float:
     if joint.type is not JointType.PRISMATIC:
         return TURNED
     return TRAVEL * (size if joint.limits is None else side * joint.limits[0 if side < 0 else 1])
-
-
-def _transform(joint: Joint | TrueJoint, amount: float) -> Float[np.ndarray, "4 4"]:
-    if joint.type is JointType.FIXED:
-        return np.eye(4)
-    kind = JointType.PRISMATIC if joint.type is JointType.PRISMATIC else JointType.REVOLUTE
-    return Motion(kind, joint.axis, joint.origin, "joint").transform(amount)

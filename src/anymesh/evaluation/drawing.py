@@ -13,6 +13,7 @@ from anymesh.evaluation.ground_truth import EvalSample, TrueJoint
 from anymesh.evaluation.matching import part_ious
 from anymesh.evaluation.score import JointScore
 from anymesh.evaluation.worst import what_is_off
+from anymesh.geometry.kinematics import joint_motion
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.rendering.axes import axis_line, draw_arrow, ring
 from anymesh.rendering.labels import font
@@ -113,7 +114,7 @@ def _motion(joint: TrueJoint | Joint, size: float) -> tuple[Motion | None, float
     if joint.type is JointType.FIXED:
         return None, 0.0
     slides = joint.type is JointType.PRISMATIC
-    motion = Motion(JointType.PRISMATIC if slides else JointType.REVOLUTE, joint.axis, joint.origin, "joint")
+    motion = joint_motion(joint)
     if joint.limits is None or (isinstance(joint, TrueJoint) and not joint.range_known):
         return motion, TRAVEL * size if slides else TURNED
     return motion, HALF_WAY * max(joint.limits, key=abs)

@@ -3,30 +3,21 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
 from jaxtyping import Float, Int
 
-from anymesh.types import Asset, Joint, JointType, Mesh, Part, Segmentation, Source
+from anymesh.types import Asset, Joint, JointType, KnownJoint, Mesh, Part, Segmentation, Source
 
 
 @dataclass(frozen=True, eq=False)
-class TrueJoint:
-    """A true joint in the coordinates of the mesh file; its positive direction opens.
+class TrueJoint(KnownJoint):
+    """A true joint in the coordinates of the mesh file. If its range is unknown, neither opening side nor range is scored."""
 
-    limits: (lower, upper) [rad or lengths of the file]; None if the joint is continuous or its range is unknown. If it is
-    unknown, `range_known` is False, the sign of the axis has no meaning, and neither opening side nor range is scored.
-    """
-
-    child: str
-    parent: str
-    type: JointType
-    origin: Float[np.ndarray, " 3"]
-    axis: Float[np.ndarray, " 3"]
-    limits: tuple[float, float] | None
-    range_known: bool = True
+    child: str = field(kw_only=True)
+    parent: str = field(kw_only=True)
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,17 +93,21 @@ def read_ground_truth(path: Path, mesh: Path) -> GroundTruth:
     record = json.loads(path.read_text(encoding="utf-8"))
     joints = tuple(
         TrueJoint(
-            j["child"],
-            j["parent"],
             JointType(j["type"]),
             np.array(j["origin"], float),
             np.array(j["axis"], float),
-            None if j["limits"] is None else (float(j["limits"][0]), float(j["limits"][1])),
+            _limits(j["limits"]),
+            child=j["child"],
+            parent=j["parent"],
         )
         for j in record["joints"]
     )
     parts = tuple(Part(p["name"], p["label"] or "part") for p in record["parts"])
     return GroundTruth(record["name"], mesh, parts, np.load(path.with_suffix(".npy")).astype(np.int64), joints)
+
+
+def _limits(told: list[float] | None) -> tuple[float, float] | None:
+    return None if told is None else (float(told[0]), float(told[1]))
 
 
 def example_truths(folder: Path) -> list[GroundTruth]:

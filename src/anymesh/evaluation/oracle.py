@@ -9,12 +9,13 @@ from typing import Any, TypeVar, cast
 import numpy as np
 
 from anymesh.evaluation.ground_truth import EvalSample
-from anymesh.types import Exchange
+from anymesh.types import Exchange, KnownJoint
 from anymesh.vlm.asking import Answer, Question, VisualAnswerer
 from anymesh.vlm.grounding import WhichMarks
 from anymesh.vlm.motion_choice import MotionPick, WhichMotions
 from anymesh.vlm.prompting import JointKind, KindAnswer, PartShown, PointTable, WhichArrows, WhichKinds, WhichPoints
-from anymesh.vlm.reference_answerer import Reference, ReferenceAnswerer, ReferenceJoint
+from anymesh.vlm.reference import Reference
+from anymesh.vlm.reference_answerer import ReferenceAnswerer
 from anymesh.vocabulary import recognize
 
 Item = TypeVar("Item")
@@ -39,7 +40,7 @@ def true_reference(sample: EvalSample) -> Reference:
         face_area=mesh.face_areas,
         labels=("base", *(word.label if word else "part" for word in labels[1:])),
         parents=tuple(0 if j is None or j.parent not in names else names.index(j.parent) for j in made),
-        joints=tuple(None if j is None else ReferenceJoint(j.type, j.axis, j.origin, j.limits) for j in made),
+        joints=tuple(None if j is None else KnownJoint(j.type, j.origin, j.axis, j.limits) for j in made),
     )
 
 

@@ -8,15 +8,18 @@ from dataclasses import replace
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.types import Asset, Joint, JointType, Mesh, Motion
+from anymesh.types import Asset, Joint, JointType, KnownJoint, Mesh, Motion
 
 
-def joint_transform(joint: Joint, position: float) -> Float[np.ndarray, "4 4"]:
-    """Return the transform of a joint's child at `position` [rad or m], in the asset frame at rest."""
-    if joint.type is JointType.FIXED:
-        return np.eye(4)
+def joint_motion(joint: Joint | KnownJoint) -> Motion:
+    """Return the motion of a joint that is not fixed and has a unit axis."""
     kind = JointType.PRISMATIC if joint.type is JointType.PRISMATIC else JointType.REVOLUTE
-    return Motion(kind, joint.axis, joint.origin, "joint").transform(position)
+    return Motion(kind, joint.axis, joint.origin, "joint")
+
+
+def joint_transform(joint: Joint | KnownJoint, position: float) -> Float[np.ndarray, "4 4"]:
+    """Return the transform of a joint's child at `position` [rad or m], in the asset frame at rest."""
+    return np.eye(4) if joint.type is JointType.FIXED else joint_motion(joint).transform(position)
 
 
 def link_transforms(asset: Asset, positions: Mapping[str, float]) -> dict[str, Float[np.ndarray, "4 4"]]:

@@ -39,7 +39,8 @@ from anymesh.types import Joint, JointType, Mesh, Picture, Segmentation
 from anymesh.types.recognition import Recognition
 from anymesh.vlm.asking import VisualAnswerer
 from anymesh.vlm.recognition import answered_scale, recognize
-from anymesh.vlm.reference_answerer import Reference, ReferenceAnswerer, ReferenceJoint
+from anymesh.vlm.reference import Reference, reference_of
+from anymesh.vlm.reference_answerer import ReferenceAnswerer
 
 AnswererFactory = Callable[[VisualAnswerer], VisualAnswerer]  # makes a visual answerer with the given fallback
 MAX_INSIDE_VIEWS = 2  # pictures of the inside in the question about the object
@@ -212,22 +213,6 @@ def _with_progress(swept: Iterable[PartMotions], segmentation: Segmentation, pro
     for done, motions in enumerate(swept):
         progress("joints", segmentation.parts[motions[0]].name, done, len(segmentation.parts) - 1)
         yield motions
-
-
-def reference_of(mesh: Mesh, segmentation: Segmentation, joints: tuple[Joint, ...], category: str) -> Reference:
-    """Build a reference from parts and joints."""
-    number = {p.name: k for k, p in enumerate(segmentation.parts)}
-    by_child = {j.child: j for j in joints}
-    made = [by_child.get(p.name) for p in segmentation.parts]
-    return Reference(
-        category=category,
-        size=float(mesh.extents.max()),
-        face_part=segmentation.face_part,
-        face_area=mesh.face_areas,
-        labels=tuple(p.label for p in segmentation.parts),
-        parents=tuple(0 if j is None else number[j.parent] for j in made),
-        joints=tuple(None if j is None else ReferenceJoint(j.type, j.axis, j.origin, j.limits) for j in made),
-    )
 
 
 def _segmentation_result(

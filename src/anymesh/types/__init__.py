@@ -2,7 +2,7 @@
 
 from anymesh.types.asset import Asset, Source
 from anymesh.types.exchange import Exchange, Picture
-from anymesh.types.joints import Joint
+from anymesh.types.joints import Joint, KnownJoint
 from anymesh.types.mesh import Material, Mesh, Node, Texture
 from anymesh.types.motion import MOVING, Handle, JointType, Motion, Sweep
 from anymesh.types.parts import Part, Segmentation
@@ -18,6 +18,7 @@ __all__ = [
     "Hull",
     "Joint",
     "JointType",
+    "KnownJoint",
     "Material",
     "Mesh",
     "Motion",

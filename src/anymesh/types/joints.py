@@ -7,7 +7,34 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.types.motion import JointType
+from anymesh.types.motion import JointType, Motion
+
+
+@dataclass(frozen=True, eq=False)
+class KnownJoint:
+    """A joint that a data set, an annotation or an answer gives, in its own frame and unit; positive opens.
+
+    axis: of any length but zero; limits: (lower, upper) [rad or length], None if the joint is continuous or its range unknown.
+    If it is unknown, `range_known` is False, and the sign of the axis has no meaning.
+    """
+
+    type: JointType
+    origin: Float[np.ndarray, " 3"]
+    axis: Float[np.ndarray, " 3"]
+    limits: tuple[float, float] | None
+    range_known: bool = True
+
+    @property
+    def opening_motion(self) -> Motion:
+        """Return the motion, signed so that positive covers the larger part of the range."""
+        sign = -1.0 if self.limits is not None and sum(self.limits) < 0 else 1.0
+        kind = JointType.PRISMATIC if self.type is JointType.PRISMATIC else JointType.REVOLUTE
+        return Motion(kind, sign * self.axis / np.linalg.norm(self.axis), self.origin, "known")
+
+    @property
+    def opening_range(self) -> tuple[float, float] | None:
+        """Return the limits of `opening_motion`."""
+        return (-self.limits[1], -self.limits[0]) if self.limits is not None and sum(self.limits) < 0 else self.limits
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,21 +7,20 @@ With the geometry answerer's result as reference it is the fallback of a model w
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import cached_property
 from itertools import combinations
 from typing import Any, cast
 
 import numpy as np
-from jaxtyping import Float, Int
 
-from anymesh.types import Exchange, JointType, Motion
+from anymesh.types import Exchange, JointType, KnownJoint, Motion
 from anymesh.types.recognition import BASE, Recognition, RecognizedLabel
 from anymesh.vlm.asking import Answer, Question
 from anymesh.vlm.grounding import MarkedPart, MarksAnswer, WhichMarks, WhichViews
 from anymesh.vlm.motion_choice import MotionPick, WhichMotions
 from anymesh.vlm.prompting import JointKind, KindAnswer, PartShown, PointTable, WhichArrows, WhichKinds, WhichPoints
 from anymesh.vlm.recognition import Recognize
+from anymesh.vlm.reference import Reference
 
 MIN_VISIBLE_PIXELS = 40  # [px] minimum visible size of a part
 MIN_MARK_OVERLAP = 0.5  # minimum share of a mark's pixels on the part that the mark is given to
@@ -34,55 +33,6 @@ MIN_NORMAL_COSINE = np.cos(np.deg2rad(20.0))
 MIN_OPENING_COSINE = 0.7  # minimum cosine between the opening direction and a slide out of the object
 # of the displacement: maximum distance of the moved part from its true place for a motion to be recognized
 MAX_MOTION_ERROR_RATIO = 0.5
-
-
-@dataclass(frozen=True, eq=False)
-class ReferenceJoint:
-    """A known joint in the asset frame [m]; positive opens."""
-
-    type: JointType
-    axis: Float[np.ndarray, " 3"]
-    origin: Float[np.ndarray, " 3"]
-    limits: tuple[float, float] | None
-
-    @property
-    def motion(self) -> Motion:
-        """Return the motion, signed so that positive covers the larger part of the range."""
-        sign = -1.0 if self.limits is not None and sum(self.limits) < 0 else 1.0
-        kind = JointType.PRISMATIC if self.type is JointType.PRISMATIC else JointType.REVOLUTE
-        return Motion(kind, sign * self.axis / np.linalg.norm(self.axis), self.origin, "known")
-
-    @property
-    def range(self) -> tuple[float, float] | None:
-        """Return the limits of `motion`."""
-        return (-self.limits[1], -self.limits[0]) if self.limits is not None and sum(self.limits) < 0 else self.limits
-
-
-@dataclass(frozen=True, eq=False)
-class Reference:
-    """Known parts and joints.
-
-    face_part: (F,) part of each face, 0 for the base. The other fields have one entry per part, the base first.
-    """
-
-    category: str
-    size: float  # longest side [m]
-    face_part: Int[np.ndarray, " F"]
-    face_area: Float[np.ndarray, " F"]
-    labels: tuple[str, ...]
-    parents: tuple[int, ...]
-    joints: tuple[ReferenceJoint | None, ...]
-
-    @cached_property
-    def kinds(self) -> tuple[str, ...]:
-        """Return a label per part that also states its motion if parts of one label move differently."""
-        moves = [None if j is None else j.type for j in self.joints]
-        ways = {label: {m for other, m in zip(self.labels, moves, strict=True) if other == label} for label in self.labels}
-        word = {JointType.PRISMATIC: "sliding", JointType.CONTINUOUS: "spinning", JointType.REVOLUTE: "hinged"}
-        return tuple(
-            f"{word[m]} {label}" if m in word and (len(ways[label]) > 1 or label == "part") else label
-            for label, m in zip(self.labels, moves, strict=True)
-        )
 
 
 class ReferenceAnswerer:
@@ -126,7 +76,7 @@ class ReferenceAnswerer:
             if joint is not None and self._moves(part):
                 parent = self._parent(part)
                 if label not in found or parent == label:  # a part on another one of its own label makes the label a chain
-                    found[label] = RecognizedLabel(label, JointType(joint.type.value), parent, joint.range)
+                    found[label] = RecognizedLabel(label, joint.type, parent, joint.opening_range)
         return Recognition(known.category, known.size, tuple(found.values()))
 
     def _parent(self, part: int) -> str:
@@ -186,7 +136,7 @@ class ReferenceAnswerer:
         moving = int(area[1:].argmax()) + 1 if len(area) > 1 and area[1:].max() > 0 else 0
         return moving if moving and self._moves(moving) else 0
 
-    def _joint(self, part: PartShown) -> ReferenceJoint | None:
+    def _joint(self, part: PartShown) -> KnownJoint | None:
         return self._known.joints[self._number(part)]
 
     def _kind(self, part: PartShown, labels: tuple[str, ...]) -> KindAnswer:
@@ -198,8 +148,8 @@ class ReferenceAnswerer:
         endless = joint.type is JointType.CONTINUOUS
         return KindAnswer(self._kind_of(part, joint), endless, told)
 
-    def _kind_of(self, part: PartShown, joint: ReferenceJoint) -> JointKind:
-        axis = joint.motion.axis
+    def _kind_of(self, part: PartShown, joint: KnownJoint) -> JointKind:
+        axis = joint.opening_motion.axis
         if joint.type is JointType.PRISMATIC:
             return JointKind.SLIDE_OUT if abs(float(axis @ part.outward)) > MIN_OPENING_COSINE else JointKind.SLIDE_ALONG
         on = part.contact[_to_line(part.contact, joint) < MAX_AXIS_DISTANCE_RATIO * _size(part)]
@@ -236,14 +186,14 @@ class ReferenceAnswerer:
 
     def _arrow(self, part: PartShown, directions: np.ndarray) -> int:
         joint = self._joint(part)
-        return 0 if joint is None else int((directions @ joint.motion.axis).argmax())
+        return 0 if joint is None else int((directions @ joint.opening_motion.axis).argmax())
 
     def _motion(self, part: PartShown, motions: tuple[Motion, ...], amounts: tuple[float, ...]) -> int | None:
         joint = self._joint(part)
         if joint is None:
             return None
-        true = joint.motion
-        both = joint.range is None or -joint.range[0] > 0.5 * joint.range[1]
+        true = joint.opening_motion
+        both = joint.opening_range is None or -joint.opening_range[0] > 0.5 * joint.opening_range[1]
         off = np.full(len(motions), np.inf)
         for k, (motion, amount) in enumerate(zip(motions, amounts, strict=True)):
             if motion.kind is true.kind:
@@ -254,13 +204,13 @@ class ReferenceAnswerer:
         return int(off.argmin()) if off.min(initial=np.inf) < MAX_MOTION_ERROR_RATIO else None
 
 
-def _to_line(points: np.ndarray, joint: ReferenceJoint) -> np.ndarray:
-    return np.linalg.norm(np.cross(points - joint.origin, joint.motion.axis), axis=1)
+def _to_line(points: np.ndarray, joint: KnownJoint) -> np.ndarray:
+    return np.linalg.norm(np.cross(points - joint.origin, joint.opening_motion.axis), axis=1)
 
 
-def _turned_by(direction: np.ndarray, joint: ReferenceJoint) -> float:
+def _turned_by(direction: np.ndarray, joint: KnownJoint) -> float:
     """Return the sine of the angle between a unit direction and the axis."""
-    return float(np.linalg.norm(np.cross(direction, joint.motion.axis)))
+    return float(np.linalg.norm(np.cross(direction, joint.opening_motion.axis)))
 
 
 def _size(part: PartShown) -> float:

@@ -8,9 +8,9 @@ from assets import box, checker, mesh_of
 from small_sets import loaded, part_box
 
 from anymesh.errors import InputError
-from anymesh.evaluation.datasets.dataset_links import DatasetJoint, DatasetLink, assemble
+from anymesh.evaluation.datasets.dataset_links import DatasetLink, assemble
 from anymesh.loading import load_mesh
-from anymesh.types import JointType, Material, Mesh, Texture
+from anymesh.types import JointType, KnownJoint, Material, Mesh, Texture
 
 UP = np.array([0.0, 1.0, 0.0])
 
@@ -19,9 +19,9 @@ def shape(low, high) -> tuple[Mesh, ...]:
     return (mesh_of([box(low, high)])[0],)
 
 
-def hinge(*limits: float, axis=UP) -> DatasetJoint:
+def hinge(*limits: float, axis=UP) -> KnownJoint:
     known = (float(limits[0]), float(limits[1])) if limits else None
-    return DatasetJoint(JointType.REVOLUTE, np.zeros(3), np.asarray(axis, float), known, known is not None)
+    return KnownJoint(JointType.REVOLUTE, np.zeros(3), np.asarray(axis, float), known, known is not None)
 
 
 FRAME, DOOR, HANDLE = shape((0, 0, 0), (4, 4, 4)), shape((0, 0, 4), (4, 4, 4.1)), shape((3, 2, 4.1), (3.2, 2.2, 4.3))

@@ -13,20 +13,9 @@ from anymesh.errors import InputError
 from anymesh.evaluation.datasets.nameless import write_nameless
 from anymesh.evaluation.ground_truth import GroundTruth, TrueJoint
 from anymesh.names import legal_names
-from anymesh.types import JointType, Mesh, Part
+from anymesh.types import KnownJoint, Mesh, Part
 
 Y_UP = np.array([[1.0, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]])  # from Z-up, as in robotics, to glTF's Y-up
-
-
-@dataclass(frozen=True, eq=False)
-class DatasetJoint:
-    """Motion of a link relative to its parent. origin: on the axis; axis: not zero; limits: None if endless or unknown."""
-
-    type: JointType
-    origin: Float[np.ndarray, " 3"]
-    axis: Float[np.ndarray, " 3"]
-    limits: tuple[float, float] | None
-    range_known: bool = True
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,7 +28,7 @@ class DatasetLink:
 
     name: str
     parent: str | None = None
-    motion: DatasetJoint | None = None
+    motion: KnownJoint | None = None
     meshes: tuple[Mesh, ...] = ()
     label: str = "part"
 
@@ -87,14 +76,14 @@ def _area(meshes: list[Mesh]) -> float:
     return sum(float(m.face_areas.sum()) for m in meshes)
 
 
-def _joint(child: str, parent: str, motion: DatasetJoint | None) -> TrueJoint:
+def _joint(child: str, parent: str, motion: KnownJoint | None) -> TrueJoint:
     if motion is None:
         raise ValueError(f"{child} is a root beside the base; bodies need one root")
     axis, limits = motion.axis / np.linalg.norm(motion.axis), motion.limits
     if limits is not None and -limits[0] > limits[1]:
         axis, limits = -axis, (-limits[1], -limits[0])
     limits = None if limits is None else (limits[0] + 0.0, limits[1] + 0.0)  # no -0.0
-    return TrueJoint(child, parent, motion.type, motion.origin, axis + 0.0, limits, motion.range_known)
+    return TrueJoint(motion.type, motion.origin, axis + 0.0, limits, motion.range_known, child=child, parent=parent)
 
 
 def moved(body: DatasetLink, T: Float[np.ndarray, "4 4"]) -> DatasetLink:

@@ -14,11 +14,11 @@ from typing import Any
 import numpy as np
 
 from anymesh.errors import InputError
-from anymesh.evaluation.datasets.dataset_links import Y_UP, DatasetJoint, DatasetLink, assemble, moved
+from anymesh.evaluation.datasets.dataset_links import Y_UP, DatasetLink, assemble, moved
 from anymesh.evaluation.datasets.splits import check_split, chosen, listed
 from anymesh.evaluation.datasets.visuals import read_visual
 from anymesh.evaluation.ground_truth import GroundTruth
-from anymesh.types import JointType, Mesh
+from anymesh.types import JointType, KnownJoint, Mesh
 
 RECORD, MESH, LABELS = "gt.json", "rigid.ply", "labels.npy"
 UPRIGHT = {(0, 0, 1): Y_UP, (0, 1, 0): np.eye(4)}  # to the written file, which is Y-up
@@ -73,8 +73,8 @@ def _bodies(record: dict[str, Any], mesh: Mesh, labels: np.ndarray) -> list[Data
     return found
 
 
-def _motion(joint: dict[str, Any]) -> DatasetJoint:
+def _motion(joint: dict[str, Any]) -> KnownJoint:
     kind = JointType(joint["type"])
     limits = joint["limits"] if kind is not JointType.CONTINUOUS else None
     origin, axis = np.array(joint["origin"], float), np.array(joint["axis"], float)
-    return DatasetJoint(kind, origin, axis, None if limits is None else (float(limits[0]), float(limits[1])))
+    return KnownJoint(kind, origin, axis, None if limits is None else (float(limits[0]), float(limits[1])))

@@ -17,13 +17,13 @@ from typing import Any
 
 import numpy as np
 
-from anymesh.evaluation.datasets.dataset_links import Y_UP, DatasetJoint, DatasetLink, assemble, moved
+from anymesh.evaluation.datasets.dataset_links import Y_UP, DatasetLink, assemble, moved
 from anymesh.evaluation.datasets.mjcf_materials_ import GeomMaterials
 from anymesh.evaluation.datasets.mjcf_reading_ import compile_mjcf
 from anymesh.evaluation.ground_truth import GroundTruth
 from anymesh.mujoco_ import load_mujoco
 from anymesh.names import legal_name
-from anymesh.types import JointType, Mesh
+from anymesh.types import JointType, KnownJoint, Mesh
 
 mujoco = load_mujoco()
 
@@ -99,7 +99,7 @@ class MjcfModel:
     def _name(self, body: int) -> str:
         return self.model.body(body).name or f"body{body}"
 
-    def _motion(self, joint: int) -> DatasetJoint:
+    def _motion(self, joint: int) -> KnownJoint:
         m, d = self.model, self.data
         limits, (lower, upper) = None, m.jnt_range[joint]
         if lower < upper:
@@ -108,7 +108,7 @@ class MjcfModel:
         kind = TYPES[int(m.jnt_type[joint])]
         endless = limits is None and kind is JointType.REVOLUTE
         kind = JointType.CONTINUOUS if endless else kind
-        return DatasetJoint(kind, d.xanchor[joint].copy(), d.xaxis[joint].copy(), limits, endless or limits is not None)
+        return KnownJoint(kind, d.xanchor[joint].copy(), d.xaxis[joint].copy(), limits, endless or limits is not None)
 
     def _meshes(self, body: int) -> Iterator[Mesh]:
         for geom in self._shown(body):

@@ -22,13 +22,13 @@ from pathlib import Path
 import numpy as np
 
 from anymesh.errors import InputError, MissingExtraError
-from anymesh.evaluation.datasets.dataset_links import DatasetJoint, DatasetLink, assemble
+from anymesh.evaluation.datasets.dataset_links import DatasetLink, assemble
 from anymesh.evaluation.datasets.debian import member
 from anymesh.evaluation.datasets.splits import check_split
 from anymesh.evaluation.ground_truth import GroundTruth
 from anymesh.loading.folder import Folder
 from anymesh.loading.obj import read_obj
-from anymesh.types import JointType, Mesh
+from anymesh.types import JointType, KnownJoint, Mesh
 
 INSTALLED = Path("/usr/share/sweethome3d/sweethome3d.jar")
 CATALOG = "com/eteks/sweethome3d/io/DefaultFurnitureCatalog.properties"
@@ -140,13 +140,13 @@ def _pieces(mesh: Mesh, groups: list[str]) -> tuple[Mesh, ...]:
     return tuple(mesh.subset(mesh.face_node == k) for k in numbers if (mesh.face_node == k).any())
 
 
-def _motion(kind: JointType, points: np.ndarray) -> DatasetJoint:
+def _motion(kind: JointType, points: np.ndarray) -> KnownJoint:
     """Return a motion along the longest side of the marker's box, through its centre."""
     low, high = points.min(0), points.max(0)
-    return DatasetJoint(kind, (low + high) / 2, np.eye(3)[int((high - low).argmax())], None, range_known=False)
+    return KnownJoint(kind, (low + high) / 2, np.eye(3)[int((high - low).argmax())], None, range_known=False)
 
 
-def _opened(motion: DatasetJoint, pieces: tuple[Mesh, ...], sashes: list[Sash], bounds: np.ndarray) -> DatasetJoint:
+def _opened(motion: KnownJoint, pieces: tuple[Mesh, ...], sashes: list[Sash], bounds: np.ndarray) -> KnownJoint:
     """Return the motion with the range of the sash nearest to the hinge."""
     low, high = bounds[:, [0, 2]]
     places = np.array([low + np.array(s.at) * (high - low) for s in sashes])

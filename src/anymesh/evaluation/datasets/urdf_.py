@@ -16,12 +16,12 @@ from yourdfpy import URDF
 from yourdfpy import urdf as parsed
 
 from anymesh.errors import InputError
-from anymesh.evaluation.datasets.dataset_links import Y_UP, DatasetJoint, DatasetLink, assemble, moved
+from anymesh.evaluation.datasets.dataset_links import Y_UP, DatasetLink, assemble, moved
 from anymesh.evaluation.datasets.shapes_ import box, cylinder, ellipsoid
 from anymesh.evaluation.datasets.splits import check_split, chosen, listed
 from anymesh.evaluation.datasets.visuals import find_mesh, read_visual
 from anymesh.evaluation.ground_truth import GroundTruth
-from anymesh.types import JointType, Material, Mesh
+from anymesh.types import JointType, KnownJoint, Material, Mesh
 from anymesh.types.color import to_linear
 
 MOVING = {"revolute", "continuous", "prismatic"}
@@ -115,21 +115,21 @@ def _rest(link: str, carrier: Mapping[str, parsed.Joint], links: Mapping[str, pa
     raise InputError(f"its joints form a cycle through the link {link!r}; valid is a tree")
 
 
-def _motion(joint: parsed.Joint, T: np.ndarray) -> DatasetJoint | None:
+def _motion(joint: parsed.Joint, T: np.ndarray) -> KnownJoint | None:
     """Return the motion in the root's frame; None for a joint with an empty range."""
     axis = np.array([1.0, 0, 0]) if joint.axis is None else np.asarray(joint.axis, float)
     if not (np.isfinite(axis).all() and np.linalg.norm(axis) > 0):
         raise InputError(f"joint {joint.name!r}: found the axis {joint.axis}; valid is a direction")
     axis, origin, kind = T[:3, :3] @ axis, T[:3, 3], JointType(joint.type)
     if kind is JointType.CONTINUOUS:
-        return DatasetJoint(kind, origin, axis, None)
+        return KnownJoint(kind, origin, axis, None)
     lower, upper = (None, None) if joint.limit is None else (joint.limit.lower, joint.limit.upper)
     if lower is None and upper is None:
-        return DatasetJoint(kind, origin, axis, None, range_known=False)
+        return KnownJoint(kind, origin, axis, None, range_known=False)
     limits = (float(lower or 0.0), float(upper or 0.0))
     if not (np.isfinite(limits).all() and limits[0] <= limits[1]):
         raise InputError(f"joint {joint.name!r}: found the limits {limits}; valid are finite ones, the lower first")
-    return DatasetJoint(kind, origin, axis, limits) if limits[0] < limits[1] else None
+    return KnownJoint(kind, origin, axis, limits) if limits[0] < limits[1] else None
 
 
 def _visual(visual: parsed.Visual, folder: Path, root: Path, colors: Mapping) -> Mesh:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import secrets
 import shutil
@@ -160,3 +161,9 @@ def copy_files(source: Path, target: Path, names: Iterable[str]) -> None:
     for name in sorted(name for name in names if os.path.lexists(source / name)):
         (target / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy2(source / name, target / name)
+
+
+def cannot_write(error: OSError, folder: Path) -> bool:
+    """Return whether an error is about writing the files of a folder: its disk, or a file in it."""
+    full = error.errno in (errno.ENOSPC, errno.EROFS, getattr(errno, "EDQUOT", errno.ENOSPC))
+    return full or (error.filename is not None and str(error.filename).startswith(str(folder)))

@@ -7,7 +7,6 @@ defect, leaves at most the hidden folder. The next run takes over its finished s
 
 from __future__ import annotations
 
-import errno
 import os
 import shutil
 import time
@@ -22,6 +21,7 @@ from anymesh.files import write_json
 from anymesh.pipeline.storage.atomic_folder import (
     FOLDER_PREFIX,
     LockedFolder,
+    cannot_write,
     copy_files,
     list_files,
     locks_known,
@@ -32,7 +32,6 @@ from anymesh.pipeline.storage.atomic_folder import (
     stale_folders,
 )
 from anymesh.pipeline.storage.outputs import (
-    CORRECTIONS,
     MANIFEST,
     atomic_prefix,
     check_replaceable,
@@ -52,7 +51,7 @@ from anymesh.pipeline.storage.packing import (
     STAGES,
     Stage,
 )
-from anymesh.pipeline.storage.saved import TIMING, Saved
+from anymesh.pipeline.storage.saved import TIMING, Saved, outdated_files
 from anymesh.pipeline.storage.stage_files import read_stage, saved_key, stage_files, write_stage
 
 Result = TypeVar("Result")
@@ -114,10 +113,7 @@ class RunFolder(Saved):
 
     @classmethod
     def open(cls, target: Path) -> RunFolder:
-        """Open an existing output to add another stage or the final files.
-
-        Raise OutputError if there is none.
-        """
+        """Open an existing output to add a stage or the final files. Raise OutputError if there is none."""
         target = Path(target).resolve()
         try:
             existing_files(target)
@@ -220,19 +216,11 @@ class RunFolder(Saved):
                 replace_folder(self.folder, self.target, aside if self._replaces else None)
             else:
                 before = set(written_files(self.target) or ())
-                kept = before - self._outdated(before, new)
+                kept = before - outdated_files(before, stale=self._stale, final=LAST in new)
                 write_manifest(self.folder, new | kept)
                 move_files(self.folder, self.target, remove=sorted(before - kept - new), last=LAST)
         except OSError as error:
             raise OutputError(f"cannot write {self.target}: {error.strerror or error}") from error
-
-    def _outdated(self, before: set[str], new: set[str]) -> set[str]:
-        """Return the files from before that no longer follow from the stages, or that the final files written now replace."""
-        stages = {name for stage in STAGES for name in stage_files(stage)}
-        stale = {name for stage in STAGES if stage.name in self._stale for name in stage_files(stage)}
-        kept = {MANIFEST, TIMING, CORRECTIONS} | set(filter(is_origin, before))
-        final = before - stages - kept if self._stale or LAST in new else set()
-        return stale | final
 
     def __enter__(self) -> RunFolder:
         return self
@@ -241,7 +229,7 @@ class RunFolder(Saved):
         try:
             if error is None:
                 self._commit()
-            elif isinstance(error, OSError) and self._is_mine(error):
+            elif isinstance(error, OSError) and cannot_write(error, self.folder):
                 raise OutputError(f"cannot write {self.target}: {error.strerror or error}") from error
         finally:
             if self._resumed_later(error):
@@ -256,11 +244,7 @@ class RunFolder(Saved):
 
         They are kept if a budget or an open question ended the run, or a defect after which a rerun may get further.
         """
-        told = isinstance(error, AnymeshError) or (isinstance(error, OSError) and self._is_mine(error))
+        told = isinstance(error, AnymeshError) or (isinstance(error, OSError) and cannot_write(error, self.folder))
         defect = isinstance(error, Exception) and not told
         saved = any((self.folder / stage_files(stage)[0]).exists() for stage in STAGES)
         return isinstance(error, BudgetError | OpenQuestionError) or (defect and saved and self._resumable)
-
-    def _is_mine(self, error: OSError) -> bool:
-        full = error.errno in (errno.ENOSPC, errno.EROFS, getattr(errno, "EDQUOT", errno.ENOSPC))
-        return full or (error.filename is not None and str(error.filename).startswith(str(self.folder)))

@@ -9,7 +9,7 @@ from anymesh.errors import OutputError
 from anymesh.files import read_json
 from anymesh.pipeline.results import CorrectionResult, RecognitionResult, Record
 from anymesh.pipeline.storage.assemble import assemble
-from anymesh.pipeline.storage.outputs import written_files
+from anymesh.pipeline.storage.outputs import CORRECTIONS, MANIFEST, is_origin, written_files
 from anymesh.pipeline.storage.packing import (
     COMPLETION,
     CORRECTION,
@@ -21,7 +21,7 @@ from anymesh.pipeline.storage.packing import (
     STAGES,
     Stage,
 )
-from anymesh.pipeline.storage.stage_files import read_stage, saved_key
+from anymesh.pipeline.storage.stage_files import read_stage, saved_key, stage_files
 from anymesh.types import Asset
 
 Result = TypeVar("Result")
@@ -123,3 +123,11 @@ class Saved:
         skipped = None if edited else self.editing()
         made = (k for s in reversed(STAGES) if s is not skipped and (k := self._key(s)) is not None)
         return next(made, "")
+
+
+def outdated_files(before: set[str], *, stale: set[str], final: bool) -> set[str]:
+    """Return the files from before that no longer follow from the stages, or that final files written now replace."""
+    stages = {name for stage in STAGES for name in stage_files(stage)}
+    old = {name for stage in STAGES if stage.name in stale for name in stage_files(stage)}
+    kept = {MANIFEST, TIMING, CORRECTIONS} | set(filter(is_origin, before))
+    return old | (before - stages - kept if stale or final else set())
