@@ -1,7 +1,7 @@
 """Measure whether collision shapes let joints move: ours and others, with true parts and joints given.
 
 python benchmarks/collision.py [--coacd] [SET ...]      writes benchmarks/collision.md; a set as `anymesh eval` names it;
-                                                        --coacd: one CoACD a link, too, which takes minutes an object
+                                                        --coacd: also one CoACD run per link, which takes minutes per object
 
 A joint is free if, at 21 positions over its range, no two shapes of different links penetrate by more than .1 % of the
 diagonal where the surfaces do not intersect. Shapes are computed without the cache.
@@ -64,8 +64,8 @@ def ours(asset: Asset, links: tuple[Link, ...]) -> Shapes:
 
 
 WAYS: dict[str, Callable[[Asset, tuple[Link, ...]], Shapes]] = {
-    "one hull a link": one_hull,
-    "one CoACD a link": one_coacd,
+    "one hull per link": one_hull,
+    "one CoACD per link": one_coacd,
     "ours": ours,
 }
 
@@ -102,7 +102,7 @@ def measured(spec: str, ways: Sequence[str]) -> Iterator[tuple[str, int, int, in
 def main() -> None:
     rows = []
     asked = [word for word in sys.argv[1:] if word != "--coacd"]
-    ways = [way for way in WAYS if "--coacd" in sys.argv or way != "one CoACD a link"]
+    ways = [way for way in WAYS if "--coacd" in sys.argv or way != "one CoACD per link"]
     for spec in asked or SETS:
         found = list(measured(spec, ways))
         for way in ways:
@@ -113,7 +113,7 @@ def main() -> None:
             cells = (spec.split(":")[0], way, share, f"{shapes / links:.1f}", f"{np.median(times):.2f}", f"{times[-1]:.1f}")
             rows.append("| " + " | ".join(cells) + " |")
             print(rows[-1], flush=True)
-    head = "| set | shapes | joints free | shapes a link | seconds an object, median | most |\n|---|---|---|---|---|---|"
+    head = "| set | shapes | joints free | shapes per link | seconds per object, median | most |\n|---|---|---|---|---|---|"
     packages = ", ".join(f"{p} {version(p)}" for p in ("manifold3d", "mujoco", "numpy"))
     told = f"{datetime.date.today()}, Python {platform.python_version()}, {packages}; `python benchmarks/collision.py`."
     text = "\n\n".join(["# Collision shapes", (__doc__ or "").split("\n\n", 2)[2].strip(), "\n".join([head, *rows]), told])

@@ -29,7 +29,8 @@ from anymesh.evaluation.oracle import Noisy, Random, oracle
 from anymesh.evaluation.protocols import prepared
 from anymesh.evaluation.score import JointScore, score
 from anymesh.pipeline.solving import Solver
-from anymesh.types.recognition import Moves, Recognition, RecognizedLabel
+from anymesh.types import MOVING
+from anymesh.types.recognition import Recognition, RecognizedLabel
 
 WRONG = (0.0, 0.1, 0.25, 0.5, 1.0)  # probabilities of a wrong item; the last: all answers at random
 BINS = (0.0, 0.2, 0.4, 0.6, 0.8, 1.0)
@@ -69,8 +70,8 @@ class Swept:
 
 def recognized(sample: EvalSample, wrong: float, rng: np.random.Generator) -> Recognition:
     """A label for each part, of which the way it moves is wrong with a probability; labels tell nothing else."""
-    moves = [Moves(j.type.value) for j in sample.truth.joints]
-    told = [list(Moves)[int(rng.integers(3))] if rng.random() < wrong else m for m in moves]
+    moves = [j.type for j in sample.truth.joints]
+    told = [MOVING[int(rng.integers(3))] if rng.random() < wrong else m for m in moves]
     names = [f"thing {j.child}" for j in sample.truth.joints]
     return Recognition("object", None, tuple(RecognizedLabel(n, m, None, None) for n, m in zip(names, told, strict=True)))
 

@@ -31,7 +31,7 @@ from anymesh.segmentation.part_assignment import assign_parts
 from anymesh.segmentation.part_classifier import score_parts
 from anymesh.segmentation.part_features import FeatureScene, part_context_of, part_features
 from anymesh.segmentation.part_tree import PartTree, part_tree
-from anymesh.types import Mesh, MotionKind, Picture
+from anymesh.types import JointType, Mesh, Picture
 
 EXAMPLES = Path(__file__).parents[1] / "examples" / "meshes"
 MOST = 9  # candidates that are drawn
@@ -62,7 +62,7 @@ def motions(
     shown = ranked[:MOTIONS]
     amounts = [
         min(c.opening, MAX_SHOWN_ANGLE_RAD)
-        if c.motion.kind is MotionKind.REVOLUTE
+        if c.motion.kind is JointType.REVOLUTE
         else min(c.opening * scale, MAX_SHOWN_TRAVEL_RATIO * size)
         for _, c in shown
     ]

@@ -29,7 +29,7 @@ from anymesh.evaluation.ground_truth import EvalSample, TrueJoint
 from anymesh.evaluation.metrics import angle_error, distance_at, opening_side, opens_both_ways
 from anymesh.evaluation.protocols import prepared
 from anymesh.geometry.patches import ObjectShape, object_shape
-from anymesh.types import JointType, Motion, MotionKind
+from anymesh.types import JointType, Motion
 
 ANGLE, FAR = 5.0, 0.08  # [deg], and half the object's diagonal is 1: a motion that is further off is wrong
 NEAR_ANGLE, NEAR = 2.0, 0.03  # of the right ones, those this near count most
@@ -102,7 +102,7 @@ def _copies(whole: ObjectShape, sample: EvalSample, questions: Sequence[PartMoti
 def how_right(true: TrueJoint, motion: Motion, center: np.ndarray, unit: float) -> float:
     """Return 0 for a wrong motion, else how near it is to the true one, up to 1."""
     slides = true.type is JointType.PRISMATIC
-    if slides != (motion.kind is MotionKind.PRISMATIC):
+    if slides != (motion.kind is JointType.PRISMATIC):
         return 0.0
     angle = angle_error(motion.axis, true.axis)
     off = 0.0 if slides else distance_at(center, motion.origin, motion.axis, true.origin, true.axis) / unit

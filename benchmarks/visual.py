@@ -127,20 +127,20 @@ def recorded(found: Sequence[Item], protocols: Sequence[EvalProtocol]) -> list[t
     return [(i, p) for i in found for p in protocols if (RECORDINGS / i.number / p).is_dir()]
 
 
-def row(item: Item, protocol: EvalProtocol, variant: str) -> Row:
-    """One object, answered from its recording."""
-    return replayed(RECORDINGS / item.number / protocol, item.set, open_dataset(item.spec), item.object, item.change, protocol,
-                    variant)  # fmt: skip
+def rows_of(item: Item, protocol: EvalProtocol, variants: Sequence[str]) -> list[Row]:
+    """Answer one object from its recording, with each of the variants."""
+    folder, data = RECORDINGS / item.number / protocol, open_dataset(item.spec)
+    return replayed(folder, item.set, data, item.object, item.change, protocol, variants)
 
 
 def table(found: Sequence[tuple[Item, EvalProtocol]], ablation: bool, jobs: int, out: Path) -> None:
+    """Answer all objects from their recordings; the page is written after each, so that a stopped run leaves one."""
     variants = VARIANTS if ablation else VARIANTS[:1]
-    tasks = [(i, p, v) for v in variants for i, p in found]
     rows: list[Row] = []
-    for done in _each(row, tasks, jobs):
-        rows.append(done)
-        print(done.told(), flush=True)
-    out.write_text(page(rows), encoding="utf-8")
+    for done in _each(rows_of, [(i, p, variants) for i, p in found], jobs):
+        rows += done
+        print(*(row.told() for row in done), sep="\n", flush=True)
+        out.write_text(page(rows), encoding="utf-8")
     print(f"wrote {out}")
 
 

@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 
 from anymesh.errors import ModelError
-from anymesh.types import Exchange, Motion, MotionKind
+from anymesh.types import Exchange, JointType, Motion
 from anymesh.vlm.asking import Answer, Question, VisualAnswerer
 from anymesh.vlm.motion_choice import MotionPick, MotionTable, PartFit, WhichMotions
 from anymesh.vlm.question_files import CHECK, QuestionFolder
@@ -25,6 +25,8 @@ FILE = "choices.json"
 KIND = "motions"
 SAME_PART = 0.05  # share of the part's diagonal by which its bounds may differ
 NEAR, LEAST = 0.15, 0.02  # share of the way, and of the part's diagonal: motions that keep the part's corners this near are one
+KINDS = {"turn": JointType.REVOLUTE, "slide": JointType.PRISMATIC}  # words of the file
+NAMES = {kind: name for name, kind in KINDS.items()}
 DIGITS = 5  # of the numbers in the file
 
 
@@ -54,7 +56,7 @@ def choices_of(questions: Sequence[QuestionFolder]) -> list[Choice]:
             motion = None
             if pick.motion is not None:
                 m = table.motions[pick.motion]
-                motion = str(m.kind), _rounded(m.axis), _rounded(m.origin), float(table.amounts[pick.motion])
+                motion = NAMES[m.kind], _rounded(m.axis), _rounded(m.origin), float(table.amounts[pick.motion])
             found.append(Choice([_rounded(row) for row in _bounds(table)], motion, str(pick.part)))
     return found
 
@@ -94,12 +96,12 @@ def same_motion(choice: Choice, table: MotionTable) -> int | None:
     corners = np.array(list(itertools.product(*zip(*choice.bounds, strict=True))))
     size = float(np.linalg.norm(np.ptp(corners, axis=0)))
     unit = np.array(axis) / np.linalg.norm(axis)
-    goal = _moved(Motion(MotionKind(kind), unit, np.array(origin), "recorded"), amount, corners)
+    goal = _moved(Motion(KINDS[kind], unit, np.array(origin), "recorded"), amount, corners)
     reach = max(NEAR * float(np.linalg.norm(goal - corners, axis=1).mean()), LEAST * size)
     for reverse in (1.0, -1.0):
         off = []
         for motion, shown in zip(table.motions, table.amounts, strict=True):
-            alike = str(motion.kind) == kind and (reverse > 0 or motion.kind is MotionKind.REVOLUTE)
+            alike = motion.kind is KINDS[kind] and (reverse > 0 or motion.kind is JointType.REVOLUTE)
             there = _moved(motion, reverse * float(np.sign(shown)) * abs(amount), corners)
             off.append(float(np.linalg.norm(there - goal, axis=1).mean()) if alike else np.inf)
         if off and min(off) < reach:

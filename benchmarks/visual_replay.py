@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tempfile
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -83,13 +84,17 @@ class Keeping:
 
 
 def replayed(
-    folder: Path, set_: str, dataset: Dataset, name: str, change: str, protocol: EvalProtocol, variant: str
-) -> Row:  # fmt: skip
-    """The object answered from the recording in `folder`. Where nothing was recorded for a question, the record has an error;
-    so with the variants other than the first the recorded result answers (see `Carried`)."""
+    folder: Path, set_: str, dataset: Dataset, name: str, change: str, protocol: EvalProtocol, variants: Sequence[str]
+) -> list[Row]:  # fmt: skip
+    """Return a row per variant of one object, answered from the recording in `folder`.
+
+    Where nothing was recorded for a question, the record of the first variant has an error; in the other variants the recorded
+    result answers (see `Carried`).
+    """
     exam, made = EvalConfig(protocol, (change,)), list[WithChoices]()
     replay = Replay(folder)
     base = Config()
+    choices = read_choices(folder / FILE)
 
     def run(solver: Keeping, answerer_factory) -> Record:
         with tempfile.TemporaryDirectory() as report:
@@ -103,18 +108,21 @@ def replayed(
         made.append(WithChoices(VlmAnswerer(replay, fallback), choices))
         return made[-1]
 
-    choices = read_choices(folder / FILE)
-
-    row = Row(variant, folder.parent.name, set_, protocol, Record(ObjectScore(name, (), 0, 0, 0)), 0)
-    if variant == VARIANTS[3]:
-        return replace(row, record=run(Keeping(base), None))
     first = Keeping(base)
     record = run(first, recorded)
-    calls = sum(len(seer.exchanges) + seer.again for seer in made)
-    if variant == VARIANTS[0] or record.error or first.result is None:
-        return replace(row, record=record, calls=calls)
-    mesh, segmentation, joints = first.result
-    carried = Carried(replay, ReferenceAnswerer("recording", lambda: reference_of(mesh, segmentation, joints, "object")))
-    config = Config(verify="off") if variant == VARIANTS[1] else replace(base, views=replace(base.views, around=ONE_VIEW))
-    record = run(Keeping(config), lambda _: carried)
-    return replace(row, record=record, calls=carried.calls, carried=carried.carried)
+    as_recorded = Row(VARIANTS[0], folder.parent.name, set_, protocol, record, sum(len(m.exchanges) + m.again for m in made))
+
+    def row(variant: str) -> Row:
+        if variant == VARIANTS[0]:
+            return as_recorded
+        if variant == VARIANTS[3]:
+            return replace(as_recorded, variant=variant, record=run(Keeping(base), None), calls=0)
+        if record.error or first.result is None:
+            return replace(as_recorded, variant=variant)
+        mesh, segmentation, joints = first.result
+        carried = Carried(replay, ReferenceAnswerer("recording", lambda: reference_of(mesh, segmentation, joints, "object")))
+        config = Config(verify="off") if variant == VARIANTS[1] else replace(base, views=replace(base.views, around=ONE_VIEW))
+        found = run(Keeping(config), lambda _: carried)
+        return Row(variant, as_recorded.number, set_, protocol, found, carried.calls, carried.carried)
+
+    return [row(variant) for variant in variants]

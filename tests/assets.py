@@ -15,7 +15,6 @@ from anymesh.types import (
     Material,
     Mesh,
     Motion,
-    MotionKind,
     Node,
     Part,
     Segmentation,
@@ -158,7 +157,7 @@ def poses(asset: Asset, positions: dict[str, float]) -> dict[str, np.ndarray]:
             continue
         step = np.eye(4)
         if j.type is not JointType.FIXED:
-            kind = MotionKind.PRISMATIC if j.type is JointType.PRISMATIC else MotionKind.REVOLUTE
+            kind = JointType.PRISMATIC if j.type is JointType.PRISMATIC else JointType.REVOLUTE
             step = Motion(kind, j.axis, j.origin, "test").transform(positions.get(j.name, 0.0))
         found[j.child] = found[j.parent] @ step
     return found

@@ -15,7 +15,7 @@ from anymesh.errors import ModelError
 from anymesh.evaluation.record import Record, record_text
 from anymesh.evaluation.score import JointScore, ObjectScore
 from anymesh.rendering.encode import encode
-from anymesh.types import JointType, Motion, MotionKind
+from anymesh.types import JointType, Motion
 from anymesh.vlm.file_answerer import FileAnswerer, QuestionStore
 from anymesh.vlm.motion_choice import MotionPick, MotionTable, PartFit, WhichMotions
 from anymesh.vlm.prompting import PartShown
@@ -99,7 +99,7 @@ def motions_shown(amount: float, *axes: np.ndarray) -> WhichMotions:
     """One part, a plate, and turns about lines through the origin."""
     points = np.array([[0.0, 0, 0], [0.4, 0.02, 0.6]])
     part = PartShown("door", np.arange(2), points, Y, Y, points)
-    motions = tuple(Motion(MotionKind.REVOLUTE, axis, np.zeros(3), "a line") for axis in axes)
+    motions = tuple(Motion(JointType.REVOLUTE, axis, np.zeros(3), "a line") for axis in axes)
     return WhichMotions((), (MotionTable(part, motions, (amount,) * len(axes)),))
 
 
@@ -121,7 +121,7 @@ def test_a_choice_is_found_again_in_another_order_or_the_other_way(visual) -> No
 @pytest.mark.parametrize("number", ["022", *(pytest.param(number, marks=pytest.mark.slow) for number in ("048", "060", "065"))])
 def test_a_recording_of_an_example_replays_without_a_model(visual, number: str) -> None:
     (item,) = visual.items({}, [number])
-    row = visual.row(item, visual.EvalProtocol.END_TO_END, "as recorded")
+    (row,) = visual.rows_of(item, visual.EvalProtocol.END_TO_END, ["as recorded"])
     assert row.record.error == ""
     assert row.record.score.matched == row.record.score.true == row.record.score.predicted
     assert all(j.type_right and (j.angle or 0.0) < 2 and (j.at_part or 0.0) < 0.04 for j in row.record.score.joints)

@@ -16,7 +16,7 @@ from anymesh.articulation.taken import normal_outwards, opening_slide
 from anymesh.pipeline.solving import Solver
 from anymesh.rendering.visual_prompts import VisualPrompts
 from anymesh.types import JointType, Part, Segmentation
-from anymesh.types.recognition import Moves, Recognition, RecognizedLabel
+from anymesh.types.recognition import Recognition, RecognizedLabel
 from anymesh.vlm.motion_choice import MotionPick, PartFit
 from anymesh.vlm.prompting import JointKind, KindAnswer
 
@@ -28,8 +28,8 @@ def recognition(*labels: RecognizedLabel) -> Recognition:
     return Recognition("cabinet", None, labels)
 
 
-DOOR = RecognizedLabel("door", Moves.REVOLUTE, "base", (0.0, 1.2))
-TRAY = RecognizedLabel("tray", Moves.PRISMATIC, "base", (0.0, 0.3))
+DOOR = RecognizedLabel("door", JointType.REVOLUTE, "base", (0.0, 1.2))
+TRAY = RecognizedLabel("tray", JointType.PRISMATIC, "base", (0.0, 0.3))
 
 
 def asked(
@@ -75,7 +75,7 @@ def test_a_part_without_a_telling_name_is_asked_for_its_label() -> None:
 
 def test_answers_that_contradict_each_other_are_a_warning_and_lower_the_confidence() -> None:
     right, _ = asked(LEFT.scene, recognition(DOOR), "door")
-    wrong, _ = asked(LEFT.scene, recognition(replace(DOOR, moves=Moves.PRISMATIC)), "door")
+    wrong, _ = asked(LEFT.scene, recognition(replace(DOOR, moves=JointType.PRISMATIC)), "door")
     assert right.warnings == ()
     (warning,) = wrong.warnings
     assert "recognized as prismatic, then hinge along edge" in warning

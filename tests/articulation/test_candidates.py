@@ -14,7 +14,7 @@ from scipy.spatial.distance import pdist
 from anymesh.articulation.candidates import axis_points, cluster_points, superpoint_centres, with_more
 from anymesh.config import GroundingConfig, PromptConfig
 from anymesh.geometry.sampling import sample_surface
-from anymesh.types import Motion, MotionKind
+from anymesh.types import JointType, Motion
 from anymesh.types.camera import Camera
 
 Y = np.array([0.0, 1, 0])
@@ -144,8 +144,8 @@ def test_a_ring_of_contact_has_its_middle_as_a_candidate_and_not_a_point_of_the_
 
 def test_axes_into_the_surface_are_points_where_they_come_out() -> None:
     around = the_case(KNOWN["wheel"].scene).around
-    hub, off = (Motion(MotionKind.REVOLUTE, Y, np.array([x, 0.3, 0.2]), "hub") for x in (0.0, 0.05))
-    along = Motion(MotionKind.REVOLUTE, np.array([1.0, 0, 0]), np.zeros(3), "along")
+    hub, off = (Motion(JointType.REVOLUTE, Y, np.array([x, 0.3, 0.2]), "hub") for x in (0.0, 0.05))
+    along = Motion(JointType.REVOLUTE, np.array([1.0, 0, 0]), np.zeros(3), "along")
     points, axes = axis_points(around, [hub, along, off, hub], across(2000), CONFIG)
     # neither one along the surface, nor a duplicate
     assert points[:, [0, 2]] == pytest.approx(np.array([[0, 0.2], [0.05, 0.2]]))

@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 
 from anymesh.articulation.decode import hinge, plane_normal, prismatic, surface_directions
 from anymesh.articulation.prompted import opening_slide
-from anymesh.types import MotionKind
+from anymesh.types import JointType
 
 X, Y, Z = np.eye(3)
 seeds = st.integers(0, 10**6)
@@ -54,7 +54,7 @@ def test_a_hinge_goes_through_its_points_wherever_they_are_taken(seed: int, coun
     along = np.sort(rng.uniform(-1, 1, count)) * 3
     picked = shift + along[:, None] * turn.apply(Z)
     found = hinge(picked, X)
-    assert found.kind is MotionKind.REVOLUTE
+    assert found.kind is JointType.REVOLUTE
     assert between(found.axis, turn.apply(Z)) < 1e-4
     assert np.cross(picked - found.origin, found.axis) == pytest.approx(0, abs=1e-6)
     assert str(count) in found.source
@@ -73,7 +73,7 @@ def test_a_hinge_turns_and_moves_with_its_points(seed: int) -> None:
 
 def test_one_point_turns_about_the_normal_through_it() -> None:
     found = hinge(np.array([[1.0, 2, 3]]), 5 * Y)
-    assert found.kind is MotionKind.REVOLUTE
+    assert found.kind is JointType.REVOLUTE
     assert found.axis == pytest.approx(Y)
     assert found.origin == pytest.approx([1, 2, 3])
 
@@ -81,7 +81,7 @@ def test_one_point_turns_about_the_normal_through_it() -> None:
 def test_a_slide_goes_along_its_direction() -> None:
     case = the_case(KNOWN["slider"].scene)
     found = prismatic(-3 * X, case.around, "asked")
-    assert (found.kind, found.source) == (MotionKind.PRISMATIC, "asked")
+    assert (found.kind, found.source) == (JointType.PRISMATIC, "asked")
     assert found.axis == pytest.approx(-X)
 
 

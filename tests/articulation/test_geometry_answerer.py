@@ -8,7 +8,7 @@ import pytest
 from anymesh.articulation.geometry_answerer import CALIBRATION_SLOPE, OFFSET, GeometryAnswerer, same_joints, share_of_best
 from anymesh.articulation.motion_question import Candidate, MotionAnswer, MotionQuestion, PartFacts
 from anymesh.scoring.two_steps import MAX_CONFIDENCE, confidence_of
-from anymesh.types import JointType, Motion, MotionKind, Sweep
+from anymesh.types import JointType, Motion, Sweep
 
 WHO = GeometryAnswerer()
 X, Y, Z = np.eye(3)
@@ -35,8 +35,8 @@ PLATE = PartFacts(
 )
 
 
-def candidate(role: str, kind: MotionKind, axis, **changes) -> Candidate:
-    free = np.pi if kind is MotionKind.REVOLUTE else 0.5
+def candidate(role: str, kind: JointType, axis, **changes) -> Candidate:
+    free = np.pi if kind is JointType.REVOLUTE else 0.5
     sweep = Sweep(free, 0.0, True, False)
     made = Candidate(
         Motion(kind, axis, np.zeros(3), f"a {role}"), sweep, role, 1, free, 0.0, hinge_support=0.0, sibling=0.0,
@@ -45,10 +45,10 @@ def candidate(role: str, kind: MotionKind, axis, **changes) -> Candidate:
     return replace(made, **changes)
 
 
-EDGE = candidate("edge", MotionKind.REVOLUTE, Z, hinge_support=1.0)
-FAR_EDGE = replace(EDGE, motion=Motion(MotionKind.REVOLUTE, Z, X, "the other edge"))
-PULL = candidate("slide", MotionKind.PRISMATIC, Y)
-ROUND = candidate("round", MotionKind.REVOLUTE, Y, closing=np.pi)
+EDGE = candidate("edge", JointType.REVOLUTE, Z, hinge_support=1.0)
+FAR_EDGE = replace(EDGE, motion=Motion(JointType.REVOLUTE, Z, X, "the other edge"))
+PULL = candidate("slide", JointType.PRISMATIC, Y)
+ROUND = candidate("round", JointType.REVOLUTE, Y, closing=np.pi)
 
 
 def asked(part: PartFacts, candidates: list[Candidate], scores: list[float]) -> MotionAnswer:
@@ -70,9 +70,9 @@ def question(*candidates: Candidate) -> MotionQuestion:
 
 
 def test_motions_are_the_same_joint_about_one_line_to_one_side() -> None:
-    near = replace(EDGE, motion=Motion(MotionKind.REVOLUTE, Z, 0.01 * X, "nearly the same edge"))
+    near = replace(EDGE, motion=Motion(JointType.REVOLUTE, Z, 0.01 * X, "nearly the same edge"))
     against = replace(EDGE, opening_sign=-EDGE.opening_sign)
-    slid = replace(PULL, motion=Motion(MotionKind.PRISMATIC, Y, X, "elsewhere"))  # the origin of a slide is irrelevant
+    slid = replace(PULL, motion=Motion(JointType.PRISMATIC, Y, X, "elsewhere"))  # the origin of a slide is irrelevant
     assert same_joints(question(EDGE, FAR_EDGE, near, against), 0).tolist() == [True, False, True, False]
     assert same_joints(question(PULL, slid, EDGE), 0).tolist() == [True, True, False]
     # free both ways, so it has no side

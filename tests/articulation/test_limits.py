@@ -13,8 +13,8 @@ from anymesh.articulation.evidence import hypotheses
 from anymesh.articulation.limits import answered_range, ends_near, limits, opening_as_answered, opening_motion
 from anymesh.articulation.motion_question import Candidate
 from anymesh.geometry.part_context import PartContext
-from anymesh.types import JointType, Motion, MotionKind
-from anymesh.types.recognition import Moves, RecognizedLabel
+from anymesh.types import JointType, Motion
+from anymesh.types.recognition import RecognizedLabel
 
 ALONG = np.array([-1.0, -0.9, 0.0, 0.9, 1.0])
 X, Y, Z = np.eye(3)
@@ -43,9 +43,9 @@ def button() -> Scene:
     return {"base": [box((0, 0, 0), (0.6, 0.4, 0.3))], "key": [box((0.29, -0.006, 0.14), (0.31, 0.001, 0.16))]}
 
 
-LID = Motion(MotionKind.REVOLUTE, X, np.array([0.3, 0.4, 0.302]), "back edge")
-HINGE = Motion(MotionKind.REVOLUTE, Z, np.array([0.598, -0.002, 0]), "right edge")
-OUT = Motion(MotionKind.PRISMATIC, -Y, np.zeros(3), "out")
+LID = Motion(JointType.REVOLUTE, X, np.array([0.3, 0.4, 0.302]), "back edge")
+HINGE = Motion(JointType.REVOLUTE, Z, np.array([0.598, -0.002, 0]), "right edge")
+OUT = Motion(JointType.PRISMATIC, -Y, np.zeros(3), "out")
 
 
 def swept(scene: Callable[[], Scene], motion: Motion) -> tuple[PartContext, Candidate]:
@@ -101,7 +101,7 @@ def test_an_answered_travel_of_a_drawer_ends_where_the_parent_no_longer_holds_it
 
 
 def test_a_range_of_another_kind_of_joint_is_not_read() -> None:
-    told = RecognizedLabel("door", Moves.REVOLUTE, None, (0.0, 1.5))
+    told = RecognizedLabel("door", JointType.REVOLUTE, None, (0.0, 1.5))
     assert answered_range(told, JointType.REVOLUTE) == (0.0, 1.5)
     assert answered_range(told, JointType.PRISMATIC) is None
     assert answered_range(replace(told, limits=(0.0, 0.01)), JointType.REVOLUTE) is None  # a degree or less

@@ -12,11 +12,11 @@ from anymesh.articulation.evidence import hypotheses, part_facts
 from anymesh.articulation.motion_features import MISSING, motion_features
 from anymesh.config import Config
 from anymesh.geometry.patches import object_shape
-from anymesh.types import Motion, MotionKind
+from anymesh.types import JointType, Motion
 
 X, Y, Z = np.eye(3)
-LEFT_EDGE = Motion(MotionKind.REVOLUTE, Z, np.array([0.002, -0.012, 0.4]), "left edge")
-OUT = Motion(MotionKind.PRISMATIC, -Y, np.zeros(3), "out")
+LEFT_EDGE = Motion(JointType.REVOLUTE, Z, np.array([0.002, -0.012, 0.4]), "left edge")
+OUT = Motion(JointType.PRISMATIC, -Y, np.zeros(3), "out")
 
 
 def features(scene: Scene, motion: Motion, role: str = "edge", T: np.ndarray | None = None) -> list[dict[str, float]]:
@@ -50,7 +50,7 @@ def test_a_door_about_its_left_edge_and_about_its_free_edge() -> None:
 
 
 def test_a_lid_about_its_back_edge_rises() -> None:
-    back = Motion(MotionKind.REVOLUTE, X, np.array([0.3, 0.4, 0.301]), "back edge")
+    back = Motion(JointType.REVOLUTE, X, np.array([0.3, 0.4, 0.301]), "back edge")
     down, up = features(lid(), back)
     assert up["rises"] == pytest.approx(1, abs=0.1)
     assert up["outward"] > 0.9
@@ -69,19 +69,19 @@ def test_a_drawer_slides_out_and_is_held() -> None:
 
 
 def test_a_wheel_is_round_about_its_axle_and_has_contact_all_around_it() -> None:
-    axle = Motion(MotionKind.REVOLUTE, Y, np.array([0, -0.035, 0.2]), "axle")
+    axle = Motion(JointType.REVOLUTE, Y, np.array([0, -0.035, 0.2]), "axle")
     found = features(wheel(), axle, "round")[0]
     assert found["round about the axis"] > 0.95
     assert found["rotational misfit"] < 0.02
     assert found["circle off the axis"] < 0.02
     assert found["contact around the axis"] == 1
     assert found["opening"] == found["closing"] == pytest.approx(1)
-    rim = Motion(MotionKind.REVOLUTE, Y, np.array([0.1, -0.035, 0.2]), "rim")
+    rim = Motion(JointType.REVOLUTE, Y, np.array([0.1, -0.035, 0.2]), "rim")
     assert features(wheel(), rim)[0]["rotational misfit"] == MISSING  # far from its center
 
 
 def test_a_square_is_itself_after_a_quarter_turn_and_a_bracket_is_not() -> None:
-    axle = Motion(MotionKind.REVOLUTE, Y, np.array([0, -0.035, 0.2]), "axle")
+    axle = Motion(JointType.REVOLUTE, Y, np.array([0, -0.035, 0.2]), "axle")
     base = wheel()["base"]
     arms = [box((-0.1, -0.05, 0.19), (0.1, -0.02, 0.21)), box((-0.1, -0.05, 0.21), (-0.08, -0.02, 0.3))]
     bracket = {"base": base, "bracket": [*arms, box((0.08, -0.05, 0.1), (0.1, -0.02, 0.14))]}
@@ -92,7 +92,7 @@ def test_a_square_is_itself_after_a_quarter_turn_and_a_bracket_is_not() -> None:
 
 def test_features_do_not_depend_on_size_place_or_heading() -> None:
     T = similarity(90.0, (3.0, -2.0, 0.5), 7.0)
-    moved = Motion(MotionKind.REVOLUTE, Z, (T @ [*LEFT_EDGE.origin, 1])[:3], "left edge")
+    moved = Motion(JointType.REVOLUTE, Z, (T @ [*LEFT_EDGE.origin, 1])[:3], "left edge")
     plain, other = features(door("right"), LEFT_EDGE), features(door("right"), moved, T=T)
     for a, b in zip(plain, other, strict=True):
         for name, value in a.items():
@@ -101,6 +101,6 @@ def test_features_do_not_depend_on_size_place_or_heading() -> None:
 
 def test_a_knob_seen_from_its_side_is_not_round() -> None:
     knob = {"base": case(0.4), "knob": [prism(0.05, (-0.1, 0.0), 0.3, 0.2)]}
-    across = Motion(MotionKind.REVOLUTE, X, np.array([0.3, -0.05, 0.2]), "across")
-    about = Motion(MotionKind.REVOLUTE, Y, np.array([0.3, -0.05, 0.2]), "about")
+    across = Motion(JointType.REVOLUTE, X, np.array([0.3, -0.05, 0.2]), "across")
+    about = Motion(JointType.REVOLUTE, Y, np.array([0.3, -0.05, 0.2]), "about")
     assert features(knob, about)[0]["round about the axis"] > 0.95 > features(knob, across)[0]["round about the axis"]

@@ -14,7 +14,7 @@ from anymesh.articulation.prompted import Questions, prompt_joints
 from anymesh.evaluation.metrics import angle_error, line_distance
 from anymesh.rendering.visual_prompts import VisualPrompts
 from anymesh.types import Joint, JointType, Motion, Part, Picture
-from anymesh.types.recognition import Moves, Recognition, RecognizedLabel
+from anymesh.types.recognition import Recognition, RecognizedLabel
 from anymesh.vlm.motion_choice import MotionPick, WhichMotions
 from anymesh.vlm.prompting import JointKind, KindAnswer
 from anymesh.vlm.reference_answerer import ReferenceJoint
@@ -186,7 +186,7 @@ def test_names_of_parts_are_never_part_of_a_question() -> None:
 
 def test_a_range_that_was_answered_ends_a_turn_that_nothing_stops() -> None:
     scene, true = KNOWN["left"].scene, KNOWN["left"].joint
-    told = Recognition("x", None, (RecognizedLabel("part", Moves.REVOLUTE, "base", (0.0, 1.0)),))
+    told = Recognition("x", None, (RecognizedLabel("part", JointType.REVOLUTE, "base", (0.0, 1.0)),))
     (found,), _ = prompted(scene, (true,), recognition=told)
     assert found.limits == (0, pytest.approx(1.0))
 
@@ -249,5 +249,5 @@ def test_a_label_that_hangs_on_itself_is_that_of_a_chain() -> None:
     arms = {"base": [box((0, 0, 0), (2, 2, 0.2))], "low": [box((0.9, 0.9, 0.2), (1.1, 1.1, 3.2))]}
     arms["high"] = [box((0.9, 1.1, 3.0), (1.1, 1.3, 6))]
     _, whole, segmentation = ready(arms)
-    told = Recognition("lamp", None, (RecognizedLabel("part", Moves.REVOLUTE, "part", (-1.0, 1.0)),))
+    told = Recognition("lamp", None, (RecognizedLabel("part", JointType.REVOLUTE, "part", (-1.0, 1.0)),))
     assert [c.parent for c in make_cases(whole, segmentation, told, QUICK)] == ["base", "low"]

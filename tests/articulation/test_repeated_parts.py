@@ -10,7 +10,7 @@ from scenes import Piece, Scene, built, case, door, drawer, joints_of, prism
 from anymesh.articulation import estimate
 from anymesh.config import Config
 from anymesh.geometry.patches import object_shape
-from anymesh.types import JointType, MotionKind
+from anymesh.types import JointType
 
 
 def pair(grips: str) -> Scene:
@@ -84,7 +84,7 @@ def test_a_mark_on_a_round_pin_speaks_for_a_turn() -> None:
         mesh, segmentation = built({"base": WALL, "pin": pieces})
         whole = object_shape(mesh, 0, labels=segmentation.face_part)
         _, _, _, question = next(iter(estimate.motion_questions(whole, segmentation, Config())))
-        turns = np.array([c.motion.kind is MotionKind.REVOLUTE for c in question.candidates])
+        turns = np.array([c.motion.kind is JointType.REVOLUTE for c in question.candidates])
         return float(question.scores[turns].max() - question.scores[~turns].max())
 
     assert lead([pin, mark]) > lead([pin])

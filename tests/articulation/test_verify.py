@@ -25,7 +25,7 @@ from anymesh.articulation.offers import (
     shown_amount,
 )
 from anymesh.articulation.own_axes import CENTRAL
-from anymesh.types import Motion, MotionKind
+from anymesh.types import JointType, Motion
 from anymesh.vlm.prompting import JointKind, KindAnswer
 
 X, Y, Z = np.eye(3)
@@ -34,7 +34,7 @@ NAMES = ["left", "drawer", "lid", "slider", "wheel"]
 
 
 def turn(axis: np.ndarray, origin) -> Motion:
-    return Motion(MotionKind.REVOLUTE, axis, np.asarray(origin, float), "picked")
+    return Motion(JointType.REVOLUTE, axis, np.asarray(origin, float), "picked")
 
 
 @cache
@@ -124,8 +124,8 @@ FAR_SIDE = turn(Z, (0.598, -0.012, 0))
 THROUGH = turn(Z, (0.3, 0.2, 0))  # in the middle of the case: the panel would pass through its sides
 BEYOND = turn(Z, (0.7, -0.012, 0))
 BELOW = turn(X, (0.3, -0.022, 0.002))
-TO_THE_RIGHT = Motion(MotionKind.PRISMATIC, X, np.array([0.3, -0.012, 0.4]), "picked")
-UP = Motion(MotionKind.PRISMATIC, Z, np.zeros(3), "picked")
+TO_THE_RIGHT = Motion(JointType.PRISMATIC, X, np.array([0.3, -0.012, 0.4]), "picked")
+UP = Motion(JointType.PRISMATIC, Z, np.zeros(3), "picked")
 
 
 @pytest.mark.parametrize(
@@ -142,7 +142,7 @@ def test_an_answer_that_is_blocked_is_shown_and_marked_so(name: str, asked: Moti
     assert found.answered in found.first
     assert found.table((found.answered,)).blocked == (True,)
     # enough to be visible
-    assert found.table((found.answered,)).amounts[0] > np.deg2rad(30) * (asked.kind is MotionKind.REVOLUTE)
+    assert found.table((found.answered,)).amounts[0] > np.deg2rad(30) * (asked.kind is JointType.REVOLUTE)
 
 
 @pytest.mark.parametrize("name", ["wheel", "left"])
@@ -189,7 +189,7 @@ def test_a_slide_that_is_blocked_one_way_opens_the_other_way() -> None:
 def test_a_hinge_on_the_side_of_the_grip_comes_behind_the_other_side() -> None:
     assert candidates_of("left", GRIP_SIDE)[0].is_free
     found = shown("left", GRIP_SIDE, JointKind.HINGE_ALONG)
-    upright = [c.motion.origin[0] for c in found if c.motion.kind is MotionKind.REVOLUTE and c.vertical > 0.9]
+    upright = [c.motion.origin[0] for c in found if c.motion.kind is JointType.REVOLUTE and c.vertical > 0.9]
     assert upright[0] == pytest.approx(0.6, abs=0.03)  # away from the handle
     assert min(upright) < 0.02  # the answered motion can still be chosen
 
@@ -215,7 +215,7 @@ def test_what_was_answered_speaks_for_motions_of_its_kind() -> None:
     for c in candidates_of("drawer"):
         kinds = {kind for kind in JointKind if kind is not JointKind.FIXED and fits(c, kind)}
         slides = {JointKind.SLIDE_OUT if abs(c.motion.axis @ Y) > 0.7 else JointKind.SLIDE_ALONG}
-        assert kinds == (turns if c.motion.kind is MotionKind.REVOLUTE else slides)
+        assert kinds == (turns if c.motion.kind is JointType.REVOLUTE else slides)
 
 
 def test_pictures_show_as_much_of_a_motion_as_is_free_and_no_more_than_is_clear() -> None:
@@ -227,7 +227,7 @@ def test_pictures_show_as_much_of_a_motion_as_is_free_and_no_more_than_is_clear(
 def test_a_button_is_shown_pressed() -> None:
     case = the_case({"base": [box((0, 0, 0), (0.6, 0.4, 0.3))], "key": [box((0.29, -0.006, 0.14), (0.31, 0.001, 0.16))]})
     found = make_offers(replace(case, answer=KindAnswer(JointKind.SLIDE_OUT)), MOST, 0)
-    into = next(c for c in found.motions if c.motion.kind is MotionKind.PRISMATIC and c.outward < -0.9)
+    into = next(c for c in found.motions if c.motion.kind is JointType.PRISMATIC and c.outward < -0.9)
     table = found.table((found.motions.index(into),))
     goes = table.motions[0].transform(table.amounts[0])[:3, 3]
     assert goes @ Y > 0  # into the block

@@ -6,9 +6,9 @@ from assets import CUBE, box, mesh_of, source
 
 from anymesh.correcting import CorrectionError
 from anymesh.correcting.picking import PickedPart
-from anymesh.types import Asset, Joint, JointType, Motion, MotionKind, Part, Segmentation
+from anymesh.types import Asset, Joint, JointType, Motion, Part, Segmentation
 
-TURNS = [np.eye(4), Motion(MotionKind.REVOLUTE, np.array([0.6, 0.0, 0.8]), np.array([0.3, 0.1, 0]), "test").transform(0.7)]
+TURNS = [np.eye(4), Motion(JointType.REVOLUTE, np.array([0.6, 0.0, 0.8]), np.array([0.3, 0.1, 0]), "test").transform(0.7)]
 
 
 def cylinder(radius: float, height: float, sides: int = 32) -> tuple[np.ndarray, np.ndarray]:

@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from anymesh.evaluation.boxes import THIN, as_box, box_giou, box_iou
-from anymesh.types import Motion, MotionKind
+from anymesh.types import JointType, Motion
 
 REST = np.eye(4)
 UNIT = np.array([[0, 0, 0], [1, 1, 1.0]])
@@ -19,7 +19,7 @@ def shifted(x: float, y: float = 0, z: float = 0) -> np.ndarray:
 
 
 def turned(degrees: float, origin=(0.5, 0.5, 0.5)) -> np.ndarray:
-    return Motion(MotionKind.REVOLUTE, np.array([0, 0, 1.0]), np.array(origin, float), "test").transform(np.deg2rad(degrees))
+    return Motion(JointType.REVOLUTE, np.array([0, 0, 1.0]), np.array(origin, float), "test").transform(np.deg2rad(degrees))
 
 
 def test_axis_aligned_boxes() -> None:

@@ -10,7 +10,7 @@ from assets import cabinet
 from anymesh.evaluation.ground_truth import EvalSample, GroundTruth, TrueJoint
 from anymesh.evaluation.oracle import Noisy, oracle, true_reference
 from anymesh.geometry.kinematics import joint_transform
-from anymesh.types import Joint, JointType, Motion, MotionKind, Part
+from anymesh.types import Joint, JointType, Motion, Part
 from anymesh.vlm.asking import VisualAnswerer
 from anymesh.vlm.grounding import WhichMarks
 from anymesh.vlm.motion_choice import MotionTable, WhichMotions
@@ -85,7 +85,7 @@ KNOWN = ReferenceAnswerer(
 )
 DOOR = PartShown("door", np.arange(100), np.stack([0 * X, X, Z, X + Z]), -Y, Y, np.zeros((1, 3)))
 CORNERS = np.array([[1, 0, 0], [0, 0, 0], [1, 0, 1], [0, 0, 1], [1, 0, 0.5]])
-TURNS = tuple(Motion(MotionKind.REVOLUTE, a, np.asarray(o, float), "") for a, o in ((X, 0 * X), (Z, 0 * X), (Z, X)))
+TURNS = tuple(Motion(JointType.REVOLUTE, a, np.asarray(o, float), "") for a, o in ((X, 0 * X), (Z, 0 * X), (Z, X)))
 VIEWS = (np.repeat([1, 2, 3, 4], 30).reshape(10, 12), np.repeat([5, 6, 7, 8], 30).reshape(10, 12))
 NOWHERE = np.full((10, 12), -1)
 HALF = (np.where(VIEWS[0] < 3, 0, -1), NOWHERE)  # where the door is: marks 1 and 2 of the first view

@@ -6,7 +6,7 @@ from assets import box
 from rigid import apply, move, shape_of
 
 from anymesh.geometry.sweep import Obstacles, free_amount, sweep
-from anymesh.types import Motion, MotionKind
+from anymesh.types import JointType, Motion
 
 FRAME = [  # an opening of 1 x 1 in a wall of thickness 0.1 with its front at -y, closed behind by a back
     box((-0.2, 0, -0.2), (-0.002, 0.1, 1.2)),
@@ -23,11 +23,11 @@ Z = np.array([0.0, 0, 1])
 
 
 def turn(axis, origin, T=None) -> Motion:
-    return motion(MotionKind.REVOLUTE, axis, origin, T)
+    return motion(JointType.REVOLUTE, axis, origin, T)
 
 
 def slide(axis, T=None) -> Motion:
-    return motion(MotionKind.PRISMATIC, axis, (0, 0, 0), T)
+    return motion(JointType.PRISMATIC, axis, (0, 0, 0), T)
 
 
 def motion(kind, axis, origin, T) -> Motion:

@@ -107,3 +107,36 @@ def test_the_same_solid_gives_the_same_hulls(solid):
 def test_an_open_surface_gives_no_pieces():
     vertices, faces = box_with_slots()
     assert decompose_solid(vertices, faces[1:], gap=0.05, wall=0.005, max_pieces=24) == []
+
+
+def random_solid(seed: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return the largest component of a few blocks, cones and balls, united or subtracted."""
+    from manifold3d import Manifold
+
+    rng = np.random.default_rng(seed)
+
+    def primitive() -> Manifold:
+        x, y, z = rng.uniform(0.1, 1, 3)
+        kind = rng.integers(3)
+        if kind == 0:
+            made = Manifold.cube((x, y, z), True)
+        elif kind == 1:
+            made = Manifold.cylinder(x, y / 2, z / 2, int(rng.integers(3, 24)), True)
+        else:
+            made = Manifold.sphere(x / 2, 12)
+        return made.rotate(tuple(rng.uniform(0, 360, 3))).translate(tuple(rng.uniform(-0.4, 0.4, 3)))
+
+    solid = primitive()
+    for _ in range(4):
+        solid = solid + primitive() if rng.random() < 0.6 else solid - primitive()
+    mesh = max(solid.decompose(), key=lambda part: part.volume()).to_mesh()
+    return np.asarray(mesh.vert_properties, float)[:, :3], np.asarray(mesh.tri_verts, np.int64)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_random_solids_are_covered(seed):
+    vertices, faces = random_solid(seed)
+    size = float(np.linalg.norm(np.ptp(vertices, axis=0)))
+    hulls = decompose_solid(vertices, faces, gap=0.02 * size, wall=0.002 * size, max_pieces=24)
+    assert 0 < len(hulls) <= 24
+    assert outside_all(sample_surface(vertices[faces], 500, 0).points, hulls).max() < 1e-4 * size

@@ -12,17 +12,17 @@ from anymesh.rendering.posed import Posed
 from anymesh.rendering.render import render
 from anymesh.rendering.strips import COLUMNS, PANEL, grid, motion_strip, moved, silhouette, strip_camera
 from anymesh.rendering.viewpoints import views
-from anymesh.types import Motion, MotionKind
+from anymesh.types import JointType, Motion
 
 X, Y, Z = np.eye(3)
 
 
 def turn(axis, origin) -> Motion:
-    return Motion(MotionKind.REVOLUTE, np.asarray(axis, float), np.asarray(origin, float), "test")
+    return Motion(JointType.REVOLUTE, np.asarray(axis, float), np.asarray(origin, float), "test")
 
 
 def slide(axis) -> Motion:
-    return Motion(MotionKind.PRISMATIC, np.asarray(axis, float), np.zeros(3), "test")
+    return Motion(JointType.PRISMATIC, np.asarray(axis, float), np.zeros(3), "test")
 
 
 def door():

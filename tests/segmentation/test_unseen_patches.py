@@ -8,7 +8,7 @@ from anymesh.config import Config
 from anymesh.geometry.patches import ObjectShape
 from anymesh.pipeline.solving import Solver
 from anymesh.segmentation.unseen import join_unseen
-from anymesh.types.recognition import Moves
+from anymesh.types import JointType
 
 WALLS = [box((0, 0, 0), (1, 1, 0.02)), box((0, 0, 0.98), (1, 1, 1)), box((0, 0, 0.02), (0.02, 1, 0.98)),
          box((0.98, 0, 0.02), (1, 1, 0.98)), box((0.02, 0.98, 0.02), (0.98, 1, 0.98))]  # fmt: skip
@@ -48,6 +48,6 @@ def test_a_drawer_slides_as_far_with_its_box_and_a_door_does_not_turn_with_it() 
     whole, part = pieces(BIN)
     config = Config().articulation
     joined, alone = np.where(part < 0, 1, part)[whole.patch], np.maximum(part, 0)[whole.patch]
-    assert stays_free(whole, config, alone, joined, 1, Moves.PRISMATIC)
-    assert not stays_free(whole, config, alone, joined, 1, Moves.REVOLUTE)
+    assert stays_free(whole, config, alone, joined, 1, JointType.PRISMATIC)
+    assert not stays_free(whole, config, alone, joined, 1, JointType.REVOLUTE)
     assert stays_free(whole, config, alone, joined, 1)  # without a recognized motion it may be a drawer

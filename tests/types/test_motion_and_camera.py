@@ -8,19 +8,19 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from anymesh.types import Motion, MotionKind
+from anymesh.types import JointType, Motion
 from anymesh.types.camera import Camera
 
 SEEDS = st.integers(0, 10**6)
 
 
-def motion(seed: int, kind: MotionKind) -> Motion:
+def motion(seed: int, kind: JointType) -> Motion:
     rng = np.random.default_rng(seed)
     axis = rng.normal(size=3)
     return Motion(kind, axis / np.linalg.norm(axis), rng.uniform(-2, 2, 3), "test")
 
 
-@given(SEEDS, st.sampled_from(MotionKind), st.floats(-4, 4), st.floats(-4, 4))
+@given(SEEDS, st.sampled_from((JointType.REVOLUTE, JointType.PRISMATIC)), st.floats(-4, 4), st.floats(-4, 4))
 def test_motions_are_rigid_and_add_up(seed, kind, a, b):
     m = motion(seed, kind)
     T = m.transform(a)
@@ -32,7 +32,7 @@ def test_motions_are_rigid_and_add_up(seed, kind, a, b):
 
 @given(SEEDS, st.floats(-3, 3))
 def test_a_turn_follows_the_right_hand_and_a_slide_the_axis(seed, amount):
-    turn, slide = motion(seed, MotionKind.REVOLUTE), motion(seed, MotionKind.PRISMATIC)
+    turn, slide = motion(seed, JointType.REVOLUTE), motion(seed, JointType.PRISMATIC)
     np.testing.assert_allclose(turn.transform(amount)[:3, :3], Rotation.from_rotvec(amount * turn.axis).as_matrix(), atol=1e-9)
     on_axis = np.r_[turn.origin + 1.7 * turn.axis, 1]
     np.testing.assert_allclose(turn.transform(amount) @ on_axis, on_axis, atol=1e-9)
@@ -41,7 +41,7 @@ def test_a_turn_follows_the_right_hand_and_a_slide_the_axis(seed, amount):
 
 def test_an_axis_is_a_unit_vector():
     with pytest.raises(ValueError, match=r"length 2\.0"):
-        Motion(MotionKind.REVOLUTE, np.array([0, 0, 2.0]), np.zeros(3), "test")
+        Motion(JointType.REVOLUTE, np.array([0, 0, 2.0]), np.zeros(3), "test")
 
 
 @given(SEEDS, st.floats(0.1, 2.5), st.integers(1, 9), st.integers(1, 9))

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from assets import cabinet, checker
 
-from anymesh.types import Motion, MotionKind, Picture
+from anymesh.types import JointType, Motion, Picture
 from anymesh.vlm.grounding import WhichMarks
 from anymesh.vlm.motion_choice import MotionTable, WhichMotions
 from anymesh.vlm.prompting import ArrowTable, JointKind, PartShown, PointTable, WhichArrows, WhichKinds, WhichPoints
@@ -40,8 +40,8 @@ def points(scale: float = 1.0) -> WhichPoints:
 
 
 def motions(scale: float = 1.0) -> WhichMotions:
-    hinge = Motion(MotionKind.REVOLUTE, Z, scale * np.array([0.6, 0, 0.3]), "hinge")
-    out = Motion(MotionKind.PRISMATIC, -Y, np.zeros(3), "out")
+    hinge = Motion(JointType.REVOLUTE, Z, scale * np.array([0.6, 0, 0.3]), "hinge")
+    out = Motion(JointType.PRISMATIC, -Y, np.zeros(3), "out")
     door = MotionTable(part(1, scale), (out, hinge), (0.2 * scale, 1.0), (False, True))
     both = np.flatnonzero(np.isin(FACE_PART, [2, 3]))
     return WhichMotions((PICTURE,) * 2, (door, MotionTable(part(2, scale), (out,), (0.2 * scale,), (False,), both)))

@@ -17,7 +17,7 @@ import pytest
 from browser import Tab
 
 from anymesh import pipeline
-from anymesh.types import MotionKind
+from anymesh.types import JointType
 from anymesh.viewer.ask_shapes import point_places
 from anymesh.viewer.live_serve_ import serve
 
@@ -215,7 +215,7 @@ def test_every_question_about_a_microwave_is_answered_by_clicks(tmp_path, tab):
         form = person.waits_for("motions")
         hinges = [
             k for k, m in enumerate(form.table.motions, 1)
-            if m.kind is MotionKind.REVOLUTE and abs(m.axis[2]) > 0.99 and m.origin[0] < 0
+            if m.kind is JointType.REVOLUTE and abs(m.axis[2]) > 0.99 and m.origin[0] < 0
         ]  # fmt: skip
         for number in range(1, len(form.table.motions) + 1):  # each plays when it is chosen
             person.button(str(number))

@@ -9,8 +9,8 @@ import numpy as np
 from assets import checker
 from hypothesis import strategies as st
 
-from anymesh.types import Motion, MotionKind, Picture
-from anymesh.types.recognition import Moves, Recognition, RecognizedLabel
+from anymesh.types import JointType, Motion, Picture
+from anymesh.types.recognition import Recognition, RecognizedLabel
 from anymesh.vlm.asking import Question
 from anymesh.vlm.grounding import MarkedPart, MarksAnswer, WhichMarks, WhichViews
 from anymesh.vlm.motion_choice import MotionPick, MotionTable, WhichMotions
@@ -58,7 +58,7 @@ def picks(name: str, *rows: Any) -> dict[str, Any]:
     return parts(*({"part": k, name: row} for k, row in enumerate(rows, 1)))
 
 
-TURNS = tuple(Motion(MotionKind.REVOLUTE, axis, np.zeros(3), "built so") for axis in (X, Z))
+TURNS = tuple(Motion(JointType.REVOLUTE, axis, np.zeros(3), "built so") for axis in (X, Z))
 REGIONS = (np.array([[1, 2], [3, -1]]), np.array([[2, 4], [-1, -1]]))  # the marks of two pictures
 FACES = (np.zeros((2, 2), int), np.zeros((2, 2), int))
 DOOR = {"label": "door", "moves": "revolute", "parent": "base", "lower": 0, "upper": 90}
@@ -73,9 +73,9 @@ ASKED = {
             "kitchen cabinet",
             1.5,
             (
-                RecognizedLabel("door", Moves.REVOLUTE, "base", (0.0, 90 * 3.141592653589793 / 180)),
-                RecognizedLabel("knob", Moves.CONTINUOUS, "door", None),
-                RecognizedLabel("tray", Moves.PRISMATIC, "base", (-0.05, 0.305)),
+                RecognizedLabel("door", JointType.REVOLUTE, "base", (0.0, 90 * 3.141592653589793 / 180)),
+                RecognizedLabel("knob", JointType.CONTINUOUS, "door", None),
+                RecognizedLabel("tray", JointType.PRISMATIC, "base", (-0.05, 0.305)),
             ),
             45.0,
         ),

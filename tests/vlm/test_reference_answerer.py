@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from asked import X, Y, Z, part
 
-from anymesh.types import JointType, Motion, MotionKind
-from anymesh.types.recognition import Moves, RecognizedLabel
+from anymesh.types import JointType, Motion
+from anymesh.types.recognition import RecognizedLabel
 from anymesh.vlm.answer_json import answer_object
 from anymesh.vlm.asking import Question, VisualAnswerer
 from anymesh.vlm.grounding import MarkedPart, MarksAnswer, WhichMarks, WhichViews
@@ -71,9 +71,9 @@ def test_it_names_each_kind_of_part_that_moves_once() -> None:
     found = ask(Recognize(()))
     assert (found.category, found.size) == ("cabinet", 2.0)
     assert found.labels == (
-        RecognizedLabel("door", Moves.REVOLUTE, "base", (0.0, 1.5)),
-        RecognizedLabel("drawer", Moves.PRISMATIC, "base", (0.0, 0.3)),
-        RecognizedLabel("knob", Moves.CONTINUOUS, "door", None),  # the panel between does not move
+        RecognizedLabel("door", JointType.REVOLUTE, "base", (0.0, 1.5)),
+        RecognizedLabel("drawer", JointType.PRISMATIC, "base", (0.0, 0.3)),
+        RecognizedLabel("knob", JointType.CONTINUOUS, "door", None),  # the panel between does not move
     )
 
 
@@ -178,7 +178,7 @@ def test_what_is_fixed_is_answered_as_well_as_can_be() -> None:
 
 
 def turn(axis: np.ndarray, origin=(0.0, 0, 0)) -> Motion:
-    return Motion(MotionKind.REVOLUTE, axis, np.asarray(origin, float), "built so")
+    return Motion(JointType.REVOLUTE, axis, np.asarray(origin, float), "built so")
 
 
 MOTIONS = {
@@ -186,7 +186,7 @@ MOTIONS = {
     "nearly the joint's own": ((turn(X), turn(Z, (0.05, 0, 0))), 1),
     "none but backwards": ((turn(X), turn(-Z)), None),
     "none about the other side": ((turn(Z, (1, 0, 0)),), None),
-    "none but a slide": ((Motion(MotionKind.PRISMATIC, Y, np.zeros(3), "built so"),), None),
+    "none but a slide": ((Motion(JointType.PRISMATIC, Y, np.zeros(3), "built so"),), None),
     "the nearest of two": ((turn(Z, (0.05, 0, 0)), turn(Z, (0.02, 0, 0))), 1),
 }
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from anymesh.geometry.part_context import PartContext
-from anymesh.types import Motion, MotionKind
+from anymesh.types import JointType, Motion
 
 LINE_POINTS = 21  # sample points along a hinge line
 MAX_CONTACT_POINTS = 120  # sample points of the contact
@@ -29,7 +29,7 @@ def contact_retention(around: PartContext, motions: list[Motion], signs: list[in
     moved = []
     for motion, sign in zip(motions, signs, strict=True):
         extent = float(np.ptp(around.part.corners @ motion.axis))
-        amount = WATCHED_ANGLE_RAD if motion.kind is MotionKind.REVOLUTE else WATCHED_TRAVEL_RATIO * extent
+        amount = WATCHED_ANGLE_RAD if motion.kind is JointType.REVOLUTE else WATCHED_TRAVEL_RATIO * extent
         T = motion.transform(sign * amount)
         moved.append(contact @ T[:3, :3].T + T[:3, 3])
     off = around.parent.tree.distance(np.concatenate(moved))

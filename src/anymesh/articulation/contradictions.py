@@ -6,7 +6,6 @@ from collections.abc import Iterator, Sequence
 
 from anymesh.articulation.cases import PartCase
 from anymesh.types import Joint, JointType
-from anymesh.types.recognition import Moves
 from anymesh.vlm.prompting import JointKind
 
 TURNING = (JointType.REVOLUTE, JointType.CONTINUOUS)
@@ -27,7 +26,7 @@ def contradictions(cases: Sequence[PartCase], joints: Sequence[Joint]) -> tuple[
 def _answered_motion(case: PartCase) -> Iterator[tuple[str, str]]:
     moves = case.recognized.moves if case.recognized else None
     if moves is not None:
-        yield ("slides" if moves is Moves.PRISMATIC else "turns"), f"recognized as {moves}"
+        yield ("slides" if moves is JointType.PRISMATIC else "turns"), f"recognized as {moves}"
     kind = case.kind
     yield "fixed" if kind is JointKind.FIXED else "turns" if kind.is_rotation else "slides", kind.value.replace("_", " ")
 

@@ -9,7 +9,7 @@ import numpy as np
 from jaxtyping import Float
 
 from anymesh.geometry.part_context import PartContext
-from anymesh.types import Motion, MotionKind
+from anymesh.types import JointType, Motion
 
 TRIALS = 200  # planes tried by RANSAC
 
@@ -42,10 +42,10 @@ def hinge(
     if len(picked) == 1:
         own = axis is not None and not np.isnan(axis).any()
         along, source = (axis, "axis at the point picked") if own else (normal, "normal at the point picked")
-        return Motion(MotionKind.REVOLUTE, along / np.linalg.norm(along), picked[0], source)
+        return Motion(JointType.REVOLUTE, along / np.linalg.norm(along), picked[0], source)
     middle = picked.mean(0)
     axis = np.linalg.svd(picked - middle, full_matrices=False)[2][0]
-    return Motion(MotionKind.REVOLUTE, axis / np.linalg.norm(axis), middle, f"line through the {len(picked)} points picked")
+    return Motion(JointType.REVOLUTE, axis / np.linalg.norm(axis), middle, f"line through the {len(picked)} points picked")
 
 
 def surface_directions(around: PartContext) -> Float[np.ndarray, "4 3"]:
@@ -56,4 +56,4 @@ def surface_directions(around: PartContext) -> Float[np.ndarray, "4 3"]:
 
 def prismatic(direction: Float[np.ndarray, " 3"], around: PartContext, source: str) -> Motion:
     """Return the prismatic motion of a part along a direction."""
-    return Motion(MotionKind.PRISMATIC, direction / np.linalg.norm(direction), around.part.box.center, source)
+    return Motion(JointType.PRISMATIC, direction / np.linalg.norm(direction), around.part.box.center, source)

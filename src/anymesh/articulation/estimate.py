@@ -21,7 +21,7 @@ from anymesh.geometry.part_context import PartContext, find_barrel_candidates
 from anymesh.geometry.patches import ObjectShape
 from anymesh.geometry.sweep import free_amount
 from anymesh.geometry.triangle_set import TriangleSet
-from anymesh.types import Joint, JointType, Motion, MotionKind, Segmentation
+from anymesh.types import Joint, JointType, Motion, Segmentation
 
 MAX_RIM_DISTANCE_RATIO = 0.01  # of the scale: hinge lines within this distance, or within the part's thickness, are at one rim
 MIN_PARALLEL_COSINE = 0.999  # minimum cosine between the axes of such lines
@@ -149,7 +149,7 @@ def estimate_joint(around: PartContext, name: str, parent: str, question: Motion
     if answer.type is not JointType.FIXED:
         return joint_of(around, name, parent, best, answer.type, answer.confidence, answer.reason)
     # the part is known to move, so a fixed answer is replaced by the best motion
-    kind = JointType.PRISMATIC if best.motion.kind is MotionKind.PRISMATIC else JointType.REVOLUTE
+    kind = JointType.PRISMATIC if best.motion.kind is JointType.PRISMATIC else JointType.REVOLUTE
     return joint_of(around, name, parent, best, kind, answer.confidence, f"{answer.reason}; likeliest: {best.motion.source}")
 
 

@@ -11,7 +11,7 @@ from anymesh.articulation.contact_metrics import contact_retention, hinge_suppor
 from anymesh.articulation.motion_question import Candidate, PartFacts
 from anymesh.geometry.part_context import IGNORE_OVERLAP_SCALE, PartContext
 from anymesh.geometry.sweep import free_amounts, sweep_all
-from anymesh.types import Motion, MotionKind, Sweep
+from anymesh.types import JointType, Motion, Sweep
 
 CROSSWISE_HANDLE_WEIGHT = 0.6  # weight of the side of a bar handle that runs across the line
 PENETRATION_SCALES = (3.0, IGNORE_OVERLAP_SCALE)  # tried in this order if a hinge is blocked
@@ -86,7 +86,7 @@ def _rotational_asymmetry(around: PartContext) -> float:
     outline, points = around.outline, around.part.samples.points[::4]
     off = 0.0
     for turn in np.deg2rad(ASYMMETRY_ANGLES_DEG):
-        T = Motion(MotionKind.REVOLUTE, outline.axis, outline.center, "").transform(turn)
+        T = Motion(JointType.REVOLUTE, outline.axis, outline.center, "").transform(turn)
         turned = points @ T[:3, :3].T + T[:3, 3]
         off = max(off, float(np.percentile(around.part.tree.distance(turned), 99)))
     return off / max(outline.radius, 1e-9)
@@ -113,19 +113,19 @@ def hypotheses(around: PartContext, proposed: list[tuple[str, Motion]]) -> tuple
     penetration, and finally with the overlap at rest ignored.
     """
     motions, steps = [m for _, m in proposed], around.config.sweep_steps
-    revolute = [m for m in motions if m.kind is MotionKind.REVOLUTE]
+    revolute = [m for m in motions if m.kind is JointType.REVOLUTE]
     along, adjacent = iter(hinge_support(around, revolute)), adjacent_sides(around)
     inward = [
-        m.kind is MotionKind.PRISMATIC and abs(float(m.axis @ around.opening_direction)) <= MIN_OUTWARD_COSINE for m in motions
+        m.kind is JointType.PRISMATIC and abs(float(m.axis @ around.opening_direction)) <= MIN_OUTWARD_COSINE for m in motions
     ]
     swept: dict[int, Sweep] = {}
     for obstacles, wanted in ((around.obstacles(), False), (around.obstacles_at_rest, True)):
         chosen = [k for k, x in enumerate(inward) if x is wanted]
         swept.update(zip(chosen, sweep_all(obstacles, [motions[k] for k in chosen], steps), strict=True))
-    guided = iter(_guided_share(around, [m for m in motions if m.kind is MotionKind.PRISMATIC]))
+    guided = iter(_guided_share(around, [m for m in motions if m.kind is JointType.PRISMATIC]))
     ahead = [
         _revolute(around, role, motion, swept[k], next(along), adjacent)
-        if motion.kind is MotionKind.REVOLUTE
+        if motion.kind is JointType.REVOLUTE
         else _prismatic(around, role, motion, swept[k], next(guided))
         for k, (role, motion) in enumerate(proposed)
     ]
@@ -193,7 +193,7 @@ def _sides(around: PartContext, motion: Motion) -> np.ndarray:
 
 def _guided_share(around: PartContext, prismatic: list[Motion]) -> list[float]:
     """Return the share of the four directions across each slide in which the part is stopped within GUIDE_STEP_RATIO."""
-    sideways = [Motion(MotionKind.PRISMATIC, d, m.origin, "sideways") for m in prismatic for d in _sides(around, m)]
+    sideways = [Motion(JointType.PRISMATIC, d, m.origin, "sideways") for m in prismatic for d in _sides(around, m)]
     step = [GUIDE_STEP_RATIO * around.scale] * (2 * len(sideways))
     signs = [1] * len(sideways) + [-1] * len(sideways)
     free = free_amounts(around.obstacles_at_rest, sideways + sideways, signs, step, 3) if prismatic else []

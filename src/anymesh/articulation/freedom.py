@@ -13,8 +13,7 @@ from anymesh.articulation.tree import parents
 from anymesh.config import ArticulationConfig
 from anymesh.geometry.part_context import PartContext
 from anymesh.geometry.patches import ObjectShape
-from anymesh.types import MotionKind
-from anymesh.types.recognition import Moves
+from anymesh.types import JointType
 
 MOTIONS_PER_TYPE = 4  # likeliest motions of each kind, one of which must stay free with the gained patches
 MIN_FREE_RATIO = 0.8  # minimum opening of a part with gained patches, relative to its opening without them
@@ -27,7 +26,7 @@ def stays_free(
     without: Int[np.ndarray, " F"],
     joined: Int[np.ndarray, " F"],
     part: int,
-    moves: Moves | None = None,
+    moves: JointType | None = None,
 ) -> bool:
     """Return whether a part opens as far with the unseen patches that it would gain.
 
@@ -39,7 +38,9 @@ def stays_free(
     best: dict[int, Candidate] = {}  # the better one of the two directions along each axis
     for k in geometry.which_motion(question).ranking:
         best.setdefault(id(question.candidates[k].motion), question.candidates[k])
-    kinds = list(MotionKind) if moves is None else [MotionKind.PRISMATIC if moves is Moves.PRISMATIC else MotionKind.REVOLUTE]
+    kinds = (JointType.REVOLUTE, JointType.PRISMATIC)
+    if moves is not None:
+        kinds = (JointType.PRISMATIC if moves is JointType.PRISMATIC else JointType.REVOLUTE,)
     likely = [c for kind in kinds for c in [c for c in best.values() if c.motion.kind is kind][:MOTIONS_PER_TYPE]]
     after = hypotheses(gained, [(c.role, c.motion) for c in likely])[::2]
     far = [(max(c.opening, c.closing), max(a.opening, a.closing)) for c, a in zip(likely, after, strict=True)]

@@ -7,7 +7,7 @@ from jaxtyping import Bool, Float
 
 from anymesh.articulation.motion_question import Candidate, MotionAnswer, MotionQuestion, PartFacts
 from anymesh.scoring.two_steps import confidence_of
-from anymesh.types import JointType, MotionKind
+from anymesh.types import JointType
 from anymesh.vocabulary import TypicalMotion, typical_motion
 
 NO_MOTION_CONFIDENCE = 0.3  # confidence of a joint without a plausible motion
@@ -52,7 +52,7 @@ def motion_scores(question: MotionQuestion) -> Float[np.ndarray, " k"]:
     prior = LABEL_PRIOR.get(habit) if (habit := typical_motion(question.part.label)) else None
     if prior is None:
         return scores
-    kinds = [2 if c.motion.kind is MotionKind.PRISMATIC else int(c.role == "round") for c in question.candidates]
+    kinds = [2 if c.motion.kind is JointType.PRISMATIC else int(c.role == "round") for c in question.candidates]
     return scores + np.array(prior)[kinds]
 
 
@@ -66,7 +66,7 @@ def same_joints(question: MotionQuestion, best: int) -> Bool[np.ndarray, " k"]:
     axes, axis = np.array([c.motion.axis * c.opening_sign for c in question.candidates]), motions[best].axis
     cosine = axes @ (axis * question.candidates[best].opening_sign)
     same &= (np.abs(cosine) if question.candidates[best].is_endless else cosine) >= SAME_AXIS
-    if motions[best].kind is MotionKind.REVOLUTE:
+    if motions[best].kind is JointType.REVOLUTE:
         offset = np.array([m.origin for m in motions]) - motions[best].origin
         same &= np.linalg.norm(np.cross(offset, axis), axis=1) <= SAME_LINE * question.part.size * question.part.diagonal
     return same
@@ -80,14 +80,14 @@ def share_of_best(scores: Float[np.ndarray, " k"], same: Bool[np.ndarray, " k"])
 
 def joint_type(c: Candidate) -> JointType:
     """Return the type of joint of a candidate."""
-    if c.motion.kind is MotionKind.PRISMATIC:
+    if c.motion.kind is JointType.PRISMATIC:
         return JointType.PRISMATIC
     return JointType.CONTINUOUS if c.role == "round" and c.is_endless else JointType.REVOLUTE
 
 
 def reason(part: PartFacts, c: Candidate) -> str:
     """Describe a motion in words."""
-    if c.motion.kind is MotionKind.PRISMATIC:
+    if c.motion.kind is JointType.PRISMATIC:
         held = f"held on {round(4 * c.guided)} of 4 sides"
         way = "outwards" if c.outward > 0.7 else "inwards" if c.outward < -0.7 else "along the surface"
         return f"slides {way}, {held}, free for {100 * c.opening:.0f} % of the object's diagonal ({c.motion.source})"

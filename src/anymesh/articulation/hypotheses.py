@@ -12,7 +12,7 @@ import numpy as np
 from anymesh.geometry.boxes import OrientedBox
 from anymesh.geometry.circles import outline_about
 from anymesh.geometry.part_context import PartContext
-from anymesh.types import Motion, MotionKind
+from anymesh.types import JointType, Motion
 
 SAME_DIRECTION = np.cos(np.deg2rad(1.0))
 SAME_LINE = 0.004  # share of the object's diagonal
@@ -27,7 +27,7 @@ def _edges(box: OrientedBox, what: str) -> list[tuple[str, Motion]]:
                 local = np.zeros(3)
                 local[i], local[j] = si * box.half[i], sj * box.half[j]
                 origin = box.world(local[None])[0]
-                found.append(("edge", Motion(MotionKind.REVOLUTE, box.axes[k], origin, f"edge of {what}")))
+                found.append(("edge", Motion(JointType.REVOLUTE, box.axes[k], origin, f"edge of {what}")))
     return found
 
 
@@ -40,16 +40,16 @@ def _edge_middles(box: OrientedBox, what: str) -> list[tuple[str, Motion]]:
             local = np.zeros(3)
             local[other] = s * box.half[other]
             origin = box.world(local[None])[0]
-            found.append(("edge_mid", Motion(MotionKind.REVOLUTE, box.axes[k], origin, f"rim of {what}")))
+            found.append(("edge_mid", Motion(JointType.REVOLUTE, box.axes[k], origin, f"rim of {what}")))
     return found
 
 
 def _through(box: OrientedBox, what: str) -> list[tuple[str, Motion]]:
-    return [("center", Motion(MotionKind.REVOLUTE, a, box.center, f"middle line of {what}")) for a in box.axes]
+    return [("center", Motion(JointType.REVOLUTE, a, box.center, f"middle line of {what}")) for a in box.axes]
 
 
 def _box_directions(box: OrientedBox, what: str) -> list[tuple[str, Motion]]:
-    return [("slide", Motion(MotionKind.PRISMATIC, a, box.center, f"direction of {what}")) for a in box.axes]
+    return [("slide", Motion(JointType.PRISMATIC, a, box.center, f"direction of {what}")) for a in box.axes]
 
 
 def _principal(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -65,11 +65,11 @@ def _from_contact(around: PartContext) -> list[tuple[str, Motion]]:
         return []
     middle = contact.mean(0)
     _, directions = _principal(contact)
-    found = [("contact", Motion(MotionKind.REVOLUTE, _unit(directions[0]), middle, "line along the connecting area"))]
-    found.append(("center", Motion(MotionKind.REVOLUTE, _unit(directions[2]), middle, "normal of the connecting area")))
-    found.append(("pin", Motion(MotionKind.REVOLUTE, _unit(directions[1]), middle, "width of the connecting area")))
+    found = [("contact", Motion(JointType.REVOLUTE, _unit(directions[0]), middle, "line along the connecting area"))]
+    found.append(("center", Motion(JointType.REVOLUTE, _unit(directions[2]), middle, "normal of the connecting area")))
+    found.append(("pin", Motion(JointType.REVOLUTE, _unit(directions[1]), middle, "width of the connecting area")))
     found += [
-        ("contact_slide", Motion(MotionKind.PRISMATIC, _unit(d), middle, f"{what} of the connecting area"))
+        ("contact_slide", Motion(JointType.PRISMATIC, _unit(d), middle, f"{what} of the connecting area"))
         for d, what in zip(directions, ("length", "width", "plane normal"), strict=True)
     ]
     return found
@@ -96,7 +96,7 @@ def two_pivot_line(around: PartContext) -> Motion | None:
     width = max(float(np.linalg.norm(np.ptp(near[side == s], axis=0))) for s in (0, 1))
     if apart < 0.45 * around.part.box.diagonal * 0.8 or width > 0.35 * apart:
         return None
-    return Motion(MotionKind.REVOLUTE, _unit(b - a), (a + b) / 2, "line through the two far contacts")
+    return Motion(JointType.REVOLUTE, _unit(b - a), (a + b) / 2, "line through the two far contacts")
 
 
 def _two_groups(points: np.ndarray, centers: np.ndarray) -> np.ndarray:
@@ -114,7 +114,7 @@ def barrels(around: PartContext) -> list[tuple[str, Motion]]:
     for piece in around.barrel_candidates:
         seen = outline_about(np.concatenate([piece.corners, piece.samples.points]), piece.box.axes[0])
         if seen.roundness > 0.85 and seen.height > 2 * seen.radius:
-            found.append(("barrel", Motion(MotionKind.REVOLUTE, _unit(seen.axis), seen.center, "axis of a hinge barrel")))
+            found.append(("barrel", Motion(JointType.REVOLUTE, _unit(seen.axis), seen.center, "axis of a hinge barrel")))
     return found
 
 
@@ -126,9 +126,7 @@ def propose(around: PartContext) -> list[tuple[str, Motion]]:
     found[:0] = barrels(around)
     outline = around.outline
     if outline.roundness > 0.5:
-        found.insert(
-            0, ("round", Motion(MotionKind.REVOLUTE, _unit(outline.axis), outline.center, "axis of its round outline"))
-        )
+        found.insert(0, ("round", Motion(JointType.REVOLUTE, _unit(outline.axis), outline.center, "axis of its round outline")))
     line = two_pivot_line(around)
     if line is not None:
         found.insert(0, ("two_pivot", line))
@@ -154,6 +152,6 @@ def distinct(found: list[tuple[str, Motion]], diagonal: float) -> list[tuple[str
 def _same(a: Motion, b: Motion, diagonal: float) -> bool:
     if a.kind is not b.kind or abs(float(a.axis @ b.axis)) < SAME_DIRECTION:
         return False
-    if a.kind is MotionKind.PRISMATIC:
+    if a.kind is JointType.PRISMATIC:
         return True
     return float(np.linalg.norm(np.cross(b.origin - a.origin, a.axis))) < SAME_LINE * diagonal

@@ -10,8 +10,8 @@ from jaxtyping import Bool, Float
 from anymesh.articulation.motion_question import MIN_ANGLE, Candidate
 from anymesh.geometry.part_context import PartContext
 from anymesh.geometry.sweep import free_amount
-from anymesh.types import JointType, Motion, MotionKind
-from anymesh.types.recognition import Moves, RecognizedLabel
+from anymesh.types import JointType, Motion
+from anymesh.types.recognition import RecognizedLabel
 
 MIN_DRAWER_DEPTH_RATIO = 0.35  # of the parent's depth: a slide that is less deep is only a panel
 MIN_STROKE_RATIO = 0.1  # of its height: a button with less free space behind it fills its hole
@@ -55,9 +55,9 @@ def answered_range(recognized: RecognizedLabel | None, kind: JointType) -> Range
     if recognized is None or recognized.limits is None:
         return None
     lower, upper = recognized.limits
-    if kind is JointType.REVOLUTE and recognized.moves is Moves.REVOLUTE:
+    if kind is JointType.REVOLUTE and recognized.moves is JointType.REVOLUTE:
         return recognized.limits if upper - lower >= MIN_ANGLE_RAD else None
-    if kind is JointType.PRISMATIC and recognized.moves is Moves.PRISMATIC:
+    if kind is JointType.PRISMATIC and recognized.moves is JointType.PRISMATIC:
         return recognized.limits if upper > lower else None
     return None
 
@@ -68,7 +68,7 @@ def opening_as_answered(c: Candidate, answered: Range | None) -> Candidate:
     A lid modelled open closes further than it opens (-105..20 deg). The direction suggested by geometry is reversed only in
     this case, and only if the sweep leaves more of the range free with the axis reversed.
     """
-    if answered is None or -answered[0] <= answered[1] or c.motion.kind is MotionKind.PRISMATIC:
+    if answered is None or -answered[0] <= answered[1] or c.motion.kind is JointType.PRISMATIC:
         return c
     lower, upper = -answered[0], answered[1]
     kept, reversed_ = min(upper, c.opening) + min(lower, c.closing), min(upper, c.closing) + min(lower, c.opening)
@@ -146,7 +146,7 @@ def ends_near(along: Float[np.ndarray, " n"], near: Bool[np.ndarray, " n"]) -> i
 
 def pressed(c: Candidate, answered: Range | None) -> bool:
     """Return whether a slide goes into its parent by its answered range, as buttons do."""
-    return c.motion.kind is MotionKind.PRISMATIC and c.outward > 0.7 and answered is not None and -answered[0] > answered[1]
+    return c.motion.kind is JointType.PRISMATIC and c.outward > 0.7 and answered is not None and -answered[0] > answered[1]
 
 
 def _floor(value: float, step: float) -> float:

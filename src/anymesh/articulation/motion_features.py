@@ -16,7 +16,7 @@ from anymesh.articulation.motion_question import Candidate, PartFacts
 from anymesh.geometry.circles import outline_about
 from anymesh.geometry.part_context import PartContext
 from anymesh.scoring.two_steps import MISSING
-from anymesh.types import Motion, MotionKind
+from anymesh.types import JointType, Motion
 
 MAX_ACROSS_COSINE = 0.7  # maximum cosine between an axis and a direction across it
 MAX_CENTRAL_RATIO = 0.2  # maximum distance of the center from an axis, over the reach, of a rotation about its own center
@@ -37,7 +37,7 @@ def motion_features(around: PartContext, facts: PartFacts, candidates: Sequence[
     lines: dict[int, dict[str, float]] = {}  # shared by both opening directions about an axis
     for c in candidates:
         if id(c.motion) not in lines:
-            lines[id(c.motion)] = NO_LINE if c.motion.kind is MotionKind.PRISMATIC else _line(around, c.motion, contact)
+            lines[id(c.motion)] = NO_LINE if c.motion.kind is JointType.PRISMATIC else _line(around, c.motion, contact)
     return [
         part
         | _values(around, facts, c)
@@ -56,7 +56,7 @@ def _contact_points(around: PartContext) -> Float[np.ndarray, "n 3"]:
 def _opening_direction(around: PartContext, c: Candidate) -> Float[np.ndarray, " 3"]:
     """Return the initial unit direction of the part's center; meaningless for a rotation about the center."""
     axis = c.opening_sign * c.motion.axis
-    if c.motion.kind is MotionKind.PRISMATIC:
+    if c.motion.kind is JointType.PRISMATIC:
         return axis
     moves = np.cross(axis, around.part.samples.points.mean(0) - c.motion.origin)
     return moves / max(float(np.linalg.norm(moves)), 1e-9)
@@ -117,7 +117,7 @@ def _box_area(around: PartContext) -> float:
 
 
 def _values(around: PartContext, facts: PartFacts, c: Candidate) -> dict[str, float]:
-    slides, axis, core = c.motion.kind is MotionKind.PRISMATIC, c.motion.axis, around.body_obb
+    slides, axis, core = c.motion.kind is JointType.PRISMATIC, c.motion.axis, around.body_obb
     unit = max(facts.size * around.diagonal / around.scale if slides else np.pi, 1e-9)
     extent = float(np.ptp(around.part.corners @ axis)) / around.scale
     turn = {

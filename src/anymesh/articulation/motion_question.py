@@ -11,7 +11,7 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.types import Handle, JointType, Motion, MotionKind, Sweep
+from anymesh.types import Handle, JointType, Motion, Sweep
 
 MIN_ANGLE = float(np.deg2rad(12))  # [rad] a hinge that opens less is blocked
 MIN_TRAVEL_RATIO = 0.008  # of the diagonal: a slide with less free travel is blocked
@@ -85,14 +85,14 @@ class Candidate:
 
         A slide or a wheel may also move in the closing direction, since a button may fill the hole that it is pressed into.
         """
-        if self.motion.kind is MotionKind.PRISMATIC:
+        if self.motion.kind is JointType.PRISMATIC:
             return max(self.opening, self.closing) >= MIN_TRAVEL_RATIO
         return max(self.opening, self.closing if self.role == "round" else 0.0) >= MIN_ANGLE
 
     @property
     def is_endless(self) -> bool:
         """Return whether a rotation is free in both directions."""
-        return self.motion.kind is MotionKind.REVOLUTE and min(self.opening, self.closing) > ENDLESS_ANGLE
+        return self.motion.kind is JointType.REVOLUTE and min(self.opening, self.closing) > ENDLESS_ANGLE
 
 
 @dataclass(frozen=True, eq=False)

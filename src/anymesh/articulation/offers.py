@@ -18,8 +18,7 @@ from anymesh.articulation.motion_classifier import UnscoredMotions
 from anymesh.articulation.motion_question import Candidate, MotionQuestion, PartFacts
 from anymesh.articulation.moved_points import MovedPoints
 from anymesh.articulation.own_axes import CENTRAL, pivots
-from anymesh.types import JointType, MotionKind
-from anymesh.types.recognition import Moves
+from anymesh.types import JointType
 from anymesh.vlm.motion_choice import MotionTable
 from anymesh.vlm.prompting import JointKind
 
@@ -124,14 +123,14 @@ def scored_motions(case: PartCase) -> MotionQuestion:
 
 def fits(c: Candidate, kind: JointKind) -> bool:
     """Return whether a motion is of the answered kind."""
-    if kind.is_rotation or c.motion.kind is MotionKind.REVOLUTE:
-        return kind.is_rotation and c.motion.kind is MotionKind.REVOLUTE
+    if kind.is_rotation or c.motion.kind is JointType.REVOLUTE:
+        return kind.is_rotation and c.motion.kind is JointType.REVOLUTE
     return (abs(c.outward) > 0.7) == (kind is JointKind.SLIDE_OUT)
 
 
-def moves_as(c: Candidate, moves: Moves) -> bool:
+def moves_as(c: Candidate, moves: JointType) -> bool:
     """Return whether a motion is a rotation or a slide as recognized."""
-    return (moves is Moves.PRISMATIC) == (c.motion.kind is MotionKind.PRISMATIC)
+    return (moves is JointType.PRISMATIC) == (c.motion.kind is JointType.PRISMATIC)
 
 
 def shown_amount(c: Candidate, case: PartCase) -> float:
@@ -140,7 +139,7 @@ def shown_amount(c: Candidate, case: PartCase) -> float:
     It is positive (opening), or negative (into the parent) for a part that is pressed.
     """
     around = case.around
-    if c.motion.kind is MotionKind.REVOLUTE:
+    if c.motion.kind is JointType.REVOLUTE:
         return float(min(c.opening, MAX_SHOWN_ANGLE_RAD) if c.is_free else BLOCKED_SHOWN_RATIO * MAX_SHOWN_ANGLE_RAD)
     size = MAX_SHOWN_TRAVEL_RATIO * around.part.box.diagonal
     if pressed(c, answered_range(case.recognized, JointType.PRISMATIC)):
@@ -208,7 +207,7 @@ def _crowding(first: list[int], values: list[float]) -> list[bool]:
 
 def _off_part(case: PartCase, c: Candidate) -> bool:
     """Return whether a hinge line is away from the part, like an edge of a box that is enlarged by a handle."""
-    if c.motion.kind is not MotionKind.REVOLUTE or c.role not in ("edge", "edge_mid"):
+    if c.motion.kind is not JointType.REVOLUTE or c.role not in ("edge", "edge_mid"):
         return False
     off = np.linalg.norm(np.cross(case.around.part.samples.points - c.motion.origin, c.motion.axis), axis=1)
     return bool(off.min() > OFF_PART * case.around.scale)

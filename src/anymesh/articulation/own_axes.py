@@ -12,7 +12,7 @@ from anymesh.geometry.circles import outline_about
 from anymesh.geometry.part_context import PartContext
 from anymesh.geometry.patches import ObjectShape
 from anymesh.geometry.triangle_set import TriangleSet
-from anymesh.types import Motion, MotionKind
+from anymesh.types import JointType, Motion
 
 MIN_ROUNDNESS = 0.8  # minimum roundness of a circle that gives an axis
 MAX_CIRCLES = 4  # round patches per part, the largest first
@@ -70,4 +70,4 @@ def pivots(around: PartContext, normal: Float[np.ndarray, " 3"]) -> list[tuple[s
 
 def _revolute(axis: Float[np.ndarray, " 3"], origin: Float[np.ndarray, " 3"], source: str) -> Motion:
     axis = axis / np.linalg.norm(axis)
-    return Motion(MotionKind.REVOLUTE, -axis if axis[np.abs(axis).argmax()] < 0 else axis, origin, source)
+    return Motion(JointType.REVOLUTE, -axis if axis[np.abs(axis).argmax()] < 0 else axis, origin, source)

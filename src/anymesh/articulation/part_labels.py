@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from anymesh.articulation.motion_question import Candidate
 from anymesh.geometry.part_context import PartContext
-from anymesh.types import MotionKind
+from anymesh.types import JointType
 
 MAX_ALONG_COSINE = 0.5  # maximum cosine between the opening direction and a slide along the surface
 MIN_DRAWER_SIZE_RATIO = 0.15  # of the object's diagonal: a smaller part that slides in is a button
@@ -21,7 +21,7 @@ def label_of(around: PartContext, best: Candidate) -> str:
     best: the motion of the part.
     """
     size = around.part.box.diagonal / around.diagonal
-    if best.motion.kind is MotionKind.PRISMATIC:
+    if best.motion.kind is JointType.PRISMATIC:
         if abs(best.outward) < MAX_ALONG_COSINE:
             return "slider"
         if size <= MIN_DRAWER_SIZE_RATIO and best.outward < 0:

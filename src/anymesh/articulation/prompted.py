@@ -25,7 +25,7 @@ from anymesh.config import Config
 from anymesh.geometry.patches import ObjectShape
 from anymesh.progress import Progress, silent
 from anymesh.rendering.visual_prompts import Shot, VisualPrompts
-from anymesh.types import Joint, JointType, Motion, MotionKind, Segmentation
+from anymesh.types import Joint, JointType, Motion, Segmentation
 from anymesh.types.recognition import Recognition
 from anymesh.vlm.asking import VisualAnswerer
 from anymesh.vlm.motion_choice import PartFit
@@ -193,7 +193,7 @@ def _points(questions: Questions, case: PartCase, shot: Shot, whole: ObjectShape
         motions = [m for _, m in pivots(case.around, case.shown.normal)]
         outline = case.around.outline
         if outline.roundness > 0.5:
-            motions.insert(0, Motion(MotionKind.REVOLUTE, outline.axis, outline.center, "axis of its round outline"))
+            motions.insert(0, Motion(JointType.REVOLUTE, outline.axis, outline.center, "axis of its round outline"))
         first, axes = axis_points(case.around, [*case.circles, *motions], project, prompts)
         axes = axes[shot.is_inside(first)]
         points = followed(first[shot.is_inside(first)], points, project, prompts)
@@ -223,7 +223,7 @@ def _surface_directions(questions: Questions, cases: list[PartCase], segmentatio
 def _joint(case: PartCase, choice: Choice, confidence: float, verify: str) -> Joint:
     kind = JointType.FIXED
     if choice.moves:
-        turns = choice.best.motion.kind is MotionKind.REVOLUTE
+        turns = choice.best.motion.kind is JointType.REVOLUTE
         endless = case.answer.endless and (verify != "motion" or choice.best.is_endless)
         kind = JointType.PRISMATIC if not turns else JointType.CONTINUOUS if endless else JointType.REVOLUTE
     answered = answered_range(case.recognized, kind)

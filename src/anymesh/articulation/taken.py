@@ -9,7 +9,7 @@ from anymesh.articulation.evidence import hypotheses, part_facts
 from anymesh.articulation.motion_classifier import score_motions
 from anymesh.articulation.offers import moves_as
 from anymesh.articulation.verify import Choice, words
-from anymesh.types import Motion, MotionKind
+from anymesh.types import JointType, Motion
 from anymesh.vlm.prompting import JointKind
 
 MIN_GUIDED_SHARE = 0.4  # minimum share of the sideways directions in which an outward slide is guided
@@ -42,7 +42,7 @@ def as_answered(case: PartCase) -> Choice:
     motion = case.asked or prismatic(case.around.opening_direction, case.around, "nothing moves")
     both = hypotheses(case.around, [("asked", motion)])
     scores = score_motions(case.around, part_facts(case.around, case.label, case.label, two_pivot=False), both)
-    best = both[max((0, 1), key=lambda k: (both[k].is_free, scores[k]))] if motion.kind is MotionKind.REVOLUTE else both[0]
+    best = both[max((0, 1), key=lambda k: (both[k].is_free, scores[k]))] if motion.kind is JointType.REVOLUTE else both[0]
     moves = case.recognized.moves if case.recognized else None
     told = moves is not None and moves_as(best, moves)
     features = {

@@ -14,7 +14,7 @@ from anymesh.geometry.sweep import Obstacles, free_amount
 from anymesh.geometry.topology import components
 from anymesh.geometry.triangle_set import TriangleSet
 from anymesh.simulation.robot import RobotJoint
-from anymesh.types import Motion, MotionKind
+from anymesh.types import JointType, Motion
 from anymesh.types.triangles import normals_and_areas
 
 CHECK = "direction"
@@ -52,7 +52,7 @@ def _ways(content: Content, joint: RobotJoint, part: TriangleSet, rest: Triangle
     T = content.places[joint.child]
     axis = T[:3, :3] @ joint.axis / np.linalg.norm(joint.axis)
     slides = joint.type == "prismatic"
-    motion = Motion(MotionKind.PRISMATIC if slides else MotionKind.REVOLUTE, axis, T[:3, 3], joint.name)
+    motion = Motion(JointType.PRISMATIC if slides else JointType.REVOLUTE, axis, T[:3, 3], joint.name)
     obstacles = Obstacles(part, rest, TOLERANCE * content.diagonal)
     unit = "m" if slides else "rad"
     for sign, most in ((1, joint.range[1]), (-1, -joint.range[0])):

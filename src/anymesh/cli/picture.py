@@ -11,23 +11,26 @@ from anymesh.cli.options import FolderPath, Quiet
 from anymesh.cli.output import Shown, plain
 
 File = Annotated[
-    Path, typer.Option("--out", "-o", metavar="FILE", help=".gif or .mp4: a turntable of the motion; .png: a contact sheet.")
+    Path, typer.Option("--out", "-o", metavar="FILE", help=".gif or .mp4: a film of the motions; .png: a contact sheet.")
 ]
 
 
 def picture(
     folder: FolderPath,
     out: File,
-    size: Annotated[int, typer.Option(help="Width of a turntable in pixels.")] = 400,
+    size: Annotated[
+        int | None,
+        typer.Option(help="Width of a turntable (default 400), or of a cell of a film of several assets (200), in pixels."),
+    ] = None,
     rate: Annotated[float, typer.Option(help="Frames per second.")] = 12.5,
-    turn: Annotated[float, typer.Option(help="Degrees; less than 360 swings around the front.")] = 360.0,
+    turn: Annotated[float, typer.Option(help="Degrees that a turntable turns; less than 360 swings around the front.")] = 360.0,
     materials: Annotated[
         bool, typer.Option("--materials", help="Use the object's materials instead of a colour per part.")
     ] = False,
-    columns: Annotated[int, typer.Option(help="Columns of a contact sheet.")] = 4,
+    columns: Annotated[int, typer.Option(help="Columns of a contact sheet, or of a film of several assets.")] = 4,
     quiet: Quiet = False,
 ) -> None:
-    """Make a turntable of the motion of the asset in FOLDER (.gif, .mp4), or a contact sheet of all assets in it (.png)."""
+    """Draw the assets in FOLDER: a contact sheet (.png), or a film of their motions (.gif, .mp4; of one asset a turntable)."""
     from anymesh.viewer.pictures_write import write_picture
 
     with Shown(quiet) as progress:

@@ -10,7 +10,7 @@ from anymesh.config import ArticulationConfig
 from anymesh.geometry.sweep import Obstacles, free_amount
 from anymesh.geometry.topology import components
 from anymesh.geometry.triangle_set import TriangleSet
-from anymesh.types import Joint, JointType, Motion, MotionKind
+from anymesh.types import Joint, JointType, Motion
 from anymesh.types.triangles import normals_and_areas
 
 STEPS = 24  # steps of a sweep from rest to a limit
@@ -42,7 +42,7 @@ def moves_freely(
     own, rest = (np.concatenate([growing.triangles(*k), new]) for k, new in ((carried, added), (others, beside)))
     after = Obstacles(shape_of(own), shape_of(rest), tolerance)
     motion = Motion(
-        MotionKind.PRISMATIC if joint.type is JointType.PRISMATIC else MotionKind.REVOLUTE, joint.axis, joint.origin, "joint"
+        JointType.PRISMATIC if joint.type is JointType.PRISMATIC else JointType.REVOLUTE, joint.axis, joint.origin, "joint"
     )
     for sign, most in limits_of(joint):
         now = free_amount(after, motion, sign, most, STEPS)[0]

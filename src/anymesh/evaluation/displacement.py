@@ -9,7 +9,7 @@ from jaxtyping import Float
 
 from anymesh.evaluation.ground_truth import TrueJoint
 from anymesh.evaluation.metrics import opening_side, opens_both_ways, same_motion
-from anymesh.types import Joint, JointType, Motion, MotionKind
+from anymesh.types import Joint, JointType, Motion
 
 TURNED = np.pi / 6  # [rad] by which rotating joints are opened
 TRAVEL = 0.5  # share of the travel by which slides are opened
@@ -47,5 +47,5 @@ def _amount(joint: Joint | TrueJoint, side: int, size: float) -> float:
 def _transform(joint: Joint | TrueJoint, amount: float) -> Float[np.ndarray, "4 4"]:
     if joint.type is JointType.FIXED:
         return np.eye(4)
-    kind = MotionKind.PRISMATIC if joint.type is JointType.PRISMATIC else MotionKind.REVOLUTE
+    kind = JointType.PRISMATIC if joint.type is JointType.PRISMATIC else JointType.REVOLUTE
     return Motion(kind, joint.axis, joint.origin, "joint").transform(amount)

@@ -20,7 +20,7 @@ from anymesh.rendering.paint import Color, blend, lighten, rim
 from anymesh.rendering.render import lit, render
 from anymesh.rendering.strips import moved, silhouette, strip_camera
 from anymesh.rendering.viewpoints import zoom
-from anymesh.types import Joint, JointType, Mesh, Motion, MotionKind, Segmentation
+from anymesh.types import Joint, JointType, Mesh, Motion, Segmentation
 from anymesh.types.camera import Camera
 
 PANEL = 420  # [px] size of each of the two panels
@@ -113,7 +113,7 @@ def _motion(joint: TrueJoint | Joint, size: float) -> tuple[Motion | None, float
     if joint.type is JointType.FIXED:
         return None, 0.0
     slides = joint.type is JointType.PRISMATIC
-    motion = Motion(MotionKind.PRISMATIC if slides else MotionKind.REVOLUTE, joint.axis, joint.origin, "joint")
+    motion = Motion(JointType.PRISMATIC if slides else JointType.REVOLUTE, joint.axis, joint.origin, "joint")
     if joint.limits is None or (isinstance(joint, TrueJoint) and not joint.range_known):
         return motion, TRAVEL * size if slides else TURNED
     return motion, HALF_WAY * max(joint.limits, key=abs)
@@ -185,7 +185,7 @@ def _axis(
     corners = mesh.triangles[faces].reshape(-1, 3)
     depth = float(camera.project(corners.mean(0)[None])[1][0])
     size = max(float(np.linalg.norm(np.ptp(corners, axis=0))), LEGIBLE * 2 * depth * float(np.tan(camera.fov / 2)))
-    axis, slides = (-motion.axis if move.amount < 0 else motion.axis), motion.kind is MotionKind.PRISMATIC
+    axis, slides = (-motion.axis if move.amount < 0 else motion.axis), motion.kind is JointType.PRISMATIC
     ends, center = axis_line(corners, motion.origin, axis, slides, MIN_AXIS_RATIO * size)
     return ends, None if slides else ring(center, axis, RING * size * (1 + scale / AXES[0]))
 

@@ -35,7 +35,7 @@ from scipy.spatial import ConvexHull, KDTree, QhullError
 from anymesh.evaluation.boxes import as_box, box_giou, box_iou
 from anymesh.evaluation.ground_truth import EvalSample, TrueJoint
 from anymesh.geometry.sampling import sample_surface
-from anymesh.types import Joint, JointType, Mesh, Motion, MotionKind, Segmentation
+from anymesh.types import Joint, JointType, Mesh, Motion, Segmentation
 
 POINTS = 10_000  # number of surface points for distances
 FEW = 16  # minimum number of points on each part
@@ -163,7 +163,7 @@ def _moved(joint: Joint | TrueJoint, shares: np.ndarray) -> Float[np.ndarray, "S
     if joint.type is JointType.FIXED:
         return np.tile(np.eye(4), (len(shares), 1, 1))
     low, high = joint.limits or ENDLESS
-    kind = MotionKind.PRISMATIC if joint.type is JointType.PRISMATIC else MotionKind.REVOLUTE
+    kind = JointType.PRISMATIC if joint.type is JointType.PRISMATIC else JointType.REVOLUTE
     return Motion(kind, joint.axis, joint.origin, "joint").transforms(low + (high - low) * shares)
 
 

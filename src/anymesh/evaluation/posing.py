@@ -9,7 +9,7 @@ import numpy as np
 from jaxtyping import Float
 
 from anymesh.evaluation.ground_truth import EvalSample, TrueJoint
-from anymesh.types import JointType, Motion, MotionKind
+from anymesh.types import JointType, Motion
 
 
 def posed(sample: EvalSample, positions: Mapping[str, float]) -> EvalSample:
@@ -49,7 +49,7 @@ def _motion(sample: EvalSample, joint: TrueJoint, position: float) -> np.ndarray
     placed = sample.joint(joint)
     slides = joint.type is JointType.PRISMATIC
     scale = float(np.linalg.norm(sample.T[:3, :3] @ joint.axis)) if slides else 1.0
-    kind = MotionKind.PRISMATIC if slides else MotionKind.REVOLUTE
+    kind = JointType.PRISMATIC if slides else JointType.REVOLUTE
     return Motion(kind, placed.axis, placed.origin, "true joint").transform(position * scale)
 
 

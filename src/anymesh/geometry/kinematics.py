@@ -8,14 +8,14 @@ from dataclasses import replace
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.types import Asset, Joint, JointType, Mesh, Motion, MotionKind
+from anymesh.types import Asset, Joint, JointType, Mesh, Motion
 
 
 def joint_transform(joint: Joint, position: float) -> Float[np.ndarray, "4 4"]:
     """Return the transform of a joint's child at `position` [rad or m], in the asset frame at rest."""
     if joint.type is JointType.FIXED:
         return np.eye(4)
-    kind = MotionKind.PRISMATIC if joint.type is JointType.PRISMATIC else MotionKind.REVOLUTE
+    kind = JointType.PRISMATIC if joint.type is JointType.PRISMATIC else JointType.REVOLUTE
     return Motion(kind, joint.axis, joint.origin, "joint").transform(position)
 
 

@@ -19,7 +19,7 @@ from jaxtyping import Bool, Float, Float32, Int
 
 from anymesh.geometry.boxes import OrientedBox
 from anymesh.geometry.triangle_set import TriangleSet
-from anymesh.types import Motion, MotionKind, Sweep
+from anymesh.types import JointType, Motion, Sweep
 
 CHUNKS = (3, 6, 9, 18)  # steps cast at a time, where the last size repeats; most blocked motions are blocked early
 AT_ONCE = 8  # motions swept together; more do not fit into a core's cache
@@ -285,7 +285,7 @@ def sweep_all(obstacles: Obstacles, motions: Sequence[Motion], steps: int = 36, 
     max_amount: the range tested in each direction [rad or m]; default half a turn, or 2 diagonals of the part.
     """
     slide = 2 * obstacles.part.box.diagonal
-    reach = [(np.pi if m.kind is MotionKind.REVOLUTE else slide) if max_amount is None else max_amount for m in motions]
+    reach = [(np.pi if m.kind is JointType.REVOLUTE else slide) if max_amount is None else max_amount for m in motions]
     free = free_amounts(obstacles, [*motions, *motions], [1] * len(motions) + [-1] * len(motions), reach + reach, steps)
     pairs = zip(free[: len(motions)], free[len(motions) :], strict=True)
     return [Sweep(forward, backward, clear, clear_back) for (forward, clear), (backward, clear_back) in pairs]

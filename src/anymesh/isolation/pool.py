@@ -19,7 +19,6 @@ from typing import Any
 
 from anymesh.isolation.child import LENGTH, PATIENCE, write_message
 
-WARM = 2  # children that are started before the first call
 START_AFTER = 0.3  # [s] total waiting time of calls before another child is started, which takes about as long
 ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")  # sums would depend on the number of threads
 
@@ -94,17 +93,15 @@ class ChildPool:
         return result
 
     def warm(self, *modules: str) -> None:
-        """Start up to WARM children, if there are none, and make them import modules, without waiting for them."""
+        """Start a child, if there is none, and make it import modules, without waiting for it."""
         with self._changed:
             if self._room < self.size:
                 return
-            count = min(self.size, WARM)
-            self._room -= count
-        for _ in range(count):
-            child = None
-            with contextlib.suppress(ChildError):  # the next call tries again and reports the error
-                child = self._started(modules)
-            self._give_back(child)
+            self._room -= 1
+        child = None
+        with contextlib.suppress(ChildError):  # the next call tries again and reports the error
+            child = self._started(modules)
+        self._give_back(child)
 
     def _free_child(self) -> _Child | None:
         """Wait for an idle child; return None if a new one must be started.

@@ -15,7 +15,7 @@ from anymesh.rendering.labels import PAD, Plate, draw_plate, plate_size
 from anymesh.rendering.paint import HIGHLIGHT, blend, rim
 from anymesh.rendering.posed import PartPixels, Posed, Rays, Still, bounds_of, part_color
 from anymesh.rendering.viewpoints import box_of, orbit_camera, zoom
-from anymesh.types import Mesh, Motion, MotionKind
+from anymesh.types import JointType, Mesh, Motion
 from anymesh.types.camera import Camera
 
 PANEL, COLUMNS = 400, 4  # [px] size of a panel; number of panels side by side (1600 px at most)
@@ -88,7 +88,7 @@ def motion_strip(
         picture = _painted(still, lines, posed.part_pixels(poses[k + 1], fine))
         picture = blend(picture, outline, (90, 90, 90), 0.7)
         drawn = _with_axis(picture, *_axis(posed.corners, motion, amount, fine), fine)
-        word = "slides" if motion.kind is MotionKind.PRISMATIC else "turns"
+        word = "slides" if motion.kind is JointType.PRISMATIC else "turns"
         panels.append(_titled(_half(drawn), str(number), f"{word}, blocked" if k < len(blocked) and blocked[k] else word))
     return grid(panels)
 
@@ -166,7 +166,7 @@ def _axis(
     """
     depth = float(camera.project(corners.mean(0)[None])[1][0])
     size = max(float(np.linalg.norm(np.ptp(corners, axis=0))), LEGIBLE * 2 * depth * float(np.tan(camera.fov / 2)))
-    axis, slides = (-motion.axis if amount < 0 else motion.axis), motion.kind is MotionKind.PRISMATIC
+    axis, slides = (-motion.axis if amount < 0 else motion.axis), motion.kind is JointType.PRISMATIC
     ends, center = axis_line(corners, motion.origin, axis, slides, AXIS_SCALE * size)
     return ends, None if slides else ring(center, axis, RING * size)
 

@@ -17,11 +17,11 @@ from anymesh.segmentation.grounded_parts import SampledObject
 from anymesh.segmentation.hidden import MIN_INNER_PATCH_RATIO, add_hidden_parts, patch_sizes
 from anymesh.segmentation.naming import named_parts
 from anymesh.segmentation.unseen import StaysFree
-from anymesh.types import Segmentation
-from anymesh.types.recognition import Moves, Recognition
+from anymesh.types import JointType, Segmentation
+from anymesh.types.recognition import Recognition
 from anymesh.vlm.asking import VisualAnswerer
 
-MovesFreely = Callable[[Int[np.ndarray, " R"], Int[np.ndarray, " R"], int, Moves | None], bool]  # see `articulation.freedom`
+MovesFreely = Callable[[Int[np.ndarray, " R"], Int[np.ndarray, " R"], int, JointType | None], bool]  # `articulation.freedom`
 
 
 def ground_parts(

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float, Int
 
-from anymesh.types import Motion, MotionKind
+from anymesh.types import JointType, Motion
 
 MOVING = ("revolute", "continuous", "prismatic")
 
@@ -82,7 +82,7 @@ class RobotJoint:
         """Return the transform from the child's frame to the parent's, at a position [rad or m]."""
         if not self.moves or position == 0:
             return self.T_parent_joint
-        kind = MotionKind.PRISMATIC if self.type == "prismatic" else MotionKind.REVOLUTE
+        kind = JointType.PRISMATIC if self.type == "prismatic" else JointType.REVOLUTE
         motion = Motion(kind, self.axis / np.linalg.norm(self.axis), np.zeros(3), self.name)
         return self.T_parent_joint @ motion.transform(position)
 

@@ -2,13 +2,14 @@
 
 from anymesh.types.asset import Asset, Source
 from anymesh.types.exchange import Exchange, Picture
-from anymesh.types.joints import Joint, JointType
+from anymesh.types.joints import Joint
 from anymesh.types.mesh import Material, Mesh, Node, Texture
-from anymesh.types.motion import Handle, Motion, MotionKind, Sweep
+from anymesh.types.motion import MOVING, Handle, JointType, Motion, Sweep
 from anymesh.types.parts import Part, Segmentation
 from anymesh.types.shapes import Box, Cylinder, Hull, Shape
 
 __all__ = [
+    "MOVING",
     "Asset",
     "Box",
     "Cylinder",
@@ -20,7 +21,6 @@ __all__ = [
     "Material",
     "Mesh",
     "Motion",
-    "MotionKind",
     "Node",
     "Part",
     "Picture",

@@ -3,19 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from enum import StrEnum
 
 import numpy as np
 from jaxtyping import Float
 
-
-class JointType(StrEnum):
-    """The joint types written to every format."""
-
-    REVOLUTE = "revolute"
-    CONTINUOUS = "continuous"
-    PRISMATIC = "prismatic"
-    FIXED = "fixed"
+from anymesh.types.motion import JointType
 
 
 @dataclass(frozen=True, eq=False)

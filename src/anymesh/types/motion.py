@@ -9,18 +9,26 @@ import numpy as np
 from jaxtyping import Float
 
 
-class MotionKind(StrEnum):
-    """Kind of motion of a part relative to its parent."""
+class JointType(StrEnum):
+    """Kind of motion of a part relative to its parent: the joint types that are written to every format."""
 
-    REVOLUTE = "turn"
-    PRISMATIC = "slide"
+    REVOLUTE = "revolute"
+    CONTINUOUS = "continuous"
+    PRISMATIC = "prismatic"
+    FIXED = "fixed"
+
+
+MOVING = (JointType.REVOLUTE, JointType.CONTINUOUS, JointType.PRISMATIC)
 
 
 @dataclass(frozen=True, eq=False)
 class Motion:
-    """A candidate motion. axis: unit, asset frame; origin: a point on the axis [m, asset frame] (any point for a slide)."""
+    """A candidate motion.
 
-    kind: MotionKind
+    kind: REVOLUTE or PRISMATIC; axis: unit, asset frame; origin: a point on the axis [m, asset frame] (any point for a slide).
+    """
+
+    kind: JointType
     axis: Float[np.ndarray, " 3"]
     origin: Float[np.ndarray, " 3"]
     source: str  # the generator that proposed it, in words
@@ -37,7 +45,7 @@ class Motion:
     def transforms(self, amounts: Float[np.ndarray, " k"]) -> Float[np.ndarray, "k 4 4"]:
         """Return the rigid transforms at several amounts."""
         T = np.tile(np.eye(4), (len(amounts), 1, 1))
-        if self.kind is MotionKind.PRISMATIC:
+        if self.kind is JointType.PRISMATIC:
             T[:, :3, 3] = amounts[:, None] * self.axis
             return T
         x, y, z = self.axis

@@ -3,28 +3,22 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from enum import StrEnum
+
+from anymesh.types.motion import JointType
 
 BASE = "base"  # label of the static base
-
-
-class Moves(StrEnum):
-    """Motion of a kind of part, as answered before any picture of its joint."""
-
-    REVOLUTE = "revolute"
-    CONTINUOUS = "continuous"
-    PRISMATIC = "prismatic"
 
 
 @dataclass(frozen=True)
 class RecognizedLabel:
     """A kind of movable part.
 
-    limits: (lower, upper) from the pose shown [rad, or m], None if unknown.
+    moves: as answered before any picture of its joint, never FIXED; limits: (lower, upper) from the pose shown [rad, or m],
+    None if unknown.
     """
 
     label: str
-    moves: Moves | None  # None if unknown
+    moves: JointType | None  # None if unknown
     parent: str | None  # another label, or "base"; None if unknown
     limits: tuple[float, float] | None
 

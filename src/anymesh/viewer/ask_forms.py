@@ -6,7 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, Protocol, runtime_checkable
 
-from anymesh.types.recognition import BASE, Moves
+from anymesh.types import JointType
+from anymesh.types.recognition import BASE
 from anymesh.viewer.ask_marks import MarksForm
 from anymesh.vlm.asking import Question
 from anymesh.vlm.grounding import WhichMarks
@@ -37,7 +38,7 @@ class LabelRow:
     """One kind of moving part; limits in degrees or centimetres."""
 
     label: str = UNNAMED
-    moves: str = Moves.REVOLUTE.value
+    moves: str = JointType.REVOLUTE.value
     parent: str = BASE
     lower: float = 0.0
     upper: float = 90.0

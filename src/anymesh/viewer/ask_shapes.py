@@ -11,7 +11,7 @@ from anymesh.geometry.raycast_ import RayScene
 from anymesh.geometry.simplify_ import simplify
 from anymesh.rendering.axes import axis_line
 from anymesh.rendering.viewpoints import away
-from anymesh.types import Mesh, MotionKind
+from anymesh.types import JointType, Mesh
 from anymesh.viewer.ask_marks import SPLIT, MarksForm
 from anymesh.viewer.scene import MAX_DISPLAY_FACES, MIN_PART_FACES, Color, DisplayMesh, color_of
 from anymesh.vlm.motion_choice import MotionTable
@@ -135,7 +135,7 @@ def motion_axis(table: MotionTable, row: int, mesh: Mesh) -> Float[np.ndarray, "
     """Return the ends of the arrow along a motion's axis, on the displayed mesh."""
     motion, corners = table.motions[row], mesh.triangles[table.part.faces].reshape(-1, 3)
     origin = motion.origin / scale_of(table.part, mesh)
-    slides = motion.kind is MotionKind.PRISMATIC
+    slides = motion.kind is JointType.PRISMATIC
     sign = -1.0 if table.amounts[row] < 0 else 1.0
     return axis_line(corners, origin, sign * motion.axis, slides, mesh.diagonal)[0]
 

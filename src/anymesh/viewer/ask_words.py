@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from html import escape
 
-from anymesh.types import MotionKind
-from anymesh.types.recognition import Moves
+from anymesh.types import JointType
 from anymesh.viewer.ask_forms import ArrowsForm, Form, KindsForm, LabelRow, MotionsForm, PartsForm, PointsForm, RecognizeForm
 from anymesh.viewer.ask_marks import SPLIT, Group, MarksForm
 from anymesh.viewer.ask_shapes import group_color
@@ -22,9 +21,9 @@ KINDS = {
     "does not move": JointKind.FIXED,
 }
 MOVES = {
-    "turns within limits": Moves.REVOLUTE,
-    "turns round and round": Moves.CONTINUOUS,
-    "slides": Moves.PRISMATIC,
+    "turns within limits": JointType.REVOLUTE,
+    "turns round and round": JointType.CONTINUOUS,
+    "slides": JointType.PRISMATIC,
 }
 FITS = {"is right": PartFit.RIGHT, "is too much": PartFit.TOO_MUCH, "is too little": PartFit.TOO_LITTLE}
 NONE_OF_THESE = "None"
@@ -76,10 +75,10 @@ def place(form: PartsForm) -> str:
 
 def label_words(row: LabelRow) -> str:
     """Describe a kind of part in one line."""
-    moves = Moves(row.moves)
+    moves = JointType(row.moves)
     words = next(k for k, v in MOVES.items() if v is moves)
-    unit = "cm" if moves is Moves.PRISMATIC else "°"
-    limits = "" if moves is Moves.CONTINUOUS else f", {row.lower:g} to {row.upper:g} {unit}"
+    unit = "cm" if moves is JointType.PRISMATIC else "°"
+    limits = "" if moves is JointType.CONTINUOUS else f", {row.lower:g} to {row.upper:g} {unit}"
     return f"{row.label}: {words}{limits}"
 
 
@@ -115,5 +114,5 @@ def motion_words(table: MotionTable, number: int) -> str:
     motion = table.motions[number - 1]
     blocked = ", blocked by something as modelled" if number <= len(table.blocked) and table.blocked[number - 1] else ""
     return (
-        f"Motion {number} of {len(table.motions)}: it {'slides' if motion.kind is MotionKind.PRISMATIC else 'turns'}{blocked}."
+        f"Motion {number} of {len(table.motions)}: it {'slides' if motion.kind is JointType.PRISMATIC else 'turns'}{blocked}."
     )

@@ -7,7 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from anymesh.types.recognition import Moves, Recognition, RecognizedLabel
+from anymesh.types import JointType
+from anymesh.types.recognition import Recognition, RecognizedLabel
 from anymesh.vlm.asking import Question
 from anymesh.vlm.grounding import MarksAnswer, WhichMarks, WhichViews
 from anymesh.vlm.motion_choice import WhichMotions
@@ -65,7 +66,7 @@ def _recognition(question: Recognize, answer: Recognition) -> dict[str, Any]:
 
 
 def _label(label: RecognizedLabel) -> dict[str, Any]:
-    unit = np.pi / 180 if label.moves is Moves.REVOLUTE else 0.01
+    unit = np.pi / 180 if label.moves is JointType.REVOLUTE else 0.01
     lower, upper = (0.0, 0.0) if label.limits is None else (end / unit for end in label.limits)
     moves = None if label.moves is None else label.moves.value
     return {"label": label.label, "moves": moves, "parent": label.parent, "lower": lower, "upper": upper}

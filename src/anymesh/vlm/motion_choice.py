@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from jaxtyping import Int
 
-from anymesh.types import Motion, MotionKind, Picture
+from anymesh.types import JointType, Motion, Picture
 from anymesh.vlm.asking import INTEGER, a_list, an_answer, an_object, one_of
 from anymesh.vlm.prompting import PartShown, picked_rows
 
@@ -35,7 +35,7 @@ class MotionTable:
         words = []
         for k, motion in enumerate(self.motions):
             blocked = ", blocked" if k < len(self.blocked) and self.blocked[k] else ""
-            words.append(f"{k + 1} ({'slides' if motion.kind is MotionKind.PRISMATIC else 'turns'}{blocked})")
+            words.append(f"{k + 1} ({'slides' if motion.kind is JointType.PRISMATIC else 'turns'}{blocked})")
         return ", ".join(words)
 
 

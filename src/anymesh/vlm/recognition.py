@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from anymesh.errors import OptionError
-from anymesh.types import Picture
-from anymesh.types.recognition import BASE, Moves, Recognition, RecognizedLabel
+from anymesh.types import MOVING, JointType, Picture
+from anymesh.types.recognition import BASE, Recognition, RecognizedLabel
 from anymesh.vlm.asking import (
     INTEGER,
     NUMBER,
@@ -70,7 +70,7 @@ class Recognize:
         )
 
     def schema(self) -> dict[str, Any]:
-        label = an_object(label=STRING, moves=one_of(tuple(Moves)), parent=STRING, lower=NUMBER, upper=NUMBER)
+        label = an_object(label=STRING, moves=one_of(MOVING), parent=STRING, lower=NUMBER, upper=NUMBER)
         return an_answer(category=STRING, longest_side_m=NUMBER, front=INTEGER, parts=a_list(label))
 
     def parse(self, found: Mapping[str, Any]) -> Recognition:
@@ -94,10 +94,10 @@ class Recognize:
     def _label(self, part: Mapping[str, Any], labels: Sequence[str]) -> RecognizedLabel:
         if part["parent"] not in (*labels, BASE):
             raise BadAnswerError(f"parent must be {BASE!r} or one of {list(labels)}, found {part['parent'][:40]!r}")
-        moves = Moves(part["moves"])
-        if moves is Moves.CONTINUOUS:
+        moves = JointType(part["moves"])
+        if moves is JointType.CONTINUOUS:
             return RecognizedLabel(part["label"], moves, part["parent"], None)
-        unit, most = (3.141592653589793 / 180, 360.0) if moves is Moves.REVOLUTE else (0.01, 100 * SIZES[1])
+        unit, most = (3.141592653589793 / 180, 360.0) if moves is JointType.REVOLUTE else (0.01, 100 * SIZES[1])
         lower, upper = float(part["lower"]), float(part["upper"])
         if not (-most <= lower <= 0 <= upper <= most and lower < upper):
             raise BadAnswerError(f"{part['label']}: valid is lower <= 0 <= upper, not both 0; found {lower:g}, {upper:g}")

@@ -15,8 +15,8 @@ from typing import Any, cast
 import numpy as np
 from jaxtyping import Float, Int
 
-from anymesh.types import Exchange, JointType, Motion, MotionKind
-from anymesh.types.recognition import BASE, Moves, Recognition, RecognizedLabel
+from anymesh.types import Exchange, JointType, Motion
+from anymesh.types.recognition import BASE, Recognition, RecognizedLabel
 from anymesh.vlm.asking import Answer, Question
 from anymesh.vlm.grounding import MarkedPart, MarksAnswer, WhichMarks, WhichViews
 from anymesh.vlm.motion_choice import MotionPick, WhichMotions
@@ -49,7 +49,7 @@ class ReferenceJoint:
     def motion(self) -> Motion:
         """Return the motion, signed so that positive covers the larger part of the range."""
         sign = -1.0 if self.limits is not None and sum(self.limits) < 0 else 1.0
-        kind = MotionKind.PRISMATIC if self.type is JointType.PRISMATIC else MotionKind.REVOLUTE
+        kind = JointType.PRISMATIC if self.type is JointType.PRISMATIC else JointType.REVOLUTE
         return Motion(kind, sign * self.axis / np.linalg.norm(self.axis), self.origin, "known")
 
     @property
@@ -126,7 +126,7 @@ class ReferenceAnswerer:
             if joint is not None and self._moves(part):
                 parent = self._parent(part)
                 if label not in found or parent == label:  # a part on another one of its own label makes the label a chain
-                    found[label] = RecognizedLabel(label, Moves(joint.type.value), parent, joint.range)
+                    found[label] = RecognizedLabel(label, JointType(joint.type.value), parent, joint.range)
         return Recognition(known.category, known.size, tuple(found.values()))
 
     def _parent(self, part: int) -> str:

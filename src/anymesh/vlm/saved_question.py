@@ -29,6 +29,8 @@ SAVED_NAMES = {  # modules whose name in files stays that of the first version, 
 }
 RECORD = "record"  # name of the array with the JSON text
 TAG = "is"  # field of a tagged value with its type
+SAVED_CLASSES = {"anymesh.types.motion:JointType": "anymesh.types.motion:MotionKind"}  # the same for classes
+CLASSES = {saved: name for name, saved in SAVED_CLASSES.items()}
 RENAMED = {("anymesh.types.motion:MotionKind", "TURN"): "REVOLUTE", ("anymesh.types.motion:MotionKind", "SLIDE"): "PRISMATIC"}
 """Enum members that files of earlier versions hold under another name."""
 
@@ -73,11 +75,12 @@ def _fields(value: Any) -> tuple[Any, ...]:
 def _name(kind: type) -> str:
     if not kind.__module__.startswith(HOMES):
         raise TypeError(f"{kind.__module__}.{kind.__qualname__} is no type of a question")
-    return f"{SAVED_NAMES.get(kind.__module__, kind.__module__)}:{kind.__qualname__}"
+    name = f"{SAVED_NAMES.get(kind.__module__, kind.__module__)}:{kind.__qualname__}"
+    return SAVED_CLASSES.get(name, name)
 
 
 def _class(name: str) -> Any:
-    saved, _, cls = name.partition(":")
+    saved, _, cls = CLASSES.get(name, name).partition(":")
     names = [module for module, told in SAVED_NAMES.items() if told == saved] or [saved]
     if not all(module.startswith(HOMES) for module in names):
         raise ValueError(name)

@@ -7,7 +7,7 @@ from plan_things import BAR, BAR_HALF, turned_about_hinge
 from anymesh.applications.plan.plans import GripperContact
 from anymesh.applications.plan.targets import PartSurfaces, sample_targets, velocity
 from anymesh.simulation.robot import Geometry, shape_triangles
-from anymesh.types import Motion, MotionKind
+from anymesh.types import JointType, Motion
 
 STROKE = 0.08
 
@@ -24,7 +24,7 @@ def door() -> PartSurfaces:
     return PartSurfaces(part, box((0.15, 0.09, 0.2), (0, 0.001, 0.2)))
 
 
-HINGED = Motion(MotionKind.REVOLUTE, np.array([0.0, 0, -1]), np.array([-0.15, -0.1, 0.25]), "test")
+HINGED = Motion(JointType.REVOLUTE, np.array([0.0, 0, -1]), np.array([-0.15, -0.1, 0.25]), "test")
 
 
 def test_grasps_close_on_opposite_faces_of_the_bar(door):
@@ -45,7 +45,7 @@ def test_no_grasp_where_the_gripper_is_too_small(door):
 
 
 def test_pushes_press_against_the_face_the_way_the_part_goes():
-    motion = Motion(MotionKind.PRISMATIC, np.array([0.0, -1, 0]), np.zeros(3), "test")
+    motion = Motion(JointType.PRISMATIC, np.array([0.0, -1, 0]), np.zeros(3), "test")
     button = PartSurfaces(box((0.02, 0.012, 0.02), (0, -0.012, 0.3)), box((0.1, 0.05, 0.2), (0, 0.051, 0.2)))
     found = sample_targets(button, motion, -0.01, STROKE, 0, (GripperContact.PUSH,))
     assert found
@@ -55,7 +55,7 @@ def test_pushes_press_against_the_face_the_way_the_part_goes():
 
 
 def test_nothing_to_push_on_from_behind_a_wall():
-    motion = Motion(MotionKind.PRISMATIC, np.array([0.0, 1, 0]), np.zeros(3), "test")
+    motion = Motion(JointType.PRISMATIC, np.array([0.0, 1, 0]), np.zeros(3), "test")
     hidden = PartSurfaces(box((0.02, 0.012, 0.02), (0, 0, 0.3)), box((0.3, 0.02, 0.3), (0, -0.06, 0.3)))
     assert sample_targets(hidden, motion, 0.01, STROKE, 0, (GripperContact.PUSH,)) == []
 

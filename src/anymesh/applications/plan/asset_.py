@@ -14,7 +14,7 @@ from anymesh.checking.find import find_description
 from anymesh.errors import InputError, OptionError
 from anymesh.mujoco_ import load_mujoco
 from anymesh.simulation.mujoco_bench_ import read_spec
-from anymesh.types import Motion, MotionKind
+from anymesh.types import JointType, Motion
 
 OVERLAP = 1e-4  # share of the object's extent; links that overlap by more at rest do not collide
 
@@ -40,7 +40,7 @@ class ArticulatedObject:
 
     @property
     def turns(self) -> bool:
-        return self.motion.kind is MotionKind.REVOLUTE
+        return self.motion.kind is JointType.REVOLUTE
 
     def say(self, value: float) -> str:
         """Format a value of the joint for messages, in degrees or millimetres."""
@@ -92,7 +92,7 @@ def open_object(path: str | Path, joint: str) -> ArticulatedObject:
         raise InputError(f"{model.body(body).name} of {file.name} has no shape to touch")
     _exclude_overlaps(mujoco, spec, model, data)
     slides = int(model.jnt_type[number]) == int(mujoco.mjtJoint.mjJNT_SLIDE)
-    kind = MotionKind.PRISMATIC if slides else MotionKind.REVOLUTE
+    kind = JointType.PRISMATIC if slides else JointType.REVOLUTE
     low, high = (float(v) for v in model.jnt_range[number])
     return ArticulatedObject(
         file.stem,

@@ -10,7 +10,7 @@ from jaxtyping import Bool, Float
 
 from anymesh.applications.plan.plans import GripperContact, Target
 from anymesh.geometry.raycast_ import RayScene
-from anymesh.types import Motion, MotionKind
+from anymesh.types import JointType, Motion
 from anymesh.types.triangles import face_cross
 
 POINTS = 3000  # samples of the part's surface
@@ -82,7 +82,7 @@ def _samples(triangles: np.ndarray, rng: np.random.Generator) -> tuple[Float[np.
 
 def velocity(motion: Motion, points: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 3"]:
     """Return the velocity of points of the part per unit of the joint's value, [m] per radian or metre."""
-    if motion.kind is MotionKind.PRISMATIC:
+    if motion.kind is JointType.PRISMATIC:
         return np.broadcast_to(motion.axis, points.shape).copy()
     return np.cross(motion.axis, points - motion.origin)
 

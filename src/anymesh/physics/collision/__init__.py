@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -84,10 +85,12 @@ def collision_shapes(
         fallbacks.update({owner[id(c)]: d.fallback for c, d in zip(some, divided, strict=True) if d.fallback is not None})
         return [d.shapes for d in divided]
 
-    first = shapes_of([c for _, c in parts], [0] * len(parts))
+    with ThreadPoolExecutor(1) as thread:  # while the child processes divide components
+        surfaces = thread.submit(lambda: {link: LinkSurface(simplify(t, MAX_CROSSING_FACES)) for link, t in triangles.items()})
+        first = shapes_of([c for _, c in parts], [0] * len(parts))
     pieces = [ComponentShapes(link, c, 0, shapes) for (link, c), shapes in zip(parts, first, strict=True)]
     scene = ContactScene(
-        {link: LinkSurface(simplify(t, MAX_CROSSING_FACES)) for link, t in triangles.items()},
+        surfaces.result(),
         sampled_poses(asset, origins, config.poses),
         config.contact * size,
         config.crossing * size,

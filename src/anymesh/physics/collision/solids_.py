@@ -14,29 +14,27 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from jaxtyping import Float, Int
-from scipy.spatial import ConvexHull, QhullError
 
 from anymesh.errors import MissingExtraError
-from anymesh.geometry.distance_ import distance_to_mesh
+from anymesh.geometry.distance_ import distance_to_triangles
 from anymesh.geometry.sampling import sample_surface
 from anymesh.physics.collision.concave import concave_planes
 from anymesh.physics.collision.convex import hull_of, volume
-from anymesh.physics.collision.split import SAMPLES, below_and_above, cutting_planes, outline
+from anymesh.physics.collision.split import SAMPLES, Plane, cutting_planes, hull_volume, least_volume_first, outline
 from anymesh.types import Hull
+from anymesh.types.triangles import normals_and_areas
 
 if TYPE_CHECKING:
     from manifold3d import Manifold
 
-SPLIT_RATIO = 3  # pieces before merging, per piece after it
+SPLIT_RATIO = 2  # pieces before merging, per piece after it
 FACETED_PLANES = 32  # distinct planes at concave edges; a solid with more is smooth, and other planes are tried too
 PLANES_PER_CUT = 16  # planes at concave edges tried per cut, those with the longest edges first
 SMOOTH_PLANES = 8  # the same for a smooth solid
 CONVEX = 1e-6  # relative difference between the volumes of a solid and its hull below which it is convex
 KERF = 2e-5  # half the width of a cut, relative to the diagonal; a cut without width leaves thin layers where it meets a face
-DIGITS = 9  # of volumes of hulls that are compared; planes with equal ones are tried in order
+FEW = 12  # faces of a hull whose centers are tested first
 TOUCH = 3 * KERF  # distance between the bounds of touching pieces, relative to the diagonal
-
-Plane = tuple[np.ndarray, float]  # unit normal and offset
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,21 +115,22 @@ def _piece(solid: Manifold) -> _SolidPiece | None:
     return _SolidPiece(triangles, hull, 0.0 if convex else _gap(hull, triangles), solid)
 
 
-def _gap(hull: Hull, triangles: np.ndarray) -> float:
-    """Return the maximum distance of sample points of a hull from surfaces inside it."""
+def _gap(hull: Hull, triangles: np.ndarray, limit: float = np.inf) -> float:
+    """Return the maximum distance of sample points of a hull from surfaces inside it, or any distance above `limit`."""
     sides = hull.vertices[hull.faces]
+    largest = np.argsort(-normals_and_areas(sides)[1], kind="stable")[:FEW]
+    first = float(distance_to_triangles(sides[largest].mean(1), triangles).max())
+    if first > limit:
+        return first
     points = np.concatenate([sample_surface(sides, SAMPLES, 0).points, sides.mean(1)])
-    corners = triangles.reshape(-1, 3)
-    return float(distance_to_mesh(points, corners, np.arange(len(corners)).reshape(-1, 3))[0].max())
+    return float(distance_to_triangles(points, triangles).max())
 
 
 def _halves(piece: _SolidPiece, planes: Sequence[Plane], wall: float) -> list[_SolidPiece]:
     """Return the pieces on both sides of the plane that leaves the least volume in their hulls; empty if no plane divides."""
     assert piece.solid is not None  # only merged pieces have none
-    outlined = outline(piece.triangles)
     candidates = list(_candidates(piece, planes, wall))
-    left = [sum(_hull_volume(side) for side in below_and_above(*outlined, *plane)) for plane in candidates]
-    for k in np.argsort(np.round(left, DIGITS), kind="stable"):
+    for k in least_volume_first(outline(piece.triangles), candidates):
         normal, offset = candidates[k]
         above = piece.solid.trim_by_plane(tuple(normal.tolist()), offset + KERF)
         below = piece.solid.trim_by_plane(tuple((-normal).tolist()), KERF - offset)
@@ -139,13 +138,6 @@ def _halves(piece: _SolidPiece, planes: Sequence[Plane], wall: float) -> list[_S
         if all(sides):
             return sides[0] + sides[1]
     return []
-
-
-def _hull_volume(points: np.ndarray) -> float:
-    try:
-        return float(ConvexHull(points).volume) if len(points) > 3 else 0.0
-    except QhullError:
-        return 0.0
 
 
 def _candidates(piece: _SolidPiece, planes: Sequence[Plane], wall: float) -> Iterator[Plane]:
@@ -179,7 +171,7 @@ def _merge_pieces(pieces: Sequence[_SolidPiece], gap: float, most: int) -> list[
         forced = not queue
         pair = heapq.heappop(refused if forced else queue)
         _, a, b = pair
-        both = _joined(kept[a], kept[b]) if a in kept and b in kept else None
+        both = _joined(kept[a], kept[b], gap) if a in kept and b in kept else None
         if both is None:
             continue
         if both.gap > gap and not forced:
@@ -200,13 +192,13 @@ def _queue_pair(queue: list[tuple[float, int, int]], pieces: dict[int, _SolidPie
     near = (first.vertices.min(0) <= second.vertices.max(0) + TOUCH) & (second.vertices.min(0) <= first.vertices.max(0) + TOUCH)
     if not near.all():
         return
-    common = _hull_volume(np.concatenate([first.vertices, second.vertices]))
+    common = hull_volume(np.concatenate([first.vertices, second.vertices]))
     heapq.heappush(queue, (common - volume(first) - volume(second), a, b))
 
 
-def _joined(first: _SolidPiece, second: _SolidPiece) -> _SolidPiece | None:
+def _joined(first: _SolidPiece, second: _SolidPiece, limit: float) -> _SolidPiece | None:
     hull = hull_of(np.concatenate([first.hull.vertices, second.hull.vertices]))
     if hull is None:
         return None
     triangles = np.concatenate([first.triangles, second.triangles])
-    return _SolidPiece(triangles, hull, _gap(hull, triangles))
+    return _SolidPiece(triangles, hull, _gap(hull, triangles, limit))

@@ -6,7 +6,7 @@ cavity stays open.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,12 +17,15 @@ from anymesh.geometry.boxes import dominant_normals
 from anymesh.geometry.distance_ import distance_to_triangles
 from anymesh.geometry.sampling import sample_surface
 from anymesh.geometry.topology import weld
-from anymesh.physics.collision.convex import cut, hull_of
+from anymesh.physics.collision.convex import DIRECTIONS, cut, hull_of
 from anymesh.types import Hull
 from anymesh.types.triangles import normals_and_areas
 
 SAMPLES = 200  # sample points of a hull for its distance from the surface
 PLACES = 5  # positions of a cutting plane along each direction
+EXACT = 3  # planes whose hulls are computed from all points, after a selection from the furthest points
+DIGITS = 9  # of relative volumes that are compared; planes with equal ones keep their order
+Plane = tuple[np.ndarray, float]  # unit normal and offset
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,16 +74,38 @@ def split_surface(triangles: Float[np.ndarray, "n 3 3"], *, gap: float, wall: fl
 
 def _halves(patch: Patch, wall: float) -> list[Patch]:
     """Return the two pieces of a cut by the plane that leaves the least volume in both hulls."""
-    best = None
-    points, ends = outline(patch.triangles)
-    for normal, offset in cutting_planes(patch.triangles, wall):
-        left = sum(_thick_volume(side, wall) for side in below_and_above(points, ends, normal, offset))
-        if best is None or left < best[0] * (1 - 1e-9):
-            best = (left, normal, offset)
-    if best is None:
+    planes = list(cutting_planes(patch.triangles, wall))
+    best = least_volume_first(outline(patch.triangles), planes, wall)
+    if not best:
         return []
-    pieces = (patch_of(piece, wall) for piece in cut(patch.triangles, best[1], best[2]))
+    pieces = (patch_of(piece, wall) for piece in cut(patch.triangles, *planes[best[0]]))
     return [piece for piece in pieces if piece is not None]
+
+
+def least_volume_first(
+    outlined: tuple[Float[np.ndarray, "V 3"], Int[np.ndarray, "E 2"]], planes: Sequence[Plane], wall: float = 0.0
+) -> list[int]:
+    """Return the order of planes by the volume that they leave in the hulls of both sides of an outline.
+
+    The furthest points in some directions give the order, and all points that of its first EXACT planes.
+
+    wall: hulls count as at least this thick [m].
+    """
+    sides = [below_and_above(*outlined, *plane) for plane in planes]
+    order = _rounded_order([sum(hull_volume(_furthest(points), wall) for points in pair) for pair in sides])
+    first = _rounded_order([sum(hull_volume(points, wall) for points in sides[k]) for k in order[:EXACT]])
+    return [order[k] for k in first] + order[EXACT:]
+
+
+def _rounded_order(values: Sequence[float]) -> list[int]:
+    """Return the indices of values from the smallest to the largest; those that differ by rounding only keep their order."""
+    rounded = np.round(np.asarray(values) / (max(values, default=0.0) or 1.0), DIGITS)
+    return np.argsort(rounded, kind="stable").tolist()
+
+
+def _furthest(points: np.ndarray) -> np.ndarray:
+    """Return the furthest of many points in each of some directions."""
+    return points[np.unique((points @ DIRECTIONS.T).argmax(0))] if len(points) > 2 * len(DIRECTIONS) else points
 
 
 def solid_mesh(triangles: Float[np.ndarray, "n 3 3"]) -> tuple[Float[np.ndarray, "V 3"], Int[np.ndarray, "n 3"]]:
@@ -136,11 +161,11 @@ def below_and_above(
     return np.concatenate([points[height <= 0], met]), np.concatenate([points[height >= 0], met])
 
 
-def _thick_volume(points: np.ndarray, wall: float) -> float:
-    """Return the volume of the hull of some points, at least that of a sheet `wall` [m] thick."""
+def hull_volume(points: np.ndarray, wall: float = 0.0) -> float:
+    """Return the volume of the hull of some points, at least that of a sheet `wall` [m] thick; 0 if there is none."""
     if len(points) < 4:
         return 0.0
-    for options in (None, "QJ"):  # with joggled input (QJ), flat points have a hull too
+    for options in (None, "QJ") if wall > 0 else (None,):  # with joggled input (QJ), flat points have a hull too
         try:
             hull = ConvexHull(points, qhull_options=options)
         except QhullError:

@@ -18,7 +18,7 @@ from anymesh.pipeline.results import (
     SegmentationResult,
 )
 from anymesh.types import Exchange, Joint, JointType, Material, Mesh, Node, Part, Picture, Segmentation, Source, Texture
-from anymesh.types.recognition import Moves, Recognition, RecognizedLabel
+from anymesh.types.recognition import Recognition, RecognizedLabel
 
 Result = TypeVar("Result")
 Arrays = Mapping[str, np.ndarray]
@@ -126,7 +126,7 @@ def _pack_recognition(result: RecognitionResult) -> tuple[Record, dict[str, np.n
 def _unpack_recognition(record: Record, arrays: Arrays) -> RecognitionResult:
     def label(found: Record) -> RecognizedLabel:
         limits = None if found["limits"] is None else (float(found["limits"][0]), float(found["limits"][1]))
-        moves = None if found["moves"] is None else Moves(found["moves"])
+        moves = None if found["moves"] is None else JointType(found["moves"])
         return RecognizedLabel(found["label"], moves, found["parent"], limits)
 
     r = record["recognition"]
