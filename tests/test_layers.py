@@ -3,6 +3,7 @@
 import ast
 import re
 import subprocess
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -44,21 +45,20 @@ SURFACE = {
 MAX_LINES, MAX_FUNCTION_LINES, MAX_PARAMETERS = 250, 50, 7
 # Larger than that today; a file or function that got smaller must leave these lists.
 LONG_FILES = {
-    "articulation/evidence.py", "geometry/part_context.py", "geometry/sweep.py", "rendering/strips.py", "vlm/prompting.py",
-    "vlm/question_files.py",
+    "articulation/evidence.py", "geometry/part_context.py", "geometry/sweep.py", "rendering/strips.py", "vlm/question_files.py",
 }  # fmt: skip
 LONG_FUNCTIONS = {"agents/server_.py:_making", "physics/collision/__init__.py:collision_shapes"}
 MANY_PARAMETERS = {
     # public functions, whose options are keyword arguments
     "agents/server_.py:articulate", "agents/tools.py:articulate", "applications/generate/explain.py:explain_generation",
     "applications/generate/run.py:generate", "applications/plan/planner.py:plan", "applications/plan/replay_.py:replay",
+    "applications/policy/env_.py:make_env", "applications/policy/training_.py:train",
     "applications/scan/rendered.py:render_frames", "evaluation/evaluating.py:evaluate", "export/__init__.py:write_asset",
     "pipeline/api.py:articulate", "pipeline/api.py:segment", "pipeline/api.py:export", "pipeline/api.py:finish",
     "viewer/live_serve_.py:serve", "viewer/pictures_write.py:write_picture",
     # inner functions
     "articulation/estimate.py:joint_of", "geometry/creases.py:_folds_inwards", "pipeline/storage/assemble.py:assemble",
-    "rendering/card.py:part_card", "segmentation/grounded.py:ground_parts", "segmentation/grounded.py:_exactly",
-    "segmentation/grounded.py:_by_masks", "segmentation/mark_pictures.py:_drawn",
+    "rendering/card.py:part_card",
 }  # fmt: skip
 OUTSIDE = set(
     "trimesh embreex igl mujoco torch transformers onnxruntime huggingface_hub "
@@ -80,9 +80,15 @@ def module_name(path: Path) -> str:
     return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
 
 
+@cache
+def parsed(path: Path) -> ast.Module:
+    return ast.parse(path.read_text(encoding="utf-8"))
+
+
+@cache
 def imports(path: Path) -> list[str]:
     found = []
-    for node in ast.walk(ast.parse(path.read_text())):
+    for node in ast.walk(parsed(path)):
         if isinstance(node, ast.Import):
             found += [alias.name for alias in node.names]
         elif isinstance(node, ast.ImportFrom):
@@ -173,7 +179,7 @@ def test_tools_import_only_the_surface_of_the_core() -> None:
 
 def test_no_private_name_is_imported() -> None:
     for path in FILES:
-        for node in ast.walk(ast.parse(path.read_text())):
+        for node in ast.walk(parsed(path)):
             if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("anymesh"):
                 private = [a.name for a in node.names if a.name.startswith("_") and a.name != "__version__"]
                 assert not private, f"{module_name(path)} imports {private} of {node.module}"
@@ -185,14 +191,14 @@ def test_files_and_functions_are_small() -> None:
         text, place = path.read_text(), path.relative_to(SOURCE).as_posix()
         if text.count("\n") > MAX_LINES:
             long.add(place)
-        for node in ast.walk(ast.parse(text)):
+        for node in ast.walk(parsed(path)):
             if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
                 if (node.end_lineno or 0) - node.lineno > MAX_FUNCTION_LINES:
                     functions.add(f"{place}:{node.name}")
                 named = [*node.args.posonlyargs, *node.args.args, *node.args.kwonlyargs]
                 if len([a for a in named if a.arg not in ("self", "cls")]) > MAX_PARAMETERS and path.parent.name != "cli":
                     many.add(f"{place}:{node.name}")
-    assert (long, functions, many) == (LONG_FILES, LONG_FUNCTIONS, MANY_PARAMETERS)
+    assert (long ^ LONG_FILES, functions ^ LONG_FUNCTIONS, many ^ MANY_PARAMETERS) == (set(), set(), set())
 
 
 def test_no_machine_paths_and_no_registry_addresses() -> None:

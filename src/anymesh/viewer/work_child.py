@@ -27,13 +27,16 @@ def main() -> None:
     os.dup2(2, 1)  # output of libraries must not mix with the messages
     head = sys.stdin.buffer.read(LENGTH)
     request = pickle.loads(sys.stdin.buffer.read(int.from_bytes(head, "little")))
-    threading.Thread(target=_end_with_parent, daemon=True).start()
+    finished = threading.Event()
+    threading.Thread(target=_end_with_parent, args=(finished,), daemon=True).start()
     try:
         _work(replies, **request)
     except AnymeshError as error:
         write_message(replies, ("error", " ".join(str(error).split())))
     except Exception as error:
         write_message(replies, ("error", f"internal defect, {type(error).__name__}: {' '.join(str(error).split())[:200]}"))
+    finally:
+        finished.set()  # before the messages end, upon which the parent closes its pipe
 
 
 def _work(replies: IO[bytes], *, mesh: Path, out: Path, **options: Any) -> None:
@@ -51,8 +54,8 @@ def _work(replies: IO[bytes], *, mesh: Path, out: Path, **options: Any) -> None:
     write_message(replies, ("done",))
 
 
-def _end_with_parent() -> None:
-    """End this process when the parent closes the pipe."""
+def _end_with_parent(finished: threading.Event) -> None:
+    """End this process when the parent closes the pipe, with an exit code that tells whether the work was over."""
     while os.read(sys.stdin.fileno(), 1):  # not through sys.stdin, whose lock would be held when this process ends by itself
         pass
-    os._exit(PARENT_GONE)
+    os._exit(0 if finished.is_set() else PARENT_GONE)
