@@ -6,6 +6,7 @@ import json
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from PIL import Image, ImageDraw
@@ -82,11 +83,15 @@ def evaluate_interaction(
         if not path.is_file():
             made = _evaluated(name, found[name], results.folder, seed, tries)
             write_whole(path, json.dumps([asdict(row) for row in made], indent=1).encode())
-        read = json.loads(path.read_text(encoding="utf-8"))
-        rows += [JointInteraction(**{**row, "faults": tuple(row["faults"])}) for row in read]
+        rows += [_row(record) for record in json.loads(path.read_text(encoding="utf-8"))]
     write_whole(results.folder / REPORT, report_text(rows, settings).encode())
     _write_sheet(results.folder)
     return rows
+
+
+def _row(record: dict[str, Any]) -> JointInteraction:
+    values: dict[str, Any] = {**record, "faults": tuple(record["faults"])}
+    return JointInteraction(**values)
 
 
 def _evaluated(name: str, asset: Path, folder: Path, seed: int, tries: int) -> list[JointInteraction]:

@@ -5,9 +5,9 @@ from __future__ import annotations
 from itertools import pairwise
 from typing import Any
 
-import torch
-from stable_baselines3.common.torch_layers import BaseFeaturesExtractor
-from torch import nn
+import torch  # ty: ignore[import-not-found]
+from stable_baselines3.common.torch_layers import BaseFeaturesExtractor  # ty: ignore[import-not-found]
+from torch import nn  # ty: ignore[import-not-found]
 
 WIDTHS = (64, 128, 256)  # of the layers applied to each point
 

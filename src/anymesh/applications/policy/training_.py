@@ -37,7 +37,7 @@ class Episode:
 def load_sb3() -> Any:
     """Import Stable-Baselines3. Raise MissingExtraError without it."""
     try:
-        import stable_baselines3
+        import stable_baselines3  # ty: ignore[import-not-found]
     except ImportError:
         raise MissingExtraError(
             "stable-baselines3 is not installed; `pip install 'articulate-anymesh[policy]'` brings it "
@@ -68,7 +68,7 @@ def train(
     if (out / MODEL).is_file():
         return out / MODEL
     sb3 = load_sb3()
-    import torch
+    import torch  # ty: ignore[import-not-found]
 
     torch.set_num_threads(settings.threads)
     envs = _vector(assets, task, settings)
@@ -100,7 +100,7 @@ def _maker(assets: Sequence[Path], task: str, settings: TrainingSettings) -> Cal
 
 
 def _vector(assets: Sequence[Path], task: str, settings: TrainingSettings) -> Any:
-    from stable_baselines3.common.vec_env import DummyVecEnv, SubprocVecEnv, VecMonitor
+    from stable_baselines3.common.vec_env import DummyVecEnv, SubprocVecEnv, VecMonitor  # ty: ignore[import-not-found]
 
     make = _maker(assets, task, settings)
     kind = SubprocVecEnv if settings.processes else DummyVecEnv
@@ -135,7 +135,7 @@ def _model(sb3: Any, envs: Any, out: Path, start: Path | None, seed: int, settin
 
 def _recorder(sb3: Any, out: Path, before: int, steps: int, every: int, progress: Progress) -> Any:
     """Return a callback that appends to the learning curve after each rollout, and saves checkpoints."""
-    from stable_baselines3.common.callbacks import BaseCallback
+    from stable_baselines3.common.callbacks import BaseCallback  # ty: ignore[import-not-found]
 
     class Recorder(BaseCallback):
         saved = before
@@ -181,7 +181,7 @@ def evaluate_policy(
 
     Episode k on asset i starts alike for every policy, so that policies can be compared in pairs.
     """
-    import torch
+    import torch  # ty: ignore[import-not-found]
 
     torch.set_num_threads(settings.threads)
     model = load_sb3().PPO.load(policy, device=settings.device)
