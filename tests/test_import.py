@@ -3,6 +3,9 @@
 import subprocess
 import sys
 import time
+from pathlib import Path
+
+import anymesh
 
 
 def best_of(count: int, *command: str) -> float:
@@ -25,3 +28,9 @@ def test_import_is_light() -> None:
 
 def test_help_comes_at_once() -> None:
     assert best_of(3, sys.executable, "-m", "anymesh.cli", "--help") < 1.0
+
+
+def test_no_public_name_is_hidden_by_a_package():
+    """Importing a subpackage sets an attribute of the package, which would replace a function of the same name."""
+    packages = {path.stem for path in Path(anymesh.__file__).parent.iterdir() if path.is_dir() or path.suffix == ".py"}
+    assert not packages & set(anymesh.__all__)

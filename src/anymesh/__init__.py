@@ -18,13 +18,13 @@ if TYPE_CHECKING:
     from anymesh.applications.policy.env_ import make_env
     from anymesh.applications.scan import scan
     from anymesh.checking import check_asset
-    from anymesh.pipeline import articulate, export, finish, joints, segment
+    from anymesh.pipeline import articulate, export_asset, finish, joints, segment
     from anymesh.types import Asset, Joint, JointType, Mesh, Part, Segmentation
     from anymesh.viewer.report_notebook import show
 
 __version__ = "0.1.0"
 _HOME = {
-    **dict.fromkeys(("articulate", "segment", "joints", "export", "finish"), "anymesh.pipeline"),
+    **dict.fromkeys(("articulate", "segment", "joints", "export_asset", "finish"), "anymesh.pipeline"),
     "check_asset": "anymesh.checking",
     "generate": "anymesh.applications.generate",
     "make_env": "anymesh.applications.policy.env_",
@@ -48,7 +48,7 @@ __all__ = [
     "__version__",
     "articulate",
     "check_asset",
-    "export",
+    "export_asset",
     "finish",
     "generate",
     "joints",

@@ -26,7 +26,13 @@ from anymesh.pipeline.options import (
 )
 
 CLASSES = (AnswererOptions, PlacementOptions, CompletionOptions, FormatOptions, RunOptions)
-NAMES = {"articulate": api.articulate, "segment": api.segment, "joints": api.joints, "export": api.export, "finish": api.finish}
+NAMES = {
+    "articulate": api.articulate,
+    "segment": api.segment,
+    "joints": api.joints,
+    "export": api.export_asset,
+    "finish": api.finish,
+}
 
 
 def test_the_keyword_arguments_are_the_fields() -> None:

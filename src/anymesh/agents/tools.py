@@ -160,7 +160,7 @@ class AgentTools:
         """Write the files of an asset in other formats; package: folder for a ROS 2 package; archive: a zip file."""
         folder = self._places.inside(asset, below=True)
         places = [None if path is None else self._places.inside(path) for path in (package, archive)]
-        pipeline.export(
+        pipeline.export_asset(
             folder, formats=formats, base=base, drives=drives, package=places[0], archive=places[1], progress=progress
         )
         made = [self._places.shown(path) for path in places if path is not None]

@@ -8,7 +8,7 @@ import numpy as np
 
 from anymesh.articulation.adjacent_panels import adjacent_sides, outer_side, overlap_gain, pair_side
 from anymesh.articulation.contact_metrics import contact_retention, hinge_support, lever_arm
-from anymesh.articulation.motion_question import Candidate, PartFacts
+from anymesh.articulation.motion_question import MIN_FREE_ANGLE_RAD, Candidate, PartFacts
 from anymesh.geometry.part_context import IGNORE_OVERLAP_SCALE, PartContext
 from anymesh.geometry.sweep import free_amounts, sweep_all
 from anymesh.types import JointType, Motion, Sweep
@@ -17,7 +17,6 @@ CROSSWISE_HANDLE_WEIGHT = 0.6  # weight of the side of a bar handle that runs ac
 PENETRATION_SCALES = (3.0, IGNORE_OVERLAP_SCALE)  # tried in this order if a hinge is blocked
 RIM_ROLES = ("edge", "edge_mid", "barrel")  # hinges at a rim, which may turn although the part overlaps static geometry
 MIN_OUTWARD_COSINE = 0.5  # minimum cosine between an outward motion and the opening direction
-MIN_FREE_ANGLE_RAD = np.deg2rad(12)  # [rad] a hinge that opens less is blocked
 FACING_COSINE = 0.7  # minimum cosine of a surface that faces the opening direction or the opposite one
 # [deg] rotations about its axis; a body of revolution looks the same after all of them
 ASYMMETRY_ANGLES_DEG = (37, 90, 141, 200, 285)

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 from jaxtyping import Bool, Float
 
-from anymesh.articulation.motion_question import MIN_ANGLE, Candidate
+from anymesh.articulation.motion_question import MIN_FREE_ANGLE_RAD, Candidate
 from anymesh.geometry.part_context import PartContext
 from anymesh.geometry.sweep import free_amount
 from anymesh.types import JointType, Motion
@@ -17,8 +17,8 @@ MIN_DRAWER_DEPTH_RATIO = 0.35  # of the parent's depth: a slide that is less dee
 MIN_STROKE_RATIO = 0.1  # of its height: a button with less free space behind it fills its hole
 STROKE_RATIO = 0.5  # of its height: stroke of such a button
 MIN_DRAWER_SIZE_RATIO = 0.06  # of the object's diagonal: smaller parts are no panels of a hidden box
-MIN_ANGLE_RAD = np.deg2rad(2.0)  # [rad] a shorter range of a hinge is an error
-MIN_TRAVEL_RATIO = 0.001  # of the scale: a shorter range of a slide is an error
+MIN_HINGE_RANGE_RAD = np.deg2rad(2.0)  # [rad] a hinge with a shorter range, answered or left free, has an error
+MIN_SLIDE_RANGE_RATIO = 0.001  # of the scale: an answered slide that the sweep leaves less range keeps its answer
 # free shares of an answered range for reversing the axis: the maximum before, and the minimum after
 MAX_BLOCKED_RATIO, MIN_REVERSED_FREE_RATIO = 0.5, 0.8
 MIN_DEPTH_IN_PARENT_RATIO = 0.3  # of the answered travel: a part less deep inside its parent is only a panel
@@ -56,7 +56,7 @@ def answered_range(recognized: RecognizedLabel | None, kind: JointType) -> Range
         return None
     lower, upper = recognized.limits
     if kind is JointType.REVOLUTE and recognized.moves is JointType.REVOLUTE:
-        return recognized.limits if upper - lower >= MIN_ANGLE_RAD else None
+        return recognized.limits if upper - lower >= MIN_HINGE_RANGE_RAD else None
     if kind is JointType.PRISMATIC and recognized.moves is JointType.PRISMATIC:
         return recognized.limits if upper > lower else None
     return None
@@ -80,10 +80,10 @@ def opening_as_answered(c: Candidate, answered: Range | None) -> Candidate:
 def _answered_revolute(around: PartContext, c: Candidate, answered: Range) -> Range:
     """Shorten an answered range to what the sweep finds free; a blocked hinge keeps the full range."""
     lower, upper = -answered[0], answered[1]
-    if max(c.opening, c.closing) < MIN_ANGLE:
+    if max(c.opening, c.closing) < MIN_FREE_ANGLE_RAD:
         return (0.0 - lower, upper)
     ahead, back = _free_within(around, c, lower, upper, 3 * around.config.fine_steps)
-    if ahead + back < MIN_ANGLE_RAD:
+    if ahead + back < MIN_HINGE_RANGE_RAD:
         return (0.0 - lower, upper)
     return (0.0 - back, ahead)
 
@@ -101,7 +101,7 @@ def _answered_prismatic(around: PartContext, c: Candidate, answered: Range) -> R
     ahead, back = _free_within(around, c, lower, upper, 2 * around.config.fine_steps)
     if upper < lower and c.outward > 0.7:
         back = min(lower, extent)
-    if ahead + back < MIN_TRAVEL_RATIO * around.scale:
+    if ahead + back < MIN_SLIDE_RANGE_RATIO * around.scale:
         return (0.0 - lower, upper)
     return (0.0 - back, ahead)
 

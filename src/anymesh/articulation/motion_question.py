@@ -13,8 +13,8 @@ from jaxtyping import Float
 
 from anymesh.types import Handle, JointType, Motion, Sweep
 
-MIN_ANGLE = float(np.deg2rad(12))  # [rad] a hinge that opens less is blocked
-MIN_TRAVEL_RATIO = 0.008  # of the diagonal: a slide with less free travel is blocked
+MIN_FREE_ANGLE_RAD = float(np.deg2rad(12))  # [rad] a hinge that opens less is blocked
+MIN_FREE_TRAVEL_RATIO = 0.008  # of the diagonal: a slide with less free travel is blocked
 ENDLESS_ANGLE = 3.0  # [rad] minimum free angle in each direction of an endless rotation; the sweep ends at half a turn
 
 
@@ -86,8 +86,8 @@ class Candidate:
         A slide or a wheel may also move in the closing direction, since a button may fill the hole that it is pressed into.
         """
         if self.motion.kind is JointType.PRISMATIC:
-            return max(self.opening, self.closing) >= MIN_TRAVEL_RATIO
-        return max(self.opening, self.closing if self.role == "round" else 0.0) >= MIN_ANGLE
+            return max(self.opening, self.closing) >= MIN_FREE_TRAVEL_RATIO
+        return max(self.opening, self.closing if self.role == "round" else 0.0) >= MIN_FREE_ANGLE_RAD
 
     @property
     def is_endless(self) -> bool:

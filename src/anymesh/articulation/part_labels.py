@@ -9,7 +9,7 @@ from anymesh.types import JointType
 MAX_ALONG_COSINE = 0.5  # maximum cosine between the opening direction and a slide along the surface
 MIN_DRAWER_SIZE_RATIO = 0.15  # of the object's diagonal: a smaller part that slides in is a button
 MIN_WHEEL_SIZE_RATIO = 0.16  # of the object's diagonal: a smaller part that spins is a knob
-MIN_TRAVEL_RATIO = 0.1  # of its size: minimum travel of a slide, except for buttons
+MIN_DRAWER_TRAVEL_RATIO = 0.1  # of its size: a slide with less travel is not labelled as a drawer
 MIN_LID_COSINE = 0.8  # minimum cosine between the vertical and the opening direction of a hinged lid
 # of its height: a part with a level hinge that rises higher than this above its parent is a lid modelled open
 MIN_OPEN_LID_RISE_RATIO = 0.5
@@ -26,7 +26,7 @@ def label_of(around: PartContext, best: Candidate) -> str:
             return "slider"
         if size <= MIN_DRAWER_SIZE_RATIO and best.outward < 0:
             return "button"
-        return "drawer" if best.opening * around.scale >= MIN_TRAVEL_RATIO * around.part.box.diagonal else ""
+        return "drawer" if best.opening * around.scale >= MIN_DRAWER_TRAVEL_RATIO * around.part.box.diagonal else ""
     if best.role == "round":
         return "knob" if size < MIN_WHEEL_SIZE_RATIO else "wheel"
     if best.role == "two_pivot":

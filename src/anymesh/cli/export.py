@@ -22,5 +22,5 @@ def export(
     from anymesh import pipeline
 
     with Shown(quiet or json_) as progress:
-        asset = pipeline.export(folder, package=package, archive=zip_, progress=progress, **writing, **time)
+        asset = pipeline.export_asset(folder, package=package, archive=zip_, progress=progress, **writing, **time)
     tell_asset(asset, folder, json_, quiet)

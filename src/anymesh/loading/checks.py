@@ -49,7 +49,7 @@ def check_file(path: Path) -> bytes:
         raise InputError(f"{path.name} cannot be opened: {error.strerror}") from None
     if not _plausible(suffix, data):
         seems = next((f"; it looks like {kind}" for kind, sign in SIGNS.items() if re.match(sign, data)), "")
-        raise InputError(f"{path.name}: the content is not {suffix[1:].upper()} file{seems}; is the extension right?")
+        raise InputError(f"{path.name}: found no {suffix[1:].upper()} file inside{seems}; is the extension right?")
     return data
 
 

@@ -13,9 +13,9 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from anymesh.pipeline.api import articulate, export, finish, joints, segment
+    from anymesh.pipeline.api import articulate, export_asset, finish, joints, segment
 
-__all__ = ["articulate", "export", "finish", "joints", "segment"]
+__all__ = ["articulate", "export_asset", "finish", "joints", "segment"]
 
 
 def __getattr__(name: str) -> object:

@@ -110,7 +110,7 @@ def joints(
         return estimate_joints(run, solver, recognized, segmented).joints
 
 
-def export(
+def export_asset(
     folder: str | Path,
     *,
     base: str = Base.FIXED,

@@ -19,7 +19,7 @@ MIN_COMPONENT_SHARE = 0.5  # a component joins the part of this share of its vis
 MIN_SEEN_SHARE = 0.02  # minimum visible share of a patch's surface; less is a glimpse through a gap
 # minimum share of a patch's visible surface in one part for that part to take the whole patch, if the patch may hold several
 # parts because it is large or was cut out of a fused surface
-MIN_SEEN_SHARE_CUTTABLE = 0.85
+MIN_CUTTABLE_PATCH_SHARE = 0.85
 
 
 def face_parts(
@@ -47,7 +47,7 @@ def face_parts(
     told = total > MIN_SEEN_SHARE * np.bincount(patch, minlength=patches)
     winner = np.where(told, votes.argmax(1), UNSEEN)
     share = votes.max(1) / np.maximum(total, 1)
-    mixed = told & (share <= np.where(_cuttable(mesh, whole, config), MIN_SEEN_SHARE_CUTTABLE, MIN_COMPONENT_SHARE))
+    mixed = told & (share <= np.where(_cuttable(mesh, whole, config), MIN_CUTTABLE_PATCH_SHARE, MIN_COMPONENT_SHARE))
     winner = join_unseen(whole, winner, config, stays_free)
     found = winner[whole.mesh_patch]
     for p in np.flatnonzero(mixed):

@@ -10,10 +10,10 @@ from anymesh.errors import InputError
 from anymesh.simulation.robot import Robot, RobotJoint
 
 REACHED_RATIO = 0.02  # share of a joint's range: tolerance for a limit being reached, and for a joint being stuck
-STIFF = 20.0  # [rad/s] natural frequency of the motors
-SETTLED = 10.0  # minimum ratio of the duration of a motion to the time constant of the joint's damping
-SLOWEST = 10.0  # [s] maximum duration of a motion
-EFFORT = 1000.0  # [N or N m] default effort of a motor
+MOTOR_FREQUENCY = 20.0  # [rad/s] natural frequency of the motors
+MIN_SETTLING_RATIO = 10.0  # minimum ratio of the duration of a motion to the time constant of the joint's damping
+MAX_ENGINE_SECONDS = 10.0  # [s] maximum duration of a motion in the engines other than MuJoCo
+DEFAULT_EFFORT = 1000.0  # [N or N m] default effort of a motor
 
 
 @dataclass(frozen=True)
@@ -34,10 +34,10 @@ def motors_of(robot: Robot) -> tuple[Motor, ...]:
     for joint in robot.moving:
         inertia = max(_inertia(robot, joint, at), 1e-6)
         span = float(np.ptp(joint.range))
-        effort = joint.effort or EFFORT
-        seconds = min(max(1.0, np.pi * np.sqrt(inertia * span / effort)), SLOWEST)
-        against = max(4 * joint.friction / max(REACHED_RATIO * span, 1e-9), SETTLED * joint.damping / seconds)
-        stiffness = max(inertia * STIFF**2, against)
+        effort = joint.effort or DEFAULT_EFFORT
+        seconds = min(max(1.0, np.pi * np.sqrt(inertia * span / effort)), MAX_ENGINE_SECONDS)
+        against = max(4 * joint.friction / max(REACHED_RATIO * span, 1e-9), MIN_SETTLING_RATIO * joint.damping / seconds)
+        stiffness = max(inertia * MOTOR_FREQUENCY**2, against)
         found.append(Motor(joint.name, stiffness, 2 * float(np.sqrt(stiffness * inertia)), effort, float(seconds)))
     return tuple(found)
 

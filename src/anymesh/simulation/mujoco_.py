@@ -10,7 +10,8 @@ import numpy as np
 
 from anymesh.errors import InputError
 from anymesh.mujoco_ import load_mujoco
-from anymesh.simulation.mujoco_bench_ import REACHED_RATIO, MujocoBench, depths, make_bench
+from anymesh.simulation.motors import REACHED_RATIO
+from anymesh.simulation.mujoco_bench_ import MujocoBench, depths, make_bench
 from anymesh.simulation.report import JointSweep, SweepReport
 
 DEEP = 0.01  # share of the asset's extent: penetration or displacement that counts as a fault

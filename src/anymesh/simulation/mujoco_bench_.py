@@ -11,13 +11,12 @@ import numpy as np
 from anymesh.errors import InputError
 from anymesh.loading import load_mesh
 from anymesh.simulation.files import find_file
+from anymesh.simulation.motors import MIN_SETTLING_RATIO, REACHED_RATIO
 
-REACHED_RATIO = 0.02  # share of a joint's range: tolerance for a limit being reached, and for a joint being stuck
 TOUCH = 1e-4  # share of the asset's extent: bodies with deeper penetration at rest overlap
-STIFF = 30.0  # [rad/s] natural frequency of the motors
-QUICK = 100.0  # [rad/s] maximum natural frequency, for light links with much friction; rotor inertia is added to keep it
-SETTLED = 10.0  # minimum ratio of the duration of a motion to the time constant of the joint's damping
-SLOWEST = 20.0  # [s] maximum duration of a motion; heavy links with little effort are slow
+MOTOR_FREQUENCY_1S = 30.0  # [rad/s] natural frequency of a motor whose motion takes 1 s; lower for a longer one
+MAX_MOTOR_FREQUENCY = 100.0  # [rad/s], for light links with much friction; rotor inertia is added to keep it
+MAX_MOTION_SECONDS = 20.0  # [s] maximum duration of a motion; heavy links with little effort are slow
 READ = (".obj", ".stl", ".msh")  # mesh formats that MuJoCo reads
 
 
@@ -131,12 +130,14 @@ def _add_motors(mujoco: Any, spec: Any, model: Any, ranges: np.ndarray, joints: 
         inertia = float(model.dof_M0[dof])
         effort = float(model.jnt_actfrcrange[index, 1]) if model.jnt_actfrclimited[index] else np.inf
         needed = np.pi * np.sqrt(inertia * float(np.ptp(ranges[index])) / max(effort, 1e-9))
-        seconds[index] = min(max(1.0, needed), SLOWEST)
-        kp = max(inertia * (STIFF / seconds[index]) ** 2, 4 * float(model.dof_frictionloss[dof]) / max(tolerance, 1e-9))
+        seconds[index] = min(max(1.0, needed), MAX_MOTION_SECONDS)
+        kp = max(
+            inertia * (MOTOR_FREQUENCY_1S / seconds[index]) ** 2, 4 * float(model.dof_frictionloss[dof]) / max(tolerance, 1e-9)
+        )
         kp = max(kp, 2 * float(model.jnt_stiffness[index]) / REACHED_RATIO)  # a spring of the file counteracts it
-        kp = max(kp, SETTLED * float(model.dof_damping[dof]) / seconds[index])
+        kp = max(kp, MIN_SETTLING_RATIO * float(model.dof_damping[dof]) / seconds[index])
         joint = spec.joint(model.joint(index).name)
-        joint.armature = max(0.0, kp / QUICK**2 - inertia)
+        joint.armature = max(0.0, kp / MAX_MOTOR_FREQUENCY**2 - inertia)
         motor = spec.add_actuator(name=f"motor_{index}", target=joint.name, trntype=mujoco.mjtTrn.mjTRN_JOINT)
         motor.ctrllimited = motor.forcelimited = int(mujoco.mjtLimited.mjLIMITED_FALSE)  # a file may have other defaults
         motor.gear = (1, 0, 0, 0, 0, 0)

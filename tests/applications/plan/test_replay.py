@@ -45,6 +45,12 @@ def test_the_mass_of_what_moves_is_scaled(cupboard, arm):
     assert two.model.body_mass.sum() - one.model.body_mass.sum() == pytest.approx(one.model.body_mass[body])
 
 
+@pytest.mark.parametrize("wanted", [0.0, float("nan"), float("inf")])
+def test_a_replay_needs_a_value_to_reach(door_plan, cupboard, arm, wanted):
+    with pytest.raises(OptionError, match="valid is a finite value of door_joint other than 0"):
+        replay(door_plan.trajectory, cupboard, arm.robot, arm.hand, door_plan.base, wanted)
+
+
 def test_a_button_goes_in(things, arm):
     panel = open_object(things / "panel.xml", "button")
     found = plan_motion(panel, arm, -0.01)

@@ -1,6 +1,7 @@
 """The environment: Gymnasium's checker, vectors, determinism, and tasks done by a few hand-written moves."""
 
 import re
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -14,7 +15,7 @@ from anymesh.applications.policy import NO_RANDOMIZATION  # noqa: E402
 from anymesh.applications.policy.env_ import make_env  # noqa: E402
 from anymesh.applications.policy.objects_ import task_object  # noqa: E402
 from anymesh.applications.policy.tasks import PolicyTask  # noqa: E402
-from anymesh.errors import InputError, OptionError  # noqa: E402
+from anymesh.errors import InputError, MissingExtraError, OptionError  # noqa: E402
 
 
 def towards(env) -> np.ndarray:
@@ -202,3 +203,10 @@ def test_the_scene_is_drawn(objects):
     picture = env.render()
     assert picture.shape == (240, 320, 3)
     assert picture.std() > 10
+
+
+def test_without_gymnasium_the_extra_is_named(monkeypatch):
+    monkeypatch.setitem(sys.modules, "gymnasium", None)
+    monkeypatch.delitem(sys.modules, "anymesh.applications.policy.env_")
+    with pytest.raises(MissingExtraError, match=r"articulate-anymesh\[policy\]"):
+        _ = anymesh.make_env

@@ -58,6 +58,19 @@ def test_colmap_with_its_depth_maps(few: Frames, tmp_path: Path, binary: bool) -
     assert_same_frames(read_frames(folder, scale=0.25), few, metres=1e-5)
 
 
+def test_colmap_with_blank_lines(few: Frames, tmp_path: Path) -> None:
+    """As in COLMAP's reader, blank lines count only directly after an image: there they are an empty list of points."""
+    folder = as_colmap(few, tmp_path / "c", binary=False, unit=1.0)
+    model = folder / "sparse" / "0"
+    cameras, images = model / "cameras.txt", model / "images.txt"
+    cameras.write_text("\n  # indented\n" + cameras.read_text().replace("\n", "\n \n") + "\n")
+    head, *lines = images.read_text().split("\n")
+    lines = [line for line in lines if line]
+    blocks = [f"{line}\n{'1.5 2.5 -1' if k % 2 else ''}\n" for k, line in enumerate(lines)]
+    images.write_text(f"{head}\n\n" + " \n\n".join(blocks) + "\n\n\n")
+    assert_same_frames(read_frames(folder, scale=1.0), few, metres=1e-5)
+
+
 def test_colmap_needs_a_scale(few: Frames, tmp_path: Path) -> None:
     with pytest.raises(OptionError, match="--scale METRES_PER_UNIT"):
         read_frames(as_colmap(few, tmp_path / "c", binary=True, unit=1.0))

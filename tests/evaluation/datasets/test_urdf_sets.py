@@ -96,7 +96,7 @@ def test_a_mesh_is_mirrored_and_scaled(tmp_path: Path) -> None:
         ('<axis xyz="0 1 1"/>', '<axis xyz="0 0 0"/>', "axis"),
         ('lower="0" upper="0.4"', 'lower="0.5" upper="0.4"', "limits"),
         ('<parent link="empty"/>', '<parent link="nowhere"/>', "nowhere"),
-        ('<parent link="empty"/>', '<parent link="drawer"/>', "circle"),
+        ('<parent link="empty"/>', '<parent link="drawer"/>', "cycle"),
         ('<sphere radius="0.1"/>', '<mesh filename="gone.obj"/>', "gone.obj"),
         ('<sphere radius="0.1"/>', '<mesh filename="../outside.obj"/>', "outside.obj"),
         ("</robot>", '<link name="other"/></robot>', "root"),

@@ -14,6 +14,7 @@ from anymesh.applications.plan.hand_ import Hand
 from anymesh.applications.plan.plans import BasePose, Phase, Trajectory
 from anymesh.applications.plan.robot_ import RobotArm
 from anymesh.applications.plan.scene_ import OBJECT, ROBOT, compose
+from anymesh.errors import OptionError
 from anymesh.mujoco_ import load_mujoco
 
 FIRM = 0.9  # share of the requested motion at which a task counts as done
@@ -83,7 +84,10 @@ def replay(
     """Run a trajectory with position servos, open loop: the object is not observed.
 
     thing: the true object; wanted: target value of its joint [rad or m]; rate: states kept per second, 0 for none.
+    Raise OptionError if `wanted` is 0, the value at rest, or not finite: success is a share of it.
     """
+    if wanted == 0 or not np.isfinite(wanted):
+        raise OptionError(f"wanted: found {wanted:g}; valid is a finite value of {thing.joint} other than 0, its value at rest")
     stage = ReplaySimulation(thing, robot, hand, base, physics)
     return stage.run(trajectory, wanted, rate)
 

@@ -83,15 +83,14 @@ def evaluate_interaction(
         if not path.is_file():
             made = _evaluated(name, found[name], results.folder, seed, tries)
             write_whole(path, json.dumps([asdict(row) for row in made], indent=1).encode())
-        read = json.loads(path.read_text(encoding="utf-8"))
-        rows += [_row(row) for row in read]
+        rows += [_row(record) for record in json.loads(path.read_text(encoding="utf-8"))]
     write_whole(results.folder / REPORT, report_text(rows, settings).encode())
     _write_sheet(results.folder)
     return rows
 
 
-def _row(saved: dict[str, Any]) -> JointInteraction:
-    values: dict[str, Any] = {**saved, "faults": tuple(saved["faults"])}
+def _row(record: dict[str, Any]) -> JointInteraction:
+    values: dict[str, Any] = {**record, "faults": tuple(record["faults"])}
     return JointInteraction(**values)
 
 

@@ -110,7 +110,7 @@ def _cameras(rows: Iterator[tuple[int, str, int, int, list[float]]]) -> tuple[di
 
 def _text_rows(path: Path) -> list[list[str]]:
     lines = path.read_text(encoding="utf-8").splitlines()
-    return [line.split() for line in lines if not line.startswith("#")]
+    return [line.split() for line in lines if not line.lstrip().startswith("#")]
 
 
 def _text_cameras(model: Path) -> Iterator[tuple[int, str, int, int, list[float]]]:
@@ -125,8 +125,12 @@ def _text_cameras(model: Path) -> Iterator[tuple[int, str, int, int, list[float]
 
 
 def _text_images(model: Path) -> Iterator[_Image]:
-    """Parse images.txt, in which every second line is a list of points and may be empty."""
-    for row in _text_rows(model / "images.txt")[::2]:
+    """Parse images.txt, in which the line after that of an image lists its points and may be empty."""
+    rows = iter(_text_rows(model / "images.txt"))
+    for row in rows:
+        if not row:  # an empty line between images
+            continue
+        next(rows, None)  # points of the image
         try:
             q, t = [float(v) for v in row[1:5]], [float(v) for v in row[5:8]]
             camera, name = int(row[8]), " ".join(row[9:])
