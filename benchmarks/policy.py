@@ -185,7 +185,7 @@ def main() -> None:
                 print(f"stopped before seed {seed} of {thing}")
                 break
             run_seed(thing, sets[thing], seed, size, options)
-    write_report(options.work, sets, TASKS)
+    write_report(options.work, sets, TASKS, options.seeds)
 
 
 if __name__ == "__main__":

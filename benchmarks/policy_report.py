@@ -32,40 +32,40 @@ def episodes_of(run: Path, name: str) -> list[Episode] | None:
     return [Episode(**row) for row in json.loads(path.read_text(encoding="utf-8"))] if path.is_file() else None
 
 
-def rates(runs: Path, arm: str, name: str) -> dict[int, float]:
-    """Success rate of every evaluated seed: the mean over objects and poses."""
+def rates(runs: Path, arm: str, name: str, seeds: int) -> dict[int, float]:
+    """Success rate of every evaluated seed below `seeds`: the mean over objects and poses."""
     found = {}
-    for run in sorted(runs.glob(f"{arm}_*")):
-        episodes = episodes_of(run, name)
+    for seed in range(seeds):
+        episodes = episodes_of(runs / f"{arm}_{seed}", name)
         if episodes is not None:
-            found[int(run.name.rpartition("_")[2])] = float(np.mean([e.success for e in episodes]))
+            found[seed] = float(np.mean([e.success for e in episodes]))
     return found
 
 
-def table(work: Path, things: Sequence[str]) -> list[str]:
+def table(work: Path, things: Sequence[str], seeds: int) -> list[str]:
     lines = [
         "| task | test set | baseline | augmented | seeds | p | paper |",
         "|---|---|---|---|---|---|---|",
     ]
     for thing in things:
         for name, title in TESTS.items():
-            base, more = (rates(work / "runs" / thing, arm, name) for arm in ("baseline", "augmented"))
-            seeds = sorted(base.keys() & more.keys())
-            if not seeds:
+            base, more = (rates(work / "runs" / thing, arm, name, seeds) for arm in ("baseline", "augmented"))
+            both = sorted(base.keys() & more.keys())
+            if not both:
                 continue
-            first, second = [base[s] for s in seeds], [more[s] for s in seeds]
+            first, second = [base[s] for s in both], [more[s] for s in both]
             paper = f"{PAPER[thing][0]:.3f} to {PAPER[thing][1]:.3f}" if name == "all" else ""
             p = paired_p(first, second)
-            lines.append(f"| {thing} | {title} | {interval(first)} | {interval(second)} | {len(seeds)} | {p:.3g} | {paper} |")
+            lines.append(f"| {thing} | {title} | {interval(first)} | {interval(second)} | {len(both)} | {p:.3g} | {paper} |")
     return lines
 
 
-def by_object(work: Path, thing: str) -> list[tuple[str, float, float]]:
+def by_object(work: Path, thing: str, seeds: int) -> list[tuple[str, float, float]]:
     """Each held-out object with its mean success over seeds, of both arms."""
     found = {}
     for arm in ("baseline", "augmented"):
-        for run in (work / "runs" / thing).glob(f"{arm}_*"):
-            for e in episodes_of(run, "all") or ():
+        for seed in range(seeds):
+            for e in episodes_of(work / "runs" / thing / f"{arm}_{seed}", "all") or ():
                 found.setdefault(e.asset, {}).setdefault(arm, []).append(e.success)
     return [(k, *(float(np.mean(v.get(a, [0]))) for a in ("baseline", "augmented"))) for k, v in sorted(found.items())]
 
@@ -166,12 +166,12 @@ def failures(work: Path, thing: str, assets: Sequence[Path], task: str, path: Pa
         Image.fromarray(tiled(frames, min(3, len(frames)))).save(path)
 
 
-def write_report(work: Path, sets: Mapping[str, Any], tasks: Mapping[str, Any]) -> None:
+def write_report(work: Path, sets: Mapping[str, Any], tasks: Mapping[str, Any], seeds: int) -> None:
     """Write WORK/report.md, curves and contact sheets."""
-    lines = ["Success rates with 95 % intervals over seeds; p of the paired t test.", "", *table(work, list(sets)), ""]
+    lines = ["Success rates with 95 % intervals over seeds; p of the paired t test.", "", *table(work, list(sets), seeds), ""]
     for thing, s in sets.items():
         lines += [f"## {thing}", "", "| held-out object | baseline | augmented |", "|---|---|---|"]
-        lines += [f"| {name} | {base:.2f} | {more:.2f} |" for name, base, more in by_object(work, thing)]
+        lines += [f"| {name} | {base:.2f} | {more:.2f} |" for name, base, more in by_object(work, thing, seeds)]
         lines += ["", "| asset | angle of the axis [deg] | distance [diagonal] | sign |", "|---|---|---|---|"]
         errors = joint_errors([*s.train_designed, *s.test_designed], s.truths, tasks[thing])
         lines += [f"| {n} | {a:.1f} | {d:.3f} | {sign} |" for n, (a, d, sign) in sorted(errors.items())]
