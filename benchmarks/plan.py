@@ -107,7 +107,7 @@ def twin(kind: str, task: Task, subject: EvalSample, work: Path) -> Path:
         flipped = opened.history.do(HistoryEntry(FlipSign(part), time="2026-01-01T00:00:00+00:00", author="benchmark"))
         save_asset(Opened(opened.folder, flipped, opened.version))
     elif kind == "paper":
-        segmentation, joints = solve(subject.mesh, config=Config(verify="off"), see=lambda _: oracle(subject))
+        segmentation, joints = solve(subject.mesh, config=Config(verify="off"), answerer_factory=lambda _: oracle(subject))
         asset = replace(subject.asset(), segmentation=segmentation, joints=joints)
         folder.mkdir(parents=True)
         write_asset(replace(asset, source=replace(asset.source, T_asset_source=subject.T)), folder)

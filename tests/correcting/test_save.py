@@ -174,7 +174,7 @@ def test_stage_c_builds_on_the_corrections(tmp_path):
 def test_a_new_export_keeps_the_corrections(tmp_path):
     folder = write_output(tmp_path / "out")
     save_asset(corrected(open_asset(folder), SetLimits("door", 0.0, 1.25)))
-    asset = pipeline.export(folder, formats="urdf")
+    asset = pipeline.export_asset(folder, formats="urdf")
     assert asset.joints[0].limits == (0.0, 1.25)
     assert (folder / "corrections.json").exists()
 

@@ -13,7 +13,7 @@ from anymesh.checking import check_asset
 from anymesh.completion.settings import ShapeConfig
 from anymesh.completion.texture import Carried
 from anymesh.errors import ModelError, OptionError, OutputError
-from anymesh.pipeline import articulate, export, finish
+from anymesh.pipeline import articulate, export_asset, finish
 from anymesh.pipeline.finishing import finish_asset
 
 
@@ -68,7 +68,7 @@ def test_a_rerun_and_an_export_write_the_same(surface, tmp_path):
     finish(surface, tmp_path / "b")
     a, b = digests(tmp_path / "a"), digests(tmp_path / "b")
     assert {k: v for k, v in a.items() if k != "timing.json"} == {k: v for k, v in b.items() if k != "timing.json"}
-    export(tmp_path / "a")  # the finished stage is what is exported
+    export_asset(tmp_path / "a")  # the finished stage is what is exported
     assert {k: v for k, v in digests(tmp_path / "a").items() if k != "timing.json"} == {
         k: v for k, v in a.items() if k != "timing.json"
     }

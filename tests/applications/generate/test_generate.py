@@ -187,7 +187,7 @@ def test_where_it_came_from_survives_an_export_and_corrections(articulations, pr
     out = tmp_path / "out"
     generate("a box", out, generator=program("--prompt {prompt} --out {out}"), **FAST)
     before = files(out)
-    pipeline.export(out, formats="urdf,mjcf")
+    pipeline.export_asset(out, formats="urdf,mjcf")
     origin = {name for name in before if name.startswith("generat")}
     assert origin == {"generation.json", "generated/box.glb"}
     assert {name: content for name, content in files(out).items() if name in origin} == {n: before[n] for n in origin}

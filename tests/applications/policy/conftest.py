@@ -13,7 +13,7 @@ NO_TRAINING = f"the extra `policy` is not installed: {', '.join(MISSING)}"
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     here = Path(__file__).parent
     for item in items:
-        if MISSING and here in Path(item.path).parents and item.path.stem == "test_training":
+        if MISSING and here in Path(item.path).parents and item.path.stem == "test_policy_training":
             item.add_marker(pytest.mark.skip(reason=NO_TRAINING))
 
 
