@@ -23,7 +23,7 @@ from scipy.spatial.transform import Rotation
 from anymesh.completion.bake_charts import lay_out
 from anymesh.export.rotations import quaternion, rpy
 from anymesh.loading import load_mesh
-from anymesh.types import Motion, MotionKind
+from anymesh.types import JointType, Motion
 from anymesh.vlm.prices import PRICES, cost_of
 
 SIZE, PADDING = 1024, 2  # [px]
@@ -106,7 +106,7 @@ def compare_rotations() -> None:
     axes /= np.linalg.norm(axes, axis=1)[:, None]
     other = 0
     for axis in axes:
-        own = Motion(MotionKind.REVOLUTE, axis, np.zeros(3), "").transforms(amounts)[:, :3, :3]
+        own = Motion(JointType.REVOLUTE, axis, np.zeros(3), "").transforms(amounts)[:, :3, :3]
         other += int((own != Rotation.from_rotvec(amounts[:, None] * axis).as_matrix()).any((1, 2)).sum())
     matrices = Rotation.random(2000, random_state=1).as_matrix()
     turned = Rotation.from_matrix(matrices)
