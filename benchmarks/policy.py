@@ -92,7 +92,7 @@ def prepare(thing: str, size: Size, work: Path) -> Sets:
     annotated = work / f"annotated_{thing}"
     if not annotated.exists() or len(_assets(annotated)) < len(truths):
         command = [sys.executable, "-c", "from anymesh.cli import main; main()", "annotate", meshes, "-o", annotated]
-        subprocess.run([*map(str, command), "--workers", "1", "--quiet"], check=False)  # failed objects are told below
+        subprocess.run([*map(str, command), "--workers", "1", "--quiet"], check=False)  # the report below lists failed objects
     usable, refused = [], dict.fromkeys(truths, "no asset")
     for name, path in sorted(_assets(annotated).items()):
         refused.pop(name, None)

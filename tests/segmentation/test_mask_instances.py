@@ -1,4 +1,4 @@
-"""Test that answers number parts in several views: pieces are joined by number, and lost parts are told."""
+"""Test parts that have numbers in several views: pieces are joined by number, and lost parts give a warning."""
 
 import numpy as np
 import pytest

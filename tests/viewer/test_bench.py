@@ -221,6 +221,7 @@ def test_a_motion_plays_while_it_is_chosen(page):
     until(lambda: page.bench._desk._scene._moving is not None)
     moving, turns = page.bench._desk._scene._moving, []
     until(lambda: turns.append(moving.wxyz[0]) or np.ptp(turns) > 0.01)
+    assert len(set(turns)) > 1
 
 
 def test_kept_assets_get_names_of_their_own_and_the_same_mesh_the_same_questions(monkeypatch, tmp_path):

@@ -1,4 +1,4 @@
-"""Parts that answers number in several views: their pieces are joined, and those that were lost are told."""
+"""Parts that have numbers in several views: join their pieces, and list those that were lost."""
 
 from __future__ import annotations
 

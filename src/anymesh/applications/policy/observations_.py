@@ -50,7 +50,7 @@ def state(s: TaskSimulation) -> Float32[np.ndarray, " n"]:
 def boxed(s: TaskSimulation) -> Float32[np.ndarray, " n"]:
     """Return the robot's state and what a detector tells of the object: its box at the start, where it is, and the progress.
 
-    Neither handle nor axis is told; where they are in the box differs between objects.
+    The handle and the axis are not observed; their places in the box differ between objects.
     """
     R, T = s.data.xmat[s.stand].reshape(3, 3), s.found.T_world_asset
     low, high = s.found.box
