@@ -30,7 +30,7 @@ STAGES = {"segmentation", "articulation", "completion"}
 TOOLS = {"simulation", "checking", "evaluation", "correcting", "viewer", "applications", "agents", "cli"}
 # What tools may import of the packages that work behind `pipeline`; every other module of these is internal.
 SURFACE = {
-    "segmentation": {"segmentation", "segmentation.cloud"},
+    "segmentation": {"segmentation", "segmentation.cloud", "segmentation.divide"},
     "articulation": {"articulation", "articulation.estimate", "articulation.geometry_answerer"},
     "completion": {"completion.outside"},
     "scoring": set(),

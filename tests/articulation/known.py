@@ -13,8 +13,9 @@ from scenes import Scene, built, case, door, drawer, lid, slider, wheel
 from anymesh.articulation.cases import PartCase, make_cases
 from anymesh.articulation.prompted import Questions, prompt_joints
 from anymesh.config import Config, PromptConfig, ViewsConfig
-from anymesh.geometry.patches import ObjectShape, object_shape
+from anymesh.geometry.patches import ObjectShape
 from anymesh.rendering.visual_prompts import VisualPrompts
+from anymesh.segmentation.divide import object_shape
 from anymesh.types import Exchange, Joint, JointType, KnownJoint, Mesh, Segmentation
 from anymesh.vlm.asking import VisualAnswerer
 from anymesh.vlm.reference import Reference

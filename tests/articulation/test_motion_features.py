@@ -11,7 +11,7 @@ from anymesh.articulation.cases import make_cases
 from anymesh.articulation.evidence import hypotheses, part_facts
 from anymesh.articulation.motion_features import MISSING, motion_features
 from anymesh.config import Config
-from anymesh.geometry.patches import object_shape
+from anymesh.segmentation.divide import object_shape
 from anymesh.types import JointType, Motion
 
 X, Y, Z = np.eye(3)

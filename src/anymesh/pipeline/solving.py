@@ -9,26 +9,21 @@ from pathlib import Path
 
 import numpy as np
 
-from anymesh.articulation.estimate import (
-    PartMotions,
-    choose_motion,
-    estimate_joints,
-    motion_questions,
-    relabelled,
-)
+from anymesh.articulation.estimate import PartMotions, choose_motion, estimate_joints, motion_questions, relabelled
 from anymesh.articulation.freedom import stays_free
 from anymesh.articulation.geometry_answerer import GeometryAnswerer
 from anymesh.articulation.part_labels import label_of
 from anymesh.articulation.prompted import Questions, Reground, prompt_joints
 from anymesh.config import Config
 from anymesh.deadline import Deadline
-from anymesh.geometry.patches import DividedSurface, ObjectShape, divide_surface
+from anymesh.geometry.patches import DividedSurface, ObjectShape
 from anymesh.models.sam import PromptedSegmenter
 from anymesh.models.sam_load import load_sam
 from anymesh.pipeline.results import JointResult, RecognitionResult, SegmentationResult
 from anymesh.progress import Progress, silent
 from anymesh.rendering.visual_prompts import VisualPrompts
 from anymesh.segmentation.ask_marks import MarkQuestioner
+from anymesh.segmentation.divide import divide_surface
 from anymesh.segmentation.given import GIVEN, parts_from_file, parts_from_nodes
 from anymesh.segmentation.grounded import ground_parts
 from anymesh.segmentation.grounded_parts import EXACT, SampledObject, sample_object
