@@ -13,8 +13,8 @@ from anymesh.articulation.own_axes import round_patches
 from anymesh.articulation.repeated_parts import same_size, share_opening_directions
 from anymesh.articulation.tree import descendants, parents
 from anymesh.config import Config
-from anymesh.geometry.part_context import PartContext
 from anymesh.geometry.patches import ObjectShape
+from anymesh.motion.part_context import PartContext
 from anymesh.types import Motion, Picture, Segmentation
 from anymesh.types.recognition import BASE, Recognition, RecognizedLabel
 from anymesh.vlm.asking import Answer, Question, VisualAnswerer

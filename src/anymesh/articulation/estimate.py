@@ -8,6 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from anymesh.articulation.barrels import find_barrel_candidates
 from anymesh.articulation.evidence import hypotheses, part_facts
 from anymesh.articulation.hypotheses import propose
 from anymesh.articulation.limits import limits, opening_as_answered, opening_motion
@@ -17,10 +18,10 @@ from anymesh.articulation.repeated_parts import in_a_row, same_size, share_openi
 from anymesh.articulation.tree import descendants, parents
 from anymesh.config import ArticulationConfig, Config
 from anymesh.deadline import JOINTS, Deadline
-from anymesh.geometry.part_context import PartContext, find_barrel_candidates
 from anymesh.geometry.patches import ObjectShape
 from anymesh.geometry.sweep import free_amount
 from anymesh.geometry.triangle_set import TriangleSet
+from anymesh.motion.part_context import PartContext
 from anymesh.types import Joint, JointType, Motion, Segmentation
 
 MAX_RIM_DISTANCE_RATIO = 0.01  # of the scale: hinge lines within this distance, or within the part's thickness, are at one rim

@@ -9,8 +9,8 @@ import numpy as np
 from anymesh.articulation.adjacent_panels import adjacent_sides, outer_side, overlap_gain, pair_side
 from anymesh.articulation.contact_metrics import contact_retention, hinge_support, lever_arm
 from anymesh.articulation.motion_question import MIN_FREE_ANGLE_RAD, Candidate, PartFacts
-from anymesh.geometry.part_context import IGNORE_OVERLAP_SCALE, PartContext
 from anymesh.geometry.sweep import free_amounts, sweep_all
+from anymesh.motion.part_context import IGNORE_OVERLAP_SCALE, PartContext
 from anymesh.types import JointType, Motion, Sweep
 
 CROSSWISE_HANDLE_WEIGHT = 0.6  # weight of the side of a bar handle that runs across the line
