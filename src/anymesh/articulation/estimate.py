@@ -9,11 +9,12 @@ from dataclasses import replace
 import numpy as np
 
 from anymesh.articulation.barrels import find_barrel_candidates
-from anymesh.articulation.evidence import hypotheses, part_facts
+from anymesh.articulation.evidence import hypotheses
 from anymesh.articulation.hypotheses import propose
 from anymesh.articulation.limits import limits, opening_as_answered, opening_motion
 from anymesh.articulation.motion_classifier import UnscoredMotions
 from anymesh.articulation.motion_question import Candidate, MotionAnswer, MotionAnswerer, MotionQuestion
+from anymesh.articulation.part_facts import part_facts
 from anymesh.articulation.repeated_parts import in_a_row, same_size, share_opening_directions
 from anymesh.articulation.tree import descendants, parents
 from anymesh.config import ArticulationConfig, Config

@@ -5,9 +5,10 @@ from __future__ import annotations
 from anymesh.articulation.cases import PartCase
 from anymesh.articulation.confidence import Agreement
 from anymesh.articulation.decode import prismatic
-from anymesh.articulation.evidence import hypotheses, part_facts
+from anymesh.articulation.evidence import hypotheses
 from anymesh.articulation.motion_classifier import score_motions
 from anymesh.articulation.offers import moves_as
+from anymesh.articulation.part_facts import part_facts
 from anymesh.articulation.verify import Choice, words
 from anymesh.types import JointType, Motion
 from anymesh.vlm.prompting import JointKind
