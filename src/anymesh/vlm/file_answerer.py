@@ -23,9 +23,9 @@ from anymesh.vlm.question_files import (
     SHEET,
     WORDS,
     QuestionFolder,
-    QuestionStore,
     wait_for_answer,
 )
+from anymesh.vlm.question_store import QuestionStore
 from anymesh.vlm.question_words import question_page
 from anymesh.vlm.reply_text import reply_object
 from anymesh.vlm.saved_question import pack_question, unpack_question
