@@ -11,8 +11,8 @@ import pytest
 ROOT = Path(__file__).parents[1]
 SOURCE = ROOT / "src" / "anymesh"
 FLOORS = [
-    {"errors", "files", "config", "deadline", "isolation", "progress", "names", "vocabulary", "mujoco_"},
-    {"types"},
+    {"errors", "files", "config", "deadline", "isolation", "progress", "names", "mujoco_"},
+    {"types", "vocabulary"},
     {"geometry", "loading", "scoring"},
     {"rendering", "motion"},
     {"vlm"},
