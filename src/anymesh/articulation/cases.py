@@ -18,7 +18,7 @@ from anymesh.motion.part_context import PartContext
 from anymesh.types import Motion, Picture, Segmentation
 from anymesh.types.recognition import BASE, Recognition, RecognizedLabel
 from anymesh.vlm.asking import Answer, Question, VisualAnswerer
-from anymesh.vlm.prompting import JointKind, KindAnswer, PartShown
+from anymesh.vlm.prompting import JointAppearance, KindAnswer, PartShown
 
 MAX_PICTURES = 8  # pictures per call
 
@@ -39,11 +39,11 @@ class PartCase:
     shown: PartShown
     circles: tuple[Motion, ...] = ()
     recognized: RecognizedLabel | None = None
-    answer: KindAnswer = KindAnswer(JointKind.FIXED)  # noqa: RUF009 - frozen
+    answer: KindAnswer = KindAnswer(JointAppearance.FIXED)  # noqa: RUF009 - frozen
     asked: Motion | None = None
 
     @property
-    def kind(self) -> JointKind:
+    def kind(self) -> JointAppearance:
         return self.answer.kind
 
     @property

@@ -21,7 +21,7 @@ from anymesh.articulation.own_axes import CENTRAL, pivots
 from anymesh.articulation.part_facts import part_facts
 from anymesh.types import JointType
 from anymesh.vlm.motion_choice import MotionTable
-from anymesh.vlm.prompting import JointKind
+from anymesh.vlm.prompting import JointAppearance
 
 MAX_SHOWN_ANGLE_RAD = np.deg2rad(60.0)  # [rad] maximum rotation in a picture
 MAX_SHOWN_TRAVEL_RATIO = 0.6  # of the part's size: maximum travel of a slide in a picture
@@ -122,11 +122,11 @@ def scored_motions(case: PartCase) -> MotionQuestion:
     )
 
 
-def fits(c: Candidate, kind: JointKind) -> bool:
+def fits(c: Candidate, kind: JointAppearance) -> bool:
     """Return whether a motion is of the answered kind."""
     if kind.is_rotation or c.motion.kind is JointType.REVOLUTE:
         return kind.is_rotation and c.motion.kind is JointType.REVOLUTE
-    return (abs(c.outward) > 0.7) == (kind is JointKind.SLIDE_OUT)
+    return (abs(c.outward) > 0.7) == (kind is JointAppearance.SLIDE_OUT)
 
 
 def moves_as(c: Candidate, moves: JointType) -> bool:
@@ -215,7 +215,7 @@ def _off_part(case: PartCase, c: Candidate) -> bool:
 
 
 def _pages(
-    motions: list[Candidate], kind: JointKind, likely: list[bool], answered: int | None, max_motions: int
+    motions: list[Candidate], kind: JointAppearance, likely: list[bool], answered: int | None, max_motions: int
 ) -> tuple[list[int], list[int]]:
     """Return the indices of the motions in the first picture and in the second."""
     own = [k for k, c in enumerate(motions) if c.role in CENTRAL and fits(c, kind)][:SHAPE_AXES]
