@@ -94,12 +94,10 @@ def knowing(mesh: Mesh, segmentation: Segmentation, joints: tuple[KnownJoint, ..
 class Watched:
     """Wrapper that records the questions to another answerer.
 
-    changed: functions that replace its answers, by the kind of question; needs_images: True draws the pictures that a model
-    would see.
+    changed: functions that replace its answers, by the kind of question.
     """
 
     seer: VisualAnswerer
-    needs_images: bool = False
     changed: dict[str, Callable[[Any], Any]] = field(default_factory=dict)
     asked: list[Any] = field(default_factory=list)
     name: str = "watched"

@@ -104,7 +104,7 @@ def test_marks_take_one_question_whose_captions_name_sides_by_the_recognized_fro
     asked = []
 
     class Watched:
-        name, needs_images, exchanges, warnings = "watched", True, (), ()
+        name, exchanges, warnings = "watched", (), ()
         knowing = oracle(prepared(truth))
 
         def ask(self, question):
@@ -144,7 +144,7 @@ def test_where_nothing_moves_nothing_is_asked() -> None:
     placed = place_mesh(load_mesh(TRUTHS["table"].mesh))
 
     class Silent:
-        name, needs_images, exchanges, warnings = "silent", False, (), ()
+        name, exchanges, warnings = "silent", (), ()
 
         def ask(self, question):
             raise AssertionError(f"asked {question.kind}")

@@ -84,7 +84,7 @@ def test_one_candidate_point_is_enough_where_there_is_no_other() -> None:
 
 def test_labels_that_a_user_told_are_not_asked_for() -> None:
     class Nobody:
-        name, needs_images = "unused", True
+        name = "unused"
         exchanges = warnings = ()
 
         def ask(self, question):

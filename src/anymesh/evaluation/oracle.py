@@ -49,7 +49,6 @@ class Noisy:
 
     exchanges: tuple[Exchange, ...] = ()
     warnings: tuple[str, ...] = ()
-    needs_images = False
 
     def __init__(self, answerer: VisualAnswerer, wrong: float, rng: np.random.Generator) -> None:
         self.name, self._answerer, self._wrong, self._rng = f"noisy {answerer.name}", answerer, wrong, rng
@@ -101,7 +100,6 @@ class Random:
 
     exchanges: tuple[Exchange, ...] = ()
     warnings: tuple[str, ...] = ()
-    needs_images = False
 
     def __init__(self, answerer: VisualAnswerer, rng: np.random.Generator) -> None:
         self.name, self._answerer, self._rng = "random", answerer, rng

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
-from anymesh.types import Picture
 from anymesh.vlm.asking import BOOLEAN, INTEGER, BadAnswerError, a_list, an_answer, an_object, one_each, one_of
+from anymesh.vlm.pictures import Pictures
 
 OTHER = "other"  # label of a part that is none of the recognized kinds
 
@@ -66,7 +66,7 @@ class WhichKinds:
     labels: recognized kinds of part to choose from, if parts are given without such a label; category: of the object.
     """
 
-    pictures: tuple[Picture, ...]
+    pictures: Pictures
     parts: tuple[PartShown, ...]
     labels: tuple[str, ...] = ()
     category: str = "object"
@@ -145,7 +145,7 @@ class PointTable:
 class WhichPoints:
     """Which numbered points lie on the axis? One picture per part."""
 
-    pictures: tuple[Picture, ...]
+    pictures: Pictures
     tables: tuple[PointTable, ...]
     category: str = "object"
     kind: str = "points"
@@ -186,7 +186,7 @@ class ArrowTable:
 class WhichArrows:
     """Along which arrow does the part open or move from its position? One picture per part."""
 
-    pictures: tuple[Picture, ...]
+    pictures: Pictures
     tables: tuple[ArrowTable, ...]
     category: str = "object"
     kind: str = "arrows"

@@ -40,7 +40,6 @@ class ReferenceAnswerer:
 
     exchanges: tuple[Exchange, ...] = ()
     warnings: tuple[str, ...] = ()
-    needs_images = False
 
     def __init__(self, name: str, reference: Callable[[], Reference]) -> None:
         self.name, self._make = name, reference
