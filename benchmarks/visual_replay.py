@@ -22,7 +22,7 @@ from anymesh.vlm.reference import reference_of
 from anymesh.vlm.reference_answerer import ReferenceAnswerer
 from anymesh.vlm.replay import Replay
 from anymesh.vlm.reply_text import reply_object
-from anymesh.vlm.vlm_answerer import VlmAnswerer
+from anymesh.vlm.vlm_answerer import VlmAnswerer, request_of
 
 VARIANTS = ("as recorded", "--verify off", "one view", "geometry alone")
 ONE_VIEW = "1@15+30"
