@@ -127,7 +127,7 @@ class MotionAnswer:
 
 @runtime_checkable
 class MotionAnswerer(Protocol):
-    """Answerer of motion questions: geometry, a vision-language model, or ground truth."""
+    """Answerer of motion questions, from facts alone: `GeometryAnswerer`."""
 
     name: str
 
