@@ -34,6 +34,7 @@ SURFACE = {
     "articulation": {"articulation", "articulation.estimate", "articulation.geometry_answerer"},
     "completion": {"completion.outside"},
     "scoring": set(),
+    "motion": set(),
     "physics": {"physics.inertia"},
     "models": {"models.meshy_api", "models.meshy_generate", "models.meshy_task"},
     "pipeline": {

@@ -1,6 +1,6 @@
 """Motion questions with their facts and candidates, and the protocol of their answerers.
 
-Answers are validated when constructed. The pipeline does not depend on the kind of answerer.
+Answers are validated when constructed.
 """
 
 from __future__ import annotations
