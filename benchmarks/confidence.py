@@ -29,6 +29,7 @@ from anymesh.evaluation.oracle import Noisy, Random, oracle
 from anymesh.evaluation.protocols import prepared
 from anymesh.evaluation.score import JointScore, score
 from anymesh.pipeline.solving import Solver
+from anymesh.rendering.visual_prompts import VisualPrompts
 from anymesh.types import MOVING
 from anymesh.types.recognition import Recognition, RecognizedLabel
 
@@ -82,13 +83,15 @@ def samples(sample: EvalSample, rounds: int, rng: np.random.Generator) -> Iterat
     parts = [replace(p, label=f"thing {p.name}") if k else p for k, p in enumerate(plain.parts)]
     segmentation = replace(plain, parts=tuple(parts))
     offers.hypotheses = Swept()  # ty: ignore[invalid-assignment]
-    whole = solver._ready_for(segmentation)
+    whole = solver.geometry.ready_for(segmentation)
     numbers = {p.name: k - 1 for k, p in enumerate(parts)}
     for wrong in WRONG:
         for n in range(1 if wrong == 0 else rounds):
             seer = Random(oracle(sample), rng) if wrong == 1 else Noisy(oracle(sample), wrong, rng)
             told = recognized(sample, wrong, rng) if n % 2 else None
-            made = prompt_joints(Questions(solver._visual_prompts, seer, Config(), told), lambda _: whole, segmentation)
+            made = prompt_joints(
+                Questions(VisualPrompts(sample.mesh, Config()), seer, Config(), told), lambda _: whole, segmentation
+            )
             own = [a.own for a in made.agreements]
             for j in score(sample, segmentation, made.joints).joints:
                 k = numbers[j.part]

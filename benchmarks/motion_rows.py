@@ -28,7 +28,8 @@ from anymesh.evaluation.datasets.named import open_dataset
 from anymesh.evaluation.ground_truth import EvalSample, TrueJoint
 from anymesh.evaluation.metrics import angle_error, distance_at, opening_side, opens_both_ways
 from anymesh.evaluation.protocols import prepared
-from anymesh.geometry.patches import ObjectShape, object_shape
+from anymesh.geometry.patches import ObjectShape
+from anymesh.segmentation.divide import object_shape
 from anymesh.types import JointType, Motion
 
 ANGLE, FAR = 5.0, 0.08  # [deg], and half the object's diagonal is 1: a motion that is further off is wrong

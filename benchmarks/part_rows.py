@@ -23,8 +23,8 @@ from anymesh.evaluation.changes import changed
 from anymesh.evaluation.datasets.named import open_dataset
 from anymesh.evaluation.ground_truth import EvalSample
 from anymesh.evaluation.protocols import prepared
-from anymesh.geometry.patches import object_shape
 from anymesh.segmentation.contacts import find_contacts
+from anymesh.segmentation.divide import object_shape
 from anymesh.segmentation.part_features import FeatureScene, part_context_of, part_features
 from anymesh.segmentation.part_tree import part_tree
 

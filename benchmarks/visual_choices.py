@@ -139,10 +139,6 @@ class WithChoices:
         return self._recorded.name
 
     @property
-    def needs_images(self) -> bool:
-        return self._recorded.needs_images
-
-    @property
     def warnings(self) -> tuple[str, ...]:
         return self._recorded.warnings
 

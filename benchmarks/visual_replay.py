@@ -22,8 +22,7 @@ from anymesh.vlm.reference import reference_of
 from anymesh.vlm.reference_answerer import ReferenceAnswerer
 from anymesh.vlm.replay import Replay
 from anymesh.vlm.reply_text import reply_object
-from anymesh.vlm.vision import Request
-from anymesh.vlm.vlm_answerer import SYSTEM, VlmAnswerer
+from anymesh.vlm.vlm_answerer import VlmAnswerer, request_of
 
 VARIANTS = ("as recorded", "--verify off", "one view", "geometry alone")
 ONE_VIEW = "1@15+30"
@@ -51,7 +50,6 @@ class Row:
 class Carried:
     """Answers as recorded; to a question that was not, as somebody would who holds the recorded result for the truth."""
 
-    needs_images = True
     warnings: tuple[str, ...] = ()
     exchanges: tuple[Exchange, ...] = ()
 
@@ -60,7 +58,7 @@ class Carried:
         self.calls = self.carried = 0
 
     def ask(self, question: Question[Answer]) -> Answer:
-        request = Request(question.kind, SYSTEM, question.text(), question.pictures, question.schema())
+        request = request_of(question)
         self.calls += 1
         try:
             return question.parse(reply_object(self._replay.ask(request).text, request.schema))

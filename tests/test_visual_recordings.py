@@ -16,10 +16,11 @@ from anymesh.evaluation.record import Record, record_text
 from anymesh.evaluation.score import JointScore, ObjectScore
 from anymesh.rendering.encode import encode
 from anymesh.types import JointType, Motion
-from anymesh.vlm.file_answerer import FileAnswerer, QuestionStore
+from anymesh.vlm.file_answerer import FileAnswerer
 from anymesh.vlm.motion_choice import MotionPick, MotionTable, PartFit, WhichMotions
 from anymesh.vlm.prompting import PartShown
 from anymesh.vlm.question_files import find_questions
+from anymesh.vlm.question_store import QuestionStore
 from anymesh.vlm.recognition import Recognize
 from anymesh.vlm.reference_answerer import ReferenceAnswerer
 from anymesh.vlm.replay import Replay

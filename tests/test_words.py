@@ -22,7 +22,8 @@ NAMES = frozenset(
         "instead MOST LEAST NEAR LITTLE MUCH LEVEL SLACK CARVED TOLD TURN SLIDE TURNS SLIDES HELD FOUND GRIP "
         "FRONT BODY LEAF TWINS INSTEAD core_box way_out ways_out held_by touches_ends is_body mesh_piece surroundings_of "
         "habit_of examine lever support Placed Recognized Segmented Jointed Completed Corrected Exported Studio Hidden "
-        "Units Piece Front Fronts Grip Look Looks Found Subject Truth Asked Grounded Motions Habit Exam"
+        "Units Piece Front Fronts Grip Look Looks Found Subject Truth Asked Grounded Motions Habit Exam "
+        "needs_images JointKind TypicalMotion"
     ).split()
 )
 # One adapter per engine or format, each private to its file.

@@ -5,59 +5,46 @@ from __future__ import annotations
 import re
 import unicodedata
 from dataclasses import dataclass
-from enum import StrEnum
 
-
-class TypicalMotion(StrEnum):
-    """Typical motion of a kind of part."""
-
-    HINGE = "hinge"
-    PRISMATIC = "slide"
-    SPIN = "spin"
-    TWO_PIVOT = "bail"
-    PRESS = "press"
-    LEVER = "lever"  # a hinge or a slide, decided by geometry
-    NONE = "none"  # fixed to its parent
+from anymesh.types.motion import JointType
 
 
 @dataclass(frozen=True)
 class Word:
     """A kind of part.
 
-    names: words that name it.
+    motion: its typical joint, None if only geometry can tell a hinge from a slide; names: words that name it.
     """
 
     label: str
-    motion: TypicalMotion
+    motion: JointType | None
     names: tuple[str, ...]
 
 
 WORDS = (
-    Word("door", TypicalMotion.HINGE, ("door", "tuer", "porte", "puerta", "porta", "hatch", "gate", "shutter")),
+    Word("door", JointType.REVOLUTE, ("door", "tuer", "porte", "puerta", "porta", "hatch", "gate", "shutter")),
     Word(
         "lid",
-        TypicalMotion.HINGE,
+        JointType.REVOLUTE,
         ("lid", "cover", "hood", "bonnet", "trunk", "tailgate", "cap", "deckel", "screen", "display"),
     ),
-    Word(
-        "flap", TypicalMotion.HINGE, ("flap", "aileron", "elevator", "rudder", "slat", "visor", "tilt", "airbrake", "spoiler")
-    ),
+    Word("flap", JointType.REVOLUTE, ("flap", "aileron", "elevator", "rudder", "slat", "visor", "tilt", "airbrake", "spoiler")),
     Word(
         "drawer",
-        TypicalMotion.PRISMATIC,
+        JointType.PRISMATIC,
         ("drawer", "schublade", "tiroir", "cajon", "tray", "rack", "basket", "bin", "crisper"),
     ),
-    Word("window", TypicalMotion.LEVER, ("window", "sash", "pane")),
+    Word("window", None, ("window", "sash", "pane")),
     Word(
         "slider",
-        TypicalMotion.PRISMATIC,
+        JointType.PRISMATIC,
         ("slider", "slide", "sliding", "rail", "carriage", "piston", "plunger", "bolt", "magazine"),
     ),
-    Word("button", TypicalMotion.PRESS, ("button", "key", "keycap", "trigger", "push")),
-    Word("knob", TypicalMotion.SPIN, ("knob", "dial", "valve", "tap", "chuck", "control")),
+    Word("button", JointType.PRISMATIC, ("button", "key", "keycap", "trigger", "push")),
+    Word("knob", JointType.CONTINUOUS, ("knob", "dial", "valve", "tap", "chuck", "control")),
     Word(
         "wheel",
-        TypicalMotion.SPIN,
+        JointType.CONTINUOUS,
         (
             "wheel",
             "tire",
@@ -78,10 +65,10 @@ WORDS = (
             "spinner",
         ),
     ),
-    Word("bail", TypicalMotion.TWO_PIVOT, ("bail", "swing")),
-    Word("lever", TypicalMotion.LEVER, ("lever", "switch", "pedal", "arm", "toggle", "latch", "joystick", "stick", "brake")),
-    Word("handle", TypicalMotion.LEVER, ("handle", "grip", "griff", "poignee")),
-    Word("seat", TypicalMotion.LEVER, ("seat", "backrest", "recliner")),
+    Word("bail", JointType.REVOLUTE, ("bail", "swing")),
+    Word("lever", None, ("lever", "switch", "pedal", "arm", "toggle", "latch", "joystick", "stick", "brake")),
+    Word("handle", None, ("handle", "grip", "griff", "poignee")),
+    Word("seat", None, ("seat", "backrest", "recliner")),
 )
 FIXED = frozenset(
     "base body frame corpus housing case carcass chassis shell panel board wall side back top bottom floor shelf shelves leg "
@@ -132,7 +119,7 @@ def _telling(name: str) -> str:
     return next((word for word in reversed(told) if word not in PLACES), told[-1] if told else "")
 
 
-def typical_motion(label: str) -> TypicalMotion | None:
-    """Return the typical motion of a label, None if it is unknown."""
+def typical_motion(label: str) -> JointType | None:
+    """Return the typical joint of a label, None if the label is unknown or has no typical one."""
     word = recognize(label)
     return None if word is None else word.motion

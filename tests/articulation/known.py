@@ -13,8 +13,9 @@ from scenes import Scene, built, case, door, drawer, lid, slider, wheel
 from anymesh.articulation.cases import PartCase, make_cases
 from anymesh.articulation.prompted import Questions, prompt_joints
 from anymesh.config import Config, PromptConfig, ViewsConfig
-from anymesh.geometry.patches import ObjectShape, object_shape
+from anymesh.geometry.patches import ObjectShape
 from anymesh.rendering.visual_prompts import VisualPrompts
+from anymesh.segmentation.divide import object_shape
 from anymesh.types import Exchange, Joint, JointType, KnownJoint, Mesh, Segmentation
 from anymesh.vlm.asking import VisualAnswerer
 from anymesh.vlm.reference import Reference
@@ -93,12 +94,10 @@ def knowing(mesh: Mesh, segmentation: Segmentation, joints: tuple[KnownJoint, ..
 class Watched:
     """Wrapper that records the questions to another answerer.
 
-    changed: functions that replace its answers, by the kind of question; needs_images: True draws the pictures that a model
-    would see.
+    changed: functions that replace its answers, by the kind of question.
     """
 
     seer: VisualAnswerer
-    needs_images: bool = False
     changed: dict[str, Callable[[Any], Any]] = field(default_factory=dict)
     asked: list[Any] = field(default_factory=list)
     name: str = "watched"

@@ -18,7 +18,7 @@ from anymesh.rendering.visual_prompts import VisualPrompts
 from anymesh.types import JointType, Part, Segmentation
 from anymesh.types.recognition import Recognition, RecognizedLabel
 from anymesh.vlm.motion_choice import MotionPick, PartFit
-from anymesh.vlm.prompting import JointKind, KindAnswer
+from anymesh.vlm.prompting import JointAppearance, KindAnswer
 
 LEFT = KNOWN["left"]
 X, Y, Z = np.eye(3)
@@ -83,7 +83,7 @@ def test_answers_that_contradict_each_other_are_a_warning_and_lower_the_confiden
 
 
 def test_what_is_recognized_as_moving_is_not_fixed_by_one_answer() -> None:
-    fixed = {"kinds": lambda q: (KindAnswer(JointKind.FIXED),)}
+    fixed = {"kinds": lambda q: (KindAnswer(JointAppearance.FIXED),)}
     found, seer = asked(LEFT.scene, recognition(DOOR), "door", **fixed)
     assert [q.kind for q in seer.asked] == ["kinds", "motions"]
     assert found.joints[0].type is JointType.REVOLUTE
@@ -138,7 +138,7 @@ def test_the_papers_method_takes_the_planes_normal_and_the_free_one_what_is_held
 
 
 def test_the_papers_method_offers_clusters_alone_for_an_axis_into_the_surface() -> None:
-    into = {"kinds": lambda q: (KindAnswer(JointKind.HINGE_INTO),)}
+    into = {"kinds": lambda q: (KindAnswer(JointAppearance.HINGE_INTO),)}
     tables = {}
     for verify in ("off", "free"):
         _, seer = prompted(wheel(), (KNOWN["wheel"].joint,), verify=verify, changed=into)
@@ -151,7 +151,7 @@ def test_the_papers_method_offers_clusters_alone_for_an_axis_into_the_surface() 
 def test_only_points_that_are_drawn_are_listed_and_hidden_ones_are_told() -> None:
     knob = box((0.2, -0.05, 0.2), (0.4, -0.001, 0.4))
     scene = {"base": [box((0, 0, 0), (0.6, 0.4, 0.6))], "knob": [knob]}
-    _, seer = prompted(scene, (KNOWN["left"].joint,), changed={"kinds": lambda q: (KindAnswer(JointKind.HINGE_INTO),)})
+    _, seer = prompted(scene, (KNOWN["left"].joint,), changed={"kinds": lambda q: (KindAnswer(JointAppearance.HINGE_INTO),)})
     (table,) = seer.asked[1].tables
     assert table.hidden is not None
     assert len(table.hidden) == len(table.points)
@@ -176,7 +176,7 @@ def test_each_axis_goes_with_the_point_where_it_comes_out() -> None:
     """On a blade with two round pins, the hinge runs through the pin whose point is picked."""
     pins = [prism(0.02, (-0.03, -0.001), x, 0.3) for x in (0.1, 0.5)]
     scene = {"base": [box((0, 0, 0), (0.6, 0.4, 0.6))], "blade": [box((0.05, -0.02, 0.25), (0.55, -0.001, 0.35)), *pins]}
-    into = {"kinds": lambda q: (KindAnswer(JointKind.HINGE_INTO),)}
+    into = {"kinds": lambda q: (KindAnswer(JointAppearance.HINGE_INTO),)}
     for pick in range(3):
         (found,), seer = prompted(scene, (LEFT.joint,), verify="free", changed={**into, "points": lambda q, k=pick: ((k,),)})
         (table,) = seer.asked[1].tables

@@ -12,7 +12,7 @@ from scenes import Scene, door, drawer
 from anymesh.articulation.evidence import hypotheses
 from anymesh.articulation.limits import answered_range, ends_near, limits, opening_as_answered, opening_motion
 from anymesh.articulation.motion_question import Candidate
-from anymesh.geometry.part_context import PartContext
+from anymesh.motion.part_context import PartContext
 from anymesh.types import JointType, Motion
 from anymesh.types.recognition import RecognizedLabel
 

@@ -8,10 +8,11 @@ from assets import box
 from scenes import Scene, built, case, door, drawer, lid, prism, similarity, wheel
 
 from anymesh.articulation.cases import make_cases
-from anymesh.articulation.evidence import hypotheses, part_facts
+from anymesh.articulation.evidence import hypotheses
 from anymesh.articulation.motion_features import MISSING, motion_features
+from anymesh.articulation.part_facts import part_facts
 from anymesh.config import Config
-from anymesh.geometry.patches import object_shape
+from anymesh.segmentation.divide import object_shape
 from anymesh.types import JointType, Motion
 
 X, Y, Z = np.eye(3)

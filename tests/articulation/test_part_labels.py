@@ -8,7 +8,7 @@ from anymesh.articulation.estimate import choose_motion, motion_questions
 from anymesh.articulation.geometry_answerer import GeometryAnswerer
 from anymesh.articulation.part_labels import label_of
 from anymesh.config import Config
-from anymesh.geometry.patches import object_shape
+from anymesh.segmentation.divide import object_shape
 from anymesh.types import Part, Segmentation
 
 

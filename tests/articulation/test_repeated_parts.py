@@ -9,7 +9,7 @@ from scenes import Piece, Scene, built, case, door, drawer, joints_of, prism
 
 from anymesh.articulation import estimate
 from anymesh.config import Config
-from anymesh.geometry.patches import object_shape
+from anymesh.segmentation.divide import object_shape
 from anymesh.types import JointType
 
 

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from scenes import Scene, built, door, drawer, joints_of
 
 from anymesh.articulation.tree import descendants, parents
-from anymesh.geometry.patches import object_shape
+from anymesh.segmentation.divide import object_shape
 
 
 def test_a_grip_hangs_on_its_door_and_the_door_on_the_case() -> None:

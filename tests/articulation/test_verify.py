@@ -26,7 +26,7 @@ from anymesh.articulation.offers import (
 )
 from anymesh.articulation.own_axes import CENTRAL
 from anymesh.types import JointType, Motion
-from anymesh.vlm.prompting import JointKind, KindAnswer
+from anymesh.vlm.prompting import JointAppearance, KindAnswer
 
 X, Y, Z = np.eye(3)
 MOST = 7
@@ -47,11 +47,13 @@ def candidates_of(name: str, asked: Motion | None = None) -> list[Candidate]:
 
 
 @cache
-def offers(name: str, asked: Motion | None = None, kind: JointKind = JointKind.HINGE_ALONG, most: int = MOST) -> MotionOffers:
+def offers(
+    name: str, asked: Motion | None = None, kind: JointAppearance = JointAppearance.HINGE_ALONG, most: int = MOST
+) -> MotionOffers:
     return make_offers(replace(case_of(name), asked=asked, answer=KindAnswer(kind)), most, 0)
 
 
-def shown(name: str, asked: Motion | None, kind: JointKind, most: int = MOST) -> list[Candidate]:
+def shown(name: str, asked: Motion | None, kind: JointAppearance, most: int = MOST) -> list[Candidate]:
     """Return the motions of the first picture, likeliest first."""
     found = offers(name, asked, kind, most)
     return [found.motions[k] for k in sorted(found.first)]
@@ -94,9 +96,9 @@ def test_what_is_blocked_is_shown_only_where_it_was_answered_or_is_an_axis_of_th
         assert found.table(page).blocked == tuple(not found.motions[k].is_free for k in page)
 
 
-@pytest.mark.parametrize("kind", JointKind)
+@pytest.mark.parametrize("kind", JointAppearance)
 @pytest.mark.parametrize("name", NAMES)
-def test_the_true_motion_is_among_them_whatever_was_answered(name: str, kind: JointKind) -> None:
+def test_the_true_motion_is_among_them_whatever_was_answered(name: str, kind: JointAppearance) -> None:
     true = KNOWN[name].joint.opening_motion
     assert any(c.motion.kind is true.kind and abs(c.motion.axis @ true.axis) > 0.999 for c in shown(name, None, kind))
 
@@ -106,7 +108,7 @@ def test_lines_that_nobody_can_tell_apart_are_one_however_far_each_is_free(off: 
     """The hinges are about a centimetre beside the door's own, one of them inside the case and soon blocked."""
     asked = turn(Z, (0.002 + off[0], -0.012 + off[1], 0))
     found = offers("left", asked)
-    along = [c for c in shown("left", asked, JointKind.HINGE_ALONG) if abs(c.motion.axis @ Z) > 0.99 and c.is_free]
+    along = [c for c in shown("left", asked, JointAppearance.HINGE_ALONG) if abs(c.motion.axis @ Z) > 0.99 and c.is_free]
     at_left = [c for c in along if c.motion.origin[0] < 0.1]
     assert 1 <= len(at_left) <= MAX_SIMILAR
     assert found.answered is not None
@@ -130,10 +132,10 @@ UP = Motion(JointType.PRISMATIC, Z, np.zeros(3), "picked")
 
 @pytest.mark.parametrize(
     ("name", "asked", "kind"),
-    [("left", THROUGH, JointKind.HINGE_ALONG), ("slider", UP, JointKind.SLIDE_ALONG)],
+    [("left", THROUGH, JointAppearance.HINGE_ALONG), ("slider", UP, JointAppearance.SLIDE_ALONG)],
     ids=["an axis that runs through the walls", "a slide into the rails"],
 )
-def test_an_answer_that_is_blocked_is_shown_and_marked_so(name: str, asked: Motion, kind: JointKind) -> None:
+def test_an_answer_that_is_blocked_is_shown_and_marked_so(name: str, asked: Motion, kind: JointAppearance) -> None:
     first = candidates_of(name, asked)[0]
     assert (first.role, first.motion) == ("asked", asked)
     assert not first.is_free
@@ -148,7 +150,7 @@ def test_an_answer_that_is_blocked_is_shown_and_marked_so(name: str, asked: Moti
 @pytest.mark.parametrize("name", ["wheel", "left"])
 def test_the_middle_lines_of_what_turns_into_the_surface_are_in_the_first_picture(name: str) -> None:
     around = case_of(name).around
-    found = [c for c in shown(name, None, JointKind.HINGE_INTO) if c.role in CENTRAL]
+    found = [c for c in shown(name, None, JointAppearance.HINGE_INTO) if c.role in CENTRAL]
     through = [c for c in found if np.linalg.norm(np.cross(around.body_obb.center - c.motion.origin, c.motion.axis)) < 0.02]
     assert len(through) >= 1
     assert any(abs(c.motion.axis @ around.opening_direction) > 0.99 for c in found)
@@ -159,14 +161,14 @@ def test_the_axis_of_a_pin_on_a_part_that_is_not_round_is_offered() -> None:
     blade = box((0.05, -0.02, 0.05), (0.9, -0.001, 0.15))
     case = the_case({"base": [box((0, 0, 0), (1, 0.2, 0.3)), pin], "blade": [blade]})
     assert [c.source for c in case.circles] == ["axis of a round piece"]
-    found = make_offers(replace(case, answer=KindAnswer(JointKind.HINGE_INTO)), MOST, 0)
+    found = make_offers(replace(case, answer=KindAnswer(JointAppearance.HINGE_INTO)), MOST, 0)
     motions = [found.motions[k] for k in found.first]
     assert any(abs(c.motion.axis @ Y) > 0.999 and abs(c.motion.origin[0] - 0.1) < 0.002 for c in motions)
 
 
 @pytest.mark.slow
 def test_the_order_in_the_picture_follows_the_seed_and_not_the_likelihood() -> None:
-    case = replace(case_of("left"), answer=KindAnswer(JointKind.HINGE_ALONG))
+    case = replace(case_of("left"), answer=KindAnswer(JointAppearance.HINGE_ALONG))
     orders = [make_offers(case, MOST, seed).first for seed in range(8)]
     assert orders[0] == make_offers(case, MOST, 0).first
     assert len({order[0] for order in orders}) > 2  # the likeliest motion is not always number 1
@@ -175,7 +177,7 @@ def test_the_order_in_the_picture_follows_the_seed_and_not_the_likelihood() -> N
 
 def test_a_motion_that_may_go_either_way_is_offered_both_ways() -> None:
     case = the_case({"base": [box((0, 0, 0), (1, 1, 0.1))], "flap": [box((0, 0.48, 0.101), (1, 0.52, 0.6))]})
-    found = make_offers(replace(case, answer=KindAnswer(JointKind.HINGE_ALONG)), MOST, 0)
+    found = make_offers(replace(case, answer=KindAnswer(JointAppearance.HINGE_ALONG)), MOST, 0)
     hinges = [c for c in found.motions if abs(c.motion.axis @ X) > 0.9 and c.motion.origin[2] < 0.15]
     assert {c.opening_sign for c in hinges} == {-1, 1}
 
@@ -188,7 +190,7 @@ def test_a_slide_that_is_blocked_one_way_opens_the_other_way() -> None:
 
 def test_a_hinge_on_the_side_of_the_grip_comes_behind_the_other_side() -> None:
     assert candidates_of("left", GRIP_SIDE)[0].is_free
-    found = shown("left", GRIP_SIDE, JointKind.HINGE_ALONG)
+    found = shown("left", GRIP_SIDE, JointAppearance.HINGE_ALONG)
     upright = [c.motion.origin[0] for c in found if c.motion.kind is JointType.REVOLUTE and c.vertical > 0.9]
     assert upright[0] == pytest.approx(0.6, abs=0.03)  # away from the handle
     assert min(upright) < 0.02  # the answered motion can still be chosen
@@ -198,23 +200,23 @@ def test_a_hinge_on_the_side_of_the_grip_comes_behind_the_other_side() -> None:
 @pytest.mark.parametrize("asked", [GRIP_SIDE, FAR_SIDE, BEYOND, BELOW], ids=["grip", "far", "beyond", "below"])
 def test_a_free_answer_or_one_that_looks_like_it_stays_among_them(asked: Motion, most: int) -> None:
     first = candidates_of("left", asked)[0]
-    found = shown("left", asked, JointKind.SLIDE_OUT, most)  # as if the answer contradicted its own kind
+    found = shown("left", asked, JointAppearance.SLIDE_OUT, most)  # as if the answer contradicted its own kind
     assert first.is_free
     assert len(found) <= most
     assert any(apart(first, c, case_of("left")) <= 1.3 for c in found)
 
 
 def test_an_answer_that_repeats_a_line_of_the_part_takes_its_place_from_no_other() -> None:
-    without = shown("left", None, JointKind.HINGE_ALONG)
-    repeated = shown("left", without[0].motion, JointKind.HINGE_ALONG)
+    without = shown("left", None, JointAppearance.HINGE_ALONG)
+    repeated = shown("left", without[0].motion, JointAppearance.HINGE_ALONG)
     assert [c.motion.source for c in repeated] == [c.motion.source for c in without]
 
 
 def test_what_was_answered_speaks_for_motions_of_its_kind() -> None:
-    turns = {kind for kind in JointKind if kind.is_rotation}
+    turns = {kind for kind in JointAppearance if kind.is_rotation}
     for c in candidates_of("drawer"):
-        kinds = {kind for kind in JointKind if kind is not JointKind.FIXED and fits(c, kind)}
-        slides = {JointKind.SLIDE_OUT if abs(c.motion.axis @ Y) > 0.7 else JointKind.SLIDE_ALONG}
+        kinds = {kind for kind in JointAppearance if kind is not JointAppearance.FIXED and fits(c, kind)}
+        slides = {JointAppearance.SLIDE_OUT if abs(c.motion.axis @ Y) > 0.7 else JointAppearance.SLIDE_ALONG}
         assert kinds == (turns if c.motion.kind is JointType.REVOLUTE else slides)
 
 
@@ -226,7 +228,7 @@ def test_pictures_show_as_much_of_a_motion_as_is_free_and_no_more_than_is_clear(
 
 def test_a_button_is_shown_pressed() -> None:
     case = the_case({"base": [box((0, 0, 0), (0.6, 0.4, 0.3))], "key": [box((0.29, -0.006, 0.14), (0.31, 0.001, 0.16))]})
-    found = make_offers(replace(case, answer=KindAnswer(JointKind.SLIDE_OUT)), MOST, 0)
+    found = make_offers(replace(case, answer=KindAnswer(JointAppearance.SLIDE_OUT)), MOST, 0)
     into = next(c for c in found.motions if c.motion.kind is JointType.PRISMATIC and c.outward < -0.9)
     table = found.table((found.motions.index(into),))
     goes = table.motions[0].transform(table.amounts[0])[:3, 3]

@@ -14,7 +14,7 @@ from anymesh.types import Joint, JointType, KnownJoint, Motion, Part
 from anymesh.vlm.asking import VisualAnswerer
 from anymesh.vlm.grounding import WhichMarks
 from anymesh.vlm.motion_choice import MotionTable, WhichMotions
-from anymesh.vlm.prompting import ArrowTable, JointKind, PartShown, PointTable, WhichArrows, WhichKinds, WhichPoints
+from anymesh.vlm.prompting import ArrowTable, JointAppearance, PartShown, PointTable, WhichArrows, WhichKinds, WhichPoints
 from anymesh.vlm.reference import Reference
 from anymesh.vlm.reference_answerer import ReferenceAnswerer
 
@@ -74,11 +74,11 @@ def test_a_part_without_a_word_for_it_is_named_by_its_motion() -> None:
 def test_the_oracle_knows_the_truth() -> None:
     seer = oracle(sample(TURNED))
     assert isinstance(seer, VisualAnswerer)
-    assert (seer.name, seer.needs_images) == ("oracle", False)
+    assert seer.name == "oracle"
     faces = np.flatnonzero(ASSET.segmentation.face_part == 2)
     shown = PartShown("part", faces, ASSET.mesh.triangles[faces].reshape(-1, 3), -Y, Y, np.zeros((1, 3)))
     (kind,) = seer.ask(WhichKinds((), (shown,)))
-    assert kind.kind is JointKind.SLIDE_OUT
+    assert kind.kind is JointAppearance.SLIDE_OUT
 
 
 # One door of a hundred faces with a hinge along z: what is asked, and what is right, is plain.
@@ -96,7 +96,9 @@ QUESTIONS = {
     "marks": WhichMarks((), ("door",), True, VIEWS, HALF),
     "marks of each view": WhichMarks((), ("door",), False, VIEWS, HALF),
     "kinds": WhichKinds((), (DOOR, DOOR)),
-    "points": WhichPoints((), tuple(PointTable(DOOR, CORNERS, kind) for kind in (JointKind.HINGE_ALONG, JointKind.HINGE_INTO))),
+    "points": WhichPoints(
+        (), tuple(PointTable(DOOR, CORNERS, kind) for kind in (JointAppearance.HINGE_ALONG, JointAppearance.HINGE_INTO))
+    ),
     "arrows": WhichArrows((), (ArrowTable(DOOR, np.stack([X, -X, Z, -Z])),)),
     "motions": WhichMotions((), (MotionTable(DOOR, TURNS, (1.0,) * 3), MotionTable(DOOR, TURNS[:1], (1.0,)))),
 }

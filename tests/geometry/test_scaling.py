@@ -10,9 +10,9 @@ from assets import box, mesh_of
 from anymesh.config import PiecesConfig
 from anymesh.geometry.boxes import box_pairs
 from anymesh.geometry.distance_ import TriangleTree, distance_to_mesh
-from anymesh.geometry.patches import object_shape
 from anymesh.geometry.simplify_ import FEWEST, simplify
 from anymesh.geometry.triangle_set import mesh_surface
+from anymesh.segmentation.divide import object_shape
 
 
 @pytest.mark.parametrize("stretch", [(1, 1, 1), (0, 1, 1), (1, 0, 0)])

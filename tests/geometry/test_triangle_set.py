@@ -7,8 +7,8 @@ from assets import box, mesh_of
 from rigid import apply, move, shape_of
 
 from anymesh.config import PiecesConfig
-from anymesh.geometry.patches import object_shape
 from anymesh.geometry.triangle_set import TriangleSet, mesh_surface
+from anymesh.segmentation.divide import object_shape
 from anymesh.types.triangles import normals_and_areas
 
 

@@ -14,7 +14,7 @@ MESH, _ = mesh_of([box((0, 0, 0), (1, 1, 0.5))])
 class Sees:
     """Answers that the object is a box of some length."""
 
-    name, needs_images, exchanges, warnings = "sees", False, (), ()
+    name, exchanges, warnings = "sees", (), ()
 
     def __init__(self, size: float) -> None:
         self.size = size

@@ -7,9 +7,9 @@ import numpy as np
 from assets import box, mesh_of
 
 from anymesh.config import GroundingConfig
-from anymesh.geometry.patches import object_shape
 from anymesh.rendering.render import render
 from anymesh.segmentation.cloud import Cloud, sample_cloud, sight, visible
+from anymesh.segmentation.divide import object_shape
 from anymesh.types import Material, Mesh, Texture
 from anymesh.types.camera import Camera
 

@@ -6,10 +6,10 @@ from assets import box, mesh_of
 
 from anymesh.config import Config, SegmentationConfig
 from anymesh.errors import OptionError
-from anymesh.geometry.patches import object_shape
 from anymesh.pipeline.solving import Solver
 from anymesh.segmentation import segment
 from anymesh.segmentation.contacts import coplanar, find_contacts
+from anymesh.segmentation.divide import object_shape
 from anymesh.segmentation.part_assignment import MIN_SCORE
 from anymesh.segmentation.part_tree import Overlap, PartTree
 from anymesh.segmentation.rigid_groups import RigidGroups, with_supported

@@ -10,10 +10,10 @@ from assets import box, mesh_of
 from anymesh.config import GroundingConfig
 from anymesh.evaluation.ground_truth import GroundTruth, example_truths
 from anymesh.evaluation.matching import match_parts, part_ious
-from anymesh.geometry.patches import object_shape
 from anymesh.loading import load_mesh, place_mesh
 from anymesh.rendering.render import View, render
 from anymesh.segmentation.cloud import Cloud, sample_cloud
+from anymesh.segmentation.divide import object_shape
 from anymesh.segmentation.em import refine_instances
 from anymesh.segmentation.faces import face_parts, mark_parts, point_parts
 from anymesh.segmentation.fuse import Instances, Mask, count_points, fuse_masks

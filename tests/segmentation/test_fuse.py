@@ -6,9 +6,9 @@ from assets import box, mesh_of
 from rows import counts_of, row_cloud
 
 from anymesh.config import GroundingConfig
-from anymesh.geometry.patches import object_shape
 from anymesh.rendering.render import render
 from anymesh.segmentation.cloud import sample_cloud
+from anymesh.segmentation.divide import object_shape
 from anymesh.segmentation.fuse import Instances, Mask, count_points, fuse_masks, label_superpoints, marked_masks
 from anymesh.segmentation.propose import Proposal
 from anymesh.types.camera import Camera

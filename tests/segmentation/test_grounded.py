@@ -104,7 +104,7 @@ def test_marks_take_one_question_whose_captions_name_sides_by_the_recognized_fro
     asked = []
 
     class Watched:
-        name, needs_images, exchanges, warnings = "watched", True, (), ()
+        name, exchanges, warnings = "watched", (), ()
         knowing = oracle(prepared(truth))
 
         def ask(self, question):
@@ -122,7 +122,7 @@ def test_marks_take_one_question_whose_captions_name_sides_by_the_recognized_fro
     captions = [p.caption.partition(": ")[2] for p in asked[1].pictures]
     sides = {"from the left, 15 degrees up": 0.0, "from the front, 15 degrees up": 90.0, "from the back, 15 degrees up": 270.0}
     seen = dict(zip(captions, asked[1].faces, strict=True))
-    views = dict(zip([azimuth for azimuth, _ in VIEWS.directions], solver._visual_prompts.views, strict=False))
+    views = dict(zip([azimuth for azimuth, _ in VIEWS.directions], solver.answers.visual_prompts.views, strict=False))
     assert all("turned" not in caption for caption in captions)
     assert any((seen[side] == views[azimuth].face).all() for side, azimuth in sides.items() if side in seen)
     (part,) = found.segmentation.parts[1:]
@@ -144,7 +144,7 @@ def test_where_nothing_moves_nothing_is_asked() -> None:
     placed = place_mesh(load_mesh(TRUTHS["table"].mesh))
 
     class Silent:
-        name, needs_images, exchanges, warnings = "silent", False, (), ()
+        name, exchanges, warnings = "silent", (), ()
 
         def ask(self, question):
             raise AssertionError(f"asked {question.kind}")

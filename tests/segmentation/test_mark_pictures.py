@@ -62,7 +62,7 @@ def test_a_keyboard_is_shown_in_close_ups_with_every_key() -> None:
 class Points:
     """Answers that every mark but the first is a separate key, and asks to split given marks."""
 
-    name, needs_images, exchanges, warnings = "points", False, (), ()
+    name, exchanges, warnings = "points", (), ()
 
     def __init__(self, split: tuple[int, ...] = ()) -> None:
         self.asked: list[WhichMarks] = []
@@ -111,8 +111,6 @@ def test_views_of_masks_are_numbered_as_the_pictures_are() -> None:
     studio, asked = studio_of(mesh), []
 
     class Two(Points):
-        needs_images = True
-
         def ask(self, question):
             asked.append(question)
             if isinstance(question, WhichViews):

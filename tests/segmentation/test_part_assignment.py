@@ -7,8 +7,8 @@ import pytest
 from assets import box, mesh_of
 
 from anymesh.config import Config, SegmentationConfig
-from anymesh.geometry.patches import object_shape
 from anymesh.segmentation.contacts import find_contacts
+from anymesh.segmentation.divide import object_shape
 from anymesh.segmentation.part_assignment import MIN_SCORE, assign_parts, conflicts, join_floating
 from anymesh.segmentation.part_tree import Overlap
 

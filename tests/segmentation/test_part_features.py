@@ -5,8 +5,8 @@ import pytest
 from assets import box, mesh_of
 
 from anymesh.config import Config
-from anymesh.geometry.patches import object_shape
 from anymesh.segmentation.contacts import find_contacts
+from anymesh.segmentation.divide import object_shape
 from anymesh.segmentation.part_features import FeatureScene, part_context_of, part_features
 from anymesh.segmentation.part_tree import part_tree
 from anymesh.types import Mesh

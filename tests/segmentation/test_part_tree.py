@@ -4,8 +4,8 @@ import numpy as np
 from assets import box, mesh_of
 
 from anymesh.config import SegmentationConfig
-from anymesh.geometry.patches import object_shape
 from anymesh.segmentation.contacts import find_contacts
+from anymesh.segmentation.divide import object_shape
 from anymesh.segmentation.part_tree import PartTree, part_tree
 
 BODY = box((0, 0.05, 0), (1, 0.5, 1))

@@ -8,11 +8,11 @@ import trimesh
 from assets import box, mesh_of
 
 from anymesh.config import GroundingConfig, ViewsConfig
-from anymesh.geometry.patches import object_shape
 from anymesh.rendering.render import render
 from anymesh.segmentation import regions
 from anymesh.segmentation.close_ups import close_ups
 from anymesh.segmentation.cloud import sample_cloud
+from anymesh.segmentation.divide import object_shape
 from anymesh.segmentation.regions import face_regions, number_regions, split_marks
 from anymesh.types import Material, Mesh
 from anymesh.types.camera import Camera

@@ -25,7 +25,7 @@ QUICK = Config(views=ViewsConfig(around="4@15+30,1@50+30", size=240), grounding=
 class Scripted:
     """Answers from the truth, except for the first answer about marks, and reports once which part is wrong."""
 
-    name, needs_images, exchanges, warnings = "scripted", False, (), ()
+    name, exchanges, warnings = "scripted", (), ()
 
     def __init__(self, reference: Reference, fit: PartFit) -> None:
         self.knows, self.fit, self.asked = ReferenceAnswerer("truth", lambda: reference), fit, []

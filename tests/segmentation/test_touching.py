@@ -7,8 +7,8 @@ from scipy.spatial.distance import cdist
 
 from anymesh.config import SegmentationConfig
 from anymesh.geometry.contact import connecting_area
-from anymesh.geometry.patches import object_shape
 from anymesh.segmentation.contacts import Contacts, find_contacts, hanging_on
+from anymesh.segmentation.divide import object_shape
 
 BLOCK = box((0, 0, 0), (1, 1, 1))
 

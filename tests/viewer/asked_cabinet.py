@@ -10,7 +10,7 @@ from assets import cabinet, checker
 from anymesh.types import JointType, Motion, Picture
 from anymesh.vlm.grounding import WhichMarks
 from anymesh.vlm.motion_choice import MotionTable, WhichMotions
-from anymesh.vlm.prompting import ArrowTable, JointKind, PartShown, PointTable, WhichArrows, WhichKinds, WhichPoints
+from anymesh.vlm.prompting import ArrowTable, JointAppearance, PartShown, PointTable, WhichArrows, WhichKinds, WhichPoints
 from anymesh.vlm.recognition import Recognize
 
 ASSET = cabinet()
@@ -36,7 +36,7 @@ def marks(**changes: Any) -> WhichMarks:
 def points(scale: float = 1.0) -> WhichPoints:
     line = np.array([[0.6, 0, 0.05], [0.6, 0, 0.3], [0.6, 0, 0.55], [0.0, 0, 0.3]])
     hidden = np.array([False, True, False, False])
-    return WhichPoints((PICTURE,), (PointTable(part(1, scale), scale * line, JointKind.HINGE_ALONG, None, hidden),))
+    return WhichPoints((PICTURE,), (PointTable(part(1, scale), scale * line, JointAppearance.HINGE_ALONG, None, hidden),))
 
 
 def motions(scale: float = 1.0) -> WhichMotions:

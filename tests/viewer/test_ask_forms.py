@@ -27,7 +27,7 @@ from anymesh.viewer.open_question import SUGGESTED, WAITING, OpenQuestion, find_
 from anymesh.viewer.scene import color_of
 from anymesh.vlm.answer_json import answer_object
 from anymesh.vlm.asking import BadAnswerError
-from anymesh.vlm.question_files import QuestionStore
+from anymesh.vlm.question_store import QuestionStore
 from anymesh.vlm.saved_question import pack_question
 from anymesh.vlm.vision import Request
 

@@ -17,7 +17,7 @@ from anymesh.correcting import CorrectionError, FlipSign
 from anymesh.errors import OptionError
 from anymesh.viewer import bench_
 from anymesh.viewer.live_serve_ import serve
-from anymesh.vlm.question_files import QuestionStore
+from anymesh.vlm.question_store import QuestionStore
 from anymesh.vlm.saved_question import pack_question
 from anymesh.vlm.vision import Request
 

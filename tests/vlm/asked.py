@@ -14,7 +14,16 @@ from anymesh.types.recognition import Recognition, RecognizedLabel
 from anymesh.vlm.asking import Question
 from anymesh.vlm.grounding import MarkedPart, MarksAnswer, WhichMarks, WhichViews
 from anymesh.vlm.motion_choice import MotionPick, MotionTable, WhichMotions
-from anymesh.vlm.prompting import ArrowTable, JointKind, KindAnswer, PartShown, PointTable, WhichArrows, WhichKinds, WhichPoints
+from anymesh.vlm.prompting import (
+    ArrowTable,
+    JointAppearance,
+    KindAnswer,
+    PartShown,
+    PointTable,
+    WhichArrows,
+    WhichKinds,
+    WhichPoints,
+)
 from anymesh.vlm.recognition import Recognize
 
 X, Y, Z = np.eye(3)
@@ -39,7 +48,7 @@ def part(label: str = "door", faces: range = range(2), **changes: Any) -> PartSh
     return PartShown(label, **(facts | changes))
 
 
-def table(kind: JointKind, count: int) -> PointTable:
+def table(kind: JointAppearance, count: int) -> PointTable:
     return PointTable(part(), np.arange(3.0 * count).reshape(count, 3), kind)
 
 
@@ -106,10 +115,10 @@ ASKED = {
             {"part": 2, "joint": "slide_in_or_out", "endless": True},  # a slide has no endless rotation
             {"part": 1, "joint": "hinge_into_surface", "endless": True},
         ),
-        (KindAnswer(JointKind.HINGE_INTO, True), KindAnswer(JointKind.SLIDE_OUT, False)),
+        (KindAnswer(JointAppearance.HINGE_INTO, True), KindAnswer(JointAppearance.SLIDE_OUT, False)),
     ),
     "points": Asked(
-        WhichPoints((PICTURE,) * 3, tuple(table(kind, 4) for kind in JointKind if kind.is_rotation)),
+        WhichPoints((PICTURE,) * 3, tuple(table(kind, 4) for kind in JointAppearance if kind.is_rotation)),
         parts({"part": 3, "points": [2]}, {"part": 1, "points": [4, 1, 4]}, {"part": 2, "points": [3]}),
         ((3, 0), (2,), (1,)),
     ),

@@ -13,7 +13,8 @@ from wire import ANTHROPIC, SECRET, a_request
 from anymesh.cli import run
 from anymesh.errors import BudgetError, ModelError, OptionError
 from anymesh.vlm.batch_api import answer_by_batch
-from anymesh.vlm.question_files import QuestionStore, find_questions
+from anymesh.vlm.question_files import find_questions
+from anymesh.vlm.question_store import QuestionStore
 
 pytest.importorskip("pydantic_ai")
 MODEL = "anthropic:claude-sonnet-4-5"

@@ -14,7 +14,7 @@ from anymesh.errors import OptionError
 from anymesh.types.recognition import RecognizedLabel
 from anymesh.vlm.asking import BadAnswerError, VisualAnswerer, check_schema
 from anymesh.vlm.grounding import MarkedPart, MarksAnswer, WhichMarks, WhichViews
-from anymesh.vlm.prompting import JointKind, WhichPoints
+from anymesh.vlm.prompting import JointAppearance, WhichPoints
 from anymesh.vlm.recognition import parse_labels, recognize
 
 
@@ -78,13 +78,13 @@ def test_a_part_that_is_given_in_two_pieces_is_one() -> None:
 
 
 def test_one_candidate_point_is_enough_where_there_is_no_other() -> None:
-    question = WhichPoints((), (table(JointKind.HINGE_ALONG, 1),))
+    question = WhichPoints((), (table(JointAppearance.HINGE_ALONG, 1),))
     assert question.parse(picks("points", [1])) == ((0,),)
 
 
 def test_labels_that_a_user_told_are_not_asked_for() -> None:
     class Nobody:
-        name, needs_images = "unused", True
+        name = "unused"
         exchanges = warnings = ()
 
         def ask(self, question):

@@ -13,7 +13,16 @@ from anymesh.vlm.answer_json import answer_object
 from anymesh.vlm.asking import Question, VisualAnswerer
 from anymesh.vlm.grounding import MarkedPart, MarksAnswer, WhichMarks, WhichViews
 from anymesh.vlm.motion_choice import MotionPick, MotionTable, WhichMotions
-from anymesh.vlm.prompting import ArrowTable, JointKind, KindAnswer, PartShown, PointTable, WhichArrows, WhichKinds, WhichPoints
+from anymesh.vlm.prompting import (
+    ArrowTable,
+    JointAppearance,
+    KindAnswer,
+    PartShown,
+    PointTable,
+    WhichArrows,
+    WhichKinds,
+    WhichPoints,
+)
 from anymesh.vlm.recognition import Recognize
 from anymesh.vlm.reference import Reference
 from anymesh.vlm.reference_answerer import ReferenceAnswerer
@@ -134,14 +143,14 @@ def test_marks_are_told_by_view_where_each_has_its_own() -> None:
 
 EDGE = np.linspace(0, 1, 9)[:, None] * Z
 KINDS = {
-    "points all along the hinge": (DOOR, {"contact": EDGE}, KindAnswer(JointKind.HINGE_ALONG)),
-    "one end of the hinge": (DOOR, {"contact": EDGE[:2], "normal": Z}, KindAnswer(JointKind.HINGE_INTO)),
-    "contact elsewhere": (DOOR, {"contact": EDGE + X}, KindAnswer(JointKind.HINGE_HIDDEN)),
-    "endless": (KNOB, {"contact": EDGE + X, "normal": Y}, KindAnswer(JointKind.HINGE_INTO, True)),
-    "out": (DRAWER, {}, KindAnswer(JointKind.SLIDE_OUT)),
-    "along": (DRAWER, {"outward": Z}, KindAnswer(JointKind.SLIDE_ALONG)),
-    "fixed": (PANEL, {}, KindAnswer(JointKind.FIXED)),
-    "base": (BASE, {}, KindAnswer(JointKind.FIXED)),
+    "points all along the hinge": (DOOR, {"contact": EDGE}, KindAnswer(JointAppearance.HINGE_ALONG)),
+    "one end of the hinge": (DOOR, {"contact": EDGE[:2], "normal": Z}, KindAnswer(JointAppearance.HINGE_INTO)),
+    "contact elsewhere": (DOOR, {"contact": EDGE + X}, KindAnswer(JointAppearance.HINGE_HIDDEN)),
+    "endless": (KNOB, {"contact": EDGE + X, "normal": Y}, KindAnswer(JointAppearance.HINGE_INTO, True)),
+    "out": (DRAWER, {}, KindAnswer(JointAppearance.SLIDE_OUT)),
+    "along": (DRAWER, {"outward": Z}, KindAnswer(JointAppearance.SLIDE_ALONG)),
+    "fixed": (PANEL, {}, KindAnswer(JointAppearance.FIXED)),
+    "base": (BASE, {}, KindAnswer(JointAppearance.FIXED)),
 }
 
 
@@ -155,16 +164,16 @@ CORNERS = np.array([[1, 0, 0], [0, 0, 0.1], [1, 0, 1], [0, 0, 1], [0, 0.1, 0.6]]
 
 
 def test_points_are_those_whose_line_is_the_hinge() -> None:
-    assert ask(WhichPoints((), (PointTable(shown(DOOR), CORNERS, JointKind.HINGE_ALONG),))) == ((1, 3),)
+    assert ask(WhichPoints((), (PointTable(shown(DOOR), CORNERS, JointAppearance.HINGE_ALONG),))) == ((1, 3),)
 
 
 def test_one_point_is_the_one_nearest_to_the_axis() -> None:
-    assert ask(WhichPoints((), (PointTable(shown(KNOB), CORNERS, JointKind.HINGE_INTO),))) == ((1,),)
+    assert ask(WhichPoints((), (PointTable(shown(KNOB), CORNERS, JointAppearance.HINGE_INTO),))) == ((1,),)
 
 
 def test_a_single_point_with_the_normal_beats_a_line_that_is_worse() -> None:
     points = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0]], float)
-    hidden = PointTable(shown(DOOR, normal=Z), points, JointKind.HINGE_HIDDEN)
+    hidden = PointTable(shown(DOOR, normal=Z), points, JointAppearance.HINGE_HIDDEN)
     assert ask(WhichPoints((), (hidden,))) == ((0,),)
 
 
@@ -174,7 +183,7 @@ def test_the_arrow_is_the_way_that_opens() -> None:
 
 def test_what_is_fixed_is_answered_as_well_as_can_be() -> None:
     assert ask(WhichArrows((), (ArrowTable(shown(PANEL), np.stack([X, -X])),))) == (0,)
-    assert ask(WhichPoints((), (PointTable(shown(PANEL), CORNERS, JointKind.HINGE_ALONG),))) == ((0, 1),)
+    assert ask(WhichPoints((), (PointTable(shown(PANEL), CORNERS, JointAppearance.HINGE_ALONG),))) == ((0, 1),)
     assert ask(WhichMotions((), (MotionTable(shown(PANEL), (HINGE.opening_motion,), (1.0,)),))) == (MotionPick(None),)
 
 

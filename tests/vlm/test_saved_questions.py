@@ -51,6 +51,16 @@ def test_the_names_of_classes_in_files_are_those_of_the_first_version(name: str)
     assert record["class"].split(":")[0] in {f"anymesh.reasoning.{m}" for m in ("grounding", "prompting", "recognition")}
 
 
+def test_a_renamed_enum_keeps_its_name_in_files() -> None:
+    question = ASKED["points"].question
+    with np.load(io.BytesIO(pack_question(question))) as found:
+        text = found["record"].tobytes().decode()
+    assert "anymesh.reasoning.prompting:JointKind" in text
+    assert "JointAppearance" not in text
+    again = unpack_question(pack_question(question), question.pictures)
+    assert [t.kind for t in again.tables] == [t.kind for t in question.tables]
+
+
 @pytest.mark.parametrize(
     "record",
     [

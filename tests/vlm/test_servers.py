@@ -138,8 +138,10 @@ def test_models_shows_which_keys_are_set_and_never_what_they_are(monkeypatch: py
     monkeypatch.setenv("OPENAI_API_KEY", SECRET)
     monkeypatch.delenv("ANTHROPIC_API_KEY", raising=False)
     assert run(["models"]) == 0
+    listed_once = capsys.readouterr().out
+    assert listed_once.count("OPENAI_API_KEY") == 1
     assert run(["models", "--json"]) == 0
-    shown = capsys.readouterr().out
+    shown = listed_once + capsys.readouterr().out
     assert SECRET not in shown
     found = json.loads(shown[shown.index("{") :])
     told = {k["variable"]: k["set"] for k in found["keys"]}

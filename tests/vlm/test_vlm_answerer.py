@@ -50,7 +50,7 @@ class Other:
     asked: the questions to it.
     """
 
-    name, needs_images = "geometry", False
+    name = "geometry"
     exchanges = warnings = ()
 
     def __init__(self) -> None:

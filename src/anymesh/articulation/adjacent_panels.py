@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from anymesh.geometry.boxes import OrientedBox
-from anymesh.geometry.part_context import PartContext
+from anymesh.motion.part_context import PartContext
 from anymesh.types import Motion
 
 MAX_SIZE_DIFFERENCE = 0.25  # maximum relative difference of the sides of similar panels

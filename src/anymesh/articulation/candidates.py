@@ -9,9 +9,9 @@ from jaxtyping import Float
 from scipy.spatial import KDTree
 
 from anymesh.config import GroundingConfig, PromptConfig
-from anymesh.geometry.part_context import PartContext
 from anymesh.geometry.sampling import SurfacePoints
 from anymesh.geometry.superpoints import superpoints
+from anymesh.motion.part_context import PartContext
 from anymesh.rendering.points import labels_apart
 from anymesh.types import Motion
 

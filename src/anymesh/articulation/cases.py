@@ -13,12 +13,13 @@ from anymesh.articulation.own_axes import round_patches
 from anymesh.articulation.repeated_parts import same_size, share_opening_directions
 from anymesh.articulation.tree import descendants, parents
 from anymesh.config import Config
-from anymesh.geometry.part_context import PartContext
 from anymesh.geometry.patches import ObjectShape
+from anymesh.motion.part_context import PartContext
 from anymesh.types import Motion, Picture, Segmentation
 from anymesh.types.recognition import BASE, Recognition, RecognizedLabel
 from anymesh.vlm.asking import Answer, Question, VisualAnswerer
-from anymesh.vlm.prompting import JointKind, KindAnswer, PartShown
+from anymesh.vlm.pictures import DrawnPictures
+from anymesh.vlm.prompting import JointAppearance, KindAnswer, PartShown
 
 MAX_PICTURES = 8  # pictures per call
 
@@ -39,11 +40,11 @@ class PartCase:
     shown: PartShown
     circles: tuple[Motion, ...] = ()
     recognized: RecognizedLabel | None = None
-    answer: KindAnswer = KindAnswer(JointKind.FIXED)  # noqa: RUF009 - frozen
+    answer: KindAnswer = KindAnswer(JointAppearance.FIXED)  # noqa: RUF009 - frozen
     asked: Motion | None = None
 
     @property
-    def kind(self) -> JointKind:
+    def kind(self) -> JointAppearance:
         return self.answer.kind
 
     @property
@@ -106,7 +107,7 @@ def ask_each(
     answerer: VisualAnswerer,
     cases: Sequence[PartCase],
     picture: Callable[[PartCase, str], Picture],
-    question: Callable[[tuple[Picture, ...], Sequence[PartCase]], Question[tuple[Answer, ...]]],
+    question: Callable[[DrawnPictures, Sequence[PartCase]], Question[tuple[Answer, ...]]],
 ) -> dict[int, Answer]:
     """Ask about all cases, MAX_PICTURES per call, and return the answers by part number.
 
@@ -115,10 +116,10 @@ def ask_each(
     found: dict[int, Answer] = {}
     for begin in range(0, len(cases), MAX_PICTURES):
         some = cases[begin : begin + MAX_PICTURES]
-        titles = [f"part {k}: {case.label}" for k, case in enumerate(some, 1)]
-        pictures = (
-            tuple(picture(case, title) for case, title in zip(some, titles, strict=True)) if answerer.needs_images else ()
-        )
-        answers = answerer.ask(question(pictures, some))
+        answers = answerer.ask(question(_numbered(some, picture), some))
         found |= {case.number: answer for case, answer in zip(some, answers, strict=True)}
     return found
+
+
+def _numbered(cases: Sequence[PartCase], picture: Callable[[PartCase, str], Picture]) -> DrawnPictures:
+    return DrawnPictures(lambda: tuple(picture(case, f"part {k}: {case.label}") for k, case in enumerate(cases, 1)))

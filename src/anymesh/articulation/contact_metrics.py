@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from anymesh.geometry.part_context import PartContext
+from anymesh.motion.part_context import PartContext
 from anymesh.types import JointType, Motion
 
 LINE_POINTS = 21  # sample points along a hinge line

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from anymesh.articulation.cases import PartCase
 from anymesh.types import Joint, JointType
-from anymesh.vlm.prompting import JointKind
+from anymesh.vlm.prompting import JointAppearance
 
 TURNING = (JointType.REVOLUTE, JointType.CONTINUOUS)
 
@@ -28,7 +28,7 @@ def _answered_motion(case: PartCase) -> Iterator[tuple[str, str]]:
     if moves is not None:
         yield ("slides" if moves is JointType.PRISMATIC else "turns"), f"recognized as {moves}"
     kind = case.kind
-    yield "fixed" if kind is JointKind.FIXED else "turns" if kind.is_rotation else "slides", kind.value.replace("_", " ")
+    yield "fixed" if kind is JointAppearance.FIXED else "turns" if kind.is_rotation else "slides", kind.value.replace("_", " ")
 
 
 def _motion(kind: JointType) -> str:

@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.geometry.part_context import PartContext
+from anymesh.motion.part_context import PartContext
 from anymesh.types import JointType, Motion
 
 TRIALS = 200  # planes tried by RANSAC

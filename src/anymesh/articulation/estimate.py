@@ -8,19 +8,21 @@ from dataclasses import replace
 
 import numpy as np
 
-from anymesh.articulation.evidence import hypotheses, part_facts
+from anymesh.articulation.barrels import find_barrel_candidates
+from anymesh.articulation.evidence import hypotheses
 from anymesh.articulation.hypotheses import propose
 from anymesh.articulation.limits import limits, opening_as_answered, opening_motion
 from anymesh.articulation.motion_classifier import UnscoredMotions
 from anymesh.articulation.motion_question import Candidate, MotionAnswer, MotionAnswerer, MotionQuestion
+from anymesh.articulation.part_facts import part_facts
 from anymesh.articulation.repeated_parts import in_a_row, same_size, share_opening_directions
 from anymesh.articulation.tree import descendants, parents
 from anymesh.config import ArticulationConfig, Config
 from anymesh.deadline import JOINTS, Deadline
-from anymesh.geometry.part_context import PartContext, find_barrel_candidates
 from anymesh.geometry.patches import ObjectShape
 from anymesh.geometry.sweep import free_amount
 from anymesh.geometry.triangle_set import TriangleSet
+from anymesh.motion.part_context import PartContext
 from anymesh.types import Joint, JointType, Motion, Segmentation
 
 MAX_RIM_DISTANCE_RATIO = 0.01  # of the scale: hinge lines within this distance, or within the part's thickness, are at one rim

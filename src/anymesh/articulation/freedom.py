@@ -11,8 +11,8 @@ from anymesh.articulation.geometry_answerer import GeometryAnswerer
 from anymesh.articulation.motion_question import Candidate
 from anymesh.articulation.tree import parents
 from anymesh.config import ArticulationConfig
-from anymesh.geometry.part_context import PartContext
 from anymesh.geometry.patches import ObjectShape
+from anymesh.motion.part_context import PartContext
 from anymesh.types import JointType
 
 MOTIONS_PER_TYPE = 4  # likeliest motions of each kind, one of which must stay free with the gained patches

@@ -8,7 +8,7 @@ from jaxtyping import Bool, Float
 from anymesh.articulation.motion_question import Candidate, MotionAnswer, MotionQuestion, PartFacts
 from anymesh.scoring.two_steps import confidence_of
 from anymesh.types import JointType
-from anymesh.vocabulary import TypicalMotion, typical_motion
+from anymesh.vocabulary import typical_motion
 
 NO_MOTION_CONFIDENCE = 0.3  # confidence of a joint without a plausible motion
 # calibration of the log-odds of a confidence, fitted to kinds left out of training (benchmarks/train_motions.py)
@@ -17,11 +17,9 @@ SAME_AXIS = 0.97  # minimum cosine between axes that a user sees as one
 SAME_LINE = 0.1  # of the part's size: maximum distance between lines that a user sees as one
 BLOCKED = -4.0  # [log-odds] penalty of a motion that the sweep finds blocked
 LABEL_PRIOR = {  # [log-odds] added by a label to a hinge, to a rotation about the axis of a round outline, to a slide
-    TypicalMotion.HINGE: (1.5, -2.5, -2.0),
-    TypicalMotion.TWO_PIVOT: (1.5, -2.5, -2.0),
-    TypicalMotion.PRISMATIC: (-2.0, -2.5, 2.0),
-    TypicalMotion.PRESS: (-2.0, -2.5, 2.0),
-    TypicalMotion.SPIN: (-1.5, 2.5, -2.0),
+    JointType.REVOLUTE: (1.5, -2.5, -2.0),
+    JointType.PRISMATIC: (-2.0, -2.5, 2.0),
+    JointType.CONTINUOUS: (-1.5, 2.5, -2.0),
 }
 
 
@@ -49,7 +47,7 @@ class GeometryAnswerer:
 def motion_scores(question: MotionQuestion) -> Float[np.ndarray, " k"]:
     """Return the log-odds of each candidate, with a penalty for blocked motions and a prior from the label."""
     scores = question.scores + np.array([0.0 if c.is_free else BLOCKED for c in question.candidates])
-    prior = LABEL_PRIOR.get(habit) if (habit := typical_motion(question.part.label)) else None
+    prior = LABEL_PRIOR.get(typical) if (typical := typical_motion(question.part.label)) else None
     if prior is None:
         return scores
     kinds = [2 if c.motion.kind is JointType.PRISMATIC else int(c.role == "round") for c in question.candidates]

@@ -11,7 +11,7 @@ import numpy as np
 
 from anymesh.geometry.boxes import OrientedBox
 from anymesh.geometry.circles import outline_about
-from anymesh.geometry.part_context import PartContext
+from anymesh.motion.part_context import PartContext
 from anymesh.types import JointType, Motion
 
 SAME_DIRECTION = np.cos(np.deg2rad(1.0))

@@ -8,8 +8,8 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from anymesh.articulation.motion_question import MIN_FREE_ANGLE_RAD, Candidate
-from anymesh.geometry.part_context import PartContext
 from anymesh.geometry.sweep import free_amount
+from anymesh.motion.part_context import PartContext
 from anymesh.types import JointType, Motion
 from anymesh.types.recognition import RecognizedLabel
 

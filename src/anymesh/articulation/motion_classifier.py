@@ -11,7 +11,7 @@ from jaxtyping import Float
 from anymesh.articulation.motion_context import ScoredMotions, context_features
 from anymesh.articulation.motion_features import motion_features
 from anymesh.articulation.motion_question import Candidate, MotionQuestion, PartFacts
-from anymesh.geometry.part_context import PartContext
+from anymesh.motion.part_context import PartContext
 from anymesh.scoring.two_steps import TwoStepClassifier
 
 

@@ -14,7 +14,7 @@ from jaxtyping import Float
 from anymesh.articulation.contact_metrics import CONTACT_RATIO, CONTACT_TOLERANCE_FACTOR
 from anymesh.articulation.motion_question import Candidate, PartFacts
 from anymesh.geometry.circles import outline_about
-from anymesh.geometry.part_context import PartContext
+from anymesh.motion.part_context import PartContext
 from anymesh.scoring.two_steps import MISSING
 from anymesh.types import JointType, Motion
 

@@ -1,6 +1,6 @@
 """Motion questions with their facts and candidates, and the protocol of their answerers.
 
-Answers are validated when constructed. The pipeline does not depend on the kind of answerer.
+Answers are validated when constructed.
 """
 
 from __future__ import annotations
@@ -127,7 +127,7 @@ class MotionAnswer:
 
 @runtime_checkable
 class MotionAnswerer(Protocol):
-    """Answerer of motion questions: geometry, a vision-language model, or ground truth."""
+    """Answerer of motion questions, from facts alone: `GeometryAnswerer`."""
 
     name: str
 

@@ -9,7 +9,7 @@ from jaxtyping import Float
 
 from anymesh.articulation.limits import opening_motion
 from anymesh.articulation.motion_question import Candidate
-from anymesh.geometry.part_context import PartContext
+from anymesh.motion.part_context import PartContext
 
 ENOUGH_POINTS = 200  # sample points of the part for comparing motions
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from anymesh.articulation.cases import PartCase
-from anymesh.articulation.evidence import hypotheses, part_facts
+from anymesh.articulation.evidence import hypotheses
 from anymesh.articulation.geometry_answerer import motion_scores
 from anymesh.articulation.hypotheses import distinct, propose
 from anymesh.articulation.limits import answered_range, opening_motion, pressed
@@ -18,9 +18,10 @@ from anymesh.articulation.motion_classifier import UnscoredMotions
 from anymesh.articulation.motion_question import Candidate, MotionQuestion, PartFacts
 from anymesh.articulation.moved_points import MovedPoints
 from anymesh.articulation.own_axes import CENTRAL, pivots
+from anymesh.articulation.part_facts import part_facts
 from anymesh.types import JointType
 from anymesh.vlm.motion_choice import MotionTable
-from anymesh.vlm.prompting import JointKind
+from anymesh.vlm.prompting import JointAppearance
 
 MAX_SHOWN_ANGLE_RAD = np.deg2rad(60.0)  # [rad] maximum rotation in a picture
 MAX_SHOWN_TRAVEL_RATIO = 0.6  # of the part's size: maximum travel of a slide in a picture
@@ -121,11 +122,11 @@ def scored_motions(case: PartCase) -> MotionQuestion:
     )
 
 
-def fits(c: Candidate, kind: JointKind) -> bool:
+def fits(c: Candidate, kind: JointAppearance) -> bool:
     """Return whether a motion is of the answered kind."""
     if kind.is_rotation or c.motion.kind is JointType.REVOLUTE:
         return kind.is_rotation and c.motion.kind is JointType.REVOLUTE
-    return (abs(c.outward) > 0.7) == (kind is JointKind.SLIDE_OUT)
+    return (abs(c.outward) > 0.7) == (kind is JointAppearance.SLIDE_OUT)
 
 
 def moves_as(c: Candidate, moves: JointType) -> bool:
@@ -214,7 +215,7 @@ def _off_part(case: PartCase, c: Candidate) -> bool:
 
 
 def _pages(
-    motions: list[Candidate], kind: JointKind, likely: list[bool], answered: int | None, max_motions: int
+    motions: list[Candidate], kind: JointAppearance, likely: list[bool], answered: int | None, max_motions: int
 ) -> tuple[list[int], list[int]]:
     """Return the indices of the motions in the first picture and in the second."""
     own = [k for k, c in enumerate(motions) if c.role in CENTRAL and fits(c, kind)][:SHAPE_AXES]

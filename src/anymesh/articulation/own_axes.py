@@ -9,9 +9,9 @@ import numpy as np
 from jaxtyping import Float
 
 from anymesh.geometry.circles import outline_about
-from anymesh.geometry.part_context import PartContext
 from anymesh.geometry.patches import ObjectShape
 from anymesh.geometry.triangle_set import TriangleSet
+from anymesh.motion.part_context import PartContext
 from anymesh.types import JointType, Motion
 
 MIN_ROUNDNESS = 0.8  # minimum roundness of a circle that gives an axis

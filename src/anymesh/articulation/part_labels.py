@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from anymesh.articulation.motion_question import Candidate
-from anymesh.geometry.part_context import PartContext
+from anymesh.motion.part_context import PartContext
 from anymesh.types import JointType
 
 MAX_ALONG_COSINE = 0.5  # maximum cosine between the opening direction and a slide along the surface

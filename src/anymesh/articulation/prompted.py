@@ -29,7 +29,7 @@ from anymesh.types import Joint, JointType, Motion, Segmentation
 from anymesh.types.recognition import Recognition
 from anymesh.vlm.asking import VisualAnswerer
 from anymesh.vlm.motion_choice import PartFit
-from anymesh.vlm.prompting import ArrowTable, JointKind, PointTable, WhichArrows, WhichKinds, WhichPoints
+from anymesh.vlm.prompting import ArrowTable, JointAppearance, PointTable, WhichArrows, WhichKinds, WhichPoints
 
 INTO_POINTS = 8  # candidates for an axis into the surface, half of which stand for axes
 ShapeOf = Callable[[Segmentation], ObjectShape]
@@ -131,7 +131,7 @@ def _ask(
     progress("joints", "points and arrows", 1, 4)
     asked = {**_hinges(questions, cases, whole, segmentation), **_surface_directions(questions, cases, segmentation)}
     out = normal_outwards if config.verify == "off" else opening_slide
-    asked |= {c.number: out(c) for c in cases if c.kind is JointKind.SLIDE_OUT}
+    asked |= {c.number: out(c) for c in cases if c.kind is JointAppearance.SLIDE_OUT}
     cases = [replace(c, asked=asked.get(c.number)) for c in cases]
     progress("joints", "motions", 2, 4)
     if config.verify != "motion":
@@ -184,7 +184,7 @@ def _points(questions: Questions, case: PartCase, shot: Shot, whole: ObjectShape
     """Return the candidate points of a rotating part; the paper's method has clusters and superpoints only."""
     config, pictures = questions.config, questions.visual_prompts
     project, prompts = shot.project, config.prompts
-    shaped = case.kind is JointKind.HINGE_INTO and config.verify != "off"
+    shaped = case.kind is JointAppearance.HINGE_INTO and config.verify != "off"
     if shaped:
         prompts = replace(prompts, most_candidates=min(INTO_POINTS, prompts.most_candidates))
     points = shot.inside(cluster_points(case.shown.contact, project, prompts))
@@ -197,7 +197,7 @@ def _points(questions: Questions, case: PartCase, shot: Shot, whole: ObjectShape
         first, axes = axis_points(case.around, [*case.circles, *motions], project, prompts)
         axes = axes[shot.is_inside(first)]
         points = followed(first[shot.is_inside(first)], points, project, prompts)
-    if case.kind is JointKind.HINGE_HIDDEN:
+    if case.kind is JointAppearance.HINGE_HIDDEN:
         samples = case.around.part.samples
         colors = pictures.face_colors[whole.source[samples.faces]]
         points = with_more(points, shot.inside(superpoint_centres(samples, colors, config.grounding)), project, prompts)
@@ -209,7 +209,7 @@ def _points(questions: Questions, case: PartCase, shot: Shot, whole: ObjectShape
 def _surface_directions(questions: Questions, cases: list[PartCase], segmentation: Segmentation) -> dict[int, Motion]:
     """Return the slides along the surface by part number: arrows in its plane are shown, and one is picked."""
     pictures, labels = questions.visual_prompts, segmentation.face_part
-    sliding = [c for c in cases if c.kind is JointKind.SLIDE_ALONG]
+    sliding = [c for c in cases if c.kind is JointAppearance.SLIDE_ALONG]
     tables = {c.number: ArrowTable(c.shown, surface_directions(c.around)) for c in sliding}
     rows = ask_each(
         questions.answerer,

@@ -11,9 +11,10 @@ from dataclasses import replace
 import numpy as np
 from jaxtyping import Float
 
+from anymesh.geometry.body_obb import body_obb
 from anymesh.geometry.boxes import same_box
-from anymesh.geometry.part_context import PartContext, body_obb
 from anymesh.geometry.triangle_set import TriangleSet
+from anymesh.motion.part_context import PartContext
 
 # maximum component of the offset along the opening direction, over its length, between parts in a row
 MAX_ROW_OFFSET_RATIO = 0.25

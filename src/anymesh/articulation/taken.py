@@ -5,12 +5,13 @@ from __future__ import annotations
 from anymesh.articulation.cases import PartCase
 from anymesh.articulation.confidence import Agreement
 from anymesh.articulation.decode import prismatic
-from anymesh.articulation.evidence import hypotheses, part_facts
+from anymesh.articulation.evidence import hypotheses
 from anymesh.articulation.motion_classifier import score_motions
 from anymesh.articulation.offers import moves_as
+from anymesh.articulation.part_facts import part_facts
 from anymesh.articulation.verify import Choice, words
 from anymesh.types import JointType, Motion
-from anymesh.vlm.prompting import JointKind
+from anymesh.vlm.prompting import JointAppearance
 
 MIN_GUIDED_SHARE = 0.4  # minimum share of the sideways directions in which an outward slide is guided
 
@@ -53,4 +54,4 @@ def as_answered(case: PartCase) -> Choice:
         "blocked": float(not best.is_free),
     }
     reason = f"answered: {words(case.kind)}; {motion.source}"
-    return Choice(best, reason, Agreement(features), moves=case.kind is not JointKind.FIXED)
+    return Choice(best, reason, Agreement(features), moves=case.kind is not JointAppearance.FIXED)

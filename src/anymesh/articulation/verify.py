@@ -20,7 +20,7 @@ from anymesh.rendering.visual_prompts import VisualPrompts
 from anymesh.types import Picture
 from anymesh.vlm.asking import VisualAnswerer
 from anymesh.vlm.motion_choice import MotionPick, MotionTable, PartFit, WhichMotions
-from anymesh.vlm.prompting import JointKind
+from anymesh.vlm.prompting import JointAppearance
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,7 +101,7 @@ def choose_motions(cases: list[PartCase], asking: MotionQuestioner, max_motions:
 
 def _needs_question(o: MotionOffers) -> bool:
     """Return whether there is a choice to ask about; a part that two answers call fixed is not asked about again."""
-    fixed = o.case.kind is JointKind.FIXED and (o.case.recognized is None or o.case.recognized.moves is None)
+    fixed = o.case.kind is JointAppearance.FIXED and (o.case.recognized is None or o.case.recognized.moves is None)
     return len(o.first) > 1 and not fixed
 
 
@@ -113,7 +113,7 @@ def _against_all(o: MotionOffers, picked: int | None) -> bool:
 def _without_choice(o: MotionOffers) -> Choice:
     best = o.motions[o.first[0] if o.first else 0]
     told = "the only free motion" if best.is_free else "no motion is free; as answered"
-    if o.case.kind is JointKind.FIXED:
+    if o.case.kind is JointAppearance.FIXED:
         return Choice(best, "answered: it does not move", agreement(o, None, {"only": 1.0}), moves=False)
     return Choice(best, f"{told}: {reason(o.facts, best)}", agreement(o, 0, {"only": 1.0}))
 
@@ -124,7 +124,7 @@ def _chosen(o: MotionOffers, picked: int | None, *, doubted: bool, later: bool, 
     told = (
         f"{len(o.first) + later * len(o.second)} motions{', asked twice' if doubted else ''}{against}: {reason(o.facts, best)}"
     )
-    if picked is None and o.case.kind is JointKind.FIXED:
+    if picked is None and o.case.kind is JointAppearance.FIXED:
         return Choice(best, "answered: it does not move", agreement(o, None, {}), fit, moves=False)
     if picked is None:
         return Choice(best, f"none recognized of {told}", agreement(o, _fallback(o), {"none": 1.0}), fit)
@@ -158,6 +158,6 @@ def agreement(o: MotionOffers, picked: int | None, more: Mapping[str, float]) ->
     )
 
 
-def words(kind: JointKind) -> str:
+def words(kind: JointAppearance) -> str:
     """Return a kind of joint in words."""
     return kind.value.replace("_", " ")

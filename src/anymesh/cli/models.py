@@ -48,5 +48,6 @@ def models(json_: Json = False) -> None:
             typer.echo(plain(f"  {m.name}  ({words[m.takes_pictures]})"))
         if f.models is None:
             typer.echo(f"  to use another address, set {' or '.join(SERVERS[f.server].variables)}")
-    typer.echo("keys: " + ", ".join(f"{k['variable']} {'is set' if k['set'] else 'is not set'}" for k in keys))
+    variables = {k["variable"]: k["set"] for k in keys}  # several providers may use one key
+    typer.echo("keys: " + ", ".join(f"{name} {'is set' if is_set else 'is not set'}" for name, is_set in variables.items()))
     typer.echo(f"--answerer auto uses {record['auto']}; without a model, you or your agent can answer: --answerer files:FOLDER")

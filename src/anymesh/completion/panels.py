@@ -9,9 +9,9 @@ from jaxtyping import Float
 
 from anymesh.completion.scenes import Growing, Scenes, scene_of, widest
 from anymesh.completion.settings import ShapeConfig
+from anymesh.geometry.body_obb import body_obb
 from anymesh.geometry.boxes import OrientedBox
 from anymesh.geometry.kinematics import joint_transform
-from anymesh.geometry.part_context import body_obb
 from anymesh.geometry.triangle_set import TriangleSet
 from anymesh.types import JointType
 

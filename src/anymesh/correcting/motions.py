@@ -12,8 +12,9 @@ from anymesh.articulation.geometry_answerer import joint_type, motion_scores, re
 from anymesh.config import Config
 from anymesh.correcting.corrections import ChooseMotion, vector
 from anymesh.correcting.finding import joint_of_part, part_number
-from anymesh.geometry.patches import ObjectShape, object_shape
+from anymesh.geometry.patches import ObjectShape
 from anymesh.geometry.simplify_ import simplify
+from anymesh.segmentation.divide import object_shape
 from anymesh.types import Asset, Joint, JointType, Mesh
 
 MAX_MOTIONS = 8

@@ -19,7 +19,8 @@ from anymesh.rendering.axes import axis_line, draw_arrow, ring
 from anymesh.rendering.labels import font
 from anymesh.rendering.paint import Color, blend, lighten, rim
 from anymesh.rendering.render import lit, render
-from anymesh.rendering.strips import moved, silhouette, strip_camera
+from anymesh.rendering.strip_camera import strip_camera
+from anymesh.rendering.strips import moved, silhouette
 from anymesh.rendering.viewpoints import zoom
 from anymesh.types import Joint, JointType, Mesh, Motion, Segmentation
 from anymesh.types.camera import Camera

@@ -25,18 +25,20 @@ Pools = Mapping[str, list[int]]  # allowed values of integers, by name
 class Guesser:
     """Answerer that draws random answers from each question's schema and the numbers in its pictures.
 
-    pictured: whether pictures are rendered for it, as for a model.
+    pictured: whether it reads the pictures, so that they are drawn as for a model.
     """
 
     exchanges: tuple[Exchange, ...] = ()
     warnings: tuple[str, ...] = ()
 
     def __init__(self, seed: int, *, pictured: bool = False) -> None:
-        self.name, self.needs_images = f"guesses of seed {seed}", pictured
+        self.name, self._pictured = f"guesses of seed {seed}", pictured
         self._rng = np.random.default_rng(seed)
 
     def ask(self, question: Question[Answer]) -> Answer:
         """Return a random answer. Raise BadAnswerError if it is not valid, which is a bug of this class."""
+        if self._pictured:
+            _ = tuple(question.pictures)
         found = self._found(question)
         check_schema(found, question.schema())
         return question.parse(found)

@@ -13,7 +13,7 @@ from anymesh.types import Exchange, KnownJoint
 from anymesh.vlm.asking import Answer, Question, VisualAnswerer
 from anymesh.vlm.grounding import WhichMarks
 from anymesh.vlm.motion_choice import MotionPick, WhichMotions
-from anymesh.vlm.prompting import JointKind, KindAnswer, PartShown, PointTable, WhichArrows, WhichKinds, WhichPoints
+from anymesh.vlm.prompting import JointAppearance, KindAnswer, PartShown, PointTable, WhichArrows, WhichKinds, WhichPoints
 from anymesh.vlm.reference import Reference
 from anymesh.vlm.reference_answerer import ReferenceAnswerer
 from anymesh.vocabulary import recognize
@@ -49,7 +49,6 @@ class Noisy:
 
     exchanges: tuple[Exchange, ...] = ()
     warnings: tuple[str, ...] = ()
-    needs_images = False
 
     def __init__(self, answerer: VisualAnswerer, wrong: float, rng: np.random.Generator) -> None:
         self.name, self._answerer, self._wrong, self._rng = f"noisy {answerer.name}", answerer, wrong, rng
@@ -66,7 +65,7 @@ class Noisy:
                 )
                 answer = replace(answer, parts=wrong)
             case WhichKinds():
-                moving = [kind for kind in JointKind if kind is not JointKind.FIXED]
+                moving = [kind for kind in JointAppearance if kind is not JointAppearance.FIXED]
                 answer = tuple(replace(k, kind=self._other(k.kind, moving)) for k in answer)
             case WhichPoints():
                 answer = tuple(
@@ -101,7 +100,6 @@ class Random:
 
     exchanges: tuple[Exchange, ...] = ()
     warnings: tuple[str, ...] = ()
-    needs_images = False
 
     def __init__(self, answerer: VisualAnswerer, rng: np.random.Generator) -> None:
         self.name, self._answerer, self._rng = "random", answerer, rng
@@ -125,8 +123,8 @@ class Random:
     def _coin(self) -> bool:
         return bool(self._rng.random() < 0.5)
 
-    def _kind(self, _: PartShown) -> JointKind:
-        return list(JointKind)[int(self._rng.integers(len(JointKind)))]
+    def _kind(self, _: PartShown) -> JointAppearance:
+        return list(JointAppearance)[int(self._rng.integers(len(JointAppearance)))]
 
     def _points(self, table: PointTable) -> tuple[int, ...]:
         count = int(self._rng.integers(table.min_points, table.max_points + 1))

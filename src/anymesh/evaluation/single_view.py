@@ -19,9 +19,9 @@ from scipy.ndimage import maximum_filter
 
 from anymesh.errors import InputError
 from anymesh.evaluation.ground_truth import EvalSample, GroundTruth, TrueJoint
+from anymesh.evaluation.hidden_base import hidden_base
 from anymesh.evaluation.partial import visible_surface
 from anymesh.evaluation.posing import posed
-from anymesh.geometry.hidden_base import hidden_base
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.rendering.render import View, render
 from anymesh.rendering.viewpoints import orbit_camera

@@ -87,7 +87,7 @@ def fit_box(
     """Fit the smallest box along the asset axes, the dominant normals, or the principal directions.
 
     A box must be 3 % smaller to be preferred to the axis-aligned one. The box of a mostly flat surface is aligned with it,
-    since a smaller one may be tilted by a handle or by missing surface.
+    since a smaller one may be tilted by a protrusion or by missing surface.
     """
     frames = [np.eye(3)]
     directions = dominant_normals(normals, weights)

@@ -1,4 +1,4 @@
-"""Fit circles to outlines, for wheels, knobs and dials."""
+"""Fit circles to the outlines of round shapes."""
 
 from __future__ import annotations
 

@@ -9,7 +9,7 @@ from anymesh.geometry.distance_ import distance_to_mesh
 from anymesh.geometry.topology import weld
 from anymesh.types.triangles import face_cross, normals_and_areas
 
-OFF = 0.1  # of its size: a triangle whose center is farther from the surface spans an opening
+OFF = 0.1  # of its size: a triangle whose center is farther from the surface spans a gap
 DENSE = 6  # times the target number of faces, from which vertices are clustered first
 FEWEST = 50_000  # number of faces up to which quadrics alone are fast enough
 CLUSTERED = 3  # times the target number of faces: target of the clustering

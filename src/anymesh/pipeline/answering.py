@@ -149,7 +149,7 @@ def _from_files(
     config: Config, name: str, options: AnswererOptions, about: str | None, deadline: Deadline, stop: Event | None
 ) -> AnswererSetup:
     from anymesh.vlm.file_answerer import FileAnswerer, still_answered
-    from anymesh.vlm.question_files import QuestionStore
+    from anymesh.vlm.question_store import QuestionStore
 
     folder = name.removeprefix(FILES)
     if not folder.strip():

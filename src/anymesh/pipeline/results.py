@@ -11,6 +11,7 @@ from anymesh.types import Exchange, Joint, Mesh, Segmentation, Source
 from anymesh.types.recognition import Recognition
 
 Record = dict[str, Any]  # a JSON object
+LOW_CONFIDENCE = 0.4  # warnings name joints below this confidence
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,3 +99,21 @@ class CorrectionResult:
     joints: tuple[Joint, ...]
     warnings: tuple[str, ...]
     log: tuple[Record, ...]
+
+
+def segmentation_result(
+    segmentation: Segmentation, answerer: str, warnings: tuple[str, ...] = (), exchanges: tuple[Exchange, ...] = ()
+) -> SegmentationResult:
+    """Return the result of Stage A, with a warning if there is no part but the base."""
+    none = ("no moving part was found",) if len(segmentation.parts) == 1 else ()
+    return SegmentationResult(segmentation, answerer, (*warnings, *none), exchanges)
+
+
+def joint_result(
+    joints: tuple[Joint, ...], answerer: str, warnings: tuple[str, ...] = (), exchanges: tuple[Exchange, ...] = ()
+) -> JointResult:
+    """Return the result of Stage B, with a warning for each joint of low confidence."""
+    unsure = tuple(
+        f"joint {j.name}: low confidence ({j.confidence:.2f}), please check" for j in joints if j.confidence < LOW_CONFIDENCE
+    )
+    return JointResult(joints, answerer, (*warnings, *unsure), exchanges)

@@ -89,7 +89,7 @@ def recognize(run: Run, loaded: Keyed[LoadResult], parts: str, *, sized: bool) -
     solver, who = run.solver(loaded.result.mesh), run.who
     if parts != "auto":
         solver.parts(parts)  # report invalid parts before any model call
-    if who.factory is None:
+    if not solver.answers.recognizes:
         return solver, Keyed(solver.recognize(), loaded.key)
     metric = loaded.result.metric
     settings = {**who.settings("verify", "proposer"), "sized": sized, "metric": metric}

@@ -26,21 +26,17 @@ UNDER = 0.02  # share of the contact's extent: points deeper than this below a s
 
 def part_card(
     mesh: Mesh,
-    views: Sequence[View],
+    view: View,
     face_part: Int[np.ndarray, " F"],
     part: int,
     title: str,
     config: ViewsConfig,
     scene: RayScene,
-    contact: Float[np.ndarray, "c 3"] | None = None,
 ) -> UInt8[np.ndarray, "H W 3"]:
-    """Draw the part in its best view, the close-up (if any) beside it, and the title above.
+    """Draw the part in a view of this mesh, the close-up (if any) beside it, and the title above.
 
-    views: of this mesh; scene: its rays; contact: points where the part meets the rest [m]. Of the views that show the part
-    well, the one that shows most of these points is used.
-    A part that is hidden in every view is drawn through what covers it, and the title says so.
+    scene: the mesh's rays. A hidden part is drawn through what covers it, and the title says so.
     """
-    view = views[_card_view(views, face_part, part, scene, contact)]
     mask = part_pixels(view, face_part, part)
     if not mask.any():
         mask = silhouette(mesh.triangles[face_part == part], view.camera)
@@ -53,21 +49,24 @@ def part_card(
     return titled(np.concatenate([_framed(whole, view, near), _edged(close)], 1), title)
 
 
-def _card_view(
+def card_view(
     views: Sequence[View],
     face_part: Int[np.ndarray, " F"],
     part: int,
     scene: RayScene,
-    contact: Float[np.ndarray, "c 3"] | None,
-) -> int:
-    """Return the index of the view that shows most of the contact, among those that show the part well."""
+    contact: Float[np.ndarray, "c 3"] | None = None,
+) -> View:
+    """Return the view that shows most of the contact, among those that show the part well.
+
+    contact: points where the part meets the rest [m]; without them, the view that shows most of the part is used.
+    """
     if contact is None or len(contact) == 0:
-        return best_view(views, face_part, part)
+        return views[best_view(views, face_part, part)]
     few = contact[:: max(1, len(contact) // CONTACT_POINTS)]
     pixels = np.array([visible_pixels(v, face_part, part) for v in views])
     depth = UNDER * float(np.linalg.norm(np.ptp(contact, axis=0)))
     seen = np.array([(~hidden_points(scene, v.camera, few, depth)).mean() for v in views])
-    return int(np.where(pixels >= WELL * pixels.max(), pixels / max(pixels.max(), 1) + seen, -1.0).argmax())
+    return views[int(np.where(pixels >= WELL * pixels.max(), pixels / max(pixels.max(), 1) + seen, -1.0).argmax())]
 
 
 def _framed(image: UInt8[np.ndarray, "H W 3"], view: View, near: View) -> UInt8[np.ndarray, "H W 3"]:

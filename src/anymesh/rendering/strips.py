@@ -10,40 +10,20 @@ from jaxtyping import Bool, Float, UInt8
 from PIL import Image, ImageDraw
 
 from anymesh.geometry.raycast_ import RayScene
-from anymesh.rendering.axes import axis_line, draw_arrow, draw_ring, ring
+from anymesh.rendering.axes import draw_arrow, draw_ring
 from anymesh.rendering.labels import PAD, Plate, draw_plate, plate_size
 from anymesh.rendering.paint import HIGHLIGHT, blend, rim
-from anymesh.rendering.posed import PartPixels, Posed, Rays, Still, bounds_of, part_color
-from anymesh.rendering.viewpoints import box_of, orbit_camera, zoom
+from anymesh.rendering.posed import PartPixels, Rays, Still, part_color
+from anymesh.rendering.strip_camera import PANEL, best_camera, motion_axis, strip_poses
 from anymesh.types import JointType, Mesh, Motion
 from anymesh.types.camera import Camera
 
-PANEL, COLUMNS = 400, 4  # [px] size of a panel; number of panels side by side (1600 px at most)
-MARGIN = 0.35  # margin around the moving part, as a share of its diagonal, so that its neighbours are visible
-AIR = 0.04  # further margin on each side, as a share of the picture
+COLUMNS = 4  # number of panels side by side (1600 px at most)
 GHOST = 0.3  # opacity of the part where it is hidden
-AXIS_SCALE, RING = 3.0, 0.1  # shares of the part's diagonal: diagonal passed to `axis_line`; radius of the ring
-LEGIBLE = 0.5  # minimum size of the axis, as a share of the picture's side
 TITLE, WORD = 24, 18  # [px] font size of a panel's number, and of its motion label
 WHITE, BLOCKED = (255, 255, 255), (250, 200, 120)  # background of the motion label, and of that of a blocked motion
 STILL_LINE, PART_LINE, LINE = (120, 120, 120), (8, 30, 90), 0.55  # colours of lines along creases, and their opacity
 CREASE = 0.82  # cosine (of 35 degrees) between normals below which a line is drawn
-SKETCH = 64  # [px] size of the pictures used to choose the camera
-DEPTH = 0.02  # share of the diagonal above which a difference in depth counts
-ELEVATION_WEIGHTS = {
-    24: 1.0,
-    55: 0.75,
-    -24: 0.4,
-}  # elevations [deg] and their weights: people usually see objects from slightly above
-AZIMUTH_WEIGHTS = {
-    35: 1.0,
-    -35: 1.0,
-    0: 0.65,
-    75: 0.9,
-    -75: 0.9,
-    145: 0.8,
-    -145: 0.8,
-}  # azimuths [deg] and their weights: oblique views show all three dimensions
 
 
 def moved(mesh: Mesh, moving: Bool[np.ndarray, " F"], T: Float[np.ndarray, "4 4"]) -> Mesh:
@@ -71,8 +51,8 @@ def motion_strip(
     None;
     scene: the mesh's ray scene, if it already exists. Raise ValueError if nothing moves.
     """
-    posed, poses = _poses(mesh, moving, motions, scene)
-    camera = camera or _best_camera(posed, poses, motions, PANEL)
+    posed, poses = strip_poses(mesh, moving, motions, scene)
+    camera = camera or best_camera(posed, poses, motions, PANEL)
     fine = replace(camera, width=2 * camera.width, height=2 * camera.height)
     rays = fine.rays()
     still = posed.still_picture(rays)
@@ -87,28 +67,10 @@ def motion_strip(
     for k, (number, (motion, amount)) in enumerate(zip(names, motions, strict=True)):
         picture = _painted(still, lines, posed.part_pixels(poses[k + 1], fine))
         picture = blend(picture, outline, (90, 90, 90), 0.7)
-        drawn = _with_axis(picture, *_axis(posed.corners, motion, amount, fine), fine)
+        drawn = _with_axis(picture, *motion_axis(posed.corners, motion, amount, fine), fine)
         word = "slides" if motion.kind is JointType.PRISMATIC else "turns"
         panels.append(_titled(_half(drawn), str(number), f"{word}, blocked" if k < len(blocked) and blocked[k] else word))
     return grid(panels)
-
-
-def strip_camera(
-    mesh: Mesh, moving: Bool[np.ndarray, " F"], motions: Sequence[tuple[Motion, float]], size: int = PANEL
-) -> Camera:
-    """Choose the camera that maximizes the smallest difference between any two poses; it frames the part in every pose."""
-    posed, poses = _poses(mesh, moving, motions)
-    return _best_camera(posed, poses, motions, size)
-
-
-def _poses(
-    mesh: Mesh, moving: Bool[np.ndarray, " F"], motions: Sequence[tuple[Motion, float]], scene: RayScene | None = None
-) -> tuple[Posed, list[np.ndarray]]:
-    """Return the object, and the transforms of its part: at rest and moved. Raise ValueError if nothing moves."""
-    if not moving.any():
-        raise ValueError("a motion needs faces that move, found none")
-    posed = Posed(mesh, moving, scene or RayScene(mesh.vertices, mesh.faces))
-    return posed, [np.eye(4), *(m.transform(amount) for m, amount in motions)]
 
 
 def _painted(still: Still, lines: Bool[np.ndarray, "H W"], part: PartPixels) -> UInt8[np.ndarray, "H W 3"]:
@@ -156,21 +118,6 @@ def silhouette(triangles: Float[np.ndarray, "n 3 3"], camera: Camera, rays: Rays
     return (scene.first_hit(*(rays or camera.rays())).face >= 0).reshape(camera.height, camera.width)
 
 
-def _axis(
-    corners: Float[np.ndarray, "n 3"], motion: Motion, amount: float, camera: Camera
-) -> tuple[Float[np.ndarray, "2 3"], Float[np.ndarray, "k 3"] | None]:
-    """Return the arrow along the axis in the direction of the motion, and the ring if it rotates.
-
-    corners: vertices of the part at rest, which determine the size; the result is at least large enough to be visible in this
-    camera's picture.
-    """
-    depth = float(camera.project(corners.mean(0)[None])[1][0])
-    size = max(float(np.linalg.norm(np.ptp(corners, axis=0))), LEGIBLE * 2 * depth * float(np.tan(camera.fov / 2)))
-    axis, slides = (-motion.axis if amount < 0 else motion.axis), motion.kind is JointType.PRISMATIC
-    ends, center = axis_line(corners, motion.origin, axis, slides, AXIS_SCALE * size)
-    return ends, None if slides else ring(center, axis, RING * size)
-
-
 def _with_axis(
     picture: UInt8[np.ndarray, "H W 3"], ends: Float[np.ndarray, "2 3"], circle: Float[np.ndarray, "k 3"] | None, camera: Camera
 ) -> UInt8[np.ndarray, "H W 3"]:
@@ -180,72 +127,6 @@ def _with_axis(
     if circle is not None:
         draw_ring(draw, camera.project(circle)[0], scale=2.0)
     return np.asarray(drawn)
-
-
-def _best_camera(posed: Posed, poses: Sequence[np.ndarray], motions: Sequence[tuple[Motion, float]], size: int) -> Camera:
-    places = [posed.corners @ T[:3, :3].T + T[:3, 3] for T in poses]
-    focus = bounds_of(places)
-    total = bounds_of([posed.mesh.bounds, focus])
-    margin = MARGIN * float(np.linalg.norm(focus[1] - focus[0]))
-    focus = np.stack([np.maximum(focus[0] - margin, total[0]), np.minimum(focus[1] + margin, total[1])])
-    step = DEPTH * posed.mesh.diagonal
-    best, most = None, -1.0
-    for azimuth, elevation in ((a, e) for e in ELEVATION_WEIGHTS for a in AZIMUTH_WEIGHTS):
-        far = orbit_camera(total, np.deg2rad(azimuth), np.deg2rad(elevation), SKETCH)
-        near = _framed(far, _corners(focus))
-        rays = near.rays()
-        found = _difference(_depths(posed, poses, near, rays), step) * ELEVATION_WEIGHTS[elevation] * AZIMUTH_WEIGHTS[azimuth]
-        if best is None or found > most:
-            best, most = near, found
-    assert best is not None
-    ends = [_axis(posed.corners, *m, best)[0] for m in motions]
-    return _tightened(best, posed, places, np.concatenate([np.zeros((0, 3)), *ends]), size)
-
-
-def _tightened(
-    camera: Camera, posed: Posed, places: Sequence[Float[np.ndarray, "k 3"]], points: Float[np.ndarray, "n 3"], size: int
-) -> Camera:
-    """Frame the part in every pose, these points, and a margin of MARGIN where the object fills it."""
-    still = np.isfinite(posed.still_hits(camera.rays()).distance).reshape(camera.height, camera.width)
-    moving = camera.project(np.concatenate([*places, points]))[0]
-    low, high = moving.min(0), moving.max(0)
-    air = MARGIN * float((high - low).max()) * np.ones(2)
-    box = box_of(still) if still.any() else np.concatenate([low, high])
-    low, high = np.minimum(low, np.maximum(low - air, box[:2])), np.maximum(high, np.minimum(high + air, box[2:]))
-    return zoom(camera, np.concatenate([low, high]), AIR, size)
-
-
-def _corners(bounds: Float[np.ndarray, "2 3"]) -> Float[np.ndarray, "8 3"]:
-    return np.stack(np.meshgrid(*bounds.T, indexing="ij"), -1).reshape(-1, 3)
-
-
-def _framed(camera: Camera, points: Float[np.ndarray, "n 3"]) -> Camera:
-    """Frame some points, with a small margin around them."""
-    pixel = camera.project(points)[0]
-    return zoom(camera, np.concatenate([pixel.min(0), pixel.max(0)]), AIR, camera.height)
-
-
-def _depths(posed: Posed, poses: Sequence[np.ndarray], camera: Camera, rays: Rays) -> list[Float[np.ndarray, " n"]]:
-    """Return the depth of the visible moving part for each pose, in lengths of the rays; inf elsewhere."""
-    before = posed.still_hits(rays).distance
-    found = []
-    for T in poses:
-        part = posed.part_pixels(T, camera)
-        depth = np.full(len(before), np.inf)
-        depth[part.pixel] = np.where(part.distance < before[part.pixel], part.distance, np.inf)
-        found.append(depth)
-    return found
-
-
-def _difference(depths: Sequence[Float[np.ndarray, " n"]], min_difference: float) -> float:
-    """Score how different the poses look: the minimum plus 0.2 times the mean share of pixels that differ between two poses.
-
-    The share of pixels that show the part in the first pose, at rest, is added with weight 0.2.
-    """
-    clipped = np.minimum(np.array(depths), 1e9)
-    pairs = [(np.abs(a - b) > min_difference).mean() for k, a in enumerate(clipped) for b in clipped[:k]]
-    shown = np.isfinite(depths[0]).mean()
-    return float(min(pairs, default=0.0) + 0.2 * np.mean(pairs or [0.0]) + 0.2 * shown)
 
 
 def _half(picture: UInt8[np.ndarray, "H W 3"]) -> UInt8[np.ndarray, "h w 3"]:

@@ -12,7 +12,7 @@ from jaxtyping import Bool, Float, Int, UInt8
 from anymesh.config import Config
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.rendering.arrows import clearest_view, draw_arrows
-from anymesh.rendering.card import part_card, titled
+from anymesh.rendering.card import card_view, part_card, titled
 from anymesh.rendering.encode import encode
 from anymesh.rendering.insides import inside_views
 from anymesh.rendering.paint import highlight
@@ -120,7 +120,8 @@ class VisualPrompts:
         self, face_part: Int[np.ndarray, " F"], part: int, title: str, contact: Float[np.ndarray, "c 3"] | None = None
     ) -> Picture:
         """Draw the highlighted part, and a close-up if it is small; contact: points [m] that should be visible."""
-        return encode(part_card(self._mesh, self.views, face_part, part, title, self._config.views, self.scene, contact))
+        view = card_view(self.views, face_part, part, self.scene, contact)
+        return encode(part_card(self._mesh, view, face_part, part, title, self._config.views, self.scene))
 
     def shot(self, face_part: Int[np.ndarray, " F"], part: int) -> Shot:
         """Return the part in its best view."""

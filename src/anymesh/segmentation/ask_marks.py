@@ -20,6 +20,7 @@ from anymesh.segmentation.regions import Marks
 from anymesh.types import Picture
 from anymesh.vlm.asking import VisualAnswerer
 from anymesh.vlm.grounding import MarkedPart, MarksAnswer, WhichMarks, WhichViews
+from anymesh.vlm.pictures import DrawnPictures
 
 INSIDE = "inside"  # prefix of the names of pictures of the inside
 MAX_PICTURES = 16  # pictures per call
@@ -35,12 +36,14 @@ class MarkQuestioner:
     category: str | None
     config: Config
 
-    def pictures(self, shown: Sequence[MarkPicture]) -> tuple[Picture, ...]:
-        """Return the pictures with their marks drawn, or none if the answerer needs no images."""
-        if not self.answerer.needs_images:
-            return ()
-        images = [draw_marks(p.view.color, p.marks, alpha=self.config.grounding.alpha) for p in shown]
-        return self.visual_prompts.pictures(images, [p.name for p in shown])
+    def pictures(self, shown: Sequence[MarkPicture]) -> DrawnPictures:
+        """Return the pictures with their marks."""
+
+        def draw() -> tuple[Picture, ...]:
+            images = [draw_marks(p.view.color, p.marks, alpha=self.config.grounding.alpha) for p in shown]
+            return self.visual_prompts.pictures(images, [p.name for p in shown])
+
+        return DrawnPictures(draw)
 
 
 @dataclass(frozen=True, eq=False)
@@ -138,7 +141,7 @@ def ask_masks(
     The first question asks which labels each view shows, the others which marks belong to which part, for MAX_PICTURES views
     each. Parts of different calls have different instance numbers, since no call shows the pictures of another.
     """
-    plain = questioner.visual_prompts.pictures([v.color for v in seen], names) if questioner.answerer.needs_images else ()
+    plain = DrawnPictures(lambda: questioner.visual_prompts.pictures([v.color for v in seen], names))
     seen_in = questioner.answerer.ask(WhichViews(plain, questioner.labels, tuple(v.face for v in seen), questioner.category))
     chosen = sorted({k for found in seen_in.values() for k in found})
     labels = tuple(label for label, found in seen_in.items() if found)

@@ -8,7 +8,7 @@ import numpy as np
 from jaxtyping import Int
 
 from anymesh.config import Config
-from anymesh.geometry.part_context import PartContext
+from anymesh.motion.part_context import PartContext
 from anymesh.segmentation.part_fit import enclosed_share, fit_of_rim, has_two_pivots, on_axis, open_behind, touching
 from anymesh.segmentation.part_tree import PartTree
 from anymesh.types import Mesh

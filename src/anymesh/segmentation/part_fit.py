@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from anymesh.config import SegmentationConfig
-from anymesh.geometry.part_context import PartContext
+from anymesh.motion.part_context import PartContext
 
 FACING = 0.5  # minimum cosine between a rim's normal and that of the surface across a clearance
 RIM = 0.75  # samples beyond this share of the half extent belong to a rim

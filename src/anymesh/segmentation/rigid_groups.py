@@ -83,7 +83,7 @@ def root_ranking(whole: ObjectShape, contacts: Contacts) -> list[int]:
         # sides of the object that the patch reaches; walls reach most of them
         sides = int((np.abs(s.bounds - bounds) < 0.02 * whole.diagonal).sum())
         rank.append(size * (1.3 if stands > 0.05 else 1.0) * (1 + 0.1 * sides))
-    order = np.lexsort((-np.array(rank), np.isin(np.arange(len(rank)), whole.panels)))
+    order = np.lexsort((-np.array(rank), np.isin(np.arange(len(rank)), whole.inferred)))
     return [int(i) for i in order]
 
 

@@ -27,7 +27,7 @@ from anymesh.segmentation.part_classifier import score_parts
 from anymesh.segmentation.part_features import FeatureScene, part_context_of, part_features
 from anymesh.segmentation.part_tree import PartTree, part_tree
 from anymesh.types import Mesh, Segmentation
-from anymesh.vocabulary import TypicalMotion, is_fixed_name, recognize, words_of
+from anymesh.vocabulary import is_fixed_name, recognize, words_of
 
 LabelParts = Callable[[Segmentation], Sequence[str]]  # label per part except the base from its motion, "" if it cannot move
 MAX_ASSIGNMENTS = 3  # maximum number of assignments, each without the candidates that turned out to be fixed
@@ -118,7 +118,7 @@ def _name_score(name: str) -> float:
     word = recognize(name)
     if word is None:
         return FIXED_NAME_SCORE if is_fixed_name(name) else 0.0
-    return HANDLE_NAME_SCORE if word.motion is TypicalMotion.NONE or word.label == "handle" else NAME_SCORE
+    return HANDLE_NAME_SCORE if word.label == "handle" else NAME_SCORE
 
 
 def _chosen_at_least(tree: PartTree, score: Float[np.ndarray, " n"], chosen: list[int], count: int) -> list[int]:

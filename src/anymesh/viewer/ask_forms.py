@@ -12,7 +12,7 @@ from anymesh.viewer.ask_marks import MarksForm
 from anymesh.vlm.asking import Question
 from anymesh.vlm.grounding import WhichMarks
 from anymesh.vlm.motion_choice import MotionTable, PartFit, WhichMotions
-from anymesh.vlm.prompting import OTHER, JointKind, PartShown, PointTable, WhichArrows, WhichKinds, WhichPoints
+from anymesh.vlm.prompting import OTHER, JointAppearance, PartShown, PointTable, WhichArrows, WhichKinds, WhichPoints
 from anymesh.vlm.recognition import Recognize
 
 UNNAMED = "part"
@@ -101,7 +101,7 @@ class PartsForm:
 class KindRow:
     """Attachment of one part."""
 
-    joint: str = JointKind.HINGE_ALONG.value
+    joint: str = JointAppearance.HINGE_ALONG.value
     endless: bool = False
     label: str = OTHER
 

@@ -10,15 +10,15 @@ from anymesh.viewer.ask_marks import SPLIT, Group, MarksForm
 from anymesh.viewer.ask_shapes import group_color
 from anymesh.viewer.panels import SMALL
 from anymesh.vlm.motion_choice import MotionTable, PartFit
-from anymesh.vlm.prompting import JointKind
+from anymesh.vlm.prompting import JointAppearance
 
 KINDS = {
-    "hinge along an edge (door, lid)": JointKind.HINGE_ALONG,
-    "turns in the surface (knob, wheel)": JointKind.HINGE_INTO,
-    "turns, hinge out of sight": JointKind.HINGE_HIDDEN,
-    "slides in or out (drawer, button)": JointKind.SLIDE_OUT,
-    "slides along the surface": JointKind.SLIDE_ALONG,
-    "does not move": JointKind.FIXED,
+    "hinge along an edge (door, lid)": JointAppearance.HINGE_ALONG,
+    "turns in the surface (knob, wheel)": JointAppearance.HINGE_INTO,
+    "turns, hinge out of sight": JointAppearance.HINGE_HIDDEN,
+    "slides in or out (drawer, button)": JointAppearance.SLIDE_OUT,
+    "slides along the surface": JointAppearance.SLIDE_ALONG,
+    "does not move": JointAppearance.FIXED,
 }
 MOVES = {
     "turns within limits": JointType.REVOLUTE,

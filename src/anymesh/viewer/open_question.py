@@ -10,7 +10,8 @@ from anymesh.errors import InputError
 from anymesh.viewer.ask_forms import Form, form_of
 from anymesh.vlm.asking import BadAnswerError
 from anymesh.vlm.file_answerer import check_answer
-from anymesh.vlm.question_files import CHECK, LEAVE, QuestionFolder, QuestionStore
+from anymesh.vlm.question_files import CHECK, LEAVE, QuestionFolder
+from anymesh.vlm.question_store import QuestionStore
 from anymesh.vlm.saved_question import unpack_question
 
 WAITING = "Geometry is working out a suggestion; you need not wait for it."

@@ -10,7 +10,8 @@ import reprlib
 from collections.abc import Mapping
 from typing import Any, Protocol, TypeVar, runtime_checkable
 
-from anymesh.types import Exchange, Picture
+from anymesh.types import Exchange
+from anymesh.vlm.pictures import Pictures
 
 Answer = TypeVar("Answer")
 Answer_co = TypeVar("Answer_co", covariant=True)
@@ -28,7 +29,7 @@ class Question(Protocol[Answer_co]):
     def kind(self) -> str: ...
 
     @property
-    def pictures(self) -> tuple[Picture, ...]: ...
+    def pictures(self) -> Pictures: ...
 
     def text(self) -> str:
         """Return the text of the question."""
@@ -50,12 +51,10 @@ class Question(Protocol[Answer_co]):
 class VisualAnswerer(Protocol):
     """Answerer of questions with pictures: a model, geometry as its fallback, or ground truth.
 
-    exchanges: every call so far; warnings: messages for the user (which fallback answered, and why); needs_images: False if the
-    other fields of a question are sufficient, so that its pictures are not rendered.
+    exchanges: every call so far; warnings: messages for the user (which fallback answered, and why).
     """
 
     name: str
-    needs_images: bool
 
     @property
     def exchanges(self) -> tuple[Exchange, ...]: ...

@@ -23,14 +23,14 @@ from anymesh.vlm.question_files import (
     SHEET,
     WORDS,
     QuestionFolder,
-    QuestionStore,
     wait_for_answer,
 )
+from anymesh.vlm.question_store import QuestionStore
 from anymesh.vlm.question_words import question_page
 from anymesh.vlm.reply_text import reply_object
 from anymesh.vlm.saved_question import pack_question, unpack_question
 from anymesh.vlm.vision import Reply, Request
-from anymesh.vlm.vlm_answerer import SYSTEM, exchange_of
+from anymesh.vlm.vlm_answerer import exchange_of, request_of
 
 LEFT = f"left to {LEAVE}"  # verdict on a question left to geometry
 POLL = 1.0  # [s] interval between checks for an answer
@@ -44,7 +44,6 @@ class FileAnswerer:
     for.
     """
 
-    needs_images = True
     warnings: tuple[str, ...] = ()
 
     def __init__(
@@ -71,7 +70,7 @@ class FileAnswerer:
 
         Raise OpenQuestionError if there is no valid answer yet, OutputError if the folder cannot be written.
         """
-        request = Request(question.kind, SYSTEM, question.text(), question.pictures, question.schema())
+        request = request_of(question)
         folder = self._store.put(request, _files(request, question))
         begin, text = time.monotonic(), folder.answer()
         while True:

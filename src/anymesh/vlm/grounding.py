@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from jaxtyping import Int
 
-from anymesh.types import Picture
 from anymesh.vlm.asking import INTEGER, BadAnswerError, a_list, an_answer, an_object, one_of, with_category
+from anymesh.vlm.pictures import Pictures
 
 
 @dataclass(frozen=True, eq=False)
@@ -20,7 +20,7 @@ class WhichViews:
     faces: a face index per pixel of each view, -1 for none.
     """
 
-    pictures: tuple[Picture, ...]
+    pictures: Pictures
     labels: tuple[str, ...]
     faces: tuple[Int[np.ndarray, "H W"], ...]
     category: str | None = None
@@ -84,7 +84,7 @@ class WhichMarks:
     marks on the surface itself.
     """
 
-    pictures: tuple[Picture, ...]
+    pictures: Pictures
     labels: tuple[str, ...]
     consistent: bool
     regions: tuple[Int[np.ndarray, "H W"], ...]

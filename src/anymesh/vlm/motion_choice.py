@@ -10,8 +10,9 @@ from typing import Any
 import numpy as np
 from jaxtyping import Int
 
-from anymesh.types import JointType, Motion, Picture
+from anymesh.types import JointType, Motion
 from anymesh.vlm.asking import INTEGER, a_list, an_answer, an_object, one_of
+from anymesh.vlm.pictures import Pictures
 from anymesh.vlm.prompting import PartShown, picked_rows
 
 
@@ -67,7 +68,7 @@ class WhichMotions:
     ask_fit: the answer also says whether the coloured region is the whole part and nothing else.
     """
 
-    pictures: tuple[Picture, ...]
+    pictures: Pictures
     tables: tuple[MotionTable, ...]
     category: str = "object"
     ask_fit: bool = False

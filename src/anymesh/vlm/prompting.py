@@ -10,13 +10,13 @@ from typing import Any
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
-from anymesh.types import Picture
 from anymesh.vlm.asking import BOOLEAN, INTEGER, BadAnswerError, a_list, an_answer, an_object, one_each, one_of
+from anymesh.vlm.pictures import Pictures
 
 OTHER = "other"  # label of a part that is none of the recognized kinds
 
 
-class JointKind(StrEnum):
+class JointAppearance(StrEnum):
     """Appearance of a joint from outside (paper, 3.3)."""
 
     HINGE_ALONG = "hinge_along_edge"  # two or more points of the axis are visible where the parts meet
@@ -28,7 +28,7 @@ class JointKind(StrEnum):
 
     @property
     def is_rotation(self) -> bool:
-        return self in (JointKind.HINGE_ALONG, JointKind.HINGE_INTO, JointKind.HINGE_HIDDEN)
+        return self in (JointAppearance.HINGE_ALONG, JointAppearance.HINGE_INTO, JointAppearance.HINGE_HIDDEN)
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,7 +54,7 @@ class KindAnswer:
     endless: rotates without limits; label: the recognized kind of part, None if it was not asked for.
     """
 
-    kind: JointKind
+    kind: JointAppearance
     endless: bool = False
     label: str | None = None
 
@@ -66,7 +66,7 @@ class WhichKinds:
     labels: recognized kinds of part to choose from, if parts are given without such a label; category: of the object.
     """
 
-    pictures: tuple[Picture, ...]
+    pictures: Pictures
     parts: tuple[PartShown, ...]
     labels: tuple[str, ...] = ()
     category: str = "object"
@@ -86,7 +86,7 @@ class WhichKinds:
 
     def schema(self) -> dict[str, Any]:
         label = {"label": one_of((*self.labels, OTHER))} if self.labels else {}
-        return an_answer(parts=a_list(an_object(part=INTEGER, joint=one_of(tuple(JointKind)), endless=BOOLEAN, **label)))
+        return an_answer(parts=a_list(an_object(part=INTEGER, joint=one_of(tuple(JointAppearance)), endless=BOOLEAN, **label)))
 
     def parse(self, found: Mapping[str, Any]) -> tuple[KindAnswer, ...]:
         """Return the answers in the order of the parts."""
@@ -95,7 +95,7 @@ class WhichKinds:
         return tuple(self._answer(p) for _, p in sorted(by_part.items()))
 
     def _answer(self, found: Mapping[str, Any]) -> KindAnswer:
-        kind, label = JointKind(found["joint"]), found.get("label")
+        kind, label = JointAppearance(found["joint"]), found.get("label")
         return KindAnswer(kind, found["endless"] and kind.is_rotation, None if label == OTHER else label)
 
 
@@ -110,22 +110,22 @@ class PointTable:
 
     part: PartShown
     points: Float[np.ndarray, "k 3"]
-    kind: JointKind
+    kind: JointAppearance
     axes: Float[np.ndarray, "k 3"] | None = None
     hidden: Bool[np.ndarray, " k"] | None = None
 
     @property
     def min_points(self) -> int:
-        return 2 if self.kind is JointKind.HINGE_ALONG and len(self.points) > 1 else 1
+        return 2 if self.kind is JointAppearance.HINGE_ALONG and len(self.points) > 1 else 1
 
     @property
     def max_points(self) -> int:
-        into = self.kind is JointKind.HINGE_INTO
+        into = self.kind is JointAppearance.HINGE_INTO
         return min(len(self.points), (1 if self.axes is None else 2) if into else len(self.points))
 
     @property
     def wanted(self) -> str:
-        if self.kind is JointKind.HINGE_INTO:
+        if self.kind is JointAppearance.HINGE_INTO:
             one = "the one point nearest to its axis"
             return one if self.max_points == 1 else f"{one} where that comes out of the surface, or two points on its axis"
         far = "two or more points on its hinge line, far apart"
@@ -145,7 +145,7 @@ class PointTable:
 class WhichPoints:
     """Which numbered points lie on the axis? One picture per part."""
 
-    pictures: tuple[Picture, ...]
+    pictures: Pictures
     tables: tuple[PointTable, ...]
     category: str = "object"
     kind: str = "points"
@@ -186,7 +186,7 @@ class ArrowTable:
 class WhichArrows:
     """Along which arrow does the part open or move from its position? One picture per part."""
 
-    pictures: tuple[Picture, ...]
+    pictures: Pictures
     tables: tuple[ArrowTable, ...]
     category: str = "object"
     kind: str = "arrows"

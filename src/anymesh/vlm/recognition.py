@@ -21,6 +21,7 @@ from anymesh.vlm.asking import (
     an_object,
     one_of,
 )
+from anymesh.vlm.pictures import DrawnPictures, Pictures
 
 MAX_LABELS = 24  # kinds of part per answer
 SIZES = (0.002, 200.0)  # [m] range of the size of an object
@@ -37,7 +38,7 @@ class Recognize:
     azimuths: of the pictures [deg].
     """
 
-    pictures: tuple[Picture, ...]
+    pictures: Pictures
     category: str | None = None  # if the user gave it
     azimuths: tuple[float, ...] = ()
     kind: str = "recognize"
@@ -157,7 +158,7 @@ def recognize(
     """
     if labels:
         return Recognition(category or "object", None, tuple(RecognizedLabel(label, None, None, None) for label in labels))
-    return answerer.ask(Recognize(pictures() if answerer.needs_images else (), category, tuple(azimuths)))
+    return answerer.ask(Recognize(DrawnPictures(pictures), category, tuple(azimuths)))
 
 
 def answered_scale(found: Recognition, size: float, *, metric: bool) -> tuple[float, str, tuple[str, ...]]:

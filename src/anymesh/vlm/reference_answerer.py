@@ -18,7 +18,7 @@ from anymesh.types.recognition import BASE, Recognition, RecognizedLabel
 from anymesh.vlm.asking import Answer, Question
 from anymesh.vlm.grounding import MarkedPart, MarksAnswer, WhichMarks, WhichViews
 from anymesh.vlm.motion_choice import MotionPick, WhichMotions
-from anymesh.vlm.prompting import JointKind, KindAnswer, PartShown, PointTable, WhichArrows, WhichKinds, WhichPoints
+from anymesh.vlm.prompting import JointAppearance, KindAnswer, PartShown, PointTable, WhichArrows, WhichKinds, WhichPoints
 from anymesh.vlm.recognition import Recognize
 from anymesh.vlm.reference import Reference
 
@@ -40,7 +40,6 @@ class ReferenceAnswerer:
 
     exchanges: tuple[Exchange, ...] = ()
     warnings: tuple[str, ...] = ()
-    needs_images = False
 
     def __init__(self, name: str, reference: Callable[[], Reference]) -> None:
         self.name, self._make = name, reference
@@ -144,19 +143,25 @@ class ReferenceAnswerer:
         label = self._known.kinds[self._number(part)]
         told = label if label in labels else None
         if joint is None:
-            return KindAnswer(JointKind.FIXED, label=told)
+            return KindAnswer(JointAppearance.FIXED, label=told)
         endless = joint.type is JointType.CONTINUOUS
         return KindAnswer(self._kind_of(part, joint), endless, told)
 
-    def _kind_of(self, part: PartShown, joint: KnownJoint) -> JointKind:
+    def _kind_of(self, part: PartShown, joint: KnownJoint) -> JointAppearance:
         axis = joint.opening_motion.axis
         if joint.type is JointType.PRISMATIC:
-            return JointKind.SLIDE_OUT if abs(float(axis @ part.outward)) > MIN_OPENING_COSINE else JointKind.SLIDE_ALONG
+            return (
+                JointAppearance.SLIDE_OUT
+                if abs(float(axis @ part.outward)) > MIN_OPENING_COSINE
+                else JointAppearance.SLIDE_ALONG
+            )
         on = part.contact[_to_line(part.contact, joint) < MAX_AXIS_DISTANCE_RATIO * _size(part)]
         along = np.ptp(on @ axis) if len(on) > 1 else 0.0
         if along > MIN_HINGE_SPREAD_RATIO * np.ptp(part.points @ axis):
-            return JointKind.HINGE_ALONG
-        return JointKind.HINGE_INTO if abs(float(axis @ part.normal)) > MIN_NORMAL_COSINE else JointKind.HINGE_HIDDEN
+            return JointAppearance.HINGE_ALONG
+        return (
+            JointAppearance.HINGE_INTO if abs(float(axis @ part.normal)) > MIN_NORMAL_COSINE else JointAppearance.HINGE_HIDDEN
+        )
 
     def _points(self, table: PointTable) -> tuple[int, ...]:
         """Return the point with the best axis, or the two points with the best line.

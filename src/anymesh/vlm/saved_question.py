@@ -29,7 +29,10 @@ SAVED_NAMES = {  # modules whose name in files stays that of the first version, 
 }
 RECORD = "record"  # name of the array with the JSON text
 TAG = "is"  # field of a tagged value with its type
-SAVED_CLASSES = {"anymesh.types.motion:JointType": "anymesh.types.motion:MotionKind"}  # the same for classes
+SAVED_CLASSES = {  # the same for classes
+    "anymesh.types.motion:JointType": "anymesh.types.motion:MotionKind",
+    "anymesh.reasoning.prompting:JointAppearance": "anymesh.reasoning.prompting:JointKind",
+}
 CLASSES = {saved: name for name, saved in SAVED_CLASSES.items()}
 RENAMED = {("anymesh.types.motion:MotionKind", "TURN"): "REVOLUTE", ("anymesh.types.motion:MotionKind", "SLIDE"): "PRISMATIC"}
 """Enum members that files of earlier versions hold under another name."""

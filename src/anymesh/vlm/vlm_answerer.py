@@ -28,8 +28,6 @@ class VlmAnswerer:
     patience: shared by the answerers of one run; once it is lost, the model is not asked again.
     """
 
-    needs_images = True
-
     def __init__(self, model: VisionModel, fallback: VisualAnswerer, patience: Patience | None = None) -> None:
         self.name = model.name
         self._model, self._fallback, self._patience = model, fallback, patience or Patience()
@@ -49,7 +47,7 @@ class VlmAnswerer:
 
         Raise ModelError if there is no reply at all, BudgetError before a call that would exceed the budget.
         """
-        request = Request(question.kind, SYSTEM, question.text(), question.pictures, question.schema())
+        request = request_of(question)
         if self._patience.lost:
             verdict = f"{NOT_ASKED}, {self.name} was given up; {self._fallback.name} {FALLBACK_VERDICT}"
             nothing = Reply("", self._model.name, 0, 0, cost=0.0)
@@ -85,6 +83,11 @@ class VlmAnswerer:
             answer, verdict = error, f"not valid: {error}; asked again"
         self._exchanges.append(exchange_of(self._model.name, request, reply, verdict))
         return answer
+
+
+def request_of(question: Question[Answer]) -> Request:
+    """Return the request that asks a question."""
+    return Request(question.kind, SYSTEM, question.text(), tuple(question.pictures), question.schema())
 
 
 def exchange_of(model: str, request: Request, reply: Reply, verdict: str) -> Exchange:

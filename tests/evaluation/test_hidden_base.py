@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from assets import box, mesh_of
 
+from anymesh.evaluation.hidden_base import hidden_base, is_occluded, occluded_walls
 from anymesh.geometry.boxes import OrientedBox
-from anymesh.geometry.hidden_base import hidden_base, is_occluded, occluded_walls
 from anymesh.rendering.render import render
 from anymesh.rendering.viewpoints import orbit_camera
 

@@ -6,11 +6,11 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 from scipy.spatial import ConvexHull
 
-from anymesh.geometry.handles import ALIGNED, SurfaceHandle, aligned, find_handles, is_main_component, region_sizes
-from anymesh.geometry.layout import filled, tile
 from anymesh.geometry.sampling import sample_surface
 from anymesh.geometry.topology import label_connected
 from anymesh.geometry.triangle_set import MeshSurface
+from anymesh.segmentation.handles import ALIGNED, SurfaceHandle, aligned, find_handles, is_main_component, region_sizes
+from anymesh.segmentation.layout import filled, tile
 
 MAX_BEND_DEG = 40.0  # [deg] maximum bend of a face
 MAX_BULGE_RATIO = 0.06  # of the diagonal: maximum bulge of a face

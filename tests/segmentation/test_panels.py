@@ -3,7 +3,8 @@
 import numpy as np
 import trimesh
 
-from anymesh.geometry.patches import ObjectShape, object_shape
+from anymesh.geometry.patches import ObjectShape
+from anymesh.segmentation.divide import object_shape
 from anymesh.types import Mesh, Node
 
 SIZE = np.array([1.0, 0.6, 1.2])
@@ -27,7 +28,7 @@ def bar(x: float, z: float, along: int) -> tuple[list[float], list[float]]:
 
 def front_boxes(whole: ObjectShape) -> np.ndarray:
     """Return the bounds of the panels found, (k, 2, 3), from left to right and from bottom to top."""
-    boxes = np.array([whole.of(np.flatnonzero(whole.patch == p)).bounds for p in whole.panels]).reshape(-1, 2, 3)
+    boxes = np.array([whole.of(np.flatnonzero(whole.patch == p)).bounds for p in whole.inferred]).reshape(-1, 2, 3)
     return boxes[np.lexsort((boxes[:, 0, 2].round(1), boxes[:, 0, 0].round(1)))]
 
 
@@ -41,23 +42,23 @@ def test_two_bars_divide_a_face_into_two_doors() -> None:
 
 
 def test_a_face_without_handles_stays_whole() -> None:
-    assert len(object_shape(solid()).panels) == 0
+    assert len(object_shape(solid()).inferred) == 0
 
 
 def test_feet_and_mouldings_are_no_handles() -> None:
     feet = [([x, y, -0.62], [0.05, 0.05, 0.08]) for x in (-0.4, 0.4) for y in (-0.2, 0.2)]
     moulding = ([0, FRONT, 0.4], [0.5, 0.02, 0.1])
-    assert len(object_shape(solid(*feet, moulding)).panels) == 0
+    assert len(object_shape(solid(*feet, moulding)).inferred) == 0
 
 
 def test_a_thin_door_is_a_front_on_both_sides_and_a_deep_cabinet_is_not() -> None:
     for depth, through in ((0.08, True), (0.6, False)):
         handle = ([0.4, -depth / 2 - 0.02, 0.0], [0.03, 0.06, 0.2])
         whole = object_shape(solid(handle, size=np.array([1.0, depth, 1.2])))
-        assert len(whole.panels) == 1
+        assert len(whole.inferred) == 1
         back = whole.shape.normals[:, 1] > 0.9
         assert (
-            whole.patch[back & (whole.shape.triangles[:, :, 1].min(1) > depth / 2 - 1e-6)] == whole.panels[0]
+            whole.patch[back & (whole.shape.triangles[:, :, 1].min(1) > depth / 2 - 1e-6)] == whole.inferred[0]
         ).all() == through
 
 
@@ -67,6 +68,6 @@ def test_turning_the_object_turns_its_fronts() -> None:
     T = np.eye(4)
     T[:2, :2] = [[c, -s], [s, c]]
     plain, turned = object_shape(mesh), object_shape(mesh.transformed(T))
-    assert len(turned.panels) == 2
-    same = np.isin(plain.mesh_patch, plain.panels) == np.isin(turned.mesh_patch, turned.panels)
+    assert len(turned.inferred) == 2
+    same = np.isin(plain.mesh_patch, plain.inferred) == np.isin(turned.mesh_patch, turned.inferred)
     assert mesh.face_areas[same].sum() > 0.98 * mesh.face_areas.sum()

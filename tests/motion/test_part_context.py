@@ -4,12 +4,14 @@ import numpy as np
 import pytest
 import trimesh
 from assets import CABINET, box, mesh_of
-from rigid import apply, move, shape_of
+from geometry.rigid import apply, move, shape_of
 
+from anymesh.articulation.barrels import find_barrel_candidates
 from anymesh.config import ArticulationConfig
-from anymesh.geometry.part_context import PartContext, body_obb, find_barrel_candidates
-from anymesh.geometry.patches import object_shape
+from anymesh.geometry.body_obb import body_obb
 from anymesh.geometry.sampling import sample_surface
+from anymesh.motion.part_context import PartContext
+from anymesh.segmentation.divide import object_shape
 
 BASE, DOOR, DRAWER = CABINET["base"], CABINET["door"], CABINET["drawer"]
 GRIP = box((0.05, -0.06, 0.2), (0.07, -0.02, 0.4))  # upright, near the door's left edge

@@ -7,62 +7,20 @@ from functools import cached_property
 
 import numpy as np
 from jaxtyping import Bool, Float, Int
-from scipy.spatial import KDTree
 
 from anymesh.config import ArticulationConfig
-from anymesh.geometry.boxes import OrientedBox, box_in_frame
+from anymesh.geometry.body_obb import body_obb
+from anymesh.geometry.boxes import OrientedBox
 from anymesh.geometry.circles import Outline, roundest
 from anymesh.geometry.contact import connecting_area
-from anymesh.geometry.patches import ObjectShape
 from anymesh.geometry.sweep import Obstacles
-from anymesh.geometry.topology import label_connected
 from anymesh.geometry.triangle_set import TriangleSet
+from anymesh.motion.handle import FACING_COSINE, face_axes, find_handle
 from anymesh.types import Handle
 
-SIDE_LEVEL_RATIO = 0.12  # share of the surface facing a side that defines the level of that side
-MAX_PROTRUSION_RATIO = 0.25  # upper bound on the share of the surface that protrudes
 IGNORE_OVERLAP_SCALE = 10.0  # penetration scale from which static geometry inside the part's box is ignored
 DOWNWARD_PENALTY = 0.4  # subtracted from the score of a downward direction, since most objects stand on something
-FACING_COSINE = 0.5  # minimum cosine between a normal and the direction it faces
-MIN_TAB_GAP_RATIO = 0.01  # of the scale: a tab that is closer to the parent is a hinge barrel
-# of the handle's height: maximum height of the face around a handle; around the top of a bulge it is higher
-MAX_BULGE_RATIO = 0.25
-MIN_HANDLE_GAP_RATIO = 0.002  # of the scale: a protrusion closer to the parent supports the part and is no handle
-MIN_HANDLE_ASPECT = 0.3  # minimum height of a handle over its smaller width
 MIN_SCALE_RATIO = 1e-9  # of the diagonal: keeps tolerances positive for a part that is a point
-MIN_HANDLE_HEIGHT_RATIO = 0.012  # minimum height of a handle over the part's diagonal
-
-
-def body_obb(shape: TriangleSet) -> OrientedBox:
-    """Return the oriented box of a part without protrusions: a small share of its surface, narrower than the part."""
-    frame = shape.box.axes
-    local = shape.samples.points @ frame.T
-    facing = np.abs(shape.samples.normals @ frame.T) > 0.9
-    corners = shape.corners @ frame.T
-    low, high = corners.min(0), corners.max(0)
-    slack = 0.01 * shape.box.diagonal
-    for axis in range(3):
-        for sign, edge in ((1.0, high), (-1.0, low)):
-            at = np.sort(sign * local[facing[:, axis], axis])
-            if len(at) < 0.02 * len(local) or len(at) < 3:
-                continue
-            level = at[-1 - min(int(SIDE_LEVEL_RATIO * len(at)), len(at) - 1)]
-            out = sign * local[:, axis] > level + slack / 2
-            if level < sign * edge[axis] - slack and _protrudes(local, out, axis):
-                edge[axis] = sign * level
-    if (high - low < 1e-9).any():
-        return shape.box
-    ends = np.array([[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
-    return box_in_frame(ends @ frame, frame)
-
-
-def _protrudes(local: np.ndarray, beyond: np.ndarray, axis: int) -> bool:
-    """Return whether the samples beyond a level are a protrusion: few, and narrower than the part in one direction."""
-    if not 0 < beyond.mean() < MAX_PROTRUSION_RATIO:
-        return False
-    others = [k for k in range(3) if k != axis]
-    span = np.ptp(local[beyond][:, others], axis=0) / np.maximum(np.ptp(local[:, others], axis=0), 1e-12)
-    return bool(span.min() < 0.6)
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,7 +35,7 @@ class PartContext:
     rest: TriangleSet  # static while the part moves
     others: TriangleSet | None  # the other movable parts
     everything: TriangleSet  # the object without the part
-    barrel_candidates: tuple[TriangleSet, ...]  # see `find_barrel_candidates`
+    barrel_candidates: tuple[TriangleSet, ...]  # long thin components that may be hinge barrels
     diagonal: float
     center: Float[np.ndarray, " 3"]
     config: ArticulationConfig
@@ -216,93 +174,10 @@ class PartContext:
 
     @cached_property
     def handle(self) -> Handle | None:
-        """Find the handle: the highest protrusion of the outer face, or otherwise a tab at one rim.
-
-        It must be small compared to the face, higher than a raised panel, and in one place. Several protrusions are controls.
-        """
-        return self._face_handle() or self._tab()
-
-    def _tab(self) -> Handle | None:
-        face, core = self.face_axes, self.body_obb
-        local = core.local(self.part.samples.points)
-        found = []
-        for row, k in enumerate(face):
-            for sign in (-1.0, 1.0):
-                out = sign * local[:, k] > core.half[k] + MIN_HANDLE_HEIGHT_RATIO * core.diagonal
-                if (
-                    out.sum() < 3
-                    or out.mean() > MAX_PROTRUSION_RATIO
-                    or float(np.median(self.gap[out])) < MIN_TAB_GAP_RATIO * self.scale
-                ):
-                    continue
-                along, half = local[out][:, face[1 - row]], max(float(core.half[face[1 - row]]), 1e-9)
-                if np.ptp(along) < half:  # at most half of the rim; a wider one is a ledge
-                    found.append((row, sign, float(along.mean()) / half, out))
-        if len(found) != 1:
-            return None
-        row, sign, level, out = found[0]
-        across = [sign, float(np.clip(level, -1, 1))]
-        size = float(np.ptp(local[out][:, face], axis=0).max() / core.diagonal)
-        return Handle((across[0], across[1]) if row == 0 else (across[1], across[0]), None, size)
-
-    def _face_handle(self) -> Handle | None:
-        k = int(np.abs(self.body_obb.axes @ self.opening_direction).argmax())
-        sign = np.sign(self.body_obb.axes[k] @ self.opening_direction)
-        local = self.body_obb.local(self.part.samples.points)
-        above = sign * local[:, k] - self.body_obb.half[k]
-        height = float(above.max())
-        out = above > max(MIN_HANDLE_HEIGHT_RATIO * self.body_obb.diagonal, height / 2)
-        if out.sum() < 3 or out.mean() > 0.45 or float(np.quantile(self.gap[out], 0.1)) < MIN_HANDLE_GAP_RATIO * self.scale:
-            return None
-        face = [i for i in range(3) if i != k]
-        at = local[out][:, face]
-        spacing = np.sqrt(self.part.area / len(local))
-        groups = label_connected(
-            len(at), KDTree(at).query_pairs(max(0.03 * self.body_obb.diagonal, 6 * spacing), output_type="ndarray")
-        )
-        if groups.max() > 1:
-            return None
-        low, high = at.min(0), at.max(0)
-        size = high - low
-        margin = max(height, 2 * spacing)
-        around = ((local[:, face] > low - margin) & (local[:, face] < high + margin)).all(1)
-        around &= ~((local[:, face] >= low) & (local[:, face] <= high)).all(1)
-        around &= self.part.samples.normals @ self.opening_direction > FACING_COSINE
-        if around.any() and (above[around] > MAX_BULGE_RATIO * height).mean() > 0.5:
-            return None
-        middle = (low + high) / 2 / np.maximum(self.body_obb.half[face], 1e-9)
-        along = None if size.max() < 1.6 * size.min() + 1e-9 else int(size.argmax())
-        if (size > 1.7 * self.body_obb.half[face]).all() or height < MIN_HANDLE_ASPECT * size.min():
-            return None
-        return Handle(
-            (float(np.clip(middle[0], -1, 1)), float(np.clip(middle[1], -1, 1))),
-            along,
-            float(size.max() / self.body_obb.diagonal),
-        )
+        """Return the handle of the part, None if it has none."""
+        return find_handle(self.part, self.body_obb, self.gap, self.scale, self.opening_direction)
 
     @cached_property
     def face_axes(self) -> list[int]:
         """Return the two box axes that span the outer face, in the order of Handle.across."""
-        k = int(np.abs(self.body_obb.axes @ self.opening_direction).argmax())
-        return [i for i in range(3) if i != k]
-
-
-def find_barrel_candidates(whole: ObjectShape, part: TriangleSet, parent: TriangleSet) -> tuple[TriangleSet, ...]:
-    """Find connected components near both part and parent that are long, thin and small: possible hinge barrels."""
-    diagonal = part.box.diagonal
-    reach = 0.015 * min(whole.diagonal, 5 * diagonal)
-    label = whole.patch
-    found = []
-    for own, other in ((part, parent), (parent, part)):
-        low, high = other.bounds[0] - reach, other.bounds[1] + reach
-        center = own.triangles.mean(1)
-        near = ((center > low) & (center < high)).all(1)
-        candidates, count = np.unique(label[own.faces[near]], return_counts=True)
-        for c in candidates[count >= 6][:60]:
-            mine = own.take(label[own.faces] == c)
-            half = mine.box.half
-            if 2 * half[0] > 1.1 * diagonal or half[1] > 0.05 * diagonal or half[2] < 0.7 * half[1] or half[0] < 1.5 * half[1]:
-                continue
-            if other.tree.distance(mine.samples.points[::10]).min() < reach:
-                found.append(mine)
-    return tuple(found)
+        return face_axes(self.body_obb, self.opening_direction)

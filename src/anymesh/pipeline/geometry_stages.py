@@ -1,0 +1,107 @@
+"""Stages A and B of one mesh by geometry alone, each result computed once."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from functools import cached_property
+
+import numpy as np
+
+from anymesh.articulation.estimate import PartMotions, choose_motion, estimate_joints, motion_questions, relabelled
+from anymesh.articulation.geometry_answerer import GeometryAnswerer
+from anymesh.articulation.part_labels import label_of
+from anymesh.config import Config
+from anymesh.deadline import Deadline
+from anymesh.geometry.patches import DividedSurface, ObjectShape
+from anymesh.pipeline.results import JointResult, RecognitionResult, SegmentationResult, joint_result, segmentation_result
+from anymesh.progress import Progress, silent
+from anymesh.segmentation.divide import divide_surface
+from anymesh.segmentation.segment import segment_parts
+from anymesh.types import JointType, Mesh, Segmentation
+from anymesh.types.recognition import Recognition
+from anymesh.vlm.reference import Reference, reference_of
+
+GEOMETRY = GeometryAnswerer()
+
+
+class GeometryStages:
+    """Geometry as the answerer of both stages (see `StageAnswerer`), and what it finds for the fallback of others."""
+
+    name = GEOMETRY.name
+    recognizes = False
+
+    def __init__(self, mesh: Mesh, config: Config, deadline: Deadline) -> None:
+        self.mesh, self.config, self.deadline = mesh, config, deadline
+        self._by_itself: Segmentation | None = None
+        self._swept: tuple[bytes, list[PartMotions]] | None = None  # faces of parts, and their motions
+
+    @cached_property
+    def whole(self) -> ObjectShape:
+        """Return the object as both stages use it."""
+        return self._divided.simplified(self.config.pieces)
+
+    @cached_property
+    def _divided(self) -> DividedSurface:
+        return divide_surface(self.mesh, self.config.seed, self.config.pieces)
+
+    def recognize(self, *, sized: bool = False, metric: bool = False) -> RecognitionResult:
+        """Return that nothing was recognized."""
+        return RecognitionResult(None, self.name)
+
+    def find_parts(self, recognition: Recognition | None, progress: Progress = silent) -> SegmentationResult:
+        """Run Stage A."""
+        return segmentation_result(self.parts(progress), self.name, self.deadline.warnings())
+
+    def estimate_joints(
+        self, segmentation: Segmentation, recognition: Recognition | None, progress: Progress = silent, grounded: bool = False
+    ) -> JointResult:
+        """Run Stage B."""
+        found = estimate_joints(segmentation, self._motions(segmentation, progress), GEOMETRY)
+        return joint_result(found, self.name, self.deadline.warnings())
+
+    def parts(self, progress: Progress = silent) -> Segmentation:
+        """Return the parts found by geometry, computed once."""
+        if self._by_itself is None:
+            self._by_itself = segment_parts(self.mesh, self.whole, self._labels, self.config, progress, self.deadline)
+        return self._by_itself
+
+    def _labels(self, segmentation: Segmentation) -> list[str]:
+        """Return a label of each part but the base from its motion by geometry; "" for a part that cannot move."""
+        found = {}
+        for i, _, around, question in self._motions(segmentation):
+            answer, best = choose_motion(around, question, GEOMETRY)
+            found[i] = "" if answer.type is JointType.FIXED else label_of(around, best)
+        return [found[i] for i in sorted(found)]
+
+    def _motions(self, segmentation: Segmentation, progress: Progress = silent) -> list[PartMotions]:
+        """Sweep the motions of all parts; the last result is cached."""
+        faces = segmentation.face_part.tobytes()
+        if self._swept is None or self._swept[0] != faces:
+            found = motion_questions(self.ready_for(segmentation), segmentation, self.config, self.deadline)
+            self._swept = faces, list(_with_progress(found, segmentation, progress))
+            return self._swept[1]
+        return list(_with_progress(relabelled(self._swept[1], segmentation), segmentation, progress))
+
+    def ready_for(self, segmentation: Segmentation) -> ObjectShape:
+        """Return the object with patches that each belong to one of these parts."""
+        label, whole = segmentation.face_part, self.whole
+        if (label == label[whole.source][np.unique(whole.patch, return_index=True)[1]][whole.mesh_patch]).all():
+            return whole
+        return self._divided.simplified(self.config.pieces, label)
+
+    @cached_property
+    def reference_parts(self) -> Reference:
+        """Return the reference made of the parts and joints that geometry finds."""
+        return self.reference(self.parts())
+
+    def reference(self, segmentation: Segmentation) -> Reference:
+        """Return the reference made of geometry's answers, the fallback of a model."""
+        joints = estimate_joints(segmentation, self._motions(segmentation), GEOMETRY)
+        return reference_of(self.mesh, segmentation, joints, self.config.category or "object")
+
+
+def _with_progress(swept: Iterable[PartMotions], segmentation: Segmentation, progress: Progress) -> Iterator[PartMotions]:
+    """Report progress for each part."""
+    for done, motions in enumerate(swept):
+        progress("joints", segmentation.parts[motions[0]].name, done, len(segmentation.parts) - 1)
+        yield motions

@@ -1,0 +1,152 @@
+"""Divide a surface into patches: connected components, divided at concave creases, and at panels on fused surfaces."""
+
+from __future__ import annotations
+
+import numpy as np
+from jaxtyping import Bool, Int
+from scipy.spatial import KDTree
+
+from anymesh.config import PiecesConfig
+from anymesh.geometry.creases import convex_regions
+from anymesh.geometry.distance_ import TriangleTree
+from anymesh.geometry.patches import DividedSurface, ObjectShape
+from anymesh.geometry.topology import label_connected
+from anymesh.geometry.triangle_set import MeshSurface, mesh_surface
+from anymesh.segmentation.handles import region_sizes
+from anymesh.segmentation.panels import split_panels
+from anymesh.types import Mesh
+
+MAX_SIZE_DIFFERENCE_RATIO = 0.05  # maximum relative difference of the diagonals of copies
+
+
+def object_shape(
+    mesh: Mesh, seed: int = 0, config: PiecesConfig | None = None, labels: Int[np.ndarray, " F"] | None = None
+) -> ObjectShape:
+    """Orient, split and simplify a mesh; the mesh is not modified.
+
+    labels: (F,) parts that are kept apart.
+    """
+    config = config or PiecesConfig()
+    return divide_surface(mesh, seed, config).simplified(config, labels)
+
+
+def divide_surface(mesh: Mesh, seed: int, config: PiecesConfig) -> DividedSurface:
+    """Orient a mesh and divide it into patches; the mesh is not modified."""
+    s = mesh_surface(mesh, seed)
+    patch, inferred = split_patches(s, config)
+    pairs = np.sort(patch[s.components.edges.faces], 1)
+    shared = np.unique(pairs[pairs[:, 0] != pairs[:, 1]], axis=0)
+    flipped = s.components.flip[s.components.label] & ~s.void[s.components.label]
+    from_handles = np.flatnonzero(np.bincount(patch, np.where(inferred, s.shape.areas, -s.shape.areas)) > 0)
+    return DividedSurface(s.shape, flipped, patch, shared, from_handles, s.diagonal)
+
+
+def split_patches(whole: MeshSurface, config: PiecesConfig) -> tuple[Int[np.ndarray, " F"], Bool[np.ndarray, " F"]]:
+    """Return a patch index per face, and which faces are on panels inferred from handles alone.
+
+    Patches are numbered from 0 in the order of their first faces.
+
+    Components that are large enough to contain a fused part are cut along their concave creases, sharp or soft. Crumbs left by
+    the cut join the neighbour with the longest common edge.
+    """
+    component = whole.components.label
+    large = region_sizes(whole, component) > config.fused_size * whole.diagonal
+    edges = whole.components.edges
+    pairs = edges.faces
+    concave = _concave(whole, config.crease)
+    soft = _soft_regions(whole, component, large, config)
+    cut = (concave & edges.aligned & large[component[pairs[:, 0]]]) | (soft[pairs[:, 0]] != soft[pairs[:, 1]])
+    region, inferred = split_panels(whole, label_connected(len(component), pairs[~cut]))
+    cut |= region[pairs[:, 0]] != region[pairs[:, 1]]
+    length = np.linalg.norm(_ends(whole, 0) - _ends(whole, 1), axis=1)
+    region = _absorb_crumbs(whole, region, pairs[cut], length[cut], config)
+    region = _fill_voids(whole, region)
+    return _limit_count(whole, region, config.most_pieces), inferred
+
+
+def _soft_regions(whole: MeshSurface, component: np.ndarray, large: np.ndarray, config: PiecesConfig) -> np.ndarray:
+    """Return regions bounded by soft concave creases on large and dense components; other components are one region each."""
+    region = component.copy()
+    count = np.bincount(component)
+    flip = whole.components.flip & ~whole.void
+    for c in np.flatnonzero(large & (count > config.soft_faces)):
+        mine = np.flatnonzero(component == c)
+        triangles = whole.shape.triangles[mine]
+        found = convex_regions(triangles[:, ::-1] if flip[c] else triangles, whole.diagonal, config)
+        region[mine] = np.where(found > 0, int(region.max()) + found, c)
+    return region
+
+
+def _ends(whole: MeshSurface, which: int) -> np.ndarray:
+    return whole.vertices[whole.components.edges.vertices[:, which]]
+
+
+def _concave(whole: MeshSurface, min_angle: float) -> np.ndarray:
+    """Return which edge pairs fold inwards by more than `min_angle` [deg]."""
+    f, g = whole.components.edges.faces.T
+    normals, centers = whole.shape.normals, whole.shape.triangles.mean(1)
+    inward = np.einsum("ij,ij->i", centers[g] - centers[f], normals[f])
+    inward += np.einsum("ij,ij->i", centers[f] - centers[g], normals[g])
+    cosine = np.einsum("ij,ij->i", normals[f], normals[g])
+    return (inward > 0) & (cosine < np.cos(np.deg2rad(min_angle)))
+
+
+def _absorb_crumbs(
+    whole: MeshSurface, region: np.ndarray, pairs: np.ndarray, length: np.ndarray, config: PiecesConfig
+) -> np.ndarray:
+    """Join regions that are too small to the neighbour with the longest common border; three rounds resolve chains."""
+    for _ in range(3):
+        small = region_sizes(whole, region) < config.crumb * whole.diagonal
+        small |= np.bincount(region, whole.shape.areas) < (config.crumb * whole.diagonal) ** 2  # slivers along a groove
+        a, b = region[pairs[:, 0]], region[pairs[:, 1]]
+        source, target = np.r_[a, b], np.r_[b, a]
+        weight = np.r_[length, length]
+        use = small[source] & (source != target)
+        if not use.any():
+            break
+        count = len(small)
+        key, where = np.unique(source[use].astype(np.int64) * count + target[use], return_inverse=True)
+        total = np.bincount(where.reshape(-1), weight[use])
+        order = np.lexsort((key % count, -total, key // count))
+        first = order[np.r_[True, np.diff(key[order] // count) != 0]]
+        region = label_connected(count, np.c_[key[first] // count, key[first] % count])[region]
+    return region
+
+
+def _fill_voids(whole: MeshSurface, region: np.ndarray) -> np.ndarray:
+    """Assign the walls of closed cavities to the nearest other region, since nothing inside moves."""
+    hidden = whole.void[whole.components.label]
+    if not hidden.any():
+        return region
+    centers = whole.shape.triangles.mean(1)
+    nearest = KDTree(centers[~hidden]).query(centers[hidden], workers=-1)[1]
+    target = region.copy()
+    for r in np.unique(region[hidden]):
+        inside = region[hidden] == r
+        target[region == r] = np.bincount(region[~hidden][nearest[inside]]).argmax()
+    return np.unique(target, return_inverse=True)[1].reshape(-1)
+
+
+def _limit_count(whole: MeshSurface, region: np.ndarray, max_count: int) -> np.ndarray:
+    """Limit the number of patches to about `max_count`: the smallest join their nearest larger one.
+
+    All copies of one size are treated alike.
+    """
+    count = int(region.max()) + 1
+    if count <= max_count:
+        return region
+    size = region_sizes(whole, region)
+    order = np.argsort(-size, kind="stable")
+    larger = order[size[order] > (1 + MAX_SIZE_DIFFERENCE_RATIO) * size[order[max_count]]]
+    keep = np.sort(larger if len(larger) > 1 else order[:max_count])
+    kept = np.isin(region, keep)
+    centers = whole.shape.triangles.mean(1)
+    lost = np.setdiff1d(np.arange(count), keep)
+    middle = np.zeros((count, 3))
+    np.add.at(middle, region, centers)
+    middle /= np.bincount(region, minlength=count)[:, None]
+    faces = np.flatnonzero(kept)
+    nearest = region[faces[TriangleTree(whole.shape.triangles[faces]).nearest(middle[lost])[1]]]
+    target = np.arange(count)
+    target[lost] = nearest
+    return np.unique(target[region], return_inverse=True)[1].reshape(-1)
