@@ -24,7 +24,7 @@ def library(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
 
 def test_a_module_is_imported_at_its_first_use(library: str) -> None:
     with deferred(library):
-        import user_of_seldom  # ty: ignore[unresolved-import]
+        import user_of_seldom  # ty: ignore[import-not-found]
     assert library not in sys.modules
     assert user_of_seldom.heavy.VALUE == 7
     assert library in sys.modules
@@ -34,7 +34,7 @@ def test_a_module_is_imported_at_its_first_use(library: str) -> None:
 
 def test_a_module_used_during_the_imports_is_imported_then(library: str) -> None:
     with deferred(library):
-        import user_of_seldom  # ty: ignore[unresolved-import]
+        import user_of_seldom  # ty: ignore[import-not-found]
 
         assert user_of_seldom.heavy.VALUE == 7
     assert sys.modules[library].VALUE == 7
@@ -43,7 +43,7 @@ def test_a_module_used_during_the_imports_is_imported_then(library: str) -> None
 
 def test_a_missing_module_stays_missing() -> None:
     with deferred("no_such_module_at_all"), pytest.raises(ImportError):
-        import no_such_module_at_all  # noqa: F401  # ty: ignore[unresolved-import]
+        import no_such_module_at_all  # noqa: F401  # ty: ignore[import-not-found]
 
 
 def test_the_pipeline_leaves_out_what_it_does_not_use() -> None:
