@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -10,7 +11,7 @@ from anymesh.deferred import deferred
 
 
 @pytest.fixture
-def library(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
+def library(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[str]:
     package = tmp_path / "seldom_package"
     package.mkdir()
     (package / "__init__.py").write_text("def __getattr__(name):\n    import seldom_package.heavy as heavy\n    return heavy\n")

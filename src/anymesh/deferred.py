@@ -32,9 +32,9 @@ def deferred(name: str) -> Generator[None]:
 
 
 class _StandIn(ModuleType):
-    def __getattr__(self, attribute: str) -> Any:
+    def __getattr__(self, name: str) -> Any:
         _remove(self)
-        return getattr(import_module(self.__name__), attribute)
+        return getattr(import_module(self.__name__), name)
 
 
 def _remove(stand_in: _StandIn) -> None:
