@@ -11,7 +11,7 @@ from anymesh.errors import OptionError
 
 CALL_SECONDS = 120.0  # [s] default of `--timeout`, for one call of a model
 DEFAULT_SECONDS = 600.0  # [s] default of `--time-limit`
-SEGMENT, JOINTS, COMPLETION, COLLISION = 0.4, 0.7, 0.7, 0.9  # shares of the limit after which each stage is cut short
+SEGMENT, JOINTS, COMPLETION, COLLISION, PREVIEW = 0.4, 0.7, 0.7, 0.9, 0.9  # shares after which a stage is cut short
 
 
 class Deadline:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import json
 import math
 from pathlib import Path
 
 import pytest
+from PIL import Image
 
 import anymesh
 from anymesh import deadline as module
@@ -47,6 +49,10 @@ def test_without_time_nothing_is_examined_and_the_asset_says_so(tmp_path):
     assert asset.joints == ()
     assert any("candidates for parts were not examined" in w for w in asset.warnings)
     assert any("one convex hull per component" in w for w in asset.warnings)
+    assert asset.warnings.count("time limit of 0.001 s: preview: it shows only the list of joints") == 1
+    assert asset.warnings == tuple(json.loads((tmp_path / "out" / "asset.json").read_text())["warnings"])
+    with Image.open(tmp_path / "out" / "preview.png") as picture:
+        assert picture.height < 100  # one line of the legend
     assert (tmp_path / "out" / "cabinet.urdf").is_file()
 
 

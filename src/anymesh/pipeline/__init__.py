@@ -12,6 +12,8 @@ The functions below are loaded on first use, so that importing a module of this 
 from importlib import import_module
 from typing import TYPE_CHECKING
 
+from anymesh.deferred import deferred
+
 if TYPE_CHECKING:
     from anymesh.pipeline.api import articulate, export_asset, finish, joints, segment
 
@@ -20,5 +22,6 @@ __all__ = ["articulate", "export_asset", "finish", "joints", "segment"]
 
 def __getattr__(name: str) -> object:
     if name in __all__:
-        return getattr(import_module("anymesh.pipeline.api"), name)
+        with deferred("numpy.f2py"):  # .07 s; SciPy only lists it among the names of NumPy
+            return getattr(import_module("anymesh.pipeline.api"), name)
     raise AttributeError(f"module 'anymesh.pipeline' has no attribute {name!r}")

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Generic, TypeVar
 
-from anymesh.deadline import Deadline
+from anymesh.deadline import PREVIEW, Deadline
 from anymesh.export import write_asset
 from anymesh.export.options import ExportOptions
 from anymesh.loading import load_mesh, place_mesh
@@ -20,7 +20,7 @@ from anymesh.pipeline.storage.packing import JOINTS, MESH, RECOGNITION, SEGMENTA
 from anymesh.pipeline.storage.run_folder import RunFolder
 from anymesh.pipeline.storage.stage_files import stage_key
 from anymesh.progress import Progress
-from anymesh.rendering.preview import write_preview
+from anymesh.rendering.preview import write_legend, write_preview
 from anymesh.segmentation.given import GIVEN
 from anymesh.types import Asset, Mesh, Source
 from anymesh.vlm.cache import cache_folder
@@ -132,13 +132,16 @@ def estimate_joints(
 
 
 def write_files(folder: RunFolder, how: ExportOptions, deadline: Deadline, progress: Progress) -> Asset:
-    """Write the files of the asset and its preview."""
+    """Write the files of the asset and its preview; only the legend of the preview if the deadline is near."""
     progress("export", "files", 0, 2)
     asset = folder.asset()
+    brief = deadline.late(PREVIEW)
+    if brief:
+        deadline.leave_out("preview: it shows only the list of joints")
     with folder.timed("export"), ThreadPoolExecutor(1) as aside:
 
         def draw() -> Future[None]:
-            return aside.submit(write_preview, asset, folder.folder / "preview.png")
+            return aside.submit(write_legend if brief else write_preview, asset, folder.folder / "preview.png")
 
         picture = draw() if len(asset.mesh.faces) <= ASIDE else None  # while child processes divide components
         model = write_asset(

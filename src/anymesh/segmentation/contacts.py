@@ -6,7 +6,6 @@ import itertools
 from dataclasses import dataclass
 from functools import cached_property
 
-import networkx as nx
 import numpy as np
 from jaxtyping import Float, Int
 
@@ -15,6 +14,7 @@ from anymesh.geometry.boxes import box_pairs, same_box, within
 from anymesh.geometry.patches import ObjectShape
 from anymesh.geometry.topology import label_connected
 from anymesh.geometry.triangle_set import TriangleSet
+from anymesh.segmentation.dominators import NONE, immediate_dominators
 
 MIN_FLATNESS = 0.6  # minimum length of the mean unit normal of a flat sheet with its handle; 1 is plane
 MIN_PLATE_ASPECT = 0.3  # minimum width over length of a plate; planks are narrower
@@ -198,22 +198,17 @@ def hanging_on(contacts: Contacts, group: Int[np.ndarray, " P"], root: int) -> d
 
     Groups join patches that are known to move together. Components without neighbours depend on the root.
     """
-    graph = nx.DiGraph()
     count = int(group.max()) + 1
-    graph.add_nodes_from(range(count))
-    for i, j in np.concatenate([contacts.touch, contacts.near]):
-        a, b = int(group[i]), int(group[j])
-        if a != b:
-            graph.add_edge(a, b)
-            graph.add_edge(b, a)
-    for island in list(nx.weakly_connected_components(graph)):
-        if root not in island:  # without neighbours, it depends on the root
-            graph.add_edges_from((root, node) for node in island)
-    parent = nx.immediate_dominators(graph, root)
-    children: dict[int, list[int]] = {u: [] for u in range(count)}
-    for node in sorted(parent):
-        if node != root and parent[node] is not None and parent[node] != node:
-            children[parent[node]].append(node)
+    pairs = group[np.concatenate([contacts.touch, contacts.near]).astype(np.int64).reshape(-1, 2)]
+    pairs = np.unique(np.concatenate([pairs, pairs[:, ::-1]])[np.tile(pairs[:, 0] != pairs[:, 1], 2)], axis=0)
+    island = label_connected(count, pairs)
+    alone = np.flatnonzero(island != island[root])  # without neighbours, a component depends on the root
+    successors = [part.tolist() for part in np.split(pairs[:, 1], np.searchsorted(pairs[:, 0], np.arange(1, count)))]
+    successors[root] += alone.tolist()
+    children: list[list[int]] = [[] for _ in range(count)]
+    for node, dominator in enumerate(immediate_dominators(successors, root)):
+        if dominator != NONE:
+            children[dominator].append(node)
     found: dict[int, list[int]] = {}
     for node in range(count):
         stack, below = [node], []
