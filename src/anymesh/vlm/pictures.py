@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator
 from functools import cached_property
 from typing import overload
 
 from anymesh.types import Picture
 
 
-class DrawnPictures(Sequence[Picture]):
-    """Pictures drawn on first use, so that answerers that do not look at them take no time for drawing."""
+class DrawnPictures:
+    """Pictures drawn on first use, so that answerers that do not look at them take no time for drawing.
+
+    It is no `Sequence`, of which runtime type checks read an item.
+    """
 
     def __init__(self, draw: Callable[[], tuple[Picture, ...]]) -> None:
         self._draw = draw
@@ -32,6 +35,9 @@ class DrawnPictures(Sequence[Picture]):
 
     def __getitem__(self, index: int | slice) -> Picture | tuple[Picture, ...]:
         return self._drawn[index]
+
+    def __iter__(self) -> Iterator[Picture]:
+        return iter(self._drawn)
 
     def __len__(self) -> int:
         return len(self._drawn)
