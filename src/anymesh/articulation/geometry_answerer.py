@@ -49,7 +49,7 @@ class GeometryAnswerer:
 def motion_scores(question: MotionQuestion) -> Float[np.ndarray, " k"]:
     """Return the log-odds of each candidate, with a penalty for blocked motions and a prior from the label."""
     scores = question.scores + np.array([0.0 if c.is_free else BLOCKED for c in question.candidates])
-    prior = LABEL_PRIOR.get(habit) if (habit := typical_motion(question.part.label)) else None
+    prior = LABEL_PRIOR.get(typical) if (typical := typical_motion(question.part.label)) else None
     if prior is None:
         return scores
     kinds = [2 if c.motion.kind is JointType.PRISMATIC else int(c.role == "round") for c in question.candidates]
