@@ -167,7 +167,7 @@ def report(work: Path, seed: int, out: Path) -> None:
     commands = [c.strip() for c in (__doc__ or "").split("\n\n")[1].splitlines()]
     head = ["# Mutation testing", "", f"{len(rows)} mutants, seed {seed}.", "", "```bash", *commands, "```", ""]
     head += [
-        "cosmic-ray changes one operator, number, constant or loop per mutant. A mutant is noticed if a test fails, or if the tests",
+        "cosmic-ray changes one operator, number or loop per mutant. A mutant is noticed if a test fails, or if the tests",
         f"take more than {LIMIT} s of processor time. It runs the tests that run the changed line and those beside",
         f"them, fastest first, up to {BUDGET:.0f} s, of {', '.join(f'`tests/{f}`' for f in FOLDERS)}. The rate leaves out",
         "equivalent mutants, which `mutation_equivalent.json` lists with the reason.",
