@@ -42,7 +42,7 @@ def seeds() -> dict[str, bytes]:
     from fuzz_files import write_scene
     from fuzz_scenes import scene
     from mesh_files import all_files
-    from test_references import naming
+    from naming_files import naming
 
     found = dict(all_files()) | {f"named_{n}": d for n, d in naming("checker.png").items()}
     for path in sorted((HERE.parent / "examples" / "meshes").glob("*.glb"), key=lambda p: p.stat().st_size)[:4]:

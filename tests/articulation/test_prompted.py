@@ -9,7 +9,7 @@ from assets import box
 from known import KNOWN, QUICK, Watched, knowing, known, prompted, ready, row_of, the_case
 from scenes import Scene
 
-from anymesh.articulation.cases import MAX_PICTURES, ask_each, make_cases
+from anymesh.articulation.cases import MAX_PICTURES, ask_each
 from anymesh.articulation.prompted import Questions, prompt_joints
 from anymesh.evaluation.metrics import angle_error, line_distance
 from anymesh.rendering.visual_prompts import VisualPrompts
@@ -240,11 +240,3 @@ def _row_of(question: WhichMotions, motion: Motion) -> int:
     motions = question.tables[0].motions
     same = [m.kind is motion.kind and np.allclose([m.axis, m.origin], [motion.axis, motion.origin]) for m in motions]
     return same.index(True)
-
-
-def test_a_label_that_hangs_on_itself_is_that_of_a_chain() -> None:
-    arms = {"base": [box((0, 0, 0), (2, 2, 0.2))], "low": [box((0.9, 0.9, 0.2), (1.1, 1.1, 3.2))]}
-    arms["high"] = [box((0.9, 1.1, 3.0), (1.1, 1.3, 6))]
-    _, whole, segmentation = ready(arms)
-    told = Recognition("lamp", None, (RecognizedLabel("part", JointType.REVOLUTE, "part", (-1.0, 1.0)),))
-    assert [c.parent for c in make_cases(whole, segmentation, told, QUICK)] == ["base", "low"]

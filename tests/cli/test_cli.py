@@ -3,42 +3,14 @@
 import json
 from pathlib import Path
 
-import numpy as np
 import pytest
 import trimesh
 from assets import CABINET
+from called import FACES, PARTS, called, contents
 from PIL import Image
 
 from anymesh import __version__
-from anymesh.cli import run
-from anymesh.errors import MissingExtraError
-from anymesh.pipeline import solving, stages
-
-PARTS = ["--parts", "nodes", "--up", "z"]
-FACES = 12 * sum(len(pieces) for pieces in CABINET.values())
-
-
-@pytest.fixture
-def mesh(tmp_path, monkeypatch) -> Path:
-    """A cabinet with a node a part, Z up, alone in the working folder."""
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(stages, "write_preview", lambda _, path: path.write_bytes(b"drawing takes longest; tested elsewhere"))
-    scene = trimesh.Scene()
-    for name, pieces in CABINET.items():
-        solids = [trimesh.Trimesh(v, f, process=False) for v, f in pieces]
-        scene.add_geometry(trimesh.util.concatenate(solids), node_name=name, geom_name=name)
-    scene.export(tmp_path / "cabinet.glb")
-    return Path("cabinet.glb")
-
-
-def contents(folder: Path) -> dict[str, bytes]:
-    return {str(p.relative_to(folder)): p.read_bytes() if p.is_file() else b"" for p in sorted(folder.rglob("*"))}
-
-
-def called(capfd, *arguments) -> tuple[int, str, str]:
-    """Exit code, stdout, stderr."""
-    code = run([str(a) for a in arguments])
-    return (code, *capfd.readouterr())
+from anymesh.pipeline import solving
 
 
 @pytest.mark.parametrize("command", [[], ["articulate"], ["segment"], ["joints"], ["export"]])
@@ -132,106 +104,6 @@ def test_a_root_admits_textures_and_computes_the_mesh_anew(mesh, capfd) -> None:
     code, out, err = called(capfd, *call, "--root", "model/textures", "--force")
     assert (code, out) == (2, "")
     assert err.startswith("error: --root: ")
-
-
-def faulty_calls() -> dict[str, tuple[int, list[str], str]]:
-    """What is wrong -> exit code, arguments, a word of the message."""
-    make = ["segment", "cabinet.glb", "-o", "out"]
-    return {
-        "no output": (2, ["segment", "cabinet.glb"], "--out"),
-        "unknown command": (2, ["fold", "cabinet.glb"], "fold"),
-        "unknown option": (2, [*make, "--colour", "red"], "--colour"),
-        "seed": (2, [*make, "--seed", "x"], "--seed"),
-        "a seed below 0": (2, [*make, "--seed", "-1"], "found -1"),
-        "a seed of joints below 0": (2, ["joints", "old", "--seed", "-1"], "found -1"),
-        "up": (2, [*make, "--up", "w"], "auto, x, y, z"),
-        "scale": (2, [*make, "--scale", "-1"], "METRES:AXIS"),
-        "scale 0": (2, [*make, "--scale", "0"], "found '0'"),
-        "scale nan": (2, [*make, "--scale", "nan"], "found 'nan'"),
-        "a huge scale": (2, [*make, "--scale", "1e300"], "1e-06 to 1e+06 m"),
-        "a tiny scale": (2, [*make, "--scale", "1e-300"], "1e-06 to 1e+06 m"),
-        "empty parts": (2, [*make, "--parts", "empty.npy"], "an empty file"),
-        "deep parts": (2, [*make, "--parts", "deep.json"], "nested too deep"),
-        "parts with a long name": (2, [*make, "--parts", f"{'a' * 300}.npy"], "cannot be opened"),
-        "parts": (2, [*make, "--parts", "none.npy"], "none.npy"),
-        "answerer": (2, [*make, "--answerer", "oracle"], "valid are geometry"),
-        "answerer of the whole job": (2, ["articulate", *make[1:], "--answerer", "oracle"], "'oracle'"),
-        "answerer of joints": (2, ["joints", "old", "--answerer", "oracle"], "'oracle'"),
-        "no mesh": (3, ["segment", "none.glb", "-o", "out"], "none.glb"),
-        "a broken mesh": (3, ["segment", "broken.glb", "-o", "out"], "broken.glb"),
-        "another format": (3, ["segment", "notes.txt", "-o", "out"], ".glb, .gltf, .obj"),
-        "an output that exists": (4, ["segment", "cabinet.glb", "-o", "old"], "--force"),
-        "a folder of others": (4, ["segment", "cabinet.glb", "-o", "foreign", "--force"], "not replaced"),
-        "a file as output": (4, ["segment", "cabinet.glb", "-o", "notes.txt"], "is a file"),
-        "the source within": (4, ["segment", "cabinet.glb", "-o", "."], "source mesh"),
-        "joints of nothing": (4, ["joints", "none"], "anymesh segment"),
-        "export before joints": (4, ["export", "old"], "'joints'"),
-    }
-
-
-@pytest.fixture
-def crowded(mesh, capfd) -> Path:
-    """The working folder with an older output, files of others, and files that are no mesh."""
-    assert called(capfd, "segment", mesh, "-o", "old", *PARTS, "-q")[0] == 0
-    Path("foreign").mkdir()
-    for name in ("foreign/thesis.txt", "notes.txt"):
-        Path(name).write_text("mine")
-    Path("empty.npy").touch()
-    Path("deep.json").write_text("[" * 200_000)
-    Path("broken.glb").write_bytes(mesh.read_bytes()[:200])
-    return Path.cwd()
-
-
-@pytest.mark.filterwarnings("error")
-@pytest.mark.parametrize("name", faulty_calls())
-def test_an_error_is_one_line_on_stderr_and_nothing_is_written(name: str, crowded, capfd) -> None:
-    expected, arguments, word = faulty_calls()[name]
-    before = contents(crowded)
-    code, out, err = called(capfd, *arguments)
-    assert (code, out) == (expected, "")
-    assert err.startswith("error: ")
-    assert word in err
-    assert (err.count("\n"), err[-1]) == (1, "\n")
-    assert contents(crowded) == before
-    if arguments[0] != "fold":
-        code, out, _ = called(capfd, *arguments, "--json")
-        assert json.loads(out)["exit_code"] == code == expected
-        assert f"error: {json.loads(out)['error']}\n" == err
-
-
-def test_force_replaces_an_output_of_this_program(crowded, capfd) -> None:
-    np.save("labels.npy", np.arange(FACES) // (FACES // 2))
-    assert called(capfd, "segment", "cabinet.glb", "-o", "old", "--parts", "labels.npy", "--force", "-q")[0] == 0
-    assert called(capfd, "joints", "old", "--json")[0] == 0
-
-
-@pytest.mark.parametrize(
-    ("raised", "code", "word"),
-    [
-        (MissingExtraError("needs articulate-anymesh[sim]"), 5, "[sim]"),
-        (RuntimeError("two\nlines\x1b[31m"), 70, "--debug"),
-        (EOFError("cut"), 70, "internal defect, EOFError: cut"),
-        (KeyboardInterrupt(), 130, "interrupted\n"),
-    ],
-)
-def test_other_ends(raised, code: int, word: str, mesh, monkeypatch, capfd) -> None:
-    def fails(*_, **__):
-        raise raised
-
-    monkeypatch.setattr(solving, "segment_parts", fails)
-    before = contents(Path.cwd())
-    found, out, err = called(capfd, "articulate", mesh, "-o", "out")
-    assert (found, out) == (code, "")
-    assert (err.count("\n"), err[-1]) == (1, "\n")
-    assert word in err
-    assert "\x1b" not in err
-    if code != 70:
-        assert contents(Path.cwd()) == before
-    else:
-        assert Path("out.defect.json").exists()
-        assert not Path("out").exists()
-        with pytest.raises(type(raised)):
-            run(["--debug", "articulate", str(mesh), "-o", "out"])
 
 
 def test_several_meshes_need_batch_and_a_batch_goes_on_past_what_fails(mesh, capfd) -> None:

@@ -67,8 +67,9 @@ def test_at_the_part_nothing_jumps_where_the_published_figure_does() -> None:
 tilts = st.sampled_from([0.0, 1e-6, 0.3, 0.9, 1.1, 5.0, 40.0, 90.0])
 
 
-@given(points, axes, points, axes, points, tilts, number, number)
-def test_distance_does_not_depend_on_the_points_that_name_the_lines(p, a, q, other, c, degrees, s, t) -> None:
+@given(points, axes, points, axes, points, tilts, st.tuples(number, number))
+def test_distance_does_not_depend_on_the_points_that_name_the_lines(p, a, q, other, c, degrees, shifts) -> None:
+    s, t = shifts
     side = np.cross(a, other)
     if np.linalg.norm(side) < 0.1:
         return
@@ -79,8 +80,9 @@ def test_distance_does_not_depend_on_the_points_that_name_the_lines(p, a, q, oth
     assert line_distance(q, b, p, a, c) == pytest.approx(expected, abs=1e-6)
 
 
-@given(points, axes, points, axes, points, axes, st.floats(-3, 3), st.floats(0.01, 100))
-def test_errors_turn_shift_and_scale_with_the_object(p, a, q, b, c, axis, angle, scale) -> None:
+@given(st.tuples(points, axes), st.tuples(points, axes), points, axes, st.floats(-3, 3), st.floats(0.01, 100))
+def test_errors_turn_shift_and_scale_with_the_object(line, other, c, axis, angle, scale) -> None:
+    (p, a), (q, b) = line, other
     K = np.cross(np.eye(3), axis)
     R = np.eye(3) + np.sin(angle) * K + (1 - np.cos(angle)) * K @ K
 

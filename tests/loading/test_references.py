@@ -6,53 +6,16 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from mesh_files import MTL, all_files, assert_refused, dae, obj, plain_gltf, put
+from mesh_files import MTL, assert_refused, obj, plain_gltf, put
+from naming_files import FILES, TEXTURED, naming, put_naming, textures, write_png
 from PIL import Image
 
-from anymesh.errors import InputError, OptionError
-from anymesh.loading import LoadedMesh, load_mesh
+from anymesh.loading import load_mesh
 
-FILES = all_files()
 OUTSIDE = ["../secret.png", "/etc/hostname", "a/../../secret.png", "..\\secret.png", "C:\\secret.png", "\\\\server\\secret.png"]
 OUTSIDE += ["file:///etc/hostname", "file:///C:/secret.png", "file:../secret.png", "package://inside/../secret.png"]
 URLS = ["https://example.org/x.png", "http://127.0.0.1:9/x.png", "ftp://x/y.png", "odd:x.png"]
 MISSING = ["gone.png", "a/gone.png", "x" * 300 + ".png", "package://other/gone.png", "model://", "%00.png"]
-TEXTURED = ["image.glb", "picture.obj", "picture.ply", "picture.dae"]
-
-
-def naming(uri: str) -> dict[str, bytes]:
-    """Return files that refer to another file, each in its own way; picture.obj through other.mtl."""
-    g = plain_gltf()
-    g.doc["images"] = [{"uri": uri}]
-    g.doc["textures"] = [{"source": 0}]
-    g.doc["materials"] = [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}]
-    g.doc["meshes"][0]["primitives"][0]["material"] = 0
-    picture = dae(look='<texture texture="p" texcoord="c"/>').replace(b"checker.png", uri.encode())
-    return {
-        "buffer.gltf": plain_gltf().gltf(uri),
-        "image.glb": g.glb(),
-        "library.obj": obj().replace(b"box.mtl", uri.encode()),
-        "picture.obj": obj().replace(b"box.mtl", b"other.mtl"),
-        "picture.ply": FILES["ascii.ply"].replace(b"made by hand", b"TextureFile " + uri.encode()),
-        "picture.dae": picture,
-    }
-
-
-def write_png(path: Path) -> Path:
-    path.parent.mkdir(parents=True, exist_ok=True)
-    Image.new("RGB", (2, 2), "red").save(path)
-    return path
-
-
-def put_naming(folder: Path, name: str, uri: str) -> Path:
-    folder.mkdir(parents=True, exist_ok=True)
-    (folder / "other.mtl").write_bytes(f"newmtl red\nKd 1 0 0\nmap_Kd {uri}\nmap_Ke {uri}\n".encode())
-    return put(folder, name, naming(uri)[name])
-
-
-def textures(loaded: LoadedMesh) -> int:
-    assert len(loaded.mesh.faces) == 12
-    return sum("base_color" in material.textures for material in loaded.mesh.materials)
 
 
 @pytest.mark.parametrize("uri", [*OUTSIDE, *URLS, *MISSING])
@@ -129,64 +92,6 @@ def test_a_buffer_of_textures_alone_may_be_missing(tmp_path) -> None:
     assert "gone.bin" in loaded.warnings[0]
 
 
-@pytest.mark.parametrize("name", TEXTURED)
-@pytest.mark.parametrize(
-    "uri",
-    [
-        "../materials/textures/Wood Grain.png",
-        "..\\materials\\textures\\Wood Grain.png",
-        "../materials/textures/Wood%20Grain.png",
-        "../Materials/Textures/wood grain.PNG",
-        "file:../materials/textures/Wood%20Grain.png",
-        "file://{root}/materials/textures/Wood%20Grain.png",
-        "file://localhost{root}/materials/textures/Wood Grain.png",
-        "{root}/materials/textures/Wood Grain.png",
-        "model://box_model/materials/textures/Wood Grain.png",
-        "package://materials/textures/Wood%20Grain.png",
-        "package:\\\\box_model\\materials\\textures\\Wood Grain.png",
-    ],
-)
-def test_a_root_lets_textures_lie_beside_the_folder_of_the_mesh(tmp_path, name, uri) -> None:
-    root = tmp_path / "box_model"
-    write_png(root / "materials" / "textures" / "Wood Grain.png")
-    path = put_naming(root / "meshes", name, uri.replace("{root}", str(root.resolve())))
-    loaded = load_mesh(path, root=root)
-    assert (textures(loaded), loaded.warnings) == (1, ())
-    assert textures(load_mesh(path)) == 0
-
-
-def test_packages_lie_on_the_way_to_the_root_or_in_it(tmp_path) -> None:
-    for folder in ("ws/robot/robot", "ws/robot", "ws/other"):
-        write_png(tmp_path / folder / "x.png")
-    path = put_naming(tmp_path / "ws" / "robot" / "meshes", "image.glb", "package://robot/robot/x.png")
-    assert textures(load_mesh(path, root=tmp_path / "ws")) == 1
-    for uri, readable in (("package://other/x.png", 1), ("package://meshes/../x.png", 1), ("package://gone/x.png", 0)):
-        put_naming(path.parent, "image.glb", uri)
-        assert textures(load_mesh(path, root=tmp_path / "ws")) == readable
-    put_naming(path.parent, "image.glb", "package://ws/../../x.png")
-    write_png(tmp_path.parent / "x.png")
-    assert "outside" in load_mesh(path, root=tmp_path / "ws").warnings[0]
-
-
-def test_a_root_does_not_follow_links_that_leave_it(tmp_path) -> None:
-    write_png(tmp_path / "secret" / "x.png")
-    path = put_naming(tmp_path / "root" / "meshes", "image.glb", "../textures/x.png")
-    (tmp_path / "root" / "textures").symlink_to(tmp_path / "secret")
-    loaded = load_mesh(path, root=tmp_path / "root")
-    assert textures(loaded) == 0
-    assert "outside" in loaded.warnings[0]
-
-
-def test_geometry_may_lie_within_the_root(tmp_path) -> None:
-    (tmp_path / "buffers").mkdir()
-    (tmp_path / "meshes").mkdir()
-    (tmp_path / "buffers" / "box.bin").write_bytes(plain_gltf().bin)
-    path = put(tmp_path / "meshes", "box.gltf", plain_gltf().gltf("../buffers/box.bin"))
-    assert len(load_mesh(path, root=tmp_path).mesh.faces) == 12
-    with pytest.raises(InputError, match="outside"):
-        load_mesh(path)
-
-
 def test_a_name_in_another_case_is_taken_only_where_it_is_the_only_one(tmp_path) -> None:
     path = put_naming(tmp_path, "image.glb", "Texture.PNG")
     write_png(tmp_path / "texture.png")
@@ -214,17 +119,6 @@ def test_a_library_that_is_left_out_leaves_the_surface_plain(tmp_path) -> None:
     loaded = load_mesh(put(tmp_path, "x.obj", naming("gone.mtl")["library.obj"]))
     assert len(loaded.warnings) == 1
     assert (loaded.mesh.face_material == -1).all()
-
-
-@pytest.mark.parametrize("root", ["file.txt", "none", "inside/deeper", "other", ""])
-def test_a_root_that_is_not_valid(tmp_path, monkeypatch, root) -> None:
-    path = put_naming(tmp_path / "inside", "image.glb", "x.png")
-    for folder in ("inside/deeper", "other"):
-        (tmp_path / folder).mkdir()
-    (tmp_path / "file.txt").touch()
-    monkeypatch.chdir(tmp_path / "other")
-    with pytest.raises(OptionError, match=r"--root: .*valid is the mesh's folder or one above it"):
-        load_mesh(path, root=tmp_path / root if root else "")
 
 
 def test_the_digest_follows_what_was_read(tmp_path) -> None:

@@ -1,39 +1,14 @@
 """Paid tasks of generation are made once, whatever happens on the way; requests are those that the service's pages describe."""
 
 import json
-import logging
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from meshy_wire import IMAGE, KEY, SIGNATURE, TEXT, MeshyServer, cuts, refuses, says, serving
+from meshy_generation import GLB, PNG, PROMPT, bodies
+from meshy_wire import IMAGE, TEXT, cuts
 
-from anymesh.errors import BudgetError, InputError, ModelError, OptionError
+from anymesh.errors import InputError, ModelError, OptionError
 from anymesh.models.meshy_api import PREVIEW, REFINE
-from anymesh.models.meshy_generate import Meshy3D
-
-GLB = b"glTF" + (2).to_bytes(4, "little") + (20).to_bytes(4, "little") + b"12345678"
-PROMPT = "a retro fridge"
-PNG = b"\x89PNG\r\n\x1a\n" + b"picture"
-
-
-@pytest.fixture
-def server(monkeypatch: pytest.MonkeyPatch, loopback_only: None) -> Iterator[MeshyServer]:
-    with serving(MeshyServer(model=GLB), monkeypatch) as found:
-        yield found
-
-
-@pytest.fixture
-def waits() -> list[float]:
-    return []
-
-
-@pytest.fixture
-def meshy(tmp_path: Path, waits: list[float]):
-    def make(**options) -> Meshy3D:
-        return Meshy3D(tmp_path / "meshy.json", sleep=waits.append, chance=lambda: 0.0, **{"timeout": 4.0, **options})
-
-    return make
 
 
 @pytest.fixture
@@ -43,19 +18,14 @@ def picture(tmp_path: Path) -> Path:
     return path
 
 
-def bodies(server: MeshyServer) -> list[dict]:
-    extra = {"path", "looked", "made", "type", "credits", "seed", "sent"}
-    return [{k: v for k, v in task.items() if k not in extra} for task in server.tasks.values()]
-
-
-def test_text_is_previewed_refined_and_fetched(server, meshy, waits) -> None:
-    client = meshy(faces=5000)
+def test_text_is_previewed_refined_and_fetched(model_server, generator, waits) -> None:
+    client = generator(faces=5000)
     found = client.from_text(f"  {PROMPT} ")
     assert found.glb == GLB
     sized = {"auto_size": True, "origin_at": "bottom"}
     shape = {"should_remesh": True, "topology": "triangle", "target_polycount": 5000, "target_formats": ["glb"]}
-    [preview, refined] = server.tasks
-    assert bodies(server) == [
+    [preview, refined] = model_server.tasks
+    assert bodies(model_server) == [
         {"mode": "preview", "prompt": PROMPT, "ai_model": "latest", **shape},
         {
             "mode": "refine",
@@ -66,30 +36,43 @@ def test_text_is_previewed_refined_and_fetched(server, meshy, waits) -> None:
             "prompt": PROMPT,
         },
     ]
-    assert {task["path"] for task in server.tasks.values()} == {TEXT}
+    assert {task["path"] for task in model_server.tasks.values()} == {TEXT}
     assert [(kind, b.task, b.credits, b.seed) for kind, b in found.tasks] == [
         (PREVIEW, preview, 20, 7),
         (REFINE, refined, 10, 7),
     ]
     assert (client.calls, client.credits) == (2, 30)
     assert waits == [2.0, 2.6, 2.0, 2.6]
-    assert server.asked == ["list", "create", "look", "look", "look", "list", "create", "look", "look", "look", "look", "file"]
+    assert model_server.asked == [
+        "list",
+        "create",
+        "look",
+        "look",
+        "look",
+        "list",
+        "create",
+        "look",
+        "look",
+        "look",
+        "look",
+        "file",
+    ]
 
 
-def test_a_shape_alone_is_the_preview_in_the_size_that_the_service_estimates(server, meshy) -> None:
-    client = meshy(textured=False)
+def test_a_shape_alone_is_the_preview_in_the_size_that_the_service_estimates(model_server, generator) -> None:
+    client = generator(textured=False)
     assert client.from_text(PROMPT).glb == GLB
-    [body] = bodies(server)
+    [body] = bodies(model_server)
     assert body["mode"] == "preview"
     assert body["auto_size"] is True
     assert (client.calls, client.credits) == (1, 20)
 
 
-def test_a_picture_goes_as_a_data_uri(server, meshy, picture) -> None:
-    client = meshy()
+def test_a_picture_goes_as_a_data_uri(model_server, generator, picture) -> None:
+    client = generator()
     found = client.from_image(picture, "white enamel")
     assert found.glb == GLB
-    [task] = server.tasks.values()
+    [task] = model_server.tasks.values()
     assert task["path"] == IMAGE
     assert task["sent"] == PNG
     assert {k: task[k] for k in ("should_texture", "enable_pbr", "texture_prompt", "auto_size")} == {
@@ -101,39 +84,39 @@ def test_a_picture_goes_as_a_data_uri(server, meshy, picture) -> None:
     assert client.credits == 30
     jpeg = picture.with_suffix(".jpg")
     jpeg.write_bytes(b"\xff\xd8\xff\xe0 picture")
-    assert meshy(textured=False).from_image(jpeg).tasks[0][1].credits == 20
+    assert generator(textured=False).from_image(jpeg).tasks[0][1].credits == 20
 
 
-def test_pictures_that_the_service_does_not_take_are_refused_at_home(server, meshy, tmp_path, monkeypatch) -> None:
+def test_pictures_that_the_service_does_not_take_are_refused_at_home(model_server, generator, tmp_path, monkeypatch) -> None:
     path = tmp_path / "fridge.png"
     with pytest.raises(InputError, match="cannot read the picture"):
-        meshy().from_image(path)
+        generator().from_image(path)
     path.write_bytes(b"GIF89a")
     with pytest.raises(InputError, match=r"neither PNG nor JPEG: it starts with b'GIF89a'"):
-        meshy().from_image(path)
+        generator().from_image(path)
     path.write_bytes(PNG)
     monkeypatch.setattr("anymesh.models.meshy_generate.LARGEST_IMAGE", 10)
     with pytest.raises(InputError, match="has 15 bytes; meshy takes at most 10"):
-        meshy().from_image(path)
+        generator().from_image(path)
     for prompt in (" ", "x" * 801):
         with pytest.raises(OptionError, match="1 to 800 characters"):
-            meshy().from_text(prompt)
-    assert server.asked == []
+            generator().from_text(prompt)
+    assert model_server.asked == []
 
 
-def test_a_rerun_fetches_what_is_paid_and_tells_all_of_its_cost(server, meshy) -> None:
-    meshy().from_text(PROMPT)
-    again = meshy(max_calls=0)
+def test_a_rerun_fetches_what_is_paid_and_tells_all_of_its_cost(model_server, generator) -> None:
+    generator().from_text(PROMPT)
+    again = generator(max_calls=0)
     found = again.from_text(PROMPT)
     assert found.glb == GLB
     assert [bought.credits for _, bought in found.tasks] == [20, 10]
     assert (again.calls, again.credits) == (0, 0)
-    assert server.count("create") == 2
+    assert model_server.count("create") == 2
 
 
 @pytest.mark.parametrize("looks", [1, 4], ids=["while the preview runs", "while the refinement runs"])
-def test_a_kill_costs_nothing(server, meshy, waits, looks) -> None:
-    client = meshy()
+def test_a_kill_costs_nothing(model_server, generator, waits, looks) -> None:
+    client = generator()
 
     def sleep(seconds: float) -> None:
         waits.append(seconds)
@@ -143,149 +126,67 @@ def test_a_kill_costs_nothing(server, meshy, waits, looks) -> None:
     client.sleep = sleep
     with pytest.raises(KeyboardInterrupt):
         client.from_text(PROMPT)
-    found = meshy(max_calls=1 if looks == 1 else 0).from_text(PROMPT)
+    found = generator(max_calls=1 if looks == 1 else 0).from_text(PROMPT)
     assert found.glb == GLB
-    assert server.count("create") == 2
+    assert model_server.count("create") == 2
     assert sum(bought.credits for _, bought in found.tasks) == 30
 
 
-def test_a_kill_before_the_id_of_a_refinement_arrived_costs_nothing(server, meshy, monkeypatch) -> None:
+def test_a_kill_before_the_id_of_a_refinement_arrived_costs_nothing(model_server, generator, monkeypatch) -> None:
     from anymesh.models import meshy_paid
 
     real = meshy_paid.create_task
 
     def dies_at_the_second(kind, body: bytes, timeout: float) -> str:
         if kind is REFINE:
-            server.create(json.loads(body), kind.path)
+            model_server.create(json.loads(body), kind.path)
             raise KeyboardInterrupt
         return real(kind, body, timeout)
 
     with monkeypatch.context() as patched:
         patched.setattr(meshy_paid, "create_task", dies_at_the_second)
         with pytest.raises(KeyboardInterrupt):
-            meshy().from_text(PROMPT)
-    assert meshy(max_calls=0).from_text(PROMPT).glb == GLB
-    assert len(server.tasks) == 2
+            generator().from_text(PROMPT)
+    assert generator(max_calls=0).from_text(PROMPT).glb == GLB
+    assert len(model_server.tasks) == 2
 
 
-def test_a_picture_s_task_whose_id_is_lost_is_found_by_when_it_was_made(server, meshy, picture) -> None:
+def test_a_picture_s_task_whose_id_is_lost_is_found_by_when_it_was_made(model_server, generator, picture) -> None:
     def made_and_silent(handler) -> None:
-        server.create(json.loads(handler.content), IMAGE)
+        model_server.create(json.loads(handler.content), IMAGE)
         cuts(handler)
 
-    server.fails("create", made_and_silent)
-    assert meshy().from_image(picture).glb == GLB
-    assert server.count("create") == 1
+    model_server.fails("create", made_and_silent)
+    assert generator().from_image(picture).glb == GLB
+    assert model_server.count("create") == 1
 
 
-def test_tasks_of_others_are_not_taken_for_a_lost_one(server, meshy, picture) -> None:
+def test_tasks_of_others_are_not_taken_for_a_lost_one(model_server, generator, picture) -> None:
     def of_somebody_else(seconds: float):
         def fault(handler) -> None:
-            server.clock = seconds
-            server.create(json.loads(handler.content), IMAGE)
-            server.clock = 0.0
+            model_server.clock = seconds
+            model_server.create(json.loads(handler.content), IMAGE)
+            model_server.clock = 0.0
             cuts(handler)
 
         return fault
 
-    server.fails("create", of_somebody_else(-7200.0))
-    assert meshy().from_image(picture).glb == GLB
-    assert [task["looked"] > 0 for task in server.tasks.values()] == [False, True]
+    model_server.fails("create", of_somebody_else(-7200.0))
+    assert generator().from_image(picture).glb == GLB
+    assert [task["looked"] > 0 for task in model_server.tasks.values()] == [False, True]
 
 
-def test_tasks_that_cannot_be_told_apart_are_not_paid_again(server, meshy, picture) -> None:
+def test_tasks_that_cannot_be_told_apart_are_not_paid_again(model_server, generator, picture) -> None:
     def two_at_once(handler) -> None:
         for _ in range(2):
-            server.create(json.loads(handler.content), IMAGE)
+            model_server.create(json.loads(handler.content), IMAGE)
         cuts(handler)
 
-    server.fails("create", two_at_once)
-    client = meshy()
+    model_server.fails("create", two_at_once)
+    client = generator()
     with pytest.raises(ModelError, match="cannot be told apart; write its id"):
         client.from_image(picture)
-    assert server.count("create") == 1
+    assert model_server.count("create") == 1
     [state] = client.state.parent.glob("meshy-image.json")
-    state.write_text(json.dumps({**json.loads(state.read_text()), "task": next(iter(server.tasks))}))
-    assert meshy(max_calls=0).from_image(picture).glb == GLB  # as the message advises
-
-
-def test_the_budget_is_checked_for_all_tasks_before_the_first(server, meshy) -> None:
-    told = r"preview and a text-to-3D refinement take about 30 credits and would exceed --max-calls 1; spent so far: 0 tasks"
-    with pytest.raises(BudgetError, match=told):
-        meshy(max_calls=1).from_text(PROMPT)
-    assert server.asked == []
-
-
-@pytest.mark.parametrize("status", ["FAILED", "CANCELED"])
-def test_a_refinement_that_failed_is_made_again_and_the_preview_is_not(server, meshy, status) -> None:
-    server.ends["text-to-3d-refine"] = {"status": status, "task_error": {"message": "try again"}}
-    with pytest.raises(ModelError, match=rf"is {status}, it says: try again; a rerun makes a new one \(about 10 credits\)"):
-        meshy().from_text(PROMPT)
-    server.ends.clear()
-    assert meshy(max_calls=1).from_text(PROMPT).glb == GLB
-    assert [task["type"] for task in server.tasks.values()] == ["text-to-3d-preview", *["text-to-3d-refine"] * 2]
-
-
-def test_a_preview_that_is_no_longer_kept_is_forgotten(server, meshy) -> None:
-    client = meshy()
-    server.fails("create", lambda handler: says(handler, {"result": server.create(json.loads(handler.content), TEXT)}, 202))
-    server.fails("create", refuses(402, "no credits"))
-    with pytest.raises(ModelError, match="too few credits, a text-to-3D refinement takes about 10"):
-        client.from_text(PROMPT)
-    server.tasks.clear()  # after three days
-    with pytest.raises(ModelError, match=r"no longer has task .*; a rerun makes a new one \(about 20 credits\)"):
-        meshy().from_text(PROMPT)
-    assert meshy().from_text(PROMPT).glb == GLB
-
-
-@pytest.mark.parametrize(
-    ("status", "told"),
-    [(401, "the key in MESHY_API_KEY is missing or refused"), (402, "a text-to-3D preview takes about 20"), (400, "HTTP 400")],
-)
-def test_a_refusal_is_told_once(server, meshy, status, told) -> None:
-    server.fails("create", refuses(status, "no"))
-    with pytest.raises(ModelError, match=told):
-        meshy().from_text(PROMPT)
-    assert server.count("create") == 1
-
-
-def test_too_many_requests_and_faults_of_the_server_are_waited_for(server, meshy, waits) -> None:
-    server.fails("create", refuses(429, "queue is full", retry_after="7"), refuses(503, "maintenance"))
-    server.fails("look", refuses(502, "bad gateway"))
-    assert meshy().from_text(PROMPT).glb == GLB
-    assert waits[:3] == [7.0, 2.0, 1.0]
-    assert len(server.tasks) == 2
-
-
-def test_a_result_that_is_too_large_or_no_model_is_not_used(server, meshy, monkeypatch) -> None:
-    server.model = b"glTF" + bytes(200)
-    with pytest.raises(ModelError, match="not a complete GLB"):
-        meshy().from_text(PROMPT)
-    server.model = b"<html>"
-    with pytest.raises(ModelError, match="not a complete GLB"):
-        meshy().from_text(PROMPT)
-    monkeypatch.setattr("anymesh.models.meshy_api.LARGEST", 1000)
-    server.model = b"glTF" + bytes(200_000)
-    with pytest.raises(ModelError, match="larger than 1000 bytes"):
-        meshy().from_text(PROMPT)
-    server.model = GLB
-    assert meshy(max_calls=0).from_text(PROMPT).glb == GLB
-    assert server.count("create") == 2
-
-
-def test_progress_is_told_by_kind(server, meshy) -> None:
-    seen = []
-    meshy(watch=lambda kind, task: seen.append((kind.type, task.status))).from_text(PROMPT)
-    states = ["PENDING", "IN_PROGRESS", "SUCCEEDED"]
-    assert seen == [(kind, s) for kind in ("text-to-3d-preview", "text-to-3d-refine") for s in states]
-
-
-def test_key_and_signed_addresses_stay_inside(server, meshy, caplog, tmp_path) -> None:
-    caplog.set_level(logging.DEBUG)
-    server.fails("file", *[refuses(500)] * 5)
-    with pytest.raises(ModelError) as lost:
-        meshy().from_text(PROMPT)
-    told = [repr(meshy()), str(lost.value), caplog.text, *(p.read_text() for p in tmp_path.iterdir())]
-    assert len(told) > 4
-    for secret in (KEY, SIGNATURE):
-        assert not [text for text in told if secret in text]
+    state.write_text(json.dumps({**json.loads(state.read_text()), "task": next(iter(model_server.tasks))}))
+    assert generator(max_calls=0).from_image(picture).glb == GLB  # as the message advises

@@ -67,6 +67,31 @@ def encoder(path: Path, *, outputs=("image_embeddings",), inside=False, pixels="
     return save(path, nodes, [value(name, shape, pixels)], out, constants)
 
 
+def _decoder_nodes(feature: str, prompts: str, broken: bool) -> list:
+    """Return the nodes that compute `logits` and `all_scores`: a disc around each prompt's first point."""
+    return [
+        node("Slice", f"{prompts} zero one axis", "first"),  # the prompt's first point
+        node("Reshape", "first as_one", "at"),
+        node("Slice", "at zero one zero", "only"),
+        node("Sub", "at only", "apart"),
+        node("Sub" if broken else "Identity", "at apart" if broken else "at", "asked"),
+        node("Add", "asked half", "middle"),  # as SAM's prompt encoder: a point is the middle of its pixel
+        node("Div", "middle four", "low"),
+        node("Sub", "pixels low", "away"),
+        node("Mul", "away away", "square"),
+        node("ReduceSum", "square last", "d2", keepdims=0),
+        node("Unsqueeze", "d2 one", "d2m"),
+        node("Sub", "r2 d2m", "disc"),
+        node("Conv", f"{feature} mix", "stirred"),
+        node("Resize", "stirred none ones", "stir", mode="nearest"),
+        node("Add", "disc stir", "logits"),
+        node("Shape", "d2", "d2shape"),
+        node("Slice", "d2shape zero one", "n"),
+        node("Concat", "n one", "repeat", axis=0),
+        node("Tile", "scores repeat", "all_scores"),
+    ]
+
+
 def decoder(path: Path, kind: str, *, batch: int | str = 1, masks: int = 3, broken=False, seed=1) -> Path:
     """kind: sam, sam2, hf-sam or hf-sam2. broken: answers the first prompt for all. masks: 4 puts a useless one in front."""
     rng = np.random.default_rng(seed)
@@ -103,27 +128,7 @@ def decoder(path: Path, kind: str, *, batch: int | str = 1, masks: int = 3, brok
     else:
         inputs += [value("point_labels", [batch, points]), value("mask_input", [batch, 1, LOW, LOW])]
         inputs += [value("has_mask_input", [1])] + ([value("orig_im_size", [2])] if extra else [])
-    nodes = [
-        node("Slice", f"{prompts} zero one axis", "first"),  # the prompt's first point
-        node("Reshape", "first as_one", "at"),
-        node("Slice", "at zero one zero", "only"),
-        node("Sub", "at only", "apart"),
-        node("Sub" if broken else "Identity", "at apart" if broken else "at", "asked"),
-        node("Add", "asked half", "middle"),  # as SAM's prompt encoder: a point is the middle of its pixel
-        node("Div", "middle four", "low"),
-        node("Sub", "pixels low", "away"),
-        node("Mul", "away away", "square"),
-        node("ReduceSum", "square last", "d2", keepdims=0),
-        node("Unsqueeze", "d2 one", "d2m"),
-        node("Sub", "r2 d2m", "disc"),
-        node("Conv", f"{features[0]} mix", "stirred"),
-        node("Resize", "stirred none ones", "stir", mode="nearest"),
-        node("Add", "disc stir", "logits"),
-        node("Shape", "d2", "d2shape"),
-        node("Slice", "d2shape zero one", "n"),
-        node("Concat", "n one", "repeat", axis=0),
-        node("Tile", "scores repeat", "all_scores"),
-    ]
+    nodes = _decoder_nodes(features[0], prompts, broken)
     constants |= {"axis": np.array([2 if hub else 1]), "none": np.zeros(0, np.float32)}
     shaped = [node("Unsqueeze", "logits zero", out[0]), node("Unsqueeze", "all_scores zero", out[1])]
     flat = [node("Identity", "logits", out[0]), node("Identity", "all_scores", out[1])]

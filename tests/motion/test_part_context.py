@@ -153,3 +153,21 @@ def test_samples_of_a_surface_without_area_lie_on_it():
     assert len(points) == 50
     assert (points[:, :2] == 0).all()
     assert len(sample_surface(np.zeros((0, 3, 3)), 50, 0)) == 0
+
+
+def test_opening_directions_are_scored_by_sight_thinness_and_place():
+    """A free plate of 1 x 0.1 x 1, with the other object away to the right and behind; the object is 4 x 3 x 1."""
+    around = surroundings([box((0, 0, 0), (1, 0.1, 1))], [box((3, 2, 0), (4, 3, 1))], np.eye(4))
+    directions, scores = around.opening_directions
+    found = {tuple(np.round(d).astype(int).tolist()): s for d, s in zip(directions, scores, strict=True)}
+    x, y = 0.3 * 1.5 / np.sqrt(26), 0.3 * 1.45 / np.sqrt(26)  # the middle of the plate lies 1.5 left and 1.45 before
+    expected = {
+        (-1, 0, 0): 1 + 0.5 * 0.1 + x,
+        (1, 0, 0): 1 + 0.5 * 0.1 - x,
+        (0, -1, 0): 1 + 0.5 + y,
+        (0, 1, 0): 1 + 0.5 - y,
+        (0, 0, 1): 1 + 0.5 * 0.1,
+        (0, 0, -1): 1 + 0.5 * 0.1 - 0.4,
+    }
+    assert found == pytest.approx(expected, abs=0.01)
+    np.testing.assert_allclose(around.opening_direction, (0, -1, 0), atol=1e-6)

@@ -131,3 +131,11 @@ def test_visibility_costs_little_more_than_the_projection() -> None:
         return min(times)
 
     assert seconds(lambda: visible(cloud, view)) < 30 * seconds(lambda: view.camera.project(cloud.points))
+
+
+def test_colours_between_vertices_are_interpolated_wherever_the_object_stands() -> None:
+    mesh, _ = mesh_of([box((2, -3, 5), (3, -2, 6))])
+    along = mesh.triangles - (2, -3, 5)  # 0 to 1 per axis
+    corner_color = np.concatenate([np.rint(200 * along), np.full((12, 3, 1), 255)], 2).astype(np.uint8)
+    cloud = cloud_of(replace(mesh, corner_color=corner_color))
+    assert np.abs(cloud.colors - 200 * (cloud.points - (2, -3, 5))).max() <= 1.5

@@ -103,3 +103,29 @@ def test_names_that_begin_alike_are_one_part() -> None:
     members = np.array([[1, 1, 0, 0, 0], [0, 1, 0, 0, 0], [1, 1, 1, 0, 0], [1, 1, 1, 1, 1], [1, 0, 0, 0, 1]], bool)
     tree = PartTree(whole, find_contacts(whole, SegmentationConfig()), members, np.ones(5), names)
     assert [segment._name(tree, k) for k in range(5)] == ["drawer top", "drawer_top_wood", "", "", "drawer"]
+
+
+def test_candidates_that_never_move_leave_the_base_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    """After the last assignment, its parts join the base too, although more candidates are left."""
+    tops = [box((0.2 * k, 0.1, 1.0), (0.2 * k + 0.1, 0.4, 1.1 + 0.1 * k)) for k in range(5)]
+
+    def by_size(overlap: Overlap, features: list[dict[str, float]]) -> tuple[np.ndarray, list[str]]:
+        return np.array([1.0 if row["size"] < 0.5 else MIN_SCORE - row["size"] for row in features]), ["size"] * len(features)
+
+    asked: list[int] = []
+
+    def none(found: Segmentation) -> list[str]:
+        asked.append(len(found.parts))
+        return [""] * (len(found.parts) - 1)
+
+    def one(overlap: Overlap, score: np.ndarray) -> list[int]:
+        return [int(score.argmax())]
+
+    monkeypatch.setattr(segment, "score_parts", by_size)
+    monkeypatch.setattr(segment, "assign_parts", one)
+    mesh, _ = mesh_of([BODY, *tops])
+    config = Config()
+    found = segment.segment_parts(mesh, object_shape(mesh, 0, config.pieces), none, config)
+    assert asked == [2] * segment.MAX_ASSIGNMENTS
+    assert len(found.parts) == 1
+    assert not found.face_part.any()

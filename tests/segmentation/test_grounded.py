@@ -13,7 +13,7 @@ from anymesh.evaluation.matching import match_parts, part_ious
 from anymesh.evaluation.oracle import oracle
 from anymesh.evaluation.protocols import prepared
 from anymesh.loading import load_mesh, place_mesh
-from anymesh.pipeline import solving
+from anymesh.pipeline import prompted_stages
 from anymesh.pipeline.results import SegmentationResult
 from anymesh.pipeline.solving import Solver
 from anymesh.rendering.viewpoints import part_pixels
@@ -87,7 +87,7 @@ def test_ideal_masks_lose_no_part_and_divide_none(name: str, monkeypatch: pytest
         parts = [] if view is None else [part_pixels(view, truth.labels, k) for k in range(len(truth.parts))]
         return [SimpleNamespace(mask=m) for m in parts if m.any()]
 
-    monkeypatch.setattr(solving, "load_sam", lambda spec: Masker())
+    monkeypatch.setattr(prompted_stages, "load_sam", lambda spec: Masker())
     monkeypatch.setattr(ground_masks, "automatic_masks", masks)
     monkeypatch.setattr(ground_masks, "propose", propose)
     truth, mesh, found = found_in(name, "sam:some", MORE)

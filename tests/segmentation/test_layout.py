@@ -91,3 +91,13 @@ def test_a_pane_is_part_of_the_rectangle_that_its_frame_fills() -> None:
     found = filled(frame, np.array([[0.92, 0.4], [0.96, 0.6]]))
     assert found is not None
     assert np.concatenate(found) == pytest.approx([0, 0, 1, 1])
+
+
+def test_the_rectangle_may_begin_at_a_corner_of_another() -> None:
+    """Two squares that touch at a corner only: the one around the handle is filled, their bounds are not."""
+    grid = np.stack(np.meshgrid(np.linspace(0, 1, 200), np.linspace(0, 1, 200)), -1).reshape(-1, 2)
+    squares = grid[(grid < 0.5).all(1) | (grid >= 0.5).all(1)]
+    for corner in (0.0, 0.5):
+        found = filled(squares, np.array([[0.2, 0.2], [0.3, 0.3]]) + corner)
+        assert found is not None
+        assert np.concatenate(found) == pytest.approx(np.array([0, 0, 0.5, 0.5]) + corner, abs=0.05)

@@ -69,3 +69,24 @@ def test_scale_place_and_yaw_do_not_matter(scale: float, yaw: float) -> None:
     assert after.keys() == before.keys()
     off = {k: (before[k], after[k]) for k in before if abs(after[k] - before[k]) > 0.05 + 0.05 * abs(before[k])}
     assert not off
+
+
+def test_the_place_of_the_door_in_the_object() -> None:
+    """The object is 1 x 0.53 x 1, with the knob in front; the door and its knob are 0.89 x 0.07 x 0.89."""
+    f = features(MESH, {5, 6})
+    diagonal = np.sqrt(1 + 0.53**2 + 1)
+    expected = {
+        "height": 0.5,
+        "bottom": 0.055,
+        "top": 0.055,
+        "aside": 1 - 2 * 0.035 / 0.53,
+        "sides reached": 1,  # the front
+        "width share": 0.89,
+        "height share": 0.89,
+        "faces up": 0,
+        "seen": 1,
+        "thin way out": 1,
+        "out from the middle": (0.235 - 0.005) / diagonal,
+        "proportion": 1,
+    }
+    assert {name: f[name] for name in expected} == pytest.approx(expected, abs=1e-6)

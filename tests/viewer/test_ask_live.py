@@ -169,62 +169,69 @@ class Person:
         return None
 
 
+def answer_recognition_and_marks(person: Person, tab) -> None:
+    """Name the object, remove a label, and click the marks of the door."""
+    form = person.waits_for("recognize")
+    assert [r.label for r in form.rows] == ["door", "wheel", "knob"]
+    tab.page.locator("label:has-text('Object')").locator("xpath=ancestor::*[descendant::input][1]").locator("input").fill(
+        "microwave"
+    )
+    tab.page.get_by_text("wheel: turns round and round").click()
+    time.sleep(0.5)
+    tab.page.get_by_role("button", name="Remove").filter(visible=True).first.click()
+    until(lambda: len(form.rows) == 2)
+    person.button("I look at its front now")
+    until(lambda: form.front > 0)
+    person.answer()
+
+    form = person.waits_for("marks")
+    wanted = set(form.groups["door", 1])
+    form.set_marks("")
+    for mark in sorted(wanted):
+        place = person.seen_point(form, mark)
+        assert place is not None, mark
+        person.click(place)
+    until(lambda: form.groups["door", 1] == wanted)
+    until(lambda: f"door 1: {', '.join(map(str, sorted(wanted)))}" in text(tab))
+    person.answer()
+
+
+def answer_points_and_motions(person: Person) -> None:
+    """Click two points of the hinge on the left, and watch each motion before one is chosen."""
+    form = person.waits_for("points")
+    places = point_places(form.table, person.desk._mesh)
+    left = np.flatnonzero(places[:, 0] < places[:, 0].min() + 0.02)
+    form.chosen[0] = []
+    for row in (left[places[left, 2].argmin()], left[places[left, 2].argmax()]):
+        person.click(places[row])
+    until(lambda: len(form.chosen[0]) == 2)
+    assert {n - 1 for n in form.chosen[0]} <= set(left)
+    person.answer()
+
+    form = person.waits_for("motions")
+    hinges = [
+        k for k, m in enumerate(form.table.motions, 1)
+        if m.kind is JointType.REVOLUTE and abs(m.axis[2]) > 0.99 and m.origin[0] < 0
+    ]  # fmt: skip
+    for number in range(1, len(form.table.motions) + 1):  # each plays when it is chosen
+        person.button(str(number))
+        until(lambda n=number: form.chosen[0] == n)
+        poses: list[tuple[float, ...]] = []
+        until(lambda poses=poses: poses.append(person.pose()) or np.ptp(poses, 0).max() > 1e-3)
+    person.button(str(hinges[0]))
+    person.answer()
+
+
 def test_every_question_about_a_microwave_is_answered_by_clicks(tmp_path, tab):
     options = {"ask": True, "out": tmp_path / "out", "author": "Ada", "clock": lambda: "2024-05-01T12:00:00+00:00"}
     with serve(MESHES / "microwave.glb", port=8540, **options) as serving:
         tab.open(serving.url)
         person = Person(serving, tab)
-        form = person.waits_for("recognize")
-        assert [r.label for r in form.rows] == ["door", "wheel", "knob"]
-        tab.page.locator("label:has-text('Object')").locator("xpath=ancestor::*[descendant::input][1]").locator("input").fill(
-            "microwave"
-        )
-        tab.page.get_by_text("wheel: turns round and round").click()
-        time.sleep(0.5)
-        tab.page.get_by_role("button", name="Remove").filter(visible=True).first.click()
-        until(lambda: len(form.rows) == 2)
-        person.button("I look at its front now")
-        until(lambda: form.front > 0)
-        person.answer()
-
-        form = person.waits_for("marks")
-        wanted = set(form.groups["door", 1])
-        form.set_marks("")
-        for mark in sorted(wanted):
-            place = person.seen_point(form, mark)
-            assert place is not None, mark
-            person.click(place)
-        until(lambda: form.groups["door", 1] == wanted)
-        until(lambda: f"door 1: {', '.join(map(str, sorted(wanted)))}" in text(tab))
-        person.answer()
-
+        answer_recognition_and_marks(person, tab)
         form = person.waits_for("kinds")
         assert form.answer()["parts"][0]["joint"] == "hinge_along_edge"
         person.answer()
-
-        form = person.waits_for("points")
-        places = point_places(form.table, person.desk._mesh)
-        left = np.flatnonzero(places[:, 0] < places[:, 0].min() + 0.02)
-        form.chosen[0] = []
-        for row in (left[places[left, 2].argmin()], left[places[left, 2].argmax()]):
-            person.click(places[row])
-        until(lambda: len(form.chosen[0]) == 2)
-        assert {n - 1 for n in form.chosen[0]} <= set(left)
-        person.answer()
-
-        form = person.waits_for("motions")
-        hinges = [
-            k for k, m in enumerate(form.table.motions, 1)
-            if m.kind is JointType.REVOLUTE and abs(m.axis[2]) > 0.99 and m.origin[0] < 0
-        ]  # fmt: skip
-        for number in range(1, len(form.table.motions) + 1):  # each plays when it is chosen
-            person.button(str(number))
-            until(lambda n=number: form.chosen[0] == n)
-            poses: list[tuple[float, ...]] = []
-            until(lambda poses=poses: poses.append(person.pose()) or np.ptp(poses, 0).max() > 1e-3)
-        person.button(str(hinges[0]))
-        person.answer()
-
+        answer_points_and_motions(person)
         until(lambda: serving.page.session is not None, 180)
         asset, folder = serving.page.session.asset, serving.page.session.folder
     door = next(j for j in asset.joints if j.child == "door")

@@ -1,8 +1,6 @@
 """The page that takes meshes, without a browser: its states, its questions, what it refuses, and what it leaves behind."""
 
 import json
-import shutil
-import time
 import zipfile
 from io import BytesIO
 from pathlib import Path
@@ -11,10 +9,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from asked_cabinet import MESH, questions
-from correctable import write_output
+from fake_bench import CUBE, FakeWork, until, upload
 
 from anymesh.correcting import CorrectionError, FlipSign
-from anymesh.errors import OptionError
 from anymesh.viewer import bench_
 from anymesh.viewer.live_serve_ import serve
 from anymesh.vlm.question_store import QuestionStore
@@ -22,31 +19,6 @@ from anymesh.vlm.saved_question import pack_question
 from anymesh.vlm.vision import Request
 
 pytest.importorskip("viser", reason="needs the extra view")
-CUBE = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\nf 1 3 4\nf 2 3 4\n"
-
-
-class FakeWork:
-    """Work that goes on as a test says."""
-
-    made: list = []  # noqa: RUF012
-
-    def __init__(self, mesh, out, **options):
-        self.asked_mesh, self.out, self.options = mesh, out, options
-        self.mesh = self.error = None
-        self.done = self.cancelled = False
-        self.words, self.share, self.begun = "finding the parts", 0.3, True
-        FakeWork.made.append(self)
-
-    @property
-    def over(self):
-        return self.done or self.cancelled or self.error is not None
-
-    def cancel(self):
-        self.cancelled = True
-
-    def finish(self):
-        write_output(self.out)
-        self.done = True
 
 
 @pytest.fixture
@@ -56,17 +28,6 @@ def page(monkeypatch):
     FakeWork.made = []
     with serve(None, port=8400, author="Ada", clock=lambda: "2024-05-01T12:00:00+00:00") as serving:
         yield serving.page
-
-
-def until(what, seconds: float = 10):
-    end = time.monotonic() + seconds
-    while not what():
-        assert time.monotonic() < end, "it did not happen"
-        time.sleep(0.01)
-
-
-def upload(page, name="cube.obj", content=CUBE):
-    page.act(lambda: page.bench._uploaded(SimpleNamespace(name=name, content=content)))
 
 
 def said(page) -> str:
@@ -222,43 +183,3 @@ def test_a_motion_plays_while_it_is_chosen(page):
     moving, turns = page.bench._desk._scene._moving, []
     until(lambda: turns.append(moving.wxyz[0]) or np.ptp(turns) > 0.01)
     assert len(set(turns)) > 1
-
-
-def test_kept_assets_get_names_of_their_own_and_the_same_mesh_the_same_questions(monkeypatch, tmp_path):
-    monkeypatch.setattr(bench_, "ArticulationWork", FakeWork)
-    FakeWork.made = []
-    source = tmp_path / "in" / "cube.obj"
-    source.parent.mkdir()
-    source.write_bytes(CUBE)
-    for _ in range(2):
-        options = {"ask": True, "out": tmp_path / "out", "author": "Ada", "clock": lambda: ""}
-        with serve(source, port=8420, **options) as serving:
-            assert str(tmp_path / "out") in serving.told[0]
-            FakeWork.made[-1].finish()
-            until(lambda: serving.page.session is not None)
-    first, second = FakeWork.made
-    assert (first.out.name, second.out.name) == ("cube", "cube-2")
-    assert first.options["answerer"] == second.options["answerer"]
-    assert (tmp_path / "out" / "cube-2" / "asset.json").exists()
-
-
-def test_what_was_handed_over_is_removed_at_the_end(monkeypatch):
-    monkeypatch.setattr(bench_, "ArticulationWork", FakeWork)
-    with serve(None, port=8440, author="Ada", clock=lambda: "") as serving:
-        assert "removed at the end" in serving.told[0]
-        upload(serving.page)
-        folder = serving.page.bench._bench.folder
-        assert folder.exists()
-    assert FakeWork.made[-1].cancelled
-    assert not folder.exists()
-
-
-@pytest.mark.parametrize(
-    ("target", "options"),
-    [(None, {"ask": True}), ("missing.glb", {"ask": True}), (".", {"ask": True}), (".", {"out": "x"})],
-)
-def test_options_that_do_not_go_together_are_refused(tmp_path, monkeypatch, target, options):
-    monkeypatch.chdir(tmp_path)
-    shutil.rmtree(tmp_path / "x", ignore_errors=True)
-    with pytest.raises(OptionError), serve(target, author="Ada", clock=lambda: "", **options):
-        pass

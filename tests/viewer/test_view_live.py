@@ -6,8 +6,6 @@ Needs the extra `view`, playwright and a Chromium (see browser.py); skipped wher
 """
 
 import json
-import time
-import xml.etree.ElementTree as ET
 from dataclasses import replace
 
 import numpy as np
@@ -15,91 +13,16 @@ import pytest
 from assets import cabinet
 from browser import Tab
 from correctable import write_output
-from scipy.ndimage import minimum_filter
+from live_page import NOW, PANEL, eventually, fill, frame_of, of_color, settle, show, tab_of
 
 from anymesh.correcting import FlipSign, open_asset
 from anymesh.geometry.kinematics import link_transforms
 from anymesh.viewer.live_serve_ import serve
-from anymesh.viewer.scene import color_of
 
 pytest.importorskip("viser", reason="needs the extra view")
+
+
 pytestmark = pytest.mark.slow
-NOW = "2024-05-01T12:00:00+00:00"
-GIZMO_BLUE = (54, 142, 226)
-PANEL = 880  # [px] where the panel begins
-
-
-@pytest.fixture
-def live(tmp_path, tab):
-    """A page of the cabinet, open in a tab."""
-    folder = write_output(tmp_path / "out")
-    with serve(folder, port=8300, author="Ada", clock=lambda: NOW) as serving:
-        show(tab, serving)
-        yield serving, tab, folder
-
-
-def show(tab: Tab, serving) -> None:
-    tab.open(serving.url)
-    tab.page.wait_for_selector("canvas")
-    tab.page.get_by_text("parts,").first.wait_for()
-    settle(tab)
-    close = tab.page.locator(".mantine-Notification-closeButton")
-    if close.count():
-        close.first.click()
-
-
-def settle(tab: Tab, seconds: float = 40) -> np.ndarray:
-    """The picture once it stands still."""
-    end, before = time.monotonic() + seconds, tab.pixels()
-    while time.monotonic() < end:
-        time.sleep(0.7)
-        now = tab.pixels()
-        if (now[:, :PANEL] == before[:, :PANEL]).all() and len(np.unique(now[:, :PANEL].reshape(-1, 3), axis=0)) > 20:
-            return now
-        before = now
-    raise AssertionError("the picture does not come to rest")
-
-
-def eventually(what, seconds: float = 20):
-    """Waits for what a click sets going."""
-    end = time.monotonic() + seconds
-    while not what():
-        assert time.monotonic() < end, "it did not happen"
-        time.sleep(0.1)
-
-
-def of_color(picture: np.ndarray, part: int) -> np.ndarray:
-    """Where a picture has the hue of a part's colour."""
-    r, g, b = (np.asarray(color_of(part), float) / max(color_of(part))).tolist()
-    seen = picture[:, :PANEL].astype(float)
-    scaled = seen / np.maximum(seen.max(2, keepdims=True), 1)
-    return (np.abs(scaled - (r, g, b)).max(2) < 0.12) & (seen.max(2) > 60)
-
-
-def fill(tab: Tab, label: str, value: str) -> None:
-    """Types into the number of a control."""
-    row = tab.page.locator(f"label:has-text('{label}')").locator("xpath=ancestor::*[descendant::input][1]")
-    row.locator("input").last.fill(value)
-    row.locator("input").last.press("Enter")
-
-
-def frame_of(serving, part: str) -> np.ndarray:
-    frame = serving.page.view._frames[part]
-    w, x, y, z = frame.wxyz
-    R = np.array([
-        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-    ])  # fmt: skip
-    return np.block([[R, np.asarray(frame.position)[:, None]], [np.zeros((1, 3)), np.ones((1, 1))]])
-
-
-def tab_of(tab: Tab, name: str) -> None:
-    tab.page.get_by_role("tab", name=name).click()
-
-
-def urdf_joint(folder, name: str) -> ET.Element:
-    return next(j for j in ET.parse(folder / "cabinet.urdf").getroot().iter("joint") if j.get("name") == name)
 
 
 def test_the_page_loads_without_errors_and_warns_first(live):
@@ -151,96 +74,6 @@ def test_a_click_selects_escape_lets_go_orbit_and_zoom_turn_the_view(live):
     assert session.selected is None  # a drag is no click
     tab.page.mouse.wheel(0, -400)
     eventually(lambda: np.linalg.norm(client.camera.position - client.camera.look_at) < 0.97 * off)
-
-
-def test_corrections_undo_redo_and_reach_the_urdf(live):
-    serving, tab, folder = live
-    session = serving.page.session
-    tab_of(tab, "Correct")
-    y, x = np.argwhere(of_color(tab.pixels(), 1)).mean(0)
-    tab.page.mouse.click(x, y)
-    eventually(lambda: session.selected == "door")
-    tab.page.get_by_role("button", name="Flip direction").click()
-    eventually(lambda: session.asset.joints[0].axis[2] == -1)
-    tab.page.mouse.click(700, 40)  # the background
-    eventually(lambda: session.selected is None)
-    tab.page.keyboard.press("Control+z")
-    eventually(lambda: session.asset.joints[0].axis[2] == 1)
-    tab.page.keyboard.press("Control+Shift+Z")
-    eventually(lambda: session.asset.joints[0].axis[2] == -1)
-    eventually(lambda: "1 correction not saved" in tab.page.inner_text("body"))
-    tab.page.keyboard.press("Control+s")
-    eventually(lambda: not session.unsaved, 60)
-    assert urdf_joint(folder, "hinge").find("axis").get("xyz").split()[2] == "-1"
-    assert json.loads((folder / "corrections.json").read_text())["corrections"][0]["author"] == "Ada"
-    assert tab.errors == []
-
-
-def test_motions_are_previewed_and_one_is_used(live):
-    serving, tab, _ = live
-    session = serving.page.session
-    tab_of(tab, "Correct")
-    serving.page.act(lambda: serving.page.select("door"))
-    tab.page.get_by_role("button", name="Find other motions").click()
-    eventually(lambda: session.preview is not None, 60)
-    assert not session.unsaved
-    places = []
-    eventually(lambda: places.append(frame_of(serving, "door")) or np.ptp([p[0, 0] for p in places]) > 0.1)
-    tab.page.keyboard.press("Escape")
-    eventually(lambda: session.preview is None)
-    tab.page.get_by_role("button", name="Find other motions").click()
-    eventually(lambda: session.preview is not None, 60)
-    wanted = session.preview
-    tab.page.get_by_role("button", name="Use this motion").click()
-    eventually(lambda: session.unsaved)
-    np.testing.assert_allclose(session.asset.joints[0].axis, wanted.axis)
-
-
-def test_the_axis_snaps_to_an_edge_that_is_clicked(live):
-    serving, tab, _ = live
-    session = serving.page.session
-    tab_of(tab, "Correct")
-    serving.page.act(lambda: serving.page.select("door"))
-    tab.page.get_by_text("Axis", exact=True).click()
-    tab.page.get_by_text("Edge", exact=True).click()
-    eventually(lambda: "Click near an edge" in tab.page.inner_text("body"))
-    where = np.argwhere(of_color(settle(tab), 1))
-    y, x = where[where[:, 1] < where[:, 1].min() + 8].mean(0)  # the door's left edge
-    tab.page.mouse.click(x + 2, y)
-    eventually(lambda: session.unsaved)
-    hinge = session.asset.joints[0]
-    np.testing.assert_allclose(np.abs(hinge.axis), (0, 0, 1), atol=1e-6)
-    assert hinge.origin[0] == pytest.approx(0.005, abs=1e-6)
-
-
-def test_faces_are_chosen_by_brush_and_patch_and_made_a_part(live):
-    serving, tab, _ = live
-    session = serving.page.session
-    tab_of(tab, "Correct")
-    y, x = np.argwhere(of_color(tab.pixels(), 1)).mean(0)
-    tab.page.mouse.click(x, y)
-    eventually(lambda: session.selected == "door")
-    tab.page.get_by_text("Faces", exact=True).click()
-    tab.page.get_by_text("Brush", exact=True).click()
-    eventually(lambda: "Hold Shift" in tab.page.inner_text("body"))
-    tab.page.keyboard.down("Shift")
-    tab.page.mouse.move(x - 40, y - 40)
-    tab.page.mouse.down()
-    tab.page.mouse.move(x + 40, y + 40, steps=6)
-    tab.page.mouse.up()
-    tab.page.keyboard.up("Shift")
-    eventually(lambda: len(session.chosen) > 0)
-    assert set(session.asset.segmentation.face_part[session.chosen]) == {1}
-    assert (session.asset.mesh.face_normals[session.chosen][:, 1] < -0.99).all()  # what is seen: the front
-    tab.page.keyboard.press("Escape")
-    eventually(lambda: len(session.chosen) == 0)
-    tab.page.get_by_text("Patch", exact=True).click()
-    eventually(lambda: "Click patches" in tab.page.inner_text("body"))
-    tab.page.mouse.click(x, y)
-    eventually(lambda: len(session.chosen) == 2)
-    tab.page.get_by_role("button", name="Make them a part").click()
-    eventually(lambda: len(session.asset.segmentation.parts) == 5)
-    assert tab.errors == []
 
 
 def test_names_of_a_file_do_no_harm(tmp_path, tab):
@@ -315,30 +148,3 @@ def show_moving(tab: Tab, serving) -> None:
 def said(folder) -> dict[str, str]:
     path = folder / "review.json"
     return {k: d[-1]["verdict"] for k, d in json.loads(path.read_text())["decisions"].items()} if path.exists() else {}
-
-
-def test_the_axis_is_dragged_and_limits_are_typed(live):
-    serving, tab, _ = live
-    session = serving.page.session
-    tab_of(tab, "Correct")
-    serving.page.act(lambda: serving.page.select("door"))
-    fill(tab, "Upper °", "75")
-    tab.page.get_by_role("button", name="Set limits").click()
-    eventually(lambda: session.asset.joints[0].limits[1] == pytest.approx(np.deg2rad(75)))
-    tab.page.get_by_text("Axis", exact=True).click()
-    tab.page.get_by_label("Drag the axis").click()
-    picture = settle(tab).astype(int)
-    before = session.asset.joints[0].origin
-    blue = np.abs(picture[:, :PANEL] - GIZMO_BLUE).max(2) < 12
-    blue = minimum_filter(blue, 5)  # without thin lines
-    y, x = np.argwhere(blue)[np.argwhere(blue)[:, 1].argmin()].astype(float)  # the tip of an arrow across the axis
-    tab.page.mouse.move(x + 10, y + 2)
-    time.sleep(1)
-    tab.page.mouse.down()
-    tab.page.mouse.move(x - 60, y - 15, steps=8)
-    time.sleep(1)
-    tab.page.mouse.up()
-    eventually(lambda: len(session.history.done) == 2)
-    assert np.linalg.norm(session.asset.joints[0].origin - before) > 0.02
-    np.testing.assert_allclose(session.asset.joints[0].axis, (0, 0, 1), atol=1e-6)
-    assert tab.errors == []

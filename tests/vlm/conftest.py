@@ -5,7 +5,8 @@ import ssl
 from collections.abc import Callable, Iterator
 
 import pytest
-from wire import DIALECTS, SECRET, Dialect, Service
+from dialects import DIALECTS, Dialect
+from wire import SECRET, Service
 
 from anymesh.vlm.vision import VisionModel
 

@@ -8,7 +8,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from wire import ANTHROPIC, SECRET, a_request
+from dialects import ANTHROPIC
+from wire import SECRET, a_request
 
 from anymesh.cli import run
 from anymesh.errors import BudgetError, ModelError, OptionError

@@ -8,7 +8,8 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
-from wire import SECRET, Service, _openai, a_request
+from dialects import _openai
+from wire import SECRET, Service, a_request
 
 from anymesh.cli import run
 from anymesh.errors import OptionError

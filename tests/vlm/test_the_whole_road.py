@@ -7,7 +7,8 @@ from pathlib import Path
 
 import jsonschema
 import pytest
-from wire import SECRET, Service, _openai, _openai_content
+from dialects import _openai, _openai_content
+from wire import SECRET, Service
 
 from anymesh.cli import run
 from anymesh.config import Config, GroundingConfig, ViewsConfig

@@ -5,7 +5,8 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from wire import ANSWER, COMPATIBLE, OPENAI, SECRET, Dialect, Service, a_request, exchange
+from dialects import COMPATIBLE, OPENAI, Dialect
+from wire import ANSWER, SECRET, Service, a_request, exchange
 
 from anymesh.errors import BudgetError, ModelError, OptionError
 from anymesh.vlm.connect import open_model

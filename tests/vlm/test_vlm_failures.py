@@ -6,7 +6,8 @@ import traceback
 from collections.abc import Callable
 
 import pytest
-from wire import ANSWER, ANTHROPIC, DIALECTS, GOOGLE, OPENAI, SECRET, Dialect, Service, a_request
+from dialects import ANTHROPIC, DIALECTS, GOOGLE, OPENAI, Dialect
+from wire import ANSWER, SECRET, Service, a_request
 
 from anymesh.errors import ModelError
 from anymesh.vlm.retry import Retrying, TransientError

@@ -25,7 +25,7 @@ class SimulatedModel:
 
     def ask(self, request: Request) -> Reply:
         if self.question is None:
-            raise ValueError("a simulated model is asked through `SimulatedVlm`, which knows the question")
+            raise ValueError("a simulated model is asked through `SimulatedVlm`, which holds the question")
         text = json.dumps(answer_object(self.question, self._answerer.ask(self.question)))
         words = len(request.system) + len(request.text) + len(json.dumps(request.schema))
         provider, _, model = self.name.partition(":")

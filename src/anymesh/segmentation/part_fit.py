@@ -1,4 +1,4 @@
-"""Fit of a part candidate in its surroundings: clearance at its rim, opening behind it, walls beside it, pivots."""
+"""Fit of a part candidate in the object: clearance at its rim, opening behind it, walls beside it, pivots."""
 
 from __future__ import annotations
 

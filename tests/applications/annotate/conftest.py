@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from anymesh.applications.annotate.ledger import Ledger
 from anymesh.applications.annotate.workers import LocalWorkers, ObjectLimits
 
 TARGET = ("fake_work", "run")
@@ -26,6 +27,12 @@ def workers(monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[..., LocalWork
     yield make
     for some in made:
         some.close()
+
+
+@pytest.fixture
+def ledger(tmp_path: Path) -> Iterator[Ledger]:
+    with Ledger.open(tmp_path / "out", create=True) as made:
+        yield made
 
 
 @pytest.fixture

@@ -12,7 +12,8 @@ import pytest
 import trimesh
 
 sys.path.append(str(Path(__file__).parents[2] / "vlm"))
-from wire import SECRET, Service, _openai
+from dialects import _openai
+from wire import SECRET, Service
 
 from anymesh.cli import run
 

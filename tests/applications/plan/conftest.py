@@ -4,7 +4,8 @@ import importlib.util
 from pathlib import Path
 
 import pytest
-from plan_things import write_things
+from mjcf_objects import write_objects
+from plan_things import ARM, CUPBOARD, PANEL
 
 MISSING = [name for name in ("ompl", "mink", "daqp") if importlib.util.find_spec(name) is None]
 NO_EXTRA = f"the extra `plan` is not installed: {', '.join(MISSING)}"
@@ -19,7 +20,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
 @pytest.fixture(scope="session")
 def things(tmp_path_factory) -> Path:
-    return write_things(tmp_path_factory.mktemp("things"))
+    return write_objects(tmp_path_factory.mktemp("things"), CUPBOARD, PANEL, ARM)
 
 
 @pytest.fixture(scope="session")

@@ -4,7 +4,8 @@ import importlib.util
 from pathlib import Path
 
 import pytest
-from policy_things import write_things as write_objects
+from mjcf_objects import write_objects
+from policy_things import BUCKET, DRAWER, LAPTOP
 
 MISSING = [name for name in ("torch", "stable_baselines3") if importlib.util.find_spec(name) is None]
 NO_TRAINING = f"the extra `policy` is not installed: {', '.join(MISSING)}"
@@ -19,7 +20,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
 @pytest.fixture(scope="session")
 def objects(tmp_path_factory) -> Path:
-    return write_objects(tmp_path_factory.mktemp("policy_objects"))
+    return write_objects(tmp_path_factory.mktemp("policy_objects"), LAPTOP, BUCKET, DRAWER)
 
 
 @pytest.fixture

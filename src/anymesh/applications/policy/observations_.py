@@ -25,7 +25,7 @@ class ObservationKind(StrEnum):
 
 
 def robot_state(s: TaskSimulation) -> Float32[np.ndarray, " n"]:
-    """Return what the robot knows of itself: its joints, tool, contacts, commands, and the time (as DexArt's robot state)."""
+    """Return the robot's state: its joints, tool, contacts, commands, and the time (as DexArt's robot state)."""
     velocity = np.zeros(6)
     s.mujoco.mj_objectVelocity(s.model, s.data, s.mujoco.mjtObj.mjOBJ_SITE, s.tool_site, velocity, 0)
     tool = s.tool_rotation

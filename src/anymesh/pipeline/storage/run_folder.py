@@ -1,4 +1,4 @@
-"""The output folder. Only this module knows its file names.
+"""The output folder. Its file names are defined here alone.
 
 Stages are kept, and an output is either complete or absent. Everything is written into a hidden folder beside the output (on
 the same file system), which replaces the output at the end. A process that is killed, or ended by a budget or an internal

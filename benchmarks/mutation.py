@@ -1,0 +1,199 @@
+"""Measure which changes of the code the tests notice (mutation testing), on a seeded sample.
+
+    pip install '.[test,mutation]'
+    python benchmarks/mutation.py WORK --map                  # which test runs which line, 4 minutes of processor time
+    python benchmarks/mutation.py WORK --count 60 --seed 2    # resumable; 12 minutes
+    python benchmarks/mutation.py WORK --report benchmarks/mutation.md --seed 2
+
+Each mutant runs in a copy of the source, against the tests that run the changed line, until the first one fails.
+"""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import json
+import os
+import resource
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from collections import Counter
+from collections.abc import Sequence
+from contextlib import suppress
+from pathlib import Path
+
+ROOT = Path(__file__).parents[1]
+FOLDERS = ("geometry", "physics", "segmentation", "articulation")  # of tests
+BUDGET = 25.0  # [s] processor time of the tests of one mutant, as they take without it
+LIMIT = 150  # [s] processor time of one mutant: more counts as noticed
+WALL = 900  # [s]
+LIBRARIES = (
+    "pytest hypothesis numpy scipy.spatial scipy.sparse scipy.optimize scipy.ndimage trimesh mujoco igl networkx PIL.Image"
+)
+EQUIVALENT = Path(__file__).with_name("mutation_equivalent.json")
+COSTS = """
+import json, os, time, pytest
+OUT = open(os.environ["MUTATION_COSTS"], "w")
+@pytest.hookimpl(hookwrapper=True)
+def pytest_runtest_protocol(item, nextitem):
+    before = time.process_time()
+    yield
+    OUT.write(json.dumps([item.nodeid, round(time.process_time() - before, 4)]) + "\\n")
+    OUT.flush()
+"""
+
+
+def make_map(work: Path) -> None:
+    """Record which test runs which line, and the processor time of each test."""
+    from mutants import PACKAGES
+
+    (work / "mutation_costs.py").write_text(COSTS)
+    for folder in FOLDERS:
+        environment = {"COVERAGE_FILE": work / f"cov_{folder}", "MUTATION_COSTS": work / f"{folder}.jsonl"}
+        paths = os.pathsep.join([str(ROOT / "src"), str(work)])
+        covered = [f"--cov={ROOT / 'src' / 'anymesh' / package}" for package in PACKAGES]
+        recorded = ["-p", "mutation_costs", *covered, "--cov-context=test", "--cov-report="]
+        subprocess.run(
+            [sys.executable, "-m", "pytest", f"tests/{folder}", *recorded],
+            cwd=ROOT, check=True, env={**os.environ, **{k: str(v) for k, v in environment.items()}, "PYTHONPATH": paths},
+        )  # fmt: skip
+
+
+def fails(tests: Sequence[str], log: Path) -> str:
+    """Run tests in a forked process, which has the libraries loaded already; return "killed", "timeout" or "survived"."""
+    child = os.fork()
+    if child == 0:
+        os.setsid()
+        resource.setrlimit(resource.RLIMIT_CPU, (LIMIT, LIMIT + 5))
+        out = os.open(log, os.O_WRONLY | os.O_CREAT | os.O_TRUNC)
+        os.dup2(out, 1)
+        os.dup2(out, 2)
+        import pytest
+
+        try:
+            code = int(pytest.main(["-x", "-q", "-p", "no:cacheprovider", "-p", "no:xdist", *tests]))
+        except BaseException:
+            code = 99
+        sys.stdout.flush()
+        os._exit(code)
+    end = time.monotonic() + WALL
+    done, status = os.waitpid(child, os.WNOHANG)
+    while not done and time.monotonic() < end:
+        time.sleep(0.2)
+        done, status = os.waitpid(child, os.WNOHANG)
+    with suppress(ProcessLookupError):
+        os.killpg(child, signal.SIGKILL)  # with its decomposers
+    if not done:
+        os.waitpid(child, 0)
+        return "timeout"
+    if os.WIFSIGNALED(status):
+        return "timeout" if os.WTERMSIG(status) == signal.SIGXCPU else "killed"
+    return "survived" if os.WEXITSTATUS(status) == 0 else "killed"
+
+
+def run(work: Path, count: int, seed: int, again: bool) -> None:
+    """Run the sample and append a row per mutant; those that have one are not run again, except survivors if `again`."""
+    from mutants import CoveringTests, sample
+
+    copy, results = work / "src", work / f"results_{seed}.jsonl"
+    done = {row["key"] for row in rows_of(work, seed) if not (again and row["outcome"] == "survived")}
+    covering, drawn = CoveringTests(work), sample(count, seed)
+    shutil.rmtree(copy, ignore_errors=True)
+    shutil.copytree(ROOT / "src", copy, ignore=shutil.ignore_patterns("__pycache__"))
+    os.environ["PYTHONPATH"] = str(copy)
+    sys.path.insert(0, str(copy))
+    os.chdir(ROOT)
+    for name in LIBRARIES.split():
+        importlib.import_module(name)
+    assert "anymesh" not in sys.modules
+    checked: set[str] = set()
+    for mutant in drawn:
+        if mutant.key in done:
+            continue
+        tests, begun = covering.of(mutant, BUDGET), os.times()
+        if mutant.package not in checked:
+            assert fails(tests, work / "log.txt") == "survived", f"tests fail without a mutant: {work / 'log.txt'}"
+            checked.add(mutant.package)
+        place = copy / Path(mutant.file).relative_to("src")
+        original = place.read_text(encoding="utf-8")
+        place.write_text(mutant.source(), encoding="utf-8")
+        try:
+            outcome = fails(tests, work / "log.txt") if tests else "survived"
+        finally:
+            place.write_text(original, encoding="utf-8")
+        ended, (before, after) = os.times(), mutant.change()
+        seconds = ended.children_user + ended.children_system - begun.children_user - begun.children_system
+        row = {
+            "key": mutant.key,
+            "package": mutant.package,
+            "file": mutant.file,
+            "line": mutant.line,
+            "operator": mutant.operator,
+        }
+        row |= {"before": before, "after": after, "outcome": outcome, "tests": len(tests), "seconds": round(seconds, 1)}
+        with results.open("a") as out:
+            out.write(json.dumps(row) + "\n")
+        print(outcome, f"{mutant.file}:{mutant.line}", after, f"{seconds:.0f} s", flush=True)
+
+
+def rows_of(work: Path, seed: int) -> list[dict]:
+    """Return the last row of each mutant."""
+    results = work / f"results_{seed}.jsonl"
+    rows = map(json.loads, results.read_text().splitlines()) if results.exists() else ()
+    return list({row["key"]: row for row in rows}.values())
+
+
+def report(work: Path, seed: int, out: Path) -> None:
+    """Write the table per package and the survivors."""
+    rows = rows_of(work, seed)
+    reasons = json.loads(EQUIVALENT.read_text(encoding="utf-8"))
+    for row in rows:
+        row["place"] = str(Path(row["file"]).relative_to("src/anymesh"))
+        row["reason"] = reasons.get(f"{row['place']}: {row['after']}")
+    lines = ["| package | mutants | noticed | by a time limit | equivalent | rate |", "|---|---|---|---|---|---|"]
+    packages = dict.fromkeys(row["package"] for row in rows)
+    for name, own in [*((p, [r for r in rows if r["package"] == p]) for p in packages), ("all", rows)]:
+        count = Counter("equivalent" if r["outcome"] == "survived" and r["reason"] else r["outcome"] for r in own)
+        noticed = count["killed"] + count["timeout"]
+        rate = noticed / max(len(own) - count["equivalent"], 1)
+        lines.append(f"| `{name}` | {len(own)} | {noticed} | {count['timeout']} | {count['equivalent']} | {rate:.2f} |")
+    lines += ["", "Survivors:", ""]
+    for row in sorted((r for r in rows if r["outcome"] == "survived"), key=lambda r: (r["place"], r["line"])):
+        reason = f" Equivalent: {row['reason']}." if row["reason"] else "" if row["tests"] else " No test runs this line."
+        lines.append(f"- `{row['place']}:{row['line']}`: `{row['before']}` -> `{row['after']}`.{reason}")
+    commands = [c.strip() for c in (__doc__ or "").split("\n\n")[1].splitlines()]
+    head = ["# Mutation testing", "", f"{len(rows)} mutants, seed {seed}.", "", "```bash", *commands, "```", ""]
+    head += [
+        "cosmic-ray changes one operator, number or loop per mutant. A mutant is noticed if a test fails, or if the tests",
+        f"take more than {LIMIT} s of processor time. It runs the tests that run the changed line and those beside",
+        f"them, fastest first, up to {BUDGET:.0f} s, of {', '.join(f'`tests/{f}`' for f in FOLDERS)}. The rate leaves out",
+        "equivalent mutants, which `mutation_equivalent.json` lists with the reason.",
+        "",
+    ]
+    out.write_text("\n".join([*head, *lines]) + "\n", encoding="utf-8")
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("work", type=Path)
+    parser.add_argument("--map", action="store_true")
+    parser.add_argument("--count", type=int, default=60)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--again", action="store_true", help="run survivors again, after a test was added")
+    parser.add_argument("--report", type=Path)
+    options = parser.parse_args()
+    work = options.work.resolve()
+    work.mkdir(parents=True, exist_ok=True)
+    if options.map:
+        make_map(work)
+    elif options.report:
+        report(work, options.seed, options.report)
+    else:
+        run(work, options.count, options.seed, options.again)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,43 @@
+"""Work that a test controls, for the page that accepts meshes."""
+
+import time
+from types import SimpleNamespace
+
+from correctable import write_output
+
+CUBE = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\nf 1 3 4\nf 2 3 4\n"
+
+
+class FakeWork:
+    """Work that goes on as a test says."""
+
+    made: list = []  # noqa: RUF012
+
+    def __init__(self, mesh, out, **options):
+        self.asked_mesh, self.out, self.options = mesh, out, options
+        self.mesh = self.error = None
+        self.done = self.cancelled = False
+        self.words, self.share, self.begun = "finding the parts", 0.3, True
+        FakeWork.made.append(self)
+
+    @property
+    def over(self):
+        return self.done or self.cancelled or self.error is not None
+
+    def cancel(self):
+        self.cancelled = True
+
+    def finish(self):
+        write_output(self.out)
+        self.done = True
+
+
+def until(what, seconds: float = 10):
+    end = time.monotonic() + seconds
+    while not what():
+        assert time.monotonic() < end, "it did not happen"
+        time.sleep(0.01)
+
+
+def upload(page, name="cube.obj", content=CUBE):
+    page.act(lambda: page.bench._uploaded(SimpleNamespace(name=name, content=content)))
