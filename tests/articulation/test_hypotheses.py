@@ -7,10 +7,10 @@ from scenes import Scene, built
 from trimesh.creation import annulus, cylinder
 
 from anymesh.articulation.cases import make_cases
-from anymesh.articulation.evidence import part_facts
 from anymesh.articulation.hypotheses import distinct, propose
 from anymesh.articulation.motion_question import PartFacts
 from anymesh.articulation.moved_points import MovedPoints
+from anymesh.articulation.part_facts import part_facts
 from anymesh.config import Config
 from anymesh.motion.part_context import PartContext
 from anymesh.segmentation.divide import object_shape

@@ -1,10 +1,13 @@
 """Test the assignment of parts against the best conflict-free set found by trying all sets."""
 
 from itertools import combinations
+from typing import Any
 
 import numpy as np
 import pytest
+import scipy.optimize
 from assets import box, mesh_of
+from scipy.optimize import OptimizeResult, milp
 
 from anymesh.config import Config, SegmentationConfig
 from anymesh.segmentation.contacts import find_contacts
@@ -31,6 +34,29 @@ def test_no_set_without_conflicts_scores_higher(seed: int) -> None:
     chosen = assign_parts(candidates, score)
     assert not clash[np.ix_(chosen, chosen)].any()
     assert (score[chosen] - MIN_SCORE).sum() == pytest.approx(best)
+
+
+def test_few_candidates_are_tried_and_ties_or_many_are_programmed(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The scenes are chains of candidates, each in conflict with the next, whose best set is every second one."""
+    programmed = []
+
+    def counted(cost: np.ndarray, **settings: Any) -> OptimizeResult:
+        programmed.append(len(cost))
+        return milp(cost, **settings)
+
+    monkeypatch.setattr(scipy.optimize, "milp", counted)
+
+    def chain(*score: float) -> list[int]:
+        n = len(score)
+        members = np.eye(n, n + 1, dtype=bool) | np.eye(n, n + 1, 1, dtype=bool)
+        return assign_parts(overlap(members, np.ones(n + 1)), np.array(score))
+
+    assert (chain(1.0, 1.2, 1.1), programmed) == ([0, 2], [])
+    assert chain(*[2.0, 1.0] * 7) == [0, 2, 4, 6, 8, 10, 12]
+    assert programmed == [14]
+    assert chain(1.0, 1.0) in ([0], [1])
+    assert programmed == [14, 2]
+    assert chain() == []
 
 
 def test_a_knob_on_a_door_is_a_part_and_the_door_without_its_trim_is_not() -> None:

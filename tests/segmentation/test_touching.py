@@ -2,12 +2,13 @@
 
 import numpy as np
 import pytest
+import trimesh
 from assets import box, mesh_of
 from scipy.spatial.distance import cdist
 
 from anymesh.config import SegmentationConfig
 from anymesh.geometry.contact import connecting_area
-from anymesh.segmentation.contacts import Contacts, find_contacts, hanging_on
+from anymesh.segmentation.contacts import PROBES, Contacts, find_contacts, gap_within, hanging_on
 from anymesh.segmentation.divide import object_shape
 
 BLOCK = box((0, 0, 0), (1, 1, 1))
@@ -41,6 +42,18 @@ def test_the_threshold_is_doubled_until_a_point_is_near() -> None:
     assert (in_a.tolist(), in_b.tolist(), threshold) == ([True], [True, False], 1.2)
     with pytest.raises(ValueError, match="positive, found 0"):
         connecting_area(*gaps(a, b), 0.0)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_a_gap_is_the_smallest_distance_of_all_points(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    balls = [trimesh.creation.icosphere(2, radius) for radius in rng.uniform(0.2, 1.5, 2)]
+    a, b = contacts(*((ball.vertices + rng.uniform(-1.5, 1.5, 3), ball.faces) for ball in balls)).shapes
+    points = [p[:: max(1, len(p) // PROBES)] for p in (a.corners, a.samples.points)]
+    gap = float(b.tree.distance(np.concatenate(points)).min())
+    assert gap_within(a, b, 100.0) == gap
+    assert gap_within(a, b, 100.0, enough=gap) == gap
+    assert gap <= gap_within(a, b, 100.0, enough=gap + 0.2) < gap + 0.2
 
 
 def test_touching_boxes_are_one_body_that_touches_at_the_face() -> None:

@@ -55,6 +55,7 @@ def _frame(first: np.ndarray, second: np.ndarray) -> np.ndarray | None:
     return np.array([first, second, (b * z - c * y, c * x - a * z, a * y - b * x)])  # np.cross without its overhead
 
 
+BLOCK = 100_000  # points times frames that are transformed at once
 MIN_FLAT_AREA_RATIO = 0.6  # share of the surface facing one way above which the box is aligned with it
 
 
@@ -105,17 +106,21 @@ def fit_box(
         and weights[np.abs(normals @ directions[0]) > np.cos(np.deg2rad(5))].sum() > MIN_FLAT_AREA_RATIO * weights.sum()
     ):
         frames = [f for f in frames if f is not None and np.abs(f @ directions[0]).max() > 1 - 1e-6] or frames
-    best, best_volume = np.eye(3), np.inf
+    tried = np.array([f for f in frames if f is not None])
+    step = max(1, BLOCK // max(len(points), 1))
+    sides = np.concatenate([_sides(points, tried[k : k + step]) for k in range(0, len(tried), step)])
     slack = 1e-3 * float(np.linalg.norm(np.ptp(points, axis=0)))
-    for frame in frames:
-        if frame is None:
-            continue
-        low, high = bounds_of(points @ frame.T)
-        size = high - low + slack
-        volume = float(size.prod())
+    best, best_volume = 0, np.inf
+    for k, volume in enumerate((sides + slack).prod(1)):
         if volume < best_volume * 0.97:
-            best, best_volume = frame, volume
-    return box_in_frame(points, best)
+            best, best_volume = k, volume
+    return box_in_frame(points, tried[best])
+
+
+def _sides(points: Float[np.ndarray, "n 3"], frames: Float[np.ndarray, "k 3 3"]) -> Float[np.ndarray, "k 3"]:
+    """Return the sides of the tight box of points in each frame [m]."""
+    local = frames.reshape(-1, 3) @ points.T
+    return (local.max(1) - local.min(1)).reshape(-1, 3)
 
 
 def box_in_frame(points: Float[np.ndarray, "n 3"], axes: Float[np.ndarray, "3 3"]) -> OrientedBox:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, Int
 
 BINS = 36
 ROUND = 0.06  # maximum deviation of a bin's outline radius, relative to the median
@@ -45,9 +45,9 @@ def outline_about(points: Float[np.ndarray, "n 3"], axis: Float[np.ndarray, " 3"
     center = (flat.min(0) + flat.max(0)) / 2
     roundness, radius = 0.0, 0.0
     for _ in range(2):
-        offset = flat - center
-        r = np.linalg.norm(offset, axis=1)
-        bin_of = np.floor((np.arctan2(offset[:, 1], offset[:, 0]) / (2 * np.pi) + 0.5) * BINS).astype(int) % BINS
+        x, y = np.ascontiguousarray((flat - center).T)
+        r = np.sqrt(x * x + y * y)
+        bin_of = np.floor((np.arctan2(y, x) / (2 * np.pi) + 0.5) * BINS).astype(int) % BINS
         largest = np.full(BINS, -1.0)
         np.maximum.at(largest, bin_of, r)
         filled = largest >= 0
@@ -58,12 +58,19 @@ def outline_about(points: Float[np.ndarray, "n 3"], axis: Float[np.ndarray, " 3"
         roundness = float(near.sum() / BINS)
         if near.sum() < BINS // 2:
             break
-        order = np.argsort(bin_of * (r.max() + 1) + r, kind="stable")
-        last = order[np.r_[bin_of[order][1:] != bin_of[order][:-1], True]]
-        keep = near[bin_of[last]]
-        center, _ = fit_circle(flat[last][keep])
+        center, _ = fit_circle(flat[_last_per_bin(bin_of, bin_of * (r.max() + 1) + r)[near]])
     mid = (along.min() + along.max()) / 2
     return Outline(axis, center[0] * u + center[1] * v + mid * axis, radius, float(along.max() - along.min()), roundness)
+
+
+def _last_per_bin(bin_of: Int[np.ndarray, " n"], key: Float[np.ndarray, " n"]) -> Int[np.ndarray, " b"]:
+    """Return the index of the highest key in each bin, the last one at a tie; -1 for an empty bin."""
+    highest = np.full(BINS, -np.inf)
+    np.maximum.at(highest, bin_of, key)
+    rows = np.flatnonzero(key == highest[bin_of])
+    last = np.full(BINS, -1)
+    last[bin_of[rows]] = rows  # of equal indices, the last assignment holds
+    return last
 
 
 def roundest(points: Float[np.ndarray, "n 3"], axes: Float[np.ndarray, "k 3"]) -> Outline:

@@ -66,11 +66,13 @@ def _folds_inwards(
         for side in divmod(int(pair), count):
             mine, points = (a[start[side] : start[side + 1]] for a in (order, ordered))
             boxed = mine[((points >= low) & (points <= high)).all(1)]  # most faces of a large superpoint are far away
-            near = boxed[tree.query(centers[boxed])[0] <= reach]
+            near = boxed[tree.query(centers[boxed], distance_upper_bound=BOX_MARGIN * reach)[0] <= reach]
             if len(near) == 0:
                 gap = tree.query(points)[0]
                 near = mine[gap <= gap.min()]
-            ends.append((np.average(centers[near], 0, weight[near]), np.average(normals[near], 0, weight[near])))
+            share = weight[near][:, None]  # np.average without its overhead
+            total = share.sum(0)
+            ends.append(((centers[near] * share).sum(0) / total, (normals[near] * share).sum(0) / total))
         (a, n), (b, m) = ends
         cosine = float(n @ m) / max(float(np.linalg.norm(n) * np.linalg.norm(m)), 1e-300)
         inwards[k] = (b - a) @ (n - m) > 0 and cosine < np.cos(np.deg2rad(config.crease))

@@ -30,10 +30,11 @@ def weld(vertices: Float[np.ndarray, "V 3"]) -> Int[np.ndarray, " V"]:
         rows = np.flatnonzero(near[:, axes].all(1))
         key = _grid_key(np.where(axes, np.floor(at[rows]).astype(np.int64), cell[rows]))  # half a cell aside on those axes
         order = np.argsort(key)
-        same = np.diff(key[order]) == 0
         met = number[rows[order]]
+        same = (np.diff(key[order]) == 0) & (np.diff(met) != 0)
         joined.append(np.stack([met[:-1][same], met[1:][same]], 1))
-    return label_connected(int(number.max()) + 1, np.concatenate(joined))[number]
+    pairs = np.concatenate(joined)
+    return label_connected(int(number.max()) + 1, pairs)[number] if len(pairs) else number
 
 
 def _grid_key(cell: np.ndarray) -> np.ndarray:

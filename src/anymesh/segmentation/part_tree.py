@@ -106,16 +106,15 @@ def part_tree(mesh: Mesh, whole: ObjectShape, contacts: Contacts, min_size: floa
             found.setdefault(np.packbits(mask).tobytes(), mask)
 
     ranking = root_ranking(whole, contacts)
-    for base in ranking[:BASES]:
-        units = rigid_groups(mesh, whole, contacts, base)
+    likely = [rigid_groups(mesh, whole, contacts, base) for base in ranking[:BASES]]
+    for units in likely:
         names = [units.names[u] for u in units.group]
         for u in sorted(units.hanging):
             if u != units.root:
                 for chosen in ([u], units.hanging[u], with_supported(units, u)):
                     add(np.isin(units.group, chosen))
-    first = rigid_groups(mesh, whole, contacts, ranking[0])
-    for merged in _merges(first):
-        add(np.isin(first.group, merged))
+    for merged in _merges(likely[0]):
+        add(np.isin(likely[0].group, merged))
     members, size = _largest(whole, contacts, list(found.values()), min_size, max_candidates)
     return PartTree(whole, contacts, members, size, tuple(names))
 

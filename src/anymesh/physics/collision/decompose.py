@@ -72,12 +72,13 @@ def split_components(
     small = [] if max_components is None else large[max_components:]
     kept: list[Component] = []
     around: list[_Around] = []
-    for k in large[: len(large) - len(small)]:
+    separate = large[: len(large) - len(small)]
+    for k in separate:
         corners = pieces[k].reshape(-1, 3)
         if any(other.holds(corners, 1e-6 * sizes[k]) for other in around):
             continue
         kept.append(Component(pieces[k][:, ::-1] if found.flip[k] else pieces[k], bool(found.solid[k])))
-        hull = hull_of(corners) if found.solid[k] else None
+        hull = hull_of(corners) if found.solid[k] and k != separate[-1] else None
         if hull is not None and len(hull.faces) <= AROUND_FACES:
             this = _Around(planes(hull), corners.min(0), corners.max(0))
             if bool((this.heights(corners) > -1e-6 * sizes[k]).all()):

@@ -43,7 +43,7 @@ def save_shapes(folder: Path | None, key: str, shapes: tuple[Shape, ...]) -> Non
     own = folder / f"{key}.{os.getpid()}.tmp.npz"
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        np.savez_compressed(own, arrays=np.array([len(some) for some in rows], np.int64), **named)  # ty: ignore[invalid-argument-type]
+        np.savez(own, arrays=np.array([len(some) for some in rows], np.int64), **named)  # ty: ignore[invalid-argument-type]
         own.replace(folder / f"{key}.npz")
     except OSError:
         return
