@@ -11,7 +11,7 @@ from anymesh.segmentation import segment
 from anymesh.segmentation.contacts import coplanar, find_contacts
 from anymesh.segmentation.divide import object_shape
 from anymesh.segmentation.part_assignment import MIN_SCORE
-from anymesh.segmentation.part_tree import Overlap, PartTree
+from anymesh.segmentation.part_tree import Overlap
 from anymesh.segmentation.rigid_groups import RigidGroups, with_supported
 from anymesh.types import Segmentation
 
@@ -93,16 +93,6 @@ def test_a_candidate_that_is_held_makes_room_for_the_next(monkeypatch: pytest.Mo
     assert asked == [2, 2]
     assert found.faces(1).tolist() == list(range(24, 36))
     assert "stands out most" in found.parts[1].reason
-
-
-def test_names_that_begin_alike_are_one_part() -> None:
-    """The wood and the metal of a drawer are one part, as exporters split a node by material; other names are not."""
-    names = ("drawer_top_metal", "drawer_top_wood", "Door_left_wood", "base_body", "DRAWER_low")
-    mesh, _ = mesh_of([box((k, 0, 0), (k + 0.5, 1, 1)) for k in range(5)])
-    whole = object_shape(mesh, 0, Config().pieces)
-    members = np.array([[1, 1, 0, 0, 0], [0, 1, 0, 0, 0], [1, 1, 1, 0, 0], [1, 1, 1, 1, 1], [1, 0, 0, 0, 1]], bool)
-    tree = PartTree(whole, find_contacts(whole, SegmentationConfig()), members, np.ones(5), names)
-    assert [segment._name(tree, k) for k in range(5)] == ["drawer top", "drawer_top_wood", "", "", "drawer"]
 
 
 def test_candidates_that_never_move_leave_the_base_alone(monkeypatch: pytest.MonkeyPatch) -> None:

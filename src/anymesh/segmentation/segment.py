@@ -6,7 +6,6 @@ set of groups of highest total score. Groups that cannot move are removed, and t
 
 from __future__ import annotations
 
-import itertools
 import os
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
@@ -20,6 +19,7 @@ from anymesh.deadline import SEGMENT, Deadline
 from anymesh.geometry.patches import ObjectShape
 from anymesh.progress import Progress, silent
 from anymesh.scoring.two_steps import confidence_of
+from anymesh.segmentation.candidate_names import NAME_SCORE, name_class, shared_name
 from anymesh.segmentation.contacts import find_contacts
 from anymesh.segmentation.naming import named_parts
 from anymesh.segmentation.part_assignment import MIN_SCORE, assign_parts, conflicts, join_floating
@@ -27,14 +27,12 @@ from anymesh.segmentation.part_classifier import score_parts
 from anymesh.segmentation.part_features import FeatureScene, part_context_of, part_features
 from anymesh.segmentation.part_tree import PartTree, part_tree
 from anymesh.types import Mesh, Segmentation
-from anymesh.vocabulary import is_fixed_name, recognize, words_of
+from anymesh.vocabulary import recognize
 
 LabelParts = Callable[[Segmentation], Sequence[str]]  # label per part except the base from its motion, "" if it cannot move
 MAX_ASSIGNMENTS = 3  # maximum number of assignments, each without the candidates that turned out to be fixed
 # calibration of the log-odds of a confidence, fitted to kinds left out of training (benchmarks/train_parts.py)
 CALIBRATION_SLOPE, CALIBRATION_OFFSET = 0.80, 0.29
-# [log-odds] added to the score for the name of a node or material
-NAME_SCORE, FIXED_NAME_SCORE, HANDLE_NAME_SCORE = MIN_SCORE + 4, MIN_SCORE - 4, 0.3
 
 
 def segment_parts(
@@ -55,8 +53,8 @@ def segment_parts(
     deadline = deadline or Deadline()
     examined, features = _candidate_features(mesh, tree, config, progress, deadline)
     score, reasons = score_parts(examined.overlap, features)
-    words = [_name(examined, k) for k in range(len(score))]
-    score = score + np.array([_name_score(word) for word in words])
+    words = [shared_name(examined, k) for k in range(len(score))]
+    score = score + np.array([NAME_SCORE[name_class(word)] for word in words])
     for _ in range(MAX_ASSIGNMENTS):
         chosen = _chosen_at_least(examined, score, assign_parts(examined.overlap, score), settings.at_least)
         face_part, order = _face_part(mesh, examined, chosen)
@@ -98,27 +96,10 @@ def _candidate_features(
     return replace(tree, members=tree.members[kept], size=tree.size[kept]), features
 
 
-def _name(tree: PartTree, group: int) -> str:
-    """Return the recognized name shared by all patches of a candidate, or the words that all their names begin with."""
-    names = {tree.names[p] for p in np.flatnonzero(tree.members[group])}
-    if len(names) == 1:
-        return names.pop()
-    # the common prefix of the first and last name in order is common to all
-    first, *_, last = sorted(words_of(name) for name in names)
-    return " ".join(a for a, _ in itertools.takewhile(lambda pair: pair[0] == pair[1], zip(first, last, strict=False)))
-
-
 def _reason(learned: str, name: str, score: float) -> str:
-    told = [f'named "{name}"'] if _name_score(name) else []
+    told = [f'named "{name}"'] if name_class(name) else []
     told += ["stands out most, where parts were asked for"] if score <= MIN_SCORE else []
     return "; ".join([*told, learned])
-
-
-def _name_score(name: str) -> float:
-    word = recognize(name)
-    if word is None:
-        return FIXED_NAME_SCORE if is_fixed_name(name) else 0.0
-    return HANDLE_NAME_SCORE if word.label == "handle" else NAME_SCORE
 
 
 def _chosen_at_least(tree: PartTree, score: Float[np.ndarray, " n"], chosen: list[int], count: int) -> list[int]:
