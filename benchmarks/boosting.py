@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import json
+import subprocess
 from collections import Counter
 from collections.abc import Callable, Hashable, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
@@ -17,12 +18,24 @@ from anymesh.scoring.boosted_trees import NO_FEATURE, BoostedTrees
 
 SETTINGS = {
     "objective": "cross_entropy", "learning_rate": 0.1, "num_leaves": 15, "min_data_in_leaf": 25, "feature_fraction": 0.5,
-    "bagging_fraction": 0.7, "bagging_freq": 1, "lambda_l2": 5.0, "verbose": -1, "num_threads": 1, "seed": 0,
+    "bagging_fraction": 0.7, "bagging_freq": 1, "lambda_l2": 5.0, "verbose": -1, "num_threads": 1,
     "deterministic": True,
 }  # fmt: skip
 FOLDS = 4
 Scores = list[Float[np.ndarray, " n"]]
 Context = Callable[[int, Scores], Float[np.ndarray, "n c"]]  # of a sample, from the first scores of all
+
+
+@dataclass(frozen=True)
+class Model:
+    """One model of an ensemble, whose scores are averaged in each step.
+
+    rounds: trees of the first and of the second step; extra_trees: whether thresholds are random (Geurts et al., 2006).
+    """
+
+    rounds: tuple[int, int]
+    seed: int = 0
+    extra_trees: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,26 +60,32 @@ def folds_of(groups: Sequence[Hashable], seed: int, count: int = FOLDS) -> np.nd
 class TwoSteps:
     """Both steps. The second is trained on first scores of kinds that the first was not trained on."""
 
-    def __init__(self, samples: Sequence[Sample], chosen: Sequence[int], context: Context, rounds: tuple[int, int]) -> None:
-        self._samples, self._context = samples, context
+    def __init__(self, samples: Sequence[Sample], chosen: Sequence[int], context: Context, models: Sequence[Model]) -> None:
+        self._samples, self._context, self._models = samples, context, models
         fold = folds_of([(samples[i].source, samples[i].kind) for i in chosen], 1)
         first: Scores = [np.zeros(0)] * len(samples)
         for k in range(FOLDS):
-            step = self._fit([i for i, f in zip(chosen, fold, strict=True) if f != k], rounds[0])
+            step = self._fit([i for i, f in zip(chosen, fold, strict=True) if f != k])
             for i, f in zip(chosen, fold, strict=True):
                 if f == k:
                     first[i] = step.score(samples[i].features)
-        self.first = self._fit(chosen, rounds[0])
-        self.second = self._fit(chosen, rounds[1], first)
+        self.first = self._fit(chosen)
+        self.second = self._fit(chosen, first)
 
-    def _fit(self, chosen: Sequence[int], rounds: int, first: Scores | None = None) -> BoostedTrees:
+    def _fit(self, chosen: Sequence[int], first: Scores | None = None) -> BoostedTrees:
         samples = [self._samples[i] for i in chosen]
         tables = [self._samples[i].features if first is None else self._joined(i, first) for i in chosen]
         target = np.concatenate([s.target for s in samples])
         weight = np.concatenate([np.full(len(s.target), s.weight) for s in samples])
         known = ~np.isnan(target)
-        data = lightgbm.Dataset(np.concatenate(tables)[known], target[known], weight=weight[known] / weight[known].mean())
-        return trees_of(lightgbm.train(SETTINGS, data, rounds))
+        table, weights = np.concatenate(tables)[known], weight[known] / weight[known].mean()
+        step = 0 if first is None else 1
+        trained = []
+        for model in self._models:
+            data = lightgbm.Dataset(table, target[known], weight=weights)
+            settings = SETTINGS | {"seed": model.seed, "extra_trees": model.extra_trees}
+            trained.append(trees_of(lightgbm.train(settings, data, model.rounds[step])))
+        return BoostedTrees.mean(trained)
 
     def _joined(self, k: int, first: Scores) -> Float[np.ndarray, "n k"]:
         return np.concatenate([self._samples[k].features, self._context(k, first)], 1)
@@ -83,12 +102,12 @@ class TwoSteps:
 
 
 def held_out(
-    samples: Sequence[Sample], left: Sequence[Bool[np.ndarray, " s"]], context: Context, rounds: tuple[int, int]
+    samples: Sequence[Sample], left: Sequence[Bool[np.ndarray, " s"]], context: Context, models: Sequence[Model]
 ) -> Scores:
     """Return the scores of each sample by a classifier that was trained without all that is left out with it."""
     found: Scores = [np.zeros(0)] * len(samples)
     for mask in left:
-        model = TwoSteps(samples, [int(k) for k in np.flatnonzero(~mask)], context, rounds)
+        model = TwoSteps(samples, [int(k) for k in np.flatnonzero(~mask)], context, models)
         out = [int(k) for k in np.flatnonzero(mask)]
         scores = model.scores(out)
         for k in out:
@@ -129,7 +148,21 @@ def trees_of(model: lightgbm.Booster) -> BoostedTrees:
     )  # fmt: skip
 
 
-def write(path: Path, model: TwoSteps, names: Sequence[str], objects: Sequence[tuple[str, str, str]], **more: Any) -> None:
+def _commit() -> str:
+    """Return the commit of the working tree, with + if files differ from it."""
+    run = [subprocess.run(["git", *a], cwd=Path(__file__).parent, capture_output=True, text=True, check=True).stdout.strip()
+           for a in (("rev-parse", "HEAD"), ("status", "--porcelain", "--untracked-files=no"))]  # fmt: skip
+    return run[0] + ("+" if run[1] else "")
+
+
+def write(
+    path: Path,
+    model: TwoSteps,
+    models: Sequence[Model],
+    names: Sequence[str],
+    objects: Sequence[tuple[str, str, str]],
+    **more: Any,
+) -> None:
     """Write a classifier with its manifest. objects: source, kind and name of each that it was trained on."""
     counts = Counter(source for source, _, _ in objects)
     manifest = {
@@ -137,6 +170,8 @@ def write(path: Path, model: TwoSteps, names: Sequence[str], objects: Sequence[t
         "sources": {s: {"objects": counts[s], "kinds": sorted({k for t, k, _ in objects if t == s})} for s in sorted(counts)},
         "objects": sorted(f"{source}/{name}" for source, _, name in objects),
         "settings": SETTINGS,
+        "models": [asdict(m) for m in models],
+        "commit": _commit(),
         "lightgbm": lightgbm.__version__,
         **more,
     }

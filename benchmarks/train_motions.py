@@ -1,7 +1,7 @@
 """Train the classifier of motions (`anymesh.articulation.motion_classifier`) and measure it on what it was not trained on.
 
 python benchmarks/train_motions.py FOLDER            benchmarks/motions.md: leave one source out, leave kinds out
-python benchmarks/train_motions.py FOLDER --write    trains on all and writes motion_classifier.npz with its manifest
+python benchmarks/train_motions.py FOLDER --write    also trains on all and writes motion_classifier.npz with its manifest
 
 FOLDER: rows as `benchmarks/motion_rows.py` writes them. Needs lightgbm. For the shipped classifier:
     python benchmarks/kinds.py KINDS --seed 11 --count 5
@@ -18,7 +18,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import numpy as np
-from boosting import Sample, Scores, TwoSteps, held_out, leave_kinds_out, leave_sources_out, write
+from boosting import Model, Sample, Scores, TwoSteps, held_out, leave_kinds_out, leave_sources_out, write
 from calibration import Scored, calibration_table, fit_confidence, log_odds
 from jaxtyping import Bool, Float
 from motion_rows import MotionRows, read_rows
@@ -27,7 +27,7 @@ from anymesh.articulation.estimate import MAX_COPIES
 from anymesh.articulation.geometry_answerer import BLOCKED, share_of_best
 from anymesh.articulation.motion_context import ScoredMotions, context_features
 
-ROUNDS = (200, 100)  # trees of the first and of the second step
+MODELS = (Model((200, 100)),)
 OBJECT, SOURCE = 0.5, 0.6  # powers by which parts of an object, and parts of a source, count less the more they are
 HERE = Path(__file__).parent
 WRITTEN = HERE.parent / "src" / "anymesh" / "articulation" / "motion_classifier.npz"
@@ -81,6 +81,14 @@ def table(rows: Sequence[MotionRows], scores: Scores, of: Callable[[MotionRows],
     return lines
 
 
+def right_of(rows: Sequence[MotionRows], scores: Scores) -> dict[str, float]:
+    """Return the share of joints with the right motion and side, for each group of parts."""
+    right: dict[str, list[bool]] = {}
+    for r, s in zip(rows, scores, strict=True):
+        right.setdefault(called(r), []).append(bool(right_side(r)[int(s.argmax())]))
+    return {group: round(float(np.mean(some)), 3) for group, some in sorted(right.items())}
+
+
 def confidences(rows: Sequence[MotionRows], scores: Scores) -> Scored:
     """Return the share of the best motion of each part before calibration, and whether the motion and its side are right."""
     ranked = [s + np.where(r.free, 0.0, BLOCKED) for r, s in zip(rows, scores, strict=True)]
@@ -102,13 +110,8 @@ def main(argv: Sequence[str] | None = None) -> None:
     options = parser.parse_args(argv)
     rows = read_rows(options.folder)
     samples, context = samples_of(rows), CopyContext(rows)
-    if options.write:
-        model = TwoSteps(samples, range(len(rows)), context, ROUNDS)
-        objects = sorted({(r.source, r.kind, r.name) for r in rows})
-        write(WRITTEN, model, rows[0].names, objects, rounds=ROUNDS, joints=len(rows))
-        return
-    by_source = held_out(samples, leave_sources_out(samples), context, ROUNDS)
-    by_kind = held_out(samples, leave_kinds_out(samples), context, ROUNDS)
+    by_source = held_out(samples, leave_sources_out(samples), context, MODELS)
+    by_kind = held_out(samples, leave_kinds_out(samples), context, MODELS)
     told = confidences(rows, by_kind)
     slope, offset = fit_confidence(told)
     text = [
@@ -118,12 +121,18 @@ def main(argv: Sequence[str] | None = None) -> None:
         "## Trained on all other sources", "", *table(rows, by_source, called), "",
         "## Trained on other kinds (4 folds, a kind in one fold)", "", *table(rows, by_kind, called), "",
         "## Confidence", "",
-        f"Fitted to other kinds, over all sources: slope {slope:.2f}, offset {offset:.2f} (`reasoning/geometry.py`).",
+        f"Fitted to other kinds, over all sources: slope {slope:.2f}, offset {offset:.2f}",
+        "(`articulation/geometry_answerer.py`).",
         "", *calibration_table(told, slope, offset), "", "The same on other sources:", "",
         *calibration_table(confidences(rows, by_source), slope, offset), "",
     ]  # fmt: skip
     (HERE / "motions.md").write_text("\n".join(text), encoding="utf-8")
     print("\n".join(text))
+    if options.write:
+        model = TwoSteps(samples, range(len(rows)), context, MODELS)
+        objects = sorted({(r.source, r.kind, r.name) for r in rows})
+        scores = {"right, other sources": right_of(rows, by_source), "right, other kinds": right_of(rows, by_kind)}
+        write(WRITTEN, model, MODELS, rows[0].names, objects, joints=len(rows), scores=scores)
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 """Train the classifier of parts (`anymesh.segmentation.part_classifier`) and measure it on what it was not trained on.
 
 python benchmarks/train_parts.py FOLDER            benchmarks/parts.md: leave one source out, leave kinds out
-python benchmarks/train_parts.py FOLDER --write    trains on all and writes part_classifier.npz with its manifest
+python benchmarks/train_parts.py FOLDER --write    also trains on all and writes part_classifier.npz with its manifest
 
 FOLDER: rows as `benchmarks/part_rows.py` writes them. Needs lightgbm, which nothing else here does. For the shipped classifier:
     python benchmarks/kinds.py KINDS --seed 11 --count 5
@@ -20,7 +20,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import numpy as np
-from boosting import FOLDS, Sample, Scores, TwoSteps, held_out, leave_kinds_out, leave_sources_out, write
+from boosting import FOLDS, Model, Sample, Scores, TwoSteps, held_out, leave_kinds_out, leave_sources_out, write
 from calibration import Scored, calibration_table, fit_confidence
 from jaxtyping import Float
 from part_rows import PartRows, read_rows
@@ -30,9 +30,10 @@ from part_scores import Counts, overlap_of, scored
 from anymesh.segmentation.candidate_context import context_features
 from anymesh.segmentation.part_assignment import assign_parts
 
-ROUNDS = (150, 100)  # trees of the first and of the second step
+MODELS = (Model((150, 90), 0), Model((250, 150), 1, True), Model((150, 90), 2), Model((250, 150), 3, True))
 WRONG, RIGHT = 0.35, 0.95  # IoU below which a candidate is no part, and from which it is one; between, it is partly right
 OBJECT, SOURCE = 0.5, 0.3  # powers by which candidates of an object, and objects of a source, count less the more they are
+SCORES = Path("held_out") / "scores.npz"  # below the folder of the rows
 HERE = Path(__file__).parent
 WRITTEN = HERE.parent / "src" / "anymesh" / "segmentation" / "part_classifier.npz"
 
@@ -78,6 +79,26 @@ def table(rows: Sequence[PartRows], scores: Sequence[np.ndarray], of: Callable[[
     return lines
 
 
+def f1_of(rows: Sequence[PartRows], scores: Sequence[np.ndarray]) -> dict[str, float]:
+    """Return the F1 of each group of objects, as in tables."""
+    groups = sorted({called(r) for r in rows})
+    of = {g: [k for k, r in enumerate(rows) if called(r) == g] for g in groups}
+    return {g: round(counts([rows[k] for k in of[g]], [scores[k] for k in of[g]]).f1, 3) for g in groups}
+
+
+def save_scores(folder: Path, by_source: Scores, by_kind: Scores) -> None:
+    """Keep the scores of held-out objects, in the order of the rows."""
+    (folder / SCORES.parent).mkdir(exist_ok=True)
+    np.savez_compressed(folder / SCORES, source=np.concatenate(by_source), kind=np.concatenate(by_kind))
+
+
+def read_scores(folder: Path, rows: Sequence[PartRows]) -> tuple[Scores, Scores]:
+    """Return the scores of `save_scores`, by classifiers trained on other sources and on other kinds."""
+    ends = np.cumsum([len(r.features) for r in rows])[:-1]
+    with np.load(folder / SCORES) as file:
+        return np.split(file["source"], ends), np.split(file["kind"], ends)
+
+
 def confidences(rows: Sequence[PartRows], scores: Sequence[np.ndarray]) -> Scored:
     """Return the scores of the chosen candidates, and whether they are parts."""
     chosen = [
@@ -98,13 +119,9 @@ def main(argv: Sequence[str] | None = None) -> None:
     options = parser.parse_args(argv)
     rows = read_rows(options.folder)
     samples, context = samples_of(rows), OverlapContext(rows)
-    if options.write:
-        model = TwoSteps(samples, range(len(rows)), context, ROUNDS)
-        objects = sorted({(r.source, r.kind, r.name) for r in rows})
-        write(WRITTEN, model, rows[0].names, objects, rounds=ROUNDS, candidates=sum(len(r.features) for r in rows))
-        return
-    by_source = held_out(samples, leave_sources_out(samples), context, ROUNDS)
-    by_kind = held_out(samples, leave_kinds_out(samples), context, ROUNDS)
+    by_source = held_out(samples, leave_sources_out(samples), context, MODELS)
+    by_kind = held_out(samples, leave_kinds_out(samples), context, MODELS)
+    save_scores(options.folder, by_source, by_kind)
     still = [k for k, r in enumerate(rows) if not r.moving]
     wrong = counts([rows[k] for k in still], [by_kind[k] for k in still]).found
     told = confidences(rows, by_kind)
@@ -124,6 +141,11 @@ def main(argv: Sequence[str] | None = None) -> None:
     ]  # fmt: skip
     (HERE / "parts.md").write_text("\n".join(text), encoding="utf-8")
     print("\n".join(text))
+    if options.write:
+        model = TwoSteps(samples, range(len(rows)), context, MODELS)
+        objects = sorted({(r.source, r.kind, r.name) for r in rows})
+        scores = {"F1, other sources": f1_of(rows, by_source), "F1, other kinds": f1_of(rows, by_kind)}
+        write(WRITTEN, model, MODELS, rows[0].names, objects, candidates=sum(len(r.features) for r in rows), scores=scores)
 
 
 if __name__ == "__main__":

@@ -33,5 +33,14 @@ def test_arrays_are_read_as_they_were_written() -> None:
     assert again.score(ROWS) == pytest.approx(TREES.score(ROWS))
 
 
+def test_the_mean_of_models_scores_the_mean_of_their_scores() -> None:
+    flipped = BoostedTrees(TREES.feature, TREES.threshold, TREES.right, TREES.left, TREES.value, TREES.root[:1])
+    mean = BoostedTrees.mean([TREES, flipped, flipped])
+    expected = (TREES.score(ROWS) + 2 * flipped.score(ROWS)) / 3
+    assert not np.allclose(TREES.score(ROWS), flipped.score(ROWS))
+    assert mean.score(ROWS) == pytest.approx(expected)
+    assert mean.left.dtype == TREES.left.dtype
+
+
 def test_no_rows_have_no_scores() -> None:
     assert TREES.score(np.zeros((0, 2))).shape == (0,)

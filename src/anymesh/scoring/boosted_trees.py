@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -36,6 +36,18 @@ class BoostedTrees:
             above = rows[at, column] > self.threshold[node]
             node = np.where(inner, np.where(above, self.right[node], self.left[node]), node)
         return self.value[node].astype(np.float64).sum(1)
+
+    @classmethod
+    def mean(cls, models: Sequence[BoostedTrees]) -> BoostedTrees:
+        """Return trees whose score is the mean of the models' scores."""
+        start = np.cumsum([0, *(len(m.feature) for m in models[:-1])], dtype=np.int32)
+
+        def joined(field: str, shift: bool = False) -> np.ndarray:
+            return np.concatenate([getattr(m, field) + (at if shift else 0) for m, at in zip(models, start, strict=True)])
+
+        left, right, root = (joined(field, shift=True) for field in ("left", "right", "root"))
+        value = joined("value") / np.float32(len(models))
+        return cls(joined("feature"), joined("threshold"), left, right, value, root)
 
     def contributions(self, rows: Float[np.ndarray, "n k"]) -> Float[np.ndarray, "n k"]:
         """Return the contribution of each feature to the score of each row.
