@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from jaxtyping import Int
 from part_rows import PartRows
 from scipy.optimize import linear_sum_assignment
 
@@ -43,12 +44,18 @@ def overlap_of(rows: PartRows) -> Overlap:
     return Overlap(rows.features[:, rows.names.index("size")].astype(float), shared)
 
 
-def scored(rows: PartRows, chosen: list[int]) -> Counts:
-    """Match the chosen candidates, each without what smaller ones take, with the true parts (Hungarian, by IoU)."""
+def owners(rows: PartRows, chosen: list[int]) -> Int[np.ndarray, " P"]:
+    """Return the number of the part that has each patch, from 1 by falling size, 0 for none; smaller candidates win."""
     size = rows.members @ rows.area.sum(1)
     owner = np.zeros(len(rows.area), int)
     for number, k in enumerate(sorted(chosen, key=lambda k: (-size[k], k)), start=1):
         owner[rows.members[k]] = number
+    return owner
+
+
+def scored(rows: PartRows, chosen: list[int]) -> Counts:
+    """Match the chosen candidates, each without what smaller ones take, with the true parts (Hungarian, by IoU)."""
+    owner = owners(rows, chosen)
     both = np.array([rows.area[owner == k].sum(0) for k in range(len(chosen) + 1)]).reshape(len(chosen) + 1, -1)
     iou = both / np.maximum(both.sum(1, keepdims=True) + rows.area.sum(0) - both, 1e-300)
     mine = iou[1:, list(rows.moving)]
