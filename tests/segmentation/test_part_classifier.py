@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from importlib.resources import files
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -33,6 +34,17 @@ def test_the_manifest_says_what_it_was_trained_on(shipped: Callable[[], TwoStepC
     assert manifest["features"] == list(shipped().names)
     assert sum(s["objects"] for s in manifest["sources"].values()) == len(manifest["objects"])
     assert "examples/cabinet" in manifest["objects"]
+
+
+def test_the_scores_in_the_manifest_are_those_of_the_page() -> None:
+    """The manifest has the F1 that `benchmarks/parts.md` states for sources and kinds that were left out of training."""
+    page = (Path(__file__).parents[2] / "benchmarks" / "parts.md").read_text(encoding="utf-8")
+    _, sources, kinds, *_ = page.split("\n## ")
+    scores = part_classifier.shipped_classifier().manifest["scores"]
+    for section, title in ((sources, "F1, other sources"), (kinds, "F1, other kinds")):
+        stated = {row.split(" | ")[0].strip("| "): float(row.split(" | ")[5]) for row in section.splitlines() if "0." in row}
+        stated.pop("all")
+        assert stated == pytest.approx({group: round(f1, 2) for group, f1 in scores[title].items()}, abs=0.011)
 
 
 @SHIPPED
