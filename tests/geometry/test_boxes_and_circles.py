@@ -46,6 +46,18 @@ def test_any_box_is_tight_sorted_right_handed_and_invertible(seed):
         np.testing.assert_allclose(found.world(local), points, atol=1e-9)
 
 
+@pytest.mark.parametrize("seed", range(6))
+def test_frames_tried_one_at_a_time_give_the_same_box(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    rng = np.random.default_rng(seed)
+    points, normals = rng.normal(size=(40, 3)) @ np.diag(rng.uniform(0.1, 2, 3)), rng.normal(size=(40, 3))
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    together = fit_box(points, normals, np.ones(40))
+    monkeypatch.setattr("anymesh.geometry.boxes.BLOCK", 1)
+    one_by_one = fit_box(points, normals, np.ones(40))
+    for name in ("center", "axes", "half"):
+        np.testing.assert_array_equal(getattr(together, name), getattr(one_by_one, name))
+
+
 def test_the_fitted_box_is_never_much_larger_than_the_upright_one():
     for seed in range(10):
         ball = trimesh.creation.icosphere(subdivisions=1)
@@ -106,6 +118,16 @@ def test_a_wheel_is_round_about_its_axle_only(seed, scale):
     np.testing.assert_allclose([found.radius, found.height], np.array([0.8, 0.3]) * scale, rtol=1e-3)
     assert found.roundness == 1
     assert outline_about(apply(T, wheel.vertices), axes[0]).roundness < 0.5
+
+
+def test_a_dent_in_the_rim_and_points_within_it_do_not_move_the_center() -> None:
+    t = np.linspace(0, 2 * np.pi, 144, endpoint=False)
+    rim = np.c_[np.cos(t), np.sin(t), np.zeros(144)]
+    rim[:12] *= 0.8  # three of 36 directions
+    within = np.random.default_rng(0).uniform(-0.5, 0.5, (500, 3)) * [1, 1, 0]
+    found = outline_about(np.concatenate([within, rim, within]), np.array([0.0, 0, 1]))
+    np.testing.assert_allclose(found.center, 0, atol=1e-9)
+    assert (found.radius, found.roundness) == (pytest.approx(1), pytest.approx(33 / 36))
 
 
 def test_a_wheel_with_a_grip_keeps_its_center_and_a_square_is_not_round():

@@ -124,6 +124,19 @@ def test_what_lies_in_a_convex_piece_and_what_is_tiny_needs_no_shape():
     assert found[0].triangles.max() == 1
 
 
+def test_the_last_component_holds_no_other_and_needs_no_hull(monkeypatch):
+    made = []
+    monkeypatch.setattr(
+        "anymesh.physics.collision.decompose.hull_of", lambda corners: made.append(corners.max()) or hull_of(corners)
+    )
+    pieces = [box((0, 0, 0), (size, size, size)) for size in (3.0, 2.0, 1.0)]
+    shifted = [triangles(v + 10 * k, f) for k, (v, f) in enumerate(pieces)]
+    assert len(split_components(np.concatenate(shifted), 0.0)) == 3
+    assert made == [3, 12]  # the largest corner coordinates of the first two
+    assert len(split_components(shifted[0], 0.0)) == 1
+    assert made == [3, 12]
+
+
 def test_inside_out_solids_are_turned():
     v, f = box((0, 0, 0), (1, 2, 3))
     (found,) = split_components(v[f[:, ::-1]], 0.0)
