@@ -10,7 +10,7 @@ from called import FACES, PARTS, called, contents
 from PIL import Image
 
 from anymesh import __version__
-from anymesh.pipeline import solving
+from anymesh.pipeline import geometry_stages, results
 
 
 @pytest.mark.parametrize("command", [[], ["articulate"], ["segment"], ["joints"], ["export"]])
@@ -71,7 +71,7 @@ def test_an_interrupt_is_an_object_where_one_is_asked_for(mesh, monkeypatch, cap
     def interrupted(*_, **__):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(solving, "segment_parts", interrupted)
+    monkeypatch.setattr(geometry_stages, "segment_parts", interrupted)
     code, out, err = called(capfd, "articulate", mesh, "-o", "out", "--json")
     assert (code, err) == (130, "interrupted\n")
     assert json.loads(out) == {"error": "interrupted", "kind": "KeyboardInterrupt", "exit_code": 130}
@@ -131,12 +131,12 @@ def test_several_meshes_need_batch_and_a_batch_goes_on_past_what_fails(mesh, cap
 
 
 def test_an_unsure_joint_says_what_would_help(mesh, capfd, monkeypatch) -> None:
-    monkeypatch.setattr(solving, "LOW_CONFIDENCE", 1.1)
+    monkeypatch.setattr(results, "LOW_CONFIDENCE", 1.1)
     code, out, _ = called(capfd, "articulate", mesh, "-o", "out", "--formats", "urdf", *PARTS)
     assert code == 0
     (line,) = [line for line in out.splitlines() if "files:FOLDER" in line]
     assert "unsure" in line
-    monkeypatch.setattr(solving, "LOW_CONFIDENCE", 0.0)
+    monkeypatch.setattr(results, "LOW_CONFIDENCE", 0.0)
     code, out, _ = called(capfd, "articulate", mesh, "-o", "sure", "--formats", "urdf", *PARTS, "--json")
     assert (code, json.loads(out)["hint"], json.loads(out)["answerer"]) == (0, "", "geometry")
 

@@ -24,7 +24,7 @@ class Sheet:
     points: Float[np.ndarray, "V 3"]
     faces: Int[np.ndarray, "F 3"]
     own: Int[np.ndarray, " F"]
-    loops: tuple[Int[np.ndarray, " n"], ...]
+    loops: tuple[Int[np.ndarray, " _"], ...]
 
     @property
     def triangles(self) -> Float[np.ndarray, "F 3 3"]:
@@ -101,7 +101,7 @@ def _corners(count: int, half: np.ndarray, mate: np.ndarray) -> Int[np.ndarray, 
     return label_connected(3 * count, pairs).reshape(-1, 3)
 
 
-def _loops(start: np.ndarray, end: np.ndarray) -> tuple[Int[np.ndarray, " n"], ...]:
+def _loops(start: np.ndarray, end: np.ndarray) -> tuple[Int[np.ndarray, " _"], ...]:
     """Return closed chains of border edges, each from its first vertex in the file."""
     follows = dict(zip(start.tolist(), end.tolist(), strict=True))
     found = []
