@@ -23,7 +23,7 @@ def frame(normal: Float[np.ndarray, " 3"]) -> tuple[Float[np.ndarray, " 3"], Flo
 
 
 def cap(
-    points: Float[np.ndarray, "V 3"], loops: Sequence[Int[np.ndarray, " n"]], normal: Float[np.ndarray, " 3"]
+    points: Float[np.ndarray, "V 3"], loops: Sequence[Int[np.ndarray, " _"]], normal: Float[np.ndarray, " 3"]
 ) -> Int[np.ndarray, "m 3"]:
     """Return faces over the vertices of borders that close them; a border within another is a hole.
 

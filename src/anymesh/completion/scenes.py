@@ -101,7 +101,7 @@ class Growing:
 
     scenes: Scenes
     late: Callable[[], bool] = lambda: False
-    added: dict[int, list[Float[np.ndarray, "n 3 3"]]] = field(default_factory=dict)
+    added: dict[int, list[Float[np.ndarray, "_ 3 3"]]] = field(default_factory=dict)
     notes: dict[int, list[str]] = field(default_factory=dict)
 
     def undo(self, part: int) -> None:

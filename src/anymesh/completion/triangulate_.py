@@ -10,7 +10,7 @@ from jaxtyping import Float, Int
 from anymesh.errors import MissingExtraError
 
 
-def triangulate(outlines: Sequence[Float[np.ndarray, "n 2"]]) -> Int[np.ndarray, "m 3"]:
+def triangulate(outlines: Sequence[Float[np.ndarray, "_ 2"]]) -> Int[np.ndarray, "m 3"]:
     """Return counterclockwise triangles over the concatenated points of outlines; no points are added or omitted.
 
     outlines: counterclockwise, holes clockwise. Each of their edges bounds one triangle, and each inner edge two, for any

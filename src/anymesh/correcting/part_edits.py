@@ -70,7 +70,7 @@ def split_components(asset: Asset, c: SplitComponents) -> Asset:
     return _with_new_parts(asset, c.part, groups[1:], names, label)
 
 
-def components_of(asset: Asset, part: str) -> list[Int[np.ndarray, " n"]]:
+def components_of(asset: Asset, part: str) -> list[Int[np.ndarray, " _"]]:
     """Return the face indices of each connected component of a part, largest surface first."""
     faces = asset.segmentation.faces(part_number(asset, part))
     label = components(asset.mesh.vertices, asset.mesh.faces[faces]).label

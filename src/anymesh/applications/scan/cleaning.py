@@ -70,7 +70,7 @@ def drop_bits(surface: Surface) -> tuple[Surface, int]:
     return surface.keeping(kept[label]), int(((area > 0) & ~kept).sum())
 
 
-def loops(faces: Int[np.ndarray, "F 3"]) -> list[Int[np.ndarray, " n"]]:
+def loops(faces: Int[np.ndarray, "F 3"]) -> list[Int[np.ndarray, " _"]]:
     """Return the border loops, each as vertices in the orientation of a face that fills the hole."""
     ends = faces[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2)
     base = int(faces.max()) + 1

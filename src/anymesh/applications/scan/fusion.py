@@ -156,7 +156,7 @@ def _slope(p: Float32[np.ndarray, "h w 3"], axis: int) -> Float32[np.ndarray, "h
     return np.where(shorter, ahead, back)
 
 
-def _blocks_in_sight(grid: Grid, view: _View, truncation: float) -> list[Int[np.ndarray, " n"]]:
+def _blocks_in_sight(grid: Grid, view: _View, truncation: float) -> list[Int[np.ndarray, " _"]]:
     """Return chunks of blocks that are within the picture and not entirely behind the surfaces that it shows."""
     half = SIDE * grid.voxel / 2
     centers = grid.origin + (grid.blocks + 0.5) * SIDE * grid.voxel
