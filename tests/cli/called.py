@@ -15,7 +15,7 @@ FACES = 12 * sum(len(pieces) for pieces in CABINET.values())
 
 @pytest.fixture
 def mesh(tmp_path, monkeypatch) -> Path:
-    """A cabinet with a node a part, Z up, alone in the working folder."""
+    """Write a cabinet with one node per part, Z up, to an empty working folder."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(stages, "write_preview", lambda _, path: path.write_bytes(b"drawing takes longest; tested elsewhere"))
     scene = trimesh.Scene()

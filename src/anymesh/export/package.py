@@ -62,7 +62,7 @@ def _manifest(name: str) -> str:
     sub(root, "name").text = name
     sub(root, "version").text = ".".join(re.findall(r"\d+", anymesh.__version__)[:3])
     sub(root, "description").text = "An articulated object, made by Articulate AnyMesh"
-    sub(root, "maintainer", email="nobody@example.com").text = "nobody"  # codespell:ignore nobody
+    sub(root, "maintainer", email="unknown@example.com").text = "unknown"
     sub(root, "license").text = "As the mesh that it was made from"
     sub(root, "buildtool_depend").text = "ament_cmake"
     sub(sub(root, "export"), "build_type").text = "ament_cmake"
