@@ -10,18 +10,22 @@ from trimesh.creation import box, cylinder, icosphere, revolve
 from trimesh.util import concatenate
 
 SEED = 0
+POT_LINES = 12  # segments of the three profiles of a pot, before they are divided
+POT_POLES = 6  # ends of profiles on the axis, whose last row has triangles for quadrilaterals
+POT_SECTIONS = 6  # sections round the axis, per row of a segment
 TUBE_SHARE = 0.1  # of the components of a chandelier; the rest are beads
 RING = 40  # items on one board of a shelf
 
 
 def pot(faces: int) -> trimesh.Trimesh:
     """Make a pot with a lid that rests on it and a knob: three components, about `faces` faces."""
-    sections = max(12, int(np.sqrt(faces / 3)))
-    rows = max(1, faces // (2 * sections * 9))
+    rows = max(1, round(np.sqrt(faces / (2 * POT_LINES * POT_SECTIONS))))
+    sections = max(12, round(faces / (2 * POT_LINES * rows - POT_POLES)))
     body = [(0, 0), (0.11, 0), (0.12, 0.02), (0.12, 0.14), (0.117, 0.14), (0.117, 0.022), (0, 0.004)]
     lid = [(0, 0.1405), (0.119, 0.1405), (0.119, 0.146), (0, 0.156)]
     knob = [(0, 0.1565), (0.012, 0.1565), (0.015, 0.17), (0, 0.178)]
-    return concatenate([revolve(_finer(line, rows), sections=sections) for line in (body, lid, knob)])
+    millimetres = [revolve(1000 * _finer(line, rows), sections=sections) for line in (body, lid, knob)]
+    return concatenate(millimetres).apply_scale(0.001)  # revolved in metres, the smallest faces would be dropped
 
 
 def _finer(line: list[tuple[float, float]], rows: int) -> np.ndarray:

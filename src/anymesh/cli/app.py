@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import atexit
+import gc
 import json
 import sys
 from functools import partial
@@ -106,6 +108,7 @@ _command("eval")(evaluate)
 
 def main(arguments: list[str] | None = None) -> None:
     """Run the command line and end the process with its exit code."""
+    atexit.register(gc.freeze)  # skip the search for cycles at the end of the process, which takes 0.2 s
     sys.exit(run(sys.argv[1:] if arguments is None else arguments))
 
 
