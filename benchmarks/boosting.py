@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import json
+import os
 import subprocess
 from collections import Counter
 from collections.abc import Callable, Hashable, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -80,12 +82,14 @@ class TwoSteps:
         known = ~np.isnan(target)
         table, weights = np.concatenate(tables)[known], weight[known] / weight[known].mean()
         step = 0 if first is None else 1
-        trained = []
-        for model in self._models:
+
+        def trained(model: Model) -> BoostedTrees:
             data = lightgbm.Dataset(table, target[known], weight=weights)
             settings = SETTINGS | {"seed": model.seed, "extra_trees": model.extra_trees}
-            trained.append(trees_of(lightgbm.train(settings, data, model.rounds[step])))
-        return BoostedTrees.mean(trained)
+            return trees_of(lightgbm.train(settings, data, model.rounds[step]))
+
+        with ThreadPoolExecutor(os.cpu_count()) as threads:  # each model uses one thread, for reproducibility
+            return BoostedTrees.mean(list(threads.map(trained, self._models)))
 
     def _joined(self, k: int, first: Scores) -> Float[np.ndarray, "n k"]:
         return np.concatenate([self._samples[k].features, self._context(k, first)], 1)

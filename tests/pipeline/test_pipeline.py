@@ -13,6 +13,7 @@ from anymesh.config import Config
 from anymesh.errors import OptionError
 from anymesh.evaluation.ground_truth import example_truths
 from anymesh.evaluation.protocols import prepared
+from anymesh.pipeline import answering
 from anymesh.pipeline.solving import Solver
 from anymesh.types import Mesh
 
@@ -33,6 +34,23 @@ def test_what_is_returned_is_what_is_written_and_the_file_stays_as_it_is(tmp_pat
     assert (joint.name, joint.type, joint.parent) == (written["name"], written["type"], written["parent"])
     assert joint.axis.tolist() == pytest.approx(written["axis"], abs=1e-9)
     assert [p["face_count"] for p in record["parts"]] == np.bincount(asset.segmentation.face_part).tolist()
+
+
+def test_results_of_another_classifier_are_not_used_again(tmp_path, monkeypatch) -> None:
+    digest = "0" * 64
+
+    def computed() -> bool:
+        """Return whether the second run computes the parts, with the shipped classifiers replaced by those of a digest."""
+        steps: list[str] = []
+        monkeypatch.setattr(answering, "_digest_of_classifiers", lambda: digest)
+        anymesh.segment(EXAMPLE, tmp_path / "out", force=True, progress=lambda stage, step, *_: steps.append(step))
+        return "contacts" in steps
+
+    assert [computed(), computed()] == [True, False]
+    digest = "1" * 64
+    assert computed()
+    monkeypatch.undo()
+    assert len(answering._digest_of_classifiers()) == 64
 
 
 def test_same_seed_same_result() -> None:

@@ -52,3 +52,18 @@ def test_areas_and_overlaps_are_those_of_the_patches() -> None:
     door = next(k for k, m in enumerate(tree.members) if np.flatnonzero(m).tolist() == [1, 2, 3, 4])
     assert np.isclose(tree.overlap.shared[door, grip], tree.area[grip])
     assert len(tree.faces(grip)) == 12
+
+
+def test_parts_that_touch_each_other_and_not_the_base_are_candidates_each() -> None:
+    walls = [box((0, 0.9, 0), (1, 1, 1)), box((-0.1, 0.1, 0), (0, 1, 1)), box((1, 0.1, 0), (1.1, 1, 1))]
+    leaves = [box((x, 0, z), (x + 0.5, 0.04, z + 0.5)) for x in (0, 0.5) for z in (0, 0.5)]
+    found = sets(candidates([*walls, *leaves]))
+    assert {frozenset({k}) for k in range(3, 7)} <= found
+
+
+def test_a_leaf_in_the_plane_of_its_frame_is_a_candidate() -> None:
+    wall = box((-2, -0.1, 0), (0, 0.15, 1.2))
+    frame = [box((0, 0, 0), (0.1, 0.05, 1)), box((0.9, 0, 0), (1, 0.05, 1)), box((0.1, 0, 0.9), (0.9, 0.05, 1))]
+    leaf, pane = box((0.1, 0, 0), (0.9, 0.05, 0.9)), box((0.2, -0.01, 0.2), (0.8, 0, 0.8))
+    found = sets(candidates([wall, *frame, leaf, pane]))
+    assert {frozenset({4}), frozenset({4, 5})} <= found

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cache
+from hashlib import sha256
+from importlib.resources import files
 from importlib.util import find_spec
 from pathlib import Path
 from threading import Event
@@ -21,6 +24,7 @@ from anymesh.vlm.recognition import parse_labels
 from anymesh.vlm.servers import SERVERS, first_vision_model, probe_servers
 
 FILES, AUTO = "files:", "auto"
+CLASSIFIERS = ("segmentation/part_classifier.npz", "articulation/motion_classifier.npz")
 
 
 class RecordingFactory:
@@ -56,7 +60,14 @@ class AnswererSetup:
 
     def settings(self, *without: str) -> dict[str, object]:
         """Return the settings that the result of a stage depends on, without those that the stage does not use."""
-        return {**{k: v for k, v in self.config.as_dict().items() if k not in without}, "answerer": self.name}
+        chosen = {k: v for k, v in self.config.as_dict().items() if k not in without}
+        return {**chosen, "answerer": self.name, "classifiers": _digest_of_classifiers()}
+
+
+@cache
+def _digest_of_classifiers() -> str:
+    """Return a digest of the shipped classifiers, so that results of former ones are not used again."""
+    return sha256(b"".join((files("anymesh") / place).read_bytes() for place in CLASSIFIERS)).hexdigest()
 
 
 def choose_answerer(

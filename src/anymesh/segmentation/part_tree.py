@@ -1,8 +1,8 @@
 """Part candidates: groups of patches that may move together.
 
-Candidates are each patch, the patches that depend on it, and those that it supports, for each of the likeliest bases; and the
-groups of a tree that merges the patches with the most contact. The groups overlap. `part_assignment.py` decides for all at once
-which of them are parts.
+Candidates are each rigid group of patches, the groups that depend on it, and those that it supports, for each of the likeliest
+bases; the same for single patches; and the groups of a tree that merges those with the most contact. Candidates overlap.
+`part_assignment.py` decides for all at once which of them are parts.
 """
 
 from __future__ import annotations
@@ -106,15 +106,17 @@ def part_tree(mesh: Mesh, whole: ObjectShape, contacts: Contacts, min_size: floa
             found.setdefault(np.packbits(mask).tobytes(), mask)
 
     ranking = root_ranking(whole, contacts)
-    likely = [rigid_groups(mesh, whole, contacts, base) for base in ranking[:BASES]]
-    for units in likely:
+    joined = [rigid_groups(mesh, whole, contacts, base) for base in ranking[:BASES]]
+    divided = rigid_groups(mesh, whole, contacts, ranking[0], divided=True)
+    for units in (*joined, divided):
         names = [units.names[u] for u in units.group]
         for u in sorted(units.hanging):
             if u != units.root:
                 for chosen in ([u], units.hanging[u], with_supported(units, u)):
                     add(np.isin(units.group, chosen))
-    for merged in _merges(likely[0]):
-        add(np.isin(likely[0].group, merged))
+    for units in (joined[0], divided):
+        for merged in _merges(units):
+            add(np.isin(units.group, merged))
     members, size = _largest(whole, contacts, list(found.values()), min_size, max_candidates)
     return PartTree(whole, contacts, members, size, tuple(names))
 

@@ -36,14 +36,17 @@ class RigidGroups:
         return pairs[apart], np.array(list(self.contacts.area.values()), np.float64)[apart]
 
 
-def rigid_groups(mesh: Mesh, whole: ObjectShape, contacts: Contacts, root_patch: int) -> RigidGroups:
-    """Join the patches of components that touch nothing, and those of nodes with a recognized name."""
+def rigid_groups(mesh: Mesh, whole: ObjectShape, contacts: Contacts, root_patch: int, *, divided: bool = False) -> RigidGroups:
+    """Join the boards of one plane, the patches of nodes with a recognized name, and those of other components than the root's.
+
+    divided: join those of nodes with a recognized name only. Parts may touch each other and not the base, or lie in its plane.
+    """
     shapes = contacts.shapes
-    key = np.where(
-        contacts.component == contacts.component[root_patch], np.arange(len(shapes)), len(shapes) + contacts.component
-    )
-    same = np.array(coplanar(contacts, whole, 1e-3 * whole.diagonal), np.int64).reshape(-1, 2)
-    key = np.where(key < len(shapes), label_connected(len(shapes), same), key)
+    key = np.arange(len(shapes))
+    if not divided:
+        same = np.array(coplanar(contacts, whole, 1e-3 * whole.diagonal), np.int64).reshape(-1, 2)
+        mine = contacts.component == contacts.component[root_patch]
+        key = np.where(mine, label_connected(len(shapes), same), len(shapes) + contacts.component)
     names = [""] * len(shapes)
     faces = np.split(np.argsort(whole.mesh_patch, kind="stable"), np.cumsum(np.bincount(whole.mesh_patch))[:-1])
     common = _most(mesh.face_material[faces[root_patch]])
