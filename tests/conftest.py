@@ -1,8 +1,11 @@
 """Being here puts this folder on the path, so that every test can import `assets` and `contract`."""
 
 import pytest
+import type_checks
 from hypothesis import HealthCheck, settings
 from loopback import guard
+
+type_checks.install()
 
 settings.register_profile("repeatable", derandomize=True, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.load_profile("repeatable")  # the same examples each time, however slow the machine
