@@ -18,6 +18,7 @@ from anymesh.types.recognition import Recognition, RecognizedLabel
 from anymesh.vlm.motion_choice import MotionPick, WhichMotions
 from anymesh.vlm.prompting import JointAppearance, KindAnswer
 
+pytestmark = pytest.mark.usefixtures("computed_once")
 X, Y, Z = np.eye(3)
 
 
