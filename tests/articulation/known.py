@@ -97,6 +97,11 @@ def ready(scene: Scene) -> tuple[Mesh, ObjectShape, Segmentation]:
     return once(compute, content(scene))
 
 
+def visual_prompts(mesh: Mesh) -> VisualPrompts:
+    """Return the pictures of a mesh at half the resolution, whose views are drawn once."""
+    return once(lambda: VisualPrompts(mesh, QUICK), mesh)
+
+
 def cases_once(
     whole: ObjectShape, segmentation: Segmentation, recognition: Recognition | None, config: Config
 ) -> list[PartCase]:
@@ -148,9 +153,8 @@ class Watched:
 def prompted(scene: Scene, joints: tuple[KnownJoint, ...], **options: Any) -> tuple[tuple[Joint, ...], Watched]:
     """Return the joints of a scene as estimated with its reference answerer; options: of Watched, verify, or recognition."""
     mesh, whole, segmentation = ready(scene)
-    pictures = once(lambda: VisualPrompts(mesh, QUICK), mesh)
     config = replace(QUICK, verify=options.pop("verify", "motion"))
     recognition = options.pop("recognition", None)
     watched = Watched(knowing(mesh, segmentation, joints), **options)
-    questions = Questions(pictures, watched, config, recognition)
+    questions = Questions(visual_prompts(mesh), watched, config, recognition)
     return prompt_joints(questions, lambda _: whole, segmentation).joints, watched
