@@ -11,12 +11,15 @@ from assets import box
 from scenes import Scene, built, case, door, drawer, lid, slider, wheel
 
 from anymesh.articulation.cases import PartCase, make_cases
+from anymesh.articulation.motion_question import MotionQuestion
+from anymesh.articulation.offers import scored_motions
 from anymesh.articulation.prompted import Questions, prompt_joints
 from anymesh.config import Config, PromptConfig, ViewsConfig
 from anymesh.geometry.patches import ObjectShape
 from anymesh.rendering.visual_prompts import VisualPrompts
 from anymesh.segmentation.divide import object_shape
 from anymesh.types import Exchange, Joint, JointType, KnownJoint, Mesh, Segmentation
+from anymesh.types.recognition import Recognition
 from anymesh.vlm.asking import VisualAnswerer
 from anymesh.vlm.reference import Reference
 from anymesh.vlm.reference_answerer import ReferenceAnswerer
@@ -71,15 +74,53 @@ def row_of(*names: str) -> tuple[Scene, tuple[KnownJoint, ...]]:
     return scene, tuple(joints)
 
 
+COMPUTED: dict[Any, Any] = {}
+
+
+def once(compute: Callable[[], Any], *key: Any) -> Any:
+    if key not in COMPUTED:
+        COMPUTED[key] = compute()
+    return COMPUTED[key]
+
+
+def content(scene: Scene) -> tuple[Any, ...]:
+    return tuple((part, *(array.tobytes() for piece in pieces for array in piece)) for part, pieces in scene.items())
+
+
 def ready(scene: Scene) -> tuple[Mesh, ObjectShape, Segmentation]:
-    mesh, segmentation = built(scene)
-    return mesh, object_shape(mesh, 0, labels=segmentation.face_part), segmentation
+    """Return a scene's mesh, shape and parts, the same ones each time."""
+
+    def compute() -> tuple[Mesh, ObjectShape, Segmentation]:
+        mesh, segmentation = built(scene)
+        return mesh, object_shape(mesh, 0, labels=segmentation.face_part), segmentation
+
+    return once(compute, content(scene))
+
+
+def visual_prompts(mesh: Mesh) -> VisualPrompts:
+    """Return the pictures of a mesh at half the resolution, whose views are drawn once."""
+    return once(lambda: VisualPrompts(mesh, QUICK), mesh)
+
+
+def cases_once(
+    whole: ObjectShape, segmentation: Segmentation, recognition: Recognition | None, config: Config
+) -> list[PartCase]:
+    """Return `make_cases`, computed once for the same parts of the same shape."""
+    told = repr((segmentation.parts, recognition, config.articulation, config.prompts, config.seed))
+    key = whole, segmentation.face_part.tobytes(), told
+    return list(once(lambda: make_cases(whole, segmentation, recognition, config), *key))
+
+
+def scored_once(case: PartCase) -> MotionQuestion:
+    """Return `scored_motions`, computed once for the same answered motion: it does not depend on the answered kind."""
+    asked = case.asked and (case.asked.kind, case.asked.source, case.asked.axis.tobytes(), case.asked.origin.tobytes())
+    return once(lambda: scored_motions(case), case.around, case.label, asked)
 
 
 def the_case(scene: Scene) -> PartCase:
     """Return the case of the only moving part of a scene."""
     _, whole, segmentation = ready(scene)
-    (found,) = make_cases(whole, segmentation, None, Config())
+    (found,) = cases_once(whole, segmentation, None, Config())
     return found
 
 
@@ -115,5 +156,5 @@ def prompted(scene: Scene, joints: tuple[KnownJoint, ...], **options: Any) -> tu
     config = replace(QUICK, verify=options.pop("verify", "motion"))
     recognition = options.pop("recognition", None)
     watched = Watched(knowing(mesh, segmentation, joints), **options)
-    questions = Questions(VisualPrompts(mesh, config), watched, config, recognition)
+    questions = Questions(visual_prompts(mesh), watched, config, recognition)
     return prompt_joints(questions, lambda _: whole, segmentation).joints, watched

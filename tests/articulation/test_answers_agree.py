@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from assets import box
-from known import KNOWN, QUICK, Watched, knowing, prompted, ready
+from known import KNOWN, QUICK, Watched, knowing, prompted, ready, visual_prompts
 from scenes import Scene, prism, wheel
 
 from anymesh.articulation.cases import make_cases
@@ -14,12 +14,12 @@ from anymesh.articulation.prompted import PromptedJoints, Questions, prompt_join
 from anymesh.articulation.relabel import labels_by_name
 from anymesh.articulation.taken import normal_outwards, opening_slide
 from anymesh.pipeline.solving import Solver
-from anymesh.rendering.visual_prompts import VisualPrompts
 from anymesh.types import JointType, Part, Segmentation
 from anymesh.types.recognition import Recognition, RecognizedLabel
 from anymesh.vlm.motion_choice import MotionPick, PartFit
 from anymesh.vlm.prompting import JointAppearance, KindAnswer
 
+pytestmark = pytest.mark.usefixtures("computed_once")
 LEFT = KNOWN["left"]
 X, Y, Z = np.eye(3)
 
@@ -39,7 +39,7 @@ def asked(
     segmentation = replace(segmentation, parts=(segmentation.parts[0], Part(name, "part")))
     config = replace(QUICK, verify=verify)
     watched = Watched(knowing(mesh, segmentation, (LEFT.joint,)), changed=changed)
-    return prompt_joints(Questions(VisualPrompts(mesh, config), watched, config, told), lambda _: whole, segmentation), watched
+    return prompt_joints(Questions(visual_prompts(mesh), watched, config, told), lambda _: whole, segmentation), watched
 
 
 @pytest.mark.parametrize(
@@ -114,7 +114,7 @@ def test_a_part_that_is_too_much_is_grounded_again_once() -> None:
     mesh, whole, segmentation = ready(LEFT.scene)
     seer = Watched(knowing(mesh, segmentation, (LEFT.joint,)))
     seer.changed = {"motions": lambda q: tuple(replace(a, part=PartFit.TOO_MUCH) for a in seer.seer.ask(q))}
-    questions = Questions(VisualPrompts(mesh, QUICK), seer, QUICK)
+    questions = Questions(visual_prompts(mesh), seer, QUICK)
     found = prompt_joints(questions, lambda _: whole, segmentation, reground)
     assert calls == [{"leaf": PartFit.TOO_MUCH}]
     first, second = (q for q in seer.asked if q.kind == "motions")

@@ -6,7 +6,7 @@ from functools import cache
 import numpy as np
 import pytest
 from assets import box
-from known import KNOWN, the_case
+from known import KNOWN, scored_once, the_case
 from scenes import Scene, door, prism
 
 from anymesh.articulation.cases import PartCase
@@ -21,13 +21,13 @@ from anymesh.articulation.offers import (
     MotionOffers,
     fits,
     make_offers,
-    scored_motions,
     shown_amount,
 )
 from anymesh.articulation.own_axes import CENTRAL
 from anymesh.types import JointType, Motion
 from anymesh.vlm.prompting import JointAppearance, KindAnswer
 
+pytestmark = pytest.mark.usefixtures("computed_once")
 X, Y, Z = np.eye(3)
 MOST = 7
 NAMES = ["left", "drawer", "lid", "slider", "wheel"]
@@ -42,8 +42,8 @@ def case_of(name: str) -> PartCase:
     return the_case(blocked_door() if name == "blocked" else KNOWN[name].scene)
 
 
-def candidates_of(name: str, asked: Motion | None = None) -> list[Candidate]:
-    return list(scored_motions(replace(case_of(name), asked=asked)).candidates)
+def candidates_of(name: str, asked: Motion | None = None) -> tuple[Candidate, ...]:
+    return scored_once(replace(case_of(name), asked=asked)).candidates
 
 
 @cache
@@ -143,14 +143,14 @@ def test_an_answer_that_is_blocked_is_shown_and_marked_so(name: str, asked: Moti
     assert found.answered is not None
     assert found.answered in found.first
     assert found.table((found.answered,)).blocked == (True,)
-    # enough to be visible
-    assert found.table((found.answered,)).amounts[0] > np.deg2rad(30) * (asked.kind is JointType.REVOLUTE)
+    visible = np.deg2rad(30) * (asked.kind is JointType.REVOLUTE)
+    assert found.table((found.answered,)).amounts[0] > visible
 
 
 @pytest.mark.parametrize("name", ["wheel", "left"])
 def test_the_middle_lines_of_what_turns_into_the_surface_are_in_the_first_picture(name: str) -> None:
-    around = case_of(name).around
-    found = [c for c in shown(name, None, JointAppearance.HINGE_INTO) if c.role in CENTRAL]
+    around, motions = case_of(name).around, shown(name, None, JointAppearance.HINGE_INTO)
+    found = [c for c in motions if c.role in CENTRAL]
     through = [c for c in found if np.linalg.norm(np.cross(around.body_obb.center - c.motion.origin, c.motion.axis)) < 0.02]
     assert len(through) >= 1
     assert any(abs(c.motion.axis @ around.opening_direction) > 0.99 for c in found)
@@ -183,8 +183,7 @@ def test_a_motion_that_may_go_either_way_is_offered_both_ways() -> None:
 
 
 def test_a_slide_that_is_blocked_one_way_opens_the_other_way() -> None:
-    first = candidates_of("blocked", TO_THE_RIGHT)[0]
-    assert first.is_free
+    assert (first := candidates_of("blocked", TO_THE_RIGHT)[0]).is_free
     assert opening_motion(first).axis == pytest.approx(-X)
 
 
@@ -221,9 +220,8 @@ def test_what_was_answered_speaks_for_motions_of_its_kind() -> None:
 
 
 def test_pictures_show_as_much_of_a_motion_as_is_free_and_no_more_than_is_clear() -> None:
-    free, stuck = (candidates_of("left", asked)[0] for asked in (FAR_SIDE, THROUGH))
-    assert shown_amount(free, case_of("left")) == pytest.approx(MAX_SHOWN_ANGLE_RAD)
-    assert shown_amount(stuck, case_of("left")) == pytest.approx(BLOCKED_SHOWN_RATIO * MAX_SHOWN_ANGLE_RAD)
+    free, stuck = (shown_amount(candidates_of("left", asked)[0], case_of("left")) for asked in (FAR_SIDE, THROUGH))
+    assert (free, stuck) == pytest.approx((MAX_SHOWN_ANGLE_RAD, BLOCKED_SHOWN_RATIO * MAX_SHOWN_ANGLE_RAD))
 
 
 def test_a_button_is_shown_pressed() -> None:
@@ -231,5 +229,4 @@ def test_a_button_is_shown_pressed() -> None:
     found = make_offers(replace(case, answer=KindAnswer(JointAppearance.SLIDE_OUT)), MOST, 0)
     into = next(c for c in found.motions if c.motion.kind is JointType.PRISMATIC and c.outward < -0.9)
     table = found.table((found.motions.index(into),))
-    goes = table.motions[0].transform(table.amounts[0])[:3, 3]
-    assert goes @ Y > 0  # into the block
+    assert table.motions[0].transform(table.amounts[0])[:3, 3] @ Y > 0  # into the block

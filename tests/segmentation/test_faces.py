@@ -121,7 +121,7 @@ def grounded(truth: GroundTruth, exact: bool) -> tuple[float, float]:
     """Return the mean IoU of the movable parts and the IoU of the base for perfect labels of the regions."""
     mesh = place_mesh(load_mesh(truth.mesh)).mesh
     whole = object_shape(mesh)
-    cloud = sample_cloud(mesh, whole, GroundingConfig(points=60_000))
+    cloud = sample_cloud(mesh, whole, GroundingConfig(points=30_000))
     middle, turns = mesh.bounds.mean(0), np.deg2rad(np.arange(0, 360, 45))
     eyes = [middle + mesh.diagonal * np.array([0.97 * np.cos(a), 0.97 * np.sin(a), 0.26]) for a in turns]
     views = [render(mesh, Camera.looking_at(e, middle, np.deg2rad(60.0), 320, 320)) for e in eyes]

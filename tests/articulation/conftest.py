@@ -1,0 +1,13 @@
+"""Test articulation with results that the questions of several tests share."""
+
+import pytest
+from known import cases_once, scored_once
+
+from anymesh.articulation import offers, prompted
+
+
+@pytest.fixture
+def computed_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Make the cases of a scene and sweep their motions once, whatever is answered about them."""
+    monkeypatch.setattr(prompted, "make_cases", cases_once)
+    monkeypatch.setattr(offers, "scored_motions", scored_once)
