@@ -8,15 +8,16 @@ from functools import cached_property, partial
 
 from anymesh.articulation.freedom import stays_free
 from anymesh.articulation.prompted import Questions, Reground, prompt_joints
-from anymesh.models.sam import PromptedSegmenter
 from anymesh.models.sam_load import load_sam
 from anymesh.pipeline.geometry_stages import GeometryStages
 from anymesh.pipeline.results import JointResult, RecognitionResult, SegmentationResult, joint_result, segmentation_result
 from anymesh.progress import Progress, silent
 from anymesh.rendering.visual_prompts import VisualPrompts
 from anymesh.segmentation.ask_marks import MarkQuestioner
+from anymesh.segmentation.ground_exact import ground_exactly
+from anymesh.segmentation.ground_masks import ground_by_masks
 from anymesh.segmentation.grounded import ground_parts
-from anymesh.segmentation.grounded_parts import EXACT, SampledObject, sample_object
+from anymesh.segmentation.grounded_parts import EXACT, Ground, SampledObject, sample_object
 from anymesh.segmentation.hidden import MIN_RECOGNITION_PATCH_RATIO, inner_faces, seen_points
 from anymesh.segmentation.regrounding import ground_again
 from anymesh.types import Picture, Segmentation
@@ -39,9 +40,9 @@ class PromptedStages:
         self.mesh, self.config, self.deadline = geometry.mesh, geometry.config, geometry.deadline
 
     @cached_property
-    def _segmenter(self) -> PromptedSegmenter | None:
+    def _ground(self) -> Ground:
         spec = self.config.proposer.removeprefix(f"{EXACT}+")
-        return None if spec == EXACT else load_sam(spec)
+        return ground_exactly if spec == EXACT else partial(ground_by_masks, segmenter=load_sam(spec))
 
     @cached_property
     def _sampled(self) -> SampledObject:
@@ -58,7 +59,7 @@ class PromptedStages:
         sized: the answered size sets the scale, unless the file states its unit (metric). In that case a contradicting size
         gives a warning.
         """
-        _ = self._segmenter  # report unusable weights before anything is asked
+        _ = self._ground  # report unusable weights before anything is asked
         answerer = self._see(ReferenceAnswerer(self._geometry.name, lambda: self._geometry.reference_parts))
         azimuths = [azimuth for azimuth, _ in self.config.views.directions]
         found = recognize(self._view_pictures, answerer, self.config.category, self.config.parts_list, azimuths)
@@ -86,7 +87,7 @@ class PromptedStages:
             self._sampled,
             questioner,
             recognition,
-            self._segmenter,
+            self._ground,
             self._geometry.parts,
             partial(stays_free, self._geometry.whole, self.config.articulation),
             progress,

@@ -19,7 +19,7 @@ def ground_exactly(
     sampled: SampledObject,
     questioner: MarkQuestioner,
     front: float | None,
-    free: Callable[[Sequence[str]], StaysFree | None],
+    free: Callable[[Sequence[str]], StaysFree],
     progress: Progress,
 ) -> GroundedParts:
     """Find parts from marks on exact regions of the surface.
@@ -28,6 +28,7 @@ def ground_exactly(
     unseen patches added.
     """
     mesh, whole, cloud, config = sampled.mesh, sampled.whole, sampled.cloud, questioner.config
+    progress("segment", "views", 0, 3)
     region = face_regions(whole, cloud)
     shown = shown_views(sampled, questioner, region, front)
     marks = number_regions(region, shown.views, whole.diagonal, config.grounding)

@@ -28,15 +28,17 @@ def ground_by_masks(
     sampled: SampledObject,
     questioner: MarkQuestioner,
     front: float | None,
-    segmenter: PromptedSegmenter,
-    free: Callable[[Sequence[str]], StaysFree | None],
+    free: Callable[[Sequence[str]], StaysFree],
     progress: Progress,
+    *,
+    segmenter: PromptedSegmenter,
 ) -> GroundedParts:
     """Find parts from a model's masks in every view.
 
     front, free: as in `ground_exactly`; segmenter: makes the masks.
     """
     mesh, whole, cloud, config = sampled.mesh, sampled.whole, sampled.cloud, questioner.config
+    progress("segment", "views", 0, 4)
     region = face_regions(whole, cloud)
     shown = shown_views(sampled, questioner, region, front)
     progress("segment", "masks", 1, 4)

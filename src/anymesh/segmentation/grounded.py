@@ -7,13 +7,10 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from jaxtyping import Int
 
-from anymesh.models.sam import PromptedSegmenter
 from anymesh.progress import Progress, silent
 from anymesh.segmentation.ask_marks import MarkQuestioner
 from anymesh.segmentation.faces import MIN_SEEN_SHARE
-from anymesh.segmentation.ground_exact import ground_exactly
-from anymesh.segmentation.ground_masks import ground_by_masks
-from anymesh.segmentation.grounded_parts import SampledObject
+from anymesh.segmentation.grounded_parts import Ground, SampledObject
 from anymesh.segmentation.hidden import MIN_INNER_PATCH_RATIO, add_hidden_parts, patch_sizes
 from anymesh.segmentation.naming import named_parts
 from anymesh.segmentation.unseen import StaysFree
@@ -28,30 +25,24 @@ def ground_parts(
     sampled: SampledObject,
     questioner: MarkQuestioner,
     recognition: Recognition,
-    segmenter: PromptedSegmenter | None,
+    ground: Ground,
     by_geometry: Callable[[], Segmentation],
-    stays_free: MovesFreely | None = None,
+    stays_free: MovesFreely,
     progress: Progress = silent,
 ) -> tuple[Segmentation, tuple[str, ...]]:
     """Return the parts with the labels given by recognition, and warnings.
 
-    segmenter: proposes masks if `config.proposer` names one; by_geometry: segments by geometry, for parts that no view shows;
-    stays_free: checks whether a part opens as far with unseen patches added.
+    ground: finds parts from marks or masks; by_geometry: segments by geometry, for parts that no view shows; stays_free: checks
+    whether a part opens as far with unseen patches added.
     """
     mesh, whole, answerer = sampled.mesh, sampled.whole, questioner.answerer
     labels = questioner.labels
     moves = {r.label: r.moves for r in recognition.labels}
 
-    def free(of: Sequence[str]) -> StaysFree | None:
-        if stays_free is None:
-            return None
+    def free(of: Sequence[str]) -> StaysFree:
         return lambda without, joined, part: stays_free(without, joined, part, moves[of[part - 1]])
 
-    progress("segment", "views", 0, 3 + (segmenter is not None))
-    if segmenter is None:
-        found = ground_exactly(sampled, questioner, recognition.front, free, progress)
-    else:
-        found = ground_by_masks(sampled, questioner, recognition.front, segmenter, free, progress)
+    found = ground(sampled, questioner, recognition.front, free, progress)
     reason = _pointed(answerer)
     parts = named_parts(
         found.face_part, found.labels, mesh.face_areas, found.confidence, [f"{reason}{doubt}" for doubt in found.doubts]

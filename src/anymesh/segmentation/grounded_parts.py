@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -9,11 +10,13 @@ from jaxtyping import Bool, Int
 
 from anymesh.config import Config
 from anymesh.geometry.patches import ObjectShape
+from anymesh.progress import Progress
 from anymesh.rendering.render import View
 from anymesh.segmentation.ask_marks import MarkQuestioner
 from anymesh.segmentation.close_ups import close_ups
 from anymesh.segmentation.cloud import Cloud, sample_cloud
 from anymesh.segmentation.hidden import inner_faces, seen_points, unseen_patches
+from anymesh.segmentation.unseen import StaysFree
 from anymesh.types import Mesh
 
 SURE, UNSURE = 0.9, 0.6  # confidence of a part from certain marks, and from uncertain ones
@@ -45,6 +48,11 @@ class GroundedParts:
     doubts: tuple[str, ...]
     pointed: frozenset[str]  # labels of the marked parts
     warnings: tuple[str, ...] = ()
+
+
+Ground = Callable[
+    [SampledObject, MarkQuestioner, float | None, Callable[[Sequence[str]], StaysFree], Progress], GroundedParts
+]  # `ground_exactly`, or `ground_by_masks` with a segmenter
 
 
 @dataclass(frozen=True, eq=False)
