@@ -163,7 +163,7 @@ def test_the_contact_grows_until_eight_samples_touch() -> None:
     near, normals = touching(part, 0.01)  # 5 cm apart: 1, 2, 4, 8 cm
     assert near.sum() >= 8
     assert part.gap[near].max() < 0.08
-    assert np.mean(normals[near] @ [0, 0, 1]) > 0.98
+    assert np.mean(normals[near] @ [0, 0, 1]) > 0.95
     assert (touching(part, 0.06)[0] == (part.gap < 0.06)).all()
 
 
