@@ -21,6 +21,7 @@ from anymesh.types import JointType, Motion
 
 WHO = GeometryAnswerer()
 
+
 def asked(part: PartFacts, candidates: list[Candidate], scores: list[float]) -> MotionAnswer:
     answer = WHO.which_motion(MotionQuestion(part, tuple(candidates), np.array(scores), ("some feature 1",) * len(scores)))
     assert sorted(answer.ranking) == list(range(len(candidates)))

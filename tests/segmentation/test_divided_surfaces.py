@@ -25,7 +25,11 @@ def slab_with_bump(side: float, height: float, inset: float = 0.0) -> tuple[np.n
     """Return a slab of 3 x 3 x 1 m with a square bump on top, whose top is smaller on all sides, as one surface."""
     slab = trimesh.creation.box(bounds=[(-1.5, -1.5, -1), (1.5, 1.5, 0)])
     ring = np.array([(x, y) for x in (-0.5, 0.5) for y in (-0.5, 0.5)])
-    points = [np.c_[ring * side, np.full(4, -0.5)], np.c_[ring * side, np.zeros(4)], np.c_[ring * (side - 2 * inset), np.full(4, height)]]
+    points = [
+        np.c_[ring * side, np.full(4, -0.5)],
+        np.c_[ring * side, np.zeros(4)],
+        np.c_[ring * (side - 2 * inset), np.full(4, height)],
+    ]
     bump = trimesh.convex.convex_hull(np.concatenate(points))
     whole = trimesh.boolean.union([slab, bump])
     return np.asarray(whole.vertices, float), np.asarray(whole.faces)
@@ -131,7 +135,9 @@ def test_what_is_far_large_flat_or_thin_is_no_handle(low, high) -> None:
 
 
 def test_a_separate_handle_needs_a_body_that_is_most_of_the_object() -> None:
-    mesh, piece = mesh_of([box((-0.5, 0, -0.6), (0.5, 0.5, 0.6)), box((0, -0.05, 0), (0.05, -0.001, 0.05)), box((2, 0, 0), (3, 1, 1))])
+    mesh, piece = mesh_of(
+        [box((-0.5, 0, -0.6), (0.5, 0.5, 0.6)), box((0, -0.05, 0), (0.05, -0.001, 0.05)), box((2, 0, 0), (3, 1, 1))]
+    )
     surface = mesh_surface(mesh)
     assert find_handles(surface, piece) == []
     assert not is_main_component(surface, piece, 0)

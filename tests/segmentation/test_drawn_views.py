@@ -89,7 +89,9 @@ def chosen(*faces: np.ndarray, wanted: list[int] | None = None) -> dict[str, lis
     """Return the marks drawn in each chosen view; mark k + 1 is face k."""
     views, count = [drawn_view(f) for f in faces], max(int(f.max()) for f in faces) + 1
     names = [f"view {k}" for k in range(len(views))]
-    found = choose_pictures(Marks(np.arange(1, count + 1)), range(1, count + 1) if wanted is None else wanted, views, names, renders)
+    found = choose_pictures(
+        Marks(np.arange(1, count + 1)), range(1, count + 1) if wanted is None else wanted, views, names, renders
+    )
     return {p.name: sorted(p.drawn) for p in found}
 
 
@@ -224,9 +226,7 @@ def test_a_call_about_marks_has_up_to_sixteen_pictures_and_joins_the_parts_of_al
     views = [drawn_view(np.where(blocks(64, (0, 0, 20, 20)) == 0, k, -1)) for k in range(35)]
     who = Answers()
     names = [f"{'inside' if k == 34 else 'view'} {k}" for k in range(35)]
-    found = ask_exact(
-        asking(who, CUBE), Marks(np.arange(1, 36)), views, names, lambda marks, some: marks
-    )
+    found = ask_exact(asking(who, CUBE), Marks(np.arange(1, 36)), views, names, lambda marks, some: marks)
     assert who.sizes == [16, 16, 3]
     assert who.insides == [False, False, True]
     assert found.parts == (MarkedPart("door", 1, None, tuple(range(1, 36))),)

@@ -111,7 +111,11 @@ def test_the_base_has_many_contacts() -> None:
 def test_components_that_touch_nothing_are_rigid_and_boards_of_the_base_are_groups() -> None:
     """Two stacked cubes stand apart from a base of three."""
     mesh, whole, contacts = made(
-        BLOCK, box((1, 0, 0), (2, 0.5, 1)), box((0, 0, 1), (0.5, 1, 2)), box((4, 0, 0), (4.5, 1, 1)), box((4, 0, 1), (4.5, 1, 2))
+        BLOCK,
+        box((1, 0, 0), (2, 0.5, 1)),
+        box((0, 0, 1), (0.5, 1, 2)),
+        box((4, 0, 0), (4.5, 1, 1)),
+        box((4, 0, 1), (4.5, 1, 2)),
     )
     groups = rigid_groups(mesh, whole, contacts, 0)
     assert groups.root == groups.group[0]

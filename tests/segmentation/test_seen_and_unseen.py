@@ -92,7 +92,9 @@ def voted(pieces: list, share: float) -> list[set[int]]:
     return [set(found[piece == k].tolist()) for k in range(len(pieces))]
 
 
-@pytest.mark.parametrize(("share", "small", "large"), [(0.45, {0}, {0, 1}), (0.6, {1}, {0, 1}), (0.8, {1}, {0, 1}), (0.9, {1}, {1})])
+@pytest.mark.parametrize(
+    ("share", "small", "large"), [(0.45, {0}, {0, 1}), (0.6, {1}, {0, 1}), (0.8, {1}, {0, 1}), (0.9, {1}, {1})]
+)
 def test_a_patch_joins_one_part_as_a_whole_unless_it_may_hold_several(share: float, small: set, large: set) -> None:
     """A patch that may not is one part by half of its points; a large one only by 85 % of them."""
     found = voted([BASE, fine((1, 1, 0.3), (1.4, 1.4, 0.7)), fine((2, 1, 0.3), (2.5, 2.5, 2.3))], share)
