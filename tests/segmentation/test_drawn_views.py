@@ -140,7 +140,7 @@ def test_a_picture_holds_up_to_forty_marks() -> None:
 
 def test_a_crowded_picture_shows_the_new_marks_only() -> None:
     """The second view shows all of the first one's marks, and five more."""
-    both = blocks(640, *((31 * (k % 20), 31 * (k // 20), 21 if k < 38 else 21, 10 if k < 38 else 21) for k in range(43)))
+    both = blocks(640, *((31 * (k % 20), 31 * (k // 20), 21, 10 if k < 38 else 21) for k in range(43)))
     found = chosen(grid(38), both)
     assert found["view 0"] == list(range(1, 39))
     assert found["view 1"] == list(range(39, 44))
