@@ -1,7 +1,7 @@
 """Test the features of motions of a door, a drawer, a lid and a wheel against values worked out by hand.
 
-The sizes are those of `scenes.py`. The door is 0.596 x 0.02 x 0.796 m, 2 mm in front of a case of 0.6 x 0.4 x 0.8 m, and the bar
-of its handle is 0.07 m in front of the case.
+The sizes are those of `scenes.py`. The door is 0.596 x 0.02 x 0.796 m, 2 mm in front of a case of 0.6 x 0.4 x 0.8 m, and the
+bar of its handle is 0.07 m in front of the case.
 """
 
 from __future__ import annotations
@@ -131,11 +131,13 @@ def test_a_wheel_about_its_axle() -> None:
     (about, _) = features(wheel(), turn(Y, (0, -0.035, 0.2)), "round")
     diagonal = np.linalg.norm([0.4, 0.28, 0.2])
     expected = {
-        "size": np.linalg.norm([0.2, 0.2, 0.03]) / diagonal, "roundness": 1, "height over radius": 0.3, "thickness": 0.03 / diagonal,
-        "tall": 0, "height": 0.5, "aside": 1 - 2 * 0.045 / 0.28, "free rim": 1, "rotational asymmetry": 0, "handle": 0,
-        "along thickness": 1, "balance": 0, "contact off the line": 0.3, "contact middle off the line": 0, "outward": 0,
-        "reach": np.log2(0.1 / 0.03), "off the part": 0, "contact retention": 1, "free both ways": 1, "handle distance": MISSING,
-        "contact around the axis": 1, "off the parent's border": 0.1 / diagonal, "thick at the line": 1, "contact proximity": 0.7,
+        "size": np.linalg.norm([0.2, 0.2, 0.03]) / diagonal, "roundness": 1, "height over radius": 0.3, "tall": 0,
+        "thickness": 0.03 / diagonal, "height": 0.5, "aside": 1 - 2 * 0.045 / 0.28,
+        "free rim": 1, "rotational asymmetry": 0,
+        "handle": 0, "along thickness": 1, "balance": 0, "contact off the line": 0.3, "contact middle off the line": 0, "outward": 0,
+        "reach": np.log2(0.1 / 0.03), "off the part": 0, "contact retention": 1, "free both ways": 1,
+        "handle distance": MISSING, "contact around the axis": 1, "off the parent's border": 0.1 / diagonal,
+        "thick at the line": 1, "contact proximity": 0.7,
     }  # fmt: skip
     assert about == pytest.approx(about | expected, abs=0.03)
 

@@ -95,7 +95,7 @@ def two_coloured(difference: float, side: float) -> tuple[Mesh, np.ndarray]:
     mesh, piece = mesh_of([box((0, 0, 0), (1, 1, 1)), (np.asarray(corners), np.asarray(faces))])
     upper = mesh.triangles.mean(1)[:, 2] > side / 2
     colors = np.full((len(mesh.faces), 3, 4), 100, np.uint8)
-    colors[upper & (piece == 1), :, 0] += int(round(255 * difference))
+    colors[upper & (piece == 1), :, 0] += round(255 * difference)
     colors[..., 3] = 255
     return replace(mesh, corner_color=colors), piece
 
