@@ -133,8 +133,8 @@ def test_a_wheel_about_its_axle() -> None:
     expected = {
         "size": np.linalg.norm([0.2, 0.2, 0.03]) / diagonal, "roundness": 1, "height over radius": 0.3, "tall": 0,
         "thickness": 0.03 / diagonal, "height": 0.5, "aside": 1 - 2 * 0.045 / 0.28,
-        "free rim": 1, "rotational asymmetry": 0,
-        "handle": 0, "along thickness": 1, "balance": 0, "contact off the line": 0.3, "contact middle off the line": 0, "outward": 0,
+        "free rim": 1, "rotational asymmetry": 0, "handle": 0,
+        "along thickness": 1, "balance": 0, "contact off the line": 0.3, "contact middle off the line": 0, "outward": 0,
         "reach": np.log2(0.1 / 0.03), "off the part": 0, "contact retention": 1, "free both ways": 1,
         "handle distance": MISSING, "contact around the axis": 1, "off the parent's border": 0.1 / diagonal,
         "thick at the line": 1, "contact proximity": 0.7,
