@@ -7,10 +7,10 @@ from functools import cache
 
 import numpy as np
 import pytest
-from articulation.scenes import prism
 from assets import box, mesh_of
 from geometry.rigid import shape_of
 from test_part_features import DOOR, KNOB, MESH, WALLS, features
+from trimesh.creation import cylinder
 
 from anymesh.config import ArticulationConfig, SegmentationConfig
 from anymesh.motion.part_context import PartContext
@@ -21,6 +21,12 @@ CONFIG = SegmentationConfig()
 AREA = [2 * (a * b + b * c + a * c) for a, b, c in ((0.89, 0.03, 0.89), (0.04, 0.04, 0.04))]  # [m^2] of the door and its knob
 WALL_AREA = [2 * (a * b + b * c + a * c) for a, b, c in ((1, 0.5, 0.05),) * 2 + ((0.05, 0.5, 0.9),) * 2 + ((0.9, 0.05, 0.9),)]
 DIAGONAL = np.linalg.norm([1, 0.53, 1])
+
+
+def prism(radius: float, ends: tuple[float, float], x: float, z: float) -> tuple[np.ndarray, np.ndarray]:
+    """Return a solid cylinder along y between two positions."""
+    made = cylinder(radius, segment=[(x, ends[0], z), (x, ends[1], z)], sections=24)
+    return np.asarray(made.vertices), np.asarray(made.faces)
 
 
 def around(part: list, rest: list) -> PartContext:
