@@ -168,9 +168,11 @@ def test_a_hinge_that_is_not_free_keeps_the_answered_range() -> None:
 
 
 def test_an_answered_slide_that_is_blocked_keeps_its_range() -> None:
-    around = context([box((-0.2, -0.002, 0.2), (0.2, 0, 0.4))], [box((-0.3, -0.1, 0), (0.3, 0, 0.6)), *BLOCK])
-    inside = replace(PULL, motion=slide(X), outward=0.0)
-    assert limits(around, inside, JointType.PRISMATIC, (-0.1, 0.2))[1] > 0  # type: ignore[index]
+    """A block that fits between two walls."""
+    walls = [box((x, -0.1, -0.1), (x + 0.1, 0.3, 0.3)) for x in (-0.1001, 0.2001)]
+    around = context([box((0, 0, 0), (0.2, 0.2, 0.2))], walls)
+    stuck = replace(PULL, motion=slide(X), outward=0.0)
+    assert limits(around, stuck, JointType.PRISMATIC, (-0.1, 0.2)) == pytest.approx((-0.1, 0.2))
 
 
 @pytest.mark.parametrize(
