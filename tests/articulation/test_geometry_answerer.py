@@ -4,51 +4,22 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from made import EDGE, FAR_EDGE, PLATE, PULL, ROUND, X, Y, Z
 
-from anymesh.articulation.geometry_answerer import CALIBRATION_SLOPE, OFFSET, GeometryAnswerer, same_joints, share_of_best
+from anymesh.articulation.geometry_answerer import (
+    CALIBRATION_SLOPE,
+    OFFSET,
+    GeometryAnswerer,
+    motion_scores,
+    reason,
+    same_joints,
+    share_of_best,
+)
 from anymesh.articulation.motion_question import Candidate, MotionAnswer, MotionQuestion, PartFacts
 from anymesh.scoring.two_steps import MAX_CONFIDENCE, confidence_of
-from anymesh.types import JointType, Motion, Sweep
+from anymesh.types import JointType, Motion
 
 WHO = GeometryAnswerer()
-X, Y, Z = np.eye(3)
-PLATE = PartFacts(
-    "p",
-    "part",
-    (0.6, 0.4, 0.02),
-    0.05,
-    0.3,
-    0.1,
-    -Y,
-    1.0,
-    0.0,
-    size=0.7,
-    diagonal=1.0,
-    horizontal=False,
-    handle=None,
-    two_pivot=False,
-    tall=-0.6,
-    height=0.5,
-    back_contact=0.0,
-    free_rim=0.0,
-    covers_opening=0.0,
-)
-
-
-def candidate(role: str, kind: JointType, axis, **changes) -> Candidate:
-    free = np.pi if kind is JointType.REVOLUTE else 0.5
-    sweep = Sweep(free, 0.0, True, False)
-    made = Candidate(
-        Motion(kind, axis, np.zeros(3), f"a {role}"), sweep, role, 1, free, 0.0, hinge_support=0.0, sibling=0.0,
-        handle_side=0.0, guided=0.0, depth=0.0, vertical=float(abs(axis[2])), above=0.0, captured=False, outward=1.0,
-    )  # fmt: skip
-    return replace(made, **changes)
-
-
-EDGE = candidate("edge", JointType.REVOLUTE, Z, hinge_support=1.0)
-FAR_EDGE = replace(EDGE, motion=Motion(JointType.REVOLUTE, Z, X, "the other edge"))
-PULL = candidate("slide", JointType.PRISMATIC, Y)
-ROUND = candidate("round", JointType.REVOLUTE, Y, closing=np.pi)
 
 
 def asked(part: PartFacts, candidates: list[Candidate], scores: list[float]) -> MotionAnswer:
@@ -109,3 +80,75 @@ def test_a_known_label_decides_where_the_scores_are_close(label: str, kind: Join
 def test_an_answer_is_checked(confidence: float, reason: str) -> None:
     with pytest.raises(ValueError, match=r"confidence in 0\.\.1 and a reason"):
         MotionAnswer((0,), JointType.FIXED, confidence, reason)
+
+
+@pytest.mark.parametrize(
+    ("c", "words"),
+    [
+        (PULL, "slides outwards, held on 0 of 4 sides, free for 50 % of the object's diagonal (a slide)"),
+        (replace(PULL, guided=0.75, outward=-1.0, opening=0.02), "slides inwards, held on 3 of 4 sides, free for 2 %"),
+        (replace(PULL, outward=0.7), "slides along the surface"),
+        (replace(PULL, outward=-0.7), "slides along the surface"),
+        (replace(ROUND, opening=1.0), "round outline (30 %), turns about its axis, free -180..57 deg"),
+        (replace(EDGE, closing=0.5, hinge_support=0.5), "a edge, free -29..180 deg"),
+        (replace(EDGE, handle_side=0.9), "hinge opposite the handle, a edge, the parent runs along it, free -0..180 deg"),
+    ],
+)
+def test_a_motion_is_described_by_its_kind_its_range_and_what_holds_it(c: Candidate, words: str) -> None:
+    assert reason(PLATE, c).startswith(words)
+
+
+@pytest.mark.parametrize(
+    ("label", "kind", "least"),
+    [("drawer", JointType.PRISMATIC, 1.9), ("door", JointType.REVOLUTE, 1.4), ("wheel", JointType.CONTINUOUS, 2.4)],
+)
+def test_a_label_raises_the_score_of_its_typical_motion_alone(label: str, kind: JointType, least: float) -> None:
+    free = question(EDGE, PULL, ROUND)
+    plain = motion_scores(free)
+    assert plain.tolist() == [0, 0, 0]
+    gain = motion_scores(replace(free, part=replace(PLATE, label=label))) - plain
+    typical = [JointType.REVOLUTE, JointType.PRISMATIC, JointType.CONTINUOUS].index(kind)
+    assert gain[typical] > least
+    assert (np.delete(gain, typical) < -1).all()
+
+
+def test_a_blocked_motion_scores_lower_than_a_free_one_that_is_less_likely() -> None:
+    stuck = replace(EDGE, opening=0.0)
+    assert asked(PLATE, [stuck, PULL], [3.5, 0.0]).ranking == (1, 0)
+    assert asked(PLATE, [stuck, PULL], [4.5, 0.0]).ranking == (0, 1)
+
+
+@pytest.mark.parametrize(("off", "same"), [(0.06, True), (0.08, False)])
+def test_lines_are_one_to_a_user_within_a_tenth_of_the_part(off: float, same: bool) -> None:
+    """The part's diagonal is 0.7 m."""
+    beside = replace(EDGE, motion=Motion(JointType.REVOLUTE, Z, off * X + 5 * Z, "beside"))
+    assert same_joints(question(EDGE, beside), 0).tolist() == [True, same]
+
+
+@pytest.mark.parametrize(("degrees", "same"), [(13.0, True), (15.0, False)])
+def test_directions_are_one_to_a_user_within_fourteen_degrees(degrees: float, same: bool) -> None:
+    a = np.deg2rad(degrees)
+    aside = replace(PULL, motion=Motion(JointType.PRISMATIC, np.cos(a) * Y + np.sin(a) * X, np.zeros(3), "aside"))
+    assert same_joints(question(PULL, aside), 0).tolist() == [True, same]
+
+
+@pytest.mark.parametrize(
+    ("c", "free"),
+    [
+        (replace(PULL, opening=0.009), True),
+        (replace(PULL, opening=0.007), False),
+        (replace(PULL, opening=0.0, closing=0.009), True),  # a button in a filled hole
+        (replace(EDGE, opening=float(np.deg2rad(13))), True),
+        (replace(EDGE, opening=float(np.deg2rad(11))), False),
+        (replace(EDGE, opening=0.0, closing=3.0), False),
+        (replace(ROUND, opening=0.0, closing=3.0), True),
+    ],
+)
+def test_a_motion_is_free_if_it_opens_or_presses_far_enough(c: Candidate, free: bool) -> None:
+    assert c.is_free == free
+
+
+@pytest.mark.parametrize(("opening", "closing", "endless"), [(3.1, 3.1, True), (3.1, 2.9, False), (2.9, 3.1, False)])
+def test_a_rotation_is_endless_if_it_is_free_both_ways(opening: float, closing: float, endless: bool) -> None:
+    assert replace(EDGE, opening=opening, closing=closing).is_endless == endless
+    assert not replace(PULL, opening=opening, closing=closing).is_endless

@@ -1,0 +1,60 @@
+"""Contexts, facts and candidate motions made by hand."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from geometry.rigid import shape_of
+
+from anymesh.articulation.motion_question import Candidate, PartFacts
+from anymesh.config import ArticulationConfig
+from anymesh.motion.part_context import PartContext
+from anymesh.types import JointType, Motion, Sweep
+
+X, Y, Z = np.eye(3)
+PLATE = PartFacts(
+    "p", "part", (0.6, 0.4, 0.02), 0.05, 0.3, 0.1, -Y, 1.0, 0.0, size=0.7, diagonal=1.0, horizontal=False, handle=None,
+    two_pivot=False, tall=-0.6, height=0.5, back_contact=0.0, free_rim=0.0, covers_opening=0.0,
+)  # fmt: skip
+
+
+def context(part: list, rest: list, *siblings: list, **changes: Any) -> PartContext:
+    """Return the context of a part of pieces (vertices, faces) on static pieces, beside other movable parts of pieces."""
+    other = [piece for some in siblings for piece in some]
+    corners = np.concatenate([v for v, _ in [*part, *rest, *other]])
+    low, high = corners.min(0), corners.max(0)
+    return PartContext(
+        part=shape_of(*part), parent=shape_of(*rest), rest=shape_of(*rest), others=shape_of(*other) if other else None,
+        everything=shape_of(*rest, *other), diagonal=float(np.linalg.norm(high - low)), center=(low + high) / 2,
+        **{
+            "barrel_candidates": (), "config": ArticulationConfig(), "siblings": tuple(shape_of(*s) for s in siblings),
+            **changes,
+        },
+    )  # fmt: skip
+
+
+def turn(axis: np.ndarray, origin=(0.0, 0, 0)) -> Motion:
+    return Motion(JointType.REVOLUTE, np.asarray(axis, float), np.asarray(origin, float), "a line")
+
+
+def slide(axis: np.ndarray, origin=(0.0, 0, 0)) -> Motion:
+    return Motion(JointType.PRISMATIC, np.asarray(axis, float), np.asarray(origin, float), "a direction")
+
+
+def candidate(role: str, kind: JointType, axis: np.ndarray, **changes: Any) -> Candidate:
+    """Return a candidate that is free along its axis."""
+    free = np.pi if kind is JointType.REVOLUTE else 0.5
+    sweep = Sweep(free, 0.0, True, False)
+    made = Candidate(
+        Motion(kind, axis, np.zeros(3), f"a {role}"), sweep, role, 1, free, 0.0, hinge_support=0.0, sibling=0.0,
+        handle_side=0.0, guided=0.0, depth=0.0, vertical=float(abs(axis[2])), above=0.0, captured=False, outward=1.0,
+    )  # fmt: skip
+    return replace(made, **changes)
+
+
+EDGE = candidate("edge", JointType.REVOLUTE, Z, hinge_support=1.0)
+FAR_EDGE = replace(EDGE, motion=Motion(JointType.REVOLUTE, Z, X, "the other edge"))
+PULL = candidate("slide", JointType.PRISMATIC, Y)
+ROUND = candidate("round", JointType.REVOLUTE, Y, closing=np.pi)

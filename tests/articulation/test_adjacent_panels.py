@@ -1,0 +1,114 @@
+"""Test relations between adjacent panels: pairs of doors, outer hinges, sliding panels that overlap their neighbours."""
+
+import numpy as np
+import pytest
+from assets import box
+from made import X, Y, Z, context, slide, turn
+
+from anymesh.articulation.adjacent_panels import adjacent_sides, outer_side, overlap_gain, pair_side
+from anymesh.motion.part_context import PartContext
+
+CASE = [box((0, 0, 0), (1.8, 0.4, 0.8))]
+
+
+def panel(x: float, width: float = 0.6, z=(0.0, 0.8), y: float = -0.022) -> list:
+    return [box((x, y, z[0]), (x + width, y + 0.02, z[1]))]
+
+
+LEFT, MIDDLE, RIGHT = panel(0.0), panel(0.602), panel(1.204)
+
+
+def beside(around: PartContext) -> tuple[float, float]:
+    """Return the number of similar panels at the side of -x and of +x."""
+    found = adjacent_sides(around)
+    (row,) = (k for k, axis in enumerate(around.face_axes) if abs(around.body_obb.axes[axis] @ X) > 0.9)
+    assert not found[1 - row].any()  # none above or below
+    down, up = found[row][:: int(np.sign(around.body_obb.axes[around.face_axes[row]] @ X))]
+    return float(down), float(up)
+
+
+def test_panels_at_each_side_are_counted() -> None:
+    assert beside(context(MIDDLE, CASE, LEFT, RIGHT)) == (1, 1)
+    assert beside(context(LEFT, CASE, MIDDLE, RIGHT)) == (0, 1)
+    assert beside(context(RIGHT, CASE, MIDDLE)) == (1, 0)
+    assert beside(context(LEFT, CASE)) == (0, 0)
+
+
+@pytest.mark.parametrize(
+    ("other", "counts"),
+    [
+        (panel(0.6 + 0.08), True),  # gaps up to 15 % of the width
+        (panel(0.6 + 0.10), False),
+        (panel(0.6 - 0.08), True),  # so may they overlap
+        (panel(0.6 - 0.10), False),
+        (panel(0.602, 0.46), True),  # sizes within 25 %
+        (panel(0.602, 0.44), False),
+        (panel(0.602, z=(0.1, 0.9)), True),  # offset by 10 and 18 % along the common side
+        (panel(0.602, z=(0.15, 0.95)), False),
+        (panel(0.602, y=-0.044), True),  # in front of the part by 2.2 and 2.6 cm
+        (panel(0.602, y=-0.048), False),
+    ],
+)
+def test_an_adjacent_panel_is_near_of_like_size_and_level(other: list, counts: bool) -> None:
+    assert beside(context(LEFT, CASE, other)) == (0, float(counts))
+
+
+@pytest.mark.parametrize(("x", "pair"), [(0.0, 1.0), (0.3, 0.0), (0.45, -0.5), (0.6, -1.0)])
+def test_a_pair_of_doors_meets_opposite_the_hinges(x: float, pair: float) -> None:
+    around = context(LEFT, CASE, MIDDLE)
+    assert pair_side(around, turn(Z, (x, -0.012, 0)), adjacent_sides(around)) == pytest.approx(pair, abs=0.01)
+
+
+def test_neither_a_lone_panel_nor_the_middle_one_of_three_nor_a_flap_has_a_pair() -> None:
+    for around in (context(LEFT, CASE), context(MIDDLE, CASE, LEFT, RIGHT)):
+        low = around.part.bounds[0]
+        assert pair_side(around, turn(Z, low), adjacent_sides(around)) == 0
+    around = context(LEFT, CASE, MIDDLE)
+    assert pair_side(around, turn(X), adjacent_sides(around)) == pytest.approx(0, abs=1e-9)
+
+
+@pytest.mark.parametrize(("x", "outer"), [(0.0, 1.0), (0.3, 0.0), (0.6, -1.0), (0.15, 0.5)])
+def test_a_hinge_at_the_side_of_a_cabinet_is_an_outer_one(x: float, outer: float) -> None:
+    assert outer_side(context(LEFT, CASE), turn(Z, (x, -0.012, 0))) == pytest.approx(outer, abs=0.01)
+
+
+def test_a_panel_near_the_middle_has_less_of_an_outer_side() -> None:
+    """Its center is 0.2 m off the middle of an object that reaches 0.9 m to each side."""
+    around = context(panel(0.8), CASE)
+    assert outer_side(around, turn(Z, (1.4, -0.012, 0))) == pytest.approx(2 * 0.2 / 0.9, abs=0.01)
+    assert outer_side(around, turn(Z, (0.8, -0.012, 0))) == pytest.approx(-2 * 0.2 / 0.9, abs=0.01)
+    assert outer_side(around, turn(X)) == pytest.approx(0, abs=0.01)  # in the middle of its height
+
+
+PANE = [box((0.0, -0.1, 0.0), (0.6, -0.08, 0.8))]
+FLOOR = box((-1, -1, -1.1), (2, 1, -1))
+
+
+def gain(*rest, free=(1.0, 1.0), axis: np.ndarray = X) -> float:
+    return overlap_gain(context(PANE, [FLOOR, *rest]), slide(axis), free)
+
+
+def sheet(x: tuple[float, float], y: float) -> tuple:
+    return box((x[0], y, 0), (x[1], y + 0.01, 0.8))
+
+
+def test_a_sash_covers_its_neighbour_when_it_is_open() -> None:
+    neighbour = sheet((0.6, 1.2), -0.05)
+    assert gain(neighbour) == 1
+    assert gain(neighbour, axis=-X) == 1  # by closing
+    assert gain(neighbour, free=(1.0, 0.4)) == 1
+    assert gain(neighbour, free=(0.4, 1.0)) == 0  # not free for its width in that direction
+    assert gain(sheet((0.6, 1.2), -0.14)) == 1  # in front of it as well
+    assert gain(neighbour, axis=Z) == 0
+    assert gain(neighbour, axis=Y) == 0  # not along its plane
+
+
+def test_the_gain_is_the_newly_covered_share_over_a_half() -> None:
+    """After a shift by 0.54 m, a neighbour of 0.15 m covers a quarter of the pane."""
+    assert gain(sheet((0.6, 0.75), -0.05)) == pytest.approx(0.5, abs=0.06)
+    assert gain(sheet((0.0, 1.2), -0.05)) == 0  # covered before as well
+
+
+def test_what_is_far_behind_or_on_both_sides_is_no_neighbour() -> None:
+    assert gain(sheet((0.6, 1.2), 0.02)) == 0
+    assert gain(sheet((0.6, 1.2), -0.05), sheet((0.6, 1.2), -0.14)) == 0  # a cavity

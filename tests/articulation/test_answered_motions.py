@@ -1,0 +1,245 @@
+"""Test motions taken from answers, answered parents, labels by name, axes of round patches, and the work after a deadline."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+from assets import box
+from known import KNOWN, QUICK, ready, the_case
+from made import EDGE, PULL, X, Y, Z, slide, turn
+from scenes import door, prism
+
+from anymesh.articulation.candidates import axis_points, cluster_points, followed, with_more
+from anymesh.articulation.cases import PartCase, make_cases
+from anymesh.articulation.confidence import Agreement
+from anymesh.articulation.decode import hinge, plane_normal
+from anymesh.articulation.estimate import ROLES_AFTER_DEADLINE, motion_questions
+from anymesh.articulation.freedom import stays_free
+from anymesh.articulation.offers import MAX_SHOWN_ANGLE_RAD, make_offers, scored_motions, shown_amount
+from anymesh.articulation.own_axes import round_patches
+from anymesh.articulation.prompted import _joint
+from anymesh.articulation.relabel import labels_by_name, relabelled, unlabelled
+from anymesh.articulation.taken import as_answered, normal_outwards
+from anymesh.articulation.verify import Choice
+from anymesh.config import Config, PromptConfig
+from anymesh.deadline import Deadline
+from anymesh.types import JointType, Part, Segmentation
+from anymesh.types.recognition import BASE, Recognition, RecognizedLabel
+from anymesh.vlm.prompting import JointAppearance, KindAnswer
+
+ALONG, OUT, FIXED = JointAppearance.HINGE_ALONG, JointAppearance.SLIDE_OUT, JointAppearance.FIXED
+
+
+@cache
+def case_of(name: str) -> PartCase:
+    return the_case(KNOWN[name].scene)
+
+
+def answered(name: str, kind: JointAppearance, motion=None, moves: JointType | None = None) -> Choice:
+    told = RecognizedLabel("part", moves, None, None) if moves else None
+    return as_answered(replace(case_of(name), answer=KindAnswer(kind), asked=motion, recognized=told))
+
+
+def test_an_answered_hinge_opens_where_it_is_free() -> None:
+    for axis in (Z, -Z):
+        found = answered("left", ALONG, turn(axis, (0.598, -0.012, 0)), JointType.REVOLUTE)
+        assert found.best.is_free
+        assert found.best.outward > 0.9
+        assert found.agreement.features == {"kind": 1, "moves": 1, "moves against": 0, "answered": 1, "blocked": 0}
+        assert found.reason == "answered: hinge along edge; a line"
+        assert found.moves
+
+
+def test_an_answered_slide_keeps_its_direction_even_if_it_is_blocked() -> None:
+    found = answered("left", OUT, slide(Y), JointType.REVOLUTE)
+    assert (found.best.opening_sign, found.best.is_free) == (1, True)  # a button may be pressed
+    assert found.agreement.features["moves against"] == 1
+    through = answered("left", ALONG, turn(Z, (0.3, 0.2, 0)))
+    assert through.agreement.features == {"kind": 1, "moves": 0, "moves against": 0, "answered": 1, "blocked": 1}
+
+
+def test_a_part_that_is_answered_fixed_has_a_motion_but_does_not_move() -> None:
+    found = answered("drawer", FIXED)
+    assert not found.moves
+    assert found.best.motion.axis == pytest.approx(-Y)
+    assert "nothing moves" in found.reason
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_the_normal_of_the_contact_is_taken_outwards(sign: float) -> None:
+    case = case_of("left")
+    found = normal_outwards(replace(case, shown=replace(case.shown, normal=sign * Y)))
+    assert found.axis == pytest.approx(-Y)
+    assert found.kind is JointType.PRISMATIC
+
+
+@pytest.mark.parametrize(
+    ("best", "endless", "moves", "verify", "kind"),
+    [
+        (PULL, False, True, "motion", JointType.PRISMATIC),
+        (EDGE, False, True, "motion", JointType.REVOLUTE),
+        (EDGE, True, True, "motion", JointType.REVOLUTE),  # something stops it
+        (EDGE, True, True, "off", JointType.CONTINUOUS),
+        (replace(EDGE, closing=np.pi), True, True, "motion", JointType.CONTINUOUS),
+        (replace(EDGE, closing=np.pi), False, True, "motion", JointType.REVOLUTE),
+        (EDGE, True, False, "off", JointType.FIXED),
+    ],
+)
+def test_the_type_of_a_joint_follows_from_the_motion_and_the_answer(best, endless, moves, verify, kind) -> None:
+    case = replace(case_of("left"), answer=KindAnswer(ALONG, endless))
+    found = _joint(case, Choice(best, "so", Agreement({}), moves=moves), 0.7, verify)
+    assert (found.type, found.confidence, found.reason, found.child) == (kind, 0.7, "so", case.name)
+
+
+STACK = {"base": [box((0, 0, 0), (2, 2, 0.2))], "low": [box((0.5, 0.5, 0.2), (1.5, 1.5, 1))]}
+STACK["high"] = [box((0.8, 0.8, 1), (1, 1, 1.2))]
+
+
+@pytest.mark.parametrize("over", [BASE, "tray", None])
+def test_the_answered_parent_of_a_label_is_used_where_parts_touch(over: str | None) -> None:
+    _, whole, segmentation = ready(STACK)
+    parts = (segmentation.parts[0], Part("low", "tray"), Part("high", "knob"))
+    told = Recognition(
+        "it", None, (RecognizedLabel("tray", None, BASE, None), RecognizedLabel("knob", JointType.REVOLUTE, over, None))
+    )
+    low, high = make_cases(whole, replace(segmentation, parts=parts), told if over else None, QUICK)
+    assert (low.parent, low.carried) == ("base", (2,))
+    assert high.parent == "low"  # also if the base is answered, which it does not touch
+    assert (high.recognized is not None) == (over is not None)
+    assert (high.number, high.label, high.kind) == (2, "knob", FIXED)
+    assert set(segmentation.face_part[high.shown.faces]) == {2}
+
+
+def named(*names: str, label: str = "part") -> Segmentation:
+    return Segmentation(np.arange(len(names) + 1), (Part("base", "base"), *(Part(n, label) for n in names)))
+
+
+def test_labels_follow_from_the_names_of_parts() -> None:
+    found = labels_by_name(named("rudder_left", "door_handle", "thing", "door", "handle_of_door"), ("rudder", "door", "handle"))
+    assert [p.label for p in found.parts] == ["base", "rudder", "handle", "part", "door", "door"]
+    given = named("rudder_left", label="door")
+    assert labels_by_name(given, ("rudder", "door")) is given  # it has a recognized label
+    longer = labels_by_name(named("left_front_door"), ("door", "front door"))
+    assert longer.parts[1].label == "front door"
+
+
+def test_answered_labels_replace_unrecognized_ones_only() -> None:
+    given = Segmentation(np.arange(3), (Part("base", "base"), Part("a", "part"), Part("b", "door")))
+    assert [p.label for p in relabelled(given, {1: "lid", 2: "lid"}, ("door", "lid")).parts] == ["base", "lid", "door"]
+    assert relabelled(given, {2: "lid"}, ("door", "lid")) is given
+    assert unlabelled(given, ("door",))
+    assert not unlabelled(given, ())
+    assert not unlabelled(given, ("door", "part"))
+
+
+def axes(part: list, parent: list) -> list[tuple[int, list[float]]]:
+    """Return the axes of round patches, as the direction and where it crosses the plane across it."""
+    _, whole, segmentation = ready({"base": parent, "part": part})
+    own, other = (whole.of(np.flatnonzero(segmentation.face_part[whole.source] == k)) for k in (1, 0))
+    found = round_patches(whole, own, other)
+    kinds = [int(np.abs(m.axis).argmax()) for m in found]
+    return [(k, np.round(np.delete(m.origin, k), 2).tolist()) for k, m in zip(kinds, found, strict=True)]
+
+
+def test_round_patches_of_a_part_and_pins_of_its_parent_give_axes_the_largest_first() -> None:
+    plate, block = box((0, -0.02, 0), (1, 0, 0.5)), [box((-0.5, 0.1, -0.5), (1.5, 0.5, 1)), box((3, 0, 0), (5, 2, 1.5))]
+    discs = [prism(r, (-0.1, -0.02), x, 0.25) for r, x in ((0.05, 0.2), (0.1, 0.6))]
+    assert axes([plate, *discs], block) == [(1, [0.6, 0.25]), (1, [0.2, 0.25])]
+    assert axes([plate], [*block, prism(0.03, (-0.05, 0.1), 0.4, 0.3)]) == [(1, [0.4, 0.3])]  # a pin through the plate
+    assert axes([plate], [*block, prism(0.03, (-0.05, 0.1), 1.4, 0.3)]) == []  # beside it
+    assert axes([discs[0]], block) == []  # a part of one patch has its outline
+    six = [prism(0.03 + 0.002 * k, (-0.1, -0.02), 0.1 + 0.15 * k, 0.25) for k in range(6)]
+    assert [x for _, (x, _) in axes([plate, *six], block)] == pytest.approx([0.85, 0.7, 0.55, 0.4])
+
+
+def across(scale: float):
+    return lambda points: points[:, [0, 2]] * scale
+
+
+def test_points_are_added_in_their_order_where_there_is_room_for_their_numbers() -> None:
+    config = PromptConfig(label_apart=10.0, most_candidates=4)
+    first = np.array([[0.0, 0, 0], [1, 0, 0]])
+    more = np.array([[0.05, 0, 0], [2, 0, 0], [3, 0, 0], [4, 0, 0]])
+    assert followed(first, more, across(100), config)[:, 0].tolist() == [0, 1, 2, 3]
+    many = np.c_[np.arange(6.0), np.zeros((6, 2))]
+    assert sorted(with_more(many, more + 0.5 * X, across(100), config)[:, 0].tolist()) == [0, 0.55, 2.5, 5]
+    assert followed(first, more[:1], across(300), config)[:, 0].tolist() == [0, 1, 0.05]
+
+
+def test_two_clusters_of_a_contact_are_two_points() -> None:
+    contact = np.concatenate([np.linspace(0, 0.01, 30), np.linspace(0.99, 1, 10)])[:, None] * X
+    found = cluster_points(contact, across(100), PromptConfig(most_candidates=2))
+    assert sorted(found[:, 0].tolist()) == pytest.approx([0.005, 0.995])
+    assert cluster_points(contact, across(10), PromptConfig()) == pytest.approx(contact.mean(0)[None])
+
+
+def test_at_most_half_of_the_points_stand_for_axes() -> None:
+    around = case_of("wheel").around
+    lines = [turn(Y, (0.02 * k, 0, 0.2)) for k in range(6)]
+    points, directions = axis_points(around, lines, across(4000), PromptConfig(most_candidates=6))
+    assert points[:, 0] == pytest.approx([0, 0.02, 0.04])
+    assert len(directions) == 3
+    tilted = [turn(np.array([np.sin(a), np.cos(a), 0]), (0, 0, 0.2)) for a in np.deg2rad([44, 47])]
+    assert len(axis_points(around, tilted, across(4000), PromptConfig())[0]) == 1  # up to 45 degrees off the surface's normal
+
+
+def test_a_plane_is_that_of_most_points() -> None:
+    grid = np.stack(np.meshgrid(np.arange(6.0), np.arange(6.0)), -1).reshape(-1, 2)
+    flat, wall = np.c_[grid, np.zeros(36)], np.c_[np.zeros(20), grid[:20] + 1]
+    assert np.abs(plane_normal(np.concatenate([flat, wall]), 0.01, 0)) == pytest.approx(Z, abs=1e-6)
+    assert np.abs(plane_normal(flat[[0, 3, 8]], 0.01, 0)) == pytest.approx(Z, abs=1e-9)
+    assert np.abs(plane_normal(np.concatenate([flat, flat + 0.02 * Z]), 0.03, 0)) == pytest.approx(Z, abs=1e-6)
+
+
+def test_a_single_point_has_the_axis_that_was_shown_with_it() -> None:
+    point = np.array([[1.0, 2, 3]])
+    assert hinge(point, Y, 2 * X).axis == pytest.approx(X)
+    assert hinge(point, Y, 2 * X).source == "axis at the point picked"
+    assert hinge(point, Y, np.full(3, np.nan)).axis == pytest.approx(Y)
+    assert hinge(np.array([[0.0, 0, 0], [0, 0, 2]]), Y, X).axis == pytest.approx(Z)
+
+
+def test_a_picture_shows_a_hinge_up_to_sixty_degrees_and_a_slide_up_to_a_share_of_the_part() -> None:
+    case = case_of("drawer")
+    size = case.around.part.box.diagonal
+    assert shown_amount(replace(EDGE, opening=0.5), case) == 0.5
+    assert shown_amount(EDGE, case) == pytest.approx(MAX_SHOWN_ANGLE_RAD)
+    assert shown_amount(replace(EDGE, opening=0.0), case) == pytest.approx(np.deg2rad(36))
+    assert shown_amount(replace(PULL, opening=0.2), case) == pytest.approx(0.2 * case.around.scale)
+    assert shown_amount(replace(PULL, opening=3.0), case) == pytest.approx(0.6 * size)
+    assert shown_amount(replace(PULL, opening=0.0), case) == pytest.approx(0.36 * size)
+    told = RecognizedLabel("key", JointType.PRISMATIC, None, (-0.01, 0.0))
+    extent = float(np.ptp(case.around.part.corners[:, 1]))
+    assert shown_amount(PULL, replace(case, recognized=told)) == pytest.approx(-0.5 * min(extent, 0.6 * size))
+
+
+def test_shares_of_the_offers_sum_to_one_and_the_answer_is_among_them() -> None:
+    case = replace(case_of("left"), answer=KindAnswer(ALONG), asked=turn(Z, (0.598, -0.012, 0)))
+    found = make_offers(case, 7, 0)
+    assert sum(found.shares) == pytest.approx(1)
+    assert found.answered in found.first
+    assert len(found.amounts) == len(found.motions) == len(found.shares)
+    assert scored_motions(case).candidates[0].role == "asked"
+
+
+def test_after_the_deadline_the_likeliest_motions_are_swept_alone() -> None:
+    _, whole, segmentation = ready(door("left"))
+    late = Deadline(1e-9)
+    ((_, _, _, question),) = motion_questions(whole, segmentation, Config(), late)
+    assert {c.role for c in question.candidates} <= set(ROLES_AFTER_DEADLINE)
+    ((_, _, _, full),) = motion_questions(whole, segmentation, Config())
+    assert {c.role for c in full.candidates} > {c.role for c in question.candidates}
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "free"), [((0.1, 0, 0.1), (0.5, 0.3, 0.7), False), ((0.1, -0.06, 0.1), (0.5, -0.022, 0.2), True)]
+)
+def test_a_part_stays_free_with_what_does_not_stop_it(low: tuple, high: tuple, free: bool) -> None:
+    """A door gains a piece that reaches into its case, or one on its front."""
+    _, whole, segmentation = ready({**door("left"), "gained": [box(low, high)]})
+    label, config = segmentation.face_part[whole.source], Config().articulation
+    without, joined = np.where(label == 2, 0, label), np.where(label == 2, 1, label)
+    assert stays_free(whole, config, without, joined, 1, JointType.REVOLUTE) == free

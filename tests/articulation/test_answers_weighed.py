@@ -1,0 +1,250 @@
+"""Test what is made of answers: calls, confidence, contradictions, the choice of motions, and parents, by small cases."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from functools import cache
+
+import numpy as np
+import pytest
+from assets import box, mesh_of
+from known import QUICK, the_case
+from made import EDGE, FAR_EDGE, PLATE, PULL, ROUND, Z, candidate
+from scenes import door
+
+from anymesh.articulation.cases import PartCase, ask_each
+from anymesh.articulation.confidence import HIGHEST, LOWEST, Agreement, confidences
+from anymesh.articulation.contradictions import contradictions
+from anymesh.articulation.limits import opening_motion
+from anymesh.articulation.motion_question import Candidate
+from anymesh.articulation.offers import MotionOffers, _crowding, _pages, fits, moves_as
+from anymesh.articulation.verify import MotionQuestioner, choose_motions
+from anymesh.rendering.visual_prompts import VisualPrompts
+from anymesh.types import Exchange, Joint, JointType
+from anymesh.types.recognition import RecognizedLabel
+from anymesh.vlm.motion_choice import MotionPick, PartFit, WhichMotions
+from anymesh.vlm.prompting import JointAppearance, KindAnswer
+
+ALONG, OUT, FIXED = JointAppearance.HINGE_ALONG, JointAppearance.SLIDE_OUT, JointAppearance.FIXED
+CUBE = mesh_of([box((0, 0, 0), (1, 1, 1))])[0]
+
+
+@cache
+def door_case() -> PartCase:
+    return the_case(door("left"))
+
+
+def case(number: int = 1, kind: JointAppearance = ALONG, moves: JointType | None = None) -> PartCase:
+    told = RecognizedLabel("part", moves, None, None) if moves else None
+    return replace(door_case(), number=number, name=f"p{number}", answer=KindAnswer(kind), recognized=told)
+
+
+@pytest.mark.parametrize("count", [1, 8, 9, 17])
+def test_no_call_has_more_than_eight_pictures_and_each_part_is_asked_about_once(count: int) -> None:
+    calls: list[list[str]] = []
+
+    class Who:
+        name, exchanges, warnings = "who", (), ()
+
+        def ask(self, question: Sequence[str]) -> tuple[str, ...]:
+            calls.append(list(question))
+            return tuple(f"answer to {title}" for title in question)
+
+    cases, titles = [case(k) for k in range(1, count + 1)], []
+
+    def question(pictures, some):
+        titles.append([f"part {k}: {c.label} {c.number}" for k, c in enumerate(some, 1)])
+        return titles[-1]
+
+    found = ask_each(Who(), cases, lambda c, title: None, question)  # type: ignore[arg-type, return-value]
+    assert [len(call) for call in calls] == [8] * (count // 8) + [count % 8] * (count % 8 > 0)
+    assert list(found) == list(range(1, count + 1))
+    assert found[count] == f"answer to part {(count - 1) % 8 + 1}: part {count}"
+
+
+def sure(*features: dict[str, float]) -> list[float]:
+    return list(confidences({k: Agreement(f) for k, f in enumerate(features)}).values())
+
+
+@pytest.mark.parametrize(
+    ("name", "sign"),
+    [
+        ("kind", 1),
+        ("answered", 1),
+        ("likely", 1),
+        ("moves", 1),
+        ("moves against", -1),
+        ("blocked", -1),
+        ("none", -1),
+        ("only", -1),
+    ],
+)
+def test_evidence_for_a_joint_raises_its_confidence_and_evidence_against_it_lowers_it(name: str, sign: int) -> None:
+    (without,), (with_,) = sure({"likely": 0.5}), sure({"likely": 0.5, name: 1.0})
+    assert (with_ - without) * sign > 0
+    assert LOWEST <= min(without, with_) <= max(without, with_) <= HIGHEST
+
+
+def test_answers_about_the_other_parts_count_for_a_part_and_its_own_ones_if_it_is_alone() -> None:
+    good, bad = {"kind": 1.0, "answered": 1.0, "likely": 0.5}, {"none": 1.0}
+    assert Agreement(good).own == 1
+    assert Agreement(bad).own == 0
+    assert Agreement({"kind": 1.0}).own == pytest.approx(2 / 3)
+    assert sure(good, good)[0] == sure(good)[0] > sure(good, bad)[0]
+    assert sure(good, bad, good)[0] > sure(good, bad, bad)[0]
+    assert sure(bad)[0] == LOWEST
+    (all_for,) = sure({"kind": 1.0, "answered": 1.0, "likely": 1.0, "moves": 1.0})
+    assert 0.95 < all_for < 1
+
+
+def joint(kind: JointType) -> Joint:
+    limits = None if kind in (JointType.CONTINUOUS, JointType.FIXED) else (0.0, 1.0)
+    return Joint("j", kind, "base", "p1", np.zeros(3), Z, limits, 0.9, "so")
+
+
+@pytest.mark.parametrize(
+    ("kind", "moves", "joint_type", "agree"),
+    [
+        (ALONG, JointType.REVOLUTE, JointType.REVOLUTE, True),
+        (ALONG, JointType.CONTINUOUS, JointType.CONTINUOUS, True),
+        (ALONG, JointType.PRISMATIC, JointType.REVOLUTE, False),
+        (OUT, JointType.PRISMATIC, JointType.PRISMATIC, True),
+        (OUT, JointType.REVOLUTE, JointType.PRISMATIC, False),
+        (OUT, None, JointType.PRISMATIC, True),
+        (OUT, None, JointType.REVOLUTE, False),
+        (FIXED, None, JointType.FIXED, True),
+        (FIXED, JointType.REVOLUTE, JointType.FIXED, False),
+    ],
+)
+def test_answers_that_contradict_each_other_give_a_warning(kind, moves, joint_type, agree: bool) -> None:
+    found = contradictions([case(1, kind, moves)], [joint(joint_type)])
+    assert len(found) == (not agree)
+    for warning in found:
+        assert warning.startswith("p1: the answers contradict each other (")
+        assert kind.value.replace("_", " ") in warning
+        assert (f"recognized as {moves}, then " in warning) == (moves is not None)
+
+
+@pytest.mark.parametrize(
+    ("c", "kinds"),
+    [
+        (EDGE, {ALONG, JointAppearance.HINGE_INTO, JointAppearance.HINGE_HIDDEN}),
+        (PULL, {OUT}),
+        (replace(PULL, outward=-0.8), {OUT}),
+        (replace(PULL, outward=0.6), {JointAppearance.SLIDE_ALONG, FIXED}),
+        (replace(PULL, outward=-0.6), {JointAppearance.SLIDE_ALONG, FIXED}),
+    ],
+)
+def test_a_motion_is_of_the_kind_that_it_looks_like(c: Candidate, kinds: set[JointAppearance]) -> None:
+    assert {kind for kind in JointAppearance if fits(c, kind)} == kinds
+    slides = c is not EDGE
+    assert [moves_as(c, kind) for kind in (JointType.PRISMATIC, JointType.REVOLUTE, JointType.CONTINUOUS)] == [
+        slides, not slides, not slides,
+    ]  # fmt: skip
+
+
+def test_of_similar_motions_two_good_ones_are_in_the_first_picture() -> None:
+    assert _crowding([0, 0, 0, 3], [5.0, 4.5, 4.4, 1.0]) == [False, False, True, False]
+    assert _crowding([0, 0, 0], [5.0, 3.9, 4.5]) == [False, True, False]  # worse than the best by more than 1
+    assert _crowding([0, 1, 0, 1], [1.0, 1.0, 1.0, 1.0]) == [False] * 4
+
+
+def test_the_first_picture_has_the_answer_three_central_axes_and_the_likeliest_others() -> None:
+    middle = candidate("center", JointType.REVOLUTE, Z)
+    motions, likely = [EDGE, PULL, middle, middle, middle, middle, FAR_EDGE], [True, True, False, False, False, False, True]
+    assert _pages(motions, ALONG, likely, 6, 7) == ([6, 2, 3, 4, 0, 1], [5])
+    assert _pages(motions, ALONG, likely, 3, 7)[0] == [3, 2, 4, 0, 1, 6]
+    assert _pages(motions, ALONG, likely, None, 2) == ([2, 3], [0, 1])
+    assert _pages(motions, OUT, likely, None, 7) == ([0, 1, 6], [2, 3, 4, 5])
+
+
+@dataclass
+class Picks:
+    """Answerer that picks given motions in order, one per call, by their index in the offers; None is no motion."""
+
+    picks: list[int | None]
+    offers: MotionOffers
+    fit: PartFit
+    asked: list[WhichMotions] = field(default_factory=list)
+    name: str = "picks"
+    exchanges: tuple[Exchange, ...] = ()
+    warnings: tuple[str, ...] = ()
+
+    def ask(self, question: WhichMotions) -> tuple[MotionPick, ...]:
+        self.asked.append(question)
+        shown, pick = self.shown[-1], self.picks[len(self.asked) - 1]
+        return (MotionPick(None if pick is None else shown.index(pick), self.fit),)
+
+    @property
+    def shown(self) -> list[tuple[int, ...]]:
+        """Return the motions of each call, as indices of the offers."""
+        motions = [(opening_motion(c).axis.tolist(), c.motion.source) for c in self.offers.motions]
+        return [tuple(motions.index((m.axis.tolist(), m.source)) for m in q.tables[0].motions) for q in self.asked]
+
+
+def chosen(monkeypatch: pytest.MonkeyPatch, offers: MotionOffers, *picks: int | None, fit: PartFit = PartFit.RIGHT):
+    """Return the choice among offers by given picks, and the motions of each picture that was shown."""
+    who = Picks(list(picks), offers, fit)
+    monkeypatch.setattr("anymesh.articulation.verify.make_offers", lambda *_: offers)
+    asking = MotionQuestioner(VisualPrompts(CUBE, QUICK), np.array([0, 1] * 6), who, "object", ask_fit=True)
+    (found,) = choose_motions([offers.case], asking, 7, 0).values()
+    assert [q.ask_fit for q in who.asked] == [True, False, False][: len(who.asked)]
+    assert all(q.tables[0].moving.tolist() == [1, 3, 5, 7, 9, 11] for q in who.asked)
+    return found, who.shown
+
+
+def offered(kind: JointAppearance = ALONG, answered: int | None = None, moves: JointType | None = None) -> MotionOffers:
+    motions = (EDGE, FAR_EDGE, PULL, replace(ROUND, opening=0.0, closing=0.0))
+    return MotionOffers(case(1, kind, moves), PLATE, motions, (0.6, 0.2, 0.15, 0.05), (1.0,) * 4, (1, 0, 2), (3,), answered)
+
+
+def test_a_picked_motion_is_chosen_with_its_evidence(monkeypatch: pytest.MonkeyPatch) -> None:
+    found, asked = chosen(monkeypatch, offered(answered=1, moves=JointType.REVOLUTE), 1)
+    assert (found.best, found.moves, found.fit, asked) == (FAR_EDGE, True, PartFit.RIGHT, [(1, 0, 2)])
+    assert found.reason.startswith("chosen among 3 motions: the other edge")
+    assert found.agreement.features == {
+        "kind": 1, "moves": 1, "moves against": 0, "answered": 1, "likely": 0.2, "blocked": 0, "doubted": 0, "later": 0,
+    }  # fmt: skip
+
+
+def test_a_pick_of_another_kind_than_answered_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
+    found, _ = chosen(monkeypatch, offered(answered=1, moves=JointType.REVOLUTE), 2, fit=PartFit.TOO_MUCH)
+    assert (found.best, found.fit) == (PULL, PartFit.TOO_MUCH)
+    assert "though hinge along edge was answered" in found.reason
+    assert found.agreement.features["kind"] == found.agreement.features["moves"] == found.agreement.features["answered"] == 0
+    assert found.agreement.features["moves against"] == 1
+
+
+def test_none_of_the_first_picture_leads_to_the_second(monkeypatch: pytest.MonkeyPatch) -> None:
+    found, asked = chosen(monkeypatch, offered(), None, 3)
+    assert asked == [(1, 0, 2), (3,)]
+    assert found.agreement.features["later"] == found.agreement.features["blocked"] == 1
+    nothing, _ = chosen(monkeypatch, offered(OUT), None, None)
+    assert nothing.best is PULL  # the likeliest of the answered kind
+    assert nothing.reason.startswith("none recognized of 4 motions")
+    assert nothing.agreement.features["none"] == 1
+    still, _ = chosen(monkeypatch, offered(FIXED, moves=JointType.REVOLUTE), None, None)
+    assert (still.moves, still.agreement.features) == (False, {"kind": 1, "moves against": 1})
+
+
+@pytest.mark.parametrize(("again", "best"), [(2, PULL), (1, EDGE)])
+def test_a_pick_against_geometry_and_the_answer_must_be_repeated(monkeypatch, again: int, best: Candidate) -> None:
+    found, asked = chosen(monkeypatch, offered(answered=0), 2, again)
+    assert asked == [(1, 0, 2), (2, 0, 1)]  # in another order
+    assert found.best is best
+    assert "asked twice" in found.reason
+    assert found.agreement.features["doubted"] == 1
+
+
+def test_a_part_with_one_motion_or_that_two_answers_call_fixed_is_not_asked_about(monkeypatch: pytest.MonkeyPatch) -> None:
+    one = replace(offered(), first=(0,), second=())
+    found, asked = chosen(monkeypatch, one)
+    assert (found.best, asked) == (EDGE, [])
+    assert found.reason.startswith("the only free motion: ")
+    assert found.agreement.features["only"] == 1
+    stuck, _ = chosen(monkeypatch, replace(one, motions=(replace(EDGE, opening=0.0), *one.motions[1:])))
+    assert "no motion is free; as answered" in stuck.reason
+    fixed, asked = chosen(monkeypatch, offered(FIXED))
+    assert (fixed.moves, fixed.reason, asked) == (False, "answered: it does not move", [])
+    assert (fixed.agreement.features["only"], fixed.agreement.features["moves against"]) == (1, 0)

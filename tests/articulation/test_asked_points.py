@@ -1,0 +1,131 @@
+"""Test the points, axes and steps of the questions about joints, and thick round parts."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+from assets import box
+from known import KNOWN, QUICK, Watched, knowing, ready
+from made import Y, Z, context
+from scenes import prism
+from trimesh.creation import annulus
+
+from anymesh.articulation.part_facts import part_facts
+from anymesh.articulation.prompted import PromptedJoints, Questions, prompt_joints
+from anymesh.rendering.visual_prompts import VisualPrompts
+from anymesh.types import JointType
+from anymesh.types.recognition import Recognition, RecognizedLabel
+from anymesh.vlm.prompting import JointAppearance, KindAnswer, PointTable
+
+INTO, HIDDEN, ALONG = JointAppearance.HINGE_INTO, JointAppearance.HINGE_HIDDEN, JointAppearance.HINGE_ALONG
+CLOSE = replace(QUICK.prompts, label_apart=2.0)  # numbers may be beside each other
+
+
+@cache
+def asked(name: str, kind: JointAppearance, verify: str = "free") -> tuple[PointTable, PromptedJoints, tuple]:
+    """Return the points that were shown, the joints, and the steps of the progress."""
+    mesh, whole, segmentation = ready(KNOWN[name].scene)
+    config, steps = replace(QUICK, prompts=CLOSE, verify=verify), []
+    picks = {"kinds": lambda _: (KindAnswer(kind),), "points": lambda q: ((0,) if kind is INTO else (0, 1),)}
+    watched = Watched(knowing(mesh, segmentation, (KNOWN[name].joint,)), changed=picks)
+
+    def progress(stage: str, _: str, step: int, count: int) -> None:
+        steps.append((stage, step, count))
+
+    questions = Questions(VisualPrompts(mesh, config), watched, config, None, progress)
+    found = prompt_joints(questions, lambda _: whole, segmentation)
+    return next(q for q in watched.asked if q.kind == "points").tables[0], found, tuple(steps)
+
+
+def test_an_axis_into_the_surface_is_one_of_up_to_eight_points() -> None:
+    """Half of them stand for axes; the others have none of their own."""
+    table, found, _ = asked("wheel", INTO)
+    assert len(table.points) == 8
+    assert table.axes is not None
+    own = ~np.isnan(table.axes).any(1)
+    assert 1 <= own.sum() <= 4
+    assert own[: own.sum()].all()  # the axes come first
+    (joint,) = found.joints
+    assert abs(joint.axis @ table.axes[0]) == pytest.approx(1)
+    assert (joint.type, joint.child) == (JointType.REVOLUTE, "disc")
+
+
+def test_the_paper_shows_more_points_and_no_axes() -> None:
+    table, found, _ = asked("wheel", INTO, "off")
+    assert table.axes is None
+    assert len(table.points) > 8
+    assert np.linalg.norm(found.joints[0].axis) == pytest.approx(1)
+
+
+def test_a_hidden_hinge_has_points_all_over_the_part_too() -> None:
+    along, hidden = asked("left", ALONG)[0], asked("left", HIDDEN)[0]
+    assert along.axes is None
+    assert len(hidden.points) <= CLOSE.most_candidates
+    assert along.points[:, 1].min() > -0.02 > hidden.points[:, 1].min()  # also on its front
+
+
+def test_a_hinge_goes_through_the_picked_points() -> None:
+    table, found, _ = asked("left", ALONG)
+    a, b = table.points[:2]
+    (joint,) = found.joints
+    assert np.linalg.norm(np.cross(joint.axis, (b - a) / np.linalg.norm(b - a))) < 1e-6
+    assert np.linalg.norm(np.cross(joint.origin - a, joint.axis)) < 1e-6
+    assert len(found.agreements) == 1
+
+
+def test_progress_has_four_steps() -> None:
+    assert asked("left", ALONG)[2] == tuple(("joints", k, 4) for k in range(4))
+
+
+def test_questions_name_the_category_and_the_labels() -> None:
+    mesh, _, segmentation = ready(KNOWN["left"].scene)
+    made = Questions(VisualPrompts(mesh, QUICK), knowing(mesh, segmentation, (KNOWN["left"].joint,)), QUICK)
+    assert (made.category, made.labels) == ("object", ())
+    assert replace(made, config=replace(QUICK, category="oven")).category == "oven"
+    told = Recognition("stove", None, (RecognizedLabel("door", None, None, None), RecognizedLabel("knob", None, None, None)))
+    recognized = replace(made, recognition=told, config=replace(QUICK, category="oven"))
+    assert (recognized.category, recognized.labels) == ("stove", ("door", "knob"))
+
+
+def upright(*pieces) -> list:
+    """Return pieces along y turned upright."""
+    return [(v @ np.array([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]]), f) for v, f in pieces]
+
+
+@pytest.mark.parametrize("height", [0.02, 0.2])
+def test_a_lid_on_a_pot_covers_its_opening_however_thick_it_is(height: float) -> None:
+    pot = annulus(0.16, 0.2, 0.3, sections=64)
+    lid = upright(prism(0.2, (0.152, 0.152 + height), 0.0, 0.0, 64))
+    facts = part_facts(context(lid, [(np.asarray(pot.vertices), np.asarray(pot.faces))]), "lid", "part", two_pivot=False)
+    assert facts.covers_opening > 0.1  # the share of its rim that is near the pot
+    assert facts.free_rim > 0.9
+    assert facts.rotational_asymmetry < 0.05
+    assert facts.flatness == pytest.approx(height / 0.2, abs=0.02)
+    assert facts.horizontal
+    assert facts.tall == 0
+
+
+def test_a_disc_in_a_hole_has_no_free_rim_and_an_oval_one_is_no_body_of_revolution() -> None:
+    ring = annulus(0.21, 0.4, 0.1, sections=64)
+    hole = [(np.asarray(ring.vertices), np.asarray(ring.faces))]
+    disc = upright(prism(0.2, (-0.02, 0.02), 0.0, 0.0, 64))
+    assert part_facts(context(disc, hole), "disc", "part", two_pivot=False).free_rim < 0.1
+    oval = [(v * [1.04, 0.96, 1], f) for v, f in disc]
+    plain, squeezed = (part_facts(context(p, hole), "d", "part", two_pivot=False).rotational_asymmetry for p in (disc, oval))
+    assert plain < 0.02 < 0.05 < squeezed
+
+
+def test_the_facts_of_an_upright_panel() -> None:
+    panel = context([box((0, -0.03, 0.2), (0.6, -0.002, 0.5))], [box((0, 0, 0), (0.6, 0.4, 1))])
+    facts = part_facts(panel, "panel", "door", two_pivot=True)
+    assert (facts.name, facts.label, facts.two_pivot, facts.horizontal) == ("panel", "door", True, False)
+    assert facts.tall == pytest.approx(-1)
+    assert facts.height == pytest.approx(0.35)
+    assert facts.back_contact == pytest.approx(1)
+    assert facts.opening_direction == pytest.approx(-Y)
+    assert facts.extents == pytest.approx(np.array([0.6, 0.3, 0.028]) / panel.diagonal)
+    assert (facts.thinness, facts.size) == pytest.approx((0.028 / 0.3, np.linalg.norm([0.6, 0.3, 0.028]) / panel.diagonal))
+    assert abs(facts.opening_direction @ Z) < 1e-9

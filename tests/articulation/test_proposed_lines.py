@@ -1,0 +1,250 @@
+"""Test candidate motions, parents and rows on small scenes whose lines are worked out by hand."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from assets import box
+from geometry.rigid import shape_of
+from made import EDGE, PULL, ROUND, X, Y, Z, candidate, context, turn
+from scenes import prism, wheel
+from test_hypotheses import board
+
+from anymesh.articulation.estimate import choose_motion, estimate_joint, joint_of
+from anymesh.articulation.geometry_answerer import GeometryAnswerer
+from anymesh.articulation.hypotheses import barrels, propose, two_pivot_line
+from anymesh.articulation.motion_context import ScoredMotions, context_features, in_one_manner
+from anymesh.articulation.motion_question import MotionAnswer, MotionQuestion
+from anymesh.articulation.own_axes import pivots
+from anymesh.articulation.part_facts import part_facts
+from anymesh.articulation.part_labels import label_of
+from anymesh.articulation.repeated_parts import in_a_row, same_size
+from anymesh.articulation.tree import parents
+from anymesh.motion.part_context import PartContext
+from anymesh.types import JointType
+
+NAMES = ("prismatic", "balance", "vertical", "outward", "above")
+
+
+def handle(ends: float, width: float = 0.02, legs: float = 0.1) -> PartContext:
+    """Return a bar over a block, whose legs stand on it at both ends; its contacts are `ends` apart."""
+    part = [box((-0.5, 0, legs), (0.5, width, legs + 0.02))]
+    part += [box((s * ends / 2 - width / 2, 0, 0.001), (s * ends / 2 + width / 2, width, legs)) for s in (-1, 1)]
+    return context(part, [box((-1, -0.5, -0.5), (1, 0.5, 0))])
+
+
+def test_a_bail_turns_about_the_line_through_its_two_contacts() -> None:
+    found = two_pivot_line(handle(0.96))
+    assert found is not None
+    assert np.abs(found.axis) == pytest.approx(X, abs=0.01)
+    assert found.origin == pytest.approx([0, 0.01, 0], abs=0.01)
+    assert "two_pivot" in [role for role, _ in propose(handle(0.96))]
+
+
+@pytest.mark.parametrize(("ends", "found"), [(0.3, False), (0.35, False), (0.5, True)])
+def test_two_contacts_must_be_far_apart(ends: float, found: bool) -> None:
+    """The limit is 36 % of the diagonal of the bar, 1 m."""
+    assert (two_pivot_line(handle(ends)) is not None) == found
+
+
+def test_contact_all_along_or_at_one_end_gives_no_line_through_two() -> None:
+    block = [box((-1, -0.5, -0.5), (1, 0.5, 0))]
+    assert two_pivot_line(context([box((-0.5, 0, 0.001), (0.5, 0.02, 0.1))], block)) is None
+    assert two_pivot_line(context([box((-0.5, 0, 0.001), (-0.48, 0.02, 0.9))], block)) is None
+    assert two_pivot_line(handle(0.6, width=0.3)) is None  # broad feet
+
+
+def test_the_contact_of_a_board_gives_its_length_width_and_normal() -> None:
+    """Its back, 0.6 x 0.9 m, is 1 cm in front of a block."""
+    found = [(role, m) for role, m in propose(replace(board(), diagonal=4.0)) if "connecting area" in m.source]
+    axes = {m.source: int(np.abs(m.axis).argmax()) for role, m in found if role != "contact_slide"}
+    assert axes == {"line along the connecting area": 2, "width of the connecting area": 0}  # its normal repeats a middle line
+    assert all(m.origin[[0, 2]] == pytest.approx([0.3, 0.45], abs=0.02) for _, m in found)
+    assert all(np.linalg.norm(m.axis) == pytest.approx(1) and m.axis[np.abs(m.axis).argmax()] > 0 for _, m in found)
+
+
+@pytest.mark.parametrize(("radius", "length", "found"), [(0.01, 0.1, 1), (0.01, 0.015, 0), (0.02, 0.1, 1)])
+def test_the_axis_of_a_barrel_is_proposed(radius: float, length: float, found: int) -> None:
+    around = replace(board(), barrel_candidates=(shape_of(prism(radius, (0, length), 0.3, 0.5)),))
+    lines = barrels(around)
+    assert len(lines) == found
+    for role, m in lines:
+        assert role == "barrel"
+        assert m.axis == pytest.approx(Y, abs=1e-6)
+        assert m.origin[[0, 2]] == pytest.approx([0.3, 0.5], abs=1e-3)
+    square = replace(board(), barrel_candidates=(shape_of(box((0, 0, 0), (0.02, 0.1, 0.02))),))
+    assert barrels(square) == []
+
+
+def test_a_disc_turns_about_its_own_axis_first() -> None:
+    around = context(wheel()["disc"], wheel()["base"])
+    (role, m), *_ = propose(around)
+    assert (role, m.source) == ("round", "axis of its round outline")
+    assert m.axis == pytest.approx(Y, abs=1e-6)
+    assert m.origin == pytest.approx([0, -0.035, 0.2], abs=1e-3)
+
+
+def test_a_part_with_a_handle_may_turn_about_the_edges_of_its_outer_box_too() -> None:
+    plain = [box((0, -0.02, 0), (0.6, 0, 0.9))]
+    grip = box((0.5, -0.1, 0.4), (0.52, -0.02, 0.5))
+    block = [box((0, 0.002, 0), (0.6, 0.4, 0.9))]
+    for part, outer in ((plain, 0), ([*plain, grip], 4)):
+        found = [m for role, m in propose(context(part, block)) if role == "edge" and "outer box" in m.source]
+        assert len(found) == outer
+        assert all(m.origin[1] == pytest.approx(-0.1) for m in found)  # the others repeat those of the plate
+
+
+def test_the_ring_of_a_contact_has_a_hub_and_pivots_through_its_middle() -> None:
+    ring = context([prism(0.1, (0.002, 0.02), 0.3, 0.3, 64)], [prism(0.1, (-0.2, 0), 0.3, 0.3, 64)])
+    roles = [role for role, _ in pivots(ring, Y)]
+    assert roles[0] == "hub"
+    straight = pivots(board(), Y)
+    assert {role for role, _ in straight} == {"pivot"}
+    assert len(straight) == 4  # three directions, and the normal through the part's own middle
+    assert straight[0][1].axis == pytest.approx(Y)
+
+
+BASE = box((0, 0, 0), (4, 4, 0.5))
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "parent"),
+    [
+        ((1.0, 0.9, 1.0), (1.2, 1.0, 1.2), 1),  # a knob on the front of the door
+        ((1.0, 0.9, 0.5), (1.2, 1.0, 1.2), 1),  # it stands on the base as well, with less of its surface
+        ((1.0, -0.5, 0.5), (1.2, 1.0, 0.6), 0),  # mostly on the base
+        ((1.0, 0.5, 1.0), (1.2, 0.6, 1.2), 0),  # touches neither
+        ((0.9, 0.9, 0.5), (2.9, 1.0, 2.5), 0),  # as large as the door
+    ],
+)
+def test_a_part_depends_on_a_larger_one_that_it_touches_more_than_the_base(low, high, parent: int) -> None:
+    """The door stands on the base: 2 x 0.1 x 2 m."""
+    shapes = [shape_of(BASE), shape_of(box((0.9, 1.0, 0.5), (2.9, 1.1, 2.5))), shape_of(box(low, high))]
+    assert parents(shapes, 6.0) == [-1, 0, parent]
+
+
+@pytest.mark.parametrize(("gap", "parent"), [(0.004, 1), (0.02, 0)])
+def test_a_part_that_is_clearly_nearer_to_another_one_than_to_the_base_depends_on_it(gap: float, parent: int) -> None:
+    """Touching is within 1 % of five times its own size, 1.7 cm."""
+    small = shape_of(box((1.0, 0.8, 1.0), (1.2, 1.0 - gap, 1.2)))
+    assert parents([shape_of(BASE), shape_of(box((0.9, 1.0, 0.5), (2.9, 1.1, 2.5))), small], 6.0)[2] == parent
+
+
+def test_copies_are_parts_of_equal_sides_on_one_parent() -> None:
+    shapes = [shape_of(box((3 * k, 0, 0), (3 * k + 1, 0.5, h))) for k, h in enumerate((1, 2, 2.02, 2, 2.3))]
+    assert same_size(shapes, [-1, 0, 0, 0, 0]) == [[1, 2, 3], [4]]
+    assert same_size(shapes, [-1, 0, 0, 1, 0]) == [[1, 2], [3], [4]]
+
+
+@pytest.mark.parametrize(("forward", "row"), [(0.0, True), (0.1, True), (0.2, False)])
+def test_parts_are_in_a_row_across_their_opening_direction(forward: float, row: bool) -> None:
+    """0.61 m apart; the limit is a quarter of the distance."""
+    case = [box((0, 0, 0), (2, 0.5, 1))]
+    one, other = (context([box((x, y - 0.02, 0), (x + 0.6, y, 1))], case) for x, y in ((0.0, 0.0), (0.61, -forward)))
+    assert one.opening_direction == pytest.approx(-Y)
+    assert in_a_row(one, other) == in_a_row(other, one) == row
+
+
+LABELS = [
+    (PULL, 0.5, "drawer"), (replace(PULL, opening=0.001), 0.5, ""), (replace(PULL, outward=-1.0), 0.1, "button"),
+    (replace(PULL, outward=-1.0), 0.5, "drawer"), (PULL, 0.1, "drawer"), (replace(PULL, outward=0.4), 0.5, "slider"),
+    (replace(PULL, outward=-0.6), 0.1, "button"), (ROUND, 0.1, "knob"), (ROUND, 0.2, "wheel"), (EDGE, 0.5, "door"),
+    (candidate("two_pivot", JointType.REVOLUTE, X), 0.5, "lid"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("c", "size", "label"), LABELS)
+def test_the_label_of_a_part_follows_from_its_motion_and_size(c, size: float, label: str) -> None:
+    """A board of 1 m before a block, in an object whose diagonal is given by the size of the board in it."""
+    around = context([box((0, -0.03, 0), (0.6, -0.002, 0.8))], [box((0, 0, 0), (0.6, 0.4, 0.8))])
+    diagonal = around.part.box.diagonal / size
+    assert label_of(replace(around, diagonal=diagonal), c) == label
+
+
+@pytest.mark.parametrize(("z", "vertical", "label"), [(0.5, 0.0, "lid"), (0.3, 0.0, "door"), (0.5, 1.0, "door")])
+def test_a_part_on_a_level_hinge_that_rises_above_its_parent_is_an_open_lid(z: float, vertical: float, label: str) -> None:
+    """A panel of 0.8 m, half a metre or 0.3 m of which is above a block."""
+    around = context([box((0, -0.03, z), (0.6, -0.002, z + 0.8))], [box((0, 0, 0), (0.6, 0.4, 0.8))])
+    assert label_of(around, replace(EDGE, vertical=vertical)) == label
+
+
+def test_the_joint_of_a_candidate_is_on_the_part_and_opens_along_its_axis() -> None:
+    around = board()
+    c = replace(EDGE, motion=turn(Z, (0.6, -0.03, -5)), opening_sign=-1)
+    found = joint_of(around, "leaf", "case", c, JointType.REVOLUTE, 0.8, "so")
+    assert (found.name, found.parent, found.child, found.confidence, found.reason) == ("leaf_joint", "case", "leaf", 0.8, "so")
+    assert np.r_[found.axis, found.origin] == pytest.approx([0, 0, -1, 0.6, -0.03, 0.45])
+
+
+class Still:
+    """Answers that a part does not move, ranking its candidates from the last."""
+
+    name = "still"
+
+    def which_motion(self, question: MotionQuestion) -> MotionAnswer:
+        return MotionAnswer(tuple(range(len(question.candidates)))[::-1], JointType.FIXED, 0.3, "nothing is free")
+
+
+def test_a_part_that_is_answered_fixed_has_its_best_motion() -> None:
+    around = board()
+    candidates = (EDGE, replace(PULL, motion=replace(PULL.motion, axis=-Y)))
+    question = MotionQuestion(part_facts(around, "b", "part", two_pivot=False), candidates, np.zeros(2), ("", ""))
+    found = estimate_joint(around, "b", "base", question, Still())
+    assert (found.type, found.confidence) == (JointType.PRISMATIC, 0.3)
+    assert found.reason == "nothing is free; most likely: a slide"
+    moving = estimate_joint(around, "b", "base", replace(question, scores=np.array([3.0, 0])), GeometryAnswerer())
+    assert moving.type is JointType.REVOLUTE
+
+
+def test_of_the_lines_at_one_rim_the_one_that_clears_the_neighbours_is_chosen() -> None:
+    """A door beside another one, flush with it: hinged at its back edge it would hit it, at its front edge it clears it."""
+    leaf, other = [box((0, -0.022, 0), (0.6, -0.002, 0.8))], [box((-0.6, -0.022, 0), (-0.001, -0.002, 0.8))]
+    around = context(leaf, [box((-0.6, 0, 0), (0.6, 0.4, 0.8))], other)
+    back, front = (replace(EDGE, motion=turn(Z, (0, y, 0)), opening_sign=-1) for y in (-0.002, -0.022))
+    question = MotionQuestion(part_facts(around, "b", "part", two_pivot=False), (back, front), np.array([3.0, 0]), ("", ""))
+    assert choose_motion(around, question, GeometryAnswerer())[1] is front
+    alone = replace(around, siblings=())
+    assert choose_motion(alone, question, GeometryAnswerer())[1] is back
+
+
+def scored(*rows: tuple) -> ScoredMotions:
+    """Return motions of rows (axis, prismatic, balance, outward, above, score)."""
+    table = np.array([[s, b, abs(a[2]), o, h] for a, s, b, o, h, _ in rows], float)
+    return ScoredMotions.of(NAMES, table, np.array([r[0] for r in rows]), np.array([r[-1] for r in rows], float))
+
+
+def tilted(degrees: float) -> np.ndarray:
+    return np.cos(np.deg2rad(degrees)) * X + np.sin(np.deg2rad(degrees)) * Y
+
+
+@pytest.mark.parametrize(
+    ("other", "alike"),
+    [
+        ((X, False, 0.5, 1.0, 1.0, 0), True),
+        ((tilted(13), False, 0.5, 1.0, 1.0, 0), True),
+        ((tilted(15), False, 0.5, 1.0, 1.0, 0), False),
+        ((X, False, 0.31, 1.0, 1.0, 0), True),
+        ((X, False, 0.29, 1.0, 1.0, 0), False),  # about its middle
+        ((X, False, 0.5, -0.04, 1.0, 0), True),
+        ((X, False, 0.5, -0.06, 1.0, 0), False),  # to the other side
+        ((X, False, 0.5, 1.0, -0.1, 0), False),  # hinged below
+        ((X, True, 0.5, 1.0, 1.0, 0), False),
+    ],
+)
+def test_copies_move_alike_about_parallel_lines_at_the_same_place(other: tuple, alike: bool) -> None:
+    assert in_one_manner(scored((X, False, 0.5, 1.0, 1.0, 0)), scored(other)).item() == alike
+
+
+def test_the_context_of_motions_counts_copies_and_limits_their_loss() -> None:
+    own, copy = (
+        scored((X, False, 0.5, 1, 1, 2.0), (Y, True, -9, 1, 0, 0.0)),
+        scored((X, False, 0.5, 1, 1, -9.0), (Y, True, -9, 1, 0, 3.0)),
+    )
+    found = context_features(own, [copy, copy])
+    assert found["loss of copies"].tolist() == [6, 0]
+    assert found["copies"].tolist() == [2, 2]
+    assert found["share"] == pytest.approx([1 / (1 + np.exp(-2)), 1 / (1 + np.exp(2))])
+    only = context_features(scored((X, False, 0.5, 1, 1, 2.0)), [])
+    assert only["lead over the other kind"].tolist() == [2 + 9]

@@ -1,0 +1,193 @@
+"""Test how candidates become parts: merges, scores, names, reasons, and panels from knobs and bars."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+import pytest
+import trimesh
+from assets import box, mesh_of
+from test_panels import FRONT, bar, front_boxes, solid
+
+from anymesh.config import Config, SegmentationConfig
+from anymesh.scoring.two_steps import confidence_of
+from anymesh.segmentation import segment
+from anymesh.segmentation.candidate_names import NAME_SCORE, NameClass, name_class, shared_name
+from anymesh.segmentation.contacts import find_contacts
+from anymesh.segmentation.divide import object_shape
+from anymesh.segmentation.naming import named_parts
+from anymesh.segmentation.part_assignment import MIN_SCORE
+from anymesh.segmentation.part_tree import Overlap, PartTree, _merges, part_tree
+from anymesh.segmentation.rigid_groups import rigid_groups
+from anymesh.types import Mesh, Node, Segmentation
+
+CONFIG = SegmentationConfig()
+
+
+def tree_of(mesh: Mesh, most: int = 100) -> PartTree:
+    whole = object_shape(mesh)
+    return part_tree(mesh, whole, find_contacts(whole, CONFIG), CONFIG.smallest, most)
+
+
+def merges(*boxes) -> list[set[int]]:
+    """Return the groups of a component in the order in which they are merged."""
+    mesh = mesh_of(boxes)[0]
+    whole = object_shape(mesh)
+    return [set(group) for group in _merges(rigid_groups(mesh, whole, find_contacts(whole, CONFIG), 0))]
+
+
+def row(*lengths: float, height: float = 1.0) -> list:
+    """Return boxes of these lengths in a row, with common faces of 1 m by the height."""
+    ends = np.cumsum([0.0, *lengths])
+    return [box((a, 0, 0), (b, 1, height)) for a, b in pairwise(ends)]
+
+
+def test_a_row_merges_from_its_smallest_end() -> None:
+    """The ends share all of their contact with one neighbour, the middle ones half."""
+    assert merges(*row(3, 2, 1, 0.2))[0] == {2, 3}
+    assert merges(*row(0.2, 1, 2, 3))[0] == {0, 1}
+
+
+def test_of_equal_pieces_those_with_most_of_their_contact_merge_first() -> None:
+    """A cube has a common face of 1 m2 with one neighbour and of 0.1 m2 with another, of which all have the same area."""
+    first = merges(
+        box((0, 0, 0), (1, 1, 1)), box((1, 0, 0), (2, 1, 1)), box((2, 0.9, 0), (3, 1.9, 1)), box((3, 0.9, 0), (4, 1.9, 1))
+    )
+    assert {frozenset(first[0]), frozenset(first[1])} == {frozenset({0, 1}), frozenset({2, 3})}
+    assert first[2] == {0, 1, 2, 3}
+
+
+def test_all_groups_of_a_component_are_merged_into_one() -> None:
+    for lengths in ((1, 1), (1, 2, 3), (0.5, 2, 0.7, 1, 3)):
+        found = merges(*row(*lengths))
+        assert len(found) == len(lengths) - 1
+        assert found[-1] == set(range(len(lengths)))
+    assert merges(*row(1), box((5, 0, 0), (6, 1, 1))) == []
+
+
+@pytest.mark.parametrize(
+    ("most", "smallest", "pieces"), [(100, 0.0, [1, 2, 3]), (100, 0.1, [1, 2]), (100, 0.25, [1]), (2, 0.0, [1])]
+)
+def test_the_largest_candidates_are_kept(most: int, smallest: float, pieces: list[int]) -> None:
+    """Loose cubes of 0.5, 0.3 and 0.1 m beside a base, 3.1 m across; the base is the first."""
+    loose = [box((2, k, 0), (2 + s, k + s, s)) for k, s in enumerate((0.5, 0.3, 0.1))]
+    mesh = mesh_of([box((0, 0, 0), (1, 1, 1)), *loose])[0]
+    whole = object_shape(mesh)
+    tree = part_tree(mesh, whole, find_contacts(whole, CONFIG), smallest, most)
+    alone = [int(np.flatnonzero(m)[0]) for m in tree.members if m.sum() == 1]
+    assert [k for k in alone if k > 0] == pieces
+    assert len(tree.members) <= most
+    assert (np.diff(tree.size) <= 1e-12).all()
+
+
+@pytest.mark.parametrize(
+    ("name", "kind"),
+    [("door_left", NameClass.MOVABLE), ("handle", NameClass.HANDLE), ("body", NameClass.FIXED), ("Cube.017", NameClass.NONE)],
+)
+def test_names_say_whether_a_candidate_moves(name: str, kind: NameClass) -> None:
+    assert name_class(name) is kind
+
+
+def test_the_names_of_movable_parts_raise_scores_and_those_of_fixed_ones_lower_them() -> None:
+    assert NAME_SCORE[NameClass.NONE] == 0
+    assert NAME_SCORE[NameClass.MOVABLE] > MIN_SCORE + 3 > 0 > MIN_SCORE - 3 > NAME_SCORE[NameClass.FIXED]
+    assert 0 < NAME_SCORE[NameClass.HANDLE] < 1
+
+
+def test_the_name_of_a_candidate_is_what_the_names_of_its_patches_begin_with() -> None:
+    tree = tree_of(mesh_of([box((0, 0, 0), (1, 1, 1)), *(box((2 * k, 0, 0), (2 * k + 1, 1, 1)) for k in (1, 2, 3))])[0])
+    tree = replace(tree, names=("", "door left", "door left handle", "drawer"), members=np.eye(4, dtype=bool))
+    assert [shared_name(tree, k) for k in range(4)] == list(tree.names)
+    groups = np.array([[0, 1, 1, 0], [0, 1, 0, 1], [1, 1, 0, 0]], bool)
+    assert [shared_name(replace(tree, members=groups, size=np.ones(3)), k) for k in range(3)] == ["door left", "", ""]
+
+
+LOOSE = [box((0, 0, 0), (1, 1, 1)), box((2, 0, 0), (2.6, 0.6, 0.6)), box((2, 2, 0), (2.5, 2.5, 0.5))]
+
+
+def segmented(monkeypatch: pytest.MonkeyPatch, scores: list[float], names: tuple[str, ...] = ("a", "b", "c"), **settings):
+    """Return the parts of three loose cubes, if those after the first have given scores."""
+    mesh, piece = mesh_of(LOOSE)
+    mesh = replace(mesh, face_node=piece, nodes=tuple(map(Node, names)))
+
+    def score_parts(overlap: Overlap, features: list[dict[str, float]]) -> tuple[np.ndarray, list[str]]:
+        side = [0.6 if abs(row["size"] * mesh.diagonal / np.sqrt(3) - 0.6) < 0.01 else 0.5 for row in features]
+        near = [abs(row["size"] * mesh.diagonal / np.sqrt(3) - s) < 0.01 for row, s in zip(features, side, strict=True)]
+        found = [scores[0 if s == 0.6 else 1] if good else -9.0 for s, good in zip(side, near, strict=True)]
+        return np.array(found), ["learned"] * len(found)
+
+    monkeypatch.setattr(segment, "score_parts", score_parts)
+    config = Config(segmentation=replace(CONFIG, **settings))
+    found = segment.segment_parts(mesh, object_shape(mesh), lambda s: ["it"] * (len(s.parts) - 1), config)
+    return {int(piece[found.face_part == k][0]): p for k, p in enumerate(found.parts) if k > 0}
+
+
+def test_candidates_with_a_score_above_the_threshold_are_parts(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert sorted(segmented(monkeypatch, [1.0, 2.0])) == [1, 2]
+    assert sorted(segmented(monkeypatch, [MIN_SCORE + 0.01, MIN_SCORE - 0.01])) == [1]
+    assert segmented(monkeypatch, [-3.0, -2.0]) == {}
+
+
+def test_the_confidence_and_reason_of_a_part_follow_from_its_score(monkeypatch: pytest.MonkeyPatch) -> None:
+    found = segmented(monkeypatch, [1.0, -2.0], at_least=2)
+    assert found[1].confidence == confidence_of(1.0, segment.CALIBRATION_SLOPE, segment.CALIBRATION_OFFSET)
+    assert found[1].reason == "learned"
+    assert found[2].reason == "stands out most, where parts were asked for; learned"
+    assert found[2].confidence < 0.5 < found[1].confidence
+    assert [p.label for p in found.values()] == ["it", "it"]
+
+
+@pytest.mark.parametrize(("at_least", "parts"), [(0, []), (1, [2]), (2, [1, 2])])
+def test_the_best_candidates_are_added_up_to_a_number(monkeypatch: pytest.MonkeyPatch, at_least: int, parts: list[int]) -> None:
+    assert sorted(segmented(monkeypatch, [-3.0, -2.0], at_least=at_least)) == parts
+
+
+def test_names_change_what_is_a_part_and_are_given_as_reason(monkeypatch: pytest.MonkeyPatch) -> None:
+    found = segmented(monkeypatch, [-3.0, 2.0], ("case", "door", "body"))
+    assert sorted(found) == [1]
+    assert found[1].reason.startswith('named "door"; ')
+    assert found[1].label == "door"
+    assert segmented(monkeypatch, [-4.0, -1.0], ("case", "door", "b")) == {}
+
+
+def test_the_largest_part_is_the_base_if_nothing_else_is_left() -> None:
+    found = named_parts(np.array([1, 1, 2]), ["a", "b"], np.ones(3), [0.5, 0.6], ["", ""])
+    assert [p.name for p in found.parts] == ["base", "b"]
+    assert found.face_part.tolist() == [0, 0, 1]
+    assert isinstance(found, Segmentation)
+
+
+def knob(x: float, z: float, side: float = 0.06) -> tuple[list[float], list[float]]:
+    return [x, FRONT - 0.02, z], [side, 0.06, side]
+
+
+def panels(*handles, **options) -> int:
+    return len(front_boxes(object_shape(solid(*handles, **options))))
+
+
+def test_knobs_on_a_large_upright_face_make_panels() -> None:
+    boxes = front_boxes(object_shape(solid(knob(-0.06, 0.0), knob(0.06, 0.0))))
+    assert len(boxes) == 2
+    assert boxes[0][:, 0] == pytest.approx([-0.5, 0], abs=0.06)
+    assert boxes[1][:, 0] == pytest.approx([0, 0.5], abs=0.06)
+
+
+def test_knobs_on_top_and_beside_bars_are_none_and_so_are_large_ones() -> None:
+    assert panels(([-0.1, 0.0, 0.62], [0.06, 0.06, 0.06]), ([0.1, 0.0, 0.62], [0.06, 0.06, 0.06])) == 0
+    assert panels(bar(-0.08, 0.0, 2), bar(0.08, 0.0, 2), knob(0.3, 0.5)) == 2
+    assert panels(knob(-0.2, 0.0, 0.2), knob(0.2, 0.0, 0.2)) == 0  # of more than 8 % of the diagonal
+
+
+def test_bars_above_each_other_are_drawers() -> None:
+    boxes = front_boxes(object_shape(solid(bar(0.0, -0.4, 0), bar(0.0, 0.0, 0), bar(0.0, 0.4, 0))))
+    assert len(boxes) == 3
+    assert sorted(boxes[:, 0, 2].round(1).tolist()) == [-0.6, -0.2, 0.2]
+
+
+def test_panels_are_not_made_where_triangles_are_too_coarse_to_show_their_borders() -> None:
+    boxes = [([0.0, 0, 0], [1.0, 0.6, 1.2]), bar(-0.08, 0, 2), bar(0.08, 0, 2)]
+    coarse = trimesh.boolean.union([trimesh.creation.box(sides).apply_translation(center) for center, sides in boxes])
+    mesh = mesh_of([(np.asarray(coarse.vertices, float), np.asarray(coarse.faces))])[0]
+    assert len(object_shape(mesh).inferred) == 0

@@ -1,0 +1,194 @@
+"""Test how surfaces are divided: at concave creases, without crumbs, cavities or too many patches."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import trimesh
+from assets import box, mesh_of
+
+from anymesh.config import PiecesConfig
+from anymesh.geometry.triangle_set import mesh_surface
+from anymesh.segmentation.divide import object_shape
+from anymesh.segmentation.handles import SurfaceHandle, aligned, find_handles, is_main_component, region_sizes
+from anymesh.segmentation.layout import tile
+from anymesh.segmentation.part_tree import Overlap
+from anymesh.types import Mesh, Node
+
+CONFIG = PiecesConfig()
+X, Y, Z = np.eye(3)
+
+
+def slab_with_bump(side: float, height: float, inset: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
+    """Return a slab of 3 x 3 x 1 m with a square bump on top, whose top is smaller on all sides, as one surface."""
+    slab = trimesh.creation.box(bounds=[(-1.5, -1.5, -1), (1.5, 1.5, 0)])
+    ring = np.array([(x, y) for x in (-0.5, 0.5) for y in (-0.5, 0.5)])
+    points = [
+        np.c_[ring * side, np.full(4, -0.5)],
+        np.c_[ring * side, np.zeros(4)],
+        np.c_[ring * (side - 2 * inset), np.full(4, height)],
+    ]
+    bump = trimesh.convex.convex_hull(np.concatenate(points))
+    whole = trimesh.boolean.union([slab, bump])
+    return np.asarray(whole.vertices, float), np.asarray(whole.faces)
+
+
+def is_cut(*pieces) -> bool:
+    """Return whether the top of the bump is another patch than the lower side of the slab."""
+    patch, mesh = patches(*pieces)
+    z = mesh.triangles[:, :, 2]
+    return set(patch[(z > 0.01).all(1)]).isdisjoint(patch[(z < -0.99).all(1)])
+
+
+def patches(*pieces, config: PiecesConfig = CONFIG) -> tuple[np.ndarray, Mesh]:
+    mesh = mesh_of(pieces)[0]
+    return object_shape(mesh, 0, config).mesh_patch, mesh
+
+
+@pytest.mark.parametrize(("degrees", "cut"), [(20.0, False), (30.0, True), (60.0, True)])
+def test_a_surface_is_cut_at_concave_creases_of_more_than_25_degrees(degrees: float, cut: bool) -> None:
+    assert is_cut(slab_with_bump(2.0, 0.2, 0.2 / np.tan(np.deg2rad(degrees)))) == cut
+
+
+@pytest.mark.parametrize(("apart", "cut"), [(2.0, True), (12.0, False)])
+def test_only_large_components_are_cut(apart: float, cut: bool) -> None:
+    """The diagonal of the slab is 4.5 m: it is cut if that of the object is below 13 m."""
+    assert is_cut(slab_with_bump(2.0, 0.2), box((apart, 0, -0.5), (apart + 1, 1, -0.4))) == cut
+
+
+@pytest.mark.parametrize(("side", "cut"), [(0.06, False), (0.3, True)])
+def test_what_a_cut_leaves_is_no_patch_if_it_is_a_crumb(side: float, cut: bool) -> None:
+    """The sides and the diagonal of a patch are at least about 3 % of the object's diagonal, 13 cm."""
+    assert is_cut(slab_with_bump(side, side / 2)) == cut
+
+
+def test_the_walls_of_a_closed_cavity_belong_to_what_is_around_them() -> None:
+    corners, faces = box((0.3, 0.3, 0.3), (0.7, 0.7, 0.7))
+    patch, _ = patches(box((0, 0, 0), (1, 1, 1)), (corners, faces[:, ::-1]), box((1.5, 0, 0), (2, 1, 1)))
+    assert set(patch[12:24]) == set(patch[:12])
+    assert len(set(patch)) == 2
+    solid, _ = patches(box((0, 0, 0), (1, 1, 1)), (corners, faces), box((1.5, 0, 0), (2, 1, 1)))
+    assert len(set(solid)) == 3  # a block inside is none
+
+
+def cubes(*sides: float) -> list:
+    """Return cubes of these sides in a row, 2 m apart."""
+    return [box((2 * k, 0, 0), (2 * k + s, s, s)) for k, s in enumerate(sides)]
+
+
+@pytest.mark.parametrize(("most", "expected"), [(4, [0, 1, 2, 3]), (3, [0, 1, 2, 2]), (2, [0, 1, 1, 1])])
+def test_the_smallest_of_too_many_patches_join_their_nearest_larger_one(most: int, expected: list[int]) -> None:
+    patch, _ = patches(*cubes(1.0, 0.8, 0.6, 0.4), config=replace(CONFIG, most_pieces=most))
+    assert patch[::12].tolist() == expected
+
+
+def test_all_copies_of_one_size_are_kept_or_joined_together() -> None:
+    limited = replace(CONFIG, most_pieces=3)
+    assert len(set(patches(*cubes(1.0, 0.9, 0.5, 0.5, 0.5), config=limited)[0])) == 2
+    assert len(set(patches(*cubes(0.5, 0.5, 0.5, 0.5), config=limited)[0])) == 3  # all are copies: the first are kept
+
+
+def test_regions_have_the_size_of_their_bounds() -> None:
+    mesh, piece = mesh_of([box((0, 0, 0), (3, 4, 12)), box((20, 0, 0), (21, 0.5, 0.5))])
+    assert region_sizes(mesh_surface(mesh), piece) == pytest.approx([13, np.sqrt(1.5)])
+
+
+def on_a_slab(low, high, slab=((-0.5, 0, -0.6), (0.5, 0.5, 0.6))) -> list[SurfaceHandle]:
+    """Return the handles found when a box is in front of a slab, as a component of its own."""
+    mesh, piece = mesh_of([box(*slab), box(low, high)])
+    return find_handles(mesh_surface(mesh), piece)
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "axis"),
+    [
+        ((-0.1, -0.03, 0), (0.1, -0.001, 0.02), X),  # a bar
+        ((0, -0.03, -0.1), (0.02, -0.001, 0.1), Z),
+        ((0, -0.05, 0), (0.05, -0.001, 0.05), None),  # a knob
+    ],
+)
+def test_bars_and_knobs_in_front_of_a_slab_are_handles(low, high, axis) -> None:
+    (found,) = on_a_slab(low, high)
+    assert found.normal == pytest.approx(-Y)
+    assert found.level == pytest.approx(0, abs=1e-6)
+    assert (found.axis is None) == (axis is None)
+    if axis is not None and found.axis is not None:
+        assert abs(found.axis @ axis) == pytest.approx(1)
+    assert found.faces.tolist() == list(range(12, 24))
+
+
+@pytest.mark.parametrize(
+    ("low", "high"),
+    [
+        ((-0.1, -0.2, 0), (0.1, -0.1, 0.02)),  # 10 cm away
+        ((-0.49, -0.03, 0), (0.51, -0.001, 0.02)),  # as wide as the slab
+        ((-0.1, -0.007, 0), (0.1, -0.001, 0.02)),  # lower than 0.6 % of the diagonal
+        ((-0.1, -0.03, 0), (0.1, -0.001, 0.2)),  # a plate
+        ((-0.1, -0.0102, 0), (0.1, -0.001, 0.009)),  # too thin
+        ((-0.1, -0.02, 0), (0.1, -0.001, 0.08)),  # a moulding: flatter than two fifths of its width
+    ],
+)
+def test_what_is_far_large_flat_or_thin_is_no_handle(low, high) -> None:
+    assert on_a_slab(low, high) == []
+
+
+def test_a_separate_handle_needs_a_body_that_is_most_of_the_object() -> None:
+    mesh, piece = mesh_of(
+        [box((-0.5, 0, -0.6), (0.5, 0.5, 0.6)), box((0, -0.05, 0), (0.05, -0.001, 0.05)), box((2, 0, 0), (3, 1, 1))]
+    )
+    surface = mesh_surface(mesh)
+    assert find_handles(surface, piece) == []
+    assert not is_main_component(surface, piece, 0)
+    alone = mesh_surface(mesh_of([box((0, 0, 0), (1, 1, 1)), box((2, 0, 0), (2.4, 0.4, 0.4))])[0])
+    assert is_main_component(alone, np.repeat([0, 1], 12), 0)  # 6 of 6.96 m^2
+
+
+def test_handles_are_alike_if_both_are_knobs_or_their_bars_are_parallel_or_perpendicular() -> None:
+    def handle(axis: np.ndarray | None) -> SurfaceHandle:
+        none = np.zeros(0, np.int64)
+        return SurfaceHandle(0, -Y, 0.0, axis, np.zeros((1, 3)), none, none)
+
+    def at(degrees: float) -> np.ndarray:
+        return np.cos(np.deg2rad(degrees)) * X + np.sin(np.deg2rad(degrees)) * Z
+
+    assert aligned(handle(None), handle(None))
+    assert not aligned(handle(X), handle(None))
+    assert not aligned(handle(None), handle(X))
+    assert [aligned(handle(X), handle(at(a))) for a in (0, 15, 45, 75, 90, 180)] == [True, True, False, True, True, True]
+
+
+@pytest.mark.parametrize(("width", "panels"), [(4.9, 1), (5.1, 0)])
+def test_a_panel_is_at_most_five_times_as_long_as_wide(width: float, panels: int) -> None:
+    handle = np.array([[[width / 2 - 0.1, 0.45], [width / 2 + 0.1, 0.55]]])
+    assert len(tile(np.zeros(2), np.array([width, 1.0]), handle, np.array([0]))) == panels
+
+
+@pytest.mark.parametrize(("count", "panels"), [(12, 12), (13, 0)])
+def test_a_face_has_up_to_twelve_panels(count: int, panels: int) -> None:
+    at = np.arange(count) + 0.5
+    handles = np.stack([np.c_[at - 0.1, 0 * at + 0.45], np.c_[at + 0.1, 0 * at + 0.55]], 1)
+    found = tile(np.zeros(2), np.array([float(count), 1.0]), handles, np.zeros(count, int))
+    assert len(found) == panels
+    assert sorted((round(p.low[0], 6), round(p.high[0], 6)) for p in found) == [(k, k + 1) for k in range(panels)]
+
+
+@pytest.mark.parametrize(
+    ("shared", "meets", "lies_within", "iou"),
+    [(0.0, False, False, 0.0), (0.0009, False, False, 0.0), (0.002, True, False, 0.001), (0.97, True, False, 0.32),
+     (0.99, True, True, 0.33)],
+)  # fmt: skip
+def test_candidates_overlap_from_a_thousandth_and_lie_within_from_98_percent(shared, meets, lies_within, iou) -> None:
+    """The areas are 1 and 3 m^2."""
+    both = Overlap(np.ones(2), np.array([[1.0, shared], [shared, 3.0]]))
+    assert both.meet.tolist() == [[False, meets], [meets, False]]
+    assert both.nested[0, 1] == lies_within
+    assert both.iou[0, 1] == pytest.approx(iou, abs=0.005)
+    assert both.area.tolist() == [1, 3]
+
+
+def test_nodes_do_not_divide_a_surface() -> None:
+    mesh = mesh_of([box((0, 0, 0), (1, 1, 1))])[0]
+    two = replace(mesh, face_node=np.arange(12) % 2, nodes=(Node("a"), Node("b")))
+    assert len(set(object_shape(two).mesh_patch)) == 1

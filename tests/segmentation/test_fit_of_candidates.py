@@ -1,0 +1,191 @@
+"""Test features of candidate parts that a front, a shelf, a knob and an axle have, against values worked out by hand."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+from assets import box, mesh_of
+from geometry.rigid import shape_of
+from test_part_features import DOOR, KNOB, MESH, WALLS, features
+from trimesh.creation import cylinder
+
+from anymesh.config import ArticulationConfig, SegmentationConfig
+from anymesh.motion.part_context import PartContext
+from anymesh.segmentation.part_fit import enclosed_share, fit_of_rim, has_two_pivots, on_axis, open_behind, touching
+from anymesh.types import Material, Mesh
+
+CONFIG = SegmentationConfig()
+AREA = [2 * (a * b + b * c + a * c) for a, b, c in ((0.89, 0.03, 0.89), (0.04, 0.04, 0.04))]  # [m^2] of the door and its knob
+WALL_AREA = [2 * (a * b + b * c + a * c) for a, b, c in ((1, 0.5, 0.05),) * 2 + ((0.05, 0.5, 0.9),) * 2 + ((0.9, 0.05, 0.9),)]
+DIAGONAL = np.linalg.norm([1, 0.53, 1])
+
+
+def prism(radius: float, ends: tuple[float, float], x: float, z: float) -> tuple[np.ndarray, np.ndarray]:
+    """Return a solid cylinder along y between two positions."""
+    made = cylinder(radius, segment=[(x, ends[0], z), (x, ends[1], z)], sections=24)
+    return np.asarray(made.vertices), np.asarray(made.faces)
+
+
+def around(part: list, rest: list) -> PartContext:
+    corners = np.concatenate([v for v, _ in [*part, *rest]])
+    low, high = corners.min(0), corners.max(0)
+    own, other = shape_of(*part), shape_of(*rest)
+    return PartContext(
+        own, other, other, None, other, (), float(np.linalg.norm(high - low)), (low + high) / 2, ArticulationConfig()
+    )
+
+
+@cache
+def door() -> dict[str, float]:
+    return features(MESH, {5, 6})
+
+
+def test_the_shape_of_an_inset_door() -> None:
+    total = sum(AREA) + sum(WALL_AREA)
+    expected = {
+        "thinness": 0.03 / 0.89, "width over length": 1, "size": np.linalg.norm([0.89, 0.07, 0.89]) / DIAGONAL,
+        "thickness": 0.03 / DIAGONAL, "area share": sum(AREA) / total, "face share": 0.89**2, "closed": 1,
+        "area over box": sum(AREA) / AREA[0], "largest patch": AREA[0] / sum(AREA), "patches of the object": np.log1p(7),
+    }  # fmt: skip
+    assert door() == pytest.approx(door() | expected, abs=1e-3)
+
+
+def test_the_neighbours_of_an_inset_door() -> None:
+    """Its clearance is 5 mm to the four walls; its back is 0.41 m before the wall behind it, and its knob touches it."""
+    expected = {
+        "touching patches": 0, "contact with the first": 0, "contact area": 0, "patches with clearance": np.log1p(4),
+        "parted by creases": 0, "separate": 1, "enclosed": 1, "contact within": 2 * 0.0016 / sum(AREA),
+        "depth": 0.03 / 0.89, "two pivots": 0, "on axis": 0, "axle level": 1, "copies": 0, "copies in a row": 0,
+        "copy on the axis": 0, "bar handle": 0, "handle size": 0.04 / np.linalg.norm([0.89, 0.03, 0.89]),
+    }  # fmt: skip
+    assert door() == pytest.approx(door() | expected, abs=0.01)
+    assert door()["back touches"] < 0.05
+
+
+def test_a_shelf_is_held_by_the_walls_beside_it() -> None:
+    """The back wall touches the four other walls along its rims of 5 cm, a share of its area."""
+    f = features(MESH, {4})
+    assert f["touching patches"] == pytest.approx(np.log1p(4))
+    assert f["contact with the first"] == pytest.approx(0.25, abs=0.02)
+    assert f["contact area"] == pytest.approx(4 * 0.05 * 0.9 / WALL_AREA[4], abs=0.02)
+    assert f["separate"] == f["parted by creases"] == f["contact within"] == 0
+    assert f["largest patch"] == 1
+
+
+def test_equal_doors_in_a_row_are_copies() -> None:
+    blocks = [box((k, 0, 0), (k + 0.9, 0.05, 0.9)) for k in (0, 1, 2)]
+    higher = box((0, 0, 1), (0.9, 0.05, 1.9))
+    smaller = box((1, 0, 1), (1.85, 0.05, 1.85))
+    mesh = mesh_of([box((0, 0.1, 0), (3, 1, 2)), *blocks, higher, smaller])[0]
+    f = features(mesh, {1})
+    assert f["copies"] == pytest.approx(np.log1p(3))
+    assert f["copies in a row"] == pytest.approx(np.log1p(3))  # two beside it, one above it
+    assert features(mesh, {2})["copies in a row"] == pytest.approx(np.log1p(2))  # the fourth is above and aside
+    assert features(mesh, {5})["copies"] == 0
+
+
+def test_wheels_of_an_axle_are_copies_on_one_axis() -> None:
+    wheels = [prism(0.2, (y, y + 0.1), 0.0, 0.2) for y in (-0.2, 1.1)]
+    mesh = mesh_of([box((-0.5, 0, 0.1), (1.5, 1, 0.6)), *wheels])[0]
+    f = features(mesh, {1})
+    assert f["copy on the axis"] == 1
+    assert f["roundness"] > 0.95
+    assert f["axle level"] == 1
+    assert f["height over radius"] == pytest.approx(0.5, abs=0.02)
+    aside = mesh_of([box((-0.5, 0, 0.1), (1.5, 1, 0.6)), wheels[0], prism(0.2, (-0.2, -0.1), 1.0, 0.2)])[0]
+    assert features(aside, {1})["copy on the axis"] == 0
+
+
+def painted(materials: list[int]) -> Mesh:
+    mesh, piece = mesh_of([*WALLS, DOOR, KNOB])
+    return replace(mesh, face_material=np.array(materials)[piece], materials=tuple(Material(f"m{k}") for k in range(3)))
+
+
+@pytest.mark.parametrize(
+    ("materials", "number", "own", "one"),
+    [
+        ([0] * 7, 1, sum(AREA) / (sum(AREA) + sum(WALL_AREA)), 1),
+        ([0] * 5 + [1, 1], 2, 1, 1),
+        ([0] * 5 + [1, 2], 3, 1, AREA[0] / sum(AREA)),
+        ([1] + [0] * 4 + [1, 2], 3, AREA[0] / (AREA[0] + WALL_AREA[0]), AREA[0] / sum(AREA)),
+        ([-1] * 5 + [1, 1], 2, 1, 1),  # no material counts as one
+    ],
+)
+def test_a_material_of_its_own_sets_a_part_apart(materials: list[int], number: int, own: float, one: float) -> None:
+    f = features(painted(materials), {5, 6})
+    assert f["materials"] == pytest.approx(np.log1p(number))
+    assert f["material of its own"] == pytest.approx(own, abs=0.01)
+    assert f["one material"] == pytest.approx(one, abs=0.01)
+
+
+def framed(left: float, back: float | None = None, plate=(0.6, 0.03, 0.6)) -> PartContext:
+    """Return a plate in a frame with clearances of 4 mm, but for its left side; a wall stands at a distance behind it."""
+    w, d, h = plate
+    frame = [box((w + 0.004, -0.1, 0), (w + 0.1, 0.1, h)), box((-0.1 - left, -0.1, 0), (-left, 0.1, h))]
+    frame += [box((-0.1, -0.1, h + 0.004), (w + 0.1, 0.1, h + 0.1)), box((-0.1, -0.1, -0.1), (w + 0.1, 0.1, -0.004))]
+    wall = [] if back is None else [box((-0.1, d + back, -0.1), (w + 0.1, d + back + 0.05, h + 0.1))]
+    return around([box((0, 0, 0), (w, d, h))], [*frame, *wall])
+
+
+@pytest.mark.parametrize(("left", "sides", "flush"), [(0.004, 4, 0.0), (0.1, 3, 0.0), (0.0, 3, 0.25), (0.0003, 3, 0.25)])
+def test_rims_with_a_clearance_are_counted(left: float, sides: int, flush: float) -> None:
+    """A rim is far from the frame from 2 % of the diagonal on, 2.4 cm, and touches it below a 2500th, 0.5 mm."""
+    found, touched = fit_of_rim(framed(left), CONFIG)
+    assert found == sides
+    assert touched == pytest.approx(flush, abs=0.02)
+
+
+@pytest.mark.parametrize(("back", "share"), [(0.11, 1.0), (0.07, 0.0), (None, 1.0)])
+def test_an_opening_behind_a_plate_is_three_thicknesses_deep(back: float | None, share: float) -> None:
+    """The plate is 3 cm thick."""
+    assert open_behind(framed(0.004, back)) == pytest.approx(share, abs=0.05)
+
+
+def test_a_wall_behind_a_half_of_a_plate_leaves_the_other_half_open() -> None:
+    half = around([box((0, 0, 0), (0.6, 0.03, 0.6))], [box((0, 0.05, 0), (0.3, 0.1, 0.6)), box((0, 0.9, 0), (0.6, 1, 0.6))])
+    assert open_behind(half) == pytest.approx(5 / 9, abs=0.06)  # of a grid of nine columns
+
+
+@pytest.mark.parametrize(("sides", "share"), [(2, 0.0), (3, 1.0), (4, 1.0)])
+def test_a_plate_is_enclosed_by_walls_at_three_sides(sides: int, share: float) -> None:
+    walls = [box((-0.1, -0.1, -0.1), (-0.05, 0.2, 0.7)), box((0.65, -0.1, -0.1), (0.7, 0.2, 0.7)),
+             box((-0.1, -0.1, -0.1), (0.7, 0.2, -0.05)), box((-0.1, -0.1, 0.65), (0.7, 0.2, 0.7))]  # fmt: skip
+    assert enclosed_share(around([box((0, 0, 0), (0.6, 0.03, 0.6))], walls[:sides])) == share
+
+
+@pytest.mark.parametrize(("gap", "held"), [(0.01, True), (0.3, False)])
+def test_a_wheel_has_surface_on_its_axis(gap: float, held: bool) -> None:
+    part = around([prism(0.2, (0, 0.1), 0.0, 0.2)], [box((-0.05, 0.1 + gap, 0.15), (0.05, 0.5 + gap, 0.25))])
+    assert on_axis(part) == held
+    beside = around([prism(0.2, (0, 0.1), 0.0, 0.2)], [box((0.1, 0.11, 0.15), (0.2, 0.5, 0.25))])
+    assert not on_axis(beside)
+
+
+def test_the_contact_grows_until_eight_samples_touch() -> None:
+    part = around([box((0, 0, 0.05), (1, 1, 0.1))], [box((0, 0, -1), (1, 1, 0))])
+    near, normals = touching(part, 0.01)  # 5 cm apart: 1, 2, 4, 8 cm
+    assert near.sum() >= 8
+    assert part.gap[near].max() < 0.08
+    assert np.mean(normals[near] @ [0, 0, 1]) > 0.95
+    assert (touching(part, 0.06)[0] == (part.gap < 0.06)).all()
+
+
+BAR = box((0, -0.01, -0.01), (1, 0.01, 0.01))
+
+
+@pytest.mark.parametrize(
+    ("posts", "pivots"),
+    [
+        ([box((-0.1, -0.1, -0.1), (-0.002, 0.1, 0.1)), box((1.002, -0.1, -0.1), (1.1, 0.1, 0.1))], True),  # trunnions
+        ([box((0, -0.1, -0.1), (0.05, 0.1, -0.012)), box((0.95, -0.1, -0.1), (1, 0.1, -0.012))], False),  # feet
+        ([box((-0.1, -0.1, -0.1), (-0.002, 0.1, 0.1))], False),  # at one end only
+        ([box((0, -0.1, -0.1), (1, 0.1, -0.012))], False),  # all along it
+    ],
+)
+def test_pivots_hold_a_bar_at_both_ends_along_it(posts: list, pivots: bool) -> None:
+    part = around([BAR], [*posts, box((0, 2, 0), (1, 2.1, 0.1))])
+    near = part.gap < 0.004
+    assert has_two_pivots(part, near, part.parent.normals[part.nearest[1]]) == pivots
