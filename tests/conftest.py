@@ -20,7 +20,8 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
 
 def pytest_collection_finish() -> None:
-    """Exclude what is imported from searches for cycles."""
+    """Evaluate annotations before a test replaces names, and exclude what is imported from searches for cycles."""
+    type_checks.evaluate()
     gc.freeze()
     gc.enable()
 

@@ -1,8 +1,8 @@
 """Faster decorator for jaxtyping's import hook: checks are compiled at a function's first call, and each value is checked once.
 
 jaxtyping's own decorator compiles two checks per function on import and checks the arguments of each call twice. That was half
-of the time of collecting the tests, and up to 40 % of the time of running them. Annotations are evaluated at the first call,
-so names that are defined later in a module are checked too.
+of the time of collecting the tests, and up to 40 % of the time of running them. Annotations are evaluated after collection, so
+names that are defined later in a module are checked too.
 """
 
 import inspect
@@ -11,18 +11,28 @@ from dataclasses import is_dataclass
 from functools import partial, wraps
 from types import FunctionType
 from typing import Any, get_args, get_type_hints
+from weakref import WeakSet
 
 import jaxtyping
 from beartype import BeartypeConf, beartype
 
 CONFIG = BeartypeConf(violation_type=jaxtyping.TypeCheckError)
 REAL = jaxtyping.jaxtyped
+EVALUATED: dict[tuple[str, str], Any] = {}  # annotations by module and text
+WAITING: WeakSet[FunctionType] = WeakSet()
 SUSPENDED = inspect.CO_GENERATOR | inspect.CO_COROUTINE | inspect.CO_ASYNC_GENERATOR
 
 
 def install() -> None:
     """Replace the decorator that the import hook inserts; call it before anything of anymesh is imported."""
     jaxtyping.jaxtyped = jaxtyped
+
+
+def evaluate() -> None:
+    """Evaluate the annotations of all functions so far, before a test replaces a name that they use."""
+    for function in list(WAITING):
+        hints(function)
+    WAITING.clear()
 
 
 def jaxtyped(target: Any = None, **options: Any) -> Any:
@@ -41,6 +51,7 @@ def jaxtyped(target: Any = None, **options: Any) -> Any:
 
 def checked(function: FunctionType) -> Callable:
     """Return the function with checks of its arguments and its result, which the first call compiles."""
+    WAITING.add(function)
     ready: Callable | None = None
 
     @wraps(function)
@@ -76,18 +87,24 @@ def compiled(function: FunctionType) -> Callable:
 
 def hints(function: FunctionType) -> dict[str, Any]:
     """Return the annotations, evaluated; Any where a name exists for static type checkers only."""
-    found = {}
-    for name, annotation in function.__annotations__.items():
+    return {name: evaluated(annotation, function) for name, annotation in function.__annotations__.items()}
 
-        def one(value):
-            pass
+
+def evaluated(annotation: Any, function: FunctionType) -> Any:
+    if not isinstance(annotation, str):
+        return annotation
+    key = function.__module__, annotation
+    if key not in EVALUATED:
+
+        def one(value: Any) -> None:
+            raise NotImplementedError
 
         one.__annotations__ = {"value": annotation}
         try:
-            found[name] = get_type_hints(one, function.__globals__, include_extras=True)["value"]
+            EVALUATED[key] = get_type_hints(one, function.__globals__, include_extras=True)["value"]
         except Exception:  # of any kind, since the annotation is evaluated
-            found[name] = Any
-    return found
+            return Any
+    return EVALUATED[key]
 
 
 def has_shape(hint: Any) -> bool:
