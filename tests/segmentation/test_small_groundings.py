@@ -14,6 +14,7 @@ from anymesh.config import Config, GroundingConfig, ViewsConfig
 from anymesh.rendering.visual_prompts import VisualPrompts
 from anymesh.segmentation.ask_marks import MarkQuestioner
 from anymesh.segmentation.divide import object_shape
+from anymesh.segmentation.ground_exact import ground_exactly
 from anymesh.segmentation.grounded import ground_parts
 from anymesh.segmentation.grounded_parts import SampledObject, sample_object
 from anymesh.segmentation.regrounding import ground_again
@@ -88,8 +89,9 @@ def grounded(parts: Mapping[tuple[str, int], Sequence[int]], *labels: str, insid
         return Segmentation((piece == TRAY_NUMBER).astype(np.int64), (Part("base", "base"), Part("tray", "tray", 0.5, "it is")))
 
     found, warnings = ground_parts(
-        sampled, asking(who, prompts, *labels), told, None, by_geometry, progress=options.get("progress", lambda *_: None)
-    )
+        sampled, asking(who, prompts, *labels), told, ground_exactly, by_geometry, lambda *_: True,
+        options.get("progress", lambda *_: None),
+    )  # fmt: skip
     own = {p.name: sorted(set(piece[found.face_part == k].tolist())) for k, p in enumerate(found.parts)}
     return own, found, warnings, who
 
