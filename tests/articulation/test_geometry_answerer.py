@@ -135,7 +135,7 @@ def test_directions_are_one_to_a_user_within_fourteen_degrees(degrees: float, sa
 @pytest.mark.parametrize(
     ("c", "free"),
     [
-        (replace(PULL, opening=0.009), True),
+        (replace(PULL, opening=0.008), True),
         (replace(PULL, opening=0.007), False),
         (replace(PULL, opening=0.0, closing=0.009), True),  # a button in a filled hole
         (replace(EDGE, opening=float(np.deg2rad(13))), True),
