@@ -2,7 +2,7 @@
 
 python benchmarks/speed.py [NAME[:SIZE,...] ...]      writes benchmarks/speed.md
 
-Names: pot (by faces), boards, chandelier and shelf (by connected components), see speed_scenes.py. The slope is that of
+Names: pot (by faces), boards, chandelier, shelf and pile (by connected components), see speed_scenes.py. The slope is that of
 a line fitted to log(processor time) over log(size), sizes below a tenth of the largest left out: 1 is linear.
 """
 

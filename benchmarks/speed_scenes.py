@@ -53,6 +53,17 @@ def boards(components: int) -> trimesh.Trimesh:
     return concatenate(made)
 
 
+def pile(components: int) -> trimesh.Trimesh:
+    """Make a pile of long sticks in random directions, most of which cross others."""
+    rng = np.random.default_rng(SEED)
+    made = []
+    for _ in range(components):
+        pose = trimesh.transformations.random_rotation_matrix(rng.random(3))
+        pose[:3, 3] = rng.uniform(-0.3, 0.3, 3)
+        made.append(box((0.01, 0.01, 1.0)).apply_transform(pose))
+    return concatenate(made)
+
+
 def chandelier(components: int) -> trimesh.Trimesh:
     """Make a lamp: a stem, thin tubes out from it and strings of beads that hang below them."""
     made = [cylinder(0.02, 0.8, sections=24).apply_translation((0, 0, 0.4))]
@@ -92,4 +103,6 @@ def _box(size: tuple[float, ...], middle: tuple[float, ...]) -> trimesh.Trimesh:
 
 
 FACES: dict[str, Callable[[int], trimesh.Trimesh]] = {"pot": pot}
-COMPONENTS: dict[str, Callable[[int], trimesh.Trimesh]] = {"boards": boards, "chandelier": chandelier, "shelf": shelf}
+COMPONENTS: dict[str, Callable[[int], trimesh.Trimesh]] = {
+    "boards": boards, "chandelier": chandelier, "shelf": shelf, "pile": pile,
+}  # fmt: skip

@@ -22,6 +22,7 @@ class PiecesConfig:
     most_faces: int = 8000  # denser meshes are simplified for questions of shape and motion, never in the output
     least_faces: int = 60  # minimum number of faces kept of a patch
     most_pieces: int = 1500  # number of patches above which small ones join their nearest larger one
+    most_pairs: int = 20_000  # number of pairs of patches with meeting boxes above which they do so too
 
 
 @dataclass(frozen=True)

@@ -90,6 +90,18 @@ def test_all_copies_of_one_size_are_kept_or_joined_together() -> None:
     assert len(set(patches(*cubes(0.5, 0.5, 0.5, 0.5), config=limited)[0])) == 3  # all are copies: the first are kept
 
 
+@pytest.mark.parametrize(("most", "expected"), [(15, [0, 1, 2, 3, 4, 5]), (7, [0, 1, 2, 3, 3, 3])])
+def test_the_smallest_of_too_many_patches_that_meet_join_their_nearest_larger_one(most: int, expected: list[int]) -> None:
+    """The 15 pairs of 6 blocks inside each other meet, and the 6 pairs of 4."""
+    blocks = [box((-s, -s, -s), (s, s, s)) for s in (1.0, 0.9, 0.8, 0.7, 0.6, 0.5)]
+    patch, _ = patches(*blocks, config=replace(CONFIG, most_pairs=most))
+    assert patch[::12].tolist() == expected
+
+
+def test_patches_that_do_not_meet_are_kept_whatever_the_number_of_pairs() -> None:
+    assert len(set(patches(*cubes(1.0, 0.8, 0.6, 0.4), config=replace(CONFIG, most_pairs=0))[0])) == 4
+
+
 def test_regions_have_the_size_of_their_bounds() -> None:
     mesh, piece = mesh_of([box((0, 0, 0), (3, 4, 12)), box((20, 0, 0), (21, 0.5, 0.5))])
     assert region_sizes(mesh_surface(mesh), piece) == pytest.approx([13, np.sqrt(1.5)])

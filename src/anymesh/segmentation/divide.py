@@ -61,7 +61,8 @@ def split_patches(whole: MeshSurface, config: PiecesConfig) -> tuple[Int[np.ndar
     length = np.linalg.norm(_ends(whole, 0) - _ends(whole, 1), axis=1)
     region = _absorb_crumbs(whole, region, pairs[cut], length[cut], config)
     region = _fill_voids(whole, region)
-    return _limit_count(whole, region, config.most_pieces), inferred
+    region = _limit_count(whole, region, config.most_pieces)
+    return _limit_pairs(whole, region, config.most_pairs), inferred
 
 
 def _soft_regions(whole: MeshSurface, component: np.ndarray, large: np.ndarray, config: PiecesConfig) -> np.ndarray:
@@ -138,15 +139,41 @@ def _limit_count(whole: MeshSurface, region: np.ndarray, max_count: int) -> np.n
     size = region_sizes(whole, region)
     order = np.argsort(-size, kind="stable")
     larger = order[size[order] > (1 + MAX_SIZE_DIFFERENCE_RATIO) * size[order[max_count]]]
-    keep = np.sort(larger if len(larger) > 1 else order[:max_count])
-    kept = np.isin(region, keep)
+    return _keep(whole, region, larger if len(larger) > 1 else order[:max_count])
+
+
+def _keep(whole: MeshSurface, region: np.ndarray, keep: np.ndarray) -> np.ndarray:
+    """Join all other regions to the nearest of those that are kept."""
+    count = int(region.max()) + 1
     centers = whole.shape.triangles.mean(1)
     lost = np.setdiff1d(np.arange(count), keep)
     middle = np.zeros((count, 3))
     np.add.at(middle, region, centers)
     middle /= np.bincount(region, minlength=count)[:, None]
-    faces = np.flatnonzero(kept)
+    faces = np.flatnonzero(np.isin(region, keep))
     nearest = region[faces[TriangleTree(whole.shape.triangles[faces]).nearest(middle[lost])[1]]]
     target = np.arange(count)
     target[lost] = nearest
     return np.unique(target[region], return_inverse=True)[1].reshape(-1)
+
+
+def _limit_pairs(whole: MeshSurface, region: np.ndarray, max_pairs: int) -> np.ndarray:
+    """Limit the number of pairs of patches whose boxes meet, each of which is measured later.
+
+    The smallest patches join their nearest larger one.
+    """
+    while True:
+        count, pairs = int(region.max()) + 1, _meeting_boxes(whole, region)
+        if pairs <= max_pairs:
+            return region
+        largest = np.argsort(-region_sizes(whole, region), kind="stable")
+        region = _keep(whole, region, largest[: int(count * np.sqrt(max_pairs / pairs))])
+
+
+def _meeting_boxes(whole: MeshSurface, region: np.ndarray) -> int:
+    """Return the number of pairs of regions whose axis-aligned boxes meet."""
+    order = np.argsort(region, kind="stable")
+    start = np.searchsorted(region[order], np.arange(int(region.max()) + 1))
+    low = np.minimum.reduceat(whole.shape.lowest[order], start)
+    high = np.maximum.reduceat(whole.shape.highest[order], start)
+    return sum(int(((low[k + 1 :] <= high[k]) & (high[k + 1 :] >= low[k])).all(1).sum()) for k in range(len(low)))
