@@ -13,10 +13,10 @@ from pathlib import Path
 import numpy as np
 
 from anymesh.articulation.estimate import motion_questions
-from anymesh.articulation.geometry_answerer import motion_scores
 from anymesh.articulation.limits import opening_motion
 from anymesh.articulation.motion_question import Candidate
 from anymesh.articulation.offers import MAX_SHOWN_ANGLE_RAD, MAX_SHOWN_TRAVEL_RATIO
+from anymesh.articulation.rank_motions import motion_scores
 from anymesh.config import Config
 from anymesh.loading import load_mesh, place_mesh
 from anymesh.pipeline import articulate

@@ -19,8 +19,8 @@ from jaxtyping import Bool, Float, Float32, Int
 from rows import collect_all, kind_of, nameless
 
 from anymesh.articulation.estimate import PartMotions, motion_questions
-from anymesh.articulation.geometry_answerer import same_joints
 from anymesh.articulation.motion_features import motion_features
+from anymesh.articulation.rank_motions import same_joints
 from anymesh.articulation.repeated_parts import in_a_row, same_size
 from anymesh.config import Config
 from anymesh.evaluation.changes import changed

@@ -24,8 +24,8 @@ from jaxtyping import Bool, Float
 from motion_rows import MotionRows, read_rows
 
 from anymesh.articulation.estimate import MAX_COPIES
-from anymesh.articulation.geometry_answerer import BLOCKED, share_of_best
 from anymesh.articulation.motion_context import ScoredMotions, context_features
+from anymesh.articulation.rank_motions import BLOCKED, share_of_best
 
 MODELS = (Model((200, 100)),)
 OBJECT, SOURCE = 0.5, 0.6  # powers by which parts of an object, and parts of a source, count less the more they are
@@ -122,7 +122,7 @@ def main(argv: Sequence[str] | None = None) -> None:
         "## Trained on other kinds (4 folds, a kind in one fold)", "", *table(rows, by_kind, called), "",
         "## Confidence", "",
         f"Fitted to other kinds, over all sources: slope {slope:.2f}, offset {offset:.2f}",
-        "(`articulation/geometry_answerer.py`).",
+        "(`articulation/rank_motions.py`).",
         "", *calibration_table(told, slope, offset), "", "The same on other sources:", "",
         *calibration_table(confidences(rows, by_source), slope, offset), "",
     ]  # fmt: skip

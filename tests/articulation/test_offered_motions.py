@@ -16,7 +16,6 @@ from anymesh.articulation import offers
 from anymesh.articulation.cases import PartCase
 from anymesh.articulation.estimate import choose_motion
 from anymesh.articulation.evidence import hypotheses
-from anymesh.articulation.geometry_answerer import GeometryAnswerer
 from anymesh.articulation.motion_question import Candidate, MotionQuestion
 from anymesh.articulation.moved_points import MovedPoints
 from anymesh.articulation.offers import MotionOffers, make_offers, scored_motions
@@ -159,7 +158,7 @@ def test_lines_at_one_rim_are_within_one_and_a_half_thicknesses(off: float, fron
     around = context(leaf, [box((-0.6, 0, 0), (0.6, 0.4, 0.8))], other)
     lines = tuple(replace(EDGE, motion=turn(Z, (0, y, 0)), opening_sign=-1) for y in (-0.002, -0.002 - off))
     question = MotionQuestion(PLATE, lines, np.array([3.0, 0]), ("", ""))
-    chosen = choose_motion(around, question, GeometryAnswerer())[1]
+    chosen = choose_motion(around, question)[1]
     assert chosen is lines[int(front)]
 
 

@@ -5,7 +5,6 @@ import pytest
 from assets import box, mesh_of
 
 from anymesh.articulation.estimate import choose_motion, motion_questions
-from anymesh.articulation.geometry_answerer import GeometryAnswerer
 from anymesh.articulation.part_labels import label_of
 from anymesh.config import Config
 from anymesh.segmentation.divide import object_shape
@@ -28,7 +27,7 @@ def label(solids: list, moving: list[int]) -> str:
     segmentation = Segmentation(np.isin(number, moving).astype(np.int64), (Part("base", "base"), Part("it", "part")))
     whole = object_shape(mesh, 0, labels=segmentation.face_part)
     _, _, around, question = next(iter(motion_questions(whole, segmentation, Config())))
-    return label_of(around, choose_motion(around, question, GeometryAnswerer())[1])
+    return label_of(around, choose_motion(around, question)[1])
 
 
 @pytest.mark.parametrize(("stop", "expected"), [(False, "drawer"), (True, "")])

@@ -13,13 +13,13 @@ from scenes import prism, wheel
 from test_hypotheses import board
 
 from anymesh.articulation.estimate import choose_motion, estimate_joint, joint_of
-from anymesh.articulation.geometry_answerer import GeometryAnswerer
 from anymesh.articulation.hypotheses import barrels, propose, two_pivot_line
 from anymesh.articulation.motion_context import ScoredMotions, context_features, in_one_manner
-from anymesh.articulation.motion_question import MotionAnswer, MotionQuestion
+from anymesh.articulation.motion_question import MotionQuestion
 from anymesh.articulation.own_axes import pivots
 from anymesh.articulation.part_facts import part_facts
 from anymesh.articulation.part_labels import label_of
+from anymesh.articulation.rank_motions import NO_MOTION_CONFIDENCE
 from anymesh.articulation.repeated_parts import in_a_row, same_size
 from anymesh.articulation.tree import parents
 from anymesh.motion.part_context import PartContext
@@ -178,23 +178,15 @@ def test_the_joint_of_a_candidate_is_on_the_part_and_opens_along_its_axis() -> N
     assert np.r_[found.axis, found.origin] == pytest.approx([0, 0, -1, 0.6, -0.03, 0.45])
 
 
-class Still:
-    """Answers that a part does not move, ranking its candidates from the last."""
-
-    name = "still"
-
-    def which_motion(self, question: MotionQuestion) -> MotionAnswer:
-        return MotionAnswer(tuple(range(len(question.candidates)))[::-1], JointType.FIXED, 0.3, "nothing is free")
-
-
-def test_a_part_that_is_answered_fixed_has_its_best_motion() -> None:
+def test_a_part_without_a_free_motion_has_its_likeliest_one() -> None:
     around = board()
     candidates = (EDGE, replace(PULL, motion=replace(PULL.motion, axis=-Y)))
-    question = MotionQuestion(part_facts(around, "b", "part", two_pivot=False), candidates, np.zeros(2), ("", ""))
-    found = estimate_joint(around, "b", "base", question, Still())
-    assert (found.type, found.confidence) == (JointType.PRISMATIC, 0.3)
-    assert found.reason == "nothing is free; most likely: a slide"
-    moving = estimate_joint(around, "b", "base", replace(question, scores=np.array([3.0, 0])), GeometryAnswerer())
+    blocked = tuple(replace(c, opening=0.0, closing=0.0) for c in candidates)
+    facts = part_facts(around, "b", "part", two_pivot=False)
+    found = estimate_joint(around, "b", "base", MotionQuestion(facts, blocked, np.array([0.0, 1.0]), ("", "")))
+    assert (found.type, found.confidence) == (JointType.PRISMATIC, NO_MOTION_CONFIDENCE)
+    assert found.reason == "no candidate motion is free and plausible; most likely: a slide"
+    moving = estimate_joint(around, "b", "base", MotionQuestion(facts, candidates, np.array([3.0, 0.0]), ("", "")))
     assert moving.type is JointType.REVOLUTE
 
 
@@ -204,9 +196,9 @@ def test_of_the_lines_at_one_rim_the_one_that_clears_the_neighbours_is_chosen() 
     around = context(leaf, [box((-0.6, 0, 0), (0.6, 0.4, 0.8))], other)
     back, front = (replace(EDGE, motion=turn(Z, (0, y, 0)), opening_sign=-1) for y in (-0.002, -0.022))
     question = MotionQuestion(part_facts(around, "b", "part", two_pivot=False), (back, front), np.array([3.0, 0]), ("", ""))
-    assert choose_motion(around, question, GeometryAnswerer())[1] is front
+    assert choose_motion(around, question)[1] is front
     alone = replace(around, siblings=())
-    assert choose_motion(alone, question, GeometryAnswerer())[1] is back
+    assert choose_motion(alone, question)[1] is back
 
 
 def scored(*rows: tuple) -> ScoredMotions:

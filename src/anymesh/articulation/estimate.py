@@ -13,8 +13,9 @@ from anymesh.articulation.evidence import hypotheses
 from anymesh.articulation.hypotheses import propose
 from anymesh.articulation.limits import limits, opening_as_answered, opening_motion
 from anymesh.articulation.motion_classifier import UnscoredMotions
-from anymesh.articulation.motion_question import Candidate, MotionAnswer, MotionAnswerer, MotionQuestion
+from anymesh.articulation.motion_question import Candidate, MotionAnswer, MotionQuestion
 from anymesh.articulation.part_facts import part_facts
+from anymesh.articulation.rank_motions import rank_motions
 from anymesh.articulation.repeated_parts import in_a_row, same_size, share_opening_directions
 from anymesh.articulation.tree import descendants, parents
 from anymesh.config import ArticulationConfig, Config
@@ -35,15 +36,13 @@ PartMotions = tuple[int, int, PartContext, MotionQuestion]  # part number, paren
 MIN_OPENING_GAIN_RAD = np.deg2rad(5)  # [rad] minimum gain in opening angle
 
 
-def estimate_joints(segmentation: Segmentation, motions: Iterable[PartMotions], answerer: MotionAnswerer) -> tuple[Joint, ...]:
+def estimate_joints(segmentation: Segmentation, motions: Iterable[PartMotions]) -> tuple[Joint, ...]:
     """Return one joint for every part but the root, in the order of the parts.
 
     motions: as from `motion_questions`.
     """
     parts = segmentation.parts
-    joints = {
-        i: estimate_joint(around, parts[i].name, parts[over].name, question, answerer) for i, over, around, question in motions
-    }
+    joints = {i: estimate_joint(around, parts[i].name, parts[over].name, question) for i, over, around, question in motions}
     return tuple(joints[i] for i in sorted(joints))
 
 
@@ -101,9 +100,9 @@ def part_context(
     )
 
 
-def choose_motion(around: PartContext, question: MotionQuestion, answerer: MotionAnswerer) -> tuple[MotionAnswer, Candidate]:
+def choose_motion(around: PartContext, question: MotionQuestion) -> tuple[MotionAnswer, Candidate]:
     """Return the answer on how a part moves, and the chosen candidate."""
-    answer = answerer.which_motion(question)
+    answer = rank_motions(question)
     return answer, _clear_of_others(around, question.candidates[answer.ranking[0]], question.candidates)
 
 
@@ -145,9 +144,9 @@ def _at_one_rim(a: Candidate, b: Candidate, thickness: float) -> bool:
     return float(np.linalg.norm(np.cross(b.motion.origin - a.motion.origin, a.motion.axis))) < 1.5 * thickness
 
 
-def estimate_joint(around: PartContext, name: str, parent: str, question: MotionQuestion, answerer: MotionAnswerer) -> Joint:
+def estimate_joint(around: PartContext, name: str, parent: str, question: MotionQuestion) -> Joint:
     """Estimate the joint of one part."""
-    answer, best = choose_motion(around, question, answerer)
+    answer, best = choose_motion(around, question)
     if answer.type is not JointType.FIXED:
         return joint_of(around, name, parent, best, answer.type, answer.confidence, answer.reason)
     # the part is known to move, so a fixed answer is replaced by the best motion

@@ -7,8 +7,8 @@ from jaxtyping import Int
 
 from anymesh.articulation.estimate import motion_question, part_context
 from anymesh.articulation.evidence import hypotheses
-from anymesh.articulation.geometry_answerer import GeometryAnswerer
 from anymesh.articulation.motion_question import Candidate
+from anymesh.articulation.rank_motions import rank_motions
 from anymesh.articulation.tree import parents
 from anymesh.config import ArticulationConfig
 from anymesh.geometry.patches import ObjectShape
@@ -34,9 +34,9 @@ def stays_free(
     part, if known.
     """
     alone, gained = _context(whole, config, without, part), _context(whole, config, joined, part)
-    question, geometry = motion_question(alone, "candidate", "part"), GeometryAnswerer()
+    question = motion_question(alone, "candidate", "part")
     best: dict[int, Candidate] = {}  # the better one of the two directions along each axis
-    for k in geometry.which_motion(question).ranking:
+    for k in rank_motions(question).ranking:
         best.setdefault(id(question.candidates[k].motion), question.candidates[k])
     kinds = (JointType.REVOLUTE, JointType.PRISMATIC)
     if moves is not None:

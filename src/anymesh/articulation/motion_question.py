@@ -1,4 +1,4 @@
-"""Motion questions with their facts and candidates, and the protocol of their answerers.
+"""Motion questions with their facts and candidates, and their answers.
 
 Answers are validated when constructed.
 """
@@ -6,7 +6,6 @@ Answers are validated when constructed.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol, runtime_checkable
 
 import numpy as np
 from jaxtyping import Float
@@ -123,12 +122,3 @@ class MotionAnswer:
     def __post_init__(self) -> None:
         if not 0 <= self.confidence <= 1 or not self.reason:
             raise ValueError(f"an answer needs a confidence in 0..1 and a reason, found {self.confidence}, {self.reason!r}")
-
-
-@runtime_checkable
-class MotionAnswerer(Protocol):
-    """Answerer of motion questions, from facts alone: `GeometryAnswerer`."""
-
-    name: str
-
-    def which_motion(self, question: MotionQuestion) -> MotionAnswer: ...

@@ -11,7 +11,6 @@ import numpy as np
 
 from anymesh.articulation.cases import PartCase
 from anymesh.articulation.evidence import hypotheses
-from anymesh.articulation.geometry_answerer import motion_scores
 from anymesh.articulation.hypotheses import distinct, propose
 from anymesh.articulation.limits import answered_range, opening_motion, pressed
 from anymesh.articulation.motion_classifier import UnscoredMotions
@@ -19,6 +18,7 @@ from anymesh.articulation.motion_question import Candidate, MotionQuestion, Part
 from anymesh.articulation.moved_points import MovedPoints
 from anymesh.articulation.own_axes import CENTRAL, pivots
 from anymesh.articulation.part_facts import part_facts
+from anymesh.articulation.rank_motions import motion_scores
 from anymesh.types import JointType
 from anymesh.vlm.motion_choice import MotionTable
 from anymesh.vlm.prompting import JointAppearance

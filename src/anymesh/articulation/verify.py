@@ -13,9 +13,9 @@ from jaxtyping import Int
 
 from anymesh.articulation.cases import PartCase, ask_each
 from anymesh.articulation.confidence import Agreement
-from anymesh.articulation.geometry_answerer import reason
 from anymesh.articulation.motion_question import Candidate
 from anymesh.articulation.offers import MotionOffers, fits, make_offers, moves_as
+from anymesh.articulation.rank_motions import reason
 from anymesh.rendering.visual_prompts import VisualPrompts
 from anymesh.types import Picture
 from anymesh.vlm.asking import VisualAnswerer

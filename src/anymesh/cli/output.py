@@ -70,11 +70,11 @@ def tell_asset(asset: Asset, out: Path, json_: bool, quiet: bool) -> None:
 
 def unsure_hint(asset: Asset) -> str:
     """Return advice if geometry alone answered and is unsure of a joint; empty otherwise."""
+    from anymesh.pipeline.options import GEOMETRY
     from anymesh.pipeline.results import LOW_CONFIDENCE
-    from anymesh.pipeline.solving import GEOMETRY
 
     count = sum(j.confidence < LOW_CONFIDENCE for j in asset.joints)
-    if asset.answerer != GEOMETRY.name or not count:
+    if asset.answerer != GEOMETRY or not count:
         return ""
     joints = "1 joint is" if count == 1 else f"{count} joints are"
     return (

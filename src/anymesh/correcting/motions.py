@@ -8,7 +8,7 @@ import numpy as np
 from jaxtyping import Int
 
 from anymesh.articulation.estimate import joint_of, motion_question, part_context
-from anymesh.articulation.geometry_answerer import joint_type, motion_scores, reason
+from anymesh.articulation.rank_motions import joint_type, motion_scores, reason
 from anymesh.config import Config
 from anymesh.correcting.corrections import ChooseMotion, vector
 from anymesh.correcting.finding import joint_of_part, part_number

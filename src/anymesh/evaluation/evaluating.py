@@ -32,9 +32,10 @@ from anymesh.evaluation.score import ObjectScore
 from anymesh.evaluation.training import trained_note
 from anymesh.names import legal_name
 from anymesh.pipeline.answering import FILES, choose_answerer
-from anymesh.pipeline.options import Answering
-from anymesh.pipeline.solving import GEOMETRY, AnswererFactory, solve
+from anymesh.pipeline.options import GEOMETRY, Answering
+from anymesh.pipeline.solving import solve
 from anymesh.progress import Progress, silent
+from anymesh.vlm.asking import AnswererFactory
 
 ORACLE = "oracle"
 Examined = list[Record] | OpenQuestionError  # the records of an object, or the question that it waits for
@@ -72,7 +73,7 @@ def evaluate(
     before, total = len(names) - len(left), len(names)
     progress("eval", f"{before} done before" if before else "begins", before, total)
     work = partial(_examined, dataset, eval_config, answering, results.folder)
-    alone = (GEOMETRY.name, ORACLE, *(() if answering.get("wait") else (FILES,)))
+    alone = (GEOMETRY, ORACLE, *(() if answering.get("wait") else (FILES,)))
     shared = not results.settings["answerer"].startswith(alone)
     waiting: list[OpenQuestionError] = []
     for done, (name, records) in enumerate(_all(left, work, answerer_for, shared, jobs or _cores(), stop), start=before):
@@ -128,7 +129,7 @@ def _settings(
         "dataset": dataset,
         "split": split or "all",
         "protocol": str(eval_config.protocol),
-        "answerer": answering.get("answerer", GEOMETRY.name),
+        "answerer": answering.get("answerer", GEOMETRY),
         "changes": ", ".join(eval_config.changes),
         "seed": str(eval_config.seed),
         "anymesh": __version__,
@@ -153,7 +154,7 @@ def _answerer_for(answering: Answering, seed: int, stop: Event | None = None) ->
 
     It is geometry, the sample's ground truth (optionally with errors), files, or a model.
     """
-    name, _, share = answering.get("answerer", GEOMETRY.name).partition(":")
+    name, _, share = answering.get("answerer", GEOMETRY).partition(":")
     if name == FILES.removesuffix(":"):
 
         def asked(sample: EvalSample) -> AnswererFactory | None:
@@ -189,7 +190,7 @@ def _examined(
     answerer_for: SampleAnswerer | None = None,
 ) -> Examined:
     """Evaluate one object in its own process, which opens the data set again."""
-    options: Answering = {**answering, "answerer": GEOMETRY.name, "parts_list": ()}
+    options: Answering = {**answering, "answerer": GEOMETRY, "parts_list": ()}
     solver = partial(solve, config=choose_answerer(options).config)
     try:
         return evaluate_sample(

@@ -14,10 +14,9 @@ from threading import Event
 from anymesh.config import Config, SegmentationConfig
 from anymesh.deadline import Deadline
 from anymesh.errors import OptionError
-from anymesh.pipeline.options import AnswererOptions, Answering
-from anymesh.pipeline.solving import GEOMETRY, AnswererFactory
+from anymesh.pipeline.options import GEOMETRY, AnswererOptions, Answering
 from anymesh.types import Exchange
-from anymesh.vlm.asking import VisualAnswerer
+from anymesh.vlm.asking import AnswererFactory, VisualAnswerer
 from anymesh.vlm.cache import cache_folder
 from anymesh.vlm.patience import Patience
 from anymesh.vlm.recognition import parse_labels
@@ -86,7 +85,7 @@ def choose_answerer(
     chosen = AnswererOptions(**options)
     name, _ = resolve_auto(chosen.answerer)
     config = _config(chosen)
-    if name == GEOMETRY.name:
+    if name == GEOMETRY:
         if config.parts_list:
             raise OptionError("--parts-list: geometry cannot find parts by name; choose a model or files with --answerer")
         return AnswererSetup(config, name, None)
@@ -149,10 +148,10 @@ def resolve_auto(name: str) -> tuple[str, str]:
         return name, ""
     found = first_vision_model(probe_servers())
     if found is None:
-        return GEOMETRY.name, "auto uses geometry: no local model that accepts pictures responds (`anymesh models`)"
+        return GEOMETRY, "auto uses geometry: no local model that accepts pictures responds (`anymesh models`)"
     if find_spec("pydantic_ai") is None:
         told = f"auto uses geometry: {found.name} responds, but its client is missing: pip install 'articulate-anymesh[vlm]'"
-        return GEOMETRY.name, told
+        return GEOMETRY, told
     return found.name, f"auto uses {found.name}, which runs on this machine"
 
 

@@ -13,6 +13,7 @@ from anymesh.errors import AnymeshError, BudgetError, InputError, MissingExtraEr
 from anymesh.files import read_json
 from anymesh.loading.checks import FORMATS
 from anymesh.pipeline.answering import FILES
+from anymesh.pipeline.options import GEOMETRY
 from anymesh.progress import Progress, silent
 from anymesh.vlm.budget import Spent
 from anymesh.vlm.question_files import NAME
@@ -46,7 +47,7 @@ def articulate_many(
     Raise OptionError for meshes with the same name, BudgetError if the common budget is exceeded.
     """
     found = mesh_files(meshes)
-    answerer, spent = str(options.pop("answerer", "geometry")), Spent()
+    answerer, spent = str(options.pop("answerer", GEOMETRY)), Spent()
     outcomes = []
     for number, (name, path) in enumerate(found.items()):
         progress("batch", name, number, len(found))

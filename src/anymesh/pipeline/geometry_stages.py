@@ -8,11 +8,11 @@ from functools import cached_property
 import numpy as np
 
 from anymesh.articulation.estimate import PartMotions, choose_motion, estimate_joints, motion_questions, relabelled
-from anymesh.articulation.geometry_answerer import GeometryAnswerer
 from anymesh.articulation.part_labels import label_of
 from anymesh.config import Config
 from anymesh.deadline import Deadline
 from anymesh.geometry.patches import DividedSurface, ObjectShape
+from anymesh.pipeline.options import GEOMETRY
 from anymesh.pipeline.results import JointResult, RecognitionResult, SegmentationResult, joint_result, segmentation_result
 from anymesh.progress import Progress, silent
 from anymesh.segmentation.divide import divide_surface
@@ -21,13 +21,11 @@ from anymesh.types import JointType, Mesh, Segmentation
 from anymesh.types.recognition import Recognition
 from anymesh.vlm.reference import Reference, reference_of
 
-GEOMETRY = GeometryAnswerer()
-
 
 class GeometryStages:
     """Geometry as the answerer of both stages (see `StageAnswerer`), and what it finds for the fallback of others."""
 
-    name = GEOMETRY.name
+    name = GEOMETRY
     recognizes = False
 
     def __init__(self, mesh: Mesh, config: Config, deadline: Deadline) -> None:
@@ -56,7 +54,7 @@ class GeometryStages:
         self, segmentation: Segmentation, recognition: Recognition | None, progress: Progress = silent, grounded: bool = False
     ) -> JointResult:
         """Run Stage B."""
-        found = estimate_joints(segmentation, self._motions(segmentation, progress), GEOMETRY)
+        found = estimate_joints(segmentation, self._motions(segmentation, progress))
         return joint_result(found, self.name, self.deadline.warnings())
 
     def parts(self, progress: Progress = silent) -> Segmentation:
@@ -69,7 +67,7 @@ class GeometryStages:
         """Return a label of each part but the base from its motion by geometry; "" for a part that cannot move."""
         found = {}
         for i, _, around, question in self._motions(segmentation):
-            answer, best = choose_motion(around, question, GEOMETRY)
+            answer, best = choose_motion(around, question)
             found[i] = "" if answer.type is JointType.FIXED else label_of(around, best)
         return [found[i] for i in sorted(found)]
 
@@ -96,7 +94,7 @@ class GeometryStages:
 
     def reference(self, segmentation: Segmentation) -> Reference:
         """Return the reference made of geometry's answers, the fallback of a model."""
-        joints = estimate_joints(segmentation, self._motions(segmentation), GEOMETRY)
+        joints = estimate_joints(segmentation, self._motions(segmentation))
         return reference_of(self.mesh, segmentation, joints, self.config.category or "object")
 
 

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from anymesh.vlm.budget import Account
     from anymesh.vlm.rates import Limiter
 
+GEOMETRY = "geometry"  # name of the answerer that needs no key and no network
 FLAGS, METAVAR, KIND, HELP = "flags", "metavar", "kind", "help"  # metadata of a field that is also an option of commands
 
 
@@ -46,7 +47,7 @@ class AnswererOptions:
     """
 
     answerer: str = _option(
-        "geometry",
+        GEOMETRY,
         "geometry, openai:MODEL, openai-responses:MODEL, anthropic:MODEL, google:MODEL, ollama:MODEL, lmstudio:MODEL, "
         "vllm:MODEL, openai-compatible:BASE_URL#MODEL, files:FOLDER (answers in files), replay:FOLDER, "
         "or auto (a local model, else geometry).",

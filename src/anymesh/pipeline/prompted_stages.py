@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 from functools import cached_property, partial
 
@@ -22,11 +21,10 @@ from anymesh.segmentation.hidden import MIN_RECOGNITION_PATCH_RATIO, inner_faces
 from anymesh.segmentation.regrounding import ground_again
 from anymesh.types import Picture, Segmentation
 from anymesh.types.recognition import Recognition
-from anymesh.vlm.asking import VisualAnswerer
+from anymesh.vlm.asking import AnswererFactory
 from anymesh.vlm.recognition import answered_scale, recognize
 from anymesh.vlm.reference_answerer import ReferenceAnswerer
 
-AnswererFactory = Callable[[VisualAnswerer], VisualAnswerer]  # makes a visual answerer with the given fallback
 MAX_INSIDE_VIEWS = 2  # pictures of the inside in the question about the object
 
 

@@ -8,13 +8,14 @@ from typing import Protocol
 from anymesh.config import Config
 from anymesh.deadline import Deadline
 from anymesh.geometry.patches import ObjectShape
-from anymesh.pipeline.geometry_stages import GEOMETRY, GeometryStages
-from anymesh.pipeline.prompted_stages import AnswererFactory, PromptedStages
+from anymesh.pipeline.geometry_stages import GeometryStages
+from anymesh.pipeline.prompted_stages import PromptedStages
 from anymesh.pipeline.results import JointResult, RecognitionResult, SegmentationResult, segmentation_result
 from anymesh.progress import Progress, silent
 from anymesh.segmentation.given import GIVEN, parts_from_file, parts_from_nodes
 from anymesh.types import Joint, Mesh, Segmentation
 from anymesh.types.recognition import Recognition
+from anymesh.vlm.asking import AnswererFactory
 
 
 class StageAnswerer(Protocol):
@@ -116,4 +117,4 @@ def solve(
     return jointed.segmentation or segmentation, jointed.joints
 
 
-__all__ = ["GEOMETRY", "AnswererFactory", "Solver", "StageAnswerer", "solve"]
+__all__ = ["Solver", "StageAnswerer", "solve"]

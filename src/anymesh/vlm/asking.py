@@ -7,7 +7,7 @@ question that was asked. One class holds the text of a question, the schema of i
 from __future__ import annotations
 
 import reprlib
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any, Protocol, TypeVar, runtime_checkable
 
 from anymesh.types import Exchange
@@ -63,6 +63,9 @@ class VisualAnswerer(Protocol):
     def warnings(self) -> tuple[str, ...]: ...
 
     def ask(self, question: Question[Answer]) -> Answer: ...
+
+
+AnswererFactory = Callable[[VisualAnswerer], VisualAnswerer]  # makes a visual answerer with the given fallback
 
 
 def an_object(**properties: dict[str, Any]) -> dict[str, Any]:

@@ -26,8 +26,7 @@ from anymesh.errors import OptionError
 from anymesh.export.formats import DEFAULT
 from anymesh.export.options import ExportOptions
 from anymesh.pipeline.answering import FILES, choose_answerer
-from anymesh.pipeline.options import Answering
-from anymesh.pipeline.solving import GEOMETRY
+from anymesh.pipeline.options import GEOMETRY, Answering
 from anymesh.vlm.rates import Rate
 
 PARQUET = "ledger.parquet"
@@ -83,7 +82,7 @@ def annotate(
     """
     out = Path(out).absolute()
     who = checked(options)
-    plan = Plan(options, speed.attempts, (speed.requests, speed.tokens), metered=who not in (GEOMETRY.name, FILES))
+    plan = Plan(options, speed.attempts, (speed.requests, speed.tokens), metered=who not in (GEOMETRY, FILES))
     if speed.attempts < 1:
         raise OptionError(f"--attempts: found {speed.attempts}; valid are integers from 1 up")
     Rate(speed.requests, speed.tokens)

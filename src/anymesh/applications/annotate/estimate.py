@@ -19,7 +19,7 @@ from anymesh.applications.annotate.work import Job
 from anymesh.applications.annotate.workers import LocalWorkers, ObjectLimits, machine_cores
 from anymesh.deadline import DEFAULT_SECONDS
 from anymesh.errors import OptionError
-from anymesh.pipeline.solving import GEOMETRY
+from anymesh.pipeline.options import GEOMETRY
 
 REHEARSAL = ("anymesh.applications.annotate.rehearsal", "rehearse_object")
 QUANTILE = 1.96  # of the normal distribution, for 95 %
@@ -86,7 +86,7 @@ def estimate(source: str, count: int, *, speed: Speed, **options: Any) -> Estima
     """
     if count < 1:
         raise OptionError(f"--dry-run: found {count}; valid are integers from 1 up")
-    who = checked({**options, "answerer": GEOMETRY.name, "parts_list": ()})
+    who = checked({**options, "answerer": GEOMETRY, "parts_list": ()})
     who = str(options.get("answerer", who))
     requests = [r for r in find_objects(source, without=Path("/nonexistent")) if not r.refusal]
     chosen = random.Random(int(options.get("seed", 0))).sample(requests, min(count, len(requests)))
@@ -101,7 +101,7 @@ def estimate(source: str, count: int, *, speed: Speed, **options: Any) -> Estima
     finally:
         work.close()
         shutil.rmtree(folder, ignore_errors=True)
-    return _summary(outcomes, len(requests), workers, paid=who != GEOMETRY.name)
+    return _summary(outcomes, len(requests), workers, paid=who != GEOMETRY)
 
 
 def _tried(work: LocalWorkers, chosen: list[ObjectRequest], folder: Path, options: dict[str, Any]) -> list[AttemptOutcome]:

@@ -16,17 +16,17 @@ from anymesh.evaluation.simulated_vlm import SimulatedVlm
 from anymesh.export.asset_json import usage
 from anymesh.loading import load_mesh, place_mesh
 from anymesh.pipeline.answering import choose_answerer
-from anymesh.pipeline.options import Answering
-from anymesh.pipeline.solving import GEOMETRY, Solver
+from anymesh.pipeline.options import GEOMETRY, Answering
+from anymesh.pipeline.solving import Solver
 
 
 def rehearse_object(job: dict[str, Any]) -> dict[str, Any]:
     """Annotate an object without a model; return an AttemptOutcome as a dictionary, with the estimated usage in its record."""
     what = Job(**job)
-    answerer = str(what.options.get("answerer", GEOMETRY.name))
+    answerer = str(what.options.get("answerer", GEOMETRY))
     free = {k: v for k, v in what.options.items() if k not in ("parts_list", "max_calls", "max_cost", "cache")}
-    made = annotate_object(job | {"options": {**free, "answerer": GEOMETRY.name}, "metered": False})
-    if answerer == GEOMETRY.name or made["result"] != Result.DONE:
+    made = annotate_object(job | {"options": {**free, "answerer": GEOMETRY}, "metered": False})
+    if answerer == GEOMETRY or made["result"] != Result.DONE:
         return made
     begin = time.perf_counter()
     try:
@@ -44,7 +44,7 @@ def asked_of_a_model(job: Job, like: str) -> Mapping[str, Any]:
     Answers are as short as the schema allows; a model's reasons and reasoning tokens are not included.
     """
     options: Answering = {k: v for k, v in job.options.items() if k in Answering.__annotations__}  # ty: ignore[invalid-assignment]
-    config = choose_answerer({**options, "answerer": GEOMETRY.name, "parts_list": (), "max_cost": None}).config
+    config = choose_answerer({**options, "answerer": GEOMETRY, "parts_list": (), "max_cost": None}).config
     config = replace(config, parts_list=tuple(options.get("parts_list", ())))
     told = {name: str(job.options.get(name, "auto")) for name in ("up", "scale")}
     placed = place_mesh(load_mesh(local_mesh(job.source), root=job.options.get("root")), **told)

@@ -13,7 +13,7 @@ from anymesh.applications.generate.work import WorkFolder
 from anymesh.errors import OutputError
 from anymesh.export.options import ExportOptions
 from anymesh.models.meshy_api import RETEXTURE
-from anymesh.pipeline.solving import GEOMETRY
+from anymesh.pipeline.options import GEOMETRY
 
 CHECKED = "2026-11-21, docs.meshy.ai/en/api/retexture"  # date and source of the credits of retexturing
 
@@ -70,7 +70,7 @@ def _making(job: GenerationJob, anew: bool) -> tuple[Step, ...]:
 def _following(job: GenerationJob) -> tuple[Step, ...]:
     options = job.options
     formats = ", ".join(ExportOptions.parse(options["base"], options["formats"], options["drives"]).formats)
-    who = "geometry, without a model" if job.answerer == GEOMETRY.name else f"{job.answerer}; its cost is limited by --max-cost"
+    who = "geometry, without a model" if job.answerer == GEOMETRY else f"{job.answerer}; its cost is limited by --max-cost"
     return (
         Step(f"find parts and joints, as `anymesh articulate` does; questions are answered by {who}"),
         Step(f"complete shapes, as `anymesh finish` does (by {options['completer']}): inner walls, boxes behind drawers"),

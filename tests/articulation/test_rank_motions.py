@@ -1,4 +1,4 @@
-"""Test the geometry answerer: its answers from scores and labels, and their validation."""
+"""Test the ranking of motions by scores and labels, and the validation of answers."""
 
 from dataclasses import replace
 
@@ -6,24 +6,22 @@ import numpy as np
 import pytest
 from made import EDGE, FAR_EDGE, PLATE, PULL, ROUND, X, Y, Z
 
-from anymesh.articulation.geometry_answerer import (
+from anymesh.articulation.motion_question import Candidate, MotionAnswer, MotionQuestion, PartFacts
+from anymesh.articulation.rank_motions import (
     CALIBRATION_SLOPE,
     OFFSET,
-    GeometryAnswerer,
     motion_scores,
+    rank_motions,
     reason,
     same_joints,
     share_of_best,
 )
-from anymesh.articulation.motion_question import Candidate, MotionAnswer, MotionQuestion, PartFacts
 from anymesh.scoring.two_steps import MAX_CONFIDENCE, confidence_of
 from anymesh.types import JointType, Motion
 
-WHO = GeometryAnswerer()
-
 
 def asked(part: PartFacts, candidates: list[Candidate], scores: list[float]) -> MotionAnswer:
-    answer = WHO.which_motion(MotionQuestion(part, tuple(candidates), np.array(scores), ("some feature 1",) * len(scores)))
+    answer = rank_motions(MotionQuestion(part, tuple(candidates), np.array(scores), ("some feature 1",) * len(scores)))
     assert sorted(answer.ranking) == list(range(len(candidates)))
     return answer
 

@@ -1,4 +1,4 @@
-"""Answerer without a model: ranks motions by the learned score and by the part's label."""
+"""Rank the candidate motions of a part by the learned score and by its label."""
 
 from __future__ import annotations
 
@@ -23,25 +23,20 @@ LABEL_PRIOR = {  # [log-odds] added by a label to a hinge, to a rotation about t
 }
 
 
-class GeometryAnswerer:
-    """Answers from geometry alone; needs no key and no network."""
+def rank_motions(question: MotionQuestion) -> MotionAnswer:
+    """Rank the candidates by score.
 
-    name = "geometry"
-
-    def which_motion(self, question: MotionQuestion) -> MotionAnswer:
-        """Rank the candidates by score.
-
-        The confidence comes from the probability of the candidates that a user sees as the best one.
-        """
-        scores = motion_scores(question)
-        ranking = tuple(int(i) for i in np.argsort(-scores, kind="stable"))
-        best = question.candidates[ranking[0]]
-        if not best.is_free:
-            return MotionAnswer(ranking, JointType.FIXED, NO_MOTION_CONFIDENCE, "no candidate motion is free and plausible")
-        share = np.clip(share_of_best(scores, same_joints(question, ranking[0])), 1e-6, 1 - 1e-6)
-        confidence = confidence_of(float(np.log(share / (1 - share))), CALIBRATION_SLOPE, OFFSET)
-        why = f"{reason(question.part, best)}; {question.reasons[ranking[0]]}"
-        return MotionAnswer(ranking, joint_type(best), confidence, why)
+    The confidence comes from the probability of the candidates that a user sees as the best one.
+    """
+    scores = motion_scores(question)
+    ranking = tuple(int(i) for i in np.argsort(-scores, kind="stable"))
+    best = question.candidates[ranking[0]]
+    if not best.is_free:
+        return MotionAnswer(ranking, JointType.FIXED, NO_MOTION_CONFIDENCE, "no candidate motion is free and plausible")
+    share = np.clip(share_of_best(scores, same_joints(question, ranking[0])), 1e-6, 1 - 1e-6)
+    confidence = confidence_of(float(np.log(share / (1 - share))), CALIBRATION_SLOPE, OFFSET)
+    why = f"{reason(question.part, best)}; {question.reasons[ranking[0]]}"
+    return MotionAnswer(ranking, joint_type(best), confidence, why)
 
 
 def motion_scores(question: MotionQuestion) -> Float[np.ndarray, " k"]:
