@@ -172,6 +172,15 @@ def chandelier(beads: int = 2000, sections: int = 6, rings: int = 5) -> list[Par
     return [Part("stem", *rod_), Part("arms", *merged(arms)), Part("beads", *merged(strings))]
 
 
+def crossing_sticks(count: int = 700) -> list[Part]:
+    """Long sticks in random directions through one place, most of which cross most others."""
+    rng = np.random.default_rng(0)
+    ends = rng.normal(size=(count, 3))
+    ends /= 2 * np.linalg.norm(ends, axis=1, keepdims=True)
+    middles = rng.uniform(-0.2, 0.2, (count, 3))
+    return [Part("sticks", *merged([rod(m - e, m + e, 0.004, 4) for m, e in zip(middles, ends, strict=True)]))]
+
+
 def _seat_on(legs: Surface) -> list[Part]:
     """A stool: a seat on two legs [m, Y up]."""
     seat = placed(ball(16, 8), (0.5, 0.06, 0.5), (0, 0.63, 0))
@@ -207,6 +216,7 @@ ARRANGEMENTS: dict[str, tuple[float, Callable[[Rng], list[Part]]]] = {  # how of
 FIXTURES: dict[str, Callable[[], list[Part]]] = {
     "bars through a board": bars_through_board,
     "chandelier": chandelier,
+    "crossing sticks": crossing_sticks,
     "turned legs": turned_legs,
     "lamp of thin tubes": tube_lamp,
 }
