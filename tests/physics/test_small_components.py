@@ -52,22 +52,29 @@ def test_components_are_kept_from_the_largest_to_the_smallest_of_the_size_asked_
     assert split_components(np.concatenate(pieces), 0.0, 3)[2].solid is True
 
 
-def test_what_is_inside_a_convex_solid_is_left_out_but_not_what_touches_a_concave_or_open_one() -> None:
+def test_what_is_inside_a_convex_solid_is_left_out_but_not_what_crosses_it_or_is_in_an_open_one() -> None:
     outer, inner = solid((0, 0, 0), (4, 4, 4)), solid((1, 1, 1), (2, 2, 2))
     assert sizes([outer, inner, solid((9, 0, 0), (9.5, 1, 1))], 0.0) == [12, 12]
     assert sizes([outer[1:], inner], 0.0) == [11, 12]
     assert sizes([outer, solid((1, 1, 3.5), (2, 2, 4.5))], 0.0) == [12, 12]
     assert sizes([outer, solid((-0.5, 1, 1), (0.5, 2, 2))], 0.0) == [12, 12]
-    apex = np.array([2.0, 2, 1])  # of a dent in the top
-    top = (outer[:, :, 2] == 4).all(1)
-    rim = [(0, 0, 4), (4, 0, 4), (4, 4, 4), (0, 4, 4)]
-    dent = np.array([(rim[k], rim[(k + 1) % 4], apex) for k in range(4)])
-    assert sizes([outer[~top], dent, solid((1.9, 1.9, 3), (2.1, 2.1, 3.2))], 0.0) == [14, 12]
     slanted = [(0, 0, 0), (4, 0, 0), (0, 4, 0), (0, 0, 4)]
     pyramid = hull_of(np.array(slanted, float))
     assert pyramid is not None
     corner = solid((1.5, 1.5, 1.5), (2, 2, 2))  # within its bounds only
     assert sizes([pyramid.vertices[pyramid.faces], corner, solid((0.2, 0.2, 0.2), (0.6, 0.6, 0.6))], 0.0) == [4, 12]
+
+
+@pytest.mark.parametrize("scale", [1e-4, 1.0, 1e3])
+def test_what_is_in_a_dent_of_a_solid_is_kept(scale: float) -> None:
+    outer = solid((0, 0, 0), (4, 4, 4))
+    apex = np.array([2.0, 2, 1])  # of a dent in the top
+    top = (outer[:, :, 2] == 4).all(1)
+    rim = [(0, 0, 4), (4, 0, 4), (4, 4, 4), (0, 4, 4)]
+    dent = np.array([(rim[k], rim[(k + 1) % 4], apex) for k in range(4)])
+    small = solid((1.9, 1.9, 3), (2.1, 2.1, 3.2))
+    assert sizes([scale * outer[~top], scale * dent, scale * small], 0.0) == [14, 12]
+    assert sizes([scale * outer, scale * small], 0.0) == [12]
 
 
 @pytest.mark.parametrize("scale", [1e-3, 1.0, 1e3])
