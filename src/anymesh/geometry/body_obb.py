@@ -24,7 +24,7 @@ def body_obb(shape: TriangleSet) -> OrientedBox:
             at = np.sort(sign * local[facing[:, axis], axis])
             if len(at) < 0.02 * len(local) or len(at) < 3:
                 continue
-            level = at[-1 - min(int(SIDE_LEVEL_RATIO * len(at)), len(at) - 1)]
+            level = at[-1 - int(SIDE_LEVEL_RATIO * len(at))]
             out = sign * local[:, axis] > level + slack / 2
             if level < sign * edge[axis] - slack and _protrudes(local, out, axis):
                 edge[axis] = sign * level

@@ -71,7 +71,7 @@ def dominant_normals(
     found: list[np.ndarray] = []
     steps = np.round(n * 50).astype(np.int64)
     cell = np.unique((steps[:, 0] * 128 + steps[:, 1]) * 128 + steps[:, 2], return_inverse=True)[1].reshape(-1)
-    while len(n) and len(found) < count and w.sum() > 0:
+    while len(n) and len(found) < count:
         heavy = np.bincount(cell, w).argmax()
         seed = n[np.flatnonzero(cell == heavy)[0]]
         along = n @ seed

@@ -154,5 +154,5 @@ def components(vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"]
     solid[label[edges.open_faces]] = False
     solid[label[edges.faces[~edges.aligned, 0]]] = False
     t = vertices[faces] - vertices[faces].mean((0, 1))
-    volume = np.bincount(label, np.einsum("ij,ij->i", t[:, 0], np.cross(t[:, 1], t[:, 2])) / 6, count)
-    return Components(label, solid, solid & (volume < 0), edges)
+    six_volumes = np.bincount(label, np.einsum("ij,ij->i", t[:, 0], np.cross(t[:, 1], t[:, 2])), count)
+    return Components(label, solid, solid & (six_volumes < 0), edges)

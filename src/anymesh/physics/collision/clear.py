@@ -170,29 +170,24 @@ def _planed(
 
     Return the shapes, and the contacts for which that share exceeds `max_ratio`.
     """
-    shapes: list[list[Shape | None]] = [list(p.shapes) for p in components]
+    shapes = [list(p.shapes) for p in components]
     costly = []
     for fault in faults:
         sides = [(k, n, fault.pose[components[k].link], shapes[k][n]) for k, n in (fault.first, fault.second)]
         reach = [
-            None if shape is None else float((placed_hull(shape, T) @ (sign * fault.normal)).max())
+            float((placed_hull(shape, T) @ (sign * fault.normal)).max())
             for (_, _, T, shape), sign in zip(sides, (1.0, -1.0), strict=True)
         ]
-        if reach[0] is None or reach[1] is None or reach[0] + reach[1] <= 0:  # separated by an earlier cut
+        if reach[0] + reach[1] <= 0:  # separated by an earlier cut
             continue
         depth = reach[0] + reach[1] + margin
-        cuts = [
-            _cut(shape, T, sign * fault.normal, depth)
-            for (_, _, T, shape), sign in zip(sides, (1.0, -1.0), strict=True)
-            if shape is not None
-        ]
+        cuts = [_cut(shape, T, sign * fault.normal, depth) for (_, _, T, shape), sign in zip(sides, (1.0, -1.0), strict=True)]
         side = 0 if cuts[0][0] <= cuts[1][0] else 1
         if cuts[side][0] > max_ratio:
             costly.append(fault)
         else:
             shapes[sides[side][0]][sides[side][1]] = cuts[side][1]
-    kept = [replace(p, shapes=tuple(s for s in some if s is not None)) for p, some in zip(components, shapes, strict=True)]
-    return kept, costly
+    return [replace(p, shapes=tuple(some)) for p, some in zip(components, shapes, strict=True)], costly
 
 
 def placed_hull(shape: Shape, T: np.ndarray) -> np.ndarray:
@@ -200,9 +195,12 @@ def placed_hull(shape: Shape, T: np.ndarray) -> np.ndarray:
     return as_hull(shape).vertices @ T[:3, :3].T + T[:3, 3]
 
 
-def _cut(shape: Shape, T: np.ndarray, normal: np.ndarray, depth: float) -> tuple[float, Shape | None]:
-    """Return the share that a shape loses and its rest, when it is trimmed by `depth` [m] from its furthest point."""
+def _cut(shape: Shape, T: np.ndarray, normal: np.ndarray, depth: float) -> tuple[float, Shape]:
+    """Return the share that a shape loses and its rest, when it is trimmed by `depth` [m] from its furthest point.
+
+    The shape itself if nothing would be left.
+    """
     hull = as_hull(shape)
     n = T[:3, :3].T @ normal
     left = trimmed(hull, n, float((hull.vertices @ n).max()) - depth)
-    return (1.0, None) if left is None else (1 - volume(left) / volume(hull), fitted(left, EXACT))
+    return (1.0, shape) if left is None else (1 - volume(left) / volume(hull), fitted(left, EXACT))

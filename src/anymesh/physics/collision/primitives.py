@@ -17,7 +17,6 @@ from anymesh.types.triangles import normals_and_areas
 EXACT = 1e-6  # for a trimmed hull, which a box must not exceed again
 FIT = 0.02  # maximum relative difference between the volumes of a primitive and the hull
 ROUND = 0.97  # minimum round share of a cylinder's outline; an octagon has less
-SIDES = 12  # minimum number of corners of a round outline
 
 
 def fitted(hull: Hull, fit: float = FIT) -> Shape:
@@ -35,7 +34,7 @@ def _cylinder(hull: Hull, directions: np.ndarray, exact: float, fit: float) -> C
     if len(directions) == 0:
         return None
     found = roundest(hull.vertices, directions)
-    if found.roundness < ROUND or len(hull.vertices) < 2 * SIDES:
+    if found.roundness < ROUND:
         return None
     along = (hull.vertices - found.center) @ found.axis
     ends = np.abs(np.abs(along) - found.height / 2) <= 0.02 * found.height

@@ -1,0 +1,118 @@
+"""Test which points and surfaces take part in a sweep, and how many stopped points block a motion."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from assets import box
+from rigid import shape_of
+
+from anymesh.geometry import sweep as sweep_module
+from anymesh.geometry.boxes import OrientedBox
+from anymesh.geometry.sweep import Obstacles, free_amount, free_amounts, sweep, sweep_all
+from anymesh.geometry.triangle_set import TriangleSet
+from anymesh.types import JointType, Motion
+from anymesh.types.triangles import normals_and_areas
+
+X, Y, Z = np.eye(3)
+
+
+def slide(axis) -> Motion:
+    return Motion(JointType.PRISMATIC, np.asarray(axis, float), np.zeros(3), "")
+
+
+def faces(*corners) -> TriangleSet:
+    triangles = np.asarray(corners, float)
+    return TriangleSet(triangles, normals_and_areas(triangles)[0], np.zeros(len(triangles), bool), np.arange(len(triangles)))
+
+
+def square(x: float, low, high) -> list:
+    """Return two triangles across the x axis."""
+    a, b, c, d = (x, low[0], low[1]), (x, high[0], low[1]), (x, high[0], high[1]), (x, low[0], high[1])
+    return [(a, b, c), (a, c, d)]
+
+
+def test_points_of_a_part_are_samples_and_corners_a_thousandth_inside() -> None:
+    part = faces(((0, 0, 0), (3, 0, 0), (0, 6, 0)))
+    points = Obstacles(part, part, 0.01).part_points
+    assert len(points) == 375 + 3  # every eighth of 3000 samples
+    assert points[:375].tolist() == part.samples.points[::8].tolist()
+    assert points[375:] == pytest.approx(np.array([[0.001, 0.002, 0], [2.998, 0.002, 0], [0.001, 5.996, 0]]))
+    fine = faces(*(((k, 0, 0), (k, 1, 0), (k, 0, 1)) for k in range(300)))
+    assert len(Obstacles(fine, part, 0.01).part_points) == 375 + 450  # every second of 900 corners
+
+
+@pytest.mark.parametrize("axis", range(3))
+@pytest.mark.parametrize("sign", [-1, 1])
+def test_static_surface_counts_within_three_quarters_of_the_diagonal_and_more_within_a_tenth_of_that(axis, sign) -> None:
+    """The part is a unit cube, so that these distances are 1.299 and 0.1299 m."""
+    part, row = shape_of(box((-0.5, -0.5, -0.5), (0.5, 0.5, 0.5))), np.eye(3)[axis]
+    tiny = 0.001 * np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1.0]])[[[0, 1, 2], [0, 1, 3]]]
+    for distance, parts in ((0.12, 2), (0.14, 1), (1.28, 1), (1.32, 0)):
+        rest = faces(*(tiny + sign * (0.5 + distance) * row))
+        assert len(Obstacles(part, rest, 0.01).rest_points) == parts * (375 + 6)
+    empty = Obstacles(part, rest.take(np.zeros(2, bool)), 0.01)
+    assert empty.rest_points.shape == (0, 3)
+    assert free_amount(empty, slide(X), 1, 1.0, 36) == (1.0, True)
+
+
+def test_surface_in_the_ignored_box_and_within_the_tolerance_of_it_does_not_count() -> None:
+    ignored = OrientedBox(np.array([1.0, 0, 0]), np.eye(3), np.array([0.5, 0.25, 0.125]))
+    part = shape_of(box((-0.5, -0.5, -0.5), (0.5, 0.5, 0.5)))
+    around = Obstacles(part, part, 0.1, ignored)
+    inside = [(1, 0, 0), (0.45, 0, 0), (1.55, 0.3, 0.2), (1, -0.34, -0.2)]
+    outside = [(0.35, 0, 0), (1.65, 0, 0), (1, 0.36, 0), (1, 0, -0.24)]
+    assert around.is_ignored(np.array(inside + outside)).tolist() == [True] * 4 + [False] * 4
+    assert not Obstacles(part, part, 0.1).is_ignored(np.array(inside)).any()
+
+
+@pytest.mark.parametrize(("count", "clear"), [(1, True), (2, False)])
+def test_a_motion_is_free_if_less_than_six_of_a_thousand_points_are_stopped(count: int, clear: bool) -> None:
+    """Four of 768; on tiny triangles in the path lie their corners only, and the other static surface is beside the path."""
+    part = faces(*square(0.0, (-0.5, -0.5), (0.5, 0.5)))
+    rest = faces(*square(0.5, (-0.01, -0.01), (0.01, 0.01))[:count], *square(0.5, (0.55, -1), (2, 1)))
+    amount, found = free_amount(Obstacles(part, rest, 0.01), slide(X), 1, 1.0, 20)
+    assert found == clear
+    assert amount == pytest.approx(1.0 if clear else 0.5, abs=1e-3)
+
+
+def test_two_stopped_points_of_a_small_set_block_a_motion_and_one_does_not() -> None:
+    part = faces(((0, 0, 0), (0, 0.1, 0), (0, 0, 0.1)))
+    for corners, clear in (
+        ([(0.5, -1, -1), (0.5, 1, -1), (0.5, 0, 1)], False),
+        ([(0.5, 5, 5), (0.5, 6, 5), (0.5, 5, 6)], True),
+    ):
+        around = Obstacles(part, faces(corners), 0.01)
+        assert free_amount(around, slide(X), 1, 1.0, 20) == (pytest.approx(1.0 if clear else 0.5, abs=1e-3), clear)
+
+
+def walls() -> Obstacles:
+    part = shape_of(box((-0.1, -0.1, -0.1), (0.1, 0.1, 0.1)))
+    return Obstacles(part, shape_of(box((0.4, -1, -1), (0.5, 1, 1)), box((-0.8, -1, -1), (-0.7, 1, 1))), 0.003)
+
+
+def test_ranges_of_each_motion_are_forward_and_backward_in_their_order() -> None:
+    ways = [slide(X), slide(-X), slide(Y), Motion(JointType.REVOLUTE, X, np.zeros(3), "")]
+    found = sweep_all(walls(), ways, max_amount=1.0)
+    forward, backward = np.array([(f.forward, f.backward) for f in found]).T
+    assert forward == pytest.approx([0.3, 0.6, 1, 1], abs=0.01)
+    assert backward == pytest.approx([0.6, 0.3, 1, 1], abs=0.01)
+    assert [(f.clear_forward, f.clear_backward) for f in found] == [(False, False)] * 2 + [(True, True)] * 2
+    assert sweep(walls(), slide(X), 0.2).forward == 0.2
+    by_default = sweep_all(walls(), ways[2:])
+    assert [f.backward for f in by_default] == [pytest.approx(2 * 0.2 * np.sqrt(3)), np.pi]
+
+
+def test_each_motion_has_a_sign_and_a_range_of_its_own() -> None:
+    found = free_amounts(walls(), [slide(X)] * 4, [1, -1, 1, -1], [0.2, 0.5, 1.0, 1.0], 36)
+    assert [clear for _, clear in found] == [True, True, False, False]
+    assert [amount for amount, _ in found] == pytest.approx([0.2, 0.5, 0.3, 0.6], abs=0.01)
+
+
+@pytest.mark.parametrize("chunks", [(1, 1), (2, 5), (36, 36)])
+def test_free_ranges_do_not_depend_on_how_many_steps_are_cast_at_a_time(chunks, monkeypatch: pytest.MonkeyPatch) -> None:
+    ways, signs = [slide(X), slide((0.6, 0.8, 0)), slide(Y)], [1, -1, 1]
+    plain = free_amounts(walls(), ways, signs, [1.0] * 3, 36)
+    monkeypatch.setattr(sweep_module, "CHUNKS", chunks)
+    monkeypatch.setattr(sweep_module, "AT_ONCE", 2)
+    assert free_amounts(walls(), ways, signs, [1.0] * 3, 36) == plain
