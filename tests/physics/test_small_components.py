@@ -52,6 +52,11 @@ def test_components_are_kept_from_the_largest_to_the_smallest_of_the_size_asked_
     assert split_components(np.concatenate(pieces), 0.0, 3)[2].solid is True
 
 
+def test_what_is_in_the_notch_of_a_concave_prism_is_kept() -> None:
+    """All corners of the bracket lie on its hull."""
+    assert sizes([bracket().triangles, solid((0.3, 0.4, 0.4), (0.6, 0.6, 0.6))], 0.0) == [20, 12]
+
+
 def test_what_is_inside_a_convex_solid_is_left_out_but_not_what_crosses_it_or_is_in_an_open_one() -> None:
     outer, inner = solid((0, 0, 0), (4, 4, 4)), solid((1, 1, 1), (2, 2, 2))
     assert sizes([outer, inner, solid((9, 0, 0), (9.5, 1, 1))], 0.0) == [12, 12]

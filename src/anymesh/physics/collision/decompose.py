@@ -81,7 +81,8 @@ def split_components(
         hull = hull_of(corners) if found.solid[k] and k != separate[-1] else None
         if hull is not None and len(hull.faces) <= AROUND_FACES:
             this = _Around(planes(hull), corners.min(0), corners.max(0))
-            if bool((this.heights(corners) > -1e-6 * sizes[k]).all()):
+            surface = np.concatenate([corners, pieces[k].mean(1)])  # all corners of a concave prism are on its hull
+            if bool((this.heights(surface) > -1e-6 * sizes[k]).all()):
                 around.append(this)
     return kept + _gathered([pieces[k] for k in small])
 
