@@ -7,7 +7,7 @@ import numpy as np
 from anymesh.geometry.boxes import OrientedBox, box_in_frame
 from anymesh.geometry.triangle_set import TriangleSet
 
-SIDE_LEVEL_RATIO = 0.12  # share of the surface facing a side that defines the level of that side
+SIDE_LEVEL_RATIO = 0.12  # of the surface that faces along an axis, either way: the outermost share is not the level of a side
 MAX_PROTRUSION_RATIO = 0.25  # upper bound on the share of the surface that protrudes
 
 
