@@ -21,7 +21,7 @@ def test_kept_assets_get_names_of_their_own_and_the_same_mesh_the_same_questions
     for _ in range(2):
         options = {"ask": True, "out": tmp_path / "out", "author": "Ada", "clock": lambda: ""}
         with serve(source, port=8420, **options) as serving:
-            assert str(tmp_path / "out") in serving.told[0]
+            assert str(tmp_path / "out") in serving.notes[0]
             FakeWork.made[-1].finish()
             until(lambda: serving.page.session is not None)
     first, second = FakeWork.made
@@ -33,7 +33,7 @@ def test_kept_assets_get_names_of_their_own_and_the_same_mesh_the_same_questions
 def test_what_was_handed_over_is_removed_at_the_end(monkeypatch):
     monkeypatch.setattr(bench_, "ArticulationWork", FakeWork)
     with serve(None, port=8440, author="Ada", clock=lambda: "") as serving:
-        assert "removed at the end" in serving.told[0]
+        assert "removed at the end" in serving.notes[0]
         upload(serving.page)
         folder = serving.page.bench._bench.folder
         assert folder.exists()

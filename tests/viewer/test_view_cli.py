@@ -47,7 +47,7 @@ def test_a_mesh_is_articulated_first_and_its_folder_goes_when_nothing_was_saved(
 
     monkeypatch.setattr(live_serve_.pipeline, "articulate", articulate)
     with serving(tmp_path / "mesh.glb") as found:
-        assert str(made[0]) in found.told[0]
+        assert str(made[0]) in found.notes[0]
         assert made[0].exists()
         folder = found.page.session.folder
     assert folder == made[0].resolve()

@@ -75,8 +75,8 @@ class AgentTools:
         except OpenQuestionError as error:
             (path,) = error.folders
             shown = self._question(next(q for q in find_questions(path) if q.path == path))
-            told = "answer the question with the tool `answer`, then call `articulate` again with the same arguments"
-            return ToolResult({"state": "open", "next": told, **shown.record}, shown.pictures)
+            next_step = "answer the question with the tool `answer`, then call `articulate` again with the same arguments"
+            return ToolResult({"state": "open", "next": next_step, **shown.record}, shown.pictures)
         shown = self.inspect(out)
         return ToolResult({"state": "done", "answerer": asset.answerer, **shown.record}, shown.pictures)
 
@@ -97,9 +97,9 @@ class AgentTools:
         folder = self._places.inside(question)
         if not (folder / "question.json").is_file():
             raise OptionError(f"{question!r} is not a question; `open_questions` lists them")
-        told = record_answer(folder, answer if isinstance(answer, str) else json.dumps(answer))
+        recorded = record_answer(folder, answer if isinstance(answer, str) else json.dumps(answer))
         return ToolResult(
-            {"answered": self._places.shown(folder), "checked_whole": told.whole, "next": "call `articulate` again"}
+            {"answered": self._places.shown(folder), "checked_whole": recorded.whole, "next": "call `articulate` again"}
         )
 
     def inspect(self, asset: str, *, motions_of: str | None = None) -> ToolResult:
@@ -110,7 +110,7 @@ class AgentTools:
             raise OutputError(f"{asset!r} holds no asset; `articulate` makes one")
         joints = ("name", "type", "parent", "child", "origin", "axis", "limits", "confidence", "reason")
         parts = ("name", "label", "parent", "confidence", "reason")
-        told: dict[str, Any] = {
+        summary: dict[str, Any] = {
             "asset": self._places.shown(folder),
             "parts": [{name: part.get(name) for name in parts} for part in record["parts"]],
             "joints": [{name: joint.get(name) for name in joints} for joint in record["joints"]],
@@ -119,12 +119,12 @@ class AgentTools:
             "corrections": len(open_asset(folder).history.done),
         }
         if motions_of is not None:
-            told["motions"] = [_packed(motion) for motion in ranked_motions(open_asset(folder).history.asset, motions_of)]
+            summary["motions"] = [_packed(motion) for motion in ranked_motions(open_asset(folder).history.asset, motions_of)]
         preview = folder / "preview.png"
         pictures = (
             ((f"preview of {asset}: at rest, parts coloured, opened", preview.read_bytes()),) if preview.is_file() else ()
         )
-        return ToolResult(told, pictures)
+        return ToolResult(summary, pictures)
 
     def correct(self, asset: str, corrections: Sequence[Mapping[str, Any]]) -> ToolResult:
         """Apply corrections, all or none, and write the asset again."""
@@ -180,8 +180,8 @@ class AgentTools:
         if pictures == "none" or not single:
             return ToolResult(record)
         if pictures == "auto" and len(single) >= SHEET_FROM:
-            told = f"all {len(single)} pictures; `open_questions` with pictures='all' gives each at full size"
-            return ToolResult(record, ((told, (question.path / "sheet.png").read_bytes()),))
+            caption = f"all {len(single)} pictures; `open_questions` with pictures='all' gives each at full size"
+            return ToolResult(record, ((caption, (question.path / "sheet.png").read_bytes()),))
         return ToolResult(record, tuple((f"{k}. {p.caption}".strip(), p.png) for k, p in enumerate(single, 1)))
 
 

@@ -50,10 +50,10 @@ def check_asset(path: str | Path, *, engines: Sequence[str] = ("mujoco",)) -> Ch
     sweeps: list[SweepReport] = []
     if any(f.check in (CHECK, "joints") and f.severity is Severity.FAILURE for f in findings):
         chosen = ()  # engines disagree on what is broken, or end the process
-    for engine, told in sweep_all(file, chosen):
-        findings += motion_findings(engine, told)
-        if isinstance(told, SweepReport):
-            sweeps.append(told)
+    for engine, outcome in sweep_all(file, chosen):
+        findings += motion_findings(engine, outcome)
+        if isinstance(outcome, SweepReport):
+            sweeps.append(outcome)
     return CheckReport(str(path), tuple(findings), tuple(sweeps))
 
 
@@ -65,8 +65,8 @@ def _still(content: Content) -> Iterator[Finding]:
     schema = [*check_files(content), *(check_asset_json(beside, robot) if ours else ())]
     joints = [*check_joints(robot, content.diagonal)]
     straight = not any(f.severity is Severity.FAILURE for f in joints)
-    told = f"{len(robot.links)} links and {len(robot.joints)} joints in a tree with the root {robot.roots[0]!r}"
-    yield from _or_ok(CHECK, schema, f"{told}{', asset.json matches its schema' if ours else ''}")
+    tree = f"{len(robot.links)} links and {len(robot.joints)} joints in a tree with the root {robot.roots[0]!r}"
+    yield from _or_ok(CHECK, schema, f"{tree}{', asset.json matches its schema' if ours else ''}")
     yield from _or_ok("naming", [*check_naming(robot)], "names are legal, unique and plain ASCII")
     shapes = sum(len(some) for kind in (content.visuals, content.collisions) for some in kind.values())
     yield from _or_ok("meshes", [*check_meshes(content)], f"{shapes} shapes are read, with area, and of sensible size")
@@ -80,8 +80,8 @@ def _still(content: Content) -> Iterator[Finding]:
         yield from _or_ok("direction", [*check_direction(content)], "no joint drives its link into its parent")
 
 
-def _or_ok(check: str, found: list[Finding], told: str) -> Iterator[Finding]:
-    yield from found or [Finding(check, Severity.OK, "", told)]
+def _or_ok(check: str, found: list[Finding], text: str) -> Iterator[Finding]:
+    yield from found or [Finding(check, Severity.OK, "", text)]
 
 
 def _masses(robot: Robot) -> str:

@@ -37,11 +37,11 @@ def check_collision(content: Content, contacts: Mapping[tuple[str, str], float] 
         pair = frozenset((a, b))
         if depth <= DEEP * content.diagonal or pair in robot.excluded:
             continue
-        told = f"at rest it penetrates {a!r} by {depth:.3g} m (convex collision shapes)"
+        problem = f"at rest it penetrates {a!r} by {depth:.3g} m (convex collision shapes)"
         if pair in adjacent or len(pair & set(groups)) < 2:
-            yield warning(CHECK, b, f"{told}; engines that test contacts between joined links push them apart")
+            yield warning(CHECK, b, f"{problem}; engines that test contacts between joined links push them apart")
         else:
-            yield failure(CHECK, b, f"{told}; they are pushed apart, at most {DEEP * content.diagonal:.2g} m is valid")
+            yield failure(CHECK, b, f"{problem}; they are pushed apart, at most {DEEP * content.diagonal:.2g} m is valid")
 
 
 def _cavity(content: Content, link: str) -> Iterator[Finding]:
@@ -70,8 +70,8 @@ def _cavity(content: Content, link: str) -> Iterator[Finding]:
     if taken.mean() > FILLED:
         volume = float(taken.sum() * np.prod(steps))
         count = "one convex shape" if len(shapes) == 1 else f"{len(shapes)} convex shapes"
-        told = f"its collision ({count}) fills {taken.mean():.0%} of the empty space in it, {volume:.3g} m3"
-        yield warning(CHECK, link, f"{told}; use convex shapes that leave the cavity open")
+        problem = f"its collision ({count}) fills {taken.mean():.0%} of the empty space in it, {volume:.3g} m3"
+        yield warning(CHECK, link, f"{problem}; use convex shapes that leave the cavity open")
 
 
 def _in_hull(points: Float[np.ndarray, "n 3"], asked: Float[np.ndarray, "m 3"]) -> Bool[np.ndarray, " m"]:

@@ -63,9 +63,9 @@ def _ways(content: Content, joint: RobotJoint, part: TriangleSet, rest: Triangle
             continue
         other = free_amount(obstacles, motion, -sign, most, STEPS)[0]
         way = "positive" if sign > 0 else "negative"
-        told = f"{way} motion drives {joint.child!r} into {joint.parent!r} after {free:.3g} of {most:.3g} {unit}"
+        problem = f"{way} motion drives {joint.child!r} into {joint.parent!r} after {free:.3g} of {most:.3g} {unit}"
         if other >= FREER * free and other >= STOPPED * most:
             free_for = f"the opposite direction is free for {other:.3g} {unit}"
-            yield failure(CHECK, joint.name, f"{told}; {free_for}, so the axis is reversed")
+            yield failure(CHECK, joint.name, f"{problem}; {free_for}, so the axis is reversed")
         else:
-            yield warning(CHECK, joint.name, f"{told}; the visible surfaces meet")
+            yield warning(CHECK, joint.name, f"{problem}; the visible surfaces meet")

@@ -64,19 +64,21 @@ def _fitting(content: Content, link: RobotLink, inertial: Inertial) -> Iterator[
     outside = float(np.maximum(low - inertial.center, inertial.center - high).max())
     if outside > GROWN * diagonal:
         shown = ", ".join(f"{v:.4g}" for v in inertial.center)
-        told = f"its centre of mass ({shown}) lies {outside:.3g} m outside of its box; valid is inside"
-        yield failure(CHECK, link.name, told) if outside > FAR * diagonal else warning(CHECK, link.name, told)
+        problem = f"its centre of mass ({shown}) lies {outside:.3g} m outside of its box; valid is inside"
+        yield failure(CHECK, link.name, problem) if outside > FAR * diagonal else warning(CHECK, link.name, problem)
         return
     volume = float(np.prod(np.maximum(high - low, 0.01 * diagonal)))
     density = inertial.mass / max(volume, 1e-300)
     if not LIGHTEST <= density <= HEAVIEST:
-        told = f"its mass of {inertial.mass:.4g} kg in its box is a density of {density:.3g} kg/m3"
-        yield warning(CHECK, link.name, f"{told}; plausible is {LIGHTEST:g} to {HEAVIEST:g}")
+        problem = f"its mass of {inertial.mass:.4g} kg in its box is a density of {density:.3g} kg/m3"
+        yield warning(CHECK, link.name, f"{problem}; plausible is {LIGHTEST:g} to {HEAVIEST:g}")
     spread = float(np.sqrt(np.trace(inertial.tensor) / 2 / inertial.mass))
     farthest = float(np.linalg.norm(np.maximum(high - inertial.center, inertial.center - low)))
     if not SMALL <= spread / max(farthest, 1e-300) <= LARGE:
-        told = f"its inertia corresponds to mass {spread:.3g} m from its centre; its farthest corner is {farthest:.3g} m away"
-        yield warning(CHECK, link.name, f"{told}; a ratio of {SMALL:g} to {LARGE:g} is plausible")
+        problem = (
+            f"its inertia corresponds to mass {spread:.3g} m from its centre; its farthest corner is {farthest:.3g} m away"
+        )
+        yield warning(CHECK, link.name, f"{problem}; a ratio of {SMALL:g} to {LARGE:g} is plausible")
 
 
 def _placeholder(content: Content, given: list[tuple[RobotLink, Inertial]]) -> Iterator[Finding]:
@@ -91,5 +93,9 @@ def _placeholder(content: Content, given: list[tuple[RobotLink, Inertial]]) -> I
     same = np.allclose(tensors, tensors[0], rtol=REL_TOLERANCE, atol=0)
     balls = all(np.allclose(t, t[0, 0] * np.eye(3), rtol=REL_TOLERANCE, atol=REL_TOLERANCE * abs(t[0, 0])) for t in tensors)
     if (same and not alike) or (balls and not cubes):
-        told = f"all {len(tensors)} links have the tensor of a sphere" if balls else f"all {len(tensors)} links have one tensor"
-        yield warning(CHECK, "", f"{told} (such as {size:.3g} kg m2): placeholders; valid is each link's own, from its shape")
+        problem = (
+            f"all {len(tensors)} links have the tensor of a sphere" if balls else f"all {len(tensors)} links have one tensor"
+        )
+        yield warning(
+            CHECK, "", f"{problem} (such as {size:.3g} kg m2): placeholders; valid is each link's own, from its shape"
+        )

@@ -65,8 +65,8 @@ def _closed(content: Content, link: str) -> Iterator[Finding]:
     area = np.array([normals_and_areas(s.triangles)[1].sum() for s in solids])
     share = float((area * [closed_share(s) for s in solids]).sum() / max(area.sum(), 1e-300))
     if share < CLOSED:
-        told = f"{share:.0%} of its surface belongs to closed bodies"
-        yield warning(CHECK, link, f"{told}; below {CLOSED:.0%} volume and inertia cannot be computed from it")
+        problem = f"{share:.0%} of its surface belongs to closed bodies"
+        yield warning(CHECK, link, f"{problem}; below {CLOSED:.0%} volume and inertia cannot be computed from it")
 
 
 def _size(content: Content, link: str) -> Iterator[Finding]:
@@ -93,8 +93,8 @@ def _agreement(content: Content, link: str) -> Iterator[Finding]:
         return
     outside = max(float((low - a).max()), float((b - high).max())) / diagonal
     if outside > APART:
-        told = f"its collision extends beyond the visible surface by {outside:.0%} of its diagonal"
-        yield warning(CHECK, link, f"{told}; at most {APART:.0%} is valid")
+        problem = f"its collision extends beyond the visible surface by {outside:.0%} of its diagonal"
+        yield warning(CHECK, link, f"{problem}; at most {APART:.0%} is valid")
 
 
 def _bounds(shapes: list[np.ndarray]) -> np.ndarray:

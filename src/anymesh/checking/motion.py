@@ -22,18 +22,18 @@ def sweep_all(path: Path, engines: Sequence[str]) -> Iterator[tuple[str, SweepRe
             yield engine, error
 
 
-def motion_findings(engine: str, told: SweepReport | InputError | MissingExtraError) -> Iterator[Finding]:
+def motion_findings(engine: str, outcome: SweepReport | InputError | MissingExtraError) -> Iterator[Finding]:
     """Yield a failure for each fault of a joint, or if the engine cannot load the file; a warning if it is not installed."""
-    if isinstance(told, MissingExtraError):
-        yield warning(CHECK, engine, str(told))
+    if isinstance(outcome, MissingExtraError):
+        yield warning(CHECK, engine, str(outcome))
         return
-    if isinstance(told, InputError):
-        yield failure(CHECK, engine, str(told))
+    if isinstance(outcome, InputError):
+        yield failure(CHECK, engine, str(outcome))
         return
-    for joint in told.joints:
+    for joint in outcome.joints:
         for fault in joint.faults:
-            yield failure(CHECK, joint.name, f"{told.engine}: {fault}")
-    if told.ok:
-        opened = [f"{j.name} after {' and '.join(j.opened)} opened" for j in told.joints if j.opened]
+            yield failure(CHECK, joint.name, f"{outcome.engine}: {fault}")
+    if outcome.ok:
+        opened = [f"{j.name} after {' and '.join(j.opened)} opened" for j in outcome.joints if j.opened]
         note = f" ({'; '.join(opened)})" if opened else ""
-        yield Finding(CHECK, Severity.OK, told.engine, f"{len(told.joints)} joints reach both limits{note}")
+        yield Finding(CHECK, Severity.OK, outcome.engine, f"{len(outcome.joints)} joints reach both limits{note}")

@@ -24,5 +24,5 @@ def check_naming(robot: Robot) -> Iterator[Finding]:
         for name in names:
             other = seen.setdefault(name.lower(), name)
             if other != name:
-                told = f"differs from the {word} {other!r} only in case; their files would overwrite each other"
-                yield warning(CHECK, name, told)
+                problem = f"differs from the {word} {other!r} only in case; their files would overwrite each other"
+                yield warning(CHECK, name, problem)

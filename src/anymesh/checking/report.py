@@ -61,9 +61,9 @@ class CheckReport:
     def lines(self) -> tuple[str, ...]:
         """Return lines of text: failures, then warnings, then passed checks; the verdict is last."""
         order = (Severity.FAILURE, Severity.WARNING, Severity.OK)
-        told = [str(f) for severity in order for f in self.findings if f.severity is severity]
+        findings = [str(f) for severity in order for f in self.findings if f.severity is severity]
         counts = f"{self.count(Severity.FAILURE)} failures, {self.count(Severity.WARNING)} warnings"
-        return (*told, f"{self.path}: {'passed' if self.ok else 'failed'}, {counts}")
+        return (*findings, f"{self.path}: {'passed' if self.ok else 'failed'}, {counts}")
 
 
 def failure(check: str, subject: str, text: str) -> Finding:

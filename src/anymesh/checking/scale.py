@@ -19,5 +19,5 @@ def check_scale(content: Content) -> Iterator[Finding]:
         yield failure(CHECK, "", "the object has no shape; links need visual or collision shapes")
     elif not MIN_DIAGONAL <= diagonal <= MAX_DIAGONAL:
         far = not MIN_DIAGONAL / BEYOND <= diagonal <= MAX_DIAGONAL * BEYOND
-        told = f"the object's diagonal is {diagonal:.4g} m; plausible is {MIN_DIAGONAL:g} to {MAX_DIAGONAL:g} m"
-        yield failure(CHECK, "", f"{told}; are the units metres?") if far else warning(CHECK, "", told)
+        problem = f"the object's diagonal is {diagonal:.4g} m; plausible is {MIN_DIAGONAL:g} to {MAX_DIAGONAL:g} m"
+        yield failure(CHECK, "", f"{problem}; are the units metres?") if far else warning(CHECK, "", problem)

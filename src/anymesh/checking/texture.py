@@ -23,8 +23,8 @@ def check_texture(content: Content, *, ours: bool) -> Iterator[Finding]:
     Missing materials in mesh files of other sources are a warning, since such meshes are shown in one colour.
     """
     for link in content.robot.links:
-        told = [text for solid in content.visuals[link.name] for text in solid.warnings]
-        for text in dict.fromkeys(told):
+        warnings = [text for solid in content.visuals[link.name] for text in solid.warnings]
+        for text in dict.fromkeys(warnings):
             yield failure(CHECK, link.name, text) if ours else warning(CHECK, link.name, text)
     folder = content.robot.path.parent
     for reference in content.robot.pictures:

@@ -34,8 +34,8 @@ def check_tree(robot: Robot) -> Iterator[Finding]:
         if count > 1:
             yield failure(CHECK, child, f"{count} joints have this link as their child; one is valid")
     if len(robot.roots) != 1:
-        told = ", ".join(robot.roots) or "none, since the joints form a cycle"
-        yield failure(CHECK, "", f"the links that no joint carries are: {told}; valid is one")
+        roots = ", ".join(robot.roots) or "none, since the joints form a cycle"
+        yield failure(CHECK, "", f"the links that no joint carries are: {roots}; valid is one")
     elif len(robot.carried(robot.roots[0])) < len(known):
         lost = sorted(known - robot.carried(robot.roots[0]))
         yield failure(CHECK, lost[0], f"the links {lost} are not connected to the root {robot.roots[0]!r}; valid is a tree")

@@ -52,11 +52,11 @@ def answer(
         _answer_by_batch(folder, batch_api, max_cost, json_, quiet)
         return
     if value is not None:
-        told = record_answer(folder, _read(value))
+        saved = record_answer(folder, _read(value))
         if json_:
-            typer.echo(json.dumps({"answered": str(told.question.path), "checked": told.whole, "open": told.left}, indent=2))
+            typer.echo(json.dumps({"answered": str(saved.question.path), "checked": saved.whole, "open": saved.left}, indent=2))
         elif not quiet:
-            typer.echo(plain(told.words()))
+            typer.echo(plain(saved.words()))
         return
     found = open_in(folder)
     if json_:

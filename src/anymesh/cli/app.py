@@ -148,8 +148,8 @@ def _defect(arguments: list[str], handed: _HandedError) -> int:
         raise error
     report = write_defect(error, handed.command, handed.options)
     where = "" if report is None else f"; please report it with {report} (versions, options, traceback; no mesh, no keys)"
-    told = f"internal defect, {type(error).__name__}: {error}{where}; --debug before the command shows the traceback"
-    return _fail(arguments, error, told, DEFECT, report=None if report is None else str(report))
+    message = f"internal defect, {type(error).__name__}: {error}{where}; --debug before the command shows the traceback"
+    return _fail(arguments, error, message, DEFECT, report=None if report is None else str(report))
 
 
 def _interrupted(arguments: list[str]) -> int:
@@ -159,9 +159,9 @@ def _interrupted(arguments: list[str]) -> int:
     return 130
 
 
-def _fail(arguments: list[str], error: BaseException, told: str, code: int, **more: str | list[str] | None) -> int:
-    told = plain(" ".join(told.split()))
+def _fail(arguments: list[str], error: BaseException, message: str, code: int, **more: str | list[str] | None) -> int:
+    message = plain(" ".join(message.split()))
     if "--json" in arguments:
-        typer.echo(json.dumps({"error": told, "kind": type(error).__name__, "exit_code": code, **more}))
-    typer.echo(f"error: {told}", err=True)
+        typer.echo(json.dumps({"error": message, "kind": type(error).__name__, "exit_code": code, **more}))
+    typer.echo(f"error: {message}", err=True)
     return code

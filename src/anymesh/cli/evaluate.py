@@ -107,5 +107,5 @@ def _interaction(assets: str, out: Path, only: tuple[str, ...], seed: int, force
         typer.echo(f"wrote {out / 'report.md'}")
 
 
-def _names(told: str) -> tuple[str, ...]:
-    return tuple(name.strip() for name in told.split(",") if name.strip())
+def _names(text: str) -> tuple[str, ...]:
+    return tuple(name.strip() for name in text.split(",") if name.strip())

@@ -89,17 +89,17 @@ def chosen_answerer(name: str, hidden: bool) -> str:
         return name
     from anymesh.pipeline.answering import resolve_auto
 
-    name, told = resolve_auto(name)
+    name, reason = resolve_auto(name)
     if not hidden:
-        typer.echo(plain(told))
+        typer.echo(plain(reason))
     return name
 
 
 def _spent(usage: dict[str, Any], out: Path) -> str:
     cost = "at an unknown price" if usage["cost_usd"] is None else f"{usage['cost_usd']:.4f} USD"
     tokens = f"{usage['input_tokens']} + {usage['output_tokens']} tokens"
-    told = f"{usage['calls']} calls ({usage['cached_calls']} from the cache), {tokens}, {cost}"
-    return f"{told}; every question with its pictures: {out / 'transcript' / 'index.html'}"
+    summary = f"{usage['calls']} calls ({usage['cached_calls']} from the cache), {tokens}, {cost}"
+    return f"{summary}; every question with its pictures: {out / 'transcript' / 'index.html'}"
 
 
 def tell(record: dict[str, Any], rows: list[dict[str, Any]], columns: tuple[str, ...], json_: bool, quiet: bool) -> None:

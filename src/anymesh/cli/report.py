@@ -33,11 +33,11 @@ def report(
     from anymesh.viewer.report import write_report
 
     with Shown(quiet or json_) as progress:
-        told = write_report(folder, out, faces=faces, megabytes=megabytes, progress=progress)
+        written = write_report(folder, out, faces=faces, megabytes=megabytes, progress=progress)
     if json_:
-        typer.echo(json.dumps(asdict(told) | {"path": str(told.path)}, indent=2))
+        typer.echo(json.dumps(asdict(written) | {"path": str(written.path)}, indent=2))
     elif not quiet:
-        lines = [f"cannot be shown: {name}" for name in told.unreadable] + list(told.notes)
-        count = f"{told.assets} asset{'s' if told.assets != 1 else ''}"
-        lines.append(f"wrote {told.path}: {count}, {told.size / 1e6:.1f} MB")
+        lines = [f"cannot be shown: {name}" for name in written.unreadable] + list(written.notes)
+        count = f"{written.assets} asset{'s' if written.assets != 1 else ''}"
+        lines.append(f"wrote {written.path}: {count}, {written.size / 1e6:.1f} MB")
         typer.echo("\n".join(plain(line) for line in lines))

@@ -64,13 +64,13 @@ def scan(
         typer.echo("\n".join(plain(line) for line in _lines(report, out)))
 
 
-def _box(told: str) -> tuple[float, ...] | None:
+def _box(crop: str) -> tuple[float, ...] | None:
     from anymesh.errors import OptionError
 
     try:
-        return tuple(float(v) for v in told.split(",")) if told else None
+        return tuple(float(v) for v in crop.split(",")) if crop else None
     except ValueError:
-        raise OptionError(f"--crop: found {told!r}; valid are six numbers x0,y0,z0,x1,y1,z1 [m]") from None
+        raise OptionError(f"--crop: found {crop!r}; valid are six numbers x0,y0,z0,x1,y1,z1 [m]") from None
 
 
 def _lines(report: ScanReport, out: Path) -> list[str]:

@@ -60,7 +60,7 @@ def view(
                 progress=progress,
             )  # fmt: skip
             serving = stack.enter_context(page)
-        for line in (*serving.told, f"{serving.url} (Ctrl-C ends it)"):
+        for line in (*serving.notes, f"{serving.url} (Ctrl-C ends it)"):
             typer.echo(plain(line))
         if not no_browser:
             webbrowser.open(serving.url)

@@ -81,11 +81,11 @@ def draw_joint(
     return captioned(drawn, f"{sample.truth.name} / {true.child}", what_is_off(score))
 
 
-def captioned(image: UInt8[np.ndarray, "h W 3"], title: str, told: str) -> UInt8[np.ndarray, "H W 3"]:
+def captioned(image: UInt8[np.ndarray, "h W 3"], title: str, subtitle: str) -> UInt8[np.ndarray, "H W 3"]:
     """Put the picture above a caption of two lines; characters that the font lacks become question marks."""
     bar = Image.new("RGB", (image.shape[1], CAPTION), (255, 255, 255))
     draw = ImageDraw.Draw(bar)
-    for k, (text, color) in enumerate(((title, (20, 20, 20)), (told, (90, 90, 90)))):
+    for k, (text, color) in enumerate(((title, (20, 20, 20)), (subtitle, (90, 90, 90)))):
         plain = text.encode("ascii", "replace").decode()
         draw.text((8, 4 + (k + 0.5) * LINE), plain, fill=color, font=font(TEXT), anchor="lm")
     for word, color, right in (("found", FOUND_COLOR, 8), ("true", TRUE_COLOR, 62)):

@@ -106,8 +106,8 @@ def _record(
         raise
     except Exception as error:  # any failure is limited to this object
         log.exception("%s (%s) failed", truth.name, label)
-        told = f"{type(error).__name__}: {error}"
-        return Record(failed(truth), truth.category, label, time.perf_counter() - begin, error=told)
+        message = f"{type(error).__name__}: {error}"
+        return Record(failed(truth), truth.category, label, time.perf_counter() - begin, error=message)
     drawn = tuple(_pictures(sample, segmentation, joints, found, folder, label))
     return Record(found, truth.category, label, seconds, pictures=drawn)
 

@@ -125,7 +125,7 @@ def _settings(
     dataset: str, split: str | None, only: Sequence[str], eval_config: EvalConfig, answering: Answering
 ) -> dict[str, str]:
     """Return the settings that determine an evaluation, and the environment in which it runs, in words."""
-    told = {
+    settings = {
         "dataset": dataset,
         "split": split or "all",
         "protocol": str(eval_config.protocol),
@@ -135,14 +135,14 @@ def _settings(
         "anymesh": __version__,
     }
     if eval_config.protocol is EvalProtocol.VIEWS:
-        told["views"] = str(eval_config.views)
+        settings["views"] = str(eval_config.views)
     if only:
-        told["only"] = ", ".join(sorted(only))
-    told |= {k: str(answering[k]) for k in ("verify", "proposer", "viewpoints") if k in answering}
+        settings["only"] = ", ".join(sorted(only))
+    settings |= {k: str(answering[k]) for k in ("verify", "proposer", "viewpoints") if k in answering}
     if eval_config.protocol in (EvalProtocol.END_TO_END, EvalProtocol.EXECUTABILITY):
-        told["at least"] = str(answering.get("at_least", 0))
+        settings["at least"] = str(answering.get("at_least", 0))
     made = {"date": datetime.datetime.now(datetime.UTC).date().isoformat(), "python": platform.python_version()}
-    return told | made | {"numpy": np.__version__, "machine": f"{platform.machine()}, {_cores()} cores"}
+    return settings | made | {"numpy": np.__version__, "machine": f"{platform.machine()}, {_cores()} cores"}
 
 
 def _cores() -> int:

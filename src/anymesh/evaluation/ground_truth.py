@@ -106,8 +106,8 @@ def read_ground_truth(path: Path, mesh: Path) -> GroundTruth:
     return GroundTruth(record["name"], mesh, parts, np.load(path.with_suffix(".npy")).astype(np.int64), joints)
 
 
-def _limits(told: list[float] | None) -> tuple[float, float] | None:
-    return None if told is None else (float(told[0]), float(told[1]))
+def _limits(limits: list[float] | None) -> tuple[float, float] | None:
+    return None if limits is None else (float(limits[0]), float(limits[1]))
 
 
 def example_truths(folder: Path) -> list[GroundTruth]:

@@ -38,8 +38,8 @@ def write_report(records: Sequence[Record], folder: Path, *, title: str, setting
     rows = "".join(json.dumps(row, allow_nan=False) + "\n" for row in joint_rows(records))
     try:
         if shown:
-            told = [captioned(pixels, o.title, what_is_off(o.joint)) for o, pixels in shown]
-            _write(folder / SHEET, encode(contact_sheet(told, SHEET_COLUMNS, SHEET_WIDTH)).png)
+            pictures = [captioned(pixels, o.title, what_is_off(o.joint)) for o, pixels in shown]
+            _write(folder / SHEET, encode(contact_sheet(pictures, SHEET_COLUMNS, SHEET_WIDTH)).png)
         else:
             (folder / SHEET).unlink(missing_ok=True)
         _write(folder / "joints.jsonl", rows.encode())
@@ -75,8 +75,8 @@ def markdown(table: Table) -> str:
 
 def _plain(text: str) -> str:
     """Escape Markdown and HTML, and join the text to one line."""
-    for sign, told in (("&", "&amp;"), ("<", "&lt;"), ("\\", "\\\\"), ("|", "\\|"), ("`", "\\`"), ("*", "\\*"), ("_", "\\_")):
-        text = text.replace(sign, told)
+    for sign, quoted in (("&", "&amp;"), ("<", "&lt;"), ("\\", "\\\\"), ("|", "\\|"), ("`", "\\`"), ("*", "\\*"), ("_", "\\_")):
+        text = text.replace(sign, quoted)
     return " ".join(text.split())
 
 

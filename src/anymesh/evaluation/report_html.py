@@ -49,8 +49,8 @@ def html_report(
     summary = sections.pop("Summary")
     charts = "".join(f"<figure>{svg}</figure>" for svg in error_charts(curves(records)))
     pictures = "".join(_figure(off, pixels) for off, pixels in worst)
-    told = " · ".join(f"{escape(k)} {escape(v)}" for k, v in settings.items())
-    parts = [f"<h1>{escape(title)}</h1><p>{told}</p>", summary]
+    subtitle = " · ".join(f"{escape(k)} {escape(v)}" for k, v in settings.items())
+    parts = [f"<h1>{escape(title)}</h1><p>{subtitle}</p>", summary]
     if charts:
         note = "Share of joints whose error is at most so large; a curve that ends below 1 has joints that are missing."
         parts.append(f'<h2>Errors of the joints</h2><p>{note}</p><div class="charts">{charts}</div>')
@@ -99,6 +99,6 @@ def _figure(off: Off, pixels: UInt8[np.ndarray, "H W 3"]) -> str:
     buffer = io.BytesIO()
     Image.fromarray(pixels).save(buffer, "JPEG", quality=QUALITY)
     data = base64.b64encode(buffer.getvalue()).decode()
-    told = f"<b>{escape(off.title)}</b><br>{escape(what_is_off(off.joint))}"
+    caption = f"<b>{escape(off.title)}</b><br>{escape(what_is_off(off.joint))}"
     image = f'<img src="data:image/jpeg;base64,{data}" alt="{escape(off.title)}" loading="lazy">'
-    return f"<figure>{image}<figcaption>{told}</figcaption></figure>"
+    return f"<figure>{image}<figcaption>{caption}</figcaption></figure>"

@@ -44,8 +44,8 @@ class ResultsFolder:
         kept = {k: v for k, v in (begun or {}).items() if k != "generator"}
         differing = sorted(k for k in {*kept, *settings} - {*NEW} if kept.get(k) != settings.get(k))
         if ours and differing and not force:
-            told = ", ".join(f"{k}: {kept.get(k, '-')} (now {settings.get(k, '-')})" for k in differing)
-            raise OutputError(f"{folder} holds an evaluation with other settings: {told}; choose another folder, or --force")
+            pairs = ", ".join(f"{k}: {kept.get(k, '-')} (now {settings.get(k, '-')})" for k in differing)
+            raise OutputError(f"{folder} holds an evaluation with other settings: {pairs}; choose another folder, or --force")
         if ours and not force:
             return cls(folder, kept)
         for name in (OBJECTS, "pictures"):

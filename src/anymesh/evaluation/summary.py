@@ -100,8 +100,8 @@ def of_type(records: Iterable[Record], kind: JointType) -> list[Record]:
 
 
 def _share(values: Iterable[float]) -> float | None:
-    told = list(values)
-    return fmean(told) if told else None
+    numbers = list(values)
+    return fmean(numbers) if numbers else None
 
 
 def _mean(values: Sequence[float | None], missing: float) -> Mean:

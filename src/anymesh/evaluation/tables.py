@@ -63,12 +63,12 @@ def _alike(name: str, of: Callable[[Summary], ParticulateMetrics | None], when: 
     def value(field: str) -> Callable[[Summary], float | None]:
         return lambda s: None if of(s) is None else getattr(of(s), field)
 
-    told = f"Particulate's, {when}; failed: "
+    meaning = f"Particulate's, {when}; failed: "
     return (
-        Column(f"{name} gIoU", value("giou"), f"{told}{UNLIKE.giou:g}", worst=UNLIKE.giou, short=short, whole=True),
-        Column(f"{name} mIoU", value("miou"), f"{told}{UNLIKE.miou:g}", worst=UNLIKE.miou, short=False, whole=True),
+        Column(f"{name} gIoU", value("giou"), f"{meaning}{UNLIKE.giou:g}", worst=UNLIKE.giou, short=short, whole=True),
+        Column(f"{name} mIoU", value("miou"), f"{meaning}{UNLIKE.miou:g}", worst=UNLIKE.miou, short=False, whole=True),
         Column(
-            f"{name} Chamfer", value("chamfer"), f"{told}{UNLIKE.chamfer:.2f}", ".4f", 0.0, UNLIKE.chamfer, False, whole=True
+            f"{name} Chamfer", value("chamfer"), f"{meaning}{UNLIKE.chamfer:.2f}", ".4f", 0.0, UNLIKE.chamfer, False, whole=True
         ),
     )
 
@@ -142,12 +142,12 @@ def _summary_table(summary: Summary) -> Table:
 def group_table(title: str, groups: Sequence[tuple[str, Sequence[Record]]], *, whole: bool = True) -> Table:
     """Return a table with one row per group. whole: include figures of objects."""
     summaries = [summarize(some) for _, some in groups]
-    columns = [c for c in COLUMNS if c.short and (whole or not c.whole) and _tells(c, summaries)]
+    columns = [c for c in COLUMNS if c.short and (whole or not c.whole) and _is_informative(c, summaries)]
     rows = ((Cell(name), *(c.cell(c.value(s)) for c in columns)) for (name, _), s in zip(groups, summaries, strict=True))
     return Table(title, ("", *(c.name for c in columns)), tuple(rows))
 
 
-def _tells(column: Column, summaries: Sequence[Summary]) -> bool:
+def _is_informative(column: Column, summaries: Sequence[Summary]) -> bool:
     """Return whether any row has an informative value; counts of objects or errors at their minimum everywhere are not."""
     nothing = {"objects": 1.0, "errors": 0.0}.get(column.name)
     return any(column.value(s) not in (None, nothing) for s in summaries)

@@ -51,14 +51,14 @@ def what_is_off(j: JointScore) -> str:
     if j.type_found is None:
         parts = f"nearest part has IoU {j.iou:.2f}" if j.iou < MIN_MATCH_IOU else "its part has no joint"
         return f"{j.type_true}, not found: {parts}" if j.iou else f"{j.type_true}, not found"
-    told = [f"{j.type_found} instead of {j.type_true}" if not j.type_right else str(j.type_true)]
-    told += [] if j.angle is None else [f"angle {j.angle:.1f} deg"]
-    told += [] if j.at_part is None else [f"line off {j.at_part:.3f}"]
-    told += [] if j.displacement is None else [f"points off {j.displacement:.3f}"]
-    told += ["opens the wrong way"] if j.opens_right is False and j.type_right else []
-    told += [] if j.range_iou is None else [f"range IoU {j.range_iou:.2f}"]
-    told += ["wrong parent"] if j.parent_right is False else []
-    return ", ".join(told)
+    errors = [f"{j.type_found} instead of {j.type_true}" if not j.type_right else str(j.type_true)]
+    errors += [] if j.angle is None else [f"angle {j.angle:.1f} deg"]
+    errors += [] if j.at_part is None else [f"line off {j.at_part:.3f}"]
+    errors += [] if j.displacement is None else [f"points off {j.displacement:.3f}"]
+    errors += ["opens the wrong way"] if j.opens_right is False and j.type_right else []
+    errors += [] if j.range_iou is None else [f"range IoU {j.range_iou:.2f}"]
+    errors += ["wrong parent"] if j.parent_right is False else []
+    return ", ".join(errors)
 
 
 def _drawn(records: Sequence[Record]) -> Iterator[Off]:

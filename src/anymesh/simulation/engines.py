@@ -50,21 +50,21 @@ def _apart(engine: str, path: Path, python: str) -> SweepReport:
         if not answer.exists():
             last = " ".join(done.stderr.split())[-300:]
             raise InputError(f"{engine} ended its process with code {done.returncode} on {path.name}: {last}")
-        told = json.loads(answer.read_text(encoding="utf-8"))
-    if "error" in told:
-        raise KINDS.get(told["kind"], InputError)(told["error"])
-    return from_record(told)
+        record = json.loads(answer.read_text(encoding="utf-8"))
+    if "error" in record:
+        raise KINDS.get(record["kind"], InputError)(record["error"])
+    return from_record(record)
 
 
 def _answer(engine: str, path: Path, answer: Path) -> None:
     """Write the report or the error as JSON, atomically; main function of the process."""
     try:
-        told = as_record(sweep_in(engine, path, apart=False))
+        record = as_record(sweep_in(engine, path, apart=False))
     except Exception as error:
         kind = type(error).__name__
-        told = {"error": str(error) if kind in KINDS else f"{engine} on {path.name}: {kind}: {error}", "kind": kind}
+        record = {"error": str(error) if kind in KINDS else f"{engine} on {path.name}: {kind}: {error}", "kind": kind}
     fresh = answer.with_suffix(".part")
-    fresh.write_text(json.dumps(told), encoding="utf-8")
+    fresh.write_text(json.dumps(record), encoding="utf-8")
     fresh.rename(answer)
 
 

@@ -14,8 +14,8 @@ def load_engine(module: str, *, shown: str, extra: str) -> ModuleType:
     try:
         return import_module(module)
     except ImportError as error:
-        told = f"{shown} is not installed ({error}); install it with `pip install articulate-anymesh[{extra}]`"
-        raise MissingExtraError(told) from error
+        message = f"{shown} is not installed ({error}); install it with `pip install articulate-anymesh[{extra}]`"
+        raise MissingExtraError(message) from error
 
 
 def engine_version(distribution: str, shown: str) -> str:

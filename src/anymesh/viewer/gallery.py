@@ -148,17 +148,17 @@ def _read_decisions(folder: Path) -> dict[str, tuple[Decision, ...]]:
     if found is None and path.exists():
         raise OutputError(f"{path} cannot be read; move it away to begin a new review")
     try:
-        told: dict[str, list[dict[str, Any]]] = (found or {}).get("decisions", {})
-        return {key: tuple(Decision(**{**d, "verdict": Verdict(d["verdict"])}) for d in made) for key, made in told.items()}
+        records: dict[str, list[dict[str, Any]]] = (found or {}).get("decisions", {})
+        return {key: tuple(Decision(**{**d, "verdict": Verdict(d["verdict"])}) for d in made) for key, made in records.items()}
     except (TypeError, ValueError, KeyError, AttributeError) as error:
         raise OutputError(f"{path} is not a review ({error}); move it away to begin a new one") from error
 
 
 def _write(folder: Path, decisions: dict[str, tuple[Decision, ...]]) -> None:
-    told = {key: [{**vars(d), "verdict": str(d.verdict)} for d in made] for key, made in sorted(decisions.items())}
+    records = {key: [{**vars(d), "verdict": str(d.verdict)} for d in made] for key, made in sorted(decisions.items())}
     new = folder / f".{REVIEW}.{os.getpid()}"
     try:
-        new.write_text(json.dumps({"decisions": told}, indent=1) + "\n", encoding="ascii", newline="\n")
+        new.write_text(json.dumps({"decisions": records}, indent=1) + "\n", encoding="ascii", newline="\n")
         new.replace(folder / REVIEW)
     except OSError as error:
         raise OutputError(f"cannot write {folder / REVIEW}: {error.strerror or error}") from error

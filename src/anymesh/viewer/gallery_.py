@@ -28,7 +28,7 @@ class ReviewPanel:
         self._at: Item | None = None
         gui = page.gui
         with tab:
-            self._told = gui.add_html("")
+            self._status = gui.add_html("")
             self._verdict = gui.add_button_group("Verdict", ("Accept (A)", "Reject (R)", "Correct (C)"))
             self._step = gui.add_button_group("Go", ("← Before", "Next →"))
             self._filter = gui.add_dropdown("Show", tuple(Filter), initial_value=Filter.UNDECIDED)
@@ -87,7 +87,7 @@ class ReviewPanel:
     def _show(self, item: Item) -> None:
         self._at = item
         self._open(item.folder)
-        label = next((told for told, other in self._labels().items() if other.key == item.key), None)
+        label = next((choice for choice, other in self._labels().items() if other.key == item.key), None)
         if label is not None:
             self._list.value = label
         self._page.play_joint("")
@@ -131,6 +131,6 @@ class ReviewPanel:
                 f'<b style="color:{color}">{decision.verdict}</b> by {escape(decision.reviewer)}, {escape(decision.time[:16])}'
             )
         end = "<br><b>All are decided.</b>" if done == total else ""
-        self._told.content = (
+        self._status.content = (
             f"<div {SMALL}>{badge(item.confidence)} <b>{escape(item.key)}</b>: {said}<br>{done} of {total} decided{end}</div>"
         )

@@ -157,7 +157,7 @@ class LivePage:
         """Update the head of the page."""
         if self.session is not None:
             unsaved = max(len(self.session.history.done), 1) if self.session.unsaved else 0
-            self._head.content = head(self.session.asset, unsaved=unsaved, note=self.view.note(), tool=self.tools.told)
+            self._head.content = head(self.session.asset, unsaved=unsaved, note=self.view.note(), tool=self.tools.hint)
 
     def correct(self, correction: Correction) -> None:
         """Apply a correction to the displayed asset."""

@@ -21,11 +21,11 @@ from anymesh.viewer.live_ import LivePage, start_server
 
 @dataclass(frozen=True)
 class Serving:
-    """A running page. url: its address; told: information for the person, in sentences."""
+    """A running page. url: its address; notes: information for the person, in sentences."""
 
     page: LivePage
     url: str
-    told: tuple[str, ...]
+    notes: tuple[str, ...]
 
 
 @contextlib.contextmanager
@@ -54,14 +54,14 @@ def serve(
     if out is not None and place is not None and not ask:
         raise OptionError("--out is for a page that takes meshes: without a target, or with --ask")
     with contextlib.ExitStack() as stack:
-        told: tuple[str, ...] = ()
+        notes: tuple[str, ...] = ()
         folder = bench = None
         if place is None or ask:
-            bench, told = stack.enter_context(_bench(out, ask))
+            bench, notes = stack.enter_context(_bench(out, ask))
         elif place.is_dir():
             folder = place.resolve()
         else:
-            folder, told = stack.enter_context(_articulated(place, root, progress))
+            folder, notes = stack.enter_context(_articulated(place, root, progress))
         one = folder is not None and written_files(folder) is not None
         with contextlib.redirect_stdout(io.StringIO()):  # the library's own banner
             server = start_server(host, port, "anymesh" if place is None else f"anymesh: {place.name}")
@@ -75,7 +75,7 @@ def serve(
             page.open(folder)
         if page.bench is not None and place is not None:
             page.bench.start(place, root)
-        yield Serving(page, f"http://{server.get_host()}:{server.get_port()}", told)
+        yield Serving(page, f"http://{server.get_host()}:{server.get_port()}", notes)
 
 
 @contextlib.contextmanager

@@ -32,9 +32,9 @@ def head(asset: Asset, *, unsaved: int, note: str, tool: str) -> str:
     lines += [_line("#1864ab", note)] if note else []
     lines += [_line("#862e9c", tool)] if tool else []
     moving = sum(j.type is not JointType.FIXED for j in asset.joints)
-    told = f"<b>{escape(asset.name)}</b>: {_count(len(asset.segmentation.parts), 'part')}, {_count(moving, 'moving joint')}"
+    summary = f"<b>{escape(asset.name)}</b>: {_count(len(asset.segmentation.parts), 'part')}, {_count(moving, 'moving joint')}"
     left = f" · <b>{_count(unsaved, 'correction')} not saved</b>" if unsaved else ""
-    return f"<div {SMALL}>{told}{left}{''.join(lines)}</div>"
+    return f"<div {SMALL}>{summary}{left}{''.join(lines)}</div>"
 
 
 def _count(count: int, what: str) -> str:
@@ -55,8 +55,8 @@ def joint_table(asset: Asset) -> str:
 def _row(number: int, joint: Joint) -> str:
     r, g, b = color_of(number)
     dot = f'<span style="display:inline-block;width:0.8em;height:0.8em;border-radius:2px;background:rgb({r},{g},{b})"></span>'
-    told = f"{badge(joint.confidence)} {dot} <b>{escape(joint.child)}</b> {joint.type} {escape(extent(joint))}"
-    return f'<div style="margin-top:0.3em">{told}<br><span style="opacity:0.75">{escape(joint.reason)}</span></div>'
+    summary = f"{badge(joint.confidence)} {dot} <b>{escape(joint.child)}</b> {joint.type} {escape(extent(joint))}"
+    return f'<div style="margin-top:0.3em">{summary}<br><span style="opacity:0.75">{escape(joint.reason)}</span></div>'
 
 
 def selection(asset: Asset, name: str | None) -> str:
@@ -65,11 +65,11 @@ def selection(asset: Asset, name: str | None) -> str:
         return f"<div {SMALL}>Click a part to select it.</div>"
     number, part = next((k, p) for k, p in enumerate(asset.segmentation.parts) if p.name == name)
     faces = f"{len(asset.segmentation.faces(number)):,} faces"
-    told = f"<b>{escape(part.name)}</b> ({escape(part.label)}), {faces} {badge(part.confidence)} {escape(part.reason)}"
+    summary = f"<b>{escape(part.name)}</b> ({escape(part.label)}), {faces} {badge(part.confidence)} {escape(part.reason)}"
     joint = next((j for j in asset.joints if j.child == name), None)
     if joint is None:
-        return f"<div {SMALL}>{told}<br>The root: it carries the others and has no joint.</div>"
-    return f"<div {SMALL}>{told}{_row(number, joint)}parent: {escape(joint.parent)}</div>"
+        return f"<div {SMALL}>{summary}<br>The root: it carries the others and has no joint.</div>"
+    return f"<div {SMALL}>{summary}{_row(number, joint)}parent: {escape(joint.parent)}</div>"
 
 
 def scale_of(joint: Joint) -> tuple[float, str]:

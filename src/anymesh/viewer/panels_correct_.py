@@ -36,7 +36,7 @@ class CorrectPanel:
         self._motions_of: tuple[Any, str | None] | None = None
         with tab:
             self._part = gui.add_dropdown("Part", (NONE,))
-            self._told = gui.add_html("")
+            self._description = gui.add_html("")
             self._motion_folder = gui.add_folder("Motion")
             self._joint_folder = gui.add_folder("Joint")
             self._part_folder = gui.add_folder("Part", expand_by_default=False)
@@ -73,7 +73,7 @@ class CorrectPanel:
     def refresh(self, session: Session) -> None:
         """Update the controls for the selection and the asset."""
         names = [p.name for p in session.asset.segmentation.parts]
-        self._told.content = selection(session.asset, session.selected)
+        self._description.content = selection(session.asset, session.selected)
         offer(self._part, (NONE, *names), session.selected or NONE)
         others = tuple(n for n in names if n != session.selected)
         joint = session.joint()

@@ -70,7 +70,7 @@ class CorrectionTools:
         page.server.scene.on_rect_select(modifier="shift")(lambda event: page.act(lambda: self._brushed(event)))
 
     @property
-    def told(self) -> str:
+    def hint(self) -> str:
         """Hint for the current tool, "" if there is none."""
         return TOOL_HINTS.get(self._tool, "")
 

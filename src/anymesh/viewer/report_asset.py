@@ -102,33 +102,33 @@ def _face_part(mesh: Mesh, parts: Sequence[Part]) -> np.ndarray:
     return np.array([number[node.name] for node in mesh.nodes])[mesh.face_node]
 
 
-def _joint(told: Mapping[str, Any]) -> Joint:
-    axis = np.array(told["axis"], float)
-    limits = told["limits"]
+def _joint(record: Mapping[str, Any]) -> Joint:
+    axis = np.array(record["axis"], float)
+    limits = record["limits"]
     made = Joint(
-        name=told["name"],
-        type=JointType(told["type"]),
-        parent=told["parent"],
-        child=told["child"],
-        origin=np.array(told["origin"], float),
+        name=record["name"],
+        type=JointType(record["type"]),
+        parent=record["parent"],
+        child=record["child"],
+        origin=np.array(record["origin"], float),
         axis=axis / np.linalg.norm(axis),
         limits=None if limits is None else (float(limits[0]), float(limits[1])),
-        confidence=told["confidence"],
-        reason=told["reason"],
+        confidence=record["confidence"],
+        reason=record["reason"],
     )
-    return replace(made, **{key: float(told[key]) for key in ("effort", "velocity", "damping", "friction")})
+    return replace(made, **{key: float(record[key]) for key in ("effort", "velocity", "damping", "friction")})
 
 
 def _exchange(folder: Path, path: Path) -> Exchange | None:
     try:
-        told: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
-        if not all(isinstance(told[word], str) for word in WORDS):
+        record: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
+        if not all(isinstance(record[word], str) for word in WORDS):
             return None
-        told["pictures"] = tuple(
+        record["pictures"] = tuple(
             Picture((folder / drawn["file"]).read_bytes(), str(drawn["caption"]))
-            for drawn in told["pictures"]
+            for drawn in record["pictures"]
             if DRAWN.fullmatch(drawn["file"]) and (folder / drawn["file"]).is_file()
         )
-        return Exchange(**told)
+        return Exchange(**record)
     except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError):
         return None

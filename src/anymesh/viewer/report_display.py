@@ -44,8 +44,8 @@ def displayed(asset: Asset, *, faces: int = FACES, pixels: int = PIXELS) -> tupl
         materials.append(replace(material, textures={slot: texture for slot, (texture, _) in textures.items()}))
     if largest <= pixels:
         return asset, ()
-    told = f"Textures shrunk for display: from up to {largest} to {pixels} pixels. The files are unchanged."
-    return replace(asset, mesh=replace(asset.mesh, materials=tuple(materials))), (told,)
+    note = f"Textures shrunk for display: from up to {largest} to {pixels} pixels. The files are unchanged."
+    return replace(asset, mesh=replace(asset.mesh, materials=tuple(materials))), (note,)
 
 
 def display_glb(asset: Asset) -> bytes:

@@ -76,8 +76,8 @@ def within(entries: list[ReportEntry], megabytes: float) -> list[ReportEntry]:
     for k, entry in enumerate(found):
         taken = sum(map(len, entry.pictures.values())) * 4 // 3
         if taken > left:
-            told = f"Pictures of the questions are left out: the page is limited to {megabytes:g} MB."
-            found[k] = replace(entry, pictures={}, notes=(*entry.notes, told))
+            note = f"Pictures of the questions are left out: the page is limited to {megabytes:g} MB."
+            found[k] = replace(entry, pictures={}, notes=(*entry.notes, note))
         else:
             left -= taken
     return found

@@ -63,9 +63,9 @@ def _head(title: str, entries: Sequence[ReportEntry]) -> str:
     joints = sum(len(e.asset.joints) for e in entries if e.asset)
     size = sum(e.size for e in entries) / 1e6
     count = f"{len(entries)} asset{'s' if len(entries) != 1 else ''}, {joints} joint{'s' if joints != 1 else ''}"
-    told = f"<header><h1>{said(title)}</h1><p>{count}; {size:.1f} MB of 3D data and pictures in this file</p></header>"
+    header = f"<header><h1>{said(title)}</h1><p>{count}; {size:.1f} MB of 3D data and pictures in this file</p></header>"
     if len(entries) == 1:
-        return told
+        return header
     rows = "".join(
         f'<tr><td><a href="#a{k}">{said(e.title)}</a></td>'
         + (
@@ -79,7 +79,7 @@ def _head(title: str, entries: Sequence[ReportEntry]) -> str:
     head = "<tr><th>asset, least confident first</th><th>joints</th><th>lowest confidence</th><th>warnings</th></tr>"
     table = f'<div class="wide"><table><thead>{head}</thead><tbody>{rows}</tbody></table></div>'
     folded = f"<details open><summary>All assets</summary>{table}</details>"
-    return told + folded
+    return header + folded
 
 
 def _section(number: int, entry: ReportEntry, *, alone: bool) -> str:
@@ -98,8 +98,8 @@ def _section(number: int, entry: ReportEntry, *, alone: bool) -> str:
 
 def _stage(entry: ReportEntry, alone: bool) -> str:
     hint = HINT.format("" if alone else " (after a click)")  # the wheel scrolls a page of many assets
-    told = f'<button class="open">Show in 3D</button><p class="hint">{hint}</p>' if entry.glb else ""
-    return f'<div class="stage">{told}<p class="message" role="status"></p></div>'
+    controls = f'<button class="open">Show in 3D</button><p class="hint">{hint}</p>' if entry.glb else ""
+    return f'<div class="stage">{controls}<p class="message" role="status"></p></div>'
 
 
 def _tools(entry: ReportEntry) -> str:
@@ -120,8 +120,8 @@ def _tools(entry: ReportEntry) -> str:
 def _picture(entry: ReportEntry) -> str:
     if not entry.preview:
         return ""
-    told = f"{said(entry.title)}: as it looks, parts at rest, parts opened"
-    return f'<img class="preview" alt="{told}" src="data:image/jpeg;base64,{_text(entry.preview)}">'
+    alt = f"{said(entry.title)}: as it looks, parts at rest, parts opened"
+    return f'<img class="preview" alt="{alt}" src="data:image/jpeg;base64,{_text(entry.preview)}">'
 
 
 def _data(name: str, values: Any) -> str:

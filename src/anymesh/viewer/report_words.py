@@ -14,9 +14,9 @@ from anymesh.viewer.report_scene import color_class
 SURE, DOUBTFUL = 0.8, 0.5  # confidence from which a joint is marked sure; below which it is marked doubtful
 
 
-def said(told: object) -> str:
+def said(text: object) -> str:
     """Escape a text for any place in the page; unprintable and direction-changing characters become U+FFFD."""
-    return escape("".join(c if c.isprintable() or c in "\n\t" else "\ufffd" for c in str(told)))
+    return escape("".join(c if c.isprintable() or c in "\n\t" else "\ufffd" for c in str(text)))
 
 
 def sure(confidence: float) -> str:
@@ -27,8 +27,8 @@ def sure(confidence: float) -> str:
 
 def warnings(entry: ReportEntry) -> str:
     """Return the warnings of the asset, then the notes on its display."""
-    told = entry.asset.warnings if entry.asset else (entry.problem,)
-    first = "".join(f"<li>{said(w)}</li>" for w in told)
+    messages = entry.asset.warnings if entry.asset else (entry.problem,)
+    first = "".join(f"<li>{said(w)}</li>" for w in messages)
     notes = "".join(f"<p>{said(n)}</p>" for n in entry.notes)
     return (f'<ul class="warnings">{first}</ul>' if first else "") + (f'<div class="notes">{notes}</div>' if notes else "")
 
@@ -115,8 +115,8 @@ def _pretty(answer: str) -> str:
 
 
 def _slider(number: int, joint: Joint, color: str) -> str:
-    name, told = said(joint.name), said(extent(joint))
-    head = f'<i class="chip {color}"></i><b title="{said(joint.reason)}">{name}</b> <small>{said(joint.type)} {told}</small>'
+    name, travel = said(joint.name), said(extent(joint))
+    head = f'<i class="chip {color}"></i><b title="{said(joint.reason)}">{name}</b> <small>{said(joint.type)} {travel}</small>'
     if joint.type is JointType.FIXED:
         return f'<li data-joint="{number}">{head}{sure(joint.confidence)}</li>'
     low, high = joint.limits or (-3.141592653589793, 3.141592653589793)

@@ -55,7 +55,7 @@ def _work(replies: IO[bytes], *, mesh: Path, out: Path, **options: Any) -> None:
 
 
 def _end_with_parent(finished: threading.Event) -> None:
-    """End this process when the parent closes the pipe, with an exit code that tells whether the work was over."""
+    """End this process when the parent closes the pipe, with an exit code that states whether the work was over."""
     while os.read(sys.stdin.fileno(), 1):  # not through sys.stdin, whose lock would be held when this process ends by itself
         pass
     os._exit(0 if finished.is_set() else PARENT_GONE)

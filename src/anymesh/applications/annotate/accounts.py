@@ -45,8 +45,8 @@ class LedgerAccount:
             there = connection.execute("DELETE FROM holds WHERE id = ?", (hold,)).rowcount
             if cost is not None and there:  # else it was charged when the claim was lost
                 connection.execute("UPDATE account SET calls = calls + 1, cost = cost + ?", (cost,))
-                told = "UPDATE objects SET calls = calls + 1, cost = coalesce(cost, 0) + ? WHERE name = ?"
-                connection.execute(told, (cost, self._name))
+                statement = "UPDATE objects SET calls = calls + 1, cost = coalesce(cost, 0) + ? WHERE name = ?"
+                connection.execute(statement, (cost, self._name))
 
 
 class LedgerLimiter:

@@ -118,10 +118,10 @@ def checked(options: Mapping[str, Any]) -> str:
 
 def _pin(ledger: Ledger, options: Mapping[str, Any]) -> None:
     """Store the options of an output, or compare them with the stored ones. Raise OptionError if they differ."""
-    told = json.dumps({k: str(v) for k, v in sorted(options.items()) if k not in UNPINNED})
-    kept = ledger.setting("options", told)
-    if kept != told:
-        ours, theirs = json.loads(told), json.loads(kept or "{}")
+    options_json = json.dumps({k: str(v) for k, v in sorted(options.items()) if k not in UNPINNED})
+    kept = ledger.setting("options", options_json)
+    if kept != options_json:
+        ours, theirs = json.loads(options_json), json.loads(kept or "{}")
         names = sorted(k for k in {*ours, *theirs} if ours.get(k) != theirs.get(k))
         shown = ", ".join(f"{k} {theirs.get(k, 'default')!r}, now {ours.get(k, 'default')!r}" for k in names)
         raise OptionError(f"{ledger.out} was begun with {shown}; use the same options, or another output")
@@ -132,8 +132,8 @@ def _open_again(ledger: Ledger, again: bool) -> None:
     with ledger.writing() as connection:
         connection.execute("UPDATE objects SET state = 'pending' WHERE state = 'waiting'")
         if again:
-            told = "UPDATE objects SET state = 'pending', attempts = 0, losses = 0 WHERE state = 'quarantined'"
-            connection.execute(told)
+            statement = "UPDATE objects SET state = 'pending', attempts = 0, losses = 0 WHERE state = 'quarantined'"
+            connection.execute(statement)
 
 
 @contextmanager

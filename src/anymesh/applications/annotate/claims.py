@@ -148,8 +148,8 @@ def free_lost(ledger: Ledger, run: str) -> int:
         if _is_alive(ledger, other):
             continue
         for seq, name, token in ledger.rows(f"SELECT seq, name, token FROM objects WHERE {RUNNING}", (other,)):
-            told = f"the run that worked on it ended {LOSSES} times unexpectedly (killed, out of memory, power failure?)"
-            lost = AttemptOutcome(Result.LOST, "LostError", told)
+            message = f"the run that worked on it ended {LOSSES} times unexpectedly (killed, out of memory, power failure?)"
+            lost = AttemptOutcome(Result.LOST, "LostError", message)
             freed += finish(ledger, Claim(seq, name, "", {}, "", token, False), lost, most=1) is not None
         _end(ledger, other)
     return freed

@@ -93,8 +93,8 @@ def _with_file(request: ObjectRequest) -> ObjectRequest:
     try:
         status = Path(request.source).stat()
     except (OSError, ValueError) as error:
-        told = getattr(error, "strerror", None) or error
-        return ObjectRequest(request.name, request.source, request.options, refusal=f"the file cannot be opened: {told}")
+        reason = getattr(error, "strerror", None) or error
+        return ObjectRequest(request.name, request.source, request.options, refusal=f"the file cannot be opened: {reason}")
     return ObjectRequest(request.name, request.source, request.options, size=status.st_size, modified=status.st_mtime_ns)
 
 

@@ -94,11 +94,11 @@ class Ledger:
         try:
             yield
         except sqlite3.Error as error:
-            told = " ".join(str(error).split())[:200]
+            message = " ".join(str(error).split())[:200]
             corrupt = ("malformed", "not a database", "corrupt", "unsupported file format")
-            if isinstance(error, sqlite3.DatabaseError) and any(word in told for word in corrupt):
-                raise CorruptLedgerError(f"{self.out / NAME} is damaged: {told}") from None
-            raise OutputError(f"cannot write {self.out / NAME}: {told}") from error
+            if isinstance(error, sqlite3.DatabaseError) and any(word in message for word in corrupt):
+                raise CorruptLedgerError(f"{self.out / NAME} is damaged: {message}") from None
+            raise OutputError(f"cannot write {self.out / NAME}: {message}") from error
         finally:
             self.seconds += time.perf_counter() - begin
 

@@ -35,8 +35,8 @@ def fetch(uid: str) -> Path:
     try:
         import objaverse
     except ImportError:
-        told = "objects of Objaverse need its package; install it with `pip install articulate-anymesh[objaverse]`"
-        raise MissingExtraError(told) from None
+        message = "objects of Objaverse need its package; install it with `pip install articulate-anymesh[objaverse]`"
+        raise MissingExtraError(message) from None
     home, before = Path(objaverse._VERSIONED_PATH), socket.getdefaulttimeout()
     socket.setdefaulttimeout(SECONDS)
     try:

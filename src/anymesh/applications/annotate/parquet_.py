@@ -17,8 +17,8 @@ def _pyarrow() -> Any:
         import pyarrow
         import pyarrow.parquet
     except ImportError:
-        told = "Parquet needs pyarrow, which is not installed; install it with `pip install articulate-anymesh[parquet]`"
-        raise MissingExtraError(told) from None
+        message = "Parquet needs pyarrow, which is not installed; install it with `pip install articulate-anymesh[parquet]`"
+        raise MissingExtraError(message) from None
     return pyarrow
 
 

@@ -33,8 +33,8 @@ def _ray() -> Any:
     try:
         return importlib.import_module("ray")
     except ImportError:
-        told = "a cluster needs Ray, which is not installed; install it with `pip install articulate-anymesh[ray]`"
-        raise MissingExtraError(told) from None
+        message = "a cluster needs Ray, which is not installed; install it with `pip install articulate-anymesh[ray]`"
+        raise MissingExtraError(message) from None
 
 
 class RayWorkers:
@@ -48,8 +48,8 @@ class RayWorkers:
             try:
                 ray.init(address=address, logging_level="ERROR", log_to_driver=False, runtime_env=_environment())
             except (ConnectionError, ValueError, RuntimeError) as error:
-                told = " ".join(str(error).split())[:200]
-                raise OptionError(f"--ray: found no cluster at {address!r} ({type(error).__name__}: {told})") from None
+                reason = " ".join(str(error).split())[:200]
+                raise OptionError(f"--ray: found no cluster at {address!r} ({type(error).__name__}: {reason})") from None
         self._most, self._limits, self._target = most, limits, target
         self._task = ray.remote(
             num_cpus=1, memory=limits.memory // 2, max_retries=RETRIES, retry_exceptions=False, scheduling_strategy="SPREAD"
@@ -118,8 +118,8 @@ def _check_address(address: str) -> None:
     try:
         socket.create_connection((host, int(port)), REACH).close()
     except (OSError, OverflowError) as error:
-        told = getattr(error, "strerror", None) or error
-        raise OptionError(f"--ray: found no cluster at {address!r} ({told}); `ray status` tells the address") from None
+        reason = getattr(error, "strerror", None) or error
+        raise OptionError(f"--ray: found no cluster at {address!r} ({reason}); `ray status` shows the address") from None
 
 
 def _environment() -> dict[str, Any]:

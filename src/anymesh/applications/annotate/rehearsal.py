@@ -46,8 +46,8 @@ def asked_of_a_model(job: Job, like: str) -> Mapping[str, Any]:
     options: Answering = {k: v for k, v in job.options.items() if k in Answering.__annotations__}  # ty: ignore[invalid-assignment]
     config = choose_answerer({**options, "answerer": GEOMETRY, "parts_list": (), "max_cost": None}).config
     config = replace(config, parts_list=tuple(options.get("parts_list", ())))
-    told = {name: str(job.options.get(name, "auto")) for name in ("up", "scale")}
-    placed = place_mesh(load_mesh(local_mesh(job.source), root=job.options.get("root")), **told)
+    placement = {name: str(job.options.get(name, "auto")) for name in ("up", "scale")}
+    placed = place_mesh(load_mesh(local_mesh(job.source), root=job.options.get("root")), **placement)
     solver = Solver(placed.mesh, config, lambda fallback: SimulatedVlm(fallback, fallback, like))
     recognized = solver.recognize()
     segmented = solver.parts(str(job.options.get("parts", "auto")), recognized.recognition)

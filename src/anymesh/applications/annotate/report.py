@@ -125,9 +125,9 @@ def _figure(out: Path, name: str, folder: str, confidence: float, joints: int, w
         image = f'<img alt="{said(name)}" src="data:image/jpeg;base64,{data}">'
     except (OSError, ValueError, SyntaxError):
         image = "<p>its preview cannot be read</p>"
-    told = f"{joints} joint{'s' * (joints != 1)}, {warnings} warning{'s' * (warnings != 1)}"
+    counts = f"{joints} joint{'s' * (joints != 1)}, {warnings} warning{'s' * (warnings != 1)}"
     link = f'<a href="{said(quote(folder))}">{said(name[:200])}</a>'
-    return f"<figure>{image}<figcaption>{sure(confidence)} {link}<br>{told}</figcaption></figure>"
+    return f"<figure>{image}<figcaption>{sure(confidence)} {link}<br>{counts}</figcaption></figure>"
 
 
 def _failures(ledger: Ledger) -> str:

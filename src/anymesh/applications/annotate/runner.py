@@ -77,8 +77,8 @@ class Runner:
             self.ended = self._last_outage
             return 0
         if shutil.disk_usage(self.ledger.out).free < FREE:
-            told = f"less than {FREE >> 20} MiB are free where {self.ledger.out} is"
-            self.ended = AttemptOutcome(Result.STORAGE, "OutputError", told, exit_code=OutputError.exit_code)
+            message = f"less than {FREE >> 20} MiB are free where {self.ledger.out} is"
+            self.ended = AttemptOutcome(Result.STORAGE, "OutputError", message, exit_code=OutputError.exit_code)
             return 0
         found = claim(self.ledger, self.run, self.outage.allowed(self.workers.free, self._running))
         for taken in found:

@@ -22,10 +22,10 @@ def read_table(path: Path) -> Iterator[ObjectRequest]:
     OPTIONS, where an empty cell is the default; others are ignored with a warning. Raise InputError for an invalid table.
     """
     rows = _csv_rows(path) if path.suffix.lower() == ".csv" else _parquet_rows(path)
-    told = False
+    checked = False
     for number, row in enumerate(rows, 2):
-        if not told:
-            told = True
+        if not checked:
+            checked = True
             _check_columns(path, row)
         yield _request(path, f"{path.name}, row {number}", row)
 

@@ -33,11 +33,11 @@ class Tally:
 
     def words(self) -> str:
         """Format the progress in one line."""
-        told = [f"{self.counts[s]} {s}" for s in State if self.counts[s] or s is State.DONE]
+        counts = [f"{self.counts[s]} {s}" for s in State if self.counts[s] or s is State.DONE]
         rate = f", {self.rate:.0f} per hour" if self.rate else ""
         left = f", {duration(self.left)} left" if self.left is not None else ""
         cost = f", {self.calls} calls, {self.cost:.2f} USD" if self.calls else ""
-        return f"{', '.join(told)} of {self.total}{rate}{left}{cost}{f'; {self.note}' if self.note else ''}"
+        return f"{', '.join(counts)} of {self.total}{rate}{left}{cost}{f'; {self.note}' if self.note else ''}"
 
 
 def tally(ledger: Ledger, *, finished: int = 0, seconds: float = 0.0, workers: int = 0, note: str = "") -> Tally:
@@ -70,8 +70,8 @@ def write_metrics(out: Path, found: Tally, ledger_seconds: float) -> None:
     }
     lines = ["# HELP anymesh_annotate_objects Objects by state.", "# TYPE anymesh_annotate_objects gauge"]
     lines += [f'anymesh_annotate_objects{{state="{state}"}} {found.counts[state]}' for state in State]
-    for name, (kind, told, value) in metrics.items():
-        lines += [f"# HELP {name} {told}", f"# TYPE {name} {kind}", f"{name} {value:.10g}"]
+    for name, (kind, description, value) in metrics.items():
+        lines += [f"# HELP {name} {description}", f"# TYPE {name} {kind}", f"{name} {value:.10g}"]
     try:
         write_whole(out / METRICS, "\n".join([*lines, ""]).encode())
         (out / METRICS).chmod(0o644)

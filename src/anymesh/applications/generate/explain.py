@@ -81,6 +81,6 @@ def _following(job: GenerationJob) -> tuple[Step, ...]:
 
 def _looks(texture: str) -> Step:
     if texture.startswith("meshy"):
-        told = f"pay Meshy for {RETEXTURE.name} ({RETEXTURE.path}); the finished object is sent"
-        return Step(told, float(RETEXTURE.credits), CHECKED)
+        description = f"pay Meshy for {RETEXTURE.name} ({RETEXTURE.path}); the finished object is sent"
+        return Step(description, float(RETEXTURE.credits), CHECKED)
     return Step("keep the appearance of the mesh" if texture == "builtin" else f"bake the appearance into an atlas ({texture})")

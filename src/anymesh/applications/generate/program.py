@@ -54,8 +54,8 @@ def log_tail(log: Path) -> str:
         file.seek(max(0, log.stat().st_size - TAIL))
         text = file.read().decode("utf-8", "replace")
     lines = [re.sub(r"\s+", " ", line).strip() for line in re.split(r"[\r\n]+", text)]
-    told = " | ".join([line for line in lines if line][-LINES:])
-    return f"; the end of its output: {SECRET.sub('[removed]', told)[-LONGEST:]}" if told else ""
+    tail = " | ".join([line for line in lines if line][-LINES:])
+    return f"; the end of its output: {SECRET.sub('[removed]', tail)[-LONGEST:]}" if tail else ""
 
 
 def _wait(process: subprocess.Popen[bytes], timeout: float, tell: Callable[[float], None]) -> int | None:

@@ -37,8 +37,8 @@ def choose_size(scale: str, category: str | None, prompt: str | None, name: str,
             return Size(f"{kind[1]:g}:longest", known, f"{usual}; the generator gives no size")
         if known is None:
             return Size("auto", None, "as the mesh file states it")
-        told = "the generator estimates" if unit is Unit.ESTIMATED else "the mesh file states"
-        return Size("auto", known, f"as {told} it, where that suits the kind ({usual})")
+        source = "the generator estimates" if unit is Unit.ESTIMATED else "the mesh file states"
+        return Size("auto", known, f"as {source} it, where that suits the kind ({usual})")
     if unit is Unit.ESTIMATED:
         return Size("auto", known, "as the generator estimated it")
     return Size("auto", known, "as the mesh file states it", f"the size of the object is not known; {ADVICE}")

@@ -131,6 +131,6 @@ def _downloaded(what: tuple[str, str], preset: Preset) -> Path | str:
     try:
         return Path(menagerie.get(what[0]).xml(what[1]))
     except menagerie.MenagerieError as error:
-        told = " ".join(str(error).split())
-        raise InputError(f"mujoco-menagerie cannot fetch {what[0]}: {told}; a folder laid out like the Menagerie can be named "
-                         "by the variable MENAGERIE_ROOT") from error  # fmt: skip
+        reason = " ".join(str(error).split())
+        raise InputError(f"mujoco-menagerie cannot fetch {what[0]}: {reason}; a folder laid out like the Menagerie can be "
+                         "named by the variable MENAGERIE_ROOT") from error  # fmt: skip

@@ -134,18 +134,18 @@ class Search:
         """Return an error that states why no route was found, with the nearest feasible value and base."""
         say, joint = self.thing.say, self.thing.joint
         where = f"from the base {base}" if base is not None else "from any base that was tried"
-        told = [f"{joint} cannot be brought to {say(self.value)} {where}"]
+        clauses = [f"{joint} cannot be brought to {say(self.value)} {where}"]
         if base is not None and self.blocked is not None:
-            told.append(f"the robot collides there ({self.blocked})")
-        told += [f"{reason.value}: {count} targets" for reason, count in self.failures.most_common(3)]
+            clauses.append(f"the robot collides there ({self.blocked})")
+        clauses += [f"{reason.value}: {count} targets" for reason, count in self.failures.most_common(3)]
         nearest = self._nearest(base)
         if nearest is not None:
-            told.append(f"it can be brought to {say(nearest)} ({nearest:.4g})")
+            clauses.append(f"it can be brought to {say(nearest)} ({nearest:.4g})")
         if base is not None:
             other = Search(self.thing, self.arm, self.value, self.targets, self.settings, time.perf_counter())
             route = other.anywhere(near=base)
-            told.append("no nearby base is better" if route is None else f"the nearest feasible base is {route.base}")
-        return PlanError("; ".join(told), nearest)
+            clauses.append("no nearby base is better" if route is None else f"the nearest feasible base is {route.base}")
+        return PlanError("; ".join(clauses), nearest)
 
     def _nearest(self, base: BasePose | None) -> float | None:
         """Return 98% or else 80% of the farthest value reached, if a route from the base exists for it; else None."""

@@ -48,7 +48,7 @@ def state(s: TaskSimulation) -> Float32[np.ndarray, " n"]:
 
 
 def boxed(s: TaskSimulation) -> Float32[np.ndarray, " n"]:
-    """Return the robot's state and what a detector tells of the object: its box at the start, where it is, and the progress.
+    """Return the robot's state and what a detector measures of the object: its box at the start, where it is, and the progress.
 
     The handle and the axis are not observed; their places in the box differ between objects.
     """

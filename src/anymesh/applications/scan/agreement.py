@@ -124,11 +124,11 @@ def check_convention(glimpses: list[Glimpse], found: FrameAgreement) -> None:
     if np.isnan(usual):
         hint = f"; {best}: with this reading they overlap" if best and known[best] < OFF else ""
         raise InputError(f"no two frames see the same place: poses are wrong, or each shows a different side{hint}")
-    told = f"frames contradict each other: the same place differs by {usual:.1%} of the depth between them (valid: {OFF:.0%})"
+    fault = f"frames contradict each other: the same place differs by {usual:.1%} of the depth between them (valid: {OFF:.0%})"
     if best and known[best] < BETTER * usual:
-        raise InputError(f"{told}. Probably {best}: with this reading it differs by {known[best]:.1%}")
+        raise InputError(f"{fault}. Probably {best}: with this reading it differs by {known[best]:.1%}")
     raise InputError(
-        f"{told}. No other convention of poses explains it: poses, intrinsics or the scale of depth (--depth-scale) are wrong"
+        f"{fault}. No other convention of poses explains it: poses, intrinsics or the scale of depth (--depth-scale) are wrong"
     )
 
 
@@ -141,14 +141,14 @@ def without_drifted(frames: Frames, found: FrameAgreement) -> tuple[Frames, list
     kept = [k for k in range(len(frames)) if k not in set(bad)]
     lone = [frames.frames[k].name for k in bad if np.isnan(found.of[k])]
     off = [f"{frames.frames[k].name} ({found.of[k]:.1%})" for k in bad if np.isfinite(found.of[k])]
-    told = []
+    warnings = []
     if off:
-        told.append(
+        warnings.append(
             f"{len(off)} of {len(frames)} frames disagree with the others about the surface and are left out: {_few(off)}"
         )
     if lone:
-        told.append(f"{len(lone)} of {len(frames)} frames see nothing that others see and are left out: {_few(lone)}")
-    return frames.of([frames.frames[k] for k in kept], *told), kept
+        warnings.append(f"{len(lone)} of {len(frames)} frames see nothing that others see and are left out: {_few(lone)}")
+    return frames.of([frames.frames[k] for k in kept], *warnings), kept
 
 
 def _few(names: list[str]) -> str:

@@ -16,19 +16,19 @@ AXES = ("opencv", "opengl")
 PIXELS_OFF = 2.0  # [px] largest lens distortion at a corner that may be ignored
 
 
-def pose(told: object, name: str, *, axes: str = "opencv", scale: float = 1.0) -> Float[np.ndarray, "4 4"]:
+def pose(matrix: object, name: str, *, axes: str = "opencv", scale: float = 1.0) -> Float[np.ndarray, "4 4"]:
     """Return T_world_camera from a 4x4 or 3x4 matrix in a file, orthonormalized, its translation times `scale` [m].
 
     axes: opencv (x right, y down, z ahead) or opengl (x right, y up, z back). Raise InputError if the matrix is not rigid.
     """
     try:
-        T = np.array(told, np.float64)
+        T = np.array(matrix, np.float64)
     except (TypeError, ValueError):
         T = np.zeros(0)
     if T.shape == (3, 4):
         T = np.vstack([T, [0, 0, 0, 1.0]])
     if T.shape != (4, 4) or not np.isfinite(T).all():
-        raise InputError(f"frame {name}: a pose is 4 x 4 (or 3 x 4) finite numbers, found {_shown(told)}")
+        raise InputError(f"frame {name}: a pose is 4 x 4 (or 3 x 4) finite numbers, found {_shown(matrix)}")
     if not np.allclose(T[3], [0, 0, 0, 1], atol=1e-6):
         hint = "; it looks transposed (the translation is in the last row)" if np.allclose(T[:3, 3], 0, atol=1e-9) else ""
         raise InputError(f"frame {name}: the last row of a pose is 0 0 0 1, found {_row(T[3])}{hint}")
@@ -66,12 +66,14 @@ def quaternion_pose(xyzw: Sequence[float], at: Sequence[float], name: str) -> Fl
     return T
 
 
-def pinhole(told: dict[str, Any], keys: Sequence[str], name: str) -> Pinhole:
+def pinhole(intrinsics: dict[str, Any], keys: Sequence[str], name: str) -> Pinhole:
     """Return the camera with fx, fy, cx, cy, width and height under `keys`. Raise InputError that names missing ones."""
-    missing = [key for key in keys if not isinstance(told.get(key), (int, float)) or isinstance(told.get(key), bool)]
+    missing = [
+        key for key in keys if not isinstance(intrinsics.get(key), (int, float)) or isinstance(intrinsics.get(key), bool)
+    ]
     if missing:
         raise InputError(f"{name}: intrinsics are missing: {', '.join(missing)}; needed are {', '.join(keys)} [px]")
-    fx, fy, cx, cy, width, height = (float(told[key]) for key in keys)
+    fx, fy, cx, cy, width, height = (float(intrinsics[key]) for key in keys)
     try:
         return Pinhole(fx, fy, cx, cy, int(width), int(height))
     except ValueError as error:
@@ -82,8 +84,8 @@ def _row(values: np.ndarray) -> str:
     return " ".join(f"{v:.4g}" for v in np.ravel(values))
 
 
-def _shown(told: object) -> str:
-    text = repr(told)
+def _shown(value: object) -> str:
+    text = repr(value)
     return text if len(text) < 80 else f"{text[:77]}..."
 
 

@@ -26,49 +26,50 @@ def read_frames_json(folder: Path, depth_scale: float | None, scale: float | Non
 
     Its keys are `camera`, `camera_axes`, `depth_scale` and `frames` of color, depth, mask, confidence, T_world_camera.
     """
-    told = read_object(folder / OURS)
-    axes, unit = told.get("camera_axes", "opencv"), depth_scale or float(told.get("depth_scale", MILLIMETRES))
+    record = read_object(folder / OURS)
+    axes, unit = record.get("camera_axes", "opencv"), depth_scale or float(record.get("depth_scale", MILLIMETRES))
     if axes not in AXES:
         raise InputError(f"{folder / OURS}: camera_axes {axes!r}; valid are {', '.join(AXES)}")
     found = []
-    for number, entry in enumerate(_entries(told, folder / OURS)):
+    for number, entry in enumerate(_entries(record, folder / OURS)):
         name = str(entry.get("name", number))
         color = within(folder, entry.get("color"))
-        camera = pinhole({**told.get("camera", {}), **entry.get("camera", {})}, KEYS, f"frame {name} in {OURS}")
+        camera = pinhole({**record.get("camera", {}), **entry.get("camera", {})}, KEYS, f"frame {name} in {OURS}")
         T = pose(entry.get("T_world_camera"), name, axes=axes, scale=scale or 1.0)
         depth, mask, sure = (within(folder, entry[k]) if k in entry else None for k in ("depth", "mask", "confidence"))
         reader = file_reader(color, depth, unit, mask, sure)
         found.append((RgbdFrame(name, fitted(camera, picture_size(color), name), T, reader), depth))
-    return _frames(found, OURS, UPS.get(str(told.get("up", ""))), [])
+    return _frames(found, OURS, UPS.get(str(record.get("up", ""))), [])
 
 
 def read_transforms_json(folder: Path, depth_scale: float | None, scale: float | None) -> Frames:
     """Read nerfstudio's layout: camera-to-world, OpenGL axes, depth in millimetres unless `depth_unit_scale_factor` is set."""
-    told = read_object(folder / NERFSTUDIO)
-    model = str(told.get("camera_model", "OPENCV")).upper()
+    record = read_object(folder / NERFSTUDIO)
+    model = str(record.get("camera_model", "OPENCV")).upper()
     if model not in PERSPECTIVE:
         raise InputError(f"{folder / NERFSTUDIO}: camera_model {model}; valid are {', '.join(PERSPECTIVE)}")
-    unit = depth_scale or float(told.get("depth_unit_scale_factor", MILLIMETRES))
+    unit = depth_scale or float(record.get("depth_unit_scale_factor", MILLIMETRES))
     warnings, found = set(), []
-    for number, entry in enumerate(_entries(told, folder / NERFSTUDIO)):
+    for number, entry in enumerate(_entries(record, folder / NERFSTUDIO)):
         name = str(entry.get("file_path", number))
         color = within(folder, _with_suffix(folder, name))
-        both = _intrinsics({**told, **entry}, picture_size(color))
+        both = _intrinsics({**record, **entry}, picture_size(color))
         camera = pinhole(both, NERF_KEYS, f"frame {name} in {NERFSTUDIO}")
         warnings.add(check_distortion(camera, [float(both.get(f"k{n}", 0.0)) for n in (1, 2, 3)], NERFSTUDIO))
         T = pose(entry.get("transform_matrix"), name, axes="opengl", scale=scale or 1.0)
         depth, mask = (within(folder, entry[k]) if entry.get(k) else None for k in ("depth_file_path", "mask_path"))
         reader = file_reader(color, depth, unit, mask)
         found.append((RgbdFrame(name, fitted(camera, picture_size(color), name), T, reader), depth))
-    if "applied_scale" in told and scale is None:
+    if "applied_scale" in record and scale is None:
         warnings.add(
-            f"{NERFSTUDIO} was rescaled by {told['applied_scale']}; --scale {1 / float(told['applied_scale']):.6g} undoes it"
+            f"{NERFSTUDIO} was rescaled by {record['applied_scale']}; "
+            f"--scale {1 / float(record['applied_scale']):.6g} undoes it"
         )
     return _frames(found, NERFSTUDIO, UPS["z"], sorted(warnings - {""}))
 
 
-def _entries(told: dict[str, Any], path: Path) -> list[dict[str, Any]]:
-    found = told.get("frames")
+def _entries(record: dict[str, Any], path: Path) -> list[dict[str, Any]]:
+    found = record.get("frames")
     if not isinstance(found, list) or not found or not all(isinstance(f, dict) for f in found):
         raise InputError(f"{path}: `frames` must be a list of objects, found {type(found).__name__} of {len(found or ())}")
     return found
@@ -79,9 +80,9 @@ def _with_suffix(folder: Path, name: str) -> str:
     return name if Path(name).suffix or (folder / name).is_file() else f"{name}.png"
 
 
-def _intrinsics(told: dict[str, Any], size: tuple[int, int]) -> dict[str, Any]:
+def _intrinsics(stated: dict[str, Any], size: tuple[int, int]) -> dict[str, Any]:
     """Add values that the format allows to omit: size, principal point, and focal lengths from the field of view."""
-    found = {"w": size[0], "h": size[1], **told}
+    found = {"w": size[0], "h": size[1], **stated}
     found = {"cx": found["w"] / 2, "cy": found["h"] / 2, **found}
     for key, angle, side in (("fl_x", "camera_angle_x", "w"), ("fl_y", "camera_angle_y", "h")):
         if key not in found and angle in found:
@@ -92,10 +93,10 @@ def _intrinsics(told: dict[str, Any], size: tuple[int, int]) -> dict[str, Any]:
 
 
 def _frames(
-    found: list[tuple[RgbdFrame, Path | None]], layout: str, up: tuple[float, float, float] | None, told: list[str]
+    found: list[tuple[RgbdFrame, Path | None]], layout: str, up: tuple[float, float, float] | None, warnings: list[str]
 ) -> Frames:
     """Return a recording; frames without depth are dropped if others have depth."""
     deep = [frame for frame, depth in found if depth is not None]
     if deep and len(deep) < len(found):
-        told.append(f"{len(found) - len(deep)} of {len(found)} frames have no depth and are left out")
-    return Frames(tuple(deep or [frame for frame, _ in found]), layout, bool(deep), up, tuple(told))
+        warnings.append(f"{len(found) - len(deep)} of {len(found)} frames have no depth and are left out")
+    return Frames(tuple(deep or [frame for frame, _ in found]), layout, bool(deep), up, tuple(warnings))

@@ -33,15 +33,15 @@ def read_polycam(folder: Path, depth_scale: float | None, scale: float | None) -
     cameras, images = (home / f"{'corrected_' if corrected else ''}{name}" for name in ("cameras", "images"))
     found, deep = [], []
     for path in sorted(cameras.glob("*.json")):
-        told, name = read_object(path), path.stem
+        record, name = read_object(path), path.stem
         color = next((p for s in (".jpg", ".jpeg", ".png") if (p := images / f"{name}{s}").is_file()), None)
         if color is None:
             raise InputError(f"{images}: the picture {name}.jpg, which {path.name} describes, is missing")
-        camera = pinhole(told, KEYS, str(path))
-        missing = [key for row in ENTRIES for key in row if key not in told]
+        camera = pinhole(record, KEYS, str(path))
+        missing = [key for row in ENTRIES for key in row if key not in record]
         if missing:
             raise InputError(f"{path}: the pose is missing: {', '.join(missing)}")
-        T = pose(np.array([[told[key] for key in row] for row in ENTRIES]), name, axes="opengl", scale=scale or 1.0)
+        T = pose(np.array([[record[key] for key in row] for row in ENTRIES]), name, axes="opengl", scale=scale or 1.0)
         depth, sure = (p if (p := home / kind / f"{name}.png").is_file() else None for kind in ("depth", "confidence"))
         reader = file_reader(color, depth, depth_scale or MILLIMETRES, sure)
         found.append(RgbdFrame(name, fitted(camera, picture_size(color), name), T, reader))

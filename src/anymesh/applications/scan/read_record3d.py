@@ -62,12 +62,12 @@ def read_record3d(path: Path, depth_scale: float | None, scale: float | None) ->
     """Read a recording: poses are camera-to-world with OpenGL axes (ARKit), depth is float32 in metres, y is up."""
     home = _Home(path)
     names = home.names()
-    told = _metadata(home, names)
+    metadata = _metadata(home, names)
     numbers = sorted(int(m[1]) for name in names if (m := re.fullmatch(r"rgbd/(\d+)\.(?:jpg|png)", name)))
     deep = [n for n in numbers if f"rgbd/{n}.depth" in names]
     if not numbers:
         raise InputError(f"{path}: found no rgbd/NUMBER.jpg; an export as .r3d has them")
-    poses = told.get("poses")
+    poses = metadata.get("poses")
     if not isinstance(poses, list) or len(poses) <= max(numbers):
         raise InputError(f"{path}: metadata has {len(poses or ())} poses for pictures up to number {max(numbers)}")
     factor = depth_scale or 1.0
@@ -75,7 +75,7 @@ def read_record3d(path: Path, depth_scale: float | None, scale: float | None) ->
     for n in deep or numbers:
         row = [float(v) for v in poses[n]]
         T = quaternion_pose(row[:4], [v * (scale or 1.0) for v in row[4:7]], str(n)) @ FLIPPED
-        found.append(RgbdFrame(str(n), _camera(told, n, path), T, _reader(home, names, n, told, factor)))
+        found.append(RgbdFrame(str(n), _camera(metadata, n, path), T, _reader(home, names, n, metadata, factor)))
     warnings = () if len(found) == len(numbers) else (f"{len(numbers) - len(found)} frames have no depth and are left out",)
     return Frames(tuple(found), "Record3D", bool(deep), (0.0, 1.0, 0.0), warnings)
 
@@ -93,15 +93,15 @@ def _metadata(home: _Home, names: set[str]) -> dict[str, Any]:
     return found
 
 
-def _camera(told: dict[str, Any], number: int, path: Path) -> Pinhole:
+def _camera(metadata: dict[str, Any], number: int, path: Path) -> Pinhole:
     """Return the camera of a frame from perFrameIntrinsicCoeffs (fx, fy, cx, cy) if present, else from K, stored by columns."""
     with suppress(KeyError, IndexError, TypeError, ValueError):
-        size = int(told["w"]), int(told["h"])
-        each = told.get("perFrameIntrinsicCoeffs")
+        size = int(metadata["w"]), int(metadata["h"])
+        each = metadata.get("perFrameIntrinsicCoeffs")
         if each:
             fx, fy, cx, cy = (float(v) for v in each[number])
         else:
-            K = np.array(told["K"], float).reshape(3, 3).T
+            K = np.array(metadata["K"], float).reshape(3, 3).T
             fx, fy, cx, cy = K[0, 0], K[1, 1], K[0, 2], K[1, 2]
         return Pinhole(float(fx), float(fy), float(cx), float(cy), *size)
     raise InputError(
@@ -109,7 +109,7 @@ def _camera(told: dict[str, Any], number: int, path: Path) -> Pinhole:
     )
 
 
-def _reader(home: _Home, names: set[str], n: int, told: dict[str, Any], factor: float) -> Callable[[], Observation]:
+def _reader(home: _Home, names: set[str], n: int, metadata: dict[str, Any], factor: float) -> Callable[[], Observation]:
     def read() -> Observation:
         picture = next(f"rgbd/{n}{s}" for s in (".jpg", ".png") if f"rgbd/{n}{s}" in names)
         color = read_color(home.content(picture), picture)
@@ -117,7 +117,7 @@ def _reader(home: _Home, names: set[str], n: int, told: dict[str, Any], factor: 
             return observed(color, np.zeros((1, 1), np.float32))
         raw = unpack(home.content(f"rgbd/{n}.depth"), f"rgbd/{n}.depth")
         flat = np.frombuffer(raw[: len(raw) // 4 * 4], "<f4")
-        depth = clean_depth(flat.reshape(_size(told, flat.size, home.path)), f"{n}.depth", factor)
+        depth = clean_depth(flat.reshape(_size(metadata, flat.size, home.path)), f"{n}.depth", factor)
         sure = None
         if f"rgbd/{n}.conf" in names:
             values = np.frombuffer(unpack(home.content(f"rgbd/{n}.conf"), f"rgbd/{n}.conf"), np.uint8)
@@ -127,13 +127,13 @@ def _reader(home: _Home, names: set[str], n: int, told: dict[str, Any], factor: 
     return read
 
 
-def _size(told: dict[str, Any], count: int, path: Path) -> tuple[int, int]:
+def _size(metadata: dict[str, Any], count: int, path: Path) -> tuple[int, int]:
     """Return rows and columns of a depth map, as stated or, in older recordings, from the picture's proportions."""
-    if {"dw", "dh"} <= set(told):
-        rows, columns = int(told["dh"]), int(told["dw"])
+    if {"dw", "dh"} <= set(metadata):
+        rows, columns = int(metadata["dh"]), int(metadata["dw"])
     else:
-        rows = round(float(np.sqrt(count * told["h"] / told["w"])))
+        rows = round(float(np.sqrt(count * metadata["h"] / metadata["w"])))
         columns = count // max(rows, 1)
     if rows * columns != count:
-        raise InputError(f"{path}: a depth map holds {count} values, metadata tells {columns} x {rows}")
+        raise InputError(f"{path}: a depth map holds {count} values, metadata states {columns} x {rows}")
     return rows, columns

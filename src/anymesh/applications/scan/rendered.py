@@ -82,8 +82,8 @@ def render_frames(
                             "T_world_camera": (T_world_mesh @ camera.T_world_camera).tolist()})  # fmt: skip
         focal = size[1] / (2 * np.tan(FOV / 2))
         about = {"fx": focal, "fy": focal, "cx": size[0] / 2, "cy": size[1] / 2, "width": size[0], "height": size[1]}
-        told = {"camera": about, "camera_axes": "opencv", "depth_scale": DEPTH_UNIT, "frames": entries}
-        (hidden.path / "frames.json").write_text(json.dumps(told), encoding="utf-8")
+        record = {"camera": about, "camera_axes": "opencv", "depth_scale": DEPTH_UNIT, "frames": entries}
+        (hidden.path / "frames.json").write_text(json.dumps(record), encoding="utf-8")
         (hidden.path / "truth.json").write_text(json.dumps({"T_world_mesh": T_world_mesh.tolist()}), encoding="utf-8")
         replace_folder(hidden.path, out, None)
     except BaseException:

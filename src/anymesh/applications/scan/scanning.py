@@ -66,7 +66,7 @@ def scan(
     kept = {frame.name for frame in frames.frames}
     low, high = surface.vertices.min(0), surface.vertices.max(0)
     x, y, z = (high - low).tolist()
-    told = ScanReport(
+    report = ScanReport(
         mesh=out.name,
         layout=frames.layout,
         frames=len(frames),
@@ -88,8 +88,8 @@ def scan(
         holes=cleaned.holes,
         open_share=sum(h.area for h in cleaned.holes if not h.closed) / cleaned.area,
     )
-    write_scan(out, surface.vertices, surface.faces, colors, told)
-    return told
+    write_scan(out, surface.vertices, surface.faces, colors, report)
+    return report
 
 
 def checked(frames: Frames, config: ScanConfig, progress: Progress) -> tuple[Frames, Scene, float, float]:
@@ -137,6 +137,6 @@ def _cleaned(surface: Surface, voxel: float, scene: Scene, config: ScanConfig, p
     surface, holes, closed = close_small(surface, voxel)
     progress("smooth", f"{len(surface.faces)} faces", 1, 3)
     surface = Surface(smooth(surface.vertices, surface.faces, MOVED * voxel), surface.faces)
-    told = Cleaned(bits, closed, holes, float(surface.areas.sum()))
+    cleaned = Cleaned(bits, closed, holes, float(surface.areas.sum()))
     progress("simplify", f"to {config.faces} faces", 2, 3)
-    return decimate(surface, config.faces), told
+    return decimate(surface, config.faces), cleaned

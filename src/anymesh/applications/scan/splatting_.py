@@ -61,8 +61,8 @@ def with_depth(frames: Frames, *, seed: int, progress: Progress) -> Frames:
         strategy.step_post_backward(params, optimizers, state, step, info, packed=False)
     with torch.no_grad():
         found = [_deep(lib, params, frame, view) for frame, view in zip(frames.frames, views, strict=True)]
-    told = "depth comes from 2D Gaussian splatting of the pictures, not from a sensor"
-    return replace(frames, frames=tuple(found), has_depth=True, warnings=(*frames.warnings, told))
+    warning = "depth comes from 2D Gaussian splatting of the pictures, not from a sensor"
+    return replace(frames, frames=tuple(found), has_depth=True, warnings=(*frames.warnings, warning))
 
 
 def gaze(frames: Frames) -> tuple[Float[np.ndarray, " 3"], float]:

@@ -91,8 +91,8 @@ def _read(place: Path) -> ObjectInfo:
         category = json.loads((place / "meta.json").read_text(encoding="utf-8"))["model_cat"]
         lines = (place / "semantics.txt").read_text(encoding="utf-8").splitlines()
     except (OSError, ValueError, KeyError, TypeError) as error:
-        told = "model_cat is missing" if isinstance(error, KeyError) else error
-        raise InputError(f"{place.name}: meta.json or semantics.txt cannot be used ({told})") from None
+        reason = "model_cat is missing" if isinstance(error, KeyError) else error
+        raise InputError(f"{place.name}: meta.json or semantics.txt cannot be used ({reason})") from None
     rows = [line.split() for line in lines if line.strip()]
     if any(len(row) != 3 for row in rows):
         raise InputError(f"{place.name}/semantics.txt: each line needs a link, a kind and a label, such as `link_0 hinge door`")

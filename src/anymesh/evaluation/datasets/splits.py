@@ -10,8 +10,8 @@ from anymesh.errors import InputError, OptionError
 def check_split(name: str, split: str | None, valid: tuple[str, ...]) -> None:
     """Raise OptionError for a subset that the set does not have."""
     if split is not None and split not in valid:
-        told = f"valid are {', '.join(valid)}" if valid else "this set has none"
-        raise OptionError(f"--split: found {split!r} for {name}; {told}")
+        choices = f"valid are {', '.join(valid)}" if valid else "this set has none"
+        raise OptionError(f"--split: found {split!r} for {name}; {choices}")
 
 
 def listed(folder: Path) -> dict[str, list[str]]:

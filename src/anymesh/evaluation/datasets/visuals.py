@@ -46,8 +46,8 @@ def read_visual(path: Path, root: Path) -> Mesh:
     except InputError:
         raise
     except Exception as error:  # readers raise many types of errors for a broken file
-        told = " ".join(f"{type(error).__name__}: {error}".split())[:150]
-        raise InputError(f"{path.name} is broken or truncated ({told})") from None
+        reason = " ".join(f"{type(error).__name__}: {error}".split())[:150]
+        raise InputError(f"{path.name} is broken or truncated ({reason})") from None
     if not np.isfinite(mesh.vertices).all():
         raise InputError(f"{path.name}: found a vertex that is not finite (NaN or infinite)")
     unit = UNIT.search(data) if path.suffix.lower() == ".dae" else None
