@@ -10,6 +10,7 @@ import pytest
 
 from anymesh.applications.generate.choose import open_generator
 from anymesh.applications.generate.command import CommandGenerator
+from anymesh.applications.generate.program import log_tail
 from anymesh.applications.generate.protocol import MeshRequest
 from anymesh.errors import ModelError, OptionError
 from anymesh.loading import load_mesh
@@ -83,6 +84,16 @@ def test_a_crash_says_its_last_words_without_what_looks_like_a_key(program, tmp_
     assert "ended with status 3; the end of its output: CUDA out of memory: tried to allocate 20 GiB | token [removed]" in str(
         failed.value
     )
+
+
+def test_a_long_output_is_quoted_from_its_first_whole_line(tmp_path) -> None:
+    """The last 4000 bytes begin within a key, whose rest is too short to be recognized as one."""
+    key, log = "sk-" + 40 * "a", tmp_path / "log"
+    log.write_text(f"start {key}\n" + (4000 - 11) * "." + "\nlast one\n")
+    assert log_tail(log).endswith("last one")
+    assert "aaa" not in log_tail(log)
+    log.write_text(5000 * "a")
+    assert log_tail(log) == ""
 
 
 @pytest.mark.parametrize(

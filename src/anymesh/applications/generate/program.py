@@ -50,10 +50,13 @@ def run_program(
 
 def log_tail(log: Path) -> str:
     """Return the last lines of a program's output, with anything that resembles a key removed; may be empty."""
+    begin = max(0, log.stat().st_size - TAIL)
     with log.open("rb") as file:
-        file.seek(max(0, log.stat().st_size - TAIL))
+        file.seek(begin)
         text = file.read().decode("utf-8", "replace")
     lines = [re.sub(r"\s+", " ", line).strip() for line in re.split(r"[\r\n]+", text)]
+    if begin:  # the first line may be cut, and half of a key does not resemble one
+        del lines[0]
     tail = " | ".join([line for line in lines if line][-LINES:])
     return f"; the end of its output: {SECRET.sub('[removed]', tail)[-LONGEST:]}" if tail else ""
 
