@@ -27,7 +27,7 @@ from anymesh.articulation.estimate import MAX_COPIES
 from anymesh.articulation.motion_context import ScoredMotions, context_features
 from anymesh.articulation.rank_motions import BLOCKED, share_of_best
 
-MODELS = (Model((200, 100)),)
+MODELS = tuple(Model((400, 100), seed, extra_trees=True) for seed in range(3))
 OBJECT, SOURCE = 0.5, 0.6  # powers by which parts of an object, and parts of a source, count less the more they are
 HERE = Path(__file__).parent
 WRITTEN = HERE.parent / "src" / "anymesh" / "articulation" / "motion_classifier.npz"
