@@ -54,8 +54,8 @@ def calibration_table(found: Scored, slope: float, offset: float) -> list[str]:
         error = sum(abs(np.sum(w * (c - right) * (of == k))) for k in range(BINS)) / w.sum()
         order = np.argsort(-c, kind="stable")
         sure = order[: max(1, int((np.cumsum(w[order]) <= COVERED * w.sum() + 1e-9).sum()))]
-        told = [np.average(c, weights=w), np.average(right, weights=w), error, np.average(right[sure], weights=w[sure])]
-        lines.append(f"| {name or 'all, each set alike'} | {len(mine)} | {' | '.join(f'{v:.2f}' for v in told)} |")
+        values = [np.average(c, weights=w), np.average(right, weights=w), error, np.average(right[sure], weights=w[sure])]
+        lines.append(f"| {name or 'all, each set alike'} | {len(mine)} | {' | '.join(f'{v:.2f}' for v in values)} |")
     return lines
 
 

@@ -117,8 +117,8 @@ def main() -> None:
             print(rows[-1], flush=True)
     head = "| set | shapes | joints free | shapes per link | seconds per object, median | most |\n|---|---|---|---|---|---|"
     packages = ", ".join(f"{p} {version(p)}" for p in ("manifold3d", "mujoco", "numpy"))
-    told = f"{datetime.date.today()}, Python {platform.python_version()}, {packages}; `python benchmarks/collision.py`."
-    text = "\n\n".join(["# Collision shapes", (__doc__ or "").split("\n\n", 2)[2].strip(), "\n".join([head, *rows]), told])
+    footer = f"{datetime.date.today()}, Python {platform.python_version()}, {packages}; `python benchmarks/collision.py`."
+    text = "\n\n".join(["# Collision shapes", (__doc__ or "").split("\n\n", 2)[2].strip(), "\n".join([head, *rows]), footer])
     PAGE.write_text(text + "\n", encoding="utf-8")
 
 

@@ -70,11 +70,11 @@ class Swept:
 
 
 def recognized(sample: EvalSample, wrong: float, rng: np.random.Generator) -> Recognition:
-    """A label for each part, of which the way it moves is wrong with a probability; labels tell nothing else."""
+    """A label for each part, of which the way it moves is wrong with a probability; labels state nothing else."""
     moves = [j.type for j in sample.truth.joints]
-    told = [MOVING[int(rng.integers(3))] if rng.random() < wrong else m for m in moves]
+    answered = [MOVING[int(rng.integers(3))] if rng.random() < wrong else m for m in moves]
     names = [f"thing {j.child}" for j in sample.truth.joints]
-    return Recognition("object", None, tuple(RecognizedLabel(n, m, None, None) for n, m in zip(names, told, strict=True)))
+    return Recognition("object", None, tuple(RecognizedLabel(n, m, None, None) for n, m in zip(names, answered, strict=True)))
 
 
 def samples(sample: EvalSample, rounds: int, rng: np.random.Generator) -> Iterator[Sample]:
@@ -88,9 +88,9 @@ def samples(sample: EvalSample, rounds: int, rng: np.random.Generator) -> Iterat
     for wrong in WRONG:
         for n in range(1 if wrong == 0 else rounds):
             seer = Random(oracle(sample), rng) if wrong == 1 else Noisy(oracle(sample), wrong, rng)
-            told = recognized(sample, wrong, rng) if n % 2 else None
+            recognition = recognized(sample, wrong, rng) if n % 2 else None
             made = prompt_joints(
-                Questions(VisualPrompts(sample.mesh, Config()), seer, Config(), told), lambda _: whole, segmentation
+                Questions(VisualPrompts(sample.mesh, Config()), seer, Config(), recognition), lambda _: whole, segmentation
             )
             own = [a.own for a in made.agreements]
             for j in score(sample, segmentation, made.joints).joints:
@@ -121,17 +121,17 @@ def sure(found: Sequence[Sample], weights: dict[str, float]) -> np.ndarray:
 
 def table(found: Sequence[Sample], weights: dict[str, float]) -> str:
     """Mean confidence and share right, by how often answers are wrong and by confidence."""
-    told, y = sure(found, weights), np.array([s.right for s in found])
+    confidence, y = sure(found, weights), np.array([s.right for s in found])
     lines = ["| answers wrong | joints | right | mean confidence |", "|---|---|---|---|"]
     for wrong in WRONG:
         mine = np.array([s.wrong == wrong for s in found])
         name = "at random" if wrong == 1 else f"{wrong:.2f}"
-        lines.append(f"| {name} | {mine.sum()} | {y[mine].mean():.2f} | {told[mine].mean():.2f} |")
+        lines.append(f"| {name} | {mine.sum()} | {y[mine].mean():.2f} | {confidence[mine].mean():.2f} |")
     lines += ["", "| confidence | joints | right | mean confidence |", "|---|---|---|---|"]
     for low, high in itertools.pairwise(BINS):
-        mine = (told >= low) & (told < high)
+        mine = (confidence >= low) & (confidence < high)
         if mine.any():
-            lines.append(f"| {low:.1f}-{high:.1f} | {mine.sum()} | {y[mine].mean():.2f} | {told[mine].mean():.2f} |")
+            lines.append(f"| {low:.1f}-{high:.1f} | {mine.sum()} | {y[mine].mean():.2f} | {confidence[mine].mean():.2f} |")
     return "\n".join(lines)
 
 

@@ -154,9 +154,9 @@ def write_page(tallies: dict[str, Tally], sets: list[str]) -> None:
         rows.append(f"| {label} | {t.components} | {failed} | {times} | {np.mean(t.pieces or [0]):.1f} | {t.contacts} |")
     packages = ", ".join(f"{p} {version(p)}" for p in ("coacd", "vhacdx", "manifold3d", "mujoco", "numpy"))
     links = f"{tallies['ours'].links} links of {', '.join(sets)}."
-    told = f"{links} {datetime.date.today()}, Python {platform.python_version()}, {packages}."
+    footer = f"{links} {datetime.date.today()}, Python {platform.python_version()}, {packages}."
     title = "# Methods of convex decomposition"
-    PAGE.write_text("\n\n".join([title, (__doc__ or "").strip(), "\n".join(rows), told]) + "\n", encoding="utf-8")
+    PAGE.write_text("\n\n".join([title, (__doc__ or "").strip(), "\n".join(rows), footer]) + "\n", encoding="utf-8")
 
 
 if __name__ == "__main__":

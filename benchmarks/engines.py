@@ -30,7 +30,7 @@ BEGIN, END = "<!-- matrix: begin -->\n", "<!-- matrix: end -->\n"
 
 @dataclass(frozen=True)
 class Cell:
-    """What an engine told of an asset."""
+    """Outcome of one asset in one engine."""
 
     engine: str  # with its version where it ran
     asset: str
@@ -43,17 +43,17 @@ def run(engine: str, path: Path, python: str) -> Cell:
     """One engine on one asset, in a process of its own."""
     begin = time.perf_counter()
     try:
-        told: SweepReport | AnymeshError = sweep_in(engine, path, apart=True, python=python)
+        outcome: SweepReport | AnymeshError = sweep_in(engine, path, apart=True, python=python)
     except (InputError, MissingExtraError) as error:
-        told = error
+        outcome = error
     seconds = time.perf_counter() - begin
-    if isinstance(told, MissingExtraError):
+    if isinstance(outcome, MissingExtraError):
         return Cell(engine, path.stem, "not installed", seconds, ())
-    if isinstance(told, AnymeshError):
-        return Cell(engine, path.stem, "not loaded", seconds, (str(told),))
-    good = sum(j.ok for j in told.joints)
-    reasons = tuple(f"{j.name}: {fault}" for j in told.joints for fault in j.faults)
-    return Cell(told.engine, path.stem, f"{good}/{len(told.joints)}", seconds, reasons)
+    if isinstance(outcome, AnymeshError):
+        return Cell(engine, path.stem, "not loaded", seconds, (str(outcome),))
+    good = sum(j.ok for j in outcome.joints)
+    reasons = tuple(f"{j.name}: {fault}" for j in outcome.joints for fault in j.faults)
+    return Cell(outcome.engine, path.stem, f"{good}/{len(outcome.joints)}", seconds, reasons)
 
 
 def table(cells: list[Cell], assets: list[str]) -> str:
@@ -68,8 +68,8 @@ def table(cells: list[Cell], assets: list[str]) -> str:
         shown = f"{ran[0]:.1f}, then {sum(ran[1:]) / max(len(ran) - 1, 1):.1f}" if ran else ""
         lines.append(f"| {name} | {' | '.join(c.shown for c in some)} | {shown} |")
     gaps = [f"- {c.asset} in {c.engine}: {reason}" for c in cells for reason in c.reasons]
-    told = ["Gaps, with the reason that the engine gave:", "", *gaps] if gaps else ["No gap where an engine ran."]
-    return "\n".join([*lines, "", *told]) + "\n"
+    gap_lines = ["Gaps, with the reason that the engine gave:", "", *gaps] if gaps else ["No gap where an engine ran."]
+    return "\n".join([*lines, "", *gap_lines]) + "\n"
 
 
 def made(folder: Path) -> list[Path]:
@@ -86,7 +86,7 @@ def main() -> None:
     parser.add_argument("--python", action="append", default=[], metavar="ENGINE=INTERPRETER")
     parser.add_argument("--page", type=Path, help="a page with the two marks")
     options = parser.parse_args()
-    pythons = dict(told.split("=", 1) for told in options.python)
+    pythons = dict(pair.split("=", 1) for pair in options.python)
     os.environ["PYTHONPATH"] = str(Path(anymesh.__file__).parents[1])
     with tempfile.TemporaryDirectory() as folder:
         paths = [find_description(p) for p in options.assets or made(Path(folder))]

@@ -112,7 +112,7 @@ def main(argv: Sequence[str] | None = None) -> None:
     parser.add_argument("--most", type=int, default=50)
     parser.add_argument("--of-kind", type=int, default=2, help="objects of one kind and form at most")
     options = parser.parse_args(argv)
-    sets = {source or spec.split(":")[0]: spec for spec, _, source in (told.partition("@") for told in options.specs)}
+    sets = {source or spec.split(":")[0]: spec for spec, _, source in (argument.partition("@") for argument in options.specs)}
     taken: Counter[tuple[str, str]] = Counter()
     cards = []
     for failure in failures(options.rows):

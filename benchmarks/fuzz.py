@@ -80,8 +80,8 @@ def main() -> None:
             file.write(json.dumps({"key": case["key"], **result}) + "\n")
         if how.only:
             print(json.dumps(result, indent=1))
-        told = "" if result["outcome"] == "asset" else f"{result['kind']} {result.get('where', '')} {result['message'][:100]}"
-        print(f"{left:6d} {result['seconds']:7.1f} s  {case['key']}: {result['outcome']} {told}", flush=True)
+        cause = "" if result["outcome"] == "asset" else f"{result['kind']} {result.get('where', '')} {result['message'][:100]}"
+        print(f"{left:6d} {result['seconds']:7.1f} s  {case['key']}: {result['outcome']} {cause}", flush=True)
 
     try:
         run_all(cases, how.work, workers=how.workers, limit=how.time_limit, memory=int(how.memory * GIB), done=done)

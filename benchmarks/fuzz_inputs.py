@@ -71,5 +71,7 @@ def set_cases(spec: str, work: Path) -> Iterator[Case]:
         truth = source.truth(name, folder)
         np.save(labels, truth.labels)
         for way in ("auto", str(labels)):
-            told = "auto" if way == "auto" else "given"
-            yield from ({**c, "key": f"{source.name}: {name} {told}"} for c in _cases("", number, (way,), mesh=str(truth.mesh)))
+            parts = "auto" if way == "auto" else "given"
+            yield from (
+                {**c, "key": f"{source.name}: {name} {parts}"} for c in _cases("", number, (way,), mesh=str(truth.mesh))
+            )

@@ -84,15 +84,15 @@ class Worker:
         code = child.wait()
         self.close()
         name = signal.Signals(-code).name if code < 0 else f"exit code {code}"
-        return {"outcome": "crash", "kind": name, **self._told(start)}
+        return {"outcome": "crash", "kind": name, **self._stack(start)}
 
     def _stopped(self, outcome: str, child: subprocess.Popen[bytes], start: int) -> Result:
         os.kill(child.pid, signal.SIGUSR1)
         time.sleep(GRACE)
         self.close()
-        return {"outcome": outcome, "kind": outcome, **self._told(start)}
+        return {"outcome": outcome, "kind": outcome, **self._stack(start)}
 
-    def _told(self, start: int) -> Result:
+    def _stack(self, start: int) -> Result:
         """The stack of the thread that crashed, or of the main thread, as faulthandler writes it: innermost first."""
         text = self._log.read_bytes()[start:].decode(errors="replace")
         stacks = re.split(r"(?m)^(?=(?:Current thread|Thread) 0x)", text)

@@ -205,8 +205,8 @@ def main() -> None:
     fuzzer.run(how.inputs)
     print(f"{sum(fuzzer.counts.values())} inputs in {time.monotonic() - begin:.0f} s: {dict(fuzzer.counts)}")
     print(f"slowest {fuzzer.slowest:.1f} s, {len(fuzzer.pool)} seeds, {len(fuzzer.failures)} failures")
-    for name, told in fuzzer.failures[:50]:
-        print(f"  {name} {told}")
+    for name, failure in fuzzer.failures[:50]:
+        print(f"  {name} {failure}")
     sys.exit(bool(fuzzer.failures))
 
 

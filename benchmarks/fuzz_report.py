@@ -42,9 +42,9 @@ def report(results: dict[str, Result], command: str, limit: float) -> str:
             *_causes("Crashes", results, "crash", lambda r: f"{r['kind']} in `{r['where']}`"),
             *_causes("Over the time limit", results, "over time limit", lambda r: f"`{r['where']}`"),
             *_causes("Over the memory limit", results, "over memory limit", lambda r: f"`{r['where']}`"),
-            *_told("RuntimeWarnings", ((w, k) for k, r in results.items() for w in r.get("warnings", ()))),
-            *_told("Broken contract", ((_stem(f), k) for k, r in results.items() for f in r.get("contract", ()))),
-            *_told("Not repeatable", (("other bytes", k) for k, r in results.items() if not r.get("same", True))),
+            *_cause_table("RuntimeWarnings", ((w, k) for k, r in results.items() for w in r.get("warnings", ()))),
+            *_cause_table("Broken contract", ((_stem(f), k) for k, r in results.items() for f in r.get("contract", ()))),
+            *_cause_table("Not repeatable", (("other bytes", k) for k, r in results.items() if not r.get("same", True))),
             *_slowest(results),
             "",
         ]
@@ -68,10 +68,10 @@ def _outcomes(results: dict[str, Result]) -> list[str]:
 
 
 def _causes(title: str, results: dict[str, Result], outcome: str, cause: Callable[[Result], str]) -> list[str]:
-    return _told(title, ((cause(r), key) for key, r in results.items() if r["outcome"] == outcome))
+    return _cause_table(title, ((cause(r), key) for key, r in results.items() if r["outcome"] == outcome))
 
 
-def _told(title: str, found: Iterable[tuple[str, str]]) -> list[str]:
+def _cause_table(title: str, found: Iterable[tuple[str, str]]) -> list[str]:
     """A table of causes, the most frequent first, each with a few of its cases."""
     by_cause: dict[str, list[str]] = defaultdict(list)
     for cause, key in found:

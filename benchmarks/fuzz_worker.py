@@ -128,9 +128,9 @@ def _where(error: BaseException) -> dict[str, Any]:
     """The innermost place in the package, and the whole way to it."""
     frames = traceback.extract_tb(error.__traceback__)
     own = [f for f in frames if f.filename.startswith(PACKAGE)]
-    told = [f"{_place(f.filename)}:{f.name} {f.lineno}" for f in frames]
+    trace = [f"{_place(f.filename)}:{f.name} {f.lineno}" for f in frames]
     last = own[-1] if own else frames[-1]
-    return {"where": f"{_place(last.filename)}:{last.name} {last.lineno}", "trace": told[-14:]}
+    return {"where": f"{_place(last.filename)}:{last.name} {last.lineno}", "trace": trace[-14:]}
 
 
 def _end_with(parent: int) -> None:

@@ -129,18 +129,18 @@ def main() -> None:
     parser.add_argument("--only", nargs="*", default=[])
     parser.add_argument("--stand-in", metavar="PROMPT")
     parser.add_argument("--write", type=Path)
-    told = parser.parse_args()
-    if told.stand_in is not None:
-        told.write.write_bytes(stand_in(told.stand_in)[0])
+    options = parser.parse_args()
+    if options.stand_in is not None:
+        options.write.write_bytes(stand_in(options.stand_in)[0])
         return
-    work = told.work or Path(tempfile.mkdtemp())
+    work = options.work or Path(tempfile.mkdtemp())
     head = "object, mesh from, faces, components, joints right, joints found, longest side / true [m], check, s, of these"
     lines = [f"| {' | '.join(head.split(', '))} |", "|---" * (head.count(", ") + 1) + "|"]
-    for found in rows(work, told.only):
+    for found in rows(work, options.only):
         lines.append(found.markdown())
         print(lines[-1], flush=True)
-    if told.markdown is not None:
-        told.markdown.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    if options.markdown is not None:
+        options.markdown.write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
 if __name__ == "__main__":

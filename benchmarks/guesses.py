@@ -45,11 +45,11 @@ def main() -> None:
                 try:
                     guesser = Guesser(seed, pictured=options.pictures)
                     segmentation, joints = solve(sample.mesh, config=QUICK, answerer_factory=lambda _, who=guesser: who)
-                    told = f"{len(segmentation.parts) - 1} parts, {len(joints)} joints"
+                    outcome = f"{len(segmentation.parts) - 1} parts, {len(joints)} joints"
                 except Exception:
                     crashes += 1
-                    told = traceback.format_exc()
-                print(f"{dataset.name} {name}, seed {seed}: {told} ({time.perf_counter() - begin:.0f} s)", flush=True)
+                    outcome = traceback.format_exc()
+                print(f"{dataset.name} {name}, seed {seed}: {outcome} ({time.perf_counter() - begin:.0f} s)", flush=True)
     print(f"{crashes} crashes in {done} runs")
     raise SystemExit(crashes > 0)
 

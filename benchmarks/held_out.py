@@ -54,10 +54,10 @@ def measure(work: Path, names: Sequence[str], protocol: str, dataset: str = "urd
 
 def figures(records: Mapping[str, Sequence[Record]]) -> dict[str, Figures]:
     """Return the figures of each protocol, rounded."""
-    told = {protocol: summarize(some) for protocol, some in records.items()}
+    summaries = {protocol: summarize(some) for protocol, some in records.items()}
     return {
         protocol: {name: round(value, 3) for name, of in FIGURES.items() if (value := of(summary)) is not None}
-        for protocol, summary in told.items()
+        for protocol, summary in summaries.items()
     }
 
 

@@ -1,4 +1,4 @@
-"""The licences of all that is installed beside this package, as each distribution tells its own.
+"""The licences of all that is installed beside this package, as each distribution states its own.
 
 python benchmarks/licences.py [--markdown FILE]
 """
@@ -15,11 +15,11 @@ def licences() -> dict[str, tuple[str, str]]:
     """Version and licence of each distribution by its name."""
     found = {}
     for package in distributions():
-        told = package.metadata
-        classifiers = [c.rpartition(":: ")[2] for c in told.get_all("Classifier") or [] if c.startswith("License")]
-        words = (told.get("License") or "").strip().splitlines()
-        text = told.get("License-Expression") or ", ".join(classifiers) or (words[0] if words else "not told")
-        found[str(told["Name"])] = (package.version, text[:80])
+        metadata = package.metadata
+        classifiers = [c.rpartition(":: ")[2] for c in metadata.get_all("Classifier") or [] if c.startswith("License")]
+        words = (metadata.get("License") or "").strip().splitlines()
+        text = metadata.get("License-Expression") or ", ".join(classifiers) or (words[0] if words else "not stated")
+        found[str(metadata["Name"])] = (package.version, text[:80])
     return dict(sorted(found.items(), key=lambda item: item[0].lower()))
 
 

@@ -120,13 +120,13 @@ def _opens_right(true: TrueJoint, axis: np.ndarray) -> int:
 
 def save(path: Path, parts: Sequence[MotionRows]) -> None:
     """Write an .npz file."""
-    told: list[dict[str, Any]] = []
+    records: list[dict[str, Any]] = []
     arrays: dict[str, np.ndarray] = {}
     for k, rows in enumerate(parts):
         fields = vars(rows)
         arrays |= {f"{key}.{k}": value for key, value in fields.items() if isinstance(value, np.ndarray)}
-        told.append({key: value for key, value in fields.items() if not isinstance(value, np.ndarray)})
-    np.savez_compressed(path, told=np.frombuffer(json.dumps(told).encode(), np.uint8), **arrays)
+        records.append({key: value for key, value in fields.items() if not isinstance(value, np.ndarray)})
+    np.savez_compressed(path, told=np.frombuffer(json.dumps(records).encode(), np.uint8), **arrays)
 
 
 def read_rows(folder: Path) -> list[MotionRows]:
@@ -134,10 +134,10 @@ def read_rows(folder: Path) -> list[MotionRows]:
     found = []
     for path in sorted(folder.glob("*.npz")):
         with np.load(path) as file:
-            for k, told in enumerate(json.loads(bytes(file["told"]).decode())):
+            for k, record in enumerate(json.loads(bytes(file["told"]).decode())):
                 arrays = {key: file[f"{key}.{k}"] for key in ("features", "axes", "right", "opens_right", "same", "free")}
-                told = {key: tuple(value) if isinstance(value, list) else value for key, value in told.items()}
-                found.append(MotionRows(**told, **arrays))
+                record = {key: tuple(value) if isinstance(value, list) else value for key, value in record.items()}
+                found.append(MotionRows(**record, **arrays))
     return found
 
 

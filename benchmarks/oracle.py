@@ -119,8 +119,8 @@ def main() -> None:
             for v in (VERIFY if given else VERIFY[:1])
         ]
     if options.noise:
-        told, shares = noise(examples)
-        done.append(told)
+        section, shares = noise(examples)
+        done.append(section)
         if options.plot:
             options.plot.write_text(plot(shares), encoding="utf-8")
     if options.markdown:

@@ -60,9 +60,9 @@ class PartRows:
 
     def save(self, path: Path) -> None:
         """Write an .npz file."""
-        told = {key: getattr(self, key) for key in ("source", "kind", "name", "form", "names", "moving", "carried")}
+        fields = {key: getattr(self, key) for key in ("source", "kind", "name", "form", "names", "moving", "carried")}
         arrays = {"features": self.features, "members": self.members, "area": self.area}
-        np.savez_compressed(path, told=np.frombuffer(json.dumps(told).encode(), np.uint8), **arrays)
+        np.savez_compressed(path, told=np.frombuffer(json.dumps(fields).encode(), np.uint8), **arrays)
 
 
 def read_rows(folder: Path) -> list[PartRows]:
@@ -70,12 +70,12 @@ def read_rows(folder: Path) -> list[PartRows]:
     found = []
     for path in sorted(folder.glob("*.npz")):
         with np.load(path) as file:
-            told: dict[str, Any] = json.loads(bytes(file["told"]).decode())
+            fields: dict[str, Any] = json.loads(bytes(file["told"]).decode())
             arrays = {key: file[key] for key in ("features", "members", "area")}
-        told["names"], told["moving"] = tuple(told["names"]), tuple(told["moving"])
-        told["carried"] = tuple(tuple(group) for group in told["carried"])
+        fields["names"], fields["moving"] = tuple(fields["names"]), tuple(fields["moving"])
+        fields["carried"] = tuple(tuple(group) for group in fields["carried"])
         if len(arrays["features"]):
-            found.append(PartRows(**told, **arrays))
+            found.append(PartRows(**fields, **arrays))
     return found
 
 

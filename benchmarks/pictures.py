@@ -31,12 +31,12 @@ def main() -> None:
     segmented = solver.parts("auto", recognized.recognition)
     jointed = solver.joints(segmented.segmentation, recognized.recognition)
     options.folder.mkdir(parents=True, exist_ok=True)
-    told = []
+    questions = []
     for exchange in (*recognized.exchanges, *segmented.exchanges, *jointed.exchanges):
-        told.append(f"{exchange.kind} ({len(exchange.pictures)} pictures)\n{exchange.text}\n-> {exchange.answer}\n")
+        questions.append(f"{exchange.kind} ({len(exchange.pictures)} pictures)\n{exchange.text}\n-> {exchange.answer}\n")
         for k, picture in enumerate(exchange.pictures if options.all else exchange.pictures[:1], start=1):
             (options.folder / f"{options.name}_{exchange.kind}{f'_{k}' if options.all else ''}.png").write_bytes(picture.png)
-    (options.folder / "questions.txt").write_text("\n".join(told), encoding="utf-8")
+    (options.folder / "questions.txt").write_text("\n".join(questions), encoding="utf-8")
 
 
 if __name__ == "__main__":

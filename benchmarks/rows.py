@@ -20,7 +20,7 @@ Collect = Callable[
 
 
 def kind_of(name: str, category: str) -> str:
-    """The kind of an object: its category where the set tells it, else its name up to the first dash."""
+    """The kind of an object: its category where the set states it, else its name up to the first dash."""
     return category if category != "object" else name.split("-")[0]
 
 
@@ -44,8 +44,8 @@ def collect_all(description: str, collect: Collect, argv: Sequence[str] | None) 
     options.folder.mkdir(parents=True, exist_ok=True)
     with ProcessPoolExecutor(options.workers, get_context("spawn")) as workers:
         jobs = []
-        for told in options.specs:
-            spec, _, source = told.partition("@")
+        for argument in options.specs:
+            spec, _, source = argument.partition("@")
             names = list(open_dataset(spec).objects())
             if len(names) > options.most:
                 names = [names[k] for k in np.linspace(0, len(names) - 1, options.most).astype(int)]

@@ -82,7 +82,7 @@ def distances(mesh: Mesh, out: Path, T_world_mesh: np.ndarray, T_scan_mesh: np.n
 
 def scored(truth: GroundTruth, mesh: Mesh, asset: Asset, T: np.ndarray) -> dict[str, Any]:
     """The asset's joints against the truth, whose labels go to the nearest faces. Parts that the scan does not show are left
-    out of the truth, and told."""
+    out of the truth, and listed."""
     there = mesh.transformed(T)
     labels = truth.labels[distance_to_mesh(asset.mesh.triangles.mean(1), there.vertices, there.faces)[1]]
     shown = np.bincount(labels, minlength=len(truth.parts)) > 0
@@ -135,12 +135,12 @@ def main() -> None:
     parser.add_argument("--views", type=int, default=60)
     parser.add_argument("--noise", type=float, default=0.0015)
     parser.add_argument("--seed", type=int, default=0)
-    told = parser.parse_args()
+    options = parser.parse_args()
     rows = []
-    for name in told.names:
-        place = told.out / name / "result.json"
+    for name in options.names:
+        place = options.out / name / "result.json"
         if not place.exists():
-            found = measured(name, place.parent, told.views, told.noise, told.seed)
+            found = measured(name, place.parent, options.views, options.noise, options.seed)
             place.write_text(json.dumps(found, indent=1))
         rows.append(json.loads(place.read_text()))
         print(table(rows[-1:]).splitlines()[2], flush=True)

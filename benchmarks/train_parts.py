@@ -124,8 +124,8 @@ def main(argv: Sequence[str] | None = None) -> None:
     save_scores(options.folder, by_source, by_kind)
     still = [k for k, r in enumerate(rows) if not r.moving]
     wrong = counts([rows[k] for k in still], [by_kind[k] for k in still]).found
-    told = confidences(rows, by_kind)
-    slope, offset = fit_confidence(told)
+    chosen = confidences(rows, by_kind)
+    slope, offset = fit_confidence(chosen)
     text = [
         "# Parts found by the classifier, on objects that it was not trained on", "",
         "`python benchmarks/train_parts.py ROWS`; stage A only, parts matched at IoU .5, without names of nodes and materials.",
@@ -136,7 +136,7 @@ def main(argv: Sequence[str] | None = None) -> None:
         f"On {len(still)} objects without movable parts, {wrong} parts were found.", "",
         "## Confidence", "",
         f"Fitted to other kinds, over all sources: slope {slope:.2f}, offset {offset:.2f} (`segmentation/segment.py`).", "",
-        *calibration_table(told, slope, offset), "", "The same on other sources:", "",
+        *calibration_table(chosen, slope, offset), "", "The same on other sources:", "",
         *calibration_table(confidences(rows, by_source), slope, offset), "",
     ]  # fmt: skip
     (HERE / "parts.md").write_text("\n".join(text), encoding="utf-8")

@@ -6,7 +6,7 @@ python benchmarks/visual.py table --place infinigen=DIR [--ablation]            
 python benchmarks/visual.py scores FOLDER                                       benchmarks/visual.md, as measured while asking
 python benchmarks/visual.py pictures FOLDER --only 001                          recorded questions with their pictures
 
-Objects have numbers in the folders of questions, as their names would tell what they are (`recordings/objects.json`), and what
+Objects have numbers in the folders of questions, as their names would show what they are (`recordings/objects.json`), and what
 is known of the truth lies beside, in FOLDER.results/. The parts are given only once the object was answered without them.
 Without --wait, `ask` goes as far as it can, ends with exit code 9 while questions are open, and goes on when called again.
 """
@@ -139,7 +139,7 @@ def table(found: Sequence[tuple[Item, EvalProtocol]], ablation: bool, jobs: int,
     rows: list[Row] = []
     for done in _each(rows_of, [(i, p, variants) for i, p in found], jobs):
         rows += done
-        print(*(row.told() for row in done), sep="\n", flush=True)
+        print(*(row.summary() for row in done), sep="\n", flush=True)
         out.write_text(page(rows), encoding="utf-8")
     print(f"wrote {out}")
 
@@ -202,16 +202,16 @@ def main() -> None:
     elif options.what == "table":
         table(recorded(found, protocols), options.ablation, options.jobs, options.markdown)
     elif options.what == "pictures":
-        for told in _each(pictures, [(i, p, options.folder) for i, p in recorded(found, protocols)], options.jobs):
-            print(told, flush=True)
+        for line in _each(pictures, [(i, p, options.folder) for i, p in recorded(found, protocols)], options.jobs):
+            print(line, flush=True)
     else:
         after = {EvalProtocol.PARTS: EvalProtocol.END_TO_END} if len(protocols) > 1 else {}
         tasks = [(i, p, options.folder, options.wait, after.get(p)) for p in protocols for i in found]
-        told = []
+        lines = []
         for line in _each(ask, tasks, options.jobs):
-            told.append(line)
+            lines.append(line)
             print(line, flush=True)
-        raise SystemExit(9 if any(": open " in line or ": comes after " in line for line in told) else 0)
+        raise SystemExit(9 if any(": open " in line or ": comes after " in line for line in lines) else 0)
 
 
 if __name__ == "__main__":

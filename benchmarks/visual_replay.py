@@ -40,7 +40,7 @@ class Row:
     calls: int
     carried: int = 0
 
-    def told(self) -> str:
+    def summary(self) -> str:
         """Return one line about the result."""
         score, error = self.record.score, self.record.error
         what = error or f"{score.matched} of {score.true} parts, {self.calls} calls, {self.record.seconds:.0f} s"

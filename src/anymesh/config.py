@@ -81,13 +81,13 @@ class ViewsConfig:
     zoom_margin: float = 0.3  # margin on each side, as a share of the part's box in the picture
 
     def __post_init__(self) -> None:
-        for told in (self.around, self.inside):
-            rings = [RING.fullmatch(ring) for ring in told.split(",")]
+        for views in (self.around, self.inside):
+            rings = [RING.fullmatch(ring) for ring in views.split(",")]
             count = sum(int(ring["count"]) for ring in rings if ring)
             steep = any(abs(float(ring["elevation"])) > 90 for ring in rings if ring)
             if not all(rings) or not 1 <= count <= MAX_VIEWS or steep:
                 raise OptionError(
-                    f"--viewpoints: found {told!r}; valid are COUNT@ELEVATION or COUNT@ELEVATION+AZIMUTH [deg] with commas "
+                    f"--viewpoints: found {views!r}; valid are COUNT@ELEVATION or COUNT@ELEVATION+AZIMUTH [deg] with commas "
                     f"between, such as {DEFAULT_VIEWS} or {PAPER_VIEWS} (the paper's), 1 to {MAX_VIEWS} views in all"
                 )
 

@@ -13,7 +13,7 @@ from anymesh.types.motion import JointType
 class Word:
     """A kind of part.
 
-    motion: its typical joint, None if only geometry can tell a hinge from a slide; names: words that name it.
+    motion: its typical joint, None if only geometry can distinguish a hinge from a slide; names: words that name it.
     """
 
     label: str
@@ -105,18 +105,18 @@ def _singular(word: str) -> str:
 
 def recognize(name: str) -> Word | None:
     """Return the kind of part that a name means; the last recognized word counts (a "door handle" is a handle)."""
-    return _BY_NAME.get(_telling(name))
+    return _BY_NAME.get(_part_word(name))
 
 
 def is_fixed_name(name: str) -> bool:
     """Return whether the last recognized word names something that does not move."""
-    return _telling(name) in FIXED
+    return _part_word(name) in FIXED
 
 
-def _telling(name: str) -> str:
+def _part_word(name: str) -> str:
     """Return the last word that names a part, ignoring positions if possible; "" for none."""
-    told = [word for word in words_of(name) if word in _BY_NAME or word in FIXED]
-    return next((word for word in reversed(told) if word not in PLACES), told[-1] if told else "")
+    known = [word for word in words_of(name) if word in _BY_NAME or word in FIXED]
+    return next((word for word in reversed(known) if word not in PLACES), known[-1] if known else "")
 
 
 def typical_motion(label: str) -> JointType | None:

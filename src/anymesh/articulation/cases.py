@@ -58,8 +58,8 @@ def make_cases(
     """Make a case for every part but the root, in the order of the parts."""
     label = segmentation.face_part[whole.source]
     shapes = [whole.of(np.flatnonzero(label == i)) for i in range(len(segmentation.parts))]
-    told = {r.label: r for r in recognition.labels} if recognition else {}
-    parent = parents(shapes, whole.diagonal, _answered_parents(segmentation, told))
+    recognized = {r.label: r for r in recognition.labels} if recognition else {}
+    parent = parents(shapes, whole.diagonal, _answered_parents(segmentation, recognized))
     arounds = {}
     for numbers in same_size(shapes, parent):
         some = [part_context(whole, label, shapes, parent, i, config.articulation) for i in numbers]
@@ -80,7 +80,9 @@ def make_cases(
         carried = tuple(descendants(parent, i))
         circles = round_patches(whole, shapes[i], shapes[parent[i]])
         found.append(
-            PartCase(i, part.name, segmentation.parts[parent[i]].name, carried, around, shown, circles, told.get(part.label))
+            PartCase(
+                i, part.name, segmentation.parts[parent[i]].name, carried, around, shown, circles, recognized.get(part.label)
+            )
         )
     return found
 

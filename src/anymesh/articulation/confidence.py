@@ -36,8 +36,8 @@ class Agreement:
     @property
     def own(self) -> float:
         """Return the share of the part's own answers that agree, 0..1."""
-        told = [self.features.get("kind", 0.0), self.features.get("answered", 0.0), 1 - self.features.get("none", 0.0)]
-        return float(np.mean(told))
+        agreements = [self.features.get("kind", 0.0), self.features.get("answered", 0.0), 1 - self.features.get("none", 0.0)]
+        return float(np.mean(agreements))
 
 
 def confidences(agreements: Mapping[int, Agreement]) -> dict[int, float]:

@@ -15,10 +15,10 @@ def contradictions(cases: Sequence[PartCase], joints: Sequence[Joint]) -> tuple[
     """Return a warning for each part whose answers (recognition, kind of joint, motion) contradict each other."""
     found = []
     for case, joint in zip(cases, joints, strict=True):
-        told = list(_answered_motion(case))
-        kinds = {kind for kind, _ in told} | {_motion(joint.type)}
+        answered = list(_answered_motion(case))
+        kinds = {kind for kind, _ in answered} | {_motion(joint.type)}
         if len(kinds) > 1:
-            said = ", then ".join(words for _, words in told)
+            said = ", then ".join(words for _, words in answered)
             found.append(f"{case.name}: the answers contradict each other ({said}); it became {joint.type}: please check")
     return tuple(found)
 

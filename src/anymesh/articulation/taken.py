@@ -45,11 +45,11 @@ def as_answered(case: PartCase) -> Choice:
     scores = score_motions(case.around, part_facts(case.around, case.label, case.label, two_pivot=False), both)
     best = both[max((0, 1), key=lambda k: (both[k].is_free, scores[k]))] if motion.kind is JointType.REVOLUTE else both[0]
     moves = case.recognized.moves if case.recognized else None
-    told = moves is not None and moves_as(best, moves)
+    as_recognized = moves is not None and moves_as(best, moves)
     features = {
         "kind": 1.0,
-        "moves": float(told),
-        "moves against": float(moves is not None and not told),
+        "moves": float(as_recognized),
+        "moves against": float(moves is not None and not as_recognized),
         "answered": 1.0,
         "blocked": float(not best.is_free),
     }

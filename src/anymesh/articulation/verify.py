@@ -112,24 +112,24 @@ def _against_all(o: MotionOffers, picked: int | None) -> bool:
 
 def _without_choice(o: MotionOffers) -> Choice:
     best = o.motions[o.first[0] if o.first else 0]
-    told = "the only free motion" if best.is_free else "no motion is free; as answered"
+    basis = "the only free motion" if best.is_free else "no motion is free; as answered"
     if o.case.kind is JointAppearance.FIXED:
         return Choice(best, "answered: it does not move", agreement(o, None, {"only": 1.0}), moves=False)
-    return Choice(best, f"{told}: {reason(o.facts, best)}", agreement(o, 0, {"only": 1.0}))
+    return Choice(best, f"{basis}: {reason(o.facts, best)}", agreement(o, 0, {"only": 1.0}))
 
 
 def _chosen(o: MotionOffers, picked: int | None, *, doubted: bool, later: bool, fit: PartFit) -> Choice:
     best = o.motions[_fallback(o) if picked is None else picked]
     against = "" if fits(best, o.case.kind) else f", though {words(o.case.kind)} was answered"
-    told = (
+    offered = (
         f"{len(o.first) + later * len(o.second)} motions{', asked twice' if doubted else ''}{against}: {reason(o.facts, best)}"
     )
     if picked is None and o.case.kind is JointAppearance.FIXED:
         return Choice(best, "answered: it does not move", agreement(o, None, {}), fit, moves=False)
     if picked is None:
-        return Choice(best, f"none recognized of {told}", agreement(o, _fallback(o), {"none": 1.0}), fit)
+        return Choice(best, f"none recognized of {offered}", agreement(o, _fallback(o), {"none": 1.0}), fit)
     seen = {"doubted": float(doubted), "later": float(later)}
-    return Choice(best, f"chosen among {told}", agreement(o, picked, seen), fit)
+    return Choice(best, f"chosen among {offered}", agreement(o, picked, seen), fit)
 
 
 def _fallback(o: MotionOffers) -> int:
@@ -144,12 +144,12 @@ def agreement(o: MotionOffers, picked: int | None, more: Mapping[str, float]) ->
     if picked is None:
         return Agreement({"kind": 1.0, "moves against": float(moves is not None), **more})
     c = o.motions[picked]
-    told = moves is not None and moves_as(c, moves)
+    as_recognized = moves is not None and moves_as(c, moves)
     return Agreement(
         {
             "kind": float(fits(c, case.kind)),
-            "moves": float(told),
-            "moves against": float(moves is not None and not told),
+            "moves": float(as_recognized),
+            "moves against": float(moves is not None and not as_recognized),
             "answered": float(o.answered == picked),
             "likely": o.shares[picked],
             "blocked": float(not c.is_free),

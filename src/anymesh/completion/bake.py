@@ -65,8 +65,8 @@ def bake(mesh: Mesh, *, size: int = 1024, padding: int = 2) -> tuple[Mesh, tuple
 def check_layout(mesh: Mesh, size: int, padding: int) -> Layout:
     """Compute the layout for a size and a padding given by the user. Raise OptionError if they are not valid."""
     if not SIZES[0] <= size <= SIZES[1] or not 1 <= padding <= size // 4:
-        told = f"found {size} px and a padding of {padding} px"
-        raise OptionError(f"an atlas has {SIZES[0]} to {SIZES[1]} px and a padding of 1 px to a quarter of that; {told}")
+        given = f"found {size} px and a padding of {padding} px"
+        raise OptionError(f"an atlas has {SIZES[0]} to {SIZES[1]} px and a padding of 1 px to a quarter of that; {given}")
     return lay_out(mesh, size, padding)
 
 

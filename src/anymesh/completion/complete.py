@@ -33,4 +33,4 @@ def complete(
     source = np.where(second.source_face < 0, -1, first.source_face[second.source_face])
     names = [p.name for p in asset.segmentation.parts]
     notes = {n: (*first.notes.get(n, ()), *second.notes.get(n, ())) for n in names}
-    return Finished(second.asset, source, {n: told for n, told in notes.items() if told})
+    return Finished(second.asset, source, {n: part_notes for n, part_notes in notes.items() if part_notes})

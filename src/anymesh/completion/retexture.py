@@ -81,8 +81,8 @@ def described(asset: Asset) -> str:
     """Return a prompt with the object's name and the labels of its parts."""
     labels = dict.fromkeys(part.label for part in asset.segmentation.parts[1:] if part.label)
     what = asset.name.replace("_", " ")
-    told = f"a {what} with {', '.join(labels)}" if labels else f"a {what}"
-    return f"{told}, realistic materials"[:600]
+    subject = f"a {what} with {', '.join(labels)}" if labels else f"a {what}"
+    return f"{subject}, realistic materials"[:600]
 
 
 def _taken_over(back: Mesh, ours: Mesh) -> Mesh:

@@ -80,7 +80,7 @@ def is_binary_stl(data: bytes) -> bool:
     return len(data) >= 84 + 50 * count or (b"\0" in data and not known)
 
 
-def check_count(name: str, what: str, told: int, room: int) -> None:
+def check_count(name: str, what: str, stated: int, room: int) -> None:
     """Raise InputError if a header states more elements than the file has room for."""
-    if told < 0 or told > room:
-        raise InputError(f"{name} is truncated or broken: it states {told} {what}, and has room for at most {max(room, 0)}")
+    if stated < 0 or stated > room:
+        raise InputError(f"{name} is truncated or broken: it states {stated} {what}, and has room for at most {max(room, 0)}")

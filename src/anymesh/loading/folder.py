@@ -52,7 +52,7 @@ class Folder:
         """
         found = self._bytes(uri)
         if isinstance(found, Unresolved):
-            raise InputError(f"{self.path.name} refers to {uri[:SHOWN]!r}, which {_told(found)}")
+            raise InputError(f"{self.path.name} refers to {uri[:SHOWN]!r}, which {_reason(found)}")
         return found
 
     def read_or_warn(self, uri: str, what: str) -> bytes | None:
@@ -62,7 +62,7 @@ class Folder:
         """
         found = self._bytes(uri)
         if isinstance(found, Unresolved):
-            self.warn(f"{what} {uri[:SHOWN]!r} left out: it {_told(found)}")
+            self.warn(f"{what} {uri[:SHOWN]!r} left out: it {_reason(found)}")
             return None
         return found
 
@@ -84,11 +84,11 @@ class Folder:
 
     def digest(self) -> str:
         """Return a digest that differs between loads of the same mesh file with other referenced contents or warnings."""
-        told = (sorted(self._digests.items()), self.warnings)
-        return hashlib.sha256(json.dumps(told).encode()).hexdigest()
+        contents = (sorted(self._digests.items()), self.warnings)
+        return hashlib.sha256(json.dumps(contents).encode()).hexdigest()
 
 
-def _told(found: Unresolved) -> str:
+def _reason(found: Unresolved) -> str:
     return f"{found.reason} ({HINT})" if found.reason == OUTSIDE else found.reason
 
 

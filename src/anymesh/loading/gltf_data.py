@@ -86,9 +86,9 @@ class Buffers:
             buffer = _item(self._tree.get("buffers", []), number)
             uri = buffer.get("uri")
             data = (self._binary or b"") if uri is None else from_uri(uri, self._folder)
-            told = buffer["byteLength"]
-            if told > len(data):
-                raise InputError(f"{self._name} is truncated: buffer {number} states {told} bytes, found {len(data)}")
+            length = buffer["byteLength"]
+            if length > len(data):
+                raise InputError(f"{self._name} is truncated: buffer {number} states {length} bytes, found {len(data)}")
             self._read[number] = data
         return self._read[number]
 

@@ -64,8 +64,8 @@ def load_mesh(path: str | Path, *, root: str | Path | None = None) -> LoadedMesh
     except InputError:
         raise
     except Exception as error:  # readers raise many types of errors for broken files
-        told = " ".join(f"{type(error).__name__}: {error}".split())[:200]
-        raise InputError(f"{path.name} is not a valid {suffix[1:].upper()} file, it is broken or truncated ({told})") from None
+        cause = " ".join(f"{type(error).__name__}: {error}".split())[:200]
+        raise InputError(f"{path.name} is not a valid {suffix[1:].upper()} file, it is broken or truncated ({cause})") from None
     if len(mesh.faces) > MAX_FACES:
         raise InputError(f"{path.name} has {len(mesh.faces)} faces; at most {MAX_FACES} are handled")
     _check_numbers(path.name, mesh)

@@ -49,8 +49,8 @@ def picture(folder: Folder, data: bytes, name: str) -> Texture | None:
 
 def warn_unreadable(folder: Folder, name: str, error: Exception) -> None:
     """Warn of an existing texture that cannot be read."""
-    told = f"{type(error).__name__}: {OBJECT.sub('', str(error))}"[:100]
-    folder.warn(f"texture {name[:SHOWN]!r} left out: it cannot be read ({told})")
+    reason = f"{type(error).__name__}: {OBJECT.sub('', str(error))}"[:100]
+    folder.warn(f"texture {name[:SHOWN]!r} left out: it cannot be read ({reason})")
 
 
 @contextmanager

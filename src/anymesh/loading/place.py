@@ -103,8 +103,8 @@ def _scale(loaded: LoadedMesh, extents: np.ndarray, scale: str, category: str | 
     if scale != "auto":
         factor, note = _given_scale(extents, scale)
         if not GIVEN[0] <= diagonal * factor <= GIVEN[1]:
-            told = f"makes the object's diagonal {diagonal * factor:.3g} m"
-            raise OptionError(f"--scale: found {scale!r}, which {told}; valid are {GIVEN[0]:g} to {GIVEN[1]:g} m")
+            effect = f"makes the object's diagonal {diagonal * factor:.3g} m"
+            raise OptionError(f"--scale: found {scale!r}, which {effect}; valid are {GIVEN[0]:g} to {GIVEN[1]:g} m")
         return factor, note, ()
     unit = loaded.unit_in_metres
     prior = usual_size(category) if category else usual_size(Path(loaded.path).stem) if unit is None else None
@@ -113,25 +113,25 @@ def _scale(loaded: LoadedMesh, extents: np.ndarray, scale: str, category: str | 
     if unit is not None:
         if ABSURD[0] <= diagonal * unit <= ABSURD[1]:
             return unit, f"scale {unit:g} (the file's unit)", ()
-        told = f"the file's unit makes the object {diagonal * unit:.3g} m large; it was scaled to a diagonal of 1 m"
-        return 1 / diagonal, f"scale {1 / diagonal:g} (normalised)", (told,)
+        warning = f"the file's unit makes the object {diagonal * unit:.3g} m large; it was scaled to a diagonal of 1 m"
+        return 1 / diagonal, f"scale {1 / diagonal:g} (normalised)", (warning,)
     if PLAUSIBLE[0] <= diagonal <= PLAUSIBLE[1]:
         return 1.0, "scale 1 (the file has no unit; taken as metres)", ()
     for name, factor in UNITS:
         if PLAUSIBLE[0] <= diagonal * factor <= PLAUSIBLE[1] / 4:
             return factor, f"scale {factor:g} (inferred: a diagonal of {diagonal:.4g} is taken as {name})", ()
-    told = f"no unit makes a diagonal of {diagonal:.3g} plausible; the object was scaled to a diagonal of 1 m"
-    return 1 / diagonal, f"scale {1 / diagonal:g} (normalised)", (told,)
+    warning = f"no unit makes a diagonal of {diagonal:.3g} plausible; the object was scaled to a diagonal of 1 m"
+    return 1 / diagonal, f"scale {1 / diagonal:g} (normalised)", (warning,)
 
 
 def _scale_of_kind(extents: np.ndarray, unit: float | None, kind: str, usual: float) -> tuple[float, str, tuple[str, ...]]:
     """Return the file's unit, or a common one, that gives the object a plausible size for its kind; else the usual size."""
     longest, kind = float(extents.max()), kind.replace("_", " ")
-    told = [("the file's unit", unit)] if unit is not None else [("metres", 1.0), *UNITS]
-    for name, factor in told:
+    units = [("the file's unit", unit)] if unit is not None else [("metres", 1.0), *UNITS]
+    for name, factor in units:
         if is_near(longest * factor, usual):
             return factor, f"scale {factor:g} ({name}; plausible for a {kind})", ()
-    factor, (name, first) = usual / longest, told[0]
+    factor, (name, first) = usual / longest, units[0]
     warning = f"{name} would make the {kind} {longest * first:.3g} m long; it was scaled to {usual:g} m"
     return factor, f"scale {factor:g} (size prior: a {kind} is about {usual:g} m long)", (warning,)
 

@@ -82,9 +82,9 @@ def _uv(vertex: Columns, face: Columns, faces: np.ndarray, triangles: np.ndarray
 def _material(folder: Folder, comments: list[str]) -> Material | None:
     """Return the material with the picture that MeshLab and others name in a comment."""
     for comment in comments:
-        told = re.match(r"(?i)texturefile\s+(.+?)\s*$", comment)
-        if told:
-            texture = picture_file(folder, told[1])
+        match = re.match(r"(?i)texturefile\s+(.+?)\s*$", comment)
+        if match:
+            texture = picture_file(folder, match[1])
             white = (1.0, 1.0, 1.0, 1.0)
             return Material(folder.path.stem, white, textures={"base_color": texture}) if texture else None
     return None

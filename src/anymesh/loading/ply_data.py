@@ -106,8 +106,8 @@ def _lengths(element: Element, order: str, body: bytes, at: int) -> dict[str, in
     for label, kind, count in element.properties:
         if count is not None:
             width = np.dtype(count).itemsize
-            told = np.frombuffer(body[at : at + width], order + count) if at + width <= len(body) else [0]
-            lengths[label] = int(told[0]) if len(told) and 0 <= told[0] < 1 << 24 else 0
+            stated = np.frombuffer(body[at : at + width], order + count) if at + width <= len(body) else [0]
+            lengths[label] = int(stated[0]) if len(stated) and 0 <= stated[0] < 1 << 24 else 0
             at += width + lengths[label] * np.dtype(kind).itemsize
         else:
             at += np.dtype(kind).itemsize
@@ -135,17 +135,17 @@ def _rows(name: str, element: Element, order: str, body: bytes, at: int) -> tupl
     counts: dict[str, list[int]] = {label: [] for label, _, _ in plain}
     for row in range(element.count):
         for label, kind, count in plain:
-            told = 1.0
+            length = 1.0
             if count is not None:
-                told = (
+                length = (
                     float(np.frombuffer(body[at : at + count.itemsize], count)[0]) if at + count.itemsize <= len(body) else -1
                 )
                 at += count.itemsize
-            if not 0 <= told * kind.itemsize <= len(body) - at:  # also false for NaN
+            if not 0 <= length * kind.itemsize <= len(body) - at:  # also false for NaN
                 raise InputError(f"{name} is truncated: {element.name!r} {row + 1} of {element.count} is incomplete")
-            end = at + int(told) * kind.itemsize
+            end = at + int(length) * kind.itemsize
             found[label].append(body[at:end])
-            counts[label].append(int(told))
+            counts[label].append(int(length))
             at = end
     columns: Columns = {}
     for label, kind, count in plain:

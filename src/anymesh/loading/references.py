@@ -65,10 +65,10 @@ def _path_starts(text: str, bases: Sequence[Path], root: Path) -> Iterator[tuple
 
 
 def _package_starts(uri: str, base: Path, root: Path) -> Iterator[tuple[Path, str]]:
-    told = PACKAGE_URL.match(uri.replace("\\", "/"))
-    if told is None:
+    match = PACKAGE_URL.match(uri.replace("\\", "/"))
+    if match is None:
         return
-    for name, rest in dict.fromkeys((told.groups(), (unquote(told[1]), unquote(told[2])))):
+    for name, rest in dict.fromkeys((match.groups(), (unquote(match[1]), unquote(match[2])))):
         above = (folder for folder in (base, *base.parents) if folder.is_relative_to(root))
         yield from ((folder, rest) for folder in above if folder.name == name)
         yield root, f"{name}/{rest}"

@@ -101,8 +101,8 @@ def get_task(kind: TaskKind, task: str, timeout: float) -> Task:
 
 def list_tasks(kind: TaskKind, timeout: float) -> list[Task]:
     """Return the latest tasks of an endpoint, the newest first."""
-    told = _call(kind, "GET", "?page_num=1&page_size=50&sort_by=-created_at", timeout)
-    rows = [row for row in told if isinstance(row, dict)] if isinstance(told, list) else []
+    listed = _call(kind, "GET", "?page_num=1&page_size=50&sort_by=-created_at", timeout)
+    rows = [row for row in listed if isinstance(row, dict)] if isinstance(listed, list) else []
     return [_task(row, row["id"]) for row in rows if TASK_ID.fullmatch(str(row.get("id")))]
 
 
@@ -125,17 +125,17 @@ def _call(kind: TaskKind, method: str, rest: str, timeout: float, body: bytes | 
     answer = exchange(Call("meshy", method, base + kind.path + rest, headers, body, timeout))
     if answer.status not in (200, 201, 202):
         raise _refusal(kind, answer)
-    told = _json(answer)
-    if told is None:
+    content = _json(answer)
+    if content is None:
         raise LostError("meshy: the answer is not JSON")
-    return told
+    return content
 
 
 def _refusal(kind: TaskKind, answer: Answer) -> ModelError:
-    message, told = f"meshy: HTTP {answer.status}", _json(answer)
+    message, content = f"meshy: HTTP {answer.status}", _json(answer)
     if answer.status in (401, 403):  # the service's message is about the key and may contain parts of it
         return RefusedError(f"{message}, the key in {KEY} is missing or refused", answer.status)
-    message += safe(_said(told).get("message"))
+    message += safe(_said(content).get("message"))
     if answer.status in (408, 425, 429, 503):
         return TransientError(message, answer.retry_after)
     if answer.status >= 500:  # a request may have been carried out despite a gateway error
@@ -153,18 +153,18 @@ def safe(words: object) -> str:
     return f", it says: {SECRET.sub('[removed]', line)[:LONGEST]}"
 
 
-def _task(told: dict[str, Any], task: str) -> Task:
-    progress, spent, url = told.get("progress"), told.get("consumed_credits"), _said(told.get("model_urls")).get("glb")
-    seed, created = told.get("seed"), told.get("created_at")
+def _task(record: dict[str, Any], task: str) -> Task:
+    progress, spent, url = record.get("progress"), record.get("consumed_credits"), _said(record.get("model_urls")).get("glb")
+    seed, created = record.get("seed"), record.get("created_at")
     return Task(
         id=task,
-        status=str(told.get("status"))[:40],
+        status=str(record.get("status"))[:40],
         progress=progress if isinstance(progress, int) else 0,
-        prompt=str(told.get("text_style_prompt") or told.get("prompt") or ""),
-        error=safe(_said(told.get("task_error")).get("message")),
+        prompt=str(record.get("text_style_prompt") or record.get("prompt") or ""),
+        error=safe(_said(record.get("task_error")).get("message")),
         credits=float(spent) if isinstance(spent, int | float) else 0.0,
         url=url if isinstance(url, str) else None,
-        type=str(told.get("type") or "")[:40],
+        type=str(record.get("type") or "")[:40],
         seed=seed if isinstance(seed, int) else None,
         created=created / 1000 if isinstance(created, int | float) else 0.0,  # the service states milliseconds
     )

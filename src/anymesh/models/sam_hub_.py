@@ -27,7 +27,7 @@ class Hub:
                 for name in names
             ]
         except Exception as error:  # errors of the library, of HTTP and of the disk are reported alike
-            raise ModelError(_told(hub_id, commit, error)) from None
+            raise ModelError(_error_message(hub_id, commit, error)) from None
 
     def names(self, hub_id: str, commit: str) -> list[str]:
         """List all file names of a repository at a commit. Raise ModelError if the hub cannot be reached."""
@@ -35,7 +35,7 @@ class Hub:
         try:
             return hub.HfApi(endpoint=self.endpoint).list_repo_files(hub_id, revision=commit)
         except Exception as error:
-            raise ModelError(_told(hub_id, commit, error)) from None
+            raise ModelError(_error_message(hub_id, commit, error)) from None
 
 
 def _library() -> ModuleType:
@@ -48,6 +48,6 @@ def _library() -> ModuleType:
         ) from error
 
 
-def _told(hub_id: str, commit: str, error: Exception) -> str:
+def _error_message(hub_id: str, commit: str, error: Exception) -> str:
     reason = " ".join(str(error).split())[:200]
     return f"{hub_id}@{commit}: the weights cannot be fetched ({type(error).__name__}: {reason})"

@@ -38,14 +38,14 @@ class TorchSam:
         self._device = _device(self._torch, device)
         transformers.utils.logging.disable_progress_bar()  # it would interfere with our own progress output
         try:
-            model, told = getattr(transformers, kind).from_pretrained(
+            model, loading_info = getattr(transformers, kind).from_pretrained(
                 folder, local_files_only=True, use_safetensors=True, output_loading_info=True
             )
         except Exception as error:  # Transformers raises many types of errors for a wrong folder
             reason = " ".join(f"{type(error).__name__}: {error}".split())[:300]
             raise ModelError(f"{folder}: Transformers cannot load {kind} ({reason})") from None
-        if told["missing_keys"]:  # they would be initialized at random
-            missing = sorted(told["missing_keys"])
+        if loading_info["missing_keys"]:  # they would be initialized at random
+            missing = sorted(loading_info["missing_keys"])
             raise ModelError(f"{folder}: model.safetensors lacks {len(missing)} tensors of {kind}, among them {missing[:3]}")
         self._model = model.eval().to(self._device)
         self.frame = Frame(int(model.config.prompt_encoder_config.image_size), padded)

@@ -66,8 +66,8 @@ class Answer:
     @property
     def retry_after(self) -> float | None:
         """Wait requested by the server [s]; None if there is none, or if it is a date."""
-        told = self.headers.get("retry-after", "").strip()
-        return float(told) if told.isdecimal() else None
+        wait = self.headers.get("retry-after", "").strip()
+        return float(wait) if wait.isdecimal() else None
 
 
 def is_web(url: str, *, plain: bool = False) -> bool:
@@ -122,9 +122,9 @@ def _read(call: Call, response: http.client.HTTPResponse, headers: Mapping[str, 
             return ModelError(f"{call.name}: the answer is larger than {call.max_bytes} bytes, the maximum")
         if time.monotonic() > end:
             return LostError(f"{call.name}: the answer was not complete within {call.timeout:g} s")
-    told = headers.get("content-length", "")
-    if told.isdecimal() and size < int(told):
-        return LostError(f"{call.name}: the answer broke off after {size} of {told} bytes")
+    length = headers.get("content-length", "")
+    if length.isdecimal() and size < int(length):
+        return LostError(f"{call.name}: the answer broke off after {size} of {length} bytes")
     return Answer(response.status, headers, b"".join(chunks))
 
 

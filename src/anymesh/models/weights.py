@@ -148,7 +148,7 @@ def choose(names: Iterable[str], place: str) -> tuple[str, ...]:
     shown = ", ".join(n for n in names if n not in pickles)[:300] or "nothing else"
     raise ModelError(
         f"{place}: found {shown}{refused}; valid is config.json with model.safetensors, or exactly one encoder and one "
-        "decoder *.onnx, told by `enc` and `dec` in their names"
+        "decoder *.onnx, identified by `enc` and `dec` in their names"
     )
 
 

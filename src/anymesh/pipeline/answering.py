@@ -113,11 +113,11 @@ def choose_answerer(
 
 def _config(options: AnswererOptions) -> Config:
     """Return the settings of a run that the options change."""
-    told = options.parts_list
+    labels = options.parts_list
     config = Config(
         seed=options.seed,
         category=options.category,
-        parts_list=parse_labels(told.split(",") if isinstance(told, str) else told),
+        parts_list=parse_labels(labels.split(",") if isinstance(labels, str) else labels),
         proposer=options.proposer,
         verify=options.verify,
         segmentation=SegmentationConfig(at_least=options.at_least),
@@ -125,9 +125,9 @@ def _config(options: AnswererOptions) -> Config:
     return replace(config, views=replace(config.views, around=options.viewpoints))
 
 
-def _cache(told: Path | str | None) -> Path | None:
+def _cache(setting: Path | str | None) -> Path | None:
     """Return the folder of cached answers; "auto" is the user's cache folder, "off" and None are none."""
-    return cache_folder() if told == "auto" else None if told in (None, "off") else Path(told)
+    return cache_folder() if setting == "auto" else None if setting in (None, "off") else Path(setting)
 
 
 def object_name(mesh: str | Path) -> str:
@@ -150,8 +150,8 @@ def resolve_auto(name: str) -> tuple[str, str]:
     if found is None:
         return GEOMETRY, "auto uses geometry: no local model that accepts pictures responds (`anymesh models`)"
     if find_spec("pydantic_ai") is None:
-        told = f"auto uses geometry: {found.name} responds, but its client is missing: pip install 'articulate-anymesh[vlm]'"
-        return GEOMETRY, told
+        reason = f"auto uses geometry: {found.name} responds, but its client is missing: pip install 'articulate-anymesh[vlm]'"
+        return GEOMETRY, reason
     return found.name, f"auto uses {found.name}, which runs on this machine"
 
 

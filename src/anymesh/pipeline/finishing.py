@@ -94,15 +94,15 @@ def _completed(
 ) -> tuple[Finished, list[str]]:
     try:
         found = complete(asset, config, completer=completer, deadline=deadline)
-        return found, list(_told(found))
+        return found, list(_note_lines(found))
     except ModelError as error:
         if completer is None:
             raise
         found = complete(asset, config, deadline=deadline)
-        return found, [f"{completer.name}: {error}; the built-in completer did all parts", *_told(found)]
+        return found, [f"{completer.name}: {error}; the built-in completer did all parts", *_note_lines(found)]
 
 
-def _told(finished: Finished) -> Iterator[str]:
+def _note_lines(finished: Finished) -> Iterator[str]:
     for part, notes in finished.notes.items():
         for note, times in Counter(notes).items():
             yield f"{part}: {note}" + (f" ({times} times)" if times > 1 else "")

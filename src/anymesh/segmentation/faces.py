@@ -44,10 +44,10 @@ def face_parts(
     known = point_part >= 0
     votes = np.bincount(patch[known] * most + point_part[known], minlength=patches * most).reshape(patches, most)
     total = votes.sum(1)
-    told = total > MIN_SEEN_SHARE * np.bincount(patch, minlength=patches)
-    winner = np.where(told, votes.argmax(1), UNSEEN)
+    seen = total > MIN_SEEN_SHARE * np.bincount(patch, minlength=patches)
+    winner = np.where(seen, votes.argmax(1), UNSEEN)
     share = votes.max(1) / np.maximum(total, 1)
-    mixed = told & (share <= np.where(_cuttable(mesh, whole, config), MIN_CUTTABLE_PATCH_SHARE, MIN_COMPONENT_SHARE))
+    mixed = seen & (share <= np.where(_cuttable(mesh, whole, config), MIN_CUTTABLE_PATCH_SHARE, MIN_COMPONENT_SHARE))
     winner = join_unseen(whole, winner, config, stays_free)
     found = winner[whole.mesh_patch]
     for p in np.flatnonzero(mixed):

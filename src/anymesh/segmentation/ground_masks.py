@@ -47,8 +47,8 @@ def ground_by_masks(
     marked = ask_masks(questioner, proposals, shown.views, shown.names) if questioner.labels else ()
     progress("segment", "fusion", 3, 4)
     masks = marked_masks(proposals, marked)
-    told = [k for k, p in enumerate(proposals) if p.numbers] or range(len(masks))  # a view without masks does not vote
-    counts = [count_points(cloud, shown.views[k], masks[k], config.grounding) for k in told]
+    voting = [k for k, p in enumerate(proposals) if p.numbers] or range(len(masks))  # a view without masks does not vote
+    counts = [count_points(cloud, shown.views[k], masks[k], config.grounding) for k in voting]
     start = fuse_masks(cloud, counts, config.grounding)
     found = refine_instances(cloud, counts, start, np.random.default_rng(config.seed), config.grounding)
     found = join_numbered(counts, found)

@@ -55,8 +55,8 @@ def ground_parts(
     if labels and by_user and mesh.face_areas[left].sum() > MIN_SEEN_SHARE * mesh.face_areas[found.unseen].sum():
         parts, inside = add_hidden_parts(parts, by_geometry(), found.unseen, mesh.face_areas)
     missing = [label for label in labels if label not in {p.label for p in parts.parts}]
-    told = {True: "the marks cover all of the object, or too little of it", False: f"though {answerer.name} expects one"}
-    lost = tuple(f"no {label} was found, {told[label in found.pointed]}" for label in missing)
+    causes = {True: "the marks cover all of the object, or too little of it", False: f"though {answerer.name} expects one"}
+    lost = tuple(f"no {label} was found, {causes[label in found.pointed]}" for label in missing)
     return parts, (*found.warnings, *lost, *inside)
 
 

@@ -54,13 +54,13 @@ def ground_again(
         owner = _owners(marks, segmentation, areas)
     if all(fit is PartFit.TOO_MUCH for fit in wrong.values()):  # no other marks need to be asked about
         owner = {m: part for m, part in owner.items() if part in parts.values()}
-    told = tuple(
+    problems = tuple(
         _problem_text(MarkedPart(label, n, None, _of(owner, k)), wrong, segmentation, k) for (label, n), k in parts.items()
     )
     answer = ask_exact(
         questioner, marks, shown.views, shown.names,
         lambda some, chosen: split_marks(some, chosen, mesh, cloud, shown.views, config),
-        wanted=owner, again=told,
+        wanted=owner, again=problems,
     )  # fmt: skip
     given = {parts[p.label, p.instance]: p.marks for p in answer.parts if (p.label, p.instance) in parts}
     return _redrawn(whole, answer.marks, segmentation, given, asked_about=marks.face_mark, wanted=set(owner))

@@ -60,17 +60,17 @@ def segment_parts(
         face_part, order = _face_part(mesh, examined, chosen)
         while order and face_part.all():  # something must remain: the largest part becomes the base
             face_part, order = _face_part(mesh, examined, [k for k in order if k != order[0]])
-        told = [word.label if (word := recognize(words[k])) else "" for k in order]
+        known = [word.label if (word := recognize(words[k])) else "" for k in order]
         confidence = [confidence_of(float(score[k]), CALIBRATION_SLOPE, CALIBRATION_OFFSET) for k in order]
         why = [_reason(reasons[k], words[k], score[k]) for k in order]
-        labels = label_parts(named_parts(face_part, [label or "part" for label in told], mesh.face_areas, confidence, why))
+        labels = label_parts(named_parts(face_part, [label or "part" for label in known], mesh.face_areas, confidence, why))
         still = [n for n, label in enumerate(labels, start=1) if not label]
         if not still or deadline.late(SEGMENT):
             break
         score[[order[n - 1] for n in still]] = -np.inf  # the same part with its handle, or another one, may move
     face_part = np.where(np.isin(face_part, still), 0, face_part)
-    told = [named or label for named, label in zip(told, labels, strict=True)]
-    return named_parts(face_part, told, mesh.face_areas, confidence, why)
+    labels = [named or label for named, label in zip(known, labels, strict=True)]
+    return named_parts(face_part, labels, mesh.face_areas, confidence, why)
 
 
 def _candidate_features(
@@ -97,9 +97,9 @@ def _candidate_features(
 
 
 def _reason(learned: str, name: str, score: float) -> str:
-    told = [f'named "{name}"'] if name_class(name) else []
-    told += ["stands out most, where parts were asked for"] if score <= MIN_SCORE else []
-    return "; ".join([*told, learned])
+    reasons = [f'named "{name}"'] if name_class(name) else []
+    reasons += ["stands out most, where parts were asked for"] if score <= MIN_SCORE else []
+    return "; ".join([*reasons, learned])
 
 
 def _chosen_at_least(tree: PartTree, score: Float[np.ndarray, " n"], chosen: list[int], count: int) -> list[int]:

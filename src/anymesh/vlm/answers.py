@@ -38,7 +38,7 @@ def open_in(folder: Path) -> list[QuestionFolder]:
     return open_questions(found)
 
 
-def record_answer(folder: Path, told: str) -> Recorded:
+def record_answer(folder: Path, answer: str) -> Recorded:
     """Check an answer (JSON, the short form, or the word geometry) to the open question in a folder, and write it.
 
     In the folder of a single answered question, the answer is replaced. Raise OptionError if the answer is not valid, and is
@@ -52,7 +52,7 @@ def record_answer(folder: Path, told: str) -> Recorded:
     if not (found or here):
         raise OptionError(f"no question is open in {folder}; name the folder of a question to answer it again")
     question = (found or here)[0]
-    text = told.strip() if is_left_to_geometry(told) else answer_text(told, question.schema)
+    text = answer.strip() if is_left_to_geometry(answer) else answer_text(answer, question.schema)
     try:
         whole = check_answer(question, text)
     except BadAnswerError as error:

@@ -37,9 +37,9 @@ class BatchState:
             case "waiting":
                 return f"the job of {self.count} questions is not done yet; run the same command again later"
             case _:
-                told = "".join(f"\n  {line}" for line in self.refused)
+                refusals = "".join(f"\n  {line}" for line in self.refused)
                 counts = f"collected {self.answered} valid answers to {self.count} questions"
-                return f"{counts}; run the command that asked again to resume{told}"
+                return f"{counts}; run the command that asked again to resume{refusals}"
 
 
 def answer_by_batch(folder: Path, model: str, *, max_cost: float | None = None) -> BatchState:

@@ -26,8 +26,8 @@ class Limit:
         if self.calls is not None and calls >= self.calls:
             raise BudgetError(f"{kind}: call {calls + 1} would exceed --max-calls {self.calls}; {spent}")
         if self.cost is not None and cost + most > self.cost:
-            told = f"the next call may cost up to {most:.4f} USD, which could exceed --max-cost {self.cost:g}"
-            raise BudgetError(f"{kind}: {told}; {spent}")
+            reason = f"the next call may cost up to {most:.4f} USD, which could exceed --max-cost {self.cost:g}"
+            raise BudgetError(f"{kind}: {reason}; {spent}")
 
 
 @runtime_checkable

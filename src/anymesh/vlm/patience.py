@@ -11,7 +11,7 @@ class Patience:
     """Counter of consecutive invalid answers; a valid one resets it. Shared by the stages of a run."""
 
     def __init__(self, most: int = MAX_INVALID_ANSWERS) -> None:
-        self._most, self._bad, self._told, self._lock = most, 0, False, Lock()
+        self._most, self._bad, self._reported, self._lock = most, 0, False, Lock()
 
     def note(self, *, valid: bool) -> None:
         """Count an answer."""
@@ -27,5 +27,5 @@ class Patience:
     def first_time(self) -> bool:
         """Return True once after the model is given up, so that it is reported only once."""
         with self._lock:
-            first, self._told = self.lost and not self._told, self._told or self.lost
+            first, self._reported = self.lost and not self._reported, self._reported or self.lost
         return first

@@ -136,8 +136,8 @@ class PointTable:
         """Return the numbers that are drawn, in words."""
         hidden = np.zeros(len(self.points), bool) if self.hidden is None else self.hidden
         few = np.flatnonzero(hidden if hidden.mean() <= 0.5 else ~hidden) + 1
-        told = f"{'' if hidden.mean() <= 0.5 else 'all but '}{', '.join(map(str, few))}" if len(few) else "all"
-        under = f" (hidden: {told})" if hidden.any() else ""
+        numbers = f"{'' if hidden.mean() <= 0.5 else 'all but '}{', '.join(map(str, few))}" if len(few) else "all"
+        under = f" (hidden: {numbers})" if hidden.any() else ""
         return f"{'point 1' if len(self.points) == 1 else f'points 1..{len(self.points)}'}{under}"
 
 

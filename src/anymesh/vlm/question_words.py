@@ -41,15 +41,15 @@ def explain_schema(schema: Mapping[str, Any], depth: int = 0) -> str:
 
 
 def _describe(schema: Mapping[str, Any]) -> str:
-    told = f" ({schema['description']})" if "description" in schema else ""
+    meaning = f" ({schema['description']})" if "description" in schema else ""
     if schema["type"] == "array":
         inner = schema["items"]
-        return f"a list of objects with{told}" if inner["type"] == "object" else f"a list, each {_describe(inner)}{told}"
+        return f"a list of objects with{meaning}" if inner["type"] == "object" else f"a list, each {_describe(inner)}{meaning}"
     if schema["type"] == "object":
-        return f"an object with{told}"
+        return f"an object with{meaning}"
     if "enum" in schema:
-        return f"one of {', '.join(f'`{value}`' for value in schema['enum'])}{told}"
-    return WORDS[schema["type"]] + told
+        return f"one of {', '.join(f'`{value}`' for value in schema['enum'])}{meaning}"
+    return WORDS[schema["type"]] + meaning
 
 
 def example_answer(schema: Mapping[str, Any]) -> Any:

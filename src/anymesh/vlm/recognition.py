@@ -44,9 +44,9 @@ class Recognize:
     kind: str = "recognize"
 
     def text(self) -> str:
-        told = f" The user says that it is: {self.category!r}." if self.category else ""
+        hint = f" The user says that it is: {self.category!r}." if self.category else ""
         return (
-            f"The pictures show one rigid 3D model of an object from several sides.{told} It is to become an articulated model "
+            f"The pictures show one rigid 3D model of an object from several sides.{hint} It is to become an articulated model "
             "for a robot simulator. Name the category, estimate the length in metres of the longest side of such an object in "
             "reality, and list every kind of part that moves against the rest in the real thing: doors, lids, drawers, knobs, "
             "buttons, wheels, levers, handles that turn (not handles fixed to a door), and so on. Give one entry a kind, not "
@@ -169,11 +169,11 @@ def answered_scale(found: Recognition, size: float, *, metric: bool) -> tuple[fl
     if found.size is None:
         return 1.0, "", ()
     factor = found.size / size
-    told = f"answered: a {found.category} is about {found.size:g} m long; the mesh was {size:.3g} m"
+    basis = f"answered: a {found.category} is about {found.size:g} m long; the mesh was {size:.3g} m"
     if 1 / ROUGH <= factor <= ROUGH:
         return 1.0, "", ()
     if metric:
-        doubt = f"the file's unit was kept ({told}); if it is wrong, give --scale"
+        doubt = f"the file's unit was kept ({basis}); if it is wrong, give --scale"
         return 1.0, "", () if 1 / DOUBTFUL <= factor <= DOUBTFUL else (doubt,)
-    note = f"scale {factor:g} ({told})"
+    note = f"scale {factor:g} ({basis})"
     return factor, note, () if 1 / FAR <= factor <= FAR else (f"{note}; if that is wrong, give --scale",)

@@ -141,11 +141,11 @@ class ReferenceAnswerer:
     def _kind(self, part: PartShown, labels: tuple[str, ...]) -> KindAnswer:
         joint = self._joint(part)
         label = self._known.kinds[self._number(part)]
-        told = label if label in labels else None
+        answered = label if label in labels else None
         if joint is None:
-            return KindAnswer(JointAppearance.FIXED, label=told)
+            return KindAnswer(JointAppearance.FIXED, label=answered)
         endless = joint.type is JointType.CONTINUOUS
-        return KindAnswer(self._kind_of(part, joint), endless, told)
+        return KindAnswer(self._kind_of(part, joint), endless, answered)
 
     def _kind_of(self, part: PartShown, joint: KnownJoint) -> JointAppearance:
         axis = joint.opening_motion.axis

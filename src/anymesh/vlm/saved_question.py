@@ -84,7 +84,7 @@ def _name(kind: type) -> str:
 
 def _class(name: str) -> Any:
     saved, _, cls = CLASSES.get(name, name).partition(":")
-    names = [module for module, told in SAVED_NAMES.items() if told == saved] or [saved]
+    names = [module for module, saved_name in SAVED_NAMES.items() if saved_name == saved] or [saved]
     if not all(module.startswith(HOMES) for module in names):
         raise ValueError(name)
     modules = [importlib.import_module(module) for module in names]

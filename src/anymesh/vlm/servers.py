@@ -32,8 +32,8 @@ class Server:
 
     def base_url(self) -> str:
         """Return the address of its OpenAI-compatible interface. Raise OptionError if a variable holds no valid address."""
-        told = ((v, value) for v in self.variables if (value := os.environ.get(v, "").strip()))
-        variable, value = next(told, ("", f"http://127.0.0.1:{self.port}"))
+        given = ((v, value) for v in self.variables if (value := os.environ.get(v, "").strip()))
+        variable, value = next(given, ("", f"http://127.0.0.1:{self.port}"))
         url = value if "://" in value else f"http://{value}"
         try:
             parts = urlsplit(url)
@@ -110,7 +110,7 @@ def _vision_models(server: Server, root: str, names: list[str], timeout: float) 
     try:
         if server.name == "ollama":
             shown = {n: _fetch(server, root + server.details, timeout, {"model": n}).get("capabilities") for n in names[:32]}
-            return {name: "vision" in told for name, told in shown.items() if isinstance(told, list)}
+            return {name: "vision" in capabilities for name, capabilities in shown.items() if isinstance(capabilities, list)}
         if server.details:
             listed = _fetch(server, root + server.details, timeout)["data"]
             return {str(m["id"]): m.get("type") == "vlm" for m in listed}

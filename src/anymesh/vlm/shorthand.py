@@ -20,27 +20,27 @@ Schema = Mapping[str, Any]
 USUAL = {"instance": 1, "part_is": "right"}  # values of properties that need not be given
 
 
-def answer_text(told: str, schema: Schema) -> str:
+def answer_text(text: str, schema: Schema) -> str:
     """Convert a user's input to the JSON of an answer; JSON is returned unchanged.
 
     Raise OptionError if the input is not valid.
     """
-    told = told.strip()
-    if told.startswith(("{", "[", '"')) or not ASSIGNMENT.match(told):
-        return told
+    text = text.strip()
+    if text.startswith(("{", "[", '"')) or not ASSIGNMENT.match(text):
+        return text
     lists = [n for n, part in schema["properties"].items() if part["type"] == "array" and part["items"]["type"] == "object"]
     if len(lists) != 1:
         raise OptionError(f"this question takes a JSON object with {list(schema['properties'])}, not the short form")
     items = schema["properties"][lists[0]]["items"]
-    rest = ASSIGNMENT.sub("", told).strip()
+    rest = ASSIGNMENT.sub("", text).strip()
     if rest:
         raise OptionError(f"the short form is NAME=VALUE,VALUE ..., found {rest[:40]!r} besides")
     found: dict[str, Any] = {name: _blank(name, part) for name, part in schema["properties"].items() if name != lists[0]}
-    found[lists[0]] = [_assignment(*match.groups(), items) for match in ASSIGNMENT.finditer(told)]
+    found[lists[0]] = [_assignment(*match.groups(), items) for match in ASSIGNMENT.finditer(text)]
     return json.dumps({name: found[name] for name in schema["properties"]})
 
 
-def _assignment(name: str, number: str | None, told: str, items: Schema) -> dict[str, Any]:
+def _assignment(name: str, number: str | None, text: str, items: Schema) -> dict[str, Any]:
     properties = dict(items["properties"])
     named = (item for item in properties.items() if item[1]["type"] == "integer" or "enum" in item[1])
     first, part = next(named, next(iter(properties.items())))  # explanatory text may come before
@@ -52,7 +52,7 @@ def _assignment(name: str, number: str | None, told: str, items: Schema) -> dict
             raise OptionError(f"{name}#{number}: an entry of this question has no second number")
         entry[integers[0]] = int(number)
         del properties[integers[0]]
-    values = [v for v in told.split(",") if v]
+    values = [v for v in text.split(",") if v]
     for key, part in properties.items():
         entry[key] = _take(key, part, values, defaults=any(p["type"] == "array" for p in properties.values()))
     if values:
@@ -87,18 +87,18 @@ def _take(name: str, schema: Schema, values: list[str], *, defaults: bool) -> An
             return _value(fitting, schema, name)
 
 
-def _fits(told: str, schema: Schema) -> bool:
+def _fits(text: str, schema: Schema) -> bool:
     if "enum" in schema:
-        return told in schema["enum"]
+        return text in schema["enum"]
     pattern = {"integer": r"-?\d+", "number": r"-?\d+(\.\d+)?"}.get(schema["type"], r".*")
-    return re.fullmatch(pattern, told) is not None
+    return re.fullmatch(pattern, text) is not None
 
 
-def _value(told: str, schema: Schema, name: str) -> Any:
-    if not _fits(told, schema):
+def _value(text: str, schema: Schema, name: str) -> Any:
+    if not _fits(text, schema):
         valid = f"one of {', '.join(schema['enum'])}" if "enum" in schema else f"of type {schema['type']}"
-        raise OptionError(f"{name} must be {valid}, found {told[:40]!r}")
-    return int(told) if schema["type"] == "integer" else float(told) if schema["type"] == "number" else told
+        raise OptionError(f"{name} must be {valid}, found {text[:40]!r}")
+    return int(text) if schema["type"] == "integer" else float(text) if schema["type"] == "number" else text
 
 
 def _blank(name: str, schema: Schema) -> Any:

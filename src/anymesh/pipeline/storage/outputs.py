@@ -21,7 +21,7 @@ def atomic_prefix(target: Path, word: str) -> str:
 
 
 def is_origin(name: str) -> bool:
-    """Whether a file of an output tells where its mesh came from: it goes along with the stages that were made from it."""
+    """Whether a file of an output states where its mesh came from: it goes along with the stages that were made from it."""
     return name == GENERATION or name.startswith(f"{GENERATED}/")
 
 

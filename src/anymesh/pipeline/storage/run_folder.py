@@ -244,7 +244,7 @@ class RunFolder(Saved):
 
         They are kept if a budget or an open question ended the run, or a defect after which a rerun may get further.
         """
-        told = isinstance(error, AnymeshError) or (isinstance(error, OSError) and cannot_write(error, self.folder))
-        defect = isinstance(error, Exception) and not told
+        expected = isinstance(error, AnymeshError) or (isinstance(error, OSError) and cannot_write(error, self.folder))
+        defect = isinstance(error, Exception) and not expected
         saved = any((self.folder / stage_files(stage)[0]).exists() for stage in STAGES)
         return isinstance(error, BudgetError | OpenQuestionError) or (defect and saved and self._resumable)

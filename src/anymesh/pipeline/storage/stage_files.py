@@ -24,8 +24,8 @@ EPOCH = (1980, 1, 1, 0, 0, 0)  # date inside every archive, so that equal result
 
 def stage_key(stage: Stage[Any], *, previous: str, config: Mapping[str, object]) -> str:
     """Hash what a stage depends on: its settings, the version, and the previous key (of the source: its sha256)."""
-    told = {"stage": stage.name, "previous": previous, "config": config, "version": anymesh.__version__}
-    return hashlib.sha256(json.dumps(told, sort_keys=True, allow_nan=False).encode()).hexdigest()
+    dependencies = {"stage": stage.name, "previous": previous, "config": config, "version": anymesh.__version__}
+    return hashlib.sha256(json.dumps(dependencies, sort_keys=True, allow_nan=False).encode()).hexdigest()
 
 
 def stage_files(stage: Stage[Any]) -> tuple[str, str]:
