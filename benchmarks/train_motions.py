@@ -112,8 +112,8 @@ def main(argv: Sequence[str] | None = None) -> None:
     samples, context = samples_of(rows), CopyContext(rows)
     by_source = held_out(samples, leave_sources_out(samples), context, MODELS)
     by_kind = held_out(samples, leave_kinds_out(samples), context, MODELS)
-    told = confidences(rows, by_kind)
-    slope, offset = fit_confidence(told)
+    answers = confidences(rows, by_kind)
+    slope, offset = fit_confidence(answers)
     text = [
         "# Motions chosen by the classifier, on objects that it was not trained on", "",
         "`python benchmarks/train_motions.py ROWS`; parts given, no names. Right: within 5 degrees and .08 of half the",
@@ -123,7 +123,7 @@ def main(argv: Sequence[str] | None = None) -> None:
         "## Confidence", "",
         f"Fitted to other kinds, over all sources: slope {slope:.2f}, offset {offset:.2f}",
         "(`articulation/rank_motions.py`).",
-        "", *calibration_table(told, slope, offset), "", "The same on other sources:", "",
+        "", *calibration_table(answers, slope, offset), "", "The same on other sources:", "",
         *calibration_table(confidences(rows, by_source), slope, offset), "",
     ]  # fmt: skip
     (HERE / "motions.md").write_text("\n".join(text), encoding="utf-8")

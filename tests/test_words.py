@@ -17,7 +17,7 @@ WORDS = frozenset(line.split("->")[0] for line in PROSE.read_text(encoding="utf-
 # Names that are refused as they stand; as part of a longer name they may be right (`contact_support`, `MIN_LEVEL_DEG`).
 NAMES = frozenset(
     (
-        "instead MOST LEAST NEAR LITTLE MUCH LEVEL SLACK CARVED TOLD TURN SLIDE TURNS SLIDES HELD FOUND GRIP "
+        "instead told MOST LEAST NEAR LITTLE MUCH LEVEL SLACK CARVED TOLD TURN SLIDE TURNS SLIDES HELD FOUND GRIP "
         "FRONT BODY LEAF TWINS INSTEAD core_box way_out ways_out held_by touches_ends is_body mesh_piece surroundings_of "
         "habit_of examine lever support Placed Recognized Segmented Jointed Completed Corrected Exported Studio Hidden "
         "Units Piece Front Fronts Grip Look Looks Found Subject Truth Asked Grounded Motions Habit Exam "

@@ -12,7 +12,7 @@ from anymesh.vocabulary import typical_motion
 
 NO_MOTION_CONFIDENCE = 0.3  # confidence of a joint without a plausible motion
 # calibration of the log-odds of a confidence, fitted to kinds left out of training (benchmarks/train_motions.py)
-CALIBRATION_SLOPE, OFFSET = 0.81, 0.05
+CALIBRATION_SLOPE, OFFSET = 0.94, -0.01
 SAME_AXIS = 0.97  # minimum cosine between axes that a user sees as one
 SAME_LINE = 0.1  # of the part's size: maximum distance between lines that a user sees as one
 BLOCKED = -4.0  # [log-odds] penalty of a motion that the sweep finds blocked
@@ -87,9 +87,9 @@ def reason(part: PartFacts, c: Candidate) -> str:
     free = f"free {-np.degrees(c.closing):.0f}..{np.degrees(c.opening):.0f} deg"
     if c.role == "round":
         return f"round outline ({100 * part.roundness:.0f} %), turns about its axis, {free}"
-    told = [c.motion.source]
+    reasons = [c.motion.source]
     if c.handle_side > 0.3:
-        told.insert(0, "hinge opposite the handle")
+        reasons.insert(0, "hinge opposite the handle")
     if c.hinge_support > 0.5:
-        told.append("the parent runs along it")
-    return ", ".join([*told, free])
+        reasons.append("the parent runs along it")
+    return ", ".join([*reasons, free])
