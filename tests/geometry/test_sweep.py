@@ -147,10 +147,3 @@ def test_a_wall_right_behind_a_surface_that_is_left_is_met(steps) -> None:
     free, clear = free_amount(around(part, rest), slide((1, 0, 0)), 1, 1.0, steps)
     assert not clear
     assert 0.015 < free < 0.055
-
-
-@pytest.mark.parametrize(("range_", "expected"), [(0.006, (0.006, True)), (0.02, (0.001, False)), (0.1, (0.001, False))])
-def test_a_short_slide_is_stopped_by_a_wall_if_it_goes_deeper_than_the_tolerance(range_, expected) -> None:
-    """36 steps of such a range are each shorter than a tenth of the tolerance of 6 mm; the wall is 1 mm ahead."""
-    obstacles = Obstacles(shape_of(box((0, 0, 0), (0.1, 0.1, 0.1))), shape_of(box((0.101, -1, -1), (0.3, 1, 1))), 0.006)
-    assert free_amount(obstacles, slide([1.0, 0, 0]), 1, range_, 36) == pytest.approx(expected, abs=1e-5)

@@ -24,7 +24,6 @@ from anymesh.types import JointType, Motion, Sweep
 
 CHUNKS = (3, 6, 9, 18)  # steps cast at a time, where the last size repeats; most blocked motions are blocked early
 AT_ONCE = 8  # motions swept together; more do not fit into a core's cache
-MAX_STEPS_RATIO = 1.9  # of a slide's range over the tolerance: maximum number of steps
 SHARE_STOPPED = 0.006  # minimum share of stopped points; fewer may be stopped by mesh flaws
 
 
@@ -108,7 +107,6 @@ def free_amounts(
     if not motions:
         return []
     obstacles.prepare()
-    steps = _steps(obstacles, motions, max_amounts, steps)
 
     def free(group: np.ndarray) -> list[tuple[float, bool]]:
         return _free(obstacles, [motions[m] for m in group], [signs[m] for m in group], [max_amounts[m] for m in group], steps)
@@ -118,16 +116,6 @@ def free_amounts(
         return free(groups[0])
     with ThreadPoolExecutor(os.cpu_count()) as threads:  # numpy and Embree release the interpreter lock
         return [found for some in threads.map(free, groups) for found in some]
-
-
-def _steps(obstacles: Obstacles, motions: Sequence[Motion], max_amounts: Sequence[float], most: int) -> int:
-    """Return the number of steps: for short slides fewer than `most`, so that two steps are longer than the tolerance.
-
-    Otherwise the look-ahead would end before a point is deep enough behind a surface. Stops of slides are exact for any step.
-    """
-    if any(m.kind is not JointType.PRISMATIC for m in motions):
-        return most
-    return max(1, min(most, int(MAX_STEPS_RATIO * min(max_amounts) / max(obstacles.tolerance, 1e-300))))
 
 
 def _free(
