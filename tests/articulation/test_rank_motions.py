@@ -63,6 +63,16 @@ def test_what_turns_endlessly_is_continuous_and_what_is_stopped_is_not() -> None
     assert asked(PLATE, [replace(EDGE, closing=np.pi)], [0.0]).type is JointType.REVOLUTE  # a gate
 
 
+@pytest.mark.parametrize(("offset", "first"), [(1e-3, 1), (0.5, 0)])
+def test_an_endless_rotation_is_about_the_axis_of_the_round_outline_that_is_the_same_line(offset: float, first: int) -> None:
+    line = replace(ROUND, role="center", motion=replace(ROUND.motion, origin=ROUND.motion.origin + offset * X))
+    answer = asked(PLATE, [line, ROUND, PULL], [1.0, -1.0, 0.0])
+    assert answer.ranking[0] == first
+    assert answer.type is (JointType.CONTINUOUS if first else JointType.REVOLUTE)
+    stopped = asked(PLATE, [replace(line, closing=1.0), ROUND], [1.0, 0.0])
+    assert (stopped.ranking[0], stopped.type) == (0, JointType.REVOLUTE)
+
+
 def test_what_cannot_move_is_fixed() -> None:
     stuck = [replace(c, opening=0.0, closing=0.0) for c in (EDGE, PULL)]
     assert asked(PLATE, stuck, [0.0, 1.0]).type is JointType.FIXED

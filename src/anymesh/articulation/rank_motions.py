@@ -26,14 +26,18 @@ LABEL_PRIOR = {  # [log-odds] added by a label to a hinge, to a rotation about t
 def rank_motions(question: MotionQuestion) -> MotionAnswer:
     """Rank the candidates by score.
 
-    The confidence comes from the probability of the candidates that a user sees as the best one.
+    An endless rotation is about the axis of the round outline, if that is the same joint to a user. The confidence comes from
+    the probability of the candidates that a user sees as the best one.
     """
     scores = motion_scores(question)
-    ranking = tuple(int(i) for i in np.argsort(-scores, kind="stable"))
-    best = question.candidates[ranking[0]]
+    order = [int(i) for i in np.argsort(-scores, kind="stable")]
+    same = same_joints(question, order[0])
+    if question.candidates[order[0]].is_endless:
+        order.sort(key=lambda k: not (same[k] and joint_type(question.candidates[k]) is JointType.CONTINUOUS))
+    ranking, best = tuple(order), question.candidates[order[0]]
     if not best.is_free:
         return MotionAnswer(ranking, JointType.FIXED, NO_MOTION_CONFIDENCE, "no candidate motion is free and plausible")
-    share = np.clip(share_of_best(scores, same_joints(question, ranking[0])), 1e-6, 1 - 1e-6)
+    share = np.clip(share_of_best(scores, same), 1e-6, 1 - 1e-6)
     confidence = confidence_of(float(np.log(share / (1 - share))), CALIBRATION_SLOPE, OFFSET)
     why = f"{reason(question.part, best)}; {question.reasons[ranking[0]]}"
     return MotionAnswer(ranking, joint_type(best), confidence, why)
