@@ -45,7 +45,7 @@ def test_the_volume_of_a_hull_is_at_least_that_of_a_sheet() -> None:
 
 
 def test_values_that_differ_by_rounding_keep_their_order() -> None:
-    assert _rounded_order([1.0, 1 - 1e-12, 0.5, 2]) == [2, 0, 1, 3]
+    assert _rounded_order([1.0, 1 - 1e-12, 0.5, 2.0]) == [2, 0, 1, 3]
     assert _rounded_order([1.0, 1 - 1e-7, 0.5]) == [2, 1, 0]
     assert _rounded_order([3e-20, 1e-20, 2e-20]) == [1, 2, 0]
     assert _rounded_order([0.0, 0.0]) == [0, 1]
