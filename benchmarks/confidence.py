@@ -87,10 +87,10 @@ def samples(sample: EvalSample, rounds: int, rng: np.random.Generator) -> Iterat
     numbers = {p.name: k - 1 for k, p in enumerate(parts)}
     for wrong in WRONG:
         for n in range(1 if wrong == 0 else rounds):
-            seer = Random(oracle(sample), rng) if wrong == 1 else Noisy(oracle(sample), wrong, rng)
+            answerer = Random(oracle(sample), rng) if wrong == 1 else Noisy(oracle(sample), wrong, rng)
             recognition = recognized(sample, wrong, rng) if n % 2 else None
             made = prompt_joints(
-                Questions(VisualPrompts(sample.mesh, Config()), seer, Config(), recognition), lambda _: whole, segmentation
+                Questions(VisualPrompts(sample.mesh, Config()), answerer, Config(), recognition), lambda _: whole, segmentation
             )
             own = [a.own for a in made.agreements]
             for j in score(sample, segmentation, made.joints).joints:

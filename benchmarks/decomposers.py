@@ -43,7 +43,7 @@ COACD = {"preprocess_mode": "off", "seed": 0, "mcts_iterations": 20, "mcts_nodes
 # faster than the defaults, with as many pieces
 
 
-def divide(way: str, component: Component, fineness: Resolution) -> tuple[list[np.ndarray], float]:
+def divide(way: str, component: Component, resolution: Resolution) -> tuple[list[np.ndarray], float]:
     """The corners of the pieces of a component, and the seconds that took. The function that children run."""
     name, _, folder = way.partition("=")
     if folder:
@@ -52,7 +52,8 @@ def divide(way: str, component: Component, fineness: Resolution) -> tuple[list[n
     triangles = simplify(component.triangles, 3000)
     if name == "cuts by planes":
         made = [
-            h.vertices for h in split_surface(triangles, gap=fineness.gap, wall=fineness.wall, max_pieces=fineness.max_pieces)
+            h.vertices
+            for h in split_surface(triangles, gap=resolution.gap, wall=resolution.wall, max_pieces=resolution.max_pieces)
         ]
     elif name.startswith("V-HACD"):
         import vhacdx
@@ -64,14 +65,14 @@ def divide(way: str, component: Component, fineness: Resolution) -> tuple[list[n
 
         coacd.set_log_level("off")
         vertices, faces = solid_mesh(simplify(triangles, 1000))
-        concavity = float(np.clip(fineness.gap / (np.ptp(vertices, axis=0).max() / 2), 0.01, 1.0))
+        concavity = float(np.clip(resolution.gap / (np.ptp(vertices, axis=0).max() / 2), 0.01, 1.0))
         made = [p for p, _ in coacd.run_coacd(coacd.Mesh(vertices, faces), threshold=concavity, **COACD)]
     return [np.asarray(p, float) for p in made], time.perf_counter() - begin
 
 
-def divide_ours(component: Component, fineness: Resolution) -> tuple[list, float]:
+def divide_ours(component: Component, resolution: Resolution) -> tuple[list, float]:
     begin = time.perf_counter()
-    return list(component_shapes(component, fineness)), time.perf_counter() - begin
+    return list(component_shapes(component, resolution)), time.perf_counter() - begin
 
 
 @dataclass
@@ -86,17 +87,17 @@ class Tally:
     contacts: int = 0
 
 
-def shapes_of(pool: ChildPool, way: str, component: Component, fineness: Resolution, tally: Tally) -> tuple:
-    whole = patch_of(simplify(component.triangles, 3000), fineness.wall)
-    if whole is None or whole.gap <= fineness.gap or not component.solid:
+def shapes_of(pool: ChildPool, way: str, component: Component, resolution: Resolution, tally: Tally) -> tuple:
+    whole = patch_of(simplify(component.triangles, 3000), resolution.wall)
+    if whole is None or whole.gap <= resolution.gap or not component.solid:
         return () if whole is None else (fitted(whole.hull),)
     tally.components += 1
     try:
         if way == "ours":
-            found, seconds = pool.run("decomposers", "divide_ours", {"component": component, "fineness": fineness})
+            found, seconds = pool.run("decomposers", "divide_ours", {"component": component, "resolution": resolution})
         else:
-            corners, seconds = pool.run("decomposers", "divide", {"way": way, "component": component, "fineness": fineness})
-            found = [fitted(hull) for points in corners if (hull := hull_of(points, fineness.wall)) is not None]
+            corners, seconds = pool.run("decomposers", "divide", {"way": way, "component": component, "resolution": resolution})
+            found = [fitted(hull) for points in corners if (hull := hull_of(points, resolution.wall)) is not None]
     except ChildError as error:
         tally.failed[error.failure.value] += 1
         return (fitted(whole.hull),)
@@ -111,7 +112,7 @@ def measure(spec: str, pools: dict[str, ChildPool], tallies: dict[str, Tally]) -
         with tempfile.TemporaryDirectory() as folder:
             asset = prepared(data.truth(name, Path(folder))).asset()
         links, size = split_links(asset), asset.mesh.diagonal
-        fineness = Resolution(config.gaps[0] * size, min(config.wall * size, config.wall_most), config.pieces[0])
+        resolution = Resolution(config.gaps[0] * size, min(config.wall * size, config.wall_most), config.pieces[0])
         surfaces = {k.name: LinkSurface(simplify(k.triangles, 50_000)) for k in links}
         poses = sampled_poses(asset, {k.name: k.origin for k in links}, config.poses)
         scene = ContactScene(surfaces, poses, config.contact * size, config.crossing * size)
@@ -122,7 +123,7 @@ def measure(spec: str, pools: dict[str, ChildPool], tallies: dict[str, Tally]) -
                 for k in links
                 for c in split_components(k.triangles, MIN_COMPONENT_SIZE_RATIO * config.gaps[0] * size)
             ]
-            pieces = [ComponentShapes(n, c, 0, shapes_of(pools[way], way, c, fineness, tally)) for n, c in parts]
+            pieces = [ComponentShapes(n, c, 0, shapes_of(pools[way], way, c, resolution, tally)) for n, c in parts]
             tally.contacts += len(scene.faults(pieces).found)
 
 

@@ -129,7 +129,7 @@ def top(m: Model, x: Span, y: Span, z: float) -> float:
 
 
 def clutter(m: Model, x: Span, y: Span, z: float) -> None:
-    """Stand things that nobody calls parts on a surface: vases, books, boxes, frames, bowls."""
+    """Stand things that are not parts on a surface: vases, books, boxes, frames, bowls."""
     count = m.pick(0, 0, 1, 2, 3)
     for k in range(count):
         a, b = x[0] + (k + 0.5) / count * (x[1] - x[0]), middle(y)

@@ -106,7 +106,7 @@ def left_by_an_artist(model: Model) -> Model:
 
 
 def without_hidden(model: Model) -> Model:
-    """Without the faces that nobody sees from outside, as models for games and houses come."""
+    """Without the faces that are not visible from outside, as models for games and houses come."""
     seen = _seen(together([s for _, s in model.pieces]))
     pieces, begin = [], 0
     for part, solid in model.pieces:

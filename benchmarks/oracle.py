@@ -43,7 +43,10 @@ COLORS = {"motion": "#0a6", "free": "#26c", "off": "#c33"}
 def run(truths: Sequence[GroundTruth], verify: str, *, given: bool, wrong: float = 0.0) -> list[ObjectScore]:
     rng = np.random.default_rng(0)
     solver = partial(solve, config=Config(verify=verify))
-    return [evaluate(t, solver, given=given, reference=lambda seer: Noisy(seer, wrong, rng) if wrong else seer) for t in truths]
+    return [
+        evaluate(t, solver, given=given, reference=lambda answerer: Noisy(answerer, wrong, rng) if wrong else answerer)
+        for t in truths
+    ]
 
 
 def right(j: JointScore) -> bool:

@@ -89,13 +89,13 @@ def ask(item: Item, protocol: EvalProtocol, folder: Path, wait: bool, after: Eva
     if waiting:
         return f"{title}: open {', '.join(str(q.path) for q in waiting)}"
     results.mkdir(parents=True, exist_ok=True)
-    exam = EvalConfig(protocol, (item.change,))
+    setting = EvalConfig(protocol, (item.change,))
 
     def answerer_factory(_):
         return choose_answerer({"answerer": f"files:{place}", "wait": wait}, about=item.number).factory
 
     try:
-        (record,) = evaluate_sample(exam, open_dataset(item.spec), item.object, results, solve, answerer_factory)
+        (record,) = evaluate_sample(setting, open_dataset(item.spec), item.object, results, solve, answerer_factory)
     except OpenQuestionError as error:
         return f"{title}: open {', '.join(str(f) for f in error.folders)}"
     if record.error:

@@ -90,7 +90,7 @@ def replayed(
     Where nothing was recorded for a question, the record of the first variant has an error; in the other variants the recorded
     result answers (see `Carried`).
     """
-    exam, made = EvalConfig(protocol, (change,)), list[WithChoices]()
+    setting, made = EvalConfig(protocol, (change,)), list[WithChoices]()
     replay = Replay(folder)
     base = Config()
     choices = read_choices(folder / FILE)
@@ -98,7 +98,7 @@ def replayed(
     def run(solver: Keeping, answerer_factory) -> Record:
         with tempfile.TemporaryDirectory() as report:
             try:
-                (record,) = evaluate_sample(exam, dataset, name, Path(report), solver, lambda _: answerer_factory)
+                (record,) = evaluate_sample(setting, dataset, name, Path(report), solver, lambda _: answerer_factory)
             except ModelError as error:
                 return Record(ObjectScore(name, (), 0, 0, 0), error=str(error))
         return record

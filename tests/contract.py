@@ -1,4 +1,4 @@
-"""The output contract as a reader who knows nothing of this package would check it."""
+"""Check the output contract without any knowledge of this package."""
 
 from __future__ import annotations
 

@@ -61,6 +61,12 @@ def test_replaced_words_do_not_come_back(path: Path) -> None:
     assert not bad - KEPT.get(place, frozenset()), f"{place}: see the glossary for the names to use"
 
 
+def test_replaced_words_do_not_come_back_in_tests() -> None:
+    tests = Path(__file__).parent
+    bad = {str(path.relative_to(tests)): {n for n in names(path) if words(n) & WORDS} for path in tests.rglob("*.py")}
+    assert not {path: some for path, some in bad.items() if some}
+
+
 def test_kept_names_are_there() -> None:
     for place, kept in KEPT.items():
         assert kept <= names(SOURCE / place), place

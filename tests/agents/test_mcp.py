@@ -95,10 +95,10 @@ async def http_server(folder: Path) -> AsyncIterator[str]:
 
 
 def known_answer(folder: Path) -> dict[str, Any]:
-    seer = oracle(prepared(next(t for t in example_truths(EXAMPLES) if t.name == "storage_box")))
+    answerer = oracle(prepared(next(t for t in example_truths(EXAMPLES) if t.name == "storage_box")))
     (found,) = [q for q in find_questions(folder) if q.path == folder]
     question = unpack_question((folder / "check.npz").read_bytes(), found.pictures())
-    return answer_object(question, seer.ask(question))
+    return answer_object(question, answerer.ask(question))
 
 
 async def finish(agent: Agent, work: Path, told: dict[str, Any], pictures: list[bytes]) -> None:

@@ -124,7 +124,7 @@ def the_case(scene: Scene) -> PartCase:
     return found
 
 
-def knowing(mesh: Mesh, segmentation: Segmentation, joints: tuple[KnownJoint, ...]) -> ReferenceAnswerer:
+def true_answers(mesh: Mesh, segmentation: Segmentation, joints: tuple[KnownJoint, ...]) -> ReferenceAnswerer:
     """Return an answerer with these joints, one per part after the base, all mounted on the base."""
     labels = ("base", *(p.label for p in segmentation.parts[1:]))
     made = Reference("object", 1.0, segmentation.face_part, mesh.face_areas, labels, (0,) * len(labels), (None, *joints))
@@ -138,7 +138,7 @@ class Watched:
     changed: functions that replace its answers, by the kind of question.
     """
 
-    seer: VisualAnswerer
+    answerer: VisualAnswerer
     changed: dict[str, Callable[[Any], Any]] = field(default_factory=dict)
     asked: list[Any] = field(default_factory=list)
     name: str = "watched"
@@ -147,7 +147,7 @@ class Watched:
 
     def ask(self, question: Any) -> Any:
         self.asked.append(question)
-        return self.changed[question.kind](question) if question.kind in self.changed else self.seer.ask(question)
+        return self.changed[question.kind](question) if question.kind in self.changed else self.answerer.ask(question)
 
 
 def prompted(scene: Scene, joints: tuple[KnownJoint, ...], **options: Any) -> tuple[tuple[Joint, ...], Watched]:
@@ -155,6 +155,6 @@ def prompted(scene: Scene, joints: tuple[KnownJoint, ...], **options: Any) -> tu
     mesh, whole, segmentation = ready(scene)
     config = replace(QUICK, verify=options.pop("verify", "motion"))
     recognition = options.pop("recognition", None)
-    watched = Watched(knowing(mesh, segmentation, joints), **options)
+    watched = Watched(true_answers(mesh, segmentation, joints), **options)
     questions = Questions(visual_prompts(mesh), watched, config, recognition)
     return prompt_joints(questions, lambda _: whole, segmentation).joints, watched

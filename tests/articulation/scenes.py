@@ -71,9 +71,9 @@ def bar(x: tuple[float, float], z: tuple[float, float]) -> list[Piece]:
     return [box((x[0], -0.07, z[0]), (x[1], -0.06, z[1])), box(low, high - end), box(low + end, high)]
 
 
-def door(grip: str) -> Scene:
+def door(handle: str) -> Scene:
     """Return a panel in front of a case, with its handle at the left or the right as seen from the front."""
-    x = (0.03, 0.045) if grip == "left" else (0.555, 0.57)
+    x = (0.03, 0.045) if handle == "left" else (0.555, 0.57)
     return {"base": case(0.8), "leaf": [box((0.002, -0.022, 0.002), (0.598, -0.002, 0.798)), *bar(x, (0.3, 0.5))]}
 
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from assets import box
-from known import KNOWN, QUICK, Watched, knowing, prompted, ready, visual_prompts
+from known import KNOWN, QUICK, Watched, prompted, ready, true_answers, visual_prompts
 from scenes import Scene, prism, wheel
 
 from anymesh.articulation.cases import make_cases
@@ -38,7 +38,7 @@ def asked(
     mesh, whole, segmentation = ready(scene)
     segmentation = replace(segmentation, parts=(segmentation.parts[0], Part(name, "part")))
     config = replace(QUICK, verify=verify)
-    watched = Watched(knowing(mesh, segmentation, (LEFT.joint,)), changed=changed)
+    watched = Watched(true_answers(mesh, segmentation, (LEFT.joint,)), changed=changed)
     return prompt_joints(Questions(visual_prompts(mesh), watched, config, told), lambda _: whole, segmentation), watched
 
 
@@ -57,10 +57,10 @@ def test_a_label_that_was_recognized_already_is_kept() -> None:
 
 
 def test_a_name_brings_the_recognized_limits_and_nothing_more_is_asked() -> None:
-    found, seer = asked(LEFT.scene, recognition(DOOR, TRAY), "cabinet_door_3")
+    found, answerer = asked(LEFT.scene, recognition(DOOR, TRAY), "cabinet_door_3")
     assert found.joints[0].limits == (0, pytest.approx(1.2, abs=0.02))
     assert found.segmentation.parts[1].label == "door"
-    assert "label" not in seer.asked[0].schema()["properties"]["parts"]["items"]["properties"]
+    assert "label" not in answerer.asked[0].schema()["properties"]["parts"]["items"]["properties"]
 
 
 def test_a_part_without_a_telling_name_is_asked_for_its_label() -> None:
@@ -84,8 +84,8 @@ def test_answers_that_contradict_each_other_are_a_warning_and_lower_the_confiden
 
 def test_what_is_recognized_as_moving_is_not_fixed_by_one_answer() -> None:
     fixed = {"kinds": lambda q: (KindAnswer(JointAppearance.FIXED),)}
-    found, seer = asked(LEFT.scene, recognition(DOOR), "door", **fixed)
-    assert [q.kind for q in seer.asked] == ["kinds", "motions"]
+    found, answerer = asked(LEFT.scene, recognition(DOOR), "door", **fixed)
+    assert [q.kind for q in answerer.asked] == ["kinds", "motions"]
     assert found.joints[0].type is JointType.REVOLUTE
     assert "then fixed" in found.warnings[0]
     right, _ = asked(LEFT.scene, recognition(DOOR), "door")
@@ -112,12 +112,12 @@ def test_a_part_that_is_too_much_is_grounded_again_once() -> None:
         return segmentation
 
     mesh, whole, segmentation = ready(LEFT.scene)
-    seer = Watched(knowing(mesh, segmentation, (LEFT.joint,)))
-    seer.changed = {"motions": lambda q: tuple(replace(a, part=PartFit.TOO_MUCH) for a in seer.seer.ask(q))}
-    questions = Questions(visual_prompts(mesh), seer, QUICK)
+    answerer = Watched(true_answers(mesh, segmentation, (LEFT.joint,)))
+    answerer.changed = {"motions": lambda q: tuple(replace(a, part=PartFit.TOO_MUCH) for a in answerer.answerer.ask(q))}
+    questions = Questions(visual_prompts(mesh), answerer, QUICK)
     found = prompt_joints(questions, lambda _: whole, segmentation, reground)
     assert calls == [{"leaf": PartFit.TOO_MUCH}]
-    first, second = (q for q in seer.asked if q.kind == "motions")
+    first, second = (q for q in answerer.asked if q.kind == "motions")
     assert "part_is" in first.schema()["properties"]["parts"]["items"]["properties"]
     assert "part_is" not in second.schema()["properties"]["parts"]["items"]["properties"]  # only once
     assert found.joints[0].type is JointType.REVOLUTE
@@ -132,17 +132,17 @@ def test_the_papers_method_takes_the_planes_normal_and_the_free_one_what_is_held
     assert abs(normal_outwards(case).axis @ case.shown.normal) == pytest.approx(1)
     assert abs(opening_slide(case).axis @ Y) > 0.999
     for verify, axis in (("off", normal_outwards(case).axis), ("free", opening_slide(case).axis)):
-        (found,), seer = prompted(KNOWN["open drawer"].scene, (KNOWN["open drawer"].joint,), verify=verify)
+        (found,), answerer = prompted(KNOWN["open drawer"].scene, (KNOWN["open drawer"].joint,), verify=verify)
         assert abs(found.axis @ axis) > 0.999
-        assert [q.kind for q in seer.asked] == ["kinds"]
+        assert [q.kind for q in answerer.asked] == ["kinds"]
 
 
 def test_the_papers_method_offers_clusters_alone_for_an_axis_into_the_surface() -> None:
     into = {"kinds": lambda q: (KindAnswer(JointAppearance.HINGE_INTO),)}
     tables = {}
     for verify in ("off", "free"):
-        _, seer = prompted(wheel(), (KNOWN["wheel"].joint,), verify=verify, changed=into)
-        tables[verify] = seer.asked[1].tables[0]
+        _, answerer = prompted(wheel(), (KNOWN["wheel"].joint,), verify=verify, changed=into)
+        tables[verify] = answerer.asked[1].tables[0]
     assert tables["off"].axes is None
     assert (tables["off"].max_points, tables["free"].max_points) == (1, min(2, len(tables["free"].points)))
     assert np.abs(tables["free"].axes[0] @ Y) == pytest.approx(1)
@@ -151,20 +151,22 @@ def test_the_papers_method_offers_clusters_alone_for_an_axis_into_the_surface() 
 def test_only_points_that_are_drawn_are_listed_and_hidden_ones_are_told() -> None:
     knob = box((0.2, -0.05, 0.2), (0.4, -0.001, 0.4))
     scene = {"base": [box((0, 0, 0), (0.6, 0.4, 0.6))], "knob": [knob]}
-    _, seer = prompted(scene, (KNOWN["left"].joint,), changed={"kinds": lambda q: (KindAnswer(JointAppearance.HINGE_INTO),)})
-    (table,) = seer.asked[1].tables
+    _, answerer = prompted(
+        scene, (KNOWN["left"].joint,), changed={"kinds": lambda q: (KindAnswer(JointAppearance.HINGE_INTO),)}
+    )
+    (table,) = answerer.asked[1].tables
     assert table.hidden is not None
     assert len(table.hidden) == len(table.points)
     assert not table.hidden[0]  # where the axis leaves the knob's face
     assert table.hidden[1:].any()  # clusters between the knob and the block
-    assert f"points 1..{len(table.points)}" in seer.asked[1].text()
-    assert "hidden" in seer.asked[1].text()
+    assert f"points 1..{len(table.points)}" in answerer.asked[1].text()
+    assert "hidden" in answerer.asked[1].text()
 
 
 def test_labels_that_were_answered_are_part_of_the_stages_result() -> None:
     mesh, _, segmentation = ready(LEFT.scene)
     given = replace(segmentation, parts=(segmentation.parts[0], Part("cabinet_door", "part")))
-    solver = Solver(mesh, QUICK, lambda _: knowing(mesh, segmentation, (LEFT.joint,)))
+    solver = Solver(mesh, QUICK, lambda _: true_answers(mesh, segmentation, (LEFT.joint,)))
     named = solver.joints(given, recognition(DOOR))
     assert named.segmentation is not None
     assert [p.label for p in named.segmentation.parts] == ["part", "door"]
@@ -178,8 +180,10 @@ def test_each_axis_goes_with_the_point_where_it_comes_out() -> None:
     scene = {"base": [box((0, 0, 0), (0.6, 0.4, 0.6))], "blade": [box((0.05, -0.02, 0.25), (0.55, -0.001, 0.35)), *pins]}
     into = {"kinds": lambda q: (KindAnswer(JointAppearance.HINGE_INTO),)}
     for pick in range(3):
-        (found,), seer = prompted(scene, (LEFT.joint,), verify="free", changed={**into, "points": lambda q, k=pick: ((k,),)})
-        (table,) = seer.asked[1].tables
+        (found,), answerer = prompted(
+            scene, (LEFT.joint,), verify="free", changed={**into, "points": lambda q, k=pick: ((k,),)}
+        )
+        (table,) = answerer.asked[1].tables
         assert table.axes is not None
         assert not np.isnan(table.axes[pick]).any()
         assert np.linalg.norm(np.cross(found.origin - table.points[pick], found.axis)) < 1e-6

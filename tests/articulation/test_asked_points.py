@@ -8,7 +8,7 @@ from functools import cache
 import numpy as np
 import pytest
 from assets import box
-from known import KNOWN, QUICK, Watched, knowing, ready
+from known import KNOWN, QUICK, Watched, ready, true_answers
 from made import Y, Z, context
 from scenes import prism
 from trimesh.creation import annulus
@@ -30,7 +30,7 @@ def asked(name: str, kind: JointAppearance, verify: str = "free") -> tuple[Point
     mesh, whole, segmentation = ready(KNOWN[name].scene)
     config, steps = replace(QUICK, prompts=CLOSE, verify=verify), []
     picks = {"kinds": lambda _: (KindAnswer(kind),), "points": lambda q: ((0,) if kind is INTO else (0, 1),)}
-    watched = Watched(knowing(mesh, segmentation, (KNOWN[name].joint,)), changed=picks)
+    watched = Watched(true_answers(mesh, segmentation, (KNOWN[name].joint,)), changed=picks)
 
     def progress(stage: str, _: str, step: int, count: int) -> None:
         steps.append((stage, step, count))
@@ -82,7 +82,7 @@ def test_progress_has_four_steps() -> None:
 
 def test_questions_name_the_category_and_the_labels() -> None:
     mesh, _, segmentation = ready(KNOWN["left"].scene)
-    made = Questions(VisualPrompts(mesh, QUICK), knowing(mesh, segmentation, (KNOWN["left"].joint,)), QUICK)
+    made = Questions(VisualPrompts(mesh, QUICK), true_answers(mesh, segmentation, (KNOWN["left"].joint,)), QUICK)
     assert (made.category, made.labels) == ("object", ())
     assert replace(made, config=replace(QUICK, category="oven")).category == "oven"
     told = Recognition("stove", None, (RecognizedLabel("door", None, None, None), RecognizedLabel("knob", None, None, None)))

@@ -1,4 +1,4 @@
-"""Test the limits of a joint, from its surroundings and from the answered range."""
+"""Test the limits of a joint, from the static geometry around its part and from the answered range."""
 
 from collections.abc import Callable
 from dataclasses import replace

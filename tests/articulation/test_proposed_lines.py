@@ -35,7 +35,7 @@ def handle(ends: float, width: float = 0.02, legs: float = 0.1) -> PartContext:
     return context(part, [box((-1, -0.5, -0.5), (1, 0.5, 0))])
 
 
-def test_a_bail_turns_about_the_line_through_its_two_contacts() -> None:
+def test_a_bucket_handle_turns_about_the_line_through_its_two_contacts() -> None:
     found = two_pivot_line(handle(0.96))
     assert found is not None
     assert np.abs(found.axis) == pytest.approx(X, abs=0.01)

@@ -13,12 +13,12 @@ from anymesh.segmentation.divide import object_shape
 from anymesh.types import JointType
 
 
-def pair(grips: str) -> Scene:
+def pair(handles: str) -> Scene:
     """Return two panels that meet in the middle of a case, open in front, with a handle on the left one or on both."""
     left, right = (box((x, -0.022, 0.002), (x + 0.297, -0.002, 0.798)) for x in (0.002, 0.301))
-    grip = box((0.25, -0.06, 0.35), (0.265, -0.022, 0.45))
+    handle = box((0.25, -0.06, 0.35), (0.265, -0.022, 0.45))
     other = box((0.335, -0.06, 0.35), (0.35, -0.022, 0.45))
-    return {"base": case(0.8), "left": [left, grip], "right": [right, other] if grips == "both" else [right]}
+    return {"base": case(0.8), "left": [left, handle], "right": [right, other] if handles == "both" else [right]}
 
 
 def floorless(count: int) -> Scene:
@@ -41,7 +41,7 @@ def test_copies_in_a_row_open_to_the_side_that_is_open_over_all_of_them() -> Non
         assert joint.axis == pytest.approx(np.array([0, -1, 0]), abs=1e-3)
 
 
-def test_a_leaf_without_a_grip_does_as_its_copy_with_one() -> None:
+def test_a_panel_without_a_handle_moves_as_its_copy_with_one() -> None:
     joints = joints_of(pair("one"))
     for name, x in (("left", 0.0), ("right", 0.6)):
         joint = joints[name]

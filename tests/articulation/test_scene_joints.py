@@ -46,9 +46,9 @@ def after(joint: Joint, point, amount: float) -> np.ndarray:
     return (joint_transform(joint, amount) @ [*point, 1])[:3]
 
 
-@pytest.mark.parametrize(("grip", "hinge_x"), [("left", 0.6), ("right", 0.0)])
-def test_a_door_turns_outwards_about_the_side_away_from_its_grip(grip: str, hinge_x: float) -> None:
-    joint = found(grip)
+@pytest.mark.parametrize(("handle", "hinge_x"), [("left", 0.6), ("right", 0.0)])
+def test_a_door_turns_outwards_about_the_side_away_from_its_handle(handle: str, hinge_x: float) -> None:
+    joint = found(handle)
     assert joint.type is JointType.REVOLUTE
     assert abs(joint.axis[2]) == pytest.approx(1, abs=1e-6)
     assert off_line(joint, (hinge_x, -0.012, 0)) < THICK

@@ -15,7 +15,7 @@ from anymesh.types import JointType
 from anymesh.types.recognition import Recognition, RecognizedLabel
 
 
-def test_a_grip_hangs_on_its_door_and_the_door_on_the_case() -> None:
+def test_the_parent_of_a_handle_is_its_door_and_that_of_the_door_the_case() -> None:
     scene = door("left")
     leaf, *grip = scene["leaf"]
     joints = joints_of({"base": scene["base"], "grip": grip, "leaf": [leaf]})

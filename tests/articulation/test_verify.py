@@ -104,7 +104,7 @@ def test_the_true_motion_is_among_them_whatever_was_answered(name: str, kind: Jo
 
 
 @pytest.mark.parametrize("off", [(0, 0.012), (0.01, 0.0), (0.008, -0.008)])
-def test_lines_that_nobody_can_tell_apart_are_one_however_far_each_is_free(off: tuple[float, float]) -> None:
+def test_lines_that_look_the_same_are_one_whatever_their_free_range(off: tuple[float, float]) -> None:
     """The hinges are about a centimetre beside the door's own, one of them inside the case and soon blocked."""
     asked = turn(Z, (0.002 + off[0], -0.012 + off[1], 0))
     found = offers("left", asked)
@@ -121,7 +121,7 @@ def blocked_door() -> Scene:
     return {**scene, "base": [*scene["base"], box((0.602, -0.7, 0), (0.64, 0.4, 0.8))]}
 
 
-GRIP_SIDE = turn(Z, (0.002, -0.012, 0))  # of the door, whose handle is at its left
+HANDLE_SIDE = turn(Z, (0.002, -0.012, 0))  # of the door, whose handle is at its left
 FAR_SIDE = turn(Z, (0.598, -0.012, 0))
 THROUGH = turn(Z, (0.3, 0.2, 0))  # in the middle of the case: the panel would pass through its sides
 BEYOND = turn(Z, (0.7, -0.012, 0))
@@ -187,16 +187,16 @@ def test_a_slide_that_is_blocked_one_way_opens_the_other_way() -> None:
     assert opening_motion(first).axis == pytest.approx(-X)
 
 
-def test_a_hinge_on_the_side_of_the_grip_comes_behind_the_other_side() -> None:
-    assert candidates_of("left", GRIP_SIDE)[0].is_free
-    found = shown("left", GRIP_SIDE, JointAppearance.HINGE_ALONG)
+def test_a_hinge_on_the_side_of_the_handle_ranks_below_the_other_side() -> None:
+    assert candidates_of("left", HANDLE_SIDE)[0].is_free
+    found = shown("left", HANDLE_SIDE, JointAppearance.HINGE_ALONG)
     upright = [c.motion.origin[0] for c in found if c.motion.kind is JointType.REVOLUTE and c.vertical > 0.9]
     assert upright[0] == pytest.approx(0.6, abs=0.03)  # away from the handle
     assert min(upright) < 0.02  # the answered motion can still be chosen
 
 
 @pytest.mark.parametrize("most", [2, 3, 6])
-@pytest.mark.parametrize("asked", [GRIP_SIDE, FAR_SIDE, BEYOND, BELOW], ids=["grip", "far", "beyond", "below"])
+@pytest.mark.parametrize("asked", [HANDLE_SIDE, FAR_SIDE, BEYOND, BELOW], ids=["handle", "far", "beyond", "below"])
 def test_a_free_answer_or_one_that_looks_like_it_stays_among_them(asked: Motion, most: int) -> None:
     first = candidates_of("left", asked)[0]
     found = shown("left", asked, JointAppearance.SLIDE_OUT, most)  # as if the answer contradicted its own kind

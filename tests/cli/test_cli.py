@@ -32,7 +32,7 @@ def test_version(capfd) -> None:
     assert called(capfd, "--version") == (0, f"anymesh {__version__}\n", "")
 
 
-def test_the_whole_job_tells_a_person_or_a_program_or_nobody(mesh, capfd) -> None:
+def test_output_is_text_or_json_or_nothing(mesh, capfd) -> None:
     call = ["articulate", mesh, "-o", "out", *PARTS]
     code, out, err = called(capfd, *call)
     assert (code, err) == (0, "")

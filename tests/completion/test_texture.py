@@ -59,7 +59,7 @@ def test_a_patch_is_of_one_look_and_a_spot_near_it_is_not_spread() -> None:
     assert (found.corner_color[NEW] == 255).all()
 
 
-def test_what_nobody_sees_is_no_model() -> None:
+def test_an_unseen_surface_is_no_model() -> None:
     """A red block closed up in a white box: a wall that is nearer to the block is white all the same."""
     colors = np.full((24, 3, 4), 255, np.uint8)
     colors[12:] = (255, 0, 0, 255)

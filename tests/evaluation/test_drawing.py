@@ -70,7 +70,7 @@ def test_the_same_joint_is_the_same_picture() -> None:
 
 
 @pytest.mark.parametrize("part", ["door", "drawer"])
-def test_ranges_that_nobody_knows_are_drawn_too(part) -> None:
+def test_unknown_ranges_are_drawn(part) -> None:
     joints = tuple(replace(j, limits=None, range_known=False) for j in SUBJECT.truth.joints)
     unknown = replace(SUBJECT, truth=replace(SUBJECT.truth, joints=joints))
     opened = halves(without_caption(drawn(part, JOINTS[part], sample=unknown)))[1]

@@ -81,10 +81,10 @@ def test_a_crash_is_this_objects_failure_and_a_silent_model_ends_it_all(tmp_path
     assert [j.type_found for j in record.score.joints] == [None]  # it counts as missing
 
     def silent(*_: object, **__: object) -> None:
-        raise ModelError("nobody answers")
+        raise ModelError("no answer")
 
     monkeypatch.setattr(evaluating, "solve", silent)
-    with pytest.raises(ModelError, match="nobody answers"):
+    with pytest.raises(ModelError, match="no answer"):
         evaluate(SET, tmp_path / "b", only=["valve"], jobs=1)
 
 

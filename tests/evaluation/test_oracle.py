@@ -71,13 +71,13 @@ def test_a_part_without_a_word_for_it_is_named_by_its_motion() -> None:
     assert true_reference(EvalSample(nameless, ASSET.mesh, made.face_part, np.eye(4))).kinds[1:] == ("part",) * 3
 
 
-def test_the_oracle_knows_the_truth() -> None:
-    seer = oracle(sample(TURNED))
-    assert isinstance(seer, VisualAnswerer)
-    assert seer.name == "oracle"
+def test_the_oracle_answers_with_the_truth() -> None:
+    answerer = oracle(sample(TURNED))
+    assert isinstance(answerer, VisualAnswerer)
+    assert answerer.name == "oracle"
     faces = np.flatnonzero(ASSET.segmentation.face_part == 2)
     shown = PartShown("part", faces, ASSET.mesh.triangles[faces].reshape(-1, 3), -Y, Y, np.zeros((1, 3)))
-    (kind,) = seer.ask(WhichKinds((), (shown,)))
+    (kind,) = answerer.ask(WhichKinds((), (shown,)))
     assert kind.kind is JointAppearance.SLIDE_OUT
 
 
@@ -156,6 +156,6 @@ def test_the_same_seed_makes_the_same_errors() -> None:
 
 
 def test_errors_come_as_often_as_they_are_asked_for() -> None:
-    seer, right = noisy(0.3), KNOWN.ask(QUESTIONS["arrows"])
-    share = np.mean([seer.ask(QUESTIONS["arrows"]) != right for _ in range(2000)])
+    answerer, right = noisy(0.3), KNOWN.ask(QUESTIONS["arrows"])
+    share = np.mean([answerer.ask(QUESTIONS["arrows"]) != right for _ in range(2000)])
     assert share == pytest.approx(0.3, abs=0.04)

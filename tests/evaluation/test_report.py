@@ -138,7 +138,7 @@ def test_one_change_one_category_and_one_type_make_no_tables_of_their_own() -> N
     assert titles == ["Settings", "Summary", "Objects"]
 
 
-def test_figures_that_nobody_measured_have_no_column() -> None:
+def test_figures_that_were_not_measured_have_no_column() -> None:
     tables = {t.title: t for t in report_tables(RECORDS, SETTINGS, [])}
     assert "runs" not in tables["By change"].head
     assert "rest gIoU" in [row[0].text for row in tables["Summary"].rows]

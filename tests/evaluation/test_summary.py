@@ -40,7 +40,7 @@ def test_a_slide_taken_for_a_hinge_has_no_line_and_the_other_way_round_misses_it
     assert s.line_distance == Mean(1.0, 1.0, None)
 
 
-def test_joints_whose_range_nobody_knows_are_scored_on_the_rest_alone() -> None:
+def test_joints_of_unknown_range_are_scored_on_the_rest() -> None:
     unknown = replace(DOOR, range_known=False, opens_right=None, range_iou=None)
     s = summarize([record(unknown, MISSING)])
     assert (s.opens_right, s.range_iou) == (0.0, 0.0)  # of the missing one

@@ -28,7 +28,7 @@ def test_all_validators_of_openusd_pass(make, base, tmp_path):
 
 def test_the_validators_see_a_fault(tmp_path):
     stage = stage_of(model_of(cabinet()), tmp_path)
-    UsdPhysics.Joint(stage.GetPrimAtPath("/cabinet/joints/hinge")).GetBody1Rel().SetTargets(["/cabinet/links/nobody"])
+    UsdPhysics.Joint(stage.GetPrimAtPath("/cabinet/joints/hinge")).GetBody1Rel().SetTargets(["/cabinet/links/missing"])
     validators = UsdValidation.ValidationRegistry().GetOrLoadAllValidators()
     assert UsdValidation.ValidationContext(validators).Validate(stage)
 

@@ -130,7 +130,7 @@ def test_a_dent_in_the_rim_and_points_within_it_do_not_move_the_center() -> None
     assert (found.radius, found.roundness) == (pytest.approx(1), pytest.approx(33 / 36))
 
 
-def test_a_wheel_with_a_grip_keeps_its_center_and_a_square_is_not_round():
+def test_a_wheel_with_a_handle_keeps_its_center_and_a_square_is_not_round():
     t = np.linspace(0, 2 * np.pi, 144, endpoint=False)
     rim = np.c_[np.cos(t), np.sin(t), np.zeros(144)]
     grip = np.array([[1.1, 0.02, 0], [1.1, -0.02, 0]])

@@ -52,7 +52,7 @@ def test_only_an_inside_out_wall_within_a_solid_is_a_cavity(seed):
         assert (sign * outwardness(found.shape.take(number == k)) > 0).all()
 
 
-def test_a_shape_knows_its_area_bounds_and_corners_and_its_faces_keep_their_numbers():
+def test_area_bounds_and_corners_of_a_shape_and_the_order_of_its_faces():
     shape = shape_of(box((0, 0, 0), (1, 2, 3)), box((5, 0, 0), (6, 1, 1)))
     assert shape.area == pytest.approx(22 + 6)
     second = shape.take(np.arange(24) >= 12).take(np.arange(6))

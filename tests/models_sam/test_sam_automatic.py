@@ -1,4 +1,4 @@
-"""Automatic masks with a model that knows where the discs are."""
+"""Automatic masks of a fake model that returns the discs of its picture."""
 
 from dataclasses import dataclass, field
 

@@ -14,11 +14,11 @@ from anymesh.motion.part_context import PartContext
 from anymesh.segmentation.divide import object_shape
 
 BASE, DOOR, DRAWER = CABINET["base"], CABINET["door"], CABINET["drawer"]
-GRIP = box((0.05, -0.06, 0.2), (0.07, -0.02, 0.4))  # upright, near the door's left edge
+HANDLE = box((0.05, -0.06, 0.2), (0.07, -0.02, 0.4))  # upright, near the door's left edge
 T_SCALES = [(0, 1.0), (1, 1.0), (2, 0.02)]
 
 
-def surroundings(part, others, T) -> PartContext:
+def part_context(part, others, T) -> PartContext:
     everything = np.concatenate([apply(T, v) for v, _ in [*part, *others]])
     low, high = everything.min(0), everything.max(0)
     own, rest = shape_of(*part, T=T), shape_of(*others, T=T)
@@ -33,12 +33,12 @@ def place(seed, scale=1.0) -> np.ndarray:
 
 
 @pytest.mark.parametrize(("seed", "scale"), T_SCALES)
-def test_the_core_of_a_door_is_the_door_without_its_grip(seed, scale):
+def test_the_body_of_a_door_is_the_door_without_its_handle(seed, scale):
     T = place(seed, scale)
-    plain, gripped = shape_of(*DOOR, T=T), shape_of(*DOOR, GRIP, T=T)
-    assert gripped.box.half.prod() > 2 * plain.box.half.prod()
-    np.testing.assert_allclose(body_obb(gripped).half, plain.box.half, rtol=1e-3)
-    np.testing.assert_allclose(body_obb(gripped).center, plain.box.center, atol=1e-3 * scale)
+    plain, with_handle = shape_of(*DOOR, T=T), shape_of(*DOOR, HANDLE, T=T)
+    assert with_handle.box.half.prod() > 2 * plain.box.half.prod()
+    np.testing.assert_allclose(body_obb(with_handle).half, plain.box.half, rtol=1e-3)
+    np.testing.assert_allclose(body_obb(with_handle).center, plain.box.center, atol=1e-3 * scale)
 
 
 @pytest.mark.parametrize(("seed", "scale"), T_SCALES)
@@ -56,11 +56,11 @@ def test_a_low_rim_all_round_belongs_to_the_core_and_a_ridge_does_not():
     assert body_obb(ridge).half[2] == pytest.approx(0.02)
 
 
-@pytest.mark.parametrize("part", [[*DOOR, GRIP], DRAWER], ids=["door", "drawer"])
+@pytest.mark.parametrize("part", [[*DOOR, HANDLE], DRAWER], ids=["door", "drawer"])
 @pytest.mark.parametrize(("seed", "scale"), T_SCALES)
 def test_the_way_out_of_a_case_is_its_front(part, seed, scale):
     T = place(seed, scale)
-    found = surroundings(part, BASE, T)
+    found = part_context(part, BASE, T)
     np.testing.assert_allclose(found.opening_direction, -T[:3, 1] / scale, atol=1e-6)
     assert found.visibility > 0.95
     assert found.sees_outside(-found.opening_direction).mean() < 0.1
@@ -69,7 +69,7 @@ def test_the_way_out_of_a_case_is_its_front(part, seed, scale):
 @pytest.mark.parametrize(("seed", "scale"), T_SCALES)
 def test_a_drawer_is_as_deep_in_the_case_as_it_was_built(seed, scale):
     T = place(seed, scale)
-    drawer, door = surroundings(DRAWER, BASE, T), surroundings(DOOR, BASE, T)
+    drawer, door = part_context(DRAWER, BASE, T), part_context(DOOR, BASE, T)
     assert drawer.depth_in_parent(drawer.opening_direction) == pytest.approx(0.36 * scale, rel=0.02)
     assert drawer.insertion_depth == pytest.approx(0.36 / 0.3, rel=0.02)
     assert door.depth_in_parent(door.opening_direction) < 0.002 * scale
@@ -78,10 +78,10 @@ def test_a_drawer_is_as_deep_in_the_case_as_it_was_built(seed, scale):
 
 
 @pytest.mark.parametrize(("seed", "scale"), T_SCALES)
-def test_a_grip_is_found_where_it_is(seed, scale):
+def test_the_position_of_a_handle(seed, scale):
     T = place(seed, scale)
-    found = surroundings([*DOOR, GRIP], BASE, T)
-    assert surroundings(DOOR, BASE, T).handle is None
+    found = part_context([*DOOR, HANDLE], BASE, T)
+    assert part_context(DOOR, BASE, T).handle is None
     handle = found.handle
     door_center, door_half = np.array([0.3, -0.01, 0.3125]), np.array([0.295, 0.01, 0.2875])
     expected = (np.array([0.06, -0.04, 0.3]) - door_center) / door_half
@@ -92,7 +92,7 @@ def test_a_grip_is_found_where_it_is(seed, scale):
 
 
 def test_the_connecting_area_lies_between_part_and_parent():
-    found = surroundings([box((0, 0, 1), (1, 1, 1.2))], [box((0.4, 0.4, 0), (0.6, 0.6, 1))], np.eye(4))
+    found = part_context([box((0, 0, 1), (1, 1, 1.2))], [box((0.4, 0.4, 0), (0.6, 0.6, 1))], np.eye(4))
     near = found.config.connecting * found.scale
     assert len(found.contact) > 10
     np.testing.assert_allclose(found.contact[:, 2], 1, atol=near + 1e-9)
@@ -100,21 +100,21 @@ def test_the_connecting_area_lies_between_part_and_parent():
 
 
 def test_a_small_part_in_a_large_object_has_its_own_scale():
-    tiny = surroundings([box((0, -0.02, 0.5), (0.01, 0, 0.51))], BASE, np.eye(4))
+    tiny = part_context([box((0, -0.02, 0.5), (0.01, 0, 0.51))], BASE, np.eye(4))
     assert tiny.scale == 5 * tiny.part.box.diagonal < tiny.diagonal
 
 
 def test_a_wheel_has_a_round_outline_and_a_door_has_not():
     solid = trimesh.creation.cylinder(radius=0.2, height=0.05, sections=64)
     wheel = (solid.vertices[:, [0, 2, 1]], solid.faces[:, ::-1])
-    found = surroundings([wheel], [box((-1, 0.01, -1), (1, 1, 1))], np.eye(4)).outline
+    found = part_context([wheel], [box((-1, 0.01, -1), (1, 1, 1))], np.eye(4)).outline
     assert found.roundness == 1
     np.testing.assert_allclose(np.abs(found.axis), [0, 1, 0], atol=1e-6)
-    assert surroundings(DOOR, BASE, np.eye(4)).outline.roundness < 0.5
+    assert part_context(DOOR, BASE, np.eye(4)).outline.roundness < 0.5
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_only_thin_rods_between_part_and_parent_may_be_barrels(seed):
+def test_only_thin_bars_between_part_and_parent_may_be_barrels(seed):
     barrel = box((-0.004, -0.012, 0.2), (0.004, -0.004, 0.4))  # at the door's edge x = 0.005, on the case's side
     far = box((0.3, 0.2, 0.2), (0.308, 0.208, 0.4))  # as thin, but away from the door
     block = box((-0.05, -0.05, 0.45), (0, -0.001, 0.5))
@@ -125,16 +125,16 @@ def test_only_thin_rods_between_part_and_parent_may_be_barrels(seed):
     assert [set(number[r.faces]) for r in find_barrel_candidates(whole, part, parent)] == [{1}]
 
 
-def test_a_face_that_bulges_has_no_grip_and_a_grip_on_it_is_found():
+def test_a_bulging_face_has_no_handle_and_a_handle_on_it_is_detected():
     u, v = np.meshgrid(np.linspace(-1, 1, 25), np.linspace(-1, 1, 25), indexing="ij")
     front = np.stack([0.3 * u, -0.1 * (1 - (u**2 + v**2) / 2), 0.4 * v], -1).reshape(-1, 3)
     corner = (np.arange(24)[:, None] * 25 + np.arange(24)).reshape(-1)
     faces = np.concatenate([np.stack([corner, corner + 25, corner + 26], 1), np.stack([corner, corner + 26, corner + 1], 1)])
     hull = (front, faces)
     body = box((-0.3, 0.01, -0.4), (0.3, 0.5, 0.4))
-    assert surroundings([hull], [body], np.eye(4)).handle is None
-    grip = box((0.18, -0.13, -0.06), (0.2, -0.05, 0.06))
-    found = surroundings([hull, grip], [body], np.eye(4)).handle
+    assert part_context([hull], [body], np.eye(4)).handle is None
+    handle = box((0.18, -0.13, -0.06), (0.2, -0.05, 0.06))
+    found = part_context([hull, handle], [body], np.eye(4)).handle
     assert found is not None
     assert max(abs(a) for a in found.across) > 0.5
 
@@ -157,7 +157,7 @@ def test_samples_of_a_surface_without_area_lie_on_it():
 
 def test_opening_directions_are_scored_by_sight_thinness_and_place():
     """A free plate of 1 x 0.1 x 1, with the other object away to the right and behind; the object is 4 x 3 x 1."""
-    around = surroundings([box((0, 0, 0), (1, 0.1, 1))], [box((3, 2, 0), (4, 3, 1))], np.eye(4))
+    around = part_context([box((0, 0, 0), (1, 0.1, 1))], [box((3, 2, 0), (4, 3, 1))], np.eye(4))
     directions, scores = around.opening_directions
     found = {tuple(np.round(d).astype(int).tolist()): s for d, s in zip(directions, scores, strict=True)}
     x, y = 0.3 * 1.5 / np.sqrt(26), 0.3 * 1.45 / np.sqrt(26)  # the middle of the plate lies 1.5 left and 1.45 before

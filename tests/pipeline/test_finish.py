@@ -81,7 +81,7 @@ def test_shapes_can_be_left_and_looks_baked(surface, tmp_path):
     assert (tmp_path / "done" / "meshes" / "atlas.png").exists()
 
 
-def test_whom_nobody_can_ask_the_built_in_stands_in_for():
+def test_a_missing_model_is_replaced_by_the_default():
     class Away:
         name = "away"
 

@@ -66,7 +66,7 @@ def test_tops_and_undersides_are_seen():
 
 
 def test_captions_say_where_a_view_is_from():
-    assert caption(0.0, 15.0) == "turned by 0 degrees, 15 degrees up"  # nobody has said where the front is
+    assert caption(0.0, 15.0) == "turned by 0 degrees, 15 degrees up"  # the front is not known
     told = [caption(azimuth, elevation, 0.0) for azimuth, elevation in CONFIG.directions]
     assert told[0] == "from the front, 15 degrees up"
     assert told[2] == "from the right, 15 degrees up"

@@ -50,7 +50,7 @@ def test_marks_become_parts_those_inside_too() -> None:
 
 
 @pytest.mark.slow
-def test_geometry_finds_what_is_inside_where_nobody_was_asked_for_it() -> None:
+def test_parts_inside_come_from_geometry_without_an_answer() -> None:
     truth = TRUTHS["microwave"]
     placed = place_mesh(load_mesh(truth.mesh))
     solver = Solver(placed.mesh, Config(grounding=FEW, views=VIEWS), lambda _: oracle(prepared(truth)))
@@ -105,11 +105,11 @@ def test_marks_take_one_question_whose_captions_name_sides_by_the_recognized_fro
 
     class Watched:
         name, exchanges, warnings = "watched", (), ()
-        knowing = oracle(prepared(truth))
+        reference = oracle(prepared(truth))
 
         def ask(self, question):
             asked.append(question)
-            found = self.knowing.ask(question)
+            found = self.reference.ask(question)
             if question.kind == "marks":  # all of them may be wrong
                 return replace(found, unsure=found.parts[0].marks)
             return replace(found, front=90.0)

@@ -21,7 +21,7 @@ BODY = box((0, 0, 0), (1, 1, 1))
 KEYS = [box((x, -0.2, z), (x + 0.08, 0, z + 0.08)) for x in np.arange(0, 1, 0.125) for z in np.arange(0, 1, 0.125)]
 
 
-def studio_of(mesh: Mesh) -> VisualPrompts:
+def prompts_of(mesh: Mesh) -> VisualPrompts:
     return VisualPrompts(mesh, Config(views=VIEWS, grounding=GroundingConfig(points=20_000)))
 
 
@@ -32,12 +32,12 @@ def drawn_in(regions: tuple[np.ndarray, ...]) -> set[int]:
 @cache
 def keyboard() -> tuple[VisualPrompts, np.ndarray]:
     mesh, piece = mesh_of([BODY, *KEYS])
-    return studio_of(mesh), piece
+    return prompts_of(mesh), piece
 
 
 def pictures(pieces: list) -> list:
     mesh, piece = mesh_of(pieces)
-    studio = studio_of(mesh) if len(pieces) < 50 else keyboard()[0]
+    studio = prompts_of(mesh) if len(pieces) < 50 else keyboard()[0]
     seen = studio.views
     return choose_pictures(Marks(piece + 1), range(1, len(pieces) + 1), seen, studio.names(len(seen)), studio.view)
 
@@ -91,7 +91,7 @@ def test_many_pictures_are_asked_about_in_several_calls_and_no_mark_twice(monkey
 
 def test_a_split_is_asked_about_once_with_the_new_marks_alone() -> None:
     mesh, piece = mesh_of([BODY, box((0.4, -0.1, 0.4), (0.6, 0, 0.6)), box((0.7, -0.1, 0.7), (0.9, 0, 0.9))])
-    studio, who = studio_of(mesh), Points(split=(2,))
+    studio, who = prompts_of(mesh), Points(split=(2,))
     right = mesh.triangles.mean(1)[:, 0] > 0.5
 
     def split(marks: Marks, some) -> Marks:
@@ -108,7 +108,7 @@ def test_a_split_is_asked_about_once_with_the_new_marks_alone() -> None:
 
 def test_views_of_masks_are_numbered_as_the_pictures_are() -> None:
     mesh, piece = mesh_of([BODY, box((0.4, -0.1, 0.4), (0.6, 0, 0.6))])
-    studio, asked = studio_of(mesh), []
+    studio, asked = prompts_of(mesh), []
 
     class Two(Points):
         def ask(self, question):
@@ -131,7 +131,7 @@ def test_more_pictures_of_masks_than_fit_are_asked_about_in_several_calls(monkey
     """No view is left out, and what different calls number alike may be different parts."""
     monkeypatch.setattr(ask_marks, "MAX_PICTURES", 4)
     mesh, piece = mesh_of([BODY, box((0.4, -0.1, 0.4), (0.6, 0, 0.6))])
-    studio = studio_of(mesh)
+    studio = prompts_of(mesh)
 
     class All(Points):
         def ask(self, question):

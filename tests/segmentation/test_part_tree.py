@@ -10,7 +10,7 @@ from anymesh.segmentation.part_tree import PartTree, part_tree
 
 BODY = box((0, 0.05, 0), (1, 0.5, 1))
 LEAF = [box((0.0, 0, 0), (0.1, 0.049, 1)), box((0.9, 0, 0), (1, 0.049, 1)), box((0.1, 0.01, 0), (0.9, 0.04, 1))]  # framed
-GRIP = box((0.92, -0.05, 0.45), (0.95, 0, 0.55))
+HANDLE = box((0.92, -0.05, 0.45), (0.95, 0, 0.55))
 
 
 def candidates(solids: list, most: int = 100, smallest: float = 0.004) -> PartTree:
@@ -23,35 +23,35 @@ def sets(tree: PartTree) -> set[frozenset[int]]:
     return {frozenset(np.flatnonzero(m).tolist()) for m in tree.members}
 
 
-def test_a_framed_door_with_its_grip_is_a_candidate_and_so_is_the_grip() -> None:
-    found = sets(candidates([BODY, *LEAF, GRIP]))
+def test_a_framed_door_with_its_handle_is_a_candidate_and_so_is_the_handle() -> None:
+    found = sets(candidates([BODY, *LEAF, HANDLE]))
     assert frozenset({1, 2, 3, 4}) in found
     assert frozenset({4}) in found
     assert frozenset(range(5)) not in found  # the whole object is no part
 
 
 def test_no_candidate_is_there_twice_and_the_largest_come_first() -> None:
-    tree = candidates([BODY, *LEAF, GRIP])
+    tree = candidates([BODY, *LEAF, HANDLE])
     assert len(sets(tree)) == len(tree.members)
     assert (np.diff(tree.size) <= 1e-12).all()
-    assert len(candidates([BODY, *LEAF, GRIP], most=3).members) == 3
-    assert not (candidates([BODY, *LEAF, GRIP], smallest=0.2).size < 0.2).any()
+    assert len(candidates([BODY, *LEAF, HANDLE], most=3).members) == 3
+    assert not (candidates([BODY, *LEAF, HANDLE], smallest=0.2).size < 0.2).any()
 
 
 def test_the_order_of_solids_does_not_matter() -> None:
     order = [4, 2, 0, 3, 1]
-    solids = [BODY, *LEAF, GRIP]
+    solids = [BODY, *LEAF, HANDLE]
     found = {frozenset(order[k] for k in group) for group in sets(candidates([solids[k] for k in order]))}
     assert found == sets(candidates(solids))
 
 
 def test_areas_and_overlaps_are_those_of_the_patches() -> None:
-    tree = candidates([BODY, *LEAF, GRIP])
-    grip = next(k for k, m in enumerate(tree.members) if np.flatnonzero(m).tolist() == [4])
-    assert np.isclose(tree.area[grip], 2 * (0.03 * 0.05 + 0.05 * 0.1 + 0.03 * 0.1))
+    tree = candidates([BODY, *LEAF, HANDLE])
+    handle = next(k for k, m in enumerate(tree.members) if np.flatnonzero(m).tolist() == [4])
+    assert np.isclose(tree.area[handle], 2 * (0.03 * 0.05 + 0.05 * 0.1 + 0.03 * 0.1))
     door = next(k for k, m in enumerate(tree.members) if np.flatnonzero(m).tolist() == [1, 2, 3, 4])
-    assert np.isclose(tree.overlap.shared[door, grip], tree.area[grip])
-    assert len(tree.faces(grip)) == 12
+    assert np.isclose(tree.overlap.shared[door, handle], tree.area[handle])
+    assert len(tree.faces(handle)) == 12
 
 
 def test_parts_that_touch_each_other_and_not_the_base_are_candidates_each() -> None:

@@ -28,12 +28,12 @@ class Scripted:
     name, exchanges, warnings = "scripted", (), ()
 
     def __init__(self, reference: Reference, fit: PartFit) -> None:
-        self.knows, self.fit, self.asked = ReferenceAnswerer("truth", lambda: reference), fit, []
+        self.reference, self.fit, self.asked = ReferenceAnswerer("truth", lambda: reference), fit, []
 
     def ask(self, question):
         first = all(q.kind != question.kind for q in self.asked)
         self.asked.append(question)
-        answer = self.knows.ask(question)
+        answer = self.reference.ask(question)
         if question.kind == "marks" and first:
             return self._wrong(answer)
         if question.kind == "marks":  # under the label and instance in the question
@@ -68,14 +68,14 @@ def test_a_wrong_part_goes_back_to_the_marks_and_is_solved_again(fit: PartFit) -
     joints = (None, KnownJoint(JointType.REVOLUTE, np.array([0, -0.015, 0.3]), -z, (0.0, 1.5)),
               KnownJoint(JointType.REVOLUTE, np.array([0.6, -0.015, 0.3]), z, (0.0, 1.5)))  # fmt: skip
     reference = Reference("cabinet", 0.6, truth, mesh.face_areas, ("base", "door", "door"), (0, 0, 0), joints)
-    seer = Scripted(reference, fit)
-    segmentation, found = solve(mesh, config=QUICK, answerer_factory=lambda _: seer)
-    kinds = [q.kind for q in seer.asked]
+    answerer = Scripted(reference, fit)
+    segmentation, found = solve(mesh, config=QUICK, answerer_factory=lambda _: answerer)
+    kinds = [q.kind for q in answerer.asked]
     assert kinds.count("marks") == 2
-    again = [q for q in seer.asked if q.kind == "marks"][1]
+    again = [q for q in answerer.asked if q.kind == "marks"][1]
     assert f"is {fit.value.replace('_', ' ')}" in again.text()
     assert again.text().count("proved wrong") == 1
-    first, *_, second = (q for q in seer.asked if q.kind == "motions")
+    first, *_, second = (q for q in answerer.asked if q.kind == "motions")
     assert len(first.tables) == 2
     assert len(second.tables) == 1  # the other door is not asked about again
     assert "part_is" not in second.schema()["properties"]["parts"]["items"]["properties"]

@@ -60,7 +60,7 @@ WRONG = {
     ),
     "joint of the root": (lambda: with_joints(*[("door", n) for n in ("base", "drawer", "knob")]), "needs one joint"),
     "circle": (lambda: with_joints(("base", "door"), ("knob", "drawer"), ("drawer", "knob")), "tree"),
-    "stranger": (lambda: with_joints(("base", "door"), ("base", "drawer"), ("nobody", "knob")), "tree"),
+    "stranger": (lambda: with_joints(("base", "door"), ("base", "drawer"), ("stranger", "knob")), "tree"),
 }
 
 

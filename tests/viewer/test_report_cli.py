@@ -26,7 +26,7 @@ def called(app: typer.Typer, *arguments) -> str:
     return result.output
 
 
-def test_a_report_is_told_to_a_person_a_program_or_nobody(app, tmp_path):
+def test_the_path_of_a_report_is_printed_as_text_or_json_or_not_at_all(app, tmp_path):
     folder = folder_of(cabinet(), tmp_path / "all" / "cabinet")
     (tmp_path / "all" / "odd\tname").mkdir()
     (tmp_path / "all" / "odd\tname" / "asset.json").write_text("[]")

@@ -40,13 +40,13 @@ def work(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 @pytest.fixture(scope="module")
 def known():
-    """Somebody who knows the answers, and is asked by a question's folder alone."""
-    seer = oracle(prepared(next(t for t in example_truths(EXAMPLES) if t.name == "storage_box")))
+    """Return a function that answers a question from its folder alone, with the true answer."""
+    answerer = oracle(prepared(next(t for t in example_truths(EXAMPLES) if t.name == "storage_box")))
 
     def answer(folder: Path) -> str:
         (found,) = [q for q in find_questions(folder) if q.path == folder]
         question = unpack_question((folder / "check.npz").read_bytes(), found.pictures())
-        return json.dumps(answer_object(question, seer.ask(question)))
+        return json.dumps(answer_object(question, answerer.ask(question)))
 
     return answer
 

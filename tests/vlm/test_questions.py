@@ -83,16 +83,16 @@ def test_one_candidate_point_is_enough_where_there_is_no_other() -> None:
 
 
 def test_labels_that_a_user_told_are_not_asked_for() -> None:
-    class Nobody:
+    class NoAnswerer:
         name = "unused"
         exchanges = warnings = ()
 
         def ask(self, question):
             raise AssertionError("asked")
 
-    assert isinstance(Nobody(), VisualAnswerer)
+    assert isinstance(NoAnswerer(), VisualAnswerer)
     told = parse_labels([" Oven  Door", "knob"])
-    found = recognize(lambda: (), Nobody(), None, told)
+    found = recognize(lambda: (), NoAnswerer(), None, told)
     assert found.labels == tuple(RecognizedLabel(label, None, None, None) for label in ("oven door", "knob"))
     assert (found.category, found.size) == ("object", None)
 

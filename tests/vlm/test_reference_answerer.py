@@ -49,9 +49,9 @@ BASE, DOOR, OTHER, DRAWER, KNOB, PANEL = (10 * k for k in range(6))  # the first
 
 def ask(question: Question[Any], known: Reference = KNOWN) -> Any:
     """Return the answer, after checking that its JSON form parses to the same."""
-    knowing = ReferenceAnswerer("oracle", lambda: known)
-    answer = knowing.ask(question)
-    reader = VlmAnswerer(ScriptedModel([answer_object(question, answer)]), knowing)
+    reference = ReferenceAnswerer("oracle", lambda: known)
+    answer = reference.ask(question)
+    reader = VlmAnswerer(ScriptedModel([answer_object(question, answer)]), reference)
     assert reader.ask(question) == answer
     assert reader.warnings == ()
     return answer
@@ -69,11 +69,11 @@ def shown(first: int, label: str = "part", **changes: Any) -> PartShown:
 
 def test_it_is_made_when_it_is_first_asked() -> None:
     made = []
-    seer = ReferenceAnswerer("oracle", lambda: made.append(1) or KNOWN)
-    assert isinstance(seer, VisualAnswerer)
+    answerer = ReferenceAnswerer("oracle", lambda: made.append(1) or KNOWN)
+    assert isinstance(answerer, VisualAnswerer)
     assert made == []
     for _ in range(2):
-        seer.ask(Recognize(()))
+        answerer.ask(Recognize(()))
     assert made == [1]
 
 

@@ -39,7 +39,7 @@ FAULTS = {
     "null": ("null", "the answer must be an object"),
     "wrong language": ('{"teile": []}', "missing ['parts'], unknown ['teile']"),
     "out of range": (json.dumps(picks("arrow", 5)), "arrow of part 1 must be of 1..4, found 5"),
-    "nobody": ('{"parts": []}', "each part 1..1 must be answered exactly once"),
+    "no part": ('{"parts": []}', "each part 1..1 must be answered exactly once"),
     "what a texture said": ('{"parts": [{"part": 1, "arrow": 4}], "system": "obey"}', "unknown ['system']"),
 }
 
@@ -63,15 +63,15 @@ class Other:
 
 def asked(*answers) -> tuple[Any, VlmAnswerer, ScriptedModel, Other]:
     model, other = ScriptedModel(answers, name="openai:gpt-4o"), Other()
-    seer = VlmAnswerer(model, other)
-    return seer.ask(ARROWS), seer, model, other
+    answerer = VlmAnswerer(model, other)
+    return answerer.ask(ARROWS), answerer, model, other
 
 
 def test_a_good_answer_is_taken_and_kept_with_what_it_was_asked_with() -> None:
-    answer, seer, model, other = asked(GOOD)
-    (request,), (exchange,) = model.requests, seer.exchanges
-    assert isinstance(seer, VisualAnswerer)
-    assert (answer, seer.warnings, other.asked, seer.name) == ((3,), (), [], "openai:gpt-4o")
+    answer, answerer, model, other = asked(GOOD)
+    (request,), (exchange,) = model.requests, answerer.exchanges
+    assert isinstance(answerer, VisualAnswerer)
+    assert (answer, answerer.warnings, other.asked, answerer.name) == ((3,), (), [], "openai:gpt-4o")
     assert (request.kind, request.system, request.text) == ("arrows", SYSTEM, ARROWS.text())
     assert (request.pictures, request.schema) == (ARROWS.pictures, ARROWS.schema())
     assert (exchange.pictures, exchange.text, json.loads(exchange.answer)) == (ARROWS.pictures, ARROWS.text(), GOOD)
@@ -81,42 +81,42 @@ def test_a_good_answer_is_taken_and_kept_with_what_it_was_asked_with() -> None:
 @pytest.mark.parametrize("fault", FAULTS)
 def test_a_bad_answer_is_asked_again_with_what_was_wrong(fault: str) -> None:
     bad, words = FAULTS[fault]
-    answer, seer, model, other = asked(bad, GOOD)
+    answer, answerer, model, other = asked(bad, GOOD)
     first, second = model.requests
-    assert (answer, seer.warnings, other.asked) == ((3,), (), [])
+    assert (answer, answerer.warnings, other.asked) == ((3,), (), [])
     assert second.text.startswith(first.text)
     assert words in second.text
     assert len(second.text) < len(first.text) + 250
-    assert words in seer.exchanges[0].verdict
-    assert seer.exchanges[0].verdict.endswith("asked again")
-    assert seer.exchanges[1].verdict == "accepted"
+    assert words in answerer.exchanges[0].verdict
+    assert answerer.exchanges[0].verdict.endswith("asked again")
+    assert answerer.exchanges[1].verdict == "accepted"
     kept = bad.encode(errors="backslashreplace").decode()  # encodable in a file
-    assert [e.answer for e in seer.exchanges] == [kept, json.dumps(GOOD)]
+    assert [e.answer for e in answerer.exchanges] == [kept, json.dumps(GOOD)]
 
 
 @pytest.mark.parametrize("fault", FAULTS)
 def test_after_two_bad_answers_another_answers_that_question_and_it_is_told(fault: str) -> None:
     bad, words = FAULTS[fault]
-    answer, seer, model, other = asked("Nein.", bad)
+    answer, answerer, model, other = asked("Nein.", bad)
     assert (answer, other.asked, len(model.requests)) == ((2,), [ARROWS], 2)
-    (remark,) = seer.warnings
-    assert [w for w in ("openai:gpt-4o", "'arrows'", words, "geometry answered it") if w not in remark] == []
-    assert len(remark) < 250
-    assert "no JSON" in seer.exchanges[0].verdict
-    assert words in seer.exchanges[1].verdict
-    assert seer.exchanges[1].verdict.endswith("geometry answered instead")
+    (warning,) = answerer.warnings
+    assert [w for w in ("openai:gpt-4o", "'arrows'", words, "geometry answered it") if w not in warning] == []
+    assert len(warning) < 250
+    assert "no JSON" in answerer.exchanges[0].verdict
+    assert words in answerer.exchanges[1].verdict
+    assert answerer.exchanges[1].verdict.endswith("geometry answered instead")
 
 
 def test_only_the_question_that_went_wrong_is_answered_by_another() -> None:
     model, other = ScriptedModel([GOOD, "", "", GOOD]), Other()
-    seer = VlmAnswerer(model, other)
-    assert [seer.ask(ARROWS) for _ in range(3)] == [(3,), (2,), (3,)]
-    assert (len(other.asked), len(seer.warnings), len(seer.exchanges)) == (1, 1, 4)
+    answerer = VlmAnswerer(model, other)
+    assert [answerer.ask(ARROWS) for _ in range(3)] == [(3,), (2,), (3,)]
+    assert (len(other.asked), len(answerer.warnings), len(answerer.exchanges)) == (1, 1, 4)
 
 
 def test_exchanges_carry_the_keys_of_what_was_asked_and_no_two_are_alike() -> None:
-    _, seer, model, _ = asked("", GOOD)
-    keys = [e.key for e in seer.exchanges]
+    _, answerer, model, _ = asked("", GOOD)
+    keys = [e.key for e in answerer.exchanges]
     assert keys == [request_key("openai:gpt-4o", request) for request in model.requests]
     assert len(set(keys)) == 2
 
@@ -125,10 +125,10 @@ def test_what_is_kept_of_a_bad_answer_does_not_answer_the_second_time(tmp_path: 
     bad = picks("arrow", 9)  # an object, so that the cache keeps it
     model = ScriptedModel([bad, GOOD])
     for _ in range(2):  # the second round uses the cache only
-        seer = VlmAnswerer(Cached(model, tmp_path), Other())
-        assert (seer.ask(ARROWS), seer.warnings) == ((3,), ())
+        answerer = VlmAnswerer(Cached(model, tmp_path), Other())
+        assert (answerer.ask(ARROWS), answerer.warnings) == ((3,), ())
     assert len(model.requests) == 2
-    assert [e.cached for e in seer.exchanges] == [True, True]
+    assert [e.cached for e in answerer.exchanges] == [True, True]
 
 
 @pytest.mark.parametrize("before", [[], [""]], ids=["the first", "the second"])

@@ -106,7 +106,7 @@ def test_an_answer_that_drips_is_given_up_in_time(dialect: Dialect, service: Ser
     assert time.monotonic() - begin < 5
 
 
-def test_nobody_listening_may_pass(
+def test_a_refused_connection_may_pass(
     dialect: Dialect, service: Service, connected: Connect, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(service, "url", "http://127.0.0.1:1")

@@ -65,7 +65,7 @@ def test_a_cache_can_be_replayed_too(tmp_path: Path) -> None:
     assert model.ask(a_request()).text == ANSWER
 
 
-def test_a_recording_of_two_models_knows_both(tmp_path: Path) -> None:
+def test_a_recording_of_two_models_holds_both(tmp_path: Path) -> None:
     one = asked(a_request(), a_request(text="b"), answers=["1", "2"], name="first")
     other = asked(a_request(text="c"), answers=["3"], name="second")
     write_transcript([*other, *one], tmp_path)

@@ -33,7 +33,7 @@ def counts(ledger: Ledger) -> dict[str, int]:
     return dict(ledger.rows("SELECT state, count(*) FROM objects GROUP BY state"))
 
 
-def test_nobody_shares_a_claim(tmp_path, ledger) -> None:
+def test_claims_are_exclusive(tmp_path, ledger) -> None:
     enter_objects(ledger, requests(300))
 
     def take(_: int) -> list[int]:

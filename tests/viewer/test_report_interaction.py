@@ -1,4 +1,4 @@
-"""A person's habits on the report's page, in a real browser. Slow; docs/report.md has the command."""
+"""Interaction with the report page in a real browser. Slow; docs/report.md has the command."""
 
 import numpy as np
 import pytest
