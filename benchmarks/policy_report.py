@@ -144,7 +144,7 @@ def failures(work: Path, thing: str, assets: Sequence[Path], task: str, path: Pa
         [str(a) for a in assets], task, robot=config["robot"], observation=config["observation"],
         randomization=DEXART[task] if config["dexart_poses"] else Randomization(), render_mode="rgb_array",
     )  # fmt: skip
-    names = [s.found.name for s in env.simulations]
+    names = [s.object.name for s in env.simulations]
     failed = {n: [e for e in episodes if e.asset == n and not e.success] for n in names}
     model, frames = PPO.load(run / "policy.zip", device="cpu"), []
     for name in sorted(names, key=lambda n: -len(failed[n]))[:count]:

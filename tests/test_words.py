@@ -67,6 +67,16 @@ def test_replaced_words_do_not_come_back_in_tests() -> None:
     assert not {path: some for path, some in bad.items() if some}
 
 
+def test_variables_are_named_after_what_they_hold() -> None:
+    bad = []
+    for path in FILES:
+        functions = [n for n in ast.walk(ast.parse(path.read_text(encoding="utf-8"))) if isinstance(n, ast.FunctionDef)]
+        stored = {n.id for f in functions for n in ast.walk(f) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)}
+        if "found" in stored:
+            bad.append(str(path.relative_to(SOURCE)))
+    assert not bad, "see the glossary for the names to use"
+
+
 def test_kept_names_are_there() -> None:
     for place, kept in KEPT.items():
         assert kept <= names(SOURCE / place), place

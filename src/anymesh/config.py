@@ -103,13 +103,13 @@ class ViewsConfig:
 
 
 def _directions(rings: str) -> tuple[tuple[float, float], ...]:
-    found: list[tuple[float, float]] = []
+    directions: list[tuple[float, float]] = []
     for text in rings.split(","):
         ring = RING.fullmatch(text)
         assert ring is not None  # checked by ViewsConfig
         count, first = int(ring["count"]), float(ring["azimuth"] or 0)
-        found += [((first + 360 * k / count) % 360, float(ring["elevation"])) for k in range(count)]
-    return tuple(found)
+        directions += [((first + 360 * k / count) % 360, float(ring["elevation"])) for k in range(count)]
+    return tuple(directions)
 
 
 @dataclass(frozen=True)

@@ -47,5 +47,5 @@ class Deadline:
 
     def warnings(self) -> tuple[str, ...]:
         """Return the work omitted since the last call, as warnings."""
-        found, self._left_out = self._left_out, []
-        return tuple(f"time limit of {self.seconds:g} s: {what}" for what in found)
+        omissions, self._left_out = self._left_out, []
+        return tuple(f"time limit of {self.seconds:g} s: {what}" for what in omissions)

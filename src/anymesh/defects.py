@@ -60,12 +60,12 @@ def _version(name: str) -> str | None:
 
 def _chain(error: BaseException) -> list[BaseException]:
     """Return the error and its causes, the first cause first."""
-    found: list[BaseException] = []
+    errors: list[BaseException] = []
     here: BaseException | None = error
-    while here is not None and here not in found:
-        found.insert(0, here)
+    while here is not None and here not in errors:
+        errors.insert(0, here)
         here = here.__cause__ or (None if here.__suppress_context__ else here.__context__)
-    return found
+    return errors
 
 
 def _lines(error: BaseException) -> Iterator[str]:

@@ -19,9 +19,9 @@ def load_mujoco() -> Any:
     except ImportError:
         raise MissingExtraError("mujoco is missing; it is a dependency of articulate-anymesh; reinstall that") from None
     mujoco: Any = untyped  # its compiled names have no stubs
-    mujoco.set_mju_user_warning(_tell)
+    mujoco.set_mju_user_warning(_warn)
     return mujoco
 
 
-def _tell(message: str) -> None:
+def _warn(message: str) -> None:
     log.debug("MuJoCo: %s", message)

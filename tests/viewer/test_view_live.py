@@ -88,7 +88,7 @@ def test_names_of_a_file_do_no_harm(tmp_path, tab):
         serving.page.act(lambda: serving.page.select(bad))
         tab_of(tab, "Correct")
         eventually(lambda: bad in tab.page.inner_text("body"))
-        serving.page.act(lambda: serving.page.tell(bad))
+        serving.page.act(lambda: serving.page.show_message(bad))
         settle(tab)
     assert dialogs == []
     assert [e for e in tab.errors if "WebSocket" not in e] == []

@@ -25,15 +25,15 @@ class Places:
         below: the path must not be one of the folders themselves, since files are written beside it.
         """
         try:
-            found = (self.folders[0] / path).resolve()
+            resolved = (self.folders[0] / path).resolve()
         except (OSError, RuntimeError, ValueError):  # a cycle of links, a null byte
             raise OptionError(f"{path!r} is not a path") from None
-        if not any(found.is_relative_to(folder) for folder in self.folders):
+        if not any(resolved.is_relative_to(folder) for folder in self.folders):
             raise OptionError(f"{path!r} lies outside of the folders of this server: {', '.join(map(str, self.folders))}")
 
-        if below and not any(found.parent.is_relative_to(folder) for folder in self.folders):
+        if below and not any(resolved.parent.is_relative_to(folder) for folder in self.folders):
             raise OptionError(f"{path!r} is the whole folder of this server; name a folder in it")
-        return found
+        return resolved
 
     def shown(self, path: Path) -> str:
         """Return a path in the form that `inside` accepts: relative to the first folder if it is there."""

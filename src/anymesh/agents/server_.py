@@ -45,14 +45,14 @@ class ToolRunner:
         """Run a tool. Raise ToolError for every error of this package."""
         count = 0
 
-        def tell(stage: str, item: str, done: int, total: int) -> None:
+        def report_progress(stage: str, item: str, done: int, total: int) -> None:
             nonlocal count
             count += 1
             from_thread.run(partial(ctx.report_progress, count, None, f"{stage} {item} ({done + 1}/{total})"))
 
         def work() -> ToolResult:
             with self._lock:
-                return tool(*arguments, **options, **({"progress": tell} if long else {}))
+                return tool(*arguments, **options, **({"progress": report_progress} if long else {}))
 
         try:
             shown = await to_thread.run_sync(work)

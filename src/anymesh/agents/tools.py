@@ -85,12 +85,12 @@ class AgentTools:
         if pictures not in ("auto", "all", "none"):
             raise OptionError(f"pictures must be auto, all or none, found {pictures!r}")
         roots = self._places.folders if folder is None else (self._places.inside(folder),)
-        found = [q for root in roots for q in (open_in(root) if find_questions(root) else [])]
-        if not found:
+        questions = [q for root in roots for q in (open_in(root) if find_questions(root) else [])]
+        if not questions:
             return ToolResult({"open": 0})
-        first = self._question(found[0], pictures)
-        others = [self._places.shown(q.path) for q in found[1:]]
-        return ToolResult({"open": len(found), **first.record, "also_open": others}, first.pictures)
+        first = self._question(questions[0], pictures)
+        others = [self._places.shown(q.path) for q in questions[1:]]
+        return ToolResult({"open": len(questions), **first.record, "also_open": others}, first.pictures)
 
     def answer(self, question: str, answer: Mapping[str, Any] | str) -> ToolResult:
         """Check and write an answer to an open question."""
@@ -188,8 +188,8 @@ class AgentTools:
 def _packed(motion: Any) -> dict[str, Any]:
     from anymesh.correcting import HistoryEntry
 
-    found = pack_entry(HistoryEntry(motion, "", ""))
-    return {name: value for name, value in found.items() if name not in ("time", "author")}
+    record = pack_entry(HistoryEntry(motion, "", ""))
+    return {name: value for name, value in record.items() if name not in ("time", "author")}
 
 
 def skill_text() -> str:

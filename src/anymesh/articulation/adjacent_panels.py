@@ -19,7 +19,7 @@ def adjacent_sides(around: PartContext) -> np.ndarray:
 
     Return an array (2, 2): face axes by signs (-, +).
     """
-    core, found = around.body_obb, np.zeros((2, 2))
+    core, counts = around.body_obb, np.zeros((2, 2))
     flat = around.face_axes
     thin = next(k for k in range(3) if k not in flat)
     for panel in around.siblings:
@@ -32,8 +32,8 @@ def adjacent_sides(around: PartContext) -> np.ndarray:
         for row, (k, other) in enumerate((flat, flat[::-1])):
             gap = abs(offset[k]) - (mine[k] + size[k]) / 2
             if abs(gap) < MAX_GAP_RATIO * mine[k] and abs(offset[other]) < MAX_GAP_RATIO * mine[other]:
-                found[row, int(offset[k] > 0)] += 1
-    return found
+                counts[row, int(offset[k] > 0)] += 1
+    return counts
 
 
 def _extent(box: OrientedBox, frame: OrientedBox) -> np.ndarray:

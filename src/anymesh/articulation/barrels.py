@@ -13,7 +13,7 @@ def find_barrel_candidates(whole: ObjectShape, part: TriangleSet, parent: Triang
     diagonal = part.box.diagonal
     reach = 0.015 * min(whole.diagonal, 5 * diagonal)
     label = whole.patch
-    found = []
+    barrels = []
     for own, other in ((part, parent), (parent, part)):
         low, high = other.bounds[0] - reach, other.bounds[1] + reach
         center = own.triangles.mean(1)
@@ -25,5 +25,5 @@ def find_barrel_candidates(whole: ObjectShape, part: TriangleSet, parent: Triang
             if 2 * half[0] > 1.1 * diagonal or half[1] > 0.05 * diagonal or half[2] < 0.7 * half[1] or half[0] < 1.5 * half[1]:
                 continue
             if other.tree.distance(mine.samples.points[::10]).min() < reach:
-                found.append(mine)
-    return tuple(found)
+                barrels.append(mine)
+    return tuple(barrels)

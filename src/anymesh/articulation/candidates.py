@@ -67,12 +67,12 @@ def superpoint_centres(
     signal = np.concatenate([points.normals, config.color_weight * colors], 1)
     label = superpoints(signal, np.ones(count), edges, np.ones(len(edges)), config.strength)
     size = np.bincount(label)
-    found = []
+    centres = []
     for s in np.argsort(-size, kind="stable"):
         if size[s] >= min(config.least_points, count):
             mine = points.points[label == s]
-            found.append(mine[np.linalg.norm(mine - mine.mean(0), axis=1).argmin()])
-    return np.array(found).reshape(-1, 3)
+            centres.append(mine[np.linalg.norm(mine - mine.mean(0), axis=1).argmin()])
+    return np.array(centres).reshape(-1, 3)
 
 
 def with_more(

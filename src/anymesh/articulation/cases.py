@@ -64,7 +64,7 @@ def make_cases(
     for numbers in same_size(shapes, parent):
         some = [part_context(whole, label, shapes, parent, i, config.articulation) for i in numbers]
         arounds |= zip(numbers, share_opening_directions(some), strict=True)
-    found = []
+    cases = []
     for i, part in enumerate(segmentation.parts[1:], start=1):
         around = arounds[i]
         contact = around.contact
@@ -79,12 +79,12 @@ def make_cases(
         )
         carried = tuple(descendants(parent, i))
         circles = round_patches(whole, shapes[i], shapes[parent[i]])
-        found.append(
+        cases.append(
             PartCase(
                 i, part.name, segmentation.parts[parent[i]].name, carried, around, shown, circles, recognized.get(part.label)
             )
         )
-    return found
+    return cases
 
 
 def _answered_parents(segmentation: Segmentation, recognized: Mapping[str, RecognizedLabel]) -> list[set[int]]:
@@ -93,16 +93,16 @@ def _answered_parents(segmentation: Segmentation, recognized: Mapping[str, Recog
     A label that names itself as parent marks a chain: such parts depend on each other, and the first of them on any other part.
     """
     numbers = range(len(segmentation.parts))
-    found: list[set[int]] = []
+    possible_parents: list[set[int]] = []
     for i, part in enumerate(segmentation.parts):
         over = recognized[part.label].parent if part.label in recognized else None
         if over == BASE:
-            found.append({0})
+            possible_parents.append({0})
         elif over == part.label:
-            found.append(set(numbers) - {i})
+            possible_parents.append(set(numbers) - {i})
         else:
-            found.append({j for j in numbers if j > 0 and segmentation.parts[j].label == over})
-    return found
+            possible_parents.append({j for j in numbers if j > 0 and segmentation.parts[j].label == over})
+    return possible_parents
 
 
 def ask_each(
@@ -115,12 +115,12 @@ def ask_each(
 
     Each case has one picture, titled with its position in the call.
     """
-    found: dict[int, Answer] = {}
+    answers_by_number: dict[int, Answer] = {}
     for begin in range(0, len(cases), MAX_PICTURES):
         some = cases[begin : begin + MAX_PICTURES]
         answers = answerer.ask(question(_numbered(some, picture), some))
-        found |= {case.number: answer for case, answer in zip(some, answers, strict=True)}
-    return found
+        answers_by_number |= {case.number: answer for case, answer in zip(some, answers, strict=True)}
+    return answers_by_number
 
 
 def _numbered(cases: Sequence[PartCase], picture: Callable[[PartCase, str], Picture]) -> DrawnPictures:

@@ -42,10 +42,10 @@ class Agreement:
 
 def confidences(agreements: Mapping[int, Agreement]) -> dict[int, float]:
     """Return the confidence in the joint of each part (0..1), by part number."""
-    found = {}
+    confidence = {}
     for number, agreement in agreements.items():
         others = [a.own for n, a in agreements.items() if n != number] or [agreement.own]
         features = {"constant": 1.0, **agreement.features, "others": float(np.mean(others))}
         value = sum(WEIGHTS[name] * feature for name, feature in features.items())
-        found[number] = float(np.clip(1 / (1 + np.exp(-value)), LOWEST, HIGHEST))
-    return found
+        confidence[number] = float(np.clip(1 / (1 + np.exp(-value)), LOWEST, HIGHEST))
+    return confidence

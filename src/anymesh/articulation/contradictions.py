@@ -13,14 +13,14 @@ TURNING = (JointType.REVOLUTE, JointType.CONTINUOUS)
 
 def contradictions(cases: Sequence[PartCase], joints: Sequence[Joint]) -> tuple[str, ...]:
     """Return a warning for each part whose answers (recognition, kind of joint, motion) contradict each other."""
-    found = []
+    warnings = []
     for case, joint in zip(cases, joints, strict=True):
         answered = list(_answered_motion(case))
         kinds = {kind for kind, _ in answered} | {_motion(joint.type)}
         if len(kinds) > 1:
-            said = ", then ".join(words for _, words in answered)
-            found.append(f"{case.name}: the answers contradict each other ({said}); it became {joint.type}: please check")
-    return tuple(found)
+            answers = ", then ".join(words for _, words in answered)
+            warnings.append(f"{case.name}: the answers contradict each other ({answers}); it became {joint.type}: please check")
+    return tuple(warnings)
 
 
 def _answered_motion(case: PartCase) -> Iterator[tuple[str, str]]:

@@ -57,9 +57,9 @@ def motion_questions(
         arounds = share_opening_directions(
             [part_context(whole, label, shapes, parent, i, config.articulation) for i in numbers]
         )
-        found = [_unscored(a, parts[i].name, parts[i].label, deadline) for i, a in zip(numbers, arounds, strict=True)]
-        for i, around, motions in zip(numbers, arounds, found, strict=True):
-            row = (m for m, a in zip(found, arounds, strict=True) if a is not around and in_a_row(around, a))
+        unscored = [_unscored(a, parts[i].name, parts[i].label, deadline) for i, a in zip(numbers, arounds, strict=True)]
+        for i, around, motions in zip(numbers, arounds, unscored, strict=True):
+            row = (m for m, a in zip(unscored, arounds, strict=True) if a is not around and in_a_row(around, a))
             yield i, parent[i], around, motions.question(tuple(itertools.islice(row, MAX_COPIES)))
 
 

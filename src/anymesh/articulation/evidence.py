@@ -43,9 +43,9 @@ def hypotheses(around: PartContext, proposed: list[tuple[str, Motion]]) -> tuple
         else _prismatic(around, role, motion, swept[k], next(guided))
         for k, (role, motion) in enumerate(proposed)
     ]
-    found = _with_overlap_ignored(around, [way for c in ahead for way in (c, reversed_(c))])
-    shares = contact_retention(around, [c.motion for c in found], [c.opening_sign for c in found])
-    return tuple(replace(c, contact_retention=float(share)) for c, share in zip(found, shares, strict=True))
+    candidates = _with_overlap_ignored(around, [way for c in ahead for way in (c, reversed_(c))])
+    shares = contact_retention(around, [c.motion for c in candidates], [c.opening_sign for c in candidates])
+    return tuple(replace(c, contact_retention=float(share)) for c, share in zip(candidates, shares, strict=True))
 
 
 def reversed_(c: Candidate) -> Candidate:
@@ -53,22 +53,26 @@ def reversed_(c: Candidate) -> Candidate:
     return replace(c, opening_sign=-c.opening_sign, opening=c.closing, closing=c.opening, outward=-c.outward)
 
 
-def _with_overlap_ignored(around: PartContext, found: list[Candidate]) -> list[Candidate]:
+def _with_overlap_ignored(around: PartContext, candidates: list[Candidate]) -> list[Candidate]:
     """Sweep blocked hinges again at the smallest penetration scale that frees each of them."""
-    found = list(found)
+    candidates = list(candidates)
     stuck = [
         k
-        for k, c in enumerate(found)
+        for k, c in enumerate(candidates)
         if c.role in RIM_ROLES and c.outward >= MIN_OUTWARD_COSINE and c.opening <= MIN_FREE_ANGLE_RAD
     ]
     for slack in PENETRATION_SCALES:
-        swept = sweep_all(around.obstacles(slack), [found[k].motion for k in stuck], around.config.sweep_steps) if stuck else []
+        swept = (
+            sweep_all(around.obstacles(slack), [candidates[k].motion for k in stuck], around.config.sweep_steps)
+            if stuck
+            else []
+        )
         for k, free in zip(list(stuck), swept, strict=True):
-            opening, closing = (free.forward, free.backward)[:: found[k].opening_sign]
+            opening, closing = (free.forward, free.backward)[:: candidates[k].opening_sign]
             if opening > MIN_FREE_ANGLE_RAD:
-                found[k] = replace(found[k], sweep=free, opening=opening, closing=closing, penetration_scale=slack)
+                candidates[k] = replace(candidates[k], sweep=free, opening=opening, closing=closing, penetration_scale=slack)
                 stuck.remove(k)
-    return found
+    return candidates
 
 
 def _revolute(

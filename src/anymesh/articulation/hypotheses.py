@@ -19,7 +19,7 @@ SAME_LINE = 0.004  # share of the object's diagonal
 
 
 def _edges(box: OrientedBox, what: str) -> list[tuple[str, Motion]]:
-    found = []
+    edges = []
     for k in range(3):
         i, j = (a for a in range(3) if a != k)
         for si in (-1, 1):
@@ -27,21 +27,21 @@ def _edges(box: OrientedBox, what: str) -> list[tuple[str, Motion]]:
                 local = np.zeros(3)
                 local[i], local[j] = si * box.half[i], sj * box.half[j]
                 origin = box.world(local[None])[0]
-                found.append(("edge", Motion(JointType.REVOLUTE, box.axes[k], origin, f"edge of {what}")))
-    return found
+                edges.append(("edge", Motion(JointType.REVOLUTE, box.axes[k], origin, f"edge of {what}")))
+    return edges
 
 
 def _edge_middles(box: OrientedBox, what: str) -> list[tuple[str, Motion]]:
     """Return the lines at half the thickness of a plate, along its four rims."""
-    found = []
+    lines = []
     for k in range(2):
         other = 1 - k
         for s in (-1, 1):
             local = np.zeros(3)
             local[other] = s * box.half[other]
             origin = box.world(local[None])[0]
-            found.append(("edge_mid", Motion(JointType.REVOLUTE, box.axes[k], origin, f"rim of {what}")))
-    return found
+            lines.append(("edge_mid", Motion(JointType.REVOLUTE, box.axes[k], origin, f"rim of {what}")))
+    return lines
 
 
 def _through(box: OrientedBox, what: str) -> list[tuple[str, Motion]]:
@@ -65,14 +65,14 @@ def _from_contact(around: PartContext) -> list[tuple[str, Motion]]:
         return []
     middle = contact.mean(0)
     _, directions = _principal(contact)
-    found = [("contact", Motion(JointType.REVOLUTE, _unit(directions[0]), middle, "line along the connecting area"))]
-    found.append(("center", Motion(JointType.REVOLUTE, _unit(directions[2]), middle, "normal of the connecting area")))
-    found.append(("pin", Motion(JointType.REVOLUTE, _unit(directions[1]), middle, "width of the connecting area")))
-    found += [
+    candidates = [("contact", Motion(JointType.REVOLUTE, _unit(directions[0]), middle, "line along the connecting area"))]
+    candidates.append(("center", Motion(JointType.REVOLUTE, _unit(directions[2]), middle, "normal of the connecting area")))
+    candidates.append(("pin", Motion(JointType.REVOLUTE, _unit(directions[1]), middle, "width of the connecting area")))
+    candidates += [
         ("contact_slide", Motion(JointType.PRISMATIC, _unit(d), middle, f"{what} of the connecting area"))
         for d, what in zip(directions, ("length", "width", "plane normal"), strict=True)
     ]
-    return found
+    return candidates
 
 
 def _unit(v: np.ndarray) -> np.ndarray:
@@ -110,40 +110,42 @@ def _two_groups(points: np.ndarray, centers: np.ndarray) -> np.ndarray:
 
 def barrels(around: PartContext) -> list[tuple[str, Motion]]:
     """Return the axes of small cylinders near part and parent: hinge barrels and pins."""
-    found = []
+    axes = []
     for piece in around.barrel_candidates:
         seen = outline_about(np.concatenate([piece.corners, piece.samples.points]), piece.box.axes[0])
         if seen.roundness > 0.85 and seen.height > 2 * seen.radius:
-            found.append(("barrel", Motion(JointType.REVOLUTE, _unit(seen.axis), seen.center, "axis of a hinge barrel")))
-    return found
+            axes.append(("barrel", Motion(JointType.REVOLUTE, _unit(seen.axis), seen.center, "axis of a hinge barrel")))
+    return axes
 
 
 def propose(around: PartContext) -> list[tuple[str, Motion]]:
     """Propose all candidate motions of a part with their roles, without near-duplicates, in a fixed order."""
     core, box = around.body_obb, around.part.box
-    found = _edges(core, "the part") + _edge_middles(core, "the part") + _through(core, "the part")
-    found += _box_directions(core, "the part")
-    found[:0] = barrels(around)
+    candidates = _edges(core, "the part") + _edge_middles(core, "the part") + _through(core, "the part")
+    candidates += _box_directions(core, "the part")
+    candidates[:0] = barrels(around)
     outline = around.outline
     if outline.roundness > 0.5:
-        found.insert(0, ("round", Motion(JointType.REVOLUTE, _unit(outline.axis), outline.center, "axis of its round outline")))
+        candidates.insert(
+            0, ("round", Motion(JointType.REVOLUTE, _unit(outline.axis), outline.center, "axis of its round outline"))
+        )
     line = two_pivot_line(around)
     if line is not None:
-        found.insert(0, ("two_pivot", line))
+        candidates.insert(0, ("two_pivot", line))
     if not np.allclose(box.half, core.half, rtol=0.02):
-        found += _edges(box, "the part's outer box")
-    found += _box_directions(OrientedBox(box.center, np.eye(3), box.half), "the object")
-    found += _from_contact(around)
-    return distinct(found, around.scale)
+        candidates += _edges(box, "the part's outer box")
+    candidates += _box_directions(OrientedBox(box.center, np.eye(3), box.half), "the object")
+    candidates += _from_contact(around)
+    return distinct(candidates, around.scale)
 
 
-def distinct(found: list[tuple[str, Motion]], diagonal: float) -> list[tuple[str, Motion]]:
+def distinct(candidates: list[tuple[str, Motion]], diagonal: float) -> list[tuple[str, Motion]]:
     """Return the motions without near-duplicates of earlier ones.
 
     diagonal: reference length of the tolerances [m].
     """
     kept: list[tuple[str, Motion]] = []
-    for role, motion in found:
+    for role, motion in candidates:
         if not any(_same(motion, other, diagonal) for _, other in kept):
             kept.append((role, motion))
     return kept

@@ -198,12 +198,12 @@ def _crowding(first: list[int], values: list[float]) -> list[bool]:
 
     first: for each motion the first one that it is similar to; values: plausibility of each.
     """
-    found = []
+    crowded = []
     for k, head in enumerate(first):
-        kin = [n for n in range(k) if first[n] == head and not found[n]]
+        kin = [n for n in range(k) if first[n] == head and not crowded[n]]
         best = max((values[n] for n in kin), default=-np.inf)
-        found.append(bool(kin) and (len(kin) >= MAX_SIMILAR or values[k] < best - MAX_SIMILAR_LOSS))
-    return found
+        crowded.append(bool(kin) and (len(kin) >= MAX_SIMILAR or values[k] < best - MAX_SIMILAR_LOSS))
+    return crowded
 
 
 def _off_part(case: PartCase, c: Candidate) -> bool:

@@ -24,7 +24,7 @@ MIN_POINTS = 24  # minimum number of points of a contact ring
 
 def round_patches(whole: ObjectShape, part: TriangleSet, parent: TriangleSet) -> tuple[Motion, ...]:
     """Return the axes of round patches of a part, and of round patches of its parent that it encloses or sits on (pins)."""
-    found: list[tuple[float, Motion]] = []
+    circles: list[tuple[float, Motion]] = []
     low, high = part.bounds
     for own, shape in ((True, part), (False, parent)):
         numbers, count = np.unique(whole.patch[shape.faces], return_counts=True)
@@ -41,9 +41,9 @@ def round_patches(whole: ObjectShape, part: TriangleSet, parent: TriangleSet) ->
                 outlines = [outline_about(points, axis) for axis in piece.box.axes]
                 best = max(outlines, key=lambda o: o.roundness)
                 if best.roundness > MIN_ROUNDNESS:
-                    found.append((best.radius, _revolute(best.axis, best.center, "axis of a round piece")))
-    found.sort(key=lambda item: -item[0])
-    return tuple(motion for _, motion in found[:MAX_CIRCLES])
+                    circles.append((best.radius, _revolute(best.axis, best.center, "axis of a round piece")))
+    circles.sort(key=lambda item: -item[0])
+    return tuple(motion for _, motion in circles[:MAX_CIRCLES])
 
 
 def pivots(around: PartContext, normal: Float[np.ndarray, " 3"]) -> list[tuple[str, Motion]]:
@@ -57,15 +57,15 @@ def pivots(around: PartContext, normal: Float[np.ndarray, " 3"]) -> list[tuple[s
     for d in (normal, around.opening_direction, *around.body_obb.axes):
         if all(abs(float(d @ other)) < SAME_DIRECTION for other in directions):
             directions.append(d)
-    found = []
+    lines = []
     if len(contact) >= MIN_POINTS:
         rings = [outline_about(contact, d) for d in directions]
         best = max(rings, key=lambda o: o.roundness)
         if best.roundness > MIN_ROUNDNESS:
-            found.append(("hub", _revolute(best.axis, best.center, "axis of the ring where it is held")))
-    found += [("pivot", _revolute(d, middle, "line through the middle of the contact")) for d in directions]
-    found.append(("pivot", _revolute(normal, around.body_obb.center, "middle line along the contact's normal")))
-    return found
+            lines.append(("hub", _revolute(best.axis, best.center, "axis of the ring where it is held")))
+    lines += [("pivot", _revolute(d, middle, "line through the middle of the contact")) for d in directions]
+    lines.append(("pivot", _revolute(normal, around.body_obb.center, "middle line along the contact's normal")))
+    return lines
 
 
 def _revolute(axis: Float[np.ndarray, " 3"], origin: Float[np.ndarray, " 3"], source: str) -> Motion:

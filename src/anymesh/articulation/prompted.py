@@ -104,17 +104,17 @@ def prompt_joints(
     shape_of: prepares the object for these parts; reground: grounds parts again, once, that the answers call too much or too
     little, with the same names in the same order. Only these parts are asked about again. None keeps the parts.
     """
-    found = _ask(questions, shape_of, labels_by_name(segmentation, questions.labels), fits=reground is not None)
-    wrong = found.wrong()
+    chosen_motions = _ask(questions, shape_of, labels_by_name(segmentation, questions.labels), fits=reground is not None)
+    wrong = chosen_motions.wrong()
     again = reground(wrong) if reground is not None and wrong else None
     if again is not None:
-        found = found.with_changed(_ask(questions, shape_of, again, fits=False, only=set(wrong)))
+        chosen_motions = chosen_motions.with_changed(_ask(questions, shape_of, again, fits=False, only=set(wrong)))
     questions.progress("joints", "limits", 3, 4)
-    sure = confidences({n: choice.agreement for n, choice in found.chosen.items()})
+    sure = confidences({n: choice.agreement for n, choice in chosen_motions.chosen.items()})
     verify = questions.config.verify
-    joints = tuple(_joint(c, found.chosen[c.number], sure[c.number], verify) for c in found.cases)
-    agreements = tuple(found.chosen[c.number].agreement for c in found.cases)
-    return PromptedJoints(joints, found.segmentation, contradictions(found.cases, joints), agreements)
+    joints = tuple(_joint(c, chosen_motions.chosen[c.number], sure[c.number], verify) for c in chosen_motions.cases)
+    agreements = tuple(chosen_motions.chosen[c.number].agreement for c in chosen_motions.cases)
+    return PromptedJoints(joints, chosen_motions.segmentation, contradictions(chosen_motions.cases, joints), agreements)
 
 
 def _ask(
@@ -172,12 +172,12 @@ def _hinges(questions: Questions, cases: list[PartCase], whole: ObjectShape, seg
         lambda c, title: shots[c.number].with_points(tables[c.number].points, title, tables[c.number].hidden),
         lambda p, some: WhichPoints(p, tuple(tables[c.number] for c in some), questions.category),
     )
-    found = {}
+    hinges = {}
     for case in turning:
         table, rows = tables[case.number], list(picks[case.number])
         axis = None if table.axes is None else table.axes[rows[0]]
-        found[case.number] = hinge(table.points[rows], case.shown.normal, axis)
-    return found
+        hinges[case.number] = hinge(table.points[rows], case.shown.normal, axis)
+    return hinges
 
 
 def _points(questions: Questions, case: PartCase, shot: Shot, whole: ObjectShape) -> PointTable:

@@ -15,15 +15,15 @@ def labels_by_name(segmentation: Segmentation, labels: Sequence[str]) -> Segment
     Names are only compared here and never shown to an answerer. Of several labels, the one whose last word comes last in the
     name is used.
     """
-    found = {}
+    new_label = {}
     for number, part in enumerate(segmentation.parts[1:], start=1):
         if part.label not in labels:
             name = words_of(part.name)
             places = {label: _last_place(name, words_of(label)) for label in labels}
             best = max(places, key=lambda label: (places[label], len(label)), default=None)
             if best is not None and places[best] >= 0:
-                found[number] = best
-    return relabelled(segmentation, found, labels)
+                new_label[number] = best
+    return relabelled(segmentation, new_label, labels)
 
 
 def relabelled(segmentation: Segmentation, answered: Mapping[int, str], labels: Sequence[str]) -> Segmentation:

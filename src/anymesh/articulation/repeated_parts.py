@@ -25,11 +25,11 @@ def same_size(shapes: Sequence[TriangleSet], parent: Sequence[int]) -> list[list
     groups: list[list[int]] = []
     boxes = [body_obb(shape) for shape in shapes]
     for i in range(1, len(shapes)):
-        found = next((g for g in groups if parent[g[0]] == parent[i] and same_box(boxes[g[0]], boxes[i])), None)
-        if found is None:
+        group = next((g for g in groups if parent[g[0]] == parent[i] and same_box(boxes[g[0]], boxes[i])), None)
+        if group is None:
             groups.append([i])
         else:
-            found.append(i)
+            group.append(i)
     return groups
 
 

@@ -32,10 +32,10 @@ def opening_slide(case: PartCase) -> Motion:
     outward = around.opening_direction
     directions = [s * a for a in around.body_obb.axes for s in (1.0, -1.0) if s * a @ outward > 0.5] + [outward]
     ways = [normal_outwards(case)] + [prismatic(d, around, "free way out") for d in directions]
-    found = hypotheses(around, [("asked", way) for way in ways])[::2]
-    if found[0].is_free and found[0].outward > 0.7 and found[0].guided > MIN_GUIDED_SHARE:
+    candidates = hypotheses(around, [("asked", way) for way in ways])[::2]
+    if candidates[0].is_free and candidates[0].outward > 0.7 and candidates[0].guided > MIN_GUIDED_SHARE:
         return ways[0]
-    return ways[max(range(1, len(ways)), key=lambda k: (found[k].guided, found[k].opening, -k))]
+    return ways[max(range(1, len(ways)), key=lambda k: (candidates[k].guided, candidates[k].opening, -k))]
 
 
 def as_answered(case: PartCase) -> Choice:

@@ -52,7 +52,7 @@ def _answered_parents(shapes: list[TriangleSet], answered: Sequence[set[int]], r
     Parts that name each other, such as the arms of a lamp, form a chain. Those that touch a part outside of it come first, then
     those that touch them. All other parts take the nearest part that they name.
     """
-    found: dict[int, int] = {}
+    parent: dict[int, int] = {}
     placed = {j for j in range(len(shapes)) if j == 0 or not answered[j]}
     while True:
         ready = {}
@@ -63,8 +63,8 @@ def _answered_parents(shapes: list[TriangleSet], answered: Sequence[set[int]], r
                 if nearest is not None or not chain:
                     ready[i] = nearest
         if not ready:
-            return found
-        found |= {i: j for i, j in ready.items() if j is not None}
+            return parent
+        parent |= {i: j for i, j in ready.items() if j is not None}
         placed |= ready.keys()
 
 
@@ -94,11 +94,11 @@ def _without_circles(parent: list[int]) -> list[int]:
 
 def descendants(parent: list[int], i: int) -> list[int]:
     """Return all descendants of part i."""
-    found: list[int] = []
+    parts: list[int] = []
     for j in range(len(parent)):
         at = parent[j]
         while at > 0 and at != i:
             at = parent[at]
         if at == i and j != i:
-            found.append(j)
-    return found
+            parts.append(j)
+    return parts

@@ -82,8 +82,8 @@ def choose_motions(cases: list[PartCase], asking: MotionQuestioner, max_motions:
     max_motions: motions in a picture; seed: of the order in the pictures.
     """
     offers = {c.number: make_offers(c, max_motions, seed) for c in cases}
-    found = {n: _without_choice(o) for n, o in offers.items() if not _needs_question(o)}
-    shown = {n: o.first for n, o in offers.items() if n not in found}
+    choices = {n: _without_choice(o) for n, o in offers.items() if not _needs_question(o)}
+    shown = {n: o.first for n, o in offers.items() if n not in choices}
     picks = asking.picks(offers, shown)
     fit = {n: pick.part for n, pick in picks.items()}
     asking = replace(asking, ask_fit=False)  # ask about the fit only once
@@ -95,8 +95,8 @@ def choose_motions(cases: list[PartCase], asking: MotionQuestioner, max_motions:
         motion = pick.motion
         if n in again and again[n].motion != motion:
             motion = offers[n].answered
-        found[n] = _chosen(offers[n], motion, doubted=n in again, later=n in later, fit=fit[n])
-    return found
+        choices[n] = _chosen(offers[n], motion, doubted=n in again, later=n in later, fit=fit[n])
+    return choices
 
 
 def _needs_question(o: MotionOffers) -> bool:

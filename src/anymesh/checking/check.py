@@ -80,8 +80,8 @@ def _still(content: Content) -> Iterator[Finding]:
         yield from _or_ok("direction", [*check_direction(content)], "no joint drives its link into its parent")
 
 
-def _or_ok(check: str, found: list[Finding], text: str) -> Iterator[Finding]:
-    yield from found or [Finding(check, Severity.OK, "", text)]
+def _or_ok(check: str, findings: list[Finding], text: str) -> Iterator[Finding]:
+    yield from findings or [Finding(check, Severity.OK, "", text)]
 
 
 def _masses(robot: Robot) -> str:

@@ -56,11 +56,11 @@ class Content:
 
     def at_rest(self, links: frozenset[str]) -> Float[np.ndarray, "F 3 3"]:
         """Return the surface of several links in the root's frame [m]."""
-        found = [np.zeros((0, 3, 3))]
+        triangles = [np.zeros((0, 3, 3))]
         for link in sorted(links):
             T = self.places[link]
-            found.append(self.shown(link) @ T[:3, :3].T + T[:3, 3])
-        return np.concatenate(found)
+            triangles.append(self.shown(link) @ T[:3, :3].T + T[:3, 3])
+        return np.concatenate(triangles)
 
     @cached_property
     def diagonal(self) -> float:
@@ -82,13 +82,13 @@ def read_content(robot: Robot) -> Content:
         if shape.file is None:
             return Solid(shape.kind, shape_triangles(shape))
         if shape.file not in known:
-            found = find_file(shape.file, folder)
+            mesh_path = find_file(shape.file, folder)
             try:
-                known[shape.file] = None if found is None else _read(found, folder)
+                known[shape.file] = None if mesh_path is None else _read(mesh_path, folder)
             except InputError as error:
                 known[shape.file] = None
                 unread.append((link, str(error)))
-            if found is None:
+            if mesh_path is None:
                 missing.append((link, shape.file))
         content = known[shape.file]
         if content is None:

@@ -42,10 +42,10 @@ def _shape(triangles: np.ndarray) -> TriangleSet:
     """Convert triangles to a set for sweeps, with outward normals where closed."""
     triangles = simplify(triangles, FACES)
     corners = triangles.reshape(-1, 3)
-    found = components(corners, np.arange(len(corners)).reshape(-1, 3))
+    surface_components = components(corners, np.arange(len(corners)).reshape(-1, 3))
     normals = normals_and_areas(triangles)[0]
-    normals = np.where(found.flip[found.label][:, None], -normals, normals)
-    return TriangleSet(triangles, normals, found.solid[found.label], np.arange(len(triangles)))
+    normals = np.where(surface_components.flip[surface_components.label][:, None], -normals, normals)
+    return TriangleSet(triangles, normals, surface_components.solid[surface_components.label], np.arange(len(triangles)))
 
 
 def _ways(content: Content, joint: RobotJoint, part: TriangleSet, rest: TriangleSet) -> Iterator[Finding]:

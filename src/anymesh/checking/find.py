@@ -42,12 +42,12 @@ def kind_of(path: Path) -> str | None:
     if path.suffix.lower() == URDF:
         return URDF
     try:
-        found = OPENING.search(path.read_bytes()[:100_000])
+        match = OPENING.search(path.read_bytes()[:100_000])
     except OSError:
         return None
-    if found is None:
+    if match is None:
         return None
-    return URDF if found[1] == b"robot" else MJCF
+    return URDF if match[1] == b"robot" else MJCF
 
 
 def _named(folder: Path) -> Path | None:
@@ -55,5 +55,5 @@ def _named(folder: Path) -> Path | None:
         name = json.loads((folder / "asset.json").read_text(encoding="utf-8"))["name"]
     except (OSError, ValueError, KeyError, TypeError):
         return None
-    found = folder / f"{name}{URDF}"
-    return found if found.is_file() else None
+    urdf = folder / f"{name}{URDF}"
+    return urdf if urdf.is_file() else None

@@ -19,7 +19,7 @@ def rigid_groups(robot: Robot) -> dict[str, frozenset[str]]:
 def joined(robot: Robot) -> frozenset[frozenset[str]]:
     """Return the pairs of links that are in the same rigid group, or whose groups are connected by a joint."""
     group = rigid_groups(robot)
-    found = {frozenset((a, b)) for names in group.values() for a in names for b in names}
+    pairs = {frozenset((a, b)) for names in group.values() for a in names for b in names}
     for joint in robot.joints:
-        found |= {frozenset((a, b)) for a in group[joint.parent] for b in group[joint.child]}
-    return frozenset(found)
+        pairs |= {frozenset((a, b)) for a in group[joint.parent] for b in group[joint.child]}
+    return frozenset(pairs)

@@ -36,9 +36,9 @@ def check_inertia(content: Content) -> Iterator[Finding]:
         if inertial.mass == 0 and (link.name not in moved or sum(masses.get(n, 0) for n in groups[link.name]) > 0):
             yield warning(CHECK, link.name, "its mass is 0 kg; engines that take links by themselves need one above 0")
             continue
-        found = tuple(_possible(link.name, inertial))
-        yield from found
-        if not found:
+        findings = tuple(_possible(link.name, inertial))
+        yield from findings
+        if not findings:
             yield from _fitting(content, link, inertial)
     yield from _placeholder(content, given)
 

@@ -54,8 +54,8 @@ def closed_share(solid: Solid) -> float:
     if solid.mesh is None or not np.isfinite(triangles).all():
         return 1.0
     areas = normals_and_areas(triangles)[1]
-    found = components(solid.mesh.vertices, solid.mesh.faces)
-    return float(areas[found.solid[found.label]].sum() / max(areas.sum(), 1e-300))
+    surface_components = components(solid.mesh.vertices, solid.mesh.faces)
+    return float(areas[surface_components.solid[surface_components.label]].sum() / max(areas.sum(), 1e-300))
 
 
 def _closed(content: Content, link: str) -> Iterator[Finding]:

@@ -39,12 +39,12 @@ def check_asset_json(path: Path, robot: Robot) -> Iterator[Finding]:
 
 
 def _agreement(record: dict[str, Any], robot: Robot) -> Iterator[Finding]:
-    for word, recorded, found in (
+    for word, recorded, described in (
         ("parts", {p["name"] for p in record["parts"]}, {link.name for link in robot.links}),
         ("joints", {j["name"] for j in record["joints"] if j["type"] != FIXED}, {j.name for j in robot.moving}),
     ):
-        if recorded != found:
-            yield failure(CHECK, NAME, f"its {word} {sorted(recorded)} are not those of {robot.path.name}: {sorted(found)}")
+        if recorded != described:
+            yield failure(CHECK, NAME, f"its {word} {sorted(recorded)} are not those of {robot.path.name}: {sorted(described)}")
     limits = {j.name: j.limits for j in robot.joints}
     for joint in record["joints"]:
         other = limits.get(joint["name"])

@@ -28,10 +28,10 @@ def check_texture(content: Content, *, ours: bool) -> Iterator[Finding]:
             yield failure(CHECK, link.name, text) if ours else warning(CHECK, link.name, text)
     folder = content.robot.path.parent
     for reference in content.robot.pictures:
-        found = find_file(reference, folder)
-        if found is None:
+        picture = find_file(reference, folder)
+        if picture is None:
             yield failure(CHECK, "", f"the picture {reference} is not there")
-        elif (broken := _broken(found)) is not None:
+        elif (broken := _broken(picture)) is not None:
             yield failure(CHECK, "", f"the picture {reference} cannot be read: {broken}")
     if ours:
         yield from _unused(folder / MESHES)

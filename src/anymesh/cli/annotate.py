@@ -103,23 +103,25 @@ def _run(source: str, out: Path, speed: Speed, again: bool, options: dict[str, A
     from anymesh.applications.annotate.annotate import annotate as run
 
     with ended_by_signal(), Live(json_ or quiet) as live:
-        found = run(source, out, speed=speed, again=again, tell=live.tell, **options)
-    ended = found.ended
+        annotated = run(source, out, speed=speed, again=again, on_tally=live.show, **options)
+    ended = annotated.ended
     if json_:
         why = None if ended is None else {"kind": ended.error_class, "error": ended.error}
-        typer.echo(json.dumps({"out": str(out), "report": str(found.report), "ended": why, **asdict(found.found)}, indent=2))
+        typer.echo(
+            json.dumps({"out": str(out), "report": str(annotated.report), "ended": why, **asdict(annotated.found)}, indent=2)
+        )
     elif not quiet:
-        typer.echo(plain(found.found.words()))
-        typer.echo(plain(f"wrote {found.report}"))
+        typer.echo(plain(annotated.found.words()))
+        typer.echo(plain(f"wrote {annotated.report}"))
     if ended is not None:
         if not json_:
             typer.echo(
                 plain(f"error: ended early, {ended.error_class}: {ended.error}; run the same command again to resume"), err=True
             )
         raise typer.Exit(ended.exit_code)
-    if found.found.counts["waiting"]:
+    if annotated.found.counts["waiting"]:
         raise typer.Exit(OpenQuestionError.exit_code)
-    if found.found.counts["quarantined"]:
+    if annotated.found.counts["quarantined"]:
         raise typer.Exit(InputError.exit_code)
 
 
@@ -127,8 +129,8 @@ def _tell_status(out: Path, export: Path | None, json_: bool) -> None:
     from anymesh.applications.annotate.annotate import collection_status, export_ledger
     from anymesh.applications.annotate.ledger import Ledger
 
-    found = collection_status(out)
-    typer.echo(json.dumps({"out": str(out), **asdict(found)}, indent=2) if json_ else plain(found.words()))
+    tally = collection_status(out)
+    typer.echo(json.dumps({"out": str(out), **asdict(tally)}, indent=2) if json_ else plain(tally.words()))
     if export is not None:
         with Ledger.open(out) as ledger:
             export_ledger(ledger, export)
@@ -137,8 +139,8 @@ def _tell_status(out: Path, export: Path | None, json_: bool) -> None:
 def _tell_estimate(source: str, count: int, speed: Speed, options: dict[str, Any], json_: bool) -> None:
     from anymesh.applications.annotate.estimate import estimate
 
-    found = estimate(source, count, speed=speed, **options)
-    lines = [json.dumps(asdict(found), indent=2)] if json_ else [plain(line) for line in found.words().splitlines()]
+    estimated = estimate(source, count, speed=speed, **options)
+    lines = [json.dumps(asdict(estimated), indent=2)] if json_ else [plain(line) for line in estimated.words().splitlines()]
     typer.echo("\n".join(lines))
 
 
@@ -158,15 +160,15 @@ class Live:
             self._status.start()
         return self
 
-    def tell(self, found: Tally) -> None:
+    def show(self, tally: Tally) -> None:
         """Show the progress of the collection."""
         import time
 
         if self._status is not None:
-            self._status.update(plain(found.words()))
+            self._status.update(plain(tally.words()))
         elif not self._hidden and time.monotonic() - self._last >= self.EVERY:
             self._last = time.monotonic()
-            typer.echo(plain(found.words()), err=True)
+            typer.echo(plain(tally.words()), err=True)
 
     def __exit__(self, *_: object) -> None:
         if self._status is not None:

@@ -58,11 +58,11 @@ def answer(
         elif not quiet:
             typer.echo(plain(saved.words()))
         return
-    found = open_in(folder)
+    questions = open_in(folder)
     if json_:
-        typer.echo(json.dumps({"open": [question_record(q) for q in found]}, indent=2))
-    elif found:
-        typer.echo(_shown(found))
+        typer.echo(json.dumps({"open": [question_record(q) for q in questions]}, indent=2))
+    elif questions:
+        typer.echo(_shown(questions))
     else:
         typer.echo("no question is open; run the command that asks them again to resume")
 
@@ -96,11 +96,11 @@ def question_record(question: QuestionFolder) -> dict[str, Any]:
     }
 
 
-def _shown(found: list[QuestionFolder]) -> str:
+def _shown(questions: list[QuestionFolder]) -> str:
     from anymesh.vlm.question_files import SHEET
     from anymesh.vlm.question_words import example_answer, explain_schema
 
-    first, record = found[0], found[0].record
+    first, record = questions[0], questions[0].record
     lines = [f"{first.path}: {first.kind}", "", record["text"], ""]
     if record["pictures"]:
         lines.append(f"all pictures: {first.path / SHEET}")
@@ -108,7 +108,7 @@ def _shown(found: list[QuestionFolder]) -> str:
     lines += ["", "answer: one JSON object with", explain_schema(first.schema), ""]
     lines.append(f"for example, in form only: {json.dumps(example_answer(first.schema))}")
     lines += [first.refusal() or ""] * (first.refusal() is not None)
-    lines += [f"also open: {q.path}" for q in found[1:]]
+    lines += [f"also open: {q.path}" for q in questions[1:]]
     return "\n".join(plain(line) for text in lines for line in text.split("\n"))
 
 

@@ -9,7 +9,7 @@ import typer
 
 from anymesh.cli.from_options import with_options
 from anymesh.cli.options import Answering, Formats, Json, Out, Parts, Placement, Quiet, Running
-from anymesh.cli.output import Shown, chosen_answerer, plain, tell, tell_asset
+from anymesh.cli.output import Shown, chosen_answerer, plain, print_asset, print_result
 from anymesh.errors import AnymeshError, OpenQuestionError, OptionError
 from anymesh.isolation import AHEAD, shared_pool
 
@@ -48,7 +48,7 @@ def articulate(
         raise OptionError(f"found {len(mesh)} meshes; several need --batch")
     with Shown(quiet or json_) as progress:
         asset = pipeline.articulate(mesh[0], out, progress=progress, **options)
-    tell_asset(asset, out, json_, quiet)
+    print_asset(asset, out, json_, quiet)
 
 
 def _articulate_many(meshes: list[Path], out: Path, options: dict[str, Any], json_: bool, quiet: bool) -> None:
@@ -59,7 +59,7 @@ def _articulate_many(meshes: list[Path], out: Path, options: dict[str, Any], jso
     rows = [{"mesh": str(o.mesh), "out": str(o.out), "state": o.state, "note": plain(_note(o.error))} for o in outcomes]
     waiting = [o.error for o in outcomes if isinstance(o.error, OpenQuestionError)]
     questions = [str(folder) for error in waiting for folder in error.folders]
-    tell({"out": str(out), "objects": rows, "questions": questions}, rows, ("mesh", "state", "note"), json_, quiet)
+    print_result({"out": str(out), "objects": rows, "questions": questions}, rows, ("mesh", "state", "note"), json_, quiet)
     if questions and not (json_ or quiet):
         answers = str(options["answerer"]).removeprefix("files:")
         typer.echo(f"{len(questions)} open questions; `anymesh answer {answers}` shows them; then run the same command again")

@@ -10,7 +10,7 @@ import typer
 
 from anymesh.cli.from_options import OptionsOf, with_options
 from anymesh.cli.options import Json, Quiet
-from anymesh.cli.output import Shown, tell
+from anymesh.cli.output import Shown, print_result
 from anymesh.pipeline.options import AnswererOptions
 
 DatasetName = Annotated[
@@ -89,7 +89,7 @@ def evaluate(
     rows = [dict(zip(("change", *table.head[1:]), (cell.text for cell in row), strict=True)) for row in table.rows]
     head = tuple(name for name in SHOWN if name in ("change", *table.head))
     results = {name: asdict(summarize(some)) for name, some in groups}
-    tell({"out": str(out), "results": results}, rows, head, json_, quiet)
+    print_result({"out": str(out), "results": results}, rows, head, json_, quiet)
     if not (json_ or quiet):
         typer.echo(f"wrote {out / 'report.html'}, report.md, worst.png and joints.jsonl")
 
@@ -102,7 +102,7 @@ def _interaction(assets: str, out: Path, only: tuple[str, ...], seed: int, force
     shares = summary(rows)
     head = ("joints", "count", "interaction", "executable", "both")
     shown = [{"joints": name, "count": int(s["joints"]), **{k: f"{s[k]:.3f}" for k in head[2:]}} for name, s in shares.items()]
-    tell({"out": str(out), "results": shares, "joints": [asdict(r) for r in rows]}, shown, head, json_, quiet)
+    print_result({"out": str(out), "results": shares, "joints": [asdict(r) for r in rows]}, shown, head, json_, quiet)
     if not (json_ or quiet):
         typer.echo(f"wrote {out / 'report.md'}")
 

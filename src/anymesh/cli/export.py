@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from anymesh.cli.from_options import with_options
 from anymesh.cli.options import Folder, Formats, Json, Package, Quiet, Time, Zip
-from anymesh.cli.output import Shown, tell_asset
+from anymesh.cli.output import Shown, print_asset
 
 
 @with_options
@@ -23,4 +23,4 @@ def export(
 
     with Shown(quiet or json_) as progress:
         asset = pipeline.export_asset(folder, package=package, archive=zip_, progress=progress, **writing, **time)
-    tell_asset(asset, folder, json_, quiet)
+    print_asset(asset, folder, json_, quiet)

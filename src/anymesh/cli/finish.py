@@ -9,7 +9,7 @@ import typer
 
 from anymesh.cli.from_options import with_options
 from anymesh.cli.options import Completion, Formats, Json, MaxCalls, Out, Quiet, Running
-from anymesh.cli.output import Shown, tell_asset
+from anymesh.cli.output import Shown, print_asset
 
 Asset = Annotated[Path, typer.Argument(metavar="DIR", help="An output of `anymesh articulate`.")]
 
@@ -31,4 +31,4 @@ def finish(
 
     with Shown(quiet or json_) as progress:
         asset = pipeline.finish(folder, out, max_calls=max_calls, progress=progress, **completion, **writing, **running)
-    tell_asset(asset, out, json_, quiet)
+    print_asset(asset, out, json_, quiet)

@@ -41,18 +41,18 @@ class OptionsOf:
 
     def values(self, given: dict[str, Any]) -> dict[str, Any]:
         """Take the values of these options out of a command's arguments."""
-        found = {}
+        options = {}
         for f in command_fields(self.kind):
             if f.name in given:
                 value = given.pop(f.name)
-                found[f.name] = tuple(v for v in value.split(",") if v.strip()) if f.metadata[KIND] is tuple else value
-        return found
+                options[f.name] = tuple(v for v in value.split(",") if v.strip()) if f.metadata[KIND] is tuple else value
+        return options
 
 
 def option_of(kind: type, name: str) -> Any:
     """Return the option of one field, for a command that has no other field of the class."""
-    found = next(f for f in command_fields(kind) if f.name == name)
-    return _typer_option(found)
+    option_field = next(f for f in command_fields(kind) if f.name == name)
+    return _typer_option(option_field)
 
 
 def _typer_option(f: Field[Any], text: str | None = None, flags: tuple[str, ...] | None = None) -> Any:
@@ -73,8 +73,8 @@ def with_options(function: Callable[..., None]) -> Callable[..., None]:
 
     @wraps(function)
     def command(**given: Any) -> None:
-        found = {name: of.values(given) for name, of in classes.items()}
-        function(**given, **found)
+        options = {name: of.values(given) for name, of in classes.items()}
+        function(**given, **options)
 
     command.__signature__ = inspect.Signature(parameters)  # ty: ignore[missing-attribute]
     command.__annotations__ = {p.name: p.annotation for p in parameters}

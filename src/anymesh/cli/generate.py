@@ -11,7 +11,7 @@ import typer
 
 from anymesh.cli.from_options import OptionsOf, with_options
 from anymesh.cli.options import Completion, Formats, Json, Out, Placement, Quiet, Running
-from anymesh.cli.output import Shown, chosen_answerer, ended_by_signal, plain, tell_asset
+from anymesh.cli.output import Shown, chosen_answerer, ended_by_signal, plain, print_asset
 from anymesh.pipeline.options import AnswererOptions
 
 if TYPE_CHECKING:
@@ -68,12 +68,12 @@ def generate(
         "regenerate": regenerate, **answering, **placement, **completion, **writing, **running,
     }  # fmt: skip
     if dry_run:
-        _tell(explain_generation(prompt, out, answerer=answerer, **options), json_)
+        _print_explanation(explain_generation(prompt, out, answerer=answerer, **options), json_)
         return
     options["answerer"] = chosen_answerer(answerer, quiet or json_)
     with ended_by_signal(), Shown(quiet or json_) as progress:
         asset = run(prompt, out, progress=progress, **options)
-    tell_asset(asset, out, json_, quiet)
+    print_asset(asset, out, json_, quiet)
     if not (json_ or quiet):
         from anymesh.applications.generate.record import read_record
 
@@ -81,14 +81,14 @@ def generate(
         typer.echo(f"generation.json: {len(record.get('tasks', ()))} paid tasks, {record.get('credits', 0):g} credits in all")
 
 
-def _tell(found: Explanation, json_: bool) -> None:
+def _print_explanation(explanation: Explanation, json_: bool) -> None:
     if json_:
-        typer.echo(json.dumps({**asdict(found), "credits": found.credits}, indent=2))
+        typer.echo(json.dumps({**asdict(explanation), "credits": explanation.credits}, indent=2))
         return
-    for number, step in enumerate(found.steps, start=1):
+    for number, step in enumerate(explanation.steps, start=1):
         cost = f" - about {step.credits:g} credits ({step.source})" if step.credits else ""
         typer.echo(plain(f"{number}. {step.what}{cost}"))
-    typer.echo(plain(f"size: {found.size}"))
-    for warning in found.warnings:
+    typer.echo(plain(f"size: {explanation.size}"))
+    for warning in explanation.warnings:
         typer.echo(plain(f"warning: {warning}"))
-    typer.echo(f"in all about {found.credits:g} credits; nothing was sent, paid or written")
+    typer.echo(f"in all about {explanation.credits:g} credits; nothing was sent, paid or written")

@@ -6,7 +6,7 @@ from typing import Annotated, Any
 
 from anymesh.cli.from_options import OptionsOf, with_options
 from anymesh.cli.options import Folder, Json, Quiet, Time
-from anymesh.cli.output import JOINT_COLUMNS, Shown, chosen_answerer, joint_row, tell
+from anymesh.cli.output import JOINT_COLUMNS, Shown, chosen_answerer, joint_row, print_result
 from anymesh.pipeline.options import AnswererOptions
 
 
@@ -24,6 +24,6 @@ def joints(
 
     answering["answerer"] = chosen_answerer(answering["answerer"], quiet or json_)
     with Shown(quiet or json_) as progress:
-        found = pipeline.joints(folder, progress=progress, **time, **answering)
-    rows = [joint_row(j) for j in found]
-    tell({"out": str(folder), "joints": rows}, rows, JOINT_COLUMNS, json_, quiet)
+        estimated_joints = pipeline.joints(folder, progress=progress, **time, **answering)
+    rows = [joint_row(j) for j in estimated_joints]
+    print_result({"out": str(folder), "joints": rows}, rows, JOINT_COLUMNS, json_, quiet)

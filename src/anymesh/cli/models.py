@@ -17,8 +17,8 @@ def models(json_: Json = False) -> None:
     from anymesh.vlm.address import KEYS
     from anymesh.vlm.servers import SERVERS, first_vision_model, probe_servers
 
-    found = probe_servers()
-    chosen = first_vision_model(found)
+    probes = probe_servers()
+    chosen = first_vision_model(probes)
     keys = [
         {"provider": provider, "variable": name, "set": bool(os.environ.get(name, "").strip())}
         for provider, names in KEYS.items()
@@ -33,7 +33,7 @@ def models(json_: Json = False) -> None:
                 "note": f.note,
                 "models": [{"name": m.name, "takes_pictures": m.takes_pictures} for m in f.models or ()],
             }
-            for f in found
+            for f in probes
         ],
         "keys": keys,
         "auto": "geometry" if chosen is None else chosen.name,
@@ -42,7 +42,7 @@ def models(json_: Json = False) -> None:
         typer.echo(json.dumps(record, indent=2))
         return
     words = {True: "takes pictures", False: "text only", None: "support for pictures is not known"}
-    for f in found:
+    for f in probes:
         typer.echo(plain(f"{f.server} at {f.url or 'no address'}: {f.note or f'{len(f.models or ())} models'}"))
         for m in f.models or ():
             typer.echo(plain(f"  {m.name}  ({words[m.takes_pictures]})"))

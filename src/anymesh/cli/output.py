@@ -38,7 +38,7 @@ def joint_row(joint: Joint) -> dict[str, Any]:
     }
 
 
-def tell_asset(asset: Asset, out: Path, json_: bool, quiet: bool) -> None:
+def print_asset(asset: Asset, out: Path, json_: bool, quiet: bool) -> None:
     from anymesh.export.asset_json import usage
 
     rows = [joint_row(j) for j in asset.joints]
@@ -58,7 +58,7 @@ def tell_asset(asset: Asset, out: Path, json_: bool, quiet: bool) -> None:
     if not (json_ or quiet):
         for line in (*(f"warning: {w}" for w in asset.warnings), *asset.source.notes, *asset.notes):
             typer.echo(plain(line))
-    tell(record, rows, JOINT_COLUMNS, json_, quiet)
+    print_result(record, rows, JOINT_COLUMNS, json_, quiet)
     if not (json_ or quiet):
         if asset.exchanges:
             typer.echo(_spent(record["usage"], out))
@@ -102,7 +102,9 @@ def _spent(usage: dict[str, Any], out: Path) -> str:
     return f"{summary}; every question with its pictures: {out / 'transcript' / 'index.html'}"
 
 
-def tell(record: dict[str, Any], rows: list[dict[str, Any]], columns: tuple[str, ...], json_: bool, quiet: bool) -> None:
+def print_result(
+    record: dict[str, Any], rows: list[dict[str, Any]], columns: tuple[str, ...], json_: bool, quiet: bool
+) -> None:
     if json_:
         typer.echo(json.dumps(record, indent=2))
     elif not quiet:
@@ -151,9 +153,9 @@ class Shown:
 
         self._status = Console(stderr=True).status("")
         self._status.start()
-        return self._tell
+        return self._show_progress
 
-    def _tell(self, stage: str, item: str, done: int, total: int) -> None:
+    def _show_progress(self, stage: str, item: str, done: int, total: int) -> None:
         seconds = time.monotonic() - self._begin
         self._status.update(f"{stage} {plain(item)} ({done + 1}/{total}, {seconds:.0f} s)")
 

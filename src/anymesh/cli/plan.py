@@ -8,7 +8,7 @@ from typing import Annotated, Any
 import typer
 
 from anymesh.cli.options import Force, Json, Quiet
-from anymesh.cli.output import Shown, plain, tell
+from anymesh.cli.output import Shown, plain, print_result
 
 AssetPath = Annotated[
     Path, typer.Argument(metavar="ASSET", help="A folder that anymesh made, or any URDF or MJCF with a joint that moves.")
@@ -59,54 +59,56 @@ def plan(
 
     joints = tuple(name for name in gripper.split(",") if name)
     with Shown(quiet or json_) as progress:
-        found = find(
+        planned = find(
             asset, robot=robot, joint=joint, to=parse_value(to), base=base, contact=contact, tool=tool, gripper=joints,
             seed=seed, speed=speed, seconds=seconds, progress=progress,
         )  # fmt: skip
-        write_plan(found, out, kind, force=force)
-        shown = None if video is None else _film(found, asset, robot, tool, joints, video)
-    _tell(found, out, shown, json_, quiet)
+        write_plan(planned, out, kind, force=force)
+        shown = None if video is None else _film(planned, asset, robot, tool, joints, video)
+    _print_plan(planned, out, shown, json_, quiet)
 
 
-def _film(found: Any, asset: Path, robot: str, tool: str | None, gripper: tuple[str, ...], video: Path) -> tuple[Path, Any]:
+def _film(planned: Any, asset: Path, robot: str, tool: str | None, gripper: tuple[str, ...], video: Path) -> tuple[Path, Any]:
     from anymesh.applications.plan.asset_ import open_object
     from anymesh.applications.plan.film_ import RATE, Film, write_film
     from anymesh.applications.plan.planner import open_arm
     from anymesh.applications.plan.replay_ import replay
 
     arm = open_arm(robot, tool=tool, gripper=gripper)
-    thing = open_object(asset, found.joint)
-    seen = replay(found.trajectory, thing, arm.robot, arm.hand, found.base, found.value[1], rate=RATE)
-    return write_film(Film(thing, arm.robot, arm.hand, found.base), seen.states, video), seen
+    thing = open_object(asset, planned.joint)
+    seen = replay(planned.trajectory, thing, arm.robot, arm.hand, planned.base, planned.value[1], rate=RATE)
+    return write_film(Film(thing, arm.robot, arm.hand, planned.base), seen.states, video), seen
 
 
-def _tell(found: Any, out: Path, shown: tuple[Path, Any] | None, json_: bool, quiet: bool) -> None:
-    place = found.target.T_asset_tool[:3, 3]
+def _print_plan(planned: Any, out: Path, shown: tuple[Path, Any] | None, json_: bool, quiet: bool) -> None:
+    place = planned.target.T_asset_tool[:3, 3]
     row = {
-        "joint": found.joint,
-        "to": f"{found.value[1]:.4g} {found.unit}",
-        "contact": found.target.contact.value,
+        "joint": planned.joint,
+        "to": f"{planned.value[1]:.4g} {planned.unit}",
+        "contact": planned.target.contact.value,
         "at": ", ".join(f"{v:.3f}" for v in place),
-        "base": str(found.base),
-        "seconds": found.trajectory.duration,
+        "base": str(planned.base),
+        "seconds": planned.trajectory.duration,
     }
     record = {
         **row,
-        "asset": found.asset,
-        "robot": found.robot,
+        "asset": planned.asset,
+        "robot": planned.robot,
         "out": str(out),
-        "notes": list(found.notes),
-        "timing": dict(found.seconds),
+        "notes": list(planned.notes),
+        "timing": dict(planned.seconds),
     }
     if shown is not None:
         path, seen = shown
         done = "done" if seen.failure is None else seen.failure.value
         record["replay"] = {"video": str(path), "value": seen.value, "outcome": done}
     if json_ or not quiet:
-        tell(record, [row], tuple(row), json_, quiet)
+        print_result(record, [row], tuple(row), json_, quiet)
     if not (json_ or quiet):
-        for note in found.notes:
+        for note in planned.notes:
             typer.echo(plain(note))
         if shown is not None:
-            typer.echo(plain(f"replayed on the asset: {done}, at {seen.value:.4g} {found.unit}; see {path}"))
-        typer.echo(plain(f"wrote {out} ({len(found.trajectory.time)} samples, planned in {sum(found.seconds.values()):.1f} s)"))
+            typer.echo(plain(f"replayed on the asset: {done}, at {seen.value:.4g} {planned.unit}; see {path}"))
+        typer.echo(
+            plain(f"wrote {out} ({len(planned.trajectory.time)} samples, planned in {sum(planned.seconds.values()):.1f} s)")
+        )

@@ -6,7 +6,7 @@ from typing import Annotated, Any
 
 from anymesh.cli.from_options import OptionsOf, with_options
 from anymesh.cli.options import Json, MeshPath, Out, Parts, Placement, Quiet, Running
-from anymesh.cli.output import Shown, chosen_answerer, tell
+from anymesh.cli.output import Shown, chosen_answerer, print_result
 from anymesh.pipeline.options import AnswererOptions
 
 
@@ -27,9 +27,9 @@ def segment(
 
     answering["answerer"] = chosen_answerer(answering["answerer"], quiet or json_)
     with Shown(quiet or json_) as progress:
-        found = pipeline.segment(mesh, out, parts=parts, progress=progress, **placement, **running, **answering)
+        segmentation = pipeline.segment(mesh, out, parts=parts, progress=progress, **placement, **running, **answering)
     rows = [
-        {"name": p.name, "label": p.label, "faces": len(found.faces(k)), "confidence": p.confidence, "reason": p.reason}
-        for k, p in enumerate(found.parts)
+        {"name": p.name, "label": p.label, "faces": len(segmentation.faces(k)), "confidence": p.confidence, "reason": p.reason}
+        for k, p in enumerate(segmentation.parts)
     ]
-    tell({"out": str(out), "parts": rows}, rows, ("name", "label", "faces", "confidence", "reason"), json_, quiet)
+    print_result({"out": str(out), "parts": rows}, rows, ("name", "label", "faces", "confidence", "reason"), json_, quiet)

@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 from anymesh.cli.options import Json, Quiet
-from anymesh.cli.output import Shown, tell
+from anymesh.cli.output import Shown, print_result
 
 Assets = Annotated[list[Path], typer.Argument(metavar="ASSETS...", help="Assets, or folders of assets, to train on.")]
 TaskName = Annotated[str, typer.Option("--task", help="open, close or lift.")]
@@ -47,11 +47,13 @@ def train(
     with Shown(quiet or json_) as progress:
         policy = run(find_assets(assets), task, out, steps=steps, seed=seed, start=start, settings=settings, progress=progress)
         held_out = find_assets(test) if test else []
-        found = evaluate_policy(policy, held_out, task, episodes=episodes, seed=seed, settings=settings) if held_out else []
+        outcomes = evaluate_policy(policy, held_out, task, episodes=episodes, seed=seed, settings=settings) if held_out else []
     rows = []
-    for name in dict.fromkeys(e.asset for e in found):
-        own = [e.success for e in found if e.asset == name]
+    for name in dict.fromkeys(e.asset for e in outcomes):
+        own = [e.success for e in outcomes if e.asset == name]
         rows.append({"asset": name, "episodes": len(own), "success": f"{sum(own) / len(own):.3f}"})
-    tell({"policy": str(policy), "episodes": [asdict(e) for e in found]}, rows, ("asset", "episodes", "success"), json_, quiet)
+    print_result(
+        {"policy": str(policy), "episodes": [asdict(e) for e in outcomes]}, rows, ("asset", "episodes", "success"), json_, quiet
+    )
     if not (json_ or quiet):
         typer.echo(f"wrote {policy}")

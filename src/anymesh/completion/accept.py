@@ -50,8 +50,8 @@ def accept(asset: Asset, made: Mapping[str, PartMesh], *, who: str, tolerance: f
         new = _beyond(made[name].triangles, asset.mesh.triangles[faces], limit)
         added[number], looks[number] = new, seen
         notes[name] = (f"{who}: accepted, {len(new)} new faces",)
-    found = with_new_faces(asset, added, looks)
-    return Finished(found.asset, found.source_face, notes)
+    finished = with_new_faces(asset, added, looks)
+    return Finished(finished.asset, finished.source_face, notes)
 
 
 def accepted(finished: Finished, who: str) -> tuple[str, ...]:

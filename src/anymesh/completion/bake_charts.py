@@ -41,12 +41,12 @@ def lay_out(mesh: Mesh, size: int, padding: int) -> Layout:
     layer = np.zeros(len(flat), np.int64)
     for turn in range(ROUNDS + 1):
         chart = label_connected(len(flat), pairs[layer[pairs[:, 0]] == layer[pairs[:, 1]]])
-        found = _packed(flat, chart, size, padding)
-        covered = _covered(found, depth, chart)
+        layout = _packed(flat, chart, size, padding)
+        covered = _covered(layout, depth, chart)
         if not covered.any():
             break
         layer[covered] = turn + 1 if turn < ROUNDS - 1 else len(flat) + np.flatnonzero(covered)
-    return found
+    return layout
 
 
 def _flattened(mesh: Mesh, direction: np.ndarray) -> tuple[Float[np.ndarray, "F 3 2"], Float[np.ndarray, "F 3"]]:
@@ -99,9 +99,9 @@ def _shelves(boxes: Int[np.ndarray, "c 2"], size: int) -> Int[np.ndarray, "c 2"]
     return at
 
 
-def _covered(found: Layout, depth: np.ndarray, chart: np.ndarray) -> np.ndarray:
+def _covered(layout: Layout, depth: np.ndarray, chart: np.ndarray) -> np.ndarray:
     """Return which faces have their centroid below another face of their chart."""
-    corners = np.concatenate([found.corners, (depth * found.scale)[:, :, None]], axis=2)
+    corners = np.concatenate([layout.corners, (depth * layout.scale)[:, :, None]], axis=2)
     scene = RayScene(corners.reshape(-1, 3), np.arange(3 * len(corners)).reshape(-1, 3))
     middle = corners.mean(1)
     middle[:, 2] = corners[:, :, 2].max() + 1

@@ -83,7 +83,7 @@ def _boards(
     ]
     thick = wall
     if beside:
-        thick, neighbour = min(beside, key=lambda found: abs(found[0]))
+        thick, neighbour = min(beside, key=lambda pair: abs(pair[0]))
         if neighbour.part < panel.part or thick < wall / 4:
             return
     low, high = panel.low.copy(), panel.high.copy()
@@ -136,8 +136,8 @@ def _face_level(panel: PanelBox, low: np.ndarray, high: np.ndarray, axis: int, b
     depth = float(panel.high[2] - panel.low[2])
     local[:, 2] = panel.low[2] - depth
     level = base.first_hit(local @ panel.axes, np.repeat(panel.axes[2][None], len(local), 0), (1 + FIRST) * depth).distance
-    found = np.isfinite(level)
-    return float(np.median(level[found]) + local[0, 2]) if found.mean() > THERE else None
+    hit = np.isfinite(level)
+    return float(np.median(level[hit]) + local[0, 2]) if hit.mean() > THERE else None
 
 
 def crosses(

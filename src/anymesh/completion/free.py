@@ -61,9 +61,12 @@ def limits_of(joint: Joint) -> list[tuple[int, float]]:
 def shape_of(triangles: Float[np.ndarray, "n 3 3"]) -> TriangleSet:
     """Convert triangles to a set for sweeps; closed components are oriented outwards."""
     corners = triangles.reshape(-1, 3)
-    found = components(corners, np.arange(len(corners)).reshape(-1, 3))
+    surface_components = components(corners, np.arange(len(corners)).reshape(-1, 3))
     normals = normals_and_areas(triangles)[0]
-    flip = found.flip[found.label]
+    flip = surface_components.flip[surface_components.label]
     return TriangleSet(
-        triangles, np.where(flip[:, None], -normals, normals), found.solid[found.label], np.arange(len(triangles))
+        triangles,
+        np.where(flip[:, None], -normals, normals),
+        surface_components.solid[surface_components.label],
+        np.arange(len(triangles)),
     )

@@ -25,7 +25,7 @@ def with_caps(seen: SheetVisibility, part: int, scenes: Scenes, config: ShapeCon
     Also return whether a hole stays open because its cover moves away.
     """
     sheet = seen.sheet
-    done, found, opens = [], sheet, False
+    done, capped, opens = [], sheet, False
     for normal, numbers in _flat_holes(sheet, config):
         points, faces = np.zeros((0, 3)), cap(sheet.points, [sheet.loops[k] for k in numbers], normal)
         hidden, opened = _covered(sheet.points[faces], seen.sign * normal, part, scenes, config)
@@ -33,12 +33,12 @@ def with_caps(seen: SheetVisibility, part: int, scenes: Scenes, config: ShapeCon
         if not hidden or opened:
             continue
         if covers_itself(sheet.faces, faces):  # then the cap is placed slightly in front of the hole
-            rim, out = replace(found, loops=tuple(sheet.loops[k] for k in numbers)), seen.sign * normal
+            rim, out = replace(capped, loops=tuple(sheet.loops[k] for k in numbers)), seen.sign * normal
             level = float((sheet.points[np.concatenate(rim.loops)] @ out).max()) + config.sheet * scenes.diagonal / 2
             points, faces = backed(rim, out, level, faces_out=seen.faces_out)
-        found = found.with_faces(points, faces)
+        capped = capped.with_faces(points, faces)
         done += numbers
-    return found.without(done), opens
+    return capped.without(done), opens
 
 
 def _flat_holes(sheet: Sheet, config: ShapeConfig) -> list[tuple[np.ndarray, list[int]]]:

@@ -57,8 +57,8 @@ class HoloPart:
         T = box_transform(asset.mesh)
         glb = self.service.complete(scene_glb({name: _mesh(name, part) for name, part in parts.items()}, T))
         pieces = {name: _moved(mesh, np.linalg.inv(T)) for name, mesh in read_pieces(glb).items()}
-        found = match_pieces(pieces, {name: part.mesh for name, part in parts.items()})
-        return {name: found[name] for name, part in parts.items() if not part.closed and name in found}
+        matched = match_pieces(pieces, {name: part.mesh for name, part in parts.items()})
+        return {name: matched[name] for name, part in parts.items() if not part.closed and name in matched}
 
 
 def box_transform(mesh: Mesh) -> Float[np.ndarray, "4 4"]:
@@ -98,8 +98,8 @@ def match_pieces(pieces: Mapping[str, PartMesh], parts: Mapping[str, PartMesh]) 
     from scipy.optimize import linear_sum_assignment  # 0.1 s to import, and only this completer needs it
 
     rows, columns = linear_sum_assignment(off)
-    names, found = list(parts), list(pieces.values())
-    return {names[row]: found[column] for row, column in zip(rows, columns, strict=True)}
+    names, meshes = list(parts), list(pieces.values())
+    return {names[row]: meshes[column] for row, column in zip(rows, columns, strict=True)}
 
 
 def _mesh(name: str, part: Thickened) -> Mesh:

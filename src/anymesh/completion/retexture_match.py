@@ -54,15 +54,15 @@ class Nearest:
     ) -> tuple[Int[np.ndarray, " n"], Float[np.ndarray, "n 3"]]:
         """Return the other mesh's faces nearest to points on ours, and the weights of their corners there."""
         points = np.einsum("nk,nkd->nd", weights, self.ours.triangles[face])
-        found, there = np.zeros(len(face), np.int64), np.zeros((len(face), 3))
+        nearest_faces, there = np.zeros(len(face), np.int64), np.zeros((len(face), 3))
         for part in np.unique(self.part[face]):
             rows = np.flatnonzero(self.part[face] == part)
             of_part = np.flatnonzero(self.part_there == part)
             faces = of_part if len(of_part) else np.arange(len(self.mesh.faces))
             _, near, closest = distance_to_mesh(points[rows], self.mesh.vertices, self.mesh.faces[faces])
-            found[rows] = faces[near]
-            there[rows] = inside(barycentric(closest, self.mesh.triangles[found[rows]]))
-        return found, there
+            nearest_faces[rows] = faces[near]
+            there[rows] = inside(barycentric(closest, self.mesh.triangles[nearest_faces[rows]]))
+        return nearest_faces, there
 
 
 def nearest(mesh: Mesh, ours: Mesh, face_part: Int[np.ndarray, " F"]) -> Nearest:

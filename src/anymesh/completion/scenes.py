@@ -50,10 +50,10 @@ class Scenes:
 
     def carriers(self, part: int) -> tuple[int, ...]:
         """Return the ancestors of a part, nearest first."""
-        found: list[int] = []
-        while (joint := self.joint.get(found[-1] if found else part)) is not None:
-            found.append(self.number[joint.parent])
-        return tuple(found)
+        ancestors: list[int] = []
+        while (joint := self.joint.get(ancestors[-1] if ancestors else part)) is not None:
+            ancestors.append(self.number[joint.parent])
+        return tuple(ancestors)
 
     def opened(self, part: int) -> Float[np.ndarray, "p 4 4"]:
         """Return the transform of each part, relative to `part`, with all descendants of `part` at their widest positions."""

@@ -85,6 +85,6 @@ def _grown(asset: Asset, growing: Growing) -> Finished:
     for part in growing.added:
         faces = growing.faces(part)
         looks[part] = faces[visible[faces]] if visible[faces].any() else faces
-    found = with_new_faces(asset, {k: np.concatenate(t) for k, t in growing.added.items()}, looks)
+    finished = with_new_faces(asset, {k: np.concatenate(t) for k, t in growing.added.items()}, looks)
     names = [p.name for p in asset.segmentation.parts]
-    return replace(found, notes={names[k]: tuple(growing.notes[k]) for k in sorted(growing.notes)})
+    return replace(finished, notes={names[k]: tuple(growing.notes[k]) for k in sorted(growing.notes)})

@@ -104,12 +104,12 @@ def _corners(count: int, half: np.ndarray, mate: np.ndarray) -> Int[np.ndarray, 
 def _loops(start: np.ndarray, end: np.ndarray) -> tuple[Int[np.ndarray, " _"], ...]:
     """Return closed chains of border edges, each from its first vertex in the file."""
     follows = dict(zip(start.tolist(), end.tolist(), strict=True))
-    found = []
+    loops = []
     for vertex in sorted(follows):
         chain = []
         while vertex in follows:
             chain.append(vertex)
             vertex = follows.pop(vertex)
         if len(chain) > 2:
-            found.append(np.array(chain))
-    return tuple(found)
+            loops.append(np.array(chain))
+    return tuple(loops)

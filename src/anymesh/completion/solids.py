@@ -67,8 +67,8 @@ def close_part(part: int, growing: Growing, config: ShapeConfig) -> bool:
     Bodies that share an edge and overlap may be inseparable; their sheets are closed again, slightly thinner.
     """
     mesh, mine, scenes = growing.scenes.asset.mesh, growing.faces(part), growing.scenes
-    found = open_sheets(mesh.vertices, mesh.faces[mine])
-    sheets = [sheet_visibility(sheet, scenes, config) for sheet in found if not growing.late()]
+    unclosed = open_sheets(mesh.vertices, mesh.faces[mine])
+    sheets = [sheet_visibility(sheet, scenes, config) for sheet in unclosed if not growing.late()]
     if not config.watertight:
         sheets = [s for s in sheets if s.both or is_laid_open(s, part, scenes, config)]
     around = Around(part, mesh.triangles[mine], scene_of(growing.others(part)), scenes, config)
@@ -87,8 +87,8 @@ def close_part(part: int, growing: Growing, config: ShapeConfig) -> bool:
 def _still_open(mine: np.ndarray, sheets: list[Sheet], made: list[np.ndarray]) -> list[int]:
     """Return the closed sheets of which any face is not part of a closed, consistently wound surface."""
     corners = np.concatenate([mine, *made]).reshape(-1, 3)
-    found = components(corners, np.arange(len(corners)).reshape(-1, 3))
-    bad = ~found.solid[found.label]
+    surface_components = components(corners, np.arange(len(corners)).reshape(-1, 3))
+    bad = ~surface_components.solid[surface_components.label]
     begin = len(mine) + np.cumsum([0, *(len(new) for new in made)])
     own = (np.r_[sheet.own, begin[k] : begin[k + 1]] for k, sheet in enumerate(sheets))
     return [k for k, faces in enumerate(own) if bad[faces].any()]

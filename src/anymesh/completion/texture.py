@@ -96,15 +96,15 @@ def _patches(mesh: Mesh, faces: Int[np.ndarray, " n"]) -> Int[np.ndarray, " n"]:
 
 def _chosen(mesh: Mesh, patch: np.ndarray, spots: Spots) -> Int[np.ndarray, " n"]:
     """Return the spot used by each face's patch: of its most common material, nearest to the median colour."""
-    group, found = patch[spots.owner], np.zeros(int(patch.max()) + 1, np.int64)
+    group, spot_of_patch = patch[spots.owner], np.zeros(int(patch.max()) + 1, np.int64)
     material, color = mesh.face_material[spots.face], spots.colors(mesh).astype(float)
     order = np.argsort(group, kind="stable")
     for rows in np.split(order, np.flatnonzero(np.diff(group[order])) + 1):
         kinds, kind = np.unique(material[rows], return_inverse=True)
         rows = rows[kind == np.bincount(kind, spots.area[rows], len(kinds)).argmax()]
         middle = _middle(color[rows], spots.area[rows])
-        found[group[rows[0]]] = rows[np.abs(color[rows] - middle).sum(1).argmin()]
-    return found[patch]
+        spot_of_patch[group[rows[0]]] = rows[np.abs(color[rows] - middle).sum(1).argmin()]
+    return spot_of_patch[patch]
 
 
 def _middle(colors: Float[np.ndarray, "n 3"], weights: Float[np.ndarray, " n"]) -> Float[np.ndarray, " 3"]:

@@ -63,9 +63,9 @@ def barycentric(points: Float[np.ndarray, "n 3"], triangles: Float[np.ndarray, "
     scale = np.where(flat, 1.0, square)
     second = np.einsum("ij,ij->i", np.cross(points - a, c - a), normal) / scale
     third = np.einsum("ij,ij->i", np.cross(b - a, points - a), normal) / scale
-    found = np.stack([1 - second - third, second, third], 1)
-    found[flat] = 1 / 3
-    return found
+    weights = np.stack([1 - second - third, second, third], 1)
+    weights[flat] = 1 / 3
+    return weights
 
 
 def inside(weights: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 3"]:

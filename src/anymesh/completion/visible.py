@@ -27,16 +27,16 @@ def escapes(
     scene: RayScene, points: Float[np.ndarray, "n 3"], normals: Float[np.ndarray, "n 3"], diagonal: float
 ) -> Float[np.ndarray, "n 2"]:
     """Compute the share of all directions in which a point is unobstructed, on the side of its normal and on the other."""
-    found = np.zeros((len(points), 2))
+    counts = np.zeros((len(points), 2))
     directions = spread_directions(DIRECTIONS)
     for ways in np.array_split(directions, min(len(directions), 1 + len(points) * len(directions) // RAYS)):
         front = ways @ normals.T > 0
         start = points + OFF * diagonal * np.where(front, 1.0, -1.0)[:, :, None] * normals
         rays = np.repeat(ways * 2 * diagonal, len(points), 0)
         free = scene.first_hit(start.reshape(-1, 3), rays, 1.0).face.reshape(front.shape) < 0
-        found[:, 0] += (free & front).sum(0)
-        found[:, 1] += (free & ~front).sum(0)
-    return found / len(directions)
+        counts[:, 0] += (free & front).sum(0)
+        counts[:, 1] += (free & ~front).sum(0)
+    return counts / len(directions)
 
 
 def visible_faces(mesh: Mesh) -> Bool[np.ndarray, " F"]:

@@ -30,14 +30,14 @@ def joint_of_part(asset: Asset, name: str) -> Joint:
 
 def hanging_on(asset: Asset, name: str) -> set[str]:
     """Return all descendants of a part."""
-    found: set[str] = set()
+    descendants: set[str] = set()
     waiting = [name]
     while waiting:
         at = waiting.pop()
         below = [j.child for j in asset.joints if j.parent == at]
-        found.update(below)
+        descendants.update(below)
         waiting.extend(below)
-    return found
+    return descendants
 
 
 def with_joint(asset: Asset, joint: Joint) -> Asset:

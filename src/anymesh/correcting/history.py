@@ -33,10 +33,10 @@ class History:
     @classmethod
     def of(cls, original: Asset, log: tuple[HistoryEntry, ...] = ()) -> History:
         """Apply a log to an asset. Raise CorrectionError if it is the log of another asset."""
-        found = cls((original,))
+        history = cls((original,))
         for entry in log:
-            found = found.do(entry)
-        return found
+            history = history.do(entry)
+        return history
 
     @property
     def original(self) -> Asset:

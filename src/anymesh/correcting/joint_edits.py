@@ -35,7 +35,7 @@ def change_type(asset: Asset, c: ChangeType) -> Asset:
         type=c.type,
         limits=_limits_for(asset, joint, c.type),
         origin=_origin_on_part(asset, c.part, joint.axis, joint.origin, c.type),
-        **_said(f"type {c.type}"),
+        **_reason(f"type {c.type}"),
     )
     return with_joint(asset, changed)
 
@@ -59,7 +59,7 @@ def choose_motion(asset: Asset, c: ChooseMotion) -> Asset:
         axis=axis,
         origin=_origin_on_part(asset, c.part, axis, np.array(c.origin, float), c.type),
         limits=c.limits,
-        **_said(c.reason),
+        **_reason(c.reason),
     )
     return with_joint(asset, changed)
 
@@ -67,12 +67,12 @@ def choose_motion(asset: Asset, c: ChooseMotion) -> Asset:
 def set_axis(asset: Asset, c: SetAxis) -> Asset:
     joint, axis = joint_of_part(asset, c.part), _unit(c.axis)
     origin = _origin_on_part(asset, c.part, axis, np.array(c.origin, float), joint.type)
-    return with_joint(asset, replace(joint, axis=axis, origin=origin, **_said(f"axis {c.how}")))
+    return with_joint(asset, replace(joint, axis=axis, origin=origin, **_reason(f"axis {c.how}")))
 
 
 def flip_sign(asset: Asset, c: FlipSign) -> Asset:
     joint = joint_of_part(asset, c.part)
-    return with_joint(asset, replace(joint, axis=0.0 - joint.axis, **_said("positive the other way")))
+    return with_joint(asset, replace(joint, axis=0.0 - joint.axis, **_reason("positive the other way")))
 
 
 def set_limits(asset: Asset, c: SetLimits) -> Asset:
@@ -82,7 +82,7 @@ def set_limits(asset: Asset, c: SetLimits) -> Asset:
     if not c.lower <= 0 <= c.upper:
         raise CorrectionError(f"limits must include the rest pose 0, found {c.lower:g}..{c.upper:g}")
     type_ = JointType.REVOLUTE if joint.type is JointType.CONTINUOUS else joint.type
-    return with_joint(asset, replace(joint, type=type_, limits=(float(c.lower), float(c.upper)), **_said("limits")))
+    return with_joint(asset, replace(joint, type=type_, limits=(float(c.lower), float(c.upper)), **_reason("limits")))
 
 
 def change_parent(asset: Asset, c: ChangeParent) -> Asset:
@@ -94,19 +94,19 @@ def change_parent(asset: Asset, c: ChangeParent) -> Asset:
         raise CorrectionError(f"{c.part!r} cannot be a child of {c.parent!r}, which it carries; valid are {', '.join(free)}")
     if c.parent == joint.parent:
         raise CorrectionError(f"{c.part!r} is already a child of {c.parent!r}")
-    return with_joint(asset, replace(joint, parent=c.parent, **_said(f"parent {c.parent}")))
+    return with_joint(asset, replace(joint, parent=c.parent, **_reason(f"parent {c.parent}")))
 
 
-def _said(what: str) -> dict[str, object]:
+def _reason(what: str) -> dict[str, object]:
     return {"confidence": CERTAIN, "reason": f"{BY_HAND}: {what}"}
 
 
 def _unit(axis: Vector) -> Float[np.ndarray, " 3"]:
-    found = np.array(axis, float)
-    length = float(np.linalg.norm(found))
+    direction = np.array(axis, float)
+    length = float(np.linalg.norm(direction))
     if not (np.isfinite(length) and length > 1e-9):
         raise CorrectionError(f"an axis needs a direction, found {tuple(axis)}")
-    return found / length + 0.0
+    return direction / length + 0.0
 
 
 def _origin_on_part(asset: Asset, part: str, axis: np.ndarray, point: np.ndarray, type_: JointType) -> Float[np.ndarray, " 3"]:

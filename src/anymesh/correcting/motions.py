@@ -75,16 +75,16 @@ def ranked_motions(
     scores = motion_scores(question)
     free = [k for k in np.argsort(-scores, kind="stable") if question.candidates[k].is_free]
     total = float(np.exp(scores[free] - scores.max()).sum()) if free else 1.0
-    found: list[ChooseMotion] = []
+    motions: list[ChooseMotion] = []
     for k in free:
         c = question.candidates[k]
         joint = joint_of(around, part, names[hangs[part]], c, joint_type(c), 1.0, reason(question.part, c))
         motion = _choice(joint, float(np.exp(scores[k] - scores.max()) / total))
-        if not any(_alike(other, motion, asset.mesh.diagonal) for other in found):
-            found.append(motion)
-        if len(found) == most:
+        if not any(_alike(other, motion, asset.mesh.diagonal) for other in motions):
+            motions.append(motion)
+        if len(motions) == most:
             break
-    return tuple(found)
+    return tuple(motions)
 
 
 def _choice(joint: Joint, share: float) -> ChooseMotion:

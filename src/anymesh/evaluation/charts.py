@@ -41,10 +41,10 @@ ERRORS = (
 
 def error_charts(groups: Mapping[str, Sequence[JointScore]]) -> list[str]:
     """Draw a chart per error: the share of each group's joints whose error is at most x."""
-    found = ((error, {name: error.values(joints) for name, joints in groups.items()}) for error in ERRORS)
+    error_curves = ((error, {name: error.values(joints) for name, joints in groups.items()}) for error in ERRORS)
     return [
         cumulative(error.name, {k: v for k, v in curves.items() if v}, error.low, error.high)
-        for error, curves in found
+        for error, curves in error_curves
         if any(v is not None for values in curves.values() for v in values)
     ]
 

@@ -16,7 +16,7 @@ TURNED = np.pi / 6  # [rad] by which rotating joints are opened
 TRAVEL = 0.5  # share of the travel by which slides are opened
 
 
-def displacement(points: Float[np.ndarray, "N 3"], found: Joint, true: TrueJoint, size: float) -> float:
+def displacement(points: Float[np.ndarray, "N 3"], predicted: Joint, true: TrueJoint, size: float) -> float:
     """Compute the mean distance of the true part's points between the poses of the found and the true joint.
 
     Hinges are opened by 30 degrees, slides by half the true travel, each joint towards its own opening side, so that a wrong
@@ -27,14 +27,14 @@ def displacement(points: Float[np.ndarray, "N 3"], found: Joint, true: TrueJoint
     """
     true = true if true.range_known else replace(true, limits=None)
     sides = (1, -1) if opens_both_ways(true.limits) else (opening_side(true.limits),)
-    return min(_apart(points, found, true, side, size) for side in sides)
+    return min(_apart(points, predicted, true, side, size) for side in sides)
 
 
-def _apart(points: Float[np.ndarray, "N 3"], found: Joint, true: TrueJoint, side: int, size: float) -> float:
-    ours = opening_side(found.limits)
+def _apart(points: Float[np.ndarray, "N 3"], predicted: Joint, true: TrueJoint, side: int, size: float) -> float:
+    ours = opening_side(predicted.limits)
     amount = _amount(true, side, size)
-    own = amount if same_motion(found.type, true.type) else _amount(found, ours, size)
-    T = joint_transform(true, side * amount) - joint_transform(found, ours * own)
+    own = amount if same_motion(predicted.type, true.type) else _amount(predicted, ours, size)
+    T = joint_transform(true, side * amount) - joint_transform(predicted, ours * own)
     return float(np.linalg.norm(points @ T[:3, :3].T + T[:3, 3], axis=1).mean())
 
 

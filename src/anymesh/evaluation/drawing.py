@@ -1,4 +1,4 @@
-"""Picture of a joint with errors: found and true, at rest and half open."""
+"""Picture of a joint with errors: predicted and true, at rest and half open."""
 
 from __future__ import annotations
 
@@ -60,20 +60,22 @@ class _Move:
 
 
 def draw_joint(
-    sample: EvalSample, segmentation: Segmentation, true: TrueJoint, found: Joint | None, score: JointScore
+    sample: EvalSample, segmentation: Segmentation, true: TrueJoint, predicted: Joint | None, score: JointScore
 ) -> UInt8[np.ndarray, "H W 3"]:
     """Draw the whole object at rest on the left, and the part half open on the right; true in green, found in vermilion.
 
-    true: in the sample's coordinates; found: the joint of the matched part, None if there is none.
+    true: in the sample's coordinates; predicted: the joint of the matched part, None if there is none.
     """
     mesh = sample.mesh
     numbers = {p.name: k for k, p in enumerate(sample.truth.parts)}
     mine = sample.labels == numbers[true.child]
     size = float(np.linalg.norm(np.ptp(mesh.triangles[mine].reshape(-1, 3), axis=0)))
     carried = np.isin(sample.labels, [numbers[name] for name in _carried(sample, true.child)])
-    theirs = _found_faces(sample, segmentation, found, numbers[true.child])
+    theirs = _found_faces(sample, segmentation, predicted, numbers[true.child])
     right = _Move(mine | carried, *_motion(true, size), TRUE_COLOR)
-    ours = _Move(theirs | (carried if found else False), *(_motion(found, size) if found else (None, 0.0)), FOUND_COLOR)
+    ours = _Move(
+        theirs | (carried if predicted else False), *(_motion(predicted, size) if predicted else (None, 0.0)), FOUND_COLOR
+    )
     moves = [m for m in (right, ours) if m.motion is not None]
     near = strip_camera(*_sketch(mesh, right.faces), [(m.motion, m.amount) for m in moves if m.motion], 2 * PANEL)
     panels = [_at_rest(mesh, mine, theirs, moves, _whole(near, mesh, mine, right)), _opened(mesh, right, ours, moves, near)]
@@ -127,11 +129,11 @@ def _carried(sample: EvalSample, name: str) -> list[str]:
     return [*direct, *(part for child in direct for part in _carried(sample, child))]
 
 
-def _found_faces(sample: EvalSample, segmentation: Segmentation, found: Joint | None, true: int) -> Bool[np.ndarray, " F"]:
+def _found_faces(sample: EvalSample, segmentation: Segmentation, predicted: Joint | None, true: int) -> Bool[np.ndarray, " F"]:
     """Return the faces of the found part; without a joint, of the found part with the largest IoU."""
     names = [p.name for p in segmentation.parts]
-    if found is not None:
-        return segmentation.face_part == names.index(found.child)
+    if predicted is not None:
+        return segmentation.face_part == names.index(predicted.child)
     ious = part_ious(segmentation.face_part, sample.labels, sample.mesh.face_areas)
     return segmentation.face_part == int(ious[:, true].argmax())
 

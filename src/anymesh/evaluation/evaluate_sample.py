@@ -99,25 +99,30 @@ def _record(
             sample.mesh, sample.segmentation() if given else None, answerer_factory=answerer_for(sample)
         )
         seconds = time.perf_counter() - begin
-        found = score(sample, segmentation, joints)
+        object_score = score(sample, segmentation, joints)
         if config.protocol is EvalProtocol.EXECUTABILITY:
-            found = executability(sample, segmentation, joints, found)
+            object_score = executability(sample, segmentation, joints, object_score)
     except ModelError:
         raise
     except Exception as error:  # any failure is limited to this object
         log.exception("%s (%s) failed", truth.name, label)
         message = f"{type(error).__name__}: {error}"
         return Record(failed(truth), truth.category, label, time.perf_counter() - begin, error=message)
-    drawn = tuple(_pictures(sample, segmentation, joints, found, folder, label))
-    return Record(found, truth.category, label, seconds, pictures=drawn)
+    drawn = tuple(_pictures(sample, segmentation, joints, object_score, folder, label))
+    return Record(object_score, truth.category, label, seconds, pictures=drawn)
 
 
 def _pictures(
-    sample: EvalSample, segmentation: Segmentation, joints: tuple[Joint, ...], found: ObjectScore, folder: Path, label: str
+    sample: EvalSample,
+    segmentation: Segmentation,
+    joints: tuple[Joint, ...],
+    object_score: ObjectScore,
+    folder: Path,
+    label: str,
 ) -> Iterator[tuple[str, str]]:
     """Draw the joints with errors, the worst first; yield each part with the picture's path relative to `folder`."""
     by_child = {j.child: j for j in joints}
-    off = sorted((j for j in found.joints if is_off(j)), key=badness, reverse=True)
+    off = sorted((j for j in object_score.joints if is_off(j)), key=badness, reverse=True)
     for number, joint in enumerate(off[:MAX_PICTURES], start=1):
         true = next(j for j in sample.truth.joints if j.child == joint.part)
         path = Path(PICTURES) / f"{legal_name(sample.truth.name)}-{legal_name(label)}-{number}.png"

@@ -20,7 +20,7 @@ STEPS = 100  # positions along each range
 NAME = "object"
 
 
-def executability(sample: EvalSample, segmentation: Segmentation, joints: tuple[Joint, ...], found: ObjectScore) -> ObjectScore:
+def executability(sample: EvalSample, segmentation: Segmentation, joints: tuple[Joint, ...], score: ObjectScore) -> ObjectScore:
     """Add to the score the faults found when driving every joint through its range.
 
     The rule (see `success.motion_anymesh`) covers only found joints; missing ones affect other figures. An object that has true
@@ -29,7 +29,7 @@ def executability(sample: EvalSample, segmentation: Segmentation, joints: tuple[
     faults = drive(sample.mesh, segmentation, joints)
     if sample.truth.joints and not _movable(joints):
         faults = ("object: no moving part was found",)
-    return replace(found, executable=not faults, faults=faults)
+    return replace(score, executable=not faults, faults=faults)
 
 
 def drive(mesh: Mesh, segmentation: Segmentation, joints: tuple[Joint, ...], steps: int = STEPS) -> tuple[str, ...]:

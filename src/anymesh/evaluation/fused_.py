@@ -87,5 +87,5 @@ def joined(solids: Sequence[np.ndarray]) -> Float[np.ndarray, "R 3 3"]:
         good = made.status() == Error.NoError and not made.is_empty()
         (usable if good else others).append(made if good else triangles)
     union = Manifold.batch_boolean(usable, OpType.Add).to_mesh() if usable else None
-    found = [np.asarray(union.vert_properties, np.float64)[:, :3][union.tri_verts]] if union else []
-    return np.concatenate([*found, *others])
+    merged = [np.asarray(union.vert_properties, np.float64)[:, :3][union.tri_verts]] if union else []
+    return np.concatenate([*merged, *others])

@@ -112,5 +112,5 @@ def _limits(limits: list[float] | None) -> tuple[float, float] | None:
 
 def example_truths(folder: Path) -> list[GroundTruth]:
     """Read all objects of the folder `examples/`."""
-    found = sorted((folder / "truth").glob("*.json"))
-    return [read_ground_truth(path, folder / "meshes" / f"{path.stem}.glb") for path in found]
+    paths = sorted((folder / "truth").glob("*.json"))
+    return [read_ground_truth(path, folder / "meshes" / f"{path.stem}.glb") for path in paths]

@@ -39,9 +39,9 @@ class Guesser:
         """Return a random answer. Raise BadAnswerError if it is not valid, which is a bug of this class."""
         if self._pictured:
             _ = tuple(question.pictures)
-        found = self._found(question)
-        check_schema(found, question.schema())
-        return question.parse(found)
+        answer = self._found(question)
+        check_schema(answer, question.schema())
+        return question.parse(answer)
 
     def _found(self, question: Question[Any]) -> dict[str, Any]:
         schema = question.schema()

@@ -85,12 +85,12 @@ def _backs(points: np.ndarray, core: OrientedBox, camera: Camera, behind: float)
     """
     away = core.axes[2] * np.sign((core.center - camera.T_world_camera[:3, 3]) @ core.axes[2])
     deep, across = (points - core.center) @ away, np.abs(core.local(points)[:, :2] / core.half[:2]).max(1)
-    found = []
+    rectangles = []
     for share in (1.0, PANEL_INTERIOR_RATIO):
         inside = deep[across <= share + 1e-6]
         if len(inside):
-            found.append(_rectangle(core, core.center + (inside.max() + behind) * away, share, away))
-    return np.concatenate(found) if found else np.zeros((0, 3, 3))
+            rectangles.append(_rectangle(core, core.center + (inside.max() + behind) * away, share, away))
+    return np.concatenate(rectangles) if rectangles else np.zeros((0, 3, 3))
 
 
 def _rectangle(core: OrientedBox, middle: np.ndarray, share: float, away: np.ndarray) -> Float[np.ndarray, "2 3 3"]:
@@ -104,7 +104,7 @@ def _rectangle(core: OrientedBox, middle: np.ndarray, share: float, away: np.nda
 def occluded_walls(box: OrientedBox, camera: Camera, depth: Float[np.ndarray, "H W"]) -> Float[np.ndarray, "F 3 3"]:
     """Return triangles of the box's far sides, wound outwards, where the picture shows neither free space nor the sides."""
     step = 2 * float(box.half.max()) / CELLS
-    found = []
+    triangles = []
     for axis in range(3):
         u, v = (axis + 1) % 3, (axis + 2) % 3
         at_u, at_v = (np.linspace(-h, h, max(1, round(2 * h / step)) + 1) for h in (box.half[u], box.half[v]))
@@ -118,8 +118,8 @@ def occluded_walls(box: OrientedBox, camera: Camera, depth: Float[np.ndarray, "H
             a, b, c, d = (corners[i, j] for i in (slice(None, -1), slice(1, None)) for j in (slice(None, -1), slice(1, None)))
             whole = out[:-1, :-1] & out[1:, :-1] & out[:-1, 1:] & out[1:, 1:]
             for triangle in ((a, c, d), (a, d, b)) if sign > 0 else ((a, d, c), (a, b, d)):
-                found.append(np.stack([corner[whole] for corner in triangle], 1))
-    return np.concatenate(found)
+                triangles.append(np.stack([corner[whole] for corner in triangle], 1))
+    return np.concatenate(triangles)
 
 
 def is_occluded(points: Float[np.ndarray, "n 3"], camera: Camera, depth: Float[np.ndarray, "H W"]) -> Bool[np.ndarray, " n"]:

@@ -91,14 +91,14 @@ def particulate_metrics(sample: EvalSample, segmentation: Segmentation, joints: 
     labels = (segmentation.face_part, sample.labels)
     names = [[p.name for p in segmentation.parts], [p.name for p in truth.parts]]
     at = _points(mesh, labels)
-    found, true = (
+    predicted, true = (
         _side(mesh, label, at, _poses(name, joint), size)
         for label, name, joint in zip(labels, names, (joints, true_joints), strict=True)
     )
-    cost = np.linalg.norm(found.centroids[:, None] - true.centroids[None], axis=2)
-    pairs = [(int(f), int(t)) for f, t in zip(*linear_sum_assignment(cost), strict=True)]
+    cost = np.linalg.norm(predicted.centroids[:, None] - true.centroids[None], axis=2)
+    pairs = [(int(p), int(t)) for p, t in zip(*linear_sum_assignment(cost), strict=True)]
     lost = mesh.diagonal / 2 / size
-    every = [_at_state(found, true, pairs, state, lost) for state in range(STATES + 1)]
+    every = [_at_state(predicted, true, pairs, state, lost) for state in range(STATES + 1)]
     if not all(j.range_known for j in truth.joints):
         return PoseMetrics(every[0], None, None)
     return PoseMetrics(every[0], _mean(every[1:]), every[-1])
@@ -145,17 +145,17 @@ def _poses(names: Sequence[str], joints: Sequence[Joint] | Sequence[TrueJoint]) 
     """Return the pose of each part: at rest, then at each state. Parts without a joint are static."""
     by_child = {j.child: j for j in joints}
     shares = np.linspace(0, 1, STATES)
-    found: dict[str, np.ndarray] = {}
+    poses: dict[str, np.ndarray] = {}
 
     def of(name: str) -> np.ndarray:
-        if name not in found:
+        if name not in poses:
             own = np.tile(np.eye(4), (STATES + 1, 1, 1))
             joint = by_child.get(name)
             if joint is not None:
                 own[1:] = _moved(joint, shares)
                 own = of(joint.parent) @ own
-            found[name] = own
-        return found[name]
+            poses[name] = own
+        return poses[name]
 
     return np.stack([of(n) for n in names], axis=1)
 
@@ -167,21 +167,21 @@ def _moved(joint: Joint | TrueJoint, shares: np.ndarray) -> Float[np.ndarray, "S
     return joint_motion(joint).transforms(low + (high - low) * shares)
 
 
-def _at_state(found: _Side, true: _Side, pairs: list[tuple[int, int]], state: int, lost: float) -> ParticulateMetrics:
-    values = np.array([_pair(found, true, f, t, state) for f, t in pairs])
-    counts = np.array([len(found.corners), len(true.corners)])
+def _at_state(predicted: _Side, true: _Side, pairs: list[tuple[int, int]], state: int, lost: float) -> ParticulateMetrics:
+    values = np.array([_pair(predicted, true, p, t, state) for p, t in pairs])
+    counts = np.array([len(predicted.corners), len(true.corners)])
     nothing = np.array([-1.0, 0.0, lost])
     both = [(values.sum(0) + (count - len(pairs)) * nothing) / count for count in counts]
     return ParticulateMetrics(*(float(v) for v in np.mean(both, axis=0)))
 
 
-def _pair(found: _Side, true: _Side, f: int, t: int, state: int) -> tuple[float, float, float]:
-    A, B = found.T[state, f], true.T[state, t]
-    giou = box_giou(found.boxes[f], A, true.boxes[t], B)
-    iou = box_iou(as_box(_apply(A, found.corners[f])), as_box(_apply(B, true.corners[t])))
+def _pair(predicted: _Side, true: _Side, p: int, t: int, state: int) -> tuple[float, float, float]:
+    A, B = predicted.T[state, p], true.T[state, t]
+    giou = box_giou(predicted.boxes[p], A, true.boxes[t], B)
+    iou = box_iou(as_box(_apply(A, predicted.corners[p])), as_box(_apply(B, true.corners[t])))
     there, back = np.linalg.inv(B) @ A, np.linalg.inv(A) @ B
-    forth = true.trees[t].query(_apply(there, found.points[f]))[0]
-    home = found.trees[f].query(_apply(back, true.points[t]))[0]
+    forth = true.trees[t].query(_apply(there, predicted.points[p]))[0]
+    home = predicted.trees[p].query(_apply(back, true.points[t]))[0]
     return giou, iou, float((forth**2).mean() + (home**2).mean())
 
 

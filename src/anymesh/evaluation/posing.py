@@ -33,17 +33,19 @@ def posed(sample: EvalSample, positions: Mapping[str, float]) -> EvalSample:
 def link_transforms(sample: EvalSample, positions: Mapping[str, float]) -> dict[str, Float[np.ndarray, "4 4"]]:
     """Return part name -> transform from rest in the mesh's frame; parts that are not a joint's child are static."""
     by_child = {j.child: j for j in sample.truth.joints}
-    found: dict[str, np.ndarray] = {}
+    transforms: dict[str, np.ndarray] = {}
 
     def of(name: str) -> np.ndarray:
-        if name not in found:
+        if name not in transforms:
             joint = by_child.get(name)
-            found[name] = np.eye(4) if joint is None else of(joint.parent) @ _motion(sample, joint, positions.get(name, 0.0))
-        return found[name]
+            transforms[name] = (
+                np.eye(4) if joint is None else of(joint.parent) @ _motion(sample, joint, positions.get(name, 0.0))
+            )
+        return transforms[name]
 
     for part in (*sample.truth.parts, *(j.parent for j in sample.truth.joints)):
         of(part if isinstance(part, str) else part.name)
-    return found
+    return transforms
 
 
 def _motion(sample: EvalSample, joint: TrueJoint, position: float) -> np.ndarray:

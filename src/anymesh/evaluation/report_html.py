@@ -65,11 +65,11 @@ def html_report(
 def curves(records: Sequence[Record]) -> dict[str, list[JointScore]]:
     """Group the joints by change if there are several, else by their true type."""
     several = len({r.change for r in records}) > 1
-    found: dict[str, list[JointScore]] = {}
+    groups: dict[str, list[JointScore]] = {}
     for record in records:
         for joint in record.score.joints:
-            found.setdefault(record.change if several else str(joint.type_true), []).append(joint)
-    return found
+            groups.setdefault(record.change if several else str(joint.type_true), []).append(joint)
+    return groups
 
 
 def html_table(table: Table) -> str:

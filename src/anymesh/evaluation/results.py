@@ -70,8 +70,8 @@ class ResultsFolder:
 
     def has(self, name: str) -> bool:
         """Return whether an object was evaluated without an error; objects with errors are evaluated again."""
-        found = self.load(name)
-        return bool(found) and not any(r.error for r in found)
+        records = self.load(name)
+        return bool(records) and not any(r.error for r in records)
 
     def _path(self, name: str) -> Path:
         return self.folder / OBJECTS / f"{name}.jsonl"

@@ -83,11 +83,11 @@ def score(sample: EvalSample, segmentation: Segmentation, joints: tuple[Joint, .
     pairs = match_parts(part_ious(segmentation.face_part, sample.labels, sample.mesh.face_areas))
     by_child = {j.child: j for j in joints}
     matched = {truth.parts[t].name: (segmentation.parts[p].name, iou) for p, t, iou in pairs}
-    found = {true: part for true, (part, iou) in matched.items() if iou >= MIN_MATCH_IOU}
-    parents = {truth.parts[0].name: segmentation.parts[0].name, **found}
+    counterparts = {true: part for true, (part, iou) in matched.items() if iou >= MIN_MATCH_IOU}
+    parents = {truth.parts[0].name: segmentation.parts[0].name, **counterparts}
     scores = []
     for joint in truth.joints:
-        own = by_child.get(found.get(joint.child, ""))
+        own = by_child.get(counterparts.get(joint.child, ""))
         iou = matched.get(joint.child, ("", 0.0))[1]
         scores.append(_joint(sample, joint, own, iou, parents.get(joint.parent)))
     movable, predicted = len(truth.parts) - 1, len(segmentation.parts) - 1
@@ -97,9 +97,9 @@ def score(sample: EvalSample, segmentation: Segmentation, joints: tuple[Joint, .
         joints=tuple(scores),
         predicted=predicted,
         true=movable,
-        matched=len(found),
+        matched=len(counterparts),
         part_miou=sum(iou for _, _, iou in pairs) / movable if movable else 1.0,
-        tree_right=len(found) == movable == predicted and all(j.parent_right for j in scores),
+        tree_right=len(counterparts) == movable == predicted and all(j.parent_right for j in scores),
         rest=alike.rest,
         posed=alike.posed,
         opened=alike.opened,
@@ -113,37 +113,37 @@ def failed(truth: GroundTruth) -> ObjectScore:
     return ObjectScore(truth.name, joints, 0, movable, 0, part_miou=0.0 if movable else 1.0, tree_right=False)
 
 
-def _joint(sample: EvalSample, joint: TrueJoint, found: Joint | None, iou: float, parent: str | None) -> JointScore:
+def _joint(sample: EvalSample, joint: TrueJoint, predicted: Joint | None, iou: float, parent: str | None) -> JointScore:
     """Score one joint. parent: found part that corresponds to the true joint's parent, None if there is none."""
     true, mesh, unit = sample.joint(joint), sample.mesh, sample.unit
     number = next(k for k, p in enumerate(sample.truth.parts) if p.name == joint.child)
     faces = np.flatnonzero(sample.labels == number)
     size = float(np.linalg.norm(np.ptp(mesh.triangles[faces].reshape(-1, 3), axis=0)))
-    if found is None:
+    if predicted is None:
         return JointScore(joint.child, iou, joint.type, part_size=size / unit, range_known=joint.range_known)
-    same = same_motion(true.type, found.type)
+    same = same_motion(true.type, predicted.type)
     turning = true.type is not JointType.PRISMATIC and same
     points, center = _points(mesh, faces)
-    at = (found.origin, found.axis, true.origin, true.axis)
-    flip = float(found.axis @ true.axis) < 0
-    ours = found.limits if found.limits is None or not flip else (-found.limits[1], -found.limits[0])
+    at = (predicted.origin, predicted.axis, true.origin, true.axis)
+    flip = float(predicted.axis @ true.axis) < 0
+    ours = predicted.limits if predicted.limits is None or not flip else (-predicted.limits[1], -predicted.limits[0])
     return JointScore(
         part=joint.child,
         iou=iou,
         type_true=true.type,
-        type_found=found.type,
-        angle=angle_error(found.axis, true.axis),
+        type_found=predicted.type,
+        angle=angle_error(predicted.axis, true.axis),
         line_distance=line_distance(*at, center) / unit if turning else None,
         at_part=distance_at(center, *at) / unit if turning else None,
-        displacement=displacement(points, found, true, size) / unit,
-        opens_right=_opens_alike(found, true),
+        displacement=displacement(points, predicted, true, size) / unit,
+        opens_right=_opens_alike(predicted, true),
         range_iou=None if not true.range_known else range_iou(ours, true.limits) if same else 0.0,
-        parent_right=found.parent == parent,
-        confidence=found.confidence,
+        parent_right=predicted.parent == parent,
+        confidence=predicted.confidence,
         part_size=size / unit,
-        origin=point_distance(found.origin, true.origin, true.axis) / unit if turning else None,
+        origin=point_distance(predicted.origin, true.origin, true.axis) / unit if turning else None,
         range_known=true.range_known,
-        found=found.child,
+        found=predicted.child,
     )
 
 
@@ -156,11 +156,11 @@ def _points(mesh: Mesh, faces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return sample_surface(triangles, POINTS, 0).points, np.average(triangles.mean(1), axis=0, weights=areas)
 
 
-def _opens_alike(found: Joint, true: TrueJoint) -> bool | None:
+def _opens_alike(predicted: Joint, true: TrueJoint) -> bool | None:
     """Return whether both joints open to the same side; None if the true joint is continuous or its range is unknown."""
     if true.limits is None or not true.range_known:
         return None
-    if not same_motion(true.type, found.type) or found.limits is None:
+    if not same_motion(true.type, predicted.type) or predicted.limits is None:
         return False
-    way = opening_side(found.limits) * opening_side(true.limits) * float(found.axis @ true.axis)
+    way = opening_side(predicted.limits) * opening_side(true.limits) * float(predicted.axis @ true.axis)
     return opens_both_ways(true.limits) or way > 0

@@ -54,9 +54,9 @@ def observation(sample: EvalSample, number: int, seed: int) -> EvalSample:
     for _ in range(TRIES):
         azimuth = around + np.deg2rad(rng.uniform(-ASIDE, ASIDE))
         camera = orbit_camera(scene.mesh.bounds, azimuth, np.deg2rad(rng.uniform(*ELEVATION)), SIZE)
-        found = observed(scene, camera, rays)
-        if found is not None:
-            return found
+        visible_sample = observed(scene, camera, rays)
+        if visible_sample is not None:
+            return visible_sample
     raise InputError(f"{sample.truth.name}: no picture shows a movable part and the base; found none in {TRIES} views")
 
 

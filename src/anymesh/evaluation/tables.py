@@ -51,8 +51,8 @@ class Column:
         return Cell(f"{value:{self.form}}", min(max(shade, 0.0), 1.0))
 
     def value(self, summary: Summary) -> float | None:
-        found = self.of(summary)
-        return found.all if isinstance(found, Mean) else found
+        figure = self.of(summary)
+        return figure.all if isinstance(figure, Mean) else figure
 
 
 def _length(name: str, of: Callable[[Summary], Mean], means: str) -> Column:
@@ -110,7 +110,7 @@ def report_tables(records: Sequence[Record], settings: Mapping[str, str], off: S
         group_table("By category", sorted(grouped(records, lambda r: r.category), key=itemgetter(0))),
         group_table("By true joint type", [k for k in kinds if any(r.score.joints for r in k[1])], whole=False),
     )
-    found = [
+    tables = [
         Table("Settings", ("setting", "value"), tuple((Cell(k), Cell(v)) for k, v in settings.items())),
         _summary_table(summarize(records)),
         *(table for table in by if len(table.rows) > 1),
@@ -118,7 +118,7 @@ def report_tables(records: Sequence[Record], settings: Mapping[str, str], off: S
         Table("Errors", ("object", "error"), tuple((Cell(r.title), Cell(r.error)) for r in records if r.error)),
         group_table("Objects", [(r.title, [r]) for r in records]),
     ]
-    return [table for table in found if table.rows]
+    return [table for table in tables if table.rows]
 
 
 def grouped(records: Sequence[Record], of: Callable[[Record], str]) -> list[tuple[str, list[Record]]]:
@@ -130,12 +130,12 @@ def _summary_table(summary: Summary) -> Table:
     """Return a table with one row per figure."""
     rows = []
     for column in COLUMNS:
-        found = column.of(summary)
-        mean = found if isinstance(found, Mean) else Mean(found)
+        figure = column.of(summary)
+        mean = figure if isinstance(figure, Mean) else Mean(figure)
         if mean.all is not None:
             spread = (column.cell(v) if v is not None else Cell("", 0.0) for v in (mean.median, mean.found))
             rows.append((Cell(column.name), column.cell(mean.all), *spread, Cell(column.means)))
-    head = ("figure", "all", "median", "found alone", "what it tells")
+    head = ("figure", "all", "median", "found alone", "meaning")
     return Table("Summary", head, tuple(rows), "Lengths as the field has them: the object's diagonal is 2.")
 
 

@@ -75,11 +75,11 @@ def _is_tilted(model: Model, joint: Joint) -> bool:
 
 def _subtree(model: Model, name: str) -> list[ExportLink]:
     """Return a link and all links that it carries."""
-    found = {name}
+    names = {name}
     waiting = [name]
     while waiting:
         at = waiting.pop()
         children = {j.child for j in model.asset.joints if j.parent == at}
-        found |= children
+        names |= children
         waiting += sorted(children)
-    return [b for b in model.bodies if b.name in found]
+    return [b for b in model.bodies if b.name in names]

@@ -38,8 +38,8 @@ def parse_formats(text: str) -> tuple[Format, ...]:
     asked = {word.strip().lower() for word in text.split(",") if word.strip()}
     unknown = sorted(asked - set(Format))
     if unknown or not asked:
-        found = f"unknown {', '.join(map(repr, unknown))}" if unknown else "none"
-        raise OptionError(f"formats {text!r}: {found}; valid are {', '.join(Format)}, with commas between")
+        problem = f"unknown {', '.join(map(repr, unknown))}" if unknown else "none"
+        raise OptionError(f"formats {text!r}: {problem}; valid are {', '.join(Format)}, with commas between")
     return tuple(f for f in Format if f in asked)
 
 
@@ -68,8 +68,8 @@ def _write_urdf(model: Model, folder: Path, config: ExportConfig) -> None:
 
 
 def _write_glb(model: Model, folder: Path, config: ExportConfig) -> None:
-    found = glb_bytes(model.asset, model.links, config)
-    (folder / main_file(Format.GLB, model.asset.name)).write_bytes(found)
+    glb = glb_bytes(model.asset, model.links, config)
+    (folder / main_file(Format.GLB, model.asset.name)).write_bytes(glb)
 
 
 WRITERS: Mapping[Format, Writer] = {

@@ -110,15 +110,15 @@ class _Materials:
             attributes["COLOR_0"] = buffer.accessor(color, target=VERTICES, normalized=True)
         kind = np.uint16 if len(p.positions) < 0xFFFF else np.uint32
         indices = buffer.accessor(p.triangles.reshape(-1).astype(kind), target=INDICES)
-        found: dict[str, Any] = {"attributes": attributes, "indices": indices}
+        primitive: dict[str, Any] = {"attributes": attributes, "indices": indices}
         if p.material >= 0:
-            found["material"] = self._material(p.material)
-        return found
+            primitive["material"] = self._material(p.material)
+        return primitive
 
     def document(self) -> dict[str, Any]:
         """Return the top-level entries, without empty ones (glTF forbids them)."""
-        found: dict[str, Any] = {key: value for key, value in self._entries.items() if value}
-        return found | ({"samplers": [DEFAULT_SAMPLER]} if self._textures else {})
+        entries: dict[str, Any] = {key: value for key, value in self._entries.items() if value}
+        return entries | ({"samplers": [DEFAULT_SAMPLER]} if self._textures else {})
 
     def _material(self, index: int) -> int:
         if index not in self._materials:
@@ -135,21 +135,21 @@ class _Materials:
             "metallicFactor": unit(m.metallic),
             "roughnessFactor": unit(m.roughness),
         }
-        found: dict[str, Any] = {"name": m.name, "pbrMetallicRoughness": pbr}
+        material: dict[str, Any] = {"name": m.name, "pbrMetallicRoughness": pbr}
         if any(m.emissive):
-            found["emissiveFactor"] = [unit(c) for c in m.emissive]
+            material["emissiveFactor"] = [unit(c) for c in m.emissive]
         if m.double_sided:
-            found["doubleSided"] = True
+            material["doubleSided"] = True
         if m.alpha_mode != "OPAQUE":
-            found["alphaMode"] = m.alpha_mode
+            material["alphaMode"] = m.alpha_mode
         if m.alpha_mode == "MASK":
-            found["alphaCutoff"] = float(m.alpha_cutoff)
+            material["alphaCutoff"] = float(m.alpha_cutoff)
         if self._mesh.corner_uv is not None:
-            for keys, place in ((PBR_KEYS, pbr), (TEXTURE_KEYS, found)):
+            for keys, place in ((PBR_KEYS, pbr), (TEXTURE_KEYS, material)):
                 for slot, key in keys.items():
                     if slot in m.textures:
                         place[key] = {"index": self._texture(m.textures[slot])}
-        return found
+        return material
 
     def _texture(self, texture: Texture) -> int:
         key = (texture.data, texture.mime)

@@ -27,13 +27,13 @@ class GlbBuffer:
 
     def view(self, data: bytes, target: int | None = None) -> int:
         """Add a buffer view of some bytes, starting at a multiple of 4."""
-        found: dict[str, Any] = {"buffer": 0, "byteOffset": self._length, "byteLength": len(data)}
+        view: dict[str, Any] = {"buffer": 0, "byteOffset": self._length, "byteLength": len(data)}
         if target is not None:
-            found["target"] = target
+            view["target"] = target
         padded = data + b"\0" * (-len(data) % 4)
         self._chunks.append(padded)
         self._length += len(padded)
-        self.views.append(found)
+        self.views.append(view)
         return len(self.views) - 1
 
     def accessor(self, array: np.ndarray, *, target: int | None = None, bounds: bool = False, normalized: bool = False) -> int:
@@ -44,17 +44,17 @@ class GlbBuffer:
         if key in self._known:
             return self._known[key]
         columns = array.reshape(len(array), -1)
-        found: dict[str, Any] = {
+        accessor: dict[str, Any] = {
             "bufferView": self.view(data, target),
             "componentType": COMPONENTS[array.dtype.name],
             "count": len(array),
             "type": KINDS[columns.shape[1]],
         }
         if bounds:
-            found |= {"min": columns.min(0).tolist(), "max": columns.max(0).tolist()}
+            accessor |= {"min": columns.min(0).tolist(), "max": columns.max(0).tolist()}
         if normalized:
-            found["normalized"] = True
-        self.accessors.append(found)
+            accessor["normalized"] = True
+        self.accessors.append(accessor)
         self._known[key] = len(self.accessors) - 1
         return self._known[key]
 

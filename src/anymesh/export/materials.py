@@ -40,16 +40,17 @@ def widest(link: Link) -> Primitive:
 
 def texture_files(mesh: Mesh) -> dict[bytes, str]:
     """Return the file name of each image in use, by its bytes; stems are unique regardless of the suffix."""
-    found = {}
+    textures = {}
     for index in sorted(set(mesh.face_material.tolist()) - {-1}) if mesh.corner_uv is not None else []:
         material = mesh.materials[index]
         for slot in TEXTURE_SLOTS:
             texture = material.textures.get(slot)
             if texture is not None:
-                found.setdefault(texture.data, (texture, Path(texture.name).stem or f"{material.name}_{slot}"))
-    names = legal_names([stem for _, stem in found.values()], fallback="texture")
+                textures.setdefault(texture.data, (texture, Path(texture.name).stem or f"{material.name}_{slot}"))
+    names = legal_names([stem for _, stem in textures.values()], fallback="texture")
     return {
-        data: name + SUFFIXES.get(texture.mime, ".png") for (data, (texture, _)), name in zip(found.items(), names, strict=True)
+        data: name + SUFFIXES.get(texture.mime, ".png")
+        for (data, (texture, _)), name in zip(textures.items(), names, strict=True)
     }
 
 

@@ -35,7 +35,7 @@ def write_mjcf(model: Model, folder: Path, config: ExportConfig) -> None:
     mujoco = load_mujoco()
     spec = _spec(mujoco, model, folder)
     looks = {body.name: geom_materials(model.asset.mesh, body, folder, config) for body in model.bodies}
-    _add_materials(mujoco, spec, model.asset.mesh, folder, [look for found in looks.values() for look in found])
+    _add_materials(mujoco, spec, model.asset.mesh, folder, [look for body_looks in looks.values() for look in body_looks])
     names = material_names(model.asset.mesh.materials)
     frames: dict[str, Any] = {}
     for body in _parents_first(model):

@@ -43,11 +43,11 @@ def _inertial(element: ElementTree.Element, body: ExportLink) -> None:
     inertial = element.find("inertial")
     if inertial is None:
         raise ValueError(f"body {body.name!r} was written without its inertia")
-    found = moments(body.inertia.tensor)
+    entries = moments(body.inertia.tensor)
     inertial.attrib.clear()
     inertial.set("pos", vector(body.inertia.center))
     inertial.set("mass", number(body.inertia.mass))
-    inertial.set("fullinertia", " ".join(found[key] for key in ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")))
+    inertial.set("fullinertia", " ".join(entries[key] for key in ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")))
 
 
 def _joint(element: ElementTree.Element, joint: Joint) -> None:

@@ -35,7 +35,7 @@ def geom_materials(mesh: Mesh, body: ExportLink, folder: Path, config: ExportCon
     """Return the visual geoms of a body: its visual OBJ, or one OBJ per material, written here, if it has several."""
     primitives = visible(body.link, config)
     names = material_names(mesh.materials)
-    found = []
+    geoms = []
     for number, p in enumerate(primitives):
         path = body.visual_path()
         if len(primitives) > 1:
@@ -43,22 +43,22 @@ def geom_materials(mesh: Mesh, body: ExportLink, folder: Path, config: ExportCon
             path = f"{PIECES}/{body.name}_{number}.obj"
             write_obj(folder / path, body.name, None, [replace(p, material=-1)], names)
         material = None if p.material < 0 or painted(mesh, p) else p.material
-        found.append(GeomMaterial(f"{body.name}_visual_{number}", path, material, display_color(mesh, p)))
-    return found
+        geoms.append(GeomMaterial(f"{body.name}_visual_{number}", path, material, display_color(mesh, p)))
+    return geoms
 
 
 def png_textures(mesh: Mesh, folder: Path, used: Collection[int], slots: Collection[str]) -> dict[tuple[int, str], str]:
     """Write the textures of some materials and slots as PNG beside the others; return their paths by material and slot."""
     files = texture_files(mesh)
-    found: dict[tuple[int, str], str] = {}
+    paths: dict[tuple[int, str], str] = {}
     for index in sorted(used):
         for slot, texture in mesh.materials[index].textures.items():
             if slot not in slots or texture.data not in files:
                 continue
             path = f"{FOLDER}/{Path(files[texture.data]).stem}.png"
             (folder / path).write_bytes(_png(texture.data))
-            found[index, slot] = path
-    return found
+            paths[index, slot] = path
+    return paths
 
 
 def _png(data: bytes) -> bytes:

@@ -57,17 +57,17 @@ class ExportLink:
         """Return the source-file indices of the link's faces, without those added by Stage C."""
         if source_face is None:
             return self.link.faces
-        found = source_face[self.link.faces]
-        return found[found >= 0]
+        faces = source_face[self.link.faces]
+        return faces[faces >= 0]
 
     def hull_paths(self) -> tuple[str | None, ...]:
         """Return a path relative to the asset folder for each shape; None for boxes and cylinders, which need no file."""
         hulls = sum(isinstance(s, Hull) for s in self.shapes)
-        found: list[str | None] = []
+        paths: list[str | None] = []
         for shape in self.shapes:
-            number = f"_{len(found) - found.count(None)}" if hulls > 1 else ""
-            found.append(f"{FOLDER}/{self.name}_collision{number}.obj" if isinstance(shape, Hull) else None)
-        return tuple(found)
+            number = f"_{len(paths) - paths.count(None)}" if hulls > 1 else ""
+            paths.append(f"{FOLDER}/{self.name}_collision{number}.obj" if isinstance(shape, Hull) else None)
+        return tuple(paths)
 
 
 @dataclass(frozen=True)

@@ -26,9 +26,9 @@ def quaternion(rotation: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, " 4"]:
             [d - b, c + g, f + h, squares[3]],
         ]
     )
-    found = rows[int(np.argmax(squares))]
-    found = found / np.linalg.norm(found)
-    return found + 0.0 if found[0] >= 0 else 0.0 - found
+    quat = rows[int(np.argmax(squares))]
+    quat = quat / np.linalg.norm(quat)
+    return quat + 0.0 if quat[0] >= 0 else 0.0 - quat
 
 
 def turning_x_to(axis: Float[np.ndarray, " 3"]) -> Float[np.ndarray, "3 3"]:
@@ -43,7 +43,7 @@ def turning_x_to(axis: Float[np.ndarray, " 3"]) -> Float[np.ndarray, "3 3"]:
 
 def principal(tensor: Float[np.ndarray, "3 3"]) -> tuple[Float[np.ndarray, " 3"], Float[np.ndarray, "3 3"]]:
     """Return the moments of an inertia, ascending, and their right-handed axes as columns."""
-    found, axes = np.linalg.eigh(tensor)
+    moments, axes = np.linalg.eigh(tensor)
     axes = axes * np.sign(axes[np.abs(axes).argmax(0), range(3)])
     axes[:, 2] = np.cross(axes[:, 0], axes[:, 1])
-    return found, axes
+    return moments, axes

@@ -68,18 +68,18 @@ def dominant_normals(
     flip = np.where(np.abs(n) > 0.5 * np.abs(n).max(1, keepdims=True), np.sign(n), 0)
     first = np.take_along_axis(flip, (flip != 0).argmax(1)[:, None], 1)[:, 0]
     n = n * np.where(first == 0, 1, first)[:, None]
-    found: list[np.ndarray] = []
+    directions: list[np.ndarray] = []
     steps = np.round(n * 50).astype(np.int64)
     cell = np.unique((steps[:, 0] * 128 + steps[:, 1]) * 128 + steps[:, 2], return_inverse=True)[1].reshape(-1)
-    while len(n) and len(found) < count:
+    while len(n) and len(directions) < count:
         heavy = np.bincount(cell, w).argmax()
         seed = n[np.flatnonzero(cell == heavy)[0]]
         along = n @ seed
         cone = np.abs(along) > np.cos(np.deg2rad(5))
         mean = (n[cone] * (w[cone] * np.sign(along[cone]))[:, None]).sum(0)
-        found.append(mean / np.linalg.norm(mean))
+        directions.append(mean / np.linalg.norm(mean))
         n, w, cell = n[~cone], w[~cone], cell[~cone]
-    return np.array(found).reshape(-1, 3)
+    return np.array(directions).reshape(-1, 3)
 
 
 def fit_box(
@@ -143,11 +143,11 @@ def within(
 ) -> Bool[np.ndarray, " n"]:
     """Return which points lie in an axis-aligned box."""
     x, y, z = points.T
-    found = (x >= low[0]) & (x <= high[0])
+    inside = (x >= low[0]) & (x <= high[0])
     for values, a, b in ((y, low[1], high[1]), (z, low[2], high[2])):
-        found &= values >= a
-        found &= values <= b
-    return found
+        inside &= values >= a
+        inside &= values <= b
+    return inside
 
 
 def box_pairs(low: Float[np.ndarray, "n 3"], high: Float[np.ndarray, "n 3"], reach: float) -> list[tuple[int, int]]:
@@ -156,13 +156,13 @@ def box_pairs(low: Float[np.ndarray, "n 3"], high: Float[np.ndarray, "n 3"], rea
     Sorts and sweeps along the axis on which the fewest boxes overlap.
     """
     low, high = low - reach / 2, high + reach / 2
-    order, end = min((_sorted_overlaps(low[:, k], high[:, k]) for k in range(3)), key=lambda found: int(found[1].sum()))
-    found = [np.zeros((0, 2), np.int64)]
+    order, end = min((_sorted_overlaps(low[:, k], high[:, k]) for k in range(3)), key=lambda overlaps: int(overlaps[1].sum()))
+    pairs_per_box = [np.zeros((0, 2), np.int64)]
     for at, (i, stop) in enumerate(zip(order, end, strict=True)):
         later = order[at + 1 : stop]
         meets = later[((low[later] <= high[i]) & (high[later] >= low[i])).all(1)]
-        found.append(np.stack([np.minimum(meets, i), np.maximum(meets, i)], 1))
-    pairs = np.concatenate(found)
+        pairs_per_box.append(np.stack([np.minimum(meets, i), np.maximum(meets, i)], 1))
+    pairs = np.concatenate(pairs_per_box)
     return [(int(i), int(j)) for i, j in pairs[np.lexsort((pairs[:, 1], pairs[:, 0]))]]
 
 

@@ -75,5 +75,5 @@ def _last_per_bin(bin_of: Int[np.ndarray, " n"], key: Float[np.ndarray, " n"]) -
 
 def roundest(points: Float[np.ndarray, "n 3"], axes: Float[np.ndarray, "k 3"]) -> Outline:
     """Return the roundest outline among those along the given axes; the first one at a tie."""
-    found = [outline_about(points, axis) for axis in axes]
-    return max(found, key=lambda o: o.roundness)
+    outlines = [outline_about(points, axis) for axis in axes]
+    return max(outlines, key=lambda o: o.roundness)

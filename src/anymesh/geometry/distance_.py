@@ -62,9 +62,9 @@ def winding_number(
     """Return the winding number of the surface about each point: 1 inside a closed, outward surface, 0 outside."""
     import igl
 
-    found = igl.winding_number(
+    winding = igl.winding_number(
         np.ascontiguousarray(vertices, np.float64),
         np.ascontiguousarray(faces, np.int64),
         np.ascontiguousarray(points, np.float64),
     )
-    return np.atleast_1d(found)
+    return np.atleast_1d(winding)

@@ -25,17 +25,17 @@ def joint_transform(joint: Joint | KnownJoint, position: float) -> Float[np.ndar
 def link_transforms(asset: Asset, positions: Mapping[str, float]) -> dict[str, Float[np.ndarray, "4 4"]]:
     """Return the transform from rest of each part, for joint positions by name (0 by default)."""
     by_child = {j.child: j for j in asset.joints}
-    found = {asset.segmentation.parts[0].name: np.eye(4)}
+    transforms = {asset.segmentation.parts[0].name: np.eye(4)}
 
     def of(name: str) -> np.ndarray:
-        if name not in found:
+        if name not in transforms:
             joint = by_child[name]
-            found[name] = of(joint.parent) @ joint_transform(joint, positions.get(joint.name, 0.0))
-        return found[name]
+            transforms[name] = of(joint.parent) @ joint_transform(joint, positions.get(joint.name, 0.0))
+        return transforms[name]
 
     for part in asset.segmentation.parts:
         of(part.name)
-    return found
+    return transforms
 
 
 def carried_links(asset: Asset, joint: Joint) -> list[str]:
@@ -43,10 +43,10 @@ def carried_links(asset: Asset, joint: Joint) -> list[str]:
     children: dict[str, list[str]] = {}
     for j in asset.joints:
         children.setdefault(j.parent, []).append(j.child)
-    found = [joint.child]
-    for name in found:
-        found += children.get(name, ())
-    return found
+    links = [joint.child]
+    for name in links:
+        links += children.get(name, ())
+    return links
 
 
 def posed(asset: Asset, positions: Mapping[str, float]) -> Mesh:

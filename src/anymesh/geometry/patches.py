@@ -83,5 +83,5 @@ def _simplified(
         few = simplify(triangles[mine], max(least, int(config.most_faces * len(mine) / count)))
         kept.append(few)
         source.append(mine if len(few) == len(mine) else np.full(len(few), mine[0]))
-    found, where = np.concatenate(kept), np.concatenate(source)
-    return TriangleSet(found, normals_and_areas(found)[0], shape.solid[where], np.arange(len(found)), shape.seed), where
+    reduced, where = np.concatenate(kept), np.concatenate(source)
+    return TriangleSet(reduced, normals_and_areas(reduced)[0], shape.solid[where], np.arange(len(reduced)), shape.seed), where

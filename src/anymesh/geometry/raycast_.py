@@ -92,8 +92,8 @@ class RayScene:
         far = np.inf if max_distance is None else max_distance
         one = origins.strides[0] == 0  # rays from one point
         starts = np.tile(self.to_unit(origins[:1]), (len(origins), 1)) if one else self.to_unit(origins)
-        found = self.first_hit_unit(starts, (directions * self.scale).astype(np.float32), far)
-        return Hits(found.face, *(v.astype(np.float64) for v in (found.distance, found.u, found.v)))
+        hits = self.first_hit_unit(starts, (directions * self.scale).astype(np.float32), far)
+        return Hits(hits.face, *(v.astype(np.float64) for v in (hits.distance, hits.u, hits.v)))
 
     def to_unit(self, points: Float[np.ndarray, "n 3"]) -> Float32[np.ndarray, "n 3"]:
         """Transform points to the unit frame, where the longest side of the bounds is 1 and their centre 0."""
@@ -123,8 +123,8 @@ class RayScene:
         out = self._scene.run(starts, directions * np.float32(self.scale), dists=far, output=1)
         face, depth, normal = out["primID"], np.full(count, np.inf, np.float32), np.zeros((count, 3), np.float32)
         seen = np.flatnonzero(face >= 0)
-        found, toward = out["Ng"][seen], np.einsum("ij,ij->i", out["Ng"][seen], directions[seen])
-        length = np.maximum(np.sqrt(np.einsum("ij,ij->i", found, found)), np.finfo(np.float32).tiny)
-        normal[seen] = found * (np.where(toward > 0, np.float32(-1), np.float32(1)) / length)[:, None]
+        face_normal, toward = out["Ng"][seen], np.einsum("ij,ij->i", out["Ng"][seen], directions[seen])
+        length = np.maximum(np.sqrt(np.einsum("ij,ij->i", face_normal, face_normal)), np.finfo(np.float32).tiny)
+        normal[seen] = face_normal * (np.where(toward > 0, np.float32(-1), np.float32(1)) / length)[:, None]
         depth[seen] = out["tfar"][seen]
         return SurfaceHits(face, depth, out["u"], out["v"], normal)

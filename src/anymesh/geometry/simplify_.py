@@ -40,10 +40,10 @@ def simplify(triangles: Float[np.ndarray, "F 3 3"], max_faces: int) -> Float[np.
             again = _by_quadrics(*_clustered(before, corner, CLUSTERED * max_faces), max_faces)
             area = _area(before, corner)
             points, faces = min((points, faces), again, key=lambda mesh: abs(_area(*mesh) - area))
-    found = points.astype(np.float64)[faces]
+    simplified = points.astype(np.float64)[faces]
     if len(faces) and _has_border(corner):
-        found = found[_on_surface(found, before, corner)]
-    return found + center if len(found) else triangles
+        simplified = simplified[_on_surface(simplified, before, corner)]
+    return simplified + center if len(simplified) else triangles
 
 
 def _by_quadrics(
@@ -96,10 +96,10 @@ def _has_border(faces: Int[np.ndarray, "F 3"]) -> bool:
     return bool((np.unique(ends[:, 0] * (int(faces.max()) + 1) + ends[:, 1], return_counts=True)[1] == 1).any())
 
 
-def _on_surface(found: np.ndarray, vertices: np.ndarray, faces: np.ndarray) -> Bool[np.ndarray, " R"]:
+def _on_surface(triangles: np.ndarray, vertices: np.ndarray, faces: np.ndarray) -> Bool[np.ndarray, " R"]:
     """Return which triangles lie on the surface.
 
     Quadrics ignore borders: in a plane, a triangle may close a notch or a frame.
     """
-    size = np.sqrt(normals_and_areas(found)[1])
-    return distance_to_mesh(found.mean(1), vertices, faces)[0] <= OFF * size
+    size = np.sqrt(normals_and_areas(triangles)[1])
+    return distance_to_mesh(triangles.mean(1), vertices, faces)[0] <= OFF * size

@@ -53,8 +53,8 @@ class Obstacles:
         center = self.rest.triangles.mean(1)
         near = np.flatnonzero(((center > low - reach) & (center < high + reach)).all(1))
         close = np.flatnonzero(((center > low - 0.1 * reach) & (center < high + 0.1 * reach)).all(1))
-        found = [_spread(self.rest.take(index), self.count) for index in (near, close) if len(index)]
-        points = np.concatenate(found) if found else np.zeros((0, 3))
+        samples = [_spread(self.rest.take(index), self.count) for index in (near, close) if len(index)]
+        points = np.concatenate(samples) if samples else np.zeros((0, 3))
         return points[~self.is_ignored(points)]
 
     def prepare(self) -> None:
@@ -115,7 +115,7 @@ def free_amounts(
     if len(groups) == 1:
         return free(groups[0])
     with ThreadPoolExecutor(os.cpu_count()) as threads:  # numpy and Embree release the interpreter lock
-        return [found for some in threads.map(free, groups) for found in some]
+        return [amount for some in threads.map(free, groups) for amount in some]
 
 
 def _free(
@@ -124,7 +124,7 @@ def _free(
     amounts = np.array([np.linspace(0, far, steps + 1) for far in max_amounts])
     ways = obstacles.passages(motions, np.array(signs)[:, None] * amounts, amounts)
     quorum = max(2, int(SHARE_STOPPED * sum(way.points.shape[1] for way in ways)))
-    found: list[tuple[float, bool]] = [(far, True) for far in max_amounts]
+    free_ranges: list[tuple[float, bool]] = [(far, True) for far in max_amounts]
     stops = [np.full((len(motions), way.points.shape[1]), np.inf) for way in ways]
     live, begin = np.arange(len(motions)), 0
     for size in itertools.chain(CHUNKS, itertools.repeat(CHUNKS[-1])):  # stops are found in the order of the steps
@@ -134,11 +134,11 @@ def _free(
         met = np.concatenate([np.isfinite(stop[live]) for stop in stops], axis=1).sum(1) if stops else np.zeros(len(live))
         for m in live[met >= quorum]:
             every = np.concatenate([stop[m] for stop in stops])
-            found[m] = float(np.partition(every, quorum - 1)[quorum - 1]), False
+            free_ranges[m] = float(np.partition(every, quorum - 1)[quorum - 1]), False
         live, begin = live[met < quorum], end
         if begin == steps or len(live) == 0:
             break
-    return found
+    return free_ranges
 
 
 def free_amount(obstacles: Obstacles, motion: Motion, sign: int, max_amount: float, steps: int) -> tuple[float, bool]:

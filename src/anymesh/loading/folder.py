@@ -36,45 +36,45 @@ class Folder:
 
         This is used for references in a material library.
         """
-        found = copy.copy(self)  # caches and warnings are shared
-        found._bases = tuple(dict.fromkeys((file.parent, *self._bases)))
-        return found
+        folder = copy.copy(self)  # caches and warnings are shared
+        folder._bases = tuple(dict.fromkeys((file.parent, *self._bases)))
+        return folder
 
     def find(self, uri: str) -> Path | None:
         """Return the file that a reference means; None if none may be read."""
-        found = resolve_reference(uri, self._bases, self._root)
-        return None if isinstance(found, Unresolved) else found
+        file = resolve_reference(uri, self._bases, self._root)
+        return None if isinstance(file, Unresolved) else file
 
     def read(self, uri: str) -> bytes:
         """Return the bytes of a file that the mesh requires.
 
         Raise InputError if it cannot be read.
         """
-        found = self._bytes(uri)
-        if isinstance(found, Unresolved):
-            raise InputError(f"{self.path.name} refers to {uri[:SHOWN]!r}, which {_reason(found)}")
-        return found
+        content = self._bytes(uri)
+        if isinstance(content, Unresolved):
+            raise InputError(f"{self.path.name} refers to {uri[:SHOWN]!r}, which {_reason(content)}")
+        return content
 
     def read_or_warn(self, uri: str, what: str) -> bytes | None:
         """Return the bytes of an optional file; None, with a warning, if it cannot be read.
 
         what: its role.
         """
-        found = self._bytes(uri)
-        if isinstance(found, Unresolved):
-            self.warn(f"{what} {uri[:SHOWN]!r} left out: it {_reason(found)}")
+        content = self._bytes(uri)
+        if isinstance(content, Unresolved):
+            self.warn(f"{what} {uri[:SHOWN]!r} left out: it {_reason(content)}")
             return None
-        return found
+        return content
 
     def _bytes(self, uri: str) -> bytes | Unresolved:
-        found = resolve_reference(uri, self._bases, self._root)
-        if isinstance(found, Unresolved):
-            return found
+        file = resolve_reference(uri, self._bases, self._root)
+        if isinstance(file, Unresolved):
+            return file
         try:
-            data = found.read_bytes()
+            data = file.read_bytes()
         except OSError as error:
             return Unresolved(f"cannot be opened ({error.strerror})")
-        self._digests[os.path.relpath(found, self._bases[-1])] = hashlib.sha256(data).hexdigest()
+        self._digests[os.path.relpath(file, self._bases[-1])] = hashlib.sha256(data).hexdigest()
         return data
 
     def warn(self, text: str) -> None:
@@ -88,8 +88,8 @@ class Folder:
         return hashlib.sha256(json.dumps(contents).encode()).hexdigest()
 
 
-def _reason(found: Unresolved) -> str:
-    return f"{found.reason} ({HINT})" if found.reason == OUTSIDE else found.reason
+def _reason(unresolved: Unresolved) -> str:
+    return f"{unresolved.reason} ({HINT})" if unresolved.reason == OUTSIDE else unresolved.reason
 
 
 def _checked(root: Path, path: Path, own: Path) -> Path:

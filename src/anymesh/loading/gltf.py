@@ -54,8 +54,8 @@ def read_gltf(data: bytes, folder: Folder) -> Mesh:
     if not placed:
         modes = {p.get("mode", TRIANGLES) for m in tree["meshes"] for p in m["primitives"]}
         only = sorted({LEFT_OUT[m] for m in modes if m in LEFT_OUT})
-        found = f"only {' and '.join(only)}" if only else "no mesh in its scene"
-        raise InputError(f"{name}: found {found}; a scene with at least one triangle is needed")
+        contents = f"only {' and '.join(only)}" if only else "no mesh in its scene"
+        raise InputError(f"{name}: found {contents}; a scene with at least one triangle is needed")
     return join(placed)
 
 
@@ -102,12 +102,12 @@ def _mesh(folder: Folder, label: str, mesh: dict[str, Any], buffers: Buffers, lo
     """Return the triangles of a mesh's primitives as one node; None if there are none."""
     where = f"{folder.path.name}, {label}"
     primitives = [p for p in mesh["primitives"] if p.get("mode", TRIANGLES) not in LEFT_OUT]
-    found = [made for p in primitives if (made := _primitive(where, p, buffers, looks)) is not None]
-    if len(found) < len(primitives):
+    meshes = [made for p in primitives if (made := _primitive(where, p, buffers, looks)) is not None]
+    if len(meshes) < len(primitives):
         folder.warn(f"{label} has a primitive without triangles, which is left out")
-    if not found:
+    if not meshes:
         return None
-    joined = join(found)
+    joined = join(meshes)
     return replace(joined, face_node=np.zeros(len(joined.faces), np.int64), nodes=joined.nodes[:1])
 
 

@@ -66,7 +66,7 @@ def _material(number: int, m: dict[str, Any], textures: list[dict[str, Any]], im
         "occlusion": m.get("occlusionTexture"),
         "emissive": m.get("emissiveTexture"),
     }
-    found = {slot: _texture(info, textures, images) for slot, info in named.items() if info is not None}
+    slot_textures = {slot: _texture(info, textures, images) for slot, info in named.items() if info is not None}
     mode = m.get("alphaMode", "OPAQUE")
     material = Material(
         name=str(m.get("name") or f"material_{number}"),
@@ -77,7 +77,7 @@ def _material(number: int, m: dict[str, Any], textures: list[dict[str, Any]], im
         double_sided=bool(m.get("doubleSided", False)),
         alpha_mode=mode if mode in ("OPAQUE", "MASK", "BLEND") else "OPAQUE",
         alpha_cutoff=float(m.get("alphaCutoff", 0.5)),
-        textures={slot: t for slot, t in found.items() if t is not None},
+        textures={slot: t for slot, t in slot_textures.items() if t is not None},
     )
     main = base or next((info for info in named.values() if info is not None), {})
     moved = main.get("extensions", {}).get("KHR_texture_transform")

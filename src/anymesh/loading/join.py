@@ -17,8 +17,8 @@ def check_geometry(name: str, vertices: Float[np.ndarray, "V 3"], faces: Int[np.
     if not len(faces):
         raise InputError(f"{name}: found no triangle, only {len(vertices)} points; at least one triangle is needed")
     if faces.min() < 0 or faces.max() >= len(vertices):
-        found = int(faces.min() if faces.min() < 0 else faces.max())
-        raise InputError(f"{name}: a face refers to vertex {found}; valid are 0 to {len(vertices) - 1}")
+        index = int(faces.min() if faces.min() < 0 else faces.max())
+        raise InputError(f"{name}: a face refers to vertex {index}; valid are 0 to {len(vertices) - 1}")
     if not np.isfinite(vertices[faces]).all():
         raise InputError(f"{name}: found a vertex that is not finite (NaN or infinite); valid are finite coordinates")
 
@@ -71,15 +71,15 @@ def unique_names(names: Iterable[str]) -> list[str]:
     """Return the names, with repeated names numbered."""
     taken: set[str] = set()
     count: dict[str, int] = {}
-    found = []
+    unique = []
     for name in names:
         new = name
         while new in taken:
             count[name] = count.get(name, 0) + 1
             new = f"{name}_{count[name]}"
         taken.add(new)
-        found.append(new)
-    return found
+        unique.append(new)
+    return unique
 
 
 def join(meshes: list[Mesh]) -> Mesh:

@@ -17,15 +17,15 @@ BLACK = 0.02
 
 def read_mtl(data: bytes, folder: Folder) -> dict[str, Material]:
     """Return materials by name. A texture that cannot be read gives a warning."""
-    found: dict[str, dict[str, str]] = {}
+    materials: dict[str, dict[str, str]] = {}
     current: dict[str, str] = {}
     for line in data.decode("utf-8-sig", "replace").splitlines():
         key, _, rest = line.strip().replace("\t", " ").partition(" ")
         if key.lower() == "newmtl":
-            current = found.setdefault(rest.strip(), {})
+            current = materials.setdefault(rest.strip(), {})
         elif rest and not key.startswith("#"):
             current[key.lower()] = rest.strip()
-    return {name: _material(name, fields, folder) for name, fields in found.items()}
+    return {name: _material(name, fields, folder) for name, fields in materials.items()}
 
 
 def _material(name: str, fields: dict[str, str], folder: Folder) -> Material:
@@ -69,14 +69,14 @@ def _picture_name(value: str) -> str:
 
 def _numbers(text: str) -> list[float]:
     """Return the numbers at the start of a text."""
-    found = []
+    numbers = []
     for word in text.split():
         try:
             value = float(word)
         except ValueError:
             break
-        found.append(value if math.isfinite(value) else 0.0)
-    return found
+        numbers.append(value if math.isfinite(value) else 0.0)
+    return numbers
 
 
 def _fraction(fields: dict[str, str], key: str, default: float) -> float:

@@ -68,10 +68,10 @@ def read_obj(data: bytes, folder: Folder) -> Mesh:
 
 
 def _read(name: str, text: str) -> _Lines:
-    found = _Lines()
+    lines = _Lines()
     here = ["", "", ""]
     switches = {"o": 0, "g": 1, "usemtl": 2}
-    tables = {"v": found.v, "vt": found.vt, "vn": found.vn}
+    tables = {"v": lines.v, "vt": lines.vt, "vn": lines.vn}
     least = {"v": 3, "vt": 1, "vn": 3}
     for number, line in enumerate(text.replace("\\\r\n", " ").replace("\\\n", " ").split("\n"), 1):
         key, _, rest = line.strip().replace("\t", " ").partition(" ")
@@ -82,34 +82,34 @@ def _read(name: str, text: str) -> _Lines:
                     raise ValueError(f"{len(row)} numbers, at least {least[key]} are needed")
                 tables[key].append(row)
             elif key == "f":
-                corners = [_corner(word, found) for word in rest.split("#", 1)[0].split()]
-                found.corners += corners
-                found.sizes.append(len(corners))
-                found.labels.append((here[0], here[1], here[2]))
+                corners = [_corner(word, lines) for word in rest.split("#", 1)[0].split()]
+                lines.corners += corners
+                lines.sizes.append(len(corners))
+                lines.labels.append((here[0], here[1], here[2]))
             elif key in switches:
                 here[switches[key]] = rest.strip()
             elif key == "mtllib":
-                found.libraries.append(rest.strip())
+                lines.libraries.append(rest.strip())
         except ValueError as error:
             raise InputError(f"{name}: line {number} is broken or truncated: {line.strip()[:60]!r}: {error}") from None
-    return found
+    return lines
 
 
 def _corner(word: str, lines: _Lines) -> tuple[int, int, int]:
     """Return the indices of `v/vt/vn`, from 0; negative ones count back from the line on which they appear."""
     parts = [*word.split("/"), "", ""][:3]
-    found = []
+    indices = []
     for part, table in zip(parts, (lines.v, lines.vt, lines.vn), strict=True):
         number = int(part) if part else 0
         if number > 0:
-            found.append(number - 1)
-        elif number == 0 and part == "" and found:
-            found.append(-1)
+            indices.append(number - 1)
+        elif number == 0 and part == "" and indices:
+            indices.append(-1)
         elif number == 0 or -number > len(table):
             raise ValueError(f"found the index {part or 'none'}; valid are 1 to {len(table)} and -1 to {-len(table)}")
         else:
-            found.append(len(table) + number)
-    return found[0], found[1], found[2]
+            indices.append(len(table) + number)
+    return indices[0], indices[1], indices[2]
 
 
 def _numbered(keys: list[str]) -> tuple[np.ndarray, list[str]]:
@@ -120,14 +120,14 @@ def _numbered(keys: list[str]) -> tuple[np.ndarray, list[str]]:
 
 
 def _materials(folder: Folder, libraries: list[str]) -> dict[str, Material]:
-    found: dict[str, Material] = {}
+    materials: dict[str, Material] = {}
     for line in dict.fromkeys(libraries):
         several = line.split() if folder.find(line) is None and len(line.split()) > 1 else [line]
         for uri in several:
             data = folder.read_or_warn(uri, "material library")
             file = folder.find(uri)
-            found |= {} if data is None or file is None else read_mtl(data, folder.beside(file))
-    return found
+            materials |= {} if data is None or file is None else read_mtl(data, folder.beside(file))
+    return materials
 
 
 def _looked_up(name: str, what: str, table: np.ndarray, rows: np.ndarray) -> np.ndarray | None:

@@ -25,11 +25,11 @@ def read_ply(data: bytes, folder: Folder) -> Mesh:
     """
     name = folder.path.name
     elements, style, comments, body = parse_header(name, data)
-    found = read_elements(name, elements, style, body)
-    vertex, face = found.get("vertex", {}), found.get("face", {})
+    columns = read_elements(name, elements, style, body)
+    vertex, face = columns.get("vertex", {}), columns.get("face", {})
     points = _table(vertex, ("x", "y", "z"))
     if points is None:
-        raise InputError(f"{name}: found the elements {', '.join(found) or 'none'}; vertices with x, y and z are needed")
+        raise InputError(f"{name}: found the elements {', '.join(columns) or 'none'}; vertices with x, y and z are needed")
     lists = next((face[key] for key in INDICES if isinstance(face.get(key), tuple)), None)
     if lists is None:
         raise InputError(f"{name}: found {len(points)} points and no faces; at least one triangle is needed")

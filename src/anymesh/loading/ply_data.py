@@ -76,13 +76,13 @@ def read_elements(name: str, elements: list[Element], style: str, body: bytes) -
         for e in elements:
             e.properties = [(label, "f8", count and "f8") for label, _, count in e.properties]
     order = ">" if style == "binary_big_endian" else "<"
-    found, at = {}, 0
+    columns, at = {}, 0
     for element in elements:
         least = sum(np.dtype(count or kind).itemsize for _, kind, count in element.properties)
         if element.properties:
             check_count(name, f"elements {element.name!r}", element.count, (len(body) - at) // least)
-            found[element.name], at = _element(name, element, order, body, at)
-    return found
+            columns[element.name], at = _element(name, element, order, body, at)
+    return columns
 
 
 def _element(name: str, element: Element, order: str, body: bytes, at: int) -> tuple[Columns, int]:
@@ -131,7 +131,7 @@ def _rows(name: str, element: Element, order: str, body: bytes, at: int) -> tupl
     plain = [
         (label, np.dtype(order + kind), np.dtype(order + count) if count else None) for label, kind, count in element.properties
     ]
-    found: dict[str, list[bytes]] = {label: [] for label, _, _ in plain}
+    chunks: dict[str, list[bytes]] = {label: [] for label, _, _ in plain}
     counts: dict[str, list[int]] = {label: [] for label, _, _ in plain}
     for row in range(element.count):
         for label, kind, count in plain:
@@ -144,11 +144,11 @@ def _rows(name: str, element: Element, order: str, body: bytes, at: int) -> tupl
             if not 0 <= length * kind.itemsize <= len(body) - at:  # also false for NaN
                 raise InputError(f"{name} is truncated: {element.name!r} {row + 1} of {element.count} is incomplete")
             end = at + int(length) * kind.itemsize
-            found[label].append(body[at:end])
+            chunks[label].append(body[at:end])
             counts[label].append(int(length))
             at = end
     columns: Columns = {}
     for label, kind, count in plain:
-        values = np.frombuffer(b"".join(found[label]), kind)
+        values = np.frombuffer(b"".join(chunks[label]), kind)
         columns[label] = values if count is None else (values, np.array(counts[label], np.int64))
     return columns, at

@@ -48,12 +48,12 @@ def recut(
     limit = REFLEX * np.linalg.norm(before, axis=1) * np.linalg.norm(after, axis=1) * np.linalg.norm(normal, axis=1)[owner]
     reflex = np.zeros(len(counts), bool)
     np.logical_or.at(reflex, owner, turn < -limit)
-    found = triangles.copy()
+    recut_triangles = triangles.copy()
     place = np.searchsorted(polygon, np.arange(len(counts)))
     for k in np.flatnonzero(reflex & (counts > 3)):
         corners = points[start[k] : start[k] + counts[k]]
-        found[place[k] : place[k] + counts[k] - 2] = start[k] + _ears(_flat(corners, normal[k]))
-    return found
+        recut_triangles[place[k] : place[k] + counts[k] - 2] = start[k] + _ears(_flat(corners, normal[k]))
+    return recut_triangles
 
 
 def _flat(points: np.ndarray, normal: np.ndarray) -> np.ndarray:
@@ -65,14 +65,14 @@ def _flat(points: np.ndarray, normal: np.ndarray) -> np.ndarray:
 
 def _ears(p: np.ndarray) -> np.ndarray:
     """Return the (n - 2, 3) corner indices of the triangles of a simple counterclockwise polygon (n, 2)."""
-    left, found = list(range(len(p))), []
+    left, ears = list(range(len(p))), []
     while len(left) > 3:
         ear = next((i for i in range(len(left)) if _is_ear(p, left, i)), None)
         if ear is None:  # the polygon crosses itself: the flattest corner does the least harm
             ear = int(np.argmin([abs(_cross(p, *_around(left, i))) for i in range(len(left))]))
-        found.append(_around(left, ear))
+        ears.append(_around(left, ear))
         del left[ear]
-    return np.array([*found, tuple(left)])
+    return np.array([*ears, tuple(left)])
 
 
 def _around(left: list[int], i: int) -> tuple[int, int, int]:

@@ -44,10 +44,10 @@ def resolve_reference(uri: str, bases: Sequence[Path], root: Path) -> Path | Unr
         return Unresolved(f"has the scheme {kind}:, which is not followed")
     outside = False
     for start, name in starts:
-        found = None if start is None else _walk(start, name, root)
-        if found is not None and _is_file(found):
-            return found
-        outside = outside or found is None
+        path = None if start is None else _walk(start, name, root)
+        if path is not None and _is_file(path):
+            return path
+        outside = outside or path is None
     return Unresolved(OUTSIDE if outside else MISSING)
 
 

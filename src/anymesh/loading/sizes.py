@@ -33,11 +33,11 @@ def usual_size(words: str) -> tuple[str, float] | None:
 
     The last word that is a kind counts, since a table lamp is a lamp.
     """
-    found = [w.lower() for w in re.findall(r"[A-Za-z]+", re.sub(r"([a-z])([A-Z])", r"\1 \2", words))]
-    if SMALLER & set(found):
+    tokens = [w.lower() for w in re.findall(r"[A-Za-z]+", re.sub(r"([a-z])([A-Z])", r"\1 \2", words))]
+    if SMALLER & set(tokens):
         return None
-    pairs = [f"{a}_{b}" for a, b in pairwise(found)]
-    known = [k for k in (*found, *pairs) if k in LONGEST]
+    pairs = [f"{a}_{b}" for a, b in pairwise(tokens)]
+    known = [k for k in (*tokens, *pairs) if k in LONGEST]
     return (known[-1], LONGEST[known[-1]]) if known else None
 
 

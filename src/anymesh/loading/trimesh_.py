@@ -136,7 +136,7 @@ def _material(material: Any) -> Material:
         "normal": material.normalTexture,
         "emissive": material.emissiveTexture,
     }
-    found = {slot: _texture(image) for slot, image in named.items()}
+    textures = {slot: _texture(image) for slot, image in named.items()}
     roughness = material.roughnessFactor
     return Material(
         name=str(material.name),
@@ -145,7 +145,7 @@ def _material(material: Any) -> Material:
         roughness=1.0 if roughness is None or not np.isfinite(roughness) else float(roughness),
         double_sided=False,
         alpha_mode="BLEND" if alpha < 1 else "OPAQUE",
-        textures={slot: t for slot, t in found.items() if t is not None},
+        textures={slot: t for slot, t in textures.items() if t is not None},
     )
 
 

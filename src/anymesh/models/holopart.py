@@ -65,10 +65,10 @@ def open_holopart(where: str, *, timeout: float = 1800.0, seed: int = 0) -> Part
         raise OptionError(f"--completer: found {held} at {folder or '(nothing)'!r}; valid are {VALID}")
     own = [str(p) for p in (root / ".venv/bin/python", root / ".venv/Scripts/python.exe") if p.is_file()]
     asked = python or next(iter(own), "python")
-    found = shutil.which(str(Path(asked).expanduser()) if os.sep in asked else asked)
-    if found is None:
+    program = shutil.which(str(Path(asked).expanduser()) if os.sep in asked else asked)
+    if program is None:
         raise OptionError(f"--completer: found no program {asked!r} to run {root} with; valid are {VALID}")
-    return Checkout(root.resolve(), str(Path(found).absolute()), timeout, seed)
+    return Checkout(root.resolve(), str(Path(program).absolute()), timeout, seed)
 
 
 @dataclass(frozen=True)

@@ -16,10 +16,10 @@ LARGEST_MODEL = 100_000_000  # [bytes] of a model sent as a data URI
 
 def check_prompt(prompt: str) -> str:
     """Return the prompt without surrounding spaces. Raise OptionError if the service does not accept it."""
-    found = prompt.strip()
-    if not 0 < len(found) <= LONGEST_PROMPT:
-        raise OptionError(f"a texture prompt has 1 to {LONGEST_PROMPT} characters, found {len(found)}")
-    return found
+    text = prompt.strip()
+    if not 0 < len(text) <= LONGEST_PROMPT:
+        raise OptionError(f"a texture prompt has 1 to {LONGEST_PROMPT} characters, found {len(text)}")
+    return text
 
 
 @dataclass

@@ -80,15 +80,15 @@ class Task:
 
 def read_key() -> str:
     """Read the key from the environment, at each call. Raise ModelError if there is none."""
-    found = os.environ.get(KEY, "").strip()
-    if not found:
+    key = os.environ.get(KEY, "").strip()
+    if not key:
         raise ModelError(f"no key for meshy: set the environment variable {KEY}")
-    return found
+    return key
 
 
 def create_task(kind: TaskKind, body: bytes, timeout: float) -> str:
     """Create a paid task and return its id. Raise LostError if it may have been created although no answer arrived."""
-    made = _said(_call(kind, "POST", "", timeout, body)).get("result")
+    made = _mapping(_call(kind, "POST", "", timeout, body)).get("result")
     if not (isinstance(made, str) and TASK_ID.fullmatch(made)):
         raise LostError("meshy: the service accepted the task without a valid id")
     return made
@@ -96,7 +96,7 @@ def create_task(kind: TaskKind, body: bytes, timeout: float) -> str:
 
 def get_task(kind: TaskKind, task: str, timeout: float) -> Task:
     """Return the state of a task. Raise RefusedError with status 404 if there is none of that id."""
-    return _task(_said(_call(kind, "GET", f"/{task}", timeout)), task)
+    return _task(_mapping(_call(kind, "GET", f"/{task}", timeout)), task)
 
 
 def list_tasks(kind: TaskKind, timeout: float) -> list[Task]:
@@ -135,7 +135,7 @@ def _refusal(kind: TaskKind, answer: Answer) -> ModelError:
     message, content = f"meshy: HTTP {answer.status}", _json(answer)
     if answer.status in (401, 403):  # the service's message is about the key and may contain parts of it
         return RefusedError(f"{message}, the key in {KEY} is missing or refused", answer.status)
-    message += safe(_said(content).get("message"))
+    message += safe(_mapping(content).get("message"))
     if answer.status in (408, 425, 429, 503):
         return TransientError(message, answer.retry_after)
     if answer.status >= 500:  # a request may have been carried out despite a gateway error
@@ -154,14 +154,14 @@ def safe(words: object) -> str:
 
 
 def _task(record: dict[str, Any], task: str) -> Task:
-    progress, spent, url = record.get("progress"), record.get("consumed_credits"), _said(record.get("model_urls")).get("glb")
+    progress, spent, url = record.get("progress"), record.get("consumed_credits"), _mapping(record.get("model_urls")).get("glb")
     seed, created = record.get("seed"), record.get("created_at")
     return Task(
         id=task,
         status=str(record.get("status"))[:40],
         progress=progress if isinstance(progress, int) else 0,
         prompt=str(record.get("text_style_prompt") or record.get("prompt") or ""),
-        error=safe(_said(record.get("task_error")).get("message")),
+        error=safe(_mapping(record.get("task_error")).get("message")),
         credits=float(spent) if isinstance(spent, int | float) else 0.0,
         url=url if isinstance(url, str) else None,
         type=str(record.get("type") or "")[:40],
@@ -170,7 +170,7 @@ def _task(record: dict[str, Any], task: str) -> Task:
     )
 
 
-def _said(value: object) -> dict[str, Any]:
+def _mapping(value: object) -> dict[str, Any]:
     return value if isinstance(value, dict) else {}
 
 

@@ -31,10 +31,10 @@ class Generated:
 
 def check_prompt(prompt: str) -> str:
     """Return the prompt without surrounding spaces. Raise OptionError if the service does not accept it."""
-    found = prompt.strip()
-    if not 0 < len(found) <= LONGEST_PROMPT:
-        raise OptionError(f"a prompt for meshy has 1 to {LONGEST_PROMPT} characters, found {len(found)}")
-    return found
+    text = prompt.strip()
+    if not 0 < len(text) <= LONGEST_PROMPT:
+        raise OptionError(f"a prompt for meshy has 1 to {LONGEST_PROMPT} characters, found {len(text)}")
+    return text
 
 
 def data_uri(image: Path) -> str:

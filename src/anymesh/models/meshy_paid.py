@@ -93,9 +93,9 @@ class PaidTasks:
             write_pending(order.state, Pending(order.digest, task))
         else:
             log.info("meshy: resuming task %s", task)
-        found = self._wait(order, task)
-        self.credits += found.credits if self.calls > before else 0.0
-        bought = Bought(task, found.credits, found.seed)
+        finished = self._wait(order, task)
+        self.credits += finished.credits if self.calls > before else 0.0
+        bought = Bought(task, finished.credits, finished.seed)
         write_pending(order.state, Pending(order.digest, task, bought=bought))
         return bought
 
@@ -132,12 +132,12 @@ class PaidTasks:
                 return create_task(order.kind, order.body, self.timeout)
             except LostError as error:
                 lost = error
-            found = self._lost(pending, order)
-            if found is None and pending.known is None:
+            task_id = self._lost(pending, order)
+            if task_id is None and pending.known is None:
                 raise ModelError(f"{lost}; a task may have been made and paid, look at your account before a rerun")
-            if found is None:
+            if task_id is None:
                 raise lost
-            return found
+            return task_id
 
         task = self._persist(create)
         self.calls += 1

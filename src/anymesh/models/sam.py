@@ -114,15 +114,15 @@ def automatic_masks(
     """
     settings = settings or AutomaticMasks()
     height, width = image.shape[:2]
-    found: list[_Candidate] = []
+    candidates: list[_Candidate] = []
     crops = crop_boxes(height, width, settings.crop_layers, settings.crop_overlap)
     for layer, crop in crops:
         points = point_grid(max(1, settings.points_per_side // settings.crop_points_divisor**layer))
         here = list(_of_crop(model, image, crop, points, settings))
-        found += _suppressed(here, [c.score for c in here], settings.nms_iou)
+        candidates += _suppressed(here, [c.score for c in here], settings.nms_iou)
     if len(crops) > 1:  # prefer masks of smaller crops, which have more detail
-        found = _suppressed(found, [1 / c.crop_area for c in found], settings.nms_iou)
-    proposals = [c.proposed(height, width) for c in found]
+        candidates = _suppressed(candidates, [1 / c.crop_area for c in candidates], settings.nms_iou)
+    proposals = [c.proposed(height, width) for c in candidates]
     return _cleaned(proposals, settings) if settings.smallest_region else proposals
 
 
@@ -152,15 +152,15 @@ def _of_crop(
                 yield _Candidate(np.packbits(mask), crop, box, float(scores[k, m]), stable)
 
 
-def _suppressed(found: list[_Candidate], priority: list[float], iou: float) -> list[_Candidate]:
-    boxes = np.array([c.box for c in found], float).reshape(-1, 4)
-    return [found[k] for k in box_nms(boxes, np.array(priority, float), iou)]
+def _suppressed(candidates: list[_Candidate], priority: list[float], iou: float) -> list[_Candidate]:
+    boxes = np.array([c.box for c in candidates], float).reshape(-1, 4)
+    return [candidates[k] for k in box_nms(boxes, np.array(priority, float), iou)]
 
 
-def _cleaned(found: list[ProposedMask], settings: AutomaticMasks) -> list[ProposedMask]:
+def _cleaned(proposals: list[ProposedMask], settings: AutomaticMasks) -> list[ProposedMask]:
     """Remove small islands and holes, and the duplicates that result; unchanged masks take precedence."""
     cleaned = []
-    for proposal in found:
+    for proposal in proposals:
         mask, changed = without_small_regions(proposal.mask, settings.smallest_region)
         cleaned.append((ProposedMask(mask, proposal.score, proposal.stability, mask_box(mask)), 0.0 if changed else 1.0))
     boxes = np.array([p.box for p, _ in cleaned], float).reshape(-1, 4)

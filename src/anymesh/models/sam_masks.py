@@ -24,7 +24,7 @@ def crop_boxes(height: int, width: int, layers: int, overlap: float) -> list[tup
 
     overlap: of the crops of layer 1, as a share of the shorter side; it halves with each layer.
     """
-    found = [(0, (0, 0, width, height))]
+    crops = [(0, (0, 0, width, height))]
     for layer in range(1, layers + 1):
         side = 2**layer
         shared = int(overlap * min(height, width) * (2 / side))
@@ -32,8 +32,8 @@ def crop_boxes(height: int, width: int, layers: int, overlap: float) -> list[tup
         for i in range(side):
             for j in range(side):
                 x, y = (w - shared) * i, (h - shared) * j
-                found.append((layer, (x, y, min(x + w, width), min(y + h, height))))
-    return found
+                crops.append((layer, (x, y, min(x + w, width), min(y + h, height))))
+    return crops
 
 
 def stability(logits: Float[np.ndarray, "H W"], offset: float) -> float:

@@ -64,20 +64,20 @@ class TorchSam:
         prompts = self._torch.from_numpy(at)[None, :, None].to(self._device)
         labels = self._torch.ones(prompts.shape[:3], dtype=self._torch.int64, device=self._device)
         with self._torch.inference_mode():
-            found = self._model(
+            prediction = self._model(
                 image_embeddings=embedding.features, input_points=prompts, input_labels=labels, multimask_output=True
             )
-        return found.pred_masks[0].float().cpu().numpy(), found.iou_scores[0].float().cpu().numpy()
+        return prediction.pred_masks[0].float().cpu().numpy(), prediction.iou_scores[0].float().cpu().numpy()
 
 
 def _kind(folder: Path) -> tuple[str, bool]:
     try:
-        found = json.loads((folder / "config.json").read_text()).get("model_type")
+        model_type = json.loads((folder / "config.json").read_text()).get("model_type")
     except (OSError, ValueError, AttributeError) as error:
         raise ModelError(f"{folder}: config.json cannot be read ({error})") from None
-    if found not in MODELS:
-        raise ModelError(f"{folder}: config.json has model_type {found!r}; valid are {', '.join(MODELS)}")
-    return MODELS[found]
+    if model_type not in MODELS:
+        raise ModelError(f"{folder}: config.json has model_type {model_type!r}; valid are {', '.join(MODELS)}")
+    return MODELS[model_type]
 
 
 def _device(torch: ModuleType, wanted: str | None) -> Any:

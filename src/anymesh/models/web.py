@@ -88,10 +88,10 @@ def exchange(call: Call) -> Answer:
     """
     if not is_web(call.url, plain=call.plain):
         raise ModelError(f"{call.name}: the address must be https, or http on this machine")
-    found = _exchange(call)
-    if isinstance(found, ModelError):  # raised here, outside the handler, since the library's error may hold the request
-        raise found
-    return found
+    answer = _exchange(call)
+    if isinstance(answer, ModelError):  # raised here, outside the handler, since the library's error may hold the request
+        raise answer
+    return answer
 
 
 def _exchange(call: Call) -> Answer | ModelError:

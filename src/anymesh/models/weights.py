@@ -155,8 +155,8 @@ def choose(names: Iterable[str], place: str) -> tuple[str, ...]:
 def _checked(name: str, files: list[Path], digests: Mapping[str, str]) -> Weights:
     for path in files:
         expected = digests.get(path.name)
-        if expected and (found := _sha256(path)) != expected.lower():
-            raise ModelError(f"{name}: {path.name} has sha256 {found}, not {expected}; these are not the pinned weights")
+        if expected and (digest := _sha256(path)) != expected.lower():
+            raise ModelError(f"{name}: {path.name} has sha256 {digest}, not {expected}; these are not the pinned weights")
     unknown = set(digests) - {path.name for path in files}
     if unknown:
         raise OptionError(f"{name}: a sha256 is given for {', '.join(sorted(unknown))}; used are {[p.name for p in files]}")

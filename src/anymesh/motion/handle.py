@@ -51,7 +51,7 @@ def find_handle(
 def _tab(part: TriangleSet, core: OrientedBox, gap: np.ndarray, scale: float, opening_direction: np.ndarray) -> Handle | None:
     face = face_axes(core, opening_direction)
     local = core.local(part.samples.points)
-    found = []
+    tabs = []
     for row, k in enumerate(face):
         for sign in (-1.0, 1.0):
             out = sign * local[:, k] > core.half[k] + MIN_HANDLE_HEIGHT_RATIO * core.diagonal
@@ -59,10 +59,10 @@ def _tab(part: TriangleSet, core: OrientedBox, gap: np.ndarray, scale: float, op
                 continue
             along, half = local[out][:, face[1 - row]], max(float(core.half[face[1 - row]]), 1e-9)
             if np.ptp(along) < half:  # at most half of the rim; a wider one is a ledge
-                found.append((row, sign, float(along.mean()) / half, out))
-    if len(found) != 1:
+                tabs.append((row, sign, float(along.mean()) / half, out))
+    if len(tabs) != 1:
         return None
-    row, sign, level, out = found[0]
+    row, sign, level, out = tabs[0]
     across = [sign, float(np.clip(level, -1, 1))]
     size = float(np.ptp(local[out][:, face], axis=0).max() / core.diagonal)
     return Handle((across[0], across[1]) if row == 0 else (across[1], across[0]), None, size)

@@ -51,14 +51,16 @@ def raw_inertia(triangles: Float[np.ndarray, "n 3 3"], config: InertiaConfig, ma
     cross = face_cross(t)
     volumes = np.einsum("ij,ij->i", t[:, 0], cross) / 6
     areas = np.linalg.norm(cross, axis=1) / 2
-    found = components(corners, np.arange(len(corners)).reshape(-1, 3))
-    volume = np.bincount(found.label, volumes, found.count)
-    flat = np.abs(volume) <= 1e-9 * np.bincount(found.label, np.abs(volumes), found.count)
+    surface_components = components(corners, np.arange(len(corners)).reshape(-1, 3))
+    volume = np.bincount(surface_components.label, volumes, surface_components.count)
+    flat = np.abs(volume) <= 1e-9 * np.bincount(surface_components.label, np.abs(volumes), surface_components.count)
     wall = config.wall(float(np.linalg.norm(np.ptp(corners, axis=0))))
-    body, sheet_density, closed = _densities(found.label, areas, np.abs(volume), found.solid & ~flat, wall, config, made_of)
-    solid = closed[found.label]
-    filled = np.where(solid, (body * np.sign(volume))[found.label] * volumes, 0.0)
-    sheet = np.where(solid, 0.0, sheet_density[found.label] * areas)
+    body, sheet_density, closed = _densities(
+        surface_components.label, areas, np.abs(volume), surface_components.solid & ~flat, wall, config, made_of
+    )
+    solid = closed[surface_components.label]
+    filled = np.where(solid, (body * np.sign(volume))[surface_components.label] * volumes, 0.0)
+    sheet = np.where(solid, 0.0, sheet_density[surface_components.label] * areas)
     mass = float(filled.sum() + sheet.sum())
     if mass <= 0:
         return Inertia(0.0, base, np.zeros((3, 3)))

@@ -146,13 +146,13 @@ def resolve_auto(name: str) -> tuple[str, str]:
     """
     if name != AUTO:
         return name, ""
-    found = first_vision_model(probe_servers())
-    if found is None:
+    model = first_vision_model(probe_servers())
+    if model is None:
         return GEOMETRY, "auto uses geometry: no local model that accepts pictures responds (`anymesh models`)"
     if find_spec("pydantic_ai") is None:
-        reason = f"auto uses geometry: {found.name} responds, but its client is missing: pip install 'articulate-anymesh[vlm]'"
+        reason = f"auto uses geometry: {model.name} responds, but its client is missing: pip install 'articulate-anymesh[vlm]'"
         return GEOMETRY, reason
-    return found.name, f"auto uses {found.name}, which runs on this machine"
+    return model.name, f"auto uses {model.name}, which runs on this machine"
 
 
 def _from_files(

@@ -46,11 +46,11 @@ def articulate_many(
     folder with its name in FOLDER.
     Raise OptionError for meshes with the same name, BudgetError if the common budget is exceeded.
     """
-    found = mesh_files(meshes)
+    files = mesh_files(meshes)
     answerer, spent = str(options.pop("answerer", GEOMETRY)), Spent()
     outcomes = []
-    for number, (name, path) in enumerate(found.items()):
-        progress("batch", name, number, len(found))
+    for number, (name, path) in enumerate(files.items()):
+        progress("batch", name, number, len(files))
         target = Path(out) / name
         who = f"{FILES}{Path(answerer.removeprefix(FILES)) / name}" if answerer.startswith(FILES) else answerer
         try:
@@ -66,16 +66,16 @@ def articulate_many(
 
 def mesh_files(meshes: Sequence[str | Path]) -> dict[str, Path]:
     """Find the mesh files by name, including those directly in a folder. Raise InputError or OptionError."""
-    found: dict[str, Path] = {}
+    files: dict[str, Path] = {}
     for given in map(Path, meshes):
         inside = sorted(p for p in given.iterdir() if p.suffix.lower() in FORMATS) if given.is_dir() else [given]
         if not inside:
             raise InputError(f"{given} holds no mesh; valid are files with {', '.join(FORMATS)}")
         for path in inside:
-            if path.stem in found and found[path.stem] != path:
-                raise OptionError(f"--batch identifies objects by name; {found[path.stem]} and {path} have the same")
-            found[path.stem] = path
-    return found
+            if path.stem in files and files[path.stem] != path:
+                raise OptionError(f"--batch identifies objects by name; {files[path.stem]} and {path} have the same")
+            files[path.stem] = path
+    return files
 
 
 def _is_done(mesh: Path, target: Path, answerer: str, *, force: bool) -> bool:

@@ -52,7 +52,7 @@ def complete_asset(folder: RunFolder, how: Completion, deadline: Deadline, progr
     key = stage_key(COMPLETION, previous=folder.last_key(), config=settings)
     if folder.load(COMPLETION, key) is None:
         with folder.timed("finish"):
-            found = finish_asset(
+            completion = finish_asset(
                 folder.asset(),
                 shapes=how.completer != "off",
                 completer=how.first,
@@ -60,7 +60,7 @@ def complete_asset(folder: RunFolder, how: Completion, deadline: Deadline, progr
                 config=ShapeConfig(watertight=how.watertight),
                 deadline=deadline,
             )
-        folder.save(COMPLETION, key, found)
+        folder.save(COMPLETION, key, completion)
 
 
 def finish_asset(
@@ -93,13 +93,13 @@ def _completed(
     asset: Asset, completer: Completer | None, config: ShapeConfig, deadline: Deadline
 ) -> tuple[Finished, list[str]]:
     try:
-        found = complete(asset, config, completer=completer, deadline=deadline)
-        return found, list(_note_lines(found))
+        finished = complete(asset, config, completer=completer, deadline=deadline)
+        return finished, list(_note_lines(finished))
     except ModelError as error:
         if completer is None:
             raise
-        found = complete(asset, config, deadline=deadline)
-        return found, [f"{completer.name}: {error}; the built-in completer did all parts", *_note_lines(found)]
+        finished = complete(asset, config, deadline=deadline)
+        return finished, [f"{completer.name}: {error}; the built-in completer did all parts", *_note_lines(finished)]
 
 
 def _note_lines(finished: Finished) -> Iterator[str]:

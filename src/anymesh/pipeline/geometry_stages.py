@@ -54,8 +54,8 @@ class GeometryStages:
         self, segmentation: Segmentation, recognition: Recognition | None, progress: Progress = silent, grounded: bool = False
     ) -> JointResult:
         """Run Stage B."""
-        found = estimate_joints(segmentation, self._motions(segmentation, progress))
-        return joint_result(found, self.name, self.deadline.warnings())
+        joints = estimate_joints(segmentation, self._motions(segmentation, progress))
+        return joint_result(joints, self.name, self.deadline.warnings())
 
     def parts(self, progress: Progress = silent) -> Segmentation:
         """Return the parts found by geometry, computed once."""
@@ -65,18 +65,18 @@ class GeometryStages:
 
     def _labels(self, segmentation: Segmentation) -> list[str]:
         """Return a label of each part but the base from its motion by geometry; "" for a part that cannot move."""
-        found = {}
+        labels = {}
         for i, _, around, question in self._motions(segmentation):
             answer, best = choose_motion(around, question)
-            found[i] = "" if answer.type is JointType.FIXED else label_of(around, best)
-        return [found[i] for i in sorted(found)]
+            labels[i] = "" if answer.type is JointType.FIXED else label_of(around, best)
+        return [labels[i] for i in sorted(labels)]
 
     def _motions(self, segmentation: Segmentation, progress: Progress = silent) -> list[PartMotions]:
         """Sweep the motions of all parts; the last result is cached."""
         faces = segmentation.face_part.tobytes()
         if self._swept is None or self._swept[0] != faces:
-            found = motion_questions(self.ready_for(segmentation), segmentation, self.config, self.deadline)
-            self._swept = faces, list(_with_progress(found, segmentation, progress))
+            motions = motion_questions(self.ready_for(segmentation), segmentation, self.config, self.deadline)
+            self._swept = faces, list(_with_progress(motions, segmentation, progress))
             return self._swept[1]
         return list(_with_progress(relabelled(self._swept[1], segmentation), segmentation, progress))
 

@@ -60,9 +60,11 @@ class PromptedStages:
         _ = self._ground  # report unusable weights before anything is asked
         answerer = self._see(ReferenceAnswerer(self._geometry.name, lambda: self._geometry.reference_parts))
         azimuths = [azimuth for azimuth, _ in self.config.views.directions]
-        found = recognize(self._view_pictures, answerer, self.config.category, self.config.parts_list, azimuths)
-        scale, note, doubt = answered_scale(found, float(self.mesh.extents.max()), metric=metric) if sized else (1.0, "", ())
-        return RecognitionResult(found, answerer.name, scale, note, (*answerer.warnings, *doubt), answerer.exchanges)
+        recognition = recognize(self._view_pictures, answerer, self.config.category, self.config.parts_list, azimuths)
+        scale, note, doubt = (
+            answered_scale(recognition, float(self.mesh.extents.max()), metric=metric) if sized else (1.0, "", ())
+        )
+        return RecognitionResult(recognition, answerer.name, scale, note, (*answerer.warnings, *doubt), answerer.exchanges)
 
     def _view_pictures(self) -> tuple[Picture, ...]:
         seen, prompts, cloud = self.visual_prompts.views, self.visual_prompts, self._sampled.cloud
@@ -81,7 +83,7 @@ class PromptedStages:
         answerer = self._see(ReferenceAnswerer(self._geometry.name, lambda: self._geometry.reference_parts))
         labels = tuple(r.label for r in recognition.labels)
         questioner = MarkQuestioner(answerer, self.visual_prompts, labels, recognition.category, self.config)
-        found, warnings = ground_parts(
+        segmentation, warnings = ground_parts(
             self._sampled,
             questioner,
             recognition,
@@ -91,7 +93,7 @@ class PromptedStages:
             progress,
         )
         return segmentation_result(
-            found, answerer.name, (*answerer.warnings, *warnings, *self.deadline.warnings()), answerer.exchanges
+            segmentation, answerer.name, (*answerer.warnings, *warnings, *self.deadline.warnings()), answerer.exchanges
         )
 
     def estimate_joints(
@@ -106,8 +108,8 @@ class PromptedStages:
         reground = self._regrounding(questions, segmentation) if grounded and recognition is not None else None
         made = prompt_joints(questions, self._geometry.ready_for, segmentation, reground)
         warnings = (*answerer.warnings, *made.warnings, *self.deadline.warnings())
-        found = joint_result(made.joints, answerer.name, warnings, answerer.exchanges)
-        return replace(found, segmentation=made.segmentation if made.segmentation is not segmentation else None)
+        estimated = joint_result(made.joints, answerer.name, warnings, answerer.exchanges)
+        return replace(estimated, segmentation=made.segmentation if made.segmentation is not segmentation else None)
 
     def _regrounding(self, questions: Questions, segmentation: Segmentation) -> Reground:
         """Return the function that grounds wrong parts again."""

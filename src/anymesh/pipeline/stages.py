@@ -48,12 +48,12 @@ class Run:
 
         A saved result is not used if geometry answered it instead of a model, or if its answers have changed.
         """
-        found = self.folder.load(stage, key)
-        if found is None or any(e.given_up for e in found.exchanges) or not self.who.is_current(found.exchanges):
+        answered = self.folder.load(stage, key)
+        if answered is None or any(e.given_up for e in answered.exchanges) or not self.who.is_current(answered.exchanges):
             with self.folder.timed(name):
-                found = compute()
-            self.folder.save(stage, key, found)
-        return found
+                answered = compute()
+            self.folder.save(stage, key, answered)
+        return answered
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,13 +72,13 @@ def load(run: Run, path: Path, how: PlacementOptions) -> Keyed[LoadResult]:
         category = run.who.config.category
         settings = {"up": how.up, "scale": how.scale, "category": category, "path": str(path), "references": loaded.references}
         key = stage_key(MESH, previous=loaded.sha256, config=settings)
-        found = run.folder.load(MESH, key)
-        if found is None:
+        placed = run.folder.load(MESH, key)
+        if placed is None:
             p = place_mesh(loaded, up=how.up, scale=how.scale, category=category)
             source = Source(str(path), loaded.sha256, p.T_asset_source, p.up, p.notes)
-            found = LoadResult(p.mesh, source, (*loaded.warnings, *p.warnings), p.metric)
-            run.folder.save(MESH, key, found)
-    return Keyed(found, key)
+            placed = LoadResult(p.mesh, source, (*loaded.warnings, *p.warnings), p.metric)
+            run.folder.save(MESH, key, placed)
+    return Keyed(placed, key)
 
 
 def recognize(run: Run, loaded: Keyed[LoadResult], parts: str, *, sized: bool) -> tuple[Solver, Keyed[RecognitionResult]]:
@@ -94,9 +94,9 @@ def recognize(run: Run, loaded: Keyed[LoadResult], parts: str, *, sized: bool) -
     metric = loaded.result.metric
     settings = {**who.settings("verify", "proposer"), "sized": sized, "metric": metric}
     key = stage_key(RECOGNITION, previous=loaded.key, config=settings)
-    found = run.answered(RECOGNITION, key, "recognize", lambda: solver.recognize(sized=sized, metric=metric))
-    final = found.sized(loaded.result)
-    return (solver if final is loaded.result else run.solver(final.mesh)), Keyed(found, key)
+    recognized = run.answered(RECOGNITION, key, "recognize", lambda: solver.recognize(sized=sized, metric=metric))
+    final = recognized.sized(loaded.result)
+    return (solver if final is loaded.result else run.solver(final.mesh)), Keyed(recognized, key)
 
 
 def segment_parts(run: Run, solver: Solver, recognized: Keyed[RecognitionResult], parts: str) -> Keyed[SegmentationResult]:
@@ -122,10 +122,10 @@ def estimate_joints(
 
     def compute() -> JointResult:
         parts, grounded = segmented.result, segmented.result.answerer != GIVEN
-        found = solver.joints(parts.segmentation, recognized.recognition, run.progress, grounded)
-        if found.segmentation is not None:
-            run.folder.save(SEGMENTATION, segmented.key, replace(parts, segmentation=found.segmentation))
-        return found
+        estimated = solver.joints(parts.segmentation, recognized.recognition, run.progress, grounded)
+        if estimated.segmentation is not None:
+            run.folder.save(SEGMENTATION, segmented.key, replace(parts, segmentation=estimated.segmentation))
+        return estimated
 
     key = stage_key(JOINTS, previous=segmented.key, config={**run.who.settings(), "limit": run.deadline.seconds})
     return run.answered(JOINTS, key, "joints", compute)

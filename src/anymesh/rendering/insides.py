@@ -24,12 +24,12 @@ def inside_views(mesh: Mesh, inside: Bool[np.ndarray, " F"], cameras: Sequence[C
     own = np.flatnonzero(inside)
     part = mesh.subset(inside)
     rays = RayScene(part.vertices, part.faces)
-    found = []
+    views = []
     for camera in cameras:
         near, whole = shown(part, camera, rays), shown(mesh, camera, scene)
         face = np.where(near.face >= 0, own[np.maximum(near.face, 0)], -1)
-        found.append(replace(near, face=face, paint=partial(_over_ghost, near, whole)))
-    return found
+        views.append(replace(near, face=face, paint=partial(_over_ghost, near, whole)))
+    return views
 
 
 def _over_ghost(near: View, whole: View) -> UInt8[np.ndarray, "H W 3"]:

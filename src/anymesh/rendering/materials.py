@@ -60,7 +60,7 @@ def _texels(
 
 def texels_per_pixel(mesh: Mesh, hits: SurfaceHits, beside: Int[np.ndarray, "m 2"]) -> dict[int, int]:
     """Return by material how many texels per side one pixel covers: the median over pairs of hits one pixel apart."""
-    found = {}
+    texels = {}
     for number, material in enumerate(mesh.materials):
         if mesh.corner_uv is None or "base_color" not in material.textures:
             continue
@@ -70,8 +70,8 @@ def texels_per_pixel(mesh: Mesh, hits: SurfaceHits, beside: Int[np.ndarray, "m 2
             corners = mesh.corner_uv[hits.face[pairs[:, 0]]]
             du, dv = (np.diff(a[pairs], axis=1) for a in (hits.u, hits.v))
             uv = du * (corners[:, 1] - corners[:, 0]) + dv * (corners[:, 2] - corners[:, 0])
-            found[number] = max(1, round(float(np.median(np.linalg.norm(uv * texture(material).shape[1::-1], axis=1)))))
-    return found
+            texels[number] = max(1, round(float(np.median(np.linalg.norm(uv * texture(material).shape[1::-1], axis=1)))))
+    return texels
 
 
 def texture(material: Material, reduce: int = 1) -> UInt8[np.ndarray, "H W 3"]:

@@ -29,12 +29,12 @@ class Steps:
 
 def changes(value: Int[np.ndarray, "H W"], row: Int[np.ndarray, "H W"]) -> Int[np.ndarray, "m 2"]:
     """Return the rows of horizontal and vertical neighbours with different values; pixels whose row is -1 are ignored."""
-    found = []
+    neighbours = []
     for near, far in (((slice(None), slice(None, -1)), (slice(None), slice(1, None))), (slice(None, -1), slice(1, None))):
         at = np.flatnonzero(value[near] != value[far])
         pairs = np.stack([row[near].reshape(-1)[at], row[far].reshape(-1)[at]], 1)
-        found.append(pairs[(pairs >= 0).all(1)])
-    return np.concatenate(found)
+        neighbours.append(pairs[(pairs >= 0).all(1)])
+    return np.concatenate(neighbours)
 
 
 def find_steps(
@@ -59,8 +59,8 @@ def find_steps(
     outline[inner] = np.clip((apart - STEP[0]) / (STEP[1] - STEP[0]), 0, 1)
     angle = np.arccos(np.clip(np.einsum("ij,ij->i", normal[p], normal[q]), -1, 1))
     crease[inner] = np.clip((angle - CREASE_ANGLE) / (FULL_CREASE - CREASE_ANGLE), 0, 1)
-    found = np.flatnonzero(np.maximum(outline, crease) > 0)
-    return Steps(pairs[found], outline[found], crease[found])
+    lines = np.flatnonzero(np.maximum(outline, crease) > 0)
+    return Steps(pairs[lines], outline[lines], crease[lines])
 
 
 def stroke(

@@ -127,10 +127,10 @@ def _split(
     rows = np.arange(len(directions), dtype=np.int32).reshape(shape)
     pairs = changes(hits.face.reshape(shape), rows)
     key = np.where(hits.face < 0, -1, target.face_key[hits.face])
-    found = np.zeros(len(directions), bool)
-    found[pairs[key[pairs[:, 0]] != key[pairs[:, 1]]]] = True
-    found[find_steps(hits, directions, normal, pairs, pixel).pairs] = True
-    return found
+    mask = np.zeros(len(directions), bool)
+    mask[pairs[key[pairs[:, 0]] != key[pairs[:, 1]]]] = True
+    mask[find_steps(hits, directions, normal, pairs, pixel).pairs] = True
+    return mask
 
 
 def _places(split: Int[np.ndarray, " k"], width: int) -> Int[np.ndarray, " m"]:

@@ -68,9 +68,9 @@ def best_camera(posed: Posed, poses: Sequence[np.ndarray], motions: Sequence[tup
         far = orbit_camera(total, np.deg2rad(azimuth), np.deg2rad(elevation), SKETCH)
         near = _framed(far, _corners(focus))
         rays = near.rays()
-        found = _difference(_depths(posed, poses, near, rays), step) * ELEVATION_WEIGHTS[elevation] * AZIMUTH_WEIGHTS[azimuth]
-        if best is None or found > most:
-            best, most = near, found
+        score = _difference(_depths(posed, poses, near, rays), step) * ELEVATION_WEIGHTS[elevation] * AZIMUTH_WEIGHTS[azimuth]
+        if best is None or score > most:
+            best, most = near, score
     assert best is not None
     ends = [motion_axis(posed.corners, *m, best)[0] for m in motions]
     return _tightened(best, posed, places, np.concatenate([np.zeros((0, 3)), *ends]), size)
@@ -117,13 +117,13 @@ def _framed(camera: Camera, points: Float[np.ndarray, "n 3"]) -> Camera:
 def _depths(posed: Posed, poses: Sequence[np.ndarray], camera: Camera, rays: Rays) -> list[Float[np.ndarray, " n"]]:
     """Return the depth of the visible moving part for each pose, in lengths of the rays; inf elsewhere."""
     before = posed.still_hits(rays).distance
-    found = []
+    depths = []
     for T in poses:
         part = posed.part_pixels(T, camera)
         depth = np.full(len(before), np.inf)
         depth[part.pixel] = np.where(part.distance < before[part.pixel], part.distance, np.inf)
-        found.append(depth)
-    return found
+        depths.append(depth)
+    return depths
 
 
 def _difference(depths: Sequence[Float[np.ndarray, " n"]], min_difference: float) -> float:

@@ -102,14 +102,14 @@ def _lines(
     depth: Float[np.ndarray, "H W"], normal: Float[np.ndarray, "H W 3"], seen: Bool[np.ndarray, "H W"]
 ) -> Bool[np.ndarray, "H W"]:
     """Mark pixels whose right or lower neighbour is background, another part, or differs sharply in its normal."""
-    found = np.zeros(depth.shape, bool)
+    mask = np.zeros(depth.shape, bool)
     for axis in (0, 1):
         before, after = ((slice(None),) * axis + (s,) for s in (slice(None, -1), slice(1, None)))
         bends = np.einsum("hwc,hwc->hw", normal[before], normal[after]) < CREASE
         ends = np.isfinite(depth[before]) != np.isfinite(depth[after])
         both = np.isfinite(depth[before]) & np.isfinite(depth[after])
-        found[before] |= (bends & both) | ends | (seen[before] != seen[after])
-    return found
+        mask[before] |= (bends & both) | ends | (seen[before] != seen[after])
+    return mask
 
 
 def silhouette(triangles: Float[np.ndarray, "n 3 3"], camera: Camera, rays: Rays | None = None) -> Bool[np.ndarray, "H W"]:

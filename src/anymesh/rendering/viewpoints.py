@@ -41,15 +41,15 @@ def cameras(
     """
     center, distance = mesh.bounds.mean(0), config.distance * float(np.linalg.norm(np.ptp(mesh.bounds, axis=0)))
     used = mesh.vertices[np.unique(mesh.faces)]
-    found = []
+    framed_cameras = []
     for azimuth, elevation in config.directions if directions is None else directions:
         eye = center + distance * away(np.deg2rad(azimuth), np.deg2rad(elevation))
         camera = Camera.looking_at(eye, center, float(np.deg2rad(config.fov)), size, size)
         for _ in range(2):  # turning the camera changes the object's outline slightly
             pixel = camera.project(used)[0]
             camera = zoom(camera, np.concatenate([pixel.min(0), pixel.max(0)]), config.air, size)
-        found.append(camera)
-    return found
+        framed_cameras.append(camera)
+    return framed_cameras
 
 
 def away(azimuth: float, elevation: float) -> Float[np.ndarray, " 3"]:

@@ -113,8 +113,8 @@ class VisualPrompts:
 
     def names(self, count: int, front: float | None = None) -> list[str]:
         """Return `count` captions: of the views from all sides, then of close-ups. front: see `caption`."""
-        found = [caption(*way, front) for way in self._config.views.directions]
-        return (found + ["a close-up"] * (count - len(found)))[:count]
+        captions = [caption(*way, front) for way in self._config.views.directions]
+        return (captions + ["a close-up"] * (count - len(captions)))[:count]
 
     def card(
         self, face_part: Int[np.ndarray, " F"], part: int, title: str, contact: Float[np.ndarray, "c 3"] | None = None

@@ -55,15 +55,15 @@ class BoostedTrees:
         These are the changes of value at the splits on the feature (Saabas, 2014).
         """
         rows = np.asarray(rows, np.float32)
-        found = np.zeros(rows.shape)
+        contributions = np.zeros(rows.shape)
         node = np.repeat(self.root[None], len(rows), 0)
         at = np.arange(len(rows))[:, None].repeat(len(self.root), 1)
         while (inner := self.feature[node] != NO_FEATURE).any():
             column = np.maximum(self.feature[node], 0)
             new = np.where(inner, np.where(rows[at, column] > self.threshold[node], self.right[node], self.left[node]), node)
-            np.add.at(found, (at, column), np.where(inner, self.value[new] - self.value[node], 0.0))
+            np.add.at(contributions, (at, column), np.where(inner, self.value[new] - self.value[node], 0.0))
             node = new
-        return found
+        return contributions
 
     def arrays(self, name: str) -> dict[str, np.ndarray]:
         """Return the arrays by the names that `from_arrays` uses."""

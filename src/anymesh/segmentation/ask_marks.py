@@ -93,12 +93,12 @@ def _in_calls(
     questioner: MarkQuestioner,
     shown: Sequence[MarkPicture],
     marks: Marks,
-    found: tuple[MarkedPart, ...],
+    earlier_parts: tuple[MarkedPart, ...],
     splittable: bool,
     again: tuple[str, ...],
 ) -> MarksAnswer:
     """Ask about all pictures, MAX_PICTURES per call, without repeating marks that earlier calls asked about."""
-    parts, unsure, split, done = found, set[int](), set[int](), set[int]()
+    parts, unsure, split, done = earlier_parts, set[int](), set[int](), set[int]()
     for begin in range(0, len(shown), MAX_PICTURES):
         some = [p for p in (p.without(done) for p in shown[begin : begin + MAX_PICTURES]) if p.drawn]
         if not some:
@@ -127,10 +127,10 @@ def _in_calls(
 
 def _together(first: Sequence[MarkedPart], second: Sequence[MarkedPart]) -> tuple[MarkedPart, ...]:
     """Merge the parts of two answers: parts of the same label and instance become one."""
-    found: dict[tuple[str, int], set[int]] = {}
+    marks_by_part: dict[tuple[str, int], set[int]] = {}
     for p in (*first, *second):
-        found.setdefault((p.label, p.instance), set()).update(p.marks)
-    return tuple(MarkedPart(label, instance, None, tuple(sorted(marks))) for (label, instance), marks in found.items())
+        marks_by_part.setdefault((p.label, p.instance), set()).update(p.marks)
+    return tuple(MarkedPart(label, instance, None, tuple(sorted(marks))) for (label, instance), marks in marks_by_part.items())
 
 
 def ask_masks(
@@ -143,8 +143,8 @@ def ask_masks(
     """
     plain = DrawnPictures(lambda: questioner.visual_prompts.pictures([v.color for v in seen], names))
     seen_in = questioner.answerer.ask(WhichViews(plain, questioner.labels, tuple(v.face for v in seen), questioner.category))
-    chosen = sorted({k for found in seen_in.values() for k in found})
-    labels = tuple(label for label, found in seen_in.items() if found)
+    chosen = sorted({k for view_indices in seen_in.values() for k in view_indices})
+    labels = tuple(label for label, view_indices in seen_in.items() if view_indices)
     parts: list[MarkedPart] = []
     for begin in range(0, len(chosen), MAX_PICTURES):
         some, last = chosen[begin : begin + MAX_PICTURES], max((p.instance for p in parts), default=0)

@@ -41,8 +41,8 @@ def close_ups(
     zoom = np.clip(zoom, MIN_ZOOM, pictures.zoom_size / pictures.size)
     little = (size < small * scale**2).all(0) | (across < MIN_WIDTH_PX * scale).all(0)
     open_to = little & (size > 0).any(0) & _open(region, cloud, views)
-    found: list[Camera] = []
-    while open_to.any() and len(found) < MAX_CLOSE_UPS:
+    cameras: list[Camera] = []
+    while open_to.any() and len(cameras) < MAX_CLOSE_UPS:
         most = size.max(0)
         first = int(np.where(open_to, most, np.inf).argmin())
         v = int(size[:, first].argmax())
@@ -51,9 +51,9 @@ def close_ups(
         near = open_to & (size[v] > 0) & (np.abs(middle[v] - middle[v, first]) <= reach).all(1)
         near &= size[v] * wanted**2 >= 0.5 * size.max(0)  # leave out regions that another view shows better
         low, high = middle[v, near].min(0), middle[v, near].max(0)
-        found.append(_camera(views[v], (low + high) / 2, wanted))
+        cameras.append(_camera(views[v], (low + high) / 2, wanted))
         open_to[near] = False
-    return tuple(found)
+    return tuple(cameras)
 
 
 def _shown(

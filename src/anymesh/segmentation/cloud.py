@@ -136,9 +136,9 @@ def find_superpoints(
 def _nearest_alike(s: SurfacePoints, patch: np.ndarray, chosen: np.ndarray) -> Int[np.ndarray, " n"]:
     """Return for every point the nearest chosen point of the same patch with a similar normal, as an index into `chosen`."""
     gap, nearest = KDTree(s.points[chosen]).query(s.points, workers=-1)
-    found = chosen[nearest]
-    alike = np.einsum("ij,ij->i", s.normals, s.normals[found]) > SIMILAR
-    wrong = np.flatnonzero((patch != patch[found]) | ~alike)
+    neighbours = chosen[nearest]
+    alike = np.einsum("ij,ij->i", s.normals, s.normals[neighbours]) > SIMILAR
+    wrong = np.flatnonzero((patch != patch[neighbours]) | ~alike)
     spacing = float(np.median(gap[gap > 0])) if (gap > 0).any() else 1.0
     # greater than any distance within a patch
     apart = 10 * float(np.ptp(s.points, axis=0).max()) / spacing + 10 * NORMAL_WEIGHT
@@ -169,9 +169,9 @@ def _absorb_small(label: np.ndarray, weight: np.ndarray, edges: np.ndarray, min_
 
 def visible(cloud: Cloud, view: View) -> Bool[np.ndarray, " n"]:
     """Return which points the view shows: those whose pixel shows their face or their depth."""
-    found = np.zeros(len(cloud), bool)
-    found[sight(cloud, view).points] = True
-    return found
+    shown = np.zeros(len(cloud), bool)
+    shown[sight(cloud, view).points] = True
+    return shown
 
 
 def sight(cloud: Cloud, view: View) -> Sight:

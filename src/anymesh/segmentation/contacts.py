@@ -157,7 +157,7 @@ def coplanar(contacts: Contacts, whole: ObjectShape, tolerance: float) -> list[t
     Excludes patches that only a crease separates (drawers of a fused cabinet), and two equal panels side by side.
     """
     parted = {(int(a), int(b)) for a, b in whole.shared}
-    found = []
+    pairs = []
     for i, j in contacts.touch:
         if (int(i), int(j)) in parted:
             continue
@@ -168,8 +168,8 @@ def coplanar(contacts: Contacts, whole: ObjectShape, tolerance: float) -> list[t
         if min(s.half[1] / max(s.half[0], 1e-12) for s in (a, b)) > MIN_PLATE_ASPECT and same_box(a, b):
             continue  # two sashes of a window
         if abs(float(a.axes[2] @ b.axes[2])) > 0.9995 and level < tolerance and abs(a.half[2] - b.half[2]) < tolerance:
-            found.append((int(i), int(j)))
-    return found
+            pairs.append((int(i), int(j)))
+    return pairs
 
 
 def gap_within(a: TriangleSet, b: TriangleSet, reach: float, enough: float = 0.0) -> float:
@@ -231,12 +231,12 @@ def hanging_on(contacts: Contacts, group: Int[np.ndarray, " P"], root: int) -> d
     for node, dominator in enumerate(immediate_dominators(successors, root)):
         if dominator != NONE:
             children[dominator].append(node)
-    found: dict[int, list[int]] = {}
+    dominated: dict[int, list[int]] = {}
     for node in range(count):
         stack, below = [node], []
         while stack:
             at = stack.pop()
             below.append(at)
             stack.extend(children[at])
-        found[node] = below
-    return found
+        dominated[node] = below
+    return dominated

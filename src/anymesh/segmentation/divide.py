@@ -73,8 +73,8 @@ def _soft_regions(whole: MeshSurface, component: np.ndarray, large: np.ndarray, 
     for c in np.flatnonzero(large & (count > config.soft_faces)):
         mine = np.flatnonzero(component == c)
         triangles = whole.shape.triangles[mine]
-        found = convex_regions(triangles[:, ::-1] if flip[c] else triangles, whole.diagonal, config)
-        region[mine] = np.where(found > 0, int(region.max()) + found, c)
+        convex_region = convex_regions(triangles[:, ::-1] if flip[c] else triangles, whole.diagonal, config)
+        region[mine] = np.where(convex_region > 0, int(region.max()) + convex_region, c)
     return region
 
 

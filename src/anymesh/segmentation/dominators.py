@@ -23,29 +23,29 @@ def immediate_dominators(successors: Sequence[Collection[int]], root: int) -> li
         for after in successors[node]:
             before[number[after]].append(number[node])
     first = len(order) - 1  # the root's number
-    found = [NONE] * first + [first]
+    dominator = [NONE] * first + [first]
     changed = True
     while changed:
         changed = False
         for k in reversed(range(first)):
             new = NONE
             for j in before[k]:
-                if found[j] != NONE:
-                    new = j if new == NONE else _common(found, j, new)
-            changed, found[k] = changed or new != found[k], new
+                if dominator[j] != NONE:
+                    new = j if new == NONE else _common(dominator, j, new)
+            changed, dominator[k] = changed or new != dominator[k], new
     parent = [NONE] * len(successors)
     for k, node in enumerate(order[:-1]):
-        parent[node] = order[found[k]]
+        parent[node] = order[dominator[k]]
     return parent
 
 
-def _common(found: Sequence[int], a: int, b: int) -> int:
+def _common(dominator: Sequence[int], a: int, b: int) -> int:
     """Return the nearest common ancestor of two nodes in the tree of dominators; nodes are numbered in postorder."""
     while a != b:
         while a < b:
-            a = found[a]
+            a = dominator[a]
         while b < a:
-            b = found[b]
+            b = dominator[b]
     return a
 
 

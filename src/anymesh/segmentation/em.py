@@ -104,8 +104,8 @@ def near_superpoints(cloud: Cloud, reach: float) -> Int[np.ndarray, "m 2"]:
     """Return the pairs of superpoints with points within `reach` [m] of each other, and those that are adjacent."""
     chosen = np.arange(0, len(cloud), max(1, len(cloud) // JOIN_POINTS))
     chosen = np.union1d(chosen, np.unique(cloud.superpoint, return_index=True)[1])
-    found = KDTree(cloud.points[chosen]).query_pairs(reach, output_type="ndarray")
-    pairs = np.sort(cloud.superpoint[chosen][found], 1)
+    point_pairs = KDTree(cloud.points[chosen]).query_pairs(reach, output_type="ndarray")
+    pairs = np.sort(cloud.superpoint[chosen][point_pairs], 1)
     pairs = np.concatenate([pairs[pairs[:, 0] != pairs[:, 1]], cloud.borders])
     key = np.unique(pairs[:, 0] * cloud.count + pairs[:, 1])
     return np.stack([key // cloud.count, key % cloud.count], 1)

@@ -49,12 +49,12 @@ def face_parts(
     share = votes.max(1) / np.maximum(total, 1)
     mixed = seen & (share <= np.where(_cuttable(mesh, whole, config), MIN_CUTTABLE_PATCH_SHARE, MIN_COMPONENT_SHARE))
     winner = join_unseen(whole, winner, config, stays_free)
-    found = winner[whole.mesh_patch]
+    face_part = winner[whole.mesh_patch]
     for p in np.flatnonzero(mixed):
         mine = np.flatnonzero(patch == p)
         faces, label = _cut(cloud, mine, point_part[mine], most)
-        found[faces] = label
-    return np.maximum(found, 0)
+        face_part[faces] = label
+    return np.maximum(face_part, 0)
 
 
 def _cuttable(mesh: Mesh, whole: ObjectShape, config: Config) -> Bool[np.ndarray, " P"]:
@@ -111,24 +111,24 @@ def mark_parts(
     for k, marks in enumerate(parts, start=1):
         part_of[[m for m in marks if m > 0]] = k
     part_of[-1] = UNSEEN
-    found = part_of[face_mark]
+    face_part = part_of[face_mark]
     patch = whole.mesh_patch
-    found[(found == 0) & little[patch]] = UNSEEN
+    face_part[(face_part == 0) & little[patch]] = UNSEEN
     count = int(patch.max()) + 1
     weight = np.maximum(mesh.face_areas, 1e-300)
-    known = found >= 0
+    known = face_part >= 0
     most = len(parts) + 1
-    votes = np.bincount(patch[known] * most + found[known], weight[known], count * most).reshape(count, most)
+    votes = np.bincount(patch[known] * most + face_part[known], weight[known], count * most).reshape(count, most)
     winner = np.where(votes.any(1), votes.argmax(1), UNSEEN)
     joined = join_unseen(whole, winner, config, stays_free)
     mixed = (votes > 0).sum(1) > 1
     lost = np.flatnonzero(~known)
-    found[lost] = joined[patch[lost]]
+    face_part[lost] = joined[patch[lost]]
     centers = mesh.triangles.mean(1)
     for p in np.unique(patch[lost][mixed[patch[lost]]]):
         own, sure = lost[patch[lost] == p], np.flatnonzero(known & (patch == p))
-        found[own] = found[sure[KDTree(centers[sure]).query(centers[own])[1]]]
-    return np.maximum(found, 0)
+        face_part[own] = face_part[sure[KDTree(centers[sure]).query(centers[own])[1]]]
+    return np.maximum(face_part, 0)
 
 
 def point_parts(cloud: Cloud, instances: Instances, shown: Bool[np.ndarray, " n"]) -> Int[np.ndarray, " n"]:

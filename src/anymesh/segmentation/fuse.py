@@ -65,12 +65,12 @@ class Instances:
 
 def marked_masks(proposals: Sequence[Proposal], parts: Sequence[MarkedPart]) -> tuple[tuple[Mask, ...], ...]:
     """Return the masks of each proposal's view, where the regions of all marks of a part are joined."""
-    found = []
+    view_masks = []
     for proposal in proposals:
         here = [p for p in parts if p.view == proposal.view]
         masks = [Mask(np.isin(proposal.labels, [m for m in p.marks if m > 0]), p.label, p.instance) for p in here]
-        found.append(tuple(m for m in masks if m.pixels.any()))
-    return tuple(found)
+        view_masks.append(tuple(m for m in masks if m.pixels.any()))
+    return tuple(view_masks)
 
 
 def count_points(cloud: Cloud, view: View, masks: Sequence[Mask], config: GroundingConfig | None = None) -> Counts:
@@ -79,8 +79,8 @@ def count_points(cloud: Cloud, view: View, masks: Sequence[Mask], config: Ground
     Masks that are empty or cover nearly all of the object are left out.
     """
     config = config or GroundingConfig()
-    found = sight(cloud, view)
-    label = cloud.superpoint[found.points]
+    visible = sight(cloud, view)
+    label = cloud.superpoint[visible.points]
     height, width = view.face.shape
     drawn = view.face >= 0
     kept = [m for m in masks if m.pixels.any() and (m.pixels & drawn).sum() <= config.whole * max(int(drawn.sum()), 1)]
@@ -90,17 +90,17 @@ def count_points(cloud: Cloud, view: View, masks: Sequence[Mask], config: Ground
     for k, mask in enumerate(kept):
         pixels = mask.pixels.reshape(-1)
         owner[pixels] = k
-        inside[:, k] = np.bincount(label[pixels[found.pixels]], minlength=cloud.count)
+        inside[:, k] = np.bincount(label[pixels[visible.pixels]], minlength=cloud.count)
     columns = len(kept) + 1
-    top = np.bincount(label * columns + owner[found.pixels], minlength=cloud.count * columns)
-    at = np.stack([found.pixels % width, found.pixels // width], 1).astype(np.float64)
+    top = np.bincount(label * columns + owner[visible.pixels], minlength=cloud.count * columns)
+    at = np.stack([visible.pixels % width, visible.pixels // width], 1).astype(np.float64)
     box = np.concatenate([np.full((cloud.count, 2), np.inf), np.full((cloud.count, 2), -np.inf)], 1)
     np.minimum.at(box[:, :2], label, at)
     np.maximum.at(box[:, 2:], label, at)
     return Counts(
         np.bincount(label, minlength=cloud.count), inside, top.reshape(cloud.count, columns), box,
         np.array([_pixel_box(m.pixels) for m in kept]).reshape(-1, 4),
-        tuple(m.label for m in kept), tuple(m.instance for m in kept), found.points,
+        tuple(m.label for m in kept), tuple(m.instance for m in kept), visible.points,
     )  # fmt: skip
 
 
@@ -139,7 +139,7 @@ def label_superpoints(counts: Sequence[Counts], config: GroundingConfig) -> tupl
     share = np.zeros((len(seen), len(names) + 1))
     for k, name in enumerate(names):
         for c in counts:
-            which = [i for i, found in enumerate(c.labels) if found == name]
+            which = [i for i, label in enumerate(c.labels) if label == name]
             # A point that lies in two masks of a label is covered once.
             share[:, k] += np.minimum(c.inside[:, which].sum(1), c.seen)
     share /= np.asarray(seen)[:, None]

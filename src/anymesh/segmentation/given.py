@@ -42,8 +42,8 @@ def parts_from_file(mesh: Mesh, path: Path) -> Segmentation:
         raise OptionError(f"--parts: found the label {present.min()} in {path.name}; valid are integers from 0 up")
     if names is not None and (not isinstance(names, list) or present.max() >= len(names)):
         raise OptionError(f"--parts: names in {path.name} do not cover the labels {present.min()}..{present.max()}")
-    found = [str(names[k]) if names is not None else ("base" if k == 0 else f"part_{k}") for k in present]
-    return _segmentation(mesh, index.reshape(-1), found)
+    part_names = [str(names[k]) if names is not None else ("base" if k == 0 else f"part_{k}") for k in present]
+    return _segmentation(mesh, index.reshape(-1), part_names)
 
 
 def _read(path: Path) -> tuple[np.ndarray, Any]:
@@ -64,13 +64,13 @@ def _read(path: Path) -> tuple[np.ndarray, Any]:
 
 
 def _npy(name: str, data: bytes) -> np.ndarray:
-    found = "a broken array, or one of objects"
+    content = "a broken array, or one of objects"
     if not data.startswith(NPY):
-        found = "a ZIP archive (an .npz?)" if data.startswith(ZIP) else "another format" if data else "an empty file"
+        content = "a ZIP archive (an .npz?)" if data.startswith(ZIP) else "another format" if data else "an empty file"
     try:
         return np.lib.format.read_array(io.BytesIO(data), allow_pickle=False)
     except Exception:  # a broken header raises errors of many types, including those of the tokenizer
-        raise OptionError(f"--parts: found {found} in {name}; valid is one .npy array of integers") from None
+        raise OptionError(f"--parts: found {content} in {name}; valid is one .npy array of integers") from None
 
 
 def _json(name: str, data: bytes) -> tuple[np.ndarray, Any]:

@@ -50,15 +50,15 @@ def ground_by_masks(
     voting = [k for k, p in enumerate(proposals) if p.numbers] or range(len(masks))  # a view without masks does not vote
     counts = [count_points(cloud, shown.views[k], masks[k], config.grounding) for k in voting]
     start = fuse_masks(cloud, counts, config.grounding)
-    found = refine_instances(cloud, counts, start, np.random.default_rng(config.seed), config.grounding)
-    found = join_numbered(counts, found)
-    points = point_parts(cloud, found, seen_points(cloud, shown.views))
-    face_part = face_parts(mesh, whole, cloud, points, config, free(found.labels))
-    count = len(found.labels)
-    lost = lost_parts(masks, [v.face for v in shown.views], face_part, found.labels)
+    instances = refine_instances(cloud, counts, start, np.random.default_rng(config.seed), config.grounding)
+    instances = join_numbered(counts, instances)
+    points = point_parts(cloud, instances, seen_points(cloud, shown.views))
+    face_part = face_parts(mesh, whole, cloud, points, config, free(instances.labels))
+    count = len(instances.labels)
+    lost = lost_parts(masks, [v.face for v in shown.views], face_part, instances.labels)
     pointed = frozenset(p.label for p in marked)
     return GroundedParts(
-        face_part, shown.hidden[whole.mesh_patch], found.labels, (SURE,) * count, ("",) * count, pointed, lost
+        face_part, shown.hidden[whole.mesh_patch], instances.labels, (SURE,) * count, ("",) * count, pointed, lost
     )  # fmt: skip
 
 

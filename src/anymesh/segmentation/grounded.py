@@ -42,22 +42,26 @@ def ground_parts(
     def free(of: Sequence[str]) -> StaysFree:
         return lambda without, joined, part: stays_free(without, joined, part, moves[of[part - 1]])
 
-    found = ground(sampled, questioner, recognition.front, free, progress)
+    grounded = ground(sampled, questioner, recognition.front, free, progress)
     reason = _pointed(answerer)
     parts = named_parts(
-        found.face_part, found.labels, mesh.face_areas, found.confidence, [f"{reason}{doubt}" for doubt in found.doubts]
+        grounded.face_part,
+        grounded.labels,
+        mesh.face_areas,
+        grounded.confidence,
+        [f"{reason}{doubt}" for doubt in grounded.doubts],
     )
     inside: tuple[str, ...] = ()
-    left = found.unseen & (found.face_part == 0)  # unseen faces left over by an answerer that was shown the inside
+    left = grounded.unseen & (grounded.face_part == 0)  # unseen faces left over by an answerer that was shown the inside
     left &= (patch_sizes(mesh, whole) >= MIN_INNER_PATCH_RATIO)[whole.mesh_patch]  # smaller ones are gaps and creases
     # the user gave the labels; otherwise the answerer was shown the inside and asked what moves there
     by_user = recognition.size is None
-    if labels and by_user and mesh.face_areas[left].sum() > MIN_SEEN_SHARE * mesh.face_areas[found.unseen].sum():
-        parts, inside = add_hidden_parts(parts, by_geometry(), found.unseen, mesh.face_areas)
+    if labels and by_user and mesh.face_areas[left].sum() > MIN_SEEN_SHARE * mesh.face_areas[grounded.unseen].sum():
+        parts, inside = add_hidden_parts(parts, by_geometry(), grounded.unseen, mesh.face_areas)
     missing = [label for label in labels if label not in {p.label for p in parts.parts}]
     causes = {True: "the marks cover all of the object, or too little of it", False: f"though {answerer.name} expects one"}
-    lost = tuple(f"no {label} was found, {causes[label in found.pointed]}" for label in missing)
-    return parts, (*found.warnings, *lost, *inside)
+    lost = tuple(f"no {label} was found, {causes[label in grounded.pointed]}" for label in missing)
+    return parts, (*grounded.warnings, *lost, *inside)
 
 
 def _pointed(answerer: VisualAnswerer) -> str:

@@ -61,14 +61,14 @@ def patch_sizes(mesh: Mesh, whole: ObjectShape) -> Float[np.ndarray, " P"]:
 
 
 def add_hidden_parts(
-    found: Segmentation, other: Segmentation, unseen: Bool[np.ndarray, " F"], areas: Float[np.ndarray, " F"]
+    segmentation: Segmentation, other: Segmentation, unseen: Bool[np.ndarray, " F"], areas: Float[np.ndarray, " F"]
 ) -> tuple[Segmentation, tuple[str, ...]]:
     """Add parts of another segmentation that no view shows, such as a turntable behind a closed door.
 
     Return the parts and a warning for each added one.
     """
-    face_part = found.face_part.copy()
-    parts, warnings = list(found.parts[1:]), []
+    face_part = segmentation.face_part.copy()
+    parts, warnings = list(segmentation.parts[1:]), []
     for k, part in enumerate(other.parts[1:], start=1):
         mine = other.face_part == k
         if areas[mine & ~unseen].sum() <= MIN_SEEN_SHARE * areas[mine].sum() and not face_part[mine].any():

@@ -78,14 +78,14 @@ def tile(
         if len(members) == 1:
             panel = PanelRectangle((box[0], box[1]), (box[2], box[3]), members[0])
             return _layout_cost(panel, handles[members[0]], int(along[members[0]])), (panel,)
-        found: tuple[float, tuple[PanelRectangle, ...]] = (np.inf, ())
+        best_layout: tuple[float, tuple[PanelRectangle, ...]] = (np.inf, ())
         for axis in (0, 1):
             for at, before, after in _cuts(box, members, handles, axis):
                 one = best((*box[: 2 + axis], at, *box[3 + axis :]), before)
                 two = best((*box[:axis], at, *box[axis + 1 :]), after)
-                if one[0] + two[0] < found[0]:
-                    found = (one[0] + two[0], one[1] + two[1])
-        return found
+                if one[0] + two[0] < best_layout[0]:
+                    best_layout = (one[0] + two[0], one[1] + two[1])
+        return best_layout
 
     cost, panels = best((float(low[0]), float(low[1]), float(high[0]), float(high[1])), tuple(range(len(handles))))
     return panels if np.isfinite(cost) else ()
@@ -111,7 +111,7 @@ def _cuts(
     Cuts are half way between two handles, and where a handle would be in the middle of its panel.
     """
     order = sorted(members, key=lambda h: handles[h, 0, axis])
-    found = []
+    cuts = []
     for k in range(1, len(order)):
         before, after = tuple(sorted(order[:k])), tuple(sorted(order[k:]))
         start = max(handles[h, 1, axis] for h in before)
@@ -120,5 +120,5 @@ def _cuts(
             continue
         middles = [float(handles[h, :, axis].mean()) for h in members]
         mirrored = [2 * m - box[axis + side] for m in middles for side in (0, 2)]
-        found += [(at, before, after) for at in ((start + end) / 2, *mirrored) if start < at < end]
-    return found
+        cuts += [(at, before, after) for at in ((start + end) / 2, *mirrored) if start < at < end]
+    return cuts

@@ -57,10 +57,10 @@ def choose_pictures(
     size = np.stack([_count(label, numbers) for label in labels])
     scale = np.array([(view.camera.height / 640) ** 2 for view in views])[:, None]
     well = size >= np.minimum(WELL * scale, np.maximum(HALF * size.max(0), 1))
-    found: list[MarkPicture] = []
+    pictures: list[MarkPicture] = []
     for v, new in _cover(well, size):
-        found += _drawn(MarkPicture(views[v], labels[v], names[v]), numbers, size[v], new, render, marks)
-    return found
+        pictures += _drawn(MarkPicture(views[v], labels[v], names[v]), numbers, size[v], new, render, marks)
+    return pictures
 
 
 def _count(label: np.ndarray, numbers: np.ndarray) -> Int[np.ndarray, " n"]:
@@ -73,20 +73,20 @@ def _cover(well: Bool[np.ndarray, "V n"], size: np.ndarray) -> list[tuple[int, n
 
     Every mark is shown well once, and a second time as far as MAX_VIEWS_SHOWN_TWICE views allow.
     """
-    found: dict[int, np.ndarray] = {}
+    chosen_views: dict[int, np.ndarray] = {}
     for most in (len(well), MAX_VIEWS_SHOWN_TWICE):
         left = well.any(0)
         if most == MAX_VIEWS_SHOWN_TWICE:
-            left &= (well & np.isin(np.arange(len(well)), list(found))[:, None]).sum(0) < 2
-        while left.any() and len(found) < most:
+            left &= (well & np.isin(np.arange(len(well)), list(chosen_views))[:, None]).sum(0) < 2
+        while left.any() and len(chosen_views) < most:
             rest = (well & left).sum(1) + 1e-9 * (size * left).sum(1)
-            rest[list(found)] = 0
+            rest[list(chosen_views)] = 0
             v = int(rest.argmax())
             if rest[v] < 1:
                 break
-            found[v] = well[v] & left
+            chosen_views[v] = well[v] & left
             left &= ~well[v]
-    return sorted(found.items())
+    return sorted(chosen_views.items())
 
 
 def _drawn(
@@ -117,13 +117,13 @@ def _tiles(whole: MarkPicture, own: np.ndarray, render: Callable[[Camera], View]
         if max(map(len, groups)) <= MAX_MARKS_PER_PICTURE:
             break
         groups = [half for group in groups for half in _halves(middle, group)]
-    found = []
+    tiles = []
     for group in groups:
         at = np.isin(where, group)
         box = np.array([column[at].min(), row[at].min(), column[at].max() + 1, row[at].max() + 1], float)
         near = render(zoom(camera, box, TILE_AIR, camera.height))
-        found.append(MarkPicture(near, marks.in_view(near), f"a close-up of the view {whole.name}").only(own[group]))
-    return found
+        tiles.append(MarkPicture(near, marks.in_view(near), f"a close-up of the view {whole.name}").only(own[group]))
+    return tiles
 
 
 def _halves(middle: np.ndarray, group: np.ndarray) -> list[np.ndarray]:

@@ -13,36 +13,36 @@ from anymesh.segmentation.fuse import Counts, Instances, Mask
 Key = tuple[str, int]  # label and instance number of a part in the answers
 
 
-def join_numbered(counts: Sequence[Counts], found: Instances) -> Instances:
+def join_numbered(counts: Sequence[Counts], instances: Instances) -> Instances:
     """Join instances of one label that the answers give the same number, unless one view shows them as different parts.
 
     The vote of the masks cannot join pieces that no view shows together, such as the outside of a door and its shelves inside.
     """
-    named = [_votes(c, found) for c in counts]
-    owner = [_most(v[k] for v in named) for k in range(len(found.labels) + 1)]
-    size = np.bincount(np.maximum(found.number, 0), sum(c.seen for c in counts), len(found.labels) + 1)
+    named = [_votes(c, instances) for c in counts]
+    owner = [_most(v[k] for v in named) for k in range(len(instances.labels) + 1)]
+    size = np.bincount(np.maximum(instances.number, 0), sum(c.seen for c in counts), len(instances.labels) + 1)
     groups: dict[Key, list[list[int]]] = {}
     for k in (np.argsort(-size[1:], kind="stable") + 1).tolist():
-        key = owner[k] or (found.labels[k - 1], -k)  # an instance without a numbered mask joins no other
+        key = owner[k] or (instances.labels[k - 1], -k)  # an instance without a numbered mask joins no other
         some = groups.setdefault(key, [])
         joined = next((g for g in some if not any(_apart(named, k, other) for other in g)), None)
         some.append([k]) if joined is None else joined.append(k)
-    target = np.arange(-1, len(found.labels) + 1)  # the first entry stands for superpoints that no view shows
+    target = np.arange(-1, len(instances.labels) + 1)  # the first entry stands for superpoints that no view shows
     heads = sorted(min(g) for some in groups.values() for g in some)
     for some in groups.values():
         for g in some:
             target[np.array(g) + 1] = heads.index(min(g)) + 1
-    return Instances(target[found.number + 1], tuple(found.labels[k - 1] for k in heads))
+    return Instances(target[instances.number + 1], tuple(instances.labels[k - 1] for k in heads))
 
 
-def _votes(c: Counts, found: Instances) -> list[Counter[Key]]:
+def _votes(c: Counts, instances: Instances) -> list[Counter[Key]]:
     """Return how many of the points of each instance, from 0, lie in the masks of its label in one view, by number."""
-    votes = [Counter[Key]() for _ in range(len(found.labels) + 1)]
-    kept = found.number > 0
+    votes = [Counter[Key]() for _ in range(len(instances.labels) + 1)]
+    kept = instances.number > 0
     for m, key in enumerate(zip(c.labels, c.instances, strict=True)):
-        points = np.bincount(found.number[kept], c.top[kept, m], len(votes))
+        points = np.bincount(instances.number[kept], c.top[kept, m], len(votes))
         for k in np.flatnonzero(points):
-            if found.labels[k - 1] == key[0]:
+            if instances.labels[k - 1] == key[0]:
                 votes[k][key] += int(points[k])
     return votes
 
@@ -70,7 +70,7 @@ def lost_parts(
     masks: of each view; faces: face per pixel of each view, -1 for none; face_part: part of each face, 0 for the base;
     labels: of the parts.
     """
-    marked, found = set[Key](), set[Key]()
+    marked, own_parts = set[Key](), set[Key]()
     for some, face in zip(masks, faces, strict=True):
         taken = set[int]()
         for mask in sorted(some, key=lambda m: -int(m.pixels.sum())):
@@ -80,6 +80,6 @@ def lost_parts(
             part = int(np.bincount(face_part[face[on]]).argmax()) if on.any() else 0
             if part > 0 and labels[part - 1] == mask.label and part not in taken:
                 taken.add(part)
-                found.add(key)
-    lost = Counter(label for label, _ in marked - found)
+                own_parts.add(key)
+    lost = Counter(label for label, _ in marked - own_parts)
     return tuple(f"marked, but not found as parts of their own: {n} of label {label!r}" for label, n in sorted(lost.items()))

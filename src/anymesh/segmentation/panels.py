@@ -31,26 +31,26 @@ def split_panels(whole: MeshSurface, region: Int[np.ndarray, " F"]) -> tuple[Int
 
     A region is split if its handles imply several panels, or one panel on a region that is no panel itself.
     """
-    found, count = region.copy(), int(region.max()) + 1
+    new_region, count = region.copy(), int(region.max()) + 1
     for faces, handles in _faces_with_handles(whole, region):
-        new = int(found.max()) + 1
-        if (found[faces] < count).all():
-            _divide(whole, found, faces, handles)
-            _through(whole, found, new)
-    return np.unique(found, return_inverse=True)[1].reshape(-1), found >= count
+        new = int(new_region.max()) + 1
+        if (new_region[faces] < count).all():
+            _divide(whole, new_region, faces, handles)
+            _through(whole, new_region, new)
+    return np.unique(new_region, return_inverse=True)[1].reshape(-1), new_region >= count
 
 
 def _faces_with_handles(whole: MeshSurface, region: np.ndarray) -> list[tuple[Int[np.ndarray, " n"], list[SurfaceHandle]]]:
     """Return the faces (flat parts of regions) with handles, each with all mutually aligned handles on it."""
-    found: list[tuple[np.ndarray, list[SurfaceHandle]]] = []
+    faces_with_handles: list[tuple[np.ndarray, list[SurfaceHandle]]] = []
     for handle in find_handles(whole, region):
-        for faces, others in found:
+        for faces, others in faces_with_handles:
             if np.isin(handle.foot, faces).any():
                 others.append(handle)
                 break
         else:
-            found.append((_face_of(whole, region, handle), [handle]))
-    return [(faces, kept) for faces, handles in found if (kept := _of_a_kind(whole, faces, handles))]
+            faces_with_handles.append((_face_of(whole, region, handle), [handle]))
+    return [(faces, kept) for faces, handles in faces_with_handles if (kept := _of_a_kind(whole, faces, handles))]
 
 
 def _of_a_kind(whole: MeshSurface, faces: np.ndarray, handles: list[SurfaceHandle]) -> list[SurfaceHandle]:

@@ -59,8 +59,8 @@ def _by_programming(gain: Float[np.ndarray, " n"], clash: Bool[np.ndarray, "n n"
     first, second = np.nonzero(np.triu(clash))
     row = np.arange(len(first)).repeat(2)
     pairs = csr_array((np.ones(len(row)), (row, np.stack([first, second], 1).reshape(-1))), (len(first), len(gain)))
-    found = milp(-gain, integrality=np.ones(len(gain)), bounds=Bounds(0, 1), constraints=LinearConstraint(pairs, ub=1))
-    return np.round(found.x).astype(bool)
+    solution = milp(-gain, integrality=np.ones(len(gain)), bounds=Bounds(0, 1), constraints=LinearConstraint(pairs, ub=1))
+    return np.round(solution.x).astype(bool)
 
 
 def join_floating(owner: Int[np.ndarray, " P"], contacts: Contacts) -> Int[np.ndarray, " P"]:
@@ -80,9 +80,9 @@ def join_floating(owner: Int[np.ndarray, " P"], contacts: Contacts) -> Int[np.nd
     for a, b in ((first, second), (second, first)):
         for k in np.flatnonzero((owner[a] < 0) & (owner[b] >= 0)):
             held.setdefault(int(group[a[k]]), set()).add(int(owner[b[k]]))
-    found = owner.copy()
+    new_owner = owner.copy()
     for g, by in held.items():
         part = min(by)
         if len(by) == 1 and g != area.argmax() and area[g] < contacts.patch_area[owner == part].sum():
-            found[(group == g) & (owner < 0)] = part
-    return found
+            new_owner[(group == g) & (owner < 0)] = part
+    return new_owner

@@ -48,9 +48,9 @@ class Overlap:
     @cached_property
     def meet(self) -> Bool[np.ndarray, "n n"]:
         """Return which candidates overlap."""
-        found = self.shared > MAX_DISJOINT_SHARE * np.minimum(self.area[:, None], self.area[None])
-        np.fill_diagonal(found, False)
-        return found
+        overlaps = self.shared > MAX_DISJOINT_SHARE * np.minimum(self.area[:, None], self.area[None])
+        np.fill_diagonal(overlaps, False)
+        return overlaps
 
     @cached_property
     def nested(self) -> Bool[np.ndarray, "n n"]:
@@ -98,12 +98,12 @@ def part_tree(mesh: Mesh, whole: ObjectShape, contacts: Contacts, min_size: floa
     largest are kept.
     """
     count = len(contacts.shapes)
-    found: dict[bytes, Bool[np.ndarray, " P"]] = {}
+    masks: dict[bytes, Bool[np.ndarray, " P"]] = {}
     names = [""] * count
 
     def add(mask: Bool[np.ndarray, " P"]) -> None:
         if not mask.all():
-            found.setdefault(np.packbits(mask).tobytes(), mask)
+            masks.setdefault(np.packbits(mask).tobytes(), mask)
 
     ranking = root_ranking(whole, contacts)
     joined = [rigid_groups(mesh, whole, contacts, base) for base in ranking[:BASES]]
@@ -117,7 +117,7 @@ def part_tree(mesh: Mesh, whole: ObjectShape, contacts: Contacts, min_size: floa
     for units in (joined[0], divided):
         for merged in _merges(units):
             add(np.isin(units.group, merged))
-    members, size = _largest(whole, contacts, list(found.values()), min_size, max_candidates)
+    members, size = _largest(whole, contacts, list(masks.values()), min_size, max_candidates)
     return PartTree(whole, contacts, members, size, tuple(names))
 
 
@@ -165,7 +165,7 @@ def _merges(groups: RigidGroups) -> list[list[int]]:
 
     queue = [(-strength(i, j), i, j) for i in sorted(contact) for j in sorted(contact[i]) if i < j]
     heapq.heapify(queue)
-    found, alive = [], set(range(count))
+    merged_groups, alive = [], set(range(count))
     while queue:
         value, i, j = heapq.heappop(queue)
         if i not in alive or j not in alive:
@@ -176,7 +176,7 @@ def _merges(groups: RigidGroups) -> list[list[int]]:
         new = len(members)
         members[new], area[new] = members[i] + members[j], area[i] + area[j]
         alive = alive - {i, j} | {new}
-        found.append(members[new])
+        merged_groups.append(members[new])
         contact[new] = _joined(contact, i, j)
         for other, amount in contact[new].items():
             contact[other].pop(i, None)
@@ -184,7 +184,7 @@ def _merges(groups: RigidGroups) -> list[list[int]]:
             contact[other][new] = amount
         for other in sorted(contact[new]):
             heapq.heappush(queue, (-strength(other, new), other, new))
-    return found
+    return merged_groups
 
 
 def _joined(contact: dict[int, dict[int, float]], i: int, j: int) -> dict[int, float]:

@@ -38,13 +38,13 @@ def propose_masks(
 ) -> tuple[Proposal, ...]:
     """Return regions from a model's masks of every view, of its colour and its normal picture together."""
     config = config or GroundingConfig()
-    found = []
+    proposals = []
     for k, (some, view) in enumerate(zip(masks, views, strict=True)):
         least = min_pixels(view, config)
         labels = masks_to_labels(some, least)
         labels[view.face < 0] = -1
-        found.append(Proposal(k, labels, _large_enough(labels, least)))
-    return tuple(found)
+        proposals.append(Proposal(k, labels, _large_enough(labels, least)))
+    return tuple(proposals)
 
 
 def masks_to_labels(masks: Bool[np.ndarray, "n H W"], min_pixels: float) -> Int[np.ndarray, "H W"]:

@@ -74,9 +74,9 @@ def _by_majority(label: np.ndarray, faces: np.ndarray, count: int) -> Int[np.nda
     key, times = np.unique(faces * most + label, return_counts=True)
     order = np.lexsort((key % most, -times, key // most))
     best = order[np.r_[True, np.diff(key[order] // most) != 0]]
-    found = np.zeros(count, np.int64)
-    found[key[best] // most] = key[best] % most
-    return found
+    face_label = np.zeros(count, np.int64)
+    face_label[key[best] // most] = key[best] % most
+    return face_label
 
 
 def number_regions(

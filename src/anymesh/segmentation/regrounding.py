@@ -98,21 +98,21 @@ def _redrawn(
     Faces that were asked about and now belong to no part join the base. So do unmarked faces of patches in which the part has
     no marks left.
     """
-    found, patch = segmentation.face_part.copy(), whole.mesh_patch
+    face_part, patch = segmentation.face_part.copy(), whole.mesh_patch
     open_ = np.isin(asked_about, list(wanted))
     for part, chosen in given.items():
         now = np.isin(marks.face_mark, chosen)
         if not now.any():
             continue
         marked = np.isin(patch, patch[open_ & (segmentation.face_part == part)])
-        lost = (segmentation.face_part == part) & (open_ | (marked & (marks.face_mark < 0))) & (found == part)
-        found[lost & ~np.isin(patch, patch[now])] = 0
-        found[lost & open_ & ~now] = 0
-        found[now] = part
-        found[(marks.face_mark < 0) & np.isin(patch, patch[now]) & ~_shared(patch, now, marks.face_mark)] = part
-    same = (found == segmentation.face_part).all()
-    lacking = len(np.unique(found)) < len(np.unique(segmentation.face_part))
-    return None if same or lacking else Segmentation(found, segmentation.parts)
+        lost = (segmentation.face_part == part) & (open_ | (marked & (marks.face_mark < 0))) & (face_part == part)
+        face_part[lost & ~np.isin(patch, patch[now])] = 0
+        face_part[lost & open_ & ~now] = 0
+        face_part[now] = part
+        face_part[(marks.face_mark < 0) & np.isin(patch, patch[now]) & ~_shared(patch, now, marks.face_mark)] = part
+    same = (face_part == segmentation.face_part).all()
+    lacking = len(np.unique(face_part)) < len(np.unique(segmentation.face_part))
+    return None if same or lacking else Segmentation(face_part, segmentation.parts)
 
 
 def _shared(patch: np.ndarray, now: np.ndarray, face_mark: np.ndarray) -> np.ndarray:

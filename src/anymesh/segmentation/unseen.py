@@ -56,11 +56,11 @@ def _joined(whole: ObjectShape, part: Int[np.ndarray, " P"], config: Config) -> 
 
 def _goes_on(whole: ObjectShape, part: np.ndarray) -> Bool[np.ndarray, " P"]:
     """Return unseen patches that continue a fused surface into the base, such as a strip of floor behind a drawer's panel."""
-    found = np.zeros(len(part), bool)
+    adjoins_base = np.zeros(len(part), bool)
     if len(whole.shared):
         a, b = whole.shared.T
-        found[a[part[b] == 0]] = found[b[part[a] == 0]] = True
-    return found & (part < 0)
+        adjoins_base[a[part[b] == 0]] = adjoins_base[b[part[a] == 0]] = True
+    return adjoins_base & (part < 0)
 
 
 def _single_part_components(component: np.ndarray, part: np.ndarray) -> Int[np.ndarray, " P"]:
@@ -86,13 +86,13 @@ def _supported_by(contacts: Contacts, part: np.ndarray, together: bool, reach: f
     _, unit = np.unique(key, return_inverse=True)
     unit = unit.reshape(-1)
     hanging = hanging_on(contacts, unit, int(unit[np.flatnonzero(part == 0)[0]]))
-    found = part.copy()
+    assigned_part = part.copy()
     for k in np.unique(part[part > 0]):
         own = np.flatnonzero(part == k)
-        for p in np.flatnonzero(np.isin(unit, hanging[int(unit[own[0]])]) & (found < 0)):
+        for p in np.flatnonzero(np.isin(unit, hanging[int(unit[own[0]])]) & (assigned_part < 0)):
             if _near(contacts, int(p), own, reach):
-                found[p] = k
-    return _largest_contact(contacts, unit, found)
+                assigned_part[p] = k
+    return _largest_contact(contacts, unit, assigned_part)
 
 
 def _largest_contact(contacts: Contacts, group: np.ndarray, part: np.ndarray) -> Int[np.ndarray, " P"]:
@@ -100,20 +100,20 @@ def _largest_contact(contacts: Contacts, group: np.ndarray, part: np.ndarray) ->
 
     Four rounds resolve chains. Unlike in `with_supported`, an unseen group may be larger than the part: a box behind its panel.
     """
-    found = part.copy()
+    assigned_part = part.copy()
     for _ in range(4):
         # the first column counts contact with other unseen groups
-        area = np.zeros((int(group.max()) + 1, int(found.max()) + 2))
+        area = np.zeros((int(group.max()) + 1, int(assigned_part.max()) + 2))
         for (i, j), a in contacts.area.items():
-            if found[i] < 0 and group[i] != group[j]:
-                area[group[i], found[j] + 1] += a
+            if assigned_part[i] < 0 and group[i] != group[j]:
+                area[group[i], assigned_part[j] + 1] += a
         best = area.argmax(1)
         joins = (best > 1) & (area.max(1) > area.sum(1) - area.max(1))
-        new = (found < 0) & joins[group]
+        new = (assigned_part < 0) & joins[group]
         if not new.any():
             break
-        found[new] = best[group[new]] - 1
-    return found
+        assigned_part[new] = best[group[new]] - 1
+    return assigned_part
 
 
 def _near(contacts: Contacts, patch: int, others: np.ndarray, reach: float) -> bool:

@@ -39,20 +39,20 @@ class _World:
         ):
             plant.WeldFrames(plant.world_frame(), base.body_frame())
         plant.mutable_gravity_field().set_gravity_vector(np.zeros(3))
-        found = [plant.get_joint(j) for j in plant.GetJointIndices(model)]
-        found = [j for j in found if j.num_positions() == 1]
+        joints = [plant.get_joint(j) for j in plant.GetJointIndices(model)]
+        joints = [j for j in joints if j.num_positions() == 1]
         by_name = {m.joint: m for m in motors}
-        for joint in found:
+        for joint in joints:
             motor = by_name[joint.name()]
             if not plant.HasJointActuatorNamed(f"{joint.name()}_motor", model):
                 actuator = plant.AddJointActuator(f"{joint.name()}_motor", joint, motor.effort)
                 actuator.set_controller_gains(drake.PdControllerGains(p=motor.stiffness, d=motor.damping))
         plant.Finalize()
-        self.joints = [ReadBack(j.name(), j.child_body().name(), _limits(j)) for j in found]
+        self.joints = [ReadBack(j.name(), j.child_body().name(), _limits(j)) for j in joints]
         self.root, self._drake = base, drake
         self.diagram = builder.Build()
-        self.order = [j.position_start() for j in found]
-        self.commands = [plant.GetJointActuatorByName(f"{j.name()}_motor", model).index() for j in found]
+        self.order = [j.position_start() for j in joints]
+        self.commands = [plant.GetJointActuatorByName(f"{j.name()}_motor", model).index() for j in joints]
         self.reset()
 
     def reset(self) -> None:

@@ -63,15 +63,15 @@ def drive(world: World, robot: Robot) -> SweepReport:
     known = {j.name: k for k, j in enumerate(world.joints)}
     motors = {m.joint: m for m in motors_of(robot)}
     extent = _extent(robot)
-    found = []
+    sweeps = []
     for joint in robot.moving:
         if joint.name not in known:
             lower, upper = joint.range
             missing = ("the engine does not know this joint",)
-            found.append(JointSweep(joint.name, joint.type, lower, upper, 0.0, 0.0, None, "", 0.0, 0.0, missing))
+            sweeps.append(JointSweep(joint.name, joint.type, lower, upper, 0.0, 0.0, None, "", 0.0, 0.0, missing))
             continue
-        found.append(_cleared(world, robot, joint, motors, extent))
-    return SweepReport(world.engine, tuple(found), ())
+        sweeps.append(_cleared(world, robot, joint, motors, extent))
+    return SweepReport(world.engine, tuple(sweeps), ())
 
 
 def _extent(robot: Robot) -> float:
@@ -84,18 +84,18 @@ def _extent(robot: Robot) -> float:
 
 def _cleared(world: World, robot: Robot, joint: RobotJoint, motors: Mapping[str, Motor], extent: float) -> JointSweep:
     """Sweep a joint at rest; if that fails, with one other joint opened that may be in the way, or with all of those."""
-    found = _swept(world, robot, joint, motors, extent, ())
+    sweep = _swept(world, robot, joint, motors, extent, ())
     related = robot.carried(joint.child)
     known = {j.name for j in world.joints}
     free = [
         j.name for j in robot.moving if j.name in known and j.child not in related and joint.child not in robot.carried(j.child)
     ]
     tries = [(name,) for name in free] + ([tuple(free)] if len(free) > 1 else [])
-    for opened in tries if found.faults else ():
+    for opened in tries if sweep.faults else ():
         again = _swept(world, robot, joint, motors, extent, opened)
         if again.ok:
             return replace(again, opened=opened)
-    return found
+    return sweep
 
 
 def _swept(

@@ -40,13 +40,13 @@ class _World:
         except Exception as error:  # its reader, trimesh and its own checks raise many types of errors
             raise InputError(f"Genesis cannot load {path}: {type(error).__name__}: {error}") from error
         by_name = {m.joint: m for m in motors}
-        found = [j for j in self.body.joints if j.n_dofs == 1 and j.name in by_name]
-        self.order = [j.dofs_idx_local[0] for j in found]
+        joints = [j for j in self.body.joints if j.n_dofs == 1 and j.name in by_name]
+        self.order = [j.dofs_idx_local[0] for j in joints]
         lower, upper = (np.asarray(end.cpu(), float).reshape(-1) for end in self.body.get_dofs_limit())
         self.joints = [
-            ReadBack(j.name, j.link.name, _limits(lower[k], upper[k])) for j, k in zip(found, self.order, strict=True)
+            ReadBack(j.name, j.link.name, _limits(lower[k], upper[k])) for j, k in zip(joints, self.order, strict=True)
         ]
-        chosen = [by_name[j.name] for j in found]
+        chosen = [by_name[j.name] for j in joints]
         effort = np.array([m.effort for m in chosen], np.float32)
         self.body.set_dofs_kp(np.array([m.stiffness for m in chosen], np.float32), self.order)
         self.body.set_dofs_kv(np.array([m.damping for m in chosen], np.float32), self.order)

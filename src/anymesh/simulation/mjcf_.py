@@ -96,7 +96,7 @@ class _Reader:
         own, name, at, before = list(self._of(body)), self._name(body), self.frames[parent], self._name(parent)
         if not own:
             return [RobotJoint(f"{name}_fixed", "fixed", before, name, np.linalg.inv(at) @ self.frames[body], np.eye(3)[2])]
-        found = []
+        joints = []
         for joint in own:
             label, T = self.model.joint(joint).name, self._frame(body, joint)
             child = name if joint == own[-1] else f"{name}__{label}"
@@ -107,9 +107,9 @@ class _Reader:
             elif kind == "revolute":
                 kind = "continuous"
             axis = T[:3, :3].T @ self.data.xaxis[joint]
-            found.append(RobotJoint(label, kind, before, child, np.linalg.inv(at) @ T, axis, limits))
+            joints.append(RobotJoint(label, kind, before, child, np.linalg.inv(at) @ T, axis, limits))
             at, before = T, child
-        return found
+        return joints
 
     def _inertial(self, body: int) -> Inertial | None:
         mass = float(self.model.body_mass[body])

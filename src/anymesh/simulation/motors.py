@@ -29,7 +29,7 @@ class Motor:
 
 def motors_of(robot: Robot) -> tuple[Motor, ...]:
     """Return a critically damped motor for each moving joint, from its inertia at rest and its friction."""
-    found = []
+    motors = []
     at = robot.placements({})
     for joint in robot.moving:
         inertia = max(_inertia(robot, joint, at), 1e-6)
@@ -38,8 +38,8 @@ def motors_of(robot: Robot) -> tuple[Motor, ...]:
         seconds = min(max(1.0, np.pi * np.sqrt(inertia * span / effort)), MAX_ENGINE_SECONDS)
         against = max(4 * joint.friction / max(REACHED_RATIO * span, 1e-9), MIN_SETTLING_RATIO * joint.damping / seconds)
         stiffness = max(inertia * MOTOR_FREQUENCY**2, against)
-        found.append(Motor(joint.name, stiffness, 2 * float(np.sqrt(stiffness * inertia)), effort, float(seconds)))
-    return tuple(found)
+        motors.append(Motor(joint.name, stiffness, 2 * float(np.sqrt(stiffness * inertia)), effort, float(seconds)))
+    return tuple(motors)
 
 
 def _inertia(robot: Robot, joint: RobotJoint, at: dict[str, np.ndarray]) -> float:

@@ -42,16 +42,16 @@ def _cleared_sweep(bench: MujocoBench, index: int, steps: int) -> JointSweep:
     model = bench.model
     posture = np.array(model.qpos0)
     opened: list[str] = []
-    found = _sweep(bench, index, steps, posture)
+    sweep = _sweep(bench, index, steps, posture)
     for _ in range(len(bench.joints) - 1):
-        blocking = [k for k in bench.joints if bench.body(int(model.jnt_bodyid[k])) == found.against and k != index]
+        blocking = [k for k in bench.joints if bench.body(int(model.jnt_bodyid[k])) == sweep.against and k != index]
         free = [k for k in blocking if not _carried(model, int(model.jnt_bodyid[k]))[model.jnt_bodyid[index]]]
-        if not found.faults or not free or model.joint(free[0]).name in opened:
+        if not sweep.faults or not free or model.joint(free[0]).name in opened:
             break
         opened.append(model.joint(free[0]).name)
         posture[model.jnt_qposadr[free[0]]] = bench.ranges[free[0], 1]
-        found = replace(_sweep(bench, index, steps, posture), opened=tuple(opened))
-    return found
+        sweep = replace(_sweep(bench, index, steps, posture), opened=tuple(opened))
+    return sweep
 
 
 def _sweep(bench: MujocoBench, index: int, steps: int, posture: np.ndarray) -> JointSweep:
@@ -96,10 +96,10 @@ def _placed(bench: MujocoBench, index: int, positions: np.ndarray, posture: np.n
 
 def _carried(model: Any, body: int) -> np.ndarray:
     """Return (bodies,) True for a body and all its descendants."""
-    found = np.zeros(model.nbody, bool)
+    carried = np.zeros(model.nbody, bool)
     for b in range(model.nbody):
-        found[b] = b == body or (b > 0 and found[model.body_parentid[b]])
-    return found
+        carried[b] = b == body or (b > 0 and carried[model.body_parentid[b]])
+    return carried
 
 
 @dataclass(frozen=True)
@@ -151,21 +151,21 @@ def _off(bench: MujocoBench, index: int, position: float, places: np.ndarray, ge
     return float(np.linalg.norm(places - expected, axis=1).max(initial=0.0))
 
 
-def _faults(bench: MujocoBench, found: JointSweep, blew_up: bool) -> tuple[str, ...]:
-    if blew_up or not np.isfinite([found.reached_lower, found.reached_upper, found.off]).all():
+def _faults(bench: MujocoBench, sweep: JointSweep, blew_up: bool) -> tuple[str, ...]:
+    if blew_up or not np.isfinite([sweep.reached_lower, sweep.reached_upper, sweep.off]).all():
         return ("the simulation became unstable",)
-    span = found.upper - found.lower
+    span = sweep.upper - sweep.lower
     faults = []
     for word, limit, reached in (
-        ("upper", found.upper, found.reached_upper),
-        ("lower", found.lower, found.reached_lower),
+        ("upper", sweep.upper, sweep.reached_upper),
+        ("lower", sweep.lower, sweep.reached_lower),
     ):
         if abs(reached - limit) > REACHED_RATIO * span:
             faults.append(f"a motor brings it to {reached:.4g} only, not to its {word} limit {limit:.4g}")
-    if abs(found.reached_upper - found.reached_lower) < REACHED_RATIO * span:
+    if abs(sweep.reached_upper - sweep.reached_lower) < REACHED_RATIO * span:
         faults.append("it does not move")
-    if found.penetration is not None and found.penetration > DEEP * bench.extent:
-        faults.append(f"on its way it penetrates {found.against!r} by {found.penetration:.4g} m")
-    if found.off > DEEP * bench.extent:
-        faults.append(f"its link is {found.off:.4g} m from where the joint should place it")
+    if sweep.penetration is not None and sweep.penetration > DEEP * bench.extent:
+        faults.append(f"on its way it penetrates {sweep.against!r} by {sweep.penetration:.4g} m")
+    if sweep.off > DEEP * bench.extent:
+        faults.append(f"its link is {sweep.off:.4g} m from where the joint should place it")
     return tuple(faults)

@@ -30,13 +30,13 @@ def read_spec(mujoco: Any, path: Path) -> Any:
     for mesh in spec.meshes:
         if not mesh.file or (Path(mesh.file).suffix.lower() in READ and "://" not in mesh.file):
             continue
-        found = find_file(mesh.file, folder)
-        if found is None:
+        mesh_path = find_file(mesh.file, folder)
+        if mesh_path is None:
             raise InputError(f"the mesh {mesh.file} is not there")
-        if found.suffix.lower() in READ:
-            mesh.file = str(found.resolve())
+        if mesh_path.suffix.lower() in READ:
+            mesh.file = str(mesh_path.resolve())
         else:
-            content = load_mesh(found).mesh
+            content = load_mesh(mesh_path).mesh
             mesh.file, mesh.uservert, mesh.userface = "", content.vertices.reshape(-1), content.faces.reshape(-1)
     return spec
 
@@ -147,8 +147,8 @@ def _add_motors(mujoco: Any, spec: Any, model: Any, ranges: np.ndarray, joints: 
 
 def depths(model: Any, data: Any) -> dict[tuple[int, int], float]:
     """Return the deepest penetration [m] of each pair of bodies in contact."""
-    found: dict[tuple[int, int], float] = {}
+    penetrations: dict[tuple[int, int], float] = {}
     for contact in data.contact[: data.ncon]:
         a, b = sorted(int(model.geom_bodyid[g]) for g in contact.geom)
-        found[a, b] = max(found.get((a, b), 0.0), -float(contact.dist))
-    return found
+        penetrations[a, b] = max(penetrations.get((a, b), 0.0), -float(contact.dist))
+    return penetrations

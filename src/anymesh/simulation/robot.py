@@ -115,24 +115,24 @@ class Robot:
 
     def carried(self, link: str) -> frozenset[str]:
         """Return a link and all its descendants."""
-        found, fresh = {link}, {link}
+        links, fresh = {link}, {link}
         while fresh:
-            fresh = {j.child for j in self.joints if j.parent in fresh} - found
-            found |= fresh
-        return frozenset(found)
+            fresh = {j.child for j in self.joints if j.parent in fresh} - links
+            links |= fresh
+        return frozenset(links)
 
     def placements(self, positions: Mapping[str, float]) -> dict[str, Float[np.ndarray, "4 4"]]:
         """Return transforms from each link's frame to the root's, with unnamed joints at 0. The file must hold a tree."""
-        found = {name: np.eye(4) for name in self.roots}
+        placements = {name: np.eye(4) for name in self.roots}
         waiting = list(self.joints)
         while waiting:
-            ready = [j for j in waiting if j.parent in found]
+            ready = [j for j in waiting if j.parent in placements]
             if not ready:
                 raise ValueError(f"joints {[j.name for j in waiting]} are not connected to a root; a tree is needed")
             for j in ready:
-                found[j.child] = found[j.parent] @ j.transform(positions.get(j.name, 0.0))
-            waiting = [j for j in waiting if j.child not in found]
-        return found
+                placements[j.child] = placements[j.parent] @ j.transform(positions.get(j.name, 0.0))
+            waiting = [j for j in waiting if j.child not in placements]
+        return placements
 
 
 def shape_triangles(shape: Geometry) -> Float[np.ndarray, "F 3 3"]:

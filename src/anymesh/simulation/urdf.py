@@ -53,8 +53,8 @@ class _Reader:
         holder = element.find("geometry")
         shape = next(iter(holder), None) if holder is not None else None
         if shape is None or shape.tag not in (*SIZES, "mesh"):
-            found = "nothing" if shape is None else f"<{shape.tag}>"
-            return self.note(f"a <{element.tag}> holds {found}; valid are box, sphere, cylinder, capsule and mesh")
+            content = "nothing" if shape is None else f"<{shape.tag}>"
+            return self.note(f"a <{element.tag}> holds {content}; valid are box, sphere, cylinder, capsule and mesh")
         if shape.tag == "mesh":
             file = shape.get("filename")
             if not file:
@@ -108,11 +108,11 @@ class _Reader:
         return None if text is None else self.numbers(text, (0.0,), key)[0]
 
     def origin(self, element: Element) -> Float[np.ndarray, "4 4"]:
-        found = element.find("origin")
+        origin = element.find("origin")
         T = np.eye(4)
-        if found is not None:
-            T[:3, 3] = self.numbers(found.get("xyz", "0 0 0"), (0.0, 0.0, 0.0), "origin xyz")
-            T[:3, :3] = _rotation(*self.numbers(found.get("rpy", "0 0 0"), (0.0, 0.0, 0.0), "origin rpy"))
+        if origin is not None:
+            T[:3, 3] = self.numbers(origin.get("xyz", "0 0 0"), (0.0, 0.0, 0.0), "origin xyz")
+            T[:3, :3] = _rotation(*self.numbers(origin.get("rpy", "0 0 0"), (0.0, 0.0, 0.0), "origin rpy"))
         return T
 
     def numbers(self, text: str | None, default: tuple[float, ...], what: str) -> tuple[float, ...]:

@@ -71,9 +71,9 @@ def _moving(asset: Asset, size: int, materials: bool) -> tuple[float, Callable[[
         return posed(asset, {t.joint.name: float(np.interp(time, t.times, t.amounts)) for t in moving})
 
     opened = posed(asset, {j.name: shown_position(j) for j in asset.joints})
-    found = best_camera(asset, opened, [RayScene(m.vertices, m.faces) for m in (asset.mesh, opened)])
-    pixel = found.project(np.concatenate([pose(time).vertices for time in np.linspace(0, length, FITTED)]))[0]
-    camera = zoom(found, np.concatenate([pixel.min(0), pixel.max(0)]), MARGIN, size)
+    viewpoint = best_camera(asset, opened, [RayScene(m.vertices, m.faces) for m in (asset.mesh, opened)])
+    pixel = viewpoint.project(np.concatenate([pose(time).vertices for time in np.linspace(0, length, FITTED)]))[0]
+    camera = zoom(viewpoint, np.concatenate([pixel.min(0), pixel.max(0)]), MARGIN, size)
     return length, lambda time: drawn_pose(asset, pose(time), camera, color)
 
 
@@ -82,8 +82,8 @@ def _opened(asset: Asset) -> UInt8[np.ndarray, "h w 3"]:
     at = {j.name: shown_position(j) for j in asset.joints}
     opened = posed(asset, at)
     scene = RayScene(opened.vertices, opened.faces)
-    found = best_camera(asset, opened, [RayScene(asset.mesh.vertices, asset.mesh.faces), scene])
-    camera = Camera(found.T_world_camera, found.fov, CELL, CELL)
+    viewpoint = best_camera(asset, opened, [RayScene(asset.mesh.vertices, asset.mesh.faces), scene])
+    camera = Camera(viewpoint.T_world_camera, viewpoint.fov, CELL, CELL)
     return draw_axes(drawn_pose(asset, opened, camera, part_colors(asset), scene), axis_shapes(asset, at), camera, scale=0.8)
 
 

@@ -19,7 +19,7 @@ if (!window.anymeshDrop) {
   window.anymeshDrop = true;
   const most = MOST;
   const input = () => document.querySelector('input[type=file][id^=file_upload_]');
-  const tell = (text) => { const note = document.getElementById('anymesh-drop-note'); if (note) note.textContent = text; };
+  const show_note = (text) => { const note = document.getElementById('anymesh-drop-note'); if (note) note.textContent = text; };
   const paint = (on) => { const zone = document.getElementById('anymesh-drop');
     if (zone) zone.style.background = on ? 'rgba(34,139,230,0.18)' : ''; };
   window.addEventListener('dragover', (event) => { event.preventDefault(); paint(true); });
@@ -27,17 +27,17 @@ if (!window.anymeshDrop) {
   window.addEventListener('drop', (event) => {
     event.preventDefault(); paint(false);
     const files = event.dataTransfer.files, to = input();
-    if (!to) { tell('Wait until the current mesh is done, or cancel it.'); return; }
-    if (files.length !== 1) { tell('Drop one file; several that belong together as a zip.'); return; }
+    if (!to) { show_note('Wait until the current mesh is done, or cancel it.'); return; }
+    if (files.length !== 1) { show_note('Drop one file; several that belong together as a zip.'); return; }
     to.files = files;
     to.dispatchEvent(new Event('change', { bubbles: true }));
   });
   window.addEventListener('change', (event) => {
     if (event.target !== input() || !event.target.files.length) return;
-    tell('');
+    show_note('');
     if (event.target.files[0].size > most) {
       event.stopImmediatePropagation();
-      tell('The file is larger than ' + Math.round(most / 1048576) + ' MB, the maximum.');
+      show_note('The file is larger than ' + Math.round(most / 1048576) + ' MB, the maximum.');
     }
   }, true);
 }

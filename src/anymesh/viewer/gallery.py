@@ -113,9 +113,9 @@ def decide(folder: Path, key: str, decision: Decision) -> None:
     while True:
         with locked(folder) as mine:
             if mine:
-                found = _read_decisions(folder)
-                found[key] = (*found.get(key, ()), decision)
-                _write(folder, found)
+                decisions = _read_decisions(folder)
+                decisions[key] = (*decisions.get(key, ()), decision)
+                _write(folder, decisions)
                 return
         if time.monotonic() > end:
             raise OutputError(f"{folder / REVIEW} is being written by another process; try again")
@@ -126,7 +126,7 @@ def _outputs(folder: Path, deep: int) -> Sequence[Path]:
     if written_files(folder) is not None:
         return [folder]
     below = sorted(p for p in folder.iterdir() if p.is_dir() and not p.name.startswith(".")) if deep else []
-    return [found for path in below for found in _outputs(path, deep - 1)]
+    return [asset_folder for path in below for asset_folder in _outputs(path, deep - 1)]
 
 
 def _item(folder: Path, path: Path) -> Item | None:
@@ -144,11 +144,11 @@ def _item(folder: Path, path: Path) -> Item | None:
 
 def _read_decisions(folder: Path) -> dict[str, tuple[Decision, ...]]:
     path = folder / REVIEW
-    found = read_json(path)
-    if found is None and path.exists():
+    review = read_json(path)
+    if review is None and path.exists():
         raise OutputError(f"{path} cannot be read; move it away to begin a new review")
     try:
-        records: dict[str, list[dict[str, Any]]] = (found or {}).get("decisions", {})
+        records: dict[str, list[dict[str, Any]]] = (review or {}).get("decisions", {})
         return {key: tuple(Decision(**{**d, "verdict": Verdict(d["verdict"])}) for d in made) for key, made in records.items()}
     except (TypeError, ValueError, KeyError, AttributeError) as error:
         raise OutputError(f"{path} is not a review ({error}); move it away to begin a new one") from error

@@ -48,7 +48,7 @@ class ReviewPanel:
     def refresh(self, session: Session) -> None:
         """Update the panel for the displayed asset, and for decisions of others."""
         self._why.content = joint_table(session.shown)
-        self._tell()
+        self._show_state()
 
     def _labels(self) -> dict[str, Item]:
         chosen = self._review.chosen(Filter(self._filter.value))
@@ -62,7 +62,7 @@ class ReviewPanel:
         keys = {item.key for item in labels.values()}
         if self._at is None or (self._at.key not in keys and keys):
             self._show(next(iter(labels.values()), self._review.items[0]))
-        self._tell()
+        self._show_state()
 
     def _picked(self) -> None:
         item = self._labels().get(self._list.value)
@@ -72,7 +72,7 @@ class ReviewPanel:
 
     def _leave(self) -> None:
         if self._page.session is not None and self._page.session.unsaved:
-            self._tell()
+            self._show_state()
             raise CorrectionError("save the corrections of this one first (Ctrl-S), or undo them (Ctrl-Z)")
 
     def _go(self, step: int) -> None:
@@ -106,7 +106,7 @@ class ReviewPanel:
         decide(self._folder, item.key, Decision(verdict, self._reviewer, self._clock(), item.version))
         self._review = read_review(self._folder)
         if verdict is Verdict.CORRECT:
-            self._tell()
+            self._show_state()
             return
         after = list(self._labels().values())
         labels = self._labels()
@@ -115,22 +115,21 @@ class ReviewPanel:
         following = next((i for i in after if i.key in behind), after[0] if after else None)
         if following is not None and following.key != item.key:
             self._show(following)
-        self._tell()
+        self._show_state()
 
-    def _tell(self) -> None:
+    def _show_state(self) -> None:
         done = sum(self._review.standing(i) is not None for i in self._review.items)
         total = len(self._review.items)
         item = self._at and next((i for i in self._review.items if i.key == self._at.key), self._at)
         if item is None:
             return
         decision = self._review.standing(item)
-        said = "not decided yet"
+        outcome = "not decided yet"
         if decision is not None:
             color = COLORS[decision.verdict]
-            said = (
+            outcome = (
                 f'<b style="color:{color}">{decision.verdict}</b> by {escape(decision.reviewer)}, {escape(decision.time[:16])}'
             )
         end = "<br><b>All are decided.</b>" if done == total else ""
-        self._status.content = (
-            f"<div {SMALL}>{badge(item.confidence)} <b>{escape(item.key)}</b>: {said}<br>{done} of {total} decided{end}</div>"
-        )
+        state = f"{badge(item.confidence)} <b>{escape(item.key)}</b>: {outcome}<br>{done} of {total} decided{end}"
+        self._status.content = f"<div {SMALL}>{state}</div>"

@@ -41,10 +41,10 @@ class Hit:
 
 def part_poses(asset: Asset, positions: Mapping[str, float], explode: float) -> dict[str, Float[np.ndarray, "4 4"]]:
     """Return part name -> displayed pose relative to rest; explode: 0 in place .. 1 apart."""
-    found = link_transforms(asset, positions)
+    poses = link_transforms(asset, positions)
     for name, off in (apart(asset) if explode else {}).items():
-        found[name][:3, 3] += explode * off
-    return found
+        poses[name][:3, 3] += explode * off
+    return poses
 
 
 class Session:

@@ -132,9 +132,9 @@ class LivePage:
             try:
                 what()
             except AnymeshError as error:
-                self.tell(str(error), bad=True)
+                self.show_message(str(error), bad=True)
 
-    def tell(self, text: str, *, bad: bool = False) -> None:
+    def show_message(self, text: str, *, bad: bool = False) -> None:
         """Show a message in every tab."""
         for client in self.server.get_clients().values():
             client.add_notification(
@@ -180,7 +180,7 @@ class LivePage:
         if self.session is not None:
             self.session.save()
             self.refresh()
-            self.tell(f"saved to {self.session.folder}")
+            self.show_message(f"saved to {self.session.folder}")
 
     def escape(self) -> None:
         """Leave the current tool, preview and chosen faces; if there are none, clear the selection."""

@@ -118,11 +118,11 @@ class CorrectPanel:
             return
         self._find.disabled, self._find.label = True, "Finding motions ..."
         try:
-            found = session.motions()
+            motions = session.motions()
         finally:
             self._find.disabled, self._find.label = False, FIND
-        labels = distinct([shortened(f"{m.type} {m.confidence:.2f} {m.reason}") for m in found])
-        self._motions, self._motions_of = dict(zip(labels, found, strict=True)), (session.asset, session.selected)
+        labels = distinct([shortened(f"{m.type} {m.confidence:.2f} {m.reason}") for m in motions])
+        self._motions, self._motions_of = dict(zip(labels, motions, strict=True)), (session.asset, session.selected)
         offer(self._motion, tuple(labels) or ("none is free",), labels[0] if labels else "none is free")
         self._preview()
 

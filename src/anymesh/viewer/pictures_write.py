@@ -50,8 +50,8 @@ def write_picture(
         raise OptionError(f"found the file {out.name!r}; valid are names that end in {KINDS}")
     if columns < 1:
         raise OptionError(f"columns must be 1 or more, found {columns}")
-    found = find_assets(folder)
-    several = len(found) > 1
+    folders = find_assets(folder)
+    several = len(folders) > 1
     size = size or (FILM_CELL if several else TURNTABLE)
     try:
         how = Turntable(size - size % 2, rate, turn, materials)
@@ -59,14 +59,14 @@ def write_picture(
         raise OptionError(str(error)) from error
     try:
         if kind == ".png" or several:
-            assets = _read_all(folder, found, progress)
+            assets = _read_all(folder, folders, progress)
         if kind == ".png":
             Image.fromarray(contact_sheet(assets, columns=columns)).save(out, "PNG")
         elif several:
             moving = sheet_film(assets, size=how.size, rate=rate, materials=materials, columns=columns)
             _write_film(moving, out, rate)
         else:
-            asset = displayed(read_asset(found[0]), faces=FACES)[0]
+            asset = displayed(read_asset(folders[0]), faces=FACES)[0]
             progress("picture", asset.name, 0, 1)
             _write_film(film(asset, how), out, rate)
     except OSError as error:
@@ -74,11 +74,11 @@ def write_picture(
     return out
 
 
-def _read_all(folder: Path, found: list[Path], progress: Progress) -> list[tuple[str, Asset | None]]:
+def _read_all(folder: Path, folders: list[Path], progress: Progress) -> list[tuple[str, Asset | None]]:
     """Read the assets with their titles; None stands for one that cannot be read."""
     assets: list[tuple[str, Asset | None]] = []
-    for k, place in enumerate(found):
-        progress("picture", place.name, k, len(found))
+    for k, place in enumerate(folders):
+        progress("picture", place.name, k, len(folders))
         title = place.resolve().name if place == folder else place.relative_to(folder).as_posix()
         try:
             assets.append((title, displayed(read_asset(place), faces=FACES)[0]))

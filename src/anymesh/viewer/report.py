@@ -46,11 +46,11 @@ def write_report(
         raise InputError(f"{folder} is not a folder; valid is one that `anymesh articulate` made, or a folder of such")
     whole = folder.resolve()
     out = whole.parent / f"{whole.name}_report.html" if out is None else Path(out)
-    found = find_assets(folder)
+    folders = find_assets(folder)
     entries = []
-    for k, place in enumerate(found):
+    for k, place in enumerate(folders):
         title = whole.name if place == folder else place.relative_to(folder).as_posix()
-        progress("report", title, k, len(found))
+        progress("report", title, k, len(folders))
         entries.append(folder_entry(place, title, faces=faces))
     entries = within(sorted(entries, key=_order), megabytes)
     data = html_report(whole.name, entries).encode()

@@ -32,8 +32,8 @@ def find_assets(folder: Path) -> list[Path]:
     """
     if (folder / RECORD).is_file():
         return [folder]
-    found = sorted({path.parent for path in folder.glob(f"**/{RECORD}") if path.is_file()})
-    shown = [path for path in found if not any(part.startswith(".") for part in path.relative_to(folder).parts)]
+    folders = sorted({path.parent for path in folder.glob(f"**/{RECORD}") if path.is_file()})
+    shown = [path for path in folders if not any(part.startswith(".") for part in path.relative_to(folder).parts)]
     if not shown:
         raise InputError(f"{folder} holds no {RECORD}; valid is a folder that `anymesh articulate` made, or a folder of such")
     return shown
@@ -79,18 +79,18 @@ def read_transcript(folder: Path) -> tuple[Exchange, ...]:
     """Read the questions and answers of a transcript, in order; unreadable ones are left out."""
     if not folder.is_dir():
         return ()
-    found = (_exchange(folder, path) for path in sorted(folder.iterdir()) if ASKED.fullmatch(path.name))
-    return tuple(exchange for exchange in found if exchange is not None)
+    exchanges = (_exchange(folder, path) for path in sorted(folder.iterdir()) if ASKED.fullmatch(path.name))
+    return tuple(exchange for exchange in exchanges if exchange is not None)
 
 
 def _record(folder: Path) -> Mapping[str, Any]:
     try:
-        found = json.loads((folder / RECORD).read_text(encoding="utf-8"))
+        record = json.loads((folder / RECORD).read_text(encoding="utf-8"))
     except (OSError, ValueError, RecursionError) as error:
         raise InputError(f"{folder / RECORD} cannot be read: {error}") from error
-    if not isinstance(found, dict):
-        raise InputError(f"{folder / RECORD} is not what anymesh writes: found a {type(found).__name__}")
-    return found
+    if not isinstance(record, dict):
+        raise InputError(f"{folder / RECORD} is not what anymesh writes: found a {type(record).__name__}")
+    return record
 
 
 def _face_part(mesh: Mesh, parts: Sequence[Part]) -> np.ndarray:

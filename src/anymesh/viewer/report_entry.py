@@ -66,21 +66,21 @@ def asset_entry(asset: Asset, *, faces: int) -> ReportEntry:
 def within(entries: list[ReportEntry], megabytes: float) -> list[ReportEntry]:
     """Limit the size of the page, leaving out pictures of questions first, then 3D views."""
     left = int(megabytes * 1e6) - sum(len(e.preview) * 4 // 3 for e in entries)
-    found = []
+    limited_entries = []
     for entry in entries:
         notes = entry.notes
         if entry.glb and len(entry.glb) * 4 // 3 > left:
             entry = replace(entry, glb=b"", notes=(*notes, f"No 3D view: the page is limited to {megabytes:g} MB."))
         left -= len(entry.glb) * 4 // 3
-        found.append(entry)
-    for k, entry in enumerate(found):
+        limited_entries.append(entry)
+    for k, entry in enumerate(limited_entries):
         taken = sum(map(len, entry.pictures.values())) * 4 // 3
         if taken > left:
             note = f"Pictures of the questions are left out: the page is limited to {megabytes:g} MB."
-            found[k] = replace(entry, pictures={}, notes=(*entry.notes, note))
+            limited_entries[k] = replace(entry, pictures={}, notes=(*entry.notes, note))
         else:
             left -= taken
-    return found
+    return limited_entries
 
 
 def picture_key(png: bytes) -> str:
@@ -102,12 +102,12 @@ def _entry(title: str, asset: Asset, shown: Asset, glb: bytes, notes: tuple[str,
 
 
 def _pictures(asset: Asset) -> dict[str, bytes]:
-    found: dict[str, bytes] = {}
+    pictures: dict[str, bytes] = {}
     for picture in (p for e in asset.exchanges for p in e.pictures):
         key = picture_key(picture.png)
-        if key not in found:
-            found[key] = _jpeg(picture.png, ASKED_WIDTH, ASKED_QUALITY)
-    return {key: data for key, data in found.items() if data}
+        if key not in pictures:
+            pictures[key] = _jpeg(picture.png, ASKED_WIDTH, ASKED_QUALITY)
+    return {key: data for key, data in pictures.items() if data}
 
 
 def _preview(path: Path) -> bytes:

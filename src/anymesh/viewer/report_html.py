@@ -12,7 +12,7 @@ from typing import Any
 from anymesh.types import JointType
 from anymesh.viewer.report_entry import ReportEntry
 from anymesh.viewer.report_scene import palette
-from anymesh.viewer.report_words import joint_table, part_table, said, sliders, sure, transcript, warnings
+from anymesh.viewer.report_words import html_text, joint_table, part_table, sliders, sure, transcript, warnings
 
 SCRIPTS = ("three.min.js", "report_view.js", "report_page.js")
 STYLE = "report.css"
@@ -37,7 +37,7 @@ def html_report(title: str, entries: Sequence[ReportEntry]) -> str:
         '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">\n'
         f'<meta http-equiv="Content-Security-Policy" content="{_policy(scripts, style)}">\n'
         '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
-        f"<title>{said(title)}</title><style>{style}</style></head>\n<body>\n"
+        f"<title>{html_text(title)}</title><style>{style}</style></head>\n<body>\n"
         + "\n".join([*body, *data, *(f"<script>{script}</script>" for script in scripts)])
         + "\n</body></html>\n"
     )
@@ -63,11 +63,11 @@ def _head(title: str, entries: Sequence[ReportEntry]) -> str:
     joints = sum(len(e.asset.joints) for e in entries if e.asset)
     size = sum(e.size for e in entries) / 1e6
     count = f"{len(entries)} asset{'s' if len(entries) != 1 else ''}, {joints} joint{'s' if joints != 1 else ''}"
-    header = f"<header><h1>{said(title)}</h1><p>{count}; {size:.1f} MB of 3D data and pictures in this file</p></header>"
+    header = f"<header><h1>{html_text(title)}</h1><p>{count}; {size:.1f} MB of 3D data and pictures in this file</p></header>"
     if len(entries) == 1:
         return header
     rows = "".join(
-        f'<tr><td><a href="#a{k}">{said(e.title)}</a></td>'
+        f'<tr><td><a href="#a{k}">{html_text(e.title)}</a></td>'
         + (
             f"<td>{len(e.asset.joints)}</td><td>{sure(e.least) if e.asset.joints else ''}</td><td>{len(e.asset.warnings)}</td>"
             if e.asset
@@ -83,12 +83,12 @@ def _head(title: str, entries: Sequence[ReportEntry]) -> str:
 
 
 def _section(number: int, entry: ReportEntry, *, alone: bool) -> str:
-    head = "" if alone else f"<h2>{said(entry.title)}</h2>"
+    head = "" if alone else f"<h2>{html_text(entry.title)}</h2>"
     begin = f'<section id="a{number}" data-entry="{number}">{head}'
     if entry.asset is None:
         return f"{begin}{warnings(entry)}</section>"
     asset = entry.asset
-    facts = f"{len(asset.mesh.faces):,} faces, from {said(asset.source.path)}, answered by {said(asset.answerer)}"
+    facts = f"{len(asset.mesh.faces):,} faces, from {html_text(asset.source.path)}, answered by {html_text(asset.answerer)}"
     return (
         f'{begin}<p class="facts">{facts}</p>{warnings(entry)}<div class="look">{_stage(entry, alone)}'
         f'<div class="panel">{_tools(entry)}{sliders(asset)}</div></div>{_picture(entry)}'
@@ -120,7 +120,7 @@ def _tools(entry: ReportEntry) -> str:
 def _picture(entry: ReportEntry) -> str:
     if not entry.preview:
         return ""
-    alt = f"{said(entry.title)}: as it looks, parts at rest, parts opened"
+    alt = f"{html_text(entry.title)}: as it looks, parts at rest, parts opened"
     return f'<img class="preview" alt="{alt}" src="data:image/jpeg;base64,{_text(entry.preview)}">'
 
 

@@ -14,7 +14,7 @@ from anymesh.viewer.report_scene import color_class
 SURE, DOUBTFUL = 0.8, 0.5  # confidence from which a joint is marked sure; below which it is marked doubtful
 
 
-def said(text: object) -> str:
+def html_text(text: object) -> str:
     """Escape a text for any place in the page; unprintable and direction-changing characters become U+FFFD."""
     return escape("".join(c if c.isprintable() or c in "\n\t" else "\ufffd" for c in str(text)))
 
@@ -28,8 +28,8 @@ def sure(confidence: float) -> str:
 def warnings(entry: ReportEntry) -> str:
     """Return the warnings of the asset, then the notes on its display."""
     messages = entry.asset.warnings if entry.asset else (entry.problem,)
-    first = "".join(f"<li>{said(w)}</li>" for w in messages)
-    notes = "".join(f"<p>{said(n)}</p>" for n in entry.notes)
+    first = "".join(f"<li>{html_text(w)}</li>" for w in messages)
+    notes = "".join(f"<p>{html_text(n)}</p>" for n in entry.notes)
     return (f'<ul class="warnings">{first}</ul>' if first else "") + (f'<div class="notes">{notes}</div>' if notes else "")
 
 
@@ -50,12 +50,12 @@ def joint_table(asset: Asset) -> str:
     rows = [
         (
             f'<i class="chip {color_class(number[j.child])}"></i>',
-            said(j.name),
-            said(j.type),
-            f"{said(j.parent)} → {said(j.child)}",
-            said(extent(j)),
+            html_text(j.name),
+            html_text(j.type),
+            f"{html_text(j.parent)} → {html_text(j.child)}",
+            html_text(extent(j)),
             sure(j.confidence),
-            said(j.reason),
+            html_text(j.reason),
         )
         for j in asset.joints
     ]
@@ -69,12 +69,12 @@ def part_table(asset: Asset) -> str:
     rows = [
         (
             f'<i class="chip {color_class(k)}"></i>',
-            said(part.name),
-            said(part.label),
+            html_text(part.name),
+            html_text(part.label),
             f"{int((part_of == k).sum()):,}",
             f"{areas[part_of == k].sum():.3g}",
             sure(part.confidence),
-            said(part.reason),
+            html_text(part.reason),
         )
         for k, part in enumerate(asset.segmentation.parts)
     ]
@@ -89,21 +89,22 @@ def transcript(entry: ReportEntry) -> str:
     refused = sum(e.verdict != "accepted" for e in asked)
     head = f"Questions to the model: {len(asked)}" + (f", {refused} of them not answered well" if refused else "")
     body = "".join(_question(k + 1, e, entry) for k, e in enumerate(asked))
-    return f'<details class="asked"><summary>{said(head)}</summary>{body}</details>'
+    return f'<details class="asked"><summary>{html_text(head)}</summary>{body}</details>'
 
 
 def _question(number: int, exchange: Exchange, entry: ReportEntry) -> str:
     mood = "good" if exchange.verdict == "accepted" else "bad"
     shown = [p for p in exchange.pictures if picture_key(p.png) in entry.pictures]
     pictures = "".join(
-        f'<figure><img data-picture="{picture_key(p.png)}" alt="{said(p.caption)}"><figcaption>{said(p.caption)}</figcaption>'
+        f'<figure><img data-picture="{picture_key(p.png)}" alt="{html_text(p.caption)}">'
+        f"<figcaption>{html_text(p.caption)}</figcaption>"
         "</figure>"
         for p in shown
     )
     return (
-        f"<article><h4>{number}. {said(exchange.kind)} <small>{said(exchange.model)}</small> "
-        f'<span class="{mood}">{said(exchange.verdict)}</span></h4><pre>{said(exchange.text)}</pre>{pictures}'
-        f"<pre>{said(_pretty(exchange.answer))}</pre></article>"
+        f"<article><h4>{number}. {html_text(exchange.kind)} <small>{html_text(exchange.model)}</small> "
+        f'<span class="{mood}">{html_text(exchange.verdict)}</span></h4><pre>{html_text(exchange.text)}</pre>{pictures}'
+        f"<pre>{html_text(_pretty(exchange.answer))}</pre></article>"
     )
 
 
@@ -115,8 +116,9 @@ def _pretty(answer: str) -> str:
 
 
 def _slider(number: int, joint: Joint, color: str) -> str:
-    name, travel = said(joint.name), said(extent(joint))
-    head = f'<i class="chip {color}"></i><b title="{said(joint.reason)}">{name}</b> <small>{said(joint.type)} {travel}</small>'
+    name, travel = html_text(joint.name), html_text(extent(joint))
+    reason, kind = html_text(joint.reason), html_text(joint.type)
+    head = f'<i class="chip {color}"></i><b title="{reason}">{name}</b> <small>{kind} {travel}</small>'
     if joint.type is JointType.FIXED:
         return f'<li data-joint="{number}">{head}{sure(joint.confidence)}</li>'
     low, high = joint.limits or (-3.141592653589793, 3.141592653589793)
@@ -135,6 +137,7 @@ def _table(title: str, head: Sequence[str], rows: Sequence[Sequence[str]]) -> st
     """Return a table of cells that are already HTML."""
     if not rows:
         return ""
-    names = "".join(f"<th>{said(name)}</th>" for name in head)
+    names = "".join(f"<th>{html_text(name)}</th>" for name in head)
     body = "".join(f"<tr>{''.join(f'<td>{cell}</td>' for cell in row)}</tr>" for row in rows)
-    return f'<h3>{said(title)}</h3><div class="wide"><table><thead><tr>{names}</tr></thead><tbody>{body}</tbody></table></div>'
+    table = f"<table><thead><tr>{names}</tr></thead><tbody>{body}</tbody></table>"
+    return f'<h3>{html_text(title)}</h3><div class="wide">{table}</div>'

@@ -49,7 +49,7 @@ class Surfaces:
 
     def of(self, asset: Asset) -> dict[str, DisplayMesh]:
         """Return part name -> surface in the asset frame at rest."""
-        mesh, found, keys = asset.mesh, {}, {}
+        mesh, surfaces, keys = asset.mesh, {}, {}
         if mesh is not self._of:
             self._of, self._kept = mesh, {}
         dense = len(mesh.faces) > self.most
@@ -57,15 +57,15 @@ class Surfaces:
             faces = asset.segmentation.faces(number)
             keys[part.name] = key = hashlib.sha256(faces.tobytes()).digest()
             if key in self._kept:
-                found[part.name] = self._kept[key]
+                surfaces[part.name] = self._kept[key]
             elif dense:
                 few = simplify(mesh.triangles[faces], max(MIN_PART_FACES, self.most * len(faces) // len(mesh.faces)))
-                found[part.name] = DisplayMesh(few.reshape(-1, 3), np.arange(3 * len(few)).reshape(-1, 3))
+                surfaces[part.name] = DisplayMesh(few.reshape(-1, 3), np.arange(3 * len(few)).reshape(-1, 3))
             else:
                 piece = mesh.subset(faces)
-                found[part.name] = DisplayMesh(piece.vertices, piece.faces)
-        self._kept |= {keys[name]: surface for name, surface in found.items()}
-        return found
+                surfaces[part.name] = DisplayMesh(piece.vertices, piece.faces)
+        self._kept |= {keys[name]: surface for name, surface in surfaces.items()}
+        return surfaces
 
     def note(self, asset: Asset) -> str:
         """Return a note on the displayed surface, "" if it is exact."""
@@ -91,17 +91,17 @@ def shade_of(number: int, shape: int) -> Color:
 
 def apart(asset: Asset) -> dict[str, Float[np.ndarray, " 3"]]:
     """Return part name -> offset in the exploded view [m]: away from its parent, in its opening direction."""
-    middle, found = {}, {asset.segmentation.parts[0].name: np.zeros(3)}
+    middle, offsets = {}, {asset.segmentation.parts[0].name: np.zeros(3)}
     for number, part in enumerate(asset.segmentation.parts):
         corners = asset.mesh.triangles[asset.segmentation.faces(number)].reshape(-1, 3)
         middle[part.name] = (corners.min(0) + corners.max(0)) / 2
     carried = {j.child: j for j in asset.joints}
 
     def of(name: str) -> np.ndarray:
-        if name not in found:
+        if name not in offsets:
             joint = carried[name]
-            found[name] = of(joint.parent) + APART * asset.mesh.diagonal * _opening_direction(joint, middle)
-        return found[name]
+            offsets[name] = of(joint.parent) + APART * asset.mesh.diagonal * _opening_direction(joint, middle)
+        return offsets[name]
 
     return {part.name: of(part.name) for part in asset.segmentation.parts}
 

@@ -51,10 +51,10 @@ class Address:
     def key(self) -> str:
         """Read the key from the environment, at each call. Raise ModelError if there is none."""
         names = self.keys
-        found = next((value for name in names if (value := os.environ.get(name, "").strip())), "")
-        if not found and self.provider != "openai-compatible":
+        key = next((value for name in names if (value := os.environ.get(name, "").strip())), "")
+        if not key and self.provider != "openai-compatible":
             raise ModelError(f"no key for {self.provider}: set the environment variable {' or '.join(names)}")
-        return found or NO_KEY
+        return key or NO_KEY
 
     def url(self) -> str | None:
         """Return the base URL of requests; None for the default of the provider's client."""

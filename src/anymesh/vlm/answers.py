@@ -32,10 +32,10 @@ def open_in(folder: Path) -> list[QuestionFolder]:
 
     Raise OptionError if there is no question at all, open or answered.
     """
-    found = find_questions(folder)
-    if not found:
+    questions = find_questions(folder)
+    if not questions:
         raise OptionError(f"{folder} has no questions; `anymesh articulate MESH -o DIR --answerer files:{folder}` creates them")
-    return open_questions(found)
+    return open_questions(questions)
 
 
 def record_answer(folder: Path, answer: str) -> Recorded:
@@ -44,14 +44,14 @@ def record_answer(folder: Path, answer: str) -> Recorded:
     In the folder of a single answered question, the answer is replaced. Raise OptionError if the answer is not valid, and is
     then not written, or if no question or several are open.
     """
-    found = open_in(folder)
+    waiting = open_in(folder)
     here = [q for q in find_questions(folder) if q.path == folder]
-    if len(found) > 1:
-        listed = ", ".join(str(q.path) for q in found[:8])
-        raise OptionError(f"{len(found)} questions are open in {folder}; name the one to answer: {listed}")
-    if not (found or here):
+    if len(waiting) > 1:
+        listed = ", ".join(str(q.path) for q in waiting[:8])
+        raise OptionError(f"{len(waiting)} questions are open in {folder}; name the one to answer: {listed}")
+    if not (waiting or here):
         raise OptionError(f"no question is open in {folder}; name the folder of a question to answer it again")
-    question = (found or here)[0]
+    question = (waiting or here)[0]
     text = answer.strip() if is_left_to_geometry(answer) else answer_text(answer, question.schema)
     try:
         whole = check_answer(question, text)

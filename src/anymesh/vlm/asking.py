@@ -39,7 +39,7 @@ class Question(Protocol[Answer_co]):
         """Return the JSON schema of the answer, which is an object."""
         ...
 
-    def parse(self, found: Mapping[str, Any]) -> Answer_co:
+    def parse(self, answer: Mapping[str, Any]) -> Answer_co:
         """Return the answer from an object that satisfies the schema.
 
         Raise BadAnswerError if it does not fit the question.
@@ -154,7 +154,7 @@ _brief = reprlib.Repr()  # limits depth and length, as answers may be nested or 
 _brief.maxlevel, _brief.maxlist, _brief.maxdict, _brief.maxstring = 3, 24, 8, 78
 
 
-def one_each(found: list[int], wanted: int, what: str) -> None:
+def one_each(numbers: list[int], wanted: int, what: str) -> None:
     """Raise BadAnswerError unless every number 1..wanted occurs exactly once."""
-    if sorted(found) != list(range(1, wanted + 1)):
-        raise BadAnswerError(f"each {what} 1..{wanted} must be answered exactly once, found {_short(sorted(found))}")
+    if sorted(numbers) != list(range(1, wanted + 1)):
+        raise BadAnswerError(f"each {what} 1..{wanted} must be answered exactly once, found {_short(sorted(numbers))}")

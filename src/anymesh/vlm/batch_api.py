@@ -59,10 +59,10 @@ def answer_by_batch(folder: Path, model: str, *, max_cost: float | None = None) 
             raise OptionError(f"{folder} waits for a job of {note.get('model')}; collect it first, or remove {NOTE}")
         places = {name: folder / place for name, place in note["questions"].items()}
         asked = {name: q for name, path in places.items() if (q := read_question(path)) is not None}
-        found = collect_batch(connect(model), note["jobs"], {name: _request(q) for name, q in asked.items()})
-        if found is None:
+        answers = collect_batch(connect(model), note["jobs"], {name: _request(q) for name, q in asked.items()})
+        if answers is None:
             return BatchState("waiting", len(places))
-        state = _write(asked, found)
+        state = _write(asked, answers)
         (folder / NOTE).unlink()
         return state
     waiting = open_in(folder)
@@ -96,16 +96,16 @@ def _check_cost(model: str, requests: Mapping[str, Request], max_cost: float | N
         raise BudgetError(f"the job may cost up to {SHARE * sum(known):.4f} USD, which could exceed --max-cost {max_cost:g}")
 
 
-def _write(asked: Mapping[str, QuestionFolder], found: Mapping[str, Any]) -> BatchState:
+def _write(asked: Mapping[str, QuestionFolder], answers: Mapping[str, Any]) -> BatchState:
     """Write the answers without replacing later ones; invalid ones stay open."""
     notes = []
     for name, question in asked.items():
         if question.answer() is not None and question.refusal() is None:
             continue
-        if found[name].text is None:
-            notes.append(f"{question.path}: {found[name].note}")
+        if answers[name].text is None:
+            notes.append(f"{question.path}: {answers[name].note}")
         else:
-            question.write_answer(found[name].text)
+            question.write_answer(answers[name].text)
     left = open_questions([q for path in asked.values() for q in find_questions(path.path)])
     notes += [f"{q.path}: refused, {q.path / 'refused.md'} says why" for q in left if q.refusal() is not None]
     return BatchState("collected", len(asked), len(asked) - len(left), tuple(notes))

@@ -85,13 +85,13 @@ class Cached:
 def read_answer(path: Path) -> dict[str, Any] | None:
     """Read the record of one answer from the cache or a transcript; None if it is missing or invalid."""
     try:
-        found = json.loads(path.read_bytes())
+        record = json.loads(path.read_bytes())
     except (OSError, ValueError, RecursionError):
         return None
     wanted = {"kind": str, "key": str, "model": str, "answer": str, "input_tokens": int, "output_tokens": int}
-    if not isinstance(found, dict) or not all(isinstance(found.get(name), kind) for name, kind in wanted.items()):
+    if not isinstance(record, dict) or not all(isinstance(record.get(name), kind) for name, kind in wanted.items()):
         return None
-    return found
+    return record
 
 
 def kept_reply(kept: dict[str, Any]) -> Reply:

@@ -109,12 +109,12 @@ def check_answer(folder: QuestionFolder, text: str) -> bool:
     """
     if is_left_to_geometry(text):
         return True
-    found = reply_object(text, folder.schema)
+    answer = reply_object(text, folder.schema)
     try:
         question = unpack_question((folder.path / CHECK).read_bytes(), folder.pictures())
     except (OSError, InputError):
         return False  # from another version; the resumed run checks the rest
-    question.parse(found)
+    question.parse(answer)
     return True
 
 

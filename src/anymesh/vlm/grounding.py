@@ -37,15 +37,15 @@ class WhichViews:
     def schema(self) -> dict[str, Any]:
         return an_answer(parts=a_list(an_object(label=one_of(self.labels), views=a_list(INTEGER))))
 
-    def parse(self, found: Mapping[str, Any]) -> dict[str, tuple[int, ...]]:
+    def parse(self, answer: Mapping[str, Any]) -> dict[str, tuple[int, ...]]:
         """Return the views of each label, counted from 0."""
-        if sorted(p["label"] for p in found["parts"]) != sorted(self.labels):
+        if sorted(p["label"] for p in answer["parts"]) != sorted(self.labels):
             raise BadAnswerError(
-                f"each label once: {', '.join(self.labels)}; found {[p['label'] for p in found['parts']][:30]}"
+                f"each label once: {', '.join(self.labels)}; found {[p['label'] for p in answer['parts']][:30]}"
             )
-        for part in found["parts"]:
+        for part in answer["parts"]:
             _in_range(part["views"], range(1, len(self.faces) + 1), "views")
-        return {p["label"]: tuple(sorted({v - 1 for v in p["views"]})) for p in found["parts"]}
+        return {p["label"]: tuple(sorted({v - 1 for v in p["views"]})) for p in answer["parts"]}
 
 
 @dataclass(frozen=True)
@@ -145,15 +145,15 @@ class WhichMarks:
         split = {"split": a_list(INTEGER)} if self.splittable else {}
         return an_answer(parts=a_list(part), unsure=a_list(INTEGER), **split)
 
-    def parse(self, found: Mapping[str, Any]) -> MarksAnswer:
+    def parse(self, answer: Mapping[str, Any]) -> MarksAnswer:
         present = [frozenset(np.unique(r[r >= 0]).tolist()) for r in self.regions]
         every = frozenset().union(*present)
         for name in ("unsure", "split"):
-            _in_range(found.get(name, []), every, name)
-        split = frozenset(found.get("split", ()))
+            _in_range(answer.get(name, []), every, name)
+        split = frozenset(answer.get("split", ()))
         taken: dict[tuple[int | None, int], tuple[str, int]] = {}
         parts: dict[tuple[str, int, int | None], set[int]] = {}  # a part that is given twice is one part
-        for p in found["parts"]:
+        for p in answer["parts"]:
             where, view = f"{p['label']} {p['instance']}", None
             if not self.consistent:
                 _in_range([p["view"]], range(1, len(self.regions) + 1), "view")
@@ -167,11 +167,11 @@ class WhichMarks:
             if marks:
                 parts.setdefault((p["label"], p["instance"], view), set()).update(marks)
         marked = tuple(MarkedPart(*part, tuple(sorted(marks))) for part, marks in parts.items())
-        return MarksAnswer(marked, tuple(sorted(set(found.get("unsure", ())))), tuple(sorted(split)))
+        return MarksAnswer(marked, tuple(sorted(set(answer.get("unsure", ())))), tuple(sorted(split)))
 
 
-def _in_range(found: list[int], valid: range | frozenset[int], what: str) -> None:
-    wrong = sorted({n for n in found if n not in valid})
+def _in_range(numbers: list[int], valid: range | frozenset[int], what: str) -> None:
+    wrong = sorted({n for n in numbers if n not in valid})
     if wrong:
         expected = f"{min(valid)}..{max(valid)}" if valid and len(valid) == max(valid) - min(valid) + 1 else str(sorted(valid))
         raise BadAnswerError(f"{what} must be of {expected if valid else 'none'}, found {wrong[:10]}")

@@ -92,8 +92,8 @@ class WhichMotions:
         fit = {"part_is": one_of(tuple(PartFit))} if self.ask_fit else {}
         return an_answer(parts=a_list(an_object(part=INTEGER, motion=INTEGER, **fit)))
 
-    def parse(self, found: Mapping[str, Any]) -> tuple[MotionPick, ...]:
+    def parse(self, answer: Mapping[str, Any]) -> tuple[MotionPick, ...]:
         """Return a pick for each table, in the order of the tables."""
-        rows = picked_rows(found["parts"], "motion", [len(t.motions) for t in self.tables], 0)
-        fits = {p["part"]: PartFit(p.get("part_is", PartFit.RIGHT)) for p in found["parts"]}
+        rows = picked_rows(answer["parts"], "motion", [len(t.motions) for t in self.tables], 0)
+        fits = {p["part"]: PartFit(p.get("part_is", PartFit.RIGHT)) for p in answer["parts"]}
         return tuple(MotionPick(None if row < 0 else row, fits[k]) for k, row in enumerate(rows, 1))

@@ -88,15 +88,15 @@ class WhichKinds:
         label = {"label": one_of((*self.labels, OTHER))} if self.labels else {}
         return an_answer(parts=a_list(an_object(part=INTEGER, joint=one_of(tuple(JointAppearance)), endless=BOOLEAN, **label)))
 
-    def parse(self, found: Mapping[str, Any]) -> tuple[KindAnswer, ...]:
+    def parse(self, answer: Mapping[str, Any]) -> tuple[KindAnswer, ...]:
         """Return the answers in the order of the parts."""
-        one_each([p["part"] for p in found["parts"]], len(self.parts), "part")
-        by_part = {p["part"]: p for p in found["parts"]}
+        one_each([p["part"] for p in answer["parts"]], len(self.parts), "part")
+        by_part = {p["part"]: p for p in answer["parts"]}
         return tuple(self._answer(p) for _, p in sorted(by_part.items()))
 
-    def _answer(self, found: Mapping[str, Any]) -> KindAnswer:
-        kind, label = JointAppearance(found["joint"]), found.get("label")
-        return KindAnswer(kind, found["endless"] and kind.is_rotation, None if label == OTHER else label)
+    def _answer(self, part: Mapping[str, Any]) -> KindAnswer:
+        kind, label = JointAppearance(part["joint"]), part.get("label")
+        return KindAnswer(kind, part["endless"] and kind.is_rotation, None if label == OTHER else label)
 
 
 @dataclass(frozen=True, eq=False)
@@ -161,10 +161,10 @@ class WhichPoints:
     def schema(self) -> dict[str, Any]:
         return an_answer(parts=a_list(an_object(part=INTEGER, points=a_list(INTEGER))))
 
-    def parse(self, found: Mapping[str, Any]) -> tuple[tuple[int, ...], ...]:
+    def parse(self, answer: Mapping[str, Any]) -> tuple[tuple[int, ...], ...]:
         """Return the picked rows of each table, in the order of the tables."""
-        one_each([p["part"] for p in found["parts"]], len(self.tables), "part")
-        by_part = {p["part"]: tuple(dict.fromkeys(p["points"])) for p in found["parts"]}
+        one_each([p["part"] for p in answer["parts"]], len(self.tables), "part")
+        by_part = {p["part"]: tuple(dict.fromkeys(p["points"])) for p in answer["parts"]}
         for k, table in enumerate(self.tables, 1):
             wrong = [n for n in by_part[k] if not 1 <= n <= len(table.points)]
             if wrong:
@@ -202,9 +202,9 @@ class WhichArrows:
     def schema(self) -> dict[str, Any]:
         return an_answer(parts=a_list(an_object(part=INTEGER, arrow=INTEGER)))
 
-    def parse(self, found: Mapping[str, Any]) -> tuple[int, ...]:
+    def parse(self, answer: Mapping[str, Any]) -> tuple[int, ...]:
         """Return the picked row of each table, in the order of the tables."""
-        return picked_rows(found["parts"], "arrow", [len(t.directions) for t in self.tables], 1)
+        return picked_rows(answer["parts"], "arrow", [len(t.directions) for t in self.tables], 1)
 
 
 def picked_rows(parts: list[Mapping[str, Any]], name: str, counts: Sequence[int], least: int) -> tuple[int, ...]:

@@ -78,14 +78,14 @@ class Client:
         is a reply: its text is the part received, the refusal's words, or "".
         """
         pictures = fit(request, self.address.provider)
-        found = self._attempt(request, pictures, schema=self.takes_schema)
-        if isinstance(found, _Failure) and found.status in (400, 422) and self._may_lack_schemas():
-            log.info("%s: refused (HTTP %d), so it is asked without a JSON schema, with that in words", self.name, found.status)
-            found = self._attempt(request, pictures, schema=False)
-            self.takes_schema = isinstance(found, _Failure)  # refused again: the schema was not the cause
-        if isinstance(found, _Failure):
-            raise found.error
-        return found
+        reply = self._attempt(request, pictures, schema=self.takes_schema)
+        if isinstance(reply, _Failure) and reply.status in (400, 422) and self._may_lack_schemas():
+            log.info("%s: refused (HTTP %d), so it is asked without a JSON schema, with that in words", self.name, reply.status)
+            reply = self._attempt(request, pictures, schema=False)
+            self.takes_schema = isinstance(reply, _Failure)  # refused again: the schema was not the cause
+        if isinstance(reply, _Failure):
+            raise reply.error
+        return reply
 
     def _may_lack_schemas(self) -> bool:
         return self.takes_schema and self.address.provider == "openai-compatible"
@@ -100,12 +100,12 @@ class Client:
             except Exception as error:
                 return self._failure(error, request)
 
-        found = in_thread(attempt)
-        if isinstance(found, _Failure):
-            return found
-        if found.finish_reason == "length":
+        response = in_thread(attempt)
+        if isinstance(response, _Failure):
+            return response
+        if response.finish_reason == "length":
             log.warning("%s: the answer to %r was cut off at %d tokens", self.name, request.kind, request.max_tokens)
-        text, usage = the_text(found), found.usage
+        text, usage = the_text(response), response.usage
         return Reply(
             text=without_keys(unfenced(text) if self.address.provider == "openai-compatible" else text),
             model=self.name,

@@ -58,15 +58,15 @@ def collect_batch(
         batches = [await model.batch_status(_batch(handle)) for handle in handles]
         if any(batch.status != "ended" for batch in batches):
             return None
-        found = {name: BatchAnswer(None, "the job holds no answer to it") for name in requests}
+        answers = {name: BatchAnswer(None, "the job holds no answer to it") for name in requests}
         for result in [r for batch in batches for r in await model.batch_results(batch) if r.custom_id in requests]:
             name = result.custom_id
             try:
                 response = model.batch_decode(result, _encoded(client.address, model, name, requests[name]))
-                found[name] = BatchAnswer(without_keys(the_text(response)))
+                answers[name] = BatchAnswer(without_keys(the_text(response)))
             except ModelAPIError:
-                found[name] = BatchAnswer(None, f"the provider gave no answer ({result.status})")
-        return found
+                answers[name] = BatchAnswer(None, f"the provider gave no answer ({result.status})")
+        return answers
 
     return _run(client, work)
 
@@ -98,10 +98,10 @@ def _run(client: Client, work: Callable[[Model], Coroutine[Any, Any, T]]) -> T:
         except Exception as error:
             return client.failure_of(error)
 
-    found = in_thread(attempt)
-    if isinstance(found, ModelError):
-        raise found
-    return found
+    outcome = in_thread(attempt)
+    if isinstance(outcome, ModelError):
+        raise outcome
+    return outcome
 
 
 def _plain(batch: Batch) -> dict[str, Any]:

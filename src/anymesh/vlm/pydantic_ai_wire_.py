@@ -134,5 +134,5 @@ def the_text(response: ModelResponse) -> str:
 
 def unfenced(text: str) -> str:
     """Remove the code fence that models often put around JSON when asked for it in words."""
-    found = re.fullmatch(r"\s*```(?:json)?\s*\n(.*?)\n?\s*```\s*", text, re.DOTALL)
-    return found[1] if found else text
+    match = re.fullmatch(r"\s*```(?:json)?\s*\n(.*?)\n?\s*```\s*", text, re.DOTALL)
+    return match[1] if match else text

@@ -131,8 +131,8 @@ def read_question(path: Path) -> QuestionFolder | None:
 
 def find_questions(folder: Path) -> list[QuestionFolder]:
     """Find all questions in a folder, which may be that of a question, of an object, or of many objects."""
-    found = (read_question(path.parent) for path in sorted(folder.rglob(QUESTION)))
-    return [q for q in found if q is not None and not q.path.name.startswith(".")]
+    questions = (read_question(path.parent) for path in sorted(folder.rglob(QUESTION)))
+    return [q for q in questions if q is not None and not q.path.name.startswith(".")]
 
 
 @contextmanager
@@ -148,7 +148,7 @@ def wait_for_answer(question: QuestionFolder, seen: str | None, every: float, st
     """Wait for an answer.json that differs from `seen`, checking every `every` [s]; return None once `stop` is set."""
     pause = stop or Event()
     while not pause.wait(every):
-        found = question.answer()
-        if found is not None and found != seen:
-            return found
+        answer = question.answer()
+        if answer is not None and answer != seen:
+            return answer
     return None

@@ -50,10 +50,10 @@ class QuestionStore:
     def owner(self) -> str | None:
         """Return the name of the object that the questions are about; None if it is not recorded."""
         try:
-            found = json.loads((self.folder / OWNER).read_bytes())["object"]
+            name = json.loads((self.folder / OWNER).read_bytes())["object"]
         except (OSError, ValueError, KeyError, TypeError):
             return None
-        return found if isinstance(found, str) else None
+        return name if isinstance(name, str) else None
 
     def questions(self) -> Iterator[QuestionFolder]:
         """Iterate over the questions in the order of their numbers."""
@@ -70,14 +70,14 @@ class QuestionStore:
         files: further files of the folder, by name. Raise OutputError if the folder cannot be written.
         """
         key = request_key(NAME, request)
-        found = self.find(key)
+        question = self.find(key)
         with writing(self.folder):
-            if found is None:
-                found = self._write(key, request, files)
+            if question is None:
+                question = self._write(key, request, files)
         for other in list(self.questions()):
             if other.key != key and (other.answer() is None or other.refusal() is not None):
                 other.mark(outdated=True)
-        return found.mark(outdated=False)
+        return question.mark(outdated=False)
 
     def _write(self, key: str, request: Request, files: Mapping[str, bytes]) -> QuestionFolder:
         self.folder.mkdir(parents=True, exist_ok=True)
@@ -122,6 +122,6 @@ def _move(hidden: Path, folder: Path, kind: str) -> Path:
 
 
 def _umask() -> int:
-    found = os.umask(0o022)
-    os.umask(found)
-    return found
+    umask = os.umask(0o022)
+    os.umask(umask)
+    return umask

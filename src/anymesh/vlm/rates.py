@@ -77,9 +77,9 @@ class WindowLimiter:
     def correct(self, entry: int, tokens: int) -> None:
         """Replace the estimate of an entry by the tokens that were billed."""
         with self._lock:
-            for found in self._entries:
-                if found[2] == entry:
-                    found[1] = tokens
+            for e in self._entries:
+                if e[2] == entry:
+                    e[1] = tokens
 
 
 class RateLimited:

@@ -74,20 +74,20 @@ class Recognize:
         label = an_object(label=STRING, moves=one_of(MOVING), parent=STRING, lower=NUMBER, upper=NUMBER)
         return an_answer(category=STRING, longest_side_m=NUMBER, front=INTEGER, parts=a_list(label))
 
-    def parse(self, found: Mapping[str, Any]) -> Recognition:
-        size = float(found["longest_side_m"])
+    def parse(self, answer: Mapping[str, Any]) -> Recognition:
+        size = float(answer["longest_side_m"])
         if not SIZES[0] <= size <= SIZES[1]:
             raise BadAnswerError(f"longest_side_m must lie in {SIZES[0]}..{SIZES[1]}, found {size:g}")
-        if not 0 <= found["front"] <= len(self.azimuths):
+        if not 0 <= answer["front"] <= len(self.azimuths):
             raise BadAnswerError(
-                f"front must be the number of a picture, 1..{len(self.azimuths)}, or 0; found {found['front']}"
+                f"front must be the number of a picture, 1..{len(self.azimuths)}, or 0; found {answer['front']}"
             )
-        front = self.azimuths[found["front"] - 1] if found["front"] else None
-        named = [{**p, "label": _folded(p["label"]), "parent": _folded(p["parent"])} for p in found["parts"]]
+        front = self.azimuths[answer["front"] - 1] if answer["front"] else None
+        named = [{**p, "label": _folded(p["label"]), "parent": _folded(p["parent"])} for p in answer["parts"]]
         labels = check_labels([p["label"] for p in named])
         parts = tuple(self._label(p, labels) for p in named)
         _check_tree({p["label"]: p["parent"] for p in named})
-        category = " ".join(found["category"].split())[:60]
+        category = " ".join(answer["category"].split())[:60]
         if not category or not (category.isascii() and category.isprintable()):
             raise BadAnswerError(f"category must be one or a few English words, found {category!r}")
         return Recognition(category, size, parts, front)
@@ -161,15 +161,15 @@ def recognize(
     return answerer.ask(Recognize(DrawnPictures(pictures), category, tuple(azimuths)))
 
 
-def answered_scale(found: Recognition, size: float, *, metric: bool) -> tuple[float, str, tuple[str, ...]]:
+def answered_scale(recognition: Recognition, size: float, *, metric: bool) -> tuple[float, str, tuple[str, ...]]:
     """Return the scale factor from an answered size, with a note, and warnings.
 
     size: longest side of the mesh [m]; metric: its file states a unit, which is kept.
     """
-    if found.size is None:
+    if recognition.size is None:
         return 1.0, "", ()
-    factor = found.size / size
-    basis = f"answered: a {found.category} is about {found.size:g} m long; the mesh was {size:.3g} m"
+    factor = recognition.size / size
+    basis = f"answered: a {recognition.category} is about {recognition.size:g} m long; the mesh was {size:.3g} m"
     if 1 / ROUGH <= factor <= ROUGH:
         return 1.0, "", ()
     if metric:

@@ -70,13 +70,13 @@ class ReferenceAnswerer:
         return cast(Answer, answer)
 
     def _recognition(self) -> Recognition:
-        known, found = self._known, {}
+        known, labels = self._known, {}
         for part, (label, joint) in enumerate(zip(known.kinds, known.joints, strict=True)):
             if joint is not None and self._moves(part):
                 parent = self._parent(part)
-                if label not in found or parent == label:  # a part on another one of its own label makes the label a chain
-                    found[label] = RecognizedLabel(label, joint.type, parent, joint.opening_range)
-        return Recognition(known.category, known.size, tuple(found.values()))
+                if label not in labels or parent == label:  # a part on another one of its own label makes the label a chain
+                    labels[label] = RecognizedLabel(label, joint.type, parent, joint.opening_range)
+        return Recognition(known.category, known.size, tuple(labels.values()))
 
     def _parent(self, part: int) -> str:
         """Return the label of the movable part that a part is mounted on."""
@@ -98,7 +98,7 @@ class ReferenceAnswerer:
         seen = [np.bincount(self._pixels(f)[f >= 0], minlength=len(kinds)) for f in question.faces]
         most = {label: [max(n[p] * (kinds[p] == label) for p in range(len(kinds))) for n in seen] for label in question.labels}
         return {
-            label: tuple(v for v, pixels in enumerate(found) if pixels >= MIN_VISIBLE_PIXELS) for label, found in most.items()
+            label: tuple(v for v, pixels in enumerate(counts) if pixels >= MIN_VISIBLE_PIXELS) for label, counts in most.items()
         }
 
     def _marks(self, question: WhichMarks) -> MarksAnswer:
@@ -107,7 +107,7 @@ class ReferenceAnswerer:
             views = [(None, np.concatenate([r.ravel() for r in question.regions]), np.concatenate([p.ravel() for p in parts]))]
         else:
             views = [(v, r.ravel(), p.ravel()) for v, (r, p) in enumerate(zip(question.regions, parts, strict=True))]
-        found: dict[tuple[int, int | None], list[int]] = {}
+        part_marks: dict[tuple[int, int | None], list[int]] = {}
         split = []
         for view, region, part in views:
             on = (region >= 0) & (part >= 0)
@@ -118,10 +118,10 @@ class ReferenceAnswerer:
                 if question.splittable and second > max(MIN_SPLIT_OVERLAP * counts.sum(), MIN_VISIBLE_PIXELS):
                     split.append(int(mark))
                 elif best > 0 and counts[best] > MIN_MARK_OVERLAP * counts.sum() and self._known.kinds[best] in question.labels:
-                    found.setdefault((best, view), []).append(int(mark))
+                    part_marks.setdefault((best, view), []).append(int(mark))
         marked = tuple(
             MarkedPart(self._known.kinds[part], self._instance(part), view, tuple(marks))
-            for (part, view), marks in sorted(found.items(), key=lambda item: (item[0][0], item[0][1] or 0))
+            for (part, view), marks in sorted(part_marks.items(), key=lambda item: (item[0][0], item[0][1] or 0))
         )
         return MarksAnswer(marked, split=tuple(split))
 

@@ -22,15 +22,15 @@ class Replay:
     def __init__(self, folder: Path) -> None:
         if not folder.is_dir():
             raise OptionError(f"no recording to replay: {folder} is not a folder")
-        found = [record for path in sorted(folder.glob("*.json")) if (record := read_answer(path)) is not None]
-        found += [_answered(question, text) for question in find_questions(folder) if (text := question.answer()) is not None]
-        if not found:
+        records = [record for path in sorted(folder.glob("*.json")) if (record := read_answer(path)) is not None]
+        records += [_answered(question, text) for question in find_questions(folder) if (text := question.answer()) is not None]
+        if not records:
             raise OptionError(
                 f"no recording to replay: {folder} holds no recorded answer (NNN_KIND.json, KEY.json, or answered questions)"
             )
         self._folder = folder
-        self._records = {record["key"]: record for record in reversed(found)}
-        self._names = [name for name, _ in Counter(record["model"] for record in found).most_common()]
+        self._records = {record["key"]: record for record in reversed(records)}
+        self._names = [name for name, _ in Counter(record["model"] for record in records).most_common()]
         self.name: str = self._names[0]
 
     def ask(self, request: Request) -> Reply:

@@ -18,22 +18,22 @@ def reply_object(text: str, schema: Mapping[str, Any]) -> dict[str, Any]:
         raise BadAnswerError("it was empty, or a refusal")
     try:
         text.encode()  # a lone surrogate cannot be encoded
-        found = json.loads(text, parse_constant=_no_constant, object_pairs_hook=_unique)
-        json.dumps(found, ensure_ascii=False).encode()
+        answer = json.loads(text, parse_constant=_no_constant, object_pairs_hook=_unique)
+        json.dumps(answer, ensure_ascii=False).encode()
     except (ValueError, RecursionError):
         raise BadAnswerError(f"it was no JSON, or not JSON alone: {' '.join(text.split())[:60]!r}") from None
-    check_schema(found, schema)
-    return found
+    check_schema(answer, schema)
+    return answer
 
 
 def _unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     """Build an object from pairs; raise BadAnswerError if a name occurs twice."""
-    found: dict[str, Any] = {}
+    members: dict[str, Any] = {}
     for name, value in pairs:
-        if name in found:
+        if name in members:
             raise BadAnswerError(f"an object must have each name once, found {name[:40]!r} twice")
-        found[name] = value
-    return found
+        members[name] = value
+    return members
 
 
 def _no_constant(name: str) -> float:

@@ -58,8 +58,8 @@ def unpack_question(content: bytes, pictures: tuple[Picture, ...]) -> Question[A
     Raise InputError for bytes that are no question, or from another version.
     """
     try:
-        with np.load(io.BytesIO(content), allow_pickle=False) as found:
-            arrays = dict(found)
+        with np.load(io.BytesIO(content), allow_pickle=False) as archive:
+            arrays = dict(archive)
         record = json.loads(arrays[RECORD].tobytes())
         values = {name: _unpack(value, arrays) for name, value in record["fields"].items()}
         return _class(record["class"])(**values, pictures=pictures)
@@ -88,10 +88,10 @@ def _class(name: str) -> Any:
     if not all(module.startswith(HOMES) for module in names):
         raise ValueError(name)
     modules = [importlib.import_module(module) for module in names]
-    found = next((getattr(module, cls) for module in modules if hasattr(module, cls)), None)
-    if not isinstance(found, type) or not (is_dataclass(found) or issubclass(found, Enum)):
+    kind = next((getattr(module, cls) for module in modules if hasattr(module, cls)), None)
+    if not isinstance(kind, type) or not (is_dataclass(kind) or issubclass(kind, Enum)):
         raise ValueError(name)
-    return found
+    return kind
 
 
 def _pack(value: Any, arrays: dict[str, np.ndarray]) -> Any:

@@ -131,14 +131,14 @@ def _fetch(server: Server, url: str, timeout: float, body: dict[str, Any] | None
         content = None if body is None else json.dumps(body)
         connection.request("GET" if body is None else "POST", parts.path, content, headers)
         response = connection.getresponse()
-        found = json.loads(response.read(LONGEST)) if response.status == 200 else None
+        answer = json.loads(response.read(LONGEST)) if response.status == 200 else None
     finally:
         connection.close()
-    if not isinstance(found, dict):
+    if not isinstance(answer, dict):
         raise ValueError("no JSON object")
-    return found
+    return answer
 
 
-def first_vision_model(found: list[ServerProbe]) -> LocalModel | None:
+def first_vision_model(probes: list[ServerProbe]) -> LocalModel | None:
     """Return the first model on this machine that is known to accept pictures; None if there is none."""
-    return next((m for f in found if f.is_local for m in f.models or () if m.takes_pictures), None)
+    return next((m for f in probes if f.is_local for m in f.models or () if m.takes_pictures), None)

@@ -35,9 +35,9 @@ def answer_text(text: str, schema: Schema) -> str:
     rest = ASSIGNMENT.sub("", text).strip()
     if rest:
         raise OptionError(f"the short form is NAME=VALUE,VALUE ..., found {rest[:40]!r} besides")
-    found: dict[str, Any] = {name: _blank(name, part) for name, part in schema["properties"].items() if name != lists[0]}
-    found[lists[0]] = [_assignment(*match.groups(), items) for match in ASSIGNMENT.finditer(text)]
-    return json.dumps({name: found[name] for name in schema["properties"]})
+    answer: dict[str, Any] = {name: _blank(name, part) for name, part in schema["properties"].items() if name != lists[0]}
+    answer[lists[0]] = [_assignment(*match.groups(), items) for match in ASSIGNMENT.finditer(text)]
+    return json.dumps({name: answer[name] for name in schema["properties"]})
 
 
 def _assignment(name: str, number: str | None, text: str, items: Schema) -> dict[str, Any]:

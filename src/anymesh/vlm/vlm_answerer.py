@@ -53,13 +53,13 @@ class VlmAnswerer:
             nothing = Reply("", self._model.name, 0, 0, cost=0.0)
             self._exchanges.append(exchange_of(self._model.name, request, nothing, verdict))
             return self._fallback.ask(question)
-        found = self._try(request, question)
-        if isinstance(found, BadAnswerError) and not self._patience.lost:
-            again = f"{request.text}\n\nYour answer to this was not valid: {found}. Answer again."
-            found = self._try(replace(request, text=again), question)
-        if not isinstance(found, BadAnswerError):
-            return found
-        self._fall_back(question.kind, found)
+        answer = self._try(request, question)
+        if isinstance(answer, BadAnswerError) and not self._patience.lost:
+            again = f"{request.text}\n\nYour answer to this was not valid: {answer}. Answer again."
+            answer = self._try(replace(request, text=again), question)
+        if not isinstance(answer, BadAnswerError):
+            return answer
+        self._fall_back(question.kind, answer)
         return self._fallback.ask(question)
 
     def _fall_back(self, kind: str, why: BadAnswerError) -> None:

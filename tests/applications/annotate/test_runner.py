@@ -138,19 +138,19 @@ def test_a_model_that_is_down_is_waited_for_and_counts_against_no_object(tmp_pat
     source, out = collection(a="down", b="down b", c="down c"), tmp_path / "out"
     monkeypatch.setattr(module, "Outage", lambda patience: real(patience, first=0.1))
     real = runner.Outage
-    told = []
+    notes = []
 
-    def tell(found) -> None:
-        told.append(found.note)
-        if len(told) == 2:
+    def on_tally(tally) -> None:
+        notes.append(tally.note)
+        if len(notes) == 2:
             (out / "up").touch()
 
     monkeypatch.setattr(runner, "TICK", 0.3)
-    found = annotate(str(source), out, work=workers(), tell=tell)
+    found = annotate(str(source), out, work=workers(), on_tally=on_tally)
     assert found.ended is None
     assert set(states(out).values()) == {"done"}
     assert {column(out, n, "attempts") for n in "abc"} == {1}
-    assert any("cannot be reached" in note for note in told)
+    assert any("cannot be reached" in note for note in notes)
 
 
 def test_a_model_that_stays_down_ends_the_run(tmp_path, collection, workers, monkeypatch) -> None:

@@ -69,7 +69,7 @@ def annotate(
     *,
     speed: Speed = Speed(),
     again: bool = False,
-    tell: Callable[[Tally], None] = lambda _: None,
+    on_tally: Callable[[Tally], None] = lambda _: None,
     work: Workers | None = None,
     **options: Any,
 ) -> Annotated:
@@ -91,7 +91,7 @@ def annotate(
         enter_objects(ledger, find_objects(source, without=out))
         _open_again(ledger, again)
         with begun_run(ledger, count) as run:
-            runner = Runner(ledger, run, workers, plan, Outage(speed.patience), tell, count=count)
+            runner = Runner(ledger, run, workers, plan, Outage(speed.patience), on_tally, count=count)
             free_lost(ledger, run)
             try:
                 runner.loop()

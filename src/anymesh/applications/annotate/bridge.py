@@ -130,10 +130,10 @@ class RemoteMeter:
 
     def hold(self, kind: str, most: float, limit: Limit) -> int:
         """Reserve a call of at most `most` [USD] and return the reservation's number. Raise BudgetError beyond the limit."""
-        found = self._ask("hold", self._name, self._token, kind, most, limit)
-        if isinstance(found, str):
-            raise BudgetError(found)
-        return found
+        reply = self._ask("hold", self._name, self._token, kind, most, limit)
+        if isinstance(reply, str):
+            raise BudgetError(reply)
+        return reply
 
     def settle(self, hold: int, cost: float | None) -> None:
         """Replace a reservation by the cost of the call; None for a call that failed and was not billed."""

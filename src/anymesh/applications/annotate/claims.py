@@ -86,8 +86,8 @@ def claim(ledger: Ledger, run: str, count: int) -> list[Claim]:
     if count < 1:
         return []
     with ledger.writing() as connection:
-        found = connection.execute(CLAIM, (run, run, secrets.token_hex(4), count)).fetchall()
-    return [Claim(s, name, src, json.loads(o), folder, token, bool(redo)) for s, name, src, o, folder, token, redo in found]
+        rows = connection.execute(CLAIM, (run, run, secrets.token_hex(4), count)).fetchall()
+    return [Claim(s, name, src, json.loads(o), folder, token, bool(redo)) for s, name, src, o, folder, token, redo in rows]
 
 
 def finish(ledger: Ledger, taken: Claim, outcome: AttemptOutcome, *, most: int) -> State | None:
@@ -172,5 +172,5 @@ def _is_alive(ledger: Ledger, run: str) -> bool:
         with locked(lock) as free:
             if free:
                 return False
-    found = ledger.rows("SELECT boot, beat FROM runs WHERE run = ?", (run,))
-    return bool(found) and found[0][0] == boot_id() and time.monotonic() - found[0][1] < LEASE
+    rows = ledger.rows("SELECT boot, beat FROM runs WHERE run = ?", (run,))
+    return bool(rows) and rows[0][0] == boot_id() and time.monotonic() - rows[0][1] < LEASE

@@ -29,16 +29,16 @@ def find_objects(spec: str, *, without: Path) -> Iterator[ObjectRequest]:
         return
     path = Path(spec)
     if path.is_dir():
-        found = _files(path, (p for p in walk(path, without) if p.suffix.lower() in FORMATS))
+        requests = _files(path, (p for p in walk(path, without) if p.suffix.lower() in FORMATS))
     elif path.is_file():
         table = path.suffix.lower() in TABLES
-        found = (_with_file(r) for r in read_table(path)) if table else _files(path.parent, [path])
+        requests = (_with_file(r) for r in read_table(path)) if table else _files(path.parent, [path])
     elif WILD.search(spec):
-        found = _files(*_matches(spec, without))
+        requests = _files(*_matches(spec, without))
     else:
         raise InputError(f"found no {spec!r}; valid are a folder, a pattern, a table ({', '.join(TABLES)}), or objaverse:IDS")
     count = 0
-    for count, request in enumerate(found, 1):  # noqa: B007
+    for count, request in enumerate(requests, 1):  # noqa: B007
         yield request
     if not count:
         raise InputError(f"{spec} holds no object; valid are files with {', '.join(FORMATS)}")

@@ -62,9 +62,9 @@ class Ledger:
     def _prepare(self, *, check: bool) -> None:
         with self.guarded():
             if check:
-                found = self._connection.execute("PRAGMA quick_check(1)").fetchone()[0]
-                if found != "ok":
-                    raise CorruptLedgerError(f"{self.out / NAME} is damaged: {' '.join(str(found).split())[:200]}")
+                integrity = self._connection.execute("PRAGMA quick_check(1)").fetchone()[0]
+                if integrity != "ok":
+                    raise CorruptLedgerError(f"{self.out / NAME} is damaged: {' '.join(str(integrity).split())[:200]}")
             version = self._connection.execute("PRAGMA user_version").fetchone()[0]
             if version not in (0, VERSION):
                 raise OutputError(f"{self.out / NAME} has version {version}; valid is {VERSION}: use the anymesh that made it")
@@ -135,12 +135,12 @@ class Ledger:
         if value is not None:
             with self.writing() as connection:
                 connection.execute("INSERT OR IGNORE INTO meta VALUES(?, ?)", (key, value))
-        found = self.rows("SELECT value FROM meta WHERE key = ?", (key,))
-        return found[0][0] if found else None
+        rows = self.rows("SELECT value FROM meta WHERE key = ?", (key,))
+        return rows[0][0] if rows else None
 
     def export_rows(self) -> Iterator[list[tuple[Any, ...]]]:
         """Yield all objects in batches, with the columns of OBJECTS."""
         last, columns = 0, ", ".join(OBJECTS)
-        while found := self.rows(f"SELECT seq, {columns} FROM objects WHERE seq > ? ORDER BY seq LIMIT {BATCH}", (last,)):
-            last = found[-1][0]
-            yield [row[1:] for row in found]
+        while rows := self.rows(f"SELECT seq, {columns} FROM objects WHERE seq > ? ORDER BY seq LIMIT {BATCH}", (last,)):
+            last = rows[-1][0]
+            yield [row[1:] for row in rows]

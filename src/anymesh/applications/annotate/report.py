@@ -14,7 +14,7 @@ from anymesh.applications.annotate.tally import duration, tally
 from anymesh.errors import OutputError
 from anymesh.files import write_whole
 from anymesh.viewer.report_display import jpeg
-from anymesh.viewer.report_words import said, sure
+from anymesh.viewer.report_words import html_text, sure
 
 REPORT = "report.html"
 GALLERY, EXAMPLES, LISTED = 24, 3, 200  # number of pictures, of names per cause, and of rows in the list of failures
@@ -48,7 +48,7 @@ def write_report(ledger: Ledger) -> Path:
 
 def report_page(ledger: Ledger) -> str:
     """Return the page. Names and messages come from files and are escaped; nothing is loaded from outside."""
-    title = said(ledger.out.name)
+    title = html_text(ledger.out.name)
     body = [f"<h1>{title}</h1>", _counts(ledger), _figures(ledger), _causes(ledger), _confidence(ledger), _gallery(ledger)]
     body.append(_failures(ledger))
     policy = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'"
@@ -61,18 +61,18 @@ def report_page(ledger: Ledger) -> str:
 
 
 def _counts(ledger: Ledger) -> str:
-    found = tally(ledger)
+    status = tally(ledger)
     cells = "".join(
-        f'<div class="{s}"><b>{found.counts[s]:,}</b>{s}</div>' for s in State if found.counts[s] or s is State.DONE
+        f'<div class="{s}"><b>{status.counts[s]:,}</b>{s}</div>' for s in State if status.counts[s] or s is State.DONE
     )
-    return f'<div class="counts"><div><b>{found.total:,}</b>objects</div>{cells}</div>'
+    return f'<div class="counts"><div><b>{status.total:,}</b>objects</div>{cells}</div>'
 
 
 def _figures(ledger: Ledger) -> str:
     query = """SELECT count(*), total(seconds), max(seconds), max(memory), total(parts), total(joints), total(bytes),
       sum(joints > 0) FROM objects WHERE state = 'done'"""
     count, seconds, longest, memory, parts, joints, size, moving = ledger.rows(query)[0]
-    found = tally(ledger)
+    status = tally(ledger)
     if not count:
         return ""
     rows = [
@@ -81,9 +81,9 @@ def _figures(ledger: Ledger) -> str:
         ("time of one object, mean and longest", f"{duration(seconds / count)}, {duration(longest or 0)}"),
         ("largest memory of one object", f"{(memory or 0) / 2**20:,.0f} MiB"),
         ("size of all assets, and of one", f"{size / 1e9:,.2f} GB, {size / count / 1e6:,.2f} MB"),
-        ("calls of a model, their cost", f"{found.calls:,}, {found.cost:,.2f} USD"),
+        ("calls of a model, their cost", f"{status.calls:,}, {status.cost:,.2f} USD"),
     ]
-    return _table("Figures", ("", ""), [(said(a), said(b)) for a, b in rows])
+    return _table("Figures", ("", ""), [(html_text(a), html_text(b)) for a, b in rows])
 
 
 def _causes(ledger: Ledger) -> str:
@@ -94,7 +94,9 @@ def _causes(ledger: Ledger) -> str:
     rows = []
     for kind, stage, count, attempts, error in ledger.rows(query):
         names = ", ".join(name[:80] for (name,) in ledger.rows(such, (kind, stage, EXAMPLES)))
-        rows.append((said(kind), said(stage), f"{count:,}", f"{attempts:,}", said((error or "")[:200]), said(names)))
+        rows.append(
+            (html_text(kind), html_text(stage), f"{count:,}", f"{attempts:,}", html_text((error or "")[:200]), html_text(names))
+        )
     return _table("Failures by cause", ("cause", "stage", "objects", "attempts", "such as", "objects"), rows, numbers=(2, 3))
 
 
@@ -122,19 +124,22 @@ def _gallery(ledger: Ledger) -> str:
 def _figure(out: Path, name: str, folder: str, confidence: float, joints: int, warnings: int) -> str:
     try:
         data = base64.b64encode(jpeg((out / folder / "preview.png").read_bytes(), WIDTH, QUALITY)).decode()
-        image = f'<img alt="{said(name)}" src="data:image/jpeg;base64,{data}">'
+        image = f'<img alt="{html_text(name)}" src="data:image/jpeg;base64,{data}">'
     except (OSError, ValueError, SyntaxError):
         image = "<p>its preview cannot be read</p>"
     counts = f"{joints} joint{'s' * (joints != 1)}, {warnings} warning{'s' * (warnings != 1)}"
-    link = f'<a href="{said(quote(folder))}">{said(name[:200])}</a>'
+    link = f'<a href="{html_text(quote(folder))}">{html_text(name[:200])}</a>'
     return f"<figure>{image}<figcaption>{sure(confidence)} {link}<br>{counts}</figcaption></figure>"
 
 
 def _failures(ledger: Ledger) -> str:
     query = """SELECT name, state, error_class, coalesce(stage, ''), attempts, coalesce(error, '') FROM objects
       WHERE state IN ('quarantined', 'waiting') ORDER BY seq LIMIT ?"""
-    found = ledger.rows(query, (LISTED,))
-    rows = [(said(n[:200]), said(s), said(k or ""), said(g), str(a), said(e)) for n, s, k, g, a, e in found]
+    unfinished = ledger.rows(query, (LISTED,))
+    rows = [
+        (html_text(n[:200]), html_text(s), html_text(k or ""), html_text(g), str(a), html_text(e))
+        for n, s, k, g, a, e in unfinished
+    ]
     more = " (the first; the ledger has all)" if len(rows) == LISTED else ""
     return _table(f"Not done{more}", ("object", "state", "cause", "stage", "attempts", "reason"), rows, numbers=(4,))
 

@@ -48,7 +48,7 @@ class Runner:
     workers: Workers
     plan: Plan
     outage: Outage
-    tell: Callable[[Tally], None] = lambda _: None
+    on_tally: Callable[[Tally], None] = lambda _: None
     finished: int = 0
     ended: AttemptOutcome | None = None
     count: int = 1  # workers, for the metrics
@@ -80,11 +80,11 @@ class Runner:
             message = f"less than {FREE >> 20} MiB are free where {self.ledger.out} is"
             self.ended = AttemptOutcome(Result.STORAGE, "OutputError", message, exit_code=OutputError.exit_code)
             return 0
-        found = claim(self.ledger, self.run, self.outage.allowed(self.workers.free, self._running))
-        for taken in found:
+        claims = claim(self.ledger, self.run, self.outage.allowed(self.workers.free, self._running))
+        for taken in claims:
             self.workers.submit(taken, self._job(taken))
             self._running += 1
-        return len(found)
+        return len(claims)
 
     def _job(self, taken: Claim) -> Job:
         return Job(
@@ -135,8 +135,8 @@ class Runner:
             note = "waiting for a model or hub that cannot be reached" if self.outage.is_on else ""
             if others := live_runs(self.ledger, self.run):
                 note = "; ".join(filter(None, [note, f"{others} other run(s) work on the same output"]))
-            found = tally(self.ledger, finished=self.finished, seconds=now - self._begin, workers=self.count, note=note)
-            write_metrics(self.ledger.out, found, self.ledger.seconds)
-            self.tell(found)
+            status = tally(self.ledger, finished=self.finished, seconds=now - self._begin, workers=self.count, note=note)
+            write_metrics(self.ledger.out, status, self.ledger.seconds)
+            self.on_tally(status)
 
     _last_outage: AttemptOutcome = field(default_factory=lambda: AttemptOutcome(Result.OUTAGE))

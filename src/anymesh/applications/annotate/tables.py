@@ -48,8 +48,8 @@ def _parquet_rows(path: Path) -> Iterator[Mapping[str, str]]:
 def _check_columns(path: Path, row: Iterable[str]) -> None:
     names = set(row)
     if not names & {PATH, UID}:
-        found = ", ".join(sorted(names))[:200]
-        raise InputError(f"{path.name}: found the columns {found}; one of them must be `path` or `uid`")
+        columns = ", ".join(sorted(names))[:200]
+        raise InputError(f"{path.name}: found the columns {columns}; one of them must be `path` or `uid`")
     unknown = sorted(names - {PATH, UID, NAME, *OPTIONS})
     if unknown:
         log.warning("%s: the columns %s are ignored; options are %s", path.name, ", ".join(unknown)[:200], ", ".join(OPTIONS))

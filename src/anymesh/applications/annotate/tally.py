@@ -58,18 +58,18 @@ def duration(seconds: float) -> str:
     return f"{seconds / 3600:.1f} h" if seconds < 172_800 else f"{seconds / 86_400:.1f} days"
 
 
-def write_metrics(out: Path, found: Tally, ledger_seconds: float) -> None:
+def write_metrics(out: Path, tally: Tally, ledger_seconds: float) -> None:
     """Write the metrics in Prometheus' text format, atomically. Raise OutputError if this fails."""
     metrics = {
-        "anymesh_annotate_rate_per_hour": ("gauge", "Objects finished per hour, in this run.", found.rate),
-        "anymesh_annotate_seconds_left": ("gauge", "Time left; -1 when not known.", -1 if found.left is None else found.left),
-        "anymesh_annotate_workers": ("gauge", "Objects processed in parallel.", found.workers),
-        "anymesh_annotate_model_calls_total": ("counter", "Calls of a model, over all runs.", found.calls),
-        "anymesh_annotate_cost_usd_total": ("counter", "Cost of these calls.", found.cost),
+        "anymesh_annotate_rate_per_hour": ("gauge", "Objects finished per hour, in this run.", tally.rate),
+        "anymesh_annotate_seconds_left": ("gauge", "Time left; -1 when not known.", -1 if tally.left is None else tally.left),
+        "anymesh_annotate_workers": ("gauge", "Objects processed in parallel.", tally.workers),
+        "anymesh_annotate_model_calls_total": ("counter", "Calls of a model, over all runs.", tally.calls),
+        "anymesh_annotate_cost_usd_total": ("counter", "Cost of these calls.", tally.cost),
         "anymesh_annotate_ledger_seconds_total": ("counter", "Time that this run spent in the ledger.", ledger_seconds),
     }
     lines = ["# HELP anymesh_annotate_objects Objects by state.", "# TYPE anymesh_annotate_objects gauge"]
-    lines += [f'anymesh_annotate_objects{{state="{state}"}} {found.counts[state]}' for state in State]
+    lines += [f'anymesh_annotate_objects{{state="{state}"}} {tally.counts[state]}' for state in State]
     for name, (kind, description, value) in metrics.items():
         lines += [f"# HELP {name} {description}", f"# TYPE {name} {kind}", f"{name} {value:.10g}"]
     try:

@@ -70,8 +70,8 @@ def annotate_object(job: dict[str, Any]) -> dict[str, Any]:
         raise
     except Exception as error:
         outcome = failure(error)
-    found = asdict(outcome) | {"seconds": time.perf_counter() - begin, "memory": _peak_memory()}
-    return found | {"result": str(outcome.result)}
+    record = asdict(outcome) | {"seconds": time.perf_counter() - begin, "memory": _peak_memory()}
+    return record | {"result": str(outcome.result)}
 
 
 def _annotated(job: Job) -> AttemptOutcome:

@@ -127,12 +127,12 @@ def as_outcome(values: Mapping[str, Any]) -> AttemptOutcome:
 
 def machine_memory() -> int:
     """Return the memory of this machine, or of its container [bytes]; 8 GiB if unknown."""
-    found = [8 * GIB]
+    sizes = [8 * GIB]
     with suppress(AttributeError, ValueError, OSError):
-        found = [os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")]
+        sizes = [os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")]
     with suppress(ValueError, OSError):
-        found.append(int(Path("/sys/fs/cgroup/memory.max").read_text()))
-    return min(found)
+        sizes.append(int(Path("/sys/fs/cgroup/memory.max").read_text()))
+    return min(sizes)
 
 
 def machine_cores() -> int:

@@ -43,12 +43,12 @@ class CommandGenerator:
             words = tuple(shlex.split(template))
         except ValueError as error:
             raise OptionError(f"--generator: the command cannot be split into words ({error}); valid is {VALID}") from None
-        found = set(re.findall(r"\{([a-z_]+)\}", template))
-        unknown = sorted(found - set(PLACEHOLDERS))
+        placeholders = set(re.findall(r"\{([a-z_]+)\}", template))
+        unknown = sorted(placeholders - set(PLACEHOLDERS))
         if unknown:
             names = ", ".join(f"{{{name}}}" for name in PLACEHOLDERS)
             raise OptionError(f"--generator: found the placeholders {unknown}; valid are {names}")
-        if not words or "out" not in found or not found & {"prompt", "image"}:
+        if not words or "out" not in placeholders or not placeholders & {"prompt", "image"}:
             raise OptionError(f"--generator: found the command {redacted(template)!r}; valid is {VALID}")
         if not timeout > 0:
             raise OptionError(f"--generator-time-limit must be more than 0 s, found {timeout:g}")
@@ -89,7 +89,7 @@ class CommandGenerator:
             log,
             environment=_keyless(),
             timeout=self.timeout,
-            tell=lambda seconds: progress("generate", f"{self.name}, {seconds:.0f} s", 0, 1),
+            on_wait=lambda seconds: progress("generate", f"{self.name}, {seconds:.0f} s", 0, 1),
         )
         if code:
             raise ModelError(f"{self.name} ended with status {code}{log_tail(log)}")

@@ -69,17 +69,17 @@ class MeshyGenerator:
         """Return the GLB of the last task. Ids of tasks are stored in `folder`, so that none is paid for twice."""
         service = self._service(folder, progress)
         if request.image is not None:
-            found = service.from_image(request.image, request.prompt)
+            generated = service.from_image(request.image, request.prompt)
         else:
-            found = service.from_text(request.prompt or "")
+            generated = service.from_text(request.prompt or "")
         path = folder / f"{request.name}.glb"
-        write_whole(path, found.glb)
+        write_whole(path, generated.glb)
         try:
             load_mesh(path)
         except InputError as error:
             path.unlink()
             raise ModelError(f"meshy's result is not a usable mesh: {error}; a rerun downloads it again at no cost") from None
-        return GeneratedMesh(path, _paid(found), calls=service.calls)
+        return GeneratedMesh(path, _paid(generated), calls=service.calls)
 
     def _service(self, folder: Path, progress: Progress | None) -> Meshy3D:
         def watch(kind: TaskKind, task: Task) -> None:
@@ -89,5 +89,5 @@ class MeshyGenerator:
         return Meshy3D(folder / STATE, MODEL, self.max_calls, self.timeout, watch=watch, textured=self.textured)
 
 
-def _paid(found: Generated) -> tuple[PaidTask, ...]:
-    return tuple(PaidTask(kind.type, bought.task, bought.credits, bought.seed) for kind, bought in found.tasks)
+def _paid(generated: Generated) -> tuple[PaidTask, ...]:
+    return tuple(PaidTask(kind.type, bought.task, bought.credits, bought.seed) for kind, bought in generated.tasks)

@@ -22,11 +22,11 @@ LONGEST = 600  # characters
 
 
 def run_program(
-    words: Sequence[str], log: Path, *, environment: Mapping[str, str], timeout: float, tell: Callable[[float], None]
+    words: Sequence[str], log: Path, *, environment: Mapping[str, str], timeout: float, on_wait: Callable[[float], None]
 ) -> int:
     """Run a program without a shell and return its exit status; its output goes to the file `log`.
 
-    timeout [s]; tell: called with the seconds elapsed. Raise ModelError if the program cannot be started or exceeds the time
+    timeout [s]; on_wait: called with the seconds elapsed. Raise ModelError if the program cannot be started or exceeds the time
     limit. In the latter case, on interruption, and if the program fails, its whole process group is ended.
     """
     with log.open("wb") as output:
@@ -39,7 +39,7 @@ def run_program(
             raise ModelError(f"{words[0]} cannot be run: {getattr(error, 'strerror', None) or error}") from None
         code = None
         try:
-            code = _wait(process, timeout, tell)
+            code = _wait(process, timeout, on_wait)
         finally:
             if code != 0:
                 _end(process)
@@ -61,11 +61,11 @@ def log_tail(log: Path) -> str:
     return f"; the end of its output: {SECRET.sub('[removed]', tail)[-LONGEST:]}" if tail else ""
 
 
-def _wait(process: subprocess.Popen[bytes], timeout: float, tell: Callable[[float], None]) -> int | None:
+def _wait(process: subprocess.Popen[bytes], timeout: float, on_wait: Callable[[float], None]) -> int | None:
     """Return the exit status; None if the time limit is exceeded."""
     begin = time.monotonic()
     while (spent := time.monotonic() - begin) < timeout:
-        tell(spent)
+        on_wait(spent)
         with suppress(subprocess.TimeoutExpired):
             return process.wait(min(LOOK, timeout - spent))
     return None

@@ -77,8 +77,8 @@ def add_tasks(folder: Path, tasks: Sequence[PaidTask]) -> None:
 
 def read_record(folder: Path) -> Mapping[str, Any] | None:
     """Read generation.json of an output; None if there is none that can be read."""
-    found = read_json(folder / GENERATION)
-    return found if found is not None and isinstance(found.get("keys"), dict) else None
+    record = read_json(folder / GENERATION)
+    return record if record is not None and isinstance(record.get("keys"), dict) else None
 
 
 def recorded_mesh(out: Path, key: str) -> GeneratedMesh | None:
@@ -100,8 +100,8 @@ def retexture_task(state: Path) -> tuple[PaidTask, ...]:
     bought = None if held is None else held.get("bought")
     if not isinstance(bought, dict):
         return ()
-    found = Bought(**bought)
-    return (PaidTask(RETEXTURE.type, found.task, found.credits, found.seed),)
+    purchase = Bought(**bought)
+    return (PaidTask(RETEXTURE.type, purchase.task, purchase.credits, purchase.seed),)
 
 
 def _cost(tasks: Sequence[PaidTask]) -> dict[str, Any]:

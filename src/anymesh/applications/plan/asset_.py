@@ -110,9 +110,9 @@ def open_object(path: str | Path, joint: str) -> ArticulatedObject:
 
 def description(path: Path) -> Path:
     """Return the MJCF beside the URDF if there is one, since it states which links do not collide."""
-    found = find_description(path)
-    beside = found.with_suffix(".xml")
-    return beside if path.is_dir() and beside.is_file() else found
+    file = find_description(path)
+    beside = file.with_suffix(".xml")
+    return beside if path.is_dir() and beside.is_file() else file
 
 
 def _joint(mujoco: Any, model: Any, name: str) -> int:
@@ -120,18 +120,18 @@ def _joint(mujoco: Any, model: Any, name: str) -> int:
     moving = [j for j in range(model.njnt) if int(model.jnt_type[j]) in single]
     by_name = {model.joint(j).name: j for j in moving}
     by_part = {model.body(int(model.jnt_bodyid[j])).name: j for j in moving}
-    found = by_name.get(name, by_part.get(name))
-    if found is None:
+    index = by_name.get(name, by_part.get(name))
+    if index is None:
         raise OptionError(f"--joint: found {name!r}; valid are {', '.join(by_name) or 'none, since no joint moves'}")
-    return found
+    return index
 
 
 def _carried(model: Any, body: int) -> tuple[str, ...]:
-    found = {body}
+    bodies = {body}
     for b in range(1, model.nbody):
-        if int(model.body_parentid[b]) in found:
-            found.add(b)
-    return tuple(model.body(b).name for b in sorted(found))
+        if int(model.body_parentid[b]) in bodies:
+            bodies.add(b)
+    return tuple(model.body(b).name for b in sorted(bodies))
 
 
 def _shown_geoms(model: Any) -> list[int]:

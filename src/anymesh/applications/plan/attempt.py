@@ -118,10 +118,10 @@ class WorkCell:
         first = self.tool(target, 0.0, start)
         far = float(np.linalg.norm(first[:3, 3] - self.kinematics.shoulder)) > self.kinematics.reach
         for posture in () if far else self.kinematics.search(first, rng, TRIES):
-            found = self._from(target, posture, open_gap, start)
-            if isinstance(found, Route):
-                return found
-            reasons.append(found)
+            route_or_reason = self._from(target, posture, open_gap, start)
+            if isinstance(route_or_reason, Route):
+                return route_or_reason
+            reasons.append(route_or_reason)
         last = max(reasons, key=list(Reason).index, default=Reason.REACH)  # the reason of the attempt that got farthest
         self.failures[last] += 1
         return None
@@ -159,32 +159,32 @@ class WorkCell:
         count = max(8, int(np.ceil(abs(self.value) / step)))
         values = self.value * np.arange(count + 1) / count
         shifts = start + (PRESS - start) * np.arange(count + 1) / count if start else np.zeros(count + 1)
-        found = [posture]
+        postures = [posture]
         for value, shift in zip(values[1:], shifts[1:], strict=True):
-            following = self.kinematics.solve(self.tool(target, float(value), float(shift)), found[-1])
-            if following is None or np.abs(following - found[-1]).max() > JUMP:
+            following = self.kinematics.solve(self.tool(target, float(value), float(shift)), postures[-1])
+            if following is None or np.abs(following - postures[-1]).max() > JUMP:
                 self._why = Reason.ARC
                 break
             if self.world.touching(following, gap, float(value), holding=True, pressed=PRESS if start else 0.0) is not None:
                 self._why = Reason.ARC_COLLISION
                 break
-            found.append(following)
-        return np.array(found), values[: len(found)]
+            postures.append(following)
+        return np.array(postures), values[: len(postures)]
 
     def _line(
         self, target: Target, posture: np.ndarray, value: float, gap: float, start: float, *, whole: bool
     ) -> Float[np.ndarray, "k J"] | None:
         """Return postures of a straight retreat from the part; None if shorter than `BACK_LEAST`, or than `BACK` if `whole`."""
-        found = [posture]
+        postures = [posture]
         for back in np.arange(LINE_STEP, BACK + 1e-9, LINE_STEP):
-            following = self.kinematics.solve(self.tool(target, value, start - back), found[-1])
-            if following is None or np.abs(following - found[-1]).max() > JUMP:
+            following = self.kinematics.solve(self.tool(target, value, start - back), postures[-1])
+            if following is None or np.abs(following - postures[-1]).max() > JUMP:
                 break
             if self.world.touching(following, gap, value, holding=True, pressed=PRESS if start > 0 else 0.0) is not None:
                 break
-            found.append(following)
+            postures.append(following)
         least = BACK if whole else BACK_LEAST
-        return np.array(found) if (len(found) - 1) * LINE_STEP > least - 1e-9 else None
+        return np.array(postures) if (len(postures) - 1) * LINE_STEP > least - 1e-9 else None
 
     def approach(self, route: Route) -> Float[np.ndarray, "k J"] | None:
         """Compute a collision-free path from home to the start of the straight motion to the part."""

@@ -21,7 +21,7 @@ def base_poses(middle: Float[np.ndarray, " 3"], outwards: Float[np.ndarray, " 3"
     flat = outwards[:2] if np.linalg.norm(outwards[:2]) > 0.2 else np.array([0.0, -1.0])  # objects face -y
     front = float(np.arctan2(flat[1], flat[0]))
     heights = [0.0] + [z for h in HEIGHTS if abs(z := round(float(middle[2]) - h, 2)) > 0.05 and z > -0.6]
-    found: list[tuple[float, BasePose]] = []
+    candidates: list[tuple[float, BasePose]] = []
     for level, z in enumerate(heights):
         rise = float(middle[2]) - z - 0.3  # approximate height of an arm's shoulder above its base
         for far, distance in enumerate(DISTANCES):
@@ -32,5 +32,5 @@ def base_poses(middle: Float[np.ndarray, " 3"], outwards: Float[np.ndarray, " 3"
                 x, y = middle[:2] + distance * reach / USUAL_REACH * np.array([np.cos(angle), np.sin(angle)])
                 yaw = float(np.arctan2(middle[1] - y, middle[0] - x))
                 pose = BasePose(round(float(x), 3), round(float(y), 3), z, round(yaw, 4))
-                found.append((far + 0.7 * side + 2 * level, pose))
-    return [pose for _, pose in sorted(found, key=lambda f: f[0])]
+                candidates.append((far + 0.7 * side + 2 * level, pose))
+    return [pose for _, pose in sorted(candidates, key=lambda f: f[0])]

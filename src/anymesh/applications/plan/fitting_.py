@@ -73,7 +73,7 @@ class HandWorld:
 
     def fitted(self, targets: Sequence[Target]) -> list[Target]:
         """Return the targets where the hand fits, with the width of the collision shapes there."""
-        return [found for target in targets if (found := self._fit(target)) is not None]
+        return [fitted_target for target in targets if (fitted_target := self._fit(target)) is not None]
 
     def _fit(self, target: Target) -> Target | None:
         push = target.contact is GripperContact.PUSH

@@ -117,14 +117,14 @@ class _Bench:
         """Return the settled gripper at `STOPS` controls from one end of their range to the other."""
         model, data = self.model, self.data
         ends = np.array([self._ends(a) for a in range(model.nu)]).reshape(-1, 2)
-        found = []
+        states = []
         for share in np.linspace(0, 1, STOPS):
             data.ctrl[:] = ends[:, 0] + share * (ends[:, 1] - ends[:, 0])
             for _ in range(SETTLE):
                 self.mujoco.mj_step(model, data)
             self.mujoco.mj_kinematics(model, data)
-            found.append(_State(data.qpos.copy(), data.ctrl.copy(), tuple(self._points(int(g)) for g in self.geoms)))
-        return found
+            states.append(_State(data.qpos.copy(), data.ctrl.copy(), tuple(self._points(int(g)) for g in self.geoms)))
+        return states
 
     def _ends(self, actuator: int) -> np.ndarray:
         model = self.model

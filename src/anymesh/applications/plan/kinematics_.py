@@ -59,8 +59,8 @@ class Kinematics:
             error = self._task.compute_error(self._configuration)
             off, turned = float(np.linalg.norm(error[:3])), float(np.linalg.norm(error[3:]))
             if off < POSITION_TOLERANCE_M and turned < ANGLE_TOLERANCE_RAD:
-                found = self._configuration.q.copy()
-                return found if ((found >= self.low - 1e-9) & (found <= self.high + 1e-9)).all() else None
+                posture = self._configuration.q.copy()
+                return posture if ((posture >= self.low - 1e-9) & (posture <= self.high + 1e-9)).all() else None
             if step == GIVE_UP and max(off, turned) > HOPE:
                 return None
             try:
@@ -75,14 +75,14 @@ class Kinematics:
         self, T_base_tool: Float[np.ndarray, "4 4"], rng: np.random.Generator, tries: int, near: Iterable[np.ndarray] = ()
     ) -> Iterable[Float[np.ndarray, " J"]]:
         """Yield distinct postures that bring the tool to a pose, seeded by `near`, the home posture and random postures."""
-        found: list[np.ndarray] = []
+        postures: list[np.ndarray] = []
         spread = np.minimum(self.high - self.low, 2 * np.pi)
         middle = (self.low + self.high) / 2
         seeds = [*near, self.robot.home, *(middle + spread * (rng.random((tries, len(spread))) - 0.5))]
         for seed in seeds:
             posture = self.solve(T_base_tool, seed)
-            if posture is not None and all(np.abs(posture - other).max() > 0.1 for other in found):
-                found.append(posture)
+            if posture is not None and all(np.abs(posture - other).max() > 0.1 for other in postures):
+                postures.append(posture)
                 yield posture
 
 

@@ -13,8 +13,8 @@ VALUE = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([a-z]*)\s
 
 def parse_value(text: str) -> float:
     """Return a joint's value [rad or m] from a number with an optional unit. Raise OptionError if the text is not valid."""
-    found = VALUE.fullmatch(text)
-    if found is None or found[2] not in UNITS:
+    match = VALUE.fullmatch(text)
+    if match is None or match[2] not in UNITS:
         units = ", ".join(name for name in UNITS if name)
         raise OptionError(f"--to: found {text!r}; valid is a number, in radians or metres or followed by one of {units}")
-    return float(found[1]) * UNITS[found[2]]
+    return float(match[1]) * UNITS[match[2]]

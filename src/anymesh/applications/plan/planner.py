@@ -68,10 +68,10 @@ def plan(
     arm = open_arm(robot, tool=tool, gripper=gripper)
     thing = open_object(asset, joint)
     loaded = time.perf_counter() - begin
-    found = plan_motion(
+    motion_plan = plan_motion(
         thing, arm, to, base=place, contacts=CONTACTS[contact], settings=Settings(seed, speed, seconds), progress=progress
     )
-    return replace(found, seconds={"load": round(loaded, 3), **found.seconds})
+    return replace(motion_plan, seconds={"load": round(loaded, 3), **motion_plan.seconds})
 
 
 def plan_motion(

@@ -128,10 +128,10 @@ def _resolve(link: ElementTree.Element, folder: Path) -> None:
         mesh = shape.find("geometry/mesh")
         if mesh is None:
             continue
-        found = find_file(mesh.get("filename") or "", folder)
-        readable = found is not None and found.suffix.lower() in (".stl", ".obj", ".msh")
-        if found is not None and readable:
-            mesh.set("filename", str(found.resolve()))
+        mesh_path = find_file(mesh.get("filename") or "", folder)
+        readable = mesh_path is not None and mesh_path.suffix.lower() in (".stl", ".obj", ".msh")
+        if mesh_path is not None and readable:
+            mesh.set("filename", str(mesh_path.resolve()))
         elif shape.tag == "visual":
             link.remove(shape)
             dropped = True
@@ -196,10 +196,10 @@ def _split(mujoco: Any, model: Any, name: str, tool: str | None, gripper: Sequen
 
 def _ancestors(model: Any, body: int) -> list[int]:
     """Return a body and all its ancestors."""
-    found = [body]
-    while found[-1]:
-        found.append(int(model.body_parentid[found[-1]]))
-    return found
+    bodies = [body]
+    while bodies[-1]:
+        bodies.append(int(model.body_parentid[bodies[-1]]))
+    return bodies
 
 
 def _branching(model: Any, moves: Sequence[int]) -> int:

@@ -93,10 +93,10 @@ def _try(
     source: Callable[[tuple[str, str], Preset], Path | str], what: tuple[str, str], preset: Preset, tried: list[str]
 ) -> Path | None:
     """Return a file from a source; if there is none, append the reason to `tried` and return None."""
-    found = source(what, preset)
-    if isinstance(found, Path):
-        return found
-    tried.append(found)
+    path_or_reason = source(what, preset)
+    if isinstance(path_or_reason, Path):
+        return path_or_reason
+    tried.append(path_or_reason)
     return None
 
 

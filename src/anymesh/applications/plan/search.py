@@ -71,17 +71,17 @@ class Search:
         if cell is None:
             return None
         self.cell, self.bases = cell, self.bases + 1
-        found: list[Route] = []
+        routes: list[Route] = []
         for target in self.targets:
-            if len(found) >= ENOUGH or time.perf_counter() > self._end:
+            if len(routes) >= ENOUGH or time.perf_counter() > self._end:
                 break
-            if found and target.contact is not found[0].target.contact:
+            if routes and target.contact is not routes[0].target.contact:
                 break
             route = cell.route(target)
             if route is not None:
-                found.append(route)
+                routes.append(route)
         self.farthest = max(self.farthest, cell.farthest, key=abs)
-        for route in sorted(found, key=lambda r: r.length):
+        for route in sorted(routes, key=lambda r: r.length):
             path = cell.approach(route)
             if path is not None:
                 self.failures += cell.failures
@@ -109,13 +109,13 @@ class Search:
                 worse += [(-count, number, base)] if count else []
                 continue
             tried += 1
-            found = self.at(base)
-            if found is not None:
-                return found
+            route = self.at(base)
+            if route is not None:
+                return route
         for _, _, base in sorted(worse, key=lambda w: w[:2])[: BASES - tried]:
-            found = self.at(base)
-            if found is not None or time.perf_counter() > self._end:
-                return found
+            route = self.at(base)
+            if route is not None or time.perf_counter() > self._end:
+                return route
         return None
 
     def _poses(self) -> list[BasePose]:

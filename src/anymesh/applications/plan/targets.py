@@ -66,13 +66,13 @@ def sample_targets(
     """
     rng = np.random.default_rng(seed)
     points, normals = _samples(surfaces.part, rng)
-    found: list[Target] = []
+    targets: list[Target] = []
     if GripperContact.GRASP in contacts:
-        found += _grasps(surfaces, points, normals, motion, value, stroke)
+        targets += _grasps(surfaces, points, normals, motion, value, stroke)
     if GripperContact.PUSH in contacts:
-        found += _pushes(surfaces, points, normals, motion, value)
+        targets += _pushes(surfaces, points, normals, motion, value)
     first = {kind: k for k, kind in enumerate(contacts)}
-    return sorted(_unlike(found, count), key=lambda t: (first[t.contact], -t.score))
+    return sorted(_unlike(targets, count), key=lambda t: (first[t.contact], -t.score))
 
 
 def _samples(triangles: np.ndarray, rng: np.random.Generator) -> tuple[Float[np.ndarray, "n 3"], Float[np.ndarray, "n 3"]]:
@@ -104,8 +104,8 @@ def _frames(y: np.ndarray, z: np.ndarray, origin: np.ndarray) -> Float[np.ndarra
 def _across(v: np.ndarray) -> np.ndarray:
     """Return a unit vector perpendicular to each input vector."""
     helper = np.where(np.abs(v[:, 2:3]) < 0.9, [[0.0, 0, 1]], [[1.0, 0, 0]])
-    found = np.cross(v, helper)
-    return found / np.linalg.norm(found, axis=1, keepdims=True)
+    cross = np.cross(v, helper)
+    return cross / np.linalg.norm(cross, axis=1, keepdims=True)
 
 
 def _grasps(
@@ -157,7 +157,7 @@ def _pushes(surfaces: PartSurfaces, points: np.ndarray, normals: np.ndarray, mot
     spread = max(float(np.linalg.norm(points[ok] - center, axis=1).max()), 1e-6)
     near = 1 - np.linalg.norm(points[ok] - center, axis=1) / spread
     lever = length[ok] / max(float(length[ok].max()), 1e-9)
-    found = []
+    targets = []
     for tilt in TILTS:
         for roll in np.arange(ROLLS) * np.pi / ROLLS:
             side = _across(way[ok])
@@ -169,8 +169,8 @@ def _pushes(surfaces: PartSurfaces, points: np.ndarray, normals: np.ndarray, mot
             T, seen = _first_touch(surfaces, T)
             free = seen & _room(surfaces.scene, T, np.zeros(len(T)))
             score = lever + near - 0.5 * abs(tilt) - 0.3 * np.maximum(z[:, 2], 0)
-            found += [Target(GripperContact.PUSH, T[k], 0.0, float(score[k])) for k in np.flatnonzero(free)]
-    return found
+            targets += [Target(GripperContact.PUSH, T[k], 0.0, float(score[k])) for k in np.flatnonzero(free)]
+    return targets
 
 
 def _first_touch(

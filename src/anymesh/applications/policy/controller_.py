@@ -48,11 +48,11 @@ class Attempt:
     simulation: TaskSimulation | None
 
 
-def move_joint(found: TaskObject, *, seed: int = 0, tries: int = TRIES) -> Attempt:
+def move_joint(object_: TaskObject, *, seed: int = 0, tries: int = TRIES) -> Attempt:
     """Try grasps and pushes, the most promising first, until one moves the joint to its goal."""
     best = Attempt(0.0, InteractionFailure.NO_PLACE, None, 0, None)
-    for number, target in enumerate(_targets(found, seed, tries)[:tries], start=1):
-        made = _attempt(found, target)
+    for number, target in enumerate(_targets(object_, seed, tries)[:tries], start=1):
+        made = _attempt(object_, target)
         if best.simulation is None or made.failure is None or made.share > best.share:
             best = made
         best = Attempt(best.share, best.failure, best.contact, number, best.simulation)
@@ -61,9 +61,9 @@ def move_joint(found: TaskObject, *, seed: int = 0, tries: int = TRIES) -> Attem
     return best
 
 
-def _targets(found: TaskObject, seed: int, tries: int) -> list[Target]:
+def _targets(object_: TaskObject, seed: int, tries: int) -> list[Target]:
     """Return targets of both kinds in turn; those of short motions begin with a push, all others with a grasp."""
-    thing, goal = found.thing, found.goal.goal
+    thing, goal = object_.thing, object_.goal.goal
     surfaces = PartSurfaces(thing.part_triangles, thing.other_triangles)
     kinds = [GripperContact.GRASP, GripperContact.PUSH]
     if not thing.turns and abs(goal) < SHORT:
@@ -73,11 +73,11 @@ def _targets(found: TaskObject, seed: int, tries: int) -> list[Target]:
     return [some[k] for k in range(longest) for some in lists if k < len(some)]
 
 
-def _attempt(found: TaskObject, target: Target) -> Attempt:
+def _attempt(object_: TaskObject, target: Target) -> Attempt:
     """Move the gripper to a target, close it, and lead it along the joint."""
     pushes = target.contact is GripperContact.PUSH
-    T = found.T_world_asset @ target.T_asset_tool
-    s = TaskSimulation(found, PolicyTask.OPEN, R_world_tool=T[:3, :3])
+    T = object_.T_world_asset @ target.T_asset_tool
+    s = TaskSimulation(object_, PolicyTask.OPEN, R_world_tool=T[:3, :3])
     s.reset(NOMINAL)
     wide = 0.0 if pushes else min(target.width + ROOM, STROKE)
     offset = -REACH if pushes else 0.0
@@ -90,11 +90,13 @@ def _attempt(found: TaskObject, target: Target) -> Attempt:
     for _ in range(0 if pushes else CLOSING):
         s.command_tool(*_pose(T, offset), gap)
         s.advance()
-    touched, goal = False, found.goal.goal
-    size = abs(goal) * (float(np.linalg.norm(found.handle - found.thing.motion.origin)) if found.thing.turns else 1.0)
-    steps = int(np.ceil(max(size / SPEED, abs(goal) / TURN_SPEED if found.thing.turns else 0.0) / STEP)) + 5
+    touched, goal = False, object_.goal.goal
+    size = abs(goal) * (float(np.linalg.norm(object_.handle - object_.thing.motion.origin)) if object_.thing.turns else 1.0)
+    steps = int(np.ceil(max(size / SPEED, abs(goal) / TURN_SPEED if object_.thing.turns else 0.0) / STEP)) + 5
     for k in range(1, steps + HOLDING + 1):
-        moved = found.T_world_asset @ found.thing.motion.transform(MARGIN * goal * min(k / steps, 1.0)) @ target.T_asset_tool
+        moved = (
+            object_.T_world_asset @ object_.thing.motion.transform(MARGIN * goal * min(k / steps, 1.0)) @ target.T_asset_tool
+        )
         s.command_tool(*_pose(moved, offset + (DEPTH if pushes else 0.0)), gap)
         touched |= s.advance().fingers > 0
     share = float(np.clip(s.value / goal, -1.0, 2.0))

@@ -50,7 +50,7 @@ class ArticulatedEnv(gymnasium.Env):
     ) -> None:
         if render_mode not in (None, "rgb_array"):
             raise OptionError(f"render_mode: found {render_mode!r}; valid are rgb_array and None")
-        self.simulations = [TaskSimulation(found, task, robot, horizon) for found in objects]
+        self.simulations = [TaskSimulation(object_, task, robot, horizon) for object_ in objects]
         self.task, self.observation, self.randomization, self.render_mode = task, observation, randomization, render_mode
         self.simulation = self.simulations[0]
         self._camera: DepthCamera | None = None
@@ -93,7 +93,7 @@ class ArticulatedEnv(gymnasium.Env):
 
     def _info(self, progress: float, rise: float, done: bool) -> dict[str, Any]:
         s = self.simulation
-        return {"asset": s.found.name, "success": done, "progress": progress, "rise": rise, "value": s.value}
+        return {"asset": s.object.name, "success": done, "progress": progress, "rise": rise, "value": s.value}
 
     def render(self) -> Any:
         """Draw the scene by the project's ray caster."""

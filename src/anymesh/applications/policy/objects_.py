@@ -56,19 +56,19 @@ def find_assets(sources: str | Path | Sequence[str | Path]) -> list[Path]:
     Raise InputError if there is none.
     """
     given = [sources] if isinstance(sources, str | Path) else list(sources)
-    found: list[Path] = []
+    assets: list[Path] = []
     for path in map(Path, given):
         if not path.exists():
             raise InputError(f"{path} is not there; valid are a folder of assets, an asset, a URDF or an MJCF")
         if path.is_file() or _is_asset(path):
-            found.append(path)
+            assets.append(path)
         else:
-            found += sorted((p.parent for p in path.rglob("asset.json")), key=lambda p: (p.name, str(p)))
-    if not found:
+            assets += sorted((p.parent for p in path.rglob("asset.json")), key=lambda p: (p.name, str(p)))
+    if not assets:
         raise InputError(
             f"no asset in {', '.join(map(str, given))}: an asset is a folder with one URDF or MJCF, or such a file"
         )
-    return found
+    return assets
 
 
 def _is_asset(folder: Path) -> bool:

@@ -41,7 +41,7 @@ def state(s: TaskSimulation) -> Float32[np.ndarray, " n"]:
     joint = s.model.dof_jntid[s.dof]
     anchor, axis = data.xanchor[joint], data.xaxis[joint]
     lever = s.handle_position - anchor
-    progress = s.found.goal.progress(s.value)
+    progress = s.object.goal.progress(s.value)
     rise = data.xpos[s.stand, 2] - s.start_height
     own = (10 * (s.handle_position - tool), 5 * (anchor - tool), axis, 5 * lever, [progress, 5 * rise])
     return np.concatenate([robot_state(s), *own]).astype(np.float32)
@@ -52,11 +52,11 @@ def boxed(s: TaskSimulation) -> Float32[np.ndarray, " n"]:
 
     The handle and the axis are not observed; their places in the box differ between objects.
     """
-    R, T = s.data.xmat[s.stand].reshape(3, 3), s.found.T_world_asset
-    low, high = s.found.box
+    R, T = s.data.xmat[s.stand].reshape(3, 3), s.object.T_world_asset
+    low, high = s.object.box
     center = R @ (T[:3, :3].T @ ((low + high) / 2 - T[:3, 3])) + s.data.xpos[s.stand]
     turn = R @ T[:3, :3].T
-    progress = s.found.goal.progress(s.value)
+    progress = s.object.goal.progress(s.value)
     own = (5 * (center - s.tool_position), 5 * (high - low), turn[:2, 0], [progress, 5 * (center[2] - (low + high)[2] / 2)])
     return np.concatenate([robot_state(s), *own]).astype(np.float32)
 

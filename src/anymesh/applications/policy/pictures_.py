@@ -23,7 +23,7 @@ class ScenePicture:
     def __init__(self, simulation: TaskSimulation, width: int = 320, height: int = 240) -> None:
         self.simulation, mujoco = simulation, simulation.mujoco
         lifts = simulation.task is PolicyTask.LIFT
-        self._model = compose(simulation.found, simulation.robot, lifts=lifts, visuals=True).compile()
+        self._model = compose(simulation.object, simulation.robot, lifts=lifts, visuals=True).compile()
         self._data = mujoco.MjData(self._model)
         geoms = [g for g in drawn_geoms(self._model) if self._model.geom_rgba[g, 3] > 0 and not self._is_floor(g)]
         self._shapes = [(g, *geom_surface(mujoco, self._model, self._data, g)) for g in geoms]
@@ -38,8 +38,8 @@ class ScenePicture:
         return self._model.geom(geom).name == "floor"
 
     def _looking(self, width: int, height: int) -> Camera:
-        T = self.simulation.found.T_world_asset
-        points = self.simulation.found.points @ T[:3, :3].T + T[:3, 3]
+        T = self.simulation.object.T_world_asset
+        points = self.simulation.object.points @ T[:3, :3].T + T[:3, 3]
         above = self.simulation.handle_at_start + np.array([0, 0, ROOM])
         points = np.concatenate([points, above[None]])
         low, high = points.min(0), points.max(0)

@@ -22,7 +22,7 @@ HELD_MASS = 0.02  # [kg] least mass of a link; thinner ones of a shell make the 
 MAX_MASS = 1.0  # [kg] of an object that is lifted; heavier ones are made lighter in proportion
 
 
-def compose(found: TaskObject, robot: TaskRobot, *, lifts: bool, visuals: bool = False) -> Any:
+def compose(object_: TaskObject, robot: TaskRobot, *, lifts: bool, visuals: bool = False) -> Any:
     """Return the spec of the scene; the object collides with the robot, the robot and a free object with the floor.
 
     lifts: whether the object is free; its foot, a box, then stands on the floor, and its handle is thickened.
@@ -33,7 +33,7 @@ def compose(found: TaskObject, robot: TaskRobot, *, lifts: bool, visuals: bool =
     spec.option.timestep = TIMESTEP
     spec.option.iterations = 30
     floor = spec.worldbody.add_geom(name=FLOOR, type=mujoco.mjtGeom.mjGEOM_PLANE, size=[2, 2, 0.1], rgba=[0.82, 0.82, 0.8, 1])
-    _attach_object(mujoco, spec, found, lifts, visuals)
+    _attach_object(mujoco, spec, object_, lifts, visuals)
     spec.attach(robot.spec.copy() if visuals else without_visuals(robot.spec), frame=spec.worldbody.add_frame(), prefix=ROBOT)
     for geom in spec.geoms:
         if not (geom.contype or geom.conaffinity) or geom.name == floor.name:
@@ -46,20 +46,20 @@ def compose(found: TaskObject, robot: TaskRobot, *, lifts: bool, visuals: bool =
             geom.solref, geom.solimp = [0.01, 1.0], STIFF
     floor.contype, floor.conaffinity = ON_FLOOR, ON_ROBOT
     if lifts:
-        _add_foot(mujoco, spec, found)
-        _thicken(mujoco, spec, found)
-    joint = spec.joint(OBJECT + found.thing.joint)
+        _add_foot(mujoco, spec, object_)
+        _thicken(mujoco, spec, object_)
+    joint = spec.joint(OBJECT + object_.thing.joint)
     joint.solref_limit, joint.solimp_limit = [0.01, 1.0], STIFF
     joint.solref_friction, joint.solimp_friction = [0.01, 1.0], STIFF  # creeps less under gravity than by default
     return spec
 
 
-def _attach_object(mujoco: Any, spec: Any, found: TaskObject, lifts: bool, visuals: bool) -> None:
+def _attach_object(mujoco: Any, spec: Any, object_: TaskObject, lifts: bool, visuals: bool) -> None:
     """Attach the object to a body that a reset moves; a free object has a free joint in its place."""
-    own = found.thing.spec.copy() if visuals else without_visuals(found.thing.spec)
+    own = object_.thing.spec.copy() if visuals else without_visuals(object_.thing.spec)
     quat = np.zeros(4)
-    mujoco.mju_mat2Quat(quat, np.ascontiguousarray(found.T_world_asset[:3, :3]).reshape(-1))
-    stand = spec.worldbody.add_body(name=STAND, pos=found.T_world_asset[:3, 3], quat=quat)
+    mujoco.mju_mat2Quat(quat, np.ascontiguousarray(object_.T_world_asset[:3, :3]).reshape(-1))
+    stand = spec.worldbody.add_body(name=STAND, pos=object_.T_world_asset[:3, 3], quat=quat)
     if lifts:
         stand.add_freejoint()
         stand.mass, stand.inertia, stand.explicitinertial = 1e-3, [1e-6] * 3, True
@@ -68,9 +68,9 @@ def _attach_object(mujoco: Any, spec: Any, found: TaskObject, lifts: bool, visua
     spec.attach(own, frame=stand.add_frame(), prefix=OBJECT)
 
 
-def _add_foot(mujoco: Any, spec: Any, found: TaskObject) -> None:
+def _add_foot(mujoco: Any, spec: Any, object_: TaskObject) -> None:
     """Add a box below the object that alone touches the floor, which is faster and rests better than its shapes."""
-    points = found.thing.other_triangles.reshape(-1, 3)
+    points = object_.thing.other_triangles.reshape(-1, 3)
     low = points[points[:, 2] <= points[:, 2].min() + FOOT * max(float(np.ptp(points[:, 2])), 1e-6)]
     a, b = low.min(0), low.max(0)
     half = [max((b[0] - a[0]) / 2, 0.02), max((b[1] - a[1]) / 2, 0.02), 0.005]
@@ -82,15 +82,15 @@ def _add_foot(mujoco: Any, spec: Any, found: TaskObject) -> None:
     spec.geom(FLOOR).conaffinity = ON_ROBOT | ON_FOOT
 
 
-def _thicken(mujoco: Any, spec: Any, found: TaskObject) -> None:
+def _thicken(mujoco: Any, spec: Any, object_: TaskObject) -> None:
     """Add a capsule along the axis at the handle point, so that a thin wire can be held (DexArt thickens its handles too)."""
-    part = spec.body(OBJECT + found.thing.part)
-    model = found.thing.spec.compile()
+    part = spec.body(OBJECT + object_.thing.part)
+    model = object_.thing.spec.compile()
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
-    body = int(model.body(found.thing.part).id)
+    body = int(model.body(object_.thing.part).id)
     R, at = data.xmat[body].reshape(3, 3), data.xpos[body]
-    center, axis = R.T @ (found.handle - at), R.T @ found.thing.motion.axis
+    center, axis = R.T @ (object_.handle - at), R.T @ object_.thing.motion.axis
     ends = [*(center - HANDLE_HALF * axis), *(center + HANDLE_HALF * axis)]
     part.add_geom(
         name="thick_handle", type=mujoco.mjtGeom.mjGEOM_CAPSULE, fromto=ends, size=[HANDLE_RADIUS, 0, 0], mass=0.0,

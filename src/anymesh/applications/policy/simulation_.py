@@ -33,19 +33,19 @@ class TaskSimulation:
 
     def __init__(
         self,
-        found: TaskObject,
+        object_: TaskObject,
         task: PolicyTask,
         robot: str = "gripper",
         horizon: int = HORIZON,
         R_world_tool: Float[np.ndarray, "3 3"] | None = None,
     ) -> None:
         self.mujoco = load_mujoco()
-        self.found, self.task, self.horizon = found, task, horizon
+        self.object, self.task, self.horizon = object_, task, horizon
         home = DOWN if task is PolicyTask.LIFT else FORWARD
         self._R_home = home if R_world_tool is None else R_world_tool
         self.robot = made = make_robot(robot, self._R_home)
         lifts = task is PolicyTask.LIFT
-        spec = compose(found, made, lifts=lifts)
+        spec = compose(object_, made, lifts=lifts)
         self.model = model = spec.compile()
         limit_masses(self.mujoco, model, lifts)
         self.data = self.mujoco.MjData(model)
@@ -54,8 +54,8 @@ class TaskSimulation:
         self._nominal = {k: getattr(model, k).copy() for k in ("body_mass", "body_inertia", "dof_damping", "dof_frictionloss")}
         self._free = bool(lifts)
         self._index(model, made)
-        start = apply(found.thing.motion.transform(found.goal.start), found.handle)
-        self.handle_at_start = apply(found.T_world_asset, start)
+        start = apply(object_.thing.motion.transform(object_.goal.start), object_.handle)
+        self.handle_at_start = apply(object_.T_world_asset, start)
         self.step = 0
         self.reset(NOMINAL)
 
@@ -63,7 +63,7 @@ class TaskSimulation:
         """Look up the numbers of joints, actuators and shapes."""
         body = model.geom_bodyid
         names = [model.body(b).name for b in range(model.nbody)]
-        part = np.array([n.startswith(OBJECT) and n.removeprefix(OBJECT) in self.found.thing.carried for n in names])
+        part = np.array([n.startswith(OBJECT) and n.removeprefix(OBJECT) in self.object.thing.carried for n in names])
         own = np.array([n.startswith(OBJECT) or n == STAND for n in names])
         finger = np.full(model.nbody, -1)
         for k, bodies in enumerate(robot.fingers):
@@ -71,9 +71,9 @@ class TaskSimulation:
         self._is_part, self.is_object, self._finger = part[body], own[body], finger[body]
         self.is_robot = np.array([n.startswith(ROBOT) for n in names])[body]
         self._count = len(robot.fingers)
-        self.joint = int(model.joint(OBJECT + self.found.thing.joint).qposadr[0])
-        self.dof = int(model.joint(OBJECT + self.found.thing.joint).dofadr[0])
-        self._part = int(model.body(OBJECT + self.found.thing.part).id)
+        self.joint = int(model.joint(OBJECT + self.object.thing.joint).qposadr[0])
+        self.dof = int(model.joint(OBJECT + self.object.thing.joint).dofadr[0])
+        self._part = int(model.body(OBJECT + self.object.thing.part).id)
         self.stand = int(model.body(STAND).id)
         self.own_bodies = np.array([b for b in range(model.nbody) if names[b].startswith(OBJECT)])
         self.tool_site = int(model.site(ROBOT + robot.tool).id)
@@ -83,7 +83,7 @@ class TaskSimulation:
         self.robot_at = np.array(
             [int(model.jnt_qposadr[j]) for j in range(model.njnt) if model.joint(j).name.startswith(ROBOT)]
         )
-        self._handle = self._in_part(self.found.handle)
+        self._handle = self._in_part(self.object.handle)
 
     def _position_of(self, actuator: int) -> int:
         """Return where the position of an actuator's joint is; of a tendon, that of its first joint."""
@@ -95,12 +95,12 @@ class TaskSimulation:
 
     def _hold_still(self) -> None:
         """Give a joint that gravity moves enough friction to stay where it starts, as DexArt's do."""
-        model, thing = self.model, self.found.thing
+        model, thing = self.model, self.object.thing
         part = int(model.body(OBJECT + thing.part).id)
         dof = int(model.joint(OBJECT + thing.joint).dofadr[0])
         weight = GRAVITY * float(model.body_subtreemass[part])
         if thing.turns:
-            weight *= float(np.linalg.norm(self.found.handle - thing.motion.origin) * np.hypot(*thing.motion.axis[:2]))
+            weight *= float(np.linalg.norm(self.object.handle - thing.motion.origin) * np.hypot(*thing.motion.axis[:2]))
         else:
             weight *= abs(float(thing.motion.axis[2]))
         model.dof_frictionloss[dof] = max(float(model.dof_frictionloss[dof]), STAYS * weight)
@@ -115,7 +115,7 @@ class TaskSimulation:
 
     def reset(self, sample: SceneSample) -> None:
         """Bring the object to its start in a drawn pose with drawn physics, and the robot before it."""
-        model, data, goal = self.model, self.data, self.found.goal
+        model, data, goal = self.model, self.data, self.object.goal
         self.mujoco.mj_resetData(model, data)
         for name, nominal in self._nominal.items():
             getattr(model, name)[:] = nominal
@@ -145,13 +145,13 @@ class TaskSimulation:
         """Return position and quaternion of the object, turned about its middle."""
         c, s = np.cos(sample.yaw), np.sin(sample.yaw)
         turn = np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
-        T, quat = self.found.T_world_asset, np.zeros(4)
+        T, quat = self.object.T_world_asset, np.zeros(4)
         self.mujoco.mju_mat2Quat(quat, np.ascontiguousarray(turn @ T[:3, :3]).reshape(-1))
         return turn @ T[:3, 3] + [sample.x, sample.y, 0.0], quat
 
     def _place_hand(self) -> None:
         """Move a floating hand before the front of the object, or above an object that is lifted, whatever the sample."""
-        low, high = self.found.box
+        low, high = self.object.box
         middle = (low + high) / 2
         at = np.array([0.0, 0.0, high[2] + ABOVE] if self._free else [0.0, low[1] - BEFORE, max(middle[2], LOWEST)])
         data, model = self.data, self.model
@@ -222,17 +222,17 @@ class TaskSimulation:
 
     def touching(self) -> tuple[Bool[np.ndarray, " f"], bool]:
         """Return which fingers touch the part, and whether the rest of the robot touches the object."""
-        found = np.zeros(self._count, bool)
+        in_contact = np.zeros(self._count, bool)
         if self.data.ncon == 0:
-            return found, False
+            return in_contact, False
         geoms = self.data.contact.geom
         a, b = geoms[:, 0], geoms[:, 1]
         fingers = np.concatenate([self._finger[a][self._is_part[b]], self._finger[b][self._is_part[a]]])
-        found[fingers[fingers >= 0]] = True
+        in_contact[fingers[fingers >= 0]] = True
         hit = (self.is_robot[a] & (self._finger[a] < 0) & self.is_object[b]) | (
             self.is_robot[b] & (self._finger[b] < 0) & self.is_object[a]
         )
-        return found, bool(hit.any())
+        return in_contact, bool(hit.any())
 
     def measure(self, tool_rise: float = 0.0) -> Situation:
         """Measure the situation."""
@@ -241,6 +241,6 @@ class TaskSimulation:
         distance = float(np.linalg.norm(self.handle_position - self.tool_position))
         rise = float(self.data.xpos[self.stand, 2]) - self.start_height
         return Situation(
-            distance, int(fingers.sum()), collides, self.found.goal.progress(self.value), rise, tool_rise, self._effort,
+            distance, int(fingers.sum()), collides, self.object.goal.progress(self.value), rise, tool_rise, self._effort,
             self.step, self.horizon,
         )  # fmt: skip

@@ -82,17 +82,17 @@ def joint_goal(task: PolicyTask, limits: tuple[float, float] | None, slides: boo
 
 def reward(task: PolicyTask, s: Situation) -> float:
     """Return the reward of a step: DexArt's terms for reaching, contact, progress and lifting (see docs/policy.md)."""
-    found = -min(s.distance, MAX_DISTANCE) if s.fingers == 0 else 0.1 * min(s.fingers, FINGERS)
-    found -= 0.1 * s.collides + 0.01 * s.effort
+    total = -min(s.distance, MAX_DISTANCE) if s.fingers == 0 else 0.1 * min(s.fingers, FINGERS)
+    total -= 0.1 * s.collides + 0.01 * s.effort
     if s.progress < 0:
-        found += 0.5 * s.progress
+        total += 0.5 * s.progress
     elif s.fingers > 0:
-        found += (1.0 if s.held else 0.5) * min(s.progress, 1.0)
+        total += (1.0 if s.held else 0.5) * min(s.progress, 1.0)
     if task is PolicyTask.LIFT and s.fingers > 0 and s.rise < LIFT_HEIGHT:
-        found += 20 * s.tool_rise * (s.rise > 0.01) + s.rise / LIFT_HEIGHT * 3
+        total += 20 * s.tool_rise * (s.rise > 0.01) + s.rise / LIFT_HEIGHT * 3
     if success(task, s):
-        found += (s.horizon - s.step) * 1.2 * min(s.progress, 1.0) * (1.0 if task is not PolicyTask.LIFT else 3.0)
-    return found
+        total += (s.horizon - s.step) * 1.2 * min(s.progress, 1.0) * (1.0 if task is not PolicyTask.LIFT else 3.0)
+    return total
 
 
 def success(task: PolicyTask, s: Situation) -> bool:

@@ -195,7 +195,7 @@ def _run_all(model: Any, envs: list[ArticulatedEnv], jobs: list[tuple[int, int]]
     """Run all jobs, several environments side by side so that the network is asked for all of them at once."""
     running: dict[int, tuple[int, int]] = {}
     seen: dict[int, Any] = {}
-    found: list[Episode] = []
+    episodes: list[Episode] = []
 
     def begin(slot: int) -> None:
         running.pop(slot, None)
@@ -213,9 +213,9 @@ def _run_all(model: Any, envs: list[ArticulatedEnv], jobs: list[tuple[int, int]]
             seen[slot], _, done, truncated, info = envs[slot].step(action)
             if done or truncated:
                 steps, number = envs[slot].simulation.step, running[slot][1]
-                found.append(Episode(info["asset"], number, info["success"], info["progress"], info["rise"], steps))
+                episodes.append(Episode(info["asset"], number, info["success"], info["progress"], info["rise"], steps))
                 begin(slot)
-    return sorted(found, key=lambda e: (e.asset, e.number))
+    return sorted(episodes, key=lambda e: (e.asset, e.number))
 
 
 def _stacked(observations: list[Any]) -> Any:

@@ -88,14 +88,14 @@ def check_depth_unit(glimpses: list[Glimpse]) -> None:
 def agreement(glimpses: list[Glimpse], seed: int = 0) -> FrameAgreement:
     """Compute the distance of each frame's points from the surfaces measured by others, ignoring possibly occluded points."""
     count = len(glimpses)
-    found = np.full(count, np.nan)
+    disagreements = np.full(count, np.nan)
     rng = np.random.default_rng(seed)
     for i, g in enumerate(glimpses):
         others = rng.permutation([j for j in range(count) if j != i])[:SAMPLED]
         values = [v for j in others if np.isfinite(v := _disagreement(g, glimpses[j]))]
         if values:
-            found[i] = np.median(values)
-    return FrameAgreement(found)
+            disagreements[i] = np.median(values)
+    return FrameAgreement(disagreements)
 
 
 def _disagreement(a: Glimpse, b: Glimpse) -> float:
@@ -113,9 +113,9 @@ def _disagreement(a: Glimpse, b: Glimpse) -> float:
     return float(np.median(np.abs(front))) if len(front) >= max(MIN_OVERLAP_SHARE * len(a.points), 20) else np.nan
 
 
-def check_convention(glimpses: list[Glimpse], found: FrameAgreement) -> None:
+def check_convention(glimpses: list[Glimpse], frame_agreement: FrameAgreement) -> None:
     """Raise InputError if frames contradict each other, naming the pose convention that would make them agree, if any."""
-    usual = found.usual
+    usual = frame_agreement.usual
     if usual <= OFF:
         return
     tried = {why: agreement([replace(g, T=turn(g.T)) for g in glimpses]).usual for why, turn in CONVENTIONS.items()}
@@ -132,15 +132,15 @@ def check_convention(glimpses: list[Glimpse], found: FrameAgreement) -> None:
     )
 
 
-def without_drifted(frames: Frames, found: FrameAgreement) -> tuple[Frames, list[int]]:
+def without_drifted(frames: Frames, agreement: FrameAgreement) -> tuple[Frames, list[int]]:
     """Return the frames that agree with most others, with a warning about the dropped ones, and the indices of those kept."""
-    limit = max(DRIFTED * found.usual, DRIFTED_LEAST)
-    bad = [k for k in range(len(frames)) if not found.of[k] <= limit]
+    limit = max(DRIFTED * agreement.usual, DRIFTED_LEAST)
+    bad = [k for k in range(len(frames)) if not agreement.of[k] <= limit]
     if not bad:
         return frames, list(range(len(frames)))
     kept = [k for k in range(len(frames)) if k not in set(bad)]
-    lone = [frames.frames[k].name for k in bad if np.isnan(found.of[k])]
-    off = [f"{frames.frames[k].name} ({found.of[k]:.1%})" for k in bad if np.isfinite(found.of[k])]
+    lone = [frames.frames[k].name for k in bad if np.isnan(agreement.of[k])]
+    off = [f"{frames.frames[k].name} ({agreement.of[k]:.1%})" for k in bad if np.isfinite(agreement.of[k])]
     warnings = []
     if off:
         warnings.append(

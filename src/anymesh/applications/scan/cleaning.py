@@ -79,7 +79,7 @@ def loops(faces: Int[np.ndarray, "F 3"]) -> list[Int[np.ndarray, " _"]]:
     after: dict[int, list[int]] = {}
     for a, b in lone[:, ::-1].tolist():
         after.setdefault(a, []).append(b)
-    found = []
+    border_loops = []
     for start in sorted(after):
         while after[start]:
             walk, at = [start], after[start].pop()
@@ -87,8 +87,8 @@ def loops(faces: Int[np.ndarray, "F 3"]) -> list[Int[np.ndarray, " _"]]:
                 walk.append(at)
                 at = after[at].pop()
             if at == start and len(walk) > 2:
-                found.append(np.array(walk))
-    return found
+                border_loops.append(np.array(walk))
+    return border_loops
 
 
 def close_small(surface: Surface, voxel: float, most: float = CLOSED) -> tuple[Surface, tuple[Hole, ...], int]:

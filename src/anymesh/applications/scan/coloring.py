@@ -28,20 +28,20 @@ def vertex_colors(
     total, weight = np.zeros((len(vertices), 3)), np.zeros(len(vertices))
     for number, frame in enumerate(frames.frames):
         progress("color", frame.name, number, len(frames))
-        found = frame.observe()
+        observation = frame.observe()
         T_camera = np.linalg.inv(T @ frame.T_world_camera)
         p = vertices @ T_camera[:3, :3].T + T_camera[:3, 3]
         facing = -np.einsum("ij,ij->i", normal @ T_camera[:3, :3].T, p) / np.maximum(np.linalg.norm(p, axis=1), 1e-9)
-        column, row = frame.depth_camera(found.depth).pixels(p)
-        depth = np.where(column >= 0, found.depth[row, column], 0)
+        column, row = frame.depth_camera(observation.depth).pixels(p)
+        depth = np.where(column >= 0, observation.depth[row, column], 0)
         rows = np.flatnonzero((depth > 0) & (np.abs(depth - p[:, 2]) < SEEN * p[:, 2]) & (facing > 0.1))
         if len(rows) == 0:
             continue
-        height, width = found.color.shape[:2]
+        height, width = observation.color.shape[:2]
         column, row = frame.camera.resized(width, height).pixels(p[rows])
         rows, column, row = rows[column >= 0], column[column >= 0], row[column >= 0]
         w = (facing[rows] / p[rows, 2]) ** SHARP
-        total[rows] += w[:, None] * found.color[row, column]
+        total[rows] += w[:, None] * observation.color[row, column]
         weight[rows] += w
     known = weight > 0
     colors = np.full((len(vertices), 3), float(UNSEEN))

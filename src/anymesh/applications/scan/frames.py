@@ -43,9 +43,9 @@ class Pinhole:
         """Directions of the rays through the pixel centres, in the camera's frame, scaled to depth 1."""
         x = (np.arange(self.width, dtype=np.float32) + 0.5 - self.cx) / self.fx
         y = (np.arange(self.height, dtype=np.float32) + 0.5 - self.cy) / self.fy
-        found = np.ones((self.height, self.width, 3), np.float32)
-        found[..., 0], found[..., 1] = x, y[:, None]
-        return found
+        directions = np.ones((self.height, self.width, 3), np.float32)
+        directions[..., 0], directions[..., 1] = x, y[:, None]
+        return directions
 
     def pixels(self, points: Float[np.ndarray, "n 3"]) -> tuple[Int[np.ndarray, " n"], Int[np.ndarray, " n"]]:
         """Project points of the camera's frame to pixels; return columns and rows, -1 for points outside the picture."""
@@ -85,8 +85,8 @@ class RgbdFrame:
 
     def observe(self) -> Observation:
         """Read the picture and its depth. Raise InputError if their sizes do not fit the intrinsics."""
-        found = self.read()
-        for what, size in (("picture", found.color.shape[1::-1]), ("depth map", found.depth.shape[::-1])):
+        observation = self.read()
+        for what, size in (("picture", observation.color.shape[1::-1]), ("depth map", observation.depth.shape[::-1])):
             try:
                 if size != (1, 1):
                     self.camera.resized(*size)
@@ -95,7 +95,7 @@ class RgbdFrame:
                     f"frame {self.name}: the {what} has {size[0]} x {size[1]} pixels, its intrinsics are for "
                     f"{self.camera.width} x {self.camera.height}; valid is the same or another resolution of the same section"
                 ) from None
-        return found
+        return observation
 
     def depth_camera(self, depth: Float32[np.ndarray, "h w"]) -> Pinhole:
         """Return the camera of the depth map, which may be smaller than the picture."""
@@ -113,12 +113,12 @@ def cropped(frame: RgbdFrame, low: Float[np.ndarray, " 3"], high: Float[np.ndarr
     """Return the frame without depth outside a box of the world."""
 
     def read() -> Observation:
-        found = frame.read()
-        depth = found.depth.copy()
+        observation = frame.read()
+        depth = observation.depth.copy()
         seen = depth > 0
         p = frame.points(depth)
         depth[seen] = np.where(((p >= low) & (p <= high)).all(1), depth[seen], np.float32(0))
-        return Observation(found.color, depth)
+        return Observation(observation.color, depth)
 
     return replace(frame, read=read)
 

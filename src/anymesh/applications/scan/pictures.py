@@ -19,14 +19,14 @@ CONFIDENT = 1  # lowest confidence at which depth is used; 0 means "low" in ever
 def read_object(path: Path) -> dict[str, Any]:
     """Read a JSON object. Raise InputError if the file is missing or holds anything else."""
     try:
-        found = json.loads(path.read_text(encoding="utf-8"))
+        record = json.loads(path.read_text(encoding="utf-8"))
     except FileNotFoundError:
         raise InputError(f"{path} is missing") from None
     except (OSError, ValueError) as error:
         raise InputError(f"{path} cannot be read as JSON: {error}") from None
-    if not isinstance(found, dict):
-        raise InputError(f"{path} must hold a JSON object, found {type(found).__name__}")
-    return found
+    if not isinstance(record, dict):
+        raise InputError(f"{path} must hold a JSON object, found {type(record).__name__}")
+    return record
 
 
 def within(folder: Path, name: object) -> Path:
@@ -98,10 +98,10 @@ def read_mask(path: Path | None) -> Bool[np.ndarray, "h w"] | None:
 
     try:
         with Image.open(path) as image:
-            found = np.asarray(image)
+            pixels = np.asarray(image)
     except (OSError, SyntaxError) as error:
         raise InputError(f"{path} is not a readable picture: {error}") from None
-    return (found if found.ndim == 2 else found.max(2)) >= CONFIDENT
+    return (pixels if pixels.ndim == 2 else pixels.max(2)) >= CONFIDENT
 
 
 def observed(color: np.ndarray, depth: np.ndarray, *masks: np.ndarray | None) -> Observation:
@@ -119,7 +119,7 @@ def file_reader(color: Path, depth: Path | None, scale: float, *masks: Path | No
     """Return a function that reads an observation from files; without a depth file, its depth map is a single 0."""
 
     def read() -> Observation:
-        found = np.zeros((1, 1), np.float32) if depth is None else read_depth(depth, scale)
-        return observed(read_color(color, color.name), found, *(read_mask(m) for m in masks))
+        depth_map = np.zeros((1, 1), np.float32) if depth is None else read_depth(depth, scale)
+        return observed(read_color(color, color.name), depth_map, *(read_mask(m) for m in masks))
 
     return read

@@ -48,7 +48,7 @@ def read_colmap(folder: Path, depth_scale: float | None, scale: float | None) ->
         raise OptionError("a COLMAP model has no unit of length: --scale METRES_PER_UNIT is needed (measure one known length)")
     binary = (model / "cameras.bin").is_file()
     cameras, warnings = _cameras(_binary_cameras(model) if binary else _text_cameras(model))
-    found, deep = [], []
+    frames, deep = [], []
     for image in sorted(_binary_images(model) if binary else _text_images(model), key=lambda i: i.name):
         if image.camera not in cameras:
             raise InputError(f"{model}: image {image.name} has camera {image.camera}, which is missing")
@@ -57,11 +57,11 @@ def read_colmap(folder: Path, depth_scale: float | None, scale: float | None) ->
         T = np.linalg.inv(image.T_camera_world)
         T[:3, 3] *= scale
         depth = _depth(folder, image.name)
-        found.append(RgbdFrame(image.name, camera, T, _reader(color, depth, depth_scale, scale)))
+        frames.append(RgbdFrame(image.name, camera, T, _reader(color, depth, depth_scale, scale)))
         deep.append(depth is not None)
-    kept = [frame for frame, d in zip(found, deep, strict=True) if d or not any(deep)]
-    if len(kept) < len(found):
-        warnings.append(f"{len(found) - len(kept)} of {len(found)} images have no depth and are left out")
+    kept = [frame for frame, d in zip(frames, deep, strict=True) if d or not any(deep)]
+    if len(kept) < len(frames):
+        warnings.append(f"{len(frames) - len(kept)} of {len(frames)} images have no depth and are left out")
     return Frames(tuple(kept), "COLMAP", any(deep), None, tuple(warnings))
 
 
@@ -97,15 +97,15 @@ def read_array(path: Path) -> Float[np.ndarray, "h w"]:
 
 
 def _cameras(rows: Iterator[tuple[int, str, int, int, list[float]]]) -> tuple[dict[int, Pinhole], list[str]]:
-    valid, found, warnings = {name for name, _ in MODELS.values()}, {}, []
+    valid, cameras, warnings = {name for name, _ in MODELS.values()}, {}, []
     for number, model, width, height, p in rows:
         if model not in valid:
             raise InputError(f"COLMAP camera {number} is a {model}; valid are {', '.join(sorted(valid))}: undistort the images")
         single = model in ("SIMPLE_PINHOLE", "SIMPLE_RADIAL", "RADIAL")
         fx, fy, cx, cy = (p[0], p[0], *p[1:3]) if single else p[:4]
-        found[number] = Pinhole(fx, fy, cx, cy, width, height)
-        warnings.append(check_distortion(found[number], p[3 if single else 4 :][:2], f"COLMAP camera {number}"))
-    return found, [w for w in warnings if w]
+        cameras[number] = Pinhole(fx, fy, cx, cy, width, height)
+        warnings.append(check_distortion(cameras[number], p[3 if single else 4 :][:2], f"COLMAP camera {number}"))
+    return cameras, [w for w in warnings if w]
 
 
 def _text_rows(path: Path) -> list[list[str]]:

@@ -31,7 +31,7 @@ def read_polycam(folder: Path, depth_scale: float | None, scale: float | None) -
         raise InputError(f"{folder}: found no keyframes/cameras; Polycam exports it as raw data (developer mode)")
     corrected = (home / "corrected_cameras").is_dir() and (home / "corrected_images").is_dir()
     cameras, images = (home / f"{'corrected_' if corrected else ''}{name}" for name in ("cameras", "images"))
-    found, deep = [], []
+    frames, deep = [], []
     for path in sorted(cameras.glob("*.json")):
         record, name = read_object(path), path.stem
         color = next((p for s in (".jpg", ".jpeg", ".png") if (p := images / f"{name}{s}").is_file()), None)
@@ -44,10 +44,10 @@ def read_polycam(folder: Path, depth_scale: float | None, scale: float | None) -
         T = pose(np.array([[record[key] for key in row] for row in ENTRIES]), name, axes="opengl", scale=scale or 1.0)
         depth, sure = (p if (p := home / kind / f"{name}.png").is_file() else None for kind in ("depth", "confidence"))
         reader = file_reader(color, depth, depth_scale or MILLIMETRES, sure)
-        found.append(RgbdFrame(name, fitted(camera, picture_size(color), name), T, reader))
+        frames.append(RgbdFrame(name, fitted(camera, picture_size(color), name), T, reader))
         deep.append(depth is not None)
-    kept = tuple(frame for frame, d in zip(found, deep, strict=True) if d or not any(deep))
+    kept = tuple(frame for frame, d in zip(frames, deep, strict=True) if d or not any(deep))
     warnings = [] if corrected else ["found no corrected_cameras: poses are those of ARKit, which drift"]
-    if len(kept) < len(found):
-        warnings.append(f"{len(found) - len(kept)} of {len(found)} frames have no depth and are left out")
+    if len(kept) < len(frames):
+        warnings.append(f"{len(frames) - len(kept)} of {len(frames)} frames have no depth and are left out")
     return Frames(kept, "Polycam", any(deep), (0.0, 1.0, 0.0), tuple(warnings))

@@ -25,20 +25,20 @@ def read_frames(path: Path, *, depth_scale: float | None = None, scale: float | 
     if not path.exists():
         raise InputError(f"{path} does not exist; a folder of frames or an .r3d file is expected")
     if (path / OURS).is_file():
-        found = read_frames_json(path, depth_scale, scale)
+        frames = read_frames_json(path, depth_scale, scale)
     elif (path / NERFSTUDIO).is_file():
-        found = read_transforms_json(path, depth_scale, scale)
+        frames = read_transforms_json(path, depth_scale, scale)
     elif is_record3d(path):
-        found = read_record3d(path, depth_scale, scale)
+        frames = read_record3d(path, depth_scale, scale)
     elif path.is_dir() and keyframes(path) is not None:
-        found = read_polycam(path, depth_scale, scale)
+        frames = read_polycam(path, depth_scale, scale)
     elif path.is_dir() and model_folder(path) is not None:
-        found = read_colmap(path, depth_scale, scale)
+        frames = read_colmap(path, depth_scale, scale)
     else:
         raise InputError(
             f"{path} holds no recording that is known; valid are a folder with {OURS}, {NERFSTUDIO} (nerfstudio), "
             "keyframes/ (Polycam's raw data), sparse/ (COLMAP), or metadata and rgbd/ (Record3D), or an .r3d file"
         )
-    if len(found) < FEWEST:
-        raise InputError(f"{path}: found {len(found)} usable frames; a surface needs {FEWEST} or more from different sides")
-    return found
+    if len(frames) < FEWEST:
+        raise InputError(f"{path}: found {len(frames)} usable frames; a surface needs {FEWEST} or more from different sides")
+    return frames

@@ -97,7 +97,7 @@ def orbit(bounds: Float[np.ndarray, "2 3"], views: int, size: tuple[int, int], r
     """Return cameras on rings around a box; if it is too large for one picture, each looks at another place in it."""
     half, center = np.ptp(bounds, axis=0) / 2, bounds.mean(0)
     fit = FILLED * float(np.linalg.norm(half)) / np.sin(FOV / 2)
-    found = []
+    cameras = []
     ring = np.searchsorted(np.cumsum(SHARES), (np.arange(views) + 0.5) / views)
     for k in range(views):
         around = (k - np.flatnonzero(ring == ring[k])[0] + 0.37 * ring[k]) / (ring == ring[k]).sum()
@@ -108,8 +108,8 @@ def orbit(bounds: Float[np.ndarray, "2 3"], views: int, size: tuple[int, int], r
         target = center + rng.uniform(-1, 1, 3) * half * share
         eye = target + way * (reach + near)
         eye[2] = max(eye[2], 0.06)
-        found.append(Camera.looking_at(eye, target, float(FOV), *size))
-    return found
+        cameras.append(Camera.looking_at(eye, target, float(FOV), *size))
+    return cameras
 
 
 def observe(

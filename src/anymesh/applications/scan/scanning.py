@@ -99,9 +99,9 @@ def checked(frames: Frames, config: ScanConfig, progress: Progress) -> tuple[Fra
         progress("check", frame.name, number, len(frames))
         glimpses.append(glimpse(frame, config.depth_max, config.seed))
     check_depth_unit(glimpses)
-    found = agreement(glimpses, config.seed)
-    check_convention(glimpses, found)
-    frames, kept = without_drifted(frames, found)
+    frame_agreement = agreement(glimpses, config.seed)
+    check_convention(glimpses, frame_agreement)
+    frames, kept = without_drifted(frames, frame_agreement)
     if len(frames) < FEWEST:
         raise InputError(
             f"{len(frames)} frames agree about a surface; {FEWEST} or more are needed. {'; '.join(frames.warnings)}"
@@ -114,7 +114,7 @@ def checked(frames: Frames, config: ScanConfig, progress: Progress) -> tuple[Fra
     if not scene.has_floor and not config.keep_floor:
         frames = frames.of(list(frames.frames), "no floor or table was found: nothing was cut off, and up is a guess")
     usual = float(np.median([np.median(g.points[:, 2]) for g in glimpses if len(g.points)]))
-    return frames, scene, usual, found.usual
+    return frames, scene, usual, frame_agreement.usual
 
 
 def fused(frames: Frames, scene: Scene, usual: float, config: ScanConfig, progress: Progress) -> Field:

@@ -63,10 +63,10 @@ def border_vertices(faces: Int[np.ndarray, "F 3"], count: int) -> np.ndarray:
     key, _ = edge_keys(faces)
     unique, times = np.unique(key, return_counts=True)
     lone = unique[times == 1]
-    found = np.zeros(count, bool)
+    on_border = np.zeros(count, bool)
     base = int(faces.max()) + 1
-    found[lone // base] = found[lone % base] = True
-    return found
+    on_border[lone // base] = on_border[lone % base] = True
+    return on_border
 
 
 def edge_keys(faces: Int[np.ndarray, "F 3"]) -> tuple[np.ndarray, np.ndarray]:

@@ -60,9 +60,9 @@ def with_depth(frames: Frames, *, seed: int, progress: Progress) -> Frames:
             optimizer.zero_grad(set_to_none=True)
         strategy.step_post_backward(params, optimizers, state, step, info, packed=False)
     with torch.no_grad():
-        found = [_deep(lib, params, frame, view) for frame, view in zip(frames.frames, views, strict=True)]
+        frames_with_depth = [_deep(lib, params, frame, view) for frame, view in zip(frames.frames, views, strict=True)]
     warning = "depth comes from 2D Gaussian splatting of the pictures, not from a sensor"
-    return replace(frames, frames=tuple(found), has_depth=True, warnings=(*frames.warnings, warning))
+    return replace(frames, frames=tuple(frames_with_depth), has_depth=True, warnings=(*frames.warnings, warning))
 
 
 def gaze(frames: Frames) -> tuple[Float[np.ndarray, " 3"], float]:

@@ -30,8 +30,8 @@ def member(package: Path, name: str) -> io.BytesIO:
 def _from_tar(package: str, data: bytes, name: str) -> io.BytesIO:
     try:
         with tarfile.open(fileobj=io.BytesIO(data)) as tar:
-            found = next((m for m in tar if m.isfile() and m.name.rsplit("/", 1)[-1] == name), None)
-            opened = None if found is None else tar.extractfile(found)
+            tar_member = next((m for m in tar if m.isfile() and m.name.rsplit("/", 1)[-1] == name), None)
+            opened = None if tar_member is None else tar.extractfile(tar_member)
             if opened is not None:
                 return io.BytesIO(opened.read())
     except (tarfile.TarError, EOFError, OSError) as error:

@@ -20,10 +20,10 @@ class Examples:
 
     def objects(self, split: str | None = None) -> list[str]:
         check_split(self.name, split, self.splits)
-        found = sorted(path.stem for path in (self.folder / "truth").glob("*.json"))
-        if not found:
+        names = sorted(path.stem for path in (self.folder / "truth").glob("*.json"))
+        if not names:
             raise InputError(f"{self.folder}: found no truth/*.json; the folder examples/ of the repository is expected")
-        return found
+        return names
 
     def truth(self, name: str, folder: Path) -> GroundTruth:
         """Return the ground truth, with the shipped mesh; nothing is written."""

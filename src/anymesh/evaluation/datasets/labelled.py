@@ -64,13 +64,13 @@ def _bodies(record: dict[str, Any], mesh: Mesh, labels: np.ndarray) -> list[Data
         raise ValueError(f"found {labels.shape} labels for {len(mesh.faces)} faces; valid is one per face")
     T = UPRIGHT[tuple(record["up"])]
     joints = {int(j["part"]): j for j in record["joints"]}
-    found = []
+    links = []
     for part in np.unique(labels).tolist():
         joint = joints.get(part)
         motion = None if joint is None else _motion(joint)
         parent = None if part == 0 else f"part_{joint['parent_part'] if joint else 0}"
-        found.append(moved(DatasetLink(f"part_{part}", parent, motion, (mesh.subset(labels == part),)), T))
-    return found
+        links.append(moved(DatasetLink(f"part_{part}", parent, motion, (mesh.subset(labels == part),)), T))
+    return links
 
 
 def _motion(joint: dict[str, Any]) -> KnownJoint:

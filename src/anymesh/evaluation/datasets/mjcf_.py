@@ -79,8 +79,8 @@ class MjcfModel:
 
     def truth(self, own: str, folder: Path, name: str) -> GroundTruth:
         """Write the object `own` of this file as `name`.glb to `folder`. Raise InputError if nothing is visible."""
-        found = self.objects()[own]
-        bodies = [moved(self._body(b, b == found[0]), Y_UP) for b in found]
+        tree = self.objects()[own]
+        bodies = [moved(self._body(b, b == tree[0]), Y_UP) for b in tree]
         return assemble(name, bodies, folder / f"{name}.glb")
 
     def _joint(self, body: int) -> int | None:

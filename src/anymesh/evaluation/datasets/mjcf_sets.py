@@ -91,8 +91,8 @@ def libero(folder: Path | None = None) -> MjcfFolder:
 
 def _package(name: str, command: str) -> Path:
     """Return the folder of an installed package, without importing it."""
-    found = find_spec(name)
-    places = list(found.submodule_search_locations or ()) if found else []
+    spec = find_spec(name)
+    places = list(spec.submodule_search_locations or ()) if spec else []
     if not places:
         raise MissingExtraError(f"the data set needs the package {name}; `{command}` brings it")
     return Path(places[0])

@@ -64,12 +64,12 @@ class SweetHome3D:
     @cached_property
     def _catalog(self) -> dict[str, dict[str, str]]:
         """Catalogue entries of the models, by file name."""
-        found: dict[str, dict[str, str]] = {}
+        entries: dict[str, dict[str, str]] = {}
         for line in self._jar.read(CATALOG).decode("latin-1").splitlines():
             if entry := re.match(r"(\w+)#(\d+)=(.*)", line.strip()):
                 key, number, value = entry.groups()
-                found.setdefault(number, {})[key] = value.strip()
-        models = [e for e in found.values() if e.get("model", "").endswith(".obj")]
+                entries.setdefault(number, {})[key] = value.strip()
+        models = [e for e in entries.values() if e.get("model", "").endswith(".obj")]
         return {Path(e["model"]).stem: e for e in models}
 
     def _model(self, entry: dict[str, str]) -> bytes:
@@ -119,8 +119,8 @@ def _bodies(mesh: Mesh, sashes: list[Sash]) -> list[DatasetLink]:
     owner = {g: on.group(1, 2) for g in groups if (on := ON.match(g))}
     markers: dict[tuple[str, str | None], list[str]] = {}
     for g in groups:
-        if found := MARKER.match(g):
-            markers.setdefault((found[1] or found[2], found[3]), []).append(g)
+        if match := MARKER.match(g):
+            markers.setdefault((match[1] or match[2], match[3]), []).append(g)
     hidden = {g for names in markers.values() for g in names}
     bodies = [DatasetLink("base", meshes=_pieces(mesh, [g for g in groups if g not in owner and g not in hidden]))]
     for kind, number in dict.fromkeys(owner.values()):

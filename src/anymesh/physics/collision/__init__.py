@@ -96,12 +96,12 @@ def collision_shapes(
         config.crossing * size,
     )
     done = clear(scene, pieces, shapes_of, levels=len(config.gaps), rounds=config.rounds, late=late)
-    found = {link: tuple(s for p in done.pieces if p.link == link for s in p.shapes) for link in triangles}
-    found = {link: shapes or (smallest_box(triangles[link], wall),) for link, shapes in found.items()}
+    link_shapes = {link: tuple(s for p in done.pieces if p.link == link for s in p.shapes) for link in triangles}
+    link_shapes = {link: shapes or (smallest_box(triangles[link], wall),) for link, shapes in link_shapes.items()}
     warnings = tuple(
         f"link {link}: collision made by {f.used}, since {'; '.join(f.reasons)}" for link, f in sorted(fallbacks.items())
     )
-    return Collision(found, scene.overlapping, done.before, done.left, (*warnings, *deadline.warnings()))
+    return Collision(link_shapes, scene.overlapping, done.before, done.left, (*warnings, *deadline.warnings()))
 
 
 def _one_hull(component: Component, wall: float) -> tuple[Shape, ...]:

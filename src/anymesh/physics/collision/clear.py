@@ -103,11 +103,11 @@ class ContactScene:
         for number in range(len(self.poses)) if at is None else at:
             if late():
                 break
-            found: dict[tuple[str, str], list[Contact]] = {}
+            pair_contacts: dict[tuple[str, str], list[Contact]] = {}
             for contact in bench.contacts(self.poses[number], self.contact):
                 a, b = sorted((contact.first[0], contact.second[0]))
-                found.setdefault((a, b), []).append(contact)
-            false = [c for (a, b), contacts in found.items() if not self._cross(a, b, number) for c in contacts]
+                pair_contacts.setdefault((a, b), []).append(contact)
+            false = [c for (a, b), contacts in pair_contacts.items() if not self._cross(a, b, number) for c in contacts]
             poses += [number] if false else []
             for c in false:
                 key = owner[c.first[0]][c.first[1]], owner[c.second[0]][c.second[1]]

@@ -41,12 +41,12 @@ def _distinct(
     """
     weight = np.round(weight / max(float(weight.sum()), 1e-300), DIGITS)
     left = np.argsort(-weight, kind="stable")
-    found: list[tuple[float, np.ndarray, float]] = []
-    while len(left) and len(found) <= most:
+    planes: list[tuple[float, np.ndarray, float]] = []
+    while len(left) and len(planes) <= most:
         n, o = normal[left[0]], float(offset[left[0]])
         along = normal[left] @ n
         same = (np.abs(along) > SAME_PLANE[0]) & (np.abs(offset[left] * np.sign(along) - o) < SAME_PLANE[1] * size)
         same[0] = True
-        found.append((float(weight[left[same]].sum()), n, o))
+        planes.append((float(weight[left[same]].sum()), n, o))
         left = left[~same]
-    return [(n, o) for _, n, o in sorted(found, key=lambda plane: -round(plane[0], DIGITS))]
+    return [(n, o) for _, n, o in sorted(planes, key=lambda plane: -round(plane[0], DIGITS))]

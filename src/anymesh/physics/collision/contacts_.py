@@ -66,13 +66,13 @@ class ContactBench:
             self._placed[link] = pose[link]
         mujoco.mj_kinematics(model, data)
         mujoco.mj_collision(model, data)
-        found = data.contact
-        depth, pair = -np.asarray(found.dist), np.asarray(found.geom)
+        contacts = data.contact
+        depth, pair = -np.asarray(contacts.dist), np.asarray(contacts.geom)
         deep = np.flatnonzero(depth > least)
         order = deep[np.lexsort((deep, -depth[deep], pair[deep, 1], pair[deep, 0]))]
         first = np.r_[True, (np.diff(pair[order], axis=0) != 0).any(1)][: len(order)]
         return [
-            Contact(*(self._owner[g] for g in pair[k]), float(depth[k]), found.frame[k, :3].copy(), found.pos[k].copy())
+            Contact(*(self._owner[g] for g in pair[k]), float(depth[k]), contacts.frame[k, :3].copy(), contacts.pos[k].copy())
             for k in order[first]
         ]
 

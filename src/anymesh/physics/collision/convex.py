@@ -41,12 +41,12 @@ def hull_of(points: Float[np.ndarray, "n 3"], wall: float = 0.0, inward: np.ndar
         else:
             points = np.concatenate([flat, flat + normal * wall * (1.0 if inward @ normal > 0 else -1.0)])
     try:
-        found = ConvexHull(points)
+        hull = ConvexHull(points)
     except QhullError:
         return None
-    used, inverse = np.unique(found.simplices, return_inverse=True)
+    used, inverse = np.unique(hull.simplices, return_inverse=True)
     vertices, faces = points[used], inverse.reshape(-1, 3)
-    inside = np.einsum("ij,ij->i", face_cross(vertices[faces]), found.equations[:, :3]) < 0
+    inside = np.einsum("ij,ij->i", face_cross(vertices[faces]), hull.equations[:, :3]) < 0
     faces[inside] = faces[inside][:, ::-1]
     return Hull(vertices, faces)
 
@@ -96,14 +96,14 @@ def cut(
 
 def _clipped(triangle: np.ndarray, height: np.ndarray) -> np.ndarray:
     """Return the polygon of a triangle where `height` >= 0."""
-    found = []
+    polygon = []
     for k in range(3):
         a, b = height[k], height[(k + 1) % 3]
         if a >= 0:
-            found.append(triangle[k])
+            polygon.append(triangle[k])
         if (a > 0 > b) or (a < 0 < b):
-            found.append(triangle[k] + (triangle[(k + 1) % 3] - triangle[k]) * (a / (a - b)))
-    return np.array(found)
+            polygon.append(triangle[k] + (triangle[(k + 1) % 3] - triangle[k]) * (a / (a - b)))
+    return np.array(polygon)
 
 
 def trimmed(hull: Hull, normal: Float[np.ndarray, " 3"], offset: float) -> Hull | None:

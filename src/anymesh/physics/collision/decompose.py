@@ -63,9 +63,11 @@ def split_components(
     Omitted are components smaller than `min_size` [m], unless all are, components without a surface, and components inside the
     hull of a convex one. If there are more than `max_components`, the smaller ones are joined per cell of a grid.
     """
-    found = components(triangles.reshape(-1, 3), np.arange(3 * len(triangles)).reshape(-1, 3))
-    order = np.argsort(found.label, kind="stable")
-    pieces = np.split(triangles[order], np.cumsum(np.bincount(found.label, minlength=found.count))[:-1])
+    surface_components = components(triangles.reshape(-1, 3), np.arange(3 * len(triangles)).reshape(-1, 3))
+    order = np.argsort(surface_components.label, kind="stable")
+    pieces = np.split(
+        triangles[order], np.cumsum(np.bincount(surface_components.label, minlength=surface_components.count))[:-1]
+    )
     sizes = np.array([float(np.linalg.norm(np.ptp(piece.reshape(-1, 3), axis=0))) for piece in pieces])
     by_size = np.argsort(sizes, kind="stable")[::-1]
     large = [int(k) for k in by_size if sizes[k] >= min(min_size, sizes.max())]
@@ -77,8 +79,10 @@ def split_components(
         corners = pieces[k].reshape(-1, 3)
         if any(other.holds(corners, 1e-6 * sizes[k]) for other in around):
             continue
-        kept.append(Component(pieces[k][:, ::-1] if found.flip[k] else pieces[k], bool(found.solid[k])))
-        hull = hull_of(corners) if found.solid[k] and k != separate[-1] else None
+        kept.append(
+            Component(pieces[k][:, ::-1] if surface_components.flip[k] else pieces[k], bool(surface_components.solid[k]))
+        )
+        hull = hull_of(corners) if surface_components.solid[k] and k != separate[-1] else None
         if hull is not None and len(hull.faces) <= AROUND_FACES:
             this = _Around(planes(hull), corners.min(0), corners.max(0))
             surface = np.concatenate([corners, pieces[k].mean(1)])  # all corners of a concave prism are on its hull

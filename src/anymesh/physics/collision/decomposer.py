@@ -66,8 +66,8 @@ class Decomposer:
         low = [c.triangles.reshape(-1, 3).min(0) for c in components]
         local = [_at_origin(c, corner) for c, corner in zip(components, low, strict=True)]
         keys = [content_key(c.triangles, c.solid, f.gap, f.wall, f.max_pieces) for c, f in zip(local, resolution, strict=True)]
-        found = {key: Divided(shapes) for key in set(keys) if (shapes := load_shapes(self.cache, key)) is not None}
-        todo = {key: k for k, key in reversed(list(enumerate(keys))) if key not in found}
+        divided_by_key = {key: Divided(shapes) for key in set(keys) if (shapes := load_shapes(self.cache, key)) is not None}
+        todo = {key: k for k, key in reversed(list(enumerate(keys))) if key not in divided_by_key}
         order = sorted(todo.values())
         calls = [
             [(local[order[n]], resolution[order[n]]) for n in batch]
@@ -76,11 +76,11 @@ class Decomposer:
         with ThreadPoolExecutor(self.pool.size) as threads:
             made = [d for some in threads.map(self._divide_batch, calls) for d in some]
         for k, divided in zip(order, made, strict=True):
-            found[keys[k]] = divided
+            divided_by_key[keys[k]] = divided
             if divided.fallback is None:
                 save_shapes(self.cache, keys[k], divided.shapes)
         return [
-            Divided(tuple(shifted(s, corner) for s in found[key].shapes), found[key].fallback)
+            Divided(tuple(shifted(s, corner) for s in divided_by_key[key].shapes), divided_by_key[key].fallback)
             for key, corner in zip(keys, low, strict=True)
         ]
 

@@ -33,19 +33,19 @@ def fitted(hull: Hull, fit: float = FIT) -> Shape:
 def _cylinder(hull: Hull, directions: np.ndarray, exact: float, fit: float) -> Cylinder | None:
     if len(directions) == 0:
         return None
-    found = roundest(hull.vertices, directions)
-    if found.roundness < ROUND:
+    outline = roundest(hull.vertices, directions)
+    if outline.roundness < ROUND:
         return None
-    along = (hull.vertices - found.center) @ found.axis
-    ends = np.abs(np.abs(along) - found.height / 2) <= 0.02 * found.height
-    ideal = np.pi * found.radius**2 * found.height
+    along = (hull.vertices - outline.center) @ outline.axis
+    ends = np.abs(np.abs(along) - outline.height / 2) <= 0.02 * outline.height
+    ideal = np.pi * outline.radius**2 * outline.height
     if not ends.all() or abs(ideal - exact) > 2 * fit * exact:
         return None
-    helper = np.eye(3)[np.abs(found.axis).argmin()]
-    u = np.cross(helper, found.axis)
+    helper = np.eye(3)[np.abs(outline.axis).argmin()]
+    u = np.cross(helper, outline.axis)
     u /= np.linalg.norm(u)
-    rotation = np.stack([u, np.cross(found.axis, u), found.axis], 1)
-    return Cylinder(found.center, rotation, found.radius, found.height)
+    rotation = np.stack([u, np.cross(outline.axis, u), outline.axis], 1)
+    return Cylinder(outline.center, rotation, outline.radius, outline.height)
 
 
 def as_hull(shape: Shape) -> Hull:

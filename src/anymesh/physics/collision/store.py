@@ -26,9 +26,9 @@ def load_shapes(folder: Path | None, key: str) -> tuple[Shape, ...] | None:
     if folder is None:
         return None
     try:
-        with np.load(folder / f"{key}.npz", allow_pickle=False) as found:
+        with np.load(folder / f"{key}.npz", allow_pickle=False) as archive:
             return tuple(
-                _shape([found[f"{k}_{n}"] for n in range(int(found["arrays"][k]))]) for k in range(len(found["arrays"]))
+                _shape([archive[f"{k}_{n}"] for n in range(int(archive["arrays"][k]))]) for k in range(len(archive["arrays"]))
             )
     except (OSError, ValueError, KeyError, EOFError):
         return None

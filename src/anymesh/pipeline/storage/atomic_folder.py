@@ -84,12 +84,12 @@ def stale_folders(parent: Path, prefix: str) -> list[LockedFolder]:
     """Return the folders left by ended processes, locked against other processes."""
     if fcntl is None or not parent.is_dir():
         return []
-    found = []
+    folders = []
     for path in sorted(parent.glob(f"{_escaped(prefix)}*")):
         lock = _locked(path) if path.is_dir() else None
         if lock is not None:
-            found.append(LockedFolder(path, lock))
-    return found
+            folders.append(LockedFolder(path, lock))
+    return folders
 
 
 def _escaped(prefix: str) -> str:
@@ -98,14 +98,14 @@ def _escaped(prefix: str) -> str:
 
 def list_files(folder: Path) -> list[str]:
     """List the relative paths of all files, sorted, without hidden work folders and files of file managers."""
-    found = []
+    paths = []
     for path in folder.rglob("*"):
         relative = path.relative_to(folder)
         if relative.parts[0].startswith(FOLDER_PREFIX) or path.name in IGNORED:
             continue
         if path.is_symlink() or not path.is_dir():
-            found.append(relative.as_posix())
-    return sorted(found)
+            paths.append(relative.as_posix())
+    return sorted(paths)
 
 
 def replace_folder(new: Path, target: Path, old: Path | None) -> None:

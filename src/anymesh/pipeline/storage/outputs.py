@@ -27,8 +27,8 @@ def is_origin(name: str) -> bool:
 
 def written_files(target: Path) -> list[str] | None:
     """Return the files that this program wrote into a folder, None if it is no output."""
-    found = read_json(target / MANIFEST)
-    files = found.get("files") if found is not None and found.get("generator") == GENERATOR else None
+    manifest = read_json(target / MANIFEST)
+    files = manifest.get("files") if manifest is not None and manifest.get("generator") == GENERATOR else None
     return files if isinstance(files, list) else None
 
 

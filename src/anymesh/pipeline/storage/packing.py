@@ -76,15 +76,17 @@ def _unpack_load(record: Record, arrays: Arrays) -> LoadResult:
 
 
 def _unpack_mesh(record: Record, arrays: Arrays) -> Mesh:
-    def material(found: Record) -> Material:
-        textures = {slot: Texture(arrays[t["array"]].tobytes(), t["mime"], t["name"]) for slot, t in found["textures"].items()}
-        values: dict[str, Any] = {**found, "textures": textures}
-        values["base_color"], values["emissive"] = tuple(found["base_color"]), tuple(found["emissive"])
+    def material(material_record: Record) -> Material:
+        textures = {
+            slot: Texture(arrays[t["array"]].tobytes(), t["mime"], t["name"]) for slot, t in material_record["textures"].items()
+        }
+        values: dict[str, Any] = {**material_record, "textures": textures}
+        values["base_color"], values["emissive"] = tuple(material_record["base_color"]), tuple(material_record["emissive"])
         return Material(**values)
 
-    found: dict[str, Any] = {name: arrays.get(name) for name in MESH_ARRAYS}
+    mesh_arrays: dict[str, Any] = {name: arrays.get(name) for name in MESH_ARRAYS}
     return Mesh(
-        **found,
+        **mesh_arrays,
         nodes=tuple(Node(**node) for node in record["nodes"]),
         materials=tuple(material(m) for m in record["materials"]),
     )
@@ -102,12 +104,12 @@ def _pack_exchanges(exchanges: tuple[Exchange, ...]) -> tuple[list[Record], dict
 
 
 def _unpack_exchanges(records: list[Record], arrays: Arrays) -> tuple[Exchange, ...]:
-    def exchange(found: Record) -> Exchange:
-        pictures = tuple(Picture(arrays[name].tobytes(), caption) for name, caption in found["pictures"])
-        values: dict[str, Any] = {**found, "pictures": pictures}
+    def exchange(record: Record) -> Exchange:
+        pictures = tuple(Picture(arrays[name].tobytes(), caption) for name, caption in record["pictures"])
+        values: dict[str, Any] = {**record, "pictures": pictures}
         return Exchange(**values)
 
-    return tuple(exchange(found) for found in records)
+    return tuple(exchange(record) for record in records)
 
 
 def _pack_recognition(result: RecognitionResult) -> tuple[Record, dict[str, np.ndarray]]:
@@ -124,15 +126,17 @@ def _pack_recognition(result: RecognitionResult) -> tuple[Record, dict[str, np.n
 
 
 def _unpack_recognition(record: Record, arrays: Arrays) -> RecognitionResult:
-    def label(found: Record) -> RecognizedLabel:
-        limits = None if found["limits"] is None else (float(found["limits"][0]), float(found["limits"][1]))
-        moves = None if found["moves"] is None else JointType(found["moves"])
-        return RecognizedLabel(found["label"], moves, found["parent"], limits)
+    def label(label_record: Record) -> RecognizedLabel:
+        limits = (
+            None if label_record["limits"] is None else (float(label_record["limits"][0]), float(label_record["limits"][1]))
+        )
+        moves = None if label_record["moves"] is None else JointType(label_record["moves"])
+        return RecognizedLabel(label_record["label"], moves, label_record["parent"], limits)
 
     r = record["recognition"]
     recognition = None
     if r is not None:
-        labels = tuple(label(found) for found in r["labels"])
+        labels = tuple(label(label_record) for label_record in r["labels"])
         recognition = Recognition(r["category"], r["size"], labels, r.get("front"))
     exchanges = _unpack_exchanges(record["exchanges"], arrays)
     return RecognitionResult(
@@ -162,10 +166,10 @@ def _pack_joint(joint: Joint) -> Record:
     return record | {"type": str(joint.type), "origin": joint.origin.tolist(), "axis": joint.axis.tolist()}
 
 
-def _unpack_joint(found: Record) -> Joint:
-    limits = None if found["limits"] is None else (float(found["limits"][0]), float(found["limits"][1]))
-    values: dict[str, Any] = {**found, "type": JointType(found["type"]), "limits": limits}
-    values["origin"], values["axis"] = np.array(found["origin"], float), np.array(found["axis"], float)
+def _unpack_joint(record: Record) -> Joint:
+    limits = None if record["limits"] is None else (float(record["limits"][0]), float(record["limits"][1]))
+    values: dict[str, Any] = {**record, "type": JointType(record["type"]), "limits": limits}
+    values["origin"], values["axis"] = np.array(record["origin"], float), np.array(record["axis"], float)
     return Joint(**values)
 
 

@@ -148,15 +148,15 @@ class RunFolder(Saved):
         """Return the saved result of a stage if it was made under this key, else None. It becomes part of this output."""
         earlier = () if stage.name in self._redone else self._earlier
         for place in (*self._places(stage), *earlier):
-            found = read_stage(place, stage, key)
-            if found is None:
+            saved = read_stage(place, stage, key)
+            if saved is None:
                 continue
             if place in earlier:
                 (self.folder / "stages").mkdir(exist_ok=True)
                 for name in stage_files(stage):
                     if (place / name).exists():
                         shutil.copyfile(place / name, self.folder / name)
-            return found
+            return saved
         return None
 
     def save(self, stage: Stage[Result], key: str, result: Result) -> None:

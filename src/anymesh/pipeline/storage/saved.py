@@ -57,37 +57,37 @@ class Saved:
 
         Raise OutputError if this output has none.
         """
-        found = self._find(stage)
-        if found is None:
+        saved = self._find(stage)
+        if saved is None:
             raise self._missing(stage)
-        return found
+        return saved
 
     def recognition(self) -> RecognitionResult:
         """Return the recognition result, an empty one if no model was asked."""
         return self._find(RECOGNITION) or RecognitionResult(None, "")
 
     def _find(self, stage: Stage[Result]) -> Result | None:
-        return next((found for place in self._places(stage) if (found := read_stage(place, stage, None)) is not None), None)
+        return next((saved for place in self._places(stage) if (saved := read_stage(place, stage, None)) is not None), None)
 
     def key(self, stage: Stage[Any]) -> str:
         """Return the key of the saved result of a stage.
 
         Raise OutputError if this output has none.
         """
-        found = self._key(stage)
-        if found is None:
+        key = self._key(stage)
+        if key is None:
             raise self._missing(stage)
-        return found
+        return key
 
     def _key(self, stage: Stage[Any]) -> str | None:
-        return next((found for place in self._places(stage) if (found := saved_key(place, stage)) is not None), None)
+        return next((key for place in self._places(stage) if (key := saved_key(place, stage)) is not None), None)
 
     def _missing(self, stage: Stage[Any]) -> OutputError:
         return OutputError(f"{self.target} has no usable result of the stage {stage.name!r}; run that stage first")
 
     def timing(self) -> dict[str, float]:
         """Return the seconds per stage."""
-        return next((found for place in self._places(None) if (found := read_json(place / TIMING)) is not None), {})
+        return next((timing for place in self._places(None) if (timing := read_json(place / TIMING)) is not None), {})
 
     def asset(self, *, edited: bool = True) -> Asset:
         """Assemble the asset from the saved stages.
@@ -98,12 +98,12 @@ class Saved:
         """
         last = self.editing()
 
-        def found(stage: Stage[Result]) -> Result | None:
+        def saved(stage: Stage[Result]) -> Result | None:
             return None if stage is last and not edited else self._find(stage)
 
         return assemble(
             self.need(MESH), self.recognition(), self.need(SEGMENTATION), self.need(JOINTS),
-            correction=found(CORRECTION), completion=found(COMPLETION), revision=found(REVISION), timing=self.timing(),
+            correction=saved(CORRECTION), completion=saved(COMPLETION), revision=saved(REVISION), timing=self.timing(),
         )  # fmt: skip
 
     def editing(self) -> Stage[CorrectionResult]:
@@ -112,8 +112,8 @@ class Saved:
 
     def corrections(self, stage: Stage[CorrectionResult]) -> tuple[Record, ...]:
         """Return the log of corrections of a stage."""
-        found = self._find(stage)
-        return () if found is None else found.log
+        correction = self._find(stage)
+        return () if correction is None else correction.log
 
     def last_key(self, *, edited: bool = True) -> str:
         """Return the key of the last stage of the asset.
