@@ -53,6 +53,16 @@ def test_a_folder_is_reported_per_joint_and_resumed(tmp_path, monkeypatch):
         evaluate_interaction(tmp_path / "set", tmp_path / "other", only=("missing",))
 
 
+def test_assets_of_one_name_are_all_evaluated(tmp_path):
+    for folder in ("first", "second"):
+        place = tmp_path / "set" / folder / "knob"
+        place.mkdir(parents=True)
+        (place / "knob.xml").write_text(KNOB.format(name="knob", half=0.1))
+        (place / "asset.json").write_text("{}")
+    rows = evaluate_interaction(tmp_path / "set", tmp_path / "out", tries=1)
+    assert [r.asset for r in rows] == ["knob", "knob_2"]
+
+
 def test_an_asset_that_cannot_be_read_is_a_row(tmp_path):
     (tmp_path / "broken.xml").write_text("<mujoco><worldbody><body><geom type='ball'/></body></worldbody></mujoco>")
     (row,) = evaluate_interaction(tmp_path / "broken.xml", tmp_path / "out")

@@ -118,6 +118,15 @@ def test_record3d_that_lacks_its_size(few: Frames, tmp_path: Path) -> None:
     assert_same_frames(read_frames(folder), few)
 
 
+@pytest.mark.parametrize(("poses", "count"), [(7, 0), ([], 0), ([[0, 0, 0, 1, 0, 0, 0]], 1)])
+def test_record3d_without_a_pose_per_picture(few: Frames, tmp_path: Path, poses: object, count: int) -> None:
+    folder = as_record3d(few, tmp_path / "r")
+    metadata = json.loads((folder / "metadata").read_text())
+    (folder / "metadata").write_text(json.dumps({**metadata, "poses": poses}))
+    with pytest.raises(InputError, match=f"metadata has {count} poses"):
+        read_frames(folder)
+
+
 def test_record3d_with_damaged_depth(few: Frames, tmp_path: Path) -> None:
     folder = as_record3d(few, tmp_path / "r")
     (folder / "rgbd" / "0.depth").write_bytes(b"none of this is compressed")

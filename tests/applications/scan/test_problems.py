@@ -105,6 +105,12 @@ def test_no_overlap(mine: Path) -> None:
     assert "no two frames see the same place" in told_by(mine)
 
 
+@pytest.mark.parametrize("frames", [3, [], [1, 2], None])
+def test_frames_that_are_no_list_of_objects(mine: Path, frames: object) -> None:
+    edited(mine, frames=frames)
+    assert f"found {frames}" in told_by(mine)
+
+
 def test_too_few_frames(mine: Path) -> None:
     told = json.loads((mine / "frames.json").read_text())
     edited(mine, frames=told["frames"][:2])

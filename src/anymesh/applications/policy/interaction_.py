@@ -20,7 +20,7 @@ from anymesh.checking.find import find_description
 from anymesh.errors import AnymeshError, OptionError
 from anymesh.evaluation.results import OBJECTS, ResultsFolder
 from anymesh.files import write_whole
-from anymesh.names import legal_name
+from anymesh.names import legal_name, legal_names
 from anymesh.progress import Progress, silent
 from anymesh.simulation.mujoco_ import sweep_joints
 
@@ -69,11 +69,12 @@ def evaluate_interaction(
     assets: an asset, or a folder of several; only: names of assets, the names of their folders or files.
     Raise InputError if there is no asset, OptionError for unknown names, OutputError if `out` holds something else.
     """
-    found = {legal_name(p.stem if p.is_file() else p.name): p for p in find_assets(assets)}
-    unknown = sorted(set(only) - set(found))
+    paths = find_assets(assets)
+    asset_paths = dict(zip(legal_names([p.stem if p.is_file() else p.name for p in paths]), paths, strict=True))
+    unknown = sorted(set(only) - set(asset_paths))
     if unknown:
-        raise OptionError(f"--only: found {', '.join(unknown)}; valid are {', '.join(sorted(found))}")
-    names = [n for n in sorted(found) if not only or n in only]
+        raise OptionError(f"--only: found {', '.join(unknown)}; valid are {', '.join(sorted(asset_paths))}")
+    names = [n for n in sorted(asset_paths) if not only or n in only]
     settings = {"assets": str(assets), "protocol": PROTOCOL, "seed": str(seed), "tries": str(tries), "anymesh": __version__}
     results = ResultsFolder.open(Path(out), settings | {"only": ", ".join(sorted(only))}, force=force)
     rows: list[JointInteraction] = []
@@ -81,7 +82,7 @@ def evaluate_interaction(
         progress("interaction", name, number, len(names))
         path = results.folder / OBJECTS / f"{name}.json"
         if not path.is_file():
-            made = _evaluated(name, found[name], results.folder, seed, tries)
+            made = _evaluated(name, asset_paths[name], results.folder, seed, tries)
             write_whole(path, json.dumps([asdict(row) for row in made], indent=1).encode())
         rows += [_row(record) for record in json.loads(path.read_text(encoding="utf-8"))]
     write_whole(results.folder / REPORT, report_text(rows, settings).encode())
@@ -108,17 +109,17 @@ def _interaction(
     name: str, asset: Path, joint: str, faults: tuple[str, ...], folder: Path, seed: int, tries: int
 ) -> JointInteraction:
     try:
-        found = object_at_rest(asset, joint)
+        object_ = object_at_rest(asset, joint)
     except AnymeshError as error:
         return JointInteraction(name, joint, "", 0.0, 0.0, False, str(error), "", 0, faults)
-    made = move_joint(found, seed=seed, tries=tries)
+    made = move_joint(object_, seed=seed, tries=tries)
     if made.failure is not None and made.simulation is not None:
         _draw(made, name, joint, folder)
     reason = "" if made.failure is None else made.failure.value
     contact = "" if made.contact is None else made.contact.value
-    kind = "hinge" if found.thing.turns else "slide"
+    kind = "hinge" if object_.thing.turns else "slide"
     return JointInteraction(
-        name, joint, kind, found.goal.goal, round(made.share, 4), made.failure is None, reason, contact, made.tries, faults
+        name, joint, kind, object_.goal.goal, round(made.share, 4), made.failure is None, reason, contact, made.tries, faults
     )
 
 

@@ -30,7 +30,7 @@ def read_frames_json(folder: Path, depth_scale: float | None, scale: float | Non
     axes, unit = record.get("camera_axes", "opencv"), depth_scale or float(record.get("depth_scale", MILLIMETRES))
     if axes not in AXES:
         raise InputError(f"{folder / OURS}: camera_axes {axes!r}; valid are {', '.join(AXES)}")
-    found = []
+    frames = []
     for number, entry in enumerate(_entries(record, folder / OURS)):
         name = str(entry.get("name", number))
         color = within(folder, entry.get("color"))
@@ -38,8 +38,8 @@ def read_frames_json(folder: Path, depth_scale: float | None, scale: float | Non
         T = pose(entry.get("T_world_camera"), name, axes=axes, scale=scale or 1.0)
         depth, mask, sure = (within(folder, entry[k]) if k in entry else None for k in ("depth", "mask", "confidence"))
         reader = file_reader(color, depth, unit, mask, sure)
-        found.append((RgbdFrame(name, fitted(camera, picture_size(color), name), T, reader), depth))
-    return _frames(found, OURS, UPS.get(str(record.get("up", ""))), [])
+        frames.append((RgbdFrame(name, fitted(camera, picture_size(color), name), T, reader), depth))
+    return _frames(frames, OURS, UPS.get(str(record.get("up", ""))), [])
 
 
 def read_transforms_json(folder: Path, depth_scale: float | None, scale: float | None) -> Frames:
@@ -49,7 +49,7 @@ def read_transforms_json(folder: Path, depth_scale: float | None, scale: float |
     if model not in PERSPECTIVE:
         raise InputError(f"{folder / NERFSTUDIO}: camera_model {model}; valid are {', '.join(PERSPECTIVE)}")
     unit = depth_scale or float(record.get("depth_unit_scale_factor", MILLIMETRES))
-    warnings, found = set(), []
+    warnings, frames = set(), []
     for number, entry in enumerate(_entries(record, folder / NERFSTUDIO)):
         name = str(entry.get("file_path", number))
         color = within(folder, _with_suffix(folder, name))
@@ -59,20 +59,20 @@ def read_transforms_json(folder: Path, depth_scale: float | None, scale: float |
         T = pose(entry.get("transform_matrix"), name, axes="opengl", scale=scale or 1.0)
         depth, mask = (within(folder, entry[k]) if entry.get(k) else None for k in ("depth_file_path", "mask_path"))
         reader = file_reader(color, depth, unit, mask)
-        found.append((RgbdFrame(name, fitted(camera, picture_size(color), name), T, reader), depth))
+        frames.append((RgbdFrame(name, fitted(camera, picture_size(color), name), T, reader), depth))
     if "applied_scale" in record and scale is None:
         warnings.add(
             f"{NERFSTUDIO} was rescaled by {record['applied_scale']}; "
             f"--scale {1 / float(record['applied_scale']):.6g} undoes it"
         )
-    return _frames(found, NERFSTUDIO, UPS["z"], sorted(warnings - {""}))
+    return _frames(frames, NERFSTUDIO, UPS["z"], sorted(warnings - {""}))
 
 
 def _entries(record: dict[str, Any], path: Path) -> list[dict[str, Any]]:
-    found = record.get("frames")
-    if not isinstance(found, list) or not found or not all(isinstance(f, dict) for f in found):
-        raise InputError(f"{path}: `frames` must be a list of objects, found {type(found).__name__} of {len(found or ())}")
-    return found
+    entries = record.get("frames")
+    if not isinstance(entries, list) or not entries or not all(isinstance(f, dict) for f in entries):
+        raise InputError(f"{path}: `frames` must be a list of one or more objects, found {str(entries)[:80]}")
+    return entries
 
 
 def _with_suffix(folder: Path, name: str) -> str:
@@ -82,21 +82,21 @@ def _with_suffix(folder: Path, name: str) -> str:
 
 def _intrinsics(stated: dict[str, Any], size: tuple[int, int]) -> dict[str, Any]:
     """Add values that the format allows to omit: size, principal point, and focal lengths from the field of view."""
-    found = {"w": size[0], "h": size[1], **stated}
-    found = {"cx": found["w"] / 2, "cy": found["h"] / 2, **found}
+    intrinsics = {"w": size[0], "h": size[1], **stated}
+    intrinsics = {"cx": intrinsics["w"] / 2, "cy": intrinsics["h"] / 2, **intrinsics}
     for key, angle, side in (("fl_x", "camera_angle_x", "w"), ("fl_y", "camera_angle_y", "h")):
-        if key not in found and angle in found:
-            found[key] = found[side] / (2 * np.tan(float(found[angle]) / 2))
-    if "fl_x" in found:
-        found.setdefault("fl_y", found["fl_x"])
-    return found
+        if key not in intrinsics and angle in intrinsics:
+            intrinsics[key] = intrinsics[side] / (2 * np.tan(float(intrinsics[angle]) / 2))
+    if "fl_x" in intrinsics:
+        intrinsics.setdefault("fl_y", intrinsics["fl_x"])
+    return intrinsics
 
 
 def _frames(
-    found: list[tuple[RgbdFrame, Path | None]], layout: str, up: tuple[float, float, float] | None, warnings: list[str]
+    frames: list[tuple[RgbdFrame, Path | None]], layout: str, up: tuple[float, float, float] | None, warnings: list[str]
 ) -> Frames:
     """Return a recording; frames without depth are dropped if others have depth."""
-    deep = [frame for frame, depth in found if depth is not None]
-    if deep and len(deep) < len(found):
-        warnings.append(f"{len(found) - len(deep)} of {len(found)} frames have no depth and are left out")
-    return Frames(tuple(deep or [frame for frame, _ in found]), layout, bool(deep), up, tuple(warnings))
+    deep = [frame for frame, depth in frames if depth is not None]
+    if deep and len(deep) < len(frames):
+        warnings.append(f"{len(frames) - len(deep)} of {len(frames)} frames have no depth and are left out")
+    return Frames(tuple(deep or [frame for frame, _ in frames]), layout, bool(deep), up, tuple(warnings))

@@ -68,16 +68,17 @@ def read_record3d(path: Path, depth_scale: float | None, scale: float | None) ->
     if not numbers:
         raise InputError(f"{path}: found no rgbd/NUMBER.jpg; an export as .r3d has them")
     poses = metadata.get("poses")
-    if not isinstance(poses, list) or len(poses) <= max(numbers):
-        raise InputError(f"{path}: metadata has {len(poses or ())} poses for pictures up to number {max(numbers)}")
+    count = len(poses) if isinstance(poses, list) else 0
+    if count <= max(numbers):
+        raise InputError(f"{path}: metadata has {count} poses for pictures up to number {max(numbers)}")
     factor = depth_scale or 1.0
-    found = []
+    frames = []
     for n in deep or numbers:
         row = [float(v) for v in poses[n]]
         T = quaternion_pose(row[:4], [v * (scale or 1.0) for v in row[4:7]], str(n)) @ FLIPPED
-        found.append(RgbdFrame(str(n), _camera(metadata, n, path), T, _reader(home, names, n, metadata, factor)))
-    warnings = () if len(found) == len(numbers) else (f"{len(numbers) - len(found)} frames have no depth and are left out",)
-    return Frames(tuple(found), "Record3D", bool(deep), (0.0, 1.0, 0.0), warnings)
+        frames.append(RgbdFrame(str(n), _camera(metadata, n, path), T, _reader(home, names, n, metadata, factor)))
+    warnings = () if len(frames) == len(numbers) else (f"{len(numbers) - len(frames)} frames have no depth and are left out",)
+    return Frames(tuple(frames), "Record3D", bool(deep), (0.0, 1.0, 0.0), warnings)
 
 
 def _metadata(home: _Home, names: set[str]) -> dict[str, Any]:
@@ -85,12 +86,12 @@ def _metadata(home: _Home, names: set[str]) -> dict[str, Any]:
     if name is None:
         raise InputError(f"{home.path}: found no {' or '.join(METADATA)}; a recording of Record3D (.r3d) has one")
     try:
-        found = json.loads(home.content(name))
+        metadata = json.loads(home.content(name))
     except ValueError as error:
         raise InputError(f"{home.path}: {name} cannot be read as JSON: {error}") from None
-    if not isinstance(found, dict):
-        raise InputError(f"{home.path}: {name} must hold a JSON object, found {type(found).__name__}")
-    return found
+    if not isinstance(metadata, dict):
+        raise InputError(f"{home.path}: {name} must hold a JSON object, found {type(metadata).__name__}")
+    return metadata
 
 
 def _camera(metadata: dict[str, Any], number: int, path: Path) -> Pinhole:
