@@ -99,7 +99,7 @@ def test_an_answer_is_checked(confidence: float, reason: str) -> None:
         (replace(PULL, outward=-0.7), "slides along the surface"),
         (replace(ROUND, opening=1.0), "round outline (30 %), turns about its axis, free -180..57 deg"),
         (replace(EDGE, closing=0.5, hinge_support=0.5), "a edge, free -29..180 deg"),
-        (replace(EDGE, handle_side=0.9), "hinge opposite the handle, a edge, the parent runs along it, free -0..180 deg"),
+        (replace(EDGE, handle_side=0.9), "hinge opposite the handle, a edge, the parent runs along it, free 0..180 deg"),
     ],
 )
 def test_a_motion_is_described_by_its_kind_its_range_and_what_holds_it(c: Candidate, words: str) -> None:

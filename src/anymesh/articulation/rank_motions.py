@@ -88,7 +88,7 @@ def reason(part: PartFacts, c: Candidate) -> str:
         held = f"held on {round(4 * c.guided)} of 4 sides"
         way = "outwards" if c.outward > 0.7 else "inwards" if c.outward < -0.7 else "along the surface"
         return f"slides {way}, {held}, free for {100 * c.opening:.0f} % of the object's diagonal ({c.motion.source})"
-    free = f"free {-np.degrees(c.closing):.0f}..{np.degrees(c.opening):.0f} deg"
+    free = f"free {-round(np.degrees(c.closing))}..{round(np.degrees(c.opening))} deg"
     if c.role == "round":
         return f"round outline ({100 * part.roundness:.0f} %), turns about its axis, {free}"
     reasons = [c.motion.source]
