@@ -33,7 +33,7 @@ def options() -> argparse.Namespace:
     parser.add_argument("--most", type=int, help="files of each place, spread from the smallest to the largest; all by default")
     parser.add_argument("--sets", nargs="*", default=[], help="data sets as `anymesh eval` names them")
     parser.add_argument("--only", nargs="*", default=[], help="cases by name, run again")
-    parser.add_argument("--time-limit", type=float, default=120.0, help="[s] for one case")
+    parser.add_argument("--time-limit", type=float, default=120.0, help="[s] for one run of a case")
     parser.add_argument("--memory", type=float, default=6.0, help="[GiB] of resident memory for one case")
     parser.add_argument("--workers", type=int, default=2)
     parser.add_argument("--no-finish", action="store_true", help="leave out stage C")

@@ -126,7 +126,7 @@ def _kill(child: subprocess.Popen[bytes]) -> None:
 def run_all(
     cases: list[Case], folder: Path, *, workers: int, limit: float, memory: int, done: Callable[[Case, Result], None]
 ) -> None:
-    """Runs cases in their order. limit: [s] for each; memory: [bytes]; `done` gets each result, one at a time."""
+    """Runs cases in their order. limit: [s] for each run of one; memory: [bytes]; `done` gets each result, one at a time."""
     waiting: queue.SimpleQueue[Case] = queue.SimpleQueue()
     for case in cases:
         waiting.put(case)
@@ -141,7 +141,8 @@ def run_all(
                     case = waiting.get_nowait()
                 except queue.Empty:
                     return
-                result = worker.run({**case, "work": str(place / "case")}, case.get("limit", limit), stop)
+                seconds = limit * (2 if case.get("twice") else 1)
+                result = worker.run({**case, "work": str(place / "case")}, case.get("limit", seconds), stop)
                 if result:
                     with lock:
                         done(case, result)
