@@ -127,6 +127,23 @@ def test_a_folder_that_cannot_be_written_or_a_file_of_other_arrays_is_ignored(tm
     assert load_shapes(tmp_path, "old") is None
 
 
+@pytest.mark.parametrize("kept", [0, 100, -30])
+def test_a_damaged_file_is_ignored(tmp_path, kept: int) -> None:
+    save_shapes(tmp_path, "k", (Box(np.ones(3), np.eye(3), np.array([1, 2, 3.0])),))
+    stored = tmp_path / "k.npz"
+    stored.write_bytes(stored.read_bytes()[:kept])
+    assert load_shapes(tmp_path, "k") is None
+
+
+def test_objects_in_a_stored_file_are_refused(tmp_path) -> None:
+    """numpy stores objects as pickles, which run code when they are loaded."""
+    cylinder = {f"0_{n}": value for n, value in enumerate((np.zeros(3), np.eye(3), np.array(0.5), np.array(2.0)))}
+    np.savez(tmp_path / "plain.npz", arrays=np.array([4]), **cylinder)
+    np.savez(tmp_path / "pickled.npz", arrays=np.array([4], object), **cylinder)
+    assert [type(s) for s in load_shapes(tmp_path, "plain") or ()] == [Cylinder]
+    assert load_shapes(tmp_path, "pickled") is None
+
+
 def test_keys_depend_on_every_value_and_its_order() -> None:
     a, b = np.arange(3.0), np.arange(4.0)
     keys = {content_key(a, 1), content_key(b, 1), content_key(a, 2), content_key(1, a), content_key(a), content_key(a, 1, 0.5)}

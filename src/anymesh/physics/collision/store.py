@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import os
 from pathlib import Path
+from zipfile import BadZipFile
 
 import numpy as np
 
@@ -30,7 +31,7 @@ def load_shapes(folder: Path | None, key: str) -> tuple[Shape, ...] | None:
             return tuple(
                 _shape([archive[f"{k}_{n}"] for n in range(int(archive["arrays"][k]))]) for k in range(len(archive["arrays"]))
             )
-    except (OSError, ValueError, KeyError, EOFError):
+    except (OSError, ValueError, KeyError, EOFError, BadZipFile):
         return None
 
 
