@@ -27,7 +27,7 @@ def simplify(triangles: Float[np.ndarray, "F 3 3"], max_faces: int) -> Float[np.
     if len(triangles) <= max_faces:
         return triangles
     corners = triangles.reshape(-1, 3)
-    number = weld(corners)  # consecutive, in the order of the first corners
+    number = weld(corners)  # consecutive
     first = np.empty(int(number.max()) + 1, np.int64)
     first[number[::-1]] = np.arange(len(number))[::-1]
     center = corners.mean(0)  # fast-simplification uses float32, which is more precise near the origin

@@ -80,8 +80,8 @@ class WhichMarks:
     regions: the mark per pixel of each picture, -1 for none; faces: the face index per pixel; consistent: a region of the
     surface has the same number in all pictures; found: parts of earlier pictures; splittable: the answer may ask for marks to
     be split; inside: some pictures show the inside; again: descriptions of parts of an earlier answer that proved wrong;
-    face_mark: (F,) the mark of each face of the mesh, 0 for none, if marks are the same in all views, for answerers that select
-    marks on the surface itself.
+    face_mark: (F,) the mark of each face of the mesh, -1 for none, if marks are the same in all views, for answerers that
+    select marks on the surface itself.
     """
 
     pictures: Pictures
