@@ -1,0 +1,106 @@
+"""Draw the joints on which stage B does worst, by classifiers that were not trained on their kind; the parts are given.
+
+python benchmarks/motion_failures.py ROWS OUT.jpg SPEC@SOURCE ... [--most 50] [--of-kind 1]
+
+ROWS: as for `benchmarks/train_motions.py`; SPEC: the data sets of these rows. One model of the ensemble is trained, which takes
+5 minutes of processor time. A joint is worse the surer the classifier prefers a wrong motion to the right one. OUT.txt lists
+the joints.
+"""
+
+from __future__ import annotations
+
+import argparse
+import tempfile
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+from boosting import held_out, leave_kinds_out
+from jaxtyping import Float, UInt8
+from motion_rows import MotionRows, read_rows
+from PIL import Image
+from rows import nameless
+from train_motions import MODELS, CopyContext, called, right_side, samples_of
+
+from anymesh.articulation.estimate import estimate_joints, motion_questions
+from anymesh.config import Config
+from anymesh.evaluation.changes import changed
+from anymesh.evaluation.datasets.named import open_dataset
+from anymesh.evaluation.drawing import contact_sheet, draw_joint
+from anymesh.evaluation.protocols import prepared
+from anymesh.evaluation.score import score
+from anymesh.evaluation.worst import what_is_off
+from anymesh.segmentation.divide import object_shape
+
+COLUMNS, WIDTH = 5, 420  # of the sheet, and of a picture [px]
+
+
+@dataclass(frozen=True, eq=False)
+class Failure:
+    """A joint with a wrong motion. scores: (n,) log-odds of its motions; lead: of the chosen one over the best right one."""
+
+    rows: MotionRows
+    scores: Float[np.ndarray, " n"]
+    lead: float
+
+
+def failures(rows: Sequence[MotionRows]) -> list[Failure]:
+    """Return the joints whose right motion is offered and not chosen, the largest lead first."""
+    samples = samples_of(rows)
+    scores = held_out(samples, leave_kinds_out(samples), CopyContext(rows), MODELS[:1])
+    wrong = []
+    for r, s in zip(rows, scores, strict=True):
+        right = right_side(r)
+        if right.any() and not right[s.argmax()]:
+            wrong.append(Failure(r, s, float(s.max() - s[right].max())))
+    return sorted(wrong, key=lambda f: -f.lead)
+
+
+def picture(failure: Failure, spec: str) -> tuple[UInt8[np.ndarray, "H W 3"], str]:
+    """Draw the joint with the motion that the held-out classifier chooses, and describe its errors."""
+    rows, config = failure.rows, Config()
+    with tempfile.TemporaryDirectory() as place:
+        sample = nameless(prepared(open_dataset(spec).truth(rows.name, Path(place))))
+    sample = changed(rows.form, sample) if rows.form else sample
+    segmentation = sample.segmentation()
+    whole = object_shape(sample.mesh, config.seed, config.pieces, sample.labels)
+    motions = [
+        (i, over, around, replace(question, scores=failure.scores) if i == rows.number else question)
+        for i, over, around, question in motion_questions(whole, segmentation, config)
+    ]
+    joints = estimate_joints(segmentation, motions)
+    result = next(j for j in score(sample, segmentation, joints).joints if j.part == rows.part)
+    true = next(j for j in sample.truth.joints if j.child == rows.part)
+    predicted = next(j for j in joints if j.child == rows.part)
+    line = f"{called(rows)} {rows.name} / {rows.part}: {what_is_off(result)}"
+    return draw_joint(sample, segmentation, sample.joint(true), predicted, result), line
+
+
+def main(argv: Sequence[str] | None = None) -> None:
+    parser = argparse.ArgumentParser(description="A contact sheet of the worst joints.")
+    parser.add_argument("rows", type=Path)
+    parser.add_argument("out", type=Path)
+    parser.add_argument("specs", nargs="+", metavar="SPEC@SOURCE")
+    parser.add_argument("--most", type=int, default=50)
+    parser.add_argument("--of-kind", type=int, default=1, help="joints of one kind and form at most")
+    options = parser.parse_args(argv)
+    sets = {source or spec.split(":")[0]: spec for spec, _, source in (argument.partition("@") for argument in options.specs)}
+    taken: Counter[tuple[str, str]] = Counter()
+    pictures, lines = [], []
+    for failure in failures(read_rows(options.rows)):
+        rows = failure.rows
+        if rows.source not in sets or taken[called(rows), rows.kind] == options.of_kind or len(lines) == options.most:
+            continue
+        taken[called(rows), rows.kind] += 1
+        drawn, line = picture(failure, sets[rows.source])
+        pictures.append(drawn)
+        lines.append(f"{len(lines) + 1} {line}, lead {failure.lead:.1f}")
+        print(lines[-1], flush=True)
+    Image.fromarray(contact_sheet(pictures, COLUMNS, WIDTH)).save(options.out, quality=80)
+    options.out.with_suffix(".txt").write_text("\n".join(lines) + "\n", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
