@@ -107,6 +107,15 @@ def test_a_solid_inside_out_in_a_notch_is_not_a_cavity() -> None:
     assert mesh_surface(mesh_of(pieces[::-1])[0]).void.tolist() == [False, True, False]
 
 
+@pytest.mark.parametrize(("ends", "first"), [((1, 2), 0), ((-1, 0), 2)], ids=["above", "below"])
+def test_a_solid_inside_out_against_a_side_is_not_a_cavity(ends: tuple[int, int], first: int) -> None:
+    """Its first face lies in a side of the solid, which is from -1 to 2 along y."""
+    vertices, faces = inside_out((ends[0], 0.2, 0.2), (ends[1], 0.8, 0.8))
+    found = mesh_surface(mesh_of([box((0, -1, 0), (1, 2, 1)), (vertices, np.roll(faces, -first, axis=0))])[0])
+    assert found.void.tolist() == [False, False]
+    assert found.components.flip.tolist() == [False, True]
+
+
 def test_without_solids_or_without_cavities_there_are_none() -> None:
     assert mesh_surface(mesh_of([inside_out((0, 0, 0), (1, 1, 1))])[0]).void.tolist() == [False]
     assert (

@@ -110,3 +110,12 @@ def test_solid_and_inside_out_do_not_depend_on_the_place(seed):
     assert found.flip.tolist() == [False, True, False]
     mirrored = components(mesh.vertices * [-1, 1, 1], mesh.faces)
     assert mirrored.flip.tolist() == [True, False, False]
+
+
+@pytest.mark.parametrize("place", [(5e5, 4e6, 100), (1e6, 2e6, -3e6)])
+def test_orientation_of_small_solids_far_from_the_origin(place: tuple[float, float, float]) -> None:
+    """Boxes of 0.3 m in the coordinates of a map."""
+    mesh, _ = mesh_of([(CUBE, FACES), (CUBE + 2, REVERSED), (CUBE + 4, FACES), (CUBE + 6, REVERSED)])
+    found = components(0.3 * mesh.vertices + np.array(place), mesh.faces)
+    assert found.solid.all()
+    assert found.flip.tolist() == [False, True, False, True]

@@ -16,7 +16,7 @@ from anymesh.physics.collision.clear import ComponentShapes, ContactScene, Fault
 from anymesh.physics.collision.contacts_ import ContactBench
 from anymesh.physics.collision.crossing import LinkSurface
 from anymesh.physics.collision.decompose import Component, Method, Resolution, _Around, split_components
-from anymesh.physics.collision.decomposer import Decomposer
+from anymesh.physics.collision.decomposer import Decomposer, Divided
 from anymesh.physics.collision.settings import CollisionConfig
 from anymesh.physics.collision.solids_ import _pieces
 from anymesh.physics.collision.split import patch_of
@@ -47,6 +47,7 @@ def around() -> _Around:
     return _Around(np.eye(4), np.zeros(3), np.ones(3))
 
 
+POOL = FakePool()
 IDENTITY = {
     "component": lambda: split_components(solid((0, 0, 0), (1, 1, 1)), 0.0)[0],
     "hull of a component": around,
@@ -58,8 +59,8 @@ IDENTITY = {
     "contact": contact,
     "patch": lambda: patch_of(solid((0, 0, 0), (1, 1, 1)), 0.01),
     "piece of a solid": solid_piece,
-    "decomposer": lambda: Decomposer(FakePool(), None, 5.0),
-    "divided": lambda: Decomposer(FakePool(), None, 5.0).divide([bracket()], [FINE])[0],
+    "decomposer": lambda: Decomposer(POOL, None, 5.0),
+    "divided": lambda: Divided(()),
 }
 
 

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 from test_decomposer import bracket
@@ -106,6 +109,16 @@ def test_the_same_solid_gives_the_same_hulls(solid, coarse):
 def test_an_open_surface_gives_no_pieces():
     vertices, faces = box_with_slots()
     assert decompose_solid(vertices, faces[1:], gap=0.05, wall=0.005, max_pieces=24) == []
+
+
+def test_without_manifold3d_the_module_loads_and_the_division_says_what_is_missing() -> None:
+    program = (
+        "import sys; sys.modules['manifold3d'] = None; import numpy as np;"
+        "from anymesh.physics.collision.solids_ import decompose_solid;"
+        "decompose_solid(np.eye(3), np.array([[0, 1, 2]]), gap=1.0, wall=1.0, max_pieces=1)"
+    )
+    run = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
+    assert run.stderr.splitlines()[-1].startswith("anymesh.errors.MissingExtraError: manifold3d is missing")
 
 
 def random_solid(seed: int) -> tuple[np.ndarray, np.ndarray]:

@@ -37,9 +37,9 @@ def keyboard() -> tuple[VisualPrompts, np.ndarray]:
 
 def pictures(pieces: list) -> list:
     mesh, piece = mesh_of(pieces)
-    studio = prompts_of(mesh) if len(pieces) < 50 else keyboard()[0]
-    seen = studio.views
-    return choose_pictures(Marks(piece + 1), range(1, len(pieces) + 1), seen, studio.names(len(seen)), studio.view)
+    prompts = prompts_of(mesh) if len(pieces) < 50 else keyboard()[0]
+    seen = prompts.views
+    return choose_pictures(Marks(piece + 1), range(1, len(pieces) + 1), seen, prompts.names(len(seen)), prompts.view)
 
 
 def test_a_cube_with_a_knob_behind_and_one_on_top_needs_few_views() -> None:
@@ -78,9 +78,9 @@ class Points:
 
 def test_many_pictures_are_asked_about_in_several_calls_and_no_mark_twice(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(ask_marks, "MAX_PICTURES", 1)
-    (studio, piece), who = keyboard(), Points()
-    asked = MarkQuestioner(who, studio, ("key",), "keyboard", Config(views=VIEWS))
-    found = ask_exact(asked, Marks(piece + 1), studio.views, studio.names(11), lambda marks, some: marks)
+    (prompts, piece), who = keyboard(), Points()
+    asked = MarkQuestioner(who, prompts, ("key",), "keyboard", Config(views=VIEWS))
+    found = ask_exact(asked, Marks(piece + 1), prompts.views, prompts.names(11), lambda marks, some: marks)
     assert {p.marks for p in found.parts} == {(n,) for n in range(2, 66)}
     assert len(who.asked) > 1
     drawn = [drawn_in(q.regions) for q in who.asked]
@@ -91,15 +91,15 @@ def test_many_pictures_are_asked_about_in_several_calls_and_no_mark_twice(monkey
 
 def test_a_split_is_asked_about_once_with_the_new_marks_alone() -> None:
     mesh, piece = mesh_of([BODY, box((0.4, -0.1, 0.4), (0.6, 0, 0.6)), box((0.7, -0.1, 0.7), (0.9, 0, 0.9))])
-    studio, who = prompts_of(mesh), Points(split=(2,))
+    prompts, who = prompts_of(mesh), Points(split=(2,))
     right = mesh.triangles.mean(1)[:, 0] > 0.5
 
     def split(marks: Marks, some) -> Marks:
         assert tuple(some) == (2,)
         return Marks(np.where(marks.face_mark == 2, 4 + right, marks.face_mark))
 
-    asked = MarkQuestioner(who, studio, ("key",), None, Config(views=VIEWS))
-    found = ask_exact(asked, Marks(piece + 1), studio.views, studio.names(11), split)
+    asked = MarkQuestioner(who, prompts, ("key",), None, Config(views=VIEWS))
+    found = ask_exact(asked, Marks(piece + 1), prompts.views, prompts.names(11), split)
     first, second = who.asked
     assert (first.splittable, second.splittable) == (True, False)
     assert drawn_in(second.regions) == {4, 5}
@@ -108,7 +108,7 @@ def test_a_split_is_asked_about_once_with_the_new_marks_alone() -> None:
 
 def test_views_of_masks_are_numbered_as_the_pictures_are() -> None:
     mesh, piece = mesh_of([BODY, box((0.4, -0.1, 0.4), (0.6, 0, 0.6))])
-    studio, asked = prompts_of(mesh), []
+    prompts, asked = prompts_of(mesh), []
 
     class Two(Points):
         def ask(self, question):
@@ -117,21 +117,38 @@ def test_views_of_masks_are_numbered_as_the_pictures_are() -> None:
                 return {"key": (1, 7)}
             return MarksAnswer((MarkedPart("key", 1, 1, (2,)),))
 
-    labels = [np.where(v.face >= 0, piece[np.maximum(v.face, 0)] + 1, -1) for v in studio.views]
+    labels = [np.where(v.face >= 0, piece[np.maximum(v.face, 0)] + 1, -1) for v in prompts.views]
     proposals = [Proposal(k, label, (1, 2)) for k, label in enumerate(labels)]
-    names = studio.names(11, 0.0)
-    found = ask_masks(MarkQuestioner(Two(), studio, ("key",), None, Config(views=VIEWS)), proposals, studio.views, names)
+    names = prompts.names(11, 0.0)
+    found = ask_masks(MarkQuestioner(Two(), prompts, ("key",), None, Config(views=VIEWS)), proposals, prompts.views, names)
     assert found == (MarkedPart("key", 1, 7, (2,)),)  # the second picture is the eighth view
     captions = [p.caption for p in asked[1].pictures]
     assert captions == [f"picture 1: {names[1]}", f"picture 2: {names[7]}"]
     assert [p.caption.split(":")[0] for p in asked[0].pictures] == [f"picture {k}" for k in range(1, 12)]
 
 
+def test_regions_too_small_for_a_mark_are_none_in_a_question() -> None:
+    """The question and its pictures know -1 as the only number without a mark."""
+    mesh, piece = mesh_of([BODY, box((0.4, -0.1, 0.4), (0.6, 0, 0.6))])
+    prompts, asked = prompts_of(mesh), []
+
+    class Silent(Points):
+        def ask(self, question):
+            asked.append(question)
+            return {"key": (0,)} if isinstance(question, WhichViews) else MarksAnswer(())
+
+    label = np.where(prompts.views[0].face >= 0, piece[np.maximum(prompts.views[0].face, 0)] + 1, -1)
+    assert np.unique(label).tolist() == [-1, 1, 2]
+    asking = MarkQuestioner(Silent(), prompts, ("key",), None, Config(views=VIEWS))
+    assert ask_masks(asking, [Proposal(0, label, (2,))], prompts.views[:1], ["front"]) == ()
+    assert np.unique(asked[1].regions[0]).tolist() == [-1, 2]
+
+
 def test_more_pictures_of_masks_than_fit_are_asked_about_in_several_calls(monkeypatch: pytest.MonkeyPatch) -> None:
     """No view is left out, and what different calls number alike may be different parts."""
     monkeypatch.setattr(ask_marks, "MAX_PICTURES", 4)
     mesh, piece = mesh_of([BODY, box((0.4, -0.1, 0.4), (0.6, 0, 0.6))])
-    studio = prompts_of(mesh)
+    prompts = prompts_of(mesh)
 
     class All(Points):
         def ask(self, question):
@@ -139,8 +156,8 @@ def test_more_pictures_of_masks_than_fit_are_asked_about_in_several_calls(monkey
                 return {"key": tuple(range(0, 11, 2))}
             return MarksAnswer(tuple(MarkedPart("key", 1, v, (2,)) for v in range(len(question.regions))))
 
-    labels = [np.where(v.face >= 0, piece[np.maximum(v.face, 0)] + 1, -1) for v in studio.views]
+    labels = [np.where(v.face >= 0, piece[np.maximum(v.face, 0)] + 1, -1) for v in prompts.views]
     proposals = [Proposal(k, label, (1, 2)) for k, label in enumerate(labels)]
-    asked = MarkQuestioner(All(), studio, ("key",), None, Config(views=VIEWS))
-    found = ask_masks(asked, proposals, studio.views, studio.names(11))
+    asked = MarkQuestioner(All(), prompts, ("key",), None, Config(views=VIEWS))
+    found = ask_masks(asked, proposals, prompts.views, prompts.names(11))
     assert [(p.view, p.instance) for p in found] == [(0, 1), (2, 1), (4, 1), (6, 1), (8, 2), (10, 2)]
