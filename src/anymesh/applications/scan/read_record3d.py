@@ -67,10 +67,10 @@ def read_record3d(path: Path, depth_scale: float | None, scale: float | None) ->
     deep = [n for n in numbers if f"rgbd/{n}.depth" in names]
     if not numbers:
         raise InputError(f"{path}: found no rgbd/NUMBER.jpg; an export as .r3d has them")
-    poses = metadata.get("poses")
-    count = len(poses) if isinstance(poses, list) else 0
-    if count <= max(numbers):
-        raise InputError(f"{path}: metadata has {count} poses for pictures up to number {max(numbers)}")
+    stated = metadata.get("poses")
+    poses = stated if isinstance(stated, list) else []
+    if len(poses) <= max(numbers):
+        raise InputError(f"{path}: metadata has {len(poses)} poses for pictures up to number {max(numbers)}")
     factor = depth_scale or 1.0
     frames = []
     for n in deep or numbers:
