@@ -29,6 +29,10 @@ def fail() -> None:
     raise ValueError("three legs")
 
 
+def give_up() -> None:
+    raise TimeoutError("more than 9 faces")
+
+
 def chatter() -> str:
     os.write(1, b"native noise on standard output")
     return "done"

@@ -46,7 +46,8 @@ def test_results_come_back_from_a_warm_child(pool):
     [
         ("crash", {}, Failure.CRASH, f"signal {int(signal.SIGSEGV)}"),
         ("eat", {"size": 8 << 30}, Failure.MEMORY, "allocate"),
-        ("fail", {}, Failure.ERROR, "ValueError: three legs"),
+        ("fail", {}, Failure.ERROR, "error: ValueError: three legs"),
+        ("give_up", {}, Failure.TIME, "time limit: more than 9 faces"),
     ],
 )
 def test_a_failure_is_told_and_the_next_call_works(pool, function, arguments, failure, told):

@@ -13,6 +13,7 @@ from anymesh.physics.collision.convex import hull_of, volume
 from anymesh.physics.collision.solids_ import (
     KERF,
     TOUCH,
+    _Budget,
     _candidates,
     _cut,
     _gap,
@@ -20,6 +21,7 @@ from anymesh.physics.collision.solids_ import (
     _merge_pieces,
     _pieces,
     _SolidPiece,
+    decompose_solid,
 )
 
 X, Y, Z = np.eye(3)
@@ -70,17 +72,41 @@ def test_a_solid_is_cut_into_the_most_pieces_allowed(most: int) -> None:
     size = float(np.linalg.norm(np.ptp(vertices, axis=0)))
     solid = _manifold(vertices / size, faces)
     assert solid is not None
-    found = _cut(solid, concave_planes((vertices / size)[faces], 32), 1e-4, 0.002, most)
+    found = _cut(solid, concave_planes((vertices / size)[faces], 32), 1e-4, 0.002, most, _Budget())
     assert len(found) == most
     assert sum(p.solid.volume() for p in found if p.solid) == pytest.approx(solid.volume(), rel=1e-3)
 
 
 def test_a_solid_within_the_gap_is_not_cut() -> None:
     planes = concave_planes(_pieces(bracket())[0].triangles, 32)
-    assert len(_cut(bracket(), planes, 0.6, 0.01, 20)) == 1
-    two = _cut(bracket(), planes, 0.01, 0.01, 20)
+    assert len(_cut(bracket(), planes, 0.6, 0.01, 20, _Budget())) == 1
+    two = _cut(bracket(), planes, 0.01, 0.01, 20, _Budget())
     assert sorted(round(volume(p.hull), 3) for p in two) == [0.08, 0.1]
     assert all(p.gap == 0 for p in two)
+
+
+def test_cuts_and_merges_have_a_budget_of_work() -> None:
+    """A cut of a piece takes 3,000 faces and two per face of the piece, a merge those of both pieces."""
+    planes = concave_planes(_pieces(bracket())[0].triangles, 32)
+    faces = len(_pieces(bracket())[0].triangles)
+    cut = 3000 + 2 * faces
+    two = _cut(bracket(), planes, 0.01, 0.01, 20, _Budget(cut))
+    assert len(two) == 2
+    with pytest.raises(TimeoutError, match=f"more than {cut - 1:,} faces"):
+        _cut(bracket(), planes, 0.01, 0.01, 20, _Budget(cut - 1))
+    both = sum(len(p.triangles) for p in two)
+    assert len(_merge_pieces(two, 9.0, 1, _Budget(both))) == 1
+    with pytest.raises(TimeoutError):
+        _merge_pieces(two, 9.0, 1, _Budget(both - 1))
+
+
+def test_a_solid_that_takes_too_much_work_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    vertices, faces = ring(0.7, 1.0, 0.5)
+    limits = {"gap": 0.02, "wall": 0.002, "max_pieces": 24}
+    assert len(decompose_solid(vertices, faces, **limits)) > 1
+    monkeypatch.setattr(solids_, "FACES_PER_CUT", solids_.MAX_WORK)
+    with pytest.raises(TimeoutError):
+        decompose_solid(vertices, faces, **limits)
 
 
 @pytest.mark.parametrize(("smooth", "few"), [(False, 16), (True, 8)])
@@ -97,7 +123,7 @@ def test_planes_through_a_piece_are_tried_and_others_if_there_are_none(smooth: b
 
 
 def merged(*corners, gap: float = 0.01, most: int = 1) -> list[float]:
-    found = _merge_pieces([piece(*c) for c in corners], gap, most)
+    found = _merge_pieces([piece(*c) for c in corners], gap, most, _Budget())
     return sorted(round(volume(p.hull), 6) for p in found)
 
 

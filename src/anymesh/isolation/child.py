@@ -74,11 +74,13 @@ def end_with_parent(lifeline: int) -> None:
 
 
 def call(module: str, function: str, arguments: dict[str, Any]) -> tuple[str, Any]:
-    """Run one call; return ("done", its result), ("memory", why) or ("error", why)."""
+    """Run one call; return ("done", its result), ("memory", why), ("time", why) or ("error", why)."""
     try:
         return "done", getattr(import_module(module), function)(**arguments)
     except MemoryError as error:
         return "memory", str(error)
+    except TimeoutError as error:  # a limit of the called function
+        return "time", str(error)
     except Exception as error:
         return "error", f"{type(error).__name__}: {error}"
 

@@ -32,6 +32,9 @@ class Failure(StrEnum):
     ERROR = "error"  # the function raised
 
 
+FAILURES = {"memory": Failure.MEMORY, "time": Failure.TIME, "error": Failure.ERROR}  # by the kind of a child's answer
+
+
 class ChildError(Exception):
     """A call that gave no result. The message states the reason."""
 
@@ -89,7 +92,7 @@ class ChildPool:
                 self._end(child)
             self._give_back(kept)
         if kind != "done":
-            raise ChildError(Failure.MEMORY if kind == "memory" else Failure.ERROR, result)
+            raise ChildError(FAILURES[kind], result)
         return result
 
     def warm(self, *modules: str) -> None:

@@ -18,5 +18,5 @@ class CollisionConfig:
     crossing: float = 0.003  # penetration from which surfaces really collide; sweeps tolerate the same
     poses: int = 17  # poses of each joint over its range
     rounds: int = 10  # rounds of trimming and refinement
-    seconds: float = 5.0  # [s] processor time for one division of one component; then the next method is tried
+    seconds: float = 20.0  # [s] processor time for one division of one component; then the next method is tried
     most_components: int = 150  # components per link with separate shapes; the smaller ones beyond share hulls

@@ -35,6 +35,21 @@ CONVEX = 1e-6  # relative difference between the volumes of a solid and its hull
 KERF = 2e-5  # half the width of a cut, relative to the diagonal; a cut without width leaves thin layers where it meets a face
 FEW = 12  # faces of a hull whose centers are tested first
 TOUCH = 3 * KERF  # distance between the bounds of touching pieces, relative to the diagonal
+MAX_WORK = 1_500_000  # faces of the pieces that are cut or compared with their hulls, plus FACES_PER_CUT for each cut
+FACES_PER_CUT = 3000  # faces that take as long to compare with a hull as a cut takes
+
+
+class _Budget:
+    """Limit of the work for one solid. Unlike a limit of time, it gives the same result on any machine."""
+
+    def __init__(self, work: int = MAX_WORK) -> None:
+        self._work = self._left = work
+
+    def spend(self, work: int) -> None:
+        """Subtract some work; raise TimeoutError if none is left."""
+        self._left -= work
+        if self._left < 0:
+            raise TimeoutError(f"cutting takes more than {self._work:,} faces")
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,7 +74,7 @@ def decompose_solid(
 
     gap: maximum distance of a hull from the surface [m]; wall: minimum spacing of cutting planes [m].
 
-    Raise MissingExtraError without manifold3d.
+    Raise TimeoutError if that takes too much work, MissingExtraError without manifold3d.
     """
     low = vertices.min(0)
     size = float(np.linalg.norm(np.ptp(vertices, axis=0)))
@@ -67,8 +82,9 @@ def decompose_solid(
     solid = _manifold(unit, faces)
     if solid is None:
         return []
-    pieces = _cut(solid, concave_planes(unit[faces], FACETED_PLANES), gap / size, wall / size, SPLIT_RATIO * max_pieces)
-    merged = _merge_pieces(pieces, gap / size, max_pieces)
+    budget, planes = _Budget(), concave_planes(unit[faces], FACETED_PLANES)
+    pieces = _cut(solid, planes, gap / size, wall / size, SPLIT_RATIO * max_pieces, budget)
+    merged = _merge_pieces(pieces, gap / size, max_pieces, budget)
     return [Hull(p.hull.vertices * size + low, p.hull.faces) for p in merged]
 
 
@@ -81,7 +97,7 @@ def _manifold(vertices: np.ndarray, faces: np.ndarray) -> Manifold | None:
     return solid if solid.status() == Error.NoError and solid.volume() > 0 else None
 
 
-def _cut(solid: Manifold, planes: Sequence[Plane], gap: float, wall: float, most: int) -> list[_SolidPiece]:
+def _cut(solid: Manifold, planes: Sequence[Plane], gap: float, wall: float, most: int, budget: _Budget) -> list[_SolidPiece]:
     """Cut the piece with the largest gap until all are within `gap` or there are `most` pieces."""
     done: list[_SolidPiece] = []
     waiting = [(-piece.gap, k, piece) for k, piece in enumerate(_pieces(solid))]
@@ -90,7 +106,7 @@ def _cut(solid: Manifold, planes: Sequence[Plane], gap: float, wall: float, most
     while waiting:
         piece = heapq.heappop(waiting)[2]
         few = len(done) + len(waiting) + 1 < most
-        halves = _halves(piece, planes, wall) if piece.gap > gap and few else []
+        halves = _halves(piece, planes, wall, budget) if piece.gap > gap and few else []
         if not halves:
             done.append(piece)
         for half in halves:
@@ -126,11 +142,12 @@ def _gap(hull: Hull, triangles: np.ndarray, limit: float = np.inf) -> float:
     return float(distance_to_triangles(points, triangles).max())
 
 
-def _halves(piece: _SolidPiece, planes: Sequence[Plane], wall: float) -> list[_SolidPiece]:
+def _halves(piece: _SolidPiece, planes: Sequence[Plane], wall: float, budget: _Budget) -> list[_SolidPiece]:
     """Return the pieces on both sides of the plane that leaves the least volume in their hulls; empty if no plane divides."""
     assert piece.solid is not None  # only merged pieces have none
     candidates = list(_candidates(piece, planes, wall))
     for k in least_volume_first(outline(piece.triangles), candidates):
+        budget.spend(FACES_PER_CUT + 2 * len(piece.triangles))
         normal, offset = candidates[k]
         above = piece.solid.trim_by_plane(tuple(normal.tolist()), offset + KERF)
         below = piece.solid.trim_by_plane(tuple((-normal).tolist()), KERF - offset)
@@ -156,7 +173,7 @@ def _candidates(piece: _SolidPiece, planes: Sequence[Plane], wall: float) -> Ite
         yield from cutting_planes(piece.triangles, wall)
 
 
-def _merge_pieces(pieces: Sequence[_SolidPiece], gap: float, most: int) -> list[_SolidPiece]:
+def _merge_pieces(pieces: Sequence[_SolidPiece], gap: float, most: int, budget: _Budget) -> list[_SolidPiece]:
     """Merge touching pieces while their common hull is within `gap` of them, or there are more than `most`.
 
     Pairs whose common hull adds the least volume are merged first.
@@ -174,6 +191,7 @@ def _merge_pieces(pieces: Sequence[_SolidPiece], gap: float, most: int) -> list[
         both = _joined(kept[a], kept[b], gap) if a in kept and b in kept else None
         if both is None:
             continue
+        budget.spend(len(both.triangles))
         if both.gap > gap and not forced:
             heapq.heappush(refused, pair)
             continue

@@ -11,7 +11,7 @@ import numpy as np
 
 from anymesh.types import Box, Cylinder, Hull, Shape
 
-VERSION = b"8"  # change it if the same surface would give other shapes
+VERSION = b"9"  # change it if the same surface would give other shapes
 
 
 def content_key(*values: np.ndarray | float | int) -> str:
