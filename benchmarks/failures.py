@@ -9,10 +9,7 @@ OUT.txt lists the objects.
 
 from __future__ import annotations
 
-import argparse
 import io
-import tempfile
-from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -22,14 +19,12 @@ from jaxtyping import Int
 from part_rows import PartRows, read_rows
 from part_scores import RIGHT, Counts, overlap_of, owners, scored
 from PIL import Image
-from rows import nameless
-from train_parts import called, read_scores
+from rows import called
+from train_parts import read_scores
+from worst_rows import sheet_options, with_objects, write_sheet
 
 from anymesh.config import Config
-from anymesh.evaluation.changes import changed
-from anymesh.evaluation.datasets.named import open_dataset
 from anymesh.evaluation.ground_truth import EvalSample
-from anymesh.evaluation.protocols import prepared
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.rendering.encode import encode
 from anymesh.rendering.render import render
@@ -105,30 +100,14 @@ def picture(mesh: Mesh, state: Int[np.ndarray, " F"], caption: str) -> Picture:
 
 
 def main(argv: Sequence[str] | None = None) -> None:
-    parser = argparse.ArgumentParser(description="A contact sheet of the worst objects.")
-    parser.add_argument("rows", type=Path)
-    parser.add_argument("out", type=Path)
-    parser.add_argument("specs", nargs="+", metavar="SPEC@SOURCE")
-    parser.add_argument("--most", type=int, default=50)
-    parser.add_argument("--of-kind", type=int, default=2, help="objects of one kind and form at most")
-    options = parser.parse_args(argv)
-    sets = {source or spec.split(":")[0]: spec for spec, _, source in (argument.partition("@") for argument in options.specs)}
-    taken: Counter[tuple[str, str]] = Counter()
+    options = sheet_options("A contact sheet of the worst objects.", 2, argv)
     cards = []
-    for failure in failures(options.rows):
-        rows = failure.rows
-        if rows.source not in sets or taken[called(rows), rows.kind] == options.of_kind or len(cards) == options.most:
-            continue
-        taken[called(rows), rows.kind] += 1
-        with tempfile.TemporaryDirectory() as place:
-            sample = nameless(prepared(open_dataset(sets[rows.source]).truth(rows.name, Path(place))))
-        sample = changed(rows.form, sample) if rows.form else sample
+    for failure, sample in with_objects(failures(options.rows), options):
         plain = replace(sample.mesh, corner_normal=None)
         cards.append(picture(plain, states(failure, sample), failure.caption))
         print(failure.caption, flush=True)
     with Image.open(io.BytesIO(question_sheet(cards).png)) as sheet:
-        sheet.convert("RGB").save(options.out, quality=80)
-    options.out.with_suffix(".txt").write_text("\n".join(c.caption for c in cards) + "\n", encoding="utf-8")
+        write_sheet(options.out, np.asarray(sheet.convert("RGB")), [c.caption for c in cards])
 
 
 if __name__ == "__main__":

@@ -9,27 +9,21 @@ the joints.
 
 from __future__ import annotations
 
-import argparse
-import tempfile
-from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from pathlib import Path
 
 import numpy as np
 from boosting import held_out, leave_kinds_out
 from jaxtyping import Float, UInt8
 from motion_rows import MotionRows, read_rows
-from PIL import Image
-from rows import nameless
-from train_motions import MODELS, CopyContext, called, right_side, samples_of
+from rows import called
+from train_motions import MODELS, CopyContext, right_side, samples_of
+from worst_rows import sheet_options, with_objects, write_sheet
 
 from anymesh.articulation.estimate import estimate_joints, motion_questions
 from anymesh.config import Config
-from anymesh.evaluation.changes import changed
-from anymesh.evaluation.datasets.named import open_dataset
 from anymesh.evaluation.drawing import contact_sheet, draw_joint
-from anymesh.evaluation.protocols import prepared
+from anymesh.evaluation.ground_truth import EvalSample
 from anymesh.evaluation.score import score
 from anymesh.evaluation.worst import what_is_off
 from anymesh.segmentation.divide import object_shape
@@ -58,12 +52,9 @@ def failures(rows: Sequence[MotionRows]) -> list[Failure]:
     return sorted(wrong, key=lambda f: -f.lead)
 
 
-def picture(failure: Failure, spec: str) -> tuple[UInt8[np.ndarray, "H W 3"], str]:
+def picture(failure: Failure, sample: EvalSample) -> tuple[UInt8[np.ndarray, "H W 3"], str]:
     """Draw the joint with the motion that the held-out classifier chooses, and describe its errors."""
     rows, config = failure.rows, Config()
-    with tempfile.TemporaryDirectory() as place:
-        sample = nameless(prepared(open_dataset(spec).truth(rows.name, Path(place))))
-    sample = changed(rows.form, sample) if rows.form else sample
     segmentation = sample.segmentation()
     whole = object_shape(sample.mesh, config.seed, config.pieces, sample.labels)
     motions = [
@@ -79,27 +70,14 @@ def picture(failure: Failure, spec: str) -> tuple[UInt8[np.ndarray, "H W 3"], st
 
 
 def main(argv: Sequence[str] | None = None) -> None:
-    parser = argparse.ArgumentParser(description="A contact sheet of the worst joints.")
-    parser.add_argument("rows", type=Path)
-    parser.add_argument("out", type=Path)
-    parser.add_argument("specs", nargs="+", metavar="SPEC@SOURCE")
-    parser.add_argument("--most", type=int, default=50)
-    parser.add_argument("--of-kind", type=int, default=1, help="joints of one kind and form at most")
-    options = parser.parse_args(argv)
-    sets = {source or spec.split(":")[0]: spec for spec, _, source in (argument.partition("@") for argument in options.specs)}
-    taken: Counter[tuple[str, str]] = Counter()
+    options = sheet_options("A contact sheet of the worst joints.", 1, argv)
     pictures, lines = [], []
-    for failure in failures(read_rows(options.rows)):
-        rows = failure.rows
-        if rows.source not in sets or taken[called(rows), rows.kind] == options.of_kind or len(lines) == options.most:
-            continue
-        taken[called(rows), rows.kind] += 1
-        drawn, line = picture(failure, sets[rows.source])
+    for failure, sample in with_objects(failures(read_rows(options.rows)), options):
+        drawn, line = picture(failure, sample)
         pictures.append(drawn)
         lines.append(f"{len(lines) + 1} {line}, lead {failure.lead:.1f}")
         print(lines[-1], flush=True)
-    Image.fromarray(contact_sheet(pictures, COLUMNS, WIDTH)).save(options.out, quality=80)
-    options.out.with_suffix(".txt").write_text("\n".join(lines) + "\n", encoding="utf-8")
+    write_sheet(options.out, contact_sheet(pictures, COLUMNS, WIDTH), lines)
 
 
 if __name__ == "__main__":

@@ -8,7 +8,6 @@ SPEC: a data set as for `anymesh eval`, with @NAME to name the source otherwise.
 from __future__ import annotations
 
 import json
-import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,18 +15,15 @@ from typing import Any
 
 import numpy as np
 from jaxtyping import Bool, Float, Float32, Int
-from rows import collect_all, kind_of, nameless
+from rows import collect_all, kind_of
 
 from anymesh.articulation.estimate import PartMotions, motion_questions
 from anymesh.articulation.motion_features import motion_features
 from anymesh.articulation.rank_motions import same_joints
 from anymesh.articulation.repeated_parts import in_a_row, same_size
 from anymesh.config import Config
-from anymesh.evaluation.changes import changed
-from anymesh.evaluation.datasets.named import open_dataset
 from anymesh.evaluation.ground_truth import EvalSample, TrueJoint
 from anymesh.evaluation.metrics import angle_error, distance_at, opening_side, opens_both_ways
-from anymesh.evaluation.protocols import prepared
 from anymesh.geometry.patches import ObjectShape
 from anymesh.segmentation.divide import object_shape
 from anymesh.types import JointType, Motion
@@ -141,19 +137,13 @@ def read_rows(folder: Path) -> list[MotionRows]:
     return found
 
 
-def collect(spec: str, source: str, name: str, change: str, folder: str) -> str:
-    """Write the rows of one object unless they are there; return a line that says so."""
-    path = Path(folder) / f"{source}{'+' + change if change else ''}--{name}.npz"
-    if path.exists():
-        return ""
-    with tempfile.TemporaryDirectory() as place:
-        sample = nameless(prepared(open_dataset(spec).truth(name, Path(place))))
-        save(path, rows_of(changed(change, sample) if change else sample, source, change))
-    return f"{source} {name} {change}"
+def write_rows(path: Path, sample: EvalSample, source: str, form: str) -> None:
+    """Write the rows of one object."""
+    save(path, rows_of(sample, source, form))
 
 
 def main(argv: Sequence[str] | None = None) -> None:
-    collect_all("Candidate motions of parts, with their features.", collect, argv)
+    collect_all("Candidate motions of parts, with their features.", write_rows, argv)
 
 
 if __name__ == "__main__":

@@ -8,7 +8,6 @@ SPEC: a data set as for `anymesh eval`, with @NAME to name the source otherwise.
 from __future__ import annotations
 
 import json
-import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,13 +15,10 @@ from typing import Any
 
 import numpy as np
 from jaxtyping import Bool, Float, Float32
-from rows import collect_all, kind_of, nameless
+from rows import collect_all, kind_of
 
 from anymesh.config import Config
-from anymesh.evaluation.changes import changed
-from anymesh.evaluation.datasets.named import open_dataset
 from anymesh.evaluation.ground_truth import EvalSample
-from anymesh.evaluation.protocols import prepared
 from anymesh.segmentation.contacts import find_contacts
 from anymesh.segmentation.divide import object_shape
 from anymesh.segmentation.part_features import FeatureScene, part_context_of, part_features
@@ -112,19 +108,13 @@ def _line(k: int, parent: dict[int, int]) -> list[int]:
     return line
 
 
-def collect(spec: str, source: str, name: str, change: str, folder: str) -> str:
-    """Write the rows of one object unless they are there; return a line that says so."""
-    path = Path(folder) / f"{source}{'+' + change if change else ''}--{name}.npz"
-    if path.exists():
-        return ""
-    with tempfile.TemporaryDirectory() as place:
-        sample = nameless(prepared(open_dataset(spec).truth(name, Path(place))))
-        rows_of(changed(change, sample) if change else sample, source, change).save(path)
-    return f"{source} {name} {change}"
+def write_rows(path: Path, sample: EvalSample, source: str, form: str) -> None:
+    """Write the rows of one object."""
+    rows_of(sample, source, form).save(path)
 
 
 def main(argv: Sequence[str] | None = None) -> None:
-    collect_all("Candidates for parts, with their features.", collect, argv)
+    collect_all("Candidates for parts, with their features.", write_rows, argv)
 
 
 if __name__ == "__main__":

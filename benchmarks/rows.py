@@ -3,20 +3,40 @@
 from __future__ import annotations
 
 import argparse
+import tempfile
 from collections.abc import Callable, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import replace
 from multiprocessing import get_context
 from pathlib import Path
+from typing import Protocol
 
 import numpy as np
 
+from anymesh.evaluation.changes import changed
 from anymesh.evaluation.datasets.named import open_dataset
 from anymesh.evaluation.ground_truth import EvalSample
+from anymesh.evaluation.protocols import prepared
 
-Collect = Callable[
-    [str, str, str, str, str], str
-]  # data set, source, object, change, folder; returns a line, "" if it was there
+WriteRows = Callable[[Path, EvalSample, str, str], None]  # file, object, source, form
+
+
+class Rows(Protocol):
+    """Rows of an object. source: its data set; form: change of its mesh, "" for none."""
+
+    @property
+    def source(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def kind(self) -> str: ...
+    @property
+    def form(self) -> str: ...
+
+
+def called(rows: Rows) -> str:
+    """Return the source and the form of an object, as in tables."""
+    return f"{rows.source}, {rows.form}" if rows.form else rows.source
 
 
 def kind_of(name: str, category: str) -> str:
@@ -25,14 +45,30 @@ def kind_of(name: str, category: str) -> str:
 
 
 def nameless(sample: EvalSample) -> EvalSample:
-    """The object without names of nodes and materials."""
+    """Return the object without names of nodes and materials."""
     mesh = sample.mesh
     nodes = tuple(replace(n, name=f"node{k}") for k, n in enumerate(mesh.nodes))
     materials = tuple(replace(m, name=f"material{k}") for k, m in enumerate(mesh.materials))
     return replace(sample, mesh=replace(mesh, nodes=nodes, materials=materials))
 
 
-def collect_all(description: str, collect: Collect, argv: Sequence[str] | None) -> None:
+def open_object(spec: str, name: str, form: str) -> EvalSample:
+    """Return an object of a data set, nameless and in the given form, with its true parts and joints."""
+    with tempfile.TemporaryDirectory() as folder:
+        sample = nameless(prepared(open_dataset(spec).truth(name, Path(folder))))
+    return changed(form, sample) if form else sample
+
+
+def collect(write: WriteRows, spec: str, source: str, name: str, form: str, folder: Path) -> str:
+    """Write the rows of one object; return a line about it, an empty one if the file exists."""
+    path = folder / f"{source}{'+' + form if form else ''}--{name}.npz"
+    if path.exists():
+        return ""
+    write(path, open_object(spec, name, form), source, form)
+    return f"{source} {name} {form}"
+
+
+def collect_all(description: str, write: WriteRows, argv: Sequence[str] | None) -> None:
     """Run a script that measures all objects of some data sets; print the error of an object that fails and go on."""
     parser = argparse.ArgumentParser(description=description)
     parser.add_argument("folder", type=Path)
@@ -49,8 +85,8 @@ def collect_all(description: str, collect: Collect, argv: Sequence[str] | None) 
             names = list(open_dataset(spec).objects())
             if len(names) > options.most:
                 names = [names[k] for k in np.linspace(0, len(names) - 1, options.most).astype(int)]
-            called = source or spec.split(":")[0]
-            jobs += [workers.submit(collect, spec, called, n, options.change, str(options.folder)) for n in names]
+            source = source or spec.split(":")[0]
+            jobs += [workers.submit(collect, write, spec, source, n, options.change, options.folder) for n in names]
         for job in jobs:
             try:
                 if line := job.result():

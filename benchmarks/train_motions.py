@@ -22,6 +22,7 @@ from boosting import Model, Sample, Scores, TwoSteps, held_out, leave_kinds_out,
 from calibration import Scored, calibration_table, fit_confidence, log_odds
 from jaxtyping import Bool, Float
 from motion_rows import MotionRows, read_rows
+from rows import called
 
 from anymesh.articulation.estimate import MAX_COPIES
 from anymesh.articulation.motion_context import ScoredMotions, context_features
@@ -96,11 +97,6 @@ def confidences(rows: Sequence[MotionRows], scores: Scores) -> Scored:
     shares = [share_of_best(s, r.same[k]) for r, s, k in zip(rows, ranked, best, strict=True)]
     right = np.array([right_side(r)[k] for r, k in zip(rows, best, strict=True)])
     return Scored(log_odds(np.array(shares)), right, [called(r) for r in rows])
-
-
-def called(rows: MotionRows) -> str:
-    """Return the source and the form of an object, as in tables."""
-    return f"{rows.source}, {rows.form}" if rows.form else rows.source
 
 
 def main(argv: Sequence[str] | None = None) -> None:

@@ -26,6 +26,7 @@ from jaxtyping import Float
 from part_rows import PartRows, read_rows
 from part_scores import RIGHT as RIGHT_IOU
 from part_scores import Counts, overlap_of, scored
+from rows import called
 
 from anymesh.segmentation.candidate_context import context_features
 from anymesh.segmentation.part_assignment import assign_parts
@@ -105,11 +106,6 @@ def confidences(rows: Sequence[PartRows], scores: Sequence[np.ndarray]) -> Score
         (r, s[k], r.iou()[k] > RIGHT_IOU) for r, s in zip(rows, scores, strict=True) for k in assign_parts(overlap_of(r), s)
     ]
     return Scored(np.array([s for _, s, _ in chosen]), np.array([y for _, _, y in chosen]), [called(r) for r, _, _ in chosen])
-
-
-def called(rows: PartRows) -> str:
-    """Return the source and the form of an object, as in tables."""
-    return f"{rows.source}, {rows.form}" if rows.form else rows.source
 
 
 def main(argv: Sequence[str] | None = None) -> None:
