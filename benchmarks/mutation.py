@@ -164,7 +164,7 @@ def report(work: Path, seed: int, out: Path) -> None:
     for row in sorted((r for r in rows if r["outcome"] == "survived"), key=lambda r: (r["place"], r["line"])):
         reason = f" Equivalent: {row['reason']}." if row["reason"] else "" if row["tests"] else " No test runs this line."
         lines.append(f"- `{row['place']}:{row['line']}`: `{row['before']}` -> `{row['after']}`.{reason}")
-    commands = [c.strip() for c in (__doc__ or "").split("\n\n")[1].splitlines()]
+    commands = [c.strip().replace("--seed 2", f"--seed {seed}") for c in (__doc__ or "").split("\n\n")[1].splitlines()]
     head = ["# Mutation testing", "", f"{len(rows)} mutants, seed {seed}.", "", "```bash", *commands, "```", ""]
     head += [
         "cosmic-ray changes one operator, number or loop per mutant. A mutant is noticed if a test fails, or if the tests",

@@ -1,5 +1,6 @@
 """Test joints of repeated parts, levers, buttons and parts that overlap the base."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -8,6 +9,8 @@ from assets import box
 from scenes import Piece, Scene, built, case, door, drawer, joints_of, prism
 
 from anymesh.articulation import estimate
+from anymesh.articulation.motion_classifier import UnscoredMotions
+from anymesh.articulation.motion_question import MotionQuestion
 from anymesh.config import Config
 from anymesh.segmentation.divide import object_shape
 from anymesh.types import JointType
@@ -59,6 +62,22 @@ def test_copies_that_agree_change_nothing(monkeypatch: pytest.MonkeyPatch) -> No
     for name in ("left", "right"):
         assert by_themselves[name].axis == pytest.approx(with_copies[name].axis)
         assert by_themselves[name].origin == pytest.approx(with_copies[name].origin)
+
+
+def test_the_copies_of_a_part_are_the_others_of_its_row(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The panel at the back of the case has the size of the two in front, but is not beside them."""
+    copies_of: dict[str, list[str]] = {}
+    question = UnscoredMotions.question
+
+    def recorded(motions: UnscoredMotions, copies: Sequence[UnscoredMotions] = ()) -> MotionQuestion:
+        copies_of[motions.facts.name] = [copy.facts.name for copy in copies]
+        return question(motions, copies)
+
+    monkeypatch.setattr(UnscoredMotions, "question", recorded)
+    mesh, segmentation = built({**pair("both"), "back": [box((0.002, 0.402, 0.002), (0.299, 0.422, 0.798))]})
+    whole = object_shape(mesh, 0, labels=segmentation.face_part)
+    assert len(list(estimate.motion_questions(whole, segmentation, Config()))) == 3
+    assert copies_of == {"left": ["right"], "right": ["left"], "back": []}
 
 
 def test_a_door_that_an_artist_let_sink_into_a_block_still_turns() -> None:

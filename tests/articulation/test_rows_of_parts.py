@@ -43,6 +43,14 @@ def test_parts_in_a_row_open_where_most_of_them_can() -> None:
     assert share_opening_directions(row[1:2])[0] is row[1]
 
 
+def test_two_parts_are_a_row() -> None:
+    """By itself, the second panel would open sideways or up, since its view to the front is blocked."""
+    row = [panel(0.0), panel(0.65, 0.0, SCREEN)]
+    assert abs(row[1].opening_direction @ Y) < 0.1
+    for around in share_opening_directions(row):
+        assert around.opening_direction == pytest.approx(-Y)
+
+
 def test_parts_behind_each_other_are_no_row() -> None:
     row = [panel(0.0), panel(0.65), panel(0.0, -0.5)]
     assert [around.opening_direction @ -Y for around in share_opening_directions(row)] == pytest.approx([1, 1, 1])

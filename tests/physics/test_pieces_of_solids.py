@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import permutations
+
 import numpy as np
 import pytest
 from manifold3d import Manifold
@@ -158,6 +160,14 @@ def test_pairs_that_add_the_least_volume_are_merged_first() -> None:
     stairs = [((0, 0, 0), (1, 1, 1)), ((1, 0, 0), (2, 1.5, 1)), ((2, 0, 0), (3, 4, 1))]
     assert merged(*stairs, most=2) == [pytest.approx(2.75), pytest.approx(4)]  # 0.25 rather than 1.25 are added
     assert merged(*stairs, most=3) == [1, 1.5, 4]
+
+
+@pytest.mark.parametrize("order", permutations(range(3)))
+def test_neither_the_size_nor_the_order_of_blocks_decides_which_are_merged(order: tuple[int, ...]) -> None:
+    """The middle block and the large one at its right add 0.25, the middle block and the small one at its left 0.5."""
+    left, middle, right = ((0, 0, 0), (1, 2, 1)), ((1, 0, 0), (2, 1, 1)), ((2, 0, 0), (6, 1.5, 1))
+    blocks = (left, middle, right)
+    assert merged(*(blocks[k] for k in order), most=2) == [2, pytest.approx(7.25)]
 
 
 def test_a_surface_that_is_inside_out_or_open_is_no_solid() -> None:

@@ -12,7 +12,7 @@ from anymesh.geometry.distance_ import distance_to_triangles
 from anymesh.physics.collision import CollisionConfig, collision_shapes
 from anymesh.physics.collision.convex import cut, hull_of, trimmed, volume
 from anymesh.physics.collision.decompose import Resolution, component_shapes, smallest_box, split_components
-from anymesh.physics.collision.primitives import as_hull, fitted
+from anymesh.physics.collision.primitives import _unit_hulls, as_hull, fitted
 from anymesh.physics.collision.split import split_surface
 from anymesh.physics.collision.store import content_key, load_shapes, save_shapes
 from anymesh.types import Asset, Box, Cylinder, Hull, Part, Segmentation
@@ -75,6 +75,17 @@ def test_a_round_bar_is_a_cylinder_and_an_eight_sided_one_is_not():
         if isinstance(shape, Cylinder):
             assert (shape.radius, shape.length) == (pytest.approx(0.1, rel=0.01), pytest.approx(0.5))
             assert np.linalg.det(shape.rotation) == pytest.approx(1)
+
+
+def test_the_hull_of_a_box_has_the_corners_of_the_box():
+    """The box is 2 by 4 by 6, turned by a quarter about z, so that it is 4 by 2 by 6 along the axes."""
+    _unit_hulls.cache_clear()  # so that coverage counts this test among those that run it
+    quarter = np.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 1]])
+    hull = as_hull(Box(np.array([1.0, 2, 3]), quarter, np.array([2.0, 4, 6])))
+    corners = {(x, y, z) for x in (-1, 3) for y in (1, 3) for z in (0, 6)}
+    assert len(hull.vertices) == 8
+    assert {tuple(v) for v in hull.vertices.round(9).tolist()} == corners
+    assert volume(hull) == pytest.approx(48)
 
 
 def test_a_cut_keeps_the_volume_of_both_sides():

@@ -139,6 +139,13 @@ def test_the_confidence_and_reason_of_a_part_follow_from_its_score(monkeypatch: 
     assert [p.label for p in found.values()] == ["it", "it"]
 
 
+def test_calibration_changes_a_probability_by_less_than_a_tenth(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Log-odds of 1 are a probability of 0.73, log-odds of 0 one of 0.5."""
+    found = segmented(monkeypatch, [1.0, 0.0])
+    assert found[1].confidence == pytest.approx(0.73, abs=0.1)
+    assert found[2].confidence == pytest.approx(0.5, abs=0.1)
+
+
 @pytest.mark.parametrize(("at_least", "parts"), [(0, []), (1, [2]), (2, [1, 2])])
 def test_the_best_candidates_are_added_up_to_a_number(monkeypatch: pytest.MonkeyPatch, at_least: int, parts: list[int]) -> None:
     assert sorted(segmented(monkeypatch, [-3.0, -2.0], at_least=at_least)) == parts

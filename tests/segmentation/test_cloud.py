@@ -4,11 +4,13 @@ import time
 from dataclasses import replace
 
 import numpy as np
+import pytest
 from assets import box, mesh_of
 
 from anymesh.config import GroundingConfig
+from anymesh.geometry.sampling import SurfacePoints
 from anymesh.rendering.render import render
-from anymesh.segmentation.cloud import Cloud, sample_cloud, sight, visible
+from anymesh.segmentation.cloud import Cloud, _nearest_alike, sample_cloud, sight, visible
 from anymesh.segmentation.divide import object_shape
 from anymesh.types import Material, Mesh, Texture
 from anymesh.types.camera import Camera
@@ -51,6 +53,19 @@ def test_no_superpoint_spans_two_pieces_and_small_ones_are_merged() -> None:
     spans = [len(np.unique(piece[cloud.superpoint == s])) for s in range(cloud.count)]
     assert max(spans) == 1
     assert np.bincount(cloud.superpoint).min() >= FEW.least_points
+
+
+@pytest.mark.parametrize(("away", "nearest"), [(3, 0), (5, 0), (6, 1), (8, 1)])
+def test_a_point_takes_a_chosen_point_with_its_normal_within_some_spacings(away: float, nearest: int) -> None:
+    """Two of five points are not chosen, each one spacing of 0.1 m from a chosen one.
+
+    The normal of the first chosen point is the same, that of the second is perpendicular and counts as 4 * sqrt(2) spacings.
+    With its distance of one spacing, it is sqrt(33) = 5.7 away.
+    """
+    x = 0.1 * np.array([-away, 1, 20, 0, 21])
+    normals = np.eye(3)[[2, 0, 2, 2, 2]]
+    s = SurfacePoints(np.c_[x, 0 * x, 0 * x], normals, np.arange(5))
+    assert _nearest_alike(s, np.zeros(5, np.int64), np.arange(3)).tolist() == [0, 1, 2, nearest, 2]
 
 
 def test_a_change_of_colour_parts_superpoints() -> None:
