@@ -8,7 +8,7 @@ from jaxtyping import Float32, Int, UInt8
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.rendering.materials import base_colors, texels_per_pixel
 from anymesh.rendering.outlines import stroke
-from anymesh.rendering.render import KEY_LIGHT
+from anymesh.rendering.render import KEY_LIGHT, dot
 from anymesh.rendering.samples import GRID, RenderTarget, Samples
 from anymesh.types import Mesh
 from anymesh.types.camera import Camera
@@ -57,7 +57,7 @@ def face_colors(color: UInt8[np.ndarray, "F 3"], samples: Samples) -> Float32[np
 
 def light_on(samples: Samples) -> Float32[np.ndarray, " n"]:
     """Return the brightness of the surface at each ray's hit."""
-    light = samples.normal @ KEY_LIGHT.astype(np.float32)
+    light = dot(samples.normal, KEY_LIGHT.astype(np.float32))
     np.maximum(light, 0, out=light)
     light *= KEY
     light += AMBIENT + SKY / 2 + SKY / 2 * samples.normal[:, 2]
@@ -74,7 +74,7 @@ def headlight_on(samples: Samples, camera: Camera) -> Float32[np.ndarray, " n"]:
     shoulder = -ahead - np.float32(0.9) * down - np.float32(0.7) * right
     light = np.full(len(samples.normal), HEAD_AMBIENT + HEAD_SKY / 2, np.float32)
     for lamp, strength in ((-ahead, HEAD), (shoulder / np.linalg.norm(shoulder), SHOULDER)):
-        light += strength * np.maximum(samples.normal @ lamp, 0)
+        light += strength * np.maximum(dot(samples.normal, lamp), 0)
     return light + HEAD_SKY / 2 * samples.normal[:, 2]
 
 
@@ -98,7 +98,7 @@ def _draw_lines(samples: Samples, color: Float32[np.ndarray, "n 3"]) -> None:
     """Draw lines over the colours of the rays, in place: dark on bright surfaces, light on dark ones."""
     steps, first = samples.steps, len(samples.plain)
     height, width = samples.window.shape
-    bright = (color[steps.pairs] @ BRIGHTNESS).max(1) > DARK_SURFACE
+    bright = dot(color[steps.pairs], BRIGHTNESS).max(1) > DARK_SURFACE
     strength = np.round(255 * np.maximum(OUTLINE * steps.outline, CREASE * steps.crease)).astype(np.uint8)
     for tone, line in ((False, LIGHT), (True, DARK)):
         mine = np.flatnonzero(bright == tone)

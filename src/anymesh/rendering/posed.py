@@ -11,7 +11,7 @@ from jaxtyping import Bool, Float, Int, UInt8
 
 from anymesh.geometry.raycast_ import Hits, RayScene
 from anymesh.rendering.paint import HIGHLIGHT, lighten
-from anymesh.rendering.render import lit, shade
+from anymesh.rendering.render import lit, shade, turned
 from anymesh.types import Mesh
 from anymesh.types.camera import Camera
 
@@ -99,12 +99,13 @@ class Posed:
         """Return the pixels that the part alone would cover in a pose, by casting rays in the frame of the part."""
         columns, rows = self._box_pixels(T, camera)
         R, t = T[:3, :3], T[:3, 3]
-        across, along = (terms @ R.astype(np.float32) for terms in camera.ray_grid(columns + 0.5, rows + 0.5))
+        across, along = (turned(terms, R.astype(np.float32)) for terms in camera.ray_grid(columns + 0.5, rows + 0.5))
         directions = (along[:, None] + across).reshape(-1, 3)
-        hits = self._part_scene.surface_hits((camera.T_world_camera[:3, 3] - t) @ R, directions)
+        hits = self._part_scene.surface_hits(turned((camera.T_world_camera[:3, 3] - t)[None], R)[0], directions)
         seen = np.flatnonzero(hits.face >= 0)
         pixel = (rows[:, None] * camera.width + columns).reshape(-1)[seen]
-        return PartPixels(pixel, hits.depth[seen].astype(float), (hits.normal[seen] @ R.T.astype(np.float32)).astype(float))
+        normal = turned(hits.normal[seen], R.T.astype(np.float32))
+        return PartPixels(pixel, hits.depth[seen].astype(float), normal.astype(float))
 
     def _box_pixels(self, T: Pose, camera: Camera) -> tuple[Int[np.ndarray, " w"], Int[np.ndarray, " h"]]:
         """Return the columns and rows of the bounding box of the part in a pose."""

@@ -82,8 +82,19 @@ def shade(
 
 def lit(base: Float[np.ndarray, "n 3"], normal: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 3"]:
     """Shade base colours (0..255) under the common light of all pictures."""
-    light = 0.42 + 0.38 * np.clip(normal @ KEY_LIGHT, 0, 1) + 0.2 * (0.5 + 0.5 * normal[:, 2])
+    light = 0.42 + 0.38 * np.clip(dot(normal, KEY_LIGHT), 0, 1) + 0.2 * (0.5 + 0.5 * normal[:, 2])
     return np.clip(base * light[:, None] * 1.12, 0, 255)
+
+
+def dot(vectors: Float[np.ndarray, "*n 3"], weights: Float[np.ndarray, " 3"]) -> Float[np.ndarray, " *n"]:
+    """Return dot products without BLAS, whose last bits depend on the processor, so that pictures have the same bytes."""
+    x, y, z = (vectors[..., k] * weights[k] for k in range(3))
+    return x + y + z
+
+
+def turned(vectors: Float[np.ndarray, "*n 3"], R: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "*n 3"]:
+    """Return `vectors @ R`, computed as in `dot`."""
+    return np.stack([dot(vectors, column) for column in R.T], -1)
 
 
 def face_colors(mesh: Mesh) -> UInt8[np.ndarray, "F 3"]:

@@ -13,7 +13,6 @@ from anymesh.types.camera import Camera
 
 GRID = 3  # rays per side of a pixel where the surface changes
 FLAT = 1e-4  # tolerance of the cosine between corner normals and face normal, below which normals are not interpolated
-MEAN = np.tile(np.eye(3, dtype=np.float32), (GRID**2, 1)) / GRID**2  # averages the colours of a pixel's rays
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,7 +61,7 @@ class Samples:
         picture = ground.reshape(-1, 3).copy()
         count = len(self.plain)
         picture[self.plain] = color[:count]
-        picture[self.split] = color[count:].reshape(len(self.split), len(MEAN)) @ MEAN
+        picture[self.split] = color[count:].reshape(len(self.split), GRID**2, 3).mean(1)
         return picture.reshape(ground.shape)
 
 
