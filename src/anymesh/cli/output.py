@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from anymesh.types import Asset, Joint
 
 JOINT_COLUMNS = ("name", "type", "parent", "range", "confidence", "reason")
+FILE_WIDTH = 140  # [characters] width of a table that is not printed to a terminal; the default of 80 breaks its cells
 
 
 def joint_row(joint: Joint) -> dict[str, Any]:
@@ -105,6 +106,7 @@ def _spent(usage: dict[str, Any], out: Path) -> str:
 def print_result(
     record: dict[str, Any], rows: list[dict[str, Any]], columns: tuple[str, ...], json_: bool, quiet: bool
 ) -> None:
+    """Print the record as JSON, or these columns of the rows as a table; with `quiet`, no table."""
     if json_:
         typer.echo(json.dumps(record, indent=2))
     elif not quiet:
@@ -116,7 +118,7 @@ def print_result(
         for row in rows:
             cells = (f"{row[c]:.2f}" if isinstance(row[c], float) else str(row[c]) for c in columns)
             table.add_row(*(Text(plain(cell)) for cell in cells))
-        Console(width=None if sys.stdout.isatty() else 140).print(table)
+        Console(width=None if sys.stdout.isatty() else FILE_WIDTH).print(table)
 
 
 def plain(text: str) -> str:
