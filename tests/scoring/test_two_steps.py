@@ -22,3 +22,9 @@ def test_a_feature_that_a_candidate_does_not_have_is_no_reason() -> None:
         scores, reasons = classifier.score(classifier.table([row]), {"score": np.zeros(1)})
         assert scores.tolist() == [1.0]
         assert reasons == [reason]
+
+
+def test_a_value_of_minus_zero_is_printed_as_zero() -> None:
+    classifier = TwoStepClassifier(stump(1), stump(1), ("size", "support"), {})
+    _, reasons = classifier.score(classifier.table([{"size": 0.0, "support": -0.0}]), {"score": np.zeros(1)})
+    assert reasons == ["support 0"]

@@ -53,7 +53,7 @@ class TwoStepClassifier:
 
     def _reason(self, row: Float[np.ndarray, " k"], gain: Float[np.ndarray, " k"]) -> str:
         best = [int(k) for k in np.argsort(-gain, kind="stable") if gain[k] > 0 and row[k] != MISSING][:REASONS]
-        return ", ".join(f"{self.names[k]} {row[k]:.2g}" for k in best) or "the other candidates"
+        return ", ".join(f"{self.names[k]} {row[k] + 0.0:.2g}" for k in best) or "the other candidates"
 
 
 def confidence_of(log_odds: float, slope: float, offset: float) -> float:
