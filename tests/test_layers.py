@@ -24,7 +24,7 @@ FLOORS = [
     {"viewer"},
     {"applications"},
     {"agents"},
-    {"cli"},
+    {"cli", "__main__"},
 ]
 STAGES = {"segmentation", "articulation", "completion"}
 TOOLS = {"simulation", "checking", "evaluation", "correcting", "viewer", "applications", "agents", "cli"}

@@ -59,6 +59,12 @@ cli.main(["articulate", "x.obj", "-o", "out"])
 """
 
 
+def test_the_package_runs_as_a_module(tmp_path: Path) -> None:
+    run = command("-m", "anymesh", "--version", folder=tmp_path)
+    assert run.returncode == 0
+    assert run.stdout.startswith("anymesh ")
+
+
 def test_libraries_are_silent_and_we_speak_once(tmp_path) -> None:
     done = command("-c", TALKATIVE, folder=tmp_path)
     assert (done.returncode, done.stdout, done.stderr) == (0, "", "warning: anymesh ? logs\n")
