@@ -17,7 +17,7 @@ from anymesh.articulation.rank_motions import (
     share_of_best,
 )
 from anymesh.scoring.two_steps import MAX_CONFIDENCE, confidence_of
-from anymesh.types import JointType, Motion
+from anymesh.types import JointType, Motion, Sweep
 
 
 def asked(part: PartFacts, candidates: list[Candidate], scores: list[float]) -> MotionAnswer:
@@ -93,8 +93,8 @@ def test_an_answer_is_checked(confidence: float, reason: str) -> None:
 @pytest.mark.parametrize(
     ("c", "words"),
     [
-        (PULL, "slides outwards, held on 0 of 4 sides, free for 50 % of the object's diagonal (a slide)"),
-        (replace(PULL, guided=0.75, outward=-1.0, opening=0.02), "slides inwards, held on 3 of 4 sides, free for 2 %"),
+        (PULL, "slides outwards, guided on 0 of 4 sides, free for 50 cm (a slide)"),
+        (replace(PULL, guided=0.75, outward=-1.0, sweep=Sweep(0.02, 0.5, False, True)), "slides inwards, guided on 3 of 4 sides, free for 2 cm"),
         (replace(PULL, outward=0.7), "slides along the surface"),
         (replace(PULL, outward=-0.7), "slides along the surface"),
         (replace(ROUND, opening=1.0), "round outline (30 %), turns about its axis, free -180..57 deg"),

@@ -137,3 +137,17 @@ def test_a_stop_in_the_way_ends_the_range() -> None:
     joint = found("stopped")
     assert joint.limits is not None
     assert np.deg2rad(85) < joint.limits[1] < np.deg2rad(100)  # without the post it is 110
+
+
+def test_a_pane_slides_as_far_as_the_other_pane_in_its_rails() -> None:
+    """Two panes of 0.2 m stand 0.4 m apart between rails of 1 m, each at its end."""
+    rails = [box((0, y, z), (1, y + 0.02, z + 0.02)) for y in (-0.05, 0.03) for z in (0, 0.48)]
+    ends = [box((x, -0.05, 0), (x + 0.02, 0.05, 0.5)) for x in (-0.02, 1.0)]
+    sills = [box((0, -0.03, z), (1, 0.03, z + 0.002)) for z in (-0.002, 0.5)]
+    panes = {name: [box((x, -0.028, 0.002), (x + 0.2, 0.028, 0.498))] for name, x in (("left", 0.1), ("right", 0.7))}
+    joints = joints_of({"base": [*rails, *ends, *sills], **panes})
+    assert {joint.type for joint in joints.values()} == {JointType.PRISMATIC}
+    for joint in joints.values():
+        assert joint.limits is not None
+        assert abs(joint.axis[0]) == pytest.approx(1)
+        assert max(joint.limits) == pytest.approx(0.4, abs=0.02)

@@ -10,13 +10,12 @@ from anymesh.articulation.adjacent_panels import adjacent_sides, outer_side, ove
 from anymesh.articulation.contact_metrics import contact_retention, hinge_support, lever_arm
 from anymesh.articulation.motion_question import MIN_FREE_ANGLE_RAD, Candidate
 from anymesh.geometry.sweep import free_amounts, sweep_all
-from anymesh.motion.part_context import IGNORE_OVERLAP_SCALE, PartContext
+from anymesh.motion.part_context import IGNORE_OVERLAP_SCALE, MIN_OUTWARD_COSINE, PartContext
 from anymesh.types import JointType, Motion, Sweep
 
 CROSSWISE_HANDLE_WEIGHT = 0.6  # weight of the side of a bar handle that runs across the line
 PENETRATION_SCALES = (3.0, IGNORE_OVERLAP_SCALE)  # tried in this order if a hinge is blocked
 RIM_ROLES = ("edge", "edge_mid", "barrel")  # hinges at a rim, which may turn although the part overlaps static geometry
-MIN_OUTWARD_COSINE = 0.5  # minimum cosine between an outward motion and the opening direction
 GUIDE_STEP_RATIO = 0.02  # of the scale: a slide is guided if a sideways step of this length is blocked
 
 
@@ -29,13 +28,12 @@ def hypotheses(around: PartContext, proposed: list[tuple[str, Motion]]) -> tuple
     motions, steps = [m for _, m in proposed], around.config.sweep_steps
     revolute = [m for m in motions if m.kind is JointType.REVOLUTE]
     along, adjacent = iter(hinge_support(around, revolute)), adjacent_sides(around)
-    inward = [
-        m.kind is JointType.PRISMATIC and abs(float(m.axis @ around.opening_direction)) <= MIN_OUTWARD_COSINE for m in motions
-    ]
     swept: dict[int, Sweep] = {}
-    for obstacles, wanted in ((around.obstacles(), False), (around.obstacles_at_rest, True)):
-        chosen = [k for k, x in enumerate(inward) if x is wanted]
-        swept.update(zip(chosen, sweep_all(obstacles, [motions[k] for k in chosen], steps), strict=True))
+    for along_surface in (False, True):
+        chosen = [k for k, m in enumerate(motions) if around.slides_along_surface(m) is along_surface]
+        if chosen:
+            obstacles = around.obstacles_of(motions[chosen[0]])
+            swept.update(zip(chosen, sweep_all(obstacles, [motions[k] for k in chosen], steps), strict=True))
     guided = iter(_guided_share(around, [m for m in motions if m.kind is JointType.PRISMATIC]))
     ahead = [
         _revolute(around, role, motion, swept[k], next(along), adjacent)

@@ -108,7 +108,8 @@ def _answered_prismatic(around: PartContext, c: Candidate, answered: Range) -> R
 
 def _free_within(around: PartContext, c: Candidate, lower: float, upper: float, steps: int) -> tuple[float, float]:
     """Return the free motion ahead, up to `upper`, and back, up to `lower` [rad or m]."""
-    obstacles, motion = around.obstacles(c.penetration_scale), opening_motion(c)
+    motion = opening_motion(c)
+    obstacles = around.obstacles_of(motion, c.penetration_scale)
     ahead = free_amount(obstacles, motion, 1, upper, steps)[0] if upper > 0 else 0.0
     back = free_amount(obstacles, motion, -1, lower, steps)[0] if lower > 0 else 0.0
     return ahead, back
@@ -174,8 +175,9 @@ def _prismatic(around: PartContext, c: Candidate) -> tuple[float, float]:
     ):
         most = around.config.slide_hidden * behind  # a panel whose box is not in the mesh
     steps = around.config.fine_steps * 2
-    upper, _ = free_amount(around.obstacles(c.penetration_scale), motion, 1, most, steps)
-    lower, clear = free_amount(around.obstacles(c.penetration_scale), motion, -1, most, steps)
+    obstacles = around.obstacles_of(motion, c.penetration_scale)
+    upper, _ = free_amount(obstacles, motion, 1, most, steps)
+    lower, clear = free_amount(obstacles, motion, -1, most, steps)
     if outward or clear or lower < 0.01 * around.scale:
         lower = 0.0
     if upper < 1e-3 * around.scale:

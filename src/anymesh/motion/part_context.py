@@ -16,10 +16,11 @@ from anymesh.geometry.contact import connecting_area
 from anymesh.geometry.sweep import Obstacles
 from anymesh.geometry.triangle_set import TriangleSet
 from anymesh.motion.handle import FACING_COSINE, face_axes, find_handle
-from anymesh.types import Handle
+from anymesh.types import Handle, JointType, Motion
 
 IGNORE_OVERLAP_SCALE = 10.0  # penetration scale from which static geometry inside the part's box is ignored
 DOWNWARD_PENALTY = 0.4  # subtracted from the score of a downward direction, since most objects stand on something
+MIN_OUTWARD_COSINE = 0.5  # minimum cosine between an outward motion and the opening direction
 MIN_SCALE_RATIO = 1e-9  # of the diagonal: keeps tolerances positive for a part that is a point
 
 
@@ -81,6 +82,15 @@ class PartContext:
             hole = self.body_obb if penetration_scale >= IGNORE_OVERLAP_SCALE else None
             self._obstacles[penetration_scale] = Obstacles(self.part, self.rest, penetration_scale * self.penetration, hole)
         return self._obstacles[penetration_scale]
+
+    def obstacles_of(self, motion: Motion, penetration_scale: float = 1.0) -> Obstacles:
+        """Return the obstacles of a motion: for a slide along the surface, also the other movable parts at rest."""
+        return self.obstacles_at_rest if self.slides_along_surface(motion) else self.obstacles(penetration_scale)
+
+    def slides_along_surface(self, motion: Motion) -> bool:
+        """Return whether a motion is a slide across the opening direction."""
+        along = abs(float(motion.axis @ self.opening_direction)) <= MIN_OUTWARD_COSINE
+        return motion.kind is JointType.PRISMATIC and along
 
     @cached_property
     def _obstacles(self) -> dict[float, Obstacles]:
