@@ -92,7 +92,7 @@ def main() -> None:
     drawn = {
         "patches": patches(studio, mesh, tree),
         "candidates": candidates(studio, tree, score, assign_parts(tree.overlap, score)),
-        "motions": motions(studio, found.face_part == options.part, ranked, around.scale, around.part.box.diagonal),
+        "motions": motions(studio, found.face_part == options.part, ranked, around.tolerance_length, around.part.box.diagonal),
     }
     for name, picture in drawn.items():
         (options.folder / f"{name}.png").write_bytes(picture.png)

@@ -1,4 +1,4 @@
-"""All numeric settings of the pipeline, with their units and sources."""
+"""Settings of the pipeline that users may change, with their units and sources."""
 
 from __future__ import annotations
 
@@ -42,13 +42,13 @@ class SegmentationConfig:
 
 @dataclass(frozen=True)
 class ArticulationConfig:
-    """Stage B (paper, 3.3). Lengths are relative to the object's diagonal unless stated otherwise."""
+    """Stage B (paper, 3.3). Lengths are relative to `PartContext.tolerance_length` unless stated otherwise."""
 
     connecting: float = 0.005  # threshold of the connecting area; 0.01 for a diagonal of 2 (the paper's implementation)
     penetration: float = 0.003  # depth behind a surface at which a path is stopped
     support: float = 0.02  # maximum distance between a hinge line and the parent that supports it
     sweep_steps: int = 36  # steps of a sweep in each direction: 5 degrees each over half a turn
-    fine_steps: int = 30  # divisions of the last coarse step, for the limits
+    fine_steps: int = 30  # a third of the steps over the range of a hinge, half of those of a slide, for the limits
     door_most: float = 110.0  # [deg] upper limit of an unobstructed hinge with an upright axis (common cup hinges)
     flap_most: float = 90.0  # [deg] upper limit of an unobstructed hinge with a horizontal axis
     slide_hidden: float = 0.6  # travel of a panel whose box is hidden, as a share of the parent's depth

@@ -15,7 +15,7 @@ from anymesh.types import JointType, Motion, Sweep
 
 X, Y, Z = np.eye(3)
 PLATE = PartFacts(
-    "p", "part", (0.6, 0.4, 0.02), 0.05, 0.3, 0.1, -Y, 1.0, 0.0, size=0.7, diagonal=1.0, horizontal=False, handle=None,
+    "p", "part", (0.6, 0.4, 0.02), 0.05, 0.3, 0.1, -Y, 1.0, 0.0, size=0.7, diagonal=1.0, handle=None,
     two_pivot=False, tall=-0.6, height=0.5, back_contact=0.0, free_rim=0.0, covers_opening=0.0,
 )  # fmt: skip
 

@@ -208,7 +208,7 @@ def test_a_picture_shows_a_hinge_up_to_sixty_degrees_and_a_slide_up_to_a_share_o
     assert shown_amount(replace(EDGE, opening=0.5), case) == 0.5
     assert shown_amount(EDGE, case) == pytest.approx(MAX_SHOWN_ANGLE_RAD)
     assert shown_amount(replace(EDGE, opening=0.0), case) == pytest.approx(np.deg2rad(36))
-    assert shown_amount(replace(PULL, opening=0.2), case) == pytest.approx(0.2 * case.around.scale)
+    assert shown_amount(replace(PULL, opening=0.2), case) == pytest.approx(0.2 * case.around.tolerance_length)
     assert shown_amount(replace(PULL, opening=3.0), case) == pytest.approx(0.6 * size)
     assert shown_amount(replace(PULL, opening=0.0), case) == pytest.approx(0.36 * size)
     told = RecognizedLabel("key", JointType.PRISMATIC, None, (-0.01, 0.0))

@@ -104,7 +104,6 @@ def test_a_lid_on_a_pot_covers_its_opening_however_thick_it_is(height: float) ->
     assert facts.free_rim > 0.9
     assert facts.rotational_asymmetry < 0.05
     assert facts.flatness == pytest.approx(height / 0.2, abs=0.02)
-    assert facts.horizontal
     assert facts.tall == 0
 
 
@@ -121,7 +120,7 @@ def test_a_disc_in_a_hole_has_no_free_rim_and_an_oval_one_is_no_body_of_revoluti
 def test_the_facts_of_an_upright_panel() -> None:
     panel = context([box((0, -0.03, 0.2), (0.6, -0.002, 0.5))], [box((0, 0, 0), (0.6, 0.4, 1))])
     facts = part_facts(panel, "panel", "door", two_pivot=True)
-    assert (facts.name, facts.label, facts.two_pivot, facts.horizontal) == ("panel", "door", True, False)
+    assert (facts.name, facts.label, facts.two_pivot) == ("panel", "door", True)
     assert facts.tall == pytest.approx(-1)
     assert facts.height == pytest.approx(0.35)
     assert facts.back_contact == pytest.approx(1)

@@ -117,7 +117,7 @@ def test_the_connecting_area_of_a_small_part_is_as_large_whatever_it_sits_on(siz
     case = the_case({"base": [box((-size / 2, 0, 0), (size / 2, size, size))], "plate": [plate]})
     on_part = case.shown.contact[case.shown.contact[:, 1] < -1e-9]
     assert len(on_part) > 500
-    assert on_part[:, 1].min() >= -2 * 0.005 * case.around.scale  # its back and the edge of its rim
+    assert on_part[:, 1].min() >= -2 * 0.005 * case.around.tolerance_length  # its back and the edge of its rim
     assert np.ptp(on_part[:, [0, 2]], axis=0) == pytest.approx([0.12, 0.08], rel=0.05)
     assert between(case.shown.normal, Y) < 1
 

@@ -123,7 +123,7 @@ def test_proposed_motions_have_unit_axes_and_are_distinct() -> None:
     around = context([box((0, -0.03, 0), (0.6, -0.002, 1))], [CASE])
     found = propose(around)
     assert all(np.linalg.norm(m.axis) == pytest.approx(1) for _, m in found)
-    assert len(distinct(found, around.scale)) == len(found)
+    assert len(distinct(found, around.tolerance_length)) == len(found)
     assert {role for role, _ in found} >= {"edge", "edge_mid", "center", "slide"}
 
 

@@ -77,8 +77,8 @@ def test_rails_above_and_below_guide_a_slide_on_two_of_four_sides(gap: float, gu
     (c, _) = hypotheses(around, [("slide", slide(X))])
     assert c.guided == guided
     assert c.captured
-    assert c.opening == pytest.approx(0.4 / around.scale, rel=0.05)
-    assert c.closing == pytest.approx(0.4 / around.scale, rel=0.05)
+    assert c.opening == pytest.approx(0.4 / around.tolerance_length, rel=0.05)
+    assert c.closing == pytest.approx(0.4 / around.tolerance_length, rel=0.05)
 
 
 def test_a_slide_is_captured_between_stops_at_both_ends_only() -> None:

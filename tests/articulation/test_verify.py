@@ -73,7 +73,7 @@ def apart(a: Candidate, b: Candidate, case: PartCase) -> float:
     ways = moved(a, case, amount), moved(b, case, amount)
     way = min(float(np.linalg.norm(way, axis=1).mean()) for way in ways)
     off = float(np.linalg.norm(ways[0] - ways[1], axis=1).mean())
-    return off / min(DUPLICATE_OBJECT_RATIO * case.around.scale, DUPLICATE_MOTION_RATIO * way)
+    return off / min(DUPLICATE_OBJECT_RATIO * case.around.tolerance_length, DUPLICATE_MOTION_RATIO * way)
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -73,7 +73,7 @@ def test_a_drawer_is_as_deep_in_the_case_as_it_was_built(seed, scale):
     assert drawer.depth_in_parent(drawer.opening_direction) == pytest.approx(0.36 * scale, rel=0.02)
     assert drawer.insertion_depth == pytest.approx(0.36 / 0.3, rel=0.02)
     assert door.depth_in_parent(door.opening_direction) < 0.002 * scale
-    assert drawer.scale == drawer.diagonal
+    assert drawer.tolerance_length == drawer.diagonal
     assert drawer.gap.min() >= 0.01 * scale * (1 - 1e-6)  # to the side walls
 
 
@@ -93,7 +93,7 @@ def test_the_position_of_a_handle(seed, scale):
 
 def test_the_connecting_area_lies_between_part_and_parent():
     found = part_context([box((0, 0, 1), (1, 1, 1.2))], [box((0.4, 0.4, 0), (0.6, 0.6, 1))], np.eye(4))
-    near = found.config.connecting * found.scale
+    near = found.config.connecting * found.tolerance_length
     assert len(found.contact) > 10
     np.testing.assert_allclose(found.contact[:, 2], 1, atol=near + 1e-9)
     assert (np.abs(found.contact[:, :2] - 0.5) < 0.1 + near).all()
@@ -101,7 +101,7 @@ def test_the_connecting_area_lies_between_part_and_parent():
 
 def test_a_small_part_in_a_large_object_has_its_own_scale():
     tiny = part_context([box((0, -0.02, 0.5), (0.01, 0, 0.51))], BASE, np.eye(4))
-    assert tiny.scale == 5 * tiny.part.box.diagonal < tiny.diagonal
+    assert tiny.tolerance_length == 5 * tiny.part.box.diagonal < tiny.diagonal
 
 
 def test_a_wheel_has_a_round_outline_and_a_door_has_not():

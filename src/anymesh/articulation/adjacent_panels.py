@@ -75,7 +75,7 @@ def overlap_gain(around: PartContext, motion: Motion, free: tuple[float, float])
     free: free travel along +axis and -axis [m]. Sashes and sliding doors overlap their neighbours when open.
     """
     width = float(np.ptp(around.part.corners @ motion.axis))
-    thin = max(2 * float(around.body_obb.half[2]), 0.004 * around.scale)
+    thin = max(2 * float(around.body_obb.half[2]), 0.004 * around.tolerance_length)
     normal = around.body_obb.axes[2]
     if abs(float(normal @ motion.axis)) > 0.3:
         return 0.0

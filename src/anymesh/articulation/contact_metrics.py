@@ -12,7 +12,7 @@ MAX_CONTACT_POINTS = 120  # sample points of the contact
 WATCHED_ANGLE_RAD = np.deg2rad(30)  # [rad] opening of a hinge at which contact is measured
 WATCHED_TRAVEL_RATIO = 0.5  # travel of a slide at which contact is measured, relative to the part's extent along it
 CONTACT_TOLERANCE_FACTOR = 1.5  # contact is retained within this factor of its distance at rest
-CONTACT_RATIO = 0.008  # of the scale: points closer to the parent are in contact
+CONTACT_RATIO = 0.008  # of the tolerance length: points closer to the parent are in contact
 RIM_RATIO = 0.15  # of the part's reach across a line: surface closer to the line is its rim
 
 
@@ -21,7 +21,7 @@ def contact_retention(around: PartContext, motions: list[Motion], signs: list[in
 
     signs: sign of the opening, one per motion.
     """
-    tolerance = max(CONTACT_RATIO * around.scale, CONTACT_TOLERANCE_FACTOR * float(around.gap.min()))
+    tolerance = max(CONTACT_RATIO * around.tolerance_length, CONTACT_TOLERANCE_FACTOR * float(around.gap.min()))
     contact = around.part.samples.points[around.gap <= tolerance]
     if len(contact) < 3 or not motions:
         return np.zeros(len(motions))
@@ -52,7 +52,7 @@ def hinge_support(around: PartContext, motions: list[Motion]) -> np.ndarray:
         arm = around.body_obb.center - motion.origin
         lines += [line, line + 2 * (arm - (arm @ motion.axis) * motion.axis)]
     probe = np.concatenate(lines)
-    reach = around.config.support * around.scale
+    reach = around.config.support * around.tolerance_length
     parent = (around.parent.tree.distance(probe) < reach).reshape(len(motions), 2, LINE_POINTS).mean(2)
     other = np.zeros(len(motions))
     if around.others is not None:
@@ -74,7 +74,7 @@ def lever_arm(around: PartContext, motion: Motion) -> tuple[float, float, float]
     off = np.linalg.norm(across, axis=1)
     reach = max(float(off.max()), 1e-9)
     length = max(float(np.ptp(along)), 1e-9)
-    tolerance = max(CONTACT_RATIO * around.scale, CONTACT_TOLERANCE_FACTOR * float(around.gap.min()))
+    tolerance = max(CONTACT_RATIO * around.tolerance_length, CONTACT_TOLERANCE_FACTOR * float(around.gap.min()))
     contact = off[around.gap <= tolerance]
     proximity = 1 - float(np.median(contact)) / reach if len(contact) else 0.0
     normal = around.body_obb.axes[2]

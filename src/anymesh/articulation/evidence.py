@@ -16,7 +16,7 @@ from anymesh.types import JointType, Motion, Sweep
 CROSSWISE_HANDLE_WEIGHT = 0.6  # weight of the side of a bar handle that runs across the line
 PENETRATION_SCALES = (3.0, IGNORE_OVERLAP_SCALE)  # tried in this order if a hinge is blocked
 RIM_ROLES = ("edge", "edge_mid", "barrel")  # hinges at a rim, which may turn although the part overlaps static geometry
-GUIDE_STEP_RATIO = 0.02  # of the scale: a slide is guided if a sideways step of this length is blocked
+GUIDE_STEP_RATIO = 0.02  # of the tolerance length: a slide is guided if a sideways step of this length is blocked
 
 
 def hypotheses(around: PartContext, proposed: list[tuple[str, Motion]]) -> tuple[Candidate, ...]:
@@ -59,16 +59,18 @@ def _with_overlap_ignored(around: PartContext, candidates: list[Candidate]) -> l
         for k, c in enumerate(candidates)
         if c.role in RIM_ROLES and c.outward >= MIN_OUTWARD_COSINE and c.opening <= MIN_FREE_ANGLE_RAD
     ]
-    for slack in PENETRATION_SCALES:
+    for penetration_scale in PENETRATION_SCALES:
         swept = (
-            sweep_all(around.obstacles(slack), [candidates[k].motion for k in stuck], around.config.sweep_steps)
+            sweep_all(around.obstacles(penetration_scale), [candidates[k].motion for k in stuck], around.config.sweep_steps)
             if stuck
             else []
         )
         for k, free in zip(list(stuck), swept, strict=True):
             opening, closing = (free.forward, free.backward)[:: candidates[k].opening_sign]
             if opening > MIN_FREE_ANGLE_RAD:
-                candidates[k] = replace(candidates[k], sweep=free, opening=opening, closing=closing, penetration_scale=slack)
+                candidates[k] = replace(
+                    candidates[k], sweep=free, opening=opening, closing=closing, penetration_scale=penetration_scale
+                )
                 stuck.remove(k)
     return candidates
 
@@ -110,7 +112,7 @@ def _sides(around: PartContext, motion: Motion) -> np.ndarray:
 def _guided_share(around: PartContext, prismatic: list[Motion]) -> list[float]:
     """Return the share of the four directions across each slide in which the part is stopped within GUIDE_STEP_RATIO."""
     sideways = [Motion(JointType.PRISMATIC, d, m.origin, "sideways") for m in prismatic for d in _sides(around, m)]
-    step = [GUIDE_STEP_RATIO * around.scale] * (2 * len(sideways))
+    step = [GUIDE_STEP_RATIO * around.tolerance_length] * (2 * len(sideways))
     signs = [1] * len(sideways) + [-1] * len(sideways)
     free = free_amounts(around.obstacles_at_rest, sideways + sideways, signs, step, 3) if prismatic else []
     stopped = np.array([not clear for _, clear in free], bool).reshape(2, len(prismatic), 2)
@@ -122,7 +124,7 @@ def _prismatic(around: PartContext, role: str, motion: Motion, swept: Sweep, gui
     inner = around.depth_in_parent(motion.axis)
     across = sorted(np.ptp(around.part.corners @ d) for d in side)[0]
     return Candidate(
-        motion, swept, role, 1, swept.forward / around.scale, swept.backward / around.scale,
+        motion, swept, role, 1, swept.forward / around.tolerance_length, swept.backward / around.tolerance_length,
         hinge_support=0.0,
         sibling=0.0,
         handle_side=0.0,

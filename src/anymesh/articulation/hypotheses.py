@@ -15,7 +15,7 @@ from anymesh.motion.part_context import PartContext
 from anymesh.types import JointType, Motion
 
 SAME_DIRECTION = np.cos(np.deg2rad(1.0))
-SAME_LINE = 0.004  # share of the object's diagonal
+SAME_LINE = 0.004  # of the tolerance length
 
 
 def _edges(box: OrientedBox, what: str) -> list[tuple[str, Motion]]:
@@ -82,7 +82,7 @@ def _unit(v: np.ndarray) -> np.ndarray:
 
 def two_pivot_line(around: PartContext) -> Motion | None:
     """Return the line through two contacts far apart with free space between them (a bucket handle, a trunnion)."""
-    near = around.part.samples.points[around.gap < max(0.008 * around.scale, float(around.gap.min()) * 1.5)]
+    near = around.part.samples.points[around.gap < max(0.008 * around.tolerance_length, float(around.gap.min()) * 1.5)]
     if len(near) < 6:
         return None
     spread = near - near.mean(0)
@@ -136,24 +136,24 @@ def propose(around: PartContext) -> list[tuple[str, Motion]]:
         candidates += _edges(box, "the part's outer box")
     candidates += _box_directions(OrientedBox(box.center, np.eye(3), box.half), "the object")
     candidates += _from_contact(around)
-    return distinct(candidates, around.scale)
+    return distinct(candidates, around.tolerance_length)
 
 
-def distinct(candidates: list[tuple[str, Motion]], diagonal: float) -> list[tuple[str, Motion]]:
+def distinct(candidates: list[tuple[str, Motion]], tolerance_length: float) -> list[tuple[str, Motion]]:
     """Return the motions without near-duplicates of earlier ones.
 
-    diagonal: reference length of the tolerances [m].
+    tolerance_length: reference length of the tolerances [m], as in `PartContext`.
     """
     kept: list[tuple[str, Motion]] = []
     for role, motion in candidates:
-        if not any(_same(motion, other, diagonal) for _, other in kept):
+        if not any(_same(motion, other, tolerance_length) for _, other in kept):
             kept.append((role, motion))
     return kept
 
 
-def _same(a: Motion, b: Motion, diagonal: float) -> bool:
+def _same(a: Motion, b: Motion, tolerance_length: float) -> bool:
     if a.kind is not b.kind or abs(float(a.axis @ b.axis)) < SAME_DIRECTION:
         return False
     if a.kind is JointType.PRISMATIC:
         return True
-    return float(np.linalg.norm(np.cross(b.origin - a.origin, a.axis))) < SAME_LINE * diagonal
+    return float(np.linalg.norm(np.cross(b.origin - a.origin, a.axis))) < SAME_LINE * tolerance_length

@@ -18,7 +18,7 @@ MIN_STROKE_RATIO = 0.1  # of its height: a button with less free space behind it
 STROKE_RATIO = 0.5  # of its height: stroke of such a button
 MIN_DRAWER_SIZE_RATIO = 0.06  # of the object's diagonal: smaller parts are no panels of a hidden box
 MIN_HINGE_RANGE_RAD = np.deg2rad(2.0)  # [rad] a hinge with a shorter range, answered or left free, has an error
-MIN_SLIDE_RANGE_RATIO = 0.001  # of the scale: an answered slide that the sweep leaves less range keeps its answer
+MIN_SLIDE_RANGE_RATIO = 0.001  # of the tolerance length: an answered slide that the sweep leaves less range keeps its answer
 # free shares of an answered range for reversing the axis: the maximum before, and the minimum after
 MAX_BLOCKED_RATIO, MIN_REVERSED_FREE_RATIO = 0.5, 0.8
 MIN_DEPTH_IN_PARENT_RATIO = 0.3  # of the answered travel: a part less deep inside its parent is only a panel
@@ -101,7 +101,7 @@ def _answered_prismatic(around: PartContext, c: Candidate, answered: Range) -> R
     ahead, back = _free_within(around, c, lower, upper, 2 * around.config.fine_steps)
     if upper < lower and c.outward > 0.7:
         back = min(lower, extent)
-    if ahead + back < MIN_SLIDE_RANGE_RATIO * around.scale:
+    if ahead + back < MIN_SLIDE_RANGE_RATIO * around.tolerance_length:
         return (0.0 - lower, upper)
     return (0.0 - back, ahead)
 
@@ -132,7 +132,7 @@ def _revolute(around: PartContext, c: Candidate) -> tuple[float, float]:
 
 def _is_closed(around: PartContext) -> bool:
     """Return whether the part is closed: near the parent at both ends of its face."""
-    near = around.gap < 0.02 * around.scale
+    near = around.gap < 0.02 * around.tolerance_length
     local = around.body_obb.local(around.part.samples.points) / np.maximum(around.body_obb.half, 1e-9)
     return sum(ends_near(local[:, axis], near) for axis in around.face_axes) >= 3
 
@@ -162,7 +162,7 @@ def _prismatic(around: PartContext, c: Candidate) -> tuple[float, float]:
     depth = around.depth_in_parent(motion.axis)
     extent = float(np.ptp(around.part.corners @ motion.axis))
     outward = abs(c.outward) > 0.7
-    most = max((1 - around.config.slide_keep) * (depth if outward else extent), 0.01 * around.scale)
+    most = max((1 - around.config.slide_keep) * (depth if outward else extent), 0.01 * around.tolerance_length)
     if c.captured:
         most = 2 * around.part.box.diagonal
     behind = float(np.ptp(around.parent.samples.points @ motion.axis))
@@ -178,9 +178,9 @@ def _prismatic(around: PartContext, c: Candidate) -> tuple[float, float]:
     obstacles = around.obstacles_of(motion, c.penetration_scale)
     upper, _ = free_amount(obstacles, motion, 1, most, steps)
     lower, clear = free_amount(obstacles, motion, -1, most, steps)
-    if outward or clear or lower < 0.01 * around.scale:
+    if outward or clear or lower < 0.01 * around.tolerance_length:
         lower = 0.0
-    if upper < 1e-3 * around.scale:
+    if upper < 1e-3 * around.tolerance_length:
         upper = most if lower == 0 else 0.0
     return (0.0 - lower, upper)
 

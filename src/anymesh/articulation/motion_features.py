@@ -50,7 +50,9 @@ def motion_features(around: PartContext, facts: PartFacts, candidates: Sequence[
 def _contact_points(around: PartContext) -> Float[np.ndarray, "n 3"]:
     """Return the part's samples near the parent, or the nearest ones if none is near [m]."""
     gap = around.gap
-    return around.part.samples.points[gap <= max(CONTACT_RATIO * around.scale, CONTACT_TOLERANCE_FACTOR * float(gap.min()))]
+    return around.part.samples.points[
+        gap <= max(CONTACT_RATIO * around.tolerance_length, CONTACT_TOLERANCE_FACTOR * float(gap.min()))
+    ]
 
 
 def _opening_direction(around: PartContext, c: Candidate) -> Float[np.ndarray, " 3"]:
@@ -118,8 +120,8 @@ def _box_area(around: PartContext) -> float:
 
 def _values(around: PartContext, facts: PartFacts, c: Candidate) -> dict[str, float]:
     slides, axis, core = c.motion.kind is JointType.PRISMATIC, c.motion.axis, around.body_obb
-    unit = max(facts.size * around.diagonal / around.scale if slides else np.pi, 1e-9)
-    extent = float(np.ptp(around.part.corners @ axis)) / around.scale
+    unit = max(facts.size * around.diagonal / around.tolerance_length if slides else np.pi, 1e-9)
+    extent = float(np.ptp(around.part.corners @ axis)) / around.tolerance_length
     turn = {
         "hinge support": c.hinge_support,
         "support opposite": c.support_opposite,

@@ -13,7 +13,7 @@ from jaxtyping import Float
 from anymesh.types import Handle, JointType, Motion, Sweep
 
 MIN_FREE_ANGLE_RAD = float(np.deg2rad(12))  # [rad] a hinge that opens less is blocked
-MIN_FREE_TRAVEL_RATIO = 0.008  # of the diagonal: a slide with less free travel is blocked
+MIN_FREE_TRAVEL_RATIO = 0.008  # of the tolerance length: a slide with less free travel is blocked
 ENDLESS_ANGLE = 3.0  # [rad] minimum free angle in each direction of an endless rotation; the sweep ends at half a turn
 
 
@@ -32,7 +32,6 @@ class PartFacts:
     insertion_depth: float  # depth within the parent along the opening direction, over the smallest side across
     size: float  # its diagonal over the object's
     diagonal: float  # the object's [m]
-    horizontal: bool  # its face points up or down
     handle: Handle | None
     two_pivot: bool  # supported by two contacts far apart with free space between (a bucket handle)
     tall: float  # log2 of its face's height over its width; 0 for a horizontal face
@@ -48,8 +47,9 @@ class PartFacts:
 class Candidate:
     """A candidate motion and its evidence.
 
-    role: relation of the axis to the part ("edge", "edge_mid", "center", "round", "contact", "two_pivot", "barrel", "slide");
-    opening_sign: +1 if +axis opens, else -1; opening, closing: free amounts [rad, or share of the diagonal for a slide].
+    role: relation of the axis to the part: "edge", "edge_mid", "center", "round", "pin", "circle", "pivot", "hub", "two_pivot",
+    "barrel" or "contact" for a hinge, "slide" or "contact_slide" for a slide, "asked" for a motion that was answered;
+    opening_sign: +1 if +axis opens, else -1; opening, closing: free amounts [rad; for a slide, over the tolerance length].
     """
 
     motion: Motion
@@ -66,7 +66,7 @@ class Candidate:
     vertical: float  # |axis . up|
     above: float  # -1..1: position of the axis between the lowest (-1) and the highest (1) point of the part
     captured: bool  # whether a slide is stopped in both directions, with free travel between
-    outward: float  # opening direction . outward, -1..1
+    outward: float  # cosine between the initial motion of the center and the opening direction of the part
     pair: float = 0.0  # -1..1: 1 if a similar panel meets the part opposite the hinge, -1 if at the hinge
     outer: float = 0.0  # -1..1: 1 if the hinge is at the object's outer side, -1 if towards its middle
     handle_off: float = 0.0  # 0..1, offset of the handle from the center of the hinge's length

@@ -30,10 +30,10 @@ SIMILAR_RATIO = 0.2  # of the travel: motions that take the part's points to pla
 # limits for similar motions in the first picture: their number, and their loss to the best of them [log-odds]
 MAX_SIMILAR, MAX_SIMILAR_LOSS = 2, 1.0
 DUPLICATE_PART_RATIO = 0.01  # of the part's diagonal: motions this close are near-duplicates; about two or three pixels
-# of the object's diagonal: motions that take the part's points to places this close are near-duplicates
+# of the tolerance length: motions that take the part's points to places this close are near-duplicates
 DUPLICATE_OBJECT_RATIO = 0.02
 DUPLICATE_MOTION_RATIO = 0.15  # of the travel: upper limit of the object-based distance, for small parts
-OFF_PART = 0.02  # of the object's diagonal: hinge lines farther from the part's surface are not in the first picture
+OFF_PART = 0.02  # of the tolerance length: hinge lines farther from the part's surface are not in the first picture
 MAX_LOSS = 8.0  # [log-odds] motions that are worse than the best one by more are in the second picture, unless few are left
 MIN_FREE_MOTIONS = 3  # minimum number of free motions in the first picture, even if implausible
 SHAPE_AXES = 3  # number of axes of the part's own shape that are always in the first picture
@@ -78,14 +78,14 @@ def make_offers(case: PartCase, max_motions: int, seed: int) -> MotionOffers:
     """
     question = scored_motions(case)
     facts, candidates, plain = question.part, list(question.candidates), motion_scores(question).tolist()
-    worth = [v + _agrees(c, case) - PICKED_POINT_PENALTY * (c.role == "asked") for v, c in zip(plain, candidates, strict=True)]
-    order = sorted(range(len(candidates)), key=lambda k: (not candidates[k].is_free, -worth[k], k))
+    values = [v + _agrees(c, case) - PICKED_POINT_PENALTY * (c.role == "asked") for v, c in zip(plain, candidates, strict=True)]
+    order = sorted(range(len(candidates)), key=lambda k: (not candidates[k].is_free, -values[k], k))
     kept, amounts, answered, kin = _unlike(case, candidates, [k for k in order if _shown(candidates[k])])
     motions = [candidates[k] for k in kept]
-    best = max((worth[k] for k in kept), default=0.0)
+    best = max((values[k] for k in kept), default=0.0)
     crowding = _crowding(kin, [plain[k] for k in kept])
     likely = [
-        c.is_free and not (crowding[rank] or _off_part(case, c)) and (worth[k] > best - MAX_LOSS or rank < MIN_FREE_MOTIONS)
+        c.is_free and not (crowding[rank] or _off_part(case, c)) and (values[k] > best - MAX_LOSS or rank < MIN_FREE_MOTIONS)
         for rank, (k, c) in enumerate(zip(kept, motions, strict=True))
     ]
     first, second = _pages(motions, case.kind, likely, answered, max_motions)
@@ -106,7 +106,7 @@ def scored_motions(case: PartCase) -> MotionQuestion:
     proposed = propose(around)
     facts = part_facts(around, case.label, case.label, any(role == "two_pivot" for role, _ in proposed))
     circles = [("circle", motion) for motion in case.circles]
-    proposed = distinct([*proposed, *circles, *pivots(around, case.shown.normal)], around.scale)
+    proposed = distinct([*proposed, *circles, *pivots(around, case.shown.normal)], around.tolerance_length)
     first = [("asked", case.asked)] if case.asked is not None else []
     question = UnscoredMotions(around, facts, hypotheses(around, first + proposed)).question()
     scores, chosen = motion_scores(question), []
@@ -145,7 +145,7 @@ def shown_amount(c: Candidate, case: PartCase) -> float:
     size = MAX_SHOWN_TRAVEL_RATIO * around.part.box.diagonal
     if pressed(c, answered_range(case.recognized, JointType.PRISMATIC)):
         return -0.5 * min(float(np.ptp(around.part.corners @ c.motion.axis)), size)
-    return float(min(c.opening * around.scale, size) if c.is_free else BLOCKED_SHOWN_RATIO * size)
+    return float(min(c.opening * around.tolerance_length, size) if c.is_free else BLOCKED_SHOWN_RATIO * size)
 
 
 def _agrees(c: Candidate, case: PartCase) -> float:
@@ -168,7 +168,8 @@ def _unlike(
     first one that it is similar to.
     """
     moved = MovedPoints(case.around, candidates)
-    part_limit, object_limit = DUPLICATE_PART_RATIO * case.around.part.box.diagonal, DUPLICATE_OBJECT_RATIO * case.around.scale
+    part_limit = DUPLICATE_PART_RATIO * case.around.part.box.diagonal
+    object_limit = DUPLICATE_OBJECT_RATIO * case.around.tolerance_length
     kept: list[int] = []
     amounts: list[float] = []
     first: list[int] = []
@@ -211,7 +212,7 @@ def _off_part(case: PartCase, c: Candidate) -> bool:
     if c.motion.kind is not JointType.REVOLUTE or c.role not in ("edge", "edge_mid"):
         return False
     off = np.linalg.norm(np.cross(case.around.part.samples.points - c.motion.origin, c.motion.axis), axis=1)
-    return bool(off.min() > OFF_PART * case.around.scale)
+    return bool(off.min() > OFF_PART * case.around.tolerance_length)
 
 
 def _pages(

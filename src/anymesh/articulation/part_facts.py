@@ -29,7 +29,6 @@ def part_facts(around: PartContext, name: str, label: str, two_pivot: bool) -> P
         insertion_depth=around.insertion_depth,
         size=around.part.box.diagonal / around.diagonal,
         diagonal=around.diagonal,
-        horizontal=bool(abs(around.opening_direction[2]) > 0.8),
         handle=around.handle,
         two_pivot=two_pivot,
         tall=_face_aspect(around),
@@ -52,7 +51,7 @@ def _face_aspect(around: PartContext) -> float:
 def _back_contact(around: PartContext) -> float:
     """Return the share of the back that is in contact with the parent, or inside it."""
     back = around.part.samples.normals @ around.opening_direction < -FACING_COSINE
-    near = around.gap < max(2 * around.config.connecting * around.scale, 1.5 * float(around.gap.min()))
+    near = around.gap < max(2 * around.config.connecting * around.tolerance_length, 1.5 * float(around.gap.min()))
     return float(near[back].mean()) if back.sum() > 3 else 0.0
 
 

@@ -26,7 +26,7 @@ def label_of(around: PartContext, best: Candidate) -> str:
             return "slider"
         if size <= MIN_DRAWER_SIZE_RATIO and best.outward < 0:
             return "button"
-        return "drawer" if best.opening * around.scale >= MIN_DRAWER_TRAVEL_RATIO * around.part.box.diagonal else ""
+        return "drawer" if best.opening * around.tolerance_length >= MIN_DRAWER_TRAVEL_RATIO * around.part.box.diagonal else ""
     if best.role == "round":
         return "knob" if size < MIN_WHEEL_SIZE_RATIO else "wheel"
     if best.role == "two_pivot":

@@ -56,7 +56,7 @@ def _with_row_direction(around: PartContext, row: list[PartContext]) -> PartCont
     if len(row) == 1 or not beside.any():
         return around
     for other in row[1:]:
-        theirs, worth = other.opening_directions
-        total = total + worth[(ways @ theirs.T).argmax(1)]
+        theirs, weights = other.opening_directions
+        total = total + weights[(ways @ theirs.T).argmax(1)]
     best = np.where(beside, total, -np.inf).argmax()
     return around if (ways[best] == around.opening_direction).all() else replace(around, shared_opening_direction=ways[best])

@@ -57,11 +57,11 @@ def _base_box(mesh: Mesh, boxes: list[OrientedBox]) -> tuple[OrientedBox, dict[i
         else:
             high[axis] = everything[:, axis].max()
     across = float(np.linalg.norm(high - low))
-    slack = MAX_CLOSED_PROTRUSION_RATIO * across
+    tolerance = MAX_CLOSED_PROTRUSION_RATIO * across
     filled, shut = [low[None], high[None]], {}
     for number, core in enumerate(boxes[1:], start=1):
         ends = core.world(_corners(-core.half, core.half)) @ frame.T
-        if (ends > low - slack).all() and (ends < high + slack).all() and _is_plate(core, across):
+        if (ends > low - tolerance).all() and (ends < high + tolerance).all() and _is_plate(core, across):
             filled.append(ends)
             shut[number] = core
     all_ends = np.concatenate(filled)

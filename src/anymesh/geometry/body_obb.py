@@ -18,15 +18,15 @@ def body_obb(shape: TriangleSet) -> OrientedBox:
     facing = np.abs(shape.samples.normals @ frame.T) > 0.9
     corners = shape.corners @ frame.T
     low, high = corners.min(0), corners.max(0)
-    slack = 0.01 * shape.box.diagonal
+    tolerance = 0.01 * shape.box.diagonal
     for axis in range(3):
         for sign, edge in ((1.0, high), (-1.0, low)):
             at = np.sort(sign * local[facing[:, axis], axis])
             if len(at) < 0.02 * len(local) or len(at) < 3:
                 continue
             level = at[-1 - int(SIDE_LEVEL_RATIO * len(at))]
-            out = sign * local[:, axis] > level + slack / 2
-            if level < sign * edge[axis] - slack and _protrudes(local, out, axis):
+            out = sign * local[:, axis] > level + tolerance / 2
+            if level < sign * edge[axis] - tolerance and _protrudes(local, out, axis):
                 edge[axis] = sign * level
     if (high - low < 1e-9).any():
         return shape.box

@@ -109,9 +109,9 @@ def fit_box(
     tried = np.array([f for f in frames if f is not None])
     step = max(1, BLOCK // max(len(points), 1))
     sides = np.concatenate([_sides(points, tried[k : k + step]) for k in range(0, len(tried), step)])
-    slack = 1e-3 * float(np.linalg.norm(np.ptp(points, axis=0)))
+    tolerance = 1e-3 * float(np.linalg.norm(np.ptp(points, axis=0)))
     best, best_volume = 0, np.inf
-    for k, volume in enumerate((sides + slack).prod(1)):
+    for k, volume in enumerate((sides + tolerance).prod(1)):
         if volume < best_volume * 0.97:
             best, best_volume = k, volume
     return box_in_frame(points, tried[best])

@@ -13,10 +13,10 @@ from anymesh.geometry.triangle_set import TriangleSet
 from anymesh.types import Handle
 
 FACING_COSINE = 0.5  # minimum cosine between a normal and the direction it faces
-MIN_TAB_GAP_RATIO = 0.01  # of the scale: a tab that is closer to the parent is a hinge barrel
+MIN_TAB_GAP_RATIO = 0.01  # of the tolerance length: a tab that is closer to the parent is a hinge barrel
 # of the handle's height: maximum height of the face around a handle; around the top of a bulge it is higher
 MAX_BULGE_RATIO = 0.25
-MIN_HANDLE_GAP_RATIO = 0.002  # of the scale: a protrusion closer to the parent supports the part and is no handle
+MIN_HANDLE_GAP_RATIO = 0.002  # of the tolerance length: a protrusion closer to the parent supports the part and is no handle
 MIN_HANDLE_ASPECT = 0.3  # minimum height of a handle over its smaller width
 MIN_HANDLE_HEIGHT_RATIO = 0.012  # minimum height of a handle over the part's diagonal
 

@@ -55,7 +55,7 @@ class PartContext:
         return body_obb(self.part)
 
     @cached_property
-    def scale(self) -> float:
+    def tolerance_length(self) -> float:
         """Return the reference length of tolerances [m]: the object's diagonal, limited to five diagonals of the part."""
         return max(min(self.diagonal, 5 * self.part.box.diagonal), MIN_SCALE_RATIO * self.diagonal)
 
@@ -99,7 +99,7 @@ class PartContext:
     @cached_property
     def penetration(self) -> float:
         """Return the penetration at which a path is stopped [m]."""
-        return self.config.penetration * self.scale
+        return self.config.penetration * self.tolerance_length
 
     @cached_property
     def obstacles_at_rest(self) -> Obstacles:
@@ -132,7 +132,7 @@ class PartContext:
         """
         theirs = self.parent.samples.points
         off = self.part.tree.distance(theirs)
-        near, far, _ = connecting_area(self.gap, off, self.config.connecting * max(self.scale, 1e-3 * self.diagonal))
+        near, far, _ = connecting_area(self.gap, off, self.config.connecting * max(self.tolerance_length, 1e-3 * self.diagonal))
         return np.concatenate([self.part.samples.points[near], theirs[far]])
 
     def sees_outside(self, direction: Float[np.ndarray, " 3"]) -> Bool[np.ndarray, " n"]:
@@ -185,7 +185,7 @@ class PartContext:
     @cached_property
     def handle(self) -> Handle | None:
         """Return the handle of the part, None if it has none."""
-        return find_handle(self.part, self.body_obb, self.gap, self.scale, self.opening_direction)
+        return find_handle(self.part, self.body_obb, self.gap, self.tolerance_length, self.opening_direction)
 
     @cached_property
     def face_axes(self) -> list[int]:

@@ -5,7 +5,8 @@
     output    -> complete_asset -> write_files                                            finish
                  (Stage C, 3.4)
 
-A stage is `stage(inputs, options) -> result`; who answers its questions (geometry, a model, a reference) is an option.
+A stage takes a `Run` and the saved result of the stage before it; who answers its questions (geometry, a model, a reference)
+is an option.
 The functions below are loaded on first use, so that importing a module of this package is fast.
 """
 

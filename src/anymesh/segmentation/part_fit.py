@@ -95,7 +95,7 @@ def has_two_pivots(around: PartContext, near: np.ndarray, normals: np.ndarray) -
     """
     points = around.part.samples.points
     if near.sum() < 4:
-        near = around.gap < max(2 * float(around.gap.min()), 0.004 * around.scale)
+        near = around.gap < max(2 * float(around.gap.min()), 0.004 * around.tolerance_length)
         if near.sum() < 4:
             return False
     held = points[near]

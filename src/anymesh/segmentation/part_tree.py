@@ -108,8 +108,8 @@ def part_tree(mesh: Mesh, whole: ObjectShape, contacts: Contacts, min_size: floa
     ranking = root_ranking(whole, contacts)
     joined = [rigid_groups(mesh, whole, contacts, base) for base in ranking[:BASES]]
     divided = rigid_groups(mesh, whole, contacts, ranking[0], divided=True)
+    names = [divided.names[g] for g in divided.group]
     for units in (*joined, divided):
-        names = [units.names[u] for u in units.group]
         for u in sorted(units.hanging):
             if u != units.root:
                 for chosen in ([u], units.hanging[u], with_supported(units, u)):

@@ -102,9 +102,9 @@ def fuse(
         depth = _limited(frame.observe().depth, depth_max)
         camera = frame.depth_camera(depth)
         cosine = _cosine(depth, camera)
-        worth = cosine**2 * np.minimum((usual / np.maximum(depth, 1e-3)) ** 4, 4.0).astype(np.float32)
-        worth[(depth <= 0) | (cosine < STEEP)] = 0
-        view = _View(np.linalg.inv(T @ frame.T_world_camera), camera, depth, cosine, worth)
+        frame_weight = cosine**2 * np.minimum((usual / np.maximum(depth, 1e-3)) ** 4, 4.0).astype(np.float32)
+        frame_weight[(depth <= 0) | (cosine < STEEP)] = 0
+        view = _View(np.linalg.inv(T @ frame.T_world_camera), camera, depth, cosine, frame_weight)
         for rows in _blocks_in_sight(grid, view, truncation):
             _add(total, weight, rows, grid, view, truncation)
     known = weight > 0
@@ -119,7 +119,7 @@ class _View:
     camera: Pinhole
     depth: Float32[np.ndarray, "h w"]
     cosine: Float32[np.ndarray, "h w"]
-    worth: Float32[np.ndarray, "h w"]
+    frame_weight: Float32[np.ndarray, "h w"]
 
 
 def _limited(depth: np.ndarray, most: float) -> Float32[np.ndarray, "h w"]:
@@ -189,11 +189,11 @@ def _add(total: np.ndarray, weight: np.ndarray, rows: np.ndarray, grid: Grid, vi
         u, v = camera.fx * x / z + camera.cx, camera.fy * y / z + camera.cy
     inside = (z > 1e-3) & (u >= 0) & (u < camera.width) & (v >= 0) & (v < camera.height)
     at = np.where(inside, v, 0).astype(np.int32) * camera.width + np.where(inside, u, 0).astype(np.int32)
-    worth = view.worth.reshape(-1)[at]
+    frame_weight = view.frame_weight.reshape(-1)[at]
     ahead = view.depth.reshape(-1)[at] - z
     sdf = ahead * view.cosine.reshape(-1)[at] / np.float32(truncation)
-    use: Bool[np.ndarray, "n m"] = inside & (worth > 0) & (sdf > -BEHIND)
+    use: Bool[np.ndarray, "n m"] = inside & (frame_weight > 0) & (sdf > -BEHIND)
     fade = 1 + FADE * np.minimum(sdf, 0) / BEHIND  # less weight behind the surface, for thin walls and grooves
-    worth = np.where(use, worth * fade, 0)
-    total[rows] += worth * np.minimum(sdf, 1)
-    weight[rows] += worth
+    frame_weight = np.where(use, frame_weight * fade, 0)
+    total[rows] += frame_weight * np.minimum(sdf, 1)
+    weight[rows] += frame_weight

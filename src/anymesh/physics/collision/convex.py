@@ -82,8 +82,8 @@ def cut(
 ) -> tuple[Float[np.ndarray, "a 3 3"], Float[np.ndarray, "b 3 3"]]:
     """Return the triangles below (normal . x <= offset) and above a plane; those that cross it are divided."""
     height = triangles @ normal - offset
-    slack = 1e-9 * (float(np.abs(height).max(initial=0.0)) + 1e-12)
-    height = np.where(np.abs(height) <= slack, 0.0, height)
+    tolerance = 1e-9 * (float(np.abs(height).max(initial=0.0)) + 1e-12)
+    height = np.where(np.abs(height) <= tolerance, 0.0, height)
     above = (height >= 0).all(1) & (height > 0).any(1)
     crossing = (height > 0).any(1) & (height < 0).any(1)
     parts = [triangles[~above & ~crossing]], [triangles[above]]

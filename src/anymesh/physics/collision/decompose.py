@@ -102,9 +102,9 @@ class _Around:
     def heights(self, points: np.ndarray) -> np.ndarray:
         return np.max(points @ self.planes[:, :3].T + self.planes[:, 3], axis=1)
 
-    def holds(self, points: np.ndarray, slack: float) -> bool:
-        inside = (points >= self.low - slack).all() and (points <= self.high + slack).all()
-        return bool(inside and (self.heights(points) <= slack).all())
+    def holds(self, points: np.ndarray, tolerance: float) -> bool:
+        inside = (points >= self.low - tolerance).all() and (points <= self.high + tolerance).all()
+        return bool(inside and (self.heights(points) <= tolerance).all())
 
 
 def _gathered(pieces: list[np.ndarray]) -> list[Component]:
