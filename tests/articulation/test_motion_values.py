@@ -41,18 +41,18 @@ def test_the_shape_and_place_of_a_door() -> None:
         "opening direction up": 0,
         "visibility": 1,
         "insertion depth": 0,
-        "tall": np.log2(0.796 / 0.596),
+        "log2 height over width": np.log2(0.796 / 0.596),
         "height": 0.5,
-        "held at two ends": 0,
+        "two pivots": 0,
         "handle": 1,
         "handle size": 0.2 / np.linalg.norm([0.596, 0.02, 0.796]),
         "handle off the middle": (0.5625 - 0.3) / 0.298,
         "bar handle": 1,
-        "gap": np.log10(0.002 / DIAGONAL),
+        "log10 gap": np.log10(0.002 / DIAGONAL),
         "parts": 0,
         "object height": 0.8 / 0.6,
         "solid": 1,
-        "aside": 1 - 2 * 0.034 / 0.47,
+        "horizontal offset": 1 - 2 * 0.034 / 0.47,
         "area over box": (PANEL + BAR) / PANEL,
         # it is not round
         "free rim": 0, "covers an opening": 0, "rotational asymmetry": 1,
@@ -63,13 +63,13 @@ def test_the_hinge_line_of_a_door() -> None:
     """The line is in the middle of the panel's left rim, and the panel reaches 0.596 m from it."""
     assert of_door()[1] == pytest.approx(of_door()[1] | {
         "prismatic": 0, "along length": 1, "along width": 0, "along thickness": 0, "along opening direction": 0, "vertical": 1,
-        "upwards": MISSING, "opening": 1, "free both ways": 0, "outward": 1, "penetration scale": 0,
+        "upwards": MISSING, "opening": 1, "free both ways": 0, "outward": 1, "log penetration scale": 0,
         "off along length": 0, "off along width": 1, "off along thickness": 0, "off the part": 0, "barrel near": 0,
         "another part along": 0, "support opposite": 1, "pair": 0, "outer": 0, "above": 0,
         "handle side": (0.5625 - 0.3) / 0.298,
         "handle off the hinge's middle": 0,
         "handle distance": 0.5605 / 0.596,
-        "reach": np.log2(0.596 / 0.796),
+        "log2 reach over length": np.log2(0.596 / 0.796),
         "balance": 0.5,
         "thick at the line": 0.02 / 0.068,
         "off the parent's border": 0.002 / DIAGONAL,
@@ -98,7 +98,7 @@ def test_a_drawer_that_slides_out() -> None:
         "closing": 0, "free both ways": 0, "captured": 0, "guided": 0.75,
         "insertion depth": 0.35 / 0.27,
         "depth": 0.35 / 0.27,
-        "tall": np.log2(0.27 / 0.59),
+        "log2 height over width": np.log2(0.27 / 0.59),
         "object height": 0.28 / 0.6,
         "handle off the middle": 0.0015 / 0.135,
         "opening": 2, "room over extent": 2 * size / 0.42,  # swept to twice its size
@@ -115,12 +115,13 @@ def test_a_lid_about_its_back_edge() -> None:
     (_, up) = features(lid(), turn(X, (0.3, 0.4, 0.301)))
     diagonal = np.linalg.norm([0.6, 0.425, 0.32])
     expected = {
-        "opening direction up": 1, "tall": 0, "height": 0.3105 / 0.32, "along length": 1, "vertical": 0, "above": -1,
-        "outward": 1, "rises": 1, "opening": 1, "closing": 0,
+        "opening direction up": 1, "log2 height over width": 0, "height": 0.3105 / 0.32,
+        "along length": 1, "vertical": 0, "above": -1,
+        "outward": 1, "initial slope": 1, "opening": 1, "closing": 0,
         "off along length": 0, "off along width": 1, "off along thickness": 1,
         "hinge support": 1, "support opposite": 0,  # the line mirrored at its center is 0.02 m in front, at its top
         "handle side": 1, "bar handle": 0, "bar handle along": MISSING,
-        "gap": np.log10(0.001 / diagonal), "reach": np.log2(0.425 / 0.6), "thick at the line": 1,
+        "log10 gap": np.log10(0.001 / diagonal), "log2 reach over length": np.log2(0.425 / 0.6), "thick at the line": 1,
         "handle distance": 0.4 / 0.425,
     }  # fmt: skip
     assert up == pytest.approx(up | expected, abs=0.03)
@@ -131,11 +132,12 @@ def test_a_wheel_about_its_axle() -> None:
     (about, _) = features(wheel(), turn(Y, (0, -0.035, 0.2)), "round")
     diagonal = np.linalg.norm([0.4, 0.28, 0.2])
     expected = {
-        "size": np.linalg.norm([0.2, 0.2, 0.03]) / diagonal, "roundness": 1, "height over radius": 0.3, "tall": 0,
-        "thickness": 0.03 / diagonal, "height": 0.5, "aside": 1 - 2 * 0.045 / 0.28,
+        "size": np.linalg.norm([0.2, 0.2, 0.03]) / diagonal, "roundness": 1,
+        "height over radius": 0.3, "log2 height over width": 0,
+        "thickness": 0.03 / diagonal, "height": 0.5, "horizontal offset": 1 - 2 * 0.045 / 0.28,
         "free rim": 1, "rotational asymmetry": 0, "handle": 0,
         "along thickness": 1, "balance": 0, "contact off the line": 0.3, "contact middle off the line": 0, "outward": 0,
-        "reach": np.log2(0.1 / 0.03), "off the part": 0, "contact retention": 1, "free both ways": 1,
+        "log2 reach over length": np.log2(0.1 / 0.03), "off the part": 0, "contact retention": 1, "free both ways": 1,
         "handle distance": MISSING, "contact around the axis": 1, "off the parent's border": 0.1 / diagonal,
         "thick at the line": 1, "contact proximity": 0.7,
     }  # fmt: skip

@@ -85,7 +85,7 @@ def test_what_is_visible_does_not_depend_on_the_unit(scale: float) -> None:
     out, back = features(context([leaf], [case]), ("slide", slide(-Y)))
     assert (out["visible ahead"], out["visible behind"]) == (1, pytest.approx(0, abs=0.1))
     assert (back["visible ahead"], back["visible behind"]) == (out["visible behind"], out["visible ahead"])
-    assert out["held at two ends"] == 1
+    assert out["two pivots"] == 1
     assert out["upwards"] == pytest.approx(0)
     (up, down) = features(context([leaf], [case]), ("slide", slide(Z)))
     assert (up["upwards"], down["upwards"]) == (1, -1)
@@ -93,7 +93,7 @@ def test_what_is_visible_does_not_depend_on_the_unit(scale: float) -> None:
         "hinge support",
         "balance",
         "pair",
-        "rises",
+        "initial slope",
         "handle side",
     }
 

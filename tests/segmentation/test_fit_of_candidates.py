@@ -48,7 +48,7 @@ def test_the_shape_of_an_inset_door() -> None:
     expected = {
         "thinness": 0.03 / 0.89, "width over length": 1, "size": np.linalg.norm([0.89, 0.07, 0.89]) / DIAGONAL,
         "thickness": 0.03 / DIAGONAL, "area share": sum(AREA) / total, "face share": 0.89**2, "closed": 1,
-        "area over box": sum(AREA) / AREA[0], "largest patch": AREA[0] / sum(AREA), "patches of the object": np.log1p(7),
+        "area over box": sum(AREA) / AREA[0], "largest patch": AREA[0] / sum(AREA), "log patches of the object": np.log1p(7),
     }  # fmt: skip
     assert door() == pytest.approx(door() | expected, abs=1e-3)
 
@@ -58,7 +58,7 @@ def test_the_neighbours_of_an_inset_door() -> None:
     expected = {
         "touching patches": 0, "contact with the first": 0, "contact area": 0, "patches with clearance": np.log1p(4),
         "parted by creases": 0, "separate": 1, "enclosed": 1, "contact within": 2 * 0.0016 / sum(AREA),
-        "depth": 0.03 / 0.89, "two pivots": 0, "on axis": 0, "axle level": 1, "copies": 0, "copies in a row": 0,
+        "depth": 0.03 / 0.89, "two pivots": 0, "on axis": 0, "axle level": 1, "log copies": 0, "copies in a row": 0,
         "copy on the axis": 0, "bar handle": 0, "handle size": 0.04 / np.linalg.norm([0.89, 0.03, 0.89]),
     }  # fmt: skip
     assert door() == pytest.approx(door() | expected, abs=0.01)
@@ -81,10 +81,10 @@ def test_equal_doors_in_a_row_are_copies() -> None:
     smaller = box((1, 0, 1), (1.85, 0.05, 1.85))
     mesh = mesh_of([box((0, 0.1, 0), (3, 1, 2)), *blocks, higher, smaller])[0]
     f = features(mesh, {1})
-    assert f["copies"] == pytest.approx(np.log1p(3))
+    assert f["log copies"] == pytest.approx(np.log1p(3))
     assert f["copies in a row"] == pytest.approx(np.log1p(3))  # two beside it, one above it
     assert features(mesh, {2})["copies in a row"] == pytest.approx(np.log1p(2))  # the fourth is above and aside
-    assert features(mesh, {5})["copies"] == 0
+    assert features(mesh, {5})["log copies"] == 0
 
 
 def test_wheels_of_an_axle_are_copies_on_one_axis() -> None:

@@ -39,11 +39,11 @@ def test_an_inset_door_with_a_knob() -> None:
     assert f["rims with clearance"] == 4
     assert f["separate"] == 1
     assert f["contact area"] == 0
-    assert f["near gap"] == pytest.approx(np.log10(0.005 / 1.5), abs=0.05)
+    assert f["log10 near gap"] == pytest.approx(np.log10(0.005 / 1.5), abs=0.05)
     assert f["open behind"] > 0.9
     assert f["handle"] == 1
     assert f["handle off the middle"] == pytest.approx(0.83, abs=0.1)
-    assert f["copies"] == 0
+    assert f["log copies"] == 0
     assert f["bottom"] == pytest.approx(0.055, abs=1e-6)
     assert f["height"] == pytest.approx(0.5, abs=1e-6)
     assert f["patches"] == pytest.approx(np.log(3))
@@ -79,14 +79,14 @@ def test_the_place_of_the_door_in_the_object() -> None:
         "height": 0.5,
         "bottom": 0.055,
         "top": 0.055,
-        "aside": 1 - 2 * 0.035 / 0.53,
+        "horizontal offset": 1 - 2 * 0.035 / 0.53,
         "sides reached": 1,  # the front
         "width share": 0.89,
         "height share": 0.89,
         "faces up": 0,
-        "seen": 1,
-        "thin way out": 1,
-        "out from the middle": (0.235 - 0.005) / diagonal,
-        "proportion": 1,
+        "visibility": 1,
+        "thin side towards opening": 1,
+        "offset from the center": (0.235 - 0.005) / diagonal,
+        "object height over width": 1,
     }
     assert {name: f[name] for name in expected} == pytest.approx(expected, abs=1e-6)

@@ -84,7 +84,7 @@ def _shape(scene: FeatureScene, group: int, around: PartContext) -> dict[str, fl
         "height over radius": _ratio(outline.height, outline.radius),
         "patches": float(np.log1p(patches.sum())),
         "largest patch": float(tree.contacts.patch_area[patches].max() / max(tree.area[group], 1e-300)),
-        "patches of the object": float(np.log1p(len(patches))),
+        "log patches of the object": float(np.log1p(len(patches))),
     }
 
 
@@ -99,15 +99,15 @@ def _place(around: PartContext) -> dict[str, float]:
         "height": float(center[2]),
         "bottom": float((mine[0, 2] - low[2]) / extent[2]),
         "top": float((high[2] - mine[1, 2]) / extent[2]),
-        "aside": float(aside),
+        "horizontal offset": float(aside),
         "sides reached": float(reached[:, :2].sum()),
         "width share": float(((mine[1] - mine[0]) / extent)[:2].max()),
         "height share": float((mine[1, 2] - mine[0, 2]) / extent[2]),
         "faces up": float(around.opening_direction[2]),
-        "seen": around.visibility,
-        "thin way out": float(np.abs(around.body_obb.axes[2] @ around.opening_direction)),
-        "out from the middle": float((mine.mean(0) - around.center) @ around.opening_direction / around.diagonal),
-        "proportion": _ratio(extent[2], float(extent[:2].max())),
+        "visibility": around.visibility,
+        "thin side towards opening": float(np.abs(around.body_obb.axes[2] @ around.opening_direction)),
+        "offset from the center": float((mine.mean(0) - around.center) @ around.opening_direction / around.diagonal),
+        "object height over width": _ratio(extent[2], float(extent[:2].max())),
     }
 
 
@@ -125,8 +125,8 @@ def _fit(scene: FeatureScene, around: PartContext) -> dict[str, float]:
         "open behind": open_behind(around),
         "touching": float(near.mean()),
         "back touches": float(near[back].mean()) if back.sum() > 3 else 0.0,
-        "near gap": float(np.log10(gaps[0] + 1e-5)),
-        "middle gap": float(np.log10(gaps[1] + 1e-5)),
+        "log10 near gap": float(np.log10(gaps[0] + 1e-5)),
+        "log10 middle gap": float(np.log10(gaps[1] + 1e-5)),
         "enclosed": enclosed_share(around),
         "depth": _ratio(depth, 2 * float(around.body_obb.half[1])),
         "two pivots": float(has_two_pivots(around, near, normals)),
@@ -188,7 +188,7 @@ def _copies(scene: FeatureScene, group: int, around: PartContext) -> dict[str, f
     arm = middles - outline.center
     across = np.linalg.norm(arm - (arm @ outline.axis)[:, None] * outline.axis, axis=1)
     return {
-        "copies": float(np.log1p(alike.sum())),
+        "log copies": float(np.log1p(alike.sum())),
         "copies in a row": float(np.log1p(((off < IN_LINE).sum(1) >= 2).sum())),
         "copy on the axis": float((across < 0.3 * outline.radius).any()),
     }
