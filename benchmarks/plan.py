@@ -6,7 +6,8 @@
 A second MuJoCo simulation with the true joints stands in for the real robot. Twins: ours (`anymesh articulate` on the mesh),
 corrected (ours with the sign of the joint set right by hand), truth (the true parts and joints: an upper bound), paper (the
 paper's rule alone for every joint, `verify="off"`, with ground truth in the place of the model), scan (ours of a simulated
-RGB-D scan of the object, by `anymesh scan`; not among the defaults), and any folder by --twin.
+RGB-D scan of the object, by `anymesh scan`), answered (the drill's scan again, with the recorded answers of a general model
+that saw the pictures, `plan_answers/`), and any folder by --twin. The last three are not among the defaults.
 """
 
 from __future__ import annotations
@@ -40,6 +41,7 @@ from anymesh.pipeline import articulate
 from anymesh.pipeline.solving import solve
 
 TWINS = ("ours", "corrected", "truth", "paper")
+ANSWERS = Path(__file__).with_name("plan_answers")
 
 
 @dataclass(frozen=True)
@@ -114,20 +116,26 @@ def twin(kind: str, task: Task, subject: EvalSample, work: Path) -> Path:
     return folder
 
 
-def scanned(subject: EvalSample, folder: Path) -> tuple[Path, np.ndarray]:
-    """The twin of a scan of the true object, 60 rendered RGB-D frames with noise, and `T_true_file` of `matched`."""
+def scanned(subject: EvalSample, task: Task, kind: str, work: Path) -> tuple[Path, np.ndarray]:
+    """Return the twin made from a scan of the true object, 60 rendered RGB-D frames with noise, and `T_true_file` of `matched`.
+
+    kind: "scan" by geometry, "answered" with the recorded answers.
+    """
     module = import_module("anymesh.applications.scan")
+    folder, asset = work / "scans" / task.thing, work / kind / task.thing
     if not (folder / "T.json").exists():
         folder.mkdir(parents=True, exist_ok=True)
         module.render_frames(subject.mesh, folder / "frames", views=60, noise=0.0015, seed=0)
         report = module.scan(folder / "frames", folder / "scan.glb", force=True)
-        articulate(folder / "scan.glb", folder / "asset", force=True)
         truth = json.loads((folder / "frames" / "truth.json").read_text(encoding="utf-8"))
         T_glb_scan = np.eye(4)
         T_glb_scan[:3, :3] = import_module("anymesh.applications.scan.output").TO_GLTF
         T = np.linalg.inv(T_glb_scan @ np.array(report.T_scan_world) @ np.array(truth["T_world_mesh"]))
         (folder / "T.json").write_text(json.dumps(T.tolist()), encoding="utf-8")
-    return folder / "asset", np.array(json.loads((folder / "T.json").read_text(encoding="utf-8")))
+    if not (asset / "asset.json").exists():
+        answerer = f"replay:{ANSWERS / task.thing}" if kind == "answered" else "geometry"
+        articulate(folder / "scan.glb", asset, force=True, answerer=answerer)
+    return asset, np.array(json.loads((folder / "T.json").read_text(encoding="utf-8")))
 
 
 def placement(folder: Path) -> np.ndarray:
@@ -257,11 +265,13 @@ def main() -> None:
         task = TASKS[name]
         subject = prepared(true_object(task.thing, options.work / "objects"))
         true = true_asset(task, subject, options.work / "true" / task.thing)
-        wanted = [k for k in options.twins.split(",") if k != "corrected" or name == "trigger"]
+        wanted = [k for k in options.twins.split(",") if k not in ("corrected", "answered") or name == "trigger"]
         twins: dict[str, tuple[Path, np.ndarray | None]] = {}
         for kind in wanted:
-            here = options.work / kind / task.thing
-            twins[kind] = scanned(subject, here) if kind == "scan" else (twin(kind, task, subject, options.work), None)
+            if kind in ("scan", "answered"):
+                twins[kind] = scanned(subject, task, kind, options.work)
+            else:
+                twins[kind] = twin(kind, task, subject, options.work), None
         for text in (t.removeprefix(f"{name}:") for t in options.twin if t.startswith(f"{name}:")):
             kind, _, place = text.partition("=")
             folder, _, transform = place.partition("@")
