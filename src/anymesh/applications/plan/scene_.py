@@ -91,7 +91,7 @@ class CollisionWorld:
         hand: Hand,
         base: BasePose,
         *,
-        clearance: float = 0.004,
+        clearance: float = 0.008,
         touch: float = 1e-3,
     ) -> None:
         self.mujoco = load_mujoco()
