@@ -19,7 +19,7 @@ import numpy as np
 
 from anymesh.articulation import offers
 from anymesh.articulation.confidence import WEIGHTS, Agreement
-from anymesh.articulation.evidence import hypotheses
+from anymesh.articulation.evidence import sweep_candidates
 from anymesh.articulation.motion_question import Candidate
 from anymesh.articulation.prompted import Questions, prompt_joints
 from anymesh.config import Config
@@ -64,7 +64,7 @@ class Swept:
         place = around.part.bounds.tobytes()
         keys = [(place, role, m.kind, m.axis.tobytes(), m.origin.tobytes()) for role, m in proposed]
         new = [k for k, key in enumerate(keys) if key not in self._known]
-        found = hypotheses(around, [proposed[k] for k in new])
+        found = sweep_candidates(around, [proposed[k] for k in new])
         self._known.update((keys[k], found[2 * n : 2 * n + 2]) for n, k in enumerate(new))  # opening one way and the other
         return tuple(c for key in keys for c in self._known[key])
 
@@ -82,7 +82,7 @@ def samples(sample: EvalSample, rounds: int, rng: np.random.Generator) -> Iterat
     solver, plain = Solver(sample.mesh), sample.segmentation()
     parts = [replace(p, label=f"thing {p.name}") if k else p for k, p in enumerate(plain.parts)]
     segmentation = replace(plain, parts=tuple(parts))
-    offers.hypotheses = Swept()  # ty: ignore[invalid-assignment]
+    offers.sweep_candidates = Swept()  # ty: ignore[invalid-assignment]
     whole = solver.geometry.ready_for(segmentation)
     numbers = {p.name: k - 1 for k, p in enumerate(parts)}
     for wrong in WRONG:

@@ -9,7 +9,7 @@ from assets import box
 from known import the_case
 from scenes import Scene, door, drawer
 
-from anymesh.articulation.evidence import hypotheses
+from anymesh.articulation.evidence import sweep_candidates
 from anymesh.articulation.limits import answered_range, ends_near, limits, opening_as_answered, opening_motion
 from anymesh.articulation.motion_question import Candidate
 from anymesh.motion.part_context import PartContext
@@ -50,7 +50,7 @@ OUT = Motion(JointType.PRISMATIC, -Y, np.zeros(3), "out")
 
 def swept(scene: Callable[[], Scene], motion: Motion) -> tuple[PartContext, Candidate]:
     around = the_case(scene()).around
-    return around, max(hypotheses(around, [("asked", motion)]), key=lambda c: c.outward)
+    return around, max(sweep_candidates(around, [("asked", motion)]), key=lambda c: c.outward)
 
 
 def answered(scene: Callable[[], Scene], motion: Motion, kind: JointType, told: tuple[float, float]) -> tuple[np.ndarray, ...]:

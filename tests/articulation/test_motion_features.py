@@ -8,7 +8,7 @@ from assets import box
 from scenes import Scene, built, case, door, drawer, lid, prism, similarity, wheel
 
 from anymesh.articulation.cases import make_cases
-from anymesh.articulation.evidence import hypotheses
+from anymesh.articulation.evidence import sweep_candidates
 from anymesh.articulation.motion_features import MISSING, motion_features
 from anymesh.articulation.part_facts import part_facts
 from anymesh.config import Config
@@ -27,7 +27,7 @@ def features(scene: Scene, motion: Motion, role: str = "edge", T: np.ndarray | N
     (only,) = make_cases(whole, segmentation, None, Config())
     around = only.around
     facts = part_facts(around, "it", "part", two_pivot=False)
-    return motion_features(around, facts, hypotheses(around, [(role, motion)]))
+    return motion_features(around, facts, sweep_candidates(around, [(role, motion)]))
 
 
 def test_a_door_about_its_left_edge_and_about_its_free_edge() -> None:

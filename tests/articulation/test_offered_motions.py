@@ -15,7 +15,7 @@ from scenes import door
 from anymesh.articulation import offers
 from anymesh.articulation.cases import PartCase
 from anymesh.articulation.estimate import choose_motion
-from anymesh.articulation.evidence import hypotheses
+from anymesh.articulation.evidence import sweep_candidates
 from anymesh.articulation.motion_question import Candidate, MotionQuestion
 from anymesh.articulation.moved_points import MovedPoints
 from anymesh.articulation.offers import MotionOffers, make_offers, scored_motions
@@ -169,7 +169,7 @@ SHUTTLE = [box((-0.1, -0.01, 0), (0.1, 0.01, 0.1))]
 def test_a_guide_is_within_two_percent_of_the_scale(gap: float, guided: float) -> None:
     """The scale is about 1 m."""
     rails = [box((-0.5, -0.03, z), (0.5, 0.03, z + 0.1)) for z in (-0.1 - gap, 0.1 + gap)]
-    (c, _) = hypotheses(context(SHUTTLE, rails), [("slide", slide(X))])
+    (c, _) = sweep_candidates(context(SHUTTLE, rails), [("slide", slide(X))])
     assert c.guided == guided
 
 
@@ -178,7 +178,7 @@ def test_a_slide_between_stops_moves_by_a_quarter_of_its_size(room: float, captu
     """The size of the shuttle is 0.224 m."""
     sides = (-0.13 - room / 2, -0.1 - room / 2), (0.1 + room / 2, 0.2)
     ends = [box((low, -0.05, -0.05), (high, 0.05, 0.15)) for low, high in sides]
-    (c, _) = hypotheses(context(SHUTTLE, ends), [("slide", slide(X))])
+    (c, _) = sweep_candidates(context(SHUTTLE, ends), [("slide", slide(X))])
     assert c.captured == captured
 
 
@@ -186,6 +186,6 @@ def test_a_slide_between_stops_moves_by_a_quarter_of_its_size(room: float, captu
 def test_a_hinge_is_free_where_the_part_only_leaves_a_post_that_it_overlaps(overlap: float) -> None:
     post = box((-0.1, -0.5, 0), (overlap, 0.5, 0.8))
     around = context([box((0, -0.022, 0), (0.6, -0.002, 0.8))], [box((-0.1, 0.0, 0), (0.6, 0.4, 0.8)), post])
-    found = max(hypotheses(around, [("edge", turn(Z, (0.6, -0.022, 0)))]), key=lambda c: c.outward)
+    found = max(sweep_candidates(around, [("edge", turn(Z, (0.6, -0.022, 0)))]), key=lambda c: c.outward)
     assert found.is_free
     assert found.penetration_scale == 1

@@ -12,7 +12,7 @@ from made import EDGE, PULL, X, Y, Z, candidate, context, slide, turn
 from scenes import case, drawer, prism
 
 from anymesh.articulation.estimate import part_context
-from anymesh.articulation.evidence import hypotheses
+from anymesh.articulation.evidence import sweep_candidates
 from anymesh.articulation.hypotheses import distinct, propose
 from anymesh.articulation.limits import limits
 from anymesh.articulation.motion_context import ScoredMotions, in_one_manner
@@ -65,7 +65,7 @@ def test_a_part_that_opens_as_its_row_does_is_unchanged() -> None:
 
 def test_a_hinge_has_no_evidence_of_slides_and_a_slide_none_of_hinges() -> None:
     around = context([box((0, -0.03, 0), (0.6, -0.002, 1))], [CASE])
-    hinge, _, out, _ = hypotheses(around, [("edge", turn(Z, (0, -0.016, 0))), ("slide", slide(-Y))])
+    hinge, _, out, _ = sweep_candidates(around, [("edge", turn(Z, (0, -0.016, 0))), ("slide", slide(-Y))])
     assert (hinge.guided, hinge.depth, hinge.overlap_gain, hinge.captured) == (0, 0, 0, False)
     assert (out.hinge_support, out.sibling, out.handle_side, out.above, out.pair, out.outer) == (0,) * 6
     assert (out.handle_off, out.support_opposite, out.reach, out.contact_proximity, out.thick) == (0,) * 5
@@ -75,7 +75,7 @@ def test_a_hinge_has_no_evidence_of_slides_and_a_slide_none_of_hinges() -> None:
 
 
 def features(around: PartContext, *proposed) -> list[dict[str, float]]:
-    return motion_features(around, part_facts(around, "it", "part", two_pivot=True), hypotheses(around, list(proposed)))
+    return motion_features(around, part_facts(around, "it", "part", two_pivot=True), sweep_candidates(around, list(proposed)))
 
 
 @pytest.mark.parametrize("scale", [0.01, 1.0, 100.0])
@@ -159,19 +159,19 @@ def test_the_sweep_shortens_an_answered_slide_on_both_sides(answered: tuple, fou
         box((-0.3, -0.2, -0.1), (0.8, 0.4, 0)),
     ]
     around = context([box((0, 0, 0.005), (0.4, 0.2, 0.2))], walls)
-    along = next(c for c in hypotheses(around, [("slide", slide(X))]) if c.opening_sign > 0)
+    along = next(c for c in sweep_candidates(around, [("slide", slide(X))]) if c.opening_sign > 0)
     assert abs(along.outward) < 0.1
     assert limits(around, along, JointType.PRISMATIC, answered) == pytest.approx(found, abs=0.01)
 
 
 def test_an_answered_drawer_does_not_go_into_its_case_but_a_button_does() -> None:
     around = context(drawer()["box"], drawer()["base"])
-    out = next(c for c in hypotheses(around, [("slide", slide(-Y))]) if c.outward > 0)
+    out = next(c for c in sweep_candidates(around, [("slide", slide(-Y))]) if c.outward > 0)
     assert limits(around, out, JointType.PRISMATIC, (-0.1, 0.2)) == pytest.approx((0, 0.2), abs=0.01)
     assert limits(around, out, JointType.PRISMATIC, (-0.1, 0.05)) == pytest.approx((-0.1, 0.05), abs=0.01)
     assert limits(around, out, JointType.PRISMATIC, (-2.0, 0.05)) == pytest.approx((-0.42, 0.05), abs=0.01)  # its own depth
     thin = context([box((0.005, -0.022, 0.005), (0.595, 0.02, 0.275))], case(0.28))
-    panel_out = next(c for c in hypotheses(thin, [("slide", slide(-Y))]) if c.outward > 0)
+    panel_out = next(c for c in sweep_candidates(thin, [("slide", slide(-Y))]) if c.outward > 0)
     # only a twentieth of the answered travel is inside the case, so that it does not limit the travel
     assert limits(thin, panel_out, JointType.PRISMATIC, (0.0, 0.4)) == pytest.approx((0, 0.4), abs=0.01)
 

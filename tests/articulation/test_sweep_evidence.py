@@ -10,7 +10,7 @@ from assets import box
 from made import EDGE, PULL, X, Y, Z, candidate, context, slide, turn
 from scenes import case
 
-from anymesh.articulation.evidence import hypotheses, reversed_
+from anymesh.articulation.evidence import sweep_candidates
 from anymesh.articulation.limits import answered_range, limits, opening_as_answered, opening_motion, pressed
 from anymesh.articulation.motion_question import Candidate
 from anymesh.articulation.part_labels import label_of
@@ -26,7 +26,7 @@ KNOB = box((0.2, -0.06, 0.2), (0.23, -0.022, 0.23))
 
 def outward(around: PartContext, role: str, motion: Motion) -> Candidate:
     """Return the candidate that opens outwards."""
-    return max(hypotheses(around, [(role, motion)]), key=lambda c: c.outward)
+    return max(sweep_candidates(around, [(role, motion)]), key=lambda c: c.outward)
 
 
 def of(part: list, rest: list, motion: Motion, role: str = "edge", kind: JointType | None = None) -> tuple[float, float]:
@@ -39,10 +39,10 @@ def of(part: list, rest: list, motion: Motion, role: str = "edge", kind: JointTy
 
 def test_a_reversed_candidate_opens_the_other_way() -> None:
     one = replace(EDGE, opening=2.0, closing=0.5, outward=0.9)
-    other = reversed_(one)
+    other = one.reversed()
     assert (other.opening_sign, other.opening, other.closing, other.outward) == (-1, 0.5, 2.0, -0.9)
     assert opening_motion(other).axis == pytest.approx(-opening_motion(one).axis)
-    ahead, back = hypotheses(context(LEAF, BLOCK), [("edge", turn(Z, (-0.3, -0.012, 0)))])
+    ahead, back = sweep_candidates(context(LEAF, BLOCK), [("edge", turn(Z, (-0.3, -0.012, 0)))])
     assert (ahead.opening_sign, back.opening_sign) == (1, -1)
     assert (ahead.opening, ahead.outward) == (back.closing, -back.outward)
 
@@ -74,7 +74,7 @@ SHUTTLE = [box((-0.1, -0.01, 0), (0.1, 0.01, 0.1))]
 @pytest.mark.parametrize(("gap", "guided"), [(0.002, 0.5), (0.05, 0.0)])
 def test_rails_above_and_below_guide_a_slide_on_two_of_four_sides(gap: float, guided: float) -> None:
     around = context(SHUTTLE, slot(gap, ends=True))
-    (c, _) = hypotheses(around, [("slide", slide(X))])
+    (c, _) = sweep_candidates(around, [("slide", slide(X))])
     assert c.guided == guided
     assert c.captured
     assert c.opening == pytest.approx(0.4 / around.tolerance_length, rel=0.05)
@@ -142,7 +142,7 @@ KEY = [box((-0.01, -0.005, -0.01), (0.01, 0.005, 0.01))]
 @pytest.mark.parametrize(("behind", "stroke"), [(0.03, 0.01), (-0.012, 0.003)])
 def test_a_button_goes_in_by_its_own_height_or_to_the_bottom_of_its_hole(behind: float, stroke: float) -> None:
     around = context(KEY, button(behind))
-    inward = min(hypotheses(around, [("slide", slide(Y))]), key=lambda c: c.outward)
+    inward = min(sweep_candidates(around, [("slide", slide(Y))]), key=lambda c: c.outward)
     assert inward.outward < -0.9
     assert limits(around, inward, JointType.PRISMATIC) == pytest.approx((0, stroke), abs=0.0015)
     assert label_of(around, inward) == "button"
@@ -150,7 +150,7 @@ def test_a_button_goes_in_by_its_own_height_or_to_the_bottom_of_its_hole(behind:
 
 def test_a_button_that_fills_its_hole_goes_in_by_half_its_height() -> None:
     around = context([box((-0.01, -0.01, -0.01), (0.01, -0.001, 0.01))], [box((-0.1, 0, -0.1), (0.1, 0.1, 0.1))])
-    inward = min(hypotheses(around, [("slide", slide(Y))]), key=lambda c: c.outward)
+    inward = min(sweep_candidates(around, [("slide", slide(Y))]), key=lambda c: c.outward)
     assert limits(around, inward, JointType.PRISMATIC) == pytest.approx((0, 0.0045), abs=0.0005)
 
 

@@ -125,6 +125,17 @@ def test_only_thin_bars_between_part_and_parent_may_be_barrels(seed):
     assert [set(number[r.faces]) for r in find_barrel_candidates(whole, part, parent)] == [{1}]
 
 
+@pytest.mark.parametrize(("knobs", "is_handle"), [((0.3,), True), ((0.1, 0.5), True), ((0.1, 0.3, 0.5), False)])
+def test_two_knobs_are_one_handle_and_three_are_controls(knobs, is_handle):
+    front, base = box((0, 0, 0), (0.6, 0.02, 0.2)), box((0, 0.02, 0), (0.6, 0.4, 0.2))
+    pulls = [box((x - 0.01, -0.03, 0.09), (x + 0.01, 0, 0.11)) for x in knobs]
+    found = part_context([front, *pulls], [base], np.eye(4)).handle
+    assert (found is not None) is is_handle
+    if found is not None:
+        assert found.across == pytest.approx((0, 0), abs=0.05)
+        assert found.along == (0 if len(knobs) == 2 else None)
+
+
 def test_a_bulging_face_has_no_handle_and_a_handle_on_it_is_detected():
     u, v = np.meshgrid(np.linspace(-1, 1, 25), np.linspace(-1, 1, 25), indexing="ij")
     front = np.stack([0.3 * u, -0.1 * (1 - (u**2 + v**2) / 2), 0.4 * v], -1).reshape(-1, 3)

@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from anymesh.articulation.barrels import find_barrel_candidates
-from anymesh.articulation.evidence import hypotheses
+from anymesh.articulation.evidence import sweep_candidates
 from anymesh.articulation.hypotheses import propose
 from anymesh.articulation.limits import limits, opening_as_answered, opening_motion
 from anymesh.articulation.motion_classifier import UnscoredMotions
@@ -118,7 +118,7 @@ def _unscored(around: PartContext, name: str, label: str, deadline: Deadline | N
         deadline.leave_out("joints: only the most likely motions were swept")
         proposed = [(role, motion) for role, motion in proposed if role in ROLES_AFTER_DEADLINE] or proposed
     facts = part_facts(around, name, label, any(role == "two_pivot" for role, _ in proposed))
-    return UnscoredMotions(around, facts, hypotheses(around, proposed))
+    return UnscoredMotions(around, facts, sweep_candidates(around, proposed))
 
 
 def _clear_of_others(around: PartContext, best: Candidate, candidates: tuple[Candidate, ...]) -> Candidate:

@@ -19,36 +19,33 @@ RIM_ROLES = ("edge", "edge_mid", "barrel")  # hinges at a rim, which may turn al
 GUIDE_STEP_RATIO = 0.02  # of the tolerance length: a slide is guided if a sideways step of this length is blocked
 
 
-def hypotheses(around: PartContext, proposed: list[tuple[str, Motion]]) -> tuple[Candidate, ...]:
+def sweep_candidates(around: PartContext, proposed: list[tuple[str, Motion]]) -> tuple[Candidate, ...]:
     """Sweep and measure all motions: return two candidates per motion, opening along its axis and against it.
 
     Meshes may have parts that penetrate the rest at rest. Blocked hinges are therefore swept again with more allowed
     penetration, and finally with the overlap at rest ignored.
     """
     motions, steps = [m for _, m in proposed], around.config.sweep_steps
-    revolute = [m for m in motions if m.kind is JointType.REVOLUTE]
-    along, adjacent = iter(hinge_support(around, revolute)), adjacent_sides(around)
+    hinges = [k for k, m in enumerate(motions) if m.kind is JointType.REVOLUTE]
+    slides = [k for k, m in enumerate(motions) if m.kind is JointType.PRISMATIC]
+    support = dict(zip(hinges, hinge_support(around, [motions[k] for k in hinges]), strict=True))
+    guided = dict(zip(slides, _guided_share(around, [motions[k] for k in slides]), strict=True))
+    adjacent = adjacent_sides(around)
     swept: dict[int, Sweep] = {}
     for along_surface in (False, True):
         chosen = [k for k, m in enumerate(motions) if around.slides_along_surface(m) is along_surface]
         if chosen:
             obstacles = around.obstacles_of(motions[chosen[0]])
             swept.update(zip(chosen, sweep_all(obstacles, [motions[k] for k in chosen], steps), strict=True))
-    guided = iter(_guided_share(around, [m for m in motions if m.kind is JointType.PRISMATIC]))
     ahead = [
-        _revolute(around, role, motion, swept[k], next(along), adjacent)
+        _revolute(around, role, motion, swept[k], support[k], adjacent)
         if motion.kind is JointType.REVOLUTE
-        else _prismatic(around, role, motion, swept[k], next(guided))
+        else _prismatic(around, role, motion, swept[k], guided[k])
         for k, (role, motion) in enumerate(proposed)
     ]
-    candidates = _with_overlap_ignored(around, [way for c in ahead for way in (c, reversed_(c))])
+    candidates = _with_overlap_ignored(around, [way for c in ahead for way in (c, c.reversed())])
     shares = contact_retention(around, [c.motion for c in candidates], [c.opening_sign for c in candidates])
     return tuple(replace(c, contact_retention=float(share)) for c, share in zip(candidates, shares, strict=True))
-
-
-def reversed_(c: Candidate) -> Candidate:
-    """Return the candidate that opens the other way."""
-    return replace(c, opening_sign=-c.opening_sign, opening=c.closing, closing=c.opening, outward=-c.outward)
 
 
 def _with_overlap_ignored(around: PartContext, candidates: list[Candidate]) -> list[Candidate]:

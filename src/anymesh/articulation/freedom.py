@@ -6,7 +6,7 @@ import numpy as np
 from jaxtyping import Int
 
 from anymesh.articulation.estimate import motion_question, part_context
-from anymesh.articulation.evidence import hypotheses
+from anymesh.articulation.evidence import sweep_candidates
 from anymesh.articulation.motion_question import Candidate
 from anymesh.articulation.rank_motions import rank_motions
 from anymesh.articulation.tree import parents
@@ -42,7 +42,7 @@ def stays_free(
     if moves is not None:
         kinds = (JointType.PRISMATIC if moves is JointType.PRISMATIC else JointType.REVOLUTE,)
     likely = [c for kind in kinds for c in [c for c in best.values() if c.motion.kind is kind][:MOTIONS_PER_TYPE]]
-    after = hypotheses(gained, [(c.role, c.motion) for c in likely])[::2]
+    after = sweep_candidates(gained, [(c.role, c.motion) for c in likely])[::2]
     far = [(max(c.opening, c.closing), max(a.opening, a.closing)) for c, a in zip(likely, after, strict=True)]
     return any(now >= MIN_FREE_RATIO * min(before, SUFFICIENT_OPENING) for before, now in far)
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 from jaxtyping import Bool, Float
 
@@ -71,10 +69,10 @@ def opening_as_answered(c: Candidate, answered: Range | None) -> Candidate:
     if answered is None or -answered[0] <= answered[1] or c.motion.kind is JointType.PRISMATIC:
         return c
     lower, upper = -answered[0], answered[1]
-    kept, reversed_ = min(upper, c.opening) + min(lower, c.closing), min(upper, c.closing) + min(lower, c.opening)
-    if kept > MAX_BLOCKED_RATIO * (lower + upper) or reversed_ < MIN_REVERSED_FREE_RATIO * (lower + upper):
+    kept, other = min(upper, c.opening) + min(lower, c.closing), min(upper, c.closing) + min(lower, c.opening)
+    if kept > MAX_BLOCKED_RATIO * (lower + upper) or other < MIN_REVERSED_FREE_RATIO * (lower + upper):
         return c
-    return replace(c, opening_sign=-c.opening_sign, opening=c.closing, closing=c.opening, outward=-c.outward)
+    return c.reversed()
 
 
 def _answered_revolute(around: PartContext, c: Candidate, answered: Range) -> Range:
@@ -125,7 +123,7 @@ def _revolute(around: PartContext, c: Candidate) -> tuple[float, float]:
         upper = _floor(upper, np.deg2rad(1))
     closed = c.role in ("edge", "edge_mid", "asked") and _is_closed(around)
     lower = 0.0 if closed or lower < np.deg2rad(5) else _floor(lower, np.deg2rad(1))
-    if upper < np.deg2rad(2):
+    if upper < MIN_HINGE_RANGE_RAD:
         upper = most if lower == 0 else 0.0
     return (0.0 - lower, upper)
 

@@ -5,7 +5,7 @@ Answers are validated when constructed.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Float
@@ -77,6 +77,10 @@ class Candidate:
     contact_retention: float = 0.0  # 0..1, share of the contact that remains when the part opens slightly
     penetration_scale: float = 1.0  # factor on the tolerated penetration, above 1 for a part that penetrates the rest
     overlap_gain: float = 0.0  # 0..1, for a slide: gain in overlap with other surfaces
+
+    def reversed(self) -> Candidate:
+        """Return the candidate that opens the other way."""
+        return replace(self, opening_sign=-self.opening_sign, opening=self.closing, closing=self.opening, outward=-self.outward)
 
     @property
     def is_free(self) -> bool:

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from anymesh.articulation.cases import PartCase
-from anymesh.articulation.evidence import hypotheses
+from anymesh.articulation.evidence import sweep_candidates
 from anymesh.articulation.hypotheses import distinct, propose
 from anymesh.articulation.limits import answered_range, opening_motion, pressed
 from anymesh.articulation.motion_classifier import UnscoredMotions
@@ -108,7 +108,7 @@ def scored_motions(case: PartCase) -> MotionQuestion:
     circles = [("circle", motion) for motion in case.circles]
     proposed = distinct([*proposed, *circles, *pivots(around, case.shown.normal)], around.tolerance_length)
     first = [("asked", case.asked)] if case.asked is not None else []
-    question = UnscoredMotions(around, facts, hypotheses(around, first + proposed)).question()
+    question = UnscoredMotions(around, facts, sweep_candidates(around, first + proposed)).question()
     scores, chosen = motion_scores(question), []
     for k in range(0, len(scores), 2):
         best, other = sorted((k, k + 1), key=lambda i: (not question.candidates[i].is_free, -scores[i]))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from anymesh.articulation.cases import PartCase
 from anymesh.articulation.confidence import Agreement
 from anymesh.articulation.decode import prismatic
-from anymesh.articulation.evidence import hypotheses
+from anymesh.articulation.evidence import sweep_candidates
 from anymesh.articulation.motion_classifier import score_motions
 from anymesh.articulation.offers import moves_as
 from anymesh.articulation.part_facts import part_facts
@@ -32,7 +32,7 @@ def opening_slide(case: PartCase) -> Motion:
     outward = around.opening_direction
     directions = [s * a for a in around.body_obb.axes for s in (1.0, -1.0) if s * a @ outward > 0.5] + [outward]
     ways = [normal_outwards(case)] + [prismatic(d, around, "free way out") for d in directions]
-    candidates = hypotheses(around, [("asked", way) for way in ways])[::2]
+    candidates = sweep_candidates(around, [("asked", way) for way in ways])[::2]
     if candidates[0].is_free and candidates[0].outward > 0.7 and candidates[0].guided > MIN_GUIDED_SHARE:
         return ways[0]
     return ways[max(range(1, len(ways)), key=lambda k: (candidates[k].guided, candidates[k].opening, -k))]
@@ -41,7 +41,7 @@ def opening_slide(case: PartCase) -> Motion:
 def as_answered(case: PartCase) -> Choice:
     """Return the answered motion unchanged."""
     motion = case.asked or prismatic(case.around.opening_direction, case.around, "nothing moves")
-    both = hypotheses(case.around, [("asked", motion)])
+    both = sweep_candidates(case.around, [("asked", motion)])
     scores = score_motions(case.around, part_facts(case.around, case.label, case.label, two_pivot=False), both)
     best = both[max((0, 1), key=lambda k: (both[k].is_free, scores[k]))] if motion.kind is JointType.REVOLUTE else both[0]
     moves = case.recognized.moves if case.recognized else None

@@ -14,6 +14,7 @@ from anymesh.types import Handle
 
 FACING_COSINE = 0.5  # minimum cosine between a normal and the direction it faces
 MIN_TAB_GAP_RATIO = 0.01  # of the tolerance length: a tab that is closer to the parent is a hinge barrel
+MAX_HANDLE_GROUPS = 2  # maximum number of separate protrusions of one handle
 # of the handle's height: maximum height of the face around a handle; around the top of a bulge it is higher
 MAX_BULGE_RATIO = 0.25
 MIN_HANDLE_GAP_RATIO = 0.002  # of the tolerance length: a protrusion closer to the parent supports the part and is no handle
@@ -40,7 +41,8 @@ def find_handle(
 ) -> Handle | None:
     """Find the handle of a part, None if it has none.
 
-    It must be small compared to the face, higher than a raised panel, and in one place. Several protrusions are controls.
+    It must be small compared to the face, higher than a raised panel, and in one or two places (a wide drawer has two
+    knobs). More protrusions are controls.
 
     core: box of the part without protrusions; gap: distance of each sample of the part to its parent [m]; scale: reference
     length of tolerances [m].
@@ -83,7 +85,7 @@ def _face_handle(
     at = local[out][:, face]
     spacing = np.sqrt(part.area / len(local))
     groups = label_connected(len(at), KDTree(at).query_pairs(max(0.03 * core.diagonal, 6 * spacing), output_type="ndarray"))
-    if groups.max() > 1:
+    if groups.max() >= MAX_HANDLE_GROUPS:
         return None
     low, high = at.min(0), at.max(0)
     size = high - low
