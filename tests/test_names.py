@@ -5,7 +5,7 @@ import re
 from hypothesis import given
 from hypothesis import strategies as st
 
-from anymesh.names import RESERVED, legal_names
+from anymesh.names import RESERVED, legal_names, listed
 
 
 @given(st.lists(st.text(max_size=100), max_size=12))
@@ -32,3 +32,8 @@ def test_names_stay_readable():
 
 def test_a_legal_name_keeps_itself_when_another_becomes_it():
     assert legal_names(["a b", "a_b"]) == ["a_b_2", "a_b"]
+
+
+def test_of_many_names_the_first_are_listed():
+    assert listed(["a", "b"], 2) == "a, b"
+    assert listed(["a", "b", "c", "d"], 2) == "a, b, and 2 more"

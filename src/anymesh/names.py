@@ -11,6 +11,11 @@ LONGEST = 80  # characters; leaves space for suffixes within the 255 bytes of co
 RESERVED = frozenset({"world", "con", "prn", "aux", "nul"} | {f"{port}{i}" for port in ("com", "lpt") for i in range(10)})
 
 
+def listed(names: Sequence[str], most: int = 20) -> str:
+    """Return names for a message: the first `most` of them, and how many more there are."""
+    return ", ".join(names[:most]) + (f", and {len(names) - most} more" if len(names) > most else "")
+
+
 def legal_name(name: str, *, fallback: str = "part") -> str:
     """Convert a name to `[A-Za-z][A-Za-z0-9_]*`, without accents; return `fallback` if nothing legal is left."""
     plain = unicodedata.normalize("NFKD", name).encode("ascii", "ignore").decode()

@@ -30,7 +30,7 @@ from anymesh.evaluation.report import write_report
 from anymesh.evaluation.results import ResultsFolder
 from anymesh.evaluation.score import ObjectScore
 from anymesh.evaluation.training import trained_note
-from anymesh.names import legal_name
+from anymesh.names import legal_name, listed
 from anymesh.pipeline.answering import FILES, choose_answerer
 from anymesh.pipeline.options import GEOMETRY, Answering
 from anymesh.pipeline.solving import solve
@@ -115,7 +115,7 @@ def _chosen(data: Dataset, split: str | None, only: Sequence[str]) -> list[str]:
     names = list(data.objects(split))
     unknown = sorted(set(only) - set(names))
     if unknown:
-        raise OptionError(f"--only: found {', '.join(unknown)}; valid are {', '.join(names)}")
+        raise OptionError(f"--only: found {listed(unknown)}; valid are {listed(names)}")
     if not names:
         raise OptionError(f"the data set {data.name} has no objects{f' in its split {split}' if split else ''}")
     return [n for n in names if not only or n in only]

@@ -20,7 +20,7 @@ from anymesh.checking.find import find_description
 from anymesh.errors import AnymeshError, OptionError
 from anymesh.evaluation.results import OBJECTS, ResultsFolder
 from anymesh.files import write_whole
-from anymesh.names import legal_name, legal_names
+from anymesh.names import legal_name, legal_names, listed
 from anymesh.progress import Progress, silent
 from anymesh.simulation.mujoco_ import sweep_joints
 
@@ -73,7 +73,7 @@ def evaluate_interaction(
     asset_paths = dict(zip(legal_names([p.stem if p.is_file() else p.name for p in paths]), paths, strict=True))
     unknown = sorted(set(only) - set(asset_paths))
     if unknown:
-        raise OptionError(f"--only: found {', '.join(unknown)}; valid are {', '.join(sorted(asset_paths))}")
+        raise OptionError(f"--only: found {listed(unknown)}; valid are {listed(sorted(asset_paths))}")
     names = [n for n in sorted(asset_paths) if not only or n in only]
     settings = {"assets": str(assets), "protocol": PROTOCOL, "seed": str(seed), "tries": str(tries), "anymesh": __version__}
     results = ResultsFolder.open(Path(out), settings | {"only": ", ".join(sorted(only))}, force=force)

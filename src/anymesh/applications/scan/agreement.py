@@ -9,6 +9,7 @@ from jaxtyping import Float, Float32
 
 from anymesh.applications.scan.frames import FLIPPED, Frames, Pinhole, RgbdFrame
 from anymesh.errors import InputError
+from anymesh.names import listed
 
 POINTS = 1500  # points per frame that are projected into other frames
 SAMPLED = 24  # other frames that each frame is compared with
@@ -144,12 +145,8 @@ def without_drifted(frames: Frames, agreement: FrameAgreement) -> tuple[Frames, 
     warnings = []
     if off:
         warnings.append(
-            f"{len(off)} of {len(frames)} frames disagree with the others about the surface and are left out: {_few(off)}"
+            f"{len(off)} of {len(frames)} frames disagree with the others about the surface and are left out: {listed(off, 6)}"
         )
     if lone:
-        warnings.append(f"{len(lone)} of {len(frames)} frames see nothing that others see and are left out: {_few(lone)}")
+        warnings.append(f"{len(lone)} of {len(frames)} frames see nothing that others see and are left out: {listed(lone, 6)}")
     return frames.of([frames.frames[k] for k in kept], *warnings), kept
-
-
-def _few(names: list[str]) -> str:
-    return ", ".join(names[:6]) + (f", and {len(names) - 6} more" if len(names) > 6 else "")
