@@ -93,10 +93,10 @@ def test_an_answer_is_checked(confidence: float, reason: str) -> None:
 @pytest.mark.parametrize(
     ("c", "words"),
     [
-        (PULL, "slides outwards, guided on 0 of 4 sides, free for 50 cm (a slide)"),
+        (PULL, "slides outwards, guided on 0 of 4 sides, free for 50.0 cm (a slide)"),
         (
             replace(PULL, guided=0.75, outward=-1.0, sweep=Sweep(0.02, 0.5, False, True)),
-            "slides inwards, guided on 3 of 4 sides, free for 2 cm",
+            "slides inwards, guided on 3 of 4 sides, free for 2.0 cm",
         ),
         (replace(PULL, outward=0.7), "slides along the surface"),
         (replace(PULL, outward=-0.7), "slides along the surface"),

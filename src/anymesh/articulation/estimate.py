@@ -26,7 +26,7 @@ from anymesh.geometry.triangle_set import TriangleSet
 from anymesh.motion.part_context import PartContext
 from anymesh.types import Joint, JointType, Motion, Segmentation
 
-MAX_RIM_DISTANCE_RATIO = 0.01  # of the tolerance length: minimum thickness of a rim
+MIN_RIM_THICKNESS_RATIO = 0.01  # of the tolerance length: minimum thickness of a rim
 MAX_RIM_THICKNESSES = 1.5  # hinge lines within this multiple of the rim's thickness are at one rim
 MIN_PARALLEL_COSINE = 0.999  # minimum cosine between the axes of such lines
 SUFFICIENT_OPENING_RAD = np.deg2rad(110)  # [rad] larger openings are not compared
@@ -127,7 +127,7 @@ def _clear_of_others(around: PartContext, best: Candidate, candidates: tuple[Can
     if best.role not in rims or not around.siblings:
         return best
     near = replace(around.obstacles_at_rest, tolerance=TIGHT_PENETRATION_SCALE * around.penetration)
-    thickness = max(2 * float(around.body_obb.half[2]), MAX_RIM_DISTANCE_RATIO * around.tolerance_length)
+    thickness = max(2 * float(around.body_obb.half[2]), MIN_RIM_THICKNESS_RATIO * around.tolerance_length)
 
     def opens(c: Candidate) -> float:
         return free_amount(near, opening_motion(c), 1, min(c.opening, SUFFICIENT_OPENING_RAD), around.config.sweep_steps)[0]
