@@ -1,6 +1,6 @@
 """The paper's three tasks (4.2): plan on a digital twin, replay open loop on the true object, somewhat off, fifty times.
 
-    python benchmarks/plan.py WORK [--robot panda] [--trials 50] [--tasks trigger,door,wheel]
+    python benchmarks/plan.py WORK [--robot panda] [--trials 50] [--first-trial 0] [--tasks trigger,door,wheel]
         [--twins ours,corrected,truth,paper] [--twin TASK:NAME=FOLDER[@T.json]] [--pictures] [--markdown FILE]
 
 A second MuJoCo simulation with the true joints stands in for the real robot. Twins: ours (`anymesh articulate` on the mesh),
@@ -193,9 +193,9 @@ class Row:
 
 
 def run(
-    task: Task, kind: str, twin_of: tuple[Path, np.ndarray | None], subject: EvalSample, true: Path, arm: Arm, trials: int
+    task: Task, kind: str, twin_of: tuple[Path, np.ndarray | None], subject: EvalSample, true: Path, arm: Arm, trials: range
 ) -> tuple[Row, ArticulatedObject, np.ndarray]:
-    """One line of the table. twin_of: the twin's folder, and `T_true_file` of `matched`."""
+    """One line of the table. twin_of: the twin's folder, and `T_true_file` of `matched`; trials: seeds of the perturbations."""
     thing, _, T = matched(twin_of[0], task, subject, twin_of[1])
     real = open_object(true, f"{task.part}_joint")
     begin = time.perf_counter()
@@ -203,15 +203,15 @@ def run(
         found = plan_motion(thing, arm, twin_value(task, subject, thing, T), settings=Settings(seconds=30))
     except PlanError as error:
         took = time.perf_counter() - begin
-        return Row(task.name, kind, took, 0, trials, Counter({"no plan": trials}), note=str(error)), real, T
+        return Row(task.name, kind, took, 0, len(trials), Counter({"no plan": len(trials)}), note=str(error)), real, T
     took = time.perf_counter() - begin
     base, failures = moved_base(found.base, T), Counter[str]()
-    for trial in range(trials):
+    for trial in trials:
         physics = perturbed(np.random.default_rng([trial, len(task.name)]), task.spring)
         seen = replay(found.trajectory, real, arm.robot, arm.hand, base, task.value, physics=physics)
         if seen.failure is not None:
             failures[seen.failure.value] += 1
-    return Row(task.name, kind, took, trials - failures.total(), trials, failures, found), real, T
+    return Row(task.name, kind, took, len(trials) - failures.total(), len(trials), failures, found), real, T
 
 
 def picture(row: Row, real: ArticulatedObject, T: np.ndarray, task: Task, arm: Arm, path: Path) -> None:
@@ -248,6 +248,7 @@ def main() -> None:
     parser.add_argument("work", type=Path)
     parser.add_argument("--robot", default="panda")
     parser.add_argument("--trials", type=int, default=50)
+    parser.add_argument("--first-trial", type=int, default=0, help="other numbers give other perturbations")
     parser.add_argument("--tasks", default=",".join(TASKS))
     parser.add_argument("--twins", default=",".join(TWINS))
     parser.add_argument(
@@ -261,6 +262,7 @@ def main() -> None:
     parser.add_argument("--markdown", type=Path)
     options = parser.parse_args()
     arm, rows = open_arm(options.robot), []
+    trials = range(options.first_trial, options.first_trial + options.trials)
     for name in options.tasks.split(","):
         task = TASKS[name]
         subject = prepared(true_object(task.thing, options.work / "objects"))
@@ -278,7 +280,7 @@ def main() -> None:
             twins[kind] = Path(folder), np.array(json.loads(Path(transform).read_text())) if transform else None
         for kind, which in twins.items():
             try:
-                row, real, T = run(task, kind, which, subject, true, arm, options.trials)
+                row, real, T = run(task, kind, which, subject, true, arm, trials)
             except AnymeshError as error:
                 rows.append(Row(name, kind, 0.0, 0, options.trials, Counter({"no plan": options.trials}), note=str(error)))
                 continue

@@ -160,7 +160,7 @@ def test_the_axis_of_a_pin_on_a_part_that_is_not_round_is_offered() -> None:
     pin = prism(0.02, (-0.03, 0.05), 0.1, 0.1)
     blade = box((0.05, -0.02, 0.05), (0.9, -0.001, 0.15))
     case = the_case({"base": [box((0, 0, 0), (1, 0.2, 0.3)), pin], "blade": [blade]})
-    assert [c.source for c in case.circles] == ["axis of a round piece"]
+    assert [c.source for c in case.circles] == ["axis of a round patch"]
     found = make_offers(replace(case, answer=KindAnswer(JointAppearance.HINGE_INTO)), MOST, 0)
     motions = [found.motions[k] for k in found.first]
     assert any(abs(c.motion.axis @ Y) > 0.999 and abs(c.motion.origin[0] - 0.1) < 0.002 for c in motions)

@@ -111,8 +111,8 @@ def _two_groups(points: np.ndarray, centers: np.ndarray) -> np.ndarray:
 def barrels(around: PartContext) -> list[tuple[str, Motion]]:
     """Return the axes of small cylinders near part and parent: hinge barrels and pins."""
     axes = []
-    for piece in around.barrel_candidates:
-        seen = outline_about(np.concatenate([piece.corners, piece.samples.points]), piece.box.axes[0])
+    for component in around.barrel_candidates:
+        seen = outline_about(np.concatenate([component.corners, component.samples.points]), component.box.axes[0])
         if seen.roundness > 0.85 and seen.height > 2 * seen.radius:
             axes.append(("barrel", Motion(JointType.REVOLUTE, _unit(seen.axis), seen.center, "axis of a hinge barrel")))
     return axes

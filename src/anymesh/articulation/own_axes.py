@@ -35,13 +35,13 @@ def round_patches(whole: ObjectShape, part: TriangleSet, parent: TriangleSet) ->
             meets = (corners.max(0) >= low).all() and (corners.min(0) <= high).all()
             if len(corners) < MIN_POINTS or not (own or meets):
                 continue
-            piece = shape.take(np.flatnonzero(whole.patch[shape.faces] == number))
-            if own or piece.box.diagonal < part.box.diagonal:
-                points = np.concatenate([corners, piece.samples.points])
-                outlines = [outline_about(points, axis) for axis in piece.box.axes]
+            patch = shape.take(np.flatnonzero(whole.patch[shape.faces] == number))
+            if own or patch.box.diagonal < part.box.diagonal:
+                points = np.concatenate([corners, patch.samples.points])
+                outlines = [outline_about(points, axis) for axis in patch.box.axes]
                 best = max(outlines, key=lambda o: o.roundness)
                 if best.roundness > MIN_ROUNDNESS:
-                    circles.append((best.radius, _revolute(best.axis, best.center, "axis of a round piece")))
+                    circles.append((best.radius, _revolute(best.axis, best.center, "axis of a round patch")))
     circles.sort(key=lambda item: -item[0])
     return tuple(motion for _, motion in circles[:MAX_CIRCLES])
 

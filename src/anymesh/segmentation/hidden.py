@@ -33,9 +33,9 @@ def unseen_patches(
     whole: ObjectShape, cloud: Cloud, shown: Bool[np.ndarray, " n"], share: float = MIN_SEEN_SHARE
 ) -> Bool[np.ndarray, " P"]:
     """Return the patches whose visible share of the surface is at most `share`."""
-    piece = whole.mesh_patch[cloud.faces]
-    total = np.bincount(piece, minlength=int(whole.mesh_patch.max()) + 1)
-    return np.bincount(piece, shown, len(total)) <= share * total
+    patch = whole.mesh_patch[cloud.faces]
+    total = np.bincount(patch, minlength=int(whole.mesh_patch.max()) + 1)
+    return np.bincount(patch, shown, len(total)) <= share * total
 
 
 def inner_faces(
