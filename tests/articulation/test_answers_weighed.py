@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from assets import box, mesh_of
 from known import QUICK, the_case
-from made import EDGE, FAR_EDGE, PLATE, PULL, ROUND, Z, candidate
+from made import EDGE, FAR_EDGE, PLATE, PULL, ROUND, Z, candidate, turn
 from scenes import door
 
 from anymesh.articulation.cases import PartCase, ask_each
@@ -235,6 +235,14 @@ def test_a_pick_against_geometry_and_the_answer_must_be_repeated(monkeypatch, ag
     assert found.best is best
     assert "asked twice" in found.reason
     assert found.agreement.features["doubted"] == 1
+
+
+@pytest.mark.parametrize("same", [replace(EDGE, opening_sign=-1), replace(EDGE, motion=turn(Z, (0.06, 0, 0)))])
+def test_a_pick_of_the_agreed_line_is_not_repeated_whichever_side_opens(monkeypatch, same: Candidate) -> None:
+    offers = offered(answered=0)
+    found, asked = chosen(monkeypatch, replace(offers, motions=(EDGE, same, *offers.motions[2:])), 1)
+    assert (found.best, asked) == (same, [(1, 0, 2)])
+    assert "asked twice" not in found.reason
 
 
 def test_a_part_with_one_motion_or_that_two_answers_call_fixed_is_not_asked_about(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from jaxtyping import Bool, Float
 
@@ -58,14 +60,20 @@ def same_joints(question: MotionQuestion, best: int) -> Bool[np.ndarray, " k"]:
 
     They are of its kind, about the same line, opening to the same side. A motion that is free both ways has no side.
     """
-    motions = [c.motion for c in question.candidates]
-    same = np.array([m.kind is motions[best].kind for m in motions])
-    axes, axis = np.array([c.motion.axis * c.opening_sign for c in question.candidates]), motions[best].axis
-    cosine = axes @ (axis * question.candidates[best].opening_sign)
-    same &= (np.abs(cosine) if question.candidates[best].is_endless else cosine) >= SAME_AXIS
-    if motions[best].kind is JointType.REVOLUTE:
-        offset = np.array([m.origin for m in motions]) - motions[best].origin
-        same &= np.linalg.norm(np.cross(offset, axis), axis=1) <= SAME_LINE * question.part.size * question.part.diagonal
+    first = question.candidates[best]
+    axes = np.array([c.motion.axis * c.opening_sign for c in question.candidates])
+    same_side = axes @ (first.motion.axis * first.opening_sign) > 0
+    return same_lines(question.part, question.candidates, best) & (first.is_endless | same_side)
+
+
+def same_lines(part: PartFacts, candidates: Sequence[Candidate], best: int) -> Bool[np.ndarray, " k"]:
+    """Return which candidates are of the kind of `best` and about its line, or along its axis, to either side."""
+    motions, motion = [c.motion for c in candidates], candidates[best].motion
+    same = np.array([m.kind is motion.kind for m in motions])
+    same &= np.abs(np.array([m.axis for m in motions]) @ motion.axis) >= SAME_AXIS
+    if motion.kind is JointType.REVOLUTE:
+        offset = np.array([m.origin for m in motions]) - motion.origin
+        same &= np.linalg.norm(np.cross(offset, motion.axis), axis=1) <= SAME_LINE * part.size * part.diagonal
     return same
 
 

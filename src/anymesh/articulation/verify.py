@@ -15,7 +15,7 @@ from anymesh.articulation.cases import PartCase, ask_each
 from anymesh.articulation.confidence import Agreement
 from anymesh.articulation.motion_question import Candidate
 from anymesh.articulation.offers import MotionOffers, fits, make_offers, moves_as
-from anymesh.articulation.rank_motions import reason
+from anymesh.articulation.rank_motions import reason, same_lines
 from anymesh.rendering.visual_prompts import VisualPrompts
 from anymesh.types import Picture
 from anymesh.vlm.asking import VisualAnswerer
@@ -106,8 +106,12 @@ def _needs_question(o: MotionOffers) -> bool:
 
 
 def _against_all(o: MotionOffers, picked: int | None) -> bool:
-    """Return whether the picked motion contradicts what geometry and the earlier answers agree on."""
-    return o.answered == 0 and o.motions[0].is_free and picked != 0 and picked is not None
+    """Return whether the picked motion contradicts what geometry and the earlier answers agree on.
+
+    The earlier answers name a line or a direction, not the side to which the part opens.
+    """
+    agreed = o.answered == 0 and o.motions[0].is_free
+    return agreed and picked is not None and not same_lines(o.facts, o.motions, 0)[picked]
 
 
 def _without_choice(o: MotionOffers) -> Choice:
