@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache
 
@@ -13,7 +12,7 @@ from known import QUICK, the_case
 from made import EDGE, FAR_EDGE, PLATE, PULL, ROUND, Z, candidate, turn
 from scenes import door
 
-from anymesh.articulation.cases import PartCase, ask_each
+from anymesh.articulation.cases import PartCase
 from anymesh.articulation.confidence import HIGHEST, LOWEST, Agreement, confidences
 from anymesh.articulation.contradictions import contradictions
 from anymesh.articulation.limits import opening_motion
@@ -38,29 +37,6 @@ def door_case() -> PartCase:
 def case(number: int = 1, kind: JointAppearance = ALONG, moves: JointType | None = None) -> PartCase:
     told = RecognizedLabel("part", moves, None, None) if moves else None
     return replace(door_case(), number=number, name=f"p{number}", answer=KindAnswer(kind), recognized=told)
-
-
-@pytest.mark.parametrize("count", [1, 8, 9, 17])
-def test_no_call_has_more_than_eight_pictures_and_each_part_is_asked_about_once(count: int) -> None:
-    calls: list[list[str]] = []
-
-    class Who:
-        name, exchanges, warnings = "who", (), ()
-
-        def ask(self, question: Sequence[str]) -> tuple[str, ...]:
-            calls.append(list(question))
-            return tuple(f"answer to {title}" for title in question)
-
-    cases, titles = [case(k) for k in range(1, count + 1)], []
-
-    def question(pictures, some):
-        titles.append([f"part {k}: {c.label} {c.number}" for k, c in enumerate(some, 1)])
-        return titles[-1]
-
-    found = ask_each(Who(), cases, lambda c, title: None, question)  # type: ignore[arg-type, return-value]
-    assert [len(call) for call in calls] == [8] * (count // 8) + [count % 8] * (count % 8 > 0)
-    assert list(found) == list(range(1, count + 1))
-    assert found[count] == f"answer to part {(count - 1) % 8 + 1}: part {count}"
 
 
 def sure(*features: dict[str, float]) -> list[float]:

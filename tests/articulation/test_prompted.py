@@ -9,10 +9,10 @@ from assets import box
 from known import KNOWN, QUICK, Watched, known, prompted, ready, row_of, the_case, true_answers, visual_prompts
 from scenes import Scene
 
-from anymesh.articulation.cases import MAX_PICTURES, ask_each
+from anymesh.articulation.cases import ask_each
 from anymesh.articulation.prompted import Questions, prompt_joints
 from anymesh.evaluation.metrics import angle_error, line_distance
-from anymesh.types import Joint, JointType, KnownJoint, Motion, Part, Picture
+from anymesh.types import Joint, JointType, KnownJoint, Motion, Part
 from anymesh.types.recognition import Recognition, RecognizedLabel
 from anymesh.vlm.motion_choice import MotionPick, WhichMotions
 from anymesh.vlm.prompting import JointAppearance, KindAnswer
@@ -190,28 +190,28 @@ def test_a_range_that_was_answered_ends_a_turn_that_nothing_stops() -> None:
     assert found.limits == (0, pytest.approx(1.0))
 
 
-def test_more_parts_than_pictures_in_a_call_take_more_calls() -> None:
-    case, calls = the_case(KNOWN["left"].scene), []
+@pytest.mark.parametrize("count", [1, 8, 9, 17])
+def test_no_call_has_more_than_eight_pictures_and_each_part_is_asked_about_once(count: int) -> None:
+    calls: list[list[str]] = []
 
-    class Counting:
-        name, exchanges, warnings = "counting", (), ()
+    class Who:
+        name, exchanges, warnings = "who", (), ()
 
-        def ask(self, question):
-            calls.append(question)
-            return tuple(range(len(question[0])))
+        def ask(self, question: list[str]) -> tuple[str, ...]:
+            calls.append(list(question))
+            return tuple(f"answer to {title}" for title in question)
 
-    picture = Picture(b"\x89PNG\r\n\x1a\n")
-    titles: list[str] = []
+    one = the_case(KNOWN["left"].scene)
+    cases, titles = [replace(one, number=k) for k in range(1, count + 1)], []
 
-    def draw(c, title: str) -> Picture:
-        titles.append(title)
-        return picture
+    def question(pictures, some):
+        titles.append([f"part {k}: {c.label} {c.number}" for k, c in enumerate(some, 1)])
+        return titles[-1]
 
-    cases = [replace(case, number=10 + k) for k in range(MAX_PICTURES + 3)]
-    found = ask_each(Counting(), cases, draw, lambda pictures, some: (pictures, some))  # ty: ignore[invalid-argument-type]
-    assert [len(pictures) for pictures, _ in calls] == [MAX_PICTURES, 3]
-    assert titles[MAX_PICTURES:] == ["part 1: part", "part 2: part", "part 3: part"]
-    assert found == {10 + k: k % MAX_PICTURES for k in range(MAX_PICTURES + 3)}
+    found = ask_each(Who(), cases, lambda c, title: None, question)  # type: ignore[arg-type, return-value]
+    assert [len(call) for call in calls] == [8] * (count // 8) + [count % 8] * (count % 8 > 0)
+    assert list(found) == list(range(1, count + 1))
+    assert found[count] == f"answer to part {(count - 1) % 8 + 1}: part {count}"
 
 
 def test_a_choice_against_all_that_was_answered_before_must_be_given_twice() -> None:

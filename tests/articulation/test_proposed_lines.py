@@ -150,7 +150,7 @@ def test_parts_are_in_a_row_across_their_opening_direction(forward: float, row: 
 LABELS = [
     (PULL, 0.5, "drawer"), (replace(PULL, opening=0.001), 0.5, ""), (replace(PULL, outward=-1.0), 0.1, "button"),
     (replace(PULL, outward=-1.0), 0.5, "drawer"), (PULL, 0.1, "drawer"), (replace(PULL, outward=0.4), 0.5, "slider"),
-    (replace(PULL, outward=-0.6), 0.1, "button"), (ROUND, 0.1, "knob"), (ROUND, 0.2, "wheel"), (EDGE, 0.5, "door"),
+    (replace(PULL, outward=-0.8), 0.1, "button"), (ROUND, 0.1, "knob"), (ROUND, 0.2, "wheel"), (EDGE, 0.5, "door"),
     (candidate("two_pivot", JointType.REVOLUTE, X), 0.5, "lid"),
 ]  # fmt: skip
 

@@ -10,9 +10,11 @@ from anymesh.articulation.adjacent_panels import adjacent_sides, outer_side, ove
 from anymesh.articulation.contact_metrics import contact_retention, hinge_support, lever_arm
 from anymesh.articulation.motion_question import MIN_FREE_ANGLE_RAD, Candidate
 from anymesh.geometry.sweep import free_amounts, sweep_all
-from anymesh.motion.part_context import IGNORE_OVERLAP_SCALE, MIN_OUTWARD_COSINE, PartContext
+from anymesh.motion.part_context import IGNORE_OVERLAP_SCALE, PartContext
 from anymesh.types import JointType, Motion, Sweep
 
+# minimum cosine between the opening direction and the initial motion of the center of a part that turns outwards
+MIN_OUTWARD_COSINE = 0.5
 CROSSWISE_HANDLE_WEIGHT = 0.6  # weight of the side of a bar handle that runs across the line
 PENETRATION_SCALES = (3.0, IGNORE_OVERLAP_SCALE)  # tried in this order if a hinge is blocked
 RIM_ROLES = ("edge", "edge_mid", "barrel")  # hinges at a rim, which may turn although the part overlaps static geometry

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from jaxtyping import Bool, Float
 
-from anymesh.articulation.motion_question import MIN_FREE_ANGLE_RAD, Candidate
+from anymesh.articulation.motion_question import MIN_FREE_ANGLE_RAD, Candidate, SlideDirection
 from anymesh.geometry.sweep import free_amount
 from anymesh.motion.part_context import PartContext
 from anymesh.types import JointType, Motion
@@ -20,6 +20,15 @@ MIN_SLIDE_RANGE_RATIO = 0.001  # of the tolerance length: an answered slide that
 # free shares of an answered range for reversing the axis: the maximum before, and the minimum after
 MAX_BLOCKED_RATIO, MIN_REVERSED_FREE_RATIO = 0.5, 0.8
 MIN_DEPTH_IN_PARENT_RATIO = 0.3  # of the answered travel: a part less deep inside its parent is only a panel
+MIN_DOOR_COSINE = 0.7  # minimum cosine between the vertical and the axis of a door; other hinges are those of flaps
+MIN_CLOSING_ANGLE_RAD = np.deg2rad(5.0)  # [rad] less free angle in the closing direction is play
+ANGLE_STEP_RAD = np.deg2rad(1.0)  # [rad] resolution of limits that the sweep finds
+MAX_CLOSED_GAP_RATIO = 0.02  # of the tolerance length: a closed part is this near its parent
+END_FRACTION, MIN_NEAR_SHARE = 0.8, 0.2  # position where an end of a part begins, and the least share of it near the parent
+MIN_CLOSED_ENDS = 3  # of the four ends of its face, of a closed part
+MIN_TRAVEL_RATIO = 0.01  # of the tolerance length: the least travel of a slide; less in the closing direction is play
+MAX_PANEL_THICKNESS_RATIO = 0.3  # shortest side of a panel over its middle side
+MIN_UPPER_RATIO = 0.001  # of the tolerance length: a slide that is less free opens as far as it is deep
 
 
 Range = tuple[float, float]  # lower, upper [rad or m], lower <= 0 <= upper
@@ -94,10 +103,10 @@ def _answered_prismatic(around: PartContext, c: Candidate, answered: Range) -> R
     motion, (lower, upper) = opening_motion(c), (-answered[0], answered[1])
     extent = float(np.ptp(around.part.corners @ motion.axis))
     depth = around.depth_in_parent(motion.axis)
-    if c.outward > 0.7 and depth > MIN_DEPTH_IN_PARENT_RATIO * upper:
+    if c.slide_direction is SlideDirection.OUTWARDS and depth > MIN_DEPTH_IN_PARENT_RATIO * upper:
         upper = min(upper, depth)
     ahead, back = _free_within(around, c, lower, upper, 2 * around.config.fine_steps)
-    if upper < lower and c.outward > 0.7:
+    if upper < lower and c.slide_direction is SlideDirection.OUTWARDS:
         back = min(lower, extent)
     if ahead + back < MIN_SLIDE_RANGE_RATIO * around.tolerance_length:
         return (0.0 - lower, upper)
@@ -115,14 +124,14 @@ def _free_within(around: PartContext, c: Candidate, lower: float, upper: float, 
 
 def _revolute(around: PartContext, c: Candidate) -> tuple[float, float]:
     config, motion = around.config, opening_motion(c)
-    most = np.deg2rad(config.door_most if c.vertical > 0.7 else config.flap_most)
+    most = np.deg2rad(config.door_most if c.vertical > MIN_DOOR_COSINE else config.flap_most)
     steps = config.fine_steps * 3
     upper, clear = free_amount(around.obstacles(c.penetration_scale), motion, 1, most, steps)
     lower, _ = free_amount(around.obstacles(c.penetration_scale), motion, -1, most, steps)
     if not clear:
-        upper = _floor(upper, np.deg2rad(1))
+        upper = _floor(upper, ANGLE_STEP_RAD)
     closed = c.role in ("edge", "edge_mid", "asked") and _is_closed(around)
-    lower = 0.0 if closed or lower < np.deg2rad(5) else _floor(lower, np.deg2rad(1))
+    lower = 0.0 if closed or lower < MIN_CLOSING_ANGLE_RAD else _floor(lower, ANGLE_STEP_RAD)
     if upper < MIN_HINGE_RANGE_RAD:
         upper = most if lower == 0 else 0.0
     return (0.0 - lower, upper)
@@ -130,9 +139,9 @@ def _revolute(around: PartContext, c: Candidate) -> tuple[float, float]:
 
 def _is_closed(around: PartContext) -> bool:
     """Return whether the part is closed: near the parent at both ends of its face."""
-    near = around.gap < 0.02 * around.tolerance_length
+    near = around.gap < MAX_CLOSED_GAP_RATIO * around.tolerance_length
     local = around.body_obb.local(around.part.samples.points) / np.maximum(around.body_obb.half, 1e-9)
-    return sum(ends_near(local[:, axis], near) for axis in around.face_axes) >= 3
+    return sum(ends_near(local[:, axis], near) for axis in around.face_axes) >= MIN_CLOSED_ENDS
 
 
 def ends_near(along: Float[np.ndarray, " n"], near: Bool[np.ndarray, " n"]) -> int:
@@ -140,12 +149,13 @@ def ends_near(along: Float[np.ndarray, " n"], near: Bool[np.ndarray, " n"]) -> i
 
     along: position of each sample, -1 to 1 from end to end.
     """
-    return sum(bool(near[end].sum() > 0.2 * end.sum()) for end in (along > 0.8, along < -0.8))
+    ends = along > END_FRACTION, along < -END_FRACTION
+    return sum(bool(near[end].sum() > MIN_NEAR_SHARE * end.sum()) for end in ends)
 
 
 def pressed(c: Candidate, answered: Range | None) -> bool:
     """Return whether a slide goes into its parent by its answered range, as buttons do."""
-    return c.motion.kind is JointType.PRISMATIC and c.outward > 0.7 and answered is not None and -answered[0] > answered[1]
+    return c.slide_direction is SlideDirection.OUTWARDS and answered is not None and -answered[0] > answered[1]
 
 
 def _floor(value: float, step: float) -> float:
@@ -155,12 +165,12 @@ def _floor(value: float, step: float) -> float:
 def _prismatic(around: PartContext, c: Candidate) -> tuple[float, float]:
     motion = opening_motion(c)
     leaves = c.sweep.clear_forward if c.opening_sign > 0 else c.sweep.clear_backward
-    if c.outward < -0.7 and not leaves:
+    if c.slide_direction is SlideDirection.INWARDS and not leaves:
         return (0.0, _stroke(around, c))
     depth = around.depth_in_parent(motion.axis)
     extent = float(np.ptp(around.part.corners @ motion.axis))
-    outward = abs(c.outward) > 0.7
-    most = max((1 - around.config.slide_keep) * (depth if outward else extent), 0.01 * around.tolerance_length)
+    outward = c.slide_direction is not SlideDirection.ALONG_SURFACE
+    most = max((1 - around.config.slide_keep) * (depth if outward else extent), MIN_TRAVEL_RATIO * around.tolerance_length)
     if c.captured:
         most = 2 * around.part.box.diagonal
     behind = float(np.ptp(around.parent.samples.points @ motion.axis))
@@ -169,16 +179,16 @@ def _prismatic(around: PartContext, c: Candidate) -> tuple[float, float]:
         outward
         and not small
         and extent < MIN_DRAWER_DEPTH_RATIO * behind
-        and around.body_obb.half[2] < 0.3 * around.body_obb.half[1]
+        and around.body_obb.half[2] < MAX_PANEL_THICKNESS_RATIO * around.body_obb.half[1]
     ):
         most = around.config.slide_hidden * behind  # a panel whose box is not in the mesh
     steps = around.config.fine_steps * 2
     obstacles = around.obstacles_of(motion, c.penetration_scale)
     upper, _ = free_amount(obstacles, motion, 1, most, steps)
     lower, clear = free_amount(obstacles, motion, -1, most, steps)
-    if outward or clear or lower < 0.01 * around.tolerance_length:
+    if outward or clear or lower < MIN_TRAVEL_RATIO * around.tolerance_length:
         lower = 0.0
-    if upper < 1e-3 * around.tolerance_length:
+    if upper < MIN_UPPER_RATIO * around.tolerance_length:
         upper = most if lower == 0 else 0.0
     return (0.0 - lower, upper)
 

@@ -6,15 +6,25 @@ Answers are validated when constructed.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from enum import StrEnum
 
 import numpy as np
 from jaxtyping import Float
 
+from anymesh.motion.part_context import OUTWARD_COSINE
 from anymesh.types import Handle, JointType, Motion, Sweep
 
 MIN_FREE_ANGLE_RAD = float(np.deg2rad(12))  # [rad] a hinge that opens less is blocked
 MIN_FREE_TRAVEL_RATIO = 0.008  # of the tolerance length: a slide with less free travel is blocked
 ENDLESS_ANGLE = 3.0  # [rad] minimum free angle in each direction of an endless rotation; the sweep ends at half a turn
+
+
+class SlideDirection(StrEnum):
+    """Direction of a slide relative to the opening direction of its part."""
+
+    OUTWARDS = "outwards"
+    INWARDS = "inwards"
+    ALONG_SURFACE = "along the surface"
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,6 +101,15 @@ class Candidate:
         if self.motion.kind is JointType.PRISMATIC:
             return max(self.opening, self.closing) >= MIN_FREE_TRAVEL_RATIO
         return max(self.opening, self.closing if self.role == "round" else 0.0) >= MIN_FREE_ANGLE_RAD
+
+    @property
+    def slide_direction(self) -> SlideDirection | None:
+        """Return the direction in which a slide opens, None for a rotation."""
+        if self.motion.kind is not JointType.PRISMATIC:
+            return None
+        if abs(self.outward) <= OUTWARD_COSINE:
+            return SlideDirection.ALONG_SURFACE
+        return SlideDirection.OUTWARDS if self.outward > 0 else SlideDirection.INWARDS
 
     @property
     def is_endless(self) -> bool:

@@ -14,7 +14,7 @@ from anymesh.articulation.evidence import sweep_candidates
 from anymesh.articulation.hypotheses import distinct, propose
 from anymesh.articulation.limits import answered_range, opening_motion, pressed
 from anymesh.articulation.motion_classifier import UnscoredMotions
-from anymesh.articulation.motion_question import Candidate, MotionQuestion, PartFacts
+from anymesh.articulation.motion_question import Candidate, MotionQuestion, PartFacts, SlideDirection
 from anymesh.articulation.moved_points import MovedPoints
 from anymesh.articulation.own_axes import CENTRAL, pivots
 from anymesh.articulation.part_facts import part_facts
@@ -126,7 +126,7 @@ def fits(c: Candidate, kind: JointAppearance) -> bool:
     """Return whether a motion is of the answered kind."""
     if kind.is_rotation or c.motion.kind is JointType.REVOLUTE:
         return kind.is_rotation and c.motion.kind is JointType.REVOLUTE
-    return (abs(c.outward) > 0.7) == (kind is JointAppearance.SLIDE_OUT)
+    return (c.slide_direction is SlideDirection.ALONG_SURFACE) != (kind is JointAppearance.SLIDE_OUT)
 
 
 def moves_as(c: Candidate, moves: JointType) -> bool:

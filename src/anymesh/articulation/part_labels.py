@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from anymesh.articulation.motion_question import Candidate
+from anymesh.articulation.motion_question import Candidate, SlideDirection
 from anymesh.motion.part_context import PartContext
 from anymesh.types import JointType
 
-MAX_ALONG_COSINE = 0.5  # maximum cosine between the opening direction and a slide along the surface
+MAX_LEVEL_COSINE = 0.5  # maximum cosine between the vertical and a level hinge
 MIN_DRAWER_SIZE_RATIO = 0.15  # of the object's diagonal: a smaller part that slides in is a button
 MIN_WHEEL_SIZE_RATIO = 0.16  # of the object's diagonal: a smaller part that spins is a knob
 MIN_DRAWER_TRAVEL_RATIO = 0.1  # of its size: a slide with less travel is not labelled as a drawer
@@ -22,7 +22,7 @@ def label_of(around: PartContext, best: Candidate) -> str:
     """
     size = around.part.box.diagonal / around.diagonal
     if best.motion.kind is JointType.PRISMATIC:
-        if abs(best.outward) < MAX_ALONG_COSINE:
+        if best.slide_direction is SlideDirection.ALONG_SURFACE:
             return "slider"
         if size <= MIN_DRAWER_SIZE_RATIO and best.outward < 0:
             return "button"
@@ -32,5 +32,5 @@ def label_of(around: PartContext, best: Candidate) -> str:
     if best.role == "two_pivot":
         return "handle" if around.part.slender else "lid"  # a plate on two pivots is the lid of a laptop
     low, high = around.part.bounds[:, 2]
-    raised = best.vertical < MAX_ALONG_COSINE and high - around.parent.bounds[1, 2] > MIN_OPEN_LID_RISE_RATIO * (high - low)
+    raised = best.vertical < MAX_LEVEL_COSINE and high - around.parent.bounds[1, 2] > MIN_OPEN_LID_RISE_RATIO * (high - low)
     return "lid" if around.opening_direction[2] > MIN_LID_COSINE or raised else "door"

@@ -94,9 +94,8 @@ def reason(part: PartFacts, c: Candidate) -> str:
     """Describe a motion in words."""
     if c.motion.kind is JointType.PRISMATIC:
         guided = f"guided on {round(4 * c.guided)} of 4 sides"
-        way = "outwards" if c.outward > 0.7 else "inwards" if c.outward < -0.7 else "along the surface"
         travel = c.sweep.forward if c.opening_sign > 0 else c.sweep.backward
-        return f"slides {way}, {guided}, free for {100 * travel:.1f} cm ({c.motion.source})"
+        return f"slides {c.slide_direction}, {guided}, free for {100 * travel:.1f} cm ({c.motion.source})"
     free = f"free {-round(np.degrees(c.closing))}..{round(np.degrees(c.opening))} deg"
     if c.role == "round":
         return f"round outline ({100 * part.roundness:.0f} %), turns about its axis, {free}"

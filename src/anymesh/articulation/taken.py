@@ -7,6 +7,7 @@ from anymesh.articulation.confidence import Agreement
 from anymesh.articulation.decode import prismatic
 from anymesh.articulation.evidence import sweep_candidates
 from anymesh.articulation.motion_classifier import score_motions
+from anymesh.articulation.motion_question import SlideDirection
 from anymesh.articulation.offers import moves_as
 from anymesh.articulation.part_facts import part_facts
 from anymesh.articulation.verify import Choice, words
@@ -33,7 +34,8 @@ def opening_slide(case: PartCase) -> Motion:
     directions = [s * a for a in around.body_obb.axes for s in (1.0, -1.0) if s * a @ outward > 0.5] + [outward]
     ways = [normal_outwards(case)] + [prismatic(d, around, "free way out") for d in directions]
     candidates = sweep_candidates(around, [("asked", way) for way in ways])[::2]
-    if candidates[0].is_free and candidates[0].outward > 0.7 and candidates[0].guided > MIN_GUIDED_SHARE:
+    normal = candidates[0]
+    if normal.is_free and normal.slide_direction is SlideDirection.OUTWARDS and normal.guided > MIN_GUIDED_SHARE:
         return ways[0]
     return ways[max(range(1, len(ways)), key=lambda k: (candidates[k].guided, candidates[k].opening, -k))]
 

@@ -20,7 +20,7 @@ from anymesh.types import Handle, JointType, Motion
 
 IGNORE_OVERLAP_SCALE = 10.0  # penetration scale from which static geometry inside the part's box is ignored
 DOWNWARD_PENALTY = 0.4  # subtracted from the score of a downward direction, since most objects stand on something
-MIN_OUTWARD_COSINE = 0.5  # minimum cosine between an outward motion and the opening direction
+OUTWARD_COSINE = 0.7  # about 45 degrees: minimum cosine with the opening direction of a slide that goes outwards
 MIN_SCALE_RATIO = 1e-9  # of the diagonal: keeps tolerances positive for a part that is a point
 
 
@@ -89,7 +89,7 @@ class PartContext:
 
     def slides_along_surface(self, motion: Motion) -> bool:
         """Return whether a motion is a slide across the opening direction."""
-        along = abs(float(motion.axis @ self.opening_direction)) <= MIN_OUTWARD_COSINE
+        along = abs(float(motion.axis @ self.opening_direction)) <= OUTWARD_COSINE
         return motion.kind is JointType.PRISMATIC and along
 
     @cached_property
