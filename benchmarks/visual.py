@@ -17,11 +17,12 @@ import argparse
 import json
 import shutil
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from multiprocessing import get_context
 from pathlib import Path
+from types import MappingProxyType
 
 from visual_choices import FILE as CHOICES
 from visual_choices import choices_of, write_choices
@@ -34,6 +35,8 @@ from anymesh.evaluation.evaluate_sample import EvalConfig, EvalProtocol, evaluat
 from anymesh.evaluation.record import record_of, record_text
 from anymesh.pipeline.answering import choose_answerer
 from anymesh.pipeline.solving import solve
+from anymesh.types import Exchange
+from anymesh.vlm.asking import Answer, Question, VisualAnswerer
 from anymesh.vlm.file_answerer import open_questions
 from anymesh.vlm.question_files import ANSWER, OWNER, QUESTION, find_questions
 
@@ -77,8 +80,14 @@ def results_of(folder: Path) -> Path:
     return folder.with_name(f"{folder.name}.results")
 
 
-def ask(item: Item, protocol: EvalProtocol, folder: Path, wait: bool, after: EvalProtocol | None = None) -> str:
-    """Ask until an answer is missing; return a line about the state."""
+def ask(
+    item: Item, protocol: EvalProtocol, folder: Path, wait: bool, after: EvalProtocol | None = None,
+    answers: Mapping[str, str] = MappingProxyType({}),
+) -> str:  # fmt: skip
+    """Ask until an answer is missing; return a line about the state.
+
+    wait: for answers; after: the protocol that comes first; answers: recorded ones by the key of their question.
+    """
     place, results = folder / item.number / protocol, results_of(folder) / item.number / protocol
     title = f"{item.number} {protocol}"
     if (results / RECORD).exists():
@@ -92,7 +101,8 @@ def ask(item: Item, protocol: EvalProtocol, folder: Path, wait: bool, after: Eva
     setting = EvalConfig(protocol, (item.change,))
 
     def answerer_factory(_):
-        return choose_answerer({"answerer": f"files:{place}", "wait": wait}, about=item.number).factory
+        files = choose_answerer({"answerer": f"files:{place}", "wait": wait}, about=item.number).factory
+        return lambda fallback: Recorded(files(fallback), place, answers)
 
     try:
         (record,) = evaluate_sample(setting, open_dataset(item.spec), item.object, results, solve, answerer_factory)
@@ -158,16 +168,39 @@ def measured(found: Sequence[Item], folder: Path) -> list[Row]:
 
 
 def pictures(item: Item, protocol: EvalProtocol, folder: Path) -> str:
-    """Asks again what was recorded, so that the pictures are drawn; the recorded answers stand beside them."""
+    """Asks what was recorded again, so that the pictures are drawn; stops at a question without a recorded answer."""
     place = folder / item.number / protocol
     answers = {q.key: str(q.answer()) for q in find_questions(RECORDINGS / item.number / protocol)}
-    for _ in range(len(answers) + 1):
-        if not ask(item, protocol, folder, False).partition(": ")[2].startswith("open"):
-            break
-        for question in find_questions(place):
-            if question.answer() is None and question.key in answers:
-                question.write_answer(answers[question.key])
-    return f"{item.number} {protocol}: {sum(q.answer() is not None for q in find_questions(place))} of {len(answers)} questions"
+    line = ask(item, protocol, folder, False, answers=answers)
+    asked = find_questions(place)
+    return f"{line}; {sum(q.key in answers for q in asked)} of {len(asked)} questions as recorded"
+
+
+class Recorded:
+    """A file answerer whose questions get their recorded answers. answers: texts by key."""
+
+    def __init__(self, files: VisualAnswerer, place: Path, answers: Mapping[str, str]) -> None:
+        self._files, self._place, self._answers = files, place, answers
+        self.name = files.name
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        return self._files.warnings
+
+    @property
+    def exchanges(self) -> tuple[Exchange, ...]:
+        return self._files.exchanges
+
+    def ask(self, question: Question[Answer]) -> Answer:
+        """Return the answer in the question's folder or the recorded one. Raise OpenQuestionError if there is neither."""
+        try:
+            return self._files.ask(question)
+        except OpenQuestionError as error:
+            (folder,) = (q for q in find_questions(self._place) if q.path in error.folders)
+            if folder.answer() is not None or folder.key not in self._answers:
+                raise
+            folder.write_answer(self._answers[folder.key])
+            return self._files.ask(question)
 
 
 def _each(work, tasks: Sequence[tuple], jobs: int) -> Iterator:
