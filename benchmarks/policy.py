@@ -51,7 +51,7 @@ class Size:
 
 
 SIZES = {
-    "cpu": Size(8, 11, 4, 100, {"laptop": 80_000, "bucket": 160_000}, {"laptop": 40_000, "bucket": 50_000}),
+    "cpu": Size(8, 11, 4, 100, {"laptop": 80_000, "bucket": 1_000_000}, {"laptop": 80_000, "bucket": 100_000}),
     "gpu": Size(40, 60, 15, 100, {"laptop": 5_000_000, "bucket": 10_000_000}, {"laptop": 2_000_000, "bucket": 4_000_000}),
     "smoke": Size(2, 1, 1, 2, {"laptop": 128, "bucket": 128}, {"laptop": 64, "bucket": 64}),
 }
