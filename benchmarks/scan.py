@@ -1,8 +1,9 @@
 """Scans of the examples, recorded by a simulated depth camera, against the truth, and articulated end to end (docs/scan.md).
 
-    python benchmarks/scan.py OUT [NAME ...] [--views 60] [--noise 0.0015] [--seed 0]
+    python benchmarks/scan.py OUT [NAME ...] [--answers geometry,recorded] [--views 60] [--noise 0.0015] [--seed 0]
 
-A folder an object: its recording, scan.glb, the asset, and result.json; what is there is not made again. Prints one table.
+--answers: by geometry, and with the recorded answers of a general model to the pictures of the scans (scan_answers/).
+A folder an object: its recording, scan.glb, the assets, and the results; what is there is not made again. Prints the tables.
 """
 
 from __future__ import annotations
@@ -10,7 +11,9 @@ from __future__ import annotations
 import argparse
 import json
 import time
+from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -30,16 +33,15 @@ from anymesh.loading import load_mesh, place_mesh
 from anymesh.types import Asset, JointType, Mesh
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
+ANSWERS = Path(__file__).parent / "scan_answers"  # recorded, by object
 NAMES = ("cabinet", "microwave", "fridge", "laptop", "drill", "storage_box", "stove")
 POINTS = 50_000  # on each surface
 SEEN = 0.002  # [m] a ray may end before the point that it is cast at
 
 
 def measured(name: str, out: Path, views: int, noise: float, seed: int) -> dict[str, Any]:
-    """One object from its recording to the score of its asset."""
-    truth = read_ground_truth(EXAMPLES / "truth" / f"{name}.json", EXAMPLES / "meshes" / f"{name}.glb")
-    loaded = load_mesh(truth.mesh)
-    placed = place_mesh(loaded)
+    """Record and scan one object, and compare the scan with its surface."""
+    placed = place_mesh(load_mesh(true_example(name).mesh))
     if not (out / "frames").exists():
         render_frames(placed.mesh, out / "frames", views=views, noise=noise, seed=seed)
     began, spent = time.perf_counter(), time.process_time()
@@ -49,15 +51,28 @@ def measured(name: str, out: Path, views: int, noise: float, seed: int) -> dict[
     T_scan_mesh = np.array(report.T_scan_world) @ T_world_mesh
     found = {"name": name, "seconds": seconds, "cpu": spent, "faces": report.faces, "voxel": report.voxel,
              "dropped": len(report.dropped), "open": report.open_share, "diagonal": placed.mesh.diagonal}  # fmt: skip
-    found |= distances(placed.mesh, out, T_world_mesh, T_scan_mesh)
-    began = time.perf_counter()
-    asset = anymesh.articulate(out / "scan.glb", out / "asset", force=True, formats="urdf,glb")
-    found["articulate"] = time.perf_counter() - began
     T_glb_scan = np.eye(4)
     T_glb_scan[:3, :3] = TO_GLTF
-    return found | scored(
-        truth, loaded.mesh, asset, asset.source.T_asset_source @ T_glb_scan @ T_scan_mesh @ placed.T_asset_source
-    )
+    found["T_glb_loaded"] = (T_glb_scan @ T_scan_mesh @ placed.T_asset_source).tolist()
+    return found | distances(placed.mesh, out, T_world_mesh, T_scan_mesh)
+
+
+def articulated(name: str, out: Path, answers: str, T_glb_loaded: np.ndarray) -> dict[str, Any]:
+    """Score the asset of one scan.
+
+    answers: "geometry" or "recorded"; T_glb_loaded: from the mesh as loaded to the scan's file.
+    """
+    truth = true_example(name)
+    answerer = "geometry" if answers == "geometry" else f"replay:{ANSWERS / name}"
+    began = time.perf_counter()
+    asset = anymesh.articulate(out / "scan.glb", out / answers, force=True, formats="urdf,glb", answerer=answerer)
+    seconds = time.perf_counter() - began
+    result = scored(truth, load_mesh(truth.mesh).mesh, asset, asset.source.T_asset_source @ T_glb_loaded)
+    return {"name": name, "articulate": seconds, **result}
+
+
+def true_example(name: str) -> GroundTruth:
+    return read_ground_truth(EXAMPLES / "truth" / f"{name}.json", EXAMPLES / "meshes" / f"{name}.glb")
 
 
 def distances(mesh: Mesh, out: Path, T_world_mesh: np.ndarray, T_scan_mesh: np.ndarray) -> dict[str, float]:
@@ -101,12 +116,20 @@ def scored(truth: GroundTruth, mesh: Mesh, asset: Asset, T: np.ndarray) -> dict[
     return {"joints": joints, "predicted": result.predicted, "true": result.true, "matched": result.matched, "hidden": hidden}
 
 
-def table(rows: list[dict[str, Any]]) -> str:
-    """Markdown: one row an object, then the sums."""
-    lines = [
-        "| object | voxel mm | accuracy % (95 %) | completeness % (95 %) | scan s (CPU s) | joints found | extra | angle |",
-        "|---|---|---|---|---|---|---|---|",
+def scan_table(rows: list[dict[str, Any]]) -> str:
+    """Markdown: the accuracy of each scan."""
+    lines = ["| object | voxel mm | accuracy % (95 %) | completeness % (95 %) | scan s (CPU s) |", "|---|---|---|---|---|"]
+    lines += [
+        f"| {r['name']} | {1000 * r['voxel']:.1f} | {100 * r['accuracy']:.3f} ({100 * r['accuracy95']:.3f}) "
+        f"| {100 * r['complete']:.3f} ({100 * r['complete95']:.3f}) | {r['seconds']:.0f} ({r['cpu']:.0f}) |"
+        for r in rows
     ]
+    return "\n".join(lines)
+
+
+def joint_table(rows: list[dict[str, Any]]) -> str:
+    """Markdown: the joints of each asset, then the sums."""
+    lines = ["| object | joints found | extra | angle | s |", "|---|---|---|---|---|"]
     for r in rows:
         found = [j for j in r["joints"] if j["found"]]
         angles = ", ".join(
@@ -114,10 +137,8 @@ def table(rows: list[dict[str, Any]]) -> str:
         )
         missed = ", ".join(j["part"] for j in r["joints"] if not j["found"])
         lines.append(
-            f"| {r['name']} | {1000 * r['voxel']:.1f} | {100 * r['accuracy']:.3f} ({100 * r['accuracy95']:.3f}) "
-            f"| {100 * r['complete']:.3f} ({100 * r['complete95']:.3f}) | {r['seconds']:.0f} ({r['cpu']:.0f}) "
-            f"| {len(found)} of {len(r['joints'])} | {r['predicted'] - r['matched']} | {angles or '-'}"
-            f"{'; missed ' + missed if missed else ''} |"
+            f"| {r['name']} | {len(found)} of {len(r['joints'])} | {r['predicted'] - r['matched']} | {angles or '-'}"
+            f"{'; missed ' + missed if missed else ''} | {r['articulate']:.0f} |"
         )
     joints = [j for r in rows for j in r["joints"]]
     good = sum(
@@ -128,6 +149,15 @@ def table(rows: list[dict[str, Any]]) -> str:
     return "\n".join(lines)
 
 
+def kept(place: Path, make: Callable[[], dict[str, Any]]) -> dict[str, Any]:
+    """Return the result in a file, made if it is not there."""
+    if not place.exists():
+        result = make()
+        place.parent.mkdir(parents=True, exist_ok=True)
+        place.write_text(json.dumps(result, indent=1))
+    return json.loads(place.read_text())
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("out", type=Path)
@@ -135,16 +165,19 @@ def main() -> None:
     parser.add_argument("--views", type=int, default=60)
     parser.add_argument("--noise", type=float, default=0.0015)
     parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--answers", default="geometry,recorded")
     options = parser.parse_args()
-    rows = []
-    for name in options.names:
-        place = options.out / name / "result.json"
-        if not place.exists():
-            found = measured(name, place.parent, options.views, options.noise, options.seed)
-            place.write_text(json.dumps(found, indent=1))
-        rows.append(json.loads(place.read_text()))
-        print(table(rows[-1:]).splitlines()[2], flush=True)
-    print(table(rows))
+    scans = [
+        kept(options.out / n / "scan.json", partial(measured, n, options.out / n, options.views, options.noise, options.seed))
+        for n in options.names
+    ]
+    print(scan_table(scans))
+    for answers in options.answers.split(","):
+        rows = []
+        for row in scans:
+            folder, T = options.out / row["name"], np.array(row["T_glb_loaded"])
+            rows.append(kept(folder / f"{answers}.json", partial(articulated, row["name"], folder, answers, T)))
+        print(f"\n{answers}\n\n{joint_table(rows)}", flush=True)
 
 
 if __name__ == "__main__":
