@@ -14,8 +14,10 @@ HEAD = """# The visual method, with recorded answers
 
 Each question was answered once, from its text and pictures alone, through `--answerer files:FOLDER`, by a general model that
 accepts pictures and files; no paid API was called. The questions contain neither names nor the ground truth, and objects are
-identified by numbers. The answerer knew which data sets are used and recognized a few of them. It answered questions with equal
-keys together, and a few kinds of motion from the text before it saw the picture.
+identified by numbers. The answerer knew which data sets are used and recognized a few of them. It answered questions with
+equal keys together, and a few kinds of motion from the text before it saw the picture. The questions about motions, which
+show other motions in another order since motions are ranked by the learned score, were later answered again, for all
+objects, by the same kind of model, which saw the pictures of one question after another and nothing else of the project.
 
 Recall: true movable parts found with an IoU of .5 or more. mIoU: over the true parts, 0 for a part that was not found. For
 joints that were found: type (turns or slides, as the true joint does), exact type (revolute and continuous distinguished),

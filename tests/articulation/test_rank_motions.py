@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from made import EDGE, FAR_EDGE, PLATE, PULL, ROUND, X, Y, Z
 
-from anymesh.articulation.motion_question import Candidate, MotionAnswer, MotionQuestion, PartFacts
+from anymesh.articulation.motion_question import Candidate, MotionAnswer, MotionQuestion, PartFacts, SlideDirection
 from anymesh.articulation.rank_motions import (
     CALIBRATION_SLOPE,
     OFFSET,
@@ -134,6 +134,20 @@ def test_lines_are_one_to_a_user_within_a_tenth_of_the_part(off: float, same: bo
     """The part's diagonal is 0.7 m."""
     beside = replace(EDGE, motion=Motion(JointType.REVOLUTE, Z, off * X + 5 * Z, "beside"))
     assert same_joints(question(EDGE, beside), 0).tolist() == [True, same]
+
+
+@pytest.mark.parametrize(
+    ("c", "direction"),
+    [
+        (replace(PULL, outward=0.71), SlideDirection.OUTWARDS),
+        (replace(PULL, outward=0.69), SlideDirection.ALONG_SURFACE),
+        (replace(PULL, outward=-0.69), SlideDirection.ALONG_SURFACE),
+        (replace(PULL, outward=-0.71), SlideDirection.INWARDS),
+        (EDGE, None),
+    ],
+)
+def test_a_slide_is_outwards_within_45_degrees_of_the_opening_direction(c, direction: SlideDirection | None) -> None:
+    assert c.slide_direction is direction
 
 
 @pytest.mark.parametrize(("degrees", "same"), [(13.0, True), (15.0, False)])
