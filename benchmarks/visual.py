@@ -22,10 +22,9 @@ from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from multiprocessing import get_context
 from pathlib import Path
-from types import MappingProxyType
 
 from visual_choices import FILE as CHOICES
-from visual_choices import choices_of, write_choices
+from visual_choices import Wrapper, choices_of, write_choices
 from visual_replay import VARIANTS, Row, replayed
 from visual_table import MEASURED, page
 
@@ -35,7 +34,6 @@ from anymesh.evaluation.evaluate_sample import EvalConfig, EvalProtocol, evaluat
 from anymesh.evaluation.record import record_of, record_text
 from anymesh.pipeline.answering import choose_answerer
 from anymesh.pipeline.solving import solve
-from anymesh.types import Exchange
 from anymesh.vlm.asking import Answer, Question, VisualAnswerer
 from anymesh.vlm.file_answerer import open_questions
 from anymesh.vlm.question_files import ANSWER, OWNER, QUESTION, find_questions
@@ -82,7 +80,7 @@ def results_of(folder: Path) -> Path:
 
 def ask(
     item: Item, protocol: EvalProtocol, folder: Path, wait: bool, after: EvalProtocol | None = None,
-    answers: Mapping[str, str] = MappingProxyType({}),
+    answers: Mapping[str, str] | None = None,
 ) -> str:  # fmt: skip
     """Ask until an answer is missing; return a line about the state.
 
@@ -102,7 +100,7 @@ def ask(
 
     def answerer_factory(_):
         files = choose_answerer({"answerer": f"files:{place}", "wait": wait}, about=item.number).factory
-        return lambda fallback: Recorded(files(fallback), place, answers)
+        return files if answers is None else lambda fallback: Recorded(files(fallback), place, answers)
 
     try:
         (record,) = evaluate_sample(setting, open_dataset(item.spec), item.object, results, solve, answerer_factory)
@@ -176,31 +174,23 @@ def pictures(item: Item, protocol: EvalProtocol, folder: Path) -> str:
     return f"{line}; {sum(q.key in answers for q in asked)} of {len(asked)} questions as recorded"
 
 
-class Recorded:
+class Recorded(Wrapper):
     """A file answerer whose questions get their recorded answers. answers: texts by key."""
 
     def __init__(self, files: VisualAnswerer, place: Path, answers: Mapping[str, str]) -> None:
-        self._files, self._place, self._answers = files, place, answers
-        self.name = files.name
-
-    @property
-    def warnings(self) -> tuple[str, ...]:
-        return self._files.warnings
-
-    @property
-    def exchanges(self) -> tuple[Exchange, ...]:
-        return self._files.exchanges
+        super().__init__(files)
+        self._place, self._answers = place, answers
 
     def ask(self, question: Question[Answer]) -> Answer:
         """Return the answer in the question's folder or the recorded one. Raise OpenQuestionError if there is neither."""
         try:
-            return self._files.ask(question)
+            return self.inner.ask(question)
         except OpenQuestionError as error:
             (folder,) = (q for q in find_questions(self._place) if q.path in error.folders)
             if folder.answer() is not None or folder.key not in self._answers:
                 raise
             folder.write_answer(self._answers[folder.key])
-            return self._files.ask(question)
+            return self.inner.ask(question)
 
 
 def _each(work, tasks: Sequence[tuple], jobs: int) -> Iterator:

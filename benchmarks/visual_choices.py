@@ -127,29 +127,37 @@ def _rounded(values: np.ndarray) -> list[float]:
     return [round(float(v), DIGITS) for v in values]
 
 
-class WithChoices:
-    """An answerer from a recording; a question about motions that was asked otherwise then is answered by the choices."""
+class Wrapper:
+    """Base of an answerer around another one, whose name, warnings and exchanges are its own."""
 
-    def __init__(self, recorded: VisualAnswerer, choices: Sequence[Choice]) -> None:
-        self._recorded, self._choices = recorded, choices
-        self.again = 0  # questions that were answered by the choices
+    def __init__(self, inner: VisualAnswerer) -> None:
+        self.inner = inner
 
     @property
     def name(self) -> str:
-        return self._recorded.name
+        return self.inner.name
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        return self._recorded.warnings
+        return self.inner.warnings
 
     @property
     def exchanges(self) -> tuple[Exchange, ...]:
-        return self._recorded.exchanges
+        return self.inner.exchanges
+
+
+class WithChoices(Wrapper):
+    """An answerer from a recording; a question about motions that was asked otherwise then is answered by the choices."""
+
+    def __init__(self, recorded: VisualAnswerer, choices: Sequence[Choice]) -> None:
+        super().__init__(recorded)
+        self._choices = choices
+        self.again = 0  # questions that were answered by the choices
 
     def ask(self, question: Question[Answer]) -> Answer:
         """Answer as recorded. Raises ModelError for what was not."""
         try:
-            return self._recorded.ask(question)
+            return self.inner.ask(question)
         except ModelError:
             picks = pick_again(question, self._choices) if isinstance(question, WhichMotions) else None
             if picks is None:

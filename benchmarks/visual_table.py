@@ -17,7 +17,9 @@ accepts pictures and files; no paid API was called. The questions contain neithe
 identified by numbers. The answerer knew which data sets are used and recognized a few of them. It answered questions with
 equal keys together, and a few kinds of motion from the text before it saw the picture. The questions about motions, which
 show other motions in another order since motions are ranked by the learned score, were later answered again, for all
-objects, by the same kind of model, which saw the pictures of one question after another and nothing else of the project.
+objects, by the same kind of model, which was given one question after another and nothing else. It was told, beyond the text
+of the questions, to look at every picture, to compare all motions, and how common parts work: buttons are pressed in,
+drawers are pulled out, knobs turn about their own middle, a handle is opposite the hinge.
 
 Recall: true movable parts found with an IoU of .5 or more. mIoU: over the true parts, 0 for a part that was not found. For
 joints that were found: type (turns or slides, as the true joint does), exact type (revolute and continuous distinguished),
