@@ -17,6 +17,7 @@ class PiecesConfig:
     superpoint_strength: float = 0.05  # of l0 cut pursuit on normals (the paper's implementation)
     superpoint_faces: int = 40_000  # denser components are simplified before they are cut into superpoints
     soft_faces: int = 3000  # components with fewer faces have sharp creases only
+    seams: bool = False  # also divide where creases are closed in places; on if pictures are answered (`Solver`)
     reach: float = 0.01  # distance from a soft crease within which the surface defines its angle
     crumb: float = 0.03  # regions smaller than this, left by a cut, join their neighbour
     most_faces: int = 8000  # denser meshes are simplified for questions of shape and motion, never in the output

@@ -52,6 +52,34 @@ def test_a_surface_is_cut_at_concave_creases_of_more_than_25_degrees(degrees: fl
     assert is_cut(slab_with_bump(2.0, 0.2, 0.2 / np.tan(np.deg2rad(degrees)))) == cut
 
 
+def grooved_plate(closed: float, cells: int = 80) -> Mesh:
+    """Return a closed plate of 2 x 1 x .2 m with a groove across its top and sides at x = 0.
+
+    closed: share of the top over which the groove is closed, in the middle.
+    """
+    plate = trimesh.creation.box(bounds=[(-1, -0.5, -0.1), (1, 0.5, 0.1)])
+    length = (1 - closed) / 2
+    cuts = [((-0.02, -0.6, -0.2), (0.02, -0.48, 0.2)), ((-0.02, 0.48, -0.2), (0.02, 0.6, 0.2))]  # at the sides, right through
+    cuts += [
+        ((-0.02, s * 0.5 - (s > 0) * length, z), (0.02, s * 0.5 + (s < 0) * length, z + 0.08))
+        for s in (-1, 1)
+        for z in (-0.14, 0.06)
+    ]
+    whole = trimesh.boolean.difference([plate, *(trimesh.creation.box(bounds=b) for b in cuts)])
+    fine = trimesh.remesh.subdivide_to_size(whole.vertices, whole.faces, 2 / cells)
+    return mesh_of([(np.asarray(fine[0]), np.asarray(fine[1]))])[0]
+
+
+@pytest.mark.parametrize(("closed", "seams", "cut"), [(0.2, True, True), (0.9, True, False), (0.2, False, False)])
+def test_a_dense_surface_is_cut_at_seams_that_are_closed_in_places(closed: float, seams: bool, cut: bool) -> None:
+    mesh = grooved_plate(closed)
+    patch = object_shape(mesh, config=replace(CONFIG, seams=seams)).mesh_patch
+    x = mesh.triangles[:, :, 0]
+    left, right = patch[(x < -0.1).all(1)], patch[(x > 0.1).all(1)]
+    assert len(np.unique(left)) == len(np.unique(right)) == 1
+    assert (left[0] != right[0]) == cut
+
+
 @pytest.mark.parametrize(("apart", "cut"), [(2.0, True), (12.0, False)])
 def test_only_large_components_are_cut(apart: float, cut: bool) -> None:
     """The diagonal of the slab is 4.5 m: it is cut if that of the object is below 13 m."""

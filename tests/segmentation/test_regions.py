@@ -137,3 +137,28 @@ def test_a_mark_is_split_at_its_edges_and_no_other_is_touched() -> None:
         sides[normal] = own.pop()
     assert len(set(sides.values())) == 3
     assert not set(sides.values()) & {first, second, -1}
+
+
+def cabinet_with_seam(closed: float) -> Mesh:
+    """Return a box of 1 x .5 x 1 m with a groove down the middle of its front that is closed in the middle.
+
+    closed: length of the closed stretch [m].
+    """
+    plain = trimesh.Trimesh(*trimesh.remesh.subdivide_to_size(*box((0, 0, 0), (1, 0.5, 1)), 0.03))
+    vertices = np.asarray(plain.vertices).copy()
+    off = np.abs(vertices[:, 0] - 0.5)
+    groove = (vertices[:, 1] == 0) & (off < 0.02) & (np.abs(vertices[:, 2] - 0.5) > closed / 2)
+    vertices[groove, 1] += 0.02 - off[groove]
+    return mesh_of([(vertices, np.asarray(plain.faces))])[0]
+
+
+@pytest.mark.parametrize(("closed", "divided"), [(0.2, True), (0.8, False)])
+def test_a_mark_is_split_at_a_seam_that_is_closed_in_places(closed: float, divided: bool) -> None:
+    mesh = cabinet_with_seam(closed)
+    marks, cloud, views = marks_of(mesh)
+    x, front = mesh.triangles[:, :, 0], (mesh.triangles[:, :, 1] == 0).all(1)
+    left, right = front & (x < 0.4).all(1), front & (x > 0.6).all(1)
+    (whole,) = set(marks.face_mark[left | right])
+    found = split_marks(marks, [int(whole)], mesh, cloud, views, FEW).face_mark
+    assert len(set(found[left])) == len(set(found[right])) == 1
+    assert (set(found[left]) != set(found[right])) == divided

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Protocol
 
@@ -62,7 +63,10 @@ class Solver:
         answerer_factory: AnswererFactory | None = None,
         deadline: Deadline | None = None,
     ) -> None:
-        self.mesh, self.geometry = mesh, GeometryStages(mesh, config or Config(), deadline or Deadline())
+        config = config or Config()
+        if answerer_factory is not None:  # the geometry answerer finds no more with finer patches (docs/limits.md)
+            config = replace(config, pieces=replace(config.pieces, seams=True))
+        self.mesh, self.geometry = mesh, GeometryStages(mesh, config, deadline or Deadline())
         self.answers: StageAnswerer = (
             self.geometry if answerer_factory is None else PromptedStages(self.geometry, answerer_factory)
         )

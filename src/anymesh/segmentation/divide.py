@@ -10,12 +10,16 @@ from anymesh.config import PiecesConfig
 from anymesh.geometry.creases import convex_regions
 from anymesh.geometry.distance_ import TriangleTree
 from anymesh.geometry.patches import DividedSurface, ObjectShape
+from anymesh.geometry.sampling import spread_points
+from anymesh.geometry.seams import divide_at_seams
 from anymesh.geometry.topology import label_connected
 from anymesh.geometry.triangle_set import MeshSurface, mesh_surface
 from anymesh.segmentation.handles import region_sizes
 from anymesh.segmentation.panels import split_panels
 from anymesh.types import Mesh
 
+SEAM_POINTS = 40_000  # samples of the dense components for their seams
+MIN_SEAM_POINTS = 500  # of these, below which a region is not divided
 MAX_SIZE_DIFFERENCE_RATIO = 0.05  # maximum relative difference of the diagonals of copies
 
 
@@ -46,8 +50,8 @@ def split_patches(whole: MeshSurface, config: PiecesConfig) -> tuple[Int[np.ndar
 
     Patches are numbered from 0 in the order of their first faces.
 
-    Components that are large enough to contain a fused part are cut along their concave creases, sharp or soft. Crumbs left by
-    the cut join the neighbour with the longest common edge.
+    Components that are large enough to contain a fused part are cut along their concave creases, sharp or soft, and with
+    `config.seams` at creases that are closed in places. Crumbs left by the cut join the neighbour with the longest common edge.
     """
     component = whole.components.label
     large = region_sizes(whole, component) > config.fused_size * whole.diagonal
@@ -57,6 +61,8 @@ def split_patches(whole: MeshSurface, config: PiecesConfig) -> tuple[Int[np.ndar
     soft = _soft_regions(whole, component, large, config)
     cut = (concave & edges.aligned & large[component[pairs[:, 0]]]) | (soft[pairs[:, 0]] != soft[pairs[:, 1]])
     region, inferred = split_panels(whole, label_connected(len(component), pairs[~cut]))
+    if config.seams:
+        region = _split_at_seams(whole, region, large & (np.bincount(component) > config.soft_faces))
     cut |= region[pairs[:, 0]] != region[pairs[:, 1]]
     length = np.linalg.norm(_ends(whole, 0) - _ends(whole, 1), axis=1)
     region = _absorb_crumbs(whole, region, pairs[cut], length[cut], config)
@@ -76,6 +82,30 @@ def _soft_regions(whole: MeshSurface, component: np.ndarray, large: np.ndarray, 
         convex_region = convex_regions(triangles[:, ::-1] if flip[c] else triangles, whole.diagonal, config)
         region[mine] = np.where(convex_region > 0, int(region.max()) + convex_region, c)
     return region
+
+
+def _split_at_seams(whole: MeshSurface, region: np.ndarray, dense: Bool[np.ndarray, " c"]) -> np.ndarray:
+    """Divide the regions of some components at seams.
+
+    dense: which components.
+    """
+    if not dense.any():
+        return region
+    divided, component = region.copy(), whole.components.label
+    mine = np.flatnonzero(dense[component])
+    points, at = spread_points(whole.shape.triangles[mine], whole.shape.areas[mine], SEAM_POINTS, whole.shape.seed)
+    faces = mine[at]
+    for r, count in zip(*np.unique(region[faces], return_counts=True), strict=True):
+        if count < MIN_SEAM_POINTS:
+            continue
+        inside = region[faces] == r
+        outside = (component[faces] == component[faces[inside][0]]) & ~inside
+        finer = divide_at_seams(points[inside], whole.shape.normals[faces[inside]], points[outside])
+        if finer.any():
+            all_ = np.flatnonzero(region == r)
+            nearest = KDTree(points[inside]).query(whole.shape.triangles[all_].mean(1), workers=-1)[1]
+            divided[all_] = np.where(finer[nearest] > 0, int(divided.max()) + finer[nearest], r)
+    return np.unique(divided, return_inverse=True)[1]  # coarse faces may leave numbers unused
 
 
 def _ends(whole: MeshSurface, which: int) -> np.ndarray:

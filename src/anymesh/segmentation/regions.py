@@ -10,6 +10,7 @@ from jaxtyping import Bool, Float, Int
 
 from anymesh.config import GroundingConfig, ViewsConfig
 from anymesh.geometry.patches import ObjectShape
+from anymesh.geometry.seams import divide_at_seams
 from anymesh.geometry.topology import components, label_connected
 from anymesh.rendering.render import View
 from anymesh.segmentation.cloud import Cloud
@@ -23,6 +24,7 @@ COLOR_STEP = 0.12  # distance of mean colours (0..1 per channel) that separates 
 MIN_COLOR_PATCH_SHARE = 0.02  # share of the surface from which a patch is searched for parts that differ in colour only
 # share of the surface from which a patch is the whole object, so that its large sides are separated too
 MIN_DOMINANT_SHARE = 0.8
+MIN_MAIN_SHARE = 0.5  # share of a mark from which a superpoint is most of it
 MAX_DEPTH_STEP_RATIO = 0.02  # of the diagonal: maximum depth difference between touching things
 
 
@@ -101,10 +103,13 @@ def split_marks(
     views: Sequence[View],
     config: GroundingConfig | None = None,
 ) -> Marks:
-    """Divide the chosen marks into their connected components and superpoints, numbered above all others."""
+    """Divide the chosen marks into their connected components and superpoints, numbered above all others.
+
+    A superpoint that is most of a mark is divided at its seams too.
+    """
     config = config or GroundingConfig()
     inside = np.isin(marks.face_mark, list(chosen))
-    fine = _by_majority(cloud.superpoint, cloud.faces, len(inside))
+    fine = _by_majority(_fine_regions(marks.face_mark[cloud.faces], chosen, cloud), cloud.faces, len(inside))
     component = components(mesh.vertices, mesh.faces).label
     keys = np.stack([marks.face_mark, component, fine], 1)[inside]
     names, own = np.unique(keys, axis=0, return_inverse=True)
@@ -116,6 +121,22 @@ def split_marks(
     target, crowded = _merged(size, border, MAX_SPLIT_MARKS * len(chosen))
     finer = _numbered(region, size, target, int(marks.face_mark.max()) + 1)
     return Marks(np.where(inside, finer, marks.face_mark), crowded)
+
+
+def _fine_regions(mark: Int[np.ndarray, " n"], chosen: Sequence[int], cloud: Cloud) -> Int[np.ndarray, " n"]:
+    """Return the superpoint of every point, where those that are most of a chosen mark are divided at seams.
+
+    mark: mark of every point.
+    """
+    fine = cloud.superpoint.copy()
+    for number in chosen:
+        inside = mark == number
+        most = int(np.bincount(cloud.superpoint[inside], minlength=1).argmax())
+        whole = cloud.superpoint == most
+        if (inside & whole).sum() > MIN_MAIN_SHARE * inside.sum():
+            finer = divide_at_seams(cloud.points[whole], cloud.normals[whole], cloud.points[~whole])
+            fine[whole] = np.where(finer > 0, int(fine.max()) + finer, most)
+    return fine
 
 
 def _sizes(
