@@ -95,6 +95,15 @@ def test_an_answered_stroke_of_a_button_goes_in_and_not_out() -> None:
     assert axis == pytest.approx(-Y)
 
 
+@pytest.mark.parametrize(("gap", "travel"), [(0.1, 0.1), (0.012, 0.3)])
+def test_an_answered_travel_ends_at_an_obstacle_unless_it_is_blocked_from_the_start(gap: float, travel: float) -> None:
+    scene = drawer()
+    front = min(vertices[:, 1].min() for vertices, _ in scene["box"])
+    obstacle = box((0.1, front - gap - 0.05, 0.05), (0.5, front - gap, 0.2))
+    blocked = {**scene, "base": [*scene["base"], obstacle]}
+    assert answered(lambda: blocked, OUT, JointType.PRISMATIC, (0.0, 0.3))[0] == pytest.approx((0, travel), abs=0.012)
+
+
 def test_an_answered_travel_of_a_drawer_ends_where_the_parent_no_longer_holds_it() -> None:
     assert answered(drawer, OUT, JointType.PRISMATIC, (0.0, 0.2))[0] == pytest.approx((0, 0.2), abs=0.01)
     assert answered(drawer, OUT, JointType.PRISMATIC, (0.0, 0.6))[0] == pytest.approx((0, 0.35), abs=0.01)

@@ -16,7 +16,7 @@ MIN_STROKE_RATIO = 0.1  # of its height: a button with less free space behind it
 STROKE_RATIO = 0.5  # of its height: stroke of such a button
 MIN_DRAWER_SIZE_RATIO = 0.06  # of the object's diagonal: smaller parts are no panels of a hidden box
 MIN_HINGE_RANGE_RAD = np.deg2rad(2.0)  # [rad] a hinge with a shorter range, answered or left free, has an error
-MIN_SLIDE_RANGE_RATIO = 0.001  # of the tolerance length: an answered slide that the sweep leaves less range keeps its answer
+MIN_SLIDE_FREE_RATIO = 0.05  # of an answered travel: a slide that the sweep leaves less is blocked and keeps its answer
 # free shares of an answered range for reversing the axis: the maximum before, and the minimum after
 MAX_BLOCKED_RATIO, MIN_REVERSED_FREE_RATIO = 0.5, 0.8
 MIN_DEPTH_IN_PARENT_RATIO = 0.3  # of the answered travel: a part less deep inside its parent is only a panel
@@ -98,7 +98,8 @@ def _answered_revolute(around: PartContext, c: Candidate, answered: Range) -> Ra
 def _answered_prismatic(around: PartContext, c: Candidate, answered: Range) -> Range:
     """Shorten an answered range to what the sweep finds free and, outwards, to the part's depth in its parent.
 
-    A part that is pressed in keeps its stroke, up to its own height, since its mesh may fill the hole that it moves in.
+    A part that is pressed in keeps its stroke, up to its own height, since its mesh may fill the hole that it moves in. A
+    blocked slide keeps the full range.
     """
     motion, (lower, upper) = opening_motion(c), (-answered[0], answered[1])
     extent = float(np.ptp(around.part.corners @ motion.axis))
@@ -108,7 +109,7 @@ def _answered_prismatic(around: PartContext, c: Candidate, answered: Range) -> R
     ahead, back = _free_within(around, c, lower, upper, 2 * around.config.fine_steps)
     if upper < lower and c.slide_direction is SlideDirection.OUTWARDS:
         back = min(lower, extent)
-    if ahead + back < MIN_SLIDE_RANGE_RATIO * around.tolerance_length:
+    if ahead + back < MIN_SLIDE_FREE_RATIO * (lower + upper):
         return (0.0 - lower, upper)
     return (0.0 - back, ahead)
 
