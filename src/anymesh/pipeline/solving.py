@@ -64,7 +64,7 @@ class Solver:
         deadline: Deadline | None = None,
     ) -> None:
         config = config or Config()
-        if answerer_factory is not None:  # the geometry answerer finds no more with finer patches (docs/limits.md)
+        if answerer_factory is not None:  # the geometry answerer finds no more with finer patches (docs/decisions.md)
             config = replace(config, pieces=replace(config.pieces, seams=True))
         self.mesh, self.geometry = mesh, GeometryStages(mesh, config, deadline or Deadline())
         self.answers: StageAnswerer = (
