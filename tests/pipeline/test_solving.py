@@ -23,6 +23,11 @@ class Sees:
         return Recognition("box", self.size, ())
 
 
+def test_only_where_pictures_are_answered_seams_closed_in_places_divide_the_surface() -> None:
+    assert Solver(MESH, answerer_factory=lambda _: Sees(1.0)).geometry.config.pieces.seams
+    assert not Solver(MESH).geometry.config.pieces.seams
+
+
 @pytest.mark.parametrize(
     ("size", "metric", "scale", "doubted"),
     [

@@ -11,6 +11,7 @@ from assets import box, mesh_of
 
 from anymesh.config import PiecesConfig
 from anymesh.geometry.triangle_set import mesh_surface
+from anymesh.segmentation import divide
 from anymesh.segmentation.divide import object_shape
 from anymesh.segmentation.handles import SurfaceHandle, aligned, find_handles, is_main_component, region_sizes
 from anymesh.segmentation.layout import tile
@@ -78,6 +79,14 @@ def test_a_dense_surface_is_cut_at_seams_that_are_closed_in_places(closed: float
     left, right = patch[(x < -0.1).all(1)], patch[(x > 0.1).all(1)]
     assert len(np.unique(left)) == len(np.unique(right)) == 1
     assert (left[0] != right[0]) == cut
+
+
+def test_patches_are_numbered_without_gaps_where_no_face_lies_in_a_region(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(divide, "divide_at_seams", lambda points, *_: 2 * (points[:, 0] > 0))  # none is numbered 1
+    plate = trimesh.creation.box(bounds=[(-1, -0.5, -0.1), (1, 0.5, 0.1)])
+    fine = trimesh.remesh.subdivide_to_size(plate.vertices, plate.faces, 0.03)
+    mesh = mesh_of([(np.asarray(fine[0]), np.asarray(fine[1]))])[0]
+    assert np.unique(object_shape(mesh, config=replace(CONFIG, seams=True)).mesh_patch).tolist() == [0, 1]
 
 
 @pytest.mark.parametrize(("apart", "cut"), [(2.0, True), (12.0, False)])
