@@ -13,6 +13,7 @@ from jaxtyping import Bool, Float, Int
 from anymesh.errors import OptionError
 from anymesh.evaluation.fused_ import joined, wrapped
 from anymesh.evaluation.ground_truth import EvalSample
+from anymesh.evaluation.posing import ajar
 from anymesh.geometry.distance_ import distance_to_mesh
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.geometry.sampling import SurfacePoints, sample_surface, spread_directions
@@ -218,6 +219,7 @@ CHANGES: Mapping[str, Change] = MappingProxyType(
         "half-faces": partial(_decimated, share=0.5),
         "quarter-faces": partial(_decimated, share=0.25),
         "unseen-gone": _unseen_gone,
+        "ajar": ajar,  # some joints at other positions of their ranges
         "joined": _joined,
         "fused": partial(_fused, cells=FINE),
         "fused-coarse": partial(_fused, cells=COARSE),

@@ -10,7 +10,12 @@ from jaxtyping import Float
 
 from anymesh.evaluation.ground_truth import EvalSample, TrueJoint
 from anymesh.geometry.kinematics import joint_motion
+from anymesh.geometry.sweep import Obstacles, free_amount
+from anymesh.geometry.triangle_set import mesh_surface
 from anymesh.types import JointType
+
+MOVED_SHARE = 0.5  # probability that a joint is moved
+PENETRATION = 0.003  # of the object's diagonal [m]: depth behind a surface at which a joint is stopped
 
 
 def posed(sample: EvalSample, positions: Mapping[str, float]) -> EvalSample:
@@ -28,6 +33,31 @@ def posed(sample: EvalSample, positions: Mapping[str, float]) -> EvalSample:
     back = np.linalg.inv(sample.T)
     joints = tuple(_moved(j, back @ T[j.parent] @ sample.T, positions.get(j.child, 0.0)) for j in sample.truth.joints)
     return replace(sample, truth=replace(sample.truth, joints=joints), mesh=mesh, diagonal=2 * sample.unit)
+
+
+def ajar(sample: EvalSample, rng: np.random.Generator) -> EvalSample:
+    """Move about half of the joints, one after the other, to random positions in their ranges, as far as the rest lets them."""
+    for child in [j.child for j in sample.truth.joints]:
+        (joint,) = (j for j in sample.truth.joints if j.child == child)
+        if joint.limits is None or not joint.range_known or rng.random() >= MOVED_SHARE:
+            continue
+        position = float(rng.uniform(*joint.limits))
+        placed = sample.joint(replace(joint, limits=(0.0, position)))
+        _, reach = placed.limits or (0.0, 0.0)
+        free, _ = free_amount(_obstacles(sample, child), joint_motion(placed), int(np.sign(reach)) or 1, abs(reach), steps=36)
+        sample = posed(sample, {child: position * free / max(abs(reach), 1e-12)})
+    return sample
+
+
+def _obstacles(sample: EvalSample, child: str) -> Obstacles:
+    """Return the rest of the object around a part and the parts that it carries."""
+    carried, before = {child}, 0
+    while len(carried) > before:
+        before = len(carried)
+        carried |= {j.child for j in sample.truth.joints if j.parent in carried}
+    moves = np.isin(sample.labels, [k for k, part in enumerate(sample.truth.parts) if part.name in carried])
+    shape = mesh_surface(sample.mesh).shape
+    return Obstacles(shape.take(moves), shape.take(~moves), PENETRATION * 2 * sample.unit)
 
 
 def link_transforms(sample: EvalSample, positions: Mapping[str, float]) -> dict[str, Float[np.ndarray, "4 4"]]:
