@@ -1,4 +1,4 @@
-"""Train classifiers in two steps (`anymesh.scoring.two_steps`) by lightgbm, and score what was left out of training."""
+"""Train classifiers in two steps (`anymesh.scoring.classifier`) by lightgbm, and score what was left out of training."""
 
 from __future__ import annotations
 
@@ -17,6 +17,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from anymesh.scoring.boosted_trees import NO_FEATURE, BoostedTrees
+from anymesh.scoring.classifier import STEPS
 
 SETTINGS = {
     "objective": "cross_entropy", "learning_rate": 0.1, "num_leaves": 15, "min_data_in_leaf": 25, "feature_fraction": 0.5,
@@ -32,10 +33,10 @@ Context = Callable[[int, Scores], Float[np.ndarray, "n c"]]  # of a sample, from
 class Model:
     """One model of an ensemble, whose scores are averaged in each step.
 
-    rounds: trees of the first and of the second step; extra_trees: whether thresholds are random (Geurts et al., 2006).
+    rounds: trees of each step; extra_trees: whether thresholds are random (Geurts et al., 2006).
     """
 
-    rounds: tuple[int, int]
+    rounds: tuple[int, ...]
     seed: int = 0
     extra_trees: bool = False
 
@@ -59,11 +60,16 @@ def folds_of(groups: Sequence[Hashable], seed: int, count: int = FOLDS) -> np.nd
     return np.array([fold[group] for group in groups])
 
 
-class TwoSteps:
-    """Both steps. The second is trained on first scores of kinds that the first was not trained on."""
+class Steps:
+    """Trees in one step or, with a context, in two. The second is trained on first scores of kinds left out of the first."""
 
-    def __init__(self, samples: Sequence[Sample], chosen: Sequence[int], context: Context, models: Sequence[Model]) -> None:
+    def __init__(
+        self, samples: Sequence[Sample], chosen: Sequence[int], models: Sequence[Model], context: Context | None = None
+    ) -> None:
         self._samples, self._context, self._models = samples, context, models
+        self.trees = [self._fit(chosen)]
+        if context is None:
+            return
         fold = folds_of([(samples[i].source, samples[i].kind) for i in chosen], 1)
         first: Scores = [np.zeros(0)] * len(samples)
         for k in range(FOLDS):
@@ -71,8 +77,7 @@ class TwoSteps:
             for i, f in zip(chosen, fold, strict=True):
                 if f == k:
                     first[i] = step.score(samples[i].features)
-        self.first = self._fit(chosen)
-        self.second = self._fit(chosen, first)
+        self.trees.append(self._fit(chosen, first))
 
     def _fit(self, chosen: Sequence[int], first: Scores | None = None) -> BoostedTrees:
         samples = [self._samples[i] for i in chosen]
@@ -92,26 +97,29 @@ class TwoSteps:
             return BoostedTrees.mean(list(threads.map(trained, self._models)))
 
     def _joined(self, k: int, first: Scores) -> Float[np.ndarray, "n k"]:
+        assert self._context is not None
         return np.concatenate([self._samples[k].features, self._context(k, first)], 1)
 
     def scores(self, chosen: Sequence[int]) -> Scores:
-        """Return the log-odds of the candidates of some samples; nothing for the others. Copies must be chosen together."""
+        """Return the log-odds of the candidates of some samples; nothing for the others."""
         first: Scores = [np.zeros(0)] * len(self._samples)
-        found: Scores = [np.zeros(0)] * len(self._samples)
         for k in chosen:
-            first[k] = self.first.score(self._samples[k].features)
+            first[k] = self.trees[0].score(self._samples[k].features)
+        if self._context is None:
+            return first
+        second: Scores = [np.zeros(0)] * len(self._samples)
         for k in chosen:
-            found[k] = self.second.score(self._joined(k, first))
-        return found
+            second[k] = self.trees[1].score(self._joined(k, first))
+        return second
 
 
 def held_out(
-    samples: Sequence[Sample], left: Sequence[Bool[np.ndarray, " s"]], context: Context, models: Sequence[Model]
+    samples: Sequence[Sample], left: Sequence[Bool[np.ndarray, " s"]], models: Sequence[Model], context: Context | None = None
 ) -> Scores:
     """Return the scores of each sample by a classifier that was trained without all that is left out with it."""
     found: Scores = [np.zeros(0)] * len(samples)
     for mask in left:
-        model = TwoSteps(samples, [int(k) for k in np.flatnonzero(~mask)], context, models)
+        model = Steps(samples, [int(k) for k in np.flatnonzero(~mask)], models, context)
         out = [int(k) for k in np.flatnonzero(mask)]
         scores = model.scores(out)
         for k in out:
@@ -161,7 +169,7 @@ def _commit() -> str:
 
 def write(
     path: Path,
-    model: TwoSteps,
+    model: Steps,
     models: Sequence[Model],
     names: Sequence[str],
     objects: Sequence[tuple[str, str, str]],
@@ -180,5 +188,7 @@ def write(
         **more,
     }
     arrays = {"manifest": np.frombuffer(json.dumps(manifest).encode(), np.uint8)}
-    np.savez_compressed(path, **arrays, **model.first.arrays("first"), **model.second.arrays("second"))
+    for name, trees in zip(STEPS, model.trees, strict=False):  # one or two
+        arrays |= trees.arrays(name)
+    np.savez_compressed(path, **arrays)
     print(f"{path}: {path.stat().st_size / 1e6:.2f} MB")

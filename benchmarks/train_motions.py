@@ -18,17 +18,17 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import numpy as np
-from boosting import Model, Sample, Scores, TwoSteps, held_out, leave_kinds_out, leave_sources_out, write
+from boosting import Model, Sample, Scores, Steps, held_out, leave_kinds_out, leave_sources_out, write
 from calibration import Scored, calibration_table, fit_confidence, log_odds
-from jaxtyping import Bool, Float
+from jaxtyping import Bool
 from motion_rows import MotionRows, read_rows
 from rows import called
 
 from anymesh.articulation.estimate import MAX_COPIES
-from anymesh.articulation.motion_context import ScoredMotions, context_features
 from anymesh.articulation.rank_motions import BLOCKED, share_of_best
+from anymesh.articulation.scored_motions import ScoredMotions, mean_over_copies
 
-MODELS = tuple(Model((400, 100), seed, extra_trees=True) for seed in range(3))
+MODELS = tuple(Model((800,), seed, extra_trees=True) for seed in range(3))
 OBJECT, SOURCE = 0.5, 0.6  # powers by which parts of an object, and parts of a source, count less the more they are
 HERE = Path(__file__).parent
 WRITTEN = HERE.parent / "src" / "anymesh" / "articulation" / "motion_classifier.npz"
@@ -52,21 +52,15 @@ def samples_of(rows: Sequence[MotionRows]) -> list[Sample]:
     return found
 
 
-class CopyContext:
-    """The features of the context, with the copies of each part."""
-
-    def __init__(self, rows: Sequence[MotionRows]) -> None:
-        number = {(r.source, r.form, r.name, r.number): k for k, r in enumerate(rows)}
-        keys = [[(r.source, r.form, r.name, t) for t in r.twins[:MAX_COPIES]] for r in rows]
-        self._rows = rows
-        self._copies = [[number[key] for key in some if key in number] for some in keys]
-
-    def __call__(self, k: int, first: Scores) -> Float[np.ndarray, "n c"]:
-        own, *copies = (
-            ScoredMotions.of(self._rows[i].names, self._rows[i].features, self._rows[i].axes, first[i])
-            for i in [k, *self._copies[k]]
-        )
-        return np.stack(list(context_features(own, copies).values()), 1)
+def over_copies(rows: Sequence[MotionRows], scores: Scores) -> Scores:
+    """Return the mean of the scores of each part and of its copies."""
+    number = {(r.source, r.form, r.name, r.number): k for k, r in enumerate(rows)}
+    motions = [ScoredMotions.of(r.names, r.features, r.axes, s) for r, s in zip(rows, scores, strict=True)]
+    found = []
+    for own, r in zip(motions, rows, strict=True):
+        keys = [(r.source, r.form, r.name, twin) for twin in r.twins[:MAX_COPIES]]
+        found.append(mean_over_copies(own, [motions[number[key]] for key in keys if key in number]))
+    return found
 
 
 def table(rows: Sequence[MotionRows], scores: Scores, of: Callable[[MotionRows], str]) -> list[str]:
@@ -105,9 +99,9 @@ def main(argv: Sequence[str] | None = None) -> None:
     parser.add_argument("--write", action="store_true")
     options = parser.parse_args(argv)
     rows = read_rows(options.folder)
-    samples, context = samples_of(rows), CopyContext(rows)
-    by_source = held_out(samples, leave_sources_out(samples), context, MODELS)
-    by_kind = held_out(samples, leave_kinds_out(samples), context, MODELS)
+    samples = samples_of(rows)
+    by_source = over_copies(rows, held_out(samples, leave_sources_out(samples), MODELS))
+    by_kind = over_copies(rows, held_out(samples, leave_kinds_out(samples), MODELS))
     answers = confidences(rows, by_kind)
     slope, offset = fit_confidence(answers)
     text = [
@@ -125,7 +119,7 @@ def main(argv: Sequence[str] | None = None) -> None:
     (HERE / "motions.md").write_text("\n".join(text), encoding="utf-8")
     print("\n".join(text))
     if options.write:
-        model = TwoSteps(samples, range(len(rows)), context, MODELS)
+        model = Steps(samples, range(len(rows)), MODELS)
         objects = sorted({(r.source, r.kind, r.name) for r in rows})
         scores = {"right, other sources": right_of(rows, by_source), "right, other kinds": right_of(rows, by_kind)}
         write(WRITTEN, model, MODELS, rows[0].names, objects, joints=len(rows), scores=scores)

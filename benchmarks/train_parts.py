@@ -20,7 +20,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import numpy as np
-from boosting import FOLDS, Model, Sample, Scores, TwoSteps, held_out, leave_kinds_out, leave_sources_out, write
+from boosting import FOLDS, Model, Sample, Scores, Steps, held_out, leave_kinds_out, leave_sources_out, write
 from calibration import Scored, calibration_table, fit_confidence
 from jaxtyping import Float
 from part_rows import PartRows, read_rows
@@ -31,7 +31,7 @@ from rows import called
 from anymesh.segmentation.candidate_context import context_features
 from anymesh.segmentation.part_assignment import assign_parts
 
-MODELS = (Model((150, 90), 0), Model((250, 150), 1, True), Model((150, 90), 2), Model((250, 150), 3, True))
+MODELS = tuple(Model((400, 150), seed, extra_trees=True) for seed in range(4))
 WRONG, RIGHT = 0.35, 0.95  # IoU below which a candidate is no part, and from which it is one; between, it is partly right
 OBJECT, SOURCE = 0.5, 0.3  # powers by which candidates of an object, and objects of a source, count less the more they are
 SCORES = Path("held_out") / "scores.npz"  # below the folder of the rows
@@ -115,8 +115,8 @@ def main(argv: Sequence[str] | None = None) -> None:
     options = parser.parse_args(argv)
     rows = read_rows(options.folder)
     samples, context = samples_of(rows), OverlapContext(rows)
-    by_source = held_out(samples, leave_sources_out(samples), context, MODELS)
-    by_kind = held_out(samples, leave_kinds_out(samples), context, MODELS)
+    by_source = held_out(samples, leave_sources_out(samples), MODELS, context)
+    by_kind = held_out(samples, leave_kinds_out(samples), MODELS, context)
     save_scores(options.folder, by_source, by_kind)
     still = [k for k, r in enumerate(rows) if not r.moving]
     wrong = counts([rows[k] for k in still], [by_kind[k] for k in still]).found
@@ -138,7 +138,7 @@ def main(argv: Sequence[str] | None = None) -> None:
     (HERE / "parts.md").write_text("\n".join(text), encoding="utf-8")
     print("\n".join(text))
     if options.write:
-        model = TwoSteps(samples, range(len(rows)), context, MODELS)
+        model = Steps(samples, range(len(rows)), MODELS, context)
         objects = sorted({(r.source, r.kind, r.name) for r in rows})
         scores = {"F1, other sources": f1_of(rows, by_source), "F1, other kinds": f1_of(rows, by_kind)}
         write(WRITTEN, model, MODELS, rows[0].names, objects, candidates=sum(len(r.features) for r in rows), scores=scores)

@@ -14,13 +14,13 @@ from test_hypotheses import board
 
 from anymesh.articulation.estimate import choose_motion, estimate_joint, joint_of
 from anymesh.articulation.hypotheses import barrels, propose, two_pivot_line
-from anymesh.articulation.motion_context import ScoredMotions, context_features, in_one_manner
 from anymesh.articulation.motion_question import MotionQuestion
 from anymesh.articulation.own_axes import pivots
 from anymesh.articulation.part_facts import part_facts
 from anymesh.articulation.part_labels import label_of
 from anymesh.articulation.rank_motions import NO_MOTION_CONFIDENCE
 from anymesh.articulation.repeated_parts import in_a_row, same_size
+from anymesh.articulation.scored_motions import ScoredMotions, in_one_manner
 from anymesh.articulation.tree import parents
 from anymesh.motion.part_context import PartContext
 from anymesh.types import JointType
@@ -183,10 +183,10 @@ def test_a_part_without_a_free_motion_has_its_likeliest_one() -> None:
     candidates = (EDGE, replace(PULL, motion=replace(PULL.motion, axis=-Y)))
     blocked = tuple(replace(c, opening=0.0, closing=0.0) for c in candidates)
     facts = part_facts(around, "b", "part", two_pivot=False)
-    found = estimate_joint(around, "b", "base", MotionQuestion(facts, blocked, np.array([0.0, 1.0]), ("", "")))
+    found = estimate_joint(around, "b", "base", MotionQuestion(facts, blocked, np.array([0.0, 1.0]), lambda _: ""))
     assert (found.type, found.confidence) == (JointType.PRISMATIC, NO_MOTION_CONFIDENCE)
     assert found.reason == "no candidate motion is free and plausible; most likely: a slide"
-    moving = estimate_joint(around, "b", "base", MotionQuestion(facts, candidates, np.array([3.0, 0.0]), ("", "")))
+    moving = estimate_joint(around, "b", "base", MotionQuestion(facts, candidates, np.array([3.0, 0.0]), lambda _: ""))
     assert moving.type is JointType.REVOLUTE
 
 
@@ -195,7 +195,7 @@ def test_of_the_lines_at_one_rim_the_one_that_clears_the_neighbours_is_chosen() 
     leaf, other = [box((0, -0.022, 0), (0.6, -0.002, 0.8))], [box((-0.6, -0.022, 0), (-0.001, -0.002, 0.8))]
     around = context(leaf, [box((-0.6, 0, 0), (0.6, 0.4, 0.8))], other)
     back, front = (replace(EDGE, motion=turn(Z, (0, y, 0)), opening_sign=-1) for y in (-0.002, -0.022))
-    question = MotionQuestion(part_facts(around, "b", "part", two_pivot=False), (back, front), np.array([3.0, 0]), ("", ""))
+    question = MotionQuestion(part_facts(around, "b", "part", two_pivot=False), (back, front), np.array([3.0, 0]), lambda _: "")
     assert choose_motion(around, question)[1] is front
     alone = replace(around, siblings=())
     assert choose_motion(alone, question)[1] is back
@@ -227,16 +227,3 @@ def tilted(degrees: float) -> np.ndarray:
 )
 def test_copies_move_alike_about_parallel_lines_at_the_same_place(other: tuple, alike: bool) -> None:
     assert in_one_manner(scored((X, False, 0.5, 1.0, 1.0, 0)), scored(other)).item() == alike
-
-
-def test_the_context_of_motions_counts_copies_and_limits_their_loss() -> None:
-    own, copy = (
-        scored((X, False, 0.5, 1, 1, 2.0), (Y, True, -9, 1, 0, 0.0)),
-        scored((X, False, 0.5, 1, 1, -9.0), (Y, True, -9, 1, 0, 3.0)),
-    )
-    found = context_features(own, [copy, copy])
-    assert found["loss of copies"].tolist() == [6, 0]
-    assert found["copies"].tolist() == [2, 2]
-    assert found["share"] == pytest.approx([1 / (1 + np.exp(-2)), 1 / (1 + np.exp(2))])
-    only = context_features(scored((X, False, 0.5, 1, 1, 2.0)), [])
-    assert only["lead over the other kind"].tolist() == [2 + 9]

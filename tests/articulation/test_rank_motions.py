@@ -16,12 +16,12 @@ from anymesh.articulation.rank_motions import (
     same_joints,
     share_of_best,
 )
-from anymesh.scoring.two_steps import MAX_CONFIDENCE, confidence_of
+from anymesh.scoring.classifier import MAX_CONFIDENCE, confidence_of
 from anymesh.types import JointType, Motion, Sweep
 
 
 def asked(part: PartFacts, candidates: list[Candidate], scores: list[float]) -> MotionAnswer:
-    answer = rank_motions(MotionQuestion(part, tuple(candidates), np.array(scores), ("some feature 1",) * len(scores)))
+    answer = rank_motions(MotionQuestion(part, tuple(candidates), np.array(scores), lambda _: "some feature 1"))
     assert sorted(answer.ranking) == list(range(len(candidates)))
     return answer
 
@@ -35,7 +35,7 @@ def test_motions_are_ranked_by_score_and_the_reason_names_what_decided() -> None
 
 
 def question(*candidates: Candidate) -> MotionQuestion:
-    return MotionQuestion(PLATE, candidates, np.zeros(len(candidates)), ("",) * len(candidates))
+    return MotionQuestion(PLATE, candidates, np.zeros(len(candidates)), lambda _: "")
 
 
 def test_motions_are_the_same_joint_about_one_line_to_one_side() -> None:

@@ -9,7 +9,7 @@ from assets import box
 from scenes import Piece, Scene, built, case, door, drawer, joints_of, prism
 
 from anymesh.articulation import estimate
-from anymesh.articulation.motion_classifier import UnscoredMotions
+from anymesh.articulation.motion_classifier import PartMotionScores
 from anymesh.articulation.motion_question import MotionQuestion
 from anymesh.config import Config
 from anymesh.segmentation.divide import object_shape
@@ -67,13 +67,13 @@ def test_copies_that_agree_change_nothing(monkeypatch: pytest.MonkeyPatch) -> No
 def test_the_copies_of_a_part_are_the_others_of_its_row(monkeypatch: pytest.MonkeyPatch) -> None:
     """The panel at the back of the case has the size of the two in front, but is not beside them."""
     copies_of: dict[str, list[str]] = {}
-    question = UnscoredMotions.question
+    question = PartMotionScores.question
 
-    def recorded(motions: UnscoredMotions, copies: Sequence[UnscoredMotions] = ()) -> MotionQuestion:
+    def recorded(motions: PartMotionScores, copies: Sequence[PartMotionScores] = ()) -> MotionQuestion:
         copies_of[motions.facts.name] = [copy.facts.name for copy in copies]
         return question(motions, copies)
 
-    monkeypatch.setattr(UnscoredMotions, "question", recorded)
+    monkeypatch.setattr(PartMotionScores, "question", recorded)
     mesh, segmentation = built({**pair("both"), "back": [box((0.002, 0.402, 0.002), (0.299, 0.422, 0.798))]})
     whole = object_shape(mesh, 0, labels=segmentation.face_part)
     assert len(list(estimate.motion_questions(whole, segmentation, Config()))) == 3

@@ -15,11 +15,11 @@ from anymesh.articulation.estimate import part_context
 from anymesh.articulation.evidence import sweep_candidates
 from anymesh.articulation.hypotheses import distinct, propose
 from anymesh.articulation.limits import limits
-from anymesh.articulation.motion_context import ScoredMotions, in_one_manner
 from anymesh.articulation.motion_features import MISSING, motion_features
 from anymesh.articulation.moved_points import MovedPoints
 from anymesh.articulation.part_facts import part_facts
 from anymesh.articulation.repeated_parts import share_opening_directions
+from anymesh.articulation.scored_motions import ScoredMotions, in_one_manner
 from anymesh.articulation.tree import descendants, parents
 from anymesh.config import ArticulationConfig
 from anymesh.motion.part_context import PartContext

@@ -12,13 +12,14 @@ from assets import box, mesh_of
 from test_panels import FRONT, bar, front_boxes, solid
 
 from anymesh.config import Config, SegmentationConfig
-from anymesh.scoring.two_steps import confidence_of
+from anymesh.scoring.classifier import confidence_of
 from anymesh.segmentation import segment
 from anymesh.segmentation.candidate_names import NAME_SCORE, NameClass, name_class, shared_name
 from anymesh.segmentation.contacts import find_contacts
 from anymesh.segmentation.divide import object_shape
 from anymesh.segmentation.naming import named_parts
 from anymesh.segmentation.part_assignment import MIN_SCORE
+from anymesh.segmentation.part_classifier import Reasons
 from anymesh.segmentation.part_tree import Overlap, PartTree, _merges, part_tree
 from anymesh.segmentation.rigid_groups import rigid_groups
 from anymesh.types import Mesh, Node, Segmentation
@@ -112,11 +113,11 @@ def segmented(monkeypatch: pytest.MonkeyPatch, scores: list[float], names: tuple
     mesh, piece = mesh_of(LOOSE)
     mesh = replace(mesh, face_node=piece, nodes=tuple(map(Node, names)))
 
-    def score_parts(overlap: Overlap, features: list[dict[str, float]]) -> tuple[np.ndarray, list[str]]:
+    def score_parts(overlap: Overlap, features: list[dict[str, float]]) -> tuple[np.ndarray, Reasons]:
         side = [0.6 if abs(row["size"] * mesh.diagonal / np.sqrt(3) - 0.6) < 0.01 else 0.5 for row in features]
         near = [abs(row["size"] * mesh.diagonal / np.sqrt(3) - s) < 0.01 for row, s in zip(features, side, strict=True)]
         found = [scores[0 if s == 0.6 else 1] if good else -9.0 for s, good in zip(side, near, strict=True)]
-        return np.array(found), ["learned"] * len(found)
+        return np.array(found), lambda chosen: ["learned"] * len(chosen)
 
     monkeypatch.setattr(segment, "score_parts", score_parts)
     config = Config(segmentation=replace(CONFIG, **settings))

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from anymesh.articulation import motion_classifier
-from anymesh.scoring.two_steps import TwoStepClassifier
+from anymesh.scoring.classifier import Classifier
 from anymesh.segmentation import part_classifier
 
 SHIPPED = pytest.mark.parametrize("shipped", [part_classifier.shipped_classifier, motion_classifier.shipped_classifier])
@@ -22,14 +22,14 @@ def test_it_is_small(package: str, file: str) -> None:
 
 
 @SHIPPED
-def test_it_is_complete(shipped: Callable[[], TwoStepClassifier]) -> None:
+def test_it_is_complete(shipped: Callable[[], Classifier]) -> None:
     classifier = shipped()
-    assert classifier.first.feature.max() < len(classifier.names)
+    assert classifier.steps[0].feature.max() < len(classifier.names)
     assert len(set(classifier.names)) == len(classifier.names)
 
 
 @SHIPPED
-def test_the_manifest_says_what_it_was_trained_on(shipped: Callable[[], TwoStepClassifier]) -> None:
+def test_the_manifest_says_what_it_was_trained_on(shipped: Callable[[], Classifier]) -> None:
     manifest = shipped().manifest
     assert manifest["features"] == list(shipped().names)
     assert sum(s["objects"] for s in manifest["sources"].values()) == len(manifest["objects"])
@@ -48,8 +48,8 @@ def test_the_scores_in_the_manifest_are_those_of_the_page() -> None:
 
 
 @SHIPPED
-def test_trees_end_in_leaves(shipped: Callable[[], TwoStepClassifier]) -> None:
-    for trees in (shipped().first, shipped().second):
+def test_trees_end_in_leaves(shipped: Callable[[], Classifier]) -> None:
+    for trees in shipped().steps:
         inner = trees.feature >= 0
         at = np.arange(len(trees.feature))
         assert (trees.left[inner] > at[inner]).all()

@@ -12,7 +12,7 @@ from anymesh.articulation.barrels import find_barrel_candidates
 from anymesh.articulation.evidence import sweep_candidates
 from anymesh.articulation.hypotheses import propose
 from anymesh.articulation.limits import limits, opening_as_answered, opening_motion
-from anymesh.articulation.motion_classifier import UnscoredMotions
+from anymesh.articulation.motion_classifier import PartMotionScores
 from anymesh.articulation.motion_question import Candidate, MotionAnswer, MotionQuestion
 from anymesh.articulation.part_facts import part_facts
 from anymesh.articulation.rank_motions import rank_motions
@@ -112,13 +112,13 @@ def motion_question(around: PartContext, name: str, label: str) -> MotionQuestio
     return _unscored(around, name, label, None).question()
 
 
-def _unscored(around: PartContext, name: str, label: str, deadline: Deadline | None) -> UnscoredMotions:
+def _unscored(around: PartContext, name: str, label: str, deadline: Deadline | None) -> PartMotionScores:
     proposed = propose(around)
     if deadline is not None and deadline.late(JOINTS):
         deadline.leave_out("joints: only the most likely motions were swept")
         proposed = [(role, motion) for role, motion in proposed if role in ROLES_AFTER_DEADLINE] or proposed
     facts = part_facts(around, name, label, any(role == "two_pivot" for role, _ in proposed))
-    return UnscoredMotions(around, facts, sweep_candidates(around, proposed))
+    return PartMotionScores(around, facts, sweep_candidates(around, proposed))
 
 
 def _clear_of_others(around: PartContext, best: Candidate, candidates: tuple[Candidate, ...]) -> Candidate:

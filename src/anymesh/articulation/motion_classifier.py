@@ -1,4 +1,4 @@
-"""Learned score of a part's motions: boosted trees on named features, in two steps (`benchmarks/train_motions.py`)."""
+"""Learned score of a part's motions: boosted trees on named features (`benchmarks/train_motions.py`)."""
 
 from __future__ import annotations
 
@@ -8,39 +8,42 @@ from functools import cache
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.articulation.motion_context import ScoredMotions, context_features
 from anymesh.articulation.motion_features import motion_features
 from anymesh.articulation.motion_question import Candidate, MotionQuestion, PartFacts
+from anymesh.articulation.scored_motions import ScoredMotions, mean_over_copies
 from anymesh.motion.part_context import PartContext
-from anymesh.scoring.two_steps import TwoStepClassifier
+from anymesh.scoring.classifier import Classifier
 
 
-class UnscoredMotions:
-    """Motions of one part with their features, after the first step."""
+class PartMotionScores:
+    """Motions of one part, with their features and the scores of the part by itself."""
 
     def __init__(self, around: PartContext, facts: PartFacts, candidates: Sequence[Candidate]) -> None:
         classifier = shipped_classifier()
         self.facts, self.candidates = facts, tuple(candidates)
         self.table = classifier.table(motion_features(around, facts, candidates))
         axes = np.array([c.motion.axis for c in candidates]).reshape(-1, 3)
-        self.first = ScoredMotions.of(classifier.names, self.table, axes, classifier.first.score(self.table))
+        self.alone = ScoredMotions.of(classifier.names, self.table, axes, classifier.score(self.table))
 
-    def question(self, copies: Sequence[UnscoredMotions] = ()) -> MotionQuestion:
+    def question(self, copies: Sequence[PartMotionScores] = ()) -> MotionQuestion:
         """Return the question with the scores of all motions.
 
         copies: parts of the same size in a row with this one.
         """
-        context = context_features(self.first, [copy.first for copy in copies])
-        scores, reasons = shipped_classifier().score(self.table, context)
-        return MotionQuestion(self.facts, self.candidates, scores, tuple(reasons))
+        scores = mean_over_copies(self.alone, [copy.alone for copy in copies])
+        return MotionQuestion(self.facts, self.candidates, scores, self._reason)
+
+    def _reason(self, k: int) -> str:
+        (reason,) = shipped_classifier().reasons(self.table[k : k + 1])
+        return reason
 
 
 def score_motions(around: PartContext, facts: PartFacts, candidates: Sequence[Candidate]) -> Float[np.ndarray, " n"]:
     """Return the log-odds of each motion of a part, without regard to its copies."""
-    return UnscoredMotions(around, facts, candidates).question().scores
+    return PartMotionScores(around, facts, candidates).alone.score
 
 
 @cache
-def shipped_classifier() -> TwoStepClassifier:
+def shipped_classifier() -> Classifier:
     """Read the shipped classifier."""
-    return TwoStepClassifier.read("anymesh.articulation", "motion_classifier.npz")
+    return Classifier.read("anymesh.articulation", "motion_classifier.npz")

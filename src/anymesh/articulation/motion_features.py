@@ -15,7 +15,7 @@ from anymesh.articulation.contact_metrics import CONTACT_RATIO, CONTACT_TOLERANC
 from anymesh.articulation.motion_question import Candidate, PartFacts
 from anymesh.geometry.circles import outline_about
 from anymesh.motion.part_context import PartContext
-from anymesh.scoring.two_steps import MISSING
+from anymesh.scoring.classifier import MISSING
 from anymesh.types import JointType, Motion
 
 MAX_ACROSS_COSINE = 0.7  # maximum cosine between an axis and a direction across it

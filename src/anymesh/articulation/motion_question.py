@@ -5,6 +5,7 @@ Answers are validated when constructed.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
@@ -121,13 +122,13 @@ class Candidate:
 class MotionQuestion:
     """Question how a part moves: by one of the candidates, or not at all.
 
-    scores: (k,) log-odds that each candidate is right; reasons: the deciding features, in words.
+    scores: (k,) log-odds that each candidate is right; reason: the features that decided for a candidate, in words.
     """
 
     part: PartFacts
     candidates: tuple[Candidate, ...]
     scores: Float[np.ndarray, " k"]
-    reasons: tuple[str, ...]
+    reason: Callable[[int], str]
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ from anymesh.articulation.cases import PartCase
 from anymesh.articulation.evidence import sweep_candidates
 from anymesh.articulation.hypotheses import distinct, propose
 from anymesh.articulation.limits import answered_range, opening_motion, pressed
-from anymesh.articulation.motion_classifier import UnscoredMotions
+from anymesh.articulation.motion_classifier import PartMotionScores
 from anymesh.articulation.motion_question import Candidate, MotionQuestion, PartFacts, SlideDirection
 from anymesh.articulation.moved_points import MovedPoints
 from anymesh.articulation.own_axes import CENTRAL, pivots
@@ -108,7 +108,7 @@ def scored_motions(case: PartCase) -> MotionQuestion:
     circles = [("circle", motion) for motion in case.circles]
     proposed = distinct([*proposed, *circles, *pivots(around, case.shown.normal)], around.tolerance_length)
     first = [("asked", case.asked)] if case.asked is not None else []
-    question = UnscoredMotions(around, facts, sweep_candidates(around, first + proposed)).question()
+    question = PartMotionScores(around, facts, sweep_candidates(around, first + proposed)).question()
     scores, chosen = motion_scores(question), []
     for k in range(0, len(scores), 2):
         best, other = sorted((k, k + 1), key=lambda i: (not question.candidates[i].is_free, -scores[i]))
@@ -118,7 +118,7 @@ def scored_motions(case: PartCase) -> MotionQuestion:
         facts,
         tuple(question.candidates[k] for k in chosen),
         question.scores[chosen],
-        tuple(question.reasons[k] for k in chosen),
+        lambda k: question.reason(chosen[k]),
     )
 
 

@@ -8,7 +8,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from anymesh.articulation.motion_question import Candidate, MotionAnswer, MotionQuestion, PartFacts
-from anymesh.scoring.two_steps import confidence_of
+from anymesh.scoring.classifier import confidence_of
 from anymesh.types import JointType
 from anymesh.vocabulary import typical_motion
 
@@ -41,7 +41,7 @@ def rank_motions(question: MotionQuestion) -> MotionAnswer:
         return MotionAnswer(ranking, JointType.FIXED, NO_MOTION_CONFIDENCE, "no candidate motion is free and plausible")
     share = np.clip(share_of_best(scores, same), 1e-6, 1 - 1e-6)
     confidence = confidence_of(float(np.log(share / (1 - share))), CALIBRATION_SLOPE, OFFSET)
-    why = f"{reason(question.part, best)}; {question.reasons[ranking[0]]}"
+    why = f"{reason(question.part, best)}; {question.reason(ranking[0])}"
     return MotionAnswer(ranking, joint_type(best), confidence, why)
 
 

@@ -18,7 +18,7 @@ from anymesh.config import Config
 from anymesh.deadline import SEGMENT, Deadline
 from anymesh.geometry.patches import ObjectShape
 from anymesh.progress import Progress, silent
-from anymesh.scoring.two_steps import confidence_of
+from anymesh.scoring.classifier import confidence_of
 from anymesh.segmentation.candidate_names import NAME_SCORE, name_class, shared_name
 from anymesh.segmentation.contacts import find_contacts
 from anymesh.segmentation.naming import named_parts
@@ -62,7 +62,7 @@ def segment_parts(
             face_part, order = _face_part(mesh, examined, [k for k in order if k != order[0]])
         known = [word.label if (word := recognize(words[k])) else "" for k in order]
         confidence = [confidence_of(float(score[k]), CALIBRATION_SLOPE, CALIBRATION_OFFSET) for k in order]
-        why = [_reason(reasons[k], words[k], score[k]) for k in order]
+        why = [_reason(learned, words[k], score[k]) for k, learned in zip(order, reasons(order), strict=True)]
         labels = label_parts(named_parts(face_part, [label or "part" for label in known], mesh.face_areas, confidence, why))
         still = [n for n, label in enumerate(labels, start=1) if not label]
         if not still or deadline.late(SEGMENT):

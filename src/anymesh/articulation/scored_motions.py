@@ -1,4 +1,4 @@
-"""Features that compare the score of a motion with the part's other motions and with the motions of its copies."""
+"""Scores of a part's motions, and their mean over the copies of the part, which move in the same manner."""
 
 from __future__ import annotations
 
@@ -8,17 +8,15 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Bool, Float
 
-NONE = -9.0  # [log-odds] value if there is no such motion
 SAME_AXIS = 0.97  # minimum cosine between axes with the same direction
-# [log-odds] clipping range of the loss of a copy that moves in the same manner instead of in its best one
-MIN_LOSS, MAX_LOSS = 0.0, 6.0
 SAME_BALANCE = 0.2  # maximum difference of the feature "balance" of axes in a similar position: through the center, or at a rim
 SIDE = -0.05  # minimum product of the cosines with the opening directions of two motions to the same side
+MAX_LOSS = 3.0  # [log-odds] a copy that cannot move in a manner counts as this much below the worst motion of the part
 
 
 @dataclass(frozen=True, eq=False)
 class ScoredMotions:
-    """Motions of one part after the first step.
+    """Motions of one part.
 
     values: (n,) arrays of some features; axes: (n, 3) unit; score: (n,) log-odds.
     """
@@ -40,35 +38,14 @@ class ScoredMotions:
         return cls({name: np.asarray(table[:, list(names).index(name)], float) for name in used}, axes, score)
 
 
-def context_features(own: ScoredMotions, copies: Sequence[ScoredMotions]) -> dict[str, Float[np.ndarray, " n"]]:
-    """Return features of all motions of a part.
-
-    copies: the motions of parts of the same size in a row with it.
-    """
-    score, slides = own.score, own.values["prismatic"] > 0
-    best = float(score.max())
-    share = np.exp(score - best)
-    lost = [_lost(own, copy) for copy in copies]
-    count = len(score)
-    return {
-        "score": score,
-        "lead": score - best,
-        "share": share / share.sum(),
-        "lead over the other kind": score - np.where(slides, _best(score, ~slides), _best(score, slides)),
-        "loss of copies": np.mean(lost, axis=0) if lost else np.zeros(count),
-        "copies": np.full(count, float(len(copies))),
-        "best motion": np.full(count, best),
-    }
-
-
-def _best(score: Float[np.ndarray, " n"], mask: Bool[np.ndarray, " n"]) -> float:
-    return float(score[mask].max(initial=NONE))
-
-
-def _lost(own: ScoredMotions, copy: ScoredMotions) -> Float[np.ndarray, " n"]:
-    """Return, for each motion, how much lower a copy scores with a motion in the same manner than with its best motion."""
-    theirs = np.where(in_one_manner(own, copy), copy.score[None], -np.inf).max(1)
-    return np.clip(copy.score.max() - theirs, MIN_LOSS, MAX_LOSS)
+def mean_over_copies(own: ScoredMotions, copies: Sequence[ScoredMotions]) -> Float[np.ndarray, " n"]:
+    """Return, for each motion of a part, the mean of its score and of the best scores of the copies in the same manner."""
+    least = own.score.min(initial=0.0) - MAX_LOSS
+    total = own.score.astype(float)
+    for copy in copies:
+        theirs = np.where(in_one_manner(own, copy), copy.score[None], -np.inf).max(1, initial=-np.inf)
+        total = total + np.maximum(theirs, least)
+    return total / (1 + len(copies))
 
 
 def in_one_manner(a: ScoredMotions, b: ScoredMotions) -> Bool[np.ndarray, "n m"]:

@@ -3,7 +3,7 @@
 import numpy as np
 
 from anymesh.scoring.boosted_trees import BoostedTrees
-from anymesh.scoring.two_steps import MISSING, TwoStepClassifier
+from anymesh.scoring.classifier import MISSING, Classifier
 
 
 def stump(column: int) -> BoostedTrees:
@@ -17,14 +17,21 @@ def stump(column: int) -> BoostedTrees:
 
 def test_a_feature_that_a_candidate_does_not_have_is_no_reason() -> None:
     for column, value, reason in ((0, 2.0, "size 2"), (1, MISSING, "the other candidates")):
-        classifier = TwoStepClassifier(stump(column), stump(column), ("size", "support"), {})
+        classifier = Classifier((stump(column), stump(column)), ("size", "support"), {})
         row = {"size": 0.0, "support": 0.0, ("size", "support")[column]: value}
-        scores, reasons = classifier.score(classifier.table([row]), {"score": np.zeros(1)})
-        assert scores.tolist() == [1.0]
-        assert reasons == [reason]
+        table = classifier.table([row])
+        for context in (None, {"score": np.zeros(1)}):
+            assert classifier.score(table, context).tolist() == [1.0]
+            assert classifier.reasons(table, context) == [reason]
+
+
+def test_the_second_step_sees_the_context() -> None:
+    classifier = Classifier((stump(0), stump(2)), ("size", "support"), {})
+    table = classifier.table([{"size": -1.0, "support": 0.0}])
+    assert classifier.score(table).tolist() == [-1.0]
+    assert classifier.score(table, {"score": np.ones(1)}).tolist() == [1.0]
 
 
 def test_a_value_of_minus_zero_is_printed_as_zero() -> None:
-    classifier = TwoStepClassifier(stump(1), stump(1), ("size", "support"), {})
-    _, reasons = classifier.score(classifier.table([{"size": 0.0, "support": -0.0}]), {"score": np.zeros(1)})
-    assert reasons == ["support 0"]
+    classifier = Classifier((stump(1),), ("size", "support"), {})
+    assert classifier.reasons(classifier.table([{"size": 0.0, "support": -0.0}])) == ["support 0"]
