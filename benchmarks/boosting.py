@@ -1,4 +1,4 @@
-"""Train classifiers in two steps (`anymesh.scoring.classifier`) by lightgbm, and score what was left out of training."""
+"""Train classifiers (`anymesh.scoring.classifier`) by lightgbm, and score what was left out of training."""
 
 from __future__ import annotations
 

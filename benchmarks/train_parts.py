@@ -31,7 +31,7 @@ from rows import called
 from anymesh.segmentation.candidate_context import context_features
 from anymesh.segmentation.part_assignment import assign_parts
 
-MODELS = tuple(Model((400, 150), seed, extra_trees=True) for seed in range(4))
+MODELS = (Model((150, 90), 0), Model((250, 150), 1, True), Model((150, 90), 2), Model((250, 150), 3, True))
 WRONG, RIGHT = 0.35, 0.95  # IoU below which a candidate is no part, and from which it is one; between, it is partly right
 OBJECT, SOURCE = 0.5, 0.3  # powers by which candidates of an object, and objects of a source, count less the more they are
 SCORES = Path("held_out") / "scores.npz"  # below the folder of the rows

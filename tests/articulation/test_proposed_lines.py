@@ -20,7 +20,7 @@ from anymesh.articulation.part_facts import part_facts
 from anymesh.articulation.part_labels import label_of
 from anymesh.articulation.rank_motions import NO_MOTION_CONFIDENCE
 from anymesh.articulation.repeated_parts import in_a_row, same_size
-from anymesh.articulation.scored_motions import ScoredMotions, in_one_manner
+from anymesh.articulation.scored_motions import MAX_LOSS, ScoredMotions, in_one_manner, mean_over_copies
 from anymesh.articulation.tree import parents
 from anymesh.motion.part_context import PartContext
 from anymesh.types import JointType
@@ -227,3 +227,17 @@ def tilted(degrees: float) -> np.ndarray:
 )
 def test_copies_move_alike_about_parallel_lines_at_the_same_place(other: tuple, alike: bool) -> None:
     assert in_one_manner(scored((X, False, 0.5, 1.0, 1.0, 0)), scored(other)).item() == alike
+
+
+def test_copies_that_move_alike_are_scored_alike() -> None:
+    own = scored((X, False, 0.5, 1, 1, 2.0), (Y, True, -9, 1, 0, 0.0))
+    copy = scored((X, False, 0.5, 1, 1, -1.0), (Y, True, -9, 1, 0, 4.0), (Y, True, -9, 1, 0, 1.0))
+    assert mean_over_copies(own, [copy]).tolist() == [0.5, 2.0]
+    assert mean_over_copies(own, [copy, copy]).tolist() == [0.0, 8 / 3]
+    assert mean_over_copies(own, []).tolist() == [2.0, 0.0]
+
+
+def test_a_copy_that_cannot_move_in_a_manner_counts_as_worse_than_the_worst_motion() -> None:
+    own = scored((X, False, 0.5, 1, 1, 2.0), (Y, True, -9, 1, 0, -1.0))
+    other = scored((Z, True, -9, 1, 0, 5.0))
+    assert mean_over_copies(own, [other]).tolist() == [(2 - 1 - MAX_LOSS) / 2, (-1 - 1 - MAX_LOSS) / 2]
