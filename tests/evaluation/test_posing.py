@@ -5,10 +5,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from assets import cabinet
+from assets import box, cabinet, mesh_of
 
 from anymesh.evaluation.ground_truth import EvalSample, GroundTruth, TrueJoint
-from anymesh.evaluation.posing import link_transforms, posed
+from anymesh.evaluation.posing import ajar, link_transforms, posed
 from anymesh.types import JointType, Part
 
 ASSET = cabinet()
@@ -71,3 +71,36 @@ def test_limits_are_told_from_where_the_joint_stands() -> None:
     ajar = next(j for j in posed(rest, {"door": 0.5}).truth.joints if j.child == "door")
     assert ajar.limits == pytest.approx((door.limits[0] - 0.5, door.limits[1] - 0.5))
     assert replace(ajar, limits=door.limits).type is JointType.REVOLUTE
+
+
+def positions(rest: EvalSample, seeds: int) -> list[dict[str, float]]:
+    """Return where the limited joints of `ajar` samples are, in the truth's units."""
+    moved = [ajar(rest, np.random.default_rng(seed)) for seed in range(seeds)]
+    pairs = [zip(rest.truth.joints, new.truth.joints, strict=True) for new in moved]
+    return [{old.child: old.limits[0] - new.limits[0] for old, new in some if old.limits and new.limits} for some in pairs]
+
+
+@pytest.mark.parametrize("T", [np.eye(4), TURNED], ids=["same frame", "other frame and unit"])
+def test_some_joints_are_ajar_within_their_limits(T: np.ndarray) -> None:
+    rest = sample(T)
+    limits = {j.child: j.limits for j in rest.truth.joints if j.limits is not None}
+    found = positions(rest, 12)
+    assert all(0 <= at[name] <= limits[name][1] for at in found for name in limits)
+    for name, (_, upper) in limits.items():
+        moved = [at[name] for at in found if at[name] > 0]
+        assert 2 < len(moved) < 12
+        assert max(moved) - min(moved) > 0.2 * upper
+    assert positions(rest, 2) == found[:2]
+
+
+def test_a_joint_is_ajar_as_far_as_the_rest_of_the_object_lets_it() -> None:
+    pieces = [
+        box((0, 0, 0), (0.6, 0.4, 0.3)),
+        box((0, -0.13, 0), (0.6, -0.12, 0.3)),
+        box((0.1, -0.02, 0.1), (0.5, -0.001, 0.2)),
+    ]
+    mesh, piece = mesh_of(pieces)
+    slide = TrueJoint(JointType.PRISMATIC, np.zeros(3), np.array([0, -1.0, 0]), (0.0, 0.3), child="front", parent="base")
+    truth = GroundTruth("x", Path("x.glb"), (Part("base", "base"), Part("front", "part")), piece // 2, (slide,))
+    blocked = positions(EvalSample(truth, mesh, piece // 2, np.eye(4)), 12)
+    assert max(at["front"] for at in blocked) == pytest.approx(0.1, abs=0.01)  # where the wall is

@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from anymesh.articulation.barrels import find_barrel_candidates
+from anymesh.articulation.closed_pose import away_from_closed
 from anymesh.articulation.evidence import sweep_candidates
 from anymesh.articulation.hypotheses import propose
 from anymesh.articulation.limits import limits, opening_as_answered, opening_motion
@@ -170,7 +171,7 @@ def joint_of(
 
     Positive values open. The limits come from the sweep, within the answered range if there is one.
     """
-    best = opening_as_answered(best, answered)
+    best = away_from_closed(around, best) if answered is None else opening_as_answered(best, answered)
     motion = opening_motion(best)
     return Joint(
         name=f"{name}_joint",

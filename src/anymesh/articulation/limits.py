@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from jaxtyping import Bool, Float
 
+from anymesh.articulation.closed_pose import MIN_CLOSING_ANGLE_RAD, closing_angle, closing_travel
 from anymesh.articulation.motion_question import MIN_FREE_ANGLE_RAD, Candidate, SlideDirection
 from anymesh.geometry.sweep import free_amount
 from anymesh.motion.part_context import PartContext
@@ -21,11 +21,7 @@ MIN_SLIDE_FREE_RATIO = 0.05  # of an answered travel: a slide that the sweep lea
 MAX_BLOCKED_RATIO, MIN_REVERSED_FREE_RATIO = 0.5, 0.8
 MIN_DEPTH_IN_PARENT_RATIO = 0.3  # of the answered travel: a part less deep inside its parent is only a panel
 MIN_DOOR_COSINE = 0.7  # minimum cosine between the vertical and the axis of a door; other hinges are those of flaps
-MIN_CLOSING_ANGLE_RAD = np.deg2rad(5.0)  # [rad] less free angle in the closing direction is play
 ANGLE_STEP_RAD = np.deg2rad(1.0)  # [rad] resolution of limits that the sweep finds
-MAX_CLOSED_GAP_RATIO = 0.02  # of the tolerance length: a closed part is this near its parent
-END_FRACTION, MIN_NEAR_SHARE = 0.8, 0.2  # position where an end of a part begins, and the least share of it near the parent
-MIN_CLOSED_ENDS = 3  # of the four ends of its face, of a closed part
 MIN_TRAVEL_RATIO = 0.01  # of the tolerance length: the least travel of a slide; less in the closing direction is play
 MAX_PANEL_THICKNESS_RATIO = 0.3  # shortest side of a panel over its middle side
 MIN_UPPER_RATIO = 0.001  # of the tolerance length: a slide that is less free opens as far as it is deep
@@ -127,31 +123,15 @@ def _revolute(around: PartContext, c: Candidate) -> tuple[float, float]:
     config, motion = around.config, opening_motion(c)
     most = np.deg2rad(config.door_most if c.vertical > MIN_DOOR_COSINE else config.flap_most)
     steps = config.fine_steps * 3
-    upper, clear = free_amount(around.obstacles(c.penetration_scale), motion, 1, most, steps)
-    lower, _ = free_amount(around.obstacles(c.penetration_scale), motion, -1, most, steps)
+    closing = closing_angle(around, c)
+    upper, clear = free_amount(around.obstacles(c.penetration_scale), motion, 1, max(most - (closing or 0.0), 0.0), steps)
+    lower, _ = free_amount(around.obstacles(c.penetration_scale), motion, -1, closing or most, steps)
     if not clear:
         upper = _floor(upper, ANGLE_STEP_RAD)
-    closed = c.role in ("edge", "edge_mid", "asked") and _is_closed(around)
-    lower = 0.0 if closed or lower < MIN_CLOSING_ANGLE_RAD else _floor(lower, ANGLE_STEP_RAD)
+    lower = 0.0 if closing == 0 or lower < MIN_CLOSING_ANGLE_RAD else _floor(lower, ANGLE_STEP_RAD)
     if upper < MIN_HINGE_RANGE_RAD:
         upper = most if lower == 0 else 0.0
     return (0.0 - lower, upper)
-
-
-def _is_closed(around: PartContext) -> bool:
-    """Return whether the part is closed: near the parent at both ends of its face."""
-    near = around.gap < MAX_CLOSED_GAP_RATIO * around.tolerance_length
-    local = around.body_obb.local(around.part.samples.points) / np.maximum(around.body_obb.half, 1e-9)
-    return sum(ends_near(local[:, axis], near) for axis in around.face_axes) >= MIN_CLOSED_ENDS
-
-
-def ends_near(along: Float[np.ndarray, " n"], near: Bool[np.ndarray, " n"]) -> int:
-    """Count the ends of a part (0..2) that are near its parent.
-
-    along: position of each sample, -1 to 1 from end to end.
-    """
-    ends = along > END_FRACTION, along < -END_FRACTION
-    return sum(bool(near[end].sum() > MIN_NEAR_SHARE * end.sum()) for end in ends)
 
 
 def pressed(c: Candidate, answered: Range | None) -> bool:
@@ -168,9 +148,10 @@ def _prismatic(around: PartContext, c: Candidate) -> tuple[float, float]:
     leaves = c.sweep.clear_forward if c.opening_sign > 0 else c.sweep.clear_backward
     if c.slide_direction is SlideDirection.INWARDS and not leaves:
         return (0.0, _stroke(around, c))
-    depth = around.depth_in_parent(motion.axis)
-    extent = float(np.ptp(around.part.corners @ motion.axis))
     outward = c.slide_direction is not SlideDirection.ALONG_SURFACE
+    closing = closing_travel(around, c) if outward else 0.0
+    depth = around.depth_in_parent(motion.axis) + closing
+    extent = float(np.ptp(around.part.corners @ motion.axis))
     most = max((1 - around.config.slide_keep) * (depth if outward else extent), MIN_TRAVEL_RATIO * around.tolerance_length)
     if c.captured:
         most = 2 * around.part.box.diagonal
@@ -185,9 +166,9 @@ def _prismatic(around: PartContext, c: Candidate) -> tuple[float, float]:
         most = around.config.slide_hidden * behind  # a panel whose box is not in the mesh
     steps = around.config.fine_steps * 2
     obstacles = around.obstacles_of(motion, c.penetration_scale)
-    upper, _ = free_amount(obstacles, motion, 1, most, steps)
-    lower, clear = free_amount(obstacles, motion, -1, most, steps)
-    if outward or clear or lower < MIN_TRAVEL_RATIO * around.tolerance_length:
+    upper, _ = free_amount(obstacles, motion, 1, max(most - closing, 0.0), steps)
+    lower, clear = free_amount(obstacles, motion, -1, closing or most, steps)
+    if (outward and not closing) or (clear and not outward) or lower < MIN_TRAVEL_RATIO * around.tolerance_length:
         lower = 0.0
     if upper < MIN_UPPER_RATIO * around.tolerance_length:
         upper = most if lower == 0 else 0.0

@@ -1,0 +1,98 @@
+"""The closed pose of a part that is modelled open: the stop of its hinge at its parent, or a front that is flush."""
+
+from __future__ import annotations
+
+import numpy as np
+from jaxtyping import Bool, Float
+
+from anymesh.articulation.motion_question import Candidate
+from anymesh.motion.part_context import PartContext
+from anymesh.types import JointType
+
+RIM_ROLES = ("edge", "edge_mid", "barrel", "asked")  # hinges at a rim, whose part closes against its parent
+MAX_CLOSED_GAP_RATIO = 0.02  # of the tolerance length: a closed part is this near its parent
+END_FRACTION, MIN_NEAR_SHARE = 0.8, 0.2  # position where an end of a part begins, and the least share of it near the parent
+MIN_CLOSED_ENDS = 3  # of the four ends of its face, of a closed part
+MAX_ACROSS_COSINE = 0.7  # maximum cosine between an axis and a direction across it
+FRAME_RATIO = 0.2  # of the front's size: width of the frame beside it with which it is flush when closed
+MIN_PROTRUSION_RATIO = 0.05  # of the tolerance length: a front that stands out less is closed
+FAR_RATIO = 0.8  # of the part's reach across the hinge: surface beyond it is the far rim
+MIN_OPEN_GAP_RATIO = 0.05  # of the tolerance length: a part whose far rim is nearer to the parent is not open
+MIN_CLOSING_ANGLE_RAD = float(np.deg2rad(5.0))  # [rad] less free angle in the closing direction is play
+
+
+def is_closed(around: PartContext, gap: Float[np.ndarray, " n"]) -> bool:
+    """Return whether a part is closed: near the parent at both ends of its face.
+
+    gap: distance of each sample of the part to the parent, in the pose in question [m].
+    """
+    near = gap < MAX_CLOSED_GAP_RATIO * around.tolerance_length
+    local = around.body_obb.local(around.part.samples.points) / np.maximum(around.body_obb.half, 1e-9)
+    return sum(ends_near(local[:, axis], near) for axis in around.face_axes) >= MIN_CLOSED_ENDS
+
+
+def ends_near(along: Float[np.ndarray, " n"], near: Bool[np.ndarray, " n"]) -> int:
+    """Count the ends of a part (0..2) that are near its parent.
+
+    along: position of each sample, -1 to 1 from end to end.
+    """
+    ends = along > END_FRACTION, along < -END_FRACTION
+    return sum(bool(near[end].sum() > MIN_NEAR_SHARE * end.sum()) for end in ends)
+
+
+def closing_angle(around: PartContext, c: Candidate) -> float | None:
+    """Return the angle from rest to the closed pose of a hinged part [rad].
+
+    0 for a part that is closed or at a stop, None if no closed pose is known, or if the part would be closed at both stops.
+    """
+    if c.motion.kind is JointType.PRISMATIC or c.role not in RIM_ROLES:
+        return None
+    if is_closed(around, around.gap):
+        return 0.0
+    if _far_gap(around, c) < MIN_OPEN_GAP_RATIO * around.tolerance_length or _closes(around, c.reversed()):
+        return None
+    if _at_stop(c):
+        return 0.0
+    return c.closing if _closes(around, c) else None
+
+
+def _closes(around: PartContext, c: Candidate) -> bool:
+    """Return whether a part that is open is closed at the stop behind it."""
+    if _clear_behind(c) or c.closing < MIN_CLOSING_ANGLE_RAD:
+        return False
+    T = c.motion.transform(-c.opening_sign * c.closing)
+    moved = around.part.samples.points @ T[:3, :3].T + T[:3, 3]
+    return is_closed(around, around.parent.tree.distance(moved))
+
+
+def _clear_behind(c: Candidate) -> bool:
+    return c.sweep.clear_backward if c.opening_sign > 0 else c.sweep.clear_forward
+
+
+def _far_gap(around: PartContext, c: Candidate) -> float:
+    """Return the median distance of the rim opposite the hinge to the parent [m]."""
+    off = np.linalg.norm(np.cross(around.part.samples.points - c.motion.origin, c.motion.axis), axis=1)
+    return float(np.median(around.gap[off >= FAR_RATIO * off.max()]))
+
+
+def closing_travel(around: PartContext, c: Candidate) -> float:
+    """Return how far a part that slides outwards stands out of its parent [m]: it closes until its front is flush."""
+    axis, core = c.opening_sign * c.motion.axis, around.body_obb
+    points, along = around.parent.samples.points, np.abs(core.axes @ axis)
+    across = along < MAX_ACROSS_COSINE
+    reach = (1 + FRAME_RATIO) * core.half + around.penetration
+    beside = (np.abs(core.local(points)) < reach)[:, across].all(1)
+    if not beside.any():
+        return 0.0
+    travel = float(core.center @ axis + core.half @ along - (points[beside] @ axis).max())
+    return travel if travel > MIN_PROTRUSION_RATIO * around.tolerance_length else 0.0
+
+
+def away_from_closed(around: PartContext, c: Candidate) -> Candidate:
+    """Return the candidate reversed if it turns towards the only closed pose that is known."""
+    back = c.reversed()
+    return back if not _at_stop(c) and (closing_angle(around, back) or 0.0) > 0 else c
+
+
+def _at_stop(c: Candidate) -> bool:
+    return not _clear_behind(c) and bool(c.closing < MIN_CLOSING_ANGLE_RAD)
