@@ -17,7 +17,7 @@ from boosting import held_out, leave_kinds_out
 from jaxtyping import Float, UInt8
 from motion_rows import MotionRows, read_rows
 from rows import called
-from train_motions import MODELS, CopyContext, right_side, samples_of
+from train_motions import MODELS, over_copies, right_side, samples_of
 from worst_rows import sheet_options, with_objects, write_sheet
 
 from anymesh.articulation.estimate import estimate_joints, motion_questions
@@ -43,7 +43,7 @@ class Failure:
 def failures(rows: Sequence[MotionRows]) -> list[Failure]:
     """Return the joints whose right motion is offered and not chosen, the largest lead first."""
     samples = samples_of(rows)
-    scores = held_out(samples, leave_kinds_out(samples), CopyContext(rows), MODELS[:1])
+    scores = over_copies(rows, held_out(samples, leave_kinds_out(samples), MODELS[:1]))
     wrong = []
     for r, s in zip(rows, scores, strict=True):
         right = right_side(r)
