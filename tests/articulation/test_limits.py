@@ -96,6 +96,14 @@ def test_an_answered_stroke_of_a_button_goes_in_and_not_out() -> None:
     assert axis == pytest.approx(-Y)
 
 
+def test_an_answered_stroke_goes_in_also_about_an_axis_that_points_in() -> None:
+    around, c = swept(button, OUT)
+    inwards = c.reversed()
+    assert opening_motion(inwards).axis == pytest.approx(Y)
+    assert limits(around, inwards, JointType.PRISMATIC, (-0.005, 0.0)) == pytest.approx((0.0, 0.005))
+    assert limits(around, inwards, JointType.PRISMATIC, (0.0, 0.005)) == pytest.approx((0.0, 0.005))
+
+
 @pytest.mark.parametrize(("gap", "travel"), [(0.1, 0.1), (0.012, 0.3)])
 def test_an_answered_travel_ends_at_an_obstacle_unless_it_is_blocked_from_the_start(gap: float, travel: float) -> None:
     scene = drawer()

@@ -95,8 +95,10 @@ def _answered_prismatic(around: PartContext, c: Candidate, answered: Range) -> R
     """Shorten an answered range to what the sweep finds free and, outwards, to the part's depth in its parent.
 
     A part that is pressed in keeps its stroke, up to its own height, since its mesh may fill the hole that it moves in. A
-    blocked slide keeps the full range.
+    negative stroke goes in also if the motion does. A blocked slide keeps the full range.
     """
+    if c.slide_direction is SlideDirection.INWARDS and -answered[0] > answered[1]:
+        answered = (0.0 - answered[1], -answered[0])
     motion, (lower, upper) = opening_motion(c), (-answered[0], answered[1])
     extent = float(np.ptp(around.part.corners @ motion.axis))
     depth = around.depth_in_parent(motion.axis)
