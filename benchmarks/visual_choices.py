@@ -96,13 +96,15 @@ def same_motion(choice: Choice, table: MotionTable) -> int | None:
     corners = np.array(list(itertools.product(*zip(*choice.bounds, strict=True))))
     size = float(np.linalg.norm(np.ptp(corners, axis=0)))
     unit = np.array(axis) / np.linalg.norm(axis)
+    if kind == NAMES[JointType.PRISMATIC]:
+        amount = float(np.copysign(max(abs(amount), size), amount))  # a slide that is shown blocked has a direction all the same
     goal = _moved(Motion(KINDS[kind], unit, np.array(origin), "recorded"), amount, corners)
     reach = max(NEAR * float(np.linalg.norm(goal - corners, axis=1).mean()), LEAST * size)
     for reverse in (1.0, -1.0):
         off = []
         for motion, shown in zip(table.motions, table.amounts, strict=True):
             alike = motion.kind is KINDS[kind] and (reverse > 0 or motion.kind is JointType.REVOLUTE)
-            there = _moved(motion, reverse * float(np.sign(shown)) * abs(amount), corners)
+            there = _moved(motion, reverse * float(np.sign(shown) or 1.0) * abs(amount), corners)
             off.append(float(np.linalg.norm(there - goal, axis=1).mean()) if alike else np.inf)
         if off and min(off) < reach:
             return int(np.argmin(off))
