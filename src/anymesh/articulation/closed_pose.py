@@ -16,6 +16,9 @@ MIN_CLOSED_ENDS = 3  # of the four ends of its face, of a closed part
 MAX_ACROSS_COSINE = 0.7  # maximum cosine between an axis and a direction across it
 FRAME_RATIO = 0.2  # of the front's size: width of the frame beside it with which it is flush when closed
 MIN_PROTRUSION_RATIO = 0.05  # of the tolerance length: a front that stands out less is closed
+MIN_INSERTED_RATIO = (
+    0.25  # of the travel: a front that is less deep behind it stands on its parent, and is no box pulled out of it
+)
 FAR_RATIO = 0.8  # of the part's reach across the hinge: surface beyond it is the far rim
 MIN_OPEN_GAP_RATIO = 0.05  # of the tolerance length: a part whose far rim is nearer to the parent is not open
 MIN_CLOSING_ANGLE_RAD = float(np.deg2rad(5.0))  # [rad] less free angle in the closing direction is play
@@ -85,7 +88,9 @@ def closing_travel(around: PartContext, c: Candidate) -> float:
     if not beside.any():
         return 0.0
     travel = float(core.center @ axis + core.half @ along - (points[beside] @ axis).max())
-    return travel if travel > MIN_PROTRUSION_RATIO * around.tolerance_length else 0.0
+    inserted = 2 * float(core.half @ along) - travel
+    pulled = travel > MIN_PROTRUSION_RATIO * around.tolerance_length and inserted > MIN_INSERTED_RATIO * travel
+    return travel if pulled else 0.0
 
 
 def away_from_closed(around: PartContext, c: Candidate) -> Candidate:
