@@ -1,6 +1,7 @@
 """Test that parts which are modelled open close, and by how much, on scenes whose poses are worked out by hand."""
 
 import pytest
+from assets import box
 from scenes import Piece, Scene, drawer
 from test_limits import DEG, LID, OUT, Y, open_lid, swept
 
@@ -67,3 +68,12 @@ def test_a_drawer_that_is_pulled_out_closes_until_its_front_is_flush(by: float) 
     lower, upper = limits(around, c, JointType.PRISMATIC) or (0, 0)
     assert lower == pytest.approx(-by, abs=0.03)
     assert upper - lower == pytest.approx(whole, abs=0.03)
+
+
+def test_a_thick_front_on_its_case_is_closed() -> None:
+    front = {"base": [box((0, 0, 0), (0.6, 0.4, 0.3))], "front": [box((0.05, -0.082, 0.05), (0.55, -0.002, 0.25))]}
+    around, c = swept(lambda: front, OUT)
+    assert closing_travel(around, c) == 0
+    deep = {**front, "front": [box((0.05, -0.082, 0.05), (0.55, 0.1, 0.25))]}  # as if pulled out of the case
+    around, c = swept(lambda: deep, OUT)
+    assert closing_travel(around, c) == pytest.approx(0.082, abs=1e-6)

@@ -5,20 +5,18 @@ from __future__ import annotations
 import numpy as np
 from jaxtyping import Bool, Float
 
+from anymesh.articulation.evidence import RIM_ROLES
+from anymesh.articulation.motion_features import MAX_ACROSS_COSINE
 from anymesh.articulation.motion_question import Candidate
 from anymesh.motion.part_context import PartContext
 from anymesh.types import JointType
 
-RIM_ROLES = ("edge", "edge_mid", "barrel", "asked")  # hinges at a rim, whose part closes against its parent
 MAX_CLOSED_GAP_RATIO = 0.02  # of the tolerance length: a closed part is this near its parent
 END_FRACTION, MIN_NEAR_SHARE = 0.8, 0.2  # position where an end of a part begins, and the least share of it near the parent
 MIN_CLOSED_ENDS = 3  # of the four ends of its face, of a closed part
-MAX_ACROSS_COSINE = 0.7  # maximum cosine between an axis and a direction across it
 FRAME_RATIO = 0.2  # of the front's size: width of the frame beside it with which it is flush when closed
 MIN_PROTRUSION_RATIO = 0.05  # of the tolerance length: a front that stands out less is closed
-MIN_INSERTED_RATIO = (
-    0.25  # of the travel: a front that is less deep behind it stands on its parent, and is no box pulled out of it
-)
+MIN_INSERTED_RATIO = 0.25  # of the travel: a front with less depth behind it stands on its parent and was not pulled out
 FAR_RATIO = 0.8  # of the part's reach across the hinge: surface beyond it is the far rim
 MIN_OPEN_GAP_RATIO = 0.05  # of the tolerance length: a part whose far rim is nearer to the parent is not open
 MIN_CLOSING_ANGLE_RAD = float(np.deg2rad(5.0))  # [rad] less free angle in the closing direction is play
@@ -48,7 +46,7 @@ def closing_angle(around: PartContext, c: Candidate) -> float | None:
 
     0 for a part that is closed or at a stop, None if no closed pose is known, or if the part would be closed at both stops.
     """
-    if c.motion.kind is JointType.PRISMATIC or c.role not in RIM_ROLES:
+    if c.motion.kind is JointType.PRISMATIC or c.role not in (*RIM_ROLES, "asked"):
         return None
     if is_closed(around, around.gap):
         return 0.0
