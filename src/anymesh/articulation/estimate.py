@@ -59,9 +59,9 @@ def motion_questions(
         arounds = share_opening_directions(
             [part_context(whole, label, shapes, parent, i, config.articulation) for i in numbers]
         )
-        unscored = [_unscored(a, parts[i].name, parts[i].label, deadline) for i, a in zip(numbers, arounds, strict=True)]
-        for i, around, motions in zip(numbers, arounds, unscored, strict=True):
-            row = (m for m, a in zip(unscored, arounds, strict=True) if a is not around and in_a_row(around, a))
+        scored = [_part_scores(a, parts[i].name, parts[i].label, deadline) for i, a in zip(numbers, arounds, strict=True)]
+        for i, around, motions in zip(numbers, arounds, scored, strict=True):
+            row = (m for m, a in zip(scored, arounds, strict=True) if a is not around and in_a_row(around, a))
             yield i, parent[i], around, motions.question(tuple(itertools.islice(row, MAX_COPIES)))
 
 
@@ -110,10 +110,10 @@ def choose_motion(around: PartContext, question: MotionQuestion) -> tuple[Motion
 
 def motion_question(around: PartContext, name: str, label: str) -> MotionQuestion:
     """Propose, sweep and score the motions of a part by itself."""
-    return _unscored(around, name, label, None).question()
+    return _part_scores(around, name, label, None).question()
 
 
-def _unscored(around: PartContext, name: str, label: str, deadline: Deadline | None) -> PartMotionScores:
+def _part_scores(around: PartContext, name: str, label: str, deadline: Deadline | None) -> PartMotionScores:
     proposed = propose(around)
     if deadline is not None and deadline.late(JOINTS):
         deadline.leave_out("joints: only the most likely motions were swept")
