@@ -26,7 +26,7 @@ from rows import called
 
 from anymesh.articulation.estimate import MAX_COPIES
 from anymesh.articulation.rank_motions import BLOCKED, share_of_best
-from anymesh.articulation.scored_motions import ScoredMotions, mean_over_copies
+from anymesh.articulation.repeated_parts import ScoredMotions, mean_over_copies
 
 MODELS = tuple(Model((800,), seed, extra_trees=True) for seed in range(3))
 OBJECT, SOURCE = 0.5, 0.6  # powers by which parts of an object, and parts of a source, count less the more they are

@@ -96,10 +96,8 @@ def same_motion(choice: Choice, table: MotionTable) -> int | None:
     corners = np.array(list(itertools.product(*zip(*choice.bounds, strict=True))))
     size = float(np.linalg.norm(np.ptp(corners, axis=0)))
     unit = np.array(axis) / np.linalg.norm(axis)
-    if kind == NAMES[JointType.PRISMATIC]:
-        amount = float(
-            np.copysign(max(abs(amount), size), amount)
-        )  # a slide that is shown blocked has a direction all the same
+    if kind == NAMES[JointType.PRISMATIC]:  # a slide that is shown blocked has a direction all the same
+        amount = float(np.copysign(max(abs(amount), size), amount))
     goal = _moved(Motion(KINDS[kind], unit, np.array(origin), "recorded"), amount, corners)
     reach = max(NEAR * float(np.linalg.norm(goal - corners, axis=1).mean()), LEAST * size)
     for reverse in (1.0, -1.0):

@@ -96,11 +96,11 @@ def test_the_tables_count_what_is_missing_and_what_was_found(visual) -> None:
     assert "- as recorded, 002 parts: no answer" in page([failed])
 
 
-def motions_shown(amount: float, *axes: np.ndarray) -> WhichMotions:
-    """One part, a plate, and turns about lines through the origin."""
+def motions_shown(amount: float, *axes: np.ndarray, kind: JointType = JointType.REVOLUTE) -> WhichMotions:
+    """One part, a plate, and turns about lines through the origin, or slides."""
     points = np.array([[0.0, 0, 0], [0.4, 0.02, 0.6]])
     part = PartShown("door", np.arange(2), points, Y, Y, points)
-    motions = tuple(Motion(JointType.REVOLUTE, axis, np.zeros(3), "a line") for axis in axes)
+    motions = tuple(Motion(kind, axis, np.zeros(3), "a line") for axis in axes)
     return WhichMotions((), (MotionTable(part, motions, (amount,) * len(axes)),))
 
 
@@ -117,6 +117,15 @@ def test_a_choice_is_found_again_in_another_order_or_the_other_way(visual) -> No
     elsewhere = Choice([[1.0, 0.0, 0.0], [1.4, 0.02, 0.6]], about_z.motion, "right")
     assert pick_again(motions_shown(0.8, X, Z), [elsewhere])[0].motion is None
     assert pick_again(motions_shown(0.8, X, Z), []) is None
+
+
+@pytest.mark.parametrize("shown", [0.0, 0.1])
+def test_a_slide_that_was_shown_blocked_is_found_again_by_its_direction(visual, shown: float) -> None:
+    from visual_choices import Choice, pick_again
+
+    inwards = Choice([[0.0, 0.0, 0.0], [0.4, 0.02, 0.6]], ("slide", [0.0, 1.0, 0.0], [0.0, 0.0, 0.0], 0.0), "right")
+    for axes, row in (((-Y, X, Y), 2), ((Y, -Y), 0), ((X, -Y), None)):
+        assert pick_again(motions_shown(shown, *axes, kind=JointType.PRISMATIC), [inwards])[0].motion == row
 
 
 @pytest.mark.parametrize("number", ["022", *(pytest.param(number, marks=pytest.mark.slow) for number in ("048", "060", "065"))])

@@ -17,14 +17,14 @@ def pulled(scene: Scene, by: float) -> Scene:
 
 def turned(piece: Piece, degrees: float) -> Piece:
     """Turn a piece about the hinge of the lid, forwards, so that it closes."""
-    T = LID.transform(-degrees * DEG)
+    T = LID.transform(degrees * DEG)
     return piece[0] @ T[:3, :3].T + T[:3, 3], piece[1]
 
 
 def lid_at(degrees: float) -> Scene:
     """Return the open lid, closed by some degrees."""
     scene = open_lid()
-    return {**scene, "lid": [turned(piece, -degrees) for piece in scene["lid"]]}
+    return {**scene, "lid": [turned(piece, degrees) for piece in scene["lid"]]}
 
 
 @pytest.mark.parametrize("closed_by", [0.0, 20.0, 40.0, 60.0])

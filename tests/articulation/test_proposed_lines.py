@@ -19,13 +19,13 @@ from anymesh.articulation.own_axes import pivots
 from anymesh.articulation.part_facts import part_facts
 from anymesh.articulation.part_labels import label_of
 from anymesh.articulation.rank_motions import NO_MOTION_CONFIDENCE
-from anymesh.articulation.repeated_parts import in_a_row, same_size
-from anymesh.articulation.scored_motions import MAX_LOSS, ScoredMotions, in_one_manner, mean_over_copies
+from anymesh.articulation.repeated_parts import (
+    in_a_row,
+    same_size,
+)
 from anymesh.articulation.tree import parents
 from anymesh.motion.part_context import PartContext
 from anymesh.types import JointType
-
-NAMES = ("prismatic", "balance", "vertical", "outward", "above")
 
 
 def handle(ends: float, width: float = 0.02, legs: float = 0.1) -> PartContext:
@@ -199,45 +199,3 @@ def test_of_the_lines_at_one_rim_the_one_that_clears_the_neighbours_is_chosen() 
     assert choose_motion(around, question)[1] is front
     alone = replace(around, siblings=())
     assert choose_motion(alone, question)[1] is back
-
-
-def scored(*rows: tuple) -> ScoredMotions:
-    """Return motions of rows (axis, prismatic, balance, outward, above, score)."""
-    table = np.array([[s, b, abs(a[2]), o, h] for a, s, b, o, h, _ in rows], float)
-    return ScoredMotions.of(NAMES, table, np.array([r[0] for r in rows]), np.array([r[-1] for r in rows], float))
-
-
-def tilted(degrees: float) -> np.ndarray:
-    return np.cos(np.deg2rad(degrees)) * X + np.sin(np.deg2rad(degrees)) * Y
-
-
-@pytest.mark.parametrize(
-    ("other", "alike"),
-    [
-        ((X, False, 0.5, 1.0, 1.0, 0), True),
-        ((tilted(13), False, 0.5, 1.0, 1.0, 0), True),
-        ((tilted(15), False, 0.5, 1.0, 1.0, 0), False),
-        ((X, False, 0.31, 1.0, 1.0, 0), True),
-        ((X, False, 0.29, 1.0, 1.0, 0), False),  # about its middle
-        ((X, False, 0.5, -0.04, 1.0, 0), True),
-        ((X, False, 0.5, -0.06, 1.0, 0), False),  # to the other side
-        ((X, False, 0.5, 1.0, -0.1, 0), False),  # hinged below
-        ((X, True, 0.5, 1.0, 1.0, 0), False),
-    ],
-)
-def test_copies_move_alike_about_parallel_lines_at_the_same_place(other: tuple, alike: bool) -> None:
-    assert in_one_manner(scored((X, False, 0.5, 1.0, 1.0, 0)), scored(other)).item() == alike
-
-
-def test_copies_that_move_alike_are_scored_alike() -> None:
-    own = scored((X, False, 0.5, 1, 1, 2.0), (Y, True, -9, 1, 0, 0.0))
-    copy = scored((X, False, 0.5, 1, 1, -1.0), (Y, True, -9, 1, 0, 4.0), (Y, True, -9, 1, 0, 1.0))
-    assert mean_over_copies(own, [copy]).tolist() == [0.5, 2.0]
-    assert mean_over_copies(own, [copy, copy]).tolist() == [0.0, 8 / 3]
-    assert mean_over_copies(own, []).tolist() == [2.0, 0.0]
-
-
-def test_a_copy_that_cannot_move_in_a_manner_counts_as_worse_than_the_worst_motion() -> None:
-    own = scored((X, False, 0.5, 1, 1, 2.0), (Y, True, -9, 1, 0, -1.0))
-    other = scored((Z, True, -9, 1, 0, 5.0))
-    assert mean_over_copies(own, [other]).tolist() == [(2 - 1 - MAX_LOSS) / 2, (-1 - 1 - MAX_LOSS) / 2]

@@ -18,8 +18,7 @@ from anymesh.articulation.limits import limits
 from anymesh.articulation.motion_features import MISSING, motion_features
 from anymesh.articulation.moved_points import MovedPoints
 from anymesh.articulation.part_facts import part_facts
-from anymesh.articulation.repeated_parts import share_opening_directions
-from anymesh.articulation.scored_motions import ScoredMotions, in_one_manner
+from anymesh.articulation.repeated_parts import ScoredMotions, in_one_manner, share_opening_directions
 from anymesh.articulation.tree import descendants, parents
 from anymesh.config import ArticulationConfig
 from anymesh.motion.part_context import PartContext

@@ -16,7 +16,7 @@ def stump(column: int) -> BoostedTrees:
 
 
 def test_a_feature_that_a_candidate_does_not_have_is_no_reason() -> None:
-    for column, value, reason in ((0, 2.0, "size 2"), (1, MISSING, "the other candidates")):
+    for column, value, reason in ((0, 2.0, "size 2"), (1, MISSING, "no feature of its own")):
         classifier = Classifier((stump(column), stump(column)), ("size", "support"), {})
         row = {"size": 0.0, "support": 0.0, ("size", "support")[column]: value}
         table = classifier.table([row])

@@ -79,9 +79,8 @@ def test_a_candidate_that_is_held_makes_room_for_the_next(monkeypatch: pytest.Mo
     nail, top = box((0.48, -0.2, 0.48), (0.52, 0.02, 0.52)), box((0.2, 0.1, 1.0), (0.8, 0.4, 1.2))
 
     def by_size(overlap: Overlap, features: list[dict[str, float]]) -> tuple[np.ndarray, Reasons]:
-        return np.array(
-            [1.0 if row["size"] < 0.3 else MIN_SCORE - row["size"] for row in features]
-        ), lambda chosen: ["size"] * len(chosen)
+        scores = [1.0 if row["size"] < 0.3 else MIN_SCORE - row["size"] for row in features]
+        return np.array(scores), lambda chosen: ["size"] * len(chosen)
 
     asked: list[int] = []
 
@@ -103,9 +102,8 @@ def test_candidates_that_never_move_leave_the_base_alone(monkeypatch: pytest.Mon
     tops = [box((0.2 * k, 0.1, 1.0), (0.2 * k + 0.1, 0.4, 1.1 + 0.1 * k)) for k in range(5)]
 
     def by_size(overlap: Overlap, features: list[dict[str, float]]) -> tuple[np.ndarray, Reasons]:
-        return np.array(
-            [1.0 if row["size"] < 0.5 else MIN_SCORE - row["size"] for row in features]
-        ), lambda chosen: ["size"] * len(chosen)
+        scores = [1.0 if row["size"] < 0.5 else MIN_SCORE - row["size"] for row in features]
+        return np.array(scores), lambda chosen: ["size"] * len(chosen)
 
     asked: list[int] = []
 

@@ -77,7 +77,10 @@ def _far_gap(around: PartContext, c: Candidate) -> float:
 
 
 def closing_travel(around: PartContext, c: Candidate) -> float:
-    """Return how far a part that slides outwards stands out of its parent [m]: it closes until its front is flush."""
+    """Return how far a part that slides outwards closes until its front is flush with its parent [m].
+
+    0 if it stands out little, or stands on its parent instead of reaching into it.
+    """
     axis, core = c.opening_sign * c.motion.axis, around.body_obb
     points, along = around.parent.samples.points, np.abs(core.axes @ axis)
     across = along < MAX_ACROSS_COSINE

@@ -127,10 +127,12 @@ def _revolute(around: PartContext, c: Candidate) -> tuple[float, float]:
     steps = config.fine_steps * 3
     closing = closing_angle(around, c)
     upper, clear = free_amount(around.obstacles(c.penetration_scale), motion, 1, max(most - (closing or 0.0), 0.0), steps)
-    lower, _ = free_amount(around.obstacles(c.penetration_scale), motion, -1, closing or most, steps)
     if not clear:
         upper = _floor(upper, ANGLE_STEP_RAD)
-    lower = 0.0 if closing == 0 or lower < MIN_CLOSING_ANGLE_RAD else _floor(lower, ANGLE_STEP_RAD)
+    lower = 0.0
+    if closing != 0:
+        lower, _ = free_amount(around.obstacles(c.penetration_scale), motion, -1, closing or most, steps)
+        lower = _floor(lower, ANGLE_STEP_RAD) if lower >= MIN_CLOSING_ANGLE_RAD else 0.0
     if upper < MIN_HINGE_RANGE_RAD:
         upper = most if lower == 0 else 0.0
     return (0.0 - lower, upper)
@@ -169,9 +171,11 @@ def _prismatic(around: PartContext, c: Candidate) -> tuple[float, float]:
     steps = around.config.fine_steps * 2
     obstacles = around.obstacles_of(motion, c.penetration_scale)
     upper, _ = free_amount(obstacles, motion, 1, max(most - closing, 0.0), steps)
-    lower, clear = free_amount(obstacles, motion, -1, closing or most, steps)
-    if (outward and not closing) or (clear and not outward) or lower < MIN_TRAVEL_RATIO * around.tolerance_length:
-        lower = 0.0
+    lower = 0.0
+    if closing or not outward:
+        lower, clear = free_amount(obstacles, motion, -1, closing or most, steps)
+        if (clear and not outward) or lower < MIN_TRAVEL_RATIO * around.tolerance_length:
+            lower = 0.0
     if upper < MIN_UPPER_RATIO * around.tolerance_length:
         upper = most if lower == 0 else 0.0
     return (0.0 - lower, upper)

@@ -10,7 +10,7 @@ from jaxtyping import Float
 
 from anymesh.articulation.motion_features import motion_features
 from anymesh.articulation.motion_question import Candidate, MotionQuestion, PartFacts
-from anymesh.articulation.scored_motions import ScoredMotions, mean_over_copies
+from anymesh.articulation.repeated_parts import ScoredMotions, mean_over_copies
 from anymesh.motion.part_context import PartContext
 from anymesh.scoring.classifier import Classifier
 

@@ -6,10 +6,10 @@ They open to the same side in the same manner, so evidence for one of them is ev
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Bool, Float
 
 from anymesh.geometry.body_obb import body_obb
 from anymesh.geometry.boxes import same_box
@@ -18,6 +18,10 @@ from anymesh.motion.part_context import PartContext
 
 # maximum component of the offset along the opening direction, over its length, between parts in a row
 MAX_ROW_OFFSET_RATIO = 0.25
+SAME_AXIS = 0.97  # minimum cosine between axes with the same direction
+SAME_BALANCE = 0.2  # maximum difference of the feature "balance" of axes in a similar position: through the center, or at a rim
+SIDE = -0.05  # minimum product of the cosines with the opening directions of two motions to the same side
+UNMATCHED_LOSS = 3.0  # [log-odds] a copy that cannot move in a manner counts as this much below the worst motion of the part
 
 
 def same_size(shapes: Sequence[TriangleSet], parent: Sequence[int]) -> list[list[int]]:
@@ -60,3 +64,51 @@ def _with_row_direction(around: PartContext, row: list[PartContext]) -> PartCont
         total = total + weights[(ways @ theirs.T).argmax(1)]
     best = np.where(beside, total, -np.inf).argmax()
     return around if (ways[best] == around.opening_direction).all() else replace(around, shared_opening_direction=ways[best])
+
+
+@dataclass(frozen=True, eq=False)
+class ScoredMotions:
+    """Motions of one part.
+
+    values: (n,) arrays of some features; axes: (n, 3) unit; score: (n,) log-odds.
+    """
+
+    values: dict[str, Float[np.ndarray, " n"]]
+    axes: Float[np.ndarray, "n 3"]
+    score: Float[np.ndarray, " n"]
+
+    @classmethod
+    def of(
+        cls,
+        names: Sequence[str],
+        table: Float[np.ndarray, "n k"],
+        axes: Float[np.ndarray, "n 3"],
+        score: Float[np.ndarray, " n"],
+    ) -> ScoredMotions:
+        """Select the used features from the table of all features, whose columns have these names."""
+        used = ("prismatic", "balance", "vertical", "outward", "above")
+        return cls({name: np.asarray(table[:, list(names).index(name)], float) for name in used}, axes, score)
+
+
+def mean_over_copies(own: ScoredMotions, copies: Sequence[ScoredMotions]) -> Float[np.ndarray, " n"]:
+    """Return, for each motion of a part, the mean of its score and of the best scores of the copies in the same manner."""
+    least = own.score.min() - UNMATCHED_LOSS
+    total = own.score.astype(float)
+    for copy in copies:
+        theirs = np.where(in_one_manner(own, copy), copy.score[None], -np.inf).max(1)
+        total = total + np.maximum(theirs, least)
+    return total / (1 + len(copies))
+
+
+def in_one_manner(a: ScoredMotions, b: ScoredMotions) -> Bool[np.ndarray, "n m"]:
+    """Return for each pair of motions whether copies may move so together.
+
+    Doors hinged left or right may, flaps hinged above or below may not.
+    """
+    slides = a.values["prismatic"][:, None] > 0
+    same = slides == (b.values["prismatic"][None] > 0)
+    same &= np.abs(a.axes @ b.axes.T) > SAME_AXIS
+    same &= a.values["outward"][:, None] * b.values["outward"][None] >= SIDE
+    same &= slides | (np.abs(a.values["balance"][:, None] - b.values["balance"][None]) < SAME_BALANCE)
+    upright = a.values["vertical"][:, None] > SAME_AXIS
+    return same & (slides | upright | (a.values["above"][:, None] * b.values["above"][None] >= 0))

@@ -9,7 +9,7 @@ import numpy as np
 from jaxtyping import Float
 
 from anymesh.evaluation.ground_truth import EvalSample, TrueJoint
-from anymesh.geometry.kinematics import joint_motion
+from anymesh.geometry.kinematics import carried_links, joint_motion
 from anymesh.geometry.sweep import Obstacles, free_amount
 from anymesh.geometry.triangle_set import mesh_surface
 from anymesh.types import JointType
@@ -51,10 +51,8 @@ def ajar(sample: EvalSample, rng: np.random.Generator) -> EvalSample:
 
 def _obstacles(sample: EvalSample, child: str) -> Obstacles:
     """Return the rest of the object around a part and the parts that it carries."""
-    carried, before = {child}, 0
-    while len(carried) > before:
-        before = len(carried)
-        carried |= {j.child for j in sample.truth.joints if j.parent in carried}
+    asset = sample.asset()
+    carried = carried_links(asset, next(j for j in asset.joints if j.child == child))
     moves = np.isin(sample.labels, [k for k, part in enumerate(sample.truth.parts) if part.name in carried])
     shape = mesh_surface(sample.mesh).shape
     return Obstacles(shape.take(moves), shape.take(~moves), PENETRATION * 2 * sample.unit)

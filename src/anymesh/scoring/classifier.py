@@ -57,7 +57,7 @@ class Classifier:
 
     def _reason(self, row: Float[np.ndarray, " k"], gain: Float[np.ndarray, " k"]) -> str:
         best = [int(k) for k in np.argsort(-gain, kind="stable") if gain[k] > 0 and row[k] != MISSING][:REASONS]
-        return ", ".join(f"{self.names[k]} {row[k] + 0.0:.2g}" for k in best) or "the other candidates"
+        return ", ".join(f"{self.names[k]} {row[k] + 0.0:.2g}" for k in best) or "no feature of its own"
 
 
 def _joined(own: Float[np.ndarray, "n k"], context: dict[str, Float[np.ndarray, " n"]]) -> Float[np.ndarray, "n c"]:
