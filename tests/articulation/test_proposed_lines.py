@@ -19,10 +19,7 @@ from anymesh.articulation.own_axes import pivots
 from anymesh.articulation.part_facts import part_facts
 from anymesh.articulation.part_labels import label_of
 from anymesh.articulation.rank_motions import NO_MOTION_CONFIDENCE
-from anymesh.articulation.repeated_parts import (
-    in_a_row,
-    same_size,
-)
+from anymesh.articulation.repeated_parts import in_a_row, same_size
 from anymesh.articulation.tree import parents
 from anymesh.motion.part_context import PartContext
 from anymesh.types import JointType
