@@ -19,7 +19,7 @@ from anymesh.articulation.motion_features import MISSING, motion_features
 from anymesh.articulation.moved_points import MovedPoints
 from anymesh.articulation.part_facts import part_facts
 from anymesh.articulation.repeated_parts import ScoredMotions, in_one_manner, share_opening_directions
-from anymesh.articulation.tree import descendants, parents
+from anymesh.articulation.tree import descendants
 from anymesh.config import ArticulationConfig
 from anymesh.motion.part_context import PartContext
 from anymesh.segmentation.divide import object_shape
@@ -129,7 +129,6 @@ def test_proposed_motions_have_unit_axes_and_are_distinct() -> None:
 def test_a_chain_of_parents_ends_at_the_root() -> None:
     assert descendants([-1, 0, 1, 2, 0], 1) == [2, 3]
     assert descendants([-1, 0, 1, 2, 0], 3) == []
-    assert parents([], 1.0) == [-1]
 
 
 def test_equal_motions_of_a_part_take_it_to_one_place() -> None:

@@ -90,9 +90,19 @@ LAMP = {
 
 
 def test_parts_of_one_label_hang_on_each_other_in_a_chain() -> None:
-    assert parents_of(LAMP, None)[1] == 0  # no arm is clearly larger than the other
+    assert parents_of(LAMP, None) == [-1, 2, 0, 1]
     others = {0, 1, 2, 3}
     assert parents_of(LAMP, [set(), others - {1}, others - {2}, {1, 2}]) == [-1, 2, 0, 1]
+
+
+def test_a_chain_of_links_hangs_on_the_base_one_by_one() -> None:
+    links = {f"link_{k}": [box((0, 0, k), (0.2, 0.2, k + 0.99))] for k in range(1, 6)}
+    assert parents_of({"base": [box((-1, -1, 0), (1, 1, 1))], **links}, None) == [-1, 0, 1, 2, 3, 4]
+
+
+def test_a_wheel_hangs_on_a_smaller_fork_that_is_nearer_to_the_base() -> None:
+    fork, wheel = box((0.9, 0.9, 1.1), (1.1, 1.1, 1.5)), box((0.5, 0.9, 0.3), (1.5, 1.1, 1.1))
+    assert parents_of({"base": [box((0, 0, 1.53), (9, 9, 2))], "wheel": [wheel], "fork": [fork]}, None) == [-1, 2, 0]
 
 
 def parents_of(scene: Scene, told) -> list[int]:

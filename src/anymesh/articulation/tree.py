@@ -2,51 +2,62 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 
 import numpy as np
+from jaxtyping import Float
+from scipy.sparse.csgraph import breadth_first_order, minimum_spanning_tree
 
 from anymesh.geometry.triangle_set import TriangleSet
 
-# a part depends on another part instead of the root if it is this many times closer to it, or touches it this much more
-MIN_PARENT_GAIN = 3.0
+TOUCHING_RATIO, MAX_PART_SIZES = 0.01, 5  # two parts touch within 1 % of the diagonal, or of five times the smaller part
+MIN_CONTACT_SHARE = 0.03  # of the area of the smaller part: smaller contacts hardly differ from none
+ROOT_GAIN = 5.0  # contact with the root counts as much as a contact with another part that is this many times larger
 
 
 def parents(shapes: list[TriangleSet], diagonal: float, answered: Sequence[set[int]] | None = None) -> list[int]:
     """Return the parent's index of every part (-1 for the root, 0).
 
-    The parent is the root, unless the part clearly depends on a larger part.
+    The parts form a tree with large contacts and small gaps: the minimum spanning tree of `_separations`.
     answered: the indices of possible parents of each part, which may be empty; the nearest touching one is used.
     """
-    size = [float(np.linalg.norm(s.bounds[1] - s.bounds[0])) for s in shapes]
-    reach = [0.01 * min(diagonal, 5 * s) for s in size]
+    size = np.array([np.linalg.norm(np.ptp(s.bounds, axis=0)) for s in shapes])
+    reach = TOUCHING_RATIO * np.minimum(diagonal, MAX_PART_SIZES * size)
     named = _answered_parents(shapes, answered, reach) if answered else {}
-    rest = (named[i] if i in named else _touching(shapes, i, size, reach[i]) for i in range(1, len(shapes)))
-    return _without_circles([-1, *rest])
+    separations = _separations(shapes, np.maximum(reach, np.finfo(float).tiny))
+    _, over = breadth_first_order(minimum_spanning_tree(separations), 0, directed=False)
+    parent = [-1, *(named.get(i, int(over[i])) for i in range(1, len(shapes)))]
+    return _without_circles(parent, named)
 
 
-def _touching(shapes: list[TriangleSet], i: int, size: Sequence[float], tolerance: float) -> int:
-    """Return the larger part on which part i clearly depends, or the root if there is none.
+def _separations(shapes: Sequence[TriangleSet], reach: Float[np.ndarray, " p"]) -> Float[np.ndarray, "p p"]:
+    """Return how little each two parts belong together: it grows with their gap, and falls with their contact.
 
-    tolerance: of touching [m].
+    reach: distance within which each part touches another [m]. All values but the diagonal are positive.
     """
-    points = shapes[i].samples.points[::6]
-    best, best_score = 0, 0.0
-    base = shapes[0].tree.distance(points)
-    touch_base = float((base < tolerance).mean())
-    for j in range(1, len(shapes)):
-        if j == i or size[j] < 1.15 * size[i] or not _boxes_near(shapes[i], shapes[j], tolerance):
-            continue
-        to = shapes[j].tree.distance(points)
-        touch = float((to < tolerance).mean())
-        nearer = base.min() > max(MIN_PARENT_GAIN * to.min(), 0.4 * tolerance) and to.min() < tolerance
-        more = touch > MIN_PARENT_GAIN * touch_base + 0.01
-        if (nearer or more) and touch > best_score:
-            best, best_score = j, touch
-    return best
+    count = len(shapes)
+    gap, touching = np.zeros((count, count)), np.zeros((count, count))
+    for i in range(count):
+        points = shapes[i].samples.points[::6]
+        for j in range(count):
+            apart = np.maximum(shapes[i].bounds[0] - shapes[j].bounds[1], shapes[j].bounds[0] - shapes[i].bounds[1])
+            gap[i, j] = np.linalg.norm(np.maximum(apart, 0))  # between the boxes, if it is large
+            if i != j and gap[i, j] <= 5 * max(reach[i], reach[j]):
+                distance = shapes[j].tree.distance(points)
+                gap[i, j] = distance.min()
+                touching[i, j] = shapes[i].area * (distance < reach[i]).mean()
+    area = np.array([s.area for s in shapes])
+    share = np.maximum(touching, touching.T) / np.maximum(np.minimum(area, area[:, None]), np.finfo(float).tiny)
+    ratio = np.minimum(gap, gap.T) / np.minimum(reach, reach[:, None])
+    separation = np.log1p(ratio) - np.log(MIN_CONTACT_SHARE + np.minimum(share, 1)) + np.log(2 * ROOT_GAIN)
+    separation[0] -= np.log(ROOT_GAIN)
+    separation[:, 0] -= np.log(ROOT_GAIN)
+    return separation * ~np.eye(count, dtype=bool)
 
 
-def _answered_parents(shapes: list[TriangleSet], answered: Sequence[set[int]], reach: Sequence[float]) -> dict[int, int]:
+def _answered_parents(
+    shapes: list[TriangleSet], answered: Sequence[set[int]], reach: Float[np.ndarray, " p"]
+) -> dict[int, int]:
     """Return the answered parents that touch their part, by part.
 
     Parts that name each other, such as the arms of a lamp, form a chain. Those that touch a part outside of it come first, then
@@ -68,11 +79,6 @@ def _answered_parents(shapes: list[TriangleSet], answered: Sequence[set[int]], r
         placed |= ready.keys()
 
 
-def _boxes_near(a: TriangleSet, b: TriangleSet, reach: float) -> bool:
-    """Return whether two shapes may have points within `reach` of each other [m]."""
-    return bool((a.bounds[0] - reach <= b.bounds[1]).all() and (b.bounds[0] - reach <= a.bounds[1]).all())
-
-
 def _nearest(points: np.ndarray, shapes: list[TriangleSet], among: set[int], reach: float) -> int | None:
     """Return the part nearest to these points, None if none is within reach [m]."""
     off = {j: float(shapes[j].tree.distance(points).min()) for j in sorted(among)}
@@ -80,15 +86,15 @@ def _nearest(points: np.ndarray, shapes: list[TriangleSet], among: set[int], rea
     return best if best is not None and off[best] < reach else None
 
 
-def _without_circles(parent: list[int]) -> list[int]:
-    for i in range(1, len(parent)):
-        seen, at = {i}, parent[i]
-        while at > 0:
-            if at in seen:
-                parent[i] = 0
-                break
+def _without_circles(parent: list[int], answered: Collection[int]) -> list[int]:
+    """Return the parents with the root as parent of one part of each circle, which is not an answered one."""
+    for i in sorted(range(1, len(parent)), key=lambda i: i in answered):
+        seen, at = set(), parent[i]
+        while at > 0 and at != i and at not in seen:
             seen.add(at)
             at = parent[at]
+        if at == i:
+            parent[i] = 0
     return parent
 
 
