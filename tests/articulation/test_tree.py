@@ -105,6 +105,23 @@ def test_a_wheel_hangs_on_a_smaller_fork_that_is_nearer_to_the_base() -> None:
     assert parents_of({"base": [box((0, 0, 1.53), (9, 9, 2))], "wheel": [wheel], "fork": [fork]}, None) == [-1, 2, 0]
 
 
+def test_a_root_alone_has_no_parent() -> None:
+    assert parents_of({"base": LAMP["base"]}, None) == [-1]
+
+
+def test_a_part_without_extent_has_a_parent() -> None:
+    point = (np.full((3, 3), 5.0), np.array([[0, 1, 2]]))
+    assert parents_of({**LAMP, "point": [point]}, None)[:4] == [-1, 2, 0, 1]
+    assert parents_of({**LAMP, "point": [point]}, None)[4] in (0, 1, 2, 3)
+
+
+def test_an_answered_parent_is_kept_where_geometry_says_the_opposite() -> None:
+    """By geometry the upper arm hangs on the lower one."""
+    arms = {"base": LAMP["base"], "lower": LAMP["lower"], "upper": LAMP["upper"]}
+    assert parents_of(arms, None) == [-1, 0, 1]
+    assert parents_of(arms, [set(), {2}, set()]) == [-1, 2, 0]
+
+
 def parents_of(scene: Scene, told) -> list[int]:
     mesh, segmentation = built(scene)
     whole = object_shape(mesh, 0, labels=segmentation.face_part)

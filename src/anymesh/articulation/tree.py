@@ -9,8 +9,10 @@ from jaxtyping import Float
 from scipy.sparse.csgraph import breadth_first_order, minimum_spanning_tree
 
 from anymesh.geometry.triangle_set import TriangleSet
+from anymesh.motion.part_context import MIN_SCALE_RATIO
 
-TOUCHING_RATIO, MAX_PART_SIZES = 0.01, 5  # two parts touch within 1 % of the diagonal, or of five times the smaller part
+TOUCHING_RATIO, MAX_PART_SIZES = 0.01, 5  # a part touches another within 1 % of the diagonal, at most of five times its size
+MAX_EXACT_GAP = 5.0  # of these distances: the gap of parts that are farther apart is that of their boxes
 MIN_CONTACT_SHARE = 0.03  # of the area of the smaller part: smaller contacts hardly differ from none
 ROOT_GAIN = 5.0  # contact with the root counts as much as a contact with another part that is this many times larger
 
@@ -22,10 +24,9 @@ def parents(shapes: list[TriangleSet], diagonal: float, answered: Sequence[set[i
     answered: the indices of possible parents of each part, which may be empty; the nearest touching one is used.
     """
     size = np.array([np.linalg.norm(np.ptp(s.bounds, axis=0)) for s in shapes])
-    reach = TOUCHING_RATIO * np.minimum(diagonal, MAX_PART_SIZES * size)
+    reach = TOUCHING_RATIO * np.maximum(np.minimum(diagonal, MAX_PART_SIZES * size), MIN_SCALE_RATIO * diagonal)
     named = _answered_parents(shapes, answered, reach) if answered else {}
-    separations = _separations(shapes, np.maximum(reach, np.finfo(float).tiny))
-    _, over = breadth_first_order(minimum_spanning_tree(separations), 0, directed=False)
+    _, over = breadth_first_order(minimum_spanning_tree(_separations(shapes, reach)), 0, directed=False)
     parent = [-1, *(named.get(i, int(over[i])) for i in range(1, len(shapes)))]
     return _without_circles(parent, named)
 
@@ -35,24 +36,22 @@ def _separations(shapes: Sequence[TriangleSet], reach: Float[np.ndarray, " p"]) 
 
     reach: distance within which each part touches another [m]. All values but the diagonal are positive.
     """
-    count = len(shapes)
-    gap, touching = np.zeros((count, count)), np.zeros((count, count))
-    for i in range(count):
-        points = shapes[i].samples.points[::6]
-        for j in range(count):
-            apart = np.maximum(shapes[i].bounds[0] - shapes[j].bounds[1], shapes[j].bounds[0] - shapes[i].bounds[1])
-            gap[i, j] = np.linalg.norm(np.maximum(apart, 0))  # between the boxes, if it is large
-            if i != j and gap[i, j] <= 5 * max(reach[i], reach[j]):
-                distance = shapes[j].tree.distance(points)
-                gap[i, j] = distance.min()
-                touching[i, j] = shapes[i].area * (distance < reach[i]).mean()
+    low, high = np.array([s.bounds for s in shapes]).transpose(1, 0, 2)
+    between = np.maximum(low[:, None] - high, low - high[:, None])
+    gap = np.linalg.norm(np.maximum(between, 0), axis=2)  # of the boxes; of the surfaces where it is small
+    touching = np.zeros_like(gap)
+    for i, j in np.argwhere(gap <= MAX_EXACT_GAP * np.maximum(reach, reach[:, None])):
+        if i != j:
+            distance = shapes[j].tree.distance(shapes[i].samples.points[::6])
+            gap[i, j] = distance.min()
+            touching[i, j] = shapes[i].area * (distance < reach[i]).mean()
     area = np.array([s.area for s in shapes])
     share = np.maximum(touching, touching.T) / np.maximum(np.minimum(area, area[:, None]), np.finfo(float).tiny)
     ratio = np.minimum(gap, gap.T) / np.minimum(reach, reach[:, None])
     separation = np.log1p(ratio) - np.log(MIN_CONTACT_SHARE + np.minimum(share, 1)) + np.log(2 * ROOT_GAIN)
     separation[0] -= np.log(ROOT_GAIN)
     separation[:, 0] -= np.log(ROOT_GAIN)
-    return separation * ~np.eye(count, dtype=bool)
+    return separation * ~np.eye(len(shapes), dtype=bool)
 
 
 def _answered_parents(
