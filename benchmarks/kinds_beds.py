@@ -1,4 +1,4 @@
-"""Beds that hide and screens that fold: trundle beds, wall beds, folding screens."""
+"""Trundle beds, wall beds and folding screens."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Ring binder, powder compact."""
+"""Ring binders and powder compacts."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Boxes of cardboard: shipping carton, pizza box."""
+"""Shipping cartons and pizza boxes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Trunks for travel: steamer trunk; the handles that hang on such cases."""
+"""Steamer trunks, and the handles of cases."""
 
 from __future__ import annotations
 

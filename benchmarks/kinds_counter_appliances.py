@@ -1,4 +1,4 @@
-"""Electric appliances that stand on a counter or the floor: fryers, bread makers, water dispensers, slow cookers."""
+"""Air fryers, and the shapes that small appliances share."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Machines that give out water."""
+"""Water dispensers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Machines for dough: bread makers and hand mixers."""
+"""Bread makers and hand mixers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""More storage: shoe cabinets, plan chests, record cabinets."""
+"""Shoe cabinets, plan chests and record cabinets."""
 
 from __future__ import annotations
 

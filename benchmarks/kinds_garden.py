@@ -1,4 +1,4 @@
-"""What stands in a garden: shed."""
+"""Garden sheds."""
 
 from __future__ import annotations
 

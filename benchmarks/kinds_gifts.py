@@ -1,4 +1,4 @@
-"""Boxes of card that are given or carried: gift box, matchbox."""
+"""Gift boxes and matchboxes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Something to look at the sky with: telescope."""
+"""Telescopes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Machines for the garden: lawn mower."""
+"""Lawn mowers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Shade in the garden: parasol."""
+"""Garden parasols."""
 
 from __future__ import annotations
 

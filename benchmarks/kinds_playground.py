@@ -1,4 +1,4 @@
-"""What children ride on: seesaw, playground merry-go-round."""
+"""Seesaws and playground merry-go-rounds."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Small instruments that swing or turn: metronomes and balance scales."""
+"""Metronomes and balance scales."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Small things that fold or turn over: glasses and sand timers."""
+"""Glasses and sand timers."""
 
 from __future__ import annotations
 

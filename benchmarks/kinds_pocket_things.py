@@ -1,4 +1,4 @@
-"""Things for the hand: flip phones and lighters with lids."""
+"""Flip phones, and lighters with lids."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Things on jointed arms: operating lamps and screens on walls."""
+"""Operating lamps, and screens on wall arms."""
 
 from __future__ import annotations
 

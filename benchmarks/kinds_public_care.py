@@ -1,4 +1,4 @@
-"""Devices of wards: hospital beds."""
+"""Hospital beds."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Devices of walls and machine rooms: fuse boxes and server racks."""
+"""Fuse boxes and server racks."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Devices that take coins: arcade cabinets and parking meters."""
+"""Arcade cabinets and parking meters."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Machines that serve the public: jukeboxes and fuel pumps."""
+"""Jukeboxes and fuel pumps."""
 
 from __future__ import annotations
 

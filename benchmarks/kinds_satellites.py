@@ -1,4 +1,4 @@
-"""Things in orbit: satellites with solar panels that turn or fold and dishes that point."""
+"""Satellites with solar panels that turn or fold, and dishes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Stands that carry something: camera tripod, music stand."""
+"""Camera tripods and music stands."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Appliances of a kitchen table that cut, and dry: food processors and salad spinners."""
+"""Food processors and salad spinners."""
 
 from __future__ import annotations
 

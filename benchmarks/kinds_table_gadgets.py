@@ -1,4 +1,4 @@
-"""Small electric helpers of a kitchen table: can openers and egg cookers."""
+"""Electric can openers and egg cookers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A saw that sticks out of a table: table saw."""
+"""Table saws."""
 
 from __future__ import annotations
 

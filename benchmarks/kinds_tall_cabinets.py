@@ -1,4 +1,4 @@
-"""Cabinets with something special: sliding wardrobes, bar cabinets, bathroom towers, record cabinets."""
+"""Sliding wardrobes, bar cabinets and bathroom towers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Furniture on wheels: tool trolleys and serving carts, and what other furniture shares with them."""
+"""Tool trolleys and serving carts, and the castors and leaves that other furniture shares with them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Road vehicles for goods: a van with a sliding door; doors at the end of a body."""
+"""Vans, and the doors at the end of a vehicle body."""
 
 from __future__ import annotations
 

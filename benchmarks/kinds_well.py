@@ -1,4 +1,4 @@
-"""A well with a winch."""
+"""Wells with a winch."""
 
 from __future__ import annotations
 

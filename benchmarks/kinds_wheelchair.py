@@ -1,4 +1,4 @@
-"""A chair on wheels: wheelchair."""
+"""Wheelchairs."""
 
 from __future__ import annotations
 

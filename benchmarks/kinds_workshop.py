@@ -1,4 +1,4 @@
-"""A saw that is pulled down: mitre saw; and the blade of circular saws."""
+"""Mitre saws, and the blade of circular saws."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""More furniture: kitchen islands, school desks, workbenches with drawers."""
+"""Kitchen islands, school desks and workbenches with drawers."""
 
 from __future__ import annotations
 
