@@ -38,6 +38,13 @@ def test_shapes_have_three_thousand_samples() -> None:
     assert len(shape_of(box((0, 0, 0), (1, 2, 3))).samples) == 3000
 
 
+def test_joined_points_come_one_set_after_the_other() -> None:
+    one, other = (sample_surface(np.array([[[z, 0, 0], [z, 1, 0], [z, 0, 1.0]]]), 5, 0) for z in (0.0, 7.0))
+    both = one.joined(other)
+    assert both.points[:, 0].tolist() == [0] * 5 + [7] * 5
+    assert len(both.normals) == len(both.faces) == 10
+
+
 def rays(degrees, radius: float = 1.0) -> np.ndarray:
     angle = np.deg2rad(np.asarray(degrees, float))
     return np.c_[radius * np.cos(angle), radius * np.sin(angle), np.zeros(len(angle))]

@@ -1,5 +1,7 @@
 """Test the context of a part among the others."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import trimesh
@@ -10,7 +12,7 @@ from anymesh.articulation.barrels import find_barrel_candidates
 from anymesh.config import ArticulationConfig
 from anymesh.geometry.body_obb import body_obb
 from anymesh.geometry.sampling import sample_surface
-from anymesh.motion.part_context import PartContext
+from anymesh.motion.part_context import CONTACT_REACHES, MAX_CONTACT_POINTS, PartContext
 from anymesh.segmentation.divide import object_shape
 
 BASE, DOOR, DRAWER = CABINET["base"], CABINET["door"], CABINET["drawer"]
@@ -97,6 +99,24 @@ def test_the_connecting_area_lies_between_part_and_parent():
     assert len(found.contact) > 10
     np.testing.assert_allclose(found.contact[:, 2], 1, atol=near + 1e-9)
     assert (np.abs(found.contact[:, :2] - 0.5) < 0.1 + near).all()
+
+
+def test_the_surfaces_in_contact_are_those_of_the_link_and_not_of_what_hangs_on_it():
+    """The post stands on a block; an arm that hangs on it lies on the block too."""
+    post, arm, block = box((0, 0, 1), (0.2, 0.2, 2)), box((0.2, 0, 1), (3, 0.2, 1.2)), box((-5, -5, 0), (5, 5, 1))
+    whole = part_context([post, arm], [block], np.eye(4))
+    link = replace(whole, link=shape_of(post))
+    for around, least, most in ((whole, 2.5, 3.3), (link, 0.2, 0.5)):
+        near, far = around.contact_surfaces
+        assert least < near.points[:, 0].max() < most
+        assert near.points[:, 2].max() <= 1 + CONTACT_REACHES[0] * 4
+        assert 12 < len(near) <= MAX_CONTACT_POINTS >= len(far) > 12
+        assert {-1.0, 1.0} <= set(near.normals[:, 2])  # the foot of the part, and the top of the block
+
+
+def test_parts_far_apart_have_no_surfaces_in_contact():
+    found = part_context([box((0, 0, 2), (1, 1, 3))], [box((0, 0, 0), (1, 1, 1))], np.eye(4))
+    assert [len(surface) for surface in found.contact_surfaces] == [0, 0]
 
 
 def test_a_small_part_in_a_large_object_has_its_own_scale():

@@ -25,6 +25,11 @@ class SurfacePoints:
         """Return the points chosen by an index array or a mask."""
         return SurfacePoints(self.points[index], self.normals[index], self.faces[index])
 
+    def joined(self, other: SurfacePoints) -> SurfacePoints:
+        """Return these points and then those of the other; the indices of faces are kept."""
+        both = zip(vars(self).values(), vars(other).values(), strict=True)
+        return SurfacePoints(*(np.concatenate(pair) for pair in both))
+
 
 def spread_directions(count: int) -> Float[np.ndarray, "n 3"]:
     """Return unit vectors spread evenly over the sphere (Fibonacci), from the top down."""

@@ -13,6 +13,7 @@ from anymesh.geometry.body_obb import body_obb
 from anymesh.geometry.boxes import OrientedBox
 from anymesh.geometry.circles import Outline, roundest
 from anymesh.geometry.contact import connecting_area
+from anymesh.geometry.sampling import SurfacePoints
 from anymesh.geometry.sweep import Obstacles
 from anymesh.geometry.triangle_set import TriangleSet
 from anymesh.motion.handle import FACING_COSINE, face_axes, find_handle
@@ -21,6 +22,8 @@ from anymesh.types import Handle, JointType, Motion
 IGNORE_OVERLAP_SCALE = 10.0  # penetration scale from which static geometry inside the part's box is ignored
 DOWNWARD_PENALTY = 0.4  # subtracted from the score of a downward direction, since most objects stand on something
 OUTWARD_COSINE = 0.7  # about 45 degrees: minimum cosine with the opening direction of a slide that goes outwards
+CONTACT_REACHES = (0.08, 0.2)  # of the link's diagonal: its contact with the parent is within this distance
+MAX_CONTACT_POINTS = 400  # sample points of the surfaces in contact
 MIN_SCALE_RATIO = 1e-9  # of the diagonal: keeps tolerances positive for a part that is a point
 
 
@@ -42,6 +45,7 @@ class PartContext:
     config: ArticulationConfig
     siblings: tuple[TriangleSet, ...] = ()  # the other movable parts, one each
     shared_opening_direction: Float[np.ndarray, " 3"] | None = None  # common to a row of repeated parts
+    link: TriangleSet | None = None  # the part without what hangs on it; None if nothing does
 
     @cached_property
     def bounds(self) -> Float[np.ndarray, "2 3"]:
@@ -134,6 +138,19 @@ class PartContext:
         off = self.part.tree.distance(theirs)
         near, far, _ = connecting_area(self.gap, off, self.config.connecting * max(self.tolerance_length, 1e-3 * self.diagonal))
         return np.concatenate([self.part.samples.points[near], theirs[far]])
+
+    @cached_property
+    def contact_surfaces(self) -> tuple[SurfacePoints, ...]:
+        """Return points of the link and its parent within each of CONTACT_REACHES of the other, the nearest first."""
+        link = self.part if self.link is None else self.link
+        reach = np.array(CONTACT_REACHES) * max(link.box.diagonal, MIN_SCALE_RATIO * self.diagonal)
+        low, high = link.bounds + reach[-1] * np.array([[-1.0], [1.0]])
+        beside = (self.parent.highest > low) & (self.parent.lowest < high)
+        theirs = self.parent.take(np.flatnonzero(beside.all(1))).samples
+        theirs = theirs.take(np.flatnonzero(((theirs.points > low) & (theirs.points < high)).all(1)))
+        off = self.parent.tree.distance(link.samples.points), link.tree.distance(theirs.points)
+        surfaces = [link.samples.take(off[0] < r).joined(theirs.take(off[1] < r)) for r in reach]
+        return tuple(s.take(np.arange(0, len(s), -(-len(s) // MAX_CONTACT_POINTS) or 1)) for s in surfaces)
 
     def sees_outside(self, direction: Float[np.ndarray, " 3"]) -> Bool[np.ndarray, " n"]:
         """Return which samples of the part have a free line of sight along `direction`."""
