@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from geometry.rigid import shape_of
 
-from anymesh.articulation.motion_question import Candidate, PartFacts
+from anymesh.articulation.motion_question import Candidate, PartFacts, Role
 from anymesh.config import ArticulationConfig
 from anymesh.motion.part_context import PartContext
 from anymesh.types import JointType, Motion, Sweep
@@ -43,7 +43,7 @@ def slide(axis: np.ndarray, origin=(0.0, 0, 0)) -> Motion:
     return Motion(JointType.PRISMATIC, np.asarray(axis, float), np.asarray(origin, float), "a direction")
 
 
-def candidate(role: str, kind: JointType, axis: np.ndarray, **changes: Any) -> Candidate:
+def candidate(role: Role, kind: JointType, axis: np.ndarray, **changes: Any) -> Candidate:
     """Return a candidate that is free along its axis."""
     free = np.pi if kind is JointType.REVOLUTE else 0.5
     sweep = Sweep(free, 0.0, True, False)

@@ -16,6 +16,7 @@ from anymesh.articulation.evidence import sweep_candidates
 from anymesh.articulation.hypotheses import distinct, propose
 from anymesh.articulation.limits import limits
 from anymesh.articulation.motion_features import MISSING, motion_features
+from anymesh.articulation.motion_question import Proposal
 from anymesh.articulation.moved_points import MovedPoints
 from anymesh.articulation.part_facts import part_facts
 from anymesh.articulation.repeated_parts import ScoredMotions, in_one_manner, share_opening_directions
@@ -114,8 +115,10 @@ def test_copies_hinged_at_one_level_move_alike(above: float, alike: bool) -> Non
 
 
 def test_motions_in_the_opposite_direction_or_of_another_kind_are_no_repetition() -> None:
-    pairs = [("a", turn(Z)), ("b", turn(-Z)), ("c", slide(Z)), ("d", slide(-Z)), ("e", turn(Z, X))]
-    assert [role for role, _ in distinct(pairs, 1.0)] == ["a", "c", "e"]
+    pairs: list[Proposal] = [
+        ("edge", turn(Z)), ("center", turn(-Z)), ("slide", slide(Z)), ("contact_slide", slide(-Z)), ("pin", turn(Z, X))
+    ]  # fmt: skip
+    assert [role for role, _ in distinct(pairs, 1.0)] == ["edge", "slide", "pin"]
 
 
 def test_proposed_motions_have_unit_axes_and_are_distinct() -> None:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 
 from anymesh.articulation.adjacent_panels import adjacent_sides, outer_side, overlap_gain, pair_side
 from anymesh.articulation.contact_metrics import contact_retention, hinge_support, lever_arm
-from anymesh.articulation.motion_question import MIN_FREE_ANGLE_RAD, Candidate
+from anymesh.articulation.motion_question import MIN_FREE_ANGLE_RAD, Candidate, Proposal, Role
 from anymesh.geometry.sweep import free_amounts, sweep_all
 from anymesh.motion.part_context import IGNORE_OVERLAP_SCALE, PartContext
 from anymesh.types import JointType, Motion, Sweep
@@ -21,7 +22,7 @@ RIM_ROLES = ("edge", "edge_mid", "barrel")  # hinges at a rim, which may turn al
 GUIDE_STEP_RATIO = 0.02  # of the tolerance length: a slide is guided if a sideways step of this length is blocked
 
 
-def sweep_candidates(around: PartContext, proposed: list[tuple[str, Motion]]) -> tuple[Candidate, ...]:
+def sweep_candidates(around: PartContext, proposed: Sequence[Proposal]) -> tuple[Candidate, ...]:
     """Sweep and measure all motions: return two candidates per motion, opening along its axis and against it.
 
     Meshes may have parts that penetrate the rest at rest. Blocked hinges are therefore swept again with more allowed
@@ -75,7 +76,7 @@ def _with_overlap_ignored(around: PartContext, candidates: list[Candidate]) -> l
 
 
 def _revolute(
-    around: PartContext, role: str, motion: Motion, swept: Sweep, near: np.ndarray, adjacent: np.ndarray
+    around: PartContext, role: Role, motion: Motion, swept: Sweep, near: np.ndarray, adjacent: np.ndarray
 ) -> Candidate:
     moves = np.cross(motion.axis, around.part.samples.points.mean(0) - motion.origin)
     across = float(np.linalg.norm(moves))
@@ -118,7 +119,7 @@ def _guided_share(around: PartContext, prismatic: list[Motion]) -> list[float]:
     return [float(share) for share in stopped.mean((0, 2))]
 
 
-def _prismatic(around: PartContext, role: str, motion: Motion, swept: Sweep, guided: float) -> Candidate:
+def _prismatic(around: PartContext, role: Role, motion: Motion, swept: Sweep, guided: float) -> Candidate:
     side = _sides(around, motion)
     inner = around.depth_in_parent(motion.axis)
     across = sorted(np.ptp(around.part.corners @ d) for d in side)[0]

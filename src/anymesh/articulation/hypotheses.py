@@ -7,8 +7,11 @@ contacts.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import numpy as np
 
+from anymesh.articulation.motion_question import Proposal
 from anymesh.geometry.boxes import OrientedBox
 from anymesh.geometry.circles import outline_about
 from anymesh.motion.part_context import PartContext
@@ -18,7 +21,7 @@ SAME_DIRECTION = np.cos(np.deg2rad(1.0))
 SAME_LINE = 0.004  # of the tolerance length
 
 
-def _edges(box: OrientedBox, what: str) -> list[tuple[str, Motion]]:
+def _edges(box: OrientedBox, what: str) -> list[Proposal]:
     edges = []
     for k in range(3):
         i, j = (a for a in range(3) if a != k)
@@ -31,7 +34,7 @@ def _edges(box: OrientedBox, what: str) -> list[tuple[str, Motion]]:
     return edges
 
 
-def _edge_middles(box: OrientedBox, what: str) -> list[tuple[str, Motion]]:
+def _edge_middles(box: OrientedBox, what: str) -> list[Proposal]:
     """Return the lines at half the thickness of a plate, along its four rims."""
     lines = []
     for k in range(2):
@@ -44,11 +47,11 @@ def _edge_middles(box: OrientedBox, what: str) -> list[tuple[str, Motion]]:
     return lines
 
 
-def _through(box: OrientedBox, what: str) -> list[tuple[str, Motion]]:
+def _through(box: OrientedBox, what: str) -> list[Proposal]:
     return [("center", Motion(JointType.REVOLUTE, a, box.center, f"middle line of {what}")) for a in box.axes]
 
 
-def _box_directions(box: OrientedBox, what: str) -> list[tuple[str, Motion]]:
+def _box_directions(box: OrientedBox, what: str) -> list[Proposal]:
     return [("slide", Motion(JointType.PRISMATIC, a, box.center, f"direction of {what}")) for a in box.axes]
 
 
@@ -58,21 +61,22 @@ def _principal(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return s / np.sqrt(len(points)), vt
 
 
-def _from_contact(around: PartContext) -> list[tuple[str, Motion]]:
+def _from_contact(around: PartContext) -> list[Proposal]:
     """Return the paper's candidates: the line along the connecting area, its plane's normal, directions in the plane."""
     contact = around.contact
     if len(contact) < 4:
         return []
     middle = contact.mean(0)
     _, directions = _principal(contact)
-    candidates = [("contact", Motion(JointType.REVOLUTE, _unit(directions[0]), middle, "line along the connecting area"))]
-    candidates.append(("center", Motion(JointType.REVOLUTE, _unit(directions[2]), middle, "normal of the connecting area")))
-    candidates.append(("pin", Motion(JointType.REVOLUTE, _unit(directions[1]), middle, "width of the connecting area")))
-    candidates += [
-        ("contact_slide", Motion(JointType.PRISMATIC, _unit(d), middle, f"{what} of the connecting area"))
-        for d, what in zip(directions, ("length", "width", "plane normal"), strict=True)
+    return [
+        ("contact", Motion(JointType.REVOLUTE, _unit(directions[0]), middle, "line along the connecting area")),
+        ("center", Motion(JointType.REVOLUTE, _unit(directions[2]), middle, "normal of the connecting area")),
+        ("pin", Motion(JointType.REVOLUTE, _unit(directions[1]), middle, "width of the connecting area")),
+        *(
+            ("contact_slide", Motion(JointType.PRISMATIC, _unit(d), middle, f"{what} of the connecting area"))
+            for d, what in zip(directions, ("length", "width", "plane normal"), strict=True)
+        ),
     ]
-    return candidates
 
 
 def _unit(v: np.ndarray) -> np.ndarray:
@@ -108,7 +112,7 @@ def _two_groups(points: np.ndarray, centers: np.ndarray) -> np.ndarray:
     return side
 
 
-def barrels(around: PartContext) -> list[tuple[str, Motion]]:
+def barrels(around: PartContext) -> list[Proposal]:
     """Return the axes of small cylinders near part and parent: hinge barrels and pins."""
     axes = []
     for component in around.barrel_candidates:
@@ -118,7 +122,7 @@ def barrels(around: PartContext) -> list[tuple[str, Motion]]:
     return axes
 
 
-def propose(around: PartContext) -> list[tuple[str, Motion]]:
+def propose(around: PartContext) -> list[Proposal]:
     """Propose all candidate motions of a part with their roles, without near-duplicates, in a fixed order."""
     core, box = around.body_obb, around.part.box
     candidates = _edges(core, "the part") + _edge_middles(core, "the part") + _through(core, "the part")
@@ -139,12 +143,12 @@ def propose(around: PartContext) -> list[tuple[str, Motion]]:
     return distinct(candidates, around.tolerance_length)
 
 
-def distinct(candidates: list[tuple[str, Motion]], tolerance_length: float) -> list[tuple[str, Motion]]:
+def distinct(candidates: Iterable[Proposal], tolerance_length: float) -> list[Proposal]:
     """Return the motions without near-duplicates of earlier ones.
 
     tolerance_length: reference length of the tolerances [m], as in `PartContext`.
     """
-    kept: list[tuple[str, Motion]] = []
+    kept: list[Proposal] = []
     for role, motion in candidates:
         if not any(_same(motion, other, tolerance_length) for _, other in kept):
             kept.append((role, motion))

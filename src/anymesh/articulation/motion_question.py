@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from enum import StrEnum
+from typing import Literal
 
 import numpy as np
 from jaxtyping import Float
@@ -18,6 +19,13 @@ from anymesh.types import Handle, JointType, Motion, Sweep
 MIN_FREE_ANGLE_RAD = float(np.deg2rad(12))  # [rad] a hinge that opens less is blocked
 MIN_FREE_TRAVEL_RATIO = 0.008  # of the tolerance length: a slide with less free travel is blocked
 ENDLESS_ANGLE = 3.0  # [rad] minimum free angle in each direction of an endless rotation; the sweep ends at half a turn
+
+# Relation of a motion to its part: that of a hinge's axis; of a slide ("slide", "contact_slide"); or an answered one ("asked").
+Role = Literal[
+    "edge", "edge_mid", "center", "round", "pin", "circle", "pivot", "hub", "two_pivot", "barrel", "contact",
+    "slide", "contact_slide", "asked",
+]  # fmt: skip
+Proposal = tuple[Role, Motion]
 
 
 class SlideDirection(StrEnum):
@@ -58,14 +66,12 @@ class PartFacts:
 class Candidate:
     """A candidate motion and its evidence.
 
-    role: relation of the axis to the part: "edge", "edge_mid", "center", "round", "pin", "circle", "pivot", "hub", "two_pivot",
-    "barrel" or "contact" for a hinge, "slide" or "contact_slide" for a slide, "asked" for a motion that was answered;
     opening_sign: +1 if +axis opens, else -1; opening, closing: free amounts [rad; for a slide, over the tolerance length].
     """
 
     motion: Motion
     sweep: Sweep
-    role: str
+    role: Role
     opening_sign: int
     opening: float
     closing: float

@@ -14,7 +14,7 @@ from anymesh.articulation.evidence import sweep_candidates
 from anymesh.articulation.hypotheses import distinct, propose
 from anymesh.articulation.limits import answered_range, opening_motion, pressed
 from anymesh.articulation.motion_classifier import PartMotionScores
-from anymesh.articulation.motion_question import Candidate, MotionQuestion, PartFacts, SlideDirection
+from anymesh.articulation.motion_question import Candidate, MotionQuestion, PartFacts, Proposal, SlideDirection
 from anymesh.articulation.moved_points import MovedPoints
 from anymesh.articulation.own_axes import CENTRAL, pivots
 from anymesh.articulation.part_facts import part_facts
@@ -105,9 +105,9 @@ def scored_motions(case: PartCase) -> MotionQuestion:
     around = case.around
     proposed = propose(around)
     facts = part_facts(around, case.label, case.label, any(role == "two_pivot" for role, _ in proposed))
-    circles = [("circle", motion) for motion in case.circles]
+    circles: list[Proposal] = [("circle", motion) for motion in case.circles]
     proposed = distinct([*proposed, *circles, *pivots(around, case.shown.normal)], around.tolerance_length)
-    first = [("asked", case.asked)] if case.asked is not None else []
+    first: list[Proposal] = [("asked", case.asked)] if case.asked is not None else []
     question = PartMotionScores(around, facts, sweep_candidates(around, first + proposed)).question()
     scores, chosen = motion_scores(question), []
     for k in range(0, len(scores), 2):

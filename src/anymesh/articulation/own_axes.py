@@ -8,6 +8,7 @@ from __future__ import annotations
 import numpy as np
 from jaxtyping import Float
 
+from anymesh.articulation.motion_question import Proposal, Role
 from anymesh.geometry.circles import outline_about
 from anymesh.geometry.patches import ObjectShape
 from anymesh.geometry.triangle_set import TriangleSet
@@ -17,7 +18,8 @@ from anymesh.types import JointType, Motion
 MIN_ROUNDNESS = 0.8  # minimum roundness of a circle that gives an axis
 MAX_CIRCLES = 4  # round patches per part, the largest first
 MAX_PATCHES = 40  # patches examined, the largest first
-CENTRAL = ("round", "center", "hub", "circle", "pivot", "pin", "two_pivot", "barrel")  # roles of axes given by a part's shape
+# roles of axes that the shape of a part gives
+CENTRAL: tuple[Role, ...] = ("round", "center", "hub", "circle", "pivot", "pin", "two_pivot", "barrel")
 SAME_DIRECTION = 0.98  # minimum cosine between axes with the same direction
 MIN_POINTS = 24  # minimum number of points of a contact ring
 
@@ -46,7 +48,7 @@ def round_patches(whole: ObjectShape, part: TriangleSet, parent: TriangleSet) ->
     return tuple(motion for _, motion in circles[:MAX_CIRCLES])
 
 
-def pivots(around: PartContext, normal: Float[np.ndarray, " 3"]) -> list[tuple[str, Motion]]:
+def pivots(around: PartContext, normal: Float[np.ndarray, " 3"]) -> list[Proposal]:
     """Return lines through the center of the contact, and the axis of its ring.
 
     normal: unit normal of the contact's plane.
@@ -57,7 +59,7 @@ def pivots(around: PartContext, normal: Float[np.ndarray, " 3"]) -> list[tuple[s
     for d in (normal, around.opening_direction, *around.body_obb.axes):
         if all(abs(float(d @ other)) < SAME_DIRECTION for other in directions):
             directions.append(d)
-    lines = []
+    lines: list[Proposal] = []
     if len(contact) >= MIN_POINTS:
         rings = [outline_about(contact, d) for d in directions]
         best = max(rings, key=lambda o: o.roundness)
