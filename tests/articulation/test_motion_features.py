@@ -76,9 +76,12 @@ def test_a_wheel_is_round_about_its_axle_and_has_contact_all_around_it() -> None
     assert found["rotational misfit"] < 0.02
     assert found["circle off the axis"] < 0.02
     assert found["contact around the axis"] == 1
+    assert found["contact turns in place"] > 0.9
     assert found["opening"] == found["closing"] == pytest.approx(1)
     rim = Motion(JointType.REVOLUTE, Y, np.array([0.1, -0.035, 0.2]), "rim")
     assert features(wheel(), rim)[0]["rotational misfit"] == MISSING  # far from its center
+    across = Motion(JointType.REVOLUTE, X, np.array([0, -0.035, 0.2]), "diameter")
+    assert features(wheel(), across)[0]["contact turns in place"] < 0.3
 
 
 def test_a_square_is_itself_after_a_quarter_turn_and_a_bracket_is_not() -> None:

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import trimesh
 from assets import box
 from geometry.rigid import shape_of
 from made import EDGE, PULL, ROUND, X, Y, Z, candidate, context, turn
@@ -13,7 +14,7 @@ from scenes import prism, wheel
 from test_hypotheses import board
 
 from anymesh.articulation.estimate import choose_motion, estimate_joint, joint_of
-from anymesh.articulation.hypotheses import barrels, propose, two_pivot_line
+from anymesh.articulation.hypotheses import barrels, contact_axes, propose, two_pivot_line
 from anymesh.articulation.motion_question import MotionQuestion
 from anymesh.articulation.own_axes import pivots
 from anymesh.articulation.part_facts import part_facts
@@ -81,6 +82,25 @@ def test_a_disc_turns_about_its_own_axis_first() -> None:
     assert (role, m.source) == ("round", "axis of its round outline")
     assert m.axis == pytest.approx(Y, abs=1e-6)
     assert m.origin == pytest.approx([0, -0.035, 0.2], abs=1e-3)
+
+
+def test_an_arm_on_a_pin_turns_about_the_pin() -> None:
+    """The arm hangs by a tube on a pin, off all axes of its box."""
+    pin, tube = prism(0.04, (-0.1, 0.3), 0.1, 0.2, 32), trimesh.creation.annulus(0.042, 0.06, 0.1, sections=32)
+    turned = tube.vertices[:, [0, 2, 1]] * [1, -1, 1] + [0.1, 0.05, 0.2]
+    arm = [(turned, tube.faces), box((0.155, 0.02, 0.2), (0.9, 0.08, 0.3)), box((0.7, 0.08, 0.2), (0.8, 0.4, 0.25))]
+    around = context(arm, [pin, box((-0.3, -0.3, -0.3), (0.5, -0.1, 0.5))])
+    lines = [m for role, m in propose(around) if role == "surface"]
+    off = [np.linalg.norm(np.cross(m.origin - [0.1, 0, 0.2], Y)) for m in lines if abs(m.axis[1]) > np.cos(np.deg2rad(2))]
+    assert min(off) < 0.005
+    assert len(lines) <= 2
+    assert all(m.kind is JointType.REVOLUTE and m.axis[np.abs(m.axis).argmax()] > 0 for m in lines)
+
+
+def test_an_axis_of_the_contact_that_repeats_another_motion_is_not_proposed() -> None:
+    around = context([prism(0.1, (0.002, 0.02), 0.3, 0.3, 64)], [prism(0.1, (-0.2, 0), 0.3, 0.3, 64)])
+    assert contact_axes(around)
+    assert "surface" not in [role for role, _ in propose(around)]
 
 
 def test_a_part_with_a_handle_may_turn_about_the_edges_of_its_outer_box_too() -> None:

@@ -99,6 +99,7 @@ def part_context(
         center=center,
         config=config,
         siblings=tuple(shapes[k] for k in range(1, len(shapes)) if k not in carried and k not in line),
+        link=shapes[i] if len(carried) > 1 else None,
     )
 
 

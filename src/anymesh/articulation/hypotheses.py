@@ -2,7 +2,7 @@
 
 From the paper (3.3): the line along the connecting area, the normal of its fitted plane, directions in that plane.
 Added here: edges, center lines and directions of the part's boxes, the axis of a round outline, the line through two far
-contacts.
+contacts, the axes of round surfaces in contact.
 """
 
 from __future__ import annotations
@@ -14,11 +14,14 @@ import numpy as np
 from anymesh.articulation.motion_question import Proposal
 from anymesh.geometry.boxes import OrientedBox
 from anymesh.geometry.circles import outline_about
+from anymesh.geometry.revolution import fit_revolution
 from anymesh.motion.part_context import PartContext
 from anymesh.types import JointType, Motion
 
 SAME_DIRECTION = np.cos(np.deg2rad(1.0))
 SAME_LINE = 0.004  # of the tolerance length
+MIN_REVOLUTION = 0.25  # of the surfaces in contact: least share that turns in place about their axis
+SAME_CONTACT_DIRECTION, SAME_CONTACT_LINE = np.cos(np.deg2rad(2.0)), 0.008  # coarser, since these axes are fitted
 
 
 def _edges(box: OrientedBox, what: str) -> list[Proposal]:
@@ -122,6 +125,13 @@ def barrels(around: PartContext) -> list[Proposal]:
     return axes
 
 
+def contact_axes(around: PartContext) -> list[Proposal]:
+    """Return the axes about which the surfaces in contact turn in place: of pins, bushings and ball joints."""
+    fitted = [fit_revolution(surface, MIN_REVOLUTION) for surface in around.contact_surfaces]
+    what = "axis of the round surfaces in contact"
+    return [("surface", Motion(JointType.REVOLUTE, _unit(f.axis), f.origin, what)) for f in fitted if f is not None]
+
+
 def propose(around: PartContext) -> list[Proposal]:
     """Propose all candidate motions of a part with their roles, without near-duplicates, in a fixed order."""
     core, box = around.body_obb, around.part.box
@@ -140,7 +150,7 @@ def propose(around: PartContext) -> list[Proposal]:
         candidates += _edges(box, "the part's outer box")
     candidates += _box_directions(OrientedBox(box.center, np.eye(3), box.half), "the object")
     candidates += _from_contact(around)
-    return distinct(candidates, around.tolerance_length)
+    return distinct(candidates + contact_axes(around), around.tolerance_length)
 
 
 def distinct(candidates: Iterable[Proposal], tolerance_length: float) -> list[Proposal]:
@@ -150,14 +160,15 @@ def distinct(candidates: Iterable[Proposal], tolerance_length: float) -> list[Pr
     """
     kept: list[Proposal] = []
     for role, motion in candidates:
-        if not any(_same(motion, other, tolerance_length) for _, other in kept):
+        same = (SAME_CONTACT_DIRECTION, SAME_CONTACT_LINE) if role == "surface" else (SAME_DIRECTION, SAME_LINE)
+        if not any(_same(motion, other, same[0], same[1] * tolerance_length) for _, other in kept):
             kept.append((role, motion))
     return kept
 
 
-def _same(a: Motion, b: Motion, tolerance_length: float) -> bool:
-    if a.kind is not b.kind or abs(float(a.axis @ b.axis)) < SAME_DIRECTION:
+def _same(a: Motion, b: Motion, cosine: float, distance: float) -> bool:
+    if a.kind is not b.kind or abs(float(a.axis @ b.axis)) < cosine:
         return False
     if a.kind is JointType.PRISMATIC:
         return True
-    return float(np.linalg.norm(np.cross(b.origin - a.origin, a.axis))) < SAME_LINE * tolerance_length
+    return float(np.linalg.norm(np.cross(b.origin - a.origin, a.axis))) < distance

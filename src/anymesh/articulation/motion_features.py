@@ -14,6 +14,7 @@ from jaxtyping import Float
 from anymesh.articulation.contact_metrics import CONTACT_RATIO, CONTACT_TOLERANCE_FACTOR
 from anymesh.articulation.motion_question import Candidate, PartFacts
 from anymesh.geometry.circles import outline_about
+from anymesh.geometry.revolution import share_in_place
 from anymesh.motion.part_context import PartContext
 from anymesh.scoring.classifier import MISSING
 from anymesh.types import JointType, Motion
@@ -194,6 +195,7 @@ def _line(around: PartContext, motion: Motion, contact: Float[np.ndarray, "n 3"]
         "contact off the line": float(_distance(contact, motion).mean() / reach),
         "contact middle off the line": float(_distance(contact.mean(0)[None], motion)[0] / reach),
         "contact around the axis": _coverage(contact, motion),
+        "contact turns in place": share_in_place(around.contact_surfaces[0], axis, motion.origin),
         "off the parent's border": float(beside.min() / around.diagonal) if len(beside) else MISSING,
         "barrel near": float(any(_distance(b.box.center[None], motion)[0] < 0.05 * reach for b in around.barrel_candidates)),
         **_handle_place(around, motion, reach),
@@ -241,8 +243,8 @@ NO_LINE = dict.fromkeys(
     (
         "off along length", "off along width", "off along thickness", "off the part", "balance", "round about the axis",
         "circle off the axis", "rotational misfit", "contact along the line", "contact off the line",
-        "contact middle off the line", "contact around the axis", "off the parent's border", "barrel near", "handle distance",
-        "bar handle along",
+        "contact middle off the line", "contact around the axis", "contact turns in place", "off the parent's border",
+        "barrel near", "handle distance", "bar handle along",
     ),
     MISSING,
 )  # fmt: skip

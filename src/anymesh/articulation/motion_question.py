@@ -22,7 +22,7 @@ ENDLESS_ANGLE = 3.0  # [rad] minimum free angle in each direction of an endless 
 
 # Relation of a motion to its part: that of a hinge's axis; of a slide ("slide", "contact_slide"); or an answered one ("asked").
 Role = Literal[
-    "edge", "edge_mid", "center", "round", "pin", "circle", "pivot", "hub", "two_pivot", "barrel", "contact",
+    "edge", "edge_mid", "center", "round", "pin", "circle", "pivot", "hub", "two_pivot", "barrel", "surface", "contact",
     "slide", "contact_slide", "asked",
 ]  # fmt: skip
 Proposal = tuple[Role, Motion]
