@@ -8,7 +8,6 @@ FOLDER: rows as `benchmarks/motion_rows.py` writes them. Needs lightgbm. For the
     python benchmarks/motion_rows.py FOLDER urdf:KINDS@kinds labelled:INFINIGEN@infinigen sweethome3d metaworld libero \
         examples scene-synthesizer mjcf:ROBOSUITE/models/assets/robots@robosuite mjcf:ROBOSUITE/models/assets/grippers@robosuite
     python benchmarks/motion_rows.py FOLDER urdf:KINDS@kinds labelled:INFINIGEN@infinigen --change fused --most 40
-at the commit of its manifest: there are more kinds since, and parts of a chain have other parents.
 """
 
 from __future__ import annotations

@@ -4,13 +4,13 @@ python benchmarks/train_parts.py FOLDER            benchmarks/parts.md: leave on
 python benchmarks/train_parts.py FOLDER --write    also trains on all and writes part_classifier.npz with its manifest
 
 FOLDER: rows as `benchmarks/part_rows.py` writes them. Needs lightgbm, which nothing else here does. For the shipped classifier:
-    python benchmarks/kinds.py KINDS --seed 11 --count 5
+    python benchmarks/kinds.py KINDS --seed 11 --count 6
     python benchmarks/part_rows.py FOLDER urdf:KINDS@kinds labelled:INFINIGEN@infinigen sweethome3d metaworld libero examples \
         scene-synthesizer
-    python benchmarks/part_rows.py FOLDER urdf:KINDS@kinds labelled:INFINIGEN@infinigen --change fused --most 24
+    python benchmarks/part_rows.py FOLDER urdf:KINDS@kinds --change fused --most 180
+    python benchmarks/part_rows.py FOLDER labelled:INFINIGEN@infinigen --change fused --most 53
+    python benchmarks/part_rows.py FOLDER sweethome3d --change fused --most 24
     python benchmarks/part_rows.py FOLDER static:KINDS@kinds --most 72
-The kinds were still being written while their rows were measured: the same commands give other objects of the same kinds,
-and of 81 kinds more.
 """
 
 from __future__ import annotations
