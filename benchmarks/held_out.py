@@ -107,8 +107,8 @@ def write(work: Path) -> int:
     }
     text = [
         "# Kinds that nothing was trained on", "",
-        f"`python benchmarks/held_out.py WORK`: {len(moving)} objects of {len(moving) // COUNT} kinds that were written after",
-        "the shipped classifiers were trained (`kinds.RESERVED`), nameless and without materials, by geometry alone.",
+        f"`python benchmarks/held_out.py WORK`: {len(moving)} objects of {len(moving) // COUNT} kinds on which",
+        "nothing is trained or tuned (`kinds.RESERVED`), nameless and without materials, by geometry alone.",
         "`.ci/run` measures a sample and compares it with `held_out.json`.", "",
         f"`{FUSED}` is the first object of each kind as one closed surface, as from a scan or a generator.", "",
         f"On {len(still)} objects of {len(STATIC)} kinds of which nothing moves, {false} parts are found.", "",

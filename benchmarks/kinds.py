@@ -126,7 +126,7 @@ FAMILIES = {
     "workshop": "mitre_saw",
     "worktops": "kitchen_island school_desk workbench_drawers",
 }
-RESERVED_FAMILIES = {  # written after the shipped classifiers were trained; nothing is ever trained or tuned on them
+RESERVED_FAMILIES = {  # nothing is ever trained or tuned on them
     "reserved_rooms": "cash_register jewellery_box bird_cage pet_carrier aquarium hose_cabinet wine_rack phone_booth "
     "typewriter gun_cabinet",
     "reserved_work": "bench_vice drill_press microscope stepladder paper_cutter step_bin lab_centrifuge",
