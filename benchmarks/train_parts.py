@@ -31,6 +31,7 @@ from rows import called
 
 from anymesh.segmentation.candidate_context import context_features
 from anymesh.segmentation.part_assignment import assign_parts
+from anymesh.segmentation.part_classifier import CUT, CUT_SCORE
 
 MODELS = (Model((150, 90), 0), Model((250, 150), 1, True), Model((150, 90), 2), Model((250, 150), 3, True))
 WRONG, RIGHT = 0.35, 0.95  # IoU below which a candidate is no part, and from which it is one; between, it is partly right
@@ -59,6 +60,11 @@ class OverlapContext:
 
     def __call__(self, k: int, first: Scores) -> Float[np.ndarray, "n c"]:
         return np.stack(list(context_features(overlap_of(self._rows[k]), first[k]).values()), 1)
+
+
+def with_cuts(rows: Sequence[PartRows], scores: Scores) -> Scores:
+    """Return the scores with what is added for parts that are cut out of a surface."""
+    return [s + CUT_SCORE * r.features[:, r.names.index(CUT)] for r, s in zip(rows, scores, strict=True)]
 
 
 def counts(rows: Sequence[PartRows], scores: Sequence[np.ndarray]) -> Counts:
@@ -116,8 +122,8 @@ def main(argv: Sequence[str] | None = None) -> None:
     options = parser.parse_args(argv)
     rows = read_rows(options.folder)
     samples, context = samples_of(rows), OverlapContext(rows)
-    by_source = held_out(samples, leave_sources_out(samples), MODELS, context)
-    by_kind = held_out(samples, leave_kinds_out(samples), MODELS, context)
+    by_source = with_cuts(rows, held_out(samples, leave_sources_out(samples), MODELS, context))
+    by_kind = with_cuts(rows, held_out(samples, leave_kinds_out(samples), MODELS, context))
     save_scores(options.folder, by_source, by_kind)
     still = [k for k, r in enumerate(rows) if not r.moving]
     wrong = counts([rows[k] for k in still], [by_kind[k] for k in still]).found

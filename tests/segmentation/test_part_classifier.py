@@ -10,6 +10,7 @@ import pytest
 from anymesh.articulation import motion_classifier
 from anymesh.scoring.classifier import Classifier
 from anymesh.segmentation import part_classifier
+from anymesh.segmentation.part_tree import Overlap
 
 SHIPPED = pytest.mark.parametrize("shipped", [part_classifier.shipped_classifier, motion_classifier.shipped_classifier])
 
@@ -55,3 +56,12 @@ def test_trees_end_in_leaves(shipped: Callable[[], Classifier]) -> None:
         assert (trees.left[inner] > at[inner]).all()
         assert (trees.right[inner] > at[inner]).all()
         assert np.isfinite(trees.value).all()
+
+
+def test_a_part_that_is_cut_out_of_a_surface_scores_more(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The trees are left out: all three candidates have the log-odds 0.25 by themselves."""
+    monkeypatch.setattr(Classifier, "score", lambda self, own, context=None: np.full(len(own), 0.25))
+    names = part_classifier.shipped_classifier().names
+    features = [dict.fromkeys(names, 0.0) | {part_classifier.CUT: cut} for cut in (0.0, 1.0, 0.0)]
+    score, _ = part_classifier.score_parts(Overlap(np.ones(3), np.eye(3)), features)
+    assert score == pytest.approx([0.25, 0.25 + part_classifier.CUT_SCORE, 0.25])
