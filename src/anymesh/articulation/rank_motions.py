@@ -14,7 +14,7 @@ from anymesh.vocabulary import typical_motion
 
 NO_MOTION_CONFIDENCE = 0.3  # confidence of a joint without a plausible motion
 # calibration of the log-odds of a confidence, fitted to kinds left out of training (benchmarks/train_motions.py)
-CALIBRATION_SLOPE, OFFSET = 0.87, 0.15
+CALIBRATION_SLOPE, OFFSET = 0.68, 0.19
 SAME_AXIS = 0.97  # minimum cosine between axes that a user sees as one
 SAME_LINE = 0.1  # of the part's size: maximum distance between lines that a user sees as one
 BLOCKED = -4.0  # [log-odds] penalty of a motion that the sweep finds blocked
