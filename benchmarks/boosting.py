@@ -6,9 +6,9 @@ import json
 import os
 import subprocess
 from collections import Counter
-from collections.abc import Callable, Hashable, Sequence
+from collections.abc import Hashable, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +17,8 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from anymesh.scoring.boosted_trees import NO_FEATURE, BoostedTrees
-from anymesh.scoring.classifier import STEPS
+from anymesh.scoring.classifier import NETWORK, TREES
+from anymesh.scoring.set_network import SetNetwork
 
 SETTINGS = {
     "objective": "cross_entropy", "learning_rate": 0.1, "num_leaves": 15, "min_data_in_leaf": 25, "feature_fraction": 0.5,
@@ -26,17 +27,16 @@ SETTINGS = {
 }  # fmt: skip
 FOLDS = 4
 Scores = list[Float[np.ndarray, " n"]]
-Context = Callable[[int, Scores], Float[np.ndarray, "n c"]]  # of a sample, from the first scores of all
 
 
 @dataclass(frozen=True)
 class Model:
-    """One model of an ensemble, whose scores are averaged in each step.
+    """One model of an ensemble, whose scores are averaged.
 
-    rounds: trees of each step; extra_trees: whether thresholds are random (Geurts et al., 2006).
+    rounds: number of trees; extra_trees: whether thresholds are random (Geurts et al., 2006).
     """
 
-    rounds: tuple[int, ...]
+    rounds: int
     seed: int = 0
     extra_trees: bool = False
 
@@ -60,70 +60,29 @@ def folds_of(groups: Sequence[Hashable], seed: int, count: int = FOLDS) -> np.nd
     return np.array([fold[group] for group in groups])
 
 
-class Steps:
-    """Trees in one step or, with a context, in two. The second is trained on first scores of kinds left out of the first."""
+def fit(samples: Sequence[Sample], models: Sequence[Model]) -> BoostedTrees:
+    """Train an ensemble on all samples."""
+    target = np.concatenate([s.target for s in samples])
+    weight = np.concatenate([np.full(len(s.target), s.weight) for s in samples])
+    known = ~np.isnan(target)
+    table, weights = np.concatenate([s.features for s in samples])[known], weight[known] / weight[known].mean()
 
-    def __init__(
-        self, samples: Sequence[Sample], chosen: Sequence[int], models: Sequence[Model], context: Context | None = None
-    ) -> None:
-        self._samples, self._context, self._models = samples, context, models
-        self.trees = [self._fit(chosen)]
-        if context is None:
-            return
-        fold = folds_of([(samples[i].source, samples[i].kind) for i in chosen], 1)
-        first: Scores = [np.zeros(0)] * len(samples)
-        for k in range(FOLDS):
-            step = self._fit([i for i, f in zip(chosen, fold, strict=True) if f != k])
-            for i, f in zip(chosen, fold, strict=True):
-                if f == k:
-                    first[i] = step.score(samples[i].features)
-        self.trees.append(self._fit(chosen, first))
+    def trained(model: Model) -> BoostedTrees:
+        data = lightgbm.Dataset(table, target[known], weight=weights)
+        settings = SETTINGS | {"seed": model.seed, "extra_trees": model.extra_trees}
+        return trees_of(lightgbm.train(settings, data, model.rounds))
 
-    def _fit(self, chosen: Sequence[int], first: Scores | None = None) -> BoostedTrees:
-        samples = [self._samples[i] for i in chosen]
-        tables = [self._samples[i].features if first is None else self._joined(i, first) for i in chosen]
-        target = np.concatenate([s.target for s in samples])
-        weight = np.concatenate([np.full(len(s.target), s.weight) for s in samples])
-        known = ~np.isnan(target)
-        table, weights = np.concatenate(tables)[known], weight[known] / weight[known].mean()
-        step = 0 if first is None else 1
-
-        def trained(model: Model) -> BoostedTrees:
-            data = lightgbm.Dataset(table, target[known], weight=weights)
-            settings = SETTINGS | {"seed": model.seed, "extra_trees": model.extra_trees}
-            return trees_of(lightgbm.train(settings, data, model.rounds[step]))
-
-        with ThreadPoolExecutor(os.cpu_count()) as threads:  # each model uses one thread, for reproducibility
-            return BoostedTrees.mean(list(threads.map(trained, self._models)))
-
-    def _joined(self, k: int, first: Scores) -> Float[np.ndarray, "n k"]:
-        assert self._context is not None
-        return np.concatenate([self._samples[k].features, self._context(k, first)], 1)
-
-    def scores(self, chosen: Sequence[int]) -> Scores:
-        """Return the log-odds of the candidates of some samples; nothing for the others."""
-        first: Scores = [np.zeros(0)] * len(self._samples)
-        for k in chosen:
-            first[k] = self.trees[0].score(self._samples[k].features)
-        if self._context is None:
-            return first
-        second: Scores = [np.zeros(0)] * len(self._samples)
-        for k in chosen:
-            second[k] = self.trees[1].score(self._joined(k, first))
-        return second
+    with ThreadPoolExecutor(os.cpu_count()) as threads:  # each model uses one thread, for reproducibility
+        return BoostedTrees.mean(list(threads.map(trained, models)))
 
 
-def held_out(
-    samples: Sequence[Sample], left: Sequence[Bool[np.ndarray, " s"]], models: Sequence[Model], context: Context | None = None
-) -> Scores:
-    """Return the scores of each sample by a classifier that was trained without all that is left out with it."""
+def held_out(samples: Sequence[Sample], left: Sequence[Bool[np.ndarray, " s"]], models: Sequence[Model]) -> Scores:
+    """Return the scores of each sample by trees that were trained without all that is left out with it."""
     found: Scores = [np.zeros(0)] * len(samples)
     for mask in left:
-        model = Steps(samples, [int(k) for k in np.flatnonzero(~mask)], models, context)
-        out = [int(k) for k in np.flatnonzero(mask)]
-        scores = model.scores(out)
-        for k in out:
-            found[k] = scores[k]
+        trees = fit([samples[k] for k in np.flatnonzero(~mask)], models)
+        for k in np.flatnonzero(mask):
+            found[k] = trees.score(samples[k].features)
     return found
 
 
@@ -167,28 +126,33 @@ def _commit() -> str:
     return run[0] + ("+" if run[1] else "")
 
 
-def write(
-    path: Path,
-    model: Steps,
-    models: Sequence[Model],
-    names: Sequence[str],
-    objects: Sequence[tuple[str, str, str]],
-    **more: Any,
-) -> None:
-    """Write a classifier with its manifest. objects: source, kind and name of each that it was trained on."""
+def manifest_of(names: Sequence[str], objects: Sequence[tuple[str, str, str]], **more: Any) -> dict[str, Any]:
+    """Return what a classifier was trained on and how. objects: source, kind and name of each; more: further entries."""
     counts = Counter(source for source, _, _ in objects)
-    manifest = {
+    return {
         "features": list(names),
         "sources": {s: {"objects": counts[s], "kinds": sorted({k for t, k, _ in objects if t == s})} for s in sorted(counts)},
         "objects": sorted(f"{source}/{name}" for source, _, name in objects),
         "settings": SETTINGS,
-        "models": [asdict(m) for m in models],
         "commit": _commit(),
         "lightgbm": lightgbm.__version__,
         **more,
     }
-    arrays = {"manifest": np.frombuffer(json.dumps(manifest).encode(), np.uint8)}
-    for name, trees in zip(STEPS, model.trees, strict=False):  # one or two
-        arrays |= trees.arrays(name)
+
+
+def with_objects(manifest: dict[str, Any], objects: Sequence[tuple[str, str, str]]) -> dict[str, Any]:
+    """Return a manifest with further objects: source, kind and name of each."""
+    names = sorted({*manifest["objects"], *(f"{source}/{name}" for source, _, name in objects)})
+    count = Counter(name.partition("/")[0] for name in names)
+    kinds = {s: {k for t, k, _ in objects if t == s} | {*manifest["sources"].get(s, {"kinds": ()})["kinds"]} for s in count}
+    sources = {s: {"objects": count[s], "kinds": sorted(kinds[s])} for s in sorted(count)}
+    return manifest | {"objects": names, "sources": sources}
+
+
+def write(path: Path, manifest: dict[str, Any], trees: BoostedTrees, networks: Sequence[SetNetwork] = ()) -> None:
+    """Write a classifier with its manifest."""
+    arrays = {"manifest": np.frombuffer(json.dumps(manifest).encode(), np.uint8)} | trees.arrays(TREES)
+    for k, network in enumerate(networks):
+        arrays |= network.arrays(f"{NETWORK}{k}")
     np.savez_compressed(path, **arrays)
     print(f"{path}: {path.stat().st_size / 1e6:.2f} MB")

@@ -15,11 +15,11 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
+from collect_rows import called
 from jaxtyping import Int
 from part_rows import PartRows, read_rows
 from part_scores import RIGHT, Counts, overlap_of, owners, scored
 from PIL import Image
-from rows import called
 from train_parts import read_scores
 from worst_rows import sheet_options, with_objects, write_sheet
 

@@ -83,8 +83,9 @@ def main() -> None:
     contacts = find_contacts(solver.whole, config.segmentation)
     tree = part_tree(mesh, solver.whole, contacts, config.segmentation.smallest, config.segmentation.most_candidates)
     scene = FeatureScene.of(mesh, tree, config)
-    rows = [part_features(scene, k, around) for k in range(len(tree.members)) if (around := part_context_of(scene, k))]
-    score, _ = score_parts(tree.overlap, rows)
+    contexts = [around for k in range(len(tree.members)) if (around := part_context_of(scene, k))]
+    rows = [part_features(scene, k, around) for k, around in enumerate(contexts)]
+    score, _ = score_parts(tree, np.array([around.place for around in contexts]), rows)
     found = solver.parts().segmentation
     _, _, around, question = sorted(motion_questions(solver.whole, found, config), key=lambda m: m[0])[options.part - 1]
     scores = motion_scores(question)

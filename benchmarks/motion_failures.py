@@ -14,9 +14,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from boosting import held_out, leave_kinds_out
+from collect_rows import called
 from jaxtyping import Float, UInt8
 from motion_rows import MotionRows, read_rows
-from rows import called
 from train_motions import MODELS, over_copies, right_side, samples_of
 from worst_rows import sheet_options, with_objects, write_sheet
 

@@ -14,8 +14,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from collect_rows import collect_all, kind_of
 from jaxtyping import Bool, Float, Float32, Int
-from rows import collect_all, kind_of
 
 from anymesh.articulation.estimate import PartMotions, motion_questions
 from anymesh.articulation.motion_features import motion_features

@@ -14,8 +14,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from jaxtyping import Bool, Float, Float32
-from rows import collect_all, kind_of
+from collect_rows import collect_all, kind_of
+from jaxtyping import Bool, Float, Float32, Int
 
 from anymesh.config import Config
 from anymesh.evaluation.ground_truth import EvalSample
@@ -23,6 +23,8 @@ from anymesh.segmentation.contacts import find_contacts
 from anymesh.segmentation.divide import object_shape
 from anymesh.segmentation.part_features import FeatureScene, part_context_of, part_features
 from anymesh.segmentation.part_tree import part_tree
+
+ARRAYS = ("features", "members", "area", "place", "contact", "near")
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,21 +45,26 @@ class PartRows:
     area: Float[np.ndarray, "P T"]
     moving: tuple[int, ...]
     carried: tuple[tuple[int, ...], ...]
+    place: Float32[np.ndarray, "n 12"]
+    contact: Float32[np.ndarray, "P P"]
+    near: Int[np.ndarray, "k 2"]
 
     def iou(self) -> Float[np.ndarray, " n"]:
         """Return the largest IoU of each candidate with a true part, alone or with what it carries."""
-        inside = self.members @ self.area
-        total, best = inside.sum(1), np.zeros(len(inside))
-        for k, group in zip(self.moving, self.carried, strict=True):
-            for true in ([k], list(group)):
-                both = inside[:, true].sum(1)
-                best = np.maximum(best, both / (total + self.area[:, true].sum() - both))
+        return np.max([np.zeros(len(self.members)), *(self.iou_with(k) for k in self.moving)], axis=0)
+
+    def iou_with(self, part: int) -> Float[np.ndarray, " n"]:
+        """Return the IoU of each candidate with a moving part, alone or with what it carries, whichever is larger."""
+        inside, best = self.members @ self.area, np.zeros(len(self.members))
+        for true in ([part], list(self.carried[self.moving.index(part)])):
+            both = inside[:, true].sum(1)
+            best = np.maximum(best, both / (inside.sum(1) + self.area[:, true].sum() - both))
         return best
 
     def save(self, path: Path) -> None:
         """Write an .npz file."""
         fields = {key: getattr(self, key) for key in ("source", "kind", "name", "form", "names", "moving", "carried")}
-        arrays = {"features": self.features, "members": self.members, "area": self.area}
+        arrays = {key: getattr(self, key) for key in ARRAYS}
         np.savez_compressed(path, told=np.frombuffer(json.dumps(fields).encode(), np.uint8), **arrays)
 
 
@@ -67,7 +74,7 @@ def read_rows(folder: Path) -> list[PartRows]:
     for path in sorted(folder.glob("*.npz")):
         with np.load(path) as file:
             fields: dict[str, Any] = json.loads(bytes(file["told"]).decode())
-            arrays = {key: file[key] for key in ("features", "members", "area")}
+            arrays = {key: file[key] for key in ARRAYS}
         fields["names"], fields["moving"] = tuple(fields["names"]), tuple(fields["moving"])
         fields["carried"] = tuple(tuple(group) for group in fields["carried"])
         if len(arrays["features"]):
@@ -81,12 +88,13 @@ def rows_of(sample: EvalSample, source: str, form: str = "") -> PartRows:
     whole = object_shape(mesh, config.seed, config.pieces)
     contacts = find_contacts(whole, config.segmentation)
     tree = part_tree(mesh, whole, contacts, config.segmentation.smallest, config.segmentation.most_candidates)
-    scene, kept, rows = FeatureScene.of(mesh, tree, config), [], []
+    scene, kept, rows, place = FeatureScene.of(mesh, tree, config), [], [], []
     for k in range(len(tree.members)):
         around = part_context_of(scene, k)
         if around is not None:
             kept.append(k)
             rows.append(part_features(scene, k, around))
+            place.append(around.place)
     names = tuple(rows[0]) if rows else ()
     shape = len(contacts.shapes), len(truth.parts)
     area = np.bincount(whole.mesh_patch * shape[1] + sample.labels, mesh.face_areas, shape[0] * shape[1]).reshape(shape)
@@ -96,6 +104,7 @@ def rows_of(sample: EvalSample, source: str, form: str = "") -> PartRows:
         source, kind_of(truth.name, truth.category), truth.name, form, names,
         np.array([[row[n] for n in names] for row in rows], np.float32), tree.members[kept], area,
         tuple(parent), tuple(tuple(k for k in parent if top in _line(k, parent)) for top in parent),
+        np.array(place, np.float32).reshape(-1, 12), contacts.area_matrix, contacts.near,
     )  # fmt: skip
 
 

@@ -15,20 +15,21 @@ from __future__ import annotations
 import argparse
 from collections import Counter
 from collections.abc import Callable, Sequence
+from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
-from boosting import Model, Sample, Scores, Steps, held_out, leave_kinds_out, leave_sources_out, write
+from boosting import Model, Sample, Scores, fit, held_out, leave_kinds_out, leave_sources_out, manifest_of, write
 from calibration import Scored, calibration_table, fit_confidence, log_odds
+from collect_rows import called
 from jaxtyping import Bool
 from motion_rows import MotionRows, read_rows
-from rows import called
 
 from anymesh.articulation.estimate import MAX_COPIES
 from anymesh.articulation.rank_motions import BLOCKED, share_of_best
 from anymesh.articulation.repeated_parts import ScoredMotions, mean_over_copies
 
-MODELS = tuple(Model((800,), seed, extra_trees=True) for seed in range(3))
+MODELS = tuple(Model(800, seed, extra_trees=True) for seed in range(3))
 OBJECT, SOURCE = 0.5, 0.6  # powers by which parts of an object, and parts of a source, count less the more they are
 HERE = Path(__file__).parent
 WRITTEN = HERE.parent / "src" / "anymesh" / "articulation" / "motion_classifier.npz"
@@ -119,10 +120,11 @@ def main(argv: Sequence[str] | None = None) -> None:
     (HERE / "motions.md").write_text("\n".join(text), encoding="utf-8")
     print("\n".join(text))
     if options.write:
-        model = Steps(samples, range(len(rows)), MODELS)
         objects = sorted({(r.source, r.kind, r.name) for r in rows})
         scores = {"right, other sources": right_of(rows, by_source), "right, other kinds": right_of(rows, by_kind)}
-        write(WRITTEN, model, MODELS, rows[0].names, objects, joints=len(rows), scores=scores)
+        models = [asdict(m) for m in MODELS]
+        manifest = manifest_of(rows[0].names, objects, models=models, joints=len(rows), scores=scores)
+        write(WRITTEN, manifest, fit(samples, MODELS))
 
 
 if __name__ == "__main__":

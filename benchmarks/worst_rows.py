@@ -9,10 +9,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol, TypeVar
 
+from collect_rows import Rows, called, open_object
 from jaxtyping import UInt8
 from numpy import ndarray
 from PIL import Image
-from rows import Rows, called, open_object
 
 from anymesh.evaluation.ground_truth import EvalSample
 

@@ -202,3 +202,25 @@ def test_opening_directions_are_scored_by_sight_thinness_and_place():
     }
     assert found == pytest.approx(expected, abs=0.01)
     np.testing.assert_allclose(around.opening_direction, (0, -1, 0), atol=1e-6)
+
+
+@pytest.mark.parametrize("turns", range(4))
+def test_the_place_of_a_door_turns_with_its_cabinet(turns):
+    """A quarter turn about the upright axis turns the center and the opening direction, and swaps the extents."""
+    T = np.eye(4)
+    T[:2, :2] = np.linalg.matrix_power(np.array([[0.0, -1.0], [1.0, 0.0]]), turns)
+    center, half, opening, thin = part_context(DOOR, BASE, T).place.reshape(4, 3)
+    still = part_context(DOOR, BASE, np.eye(4)).place.reshape(4, 3)
+    np.testing.assert_allclose(center, T[:3, :3] @ still[0], atol=1e-6)
+    np.testing.assert_allclose(half, np.abs(T[:3, :3]) @ still[1], atol=1e-6)
+    np.testing.assert_allclose(opening, T[:3, :3] @ still[2], atol=1e-6)
+    np.testing.assert_allclose(thin, np.abs(T[:3, :3] @ still[3]), atol=1e-6)
+    assert opening == pytest.approx(T[:3, :3] @ [0, -1, 0], abs=1e-6)
+
+
+def test_the_place_is_in_half_diagonals_from_the_center_of_the_object():
+    """A cube of 0.2 m on a cube of 1 m: the object's diagonal is that of 1 x 1 x 1.2 m."""
+    context = part_context([box((0.8, 0.8, 1), (1, 1, 1.2))], [box((0, 0, 0), (1, 1, 1))], np.eye(4))
+    unit = np.sqrt(1 + 1 + 1.44) / 2
+    np.testing.assert_allclose(context.place[:3], np.array([0.4, 0.4, 0.5]) / unit)
+    np.testing.assert_allclose(context.place[3:6], np.full(3, 0.1) / unit)

@@ -1,9 +1,11 @@
 """Test that the reasons of a learned score name features that a candidate has."""
 
 import numpy as np
+import pytest
 
 from anymesh.scoring.boosted_trees import BoostedTrees
 from anymesh.scoring.classifier import MISSING, Classifier
+from anymesh.scoring.set_network import SetNetwork
 
 
 def stump(column: int) -> BoostedTrees:
@@ -17,21 +19,22 @@ def stump(column: int) -> BoostedTrees:
 
 def test_a_feature_that_a_candidate_does_not_have_is_no_reason() -> None:
     for column, value, reason in ((0, 2.0, "size 2"), (1, MISSING, "no feature of its own")):
-        classifier = Classifier((stump(column), stump(column)), ("size", "support"), {})
+        classifier = Classifier(stump(column), (), ("size", "support"), {})
         row = {"size": 0.0, "support": 0.0, ("size", "support")[column]: value}
         table = classifier.table([row])
-        for context in (None, {"score": np.zeros(1)}):
-            assert classifier.score(table, context).tolist() == [1.0]
-            assert classifier.reasons(table, context) == [reason]
+        assert classifier.score(table).tolist() == [1.0]
+        assert classifier.reasons(table) == [reason]
 
 
-def test_the_second_step_sees_the_context() -> None:
-    classifier = Classifier((stump(0), stump(2)), ("size", "support"), {})
-    table = classifier.table([{"size": -1.0, "support": 0.0}])
-    assert classifier.score(table).tolist() == [-1.0]
-    assert classifier.score(table, {"score": np.ones(1)}).tolist() == [1.0]
+def test_the_score_among_others_is_the_mean_of_the_trees_and_the_networks(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The tree scores 1; one network scores the number of candidates, the other 4 more."""
+    networks = [SetNetwork(np.full((1, 1), shift, np.float32), {}) for shift in (0, 4)]
+    monkeypatch.setattr(SetNetwork, "score", lambda net, own, place, pairs: np.full(len(own), len(own) + net.knots[0, 0]))
+    classifier = Classifier(stump(0), tuple(networks), ("size",), {})
+    found = classifier.score_together(np.ones((3, 1)), np.zeros((3, 12)), np.zeros((3, 3, 2)))
+    assert found.tolist() == [(1 + (3 + 7) / 2) / 2] * 3
 
 
 def test_a_value_of_minus_zero_is_printed_as_zero() -> None:
-    classifier = Classifier((stump(1),), ("size", "support"), {})
+    classifier = Classifier(stump(1), (), ("size", "support"), {})
     assert classifier.reasons(classifier.table([{"size": 0.0, "support": -0.0}])) == ["support 0"]

@@ -20,7 +20,7 @@ from anymesh.segmentation.divide import object_shape
 from anymesh.segmentation.naming import named_parts
 from anymesh.segmentation.part_assignment import MIN_SCORE
 from anymesh.segmentation.part_classifier import Reasons
-from anymesh.segmentation.part_tree import Overlap, PartTree, _merges, part_tree
+from anymesh.segmentation.part_tree import PartTree, _merges, part_tree
 from anymesh.segmentation.rigid_groups import rigid_groups
 from anymesh.types import Mesh, Node, Segmentation
 
@@ -113,7 +113,7 @@ def segmented(monkeypatch: pytest.MonkeyPatch, scores: list[float], names: tuple
     mesh, piece = mesh_of(LOOSE)
     mesh = replace(mesh, face_node=piece, nodes=tuple(map(Node, names)))
 
-    def score_parts(overlap: Overlap, features: list[dict[str, float]]) -> tuple[np.ndarray, Reasons]:
+    def score_parts(tree: PartTree, place: np.ndarray, features: list[dict[str, float]]) -> tuple[np.ndarray, Reasons]:
         side = [0.6 if abs(row["size"] * mesh.diagonal / np.sqrt(3) - 0.6) < 0.01 else 0.5 for row in features]
         near = [abs(row["size"] * mesh.diagonal / np.sqrt(3) - s) < 0.01 for row, s in zip(features, side, strict=True)]
         found = [scores[0 if s == 0.6 else 1] if good else -9.0 for s, good in zip(side, near, strict=True)]

@@ -6,11 +6,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from assets import box, mesh_of
 
 from anymesh.articulation import motion_classifier
+from anymesh.config import SegmentationConfig
 from anymesh.scoring.classifier import Classifier
 from anymesh.segmentation import part_classifier
-from anymesh.segmentation.part_tree import Overlap
+from anymesh.segmentation.contacts import find_contacts
+from anymesh.segmentation.divide import object_shape
+from anymesh.segmentation.part_tree import PartTree
 
 SHIPPED = pytest.mark.parametrize("shipped", [part_classifier.shipped_classifier, motion_classifier.shipped_classifier])
 
@@ -25,7 +29,7 @@ def test_it_is_small(package: str, file: str) -> None:
 @SHIPPED
 def test_it_is_complete(shipped: Callable[[], Classifier]) -> None:
     classifier = shipped()
-    assert classifier.steps[0].feature.max() < len(classifier.names)
+    assert classifier.trees.feature.max() < len(classifier.names)
     assert len(set(classifier.names)) == len(classifier.names)
 
 
@@ -50,18 +54,30 @@ def test_the_scores_in_the_manifest_are_those_of_the_page() -> None:
 
 @SHIPPED
 def test_trees_end_in_leaves(shipped: Callable[[], Classifier]) -> None:
-    for trees in shipped().steps:
-        inner = trees.feature >= 0
-        at = np.arange(len(trees.feature))
-        assert (trees.left[inner] > at[inner]).all()
-        assert (trees.right[inner] > at[inner]).all()
-        assert np.isfinite(trees.value).all()
+    trees = shipped().trees
+    inner = trees.feature >= 0
+    at = np.arange(len(trees.feature))
+    assert (trees.left[inner] > at[inner]).all()
+    assert (trees.right[inner] > at[inner]).all()
+    assert np.isfinite(trees.value).all()
+
+
+def test_the_networks_have_finite_weights_and_their_inputs() -> None:
+    classifier = part_classifier.shipped_classifier()
+    assert len(classifier.networks) >= 2
+    for network in classifier.networks:
+        assert network.knots.shape[1] == len(classifier.names)
+        assert (np.diff(network.knots, axis=0) >= 0).all()
+        assert all(np.isfinite(w).all() for w in network.weights.values())
 
 
 def test_a_part_that_is_cut_out_of_a_surface_scores_more(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The trees are left out: all three candidates have the log-odds 0.25 by themselves."""
-    monkeypatch.setattr(Classifier, "score", lambda self, own, context=None: np.full(len(own), 0.25))
+    """The trees and networks are left out: all three candidates have the log-odds 0.25 by themselves."""
+    monkeypatch.setattr(Classifier, "score_together", lambda self, own, place, relations: np.full(len(own), 0.25))
     names = part_classifier.shipped_classifier().names
     features = [dict.fromkeys(names, 0.0) | {part_classifier.CUT: cut} for cut in (0.0, 1.0, 0.0)]
-    score, _ = part_classifier.score_parts(Overlap(np.ones(3), np.eye(3)), features)
+    mesh = mesh_of([box((2 * k, 0, 0), (2 * k + 1, 1, 1)) for k in range(4)])[0]
+    whole = object_shape(mesh)
+    tree = PartTree(whole, find_contacts(whole, SegmentationConfig()), np.eye(4, dtype=bool)[1:], np.ones(3), ("",) * 4)
+    score, _ = part_classifier.score_parts(tree, np.zeros((3, 12)), features)
     assert score == pytest.approx([0.25, 0.25 + part_classifier.CUT_SCORE, 0.25])

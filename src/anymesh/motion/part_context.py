@@ -54,6 +54,18 @@ class PartContext:
         return np.array([both[:, 0].min(0), both[:, 1].max(0)])
 
     @cached_property
+    def place(self) -> Float[np.ndarray, " 12"]:
+        """Return where the part is in the object and where it faces.
+
+        Center and half extents of its bounds, in half diagonals of the object from its center; opening direction; thin axis of
+        the body OBB, whose largest component is positive.
+        """
+        bounds = (self.part.bounds - self.bounds.mean(0)) / (self.diagonal / 2)
+        thin = self.body_obb.axes[2]
+        thin = thin * np.sign(thin[np.abs(thin).argmax()])
+        return np.concatenate([bounds.mean(0), np.ptp(bounds, axis=0) / 2, self.opening_direction, thin])
+
+    @cached_property
     def body_obb(self) -> OrientedBox:
         """Return the oriented box of the part without protrusions."""
         return body_obb(self.part)

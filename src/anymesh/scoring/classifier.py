@@ -1,4 +1,4 @@
-"""Learned scores of candidates: boosted trees on named features, in one step or in two."""
+"""Learned scores of candidates: boosted trees on named features, and networks that see all candidates of an object together."""
 
 from __future__ import annotations
 
@@ -11,22 +11,24 @@ import numpy as np
 from jaxtyping import Float
 
 from anymesh.scoring.boosted_trees import BoostedTrees
+from anymesh.scoring.set_network import SetNetwork
 
 REASONS = 3  # number of features named in a reason
 MIN_CONFIDENCE, MAX_CONFIDENCE = 0.05, 0.99  # range of confidences
 MISSING = -9.0  # value of a feature that does not apply to a candidate
-STEPS = ("first", "second")  # names of the steps in a file
+TREES, NETWORK = "trees", "network"  # how the names of arrays in a file begin; networks are numbered from 0
 
 
 @dataclass(frozen=True, eq=False)
 class Classifier:
     """Classifier of candidates.
 
-    steps: trees on the candidate's own features, then, if there are two, on these and on its context, which is computed from
-    the first scores of other candidates; names: features in the order of columns; manifest: training data and settings.
+    trees: score each candidate by itself; networks: score all candidates of an object together, none for a classifier of
+    trees alone; names: features in the order of columns; manifest: training data and settings.
     """
 
-    steps: tuple[BoostedTrees, ...]
+    trees: BoostedTrees
+    networks: tuple[SetNetwork, ...]
     names: tuple[str, ...]
     manifest: dict[str, Any]
 
@@ -36,32 +38,35 @@ class Classifier:
         with (files(package) / file).open("rb") as opened:
             arrays = dict(np.load(opened))
         manifest = json.loads(bytes(arrays["manifest"]).decode())
-        steps = tuple(BoostedTrees.from_arrays(name, arrays) for name in STEPS if f"{name}.root" in arrays)
-        return cls(steps, tuple(manifest["features"]), manifest)
+        count = sum(name.startswith(NETWORK) and name.endswith(".knots") for name in arrays)
+        networks = tuple(SetNetwork.from_arrays(f"{NETWORK}{k}", arrays) for k in range(count))
+        return cls(BoostedTrees.from_arrays(TREES, arrays), networks, tuple(manifest["features"]), manifest)
 
     def table(self, features: list[dict[str, float]]) -> Float[np.ndarray, "n k"]:
         """Return the features of all candidates in the order of columns."""
         return np.array([[row[name] for name in self.names] for row in features]).reshape(-1, len(self.names))
 
-    def score(
-        self, own: Float[np.ndarray, "n k"], context: dict[str, Float[np.ndarray, " n"]] | None = None
-    ) -> Float[np.ndarray, " n"]:
-        """Return the log-odds of each candidate: by the first step, or with a context by the second."""
-        return self.steps[0].score(own) if context is None else self.steps[1].score(_joined(own, context))
+    def score(self, own: Float[np.ndarray, "n k"]) -> Float[np.ndarray, " n"]:
+        """Return the log-odds of each candidate by itself."""
+        return self.trees.score(own)
 
-    def reasons(self, own: Float[np.ndarray, "n k"], context: dict[str, Float[np.ndarray, " n"]] | None = None) -> list[str]:
-        """Return the names of the features that raised each score the most."""
-        trees, table = (self.steps[0], own) if context is None else (self.steps[1], _joined(own, context))
-        gain = trees.contributions(table)[:, : len(self.names)]
-        return [self._reason(row, g) for row, g in zip(own, gain, strict=True)]
+    def score_together(
+        self, own: Float[np.ndarray, "n k"], place: Float[np.ndarray, "n 12"], relations: Float[np.ndarray, "n n r"]
+    ) -> Float[np.ndarray, " n"]:
+        """Return the log-odds of each candidate among all of its object: the mean of the trees and of the networks.
+
+        place: as from `PartContext.place`; relations: features of each pair.
+        """
+        networks = [network.score(own, place, relations) for network in self.networks]
+        return (self.trees.score(own) + np.mean(networks, axis=0)) / 2
+
+    def reasons(self, own: Float[np.ndarray, "n k"]) -> list[str]:
+        """Return the names of the features that raised each score by the trees the most."""
+        return [self._reason(row, g) for row, g in zip(own, self.trees.contributions(own), strict=True)]
 
     def _reason(self, row: Float[np.ndarray, " k"], gain: Float[np.ndarray, " k"]) -> str:
         best = [int(k) for k in np.argsort(-gain, kind="stable") if gain[k] > 0 and row[k] != MISSING][:REASONS]
         return ", ".join(f"{self.names[k]} {row[k] + 0.0:.2g}" for k in best) or "no feature of its own"
-
-
-def _joined(own: Float[np.ndarray, "n k"], context: dict[str, Float[np.ndarray, " n"]]) -> Float[np.ndarray, "n c"]:
-    return np.concatenate([own, np.stack(list(context.values()), 1)], 1)
 
 
 def confidence_of(log_odds: float, slope: float, offset: float) -> float:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from jaxtyping import Float, Int
+from jaxtyping import Float, Float32, Int
 from scipy.spatial.distance import cdist
 
 from anymesh.config import SegmentationConfig
@@ -46,6 +46,14 @@ class Contacts:
     def patch_bounds(self) -> Float[np.ndarray, "P 2 3"]:
         """Return the axis-aligned bounds of each patch [m]."""
         return np.array([s.bounds for s in self.shapes])
+
+    @cached_property
+    def area_matrix(self) -> Float32[np.ndarray, "P P"]:
+        """Return `area` as a matrix, 0 for patches that do not touch [m^2]."""
+        amounts = np.zeros((len(self.shapes), len(self.shapes)), np.float32)
+        for pair, amount in self.area.items():
+            amounts[pair] = amount
+        return amounts
 
     @cached_property
     def patch_area(self) -> Float[np.ndarray, " P"]:

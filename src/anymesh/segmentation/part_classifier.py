@@ -1,4 +1,4 @@
-"""Learned score of candidate parts: boosted trees on named features, in two steps (`benchmarks/train_parts.py`)."""
+"""Learned score of candidate parts: boosted trees on named features of each candidate, and networks over all of an object."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ import numpy as np
 from jaxtyping import Float
 
 from anymesh.scoring.classifier import Classifier
-from anymesh.segmentation.candidate_context import context_features
-from anymesh.segmentation.part_tree import Overlap
+from anymesh.segmentation.candidate_relations import relations
+from anymesh.segmentation.part_tree import PartTree
 
 Reasons = Callable[[Sequence[int]], list[str]]
 # [log-odds] added for a part that is cut out of a surface: the score grows with the IoU, and the border of a cut is not exact.
@@ -19,19 +19,20 @@ CUT_SCORE = 0.5
 CUT = "parted by creases"  # the feature that is 1 for such a part
 
 
-def score_parts(overlap: Overlap, features: list[dict[str, float]]) -> tuple[Float[np.ndarray, " n"], Reasons]:
-    """Return the log-odds that each candidate is a part, and a function that names what decided for some of them."""
+def score_parts(
+    tree: PartTree, place: Float[np.ndarray, "n 12"], features: list[dict[str, float]]
+) -> tuple[Float[np.ndarray, " n"], Reasons]:
+    """Return the log-odds that each candidate is a part, and a function that names what decided for some of them.
+
+    place: as from `PartContext.place`.
+    """
     if not features:
         return np.zeros(0), lambda chosen: []
     classifier = shipped_classifier()
-    own = classifier.table(features)
-    context = context_features(overlap, classifier.score(own))
-
-    def reasons(chosen: Sequence[int]) -> list[str]:
-        rows = list(chosen)
-        return classifier.reasons(own[rows], {name: values[rows] for name, values in context.items()})
-
-    return classifier.score(own, context) + CUT_SCORE * np.array([row[CUT] for row in features]), reasons
+    own, contacts = classifier.table(features), tree.contacts
+    pairs = relations(tree.overlap, tree.members, contacts.area_matrix, contacts.near, place)
+    score = classifier.score_together(own, place, pairs) + CUT_SCORE * np.array([row[CUT] for row in features])
+    return score, lambda chosen: classifier.reasons(own[list(chosen)])
 
 
 @cache

@@ -22,6 +22,7 @@ from anymesh.types import Mesh
 BASES = 3  # number of base patches for which dependent groups are computed
 MIN_NESTED_SHARE = 0.98  # minimum shared part of the smaller candidate for it to lie within the larger one
 MAX_DISJOINT_SHARE = 1e-3  # maximum shared part of the smaller candidate for two candidates to be disjoint
+SAME_AREA, SAME_SIZE = 0.05, 0.02  # maximum relative difference of the areas and of the sizes of copies
 MIN_AREA_RATIO = 1e-12  # share of the surface used as the area of patches without area
 
 
@@ -56,6 +57,13 @@ class Overlap:
     def nested(self) -> Bool[np.ndarray, "n n"]:
         """Return which pairs of candidates overlap with the smaller one inside the larger one."""
         return self.meet & (self.shared > MIN_NESTED_SHARE * np.minimum(self.area[:, None], self.area[None]))
+
+    @cached_property
+    def copies(self) -> Bool[np.ndarray, "n n"]:
+        """Return which pairs of candidates do not overlap and have the same area and size."""
+        area = np.maximum(self.area, 1e-300)
+        same = ~self.meet & ~np.eye(len(area), dtype=bool) & (np.abs(np.log(area[:, None] / area[None])) < SAME_AREA)
+        return same & (np.abs(self.size[:, None] - self.size[None]) < SAME_SIZE * self.size[:, None])
 
 
 @dataclass(frozen=True, eq=False)

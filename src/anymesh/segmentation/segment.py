@@ -32,7 +32,7 @@ from anymesh.vocabulary import recognize
 LabelParts = Callable[[Segmentation], Sequence[str]]  # label per part except the base from its motion, "" if it cannot move
 MAX_ASSIGNMENTS = 3  # maximum number of assignments, each without the candidates that turned out to be fixed
 # calibration of the log-odds of a confidence, fitted to kinds left out of training (benchmarks/train_parts.py)
-CALIBRATION_SLOPE, CALIBRATION_OFFSET = 1.09, 0.01
+CALIBRATION_SLOPE, CALIBRATION_OFFSET = 1.04, 0.15
 
 
 def segment_parts(
@@ -51,8 +51,8 @@ def segment_parts(
     tree = part_tree(mesh, whole, contacts, settings.smallest, settings.most_candidates)
     progress("segment", "candidates", 1, 2)
     deadline = deadline or Deadline()
-    examined, features = _candidate_features(mesh, tree, config, progress, deadline)
-    score, reasons = score_parts(examined.overlap, features)
+    examined, place, features = _candidate_features(mesh, tree, config, progress, deadline)
+    score, reasons = score_parts(examined, place, features)
     words = [shared_name(examined, k) for k in range(len(score))]
     score = score + np.array([NAME_SCORE[name_class(word)] for word in words])
     for _ in range(MAX_ASSIGNMENTS):
@@ -75,25 +75,26 @@ def segment_parts(
 
 def _candidate_features(
     mesh: Mesh, tree: PartTree, config: Config, progress: Progress, deadline: Deadline
-) -> tuple[PartTree, list[dict[str, float]]]:
-    """Return the examined candidates and the features of each."""
+) -> tuple[PartTree, Float[np.ndarray, "n 12"], list[dict[str, float]]]:
+    """Return the examined candidates, and the place and the features of each."""
     scene = FeatureScene.of(mesh, tree, config)
 
-    def features_of(k: int) -> dict[str, float] | None:
+    def measure(k: int) -> tuple[Float[np.ndarray, " 12"], dict[str, float]] | None:
         if deadline.late(SEGMENT):
             deadline.leave_out("segmentation: some candidates for parts were not examined")
             return None
         around = part_context_of(scene, k)
-        return None if around is None else part_features(scene, k, around)
+        return None if around is None else (around.place, part_features(scene, k, around))
 
-    kept, features = [], []
+    kept, places, features = [], [], []
     with ThreadPoolExecutor(os.cpu_count()) as threads:  # ray casts and distances release the interpreter lock
-        for k, row in enumerate(threads.map(features_of, range(len(tree.members)))):
+        for k, measured in enumerate(threads.map(measure, range(len(tree.members)))):
             progress("segment", f"candidate {k}", k, len(tree.members))
-            if row is not None:
-                features.append(row)
+            if measured is not None:
                 kept.append(k)
-    return replace(tree, members=tree.members[kept], size=tree.size[kept]), features
+                places.append(measured[0])
+                features.append(measured[1])
+    return replace(tree, members=tree.members[kept], size=tree.size[kept]), np.array(places).reshape(-1, 12), features
 
 
 def _reason(learned: str, name: str, score: float) -> str:
