@@ -140,15 +140,6 @@ def manifest_of(names: Sequence[str], objects: Sequence[tuple[str, str, str]], *
     }
 
 
-def with_objects(manifest: dict[str, Any], objects: Sequence[tuple[str, str, str]]) -> dict[str, Any]:
-    """Return a manifest with further objects: source, kind and name of each."""
-    names = sorted({*manifest["objects"], *(f"{source}/{name}" for source, _, name in objects)})
-    count = Counter(name.partition("/")[0] for name in names)
-    kinds = {s: {k for t, k, _ in objects if t == s} | {*manifest["sources"].get(s, {"kinds": ()})["kinds"]} for s in count}
-    sources = {s: {"objects": count[s], "kinds": sorted(kinds[s])} for s in sorted(count)}
-    return manifest | {"objects": names, "sources": sources}
-
-
 def write(path: Path, manifest: dict[str, Any], trees: BoostedTrees, networks: Sequence[SetNetwork] = ()) -> None:
     """Write a classifier with its manifest."""
     arrays = {"manifest": np.frombuffer(json.dumps(manifest).encode(), np.uint8)} | trees.arrays(TREES)
