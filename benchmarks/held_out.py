@@ -67,6 +67,16 @@ def figures(records: Mapping[str, Sequence[Record]]) -> dict[str, Figures]:
     }
 
 
+def means_over_kinds(groups: Mapping[str, Sequence[tuple[str, Sequence[Record]]]]) -> list[str]:
+    """Return lines of a table: the mean over kinds of each figure, by protocol. groups: the records of each kind."""
+    lines = [f"| mean over kinds | {' | '.join(FIGURES)} |", f"|---|{'---|' * len(FIGURES)}"]
+    for protocol, kinds_of in groups.items():
+        summaries = [summarize(some) for _, some in kinds_of]
+        known = [[value for s in summaries if (value := of(s)) is not None] for of in FIGURES.values()]
+        lines.append(f"| {protocol} | {' | '.join(f'{sum(some) / len(some):.2f}' for some in known)} |")
+    return lines
+
+
 def worse(found: Mapping[str, Figures], baseline: Mapping[str, Figures]) -> list[str]:
     """Return in words what is worse than the baseline by more than the tolerance, or missing."""
     return [
@@ -113,6 +123,7 @@ def write(work: Path) -> int:
         "`.ci/run` measures a sample and compares it with `held_out.json`.", "",
         f"`{FUSED}` is the first object of each kind as one closed surface, as from a scan or a generator.", "",
         f"On {len(still)} objects of {len(STATIC)} kinds of which nothing moves, {false} parts are found.", "",
+        *means_over_kinds(by_kind), "",
     ]  # fmt: skip
     for protocol, groups in by_kind.items():
         text += [f"## {protocol}", "", markdown(group_table(protocol, [*groups, ("all", records[protocol])])), ""]

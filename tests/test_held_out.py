@@ -42,6 +42,13 @@ def test_a_figure_that_gets_worse_or_is_missing_is_told() -> None:
     assert len(held_out.worse({}, baseline)) == 2
 
 
+def test_each_kind_counts_once_in_a_mean_over_kinds(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of two kinds with F1 1 and 0, the second with more objects, the mean is .5; a figure that a kind lacks is left out."""
+    monkeypatch.setattr(held_out, "summarize", sum)
+    monkeypatch.setattr(held_out, "FIGURES", {"part F1": float, "opens": lambda found: found or None})
+    assert held_out.means_over_kinds({"parts": [("door", [1]), ("key", [0, 0, 0])]})[2:] == ["| parts | 0.50 | 1.00 |"]
+
+
 def test_the_baseline_has_a_figure_of_each_kind() -> None:
     baseline = json.loads((BENCHMARKS / "held_out.json").read_text())
     for group, fused in (("all", {held_out.FUSED}), ("sample", set())):

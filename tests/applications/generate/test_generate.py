@@ -17,7 +17,7 @@ from anymesh.checking import check_asset
 from anymesh.errors import OutputError
 from anymesh.pipeline.storage.run_folder import RunFolder
 
-LAPTOP = BOX.with_name("laptop_fused.glb")
+CABINET = BOX.with_name("cabinet_fused.glb")
 
 
 def files(folder: Path) -> dict[str, bytes]:
@@ -27,17 +27,17 @@ def files(folder: Path) -> dict[str, bytes]:
 def test_words_become_a_finished_asset(server, tmp_path, caplog) -> None:
     """All of it for real, but for the service: paid tasks, download, parts, joints, stage C, files."""
     caplog.set_level(logging.DEBUG)
-    out, seen = tmp_path / "laptop", []
-    server.model = LAPTOP.read_bytes()
-    asset = anymesh.generate("a Retro laptop!", out, progress=lambda *told: seen.append(told))
-    assert [j.type for j in asset.joints] == ["revolute"]
-    assert asset.name == "retro_laptop"
+    out, seen = tmp_path / "cabinet", []
+    server.model = CABINET.read_bytes()
+    asset = anymesh.generate("a Retro cabinet!", out, progress=lambda *told: seen.append(told))
+    assert sorted(j.type for j in asset.joints) == ["prismatic"] * 3 + ["revolute"] * 2
+    assert asset.name == "retro_cabinet"
     assert asset.source_face is not None
     assert (asset.source_face < 0).any()  # stage C gave it an inside
     assert check_asset(out).ok
-    assert {"retro_laptop.urdf", "retro_laptop.xml", "model.sdf", "retro_laptop.glb"} <= set(files(out))
+    assert {"retro_cabinet.urdf", "retro_cabinet.xml", "model.sdf", "retro_cabinet.glb"} <= set(files(out))
     found = record(out)
-    assert found["request"] == {"prompt": "a Retro laptop!", "image": None}
+    assert found["request"] == {"prompt": "a Retro cabinet!", "image": None}
     assert found["generator"] == {"name": "meshy", "model": "latest", "faces": 100_000}
     preview, refined = server.tasks
     assert found["tasks"] == [
