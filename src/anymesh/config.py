@@ -7,6 +7,13 @@ from dataclasses import asdict, dataclass, field
 
 from anymesh.errors import OptionError
 
+# directions, sizes and rows as both stages compare them
+ALONG_COSINE = 0.7  # about 45 degrees: minimum cosine between two directions that are along each other, not across
+FACING_COSINE = 0.5  # 60 degrees: minimum cosine between a normal or a motion and the side that it faces
+SAME_AXIS_COSINE = 0.97  # 14 degrees: minimum cosine between axes that a user sees as one
+SAME_SIZE = 0.02  # maximum relative difference of the diagonals of copies
+IN_LINE = 0.02  # of the object's diagonal: maximum offset of the centers of copies in one row
+
 
 @dataclass(frozen=True)
 class PiecesConfig:

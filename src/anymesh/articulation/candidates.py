@@ -8,7 +8,7 @@ import numpy as np
 from jaxtyping import Float
 from scipy.spatial import KDTree
 
-from anymesh.config import GroundingConfig, PromptConfig
+from anymesh.config import ALONG_COSINE, GroundingConfig, PromptConfig
 from anymesh.geometry.sampling import SurfacePoints
 from anymesh.geometry.superpoints import superpoints
 from anymesh.motion.part_context import PartContext
@@ -17,7 +17,6 @@ from anymesh.types import Motion
 
 Project = Callable[[Float[np.ndarray, "n 3"]], Float[np.ndarray, "n 2"]]  # points [m] to pixels of the picture shown
 MAX_POINTS = 4000  # maximum number of points of a connecting area for clustering
-MIN_NORMAL_COSINE = 0.7  # minimum cosine between the opening direction and an axis that enters the surface
 
 
 def cluster_points(contact: Float[np.ndarray, "n 3"], project: Project, config: PromptConfig) -> Float[np.ndarray, "k 3"]:
@@ -44,7 +43,7 @@ def axis_points(
     points, directions = np.zeros((0, 3)), np.zeros((0, 3))
     for motion in axes:
         sign = 1.0 if motion.axis @ around.opening_direction >= 0 else -1.0
-        if abs(float(motion.axis @ around.opening_direction)) < MIN_NORMAL_COSINE or len(points) >= config.most_candidates // 2:
+        if abs(float(motion.axis @ around.opening_direction)) < ALONG_COSINE or len(points) >= config.most_candidates // 2:
             continue
         reach = float(((around.part.corners - motion.origin) @ (sign * motion.axis)).max())
         more = np.concatenate([points, (motion.origin + reach * sign * motion.axis)[None]])

@@ -6,8 +6,8 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from anymesh.articulation.evidence import RIM_ROLES
-from anymesh.articulation.motion_features import MAX_ACROSS_COSINE
 from anymesh.articulation.motion_question import Candidate
+from anymesh.config import ALONG_COSINE
 from anymesh.motion.part_context import PartContext
 from anymesh.types import JointType
 
@@ -83,7 +83,7 @@ def closing_travel(around: PartContext, c: Candidate) -> float:
     """
     axis, core = c.opening_sign * c.motion.axis, around.body_obb
     points, along = around.parent.samples.points, np.abs(core.axes @ axis)
-    across = along < MAX_ACROSS_COSINE
+    across = along < ALONG_COSINE
     reach = (1 + FRAME_RATIO) * core.half + around.penetration
     beside = (np.abs(core.local(points)) < reach)[:, across].all(1)
     if not beside.any():

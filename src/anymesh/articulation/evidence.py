@@ -10,12 +10,11 @@ import numpy as np
 from anymesh.articulation.adjacent_panels import adjacent_sides, outer_side, overlap_gain, pair_side
 from anymesh.articulation.contact_metrics import contact_retention, hinge_support, lever_arm
 from anymesh.articulation.motion_question import MIN_FREE_ANGLE_RAD, Candidate, Proposal, Role
+from anymesh.config import ALONG_COSINE, FACING_COSINE
 from anymesh.geometry.sweep import free_amounts, sweep_all
 from anymesh.motion.part_context import IGNORE_OVERLAP_SCALE, PartContext
 from anymesh.types import JointType, Motion, Sweep
 
-# minimum cosine between the opening direction and the initial motion of the center of a part that turns outwards
-MIN_OUTWARD_COSINE = 0.5
 CROSSWISE_HANDLE_WEIGHT = 0.6  # weight of the side of a bar handle that runs across the line
 PENETRATION_SCALES = (3.0, IGNORE_OVERLAP_SCALE)  # tried in this order if a hinge is blocked
 RIM_ROLES = ("edge", "edge_mid", "barrel")  # hinges at a rim, which may turn although the part overlaps static geometry
@@ -57,7 +56,7 @@ def _with_overlap_ignored(around: PartContext, candidates: list[Candidate]) -> l
     stuck = [
         k
         for k, c in enumerate(candidates)
-        if c.role in RIM_ROLES and c.outward >= MIN_OUTWARD_COSINE and c.opening <= MIN_FREE_ANGLE_RAD
+        if c.role in RIM_ROLES and c.outward >= FACING_COSINE and c.opening <= MIN_FREE_ANGLE_RAD
     ]
     for penetration_scale in PENETRATION_SCALES:
         swept = (
@@ -171,4 +170,4 @@ def _handle_offset(around: PartContext, motion: Motion) -> float:
     if around.handle is None:
         return 0.0
     across = zip(around.face_axes, around.handle.across, strict=True)
-    return max((abs(w) for axis, w in across if abs(around.body_obb.axes[axis] @ motion.axis) > 0.7), default=0.0)
+    return max((abs(w) for axis, w in across if abs(around.body_obb.axes[axis] @ motion.axis) > ALONG_COSINE), default=0.0)

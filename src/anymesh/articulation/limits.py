@@ -6,6 +6,7 @@ import numpy as np
 
 from anymesh.articulation.closed_pose import MIN_CLOSING_ANGLE_RAD, closing_angle, closing_travel
 from anymesh.articulation.motion_question import MIN_FREE_ANGLE_RAD, Candidate, SlideDirection
+from anymesh.config import ALONG_COSINE
 from anymesh.geometry.sweep import free_amount
 from anymesh.motion.part_context import PartContext
 from anymesh.types import JointType, Motion
@@ -20,7 +21,6 @@ MIN_SLIDE_FREE_RATIO = 0.05  # of an answered travel: a slide that the sweep lea
 # free shares of an answered range for reversing the axis: the maximum before, and the minimum after
 MAX_BLOCKED_RATIO, MIN_REVERSED_FREE_RATIO = 0.5, 0.8
 MIN_DEPTH_IN_PARENT_RATIO = 0.3  # of the answered travel: a part less deep inside its parent is only a panel
-MIN_DOOR_COSINE = 0.7  # minimum cosine between the vertical and the axis of a door; other hinges are those of flaps
 ANGLE_STEP_RAD = np.deg2rad(1.0)  # [rad] resolution of limits that the sweep finds
 MIN_TRAVEL_RATIO = 0.01  # of the tolerance length: the least travel of a slide; less in the closing direction is play
 MAX_PANEL_THICKNESS_RATIO = 0.3  # shortest side of a panel over its middle side
@@ -123,7 +123,7 @@ def _free_within(around: PartContext, c: Candidate, lower: float, upper: float, 
 
 def _revolute(around: PartContext, c: Candidate) -> tuple[float, float]:
     config, motion = around.config, opening_motion(c)
-    most = np.deg2rad(config.door_most if c.vertical > MIN_DOOR_COSINE else config.flap_most)
+    most = np.deg2rad(config.door_most if c.vertical > ALONG_COSINE else config.flap_most)
     steps = config.fine_steps * 3
     closing = closing_angle(around, c)
     upper, clear = free_amount(around.obstacles(c.penetration_scale), motion, 1, max(most - (closing or 0.0), 0.0), steps)

@@ -13,13 +13,13 @@ from jaxtyping import Float
 
 from anymesh.articulation.contact_metrics import CONTACT_RATIO, CONTACT_TOLERANCE_FACTOR
 from anymesh.articulation.motion_question import Candidate, PartFacts
+from anymesh.config import ALONG_COSINE
 from anymesh.geometry.circles import outline_about
 from anymesh.geometry.revolution import share_in_place
 from anymesh.motion.part_context import PartContext
 from anymesh.scoring.classifier import MISSING
 from anymesh.types import JointType, Motion
 
-MAX_ACROSS_COSINE = 0.7  # maximum cosine between an axis and a direction across it
 MAX_CENTRAL_RATIO = 0.2  # maximum distance of the center from an axis, over the reach, of a rotation about its own center
 MISFIT_ANGLES_RAD = np.deg2rad((60.0, 72.0, 90.0, 120.0, 180.0))
 MISFIT_POINTS = 60  # sample points of the part for the rotations
@@ -173,13 +173,13 @@ def _line(around: PartContext, motion: Motion, contact: Float[np.ndarray, "n 3"]
     """Return the features of a hinge line that are the same for both opening directions."""
     core, points, axis = around.body_obb, around.part.samples.points, motion.axis
     local = np.abs(core.local(motion.origin[None])[0] / np.maximum(core.half, 1e-9))
-    local = np.minimum(local, MAX_RATIO) * (np.abs(core.axes @ axis) < MAX_ACROSS_COSINE)
+    local = np.minimum(local, MAX_RATIO) * (np.abs(core.axes @ axis) < ALONG_COSINE)
     off = _distance(points, motion)
     reach, length = max(float(off.max()), 1e-9), max(float(np.ptp(points @ axis)), 1e-9)
     balance = float(_distance(points.mean(0)[None], motion)[0] / reach)
     outline = outline_about(points, axis)
     low, high = around.parent.bounds
-    beside = np.abs(np.minimum(motion.origin - low, high - motion.origin))[np.abs(axis) < MAX_ACROSS_COSINE]
+    beside = np.abs(np.minimum(motion.origin - low, high - motion.origin))[np.abs(axis) < ALONG_COSINE]
     return {
         "off along length": float(local[0]),
         "off along width": float(local[1]),

@@ -13,7 +13,7 @@ from typing import Literal
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.motion.part_context import OUTWARD_COSINE
+from anymesh.config import ALONG_COSINE
 from anymesh.types import Handle, JointType, Motion, Sweep
 
 MIN_FREE_ANGLE_RAD = float(np.deg2rad(12))  # [rad] a hinge that opens less is blocked
@@ -114,7 +114,7 @@ class Candidate:
         """Return the direction in which a slide opens, None for a rotation."""
         if self.motion.kind is not JointType.PRISMATIC:
             return None
-        if abs(self.outward) <= OUTWARD_COSINE:
+        if abs(self.outward) <= ALONG_COSINE:
             return SlideDirection.ALONG_SURFACE
         return SlideDirection.OUTWARDS if self.outward > 0 else SlideDirection.INWARDS
 

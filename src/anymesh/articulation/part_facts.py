@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from anymesh.articulation.motion_question import PartFacts
+from anymesh.config import ALONG_COSINE
 from anymesh.motion.part_context import PartContext
 from anymesh.types import JointType, Motion
 
-FACING_COSINE = 0.7  # minimum cosine of a surface that faces the opening direction or the opposite one
 # [deg] rotations about its axis; a body of revolution looks the same after all of them
 ASYMMETRY_ANGLES_DEG = (37, 90, 141, 200, 285)
 
@@ -50,7 +50,7 @@ def _face_aspect(around: PartContext) -> float:
 
 def _back_contact(around: PartContext) -> float:
     """Return the share of the back that is in contact with the parent, or inside it."""
-    back = around.part.samples.normals @ around.opening_direction < -FACING_COSINE
+    back = around.part.samples.normals @ around.opening_direction < -ALONG_COSINE
     near = around.gap < max(2 * around.config.connecting * around.tolerance_length, 1.5 * float(around.gap.min()))
     return float(near[back].mean()) if back.sum() > 3 else 0.0
 

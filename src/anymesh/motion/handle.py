@@ -6,13 +6,13 @@ import numpy as np
 from jaxtyping import Float
 from scipy.spatial import KDTree
 
+from anymesh.config import FACING_COSINE
 from anymesh.geometry.body_obb import MAX_PROTRUSION_RATIO
 from anymesh.geometry.boxes import OrientedBox
 from anymesh.geometry.topology import label_connected
 from anymesh.geometry.triangle_set import TriangleSet
 from anymesh.types import Handle
 
-FACING_COSINE = 0.5  # minimum cosine between a normal and the direction it faces
 MIN_TAB_GAP_RATIO = 0.01  # of the tolerance length: a tab that is closer to the parent is a hinge barrel
 MAX_HANDLE_GROUPS = 2  # maximum number of separate protrusions of one handle
 # of the handle's height: maximum height of the face around a handle; around the top of a bulge it is higher

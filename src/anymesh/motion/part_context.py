@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
-from anymesh.config import ArticulationConfig
+from anymesh.config import ALONG_COSINE, FACING_COSINE, ArticulationConfig
 from anymesh.geometry.body_obb import body_obb
 from anymesh.geometry.boxes import OrientedBox
 from anymesh.geometry.circles import Outline, roundest
@@ -16,12 +16,11 @@ from anymesh.geometry.contact import connecting_area
 from anymesh.geometry.sampling import SurfacePoints
 from anymesh.geometry.sweep import Obstacles
 from anymesh.geometry.triangle_set import TriangleSet
-from anymesh.motion.handle import FACING_COSINE, face_axes, find_handle
+from anymesh.motion.handle import face_axes, find_handle
 from anymesh.types import Handle, JointType, Motion
 
 IGNORE_OVERLAP_SCALE = 10.0  # penetration scale from which static geometry inside the part's box is ignored
 DOWNWARD_PENALTY = 0.4  # subtracted from the score of a downward direction, since most objects stand on something
-OUTWARD_COSINE = 0.7  # about 45 degrees: minimum cosine with the opening direction of a slide that goes outwards
 CONTACT_REACHES = (0.08, 0.2)  # of the link's diagonal: its contact with the parent is within this distance
 MAX_CONTACT_POINTS = 400  # sample points of the surfaces in contact
 MIN_SCALE_RATIO = 1e-9  # of the diagonal: keeps tolerances positive for a part that is a point
@@ -78,7 +77,9 @@ class PartContext:
     @cached_property
     def insertion_depth(self) -> float:
         """Return the depth of the part inside its parent along the opening direction, over its smallest side across."""
-        across = [float(np.ptp(self.part.corners @ a)) for a in self.body_obb.axes if abs(a @ self.opening_direction) < 0.7]
+        across = [
+            float(np.ptp(self.part.corners @ a)) for a in self.body_obb.axes if abs(a @ self.opening_direction) < ALONG_COSINE
+        ]
         return self.depth_in_parent(self.opening_direction) / max(min(across, default=1.0), 1e-9)
 
     def depth_in_parent(self, direction: Float[np.ndarray, " 3"]) -> float:
@@ -105,7 +106,7 @@ class PartContext:
 
     def slides_along_surface(self, motion: Motion) -> bool:
         """Return whether a motion is a slide across the opening direction."""
-        along = abs(float(motion.axis @ self.opening_direction)) <= OUTWARD_COSINE
+        along = abs(float(motion.axis @ self.opening_direction)) <= ALONG_COSINE
         return motion.kind is JointType.PRISMATIC and along
 
     @cached_property

@@ -7,15 +7,13 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Int
 
-from anymesh.config import Config
+from anymesh.config import IN_LINE, SAME_SIZE, Config
 from anymesh.motion.part_context import PartContext
 from anymesh.segmentation.part_fit import enclosed_share, fit_of_rim, has_two_pivots, on_axis, open_behind, touching
 from anymesh.segmentation.part_tree import PartTree
 from anymesh.types import Mesh
 
 AT_BORDER = 0.02  # of the diagonal: a candidate reaches a side of the object's bounds within this distance
-SAME_SIZE = 0.02  # maximum relative difference of the diagonals of copies
-IN_LINE = 0.02  # of the diagonal: maximum offset of the centers of copies in one row
 MAX_RATIO = 8.0  # upper limit of ratios of lengths
 
 

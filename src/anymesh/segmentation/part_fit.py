@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from anymesh.config import SegmentationConfig
+from anymesh.config import ALONG_COSINE, FACING_COSINE, SegmentationConfig
 from anymesh.motion.part_context import PartContext
 
-FACING = 0.5  # minimum cosine between a rim's normal and that of the surface across a clearance
 RIM = 0.75  # samples beyond this share of the half extent belong to a rim
 
 
@@ -41,11 +40,11 @@ def fit_of_rim(around: PartContext, config: SegmentationConfig) -> tuple[int, fl
     face = np.maximum(hits.face, 0)
     along = np.einsum("ij,ij->i", samples.normals, around.everything.normals[face])
     gap[(hits.face >= 0) & around.everything.solid[face] & (along > 0)] = 0  # the rim lies inside the surface opposite
-    gap[(np.abs(along) < FACING) & (gap > touch)] = np.inf  # ignore slopes and fillets beside the rim
+    gap[(np.abs(along) < FACING_COSINE) & (gap > touch)] = np.inf  # ignore slopes and fillets beside the rim
     sides, touched, count = 0, 0, 0
     for axis in around.face_axes:
         for sign in (1, -1):
-            rim = (sign * local[:, axis] > RIM) & (sign * facing[:, axis] > 0.7)
+            rim = (sign * local[:, axis] > RIM) & (sign * facing[:, axis] > ALONG_COSINE)
             if rim.sum() < 3:
                 continue
             clear = (gap[rim] > touch) & np.isfinite(gap[rim])

@@ -14,6 +14,7 @@ from functools import cached_property
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
+from anymesh.config import SAME_SIZE
 from anymesh.geometry.patches import ObjectShape
 from anymesh.segmentation.contacts import Contacts
 from anymesh.segmentation.rigid_groups import RigidGroups, rigid_groups, root_ranking, with_supported
@@ -22,7 +23,7 @@ from anymesh.types import Mesh
 BASES = 3  # number of base patches for which dependent groups are computed
 MIN_NESTED_SHARE = 0.98  # minimum shared part of the smaller candidate for it to lie within the larger one
 MAX_DISJOINT_SHARE = 1e-3  # maximum shared part of the smaller candidate for two candidates to be disjoint
-SAME_AREA, SAME_SIZE = 0.05, 0.02  # maximum relative difference of the areas and of the sizes of copies
+SAME_AREA = 0.05  # maximum relative difference of the areas of copies
 MIN_AREA_RATIO = 1e-12  # share of the surface used as the area of patches without area
 
 

@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 from jaxtyping import Float, Int
 
+from anymesh.config import ALONG_COSINE
 from anymesh.geometry.patches import ObjectShape
 from anymesh.geometry.topology import label_connected
 from anymesh.segmentation.contacts import Contacts, coplanar, hanging_on
@@ -82,7 +83,7 @@ def root_ranking(whole: ObjectShape, contacts: Contacts) -> list[int]:
     for s, d in zip(contacts.shapes, degree, strict=True):
         size = float(np.linalg.norm(s.bounds[1] - s.bounds[0])) * (1 + 0.1 * min(int(d), 10))
         samples = s.samples
-        stands = ((samples.points[:, 2] < low) & (samples.normals[:, 2] < -0.7)).mean() if len(samples) else 0.0
+        stands = ((samples.points[:, 2] < low) & (samples.normals[:, 2] < -ALONG_COSINE)).mean() if len(samples) else 0.0
         # sides of the object that the patch reaches; walls reach most of them
         sides = int((np.abs(s.bounds - bounds) < 0.02 * whole.diagonal).sum())
         rank.append(size * (1.3 if stands > 0.05 else 1.0) * (1 + 0.1 * sides))
