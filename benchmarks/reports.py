@@ -45,7 +45,7 @@ The columns are explained in [docs/evaluation.md](../../docs/evaluation.md); "al
 
 The shipped classifiers were trained on these sets (each report says on how many of its objects). These figures therefore show
 that the components work together, not the accuracy on new objects; for that see [parts.md](../parts.md) and
-[motions.md](../motions.md).
+[motions.md](../motions.md). Other jobs ran on the same two cores, so seconds are upper limits.
 """
 
 
