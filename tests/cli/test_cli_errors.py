@@ -22,7 +22,7 @@ def faulty_calls() -> dict[str, tuple[int, list[str], str]]:
         "seed": (2, [*make, "--seed", "x"], "--seed"),
         "a seed below 0": (2, [*make, "--seed", "-1"], "found -1"),
         "a seed of joints below 0": (2, ["joints", "old", "--seed", "-1"], "found -1"),
-        "up": (2, [*make, "--up", "w"], "auto, x, y, z"),
+        "up": (2, [*make, "--up", "w"], "auto, infer, x, y, z"),
         "scale": (2, [*make, "--scale", "-1"], "METRES:AXIS"),
         "scale 0": (2, [*make, "--scale", "0"], "found '0'"),
         "scale nan": (2, [*make, "--scale", "nan"], "found 'nan'"),

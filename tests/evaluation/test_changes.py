@@ -11,6 +11,7 @@ from anymesh.errors import OptionError
 from anymesh.evaluation.changes import CHANGES, changed, moved, rotation
 from anymesh.evaluation.fused_ import joined, wrapped
 from anymesh.evaluation.ground_truth import EvalSample, GroundTruth, TrueJoint, example_truths
+from anymesh.evaluation.placing import UpSource, placed_by
 from anymesh.evaluation.protocols import prepared
 from anymesh.geometry.distance_ import distance_to_mesh
 from anymesh.geometry.topology import components
@@ -147,3 +148,17 @@ def test_an_unknown_change_is_told_with_the_known_ones(microwave: EvalSample) ->
 def test_moving_twice_is_moving_by_the_product(microwave: EvalSample) -> None:
     a, b = rotation(np.array([0, 0, 1.0]), 0.4), rotation(np.array([1.0, 0, 0]), -1.0)
     assert np.allclose(moved(moved(microwave, a), b).mesh.vertices, moved(microwave, b @ a).mesh.vertices)
+
+
+def test_a_changed_mesh_is_stood_up_by_its_true_or_inferred_up_direction(microwave: EvalSample) -> None:
+    spun = changed("spun", microwave)
+    assert spun.up @ [0, 0, 1] < 0.99
+    np.testing.assert_allclose(spun.up, (spun.T @ np.linalg.inv(microwave.T))[:3, :3] @ [0, 0, 1], atol=1e-12)
+    assert placed_by(UpSource.MESH, spun) is spun
+    stood = placed_by(UpSource.GIVEN, spun)
+    np.testing.assert_allclose(stood.up, [0, 0, 1], atol=1e-12)
+    assert off_the_old_surface(stood, microwave) < 1e-9
+    assert stood.mesh.extents[2] == pytest.approx(microwave.mesh.extents[2])
+    assert stood.unit == pytest.approx(microwave.unit)
+    bucket = changed("spun", prepared(TRUTHS["bucket"]))
+    np.testing.assert_allclose(placed_by(UpSource.INFER, bucket).up, [0, 0, 1], atol=0.01)

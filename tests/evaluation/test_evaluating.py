@@ -52,6 +52,17 @@ def test_each_protocol_gets_a_box_right(protocol: str, tmp_path: Path) -> None:
     assert "<script src" not in (tmp_path / "out" / "report.html").read_text()
 
 
+def test_a_spun_box_is_stood_up_if_its_up_direction_is_given(tmp_path: Path) -> None:
+    (record,) = evaluate(SET, tmp_path, only=["storage_box"], changes=["spun"], up="given", jobs=1)
+    (joint,) = record.score.joints
+    assert joint.type_right
+    assert (joint.angle or 0) < 1
+    assert joint.opens_right
+    assert "| up | given |" in (tmp_path / "report.md").read_text()
+    with pytest.raises(OptionError, match="--up: found 'z'; valid are mesh, given, infer"):
+        evaluate(SET, tmp_path / "other", up="z")
+
+
 def test_a_change_and_an_oracle_have_their_rows(tmp_path: Path) -> None:
     records = evaluate(SET, tmp_path, protocol="parts", only=["valve"], changes=["none", "turned"], answerer="oracle",
                        viewpoints="4@15+30,1@50+30", jobs=1)  # fmt: skip

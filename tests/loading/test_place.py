@@ -23,7 +23,7 @@ def stands(mesh: Mesh) -> None:
     np.testing.assert_allclose([*(low + high)[:2], low[2]], 0, atol=1e-9 * max(1, mesh.diagonal))
 
 
-@pytest.mark.parametrize("up", ["x", "y", "z"])
+@pytest.mark.parametrize("up", ["x", "y", "z", "-x", "-y", "-z"])
 @pytest.mark.parametrize("scale", ["1", "0.001", "2.5e3"])
 def test_placing_is_a_rotation_a_factor_and_a_shift(up, scale) -> None:
     source = loaded()
@@ -31,10 +31,11 @@ def test_placing_is_a_rotation_a_factor_and_a_shift(up, scale) -> None:
     factor, R = float(scale), placed.T_asset_source[:3, :3] / float(scale)
     np.testing.assert_allclose(R @ R.T, np.eye(3), atol=1e-12)
     assert np.linalg.det(R) == pytest.approx(1)
-    np.testing.assert_allclose(R @ np.eye(3)["xyz".index(up)], [0, 0, 1], atol=1e-12)
+    sign = -1 if up[0] == "-" else 1
+    np.testing.assert_allclose(R @ (sign * np.eye(3)["xyz".index(up[-1])]), [0, 0, 1], atol=1e-12)
     assert placed.up == up
-    np.testing.assert_allclose(sorted(placed.mesh.extents[:2]), sorted(factor * SIDES[k] for k in ACROSS[up]))
-    assert placed.mesh.extents[2] == pytest.approx(factor * SIDES[up])
+    np.testing.assert_allclose(sorted(placed.mesh.extents[:2]), sorted(factor * SIDES[k] for k in ACROSS[up[-1]]))
+    assert placed.mesh.extents[2] == pytest.approx(factor * SIDES[up[-1]])
     moved = source.mesh.triangles @ placed.T_asset_source[:3, :3].T + placed.T_asset_source[:3, 3]
     np.testing.assert_allclose(placed.mesh.triangles, moved, rtol=1e-12, atol=1e-12 * factor)
     assert (
@@ -52,9 +53,11 @@ def test_a_length_along_an_axis_of_the_asset(axis, length) -> None:
     assert np.cbrt(np.linalg.det(placed.T_asset_source[:3, :3])) == pytest.approx(0.45 / length, rel=1e-5)
 
 
-@pytest.mark.parametrize("up", ["", "xy", "Z", "w", "-z", "auto ", "xyz"])
+@pytest.mark.parametrize(
+    "up", ["", "xy", "Z", "w", "--z", "auto ", "xyz", "0,0,0", "1,2", "1,2,3,4", "nan,0,1", "inf,0,1", "a,b,c"]
+)
 def test_an_up_that_is_not_valid(up) -> None:
-    with pytest.raises(OptionError, match=r"--up: found .*; valid are auto, x, y, z"):
+    with pytest.raises(OptionError, match=r"--up: found .*; valid are auto, infer, x, y, z, -x"):
         place_mesh(loaded(), up=up)
 
 

@@ -87,7 +87,12 @@ def _making(work: ToolRunner) -> tuple[Callable[..., Any], ...]:
         ] = "files",
         parts: Annotated[str, Field(description="auto, nodes (the scene's), or a file of face labels.")] = "auto",
         category: Annotated[str | None, Field(description="What the object is, where that is known.")] = None,
-        up: Annotated[str, Field(description="The file's up axis: auto, x, y, z.")] = "auto",
+        up: Annotated[
+            str,
+            Field(
+                description="What points up in the file: auto, infer, x, y, z, -x, -y, -z, or a direction such as 0,0.7,0.7."
+            ),
+        ] = "auto",
         scale: Annotated[str, Field(description="auto, a factor to metres, or METRES:AXIS such as 0.9:z.")] = "auto",
         formats: Formats = "urdf,mjcf,sdf,glb",
         force: Annotated[bool, Field(description="Replace an existing output.")] = False,

@@ -36,6 +36,7 @@ Changes = Annotated[
     str, typer.Option("--changes", metavar="NAMES", help="Changes of each mesh, such as none,turned,noise.001,fused; or all.")
 ]
 Views = Annotated[int, typer.Option(help="Views per object, for the protocol views.")]
+Up = Annotated[str, typer.Option(help="What points up in the changed meshes: mesh (their z), given (the truth), infer.")]
 Only = Annotated[str, typer.Option(metavar="NAMES", help="Only these objects.")]
 Jobs = Annotated[int | None, typer.Option("--jobs", "-j", help="Parallel objects; one per core by default.")]
 EVALUATION_HELPS = {"answerer": "As for articulate; or oracle (ground truth), or oracle:P (wrong with probability P)."}
@@ -62,6 +63,7 @@ def evaluate(
     split: Split = None,
     changes: Changes = "none",
     views: Views = 1,
+    up: Up = "mesh",
     only: Only = "",
     jobs: Jobs = None,
     answering: EvalAnswerer,
@@ -81,7 +83,7 @@ def evaluate(
     chosen = tuple(CHANGES) if changes == "all" else _names(changes)
     with Shown(quiet or json_) as progress:
         records = evaluating.evaluate(
-            dataset, out, protocol=protocol, split=split, changes=chosen, views=views, only=_names(only), jobs=jobs,
+            dataset, out, protocol=protocol, split=split, changes=chosen, views=views, up=up, only=_names(only), jobs=jobs,
             force=force, progress=progress, **answering,
         )  # fmt: skip
     groups = grouped(records, lambda r: r.change)

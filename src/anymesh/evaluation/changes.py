@@ -43,8 +43,9 @@ def changed(name: str, sample: EvalSample, seed: int = 0) -> EvalSample:
 
 def moved(sample: EvalSample, T: Float[np.ndarray, "4 4"]) -> EvalSample:
     """Move the sample by a rigid motion with a scale; its lengths remain relative to the size of its original box."""
-    size = 2 * sample.unit * float(np.cbrt(np.linalg.det(T[:3, :3])))
-    return replace(sample, mesh=sample.mesh.transformed(T), T=T @ sample.T, diagonal=size)
+    scale = float(np.cbrt(np.linalg.det(T[:3, :3])))
+    mesh, up = sample.mesh.transformed(T), T[:3, :3] @ sample.up / scale
+    return replace(sample, mesh=mesh, T=T @ sample.T, diagonal=2 * sample.unit * scale, up=up)
 
 
 def rotation(axis: Float[np.ndarray, " 3"], angle: float) -> Float[np.ndarray, "4 4"]:

@@ -18,6 +18,7 @@ from anymesh.evaluation.datasets.dataset import Dataset
 from anymesh.evaluation.drawing import draw_joint
 from anymesh.evaluation.executability import executability
 from anymesh.evaluation.ground_truth import EvalSample, GroundTruth
+from anymesh.evaluation.placing import UpSource, placed_by
 from anymesh.evaluation.protocols import EvalSolver, prepared
 from anymesh.evaluation.record import Record
 from anymesh.evaluation.score import JointScore, ObjectScore, failed, score
@@ -47,12 +48,13 @@ class EvalProtocol(StrEnum):
 
 @dataclass(frozen=True)
 class EvalConfig:
-    """Settings of an evaluation. views: per object, for the views protocol."""
+    """Settings of an evaluation. views: per object, for the views protocol; up: what points up in the changed meshes."""
 
     protocol: EvalProtocol = EvalProtocol.PARTS
     changes: tuple[str, ...] = ("none",)
     views: int = 1
     seed: int = 0
+    up: UpSource = UpSource.MESH
 
 
 def evaluate_sample(
@@ -90,7 +92,7 @@ def _record(
     label = f"{change}, view {view}" if view else change
     begin = time.perf_counter()
     try:
-        sample = changed(change, prepared(truth), config.seed)
+        sample = placed_by(config.up, changed(change, prepared(truth), config.seed))
         if view:
             sample = observation(sample, view - 1, config.seed)
         given = config.protocol in (EvalProtocol.PARTS, EvalProtocol.VIEWS)

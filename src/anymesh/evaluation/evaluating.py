@@ -25,6 +25,7 @@ from anymesh.evaluation.datasets.named import open_dataset
 from anymesh.evaluation.evaluate_sample import EvalConfig, EvalProtocol, SampleAnswerer, evaluate_sample
 from anymesh.evaluation.ground_truth import EvalSample
 from anymesh.evaluation.oracle import Noisy, oracle
+from anymesh.evaluation.placing import UpSource
 from anymesh.evaluation.record import Record
 from anymesh.evaluation.report import write_report
 from anymesh.evaluation.results import ResultsFolder
@@ -50,6 +51,7 @@ def evaluate(
     split: str | None = None,
     changes: Sequence[str] = ("none",),
     views: int = 1,
+    up: str = UpSource.MESH,
     only: Sequence[str] = (),
     jobs: int | None = None,
     force: bool = False,
@@ -59,12 +61,12 @@ def evaluate(
     """Evaluate each object of a data set and write the report to the folder `out`; resume a stopped evaluation.
 
     dataset: see `open_dataset`; protocol: parts, views, end-to-end or executability; changes: see `evaluation.changes`;
-    views: observations per object, for the views protocol; only: names of objects; jobs: objects in parallel (None: one per
-    core).
+    views: observations per object, for the views protocol; up: what points up in the changed meshes: mesh (their z), given
+    (the truth) or infer; only: names of objects; jobs: objects in parallel (None: one per core).
     answerer: as for `articulate`, or oracle, or oracle:P (each answer wrong with probability P).
     Raise OptionError, OutputError, MissingExtraError or ModelError; earlier results are kept.
     """
-    eval_config = _eval_config(protocol, changes, views, answering.get("seed", 0))
+    eval_config = _eval_config(protocol, changes, views, up, answering.get("seed", 0))
     stop = Event()
     answerer_for, data = _answerer_for(answering, eval_config.seed, stop), open_dataset(dataset)
     names = _chosen(data, split, only)
@@ -100,7 +102,7 @@ def _waiting(errors: Sequence[OpenQuestionError], total: int) -> OpenQuestionErr
     )
 
 
-def _eval_config(protocol: str, changes: Sequence[str], views: int, seed: int) -> EvalConfig:
+def _eval_config(protocol: str, changes: Sequence[str], views: int, up: str, seed: int) -> EvalConfig:
     if protocol not in list(EvalProtocol):
         raise OptionError(f"--protocol: found {protocol!r}; valid are {', '.join(EvalProtocol)}")
     unknown = [c for c in changes if c not in CHANGES]
@@ -108,7 +110,9 @@ def _eval_config(protocol: str, changes: Sequence[str], views: int, seed: int) -
         raise OptionError(f"--change: found {', '.join(unknown) or 'none'}; valid are {', '.join(CHANGES)}")
     if views < 1:
         raise OptionError(f"--views must be 1 or more, found {views}")
-    return EvalConfig(EvalProtocol(protocol), tuple(dict.fromkeys(changes)), views, seed)
+    if up not in list(UpSource):
+        raise OptionError(f"--up: found {up!r}; valid are {', '.join(UpSource)}")
+    return EvalConfig(EvalProtocol(protocol), tuple(dict.fromkeys(changes)), views, seed, UpSource(up))
 
 
 def _chosen(data: Dataset, split: str | None, only: Sequence[str]) -> list[str]:
@@ -136,6 +140,8 @@ def _settings(
     }
     if eval_config.protocol is EvalProtocol.VIEWS:
         settings["views"] = str(eval_config.views)
+    if eval_config.up is not UpSource.MESH:
+        settings["up"] = str(eval_config.up)
     if only:
         settings["only"] = ", ".join(sorted(only))
     settings |= {k: str(answering[k]) for k in ("verify", "proposer", "viewpoints") if k in answering}

@@ -37,7 +37,7 @@ class EvalSample:
     """Ground truth on the evaluated mesh, which is placed and possibly changed.
 
     labels: (F,) true part indices of the mesh's faces; T: (4, 4) from the truth's coordinates to the mesh's; diagonal: of the
-    whole object at rest [m], None if the mesh is the whole object at rest.
+    whole object at rest [m], None if the mesh is the whole object at rest; up: (3,) unit, what points up in the mesh.
     """
 
     truth: GroundTruth
@@ -45,6 +45,7 @@ class EvalSample:
     labels: Int[np.ndarray, " F"]
     T: Float[np.ndarray, "4 4"]
     diagonal: float | None = None
+    up: Float[np.ndarray, " 3"] = field(default_factory=lambda: np.array([0.0, 0.0, 1.0]))
 
     @property
     def unit(self) -> float:

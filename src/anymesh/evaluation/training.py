@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from functools import cache
 
 from anymesh.articulation import motion_classifier
+from anymesh.loading.upright import up_classifier
 from anymesh.segmentation import part_classifier
 
 FOLDERS = ("urdf", "static", "labelled", "mjcf", "partnet-mobility")  # kinds of data sets whose objects may have any source
@@ -13,8 +14,8 @@ FOLDERS = ("urdf", "static", "labelled", "mjcf", "partnet-mobility")  # kinds of
 
 @cache
 def trained_objects() -> frozenset[str]:
-    """Return SOURCE/NAME of every object that the classifier of parts or that of motions was trained on."""
-    classifiers = (part_classifier.shipped_classifier(), motion_classifier.shipped_classifier())
+    """Return SOURCE/NAME of every object that a shipped classifier was trained on."""
+    classifiers = (part_classifier.shipped_classifier(), motion_classifier.shipped_classifier(), up_classifier())
     return frozenset(name for classifier in classifiers for name in classifier.manifest["objects"])
 
 

@@ -43,8 +43,9 @@ def articulate(
 ) -> Asset:
     """Turn a rigid mesh into an articulated asset and write it to the folder `out`.
 
-    parts: "auto", "nodes" (the scene's nodes) or a file of face labels; up: auto, x, y, z; scale: auto, a factor (file units to
-    metres) or METRES:AXIS;
+    parts: "auto", "nodes" (the scene's nodes) or a file of face labels; up: auto, infer (not what the
+    format defines), an axis such as z or -y, or a direction such as "0,0.7,0.7"; scale: auto, a factor (file units to metres)
+    or METRES:AXIS;
     root: folder within which files that the mesh refers to may be read (default: the mesh's own); base: fixed or free; formats:
     comma-separated, of urdf, mjcf, usd, sdf, glb;
     drives: passive, or position (joints follow a commanded position); time_limit: [s], past a share of which each stage

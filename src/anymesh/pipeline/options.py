@@ -105,7 +105,7 @@ class Answering(TypedDict, total=False):
 class PlacementOptions:
     """How the mesh is read and placed."""
 
-    up: str = _option("auto", "The file's up axis: auto, x, y, z.")
+    up: str = _option("auto", "What points up in the file: auto, infer, x, y, z, -x, -y, -z, or a direction such as 0,0.7,0.7.")
     scale: str = _option("auto", "auto, a factor to metres, or METRES:AXIS such as 0.9:z.")
     root: str | Path | None = _option(  # noqa: RUF009
         None, "Folder for textures, and for package:// and model:// references.", metavar="FOLDER", kind=Path

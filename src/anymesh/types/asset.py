@@ -24,7 +24,7 @@ class Source:
     path: str
     sha256: str
     T_asset_source: Float[np.ndarray, "4 4"]
-    up: str  # "x", "y" or "z"
+    up: str  # an axis such as "z" or "-y", or three numbers
     notes: tuple[str, ...] = ()  # how up and scale were determined, in words
 
 
