@@ -1,9 +1,8 @@
-"""How sure a joint is that somebody chose, fitted to answers that are wrong on purpose (`articulation/confidence.py`).
+"""How often joints are right, and how sure, if answers are wrong on purpose (`articulation/answer_evidence.py`).
 
 python benchmarks/confidence.py DATASET... [--step 1] [--rounds 2] [--markdown FILE]      data sets as `anymesh eval` names them
 
-Every question is answered from the truth, each item wrong with a probability from 0 to .5, or all of it at random. A logistic
-regression over what speaks for each joint is fitted to half of the objects and measured on the other half.
+Parts are given. Every question is answered from the truth, each item wrong with a probability from 0 to .5, or all at random.
 """
 
 from __future__ import annotations
@@ -18,7 +17,6 @@ from pathlib import Path
 import numpy as np
 
 from anymesh.articulation import offers
-from anymesh.articulation.confidence import WEIGHTS, Agreement
 from anymesh.articulation.evidence import sweep_candidates
 from anymesh.articulation.motion_question import Candidate
 from anymesh.articulation.prompted import Questions, prompt_joints
@@ -35,15 +33,13 @@ from anymesh.types.recognition import Recognition, RecognizedLabel
 
 WRONG = (0.0, 0.1, 0.25, 0.5, 1.0)  # probabilities of a wrong item; the last: all answers at random
 BINS = (0.0, 0.2, 0.4, 0.6, 0.8, 1.0)
-PENALTY, STEPS, RATE = 0.02, 4000, 0.5
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class Sample:
-    """The joint of one part: what speaks for it, that for the others of its object, and whether it is right."""
+    """The joint of one part: the confidence in it, whether it is right, and how often answers were wrong."""
 
-    agreement: Agreement
-    others: float
+    confidence: float
     right: bool
     wrong: float
 
@@ -92,36 +88,13 @@ def samples(sample: EvalSample, rounds: int, rng: np.random.Generator) -> Iterat
             made = prompt_joints(
                 Questions(VisualPrompts(sample.mesh, Config()), answerer, Config(), recognition), lambda _: whole, segmentation
             )
-            own = [a.own for a in made.agreements]
             for j in score(sample, segmentation, made.joints).joints:
-                k = numbers[j.part]
-                others = float(np.mean(own[:k] + own[k + 1 :])) if len(own) > 1 else own[k]
-                yield Sample(made.agreements[k], others, right(j), wrong)
+                yield Sample(made.joints[numbers[j.part]].confidence, right(j), wrong)
 
 
-def fit(found: Sequence[Sample]) -> dict[str, float]:
-    """Weights of a logistic regression, by gradient descent."""
-    X, y = design(found), np.array([s.right for s in found], float)
-    weights = np.zeros(X.shape[1])
-    for _ in range(STEPS):
-        error = 1 / (1 + np.exp(-X @ weights)) - y
-        weights -= RATE * (X.T @ error / len(y) + PENALTY * weights * (np.arange(len(weights)) > 0) / 10)
-    return {name: round(float(w), 2) for name, w in zip(WEIGHTS, weights, strict=True)}
-
-
-def design(found: Sequence[Sample]) -> np.ndarray:
-    """A row a sample, a column a weight."""
-    rows = [{"constant": 1.0, **s.agreement.features, "others": s.others} for s in found]
-    return np.array([[row.get(name, 0.0) for name in WEIGHTS] for row in rows])
-
-
-def sure(found: Sequence[Sample], weights: dict[str, float]) -> np.ndarray:
-    return 1 / (1 + np.exp(-design(found) @ np.array([weights[name] for name in WEIGHTS])))
-
-
-def table(found: Sequence[Sample], weights: dict[str, float]) -> str:
+def table(found: Sequence[Sample]) -> str:
     """Mean confidence and share right, by how often answers are wrong and by confidence."""
-    confidence, y = sure(found, weights), np.array([s.right for s in found])
+    confidence, y = np.array([s.confidence for s in found]), np.array([s.right for s in found])
     lines = ["| answers wrong | joints | right | mean confidence |", "|---|---|---|---|"]
     for wrong in WRONG:
         mine = np.array([s.wrong == wrong for s in found])
@@ -136,25 +109,21 @@ def table(found: Sequence[Sample], weights: dict[str, float]) -> str:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description="Fits and measures the confidence of joints that somebody chose.")
+    parser = argparse.ArgumentParser(description="Measures joints from answers that are wrong on purpose.")
     parser.add_argument("sets", nargs="+", help="data sets, as `anymesh eval` names them")
     parser.add_argument("--step", type=int, default=1, help="every so-manieth object")
     parser.add_argument("--rounds", type=int, default=2, help="of errors of one probability")
     parser.add_argument("--markdown", type=Path, help="file to write the tables to")
     options = parser.parse_args()
-    rng, halves = np.random.default_rng(0), ([], [])
+    rng, found = np.random.default_rng(0), []
     with tempfile.TemporaryDirectory() as folder:
         for spec in options.sets:
             dataset = open_dataset(spec)
-            for k, name in enumerate(dataset.objects()[:: options.step]):
-                sample = prepared(dataset.truth(name, Path(folder)))
-                halves[k % 2].extend(samples(sample, options.rounds, rng))
-                print(name, sum(map(len, halves)), flush=True)
-    weights = fit(halves[0])
-    print(weights)
-    report = f"Fitted to {len(halves[0])} joints, measured on {len(halves[1])} of other objects.\n\n{table(halves[1], weights)}"
-    print(f"{report}\n\nWith the weights as they stand:\n\n{table(halves[1], WEIGHTS)}\n")
-    print(f"Fitted to all: {fit([*halves[0], *halves[1]])}")
+            for name in dataset.objects()[:: options.step]:
+                found.extend(samples(prepared(dataset.truth(name, Path(folder))), options.rounds, rng))
+                print(name, len(found), flush=True)
+    report = table(found)
+    print(report)
     if options.markdown:
         options.markdown.write_text(f"# Confidence\n\n{report}\n", encoding="utf-8")
 

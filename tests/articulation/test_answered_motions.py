@@ -12,9 +12,9 @@ from known import KNOWN, QUICK, ready, the_case
 from made import EDGE, PULL, X, Y, Z, slide, turn
 from scenes import door, prism
 
+from anymesh.articulation.answer_evidence import answered_confidence
 from anymesh.articulation.candidates import axis_points, cluster_points, followed, with_more
 from anymesh.articulation.cases import PartCase, make_cases
-from anymesh.articulation.confidence import Agreement
 from anymesh.articulation.decode import hinge, plane_normal
 from anymesh.articulation.estimate import ROLES_AFTER_DEADLINE, motion_questions
 from anymesh.articulation.freedom import stays_free
@@ -48,7 +48,7 @@ def test_an_answered_hinge_opens_where_it_is_free() -> None:
         found = answered("left", ALONG, turn(axis, (0.598, -0.012, 0)), JointType.REVOLUTE)
         assert found.best.is_free
         assert found.best.outward > 0.9
-        assert found.agreement.features == {"kind": 1, "moves": 1, "moves against": 0, "answered": 1, "blocked": 0}
+        assert found.confidence == answered_confidence(True, free=True)
         assert found.reason == "answered: hinge along edge; a line"
         assert found.moves
 
@@ -56,9 +56,9 @@ def test_an_answered_hinge_opens_where_it_is_free() -> None:
 def test_an_answered_slide_keeps_its_direction_even_if_it_is_blocked() -> None:
     found = answered("left", OUT, slide(Y), JointType.REVOLUTE)
     assert (found.best.opening_sign, found.best.is_free) == (1, True)  # a button may be pressed
-    assert found.agreement.features["moves against"] == 1
+    assert found.confidence == answered_confidence(False, free=True)
     through = answered("left", ALONG, turn(Z, (0.3, 0.2, 0)))
-    assert through.agreement.features == {"kind": 1, "moves": 0, "moves against": 0, "answered": 1, "blocked": 1}
+    assert through.confidence == answered_confidence(None, free=False)
 
 
 def test_a_part_that_is_answered_fixed_has_a_motion_but_does_not_move() -> None:
@@ -90,7 +90,7 @@ def test_the_normal_of_the_contact_is_taken_outwards(sign: float) -> None:
 )
 def test_the_type_of_a_joint_follows_from_the_motion_and_the_answer(best, endless, moves, verify, kind) -> None:
     case = replace(case_of("left"), answer=KindAnswer(ALONG, endless))
-    found = _joint(case, Choice(best, "so", Agreement({}), moves=moves), 0.7, verify)
+    found = _joint(case, Choice(best, "so", 0.7, moves=moves), verify)
     assert (found.type, found.confidence, found.reason, found.child) == (kind, 0.7, "so", case.name)
 
 

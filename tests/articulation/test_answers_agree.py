@@ -1,4 +1,4 @@
-"""Test labels of given parts, warnings about contradictions, and confidence from the agreement of answers."""
+"""Test labels of given parts and warnings about contradictions."""
 
 from dataclasses import replace
 
@@ -9,7 +9,6 @@ from known import KNOWN, QUICK, Watched, prompted, ready, true_answers, visual_p
 from scenes import Scene, prism, wheel
 
 from anymesh.articulation.cases import make_cases
-from anymesh.articulation.confidence import Agreement, confidences
 from anymesh.articulation.prompted import PromptedJoints, Questions, prompt_joints
 from anymesh.articulation.relabel import labels_by_name
 from anymesh.articulation.taken import normal_outwards, opening_slide
@@ -92,16 +91,6 @@ def test_what_is_recognized_as_moving_is_not_fixed_by_one_answer() -> None:
     none, _ = asked(LEFT.scene, recognition(DOOR), "door", **fixed, motions=lambda q: (MotionPick(None),))
     assert none.joints[0].type is JointType.FIXED
     assert none.joints[0].confidence < right.joints[0].confidence
-
-
-def test_confidence_follows_the_agreement_of_a_part_and_of_the_others() -> None:
-    good = Agreement({"kind": 1.0, "answered": 1.0, "likely": 0.9})
-    bad = Agreement({"kind": 0.0, "answered": 0.0, "likely": 0.02, "doubted": 1.0})
-    none = Agreement({"kind": 1.0, "likely": 0.1, "none": 1.0})
-    alone = {name: confidences({1: a})[1] for name, a in (("good", good), ("bad", bad), ("none", none))}
-    assert alone["good"] > 0.8
-    assert max(alone["bad"], alone["none"]) < 0.4
-    assert confidences({1: good, 2: good, 3: good})[1] > confidences({1: good, 2: bad, 3: bad})[1]
 
 
 def test_a_part_that_is_too_much_is_grounded_again_once() -> None:

@@ -13,7 +13,6 @@ from made import EDGE, FAR_EDGE, PLATE, PULL, ROUND, Z, candidate, turn
 from scenes import door
 
 from anymesh.articulation.cases import PartCase
-from anymesh.articulation.confidence import HIGHEST, LOWEST, Agreement, confidences
 from anymesh.articulation.contradictions import contradictions
 from anymesh.articulation.limits import opening_motion
 from anymesh.articulation.motion_question import Candidate
@@ -37,41 +36,6 @@ def door_case() -> PartCase:
 def case(number: int = 1, kind: JointAppearance = ALONG, moves: JointType | None = None) -> PartCase:
     told = RecognizedLabel("part", moves, None, None) if moves else None
     return replace(door_case(), number=number, name=f"p{number}", answer=KindAnswer(kind), recognized=told)
-
-
-def sure(*features: dict[str, float]) -> list[float]:
-    return list(confidences({k: Agreement(f) for k, f in enumerate(features)}).values())
-
-
-@pytest.mark.parametrize(
-    ("name", "sign"),
-    [
-        ("kind", 1),
-        ("answered", 1),
-        ("likely", 1),
-        ("moves", 1),
-        ("moves against", -1),
-        ("blocked", -1),
-        ("none", -1),
-        ("only", -1),
-    ],
-)
-def test_evidence_for_a_joint_raises_its_confidence_and_evidence_against_it_lowers_it(name: str, sign: int) -> None:
-    (without,), (with_,) = sure({"likely": 0.5}), sure({"likely": 0.5, name: 1.0})
-    assert (with_ - without) * sign > 0
-    assert LOWEST <= min(without, with_) <= max(without, with_) <= HIGHEST
-
-
-def test_answers_about_the_other_parts_count_for_a_part_and_its_own_ones_if_it_is_alone() -> None:
-    good, bad = {"kind": 1.0, "answered": 1.0, "likely": 0.5}, {"none": 1.0}
-    assert Agreement(good).own == 1
-    assert Agreement(bad).own == 0
-    assert Agreement({"kind": 1.0}).own == pytest.approx(2 / 3)
-    assert sure(good, good)[0] == sure(good)[0] > sure(good, bad)[0]
-    assert sure(good, bad, good)[0] > sure(good, bad, bad)[0]
-    assert sure(bad)[0] == LOWEST
-    (all_for,) = sure({"kind": 1.0, "answered": 1.0, "likely": 1.0, "moves": 1.0})
-    assert 0.95 < all_for < 1
 
 
 def joint(kind: JointType) -> Joint:
@@ -175,42 +139,45 @@ def offered(kind: JointAppearance = ALONG, answered: int | None = None, moves: J
     return MotionOffers(case(1, kind, moves), PLATE, motions, (0.6, 0.2, 0.15, 0.05), (1.0,) * 4, (1, 0, 2), (3,), answered)
 
 
-def test_a_picked_motion_is_chosen_with_its_evidence(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_picked_motion_is_chosen_and_agreeing_answers_make_it_sure(monkeypatch: pytest.MonkeyPatch) -> None:
     found, asked = chosen(monkeypatch, offered(answered=1, moves=JointType.REVOLUTE), 1)
     assert (found.best, found.moves, found.fit, asked) == (FAR_EDGE, True, PartFit.RIGHT, [(1, 0, 2)])
     assert found.reason.startswith("chosen among 3 motions: the other edge")
-    assert found.agreement.features == {
-        "kind": 1, "moves": 1, "moves against": 0, "answered": 1, "likely": 0.2, "blocked": 0, "doubted": 0, "later": 0,
-    }  # fmt: skip
+    assert found.confidence > 0.95
+    alone, _ = chosen(monkeypatch, offered(), 1)
+    assert alone.best is FAR_EDGE
+    assert alone.confidence < found.confidence
 
 
-def test_a_pick_of_another_kind_than_answered_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
-    found, _ = chosen(monkeypatch, offered(answered=1, moves=JointType.REVOLUTE), 2, fit=PartFit.TOO_MUCH)
+def test_a_pick_of_another_kind_than_answered_needs_the_geometry(monkeypatch: pytest.MonkeyPatch) -> None:
+    likely = replace(offered(), shares=(0.1, 0.1, 0.7, 0.1))
+    found, _ = chosen(monkeypatch, likely, 2, fit=PartFit.TOO_MUCH)
     assert (found.best, found.fit) == (PULL, PartFit.TOO_MUCH)
     assert "though hinge along edge was answered" in found.reason
-    assert found.agreement.features["kind"] == found.agreement.features["moves"] == found.agreement.features["answered"] == 0
-    assert found.agreement.features["moves against"] == 1
+    assert found.confidence < 0.95
+    overruled, _ = chosen(monkeypatch, offered(answered=1, moves=JointType.REVOLUTE), 2)
+    assert overruled.best is FAR_EDGE  # as its kind, its line and the recognized motion were answered
+    assert overruled.reason.startswith("the likeliest of 3 motions: ")
 
 
 def test_none_of_the_first_picture_leads_to_the_second(monkeypatch: pytest.MonkeyPatch) -> None:
     found, asked = chosen(monkeypatch, offered(), None, 3)
     assert asked == [(1, 0, 2), (3,)]
-    assert found.agreement.features["later"] == found.agreement.features["blocked"] == 1
+    assert found.best.role == "round"
     nothing, _ = chosen(monkeypatch, offered(OUT), None, None)
     assert nothing.best is PULL  # the likeliest of the answered kind
     assert nothing.reason.startswith("none recognized of 4 motions")
-    assert nothing.agreement.features["none"] == 1
+    assert nothing.confidence < 0.6
     still, _ = chosen(monkeypatch, offered(FIXED, moves=JointType.REVOLUTE), None, None)
-    assert (still.moves, still.agreement.features) == (False, {"kind": 1, "moves against": 1})
+    assert (still.moves, still.reason) == (False, "answered: it does not move")
 
 
-@pytest.mark.parametrize(("again", "best"), [(2, PULL), (1, EDGE)])
-def test_a_pick_against_geometry_and_the_answer_must_be_repeated(monkeypatch, again: int, best: Candidate) -> None:
+@pytest.mark.parametrize(("again", "best"), [(2, PULL), (1, FAR_EDGE), (None, EDGE)])
+def test_a_pick_against_geometry_and_the_answer_must_be_repeated(monkeypatch, again: int | None, best: Candidate) -> None:
     found, asked = chosen(monkeypatch, offered(answered=0), 2, again)
     assert asked == [(1, 0, 2), (2, 0, 1)]  # in another order
     assert found.best is best
     assert "asked twice" in found.reason
-    assert found.agreement.features["doubted"] == 1
 
 
 @pytest.mark.parametrize("same", [replace(EDGE, opening_sign=-1), replace(EDGE, motion=turn(Z, (0.06, 0, 0)))])
@@ -226,9 +193,7 @@ def test_a_part_with_one_motion_or_that_two_answers_call_fixed_is_not_asked_abou
     found, asked = chosen(monkeypatch, one)
     assert (found.best, asked) == (EDGE, [])
     assert found.reason.startswith("the only free motion: ")
-    assert found.agreement.features["only"] == 1
     stuck, _ = chosen(monkeypatch, replace(one, motions=(replace(EDGE, opening=0.0), *one.motions[1:])))
     assert "no motion is free; as answered" in stuck.reason
     fixed, asked = chosen(monkeypatch, offered(FIXED))
     assert (fixed.moves, fixed.reason, asked) == (False, "answered: it does not move", [])
-    assert (fixed.agreement.features["only"], fixed.agreement.features["moves against"]) == (1, 0)

@@ -34,6 +34,10 @@ def test_motions_are_ranked_by_score_and_the_reason_names_what_decided() -> None
     assert "some feature 1" in answer.reason
 
 
+def same_as_first(*candidates: Candidate) -> np.ndarray:
+    return same_joints(PLATE, candidates, 0)
+
+
 def question(*candidates: Candidate) -> MotionQuestion:
     return MotionQuestion(PLATE, candidates, np.zeros(len(candidates)), lambda _: "")
 
@@ -42,10 +46,10 @@ def test_motions_are_the_same_joint_about_one_line_to_one_side() -> None:
     near = replace(EDGE, motion=Motion(JointType.REVOLUTE, Z, 0.01 * X, "nearly the same edge"))
     against = replace(EDGE, opening_sign=-EDGE.opening_sign)
     slid = replace(PULL, motion=Motion(JointType.PRISMATIC, Y, X, "elsewhere"))  # the origin of a slide is irrelevant
-    assert same_joints(question(EDGE, FAR_EDGE, near, against), 0).tolist() == [True, False, True, False]
-    assert same_joints(question(PULL, slid, EDGE), 0).tolist() == [True, True, False]
+    assert same_as_first(EDGE, FAR_EDGE, near, against).tolist() == [True, False, True, False]
+    assert same_as_first(PULL, slid, EDGE).tolist() == [True, True, False]
     # free both ways, so it has no side
-    assert same_joints(question(ROUND, replace(ROUND, opening_sign=-1)), 0).tolist() == [True, True]
+    assert same_as_first(ROUND, replace(ROUND, opening_sign=-1)).tolist() == [True, True]
 
 
 def test_the_confidence_grows_with_the_share_of_the_best_motion() -> None:
@@ -133,7 +137,7 @@ def test_a_blocked_motion_scores_lower_than_a_free_one_that_is_less_likely() -> 
 def test_lines_are_one_to_a_user_within_a_tenth_of_the_part(off: float, same: bool) -> None:
     """The part's diagonal is 0.7 m."""
     beside = replace(EDGE, motion=Motion(JointType.REVOLUTE, Z, off * X + 5 * Z, "beside"))
-    assert same_joints(question(EDGE, beside), 0).tolist() == [True, same]
+    assert same_as_first(EDGE, beside).tolist() == [True, same]
 
 
 @pytest.mark.parametrize(
@@ -154,7 +158,7 @@ def test_a_slide_is_outwards_within_45_degrees_of_the_opening_direction(c, direc
 def test_directions_are_one_to_a_user_within_fourteen_degrees(degrees: float, same: bool) -> None:
     a = np.deg2rad(degrees)
     aside = replace(PULL, motion=Motion(JointType.PRISMATIC, np.cos(a) * Y + np.sin(a) * X, np.zeros(3), "aside"))
-    assert same_joints(question(PULL, aside), 0).tolist() == [True, same]
+    assert same_as_first(PULL, aside).tolist() == [True, same]
 
 
 @pytest.mark.parametrize(

@@ -12,7 +12,6 @@ import numpy as np
 
 from anymesh.articulation.candidates import axis_points, cluster_points, followed, superpoint_centres, with_more
 from anymesh.articulation.cases import PartCase, ask_each, make_cases
-from anymesh.articulation.confidence import Agreement, confidences
 from anymesh.articulation.contradictions import contradictions
 from anymesh.articulation.decode import hinge, prismatic, surface_directions
 from anymesh.articulation.estimate import joint_of
@@ -40,14 +39,12 @@ Reground = Callable[[Mapping[str, PartFit]], Segmentation | None]  # parts by na
 class PromptedJoints:
     """One joint for every part but the root, in the order of the parts.
 
-    segmentation: with the answered labels, and the parts as grounded again; warnings: contradictions between answers;
-    agreements: evidence for each joint.
+    segmentation: with the answered labels, and the parts as grounded again; warnings: contradictions between answers.
     """
 
     joints: tuple[Joint, ...]
     segmentation: Segmentation
     warnings: tuple[str, ...] = ()
-    agreements: tuple[Agreement, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,11 +107,9 @@ def prompt_joints(
     if again is not None:
         chosen_motions = chosen_motions.with_changed(_ask(questions, shape_of, again, fits=False, only=set(wrong)))
     questions.progress("joints", "limits", 3, 4)
-    sure = confidences({n: choice.agreement for n, choice in chosen_motions.chosen.items()})
     verify = questions.config.verify
-    joints = tuple(_joint(c, chosen_motions.chosen[c.number], sure[c.number], verify) for c in chosen_motions.cases)
-    agreements = tuple(chosen_motions.chosen[c.number].agreement for c in chosen_motions.cases)
-    return PromptedJoints(joints, chosen_motions.segmentation, contradictions(chosen_motions.cases, joints), agreements)
+    joints = tuple(_joint(c, chosen_motions.chosen[c.number], verify) for c in chosen_motions.cases)
+    return PromptedJoints(joints, chosen_motions.segmentation, contradictions(chosen_motions.cases, joints))
 
 
 def _ask(
@@ -220,11 +215,11 @@ def _surface_directions(questions: Questions, cases: list[PartCase], segmentatio
     return {c.number: prismatic(tables[c.number].directions[rows[c.number]], c.around, "arrow picked") for c in sliding}
 
 
-def _joint(case: PartCase, choice: Choice, confidence: float, verify: str) -> Joint:
+def _joint(case: PartCase, choice: Choice, verify: str) -> Joint:
     kind = JointType.FIXED
     if choice.moves:
         turns = choice.best.motion.kind is JointType.REVOLUTE
         endless = case.answer.endless and (verify != "motion" or choice.best.is_endless)
         kind = JointType.PRISMATIC if not turns else JointType.CONTINUOUS if endless else JointType.REVOLUTE
     answered = answered_range(case.recognized, kind)
-    return joint_of(case.around, case.name, case.parent, choice.best, kind, confidence, choice.reason, answered)
+    return joint_of(case.around, case.name, case.parent, choice.best, kind, choice.confidence, choice.reason, answered)

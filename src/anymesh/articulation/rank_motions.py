@@ -33,7 +33,7 @@ def rank_motions(question: MotionQuestion) -> MotionAnswer:
     """
     scores = motion_scores(question)
     order = [int(i) for i in np.argsort(-scores, kind="stable")]
-    same = same_joints(question, order[0])
+    same = same_joints(question.part, question.candidates, order[0])
     if question.candidates[order[0]].is_endless:
         order.sort(key=lambda k: not (same[k] and joint_type(question.candidates[k]) is JointType.CONTINUOUS))
     ranking, best = tuple(order), question.candidates[order[0]]
@@ -55,15 +55,15 @@ def motion_scores(question: MotionQuestion) -> Float[np.ndarray, " k"]:
     return scores + np.array(prior)[kinds]
 
 
-def same_joints(question: MotionQuestion, best: int) -> Bool[np.ndarray, " k"]:
+def same_joints(part: PartFacts, candidates: Sequence[Candidate], best: int) -> Bool[np.ndarray, " k"]:
     """Return which candidates a user could not distinguish from `best`.
 
     They are of its kind, about the same line, opening to the same side. A motion that is free both ways has no side.
     """
-    first = question.candidates[best]
-    axes = np.array([c.motion.axis * c.opening_sign for c in question.candidates])
+    first = candidates[best]
+    axes = np.array([c.motion.axis * c.opening_sign for c in candidates])
     same_side = axes @ (first.motion.axis * first.opening_sign) > 0
-    return same_lines(question.part, question.candidates, best) & (first.is_endless | same_side)
+    return same_lines(part, candidates, best) & (first.is_endless | same_side)
 
 
 def same_lines(part: PartFacts, candidates: Sequence[Candidate], best: int) -> Bool[np.ndarray, " k"]:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from anymesh.articulation.answer_evidence import answered_confidence
 from anymesh.articulation.cases import PartCase
-from anymesh.articulation.confidence import Agreement
 from anymesh.articulation.decode import prismatic
 from anymesh.articulation.evidence import sweep_candidates
 from anymesh.articulation.motion_classifier import score_motions
@@ -47,13 +47,5 @@ def as_answered(case: PartCase) -> Choice:
     scores = score_motions(case.around, part_facts(case.around, case.label, case.label, two_pivot=False), both)
     best = both[max((0, 1), key=lambda k: (both[k].is_free, scores[k]))] if motion.kind is JointType.REVOLUTE else both[0]
     moves = case.recognized.moves if case.recognized else None
-    as_recognized = moves is not None and moves_as(best, moves)
-    features = {
-        "kind": 1.0,
-        "moves": float(as_recognized),
-        "moves against": float(moves is not None and not as_recognized),
-        "answered": 1.0,
-        "blocked": float(not best.is_free),
-    }
-    reason = f"answered: {words(case.kind)}; {motion.source}"
-    return Choice(best, reason, Agreement(features), moves=case.kind is not JointAppearance.FIXED)
+    sure = answered_confidence(None if moves is None else moves_as(best, moves), free=best.is_free)
+    return Choice(best, f"answered: {words(case.kind)}; {motion.source}", sure, moves=case.kind is not JointAppearance.FIXED)

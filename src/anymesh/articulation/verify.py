@@ -1,6 +1,7 @@
 """Verification of answered motions, beyond the paper.
 
-The answer is one more hypothesis. Motions that would look different are shown to choose from.
+The answered motion is one more hypothesis. Motions that would look different are shown to choose from, and every answer is
+evidence in one score with the geometry (`answer_evidence`).
 """
 
 from __future__ import annotations
@@ -9,13 +10,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
-from jaxtyping import Int
+from jaxtyping import Float, Int
 
+from anymesh.articulation.answer_evidence import OFFERED_SHARE, PartAnswers, ShownPick, posteriors
 from anymesh.articulation.cases import PartCase, ask_each
-from anymesh.articulation.confidence import Agreement
 from anymesh.articulation.motion_question import Candidate
-from anymesh.articulation.offers import MotionOffers, fits, make_offers, moves_as
-from anymesh.articulation.rank_motions import reason, same_lines
+from anymesh.articulation.offers import MotionOffers, fits, make_offers
+from anymesh.articulation.rank_motions import NO_MOTION_CONFIDENCE, reason, same_joints, same_lines
 from anymesh.rendering.visual_prompts import VisualPrompts
 from anymesh.types import Picture
 from anymesh.vlm.asking import VisualAnswerer
@@ -25,13 +26,13 @@ from anymesh.vlm.prompting import JointAppearance
 
 @dataclass(frozen=True, eq=False)
 class Choice:
-    """Chosen motion of a part, with its reason, its evidence, and whether the region shown was the part."""
+    """Chosen motion of a part, with its reason, its confidence, and whether the region shown was the part."""
 
     best: Candidate
     reason: str
-    agreement: Agreement
+    confidence: float
     fit: PartFit = PartFit.RIGHT
-    moves: bool = True  # False if two answers say that it does not move
+    moves: bool = True  # False if it most likely does not move
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,29 +75,29 @@ class MotionQuestioner:
 
 
 def choose_motions(cases: list[PartCase], asking: MotionQuestioner, max_motions: int, seed: int) -> dict[int, Choice]:
-    """Show the motions of each part and return the chosen one, by part number.
+    """Show the motions of each part and return the likeliest one by all answers and the geometry, by part number.
 
-    If none of those shown is right, the next ones are shown, once. If the choice contradicts what geometry and the earlier
-    answers agree on, it is asked for again in another order and must be the same.
+    If none of those shown is right, the next ones are shown, once. If the answer contradicts what geometry and the earlier
+    answers agree on, it is asked for again in another order.
 
     max_motions: motions in a picture; seed: of the order in the pictures.
     """
     offers = {c.number: make_offers(c, max_motions, seed) for c in cases}
-    choices = {n: _without_choice(o) for n, o in offers.items() if not _needs_question(o)}
-    shown = {n: o.first for n, o in offers.items() if n not in choices}
+    shown = {n: o.first for n, o in offers.items() if _needs_question(o)}
     picks = asking.picks(offers, shown)
-    fit = {n: pick.part for n, pick in picks.items()}
-    asking = replace(asking, ask_fit=False)  # ask about the fit only once
+    asking_again = replace(asking, ask_fit=False)  # ask about the fit only once
     later = {n: offers[n].second for n, pick in picks.items() if pick.motion is None and offers[n].second}
-    picks |= asking.picks(offers, later)
-    doubted = {n: shown[n][::-1] for n, pick in picks.items() if n not in later and _against_all(offers[n], pick.motion)}
-    again = asking.picks(offers, doubted)
-    for n, pick in picks.items():
-        motion = pick.motion
-        if n in again and again[n].motion != motion:
-            motion = offers[n].answered
-        choices[n] = _chosen(offers[n], motion, doubted=n in again, later=n in later, fit=fit[n])
-    return choices
+    more = asking_again.picks(offers, later)
+    last = {**picks, **more}
+    doubted = {n: shown[n][::-1] for n, pick in last.items() if n not in later and _against_all(offers[n], pick.motion)}
+    again = asking_again.picks(offers, doubted)
+    rounds = ((shown, picks), (later, more), (doubted, again))
+    answers = {
+        n: PartAnswers(o, tuple(ShownPick(shown[n], picked[n].motion) for shown, picked in rounds if n in picked))
+        for n, o in offers.items()
+    }
+    probabilities = posteriors(answers)
+    return {n: _chosen(a, probabilities[n], picks[n].part if n in picks else PartFit.RIGHT) for n, a in answers.items()}
 
 
 def _needs_question(o: MotionOffers) -> bool:
@@ -114,52 +115,34 @@ def _against_all(o: MotionOffers, picked: int | None) -> bool:
     return agreed and picked is not None and not same_lines(o.facts, o.motions, 0)[picked]
 
 
-def _without_choice(o: MotionOffers) -> Choice:
-    best = o.motions[o.first[0] if o.first else 0]
-    basis = "the only free motion" if best.is_free else "no motion is free; as answered"
-    if o.case.kind is JointAppearance.FIXED:
-        return Choice(best, "answered: it does not move", agreement(o, None, {"only": 1.0}), moves=False)
-    return Choice(best, f"{basis}: {reason(o.facts, best)}", agreement(o, 0, {"only": 1.0}))
+def _chosen(answers: PartAnswers, probability: Float[np.ndarray, " m"], fit: PartFit) -> Choice:
+    """Return the likeliest motion. probability: of each motion, and of none."""
+    o, most = answers.offers, int(np.argmax(probability))
+    if most == len(o.motions):
+        why = "answered: it does not move"
+        return Choice(o.motions[_fallback(o)], why, float(probability[most]), fit, moves=False)
+    best = o.motions[most]
+    sure = OFFERED_SHARE * float(probability[:-1][same_joints(o.facts, o.motions, most)].sum())
+    if answers.picks and all(pick.picked is None for pick in answers.picks):
+        sure = min(sure, NO_MOTION_CONFIDENCE)  # so that a warning names the joint
+    return Choice(best, f"{_basis(answers, most)}: {reason(o.facts, best)}", sure, fit)
 
 
-def _chosen(o: MotionOffers, picked: int | None, *, doubted: bool, later: bool, fit: PartFit) -> Choice:
-    best = o.motions[_fallback(o) if picked is None else picked]
-    against = "" if fits(best, o.case.kind) else f", though {words(o.case.kind)} was answered"
-    offered = (
-        f"{len(o.first) + later * len(o.second)} motions{', asked twice' if doubted else ''}{against}: {reason(o.facts, best)}"
-    )
-    if picked is None and o.case.kind is JointAppearance.FIXED:
-        return Choice(best, "answered: it does not move", agreement(o, None, {}), fit, moves=False)
-    if picked is None:
-        return Choice(best, f"none recognized of {offered}", agreement(o, _fallback(o), {"none": 1.0}), fit)
-    seen = {"doubted": float(doubted), "later": float(later)}
-    return Choice(best, f"chosen among {offered}", agreement(o, picked, seen), fit)
+def _basis(answers: PartAnswers, most: int) -> str:
+    """Describe in words what a motion was chosen from, and which answers contradict it."""
+    o, picked = answers.offers, [pick.picked for pick in answers.picks]
+    if not picked:
+        return "the only free motion" if o.motions[most].is_free else "no motion is free; as answered"
+    chosen = "chosen among" if most in picked else "none recognized of" if set(picked) == {None} else "the likeliest of"
+    count = len({k for pick in answers.picks for k in pick.shown})
+    twice = ", asked twice" if len(picked) > 1 and picked[0] is not None else ""
+    against = "" if fits(o.motions[most], o.case.kind) else f", though {words(o.case.kind)} was answered"
+    return f"{chosen} {count} motions{twice}{against}"
 
 
 def _fallback(o: MotionOffers) -> int:
-    """Return the likeliest motion of the answered kind, used if none was recognized."""
+    """Return the likeliest motion of the answered kind, of which a part that does not move keeps the axis."""
     return next((k for k, c in enumerate(o.motions) if c.is_free and fits(c, o.case.kind)), 0)
-
-
-def agreement(o: MotionOffers, picked: int | None, more: Mapping[str, float]) -> Agreement:
-    """Return the evidence for a motion of a part; None means that it does not move."""
-    case = o.case
-    moves = case.recognized.moves if case.recognized else None
-    if picked is None:
-        return Agreement({"kind": 1.0, "moves against": float(moves is not None), **more})
-    c = o.motions[picked]
-    as_recognized = moves is not None and moves_as(c, moves)
-    return Agreement(
-        {
-            "kind": float(fits(c, case.kind)),
-            "moves": float(as_recognized),
-            "moves against": float(moves is not None and not as_recognized),
-            "answered": float(o.answered == picked),
-            "likely": o.shares[picked],
-            "blocked": float(not c.is_free),
-            **more,
-        }
-    )
 
 
 def words(kind: JointAppearance) -> str:

@@ -13,11 +13,13 @@ import numpy as np
 from jaxtyping import Float
 from scipy.spatial import ConvexHull, KDTree, QhullError
 
-from anymesh.geometry.sampling import sample_surface
+from anymesh.geometry.sampling import sample_surface, spread_directions
 from anymesh.scoring.classifier import MISSING
 from anymesh.types import Mesh
 
 POINTS = 1500  # samples of the surface
+MAX_VERTICES, MAX_CORNERS, MAX_SEEDS = 50_000, 2000, 500  # of dense meshes: vertices, and corners and triangles of the hull
+OUTER_DIRECTIONS = 64  # in which the outermost points of dense meshes are kept
 SAME_COSINE = float(np.cos(np.deg2rad(2)))  # directions closer than this are one
 FLAT_COSINE = float(np.cos(np.deg2rad(5)))  # normals closer than this to a direction face it
 MAX_FLATS = 4  # directions that most of the surface faces
@@ -47,19 +49,20 @@ class Stander:
     @classmethod
     def of(cls, mesh: Mesh) -> Stander | None:
         """Sample a mesh; return None if it is flat or has no extent."""
-        used = mesh.vertices[np.unique(mesh.faces)]
-        low, high = used.min(0), used.max(0)
+        used = np.zeros(len(mesh.vertices), bool)
+        used[mesh.faces] = True
+        low, high = mesh.bounds
         with np.errstate(over="ignore", under="ignore", divide="ignore", invalid="ignore"):
             scaled = (mesh.vertices - (low + high) / 2) / float(np.linalg.norm(high - low))
-        if not np.isfinite(scaled).all():
+        if not np.isfinite(scaled[used]).all():
             return None
         samples = sample_surface(scaled[mesh.faces], POINTS, 0)
         try:
-            hull = ConvexHull(scaled[np.unique(mesh.faces)])
+            hull = ConvexHull(_outermost(scaled[used], MAX_VERTICES))
         except QhullError:
             return None
         facets, areas = _facets(hull)
-        corners, center = hull.points[hull.vertices], samples.points.mean(0)
+        corners, center = _outermost(hull.points[hull.vertices], MAX_CORNERS), samples.points.mean(0)
         size = 2 * float(np.linalg.norm(corners - center, axis=1).max())  # the diagonal of bounds depends on the rotation
         points = (samples.points - center) / size
         return cls(points, samples.normals, (corners - center) / size, facets, areas / areas.sum())
@@ -103,12 +106,23 @@ class Stander:
         return KDTree(self.points)
 
 
+def _outermost(points: Float[np.ndarray, "n 3"], most: int) -> Float[np.ndarray, "m 3"]:
+    """Return all points, or if there are more than `most`, about as many of them, with the outermost in many directions."""
+    if len(points) <= most:
+        return points
+    outer = np.unique((spread_directions(OUTER_DIRECTIONS) @ points.T).argmax(1))
+    return points[np.union1d(outer, np.arange(0, len(points), -(-len(points) // most)))]
+
+
 def _facets(hull: ConvexHull) -> tuple[Float[np.ndarray, "f 3"], Float[np.ndarray, " f"]]:
-    """Return the unit normals and areas of the flat facets of a hull, the largest first."""
+    """Return the unit normals and areas of the flat facets of a hull, the largest first.
+
+    Facets without any of the hull's MAX_SEEDS largest triangles are left out.
+    """
     normals, corners = hull.equations[:, :3], hull.points[hull.simplices]
     areas = 0.5 * np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
     left, facets, sizes = areas > 0, [], []
-    for k in np.argsort(-areas, kind="stable"):
+    for k in np.argsort(-areas, kind="stable")[:MAX_SEEDS]:
         if left[k]:
             same = left & (normals @ normals[k] > SAME_COSINE)
             left &= ~same

@@ -1,0 +1,125 @@
+"""Test that answers are evidence in one score with the geometry, weighted by how well they agree."""
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+from known import the_case
+from made import EDGE, FAR_EDGE, PLATE, PULL, ROUND
+from scenes import door
+
+from anymesh.articulation.answer_evidence import (
+    FIXED_SHARE,
+    RELIABILITIES,
+    SHARES,
+    PartAnswers,
+    ShownPick,
+    answered_confidence,
+    posteriors,
+)
+from anymesh.articulation.cases import PartCase
+from anymesh.articulation.offers import MotionOffers
+from anymesh.types import JointType
+from anymesh.types.recognition import RecognizedLabel
+from anymesh.vlm.prompting import JointAppearance, KindAnswer
+
+ALONG, OUT, FIXED = JointAppearance.HINGE_ALONG, JointAppearance.SLIDE_OUT, JointAppearance.FIXED
+MOTIONS = (EDGE, FAR_EDGE, PULL, ROUND)
+EDGE_ROW, FAR_ROW, PULL_ROW, ROUND_ROW, NO_MOTION = range(5)
+EVEN = (0.25, 0.25, 0.25, 0.25)
+
+
+@cache
+def door_case() -> PartCase:
+    return the_case(door("left"))
+
+
+def answers(
+    kind: JointAppearance = ALONG,
+    *picked: int | None,
+    shares: tuple[float, ...] = EVEN,
+    answered: int | None = None,
+    moves: JointType | None = None,
+) -> PartAnswers:
+    recognized = RecognizedLabel("part", moves, None, None) if moves else None
+    case = replace(door_case(), answer=KindAnswer(kind), recognized=recognized)
+    offers = MotionOffers(case, PLATE, MOTIONS, shares, (1.0,) * 4, (0, 1, 2, 3), (), answered)
+    return PartAnswers(offers, tuple(ShownPick((0, 1, 2, 3), p) for p in picked))
+
+
+def probability(part: PartAnswers) -> np.ndarray:
+    return posteriors({1: part})[1]
+
+
+def test_probabilities_and_shares_sum_to_one() -> None:
+    assert sum(SHARES) == pytest.approx(1)
+    assert list(RELIABILITIES) == sorted(RELIABILITIES, reverse=True)
+    for part in (answers(), answers(OUT, 2), answers(FIXED, None, moves=JointType.REVOLUTE)):
+        assert probability(part).sum() == pytest.approx(1)
+        assert np.exp(part.prior()).sum() == pytest.approx(1)
+        assert np.exp(part.prior()[NO_MOTION]) == pytest.approx(FIXED_SHARE)
+
+
+@pytest.mark.parametrize("reliability", RELIABILITIES)
+def test_the_probabilities_of_all_lines_sum_to_one_for_each_true_motion_of_the_kind(reliability: float) -> None:
+    turning = (EDGE_ROW, FAR_ROW, ROUND_ROW)
+    rows = [answers(ALONG, answered=k).likelihood(reliability) - answers(ALONG).likelihood(reliability) for k in turning]
+    np.testing.assert_allclose(np.exp(rows).sum(0)[[PULL_ROW, NO_MOTION]], 1)  # a wrong kind says nothing about the line
+    sums = np.exp(rows).sum(0)[list(turning)]
+    np.testing.assert_allclose(sums, 1, atol=0.21)  # of the hit, a share is also spread evenly over all
+
+
+@pytest.mark.parametrize("reliability", RELIABILITIES)
+def test_the_probabilities_of_all_picks_sum_to_one_for_each_true_motion(reliability: float) -> None:
+    rows = [
+        answers(ALONG, picked).likelihood(reliability) - answers(ALONG).likelihood(reliability) for picked in (None, 0, 1, 2, 3)
+    ]
+    np.testing.assert_allclose(np.exp(rows).sum(0), 1)
+
+
+def test_a_pick_decides_among_motions_that_geometry_holds_for_equal() -> None:
+    assert probability(answers(ALONG, FAR_ROW)).argmax() == FAR_ROW
+    assert probability(answers(ALONG, FAR_ROW))[FAR_ROW] > 0.9
+    twice = probability(answers(ALONG, FAR_ROW, FAR_ROW))
+    assert twice[FAR_ROW] > probability(answers(ALONG, FAR_ROW))[FAR_ROW]
+
+
+def test_geometry_decides_among_motions_of_the_answered_kind_if_nothing_was_picked() -> None:
+    shares = (0.1, 0.2, 0.6, 0.1)
+    assert probability(answers(ALONG, shares=shares)).argmax() == FAR_ROW
+    assert probability(answers(OUT, shares=shares)).argmax() == PULL_ROW
+
+
+def test_what_does_not_move_needs_more_than_one_answer_against_what_is_recognized() -> None:
+    assert probability(answers(FIXED)).argmax() == NO_MOTION
+    moving = probability(answers(FIXED, EDGE_ROW, moves=JointType.REVOLUTE))
+    assert moving.argmax() == EDGE_ROW
+    assert probability(answers(FIXED, None, moves=JointType.REVOLUTE)).argmax() == NO_MOTION
+
+
+def test_one_pick_against_all_else_does_not_decide() -> None:
+    """Geometry, the kind, the line and the recognized motion are for the edge."""
+    sure = {"shares": (0.97, 0.01, 0.01, 0.01), "answered": EDGE_ROW, "moves": JointType.REVOLUTE}
+    assert probability(answers(ALONG, PULL_ROW, **sure)).argmax() == EDGE_ROW  # type: ignore[arg-type]
+    repeated = probability(answers(ALONG, PULL_ROW, PULL_ROW, PULL_ROW, **sure))  # type: ignore[arg-type]
+    assert repeated[PULL_ROW] > probability(answers(ALONG, PULL_ROW, **sure))[PULL_ROW]  # type: ignore[arg-type]
+
+
+def test_answers_that_contradict_geometry_elsewhere_count_less() -> None:
+    good = answers(ALONG, EDGE_ROW, shares=(0.97, 0.01, 0.01, 0.01), answered=EDGE_ROW, moves=JointType.REVOLUTE)
+    bad = answers(OUT, FAR_ROW, shares=(0.97, 0.01, 0.01, 0.01), moves=JointType.PRISMATIC)
+    asked = answers(ALONG, FAR_ROW)
+    with_good, with_bad = posteriors({1: asked, 2: good, 3: good})[1], posteriors({1: asked, 2: bad, 3: bad})[1]
+    assert with_good[FAR_ROW] > probability(asked)[FAR_ROW] > with_bad[FAR_ROW]
+
+
+def test_the_way_out_is_found_by_geometry_and_no_answer() -> None:
+    np.testing.assert_allclose(probability(answers(OUT, answered=PULL_ROW)), probability(answers(OUT)))
+    assert probability(answers(ALONG, answered=FAR_ROW))[FAR_ROW] > probability(answers(ALONG))[FAR_ROW]
+
+
+def test_the_confidence_in_an_answer_that_is_not_compared_with_others() -> None:
+    unknown = answered_confidence(None, free=True)
+    assert answered_confidence(True, free=True) > unknown > answered_confidence(False, free=True)
+    assert answered_confidence(None, free=False) == pytest.approx(unknown / 2)
