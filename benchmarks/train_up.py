@@ -27,7 +27,8 @@ from jaxtyping import Bool, Float
 
 from anymesh.evaluation.changes import changed
 from anymesh.evaluation.datasets.named import open_dataset
-from anymesh.loading.up_features import Stander, up_candidates, up_features
+from anymesh.loading.stander import Stander
+from anymesh.loading.up_features import up_candidates, up_features
 
 MODELS = tuple(Model(300, seed) for seed in range(2))
 SOURCE = 0.5  # power by which the objects of a source count less the more they are

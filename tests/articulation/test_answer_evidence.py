@@ -26,7 +26,8 @@ from anymesh.vlm.prompting import JointAppearance, KindAnswer
 
 ALONG, OUT, FIXED = JointAppearance.HINGE_ALONG, JointAppearance.SLIDE_OUT, JointAppearance.FIXED
 MOTIONS = (EDGE, FAR_EDGE, PULL, ROUND)
-EDGE_ROW, FAR_ROW, PULL_ROW, ROUND_ROW, NO_MOTION = range(5)
+ALONG_SURFACE = replace(PULL, outward=0.6)
+EDGE_ROW, FAR_ROW, PULL_ROW, ROUND_ROW, OTHER, NO_MOTION = range(6)
 EVEN = (0.25, 0.25, 0.25, 0.25)
 
 
@@ -65,9 +66,8 @@ def test_probabilities_and_shares_sum_to_one() -> None:
 def test_the_probabilities_of_all_lines_sum_to_one_for_each_true_motion_of_the_kind(reliability: float) -> None:
     turning = (EDGE_ROW, FAR_ROW, ROUND_ROW)
     rows = [answers(ALONG, answered=k).likelihood(reliability) - answers(ALONG).likelihood(reliability) for k in turning]
-    np.testing.assert_allclose(np.exp(rows).sum(0)[[PULL_ROW, NO_MOTION]], 1)  # a wrong kind says nothing about the line
-    sums = np.exp(rows).sum(0)[list(turning)]
-    np.testing.assert_allclose(sums, 1, atol=0.21)  # of the hit, a share is also spread evenly over all
+    np.testing.assert_allclose(np.exp(rows).sum(0), 1)
+    np.testing.assert_allclose(np.exp(rows)[:, [PULL_ROW, OTHER, NO_MOTION]], 1 / 3)  # of another kind than answered
 
 
 @pytest.mark.parametrize("reliability", RELIABILITIES)
@@ -93,6 +93,12 @@ def test_geometry_decides_among_motions_of_the_answered_kind_if_nothing_was_pick
 
 def test_what_does_not_move_needs_more_than_one_answer_against_what_is_recognized() -> None:
     assert probability(answers(FIXED)).argmax() == NO_MOTION
+    part = answers(FIXED)
+    part = replace(part, offers=replace(part.offers, motions=(EDGE, FAR_EDGE, ALONG_SURFACE, ROUND)))
+    prior, fixed = part.prior(), part.likelihood(0.9)
+    assert (fixed[:NO_MOTION] == fixed[0]).all()  # the answer tells no motion from another, also none along the surface
+    assert fixed[NO_MOTION] > fixed[0]
+    assert len(prior) == len(fixed) == len(MOTIONS) + 2
     moving = probability(answers(FIXED, EDGE_ROW, moves=JointType.REVOLUTE))
     assert moving.argmax() == EDGE_ROW
     assert probability(answers(FIXED, None, moves=JointType.REVOLUTE)).argmax() == NO_MOTION
@@ -119,7 +125,22 @@ def test_the_way_out_is_found_by_geometry_and_no_answer() -> None:
     assert probability(answers(ALONG, answered=FAR_ROW))[FAR_ROW] > probability(answers(ALONG))[FAR_ROW]
 
 
+def test_the_only_motion_of_the_answered_kind_is_not_less_likely_for_its_line() -> None:
+    part = answers(OUT)
+    slides = replace(part.offers, motions=(EDGE, ALONG_SURFACE), shares=(0.5, 0.5), first=(0, 1))
+    case = replace(slides.case, answer=KindAnswer(JointAppearance.SLIDE_ALONG))
+    with_line = probability(PartAnswers(replace(slides, case=case, answered=1)))
+    assert with_line[1] >= probability(PartAnswers(replace(slides, case=case)))[1]
+
+
+def test_what_is_not_recognized_may_be_a_motion_that_was_not_offered() -> None:
+    none = probability(answers(OUT, None, None))
+    assert none[OTHER] > none[NO_MOTION]
+    assert none[:OTHER].sum() < probability(answers(OUT))[:OTHER].sum()
+
+
 def test_the_confidence_in_an_answer_that_is_not_compared_with_others() -> None:
-    unknown = answered_confidence(None, free=True)
-    assert answered_confidence(True, free=True) > unknown > answered_confidence(False, free=True)
-    assert answered_confidence(None, free=False) == pytest.approx(unknown / 2)
+    unknown = answered_confidence(None, line=True)
+    assert answered_confidence(True, line=True) > unknown > answered_confidence(False, line=True)
+    assert answered_confidence(None, line=False) > unknown
+    assert answered_confidence(None, line=True, free=False) == pytest.approx(unknown / 2)

@@ -48,7 +48,7 @@ def test_an_answered_hinge_opens_where_it_is_free() -> None:
         found = answered("left", ALONG, turn(axis, (0.598, -0.012, 0)), JointType.REVOLUTE)
         assert found.best.is_free
         assert found.best.outward > 0.9
-        assert found.confidence == answered_confidence(True, free=True)
+        assert found.confidence == answered_confidence(True, line=True)
         assert found.reason == "answered: hinge along edge; a line"
         assert found.moves
 
@@ -56,9 +56,9 @@ def test_an_answered_hinge_opens_where_it_is_free() -> None:
 def test_an_answered_slide_keeps_its_direction_even_if_it_is_blocked() -> None:
     found = answered("left", OUT, slide(Y), JointType.REVOLUTE)
     assert (found.best.opening_sign, found.best.is_free) == (1, True)  # a button may be pressed
-    assert found.confidence == answered_confidence(False, free=True)
+    assert found.confidence == answered_confidence(False, line=False)
     through = answered("left", ALONG, turn(Z, (0.3, 0.2, 0)))
-    assert through.confidence == answered_confidence(None, free=False)
+    assert through.confidence == answered_confidence(None, line=True, free=False)
 
 
 def test_a_part_that_is_answered_fixed_has_a_motion_but_does_not_move() -> None:

@@ -124,6 +124,8 @@ def scored_motions(case: PartCase) -> MotionQuestion:
 
 def fits(c: Candidate, kind: JointAppearance) -> bool:
     """Return whether a motion is of the answered kind."""
+    if kind is JointAppearance.FIXED:
+        return False
     if kind.is_rotation or c.motion.kind is JointType.REVOLUTE:
         return kind.is_rotation and c.motion.kind is JointType.REVOLUTE
     return (c.slide_direction is SlideDirection.ALONG_SURFACE) != (kind is JointAppearance.SLIDE_OUT)

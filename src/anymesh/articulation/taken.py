@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from anymesh.articulation.answer_evidence import answered_confidence
+from anymesh.articulation.answer_evidence import answered_confidence, answers_a_line
 from anymesh.articulation.cases import PartCase
 from anymesh.articulation.decode import prismatic
 from anymesh.articulation.evidence import sweep_candidates
@@ -47,5 +47,8 @@ def as_answered(case: PartCase) -> Choice:
     scores = score_motions(case.around, part_facts(case.around, case.label, case.label, two_pivot=False), both)
     best = both[max((0, 1), key=lambda k: (both[k].is_free, scores[k]))] if motion.kind is JointType.REVOLUTE else both[0]
     moves = case.recognized.moves if case.recognized else None
-    sure = answered_confidence(None if moves is None else moves_as(best, moves), free=best.is_free)
-    return Choice(best, f"answered: {words(case.kind)}; {motion.source}", sure, moves=case.kind is not JointAppearance.FIXED)
+    answer = f"answered: {words(case.kind)}; {motion.source}"
+    if case.kind is JointAppearance.FIXED:
+        return Choice(best, answer, answered_confidence(None if moves is None else False, line=False), moves=False)
+    as_recognized = None if moves is None else moves_as(best, moves)
+    return Choice(best, answer, answered_confidence(as_recognized, line=answers_a_line(case), free=best.is_free))

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from jaxtyping import Float, Int
 
-from anymesh.articulation.answer_evidence import OFFERED_SHARE, PartAnswers, ShownPick, posteriors
+from anymesh.articulation.answer_evidence import PartAnswers, ShownPick, posteriors
 from anymesh.articulation.cases import PartCase, ask_each
 from anymesh.articulation.motion_question import Candidate
 from anymesh.articulation.offers import MotionOffers, fits, make_offers
@@ -32,7 +32,7 @@ class Choice:
     reason: str
     confidence: float
     fit: PartFit = PartFit.RIGHT
-    moves: bool = True  # False if it most likely does not move
+    moves: bool = True  # False if no joint is likelier than none
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,7 +101,7 @@ def choose_motions(cases: list[PartCase], asking: MotionQuestioner, max_motions:
 
 
 def _needs_question(o: MotionOffers) -> bool:
-    """Return whether there is a choice to ask about; a part that two answers call fixed is not asked about again."""
+    """Return whether there is a choice to ask about; a part that is answered fixed only if it was recognized as moving."""
     fixed = o.case.kind is JointAppearance.FIXED and (o.case.recognized is None or o.case.recognized.moves is None)
     return len(o.first) > 1 and not fixed
 
@@ -116,28 +116,31 @@ def _against_all(o: MotionOffers, picked: int | None) -> bool:
 
 
 def _chosen(answers: PartAnswers, probability: Float[np.ndarray, " m"], fit: PartFit) -> Choice:
-    """Return the likeliest motion. probability: of each motion, and of none."""
-    o, most = answers.offers, int(np.argmax(probability))
-    if most == len(o.motions):
-        why = "answered: it does not move"
-        return Choice(o.motions[_fallback(o)], why, float(probability[most]), fit, moves=False)
-    best = o.motions[most]
-    sure = OFFERED_SHARE * float(probability[:-1][same_joints(o.facts, o.motions, most)].sum())
-    if answers.picks and all(pick.picked is None for pick in answers.picks):
-        sure = min(sure, NO_MOTION_CONFIDENCE)  # so that a warning names the joint
-    return Choice(best, f"{_basis(answers, most)}: {reason(o.facts, best)}", sure, fit)
+    """Return the likeliest joint. probability: of each motion, of another one, and of none."""
+    o, fixed = answers.offers, answers.offers.case.kind is JointAppearance.FIXED
+    of_joint = [float(probability[:-2][same_joints(o.facts, o.motions, k)].sum()) for k in range(len(o.motions))]
+    likeliest = max(range(len(o.motions)), key=lambda k: (round(of_joint[k], 9), probability[k]))
+    unrecognized = bool(answers.picks) and all(pick.picked is None for pick in answers.picks)
+    highest = NO_MOTION_CONFIDENCE if unrecognized and not fixed else 1.0  # so that a warning names the joint
+    if probability[-1] > of_joint[likeliest] or (fixed and not answers.picks):
+        why = "answered: it does not move" if fixed else "no motion agrees with the answers"
+        return Choice(o.motions[_fallback(o)], why, min(float(probability[-1]), highest), fit, moves=False)
+    why = f"{_basis(answers, likeliest)}: {reason(o.facts, o.motions[likeliest])}"
+    return Choice(o.motions[likeliest], why, min(of_joint[likeliest], highest), fit)
 
 
-def _basis(answers: PartAnswers, most: int) -> str:
+def _basis(answers: PartAnswers, chosen: int) -> str:
     """Describe in words what a motion was chosen from, and which answers contradict it."""
     o, picked = answers.offers, [pick.picked for pick in answers.picks]
+    against = "" if fits(o.motions[chosen], o.case.kind) else f", though {words(o.case.kind)} was answered"
     if not picked:
-        return "the only free motion" if o.motions[most].is_free else "no motion is free; as answered"
-    chosen = "chosen among" if most in picked else "none recognized of" if set(picked) == {None} else "the likeliest of"
+        free = [c.is_free for c in o.motions]
+        only = "the only free motion" if sum(free) == 1 else "the likeliest motion"
+        return (only if free[chosen] else "no motion is free; as answered") + against
+    among = "chosen among" if chosen in picked else "none recognized of" if set(picked) == {None} else "the likeliest of"
     count = len({k for pick in answers.picks for k in pick.shown})
     twice = ", asked twice" if len(picked) > 1 and picked[0] is not None else ""
-    against = "" if fits(o.motions[most], o.case.kind) else f", though {words(o.case.kind)} was answered"
-    return f"{chosen} {count} motions{twice}{against}"
+    return f"{among} {count} motions{twice}{against}"
 
 
 def _fallback(o: MotionOffers) -> int:

@@ -66,6 +66,8 @@ def _up(loaded: LoadedMesh, text: str) -> tuple[Up, str]:
         return up_of(np.eye(3)[AXES.index(loaded.format_up)]), f"up axis {loaded.format_up} (defined by the format)"
     usual = None if text == INFER else "y" if loaded.path.lower().endswith(".obj") else "z"
     up = infer_up(loaded.mesh, usual)
+    if up.probability is None:
+        return up, f"up axis {up.name} (usual for the format; the mesh is flat)"
     return up, f"up axis {up.name} (inferred from how the object can stand, probability {up.probability:.2f})"
 
 

@@ -10,7 +10,8 @@ import numpy as np
 from jaxtyping import Float
 
 from anymesh.errors import OptionError
-from anymesh.loading.up_features import FLAT_COSINE, Stander, up_candidates, up_features
+from anymesh.loading.stander import FLAT_COSINE, Stander
+from anymesh.loading.up_features import up_candidates, up_features
 from anymesh.scoring.classifier import Classifier
 from anymesh.types import Mesh
 
@@ -33,11 +34,11 @@ TO_Z = {  # rotations: rows are the asset's axes in file coordinates
 
 @dataclass(frozen=True, eq=False)
 class Up:
-    """direction: (3,) unit, in file coordinates; name: an axis such as -y, or three numbers; probability: that it is right."""
+    """direction: (3,) unit, in file coordinates; name: such as -y, or three numbers; probability: None unless inferred."""
 
     direction: Float[np.ndarray, " 3"]
     name: str
-    probability: float = 1.0
+    probability: float | None = None
 
     @property
     def to_z(self) -> Float[np.ndarray, "3 3"]:
@@ -67,7 +68,7 @@ def read_up(text: str) -> Up | None:
     return up_of(direction / length)
 
 
-def up_of(direction: Float[np.ndarray, " 3"], probability: float = 1.0) -> Up:
+def up_of(direction: Float[np.ndarray, " 3"], probability: float | None = None) -> Up:
     """Return a unit direction with its name."""
     k = int(np.abs(direction).argmax())
     sign = float(np.sign(direction[k]))
