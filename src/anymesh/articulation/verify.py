@@ -119,7 +119,7 @@ def _chosen(answers: PartAnswers, probability: Float[np.ndarray, " m"], fit: Par
     """Return the likeliest joint. probability: of each motion, of another one, and of none."""
     o, fixed = answers.offers, answers.offers.case.kind is JointAppearance.FIXED
     of_joint = [float(probability[:-2][same_joints(o.facts, o.motions, k)].sum()) for k in range(len(o.motions))]
-    likeliest = max(range(len(o.motions)), key=lambda k: (round(of_joint[k], 9), probability[k]))
+    likeliest = int(np.argmax(probability[:-2]))  # not of the likeliest joint: an answer names one motion of several alike
     unrecognized = bool(answers.picks) and all(pick.picked is None for pick in answers.picks)
     highest = NO_MOTION_CONFIDENCE if unrecognized and not fixed else 1.0  # so that a warning names the joint
     if probability[-1] > of_joint[likeliest] or (fixed and not answers.picks):
