@@ -80,7 +80,7 @@ def rows_of(sample: EvalSample, source: str, form: str = "") -> list[MotionRows]
             np.array([m.axis for m in motions]),
             np.array([how_right(joint, m, center, sample.unit) for m in motions]),
             np.array([_opens_right(joint, c.motion.axis * c.opening_sign) for c in question.candidates]),
-            np.array([same_joints(question, k) for k in range(len(motions))]),
+            np.array([same_joints(question.part, question.candidates, k) for k in range(len(motions))]),
             np.array([c.is_free for c in question.candidates]),
         ))  # fmt: skip
     return found
