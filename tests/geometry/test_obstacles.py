@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from assets import box
-from rigid import shape_of
+from rigid import move, shape_of
 
 from anymesh.geometry import sweep as sweep_module
 from anymesh.geometry.boxes import OrientedBox
@@ -74,6 +74,22 @@ def test_a_motion_is_free_if_less_than_six_of_a_thousand_points_are_stopped(coun
     amount, found = free_amount(Obstacles(part, rest, 0.01), slide(X), 1, 1.0, 20)
     assert found == clear
     assert amount == pytest.approx(1.0 if clear else 0.5, abs=1e-3)
+
+
+@pytest.mark.parametrize("closed", [True, False])
+@pytest.mark.parametrize("seed", range(4))
+def test_a_part_that_lies_against_an_open_sheet_moves_off_it_but_not_through_it(closed: bool, seed: int) -> None:
+    """Rotated at random, so that rounding puts corners of the part on both sides of the sheet."""
+    T = move(seed)
+    vertices, corners = box((0, -0.5, -0.5), (1, 0.5, 0.5))
+    part = vertices, corners if closed else corners[(vertices[corners][:, :, 0] < 1).any(1)]
+    sheet = np.array(square(0.0, (-2, -2), (2, 2))) @ T[:3, :3].T + T[:3, 3]
+    around = Obstacles(shape_of(part, T=T), faces(*sheet), 0.01)
+    off = Motion(JointType.PRISMATIC, T[:3, 0], T[:3, 3], "")
+    assert free_amount(around, off, 1, 2.0, 36) == (2.0, True)
+    amount, clear = free_amount(around, off, -1, 2.0, 36)
+    assert not clear
+    assert amount == pytest.approx(0, abs=1e-3)
 
 
 def test_two_stopped_points_of_a_small_set_block_a_motion_and_one_does_not() -> None:

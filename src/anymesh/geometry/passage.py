@@ -19,8 +19,9 @@ MARGIN = 1e-5  # of the target's longest side: margin of its bounds in the test 
 class Passage:
     """Points that move past a target along T motions, in the unit frame of the target's ray scene.
 
-    points: homogeneous; poses: rigid transforms of the points at each of k steps; amounts: of the motions at these steps;
-    is_ignored: returns which points of the target do not count, in the asset frame.
+    points: homogeneous; poses: rigid transforms of the points at each of k steps, the first at rest; amounts: of the motions at
+    these steps; is_ignored: returns which points of the target do not count, in the asset frame; off: returns the directions in
+    which points (indices) move off faces of the target (indices) that they touch, None if contact at rest stops them.
     """
 
     points: Float32[np.ndarray, "4 n"]
@@ -28,7 +29,8 @@ class Passage:
     amounts: Float[np.ndarray, "T k"]
     target: TriangleSet
     tolerance: float
-    is_ignored: Callable[[np.ndarray], np.ndarray] | None
+    is_ignored: Callable[[np.ndarray], np.ndarray] | None = None
+    off: Callable[[np.ndarray, np.ndarray], np.ndarray] | None = None
 
     @classmethod
     def of(
@@ -38,7 +40,8 @@ class Passage:
         amounts: Float[np.ndarray, "T k"],
         target: TriangleSet,
         tolerance: float,
-        gone: Callable[[np.ndarray], np.ndarray] | None,
+        gone: Callable[[np.ndarray], np.ndarray] | None = None,
+        off: Callable[[np.ndarray, np.ndarray], np.ndarray] | None = None,
     ) -> Passage:
         """Build the passage from points and transforms in the asset frame [m]."""
         scene = target.scene
@@ -46,7 +49,7 @@ class Passage:
         unit[..., 3] = (poses[:, :, :3, :3] @ scene.center + poses[:, :, :3, 3] - scene.center) * scene.scale
         homogeneous = np.concatenate([scene.to_unit(points).T, np.ones((1, len(points)), np.float32)])
         placed = unit.astype(np.float32).transpose(2, 0, 1, 3)
-        return cls(homogeneous, placed, amounts, target, tolerance * scene.scale, gone)
+        return cls(homogeneous, placed, amounts, target, tolerance * scene.scale, gone, off)
 
     def stops(
         self, motions: Int[np.ndarray, " t"], passing: Bool[np.ndarray, "t n"], begin: int, end: int
@@ -76,7 +79,10 @@ class Passage:
             where = done + (1 - done) * hits.distance[struck]
             ahead = [_rows(path, np.minimum(live + a * n, ends)) for a in range(1, LOOK_AHEAD + 2)]
             counts = self._counts(ahead, start, span, done, where, hits.face[struck])
-            t, k, i = np.unravel_index(live[counts], (count, known, n))
+            t, k, i = np.unravel_index(live, (count, known, n))
+            if begin == 0:
+                counts &= (k > 0) | ~self._leaves_contact(i, span, where, hits.face[struck])
+            t, k, i = t[counts], k[counts], i[counts]
             amounts = self.amounts[motions[t], begin + k]
             met = amounts + where[counts] * (self.amounts[motions[t], begin + k + 1] - amounts)
             point, first = np.unique(t * n + i, return_index=True)  # steps ascend, so the first one is the earliest
@@ -121,6 +127,18 @@ class Passage:
         left = (1 - done[chosen])[:, None]
         counts[chosen] = self._squarely(start[chosen] + span[chosen] * done[chosen, None], span[chosen] * left)
         return counts
+
+    def _leaves_contact(
+        self, point: Int[np.ndarray, " h"], span: np.ndarray, where: np.ndarray, face: Int[np.ndarray, " h"]
+    ) -> np.ndarray:
+        """Return which hits on a path from rest are of points that touch this surface at rest and move off it.
+
+        Where two surfaces coincide, rounding decides on which side of the surface a point begins.
+        """
+        if self.off is None:
+            return np.zeros(len(face), bool)
+        depth = np.abs(np.einsum("ij,ij->i", span, self.target.normals[face].astype(np.float32))) * where
+        return (depth <= self.tolerance) & (np.einsum("ij,ij->i", span, self.off(point, face)) > 0)
 
     def _squarely(self, start: np.ndarray, span: np.ndarray) -> np.ndarray:
         """Return whether paths still hit when moved sideways by the tolerance; grazing a surface or an edge is no stop."""

@@ -2,7 +2,8 @@
 
 A point of the part is stopped if its path crosses the surface of the rest and continues behind it by more than a tolerance. The
 same applies to a point of the rest whose path, relative to the part, crosses the part. Paths are cut into short segments and
-cast as rays, so open shells, thin boards and bad winding count like solids. Leaving a closed solid is free.
+cast as rays, so open shells, thin boards and bad winding count like solids. Leaving a closed solid is free, and so is leaving a
+surface that the part touches at rest, to the side of the part's own shape.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from jaxtyping import Bool, Float
+from jaxtyping import Bool, Float, Float32
 
 from anymesh.geometry.boxes import OrientedBox
 from anymesh.geometry.passage import Passage
@@ -40,10 +41,21 @@ class Obstacles:
     ignored_box: OrientedBox | None = None
     count: int = 350
 
-    @cached_property
+    @property
     def part_points(self) -> Float[np.ndarray, "n 3"]:
         """Return sample points of the part."""
+        return self._part_spread[0]
+
+    @cached_property
+    def _part_spread(self) -> tuple[np.ndarray, np.ndarray]:
         return _spread(self.part, self.count)
+
+    @cached_property
+    def part_normals(self) -> Float32[np.ndarray, "F 3"]:
+        """Return the normal of each face of the part, out of it: away from its middle if the surface is open."""
+        arms = self.part.triangles.mean(1) - self.part.samples.points.mean(0)
+        turned = ~self.part.solid & (np.einsum("ij,ij->i", arms, self.part.normals) < 0)
+        return np.where(turned[:, None], -self.part.normals, self.part.normals).astype(np.float32)
 
     @cached_property
     def rest_points(self) -> Float[np.ndarray, "m 3"]:
@@ -53,13 +65,13 @@ class Obstacles:
         center = self.rest.triangles.mean(1)
         near = np.flatnonzero(((center > low - reach) & (center < high + reach)).all(1))
         close = np.flatnonzero(((center > low - 0.1 * reach) & (center < high + 0.1 * reach)).all(1))
-        samples = [_spread(self.rest.take(index), self.count) for index in (near, close) if len(index)]
+        samples = [_spread(self.rest.take(index), self.count)[0] for index in (near, close) if len(index)]
         points = np.concatenate(samples) if samples else np.zeros((0, 3))
         return points[~self.is_ignored(points)]
 
     def prepare(self) -> None:
         """Compute the cached values before threads use them."""
-        _ = self.part_points, self.rest_points, self.part.scene
+        _ = self.part_points, self.rest_points, self.part_normals, self.part.scene
         if len(self.rest.triangles):
             _ = self.rest.scene
 
@@ -70,10 +82,18 @@ class Obstacles:
         there = np.array([m.transforms(a) for m, a in zip(motions, signed, strict=True)])
         back = np.array([m.transforms(-a) for m, a in zip(motions, signed, strict=True)])
         gone = None if self.ignored_box is None else self.is_ignored
-        ways = (self.part_points, there, self.rest, gone), (self.rest_points, back, self.part, None)
+        outward, face_of = self.part_normals, self._part_spread[1]
+
+        def off_rest(point: np.ndarray, face: np.ndarray) -> np.ndarray:
+            return -outward[face_of[point]]
+
+        def off_part(point: np.ndarray, face: np.ndarray) -> np.ndarray:
+            return outward[face]
+
+        ways = (self.part_points, there, self.rest, gone, off_rest), (self.rest_points, back, self.part, None, off_part)
         return [
-            Passage.of(points, poses, amounts, target, self.tolerance, hole)
-            for points, poses, target, hole in ways
+            Passage.of(points, poses, amounts, target, self.tolerance, hole, off)
+            for points, poses, target, hole, off in ways
             if len(points) and len(target.triangles)
         ]
 
@@ -84,15 +104,16 @@ class Obstacles:
         return np.all(np.abs(self.ignored_box.local(points)) < self.ignored_box.half + self.tolerance, axis=1)
 
 
-def _spread(shape: TriangleSet, count: int) -> np.ndarray:
-    """Return surface points and corners, about `count` of each, slightly inside closed surfaces."""
+def _spread(shape: TriangleSet, count: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return surface points and points a thousandth inside of the corners, about `count` of each, and the face of each."""
     samples = shape.samples
     step = max(1, len(samples) // count)
     corners = shape.triangles.reshape(-1, 3)
     centers = shape.triangles.mean(1).repeat(3, 0)
     stride = max(1, len(corners) // count)
     inside = corners[::stride] + 1e-3 * (centers[::stride] - corners[::stride])
-    return np.concatenate([samples.points[::step], inside])
+    face = np.arange(0, len(corners), stride) // 3
+    return np.concatenate([samples.points[::step], inside]), np.concatenate([samples.faces[::step], face])
 
 
 def free_amounts(
