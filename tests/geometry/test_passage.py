@@ -30,12 +30,12 @@ def joined(*shapes: TriangleSet) -> TriangleSet:
     return TriangleSet(parts[0], parts[1], parts[2], np.arange(len(parts[0])))
 
 
-def slides(points, target: TriangleSet, amounts, axes=(X,), tolerance: float = 0.01, gone=None) -> Passage:
+def slides(points, target: TriangleSet, amounts, axes=(X,), tolerance: float = 0.01, gone=None, off=None) -> Passage:
     """Return points that move along each axis by the same amounts."""
     told = np.tile(np.asarray(amounts, float), (len(axes), 1))
     poses = np.tile(np.eye(4), (*told.shape, 1, 1))
     poses[..., :3, 3] = told[..., None] * np.asarray(axes)[:, None]
-    return Passage.of(np.asarray(points, float), poses, told, target, tolerance, gone)
+    return Passage.of(np.asarray(points, float), poses, told, target, tolerance, gone, off)
 
 
 def stops(passage: Passage, begin: int, end: int) -> np.ndarray:
@@ -49,6 +49,15 @@ POINTS = [(0, 0.1, 0.2), (0.25, 1, -1), (0, 3, 0), (1.3, 0, 0)]
 def test_points_are_stopped_at_the_surface_and_others_pass() -> None:
     found = stops(slides(POINTS, sheet(1.1), np.linspace(0, 2, 9)), 0, 8)
     assert found == pytest.approx(np.array([[1.1, 0.85, np.inf, np.inf]]), abs=1e-5)
+
+
+def test_a_point_that_touches_a_surface_at_rest_moves_off_it_in_its_own_direction_alone() -> None:
+    """Three points behind a sheet; the last is farther behind it than the tolerance."""
+    points = [(-1e-6, 0, 0), (-0.009, 0.5, 0), (-0.011, 1, 0)]
+    for own, expected in ((None, [0, 0.009, 0.011]), (X, [np.inf, np.inf, 0.011]), (-X, [0, 0.009, 0.011])):
+        off = None if own is None else lambda point, face, own=own: np.tile(own, (len(point), 1))
+        found = stops(slides(points, sheet(0.0), np.linspace(0, 2, 9), off=off), 0, 8)
+        assert found == pytest.approx(np.array([expected]), abs=1e-5)
 
 
 def test_each_motion_has_amounts_of_its_own() -> None:

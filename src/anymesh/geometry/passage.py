@@ -29,7 +29,7 @@ class Passage:
     amounts: Float[np.ndarray, "T k"]
     target: TriangleSet
     tolerance: float
-    is_ignored: Callable[[np.ndarray], np.ndarray] | None = None
+    is_ignored: Callable[[np.ndarray], np.ndarray] | None
     off: Callable[[np.ndarray, np.ndarray], np.ndarray] | None = None
 
     @classmethod
@@ -40,7 +40,7 @@ class Passage:
         amounts: Float[np.ndarray, "T k"],
         target: TriangleSet,
         tolerance: float,
-        gone: Callable[[np.ndarray], np.ndarray] | None = None,
+        gone: Callable[[np.ndarray], np.ndarray] | None,
         off: Callable[[np.ndarray, np.ndarray], np.ndarray] | None = None,
     ) -> Passage:
         """Build the passage from points and transforms in the asset frame [m]."""
