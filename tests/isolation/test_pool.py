@@ -76,8 +76,8 @@ def test_a_call_may_use_so_much_processor_time_however_busy_the_machine_is(pool)
 
 
 def test_the_processor_time_of_earlier_calls_does_not_count(pool):
-    for _ in range(3):
-        assert pool.run(FAULTY, "work", {"seconds": 0.8}, seconds=1.0) == 0.8
+    for _ in range(4):  # a limit of 2 s leaves a second for imports
+        assert pool.run(FAULTY, "work", {"seconds": 0.9}, seconds=2.0) == 0.9
 
 
 def test_what_native_code_prints_does_not_reach_the_answers_or_the_terminal(pool, capfd):
