@@ -15,10 +15,8 @@ MAX_CLOSED_GAP_RATIO = 0.02  # of the tolerance length: a closed part is this ne
 END_FRACTION, MIN_NEAR_SHARE = 0.8, 0.2  # position where an end of a part begins, and the least share of it near the parent
 MIN_CLOSED_ENDS = 3  # of the four ends of its face, of a closed part
 FRAME_RATIO = 0.2  # of the front's size: width of the frame beside it with which it is flush when closed
-MIN_PROTRUSION_RATIO = 0.05  # of the tolerance length: a front that stands out less is closed
 MIN_INSERTED_RATIO = 0.25  # of the travel: a front with less depth behind it stands on its parent and was not pulled out
-FAR_RATIO = 0.8  # of the part's reach across the hinge: surface beyond it is the far rim
-MIN_OPEN_GAP_RATIO = 0.05  # of the tolerance length: a part whose far rim is nearer to the parent is not open
+MIN_OPEN_RATIO = 0.05  # of the tolerance length: a far rim nearer to the parent, or a front that stands out less, is closed
 MIN_CLOSING_ANGLE_RAD = float(np.deg2rad(5.0))  # [rad] less free angle in the closing direction is play
 
 
@@ -50,7 +48,7 @@ def closing_angle(around: PartContext, c: Candidate) -> float | None:
         return None
     if is_closed(around, around.gap):
         return 0.0
-    if _far_gap(around, c) < MIN_OPEN_GAP_RATIO * around.tolerance_length or _closes(around, c.reversed()):
+    if _far_gap(around, c) < MIN_OPEN_RATIO * around.tolerance_length or _closes(around, c.reversed()):
         return None
     if _at_stop(c):
         return 0.0
@@ -73,7 +71,7 @@ def _clear_behind(c: Candidate) -> bool:
 def _far_gap(around: PartContext, c: Candidate) -> float:
     """Return the median distance of the rim opposite the hinge to the parent [m]."""
     off = np.linalg.norm(np.cross(around.part.samples.points - c.motion.origin, c.motion.axis), axis=1)
-    return float(np.median(around.gap[off >= FAR_RATIO * off.max()]))
+    return float(np.median(around.gap[off >= END_FRACTION * off.max()]))
 
 
 def closing_travel(around: PartContext, c: Candidate) -> float:
@@ -90,7 +88,7 @@ def closing_travel(around: PartContext, c: Candidate) -> float:
         return 0.0
     travel = float(core.center @ axis + core.half @ along - (points[beside] @ axis).max())
     inserted = 2 * float(core.half @ along) - travel
-    pulled = travel > MIN_PROTRUSION_RATIO * around.tolerance_length and inserted > MIN_INSERTED_RATIO * travel
+    pulled = travel > MIN_OPEN_RATIO * around.tolerance_length and inserted > MIN_INSERTED_RATIO * travel
     return travel if pulled else 0.0
 
 

@@ -13,18 +13,14 @@ from anymesh.types import JointType, Motion
 from anymesh.types.recognition import RecognizedLabel
 
 MIN_DRAWER_DEPTH_RATIO = 0.35  # of the parent's depth: a slide that is less deep is only a panel
-MIN_STROKE_RATIO = 0.1  # of its height: a button with less free space behind it fills its hole
-STROKE_RATIO = 0.5  # of its height: stroke of such a button
-MIN_DRAWER_SIZE_RATIO = 0.06  # of the object's diagonal: smaller parts are no panels of a hidden box
+STROKE_RATIO = 0.5  # of its height: least stroke of a button, whose mesh may fill the hole that it moves in
 MIN_HINGE_RANGE_RAD = np.deg2rad(2.0)  # [rad] a hinge with a shorter range, answered or left free, has an error
 MIN_SLIDE_FREE_RATIO = 0.05  # of an answered travel: a slide that the sweep leaves less is blocked and keeps its answer
 # free shares of an answered range for reversing the axis: the maximum before, and the minimum after
 MAX_BLOCKED_RATIO, MIN_REVERSED_FREE_RATIO = 0.5, 0.8
 MIN_DEPTH_IN_PARENT_RATIO = 0.3  # of the answered travel: a part less deep inside its parent is only a panel
 ANGLE_STEP_RAD = np.deg2rad(1.0)  # [rad] resolution of limits that the sweep finds
-MIN_TRAVEL_RATIO = 0.01  # of the tolerance length: the least travel of a slide; less in the closing direction is play
-MAX_PANEL_THICKNESS_RATIO = 0.3  # shortest side of a panel over its middle side
-MIN_UPPER_RATIO = 0.001  # of the tolerance length: a slide that is less free opens as far as it is deep
+MIN_TRAVEL_RATIO = 0.01  # of the tolerance length: the least travel of a slide; less is play, or a slide that its mesh blocks
 
 
 Range = tuple[float, float]  # lower, upper [rad or m], lower <= 0 <= upper
@@ -160,13 +156,7 @@ def _prismatic(around: PartContext, c: Candidate) -> tuple[float, float]:
     if c.captured:
         most = 2 * around.part.box.diagonal
     behind = float(np.ptp(around.parent.samples.points @ motion.axis))
-    small = around.part.box.diagonal < MIN_DRAWER_SIZE_RATIO * around.diagonal
-    if (
-        outward
-        and not small
-        and extent < MIN_DRAWER_DEPTH_RATIO * behind
-        and around.body_obb.half[2] < MAX_PANEL_THICKNESS_RATIO * around.body_obb.half[1]
-    ):
+    if outward and extent < MIN_DRAWER_DEPTH_RATIO * behind:
         most = around.config.slide_hidden * behind  # a panel whose box is not in the mesh
     steps = around.config.fine_steps * 2
     obstacles = around.obstacles_of(motion, c.penetration_scale)
@@ -176,14 +166,14 @@ def _prismatic(around: PartContext, c: Candidate) -> tuple[float, float]:
         lower, clear = free_amount(obstacles, motion, -1, closing or most, steps)
         if (clear and not outward) or lower < MIN_TRAVEL_RATIO * around.tolerance_length:
             lower = 0.0
-    if upper < MIN_UPPER_RATIO * around.tolerance_length:
+    if upper < MIN_TRAVEL_RATIO * around.tolerance_length:
         upper = most if lower == 0 else 0.0
     return (0.0 - lower, upper)
 
 
 def _stroke(around: PartContext, c: Candidate) -> float:
-    """Return the stroke of a part into its parent [m]: up to its own height, half of it if its mesh fills the hole."""
+    """Return the stroke of a part into its parent [m]: up to its own height, and half of it at least."""
     motion = opening_motion(c)
     extent = float(np.ptp(around.part.corners @ motion.axis))
     free, _ = free_amount(around.obstacles(c.penetration_scale), motion, 1, extent, 2 * around.config.fine_steps)
-    return free if free > MIN_STROKE_RATIO * extent else STROKE_RATIO * extent
+    return max(free, STROKE_RATIO * extent)

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from anymesh.articulation.motion_question import Candidate, SlideDirection
+from anymesh.config import FACING_COSINE
 from anymesh.motion.part_context import PartContext
 from anymesh.types import JointType
 
-MAX_LEVEL_COSINE = 0.5  # maximum cosine between the vertical and a level hinge
-MIN_DRAWER_SIZE_RATIO = 0.15  # of the object's diagonal: a smaller part that slides in is a button
-MIN_WHEEL_SIZE_RATIO = 0.16  # of the object's diagonal: a smaller part that spins is a knob
+MIN_LARGE_RATIO = 0.15  # of the object's diagonal: a smaller part that slides in is a button, one that spins is a knob
 MIN_DRAWER_TRAVEL_RATIO = 0.1  # of its size: a slide with less travel is not labelled as a drawer
 MIN_LID_COSINE = 0.8  # minimum cosine between the vertical and the opening direction of a hinged lid
 # of its height: a part with a level hinge that rises higher than this above its parent is a lid modelled open
@@ -24,13 +23,13 @@ def label_of(around: PartContext, best: Candidate) -> str:
     if best.motion.kind is JointType.PRISMATIC:
         if best.slide_direction is SlideDirection.ALONG_SURFACE:
             return "slider"
-        if size <= MIN_DRAWER_SIZE_RATIO and best.outward < 0:
+        if size <= MIN_LARGE_RATIO and best.outward < 0:
             return "button"
         return "drawer" if best.opening * around.tolerance_length >= MIN_DRAWER_TRAVEL_RATIO * around.part.box.diagonal else ""
     if best.role == "round":
-        return "knob" if size < MIN_WHEEL_SIZE_RATIO else "wheel"
+        return "knob" if size < MIN_LARGE_RATIO else "wheel"
     if best.role == "two_pivot":
         return "handle" if around.part.slender else "lid"  # a plate on two pivots is the lid of a laptop
     low, high = around.part.bounds[:, 2]
-    raised = best.vertical < MAX_LEVEL_COSINE and high - around.parent.bounds[1, 2] > MIN_OPEN_LID_RISE_RATIO * (high - low)
+    raised = best.vertical < FACING_COSINE and high - around.parent.bounds[1, 2] > MIN_OPEN_LID_RISE_RATIO * (high - low)
     return "lid" if around.opening_direction[2] > MIN_LID_COSINE or raised else "door"

@@ -6,6 +6,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 from scipy.spatial import ConvexHull
 
+from anymesh.config import FACING_COSINE
 from anymesh.geometry.sampling import sample_surface
 from anymesh.geometry.topology import label_connected
 from anymesh.geometry.triangle_set import MeshSurface
@@ -18,7 +19,6 @@ MAX_BULGE_RATIO = 0.06  # of the diagonal: maximum bulge of a face
 MIN_FLATNESS = 0.96
 PLANE_FITS = 3  # iterations of the fit of a face's plane
 MIN_KNOB_FACE_RATIO = 0.3  # of a side of the object: minimum size of a face that has panels with knobs
-UPRIGHT = 0.5  # maximum vertical component of the unit normal of an upright face
 MAX_PANEL_THICKNESS_RATIO = 0.35  # maximum thickness over smaller side of a region that is already a panel
 MAX_TRIANGLE_RATIO = 0.25  # maximum area of the largest triangle over the smallest panel; coarser faces cannot show the borders
 # of the panel's area: maximum area of a cut-off region that joins the panel; a larger one is a side of the cabinet
@@ -67,7 +67,7 @@ def _of_a_kind(whole: MeshSurface, faces: np.ndarray, handles: list[SurfaceHandl
         return [g for g in bars if aligned(bars[0], g)]
     across = np.ptp(whole.shape.triangles.reshape(-1, 3), axis=0)
     side = across.prod() / across * np.abs(normal) / max(float(np.linalg.norm(normal)), 1e-300)
-    upright = abs(normal[2]) < UPRIGHT * np.linalg.norm(normal)
+    upright = abs(normal[2]) < FACING_COSINE * np.linalg.norm(normal)
     return handles if upright and np.linalg.norm(normal) > MIN_KNOB_FACE_RATIO * side.sum() else []
 
 
