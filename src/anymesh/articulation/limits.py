@@ -13,7 +13,8 @@ from anymesh.types import JointType, Motion
 from anymesh.types.recognition import RecognizedLabel
 
 MIN_DRAWER_DEPTH_RATIO = 0.35  # of the parent's depth: a slide that is less deep is only a panel
-STROKE_RATIO = 0.5  # of its height: least stroke of a button, whose mesh may fill the hole that it moves in
+MIN_STROKE_RATIO = 0.1  # of its height: a button with less free space behind it fills its hole
+STROKE_RATIO = 0.5  # of its height: stroke of such a button
 MIN_HINGE_RANGE_RAD = np.deg2rad(2.0)  # [rad] a hinge with a shorter range, answered or left free, has an error
 MIN_SLIDE_FREE_RATIO = 0.05  # of an answered travel: a slide that the sweep leaves less is blocked and keeps its answer
 # free shares of an answered range for reversing the axis: the maximum before, and the minimum after
@@ -172,8 +173,8 @@ def _prismatic(around: PartContext, c: Candidate) -> tuple[float, float]:
 
 
 def _stroke(around: PartContext, c: Candidate) -> float:
-    """Return the stroke of a part into its parent [m]: up to its own height, and half of it at least."""
+    """Return the stroke of a part into its parent [m]: up to its own height, half of it if its mesh fills the hole."""
     motion = opening_motion(c)
     extent = float(np.ptp(around.part.corners @ motion.axis))
     free, _ = free_amount(around.obstacles(c.penetration_scale), motion, 1, extent, 2 * around.config.fine_steps)
-    return max(free, STROKE_RATIO * extent)
+    return free if free > MIN_STROKE_RATIO * extent else STROKE_RATIO * extent
