@@ -14,7 +14,6 @@ from typing import Any
 
 import lightgbm
 import numpy as np
-from choice_loss import choice_derivatives
 from jaxtyping import Bool, Float
 
 from anymesh.scoring.boosted_trees import NO_FEATURE, BoostedTrees
@@ -34,14 +33,12 @@ Scores = list[Float[np.ndarray, " n"]]
 class Model:
     """One model of an ensemble, whose scores are averaged.
 
-    rounds: number of trees; extra_trees: whether thresholds are random (Geurts et al., 2006); by_choice: whether it learns
-    which candidate of a choice is right (`choice_loss.py`), not whether each candidate by itself is.
+    rounds: number of trees; extra_trees: whether thresholds are random (Geurts et al., 2006).
     """
 
     rounds: int
     seed: int = 0
     extra_trees: bool = False
-    by_choice: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,14 +66,10 @@ def fit(samples: Sequence[Sample], models: Sequence[Model]) -> BoostedTrees:
     weight = np.concatenate([np.full(len(s.target), s.weight) for s in samples])
     known = ~np.isnan(target)
     table, weights = np.concatenate([s.features for s in samples])[known], weight[known] / weight[known].mean()
-    counts = np.array([(~np.isnan(s.target)).sum() for s in samples])
-    derivatives = choice_derivatives(counts[counts > 0], target[known], weights)
 
     def trained(model: Model) -> BoostedTrees:
         data = lightgbm.Dataset(table, target[known], weight=weights)
         settings = SETTINGS | {"seed": model.seed, "extra_trees": model.extra_trees}
-        if model.by_choice:
-            settings |= {"objective": lambda score, _: derivatives(score)}
         return trees_of(lightgbm.train(settings, data, model.rounds))
 
     with ThreadPoolExecutor(os.cpu_count()) as threads:  # each model uses one thread, for reproducibility

@@ -29,8 +29,7 @@ from anymesh.articulation.estimate import MAX_COPIES
 from anymesh.articulation.rank_motions import BLOCKED, share_of_best
 from anymesh.articulation.repeated_parts import ScoredMotions, mean_over_copies
 
-ALONE = tuple(Model(800, seed, extra_trees=True) for seed in range(2))
-MODELS = (*ALONE, *(Model(400, seed, extra_trees=True, by_choice=True) for seed in range(2)))
+MODELS = tuple(Model(800, seed, extra_trees=True) for seed in range(3))
 OBJECT, SOURCE = 0.5, 0.6  # powers by which parts of an object, and parts of a source, count less the more they are
 HERE = Path(__file__).parent
 WRITTEN = HERE.parent / "src" / "anymesh" / "articulation" / "motion_classifier.npz"

@@ -15,7 +15,6 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "benchmarks"))
 
 import motion_rows
 import part_rows
-from choice_loss import choice_derivatives
 from collect_rows import collect
 
 
@@ -45,19 +44,3 @@ def test_candidates_have_the_features_of_the_shipped_classifier_and_one_is_the_t
     assert set(part_classifier.shipped_classifier().names) <= set(rows.names)
     assert np.isfinite(rows.features).all()
     assert rows.iou().max() > 0.95
-
-
-def test_the_derivatives_of_the_loss_of_a_choice_are_those_of_its_log_probability() -> None:
-    counts, target = np.array([3, 2, 2]), np.array([0, 1, 0.5, 1, 0, 0, 0])
-    weight = np.array([1.0, 1, 1, 2, 2, 1, 1])
-    score = np.random.default_rng(0).normal(size=7)
-
-    def loss(score: np.ndarray) -> float:
-        share = np.concatenate([np.exp(s) / np.exp(s).sum() for s in np.split(score, [3, 5])])
-        return -np.log(share[1] + 0.5 * share[2]) - 2 * np.log(share[3])
-
-    first, second = choice_derivatives(counts, target, weight)(score)
-    step = 1e-6 * np.eye(7)
-    assert first == pytest.approx([(loss(score + d) - loss(score - d)) / 2e-6 for d in step], abs=1e-6)
-    assert (first[5:] == 0).all()  # nothing is right
-    assert (second[:5] > 0).all()

@@ -14,6 +14,7 @@ from scenes import door
 
 from anymesh.articulation import offers
 from anymesh.articulation.cases import PartCase
+from anymesh.articulation.estimate import choose_motion
 from anymesh.articulation.evidence import sweep_candidates
 from anymesh.articulation.motion_question import Candidate, MotionQuestion
 from anymesh.articulation.moved_points import MovedPoints
@@ -148,6 +149,17 @@ def test_both_directions_of_a_motion_are_scored_only_if_both_are_free() -> None:
     ways = [c.motion for c in found if c.motion.kind is JointType.REVOLUTE]
     both = [sum(m is other for other in ways) for m in ways]
     assert set(both) <= {1, 2}
+
+
+@pytest.mark.parametrize(("off", "front"), [(0.028, True), (0.032, False)])
+def test_lines_at_one_rim_are_within_one_and_a_half_thicknesses(off: float, front: bool) -> None:
+    """The panel is 2 cm thick; hinged 2 cm behind its neighbour's front it hits the neighbour."""
+    leaf, other = [box((0, -0.022, 0), (0.6, -0.002, 0.8))], [box((-0.6, -0.022, 0), (-0.001, -0.002, 0.8))]
+    around = context(leaf, [box((-0.6, 0, 0), (0.6, 0.4, 0.8))], other)
+    lines = tuple(replace(EDGE, motion=turn(Z, (0, y, 0)), opening_sign=-1) for y in (-0.002, -0.002 - off))
+    question = MotionQuestion(PLATE, lines, np.array([3.0, 0]), lambda _: "")
+    chosen = choose_motion(around, question)[1]
+    assert chosen is lines[int(front)]
 
 
 SHUTTLE = [box((-0.1, -0.01, 0), (0.1, 0.01, 0.1))]

@@ -13,7 +13,7 @@ from made import EDGE, PULL, ROUND, X, Y, Z, candidate, context, turn
 from scenes import prism, wheel
 from test_hypotheses import board
 
-from anymesh.articulation.estimate import estimate_joint, joint_of
+from anymesh.articulation.estimate import choose_motion, estimate_joint, joint_of
 from anymesh.articulation.hypotheses import barrels, contact_axes, propose, two_pivot_line
 from anymesh.articulation.motion_question import MotionQuestion
 from anymesh.articulation.own_axes import pivots
@@ -198,3 +198,14 @@ def test_a_part_without_a_free_motion_has_its_likeliest_one() -> None:
     assert found.reason == "no candidate motion is free and plausible; most likely: a slide"
     moving = estimate_joint(around, "b", "base", MotionQuestion(facts, candidates, np.array([3.0, 0.0]), lambda _: ""))
     assert moving.type is JointType.REVOLUTE
+
+
+def test_of_the_lines_at_one_rim_the_one_that_clears_the_neighbours_is_chosen() -> None:
+    """A door beside another one, flush with it: hinged at its back edge it would hit it, at its front edge it clears it."""
+    leaf, other = [box((0, -0.022, 0), (0.6, -0.002, 0.8))], [box((-0.6, -0.022, 0), (-0.001, -0.002, 0.8))]
+    around = context(leaf, [box((-0.6, 0, 0), (0.6, 0.4, 0.8))], other)
+    back, front = (replace(EDGE, motion=turn(Z, (0, y, 0)), opening_sign=-1) for y in (-0.002, -0.022))
+    question = MotionQuestion(part_facts(around, "b", "part", two_pivot=False), (back, front), np.array([3.0, 0]), lambda _: "")
+    assert choose_motion(around, question)[1] is front
+    alone = replace(around, siblings=())
+    assert choose_motion(alone, question)[1] is back

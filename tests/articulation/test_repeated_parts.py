@@ -1,6 +1,7 @@
 """Test joints of repeated parts, levers, buttons and parts that overlap the base."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -127,3 +128,13 @@ def test_a_deep_drawer_needs_no_carving() -> None:
     free = joints_of(drawer())["box"]
     assert free.limits is not None
     assert 0.28 < free.limits[1] < 0.35
+
+
+def test_a_hinge_that_opens_to_no_side_is_compared_with_no_other() -> None:
+    mesh, segmentation = built(pair("both"))
+    config = Config()
+    whole = object_shape(mesh, config.seed, config.pieces, segmentation.face_part)
+    _, _, around, question = next(iter(estimate.motion_questions(whole, segmentation, config)))
+    assert around.siblings
+    rims = [replace(c, outward=0.0) for c in question.candidates if c.role == "edge"]
+    assert estimate._clear_of_others(around, rims[0], tuple(rims)) is rims[0]

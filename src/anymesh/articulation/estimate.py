@@ -22,13 +22,20 @@ from anymesh.articulation.tree import descendants, parents
 from anymesh.config import ArticulationConfig, Config
 from anymesh.deadline import JOINTS, Deadline
 from anymesh.geometry.patches import ObjectShape
+from anymesh.geometry.sweep import free_amount
 from anymesh.geometry.triangle_set import TriangleSet
 from anymesh.motion.part_context import PartContext
 from anymesh.types import Joint, JointType, Motion, Segmentation
 
+MIN_RIM_THICKNESS_RATIO = 0.01  # of the tolerance length: minimum thickness of a rim
+MAX_RIM_THICKNESSES = 1.5  # hinge lines within this multiple of the rim's thickness are at one rim
+MIN_PARALLEL_COSINE = 0.999  # minimum cosine between the axes of such lines
+SUFFICIENT_OPENING_RAD = np.deg2rad(110)  # [rad] larger openings are not compared
+TIGHT_PENETRATION_SCALE = 0.2  # penetration scale for the clearance to neighbours, which is a few millimetres
 MAX_COPIES = 8  # maximum number of copies whose motions are compared with those of a part
 ROLES_AFTER_DEADLINE = ("two_pivot", "round", "barrel", "edge_mid", "slide")  # roles that are swept after the deadline
 PartMotions = tuple[int, int, PartContext, MotionQuestion]  # part number, parent number, context, motions
+MIN_OPENING_GAIN_RAD = np.deg2rad(5)  # [rad] minimum gain in opening angle
 
 
 def estimate_joints(segmentation: Segmentation, motions: Iterable[PartMotions]) -> tuple[Joint, ...]:
@@ -96,10 +103,10 @@ def part_context(
     )
 
 
-def choose_motion(question: MotionQuestion) -> tuple[MotionAnswer, Candidate]:
+def choose_motion(around: PartContext, question: MotionQuestion) -> tuple[MotionAnswer, Candidate]:
     """Return the answer on how a part moves, and the chosen candidate."""
     answer = rank_motions(question)
-    return answer, question.candidates[answer.ranking[0]]
+    return answer, _clear_of_others(around, question.candidates[answer.ranking[0]], question.candidates)
 
 
 def motion_question(around: PartContext, name: str, label: str) -> MotionQuestion:
@@ -116,9 +123,33 @@ def _part_scores(around: PartContext, name: str, label: str, deadline: Deadline 
     return PartMotionScores(around, facts, sweep_candidates(around, proposed))
 
 
+def _clear_of_others(around: PartContext, best: Candidate, candidates: tuple[Candidate, ...]) -> Candidate:
+    """Among hinge lines at one rim, choose the one with the largest opening when the other parts are at rest."""
+    rims = ("edge", "edge_mid")
+    if best.role not in rims or not around.siblings:
+        return best
+    near = replace(around.obstacles_at_rest, tolerance=TIGHT_PENETRATION_SCALE * around.penetration)
+    thickness = max(2 * float(around.body_obb.half[2]), MIN_RIM_THICKNESS_RATIO * around.tolerance_length)
+
+    def opens(c: Candidate) -> float:
+        return free_amount(near, opening_motion(c), 1, min(c.opening, SUFFICIENT_OPENING_RAD), around.config.sweep_steps)[0]
+
+    alike = [c for c in candidates if c is best or (c.role in rims and c.outward * best.outward > 0)]
+    alternatives = [c for c in alike if _at_one_rim(best, c, thickness)]
+    free = {id(c): opens(c) for c in alternatives}
+    most = max(free.values())
+    return best if free[id(best)] > most - MIN_OPENING_GAIN_RAD else next(c for c in alternatives if free[id(c)] == most)
+
+
+def _at_one_rim(a: Candidate, b: Candidate, thickness: float) -> bool:
+    if abs(float(a.motion.axis @ b.motion.axis)) < MIN_PARALLEL_COSINE:
+        return False
+    return float(np.linalg.norm(np.cross(b.motion.origin - a.motion.origin, a.motion.axis))) < MAX_RIM_THICKNESSES * thickness
+
+
 def estimate_joint(around: PartContext, name: str, parent: str, question: MotionQuestion) -> Joint:
     """Estimate the joint of one part."""
-    answer, best = choose_motion(question)
+    answer, best = choose_motion(around, question)
     if answer.type is not JointType.FIXED:
         return joint_of(around, name, parent, best, answer.type, answer.confidence, answer.reason)
     # the part is known to move, so a fixed answer is replaced by the best motion

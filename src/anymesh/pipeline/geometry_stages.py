@@ -67,7 +67,7 @@ class GeometryStages:
         """Return a label of each part but the base from its motion by geometry; "" for a part that cannot move."""
         labels = {}
         for i, _, around, question in self._motions(segmentation):
-            answer, best = choose_motion(question)
+            answer, best = choose_motion(around, question)
             labels[i] = "" if answer.type is JointType.FIXED else label_of(around, best)
         return [labels[i] for i in sorted(labels)]
 
