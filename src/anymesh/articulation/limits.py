@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from anymesh.articulation.closed_pose import MIN_CLOSING_ANGLE_RAD, closing_angle, closing_travel
-from anymesh.articulation.motion_question import MIN_FREE_ANGLE_RAD, Candidate, SlideDirection
+from anymesh.articulation.motion_question import MIN_FREE_ANGLE_RAD, MIN_FREE_TRAVEL_RATIO, Candidate, SlideDirection
 from anymesh.config import ALONG_COSINE
 from anymesh.geometry.sweep import free_amount
 from anymesh.motion.part_context import PartContext
@@ -21,7 +21,6 @@ MIN_SLIDE_FREE_RATIO = 0.05  # of an answered travel: a slide that the sweep lea
 MAX_BLOCKED_RATIO, MIN_REVERSED_FREE_RATIO = 0.5, 0.8
 MIN_DEPTH_IN_PARENT_RATIO = 0.3  # of the answered travel: a part less deep inside its parent is only a panel
 ANGLE_STEP_RAD = np.deg2rad(1.0)  # [rad] resolution of limits that the sweep finds
-MIN_TRAVEL_RATIO = 0.01  # of the tolerance length: the least travel of a slide; less is play, or a slide that its mesh blocks
 
 
 Range = tuple[float, float]  # lower, upper [rad or m], lower <= 0 <= upper
@@ -153,7 +152,7 @@ def _prismatic(around: PartContext, c: Candidate) -> tuple[float, float]:
     closing = closing_travel(around, c) if outward else 0.0
     depth = around.depth_in_parent(motion.axis) + closing
     extent = float(np.ptp(around.part.corners @ motion.axis))
-    most = max((1 - around.config.slide_keep) * (depth if outward else extent), MIN_TRAVEL_RATIO * around.tolerance_length)
+    most = max((1 - around.config.slide_keep) * (depth if outward else extent), MIN_FREE_TRAVEL_RATIO * around.tolerance_length)
     if c.captured:
         most = 2 * around.part.box.diagonal
     behind = float(np.ptp(around.parent.samples.points @ motion.axis))
@@ -165,9 +164,9 @@ def _prismatic(around: PartContext, c: Candidate) -> tuple[float, float]:
     lower = 0.0
     if closing or not outward:
         lower, clear = free_amount(obstacles, motion, -1, closing or most, steps)
-        if (clear and not outward) or lower < MIN_TRAVEL_RATIO * around.tolerance_length:
+        if (clear and not outward) or lower < MIN_FREE_TRAVEL_RATIO * around.tolerance_length:
             lower = 0.0
-    if upper < MIN_TRAVEL_RATIO * around.tolerance_length:
+    if upper < MIN_FREE_TRAVEL_RATIO * around.tolerance_length:
         upper = most if lower == 0 else 0.0
     return (0.0 - lower, upper)
 
