@@ -157,7 +157,8 @@ def _prismatic(around: PartContext, c: Candidate) -> tuple[float, float]:
         most = 2 * around.part.box.diagonal
     behind = float(np.ptp(around.parent.samples.points @ motion.axis))
     if outward and extent < MIN_DRAWER_DEPTH_RATIO * behind:
-        most = around.config.slide_hidden * behind  # a panel whose box is not in the mesh
+        # a panel whose box is not in the mesh; a knob comes out no further than it is large
+        most = min(around.config.slide_hidden * behind, around.part.box.diagonal)
     steps = around.config.fine_steps * 2
     obstacles = around.obstacles_of(motion, c.penetration_scale)
     upper, _ = free_amount(obstacles, motion, 1, max(most - closing, 0.0), steps)
