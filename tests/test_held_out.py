@@ -6,6 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from anymesh.evaluation.record import Record
+from anymesh.evaluation.score import ObjectScore
 from anymesh.evaluation.training import trained_objects
 
 BENCHMARKS = Path(__file__).parents[1] / "benchmarks"
@@ -13,6 +15,7 @@ sys.path.insert(0, str(BENCHMARKS))
 
 import held_out  # noqa: E402
 import kinds  # noqa: E402
+import still_models  # noqa: E402
 
 
 def test_no_shipped_classifier_was_trained_on_a_reserved_kind() -> None:
@@ -56,3 +59,16 @@ def test_the_baseline_has_a_figure_of_each_kind() -> None:
         for row in baseline[group].values():
             assert set(row) == set(held_out.FIGURES)
             assert all(0 <= value <= 1 for value in row.values())
+
+
+def test_no_model_that_should_stay_without_parts_is_trained_on() -> None:
+    trained = set(trained_objects())
+    assert "sweethome3d/fridgeFreezer" in trained
+    assert not {f"sweethome3d/{name}" for name in still_models.STILL} & trained
+
+
+def test_the_page_of_models_that_do_not_move_counts_objects_and_parts() -> None:
+    records = [Record(ObjectScore(f"{name}-{name}", (), count, 0, 0)) for name, count in [("bed", 0), ("bath", 4), ("lamp", 1)]]
+    lines = still_models.page(records).splitlines()
+    assert "On 1 of them no part is found; on the others 5:" in lines
+    assert "bath (4), lamp." in lines
