@@ -10,13 +10,12 @@ WORK: a folder for objects and results, as for `benchmarks/held_out.py`.
 from __future__ import annotations
 
 import argparse
-import zipfile
 from collections.abc import Sequence
 from pathlib import Path
 
 from held_out import measure
 
-from anymesh.evaluation.datasets.sweethome3d import INSTALLED
+from anymesh.evaluation.datasets.sweethome3d import SweetHome3D
 from anymesh.evaluation.record import Record
 
 STILL = (
@@ -27,21 +26,18 @@ STILL = (
     "wallUplight"
 ).split()
 URDF = """<robot name="{0}"><link name="base"><visual><origin rpy="1.5707963267948966 0 0" xyz="0 0 0"/>
-<geometry><mesh filename="{0}.obj"/></geometry></visual></link></robot>
-"""
+<geometry><mesh filename="{0}.glb"/></geometry></visual></link></robot>
+"""  # the models are y-up
 HERE = Path(__file__).parent
 
 
 def write_objects(folder: Path) -> list[str]:
-    """Write each model with its materials and a URDF file of one link, and return their names as objects of a data set."""
-    with zipfile.ZipFile(INSTALLED) as jar:
-        members = {Path(member).name: member for member in jar.namelist()}
-        for name in STILL:
-            (folder / name).mkdir(parents=True, exist_ok=True)
-            (folder / name / f"{name}.urdf").write_text(URDF.format(name))
-            (folder / name / f"{name}.obj").write_bytes(jar.read(members[f"{name}.obj"]))
-            if material := members.get(f"{name}.mtl"):
-                (folder / name / f"{name}.mtl").write_bytes(jar.read(material))
+    """Write each model as a GLB file and a URDF file of one link, and return their names as objects of a data set."""
+    models = SweetHome3D()
+    for name in STILL:
+        (folder / name).mkdir(parents=True, exist_ok=True)
+        models.truth(name, folder / name)
+        (folder / name / f"{name}.urdf").write_text(URDF.format(name))
     return [f"{name}-{name}" for name in STILL]
 
 

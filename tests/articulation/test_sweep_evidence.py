@@ -123,6 +123,11 @@ def test_a_thin_front_slides_as_a_panel_whose_box_is_hidden() -> None:
     assert of(LEAF, BLOCK, slide(-Y), "slide") == pytest.approx((0, 0.6 * 0.4), abs=0.02)
 
 
+def test_a_knob_in_front_of_a_deep_case_comes_out_no_further_than_it_is_large() -> None:
+    knob = [box((0.28, -0.02, 0.3), (0.32, 0, 0.34))]
+    assert of(knob, BLOCK, slide(-Y), "slide") == pytest.approx((0, 0.06), abs=0.005)  # of 4 x 2 x 4 cm
+
+
 def test_a_sash_slides_until_a_tenth_of_its_width_covers_its_frame() -> None:
     low, high = of(SHUTTLE, slot(0.002, ends=False), slide(X), "slide")
     assert (low, high) == pytest.approx((0, 0.9 * 0.2), abs=0.01)
