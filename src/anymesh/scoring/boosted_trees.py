@@ -28,14 +28,20 @@ class BoostedTrees:
 
     def score(self, rows: Float[np.ndarray, "n k"]) -> Float[np.ndarray, " n"]:
         """Return the sum of the leaf values that each row reaches: the log-odds of the positive class."""
-        rows = np.asarray(rows, np.float32)
-        node = np.repeat(self.root[None], len(rows), 0)
-        at = np.arange(len(rows))[:, None]
-        while (inner := self.feature[node] != NO_FEATURE).any():
-            column = np.maximum(self.feature[node], 0)
-            above = rows[at, column] > self.threshold[node]
-            node = np.where(inner, np.where(above, self.right[node], self.left[node]), node)
-        return self.value[node].astype(np.float64).sum(1)
+        rows = np.ascontiguousarray(rows, np.float32)
+        reached = np.tile(self.root, len(rows))  # the node of each row in each tree
+        going, node = np.arange(len(reached)), reached.copy()
+        first = np.repeat(np.arange(len(rows)) * rows.shape[1], len(self.root))  # of the row's values
+        next_nodes = np.stack([self.left, self.right], 1).reshape(-1)
+        while True:
+            column = self.feature[node]
+            inner = np.flatnonzero(column != NO_FEATURE)
+            if len(inner) == 0:
+                return self.value[reached].reshape(len(rows), len(self.root)).astype(np.float64).sum(1)
+            going, node, first, column = going[inner], node[inner], first[inner], column[inner]
+            above = rows.reshape(-1)[first + column] > self.threshold[node]
+            node = next_nodes[2 * node + above]
+            reached[going] = node
 
     @classmethod
     def mean(cls, models: Sequence[BoostedTrees]) -> BoostedTrees:
