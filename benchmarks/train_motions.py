@@ -4,7 +4,7 @@ python benchmarks/train_motions.py FOLDER            benchmarks/motions.md: leav
 python benchmarks/train_motions.py FOLDER --write    also trains on all and writes motion_classifier.npz with its manifest
 
 FOLDER: rows as `benchmarks/motion_rows.py` writes them. Needs lightgbm. For the shipped classifier:
-    python benchmarks/kinds.py KINDS --seed 11 --count 5
+    python benchmarks/kinds.py KINDS --seed 11 --count 4
     python benchmarks/motion_rows.py FOLDER urdf:KINDS@kinds labelled:INFINIGEN@infinigen sweethome3d metaworld libero \
         examples scene-synthesizer mjcf:ROBOSUITE/models/assets/robots@robosuite mjcf:ROBOSUITE/models/assets/grippers@robosuite
     python benchmarks/motion_rows.py FOLDER urdf:KINDS@kinds labelled:INFINIGEN@infinigen --change fused --most 40

@@ -188,4 +188,13 @@ def test_a_hinge_is_free_where_the_part_only_leaves_a_post_that_it_overlaps(over
     around = context([box((0, -0.022, 0), (0.6, -0.002, 0.8))], [box((-0.1, 0.0, 0), (0.6, 0.4, 0.8)), post])
     found = max(sweep_candidates(around, [("edge", turn(Z, (0.6, -0.022, 0)))]), key=lambda c: c.outward)
     assert found.is_free
-    assert found.penetration_scale == 1
+
+
+@pytest.mark.parametrize("sunk", [-0.001, 0.008, 0.014])
+def test_a_door_that_is_sunk_into_the_wall_at_its_hinge_turns_by_a_right_angle_but_slides_no_deeper(sunk: float) -> None:
+    """The door is 3 cm thick; of its diagonal .003 are tolerated, about 3 mm."""
+    wall = box((-0.1, -0.7, -0.2), (sunk, 0.3, 1))
+    around = context([box((0, -0.03, 0), (0.6, 0.0, 0.8))], [wall])
+    candidates = sweep_candidates(around, [("edge", turn(Z, (0, -0.03, 0))), ("slide", slide(-X))])
+    assert np.degrees(max(c.opening for c in candidates[:2])) > 80  # 73 and 61 if the overlap is not tolerated
+    assert candidates[2].opening < 0.01

@@ -69,9 +69,8 @@ def test_a_hinge_has_no_evidence_of_slides_and_a_slide_none_of_hinges() -> None:
     assert (hinge.guided, hinge.depth, hinge.overlap_gain, hinge.captured) == (0, 0, 0, False)
     assert (out.hinge_support, out.sibling, out.handle_side, out.above, out.pair, out.outer) == (0,) * 6
     assert (out.handle_off, out.support_opposite, out.reach, out.contact_proximity, out.thick) == (0,) * 5
-    assert (hinge.penetration_scale, out.penetration_scale) == (1, 1)
     made = candidate("edge", JointType.REVOLUTE, Z)
-    assert (made.contact_retention, made.overlap_gain, made.penetration_scale) == (0, 0, 1)
+    assert (made.contact_retention, made.overlap_gain) == (0, 0)
 
 
 def features(around: PartContext, *proposed) -> list[dict[str, float]]:

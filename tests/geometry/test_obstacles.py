@@ -8,7 +8,6 @@ from assets import box
 from rigid import move, shape_of
 
 from anymesh.geometry import sweep as sweep_module
-from anymesh.geometry.boxes import OrientedBox
 from anymesh.geometry.sweep import Obstacles, free_amount, free_amounts, sweep, sweep_all
 from anymesh.geometry.triangle_set import TriangleSet
 from anymesh.types import JointType, Motion
@@ -54,16 +53,6 @@ def test_static_surface_counts_within_three_quarters_of_the_diagonal_and_more_wi
     empty = Obstacles(part, rest.take(np.zeros(2, bool)), 0.01)
     assert empty.rest_points.shape == (0, 3)
     assert free_amount(empty, slide(X), 1, 1.0, 36) == (1.0, True)
-
-
-def test_surface_in_the_ignored_box_and_within_the_tolerance_of_it_does_not_count() -> None:
-    ignored = OrientedBox(np.array([1.0, 0, 0]), np.eye(3), np.array([0.5, 0.25, 0.125]))
-    part = shape_of(box((-0.5, -0.5, -0.5), (0.5, 0.5, 0.5)))
-    around = Obstacles(part, part, 0.1, ignored)
-    inside = [(1, 0, 0), (0.45, 0, 0), (1.55, 0.3, 0.2), (1, -0.34, -0.2)]
-    outside = [(0.35, 0, 0), (1.65, 0, 0), (1, 0.36, 0), (1, 0, -0.24)]
-    assert around.is_ignored(np.array(inside + outside)).tolist() == [True] * 4 + [False] * 4
-    assert not Obstacles(part, part, 0.1).is_ignored(np.array(inside)).any()
 
 
 @pytest.mark.parametrize(("count", "clear"), [(1, True), (2, False)])

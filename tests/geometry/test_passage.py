@@ -30,12 +30,12 @@ def joined(*shapes: TriangleSet) -> TriangleSet:
     return TriangleSet(parts[0], parts[1], parts[2], np.arange(len(parts[0])))
 
 
-def slides(points, target: TriangleSet, amounts, axes=(X,), tolerance: float = 0.01, gone=None, off=None) -> Passage:
+def slides(points, target: TriangleSet, amounts, axes=(X,), tolerance: float = 0.01, off=None) -> Passage:
     """Return points that move along each axis by the same amounts."""
     told = np.tile(np.asarray(amounts, float), (len(axes), 1))
     poses = np.tile(np.eye(4), (*told.shape, 1, 1))
     poses[..., :3, 3] = told[..., None] * np.asarray(axes)[:, None]
-    return Passage.of(np.asarray(points, float), poses, told, target, tolerance, gone, off)
+    return Passage.of(np.asarray(points, float), poses, told, target, tolerance, off)
 
 
 def stops(passage: Passage, begin: int, end: int) -> np.ndarray:
@@ -95,19 +95,6 @@ def test_a_point_that_grazes_a_border_within_the_tolerance_is_not_stopped(axis: 
     points = np.array([sign * side * np.eye(3)[axis] for side in (1.97, 1.985, 2.015)])
     found = stops(slides(points, sheet(1.1), np.linspace(0, 2, 5), tolerance=0.02), 0, 4)
     assert found == pytest.approx(np.array([[1.1, np.inf, np.inf]]), abs=1e-5)
-
-
-def test_surface_that_is_ignored_stops_no_point() -> None:
-    met = []
-
-    def gone(points: np.ndarray) -> np.ndarray:
-        met.append(points)
-        return points[:, 1] > 0.5
-
-    found = stops(slides(POINTS, sheet(1.1), np.linspace(0, 2, 9), gone=gone), 0, 8)
-    assert found == pytest.approx(np.array([[1.1, np.inf, np.inf, np.inf]]), abs=1e-5)
-    places = np.concatenate(met)
-    assert places[np.argsort(places[:, 1])] == pytest.approx(np.array([[1.1, 0.1, 0.2], [1.1, 1, -1]]), abs=1e-5)
 
 
 def test_leaving_a_solid_is_free_and_entering_it_or_leaving_a_shell_is_not() -> None:

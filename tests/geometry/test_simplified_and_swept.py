@@ -11,7 +11,6 @@ from assets import box
 from rigid import shape_of
 
 from anymesh.config import PiecesConfig
-from anymesh.geometry.boxes import OrientedBox
 from anymesh.geometry.creases import convex_regions
 from anymesh.geometry.sampling import spread_directions
 from anymesh.geometry.simplify_ import simplify
@@ -99,10 +98,3 @@ def test_a_slide_is_free_up_to_a_wall_or_its_range(distance: float, free: float)
     found = sweep(around, slide(X))
     assert found.backward == pytest.approx(2 * np.sqrt(3) * 0.2)  # twice the diagonal of the part
     assert found.clear_backward
-
-
-def test_static_surface_in_a_box_is_ignored() -> None:
-    wall = box((0.4, -1, -1), (0.5, 1, 1))
-    hole = OrientedBox(np.array([0.45, 0.1, 0.1]), np.eye(3), np.array([0.2, 0.5, 0.5]))
-    assert not free_amount(obstacles(wall), slide(X), 1, 1.0, 36)[1]
-    assert free_amount(replace(obstacles(wall), ignored_box=hole), slide(X), 1, 1.0, 36)[1]

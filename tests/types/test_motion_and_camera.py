@@ -30,6 +30,13 @@ def test_motions_are_rigid_and_add_up(seed, kind, a, b):
     np.testing.assert_array_equal(m.transforms(np.array([a, b])), [T, m.transform(b)])
 
 
+@given(SEEDS)
+def test_the_distance_of_points_from_the_axis_is_the_radius_of_their_turn(seed):
+    turn, points = motion(seed, JointType.REVOLUTE), np.random.default_rng(seed + 1).uniform(-3, 3, (5, 3))
+    half = points @ turn.transform(np.pi)[:3, :3].T + turn.transform(np.pi)[:3, 3]
+    np.testing.assert_allclose(turn.distance(points), np.linalg.norm(half - points, axis=1) / 2, atol=1e-9)
+
+
 @given(SEEDS, st.floats(-3, 3))
 def test_a_turn_follows_the_right_hand_and_a_slide_the_axis(seed, amount):
     turn, slide = motion(seed, JointType.REVOLUTE), motion(seed, JointType.PRISMATIC)

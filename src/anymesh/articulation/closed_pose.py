@@ -70,7 +70,7 @@ def _clear_behind(c: Candidate) -> bool:
 
 def _far_gap(around: PartContext, c: Candidate) -> float:
     """Return the median distance of the rim opposite the hinge to the parent [m]."""
-    off = np.linalg.norm(np.cross(around.part.samples.points - c.motion.origin, c.motion.axis), axis=1)
+    off = c.motion.distance(around.part.samples.points)
     return float(np.median(around.gap[off >= END_FRACTION * off.max()]))
 
 

@@ -144,7 +144,7 @@ def _clear_of_others(around: PartContext, best: Candidate, candidates: tuple[Can
 def _at_one_rim(a: Candidate, b: Candidate, thickness: float) -> bool:
     if abs(float(a.motion.axis @ b.motion.axis)) < MIN_PARALLEL_COSINE:
         return False
-    return float(np.linalg.norm(np.cross(b.motion.origin - a.motion.origin, a.motion.axis))) < MAX_RIM_THICKNESSES * thickness
+    return bool(a.motion.distance(b.motion.origin[None])[0] < MAX_RIM_THICKNESSES * thickness)
 
 
 def estimate_joint(around: PartContext, name: str, parent: str, question: MotionQuestion) -> Joint:

@@ -9,24 +9,19 @@ import numpy as np
 
 from anymesh.articulation.adjacent_panels import adjacent_sides, outer_side, overlap_gain, pair_side
 from anymesh.articulation.contact_metrics import contact_retention, hinge_support, lever_arm
-from anymesh.articulation.motion_question import MIN_FREE_ANGLE_RAD, Candidate, Proposal, Role
-from anymesh.config import ALONG_COSINE, FACING_COSINE
+from anymesh.articulation.motion_question import Candidate, Proposal, Role
+from anymesh.config import ALONG_COSINE
 from anymesh.geometry.sweep import free_amounts, sweep_all
-from anymesh.motion.part_context import IGNORE_OVERLAP_SCALE, PartContext
+from anymesh.motion.part_context import PartContext
 from anymesh.types import JointType, Motion, Sweep
 
 CROSSWISE_HANDLE_WEIGHT = 0.6  # weight of the side of a bar handle that runs across the line
-PENETRATION_SCALES = (3.0, IGNORE_OVERLAP_SCALE)  # tried in this order if a hinge is blocked
-RIM_ROLES = ("edge", "edge_mid", "barrel")  # hinges at a rim, which may turn although the part overlaps static geometry
+RIM_ROLES = ("edge", "edge_mid", "barrel")  # hinges at a rim
 GUIDE_STEP_RATIO = 0.02  # of the tolerance length: a slide is guided if a sideways step of this length is blocked
 
 
 def sweep_candidates(around: PartContext, proposed: Sequence[Proposal]) -> tuple[Candidate, ...]:
-    """Sweep and measure all motions: return two candidates per motion, opening along its axis and against it.
-
-    Meshes may have parts that penetrate the rest at rest. Blocked hinges are therefore swept again with more allowed
-    penetration, and finally with the overlap at rest ignored.
-    """
+    """Sweep and measure all motions: return two candidates per motion, opening along its axis and against it."""
     motions, steps = [m for _, m in proposed], around.config.sweep_steps
     hinges = [k for k, m in enumerate(motions) if m.kind is JointType.REVOLUTE]
     slides = [k for k, m in enumerate(motions) if m.kind is JointType.PRISMATIC]
@@ -34,50 +29,24 @@ def sweep_candidates(around: PartContext, proposed: Sequence[Proposal]) -> tuple
     guided = dict(zip(slides, _guided_share(around, [motions[k] for k in slides]), strict=True))
     adjacent = adjacent_sides(around)
     swept: dict[int, Sweep] = {}
-    for along_surface in (False, True):
-        chosen = [k for k, m in enumerate(motions) if around.slides_along_surface(m) is along_surface]
-        if chosen:
-            obstacles = around.obstacles_of(motions[chosen[0]])
-            swept.update(zip(chosen, sweep_all(obstacles, [motions[k] for k in chosen], steps), strict=True))
+    for obstacles in {id(o): o for o in map(around.obstacles_of, motions)}.values():
+        chosen = [k for k, m in enumerate(motions) if around.obstacles_of(m) is obstacles]
+        swept.update(zip(chosen, sweep_all(obstacles, [motions[k] for k in chosen], steps), strict=True))
     ahead = [
         _revolute(around, role, motion, swept[k], support[k], adjacent)
         if motion.kind is JointType.REVOLUTE
         else _prismatic(around, role, motion, swept[k], guided[k])
         for k, (role, motion) in enumerate(proposed)
     ]
-    candidates = _with_overlap_ignored(around, [way for c in ahead for way in (c, c.reversed())])
+    candidates = [way for c in ahead for way in (c, c.reversed())]
     shares = contact_retention(around, [c.motion for c in candidates], [c.opening_sign for c in candidates])
     return tuple(replace(c, contact_retention=float(share)) for c, share in zip(candidates, shares, strict=True))
-
-
-def _with_overlap_ignored(around: PartContext, candidates: list[Candidate]) -> list[Candidate]:
-    """Sweep blocked hinges again at the smallest penetration scale that frees each of them."""
-    candidates = list(candidates)
-    stuck = [
-        k
-        for k, c in enumerate(candidates)
-        if c.role in RIM_ROLES and c.outward >= FACING_COSINE and c.opening <= MIN_FREE_ANGLE_RAD
-    ]
-    for penetration_scale in PENETRATION_SCALES:
-        swept = (
-            sweep_all(around.obstacles(penetration_scale), [candidates[k].motion for k in stuck], around.config.sweep_steps)
-            if stuck
-            else []
-        )
-        for k, free in zip(list(stuck), swept, strict=True):
-            opening, closing = (free.forward, free.backward)[:: candidates[k].opening_sign]
-            if opening > MIN_FREE_ANGLE_RAD:
-                candidates[k] = replace(
-                    candidates[k], sweep=free, opening=opening, closing=closing, penetration_scale=penetration_scale
-                )
-                stuck.remove(k)
-    return candidates
 
 
 def _revolute(
     around: PartContext, role: Role, motion: Motion, swept: Sweep, near: np.ndarray, adjacent: np.ndarray
 ) -> Candidate:
-    moves = np.cross(motion.axis, around.part.samples.points.mean(0) - motion.origin)
+    moves = np.cross(motion.axis, around.part.samples.middle - motion.origin)
     across = float(np.linalg.norm(moves))
     reach, proximity, thick = lever_arm(around, motion)
     return Candidate(

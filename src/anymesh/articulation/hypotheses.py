@@ -171,4 +171,4 @@ def _same(a: Motion, b: Motion, cosine: float, distance: float) -> bool:
         return False
     if a.kind is JointType.PRISMATIC:
         return True
-    return float(np.linalg.norm(np.cross(b.origin - a.origin, a.axis))) < distance
+    return bool(a.distance(b.origin[None])[0] < distance)

@@ -111,7 +111,7 @@ def _answered_prismatic(around: PartContext, c: Candidate, answered: Range) -> R
 def _free_within(around: PartContext, c: Candidate, lower: float, upper: float, steps: int) -> tuple[float, float]:
     """Return the free motion ahead, up to `upper`, and back, up to `lower` [rad or m]."""
     motion = opening_motion(c)
-    obstacles = around.obstacles_of(motion, c.penetration_scale)
+    obstacles = around.obstacles_of(motion)
     ahead = free_amount(obstacles, motion, 1, upper, steps)[0] if upper > 0 else 0.0
     back = free_amount(obstacles, motion, -1, lower, steps)[0] if lower > 0 else 0.0
     return ahead, back
@@ -121,13 +121,13 @@ def _revolute(around: PartContext, c: Candidate) -> tuple[float, float]:
     config, motion = around.config, opening_motion(c)
     most = np.deg2rad(config.door_most if c.vertical > ALONG_COSINE else config.flap_most)
     steps = config.fine_steps * 3
-    closing = closing_angle(around, c)
-    upper, clear = free_amount(around.obstacles(c.penetration_scale), motion, 1, max(most - (closing or 0.0), 0.0), steps)
+    closing, obstacles = closing_angle(around, c), around.obstacles_of(motion)
+    upper, clear = free_amount(obstacles, motion, 1, max(most - (closing or 0.0), 0.0), steps)
     if not clear:
         upper = _floor(upper, ANGLE_STEP_RAD)
     lower = 0.0
     if closing != 0:
-        lower, _ = free_amount(around.obstacles(c.penetration_scale), motion, -1, closing or most, steps)
+        lower, _ = free_amount(obstacles, motion, -1, closing or most, steps)
         lower = _floor(lower, ANGLE_STEP_RAD) if lower >= MIN_CLOSING_ANGLE_RAD else 0.0
     if upper < MIN_HINGE_RANGE_RAD:
         upper = most if lower == 0 else 0.0
@@ -160,7 +160,7 @@ def _prismatic(around: PartContext, c: Candidate) -> tuple[float, float]:
         # a panel whose box is not in the mesh; a knob comes out no further than it is large
         most = min(around.config.slide_hidden * behind, around.part.box.diagonal)
     steps = around.config.fine_steps * 2
-    obstacles = around.obstacles_of(motion, c.penetration_scale)
+    obstacles = around.obstacles_of(motion)
     upper, _ = free_amount(obstacles, motion, 1, max(most - closing, 0.0), steps)
     lower = 0.0
     if closing or not outward:
@@ -176,5 +176,5 @@ def _stroke(around: PartContext, c: Candidate) -> float:
     """Return the stroke of a part into its parent [m]: up to its own height, half of it if its mesh fills the hole."""
     motion = opening_motion(c)
     extent = float(np.ptp(around.part.corners @ motion.axis))
-    free, _ = free_amount(around.obstacles(c.penetration_scale), motion, 1, extent, 2 * around.config.fine_steps)
+    free, _ = free_amount(around.obstacles, motion, 1, extent, 2 * around.config.fine_steps)
     return free if free > MIN_STROKE_RATIO * extent else STROKE_RATIO * extent

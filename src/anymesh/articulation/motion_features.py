@@ -14,7 +14,6 @@ from jaxtyping import Float
 from anymesh.articulation.contact_metrics import CONTACT_RATIO, CONTACT_TOLERANCE_FACTOR
 from anymesh.articulation.motion_question import Candidate, PartFacts
 from anymesh.config import ALONG_COSINE
-from anymesh.geometry.circles import outline_about
 from anymesh.geometry.revolution import share_in_place
 from anymesh.motion.part_context import PartContext
 from anymesh.scoring.classifier import MISSING
@@ -34,7 +33,7 @@ def motion_features(around: PartContext, facts: PartFacts, candidates: Sequence[
     part = part_values(around, facts, contact)
     ways = np.array([_opening_direction(around, c) for c in candidates]).reshape(-1, 3)
     ahead, behind = _visible(around, ways), _visible(around, -ways)
-    away = ways @ (around.part.samples.points.mean(0) - around.center) / around.diagonal
+    away = ways @ (around.part.samples.middle - around.center) / around.diagonal
     lines: dict[int, dict[str, float]] = {}  # shared by both opening directions about an axis
     for c in candidates:
         if id(c.motion) not in lines:
@@ -61,7 +60,7 @@ def _opening_direction(around: PartContext, c: Candidate) -> Float[np.ndarray, "
     axis = c.opening_sign * c.motion.axis
     if c.motion.kind is JointType.PRISMATIC:
         return axis
-    moves = np.cross(axis, around.part.samples.points.mean(0) - c.motion.origin)
+    moves = np.cross(axis, around.part.samples.middle - c.motion.origin)
     return moves / max(float(np.linalg.norm(moves)), 1e-9)
 
 
@@ -157,7 +156,6 @@ def _values(around: PartContext, facts: PartFacts, c: Candidate) -> dict[str, fl
         "free both ways": min(c.opening, c.closing) / unit,
         "outward": c.outward,
         "contact retention": c.contact_retention,
-        "log penetration scale": float(np.log(c.penetration_scale)),
         **(dict.fromkeys(turn, MISSING) if slides else turn),
         **(slide if slides else dict.fromkeys(slide, MISSING)),
     }
@@ -165,7 +163,7 @@ def _values(around: PartContext, facts: PartFacts, c: Candidate) -> dict[str, fl
 
 def _rises(around: PartContext, c: Candidate) -> float:
     """Return the sine of the initial slope of the center's motion; negative if it goes down."""
-    moves = c.opening_sign * np.cross(c.motion.axis, around.part.samples.points.mean(0) - c.motion.origin)
+    moves = c.opening_sign * np.cross(c.motion.axis, around.part.samples.middle - c.motion.origin)
     return float(moves[2] / max(float(np.linalg.norm(moves)), 1e-9))
 
 
@@ -174,10 +172,10 @@ def _line(around: PartContext, motion: Motion, contact: Float[np.ndarray, "n 3"]
     core, points, axis = around.body_obb, around.part.samples.points, motion.axis
     local = np.abs(core.local(motion.origin[None])[0] / np.maximum(core.half, 1e-9))
     local = np.minimum(local, MAX_RATIO) * (np.abs(core.axes @ axis) < ALONG_COSINE)
-    off = _distance(points, motion)
+    off = motion.distance(points)
     reach, length = max(float(off.max()), 1e-9), max(float(np.ptp(points @ axis)), 1e-9)
-    balance = float(_distance(points.mean(0)[None], motion)[0] / reach)
-    outline = outline_about(points, axis)
+    balance = float(motion.distance(around.part.samples.middle[None])[0] / reach)
+    outline = around.outline_about(axis)
     low, high = around.parent.bounds
     beside = np.abs(np.minimum(motion.origin - low, high - motion.origin))[np.abs(axis) < ALONG_COSINE]
     return {
@@ -188,16 +186,16 @@ def _line(around: PartContext, motion: Motion, contact: Float[np.ndarray, "n 3"]
         "balance": balance,
         "round about the axis": outline.roundness,
         "circle off the axis": min(
-            float(_distance(outline.center[None], motion)[0] / max(outline.radius, 1e-9)), MAX_RATIO
+            float(motion.distance(outline.center[None])[0] / max(outline.radius, 1e-9)), MAX_RATIO
         ),
         "rotational misfit": _misfit(around, motion, reach) if balance < MAX_CENTRAL_RATIO else MISSING,
         "contact along the line": float(np.clip(np.ptp(contact @ axis) / length, 0, 1)),
-        "contact off the line": float(_distance(contact, motion).mean() / reach),
-        "contact middle off the line": float(_distance(contact.mean(0)[None], motion)[0] / reach),
+        "contact off the line": float(motion.distance(contact).mean() / reach),
+        "contact middle off the line": float(motion.distance(contact.mean(0)[None])[0] / reach),
         "contact around the axis": _coverage(contact, motion),
         "contact turns in place": share_in_place(around.contact_surfaces[0], axis, motion.origin),
         "off the parent's border": float(beside.min() / around.diagonal) if len(beside) else MISSING,
-        "barrel near": float(any(_distance(b.box.center[None], motion)[0] < 0.05 * reach for b in around.barrel_candidates)),
+        "barrel near": float(any(motion.distance(b.box.center[None])[0] < 0.05 * reach for b in around.barrel_candidates)),
         **_handle_place(around, motion, reach),
     }  # fmt: skip
 
@@ -231,12 +229,7 @@ def _handle_place(around: PartContext, motion: Motion, reach: float) -> dict[str
         at += where * around.body_obb.half[axis] * around.body_obb.axes[axis]
     if handle.along is not None:
         along = abs(float(around.body_obb.axes[around.face_axes[handle.along]] @ motion.axis))
-    return {"handle distance": min(float(_distance(at[None], motion)[0] / reach), MAX_RATIO), "bar handle along": along}
-
-
-def _distance(points: Float[np.ndarray, "n 3"], motion: Motion) -> Float[np.ndarray, " n"]:
-    """Return the distance of points from a line [m]."""
-    return np.linalg.norm(np.cross(points - motion.origin, motion.axis), axis=1)
+    return {"handle distance": min(float(motion.distance(at[None])[0] / reach), MAX_RATIO), "bar handle along": along}
 
 
 NO_LINE = dict.fromkeys(

@@ -92,7 +92,6 @@ class Candidate:
     contact_proximity: float = 0.0  # 0..1, proximity of the contact to the line
     thick: float = 0.0  # 0..1, thickness at the line over the part's largest
     contact_retention: float = 0.0  # 0..1, share of the contact that remains when the part opens slightly
-    penetration_scale: float = 1.0  # factor on the tolerated penetration, above 1 for a part that penetrates the rest
     overlap_gain: float = 0.0  # 0..1, for a slide: gain in overlap with other surfaces
 
     def reversed(self) -> Candidate:

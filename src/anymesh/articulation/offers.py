@@ -213,7 +213,7 @@ def _off_part(case: PartCase, c: Candidate) -> bool:
     """Return whether a hinge line is away from the part, like an edge of a box that is enlarged by a handle."""
     if c.motion.kind is not JointType.REVOLUTE or c.role not in ("edge", "edge_mid"):
         return False
-    off = np.linalg.norm(np.cross(case.around.part.samples.points - c.motion.origin, c.motion.axis), axis=1)
+    off = c.motion.distance(case.around.part.samples.points)
     return bool(off.min() > OFF_PART * case.around.tolerance_length)
 
 

@@ -20,8 +20,8 @@ class Passage:
     """Points that move past a target along T motions, in the unit frame of the target's ray scene.
 
     points: homogeneous; poses: rigid transforms of the points at each of k steps, the first at rest; amounts: of the motions at
-    these steps; is_ignored: returns which points of the target do not count, in the asset frame; off: returns the directions in
-    which points (indices) move off faces of the target (indices) that they touch, None if contact at rest stops them.
+    these steps; off: returns the directions in which points (indices) move off faces of the target (indices) that they touch,
+    None if contact at rest stops them.
     """
 
     points: Float32[np.ndarray, "4 n"]
@@ -29,7 +29,6 @@ class Passage:
     amounts: Float[np.ndarray, "T k"]
     target: TriangleSet
     tolerance: float
-    is_ignored: Callable[[np.ndarray], np.ndarray] | None
     off: Callable[[np.ndarray, np.ndarray], np.ndarray] | None = None
 
     @classmethod
@@ -40,7 +39,6 @@ class Passage:
         amounts: Float[np.ndarray, "T k"],
         target: TriangleSet,
         tolerance: float,
-        gone: Callable[[np.ndarray], np.ndarray] | None,
         off: Callable[[np.ndarray, np.ndarray], np.ndarray] | None = None,
     ) -> Passage:
         """Build the passage from points and transforms in the asset frame [m]."""
@@ -49,7 +47,7 @@ class Passage:
         unit[..., 3] = (poses[:, :, :3, :3] @ scene.center + poses[:, :, :3, 3] - scene.center) * scene.scale
         homogeneous = np.concatenate([scene.to_unit(points).T, np.ones((1, len(points)), np.float32)])
         placed = unit.astype(np.float32).transpose(2, 0, 1, 3)
-        return cls(homogeneous, placed, amounts, target, tolerance * scene.scale, gone, off)
+        return cls(homogeneous, placed, amounts, target, tolerance * scene.scale, off)
 
     def stops(
         self, motions: Int[np.ndarray, " t"], passing: Bool[np.ndarray, "t n"], begin: int, end: int
@@ -119,8 +117,6 @@ class Passage:
         point = start + span * where[:, None]
         normal = self.target.normals[face].astype(np.float32)
         counts = ~(self.target.solid[face] & (np.einsum("ij,ij->i", span, normal) >= 0))
-        if self.is_ignored is not None:
-            counts &= ~self.is_ignored(self.target.scene.from_unit(point))
         behind = [np.einsum("ij,ij->i", later - point, normal) for later in ahead]
         counts &= np.abs(behind).max(0) > self.tolerance
         chosen = np.flatnonzero(counts)

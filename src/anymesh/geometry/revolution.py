@@ -69,7 +69,7 @@ def _weights(surface: SurfacePoints, lines: Axes, min_radius: float) -> Float[np
 
 def _normal_speeds(surface: SurfacePoints, lines: Axes) -> Float[np.ndarray, "k n"]:
     axes, origins = lines
-    return axes @ np.cross(surface.points, surface.normals).T + np.cross(origins, axes) @ surface.normals.T
+    return axes @ surface.moments.T + np.cross(origins, axes) @ surface.normals.T
 
 
 def _radii(surface: SurfacePoints, lines: Axes, least: float) -> Float[np.ndarray, "k n"]:
@@ -125,7 +125,7 @@ def _through_normals(surface: SurfacePoints, rng: np.random.Generator) -> Axes:
 
 def _fit(surface: SurfacePoints, weights: Float[np.ndarray, " n"]) -> tuple[Float[np.ndarray, " 3"], Float[np.ndarray, " 3"]]:
     """Return the line with the least weighted squares of the equation of the complex."""
-    n, moment = weights[:, None] * surface.normals, weights[:, None] * np.cross(surface.points, surface.normals)
+    n, moment = weights[:, None] * surface.normals, weights[:, None] * surface.moments
     # a cylinder also slides in itself along its axis; the pseudo-inverse leaves such motions out
     to_moment = -np.linalg.pinv(n.T @ n, rcond=1e-6) @ (n.T @ moment)
     rest = moment + n @ to_moment

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from jaxtyping import Float, Int
@@ -27,8 +28,18 @@ class SurfacePoints:
 
     def joined(self, other: SurfacePoints) -> SurfacePoints:
         """Return these points and then those of the other; the indices of faces are kept."""
-        both = zip(vars(self).values(), vars(other).values(), strict=True)
-        return SurfacePoints(*(np.concatenate(pair) for pair in both))
+        pairs = (self.points, other.points), (self.normals, other.normals), (self.faces, other.faces)
+        return SurfacePoints(*(np.concatenate(pair) for pair in pairs))
+
+    @cached_property
+    def middle(self) -> Float[np.ndarray, " 3"]:
+        """Return the mean of the points [m]."""
+        return self.points.mean(0)
+
+    @cached_property
+    def moments(self) -> Float[np.ndarray, "n 3"]:
+        """Return the moment of each normal about the asset frame's origin [m]."""
+        return np.cross(self.points, self.normals)
 
 
 def spread_directions(count: int) -> Float[np.ndarray, "n 3"]:

@@ -16,9 +16,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from jaxtyping import Bool, Float, Float32
+from jaxtyping import Float, Float32
 
-from anymesh.geometry.boxes import OrientedBox
 from anymesh.geometry.passage import Passage
 from anymesh.geometry.triangle_set import TriangleSet
 from anymesh.types import JointType, Motion, Sweep
@@ -32,13 +31,12 @@ SHARE_STOPPED = 0.006  # minimum share of stopped points; fewer may be stopped b
 class Obstacles:
     """The static geometry around a part, with the sample points of both.
 
-    tolerance: penetration at which a motion is stopped [m]; ignored_box: static surface inside it is no obstacle.
+    tolerance: penetration at which a point is stopped [m].
     """
 
     part: TriangleSet
     rest: TriangleSet
     tolerance: float
-    ignored_box: OrientedBox | None = None
     count: int = 350
 
     @property
@@ -53,7 +51,7 @@ class Obstacles:
     @cached_property
     def part_normals(self) -> Float32[np.ndarray, "F 3"]:
         """Return the normal of each face of the part, out of it: away from its middle if the surface is open."""
-        arms = self.part.triangles.mean(1) - self.part.samples.points.mean(0)
+        arms = self.part.triangles.mean(1) - self.part.samples.middle
         turned = ~self.part.solid & (np.einsum("ij,ij->i", arms, self.part.normals) < 0)
         return np.where(turned[:, None], -self.part.normals, self.part.normals).astype(np.float32)
 
@@ -66,8 +64,7 @@ class Obstacles:
         near = np.flatnonzero(((center > low - reach) & (center < high + reach)).all(1))
         close = np.flatnonzero(((center > low - 0.1 * reach) & (center < high + 0.1 * reach)).all(1))
         samples = [_spread(self.rest.take(index), self.count)[0] for index in (near, close) if len(index)]
-        points = np.concatenate(samples) if samples else np.zeros((0, 3))
-        return points[~self.is_ignored(points)]
+        return np.concatenate(samples) if samples else np.zeros((0, 3))
 
     def prepare(self) -> None:
         """Compute the cached values before threads use them."""
@@ -81,7 +78,6 @@ class Obstacles:
         """Return the passages of the part's points past the rest, and of the rest's points, moved inversely, past the part."""
         there = np.array([m.transforms(a) for m, a in zip(motions, signed, strict=True)])
         back = np.array([m.transforms(-a) for m, a in zip(motions, signed, strict=True)])
-        gone = None if self.ignored_box is None else self.is_ignored
         outward, face_of = self.part_normals, self._part_spread[1]
 
         def off_rest(point: np.ndarray, face: np.ndarray) -> np.ndarray:
@@ -90,18 +86,12 @@ class Obstacles:
         def off_part(point: np.ndarray, face: np.ndarray) -> np.ndarray:
             return outward[face]
 
-        ways = (self.part_points, there, self.rest, gone, off_rest), (self.rest_points, back, self.part, None, off_part)
+        ways = (self.part_points, there, self.rest, off_rest), (self.rest_points, back, self.part, off_part)
         return [
-            Passage.of(points, poses, amounts, target, self.tolerance, hole, off)
-            for points, poses, target, hole, off in ways
+            Passage.of(points, poses, amounts, target, self.tolerance, off)
+            for points, poses, target, off in ways
             if len(points) and len(target.triangles)
         ]
-
-    def is_ignored(self, points: Float[np.ndarray, "n 3"]) -> Bool[np.ndarray, " n"]:
-        """Return which points of the rest lie in `ignored_box`."""
-        if self.ignored_box is None:
-            return np.zeros(len(points), bool)
-        return np.all(np.abs(self.ignored_box.local(points)) < self.ignored_box.half + self.tolerance, axis=1)
 
 
 def _spread(shape: TriangleSet, count: int) -> tuple[np.ndarray, np.ndarray]:

@@ -17,6 +17,7 @@ from anymesh.types import Mesh
 from anymesh.types.triangles import bounds_of, normals_and_areas
 
 SAMPLES = 3000  # surface points per triangle set; a share of 1 % is 30 points
+SLANTED = np.array([0.3127, 0.5241, 0.7922])  # direction of the rays that tell inside from outside; along no usual face
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,6 +115,14 @@ class TriangleSet:
     def bounds(self) -> Float[np.ndarray, "2 3"]:
         """Return the axis-aligned bounds [m]."""
         return bounds_of(self.triangles.reshape(-1, 3))
+
+    def depth(self, points: Float[np.ndarray, "n 3"]) -> float:
+        """Return how deep the deepest of some points lies inside a closed solid of these triangles [m], 0 for none."""
+        if not len(points) or not len(self.triangles):
+            return 0.0
+        face = self.scene.first_hit(points, np.repeat(SLANTED[None], len(points), 0)).face
+        inside = (face >= 0) & self.solid[face] & (self.normals[face] @ SLANTED > 0)
+        return float(self.tree.distance(points[inside]).max()) if inside.any() else 0.0
 
     @property
     def area(self) -> float:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -11,7 +11,7 @@ from jaxtyping import Bool, Float, Int
 from anymesh.config import ALONG_COSINE, FACING_COSINE, ArticulationConfig
 from anymesh.geometry.body_obb import body_obb
 from anymesh.geometry.boxes import OrientedBox
-from anymesh.geometry.circles import Outline, roundest
+from anymesh.geometry.circles import Outline, outline_about, roundest
 from anymesh.geometry.contact import connecting_area
 from anymesh.geometry.sampling import SurfacePoints
 from anymesh.geometry.sweep import Obstacles
@@ -19,7 +19,6 @@ from anymesh.geometry.triangle_set import TriangleSet
 from anymesh.motion.handle import face_axes, find_handle
 from anymesh.types import Handle, JointType, Motion
 
-IGNORE_OVERLAP_SCALE = 10.0  # penetration scale from which static geometry inside the part's box is ignored
 DOWNWARD_PENALTY = 0.4  # subtracted from the score of a downward direction, since most objects stand on something
 CONTACT_REACHES = (0.08, 0.2)  # of the link's diagonal: its contact with the parent is within this distance
 MAX_CONTACT_POINTS = 400  # sample points of the surfaces in contact
@@ -89,29 +88,36 @@ class PartContext:
         low, high = np.percentile(along, 0.5), np.percentile(along, 99.5)
         return float(max(0.0, min(high, parent.max()) - max(low, parent.min())))
 
-    def obstacles(self, penetration_scale: float = 1.0) -> Obstacles:
-        """Return the obstacles of the part, cached per penetration scale.
+    @cached_property
+    def obstacles(self) -> Obstacles:
+        """Return the obstacles of the part: what does not move with it, without the other movable parts."""
+        return Obstacles(self.part, self.rest, self.penetration)
 
-        penetration_scale: factor on the tolerated penetration, for a part that overlaps static geometry. From
-        IGNORE_OVERLAP_SCALE on, static geometry inside the part's box is ignored.
+    @cached_property
+    def overlap_depth(self) -> float:
+        """Return how deep the part and the static geometry lie in solids of each other at rest, up to half its thickness [m].
+
+        Artists sink doors into their frames.
         """
-        if penetration_scale not in self._obstacles:
-            hole = self.body_obb if penetration_scale >= IGNORE_OVERLAP_SCALE else None
-            self._obstacles[penetration_scale] = Obstacles(self.part, self.rest, penetration_scale * self.penetration, hole)
-        return self._obstacles[penetration_scale]
+        return min(max(self.rest.depth(self.part.corners), self.part.depth(self.rest.corners)), float(self.body_obb.half[2]))
 
-    def obstacles_of(self, motion: Motion, penetration_scale: float = 1.0) -> Obstacles:
+    @cached_property
+    def obstacles_of_hinges(self) -> Obstacles:
+        """Return the obstacles with the overlap at rest tolerated: what counts is the penetration that a turn adds."""
+        if self.overlap_depth == 0:
+            return self.obstacles
+        return replace(self.obstacles, tolerance=self.penetration + self.overlap_depth)
+
+    def obstacles_of(self, motion: Motion) -> Obstacles:
         """Return the obstacles of a motion: for a slide along the surface, also the other movable parts at rest."""
-        return self.obstacles_at_rest if self.slides_along_surface(motion) else self.obstacles(penetration_scale)
+        if motion.kind is not JointType.PRISMATIC:
+            return self.obstacles_of_hinges
+        return self.obstacles_at_rest if self.slides_along_surface(motion) else self.obstacles
 
     def slides_along_surface(self, motion: Motion) -> bool:
         """Return whether a motion is a slide across the opening direction."""
         along = abs(float(motion.axis @ self.opening_direction)) <= ALONG_COSINE
         return motion.kind is JointType.PRISMATIC and along
-
-    @cached_property
-    def _obstacles(self) -> dict[float, Obstacles]:
-        return {}
 
     @cached_property
     def penetration(self) -> float:
@@ -128,6 +134,17 @@ class PartContext:
         """Return the roundest outline of the part among those along its box axes."""
         points = np.concatenate([self.part.corners, self.part.samples.points])
         return roundest(points, self.part.box.axes[::-1])
+
+    def outline_about(self, axis: Float[np.ndarray, " 3"]) -> Outline:
+        """Return the outline of the part's samples about an axis, computed once for parallel lines."""
+        key = axis.tobytes()
+        if key not in self._outlines:
+            self._outlines[key] = outline_about(self.part.samples.points, axis)
+        return self._outlines[key]
+
+    @cached_property
+    def _outlines(self) -> dict[bytes, Outline]:
+        return {}
 
     @cached_property
     def nearest(self) -> tuple[Float[np.ndarray, " n"], Int[np.ndarray, " n"]]:
@@ -189,7 +206,7 @@ class PartContext:
         Visible, thin and off-center directions score higher.
         """
         directions, scores = [], []
-        away = self.part.samples.points.mean(0) - self.center
+        away = self.part.samples.middle - self.center
         for k, axis in enumerate(self.body_obb.axes):
             for sign in (1.0, -1.0):
                 seen = self._open_face(sign * axis)

@@ -54,6 +54,12 @@ class Motion:
         T[:, :3, 3] = self.origin - T[:, :3, :3] @ self.origin
         return T
 
+    def distance(self, points: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, " n"]:
+        """Return the distance of points from the axis [m]."""
+        arms = points - self.origin
+        across = arms - (arms @ self.axis)[:, None] * self.axis
+        return np.sqrt(np.einsum("ij,ij->i", across, across))
+
 
 @dataclass(frozen=True)
 class Sweep:

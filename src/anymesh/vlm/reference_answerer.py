@@ -210,7 +210,7 @@ class ReferenceAnswerer:
 
 
 def _to_line(points: np.ndarray, joint: KnownJoint) -> np.ndarray:
-    return np.linalg.norm(np.cross(points - joint.origin, joint.opening_motion.axis), axis=1)
+    return joint.opening_motion.distance(points)
 
 
 def _turned_by(direction: np.ndarray, joint: KnownJoint) -> float:
