@@ -22,7 +22,6 @@ def test_the_unit_frame_has_the_middle_of_the_bounds_at_zero_and_the_longest_sid
     assert scene.scale == 0.25
     assert scene.unit_half.tolist() == [0.5, 0.25, 0.125]
     assert scene.to_unit(np.array([[5.0, 2, 3.5]])).tolist() == [[0.5, -0.25, 0]]
-    assert scene.from_unit(np.array([[0.5, -0.25, 0]], np.float32)).tolist() == [[5, 2, 3.5]]
     assert RayScene(np.ones((3, 3)), FACE).scale == 1
 
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 from jaxtyping import Bool, Float
 
-from anymesh.articulation.evidence import RIM_ROLES
 from anymesh.articulation.motion_question import Candidate
 from anymesh.config import ALONG_COSINE
 from anymesh.motion.part_context import PartContext
 from anymesh.types import JointType
 
+RIM_ROLES = ("edge", "edge_mid", "barrel", "asked")  # hinges that may be at a rim
 MAX_CLOSED_GAP_RATIO = 0.02  # of the tolerance length: a closed part is this near its parent
 END_FRACTION, MIN_NEAR_SHARE = 0.8, 0.2  # position where an end of a part begins, and the least share of it near the parent
 MIN_CLOSED_ENDS = 3  # of the four ends of its face, of a closed part
@@ -44,7 +44,7 @@ def closing_angle(around: PartContext, c: Candidate) -> float | None:
 
     0 for a part that is closed or at a stop, None if no closed pose is known, or if the part would be closed at both stops.
     """
-    if c.motion.kind is JointType.PRISMATIC or c.role not in (*RIM_ROLES, "asked"):
+    if c.motion.kind is JointType.PRISMATIC or c.role not in RIM_ROLES:
         return None
     if is_closed(around, around.gap):
         return 0.0

@@ -68,12 +68,9 @@ def lever_arm(around: PartContext, motion: Motion) -> tuple[float, float, float]
     the part at the line over its largest (0..1), since thin edges are free ones.
     """
     points = around.part.samples.points
-    arm = points - motion.origin
-    along = arm @ motion.axis
-    across = arm - along[:, None] * motion.axis
-    off = np.linalg.norm(across, axis=1)
+    off = motion.distance(points)
     reach = max(float(off.max()), 1e-9)
-    length = max(float(np.ptp(along)), 1e-9)
+    length = max(float(np.ptp(points @ motion.axis)), 1e-9)
     tolerance = max(CONTACT_RATIO * around.tolerance_length, CONTACT_TOLERANCE_FACTOR * float(around.gap.min()))
     contact = off[around.gap <= tolerance]
     proximity = 1 - float(np.median(contact)) / reach if len(contact) else 0.0

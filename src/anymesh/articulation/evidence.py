@@ -16,7 +16,6 @@ from anymesh.motion.part_context import PartContext
 from anymesh.types import JointType, Motion, Sweep
 
 CROSSWISE_HANDLE_WEIGHT = 0.6  # weight of the side of a bar handle that runs across the line
-RIM_ROLES = ("edge", "edge_mid", "barrel")  # hinges at a rim
 GUIDE_STEP_RATIO = 0.02  # of the tolerance length: a slide is guided if a sideways step of this length is blocked
 
 

@@ -99,10 +99,6 @@ class RayScene:
         """Transform points to the unit frame, where the longest side of the bounds is 1 and their centre 0."""
         return ((points - self.center) * self.scale).astype(np.float32)
 
-    def from_unit(self, points: Float32[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 3"]:
-        """Transform points from the unit frame; inverse of `to_unit`."""
-        return points / self.scale + self.center
-
     def first_hit_unit(
         self, origins: Float32[np.ndarray, "n 3"], directions: Float32[np.ndarray, "n 3"], max_distance: float = 1.0
     ) -> Hits:

@@ -155,7 +155,7 @@ class ReferenceAnswerer:
                 if abs(float(axis @ part.outward)) > MIN_OPENING_COSINE
                 else JointAppearance.SLIDE_ALONG
             )
-        on = part.contact[_to_line(part.contact, joint) < MAX_AXIS_DISTANCE_RATIO * _size(part)]
+        on = part.contact[joint.opening_motion.distance(part.contact) < MAX_AXIS_DISTANCE_RATIO * _size(part)]
         along = np.ptp(on @ axis) if len(on) > 1 else 0.0
         if along > MIN_HINGE_SPREAD_RATIO * np.ptp(part.points @ axis):
             return JointAppearance.HINGE_ALONG
@@ -175,7 +175,7 @@ class ReferenceAnswerer:
         normals = np.broadcast_to(table.part.normal, table.points.shape)
         if table.axes is not None:
             normals = np.where(np.isnan(table.axes), normals, table.axes)
-        off = _to_line(table.points, joint)
+        off = joint.opening_motion.distance(table.points)
         single = np.array([_turned_by(n, joint) for n in normals]) * size + off
         best = (int(single.argmin() if table.axes is not None else off.argmin()),)
         least = float(single[best[0]]) if table.min_points == 1 else np.inf
@@ -207,10 +207,6 @@ class ReferenceAnswerer:
                 way = float(np.linalg.norm(here - part.points, axis=1).mean())
                 off[k] = min(float(np.linalg.norm(here - g, axis=1).mean()) for g in goal) / max(way, 1e-12)
         return int(off.argmin()) if off.min(initial=np.inf) < MAX_MOTION_ERROR_RATIO else None
-
-
-def _to_line(points: np.ndarray, joint: KnownJoint) -> np.ndarray:
-    return joint.opening_motion.distance(points)
 
 
 def _turned_by(direction: np.ndarray, joint: KnownJoint) -> float:
