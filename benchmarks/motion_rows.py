@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -21,7 +21,7 @@ from anymesh.articulation.estimate import PartMotions, motion_questions
 from anymesh.articulation.motion_features import motion_features
 from anymesh.articulation.rank_motions import same_joints
 from anymesh.articulation.repeated_parts import in_a_row, same_size
-from anymesh.config import Config
+from anymesh.config import ArticulationConfig, Config
 from anymesh.evaluation.ground_truth import EvalSample, TrueJoint
 from anymesh.evaluation.metrics import angle_error, distance_at, opening_side, opens_both_ways
 from anymesh.geometry.patches import ObjectShape
@@ -29,12 +29,13 @@ from anymesh.segmentation.divide import object_shape
 from anymesh.types import JointType, Motion
 
 ANGLE, FAR = 5.0, 0.08  # [deg], and half the object's diagonal is 1: a motion that is further off is wrong
+ALL = 10**6  # motions of a part that are swept
 NEAR_ANGLE, NEAR = 2.0, 0.03  # of the right ones, those this near count most
 
 
 @dataclass(frozen=True, eq=False)
 class MotionRows:
-    """The candidate motions of one part.
+    """The candidate motions of one part: two for each motion, one to each side.
 
     features: (n, k) with `names`; axes: (n, 3) in the asset frame; right: (n,) how right a motion is, 0 for wrong; opens_right:
     (n,) whether it opens to the true side, 1, 0, or -1 where there is none; same: (n, n) motions that are one joint to a user;
@@ -56,10 +57,18 @@ class MotionRows:
     same: Bool[np.ndarray, "n n"]
     free: Bool[np.ndarray, " n"]
 
+    def of_motions(self, chosen: Int[np.ndarray, " m"]) -> MotionRows:
+        """Return the rows of some motions, each to both sides."""
+        k = (2 * chosen[:, None] + np.arange(2)).reshape(-1)
+        return replace(
+            self, features=self.features[k], axes=self.axes[k], right=self.right[k], opens_right=self.opens_right[k],
+            same=self.same[np.ix_(k, k)], free=self.free[k],
+        )  # fmt: skip
+
 
 def rows_of(sample: EvalSample, source: str, form: str = "") -> list[MotionRows]:
     """Propose, sweep and measure the motions of all parts with a known joint."""
-    config, truth = Config(), sample.truth
+    config, truth = replace(Config(), articulation=ArticulationConfig(most_swept=ALL)), sample.truth
     whole = object_shape(sample.mesh, config.seed, config.pieces, sample.labels)
     joints = {j.child: sample.joint(j) for j in truth.joints if j.type is not JointType.FIXED}
     found: list[MotionRows] = []

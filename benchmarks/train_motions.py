@@ -1,7 +1,8 @@
 """Train the classifier of motions (`anymesh.articulation.motion_classifier`) and measure it on what it was not trained on.
 
 python benchmarks/train_motions.py FOLDER            benchmarks/motions.md: leave one source out, leave kinds out
-python benchmarks/train_motions.py FOLDER --write    also trains on all and writes motion_classifier.npz with its manifest
+python benchmarks/train_motions.py FOLDER --write    also trains on all and writes motion_classifier.npz and
+                                                     unswept_classifier.npz with their manifests
 
 FOLDER: rows as `benchmarks/motion_rows.py` writes them. Needs lightgbm. For the shipped classifier:
     python benchmarks/kinds.py KINDS --seed 11 --count 4
@@ -15,7 +16,7 @@ from __future__ import annotations
 import argparse
 from collections import Counter
 from collections.abc import Callable, Sequence
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 
 import numpy as np
@@ -26,13 +27,17 @@ from jaxtyping import Bool
 from motion_rows import MotionRows, read_rows
 
 from anymesh.articulation.estimate import MAX_COPIES
+from anymesh.articulation.motion_classifier import likeliest_indices
+from anymesh.articulation.motion_features import SWEPT_FEATURES
 from anymesh.articulation.rank_motions import BLOCKED, share_of_best
 from anymesh.articulation.repeated_parts import ScoredMotions, mean_over_copies
+from anymesh.config import ArticulationConfig
 
 MODELS = tuple(Model(800, seed, extra_trees=True) for seed in range(3))
+UNSWEPT_MODELS = (Model(100, 0, extra_trees=True),)
 OBJECT, SOURCE = 0.5, 0.6  # powers by which parts of an object, and parts of a source, count less the more they are
 HERE = Path(__file__).parent
-WRITTEN = HERE.parent / "src" / "anymesh" / "articulation" / "motion_classifier.npz"
+WRITTEN = HERE.parent / "src" / "anymesh" / "articulation"
 
 
 def right_side(rows: MotionRows) -> Bool[np.ndarray, " n"]:
@@ -53,6 +58,26 @@ def samples_of(rows: Sequence[MotionRows]) -> list[Sample]:
     return found
 
 
+def unswept_names(rows: Sequence[MotionRows]) -> list[str]:
+    """Return the features that are known of a part at rest."""
+    return [name for name in rows[0].names if name not in SWEPT_FEATURES]
+
+
+def unswept_samples(rows: Sequence[MotionRows]) -> list[Sample]:
+    """Return the motions of each part as samples, each once, with the features that are known of a part at rest."""
+    columns = [rows[0].names.index(name) for name in unswept_names(rows)]
+    return [replace(s, features=s.features[::2, columns], target=s.target.reshape(-1, 2).max(1)) for s in samples_of(rows)]
+
+
+def score_left_out(rows: Sequence[MotionRows], left: Sequence[Bool[np.ndarray, " s"]]) -> tuple[list[MotionRows], Scores]:
+    """Return the rows of the motions that are swept, and their scores, by classifiers trained without what is left out."""
+    before = held_out(unswept_samples(rows), left, UNSWEPT_MODELS)
+    chosen = [likeliest_indices(score, ArticulationConfig().most_swept) for score in before]
+    swept = [r.of_motions(k) for r, k in zip(rows, chosen, strict=True)]
+    scores = held_out(samples_of(rows), left, MODELS)
+    return swept, over_copies(swept, [s.reshape(-1, 2)[k].reshape(-1) for s, k in zip(scores, chosen, strict=True)])
+
+
 def over_copies(rows: Sequence[MotionRows], scores: Scores) -> Scores:
     """Return the mean of the scores of each part and of its copies."""
     number = {(r.source, r.form, r.name, r.number): k for k, r in enumerate(rows)}
@@ -64,16 +89,19 @@ def over_copies(rows: Sequence[MotionRows], scores: Scores) -> Scores:
     return found
 
 
-def table(rows: Sequence[MotionRows], scores: Scores, of: Callable[[MotionRows], str]) -> list[str]:
-    """Return lines of a table, one for each group of parts."""
-    lines = ["| | joints | offered | right motion | and right side |", "|---|---|---|---|---|"]
+def table(
+    rows: Sequence[MotionRows], swept: Sequence[MotionRows], scores: Scores, of: Callable[[MotionRows], str]
+) -> list[str]:
+    """Return lines of a table, one for each group of parts. scores: of the swept motions."""
+    lines = ["| | joints | offered | swept | right motion | and right side |", "|---|---|---|---|---|---|"]
     best = [int(s.argmax()) for s in scores]
     for group in [*sorted({of(r) for r in rows}), "all"]:
         chosen = [k for k, r in enumerate(rows) if group in (of(r), "all")]
         offered = np.mean([bool(right_side(rows[k]).any()) for k in chosen])
-        right = np.mean([rows[k].right[best[k]] > 0 for k in chosen])
-        side = np.mean([right_side(rows[k])[best[k]] for k in chosen])
-        lines.append(f"| {group} | {len(chosen)} | {offered:.2f} | {right:.2f} | {side:.2f} |")
+        among = np.mean([bool(right_side(swept[k]).any()) for k in chosen])
+        right = np.mean([swept[k].right[best[k]] > 0 for k in chosen])
+        side = np.mean([right_side(swept[k])[best[k]] for k in chosen])
+        lines.append(f"| {group} | {len(chosen)} | {offered:.2f} | {among:.2f} | {right:.2f} | {side:.2f} |")
     return lines
 
 
@@ -100,31 +128,34 @@ def main(argv: Sequence[str] | None = None) -> None:
     parser.add_argument("--write", action="store_true")
     options = parser.parse_args(argv)
     rows = read_rows(options.folder)
-    samples = samples_of(rows)
-    by_source = over_copies(rows, held_out(samples, leave_sources_out(samples), MODELS))
-    by_kind = over_copies(rows, held_out(samples, leave_kinds_out(samples), MODELS))
-    answers = confidences(rows, by_kind)
+    by_source, by_kind = (score_left_out(rows, left(samples_of(rows))) for left in (leave_sources_out, leave_kinds_out))
+    answers = confidences(*by_kind)
     slope, offset = fit_confidence(answers)
     text = [
         "# Motions chosen by the classifier, on objects that it was not trained on", "",
         "`python benchmarks/train_motions.py ROWS`; parts given, no names. Right: within 5 degrees and .08 of half the",
-        "diagonal; right side: it opens in the direction of the true joint.", "",
-        "## Trained on all other sources", "", *table(rows, by_source, called), "",
-        "## Trained on other kinds (4 folds, a kind in one fold)", "", *table(rows, by_kind, called), "",
+        "diagonal; right side: it opens in the direction of the true joint. Swept: among the likeliest of the part at rest,",
+        "which alone are swept.", "",
+        "## Trained on all other sources", "", *table(rows, *by_source, called), "",
+        "## Trained on other kinds (4 folds, a kind in one fold)", "", *table(rows, *by_kind, called), "",
         "## Confidence", "",
         f"Fitted to other kinds, over all sources: slope {slope:.2f}, offset {offset:.2f}",
         "(`articulation/rank_motions.py`).",
         "", *calibration_table(answers, slope, offset), "", "The same on other sources:", "",
-        *calibration_table(confidences(rows, by_source), slope, offset), "",
+        *calibration_table(confidences(*by_source), slope, offset), "",
     ]  # fmt: skip
     (HERE / "motions.md").write_text("\n".join(text), encoding="utf-8")
     print("\n".join(text))
     if options.write:
+        scores = {"right, other sources": right_of(*by_source), "right, other kinds": right_of(*by_kind)}
         objects = sorted({(r.source, r.kind, r.name) for r in rows})
-        scores = {"right, other sources": right_of(rows, by_source), "right, other kinds": right_of(rows, by_kind)}
-        models = [asdict(m) for m in MODELS]
-        manifest = manifest_of(rows[0].names, objects, models=models, joints=len(rows), scores=scores)
-        write(WRITTEN, manifest, fit(samples, MODELS))
+        for file, names, samples, models in (
+            ("motion_classifier.npz", rows[0].names, samples_of(rows), MODELS),
+            ("unswept_classifier.npz", unswept_names(rows), unswept_samples(rows), UNSWEPT_MODELS),
+        ):
+            settings = [asdict(m) for m in models]
+            manifest = manifest_of(names, objects, models=settings, joints=len(rows), scores=scores)
+            write(WRITTEN / file, manifest, fit(samples, models))
 
 
 if __name__ == "__main__":

@@ -16,7 +16,7 @@ from anymesh.articulation.answer_evidence import answered_confidence
 from anymesh.articulation.candidates import axis_points, cluster_points, followed, with_more
 from anymesh.articulation.cases import PartCase, make_cases
 from anymesh.articulation.decode import hinge, plane_normal
-from anymesh.articulation.estimate import ROLES_AFTER_DEADLINE, motion_questions
+from anymesh.articulation.estimate import motion_questions
 from anymesh.articulation.freedom import stays_free
 from anymesh.articulation.offers import MAX_SHOWN_ANGLE_RAD, make_offers, scored_motions, shown_amount
 from anymesh.articulation.own_axes import round_patches
@@ -229,9 +229,10 @@ def test_after_the_deadline_the_likeliest_motions_are_swept_alone() -> None:
     _, whole, segmentation = ready(door("left"))
     late = Deadline(1e-9)
     ((_, _, _, question),) = motion_questions(whole, segmentation, Config(), late)
-    assert {c.role for c in question.candidates} <= set(ROLES_AFTER_DEADLINE)
+    assert len(question.candidates) == 2 * Config().articulation.late_swept
     ((_, _, _, full),) = motion_questions(whole, segmentation, Config())
-    assert {c.role for c in full.candidates} > {c.role for c in question.candidates}
+    assert len(full.candidates) == 2 * Config().articulation.most_swept
+    assert {c.motion.source for c in question.candidates} <= {c.motion.source for c in full.candidates}
 
 
 @pytest.mark.parametrize(

@@ -16,11 +16,19 @@ from anymesh.segmentation.contacts import find_contacts
 from anymesh.segmentation.divide import object_shape
 from anymesh.segmentation.part_tree import PartTree
 
-SHIPPED = pytest.mark.parametrize("shipped", [part_classifier.shipped_classifier, motion_classifier.shipped_classifier])
+SHIPPED = pytest.mark.parametrize(
+    "shipped",
+    [part_classifier.shipped_classifier, motion_classifier.shipped_classifier, motion_classifier.unswept_classifier],
+)
 
 
 @pytest.mark.parametrize(
-    ("package", "file"), [("segmentation", "part_classifier.npz"), ("articulation", "motion_classifier.npz")]
+    ("package", "file"),
+    [
+        ("segmentation", "part_classifier.npz"),
+        ("articulation", "motion_classifier.npz"),
+        ("articulation", "unswept_classifier.npz"),
+    ],
 )
 def test_it_is_small(package: str, file: str) -> None:
     assert (files(f"anymesh.{package}") / file).stat().st_size < 1e6

@@ -10,10 +10,10 @@ import numpy as np
 
 from anymesh.articulation.barrels import find_barrel_candidates
 from anymesh.articulation.closed_pose import away_from_closed
-from anymesh.articulation.evidence import sweep_candidates
+from anymesh.articulation.evidence import swept, unswept
 from anymesh.articulation.hypotheses import propose
 from anymesh.articulation.limits import limits, opening_as_answered, opening_motion
-from anymesh.articulation.motion_classifier import PartMotionScores
+from anymesh.articulation.motion_classifier import PartMotionScores, likeliest
 from anymesh.articulation.motion_question import Candidate, MotionAnswer, MotionQuestion
 from anymesh.articulation.part_facts import part_facts
 from anymesh.articulation.rank_motions import rank_motions
@@ -33,7 +33,6 @@ MIN_PARALLEL_COSINE = 0.999  # minimum cosine between the axes of such lines
 SUFFICIENT_OPENING_RAD = np.deg2rad(110)  # [rad] larger openings are not compared
 TIGHT_PENETRATION_SCALE = 0.2  # penetration scale for the clearance to neighbours, which is a few millimetres
 MAX_COPIES = 8  # maximum number of copies whose motions are compared with those of a part
-ROLES_AFTER_DEADLINE = ("two_pivot", "round", "barrel", "edge_mid", "slide")  # roles that are swept after the deadline
 PartMotions = tuple[int, int, PartContext, MotionQuestion]  # part number, parent number, context, motions
 MIN_OPENING_GAIN_RAD = np.deg2rad(5)  # [rad] minimum gain in opening angle
 
@@ -59,7 +58,10 @@ def motion_questions(
         arounds = share_opening_directions(
             [part_context(whole, label, shapes, parent, i, config.articulation) for i in numbers]
         )
-        scored = [_part_scores(a, parts[i].name, parts[i].label, deadline) for i, a in zip(numbers, arounds, strict=True)]
+        scored = [
+            _part_scores(a, parts[i].name, parts[i].label, _most_swept(config.articulation, deadline))
+            for i, a in zip(numbers, arounds, strict=True)
+        ]
         for i, around, motions in zip(numbers, arounds, scored, strict=True):
             row = (m for m, a in zip(scored, arounds, strict=True) if a is not around and in_a_row(around, a))
             yield i, parent[i], around, motions.question(tuple(itertools.islice(row, MAX_COPIES)))
@@ -110,17 +112,24 @@ def choose_motion(around: PartContext, question: MotionQuestion) -> tuple[Motion
 
 
 def motion_question(around: PartContext, name: str, label: str) -> MotionQuestion:
-    """Propose, sweep and score the motions of a part by itself."""
+    """Propose, sweep and score all motions of a part by itself."""
     return _part_scores(around, name, label, None).question()
 
 
-def _part_scores(around: PartContext, name: str, label: str, deadline: Deadline | None) -> PartMotionScores:
+def _part_scores(around: PartContext, name: str, label: str, most: int | None) -> PartMotionScores:
+    """Score the motions of a part: all, or only the `most` likeliest ones."""
     proposed = propose(around)
-    if deadline is not None and deadline.late(JOINTS):
-        deadline.leave_out("joints: only the most likely motions were swept")
-        proposed = [(role, motion) for role, motion in proposed if role in ROLES_AFTER_DEADLINE] or proposed
     facts = part_facts(around, name, label, any(role == "two_pivot" for role, _ in proposed))
-    return PartMotionScores(around, facts, sweep_candidates(around, proposed))
+    motions = unswept(around, proposed)
+    likely = motions if most is None else likeliest(around, facts, motions, most)
+    return PartMotionScores(around, facts, swept(around, likely))
+
+
+def _most_swept(config: ArticulationConfig, deadline: Deadline | None) -> int:
+    if deadline is None or not deadline.late(JOINTS):
+        return config.most_swept
+    deadline.leave_out("joints: only the most likely motions were swept")
+    return config.late_swept
 
 
 def _clear_of_others(around: PartContext, best: Candidate, candidates: tuple[Candidate, ...]) -> Candidate:

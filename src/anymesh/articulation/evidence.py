@@ -19,37 +19,63 @@ CROSSWISE_HANDLE_WEIGHT = 0.6  # weight of the side of a bar handle that runs ac
 GUIDE_STEP_RATIO = 0.02  # of the tolerance length: a slide is guided if a sideways step of this length is blocked
 
 
+UNSWEPT = Sweep(0.0, 0.0, clear_forward=False, clear_backward=False)
+
+
 def sweep_candidates(around: PartContext, proposed: Sequence[Proposal]) -> tuple[Candidate, ...]:
-    """Sweep and measure all motions: return two candidates per motion, opening along its axis and against it."""
-    motions, steps = [m for _, m in proposed], around.config.sweep_steps
-    hinges = [k for k, m in enumerate(motions) if m.kind is JointType.REVOLUTE]
-    slides = [k for k, m in enumerate(motions) if m.kind is JointType.PRISMATIC]
-    support = dict(zip(hinges, hinge_support(around, [motions[k] for k in hinges]), strict=True))
-    guided = dict(zip(slides, _guided_share(around, [motions[k] for k in slides]), strict=True))
+    """Measure and sweep all motions: return two candidates per motion, opening along its axis and against it."""
+    return swept(around, unswept(around, proposed))
+
+
+def unswept(around: PartContext, proposed: Sequence[Proposal]) -> tuple[Candidate, ...]:
+    """Measure all motions without moving the part: return one candidate per motion, opening along its axis."""
+    hinges = [m for _, m in proposed if m.kind is JointType.REVOLUTE]
+    support = iter(hinge_support(around, hinges))
     adjacent = adjacent_sides(around)
-    swept: dict[int, Sweep] = {}
+    return tuple(
+        _revolute(around, role, motion, next(support), adjacent)
+        if motion.kind is JointType.REVOLUTE
+        else _prismatic(around, role, motion)
+        for role, motion in proposed
+    )
+
+
+def swept(around: PartContext, candidates: Sequence[Candidate]) -> tuple[Candidate, ...]:
+    """Sweep measured motions: return two candidates per motion, opening along its axis and against it."""
+    motions, steps = [c.motion for c in candidates], around.config.sweep_steps
+    slides = [m for m in motions if m.kind is JointType.PRISMATIC]
+    guided = iter(_guided_share(around, slides))
+    sweeps: dict[int, Sweep] = {}
     for obstacles in {id(o): o for o in map(around.obstacles_of, motions)}.values():
         chosen = [k for k, m in enumerate(motions) if around.obstacles_of(m) is obstacles]
-        swept.update(zip(chosen, sweep_all(obstacles, [motions[k] for k in chosen], steps), strict=True))
+        sweeps.update(zip(chosen, sweep_all(obstacles, [motions[k] for k in chosen], steps), strict=True))
     ahead = [
-        _revolute(around, role, motion, swept[k], support[k], adjacent)
-        if motion.kind is JointType.REVOLUTE
-        else _prismatic(around, role, motion, swept[k], guided[k])
-        for k, (role, motion) in enumerate(proposed)
+        _swept_hinge(c, sweeps[k]) if c.motion.kind is JointType.REVOLUTE else _swept_slide(around, c, sweeps[k], next(guided))
+        for k, c in enumerate(candidates)
     ]
-    candidates = [way for c in ahead for way in (c, c.reversed())]
-    shares = contact_retention(around, [c.motion for c in candidates], [c.opening_sign for c in candidates])
-    return tuple(replace(c, contact_retention=float(share)) for c, share in zip(candidates, shares, strict=True))
+    both = [way for c in ahead for way in (c, c.reversed())]
+    shares = contact_retention(around, [c.motion for c in both], [c.opening_sign for c in both])
+    return tuple(replace(c, contact_retention=float(share)) for c, share in zip(both, shares, strict=True))
 
 
-def _revolute(
-    around: PartContext, role: Role, motion: Motion, swept: Sweep, near: np.ndarray, adjacent: np.ndarray
-) -> Candidate:
+def _swept_hinge(c: Candidate, sweep: Sweep) -> Candidate:
+    return replace(c, sweep=sweep, opening=sweep.forward, closing=sweep.backward)
+
+
+def _swept_slide(around: PartContext, c: Candidate, sweep: Sweep, guided: float) -> Candidate:
+    free = sweep.forward, sweep.backward
+    return replace(
+        c, sweep=sweep, opening=free[0] / around.tolerance_length, closing=free[1] / around.tolerance_length, guided=guided,
+        captured=_captured(around, sweep), overlap_gain=overlap_gain(around, c.motion, free),
+    )  # fmt: skip
+
+
+def _revolute(around: PartContext, role: Role, motion: Motion, near: np.ndarray, adjacent: np.ndarray) -> Candidate:
     moves = np.cross(motion.axis, around.part.samples.middle - motion.origin)
     across = float(np.linalg.norm(moves))
     reach, proximity, thick = lever_arm(around, motion)
     return Candidate(
-        motion, swept, role, 1, swept.forward, swept.backward,
+        motion, UNSWEPT, role, 1, 0.0, 0.0,
         hinge_support=float(near[0]),
         sibling=float(near[1]),
         handle_side=_handle_side(around, motion),
@@ -86,22 +112,20 @@ def _guided_share(around: PartContext, prismatic: list[Motion]) -> list[float]:
     return [float(share) for share in stopped.mean((0, 2))]
 
 
-def _prismatic(around: PartContext, role: Role, motion: Motion, swept: Sweep, guided: float) -> Candidate:
-    side = _sides(around, motion)
+def _prismatic(around: PartContext, role: Role, motion: Motion) -> Candidate:
     inner = around.depth_in_parent(motion.axis)
-    across = sorted(np.ptp(around.part.corners @ d) for d in side)[0]
+    across = min(float(np.ptp(around.part.corners @ d)) for d in _sides(around, motion))
     return Candidate(
-        motion, swept, role, 1, swept.forward / around.tolerance_length, swept.backward / around.tolerance_length,
+        motion, UNSWEPT, role, 1, 0.0, 0.0,
         hinge_support=0.0,
         sibling=0.0,
         handle_side=0.0,
-        guided=guided,
+        guided=0.0,
         depth=float(inner / max(across, 1e-9)),
         vertical=float(abs(motion.axis[2])),
         above=0.0,
-        captured=_captured(around, swept),
+        captured=False,
         outward=float(motion.axis @ around.opening_direction),
-        overlap_gain=overlap_gain(around, motion, (swept.forward, swept.backward)),
     )  # fmt: skip
 
 
@@ -110,9 +134,9 @@ def _axis_height(around: PartContext, motion: Motion) -> float:
     return float(np.clip(2 * (motion.origin[2] - low) / max(high - low, 1e-9) - 1, -1, 1))
 
 
-def _captured(around: PartContext, swept: Sweep) -> bool:
-    room = swept.forward + swept.backward
-    return not (swept.clear_forward or swept.clear_backward) and room > 0.25 * around.part.box.diagonal
+def _captured(around: PartContext, sweep: Sweep) -> bool:
+    room = sweep.forward + sweep.backward
+    return not (sweep.clear_forward or sweep.clear_backward) and room > 0.25 * around.part.box.diagonal
 
 
 def _handle_side(around: PartContext, motion: Motion) -> float:

@@ -7,7 +7,7 @@ Computational Line Geometry, 2001). The left side is the speed of p along n in a
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float
@@ -47,9 +47,12 @@ def fit_revolution(surface: SurfacePoints, min_share: float, seed: int = 0) -> R
     axes, origins = _through_normals(local, np.random.default_rng(seed))
     share = _share(local, (axes, origins))
     likely = np.argsort(-share, kind="stable")[:REFINED]
-    fitted = (_refined(local, axes[k], origins[k], float(share[k])) for k in likely if share[k] > 0)
-    best = max(fitted, key=lambda r: r.share, default=None)
-    return None if best is None or best.share < min_share else replace(best, origin=best.origin * extent + middle)
+    likely = likely[share[likely] > 0]
+    if not len(likely):
+        return None
+    (axes, origins), share = _refined(local, (axes[likely], origins[likely]), share[likely])
+    k = int(share.argmax())
+    return Revolution(axes[k], origins[k] * extent + middle, float(share[k])) if share[k] >= min_share else None
 
 
 def share_in_place(surface: SurfacePoints, axis: Float[np.ndarray, " 3"], origin: Float[np.ndarray, " 3"]) -> float:
@@ -88,18 +91,19 @@ def _share(surface: SurfacePoints, lines: Axes) -> Float[np.ndarray, " k"]:
     return weights.mean(1) * (round_ >= MIN_ROUND) * (np.linalg.norm(origins, axis=1) < 1)
 
 
-def _refined(
-    surface: SurfacePoints, axis: Float[np.ndarray, " 3"], origin: Float[np.ndarray, " 3"], share: float
-) -> Revolution:
-    """Return the axis fitted to the points in place, as long as the share grows."""
+def _refined(surface: SurfacePoints, lines: Axes, share: Float[np.ndarray, " k"]) -> tuple[Axes, Float[np.ndarray, " k"]]:
+    """Return each axis fitted to the points in place about it, as long as its share grows, and the shares."""
+    (axes, origins), share, live = lines, share.copy(), np.arange(len(share))
     for _ in range(ROUNDS):
-        line = axis[None], origin[None]
-        new = _fit(surface, np.sqrt(_weights(surface, line, MIN_RADIUS)[0]) / _radii(surface, line, MIN_RADIUS)[0])
-        now = float(_share(surface, (new[0][None], new[1][None]))[0])
-        if now <= share:
+        line = axes[live], origins[live]
+        new = _fit(surface, np.sqrt(_weights(surface, line, MIN_RADIUS)) / _radii(surface, line, MIN_RADIUS))
+        now = _share(surface, new)
+        grown = now > share[live]
+        live = live[grown]
+        if not len(live):
             break
-        (axis, origin), share = new, now
-    return Revolution(axis, origin, share)
+        axes[live], origins[live], share[live] = new[0][grown], new[1][grown], now[grown]
+    return (axes, origins), share
 
 
 def _through_normals(surface: SurfacePoints, rng: np.random.Generator) -> Axes:
@@ -123,11 +127,12 @@ def _through_normals(surface: SurfacePoints, rng: np.random.Generator) -> Axes:
     return axes, origins - (origins * axes).sum(1)[:, None] * axes
 
 
-def _fit(surface: SurfacePoints, weights: Float[np.ndarray, " n"]) -> tuple[Float[np.ndarray, " 3"], Float[np.ndarray, " 3"]]:
-    """Return the line with the least weighted squares of the equation of the complex."""
-    n, moment = weights[:, None] * surface.normals, weights[:, None] * surface.moments
+def _fit(surface: SurfacePoints, weights: Float[np.ndarray, "k n"]) -> Axes:
+    """Return the lines with the least weighted squares of the equation of the complex, one per set of weights."""
+    n, moment = weights[:, :, None] * surface.normals, weights[:, :, None] * surface.moments
+    n_t = n.transpose(0, 2, 1)
     # a cylinder also slides in itself along its axis; the pseudo-inverse leaves such motions out
-    to_moment = -np.linalg.pinv(n.T @ n, rcond=1e-6) @ (n.T @ moment)
+    to_moment = -np.linalg.pinv(n_t @ n, rcond=1e-6) @ (n_t @ moment)
     rest = moment + n @ to_moment
-    axis = np.linalg.eigh(rest.T @ rest)[1][:, 0]
-    return axis, np.cross(axis, to_moment @ axis)
+    axes = np.linalg.eigh(rest.transpose(0, 2, 1) @ rest)[1][:, :, 0]
+    return axes, np.cross(axes, (to_moment @ axes[:, :, None])[:, :, 0])

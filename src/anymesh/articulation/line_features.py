@@ -1,0 +1,94 @@
+"""Named features of a hinge line: its place in the part, the contact and the handle, and symmetry about it."""
+
+from __future__ import annotations
+
+import numpy as np
+from jaxtyping import Float
+
+from anymesh.config import ALONG_COSINE
+from anymesh.geometry.revolution import share_in_place
+from anymesh.motion.part_context import PartContext
+from anymesh.scoring.classifier import MISSING
+from anymesh.types import Motion
+
+MAX_CENTRAL_RATIO = 0.2  # maximum distance of the center from an axis, over the reach, of a rotation about its own center
+MISFIT_ANGLES_RAD = np.deg2rad((60.0, 72.0, 90.0, 120.0, 180.0))
+MISFIT_POINTS = 60  # sample points of the part for the rotations
+SECTORS = 12  # angular sectors of a full turn
+MAX_RATIO = 4.0  # upper limit of ratios of lengths
+
+
+def line_features(around: PartContext, motion: Motion, contact: Float[np.ndarray, "n 3"]) -> dict[str, float]:
+    """Return the features of a hinge line. contact: (n, 3) the part's points in contact [m]."""
+    core, points, axis = around.body_obb, around.part.samples.points, motion.axis
+    local = np.abs(core.local(motion.origin[None])[0] / np.maximum(core.half, 1e-9))
+    local = np.minimum(local, MAX_RATIO) * (np.abs(core.axes @ axis) < ALONG_COSINE)
+    off = motion.distance(points)
+    reach, length = max(float(off.max()), 1e-9), max(float(np.ptp(points @ axis)), 1e-9)
+    balance = float(motion.distance(around.part.samples.middle[None])[0] / reach)
+    outline = around.outline_about(axis)
+    low, high = around.parent.bounds
+    beside = np.abs(np.minimum(motion.origin - low, high - motion.origin))[np.abs(axis) < ALONG_COSINE]
+    return {
+        "off along length": float(local[0]),
+        "off along width": float(local[1]),
+        "off along thickness": float(local[2]),
+        "off the part": float(off.min() / max(around.part.box.diagonal, 1e-12)),
+        "balance": balance,
+        "round about the axis": outline.roundness,
+        "circle off the axis": min(
+            float(motion.distance(outline.center[None])[0] / max(outline.radius, 1e-9)), MAX_RATIO
+        ),
+        "rotational misfit": _misfit(around, motion, reach) if balance < MAX_CENTRAL_RATIO else MISSING,
+        "contact along the line": float(np.clip(np.ptp(contact @ axis) / length, 0, 1)),
+        "contact off the line": float(motion.distance(contact).mean() / reach),
+        "contact middle off the line": float(motion.distance(contact.mean(0)[None])[0] / reach),
+        "contact around the axis": _coverage(contact, motion),
+        "contact turns in place": share_in_place(around.contact_surfaces[0], axis, motion.origin),
+        "off the parent's border": float(beside.min() / around.diagonal) if len(beside) else MISSING,
+        "barrel near": float(any(motion.distance(b.box.center[None])[0] < 0.05 * reach for b in around.barrel_candidates)),
+        **_handle_place(around, motion, reach),
+    }  # fmt: skip
+
+
+def _misfit(around: PartContext, motion: Motion, reach: float) -> float:
+    """Return the smallest distance of a part from itself rotated by MISFIT_ANGLES_RAD, over its reach: 0 for propellers."""
+    points = around.part.samples.points
+    points = points[:: max(1, len(points) // MISFIT_POINTS)]
+    turned = np.concatenate([points @ T[:3, :3].T + T[:3, 3] for T in motion.transforms(MISFIT_ANGLES_RAD)])
+    off = around.part.tree.distance(turned).reshape(len(MISFIT_ANGLES_RAD), -1)
+    return float(min(np.quantile(off, 0.9, axis=1).min() / reach, 1.0))
+
+
+def _coverage(points: Float[np.ndarray, "n 3"], motion: Motion) -> float:
+    """Return the share of angular sectors about an axis that contain points: 1 for a ring, small for a hinge line."""
+    helper = np.eye(3)[np.abs(motion.axis).argmin()]
+    u = np.cross(motion.axis, helper)
+    v = np.cross(motion.axis, u)
+    arm = points - motion.origin
+    angle = np.arctan2(arm @ v, arm @ u)
+    return len(np.unique(np.floor(angle / (2 * np.pi) * SECTORS))) / SECTORS
+
+
+def _handle_place(around: PartContext, motion: Motion, reach: float) -> dict[str, float]:
+    """Return the distance of the handle from a line, over the part's reach, and whether a bar handle runs along it."""
+    handle = around.handle
+    if handle is None:
+        return {"handle distance": MISSING, "bar handle along": MISSING}
+    at, along = around.body_obb.center.copy(), MISSING
+    for axis, where in zip(around.face_axes, handle.across, strict=True):
+        at += where * around.body_obb.half[axis] * around.body_obb.axes[axis]
+    if handle.along is not None:
+        along = abs(float(around.body_obb.axes[around.face_axes[handle.along]] @ motion.axis))
+    return {"handle distance": min(float(motion.distance(at[None])[0] / reach), MAX_RATIO), "bar handle along": along}
+
+
+NO_LINE = dict.fromkeys(
+    (
+        "off along length", "off along width", "off along thickness", "off the part", "balance", "round about the axis",
+        "circle off the axis", "rotational misfit", "contact along the line", "contact off the line",
+        "contact middle off the line", "contact around the axis", "contact turns in place", "off the parent's border",
+        "barrel near", "handle distance", "bar handle along",
+    ),
+    MISSING,
+)  # fmt: skip
