@@ -29,8 +29,8 @@ from anymesh.rendering.visual_prompts import VisualPrompts
 from anymesh.segmentation.contacts import find_contacts
 from anymesh.segmentation.part_assignment import assign_parts
 from anymesh.segmentation.part_classifier import score_parts
-from anymesh.segmentation.part_features import FeatureScene, part_context_of, part_features
 from anymesh.segmentation.part_tree import PartTree, part_tree
+from anymesh.segmentation.segment import examine_candidates
 from anymesh.types import JointType, Mesh, Picture
 
 EXAMPLES = Path(__file__).parents[1] / "examples" / "meshes"
@@ -82,10 +82,8 @@ def main() -> None:
     solver, studio = Solver(mesh, config), VisualPrompts(mesh, config)
     contacts = find_contacts(solver.whole, config.segmentation)
     tree = part_tree(mesh, solver.whole, contacts, config.segmentation.smallest, config.segmentation.most_candidates)
-    scene = FeatureScene.of(mesh, tree, config)
-    contexts = [around for k in range(len(tree.members)) if (around := part_context_of(scene, k))]
-    rows = [part_features(scene, k, around) for k, around in enumerate(contexts)]
-    score, _ = score_parts(tree, np.array([around.place for around in contexts]), rows)
+    tree, place, rows = examine_candidates(mesh, tree, config)
+    score, _ = score_parts(tree, place, rows)
     found = solver.parts().segmentation
     _, _, around, question = sorted(motion_questions(solver.whole, found, config), key=lambda m: m[0])[options.part - 1]
     scores = motion_scores(question)

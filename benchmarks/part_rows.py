@@ -21,8 +21,8 @@ from anymesh.config import Config
 from anymesh.evaluation.ground_truth import EvalSample
 from anymesh.segmentation.contacts import find_contacts
 from anymesh.segmentation.divide import object_shape
-from anymesh.segmentation.part_features import FeatureScene, part_context_of, part_features
 from anymesh.segmentation.part_tree import part_tree
+from anymesh.segmentation.segment import examine_candidates
 
 ARRAYS = ("features", "members", "area", "place", "contact", "near")
 
@@ -88,13 +88,7 @@ def rows_of(sample: EvalSample, source: str, form: str = "") -> PartRows:
     whole = object_shape(mesh, config.seed, config.pieces)
     contacts = find_contacts(whole, config.segmentation)
     tree = part_tree(mesh, whole, contacts, config.segmentation.smallest, config.segmentation.most_candidates)
-    scene, kept, rows, place = FeatureScene.of(mesh, tree, config), [], [], []
-    for k in range(len(tree.members)):
-        around = part_context_of(scene, k)
-        if around is not None:
-            kept.append(k)
-            rows.append(part_features(scene, k, around))
-            place.append(around.place)
+    examined, place, rows = examine_candidates(mesh, tree, config)
     names = tuple(rows[0]) if rows else ()
     shape = len(contacts.shapes), len(truth.parts)
     area = np.bincount(whole.mesh_patch * shape[1] + sample.labels, mesh.face_areas, shape[0] * shape[1]).reshape(shape)
@@ -102,9 +96,9 @@ def rows_of(sample: EvalSample, source: str, form: str = "") -> PartRows:
     parent = {number[j.child]: number.get(j.parent, 0) for j in truth.joints}
     return PartRows(
         source, kind_of(truth.name, truth.category), truth.name, form, names,
-        np.array([[row[n] for n in names] for row in rows], np.float32), tree.members[kept], area,
+        np.array([[row[n] for n in names] for row in rows], np.float32), examined.members, area,
         tuple(parent), tuple(tuple(k for k in parent if top in _line(k, parent)) for top in parent),
-        np.array(place, np.float32).reshape(-1, 12), contacts.area_matrix, contacts.near,
+        place.astype(np.float32), contacts.area_matrix, contacts.near,
     )  # fmt: skip
 
 

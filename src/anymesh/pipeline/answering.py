@@ -23,7 +23,9 @@ from anymesh.vlm.recognition import parse_labels
 from anymesh.vlm.servers import SERVERS, first_vision_model, probe_servers
 
 FILES, AUTO = "files:", "auto"
-CLASSIFIERS = ("segmentation/part_classifier.npz", "articulation/motion_classifier.npz")
+CLASSIFIERS = (
+    "segmentation/part_classifier.npz", "articulation/unswept_classifier.npz", "articulation/motion_classifier.npz"
+)  # fmt: skip
 
 
 class RecordingFactory:

@@ -51,7 +51,7 @@ def segment_parts(
     tree = part_tree(mesh, whole, contacts, settings.smallest, settings.most_candidates)
     progress("segment", "candidates", 1, 2)
     deadline = deadline or Deadline()
-    examined, place, features = _candidate_features(mesh, tree, config, progress, deadline)
+    examined, place, features = examine_candidates(mesh, tree, config, progress, deadline)
     score, reasons = score_parts(examined, place, features)
     words = [shared_name(examined, k) for k in range(len(score))]
     score = score + np.array([NAME_SCORE[name_class(word)] for word in words])
@@ -73,15 +73,15 @@ def segment_parts(
     return named_parts(face_part, labels, mesh.face_areas, confidence, why)
 
 
-def _candidate_features(
-    mesh: Mesh, tree: PartTree, config: Config, progress: Progress, deadline: Deadline
+def examine_candidates(
+    mesh: Mesh, tree: PartTree, config: Config, progress: Progress = silent, deadline: Deadline | None = None
 ) -> tuple[PartTree, Float[np.ndarray, "n 12"], list[dict[str, float]]]:
     """Return the examined candidates, and the place and the features of each."""
-    scene = FeatureScene.of(mesh, tree, config)
+    scene, limit = FeatureScene.of(mesh, tree, config), deadline or Deadline()
 
     def measure(k: int) -> tuple[Float[np.ndarray, " 12"], dict[str, float]] | None:
-        if deadline.late(SEGMENT):
-            deadline.leave_out("segmentation: some candidates for parts were not examined")
+        if limit.late(SEGMENT):
+            limit.leave_out("segmentation: some candidates for parts were not examined")
             return None
         around = part_context_of(scene, k)
         return None if around is None else (around.place, part_features(scene, k, around))
