@@ -69,12 +69,13 @@ def unswept_samples(rows: Sequence[MotionRows]) -> list[Sample]:
     return [replace(s, features=s.features[::2, columns], target=s.target.reshape(-1, 2).max(1)) for s in samples_of(rows)]
 
 
-def score_left_out(rows: Sequence[MotionRows], left: Sequence[Bool[np.ndarray, " s"]]) -> tuple[list[MotionRows], Scores]:
-    """Return the rows of the motions that are swept, and their scores, by classifiers trained without what is left out."""
+def of_swept(
+    rows: Sequence[MotionRows], scores: Scores, left: Sequence[Bool[np.ndarray, " s"]]
+) -> tuple[list[MotionRows], Scores]:
+    """Return the rows and scores of the motions that are swept, chosen by classifiers trained without what is left out."""
     before = held_out(unswept_samples(rows), left, UNSWEPT_MODELS)
     chosen = [likeliest_indices(score, ArticulationConfig().most_swept) for score in before]
     swept = [r.of_motions(k) for r, k in zip(rows, chosen, strict=True)]
-    scores = held_out(samples_of(rows), left, MODELS)
     return swept, over_copies(swept, [s.reshape(-1, 2)[k].reshape(-1) for s, k in zip(scores, chosen, strict=True)])
 
 
@@ -128,9 +129,13 @@ def main(argv: Sequence[str] | None = None) -> None:
     parser.add_argument("--write", action="store_true")
     options = parser.parse_args(argv)
     rows = read_rows(options.folder)
-    by_source, by_kind = (score_left_out(rows, left(samples_of(rows))) for left in (leave_sources_out, leave_kinds_out))
+    samples = samples_of(rows)
+    left = leave_sources_out(samples), leave_kinds_out(samples)
+    scores_of_all = [held_out(samples, masks, MODELS) for masks in left]
+    by_source, by_kind = (of_swept(rows, s, masks) for s, masks in zip(scores_of_all, left, strict=True))
     answers = confidences(*by_kind)
     slope, offset = fit_confidence(answers)
+    slope_of_all, _ = fit_confidence(confidences(rows, over_copies(rows, scores_of_all[1])))
     text = [
         "# Motions chosen by the classifier, on objects that it was not trained on", "",
         "`python benchmarks/train_motions.py ROWS`; parts given, no names. Right: within 5 degrees and .08 of half the",
@@ -140,7 +145,8 @@ def main(argv: Sequence[str] | None = None) -> None:
         "## Trained on other kinds (4 folds, a kind in one fold)", "", *table(rows, *by_kind, called), "",
         "## Confidence", "",
         f"Fitted to other kinds, over all sources: slope {slope:.2f}, offset {offset:.2f}",
-        "(`articulation/rank_motions.py`).",
+        "(`articulation/rank_motions.py`). Where a model answers, all motions are swept:",
+        f"slope {slope_of_all:.2f} (`articulation/answer_evidence.py`).",
         "", *calibration_table(answers, slope, offset), "", "The same on other sources:", "",
         *calibration_table(confidences(*by_source), slope, offset), "",
     ]  # fmt: skip
@@ -149,13 +155,13 @@ def main(argv: Sequence[str] | None = None) -> None:
     if options.write:
         scores = {"right, other sources": right_of(*by_source), "right, other kinds": right_of(*by_kind)}
         objects = sorted({(r.source, r.kind, r.name) for r in rows})
-        for file, names, samples, models in (
-            ("motion_classifier.npz", rows[0].names, samples_of(rows), MODELS),
+        for file, names, some, models in (
+            ("motion_classifier.npz", rows[0].names, samples, MODELS),
             ("unswept_classifier.npz", unswept_names(rows), unswept_samples(rows), UNSWEPT_MODELS),
         ):
             settings = [asdict(m) for m in models]
             manifest = manifest_of(names, objects, models=settings, joints=len(rows), scores=scores)
-            write(WRITTEN / file, manifest, fit(samples, models))
+            write(WRITTEN / file, manifest, fit(some, models))
 
 
 if __name__ == "__main__":
