@@ -56,7 +56,7 @@ class ArticulationConfig:
     penetration: float = 0.003  # depth behind a surface at which a path is stopped
     support: float = 0.02  # maximum distance between a hinge line and the parent that supports it
     most_swept: int = 8  # motions of a part that are swept, the likeliest of the part at rest; more choose no better
-    late_swept: int = 2  # the same after the time limit
+    late_swept: int = 2  # the same when most of the time limit is spent
     sweep_steps: int = 36  # steps of a sweep in each direction: 5 degrees each over half a turn
     fine_steps: int = 30  # a third of the steps over the range of a hinge, half of those of a slide, for the limits
     door_most: float = 110.0  # [deg] upper limit of an unobstructed hinge with an upright axis (common cup hinges)
